@@ -1,0 +1,35 @@
+// What the command line and the HTTP service both call: a JSON request in, a JSON answer or a list
+// of errors out. No HTTP, no files but the catalogue.
+#ifndef PLENUM_API_SERVICES_H_
+#define PLENUM_API_SERVICES_H_
+
+#include <map>
+#include <string>
+
+#include "api/json.h"
+#include "catalog/store.h"
+#include "optimizer/problem.h"
+
+namespace plenum::api {
+
+// ── requirements/1 → designs/1 ──
+// Parses and validates requirements against the catalogue: every error at once.
+Parsed<optimizer::Problem> ParseRequirements(const Json& request,
+                                             const std::vector<catalog::Part>& parts);
+// The answer as JSON. `parts` are the rows the problem was made of: makers, provenance.
+Json RenderAnswer(const optimizer::Problem& problem, const optimizer::Answer& answer,
+                  const std::vector<catalog::Part>& parts);
+
+// ── simulation/1 → response/1, map/1 → map_answer/1 ──
+Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>& parts);
+Parsed<Json> RunMap(const Json& request);
+
+// ── parts ──
+Json RenderPart(const catalog::Part& part);
+// `request` is what RenderPart gives, or a part of a user's own; what the server sets (origin) is
+// accepted and ignored.
+Parsed<catalog::Part> ParsePart(const Json& request);
+
+}  // namespace plenum::api
+
+#endif  // PLENUM_API_SERVICES_H_

@@ -1,0 +1,39 @@
+// Parts as CSV (RFC 4180, UTF-8, header row), one family per file.
+//
+// Columns: id, manufacturer, part_number, notes, then for each field F of the family F,
+// F.provenance, F.source; for families with a curve also `curve` (points
+// "kPa_gauge:L/min:A" joined by ';'), free_air.provenance, free_air.source, current.provenance,
+// current.source. A column may be missing; an empty cell means no value. Without a provenance a
+// number counts as third_party. Values round-trip exactly.
+#ifndef PLENUM_CATALOG_CSV_H_
+#define PLENUM_CATALOG_CSV_H_
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "catalog/part.h"
+
+namespace plenum::catalog {
+
+struct CsvError {
+  int row = 0;  // 1 is the header
+  std::string column;
+  std::string detail;
+  bool operator==(const CsvError&) const = default;
+};
+
+struct CsvParts {
+  std::vector<Part> parts;
+  std::vector<CsvError> errors;  // not empty: nothing of the file may be used
+};
+
+// Parses and validates; every error of the file is reported, not only the first.
+CsvParts ReadCsv(std::string_view family, std::string_view text);
+
+// `parts` are all of `family`.
+std::string WriteCsv(std::string_view family, const std::vector<Part>& parts);
+
+}  // namespace plenum::catalog
+
+#endif  // PLENUM_CATALOG_CSV_H_
