@@ -29,7 +29,9 @@ using Parsed = std::variant<T, Errors>;
 // finite; integers that do not fit are errors. NaN and Infinity are not JSON and are refused.
 Parsed<Json> ParseJson(std::string_view text);
 
-// Rounded to 12 significant digits, so that unit conversion leaves no noise; not finite → null.
+// To 12 significant digits, so that unit conversion leaves no noise; no minus zero.
+double Rounded(double value);
+// Rounded; not finite → null.
 Json Number(double value);
 
 }  // namespace plenum::api

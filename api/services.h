@@ -3,8 +3,8 @@
 #ifndef PLENUM_API_SERVICES_H_
 #define PLENUM_API_SERVICES_H_
 
-#include <map>
 #include <string>
+#include <vector>
 
 #include "api/json.h"
 #include "catalog/store.h"
@@ -13,15 +13,24 @@
 namespace plenum::api {
 
 // ── requirements/1 → designs/1 ──
-// Parses and validates requirements against the catalogue: every error at once.
-Parsed<optimizer::Problem> ParseRequirements(const Json& request,
-                                             const std::vector<catalog::Part>& parts);
+struct DesignRequest {
+  optimizer::Problem problem;
+  double time_limit_s = 30.0;
+  std::string name;
+  Json request;  // as it was given; the answer echoes it, so that a saved answer can be checked
+};
+// Parses and validates requirements against the catalogue: every error at once. `parts` have passed
+// catalog::Validate.
+Parsed<DesignRequest> ParseRequirements(const Json& request,
+                                        const std::vector<catalog::Part>& parts);
 // The answer as JSON. `parts` are the rows the problem was made of: makers, provenance.
-Json RenderAnswer(const optimizer::Problem& problem, const optimizer::Answer& answer,
+Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
                   const std::vector<catalog::Part>& parts);
 
 // ── simulation/1 → response/1, map/1 → map_answer/1 ──
+// At most 200,000 samples and 60 s of work; what stops early says so in `status` and `detail`.
 Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>& parts);
+// At most 100,000 grid points, 2,000 with a compressor; an error if they take more than 60 s.
 Parsed<Json> RunMap(const Json& request);
 
 // ── parts ──

@@ -1,13 +1,16 @@
 // catalog.db: opens, migrates, reads and writes parts. The only room that knows SQLite.
 //
-// Exactly one read-write connection per process writes (and alone checkpoints the write-ahead log);
-// readers open their own read-only connection. Every write is one transaction.
+// Exactly one read-write connection per process writes; readers open their own read-only
+// connection. Every write is one transaction under a rollback journal, so the file alone is the
+// catalogue and can be read where nothing can be written. One store may be used from several
+// threads; its calls take turns.
 #ifndef PLENUM_CATALOG_STORE_H_
 #define PLENUM_CATALOG_STORE_H_
 
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 

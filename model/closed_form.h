@@ -3,10 +3,11 @@
 //
 // Normalised form: p in units of ambient, v = 1 + k·(p−1), k = (ε−1)/(p_op−1), τ = c·t with
 // c = C·P0/V0.
-//   choked inflation:      τ = [p·v(p)]/p_s
-//   subsonic inflation:    p = p_s·(b + (1−b)·sinθ); τ = (1−b)·{(1−k+2k·p_s·b)·Δθ −
-//   2k·p_s·(1−b)·Δcosθ} choked deflation:      τ = (1−k)·ln(p1/p2) + 2k·(p1−p2) subsonic deflation:
-//   1/p = b + (1−b)·sinθ; τ = (1−b)·[(1−k)·ΔI1 + 2k·ΔI2]
+//   choked inflation:    τ = Δ[p·v(p)]/p_s
+//   subsonic inflation:  p = p_s·(b + (1−b)·sinθ),
+//                        τ = (1−b)·{(1−k+2k·p_s·b)·Δθ − 2k·p_s·(1−b)·Δcosθ}
+//   choked deflation:    τ = (1−k)·ln(p1/p2) + 2k·(p1−p2)
+//   subsonic deflation:  1/p = b + (1−b)·sinθ,  τ = (1−b)·[(1−k)·ΔI1 + 2k·ΔI2]
 // The antiderivatives I1, I2 lose digits near b = ½; there Gauss–Legendre in θ is used.
 #ifndef PLENUM_MODEL_CLOSED_FORM_H_
 #define PLENUM_MODEL_CLOSED_FORM_H_

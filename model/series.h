@@ -47,6 +47,10 @@ RatioAndSlope RatioAndSlopeAtFlow(const Series& series, double flow_m3_per_s_pa)
 // 0 for r ≥ 1; to 1e-12 relative of q*.
 double FlowAtRatio(const Series& series, double ratio);
 
+// c = √(1 − (q/q*)²) at ratio r, 0 where choked and 1 for r ≥ 1. In c the curve r is smooth from
+// end to end (m = ½) and keeps the digits that q loses close to q*.
+double CosineAtRatio(const Series& series, double ratio);
+
 // FlowAtRatio with the straight line to zero from ratio `linear_ratio` to 1, for the simulator.
 double RegularisedFlowAtRatio(const Series& series, double ratio,
                               double linear_ratio = kLinearRatio);

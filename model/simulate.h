@@ -60,14 +60,17 @@ struct NoSource {};
 
 struct RegulatedSource {
   double pressure_pa = 0.0;
-  std::optional<FlowElement> regulator;                                // shared by all lines
+  std::optional<FlowElement> regulator = std::nullopt;                 // shared by all lines
   double flow_max_m3_per_s = std::numeric_limits<double>::infinity();  // ANR, all lines together
 };
 
 struct ReservoirSource {
   double volume_m3 = 0.0;
+  // The volume that counts while the pressure rises, if it differs (model/reservoir_stroke.h:
+  // bounds over an interval of volumes); 0: the same.
+  double volume_rising_m3 = 0.0;
   double initial_pressure_pa = 0.0;
-  CompressorCurve compressor;  // empty curves: none
+  CompressorCurve compressor = {};  // empty curves: none
   int compressor_count = 1;
   double duty = 1.0;  // factor on the delivery, a mean over fast switching
   // The compressor stops when the reservoir reaches this and runs again as soon as it falls.
@@ -103,6 +106,7 @@ struct Stroke {
   double command_s = 0.0;
   double start_pressure_pa = 0.0;
   double source_start_pressure_pa = 0.0;  // NaN without a source
+  // Until the next command or until the valve closes at the operating pressure.
   double source_lowest_pressure_pa = 0.0;
   double to_target_s = std::numeric_limits<double>::infinity();     // rise or fall fraction
   double to_operating_s = std::numeric_limits<double>::infinity();  // inflating only: p_op reached
@@ -126,6 +130,8 @@ struct Response {
   std::vector<GroupResponse> groups;
   std::vector<double> source_pressure_pa;  // at t_s; empty without a source
   double source_final_pressure_pa = 0.0;
+  // ∫ share of time that each pump runs: the duty while on; at the stop pressure the part of it
+  // that covers the draw; 0 while off.
   double compressor_on_s = 0.0;
   double compressor_air_m3 = 0.0;    // m³ ANR delivered
   double compressor_energy_j = 0.0;  // electrical, all pumps
@@ -140,7 +146,7 @@ Response Simulate(const Rig& rig, const SimulateOptions& options);
 // Full strokes by the contract's definition, whatever the schedule: rise from ambient to
 // rise_fraction of the operating gauge pressure from the source's initial state with all groups
 // inflating together, fall from the operating pressure to fall_fraction of it. +∞ where not
-// reached.
+// reached, and everywhere for a rig that Simulate refuses. end_s and sample_hz are not used.
 struct FullStroke {
   double rise_time_s;
   double fall_time_s;

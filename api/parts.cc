@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "api/reader.h"
+#include "api/services.h"
+#include "api/text.h"
+#include "catalog/fields.h"
+
+namespace plenum::api {
+namespace {
+
+constexpr std::size_t kIdMax = 100;
+constexpr std::size_t kNotesMax = 4000;
+
+const char* const kCurveProvenances[] = {"free_air", "current"};
+
+Json RenderProvenance(catalog::Provenance provenance, const std::string& source) {
+  return {{"kind", std::string(Name(provenance))}, {"source", source}};
+}
+
+// Lower case letters and digits of manufacturer and part number, joined by single hyphens.
+std::string Slug(const std::string& text) {
+  std::string slug;
+  for (const char c : text) {
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      slug += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else if (!slug.empty() && slug.back() != '-')
+      slug += '-';
+  }
+  slug.resize(std::min(slug.size(), kIdMax));
+  if (!slug.empty() && slug.back() == '-') slug.pop_back();
+  return slug;
+}
+
+const catalog::Family* ReadFamily(Reader& reader) {
+  std::vector<std::string> names;
+  for (const catalog::Family& family : catalog::Families()) names.emplace_back(family.name);
+  return catalog::FindFamily(reader.Choice("family", names));
+}
+
+// Free text that may be empty.
+std::string ReadNotes(Reader& reader) {
+  const Json* notes = reader.Raw("notes");
+  if (notes == nullptr || notes->is_null()) return "";
+  if (notes->is_string() && CountCharacters(notes->get_ref<const std::string&>()) <= kNotesMax)
+    return notes->get<std::string>();
+  reader.Fail("notes", "must be a text of at most " + std::to_string(kNotesMax) + " characters");
+  return "";
+}
+
+void ReadNumbers(Reader& reader, const catalog::Family& family, catalog::Part& part) {
+  for (const catalog::NumberField& field : family.numbers) {
+    const std::string name(field.name);
+    if (!reader.Has(name)) continue;
+    part.numbers[name] = {reader.Number(name, {field.min, field.max}),
+                          catalog::Provenance::kThirdParty, "user"};
+  }
+}
+
+void ReadTexts(Reader& reader, const catalog::Family& family, catalog::Part& part) {
+  for (const catalog::TextField& field : family.texts) {
+    const std::string name(field.name);
+    if (!reader.Has(name)) continue;
+    const std::vector<std::string> allowed(field.allowed.begin(), field.allowed.end());
+    part.texts[name] = {allowed.empty() ? reader.Text(name) : reader.Choice(name, allowed),
+                        catalog::Provenance::kThirdParty, "user"};
+  }
+}
+
+void ReadCurve(Reader& reader, catalog::Part& part) {
+  if (!reader.Has("curve")) return;
+  catalog::Curve curve;
+  curve.free_air_source = curve.current_source = "user";
+  for (const Element& element : reader.List("curve", 1, 1000)) {
+    Reader point(element, reader.errors());
+    curve.points.push_back({point.Number("pressure_kpa_gauge", {0, 5e4}),
+                            point.Number("free_air_l_per_min", {0, 1e6}),
+                            point.Number("current_a", {0, 1e4})});
+    point.Finish();
+  }
+  part.curve = std::move(curve);
+}
+
+// Provenance and source of a field of the part, null if it has no such field.
+struct Origin {
+  catalog::Provenance* provenance = nullptr;
+  std::string* source = nullptr;
+};
+Origin OriginOf(catalog::Part& part, const std::string& field) {
+  if (const auto number = part.numbers.find(field); number != part.numbers.end())
+    return {&number->second.provenance, &number->second.source};
+  if (const auto text = part.texts.find(field); text != part.texts.end())
+    return {&text->second.provenance, &text->second.source};
+  if (part.curve && field == "free_air")
+    return {&part.curve->free_air_provenance, &part.curve->free_air_source};
+  if (part.curve && field == "current")
+    return {&part.curve->current_provenance, &part.curve->current_source};
+  return {};
+}
+
+void ReadProvenance(Reader& reader, const catalog::Family& family, catalog::Part& part) {
+  auto provenance = reader.OptionalObject("provenance");
+  if (!provenance) return;
+  std::vector<std::string> fields;
+  for (const catalog::NumberField& field : family.numbers) fields.emplace_back(field.name);
+  for (const catalog::TextField& field : family.texts) fields.emplace_back(field.name);
+  if (family.has_curve)
+    fields.insert(fields.end(), std::begin(kCurveProvenances), std::end(kCurveProvenances));
+  for (const std::string& field : fields) {
+    auto given = provenance->OptionalObject(field);
+    if (!given) continue;
+    const std::string kind =
+        given->Choice("kind", {"datasheet", "third_party", "derived", "estimated"}, "third_party");
+    const Json* source = given->Raw("source");
+    if (source != nullptr && !source->is_string())
+      given->Fail("source", "must be a text, not " + KindOf(*source));
+    given->Finish();
+    const Origin origin = OriginOf(part, field);
+    if (origin.source == nullptr) {
+      provenance->Fail(field, "the part has no value of " + field);
+      continue;
+    }
+    *origin.provenance =
+        catalog::ProvenanceFromName(kind).value_or(catalog::Provenance::kThirdParty);
+    *origin.source = source != nullptr && source->is_string() ? source->get<std::string>() : "user";
+  }
+  provenance->Finish();
+}
+
+// Where a field of Validate is in the document: "x" is a value, "x.source" its provenance.
+std::string PointerTo(std::string_view field) {
+  if (field.empty()) return "";
+  constexpr std::string_view kSource = ".source";
+  if (!field.ends_with(kSource)) return "/" + EscapePointer(field);
+  field.remove_suffix(kSource.size());
+  return "/provenance/" + EscapePointer(field) + "/source";
+}
+
+// What Validate finds beyond what reading has reported for the same field.
+void AddFieldErrors(const catalog::Part& part, Errors& errors) {
+  const Errors read = errors;
+  for (const catalog::FieldError& error : catalog::Validate(part)) {
+    const std::string pointer = PointerTo(error.field);
+    const bool reported =
+        !pointer.empty() && std::any_of(read.begin(), read.end(), [&](const Error& other) {
+          return other.pointer == pointer || other.pointer.starts_with(pointer + "/");
+        });
+    if (!reported) errors.push_back({pointer, error.detail});
+  }
+}
+
+}  // namespace
+
+Json RenderPart(const catalog::Part& part) {
+  Json document = {{"id", part.id},
+                   {"family", part.family},
+                   {"manufacturer", part.manufacturer},
+                   {"part_number", part.part_number},
+                   {"origin", part.origin},
+                   {"notes", part.notes}};
+  Json provenance = Json::object();
+  for (const auto& [field, number] : part.numbers) {
+    document[field] = number.value;
+    provenance[field] = RenderProvenance(number.provenance, number.source);
+  }
+  for (const auto& [field, text] : part.texts) {
+    document[field] = text.value;
+    provenance[field] = RenderProvenance(text.provenance, text.source);
+  }
+  if (part.curve) {
+    Json& points = document["curve"] = Json::array();
+    for (const catalog::CurvePoint& point : part.curve->points)
+      points.push_back({{"pressure_kpa_gauge", point.pressure_kpa_gauge},
+                        {"free_air_l_per_min", point.free_air_l_per_min},
+                        {"current_a", point.current_a}});
+    provenance["free_air"] =
+        RenderProvenance(part.curve->free_air_provenance, part.curve->free_air_source);
+    provenance["current"] =
+        RenderProvenance(part.curve->current_provenance, part.curve->current_source);
+  }
+  document["provenance"] = std::move(provenance);
+  return document;
+}
+
+Parsed<catalog::Part> ParsePart(const Json& request) {
+  Errors errors;
+  Reader reader(request, "", errors);
+  catalog::Part part;
+  const catalog::Family* family = ReadFamily(reader);
+  // Without its family no other field of the part can be judged.
+  if (family == nullptr) return errors;
+  part.family = family->name;
+  part.manufacturer = reader.Text("manufacturer");
+  part.part_number = reader.Text("part_number");
+  part.id = reader.Text("id", Slug(part.manufacturer + "-" + part.part_number));
+  reader.Raw("origin");
+  part.notes = ReadNotes(reader);
+  ReadNumbers(reader, *family, part);
+  ReadTexts(reader, *family, part);
+  if (family->has_curve) ReadCurve(reader, part);
+  ReadProvenance(reader, *family, part);
+  reader.Finish();
+  AddFieldErrors(part, errors);
+  if (!errors.empty()) return errors;
+  return part;
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,29 @@
+// What a request allows of the catalogue: "require" and "exclude", and whether each allowed
+// configuration still finds a part of every family that it needs.
+#ifndef PLENUM_API_SELECTION_H_
+#define PLENUM_API_SELECTION_H_
+
+#include <vector>
+
+#include "api/reader.h"
+#include "catalog/part.h"
+#include "optimizer/problem.h"
+
+namespace plenum::api {
+
+inline constexpr const char* kCustomReservoir = "custom";
+
+// Reads "require" and "exclude" into the problem; ids must exist in `parts`, and required ones
+// belong to their family.
+void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
+                   optimizer::Problem& problem);
+
+// Records an error for each empty family if that leaves no allowed configuration: at
+// /require/<family> or /exclude where the request emptied it, at "" where the catalogue has none.
+// `needs_fittings`: some line has any.
+void CheckFamilies(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
+                   bool needs_fittings, Errors& errors);
+
+}  // namespace plenum::api
+
+#endif  // PLENUM_API_SELECTION_H_

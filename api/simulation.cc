@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "api/fields.h"
+#include "api/rig.h"
+#include "api/services.h"
+#include "api/text.h"
+#include "api/units.h"
+
+namespace plenum::api {
+namespace {
+
+constexpr double kSamplesMax = 200'000;
+constexpr double kSampleHzDefault = 100;
+constexpr double kEndMaxS = 1e6;
+constexpr auto kTimeLimit = std::chrono::seconds(60);
+
+struct Simulation {
+  model::Rig rig;
+  model::SimulateOptions options;
+};
+
+void RefuseEffects(Reader& request) {
+  const std::vector<Element> effects = request.List("effects", 0, 100);
+  for (const Element& element : effects) {
+    Reader effect(element, request.errors());
+    const std::string id = effect.Text("id");
+    effect.Raw("parameters");
+    if (!id.empty())
+      effect.Fail("id", "no effect " + Quoted(id) +
+                            "; this version knows the base model alone, "
+                            "so the list must be empty");
+    effect.Finish();
+  }
+}
+
+// Gauge pressure of every actuator at the start, absolute in Pa. The temperature matters only to
+// effects.
+double ReadInitialPressure(Reader& request, const model::Ambient& ambient) {
+  auto initial = request.OptionalObject("initial");
+  if (!initial) return ambient.pressure_pa;
+  const double lowest_kpa = -ambient.pressure_pa / kPaPerKpa;
+  const double gauge =
+      initial->Number("pressure_kpa_gauge", Above(lowest_kpa, kOperatingGaugeMaxKpa), 0.0);
+  initial->OptionalNumber("temperature_k", {200, 400});
+  initial->Finish();
+  return PaFromKpaGauge(gauge, ambient);
+}
+
+model::GroupRig ReadGroup(const Element& element, std::size_t index, const Simulation& simulation,
+                          const std::vector<catalog::Part>& parts,
+                          const std::optional<Schedule>& shared, std::vector<std::string>& names,
+                          double& duration_s, Errors& errors) {
+  Reader reader(element, errors);
+  model::GroupRig group;
+  group.name = ReadName(reader, index, names);
+  group.count = reader.Integer("count", 1, kCountMax, 1);
+  group.chamber = ReadChamber(reader, simulation.rig.ambient);
+  Line line = ReadLine(reader, parts);
+  group.chamber.dead_volume_m3 = line.bore_volume_m3;
+  group.fill = std::move(line.fill);
+  group.exhaust = std::move(line.exhaust);
+  const std::optional<Schedule> own = ReadSchedule(reader);
+  if (!own && !shared)
+    reader.Fail("valve", "is required: commands of the group or of the whole request, or a cycle");
+  else
+    group.schedule = (own ? own : shared)->commands;
+  duration_s = std::max(duration_s, own ? own->duration_s.value_or(0.0) : 0.0);
+  reader.Finish();
+  return group;
+}
+
+// End and sampling; `duration_s` is how long the longest cycle schedule lasts, 0 without one.
+void ReadTimes(Reader& request, double duration_s, model::SimulateOptions& options) {
+  const Range range = Above(0, kEndMaxS);
+  options.end_s = duration_s > 0.0 ? request.Number("t_end_s", range, duration_s)
+                                   : request.Number("t_end_s", range);
+  const double sample_hz_max = std::floor(kSamplesMax / options.end_s * 1e6) / 1e6;
+  const double fallback = std::fmin(kSampleHzDefault, sample_hz_max);
+  options.sample_hz = request.Number("sample_hz", Above(0, 1e6), fallback);
+  if (options.sample_hz * options.end_s > kSamplesMax * (1 + 1e-9))
+    request.Fail("sample_hz", "must be > 0 and ≤ " + Decimal(sample_hz_max) + " with t_end_s " +
+                                  Decimal(options.end_s) + " (at most " + Decimal(kSamplesMax) +
+                                  " samples), not " + Decimal(options.sample_hz));
+}
+
+Parsed<Simulation> ParseSimulation(const Json& request, const std::vector<catalog::Part>& parts) {
+  Errors errors;
+  Simulation simulation;
+  Reader reader(request, "", errors);
+  reader.Schema("simulation/1");
+  reader.Text("name", "");
+  simulation.rig.ambient = ReadAmbient(reader);
+  simulation.rig.gas =
+      reader.Choice("gas", {"air", "co2"}, "air") == "co2" ? model::Gas::kCo2 : model::Gas::kAir;
+  const std::optional<Schedule> shared = ReadSchedule(reader);
+  double duration_s = shared ? shared->duration_s.value_or(0.0) : 0.0;
+  std::vector<std::string> names;
+  for (const Element& element : reader.List("actuators", 1, kGroupsMax))
+    simulation.rig.groups.push_back(ReadGroup(element, simulation.rig.groups.size(), simulation,
+                                              parts, shared, names, duration_s, errors));
+  simulation.rig.source = ReadSource(reader, simulation.rig.ambient);
+  const double initial_pa = ReadInitialPressure(reader, simulation.rig.ambient);
+  for (model::GroupRig& group : simulation.rig.groups) group.initial_pressure_pa = initial_pa;
+  RefuseEffects(reader);
+  const Fractions fractions = ReadFractions(reader);
+  simulation.options.rise_fraction = fractions.rise;
+  simulation.options.fall_fraction = fractions.fall;
+  ReadTimes(reader, duration_s, simulation.options);
+  reader.Finish();
+  if (!errors.empty()) return errors;
+  return simulation;
+}
+
+const char* StatusName(model::SimulateStatus status) {
+  switch (status) {
+    case model::SimulateStatus::kDone:
+      return "done";
+    case model::SimulateStatus::kCancelled:
+      return "out_of_time";
+    case model::SimulateStatus::kTooManySteps:
+      return "too_many_steps";
+    case model::SimulateStatus::kNotFinite:
+      return "not_finite";
+    case model::SimulateStatus::kInvalid:
+      return "invalid";
+    case model::SimulateStatus::kNotRun:
+      break;
+  }
+  return "not_run";
+}
+
+Json Numbers(const std::vector<double>& values, auto&& convert) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(Number(convert(value)));
+  return list;
+}
+
+Json RenderPerformance(const std::vector<model::FullStroke>& strokes, const model::Rig& rig) {
+  Json groups = Json::array();
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    const model::FullStroke& stroke = strokes[i];
+    groups.push_back(
+        {{"name", rig.groups[i].name},
+         {"rise_time_s", Number(stroke.rise_time_s)},
+         {"fall_time_s", Number(stroke.fall_time_s)},
+         {"frequency_hz_max",
+          stroke.frequency_max_hz > 0.0 ? Number(stroke.frequency_max_hz) : Json(nullptr)}});
+  }
+  return {{"groups", groups}};
+}
+
+Json RenderResponse(const model::Response& response, const std::vector<model::FullStroke>& strokes,
+                    const model::Rig& rig) {
+  const auto gauge = [&](double pa) { return KpaGaugeFromPa(pa, rig.ambient); };
+  Json groups = Json::array();
+  for (const model::GroupResponse& group : response.groups)
+    groups.push_back({{"name", group.name},
+                      {"pressure_kpa_gauge", Numbers(group.pressure_pa, gauge)},
+                      {"volume_ml", Numbers(group.volume_m3, MlFromM3)},
+                      {"air_in_l_anr", Number(LFromM3(group.air_in_m3))},
+                      {"air_out_l_anr", Number(LFromM3(group.air_out_m3))}});
+  Json document = {{"schema", "response/1"}, {"status", StatusName(response.status)}};
+  if (response.status != model::SimulateStatus::kDone) document["detail"] = response.detail;
+  document["t_s"] = Numbers(response.t_s, [](double t) { return t; });
+  document["groups"] = std::move(groups);
+  document["source_pressure_kpa_gauge"] = Numbers(response.source_pressure_pa, gauge);
+  document["performance"] = RenderPerformance(strokes, rig);
+  return document;
+}
+
+}  // namespace
+
+Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>& parts) {
+  Parsed<Simulation> parsed = ParseSimulation(request, parts);
+  if (auto* errors = std::get_if<Errors>(&parsed)) return std::move(*errors);
+  auto& [rig, options] = std::get<Simulation>(parsed);
+  const auto deadline = std::chrono::steady_clock::now() + kTimeLimit;
+  options.cancelled = [deadline] { return std::chrono::steady_clock::now() > deadline; };
+  model::Response response = model::Simulate(rig, options);
+  if (response.status == model::SimulateStatus::kInvalid) return Errors{{"", response.detail}};
+  const std::vector<model::FullStroke> strokes = model::FullStrokes(rig, options);
+  if (options.cancelled()) {
+    if (response.status == model::SimulateStatus::kDone)
+      response.status = model::SimulateStatus::kCancelled;
+    if (!response.detail.empty()) response.detail += "; ";
+    response.detail += "out of time: what performance gives as null is not known";
+  }
+  return RenderResponse(response, strokes, rig);
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,251 @@
+#include "catalog/csv.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "catalog/csv_table.h"
+#include "catalog/fields.h"
+#include "catalog/text.h"
+
+namespace plenum::catalog {
+namespace {
+
+constexpr std::string_view kProvenance = ".provenance";
+constexpr std::string_view kSource = ".source";
+
+std::string Column(std::string_view field, std::string_view suffix) {
+  return std::string(field) + std::string(suffix);
+}
+
+// Every column of the family, in the order in which they are written.
+std::vector<std::string> Columns(const Family& family) {
+  std::vector<std::string> columns{"id", "manufacturer", "part_number", "notes"};
+  const auto with_origin = [&](std::string_view name) {
+    columns.push_back(Column(name, kProvenance));
+    columns.push_back(Column(name, kSource));
+  };
+  const auto add_field = [&](std::string_view name) {
+    columns.emplace_back(name);
+    with_origin(name);
+  };
+  for (const NumberField& field : family.numbers) add_field(field.name);
+  for (const TextField& field : family.texts) add_field(field.name);
+  if (family.has_curve) {
+    columns.emplace_back("curve");
+    with_origin("free_air");
+    with_origin("current");
+  }
+  return columns;
+}
+
+std::vector<std::string_view> Split(std::string_view text, char separator) {
+  std::vector<std::string_view> pieces;
+  for (;;) {
+    const std::size_t at = text.find(separator);
+    pieces.push_back(text.substr(0, at));
+    if (at == std::string_view::npos) return pieces;
+    text.remove_prefix(at + 1);
+  }
+}
+
+// One row being turned into a part; collects what is wrong with it.
+class RowReader {
+ public:
+  RowReader(const Family& family, const std::vector<std::string>& header, const CsvRow& cells,
+            int row)
+      : family_(family), row_(row) {
+    for (std::size_t i = 0; i < header.size(); ++i) cells_[header[i]] = cells[i];
+  }
+
+  Part Read() {
+    Part part;
+    part.id = Cell("id");
+    part.family = family_.name;
+    part.manufacturer = Cell("manufacturer");
+    part.part_number = Cell("part_number");
+    part.notes = Cell("notes");
+    for (const NumberField& field : family_.numbers) ReadNumber(field.name, part);
+    for (const TextField& field : family_.texts) ReadText(field.name, part);
+    if (family_.has_curve) ReadCurve(part);
+
+    // A cell that could not be read is reported once, not as a missing field as well.
+    std::set<std::string> reported;
+    for (const CsvError& error : errors_) reported.insert(error.column);
+    for (FieldError& error : Validate(part))
+      if (!reported.contains(error.field)) Fail(error.field, std::move(error.detail));
+    return part;
+  }
+
+  std::vector<CsvError> TakeErrors() { return std::move(errors_); }
+
+ private:
+  std::string Cell(std::string_view column) const {
+    const auto found = cells_.find(column);
+    return found == cells_.end() ? std::string() : found->second;
+  }
+
+  void Fail(std::string column, std::string detail) {
+    errors_.push_back({row_, std::move(column), std::move(detail)});
+  }
+
+  Provenance ReadProvenance(std::string_view field) {
+    const std::string name = Cell(Column(field, kProvenance));
+    if (name.empty()) return Provenance::kThirdParty;
+    const auto provenance = ProvenanceFromName(name);
+    if (!provenance)
+      Fail(Column(field, kProvenance),
+           "must be one of: datasheet, third_party, derived, estimated; is \"" + name + "\"");
+    return provenance.value_or(Provenance::kThirdParty);
+  }
+
+  // Where a value comes from says nothing without the value.
+  void CheckNoOrigin(std::string_view field) {
+    for (std::string_view suffix : {kProvenance, kSource})
+      if (!Cell(Column(field, suffix)).empty())
+        Fail(Column(field, suffix), "is given, but there is no value");
+  }
+
+  void ReadNumber(std::string_view field, Part& part) {
+    const std::string cell = Cell(field);
+    if (cell.empty()) return CheckNoOrigin(field);
+    const auto value = ParseNumber(cell);
+    const Provenance provenance = ReadProvenance(field);
+    if (value)
+      part.numbers[std::string(field)] = {*value, provenance, Cell(Column(field, kSource))};
+    else
+      Fail(std::string(field), "must be a finite number, is \"" + cell + "\"");
+  }
+
+  void ReadText(std::string_view field, Part& part) {
+    const std::string cell = Cell(field);
+    if (cell.empty()) return CheckNoOrigin(field);
+    part.texts[std::string(field)] = {cell, ReadProvenance(field), Cell(Column(field, kSource))};
+  }
+
+  void ReadCurve(Part& part) {
+    const std::string cell = Cell("curve");
+    if (cell.empty()) {
+      CheckNoOrigin("free_air");
+      CheckNoOrigin("current");
+      return;
+    }
+    Curve curve;
+    curve.free_air_provenance = ReadProvenance("free_air");
+    curve.free_air_source = Cell("free_air.source");
+    curve.current_provenance = ReadProvenance("current");
+    curve.current_source = Cell("current.source");
+    for (std::string_view point : Split(cell, ';')) {
+      std::vector<double> values;
+      for (std::string_view number : Split(point, ':'))
+        if (const auto value = ParseNumber(number)) values.push_back(*value);
+      if (values.size() != 3 || std::count(point.begin(), point.end(), ':') != 2) {
+        Fail("curve", "must be points \"kPa gauge:L/min:A\" joined by ';', has \"" +
+                          std::string(point) + "\"");
+        return;
+      }
+      curve.points.push_back({values[0], values[1], values[2]});
+    }
+    part.curve = std::move(curve);
+  }
+
+  const Family& family_;
+  int row_;
+  std::map<std::string, std::string, std::less<>> cells_;
+  std::vector<CsvError> errors_;
+};
+
+std::vector<CsvError> CheckHeader(const Family& family, const CsvRow& header) {
+  const std::vector<std::string> columns = Columns(family);
+  const std::vector<std::string_view> known(columns.begin(), columns.end());
+  std::vector<CsvError> errors;
+  std::set<std::string> seen;
+  for (const std::string& name : header) {
+    if (!seen.insert(name).second)
+      errors.push_back({1, name, "column appears twice"});
+    else if (std::find(known.begin(), known.end(), name) == known.end())
+      errors.push_back({1, name,
+                        "unknown column of family " + std::string(family.name) +
+                            "; nearest: " + std::string(NearestName(name, known))});
+  }
+  return errors;
+}
+
+std::string FormatCurve(const Curve& curve) {
+  std::string text;
+  for (const CurvePoint& point : curve.points)
+    text += (text.empty() ? "" : ";") + FormatNumber(point.pressure_kpa_gauge) + ":" +
+            FormatNumber(point.free_air_l_per_min) + ":" + FormatNumber(point.current_a);
+  return text;
+}
+
+CsvRow ToRow(const Family& family, const Part& part) {
+  CsvRow row{part.id, part.manufacturer, part.part_number, part.notes};
+  const auto add = [&](std::string cell) { row.push_back(std::move(cell)); };
+  const auto add_field = [&](const auto& fields, std::string_view name, const auto& format) {
+    const auto found = fields.find(std::string(name));
+    const bool given = found != fields.end();
+    add(given ? format(found->second.value) : std::string());
+    add(given ? std::string(Name(found->second.provenance)) : std::string());
+    add(given ? found->second.source : std::string());
+  };
+  for (const NumberField& field : family.numbers) add_field(part.numbers, field.name, FormatNumber);
+  for (const TextField& field : family.texts)
+    add_field(part.texts, field.name, [](const std::string& value) { return value; });
+  if (!family.has_curve) return row;
+  if (!part.curve) {
+    row.resize(row.size() + 5);
+    return row;
+  }
+  add(FormatCurve(*part.curve));
+  add(std::string(Name(part.curve->free_air_provenance)));
+  add(part.curve->free_air_source);
+  add(std::string(Name(part.curve->current_provenance)));
+  add(part.curve->current_source);
+  return row;
+}
+
+}  // namespace
+
+CsvParts ReadCsv(std::string_view family_name, std::string_view text) {
+  const Family* family = FindFamily(family_name);
+  if (family == nullptr)
+    return {{}, {{1, "", "unknown family \"" + std::string(family_name) + "\""}}};
+  CsvTable table = ParseTable(text);
+  CsvParts result{{}, std::move(table.errors)};
+  if (!result.errors.empty()) return result;
+  if (table.rows.empty()) return {{}, {{1, "", "the header row is missing"}}};
+
+  const CsvRow& header = table.rows.front();
+  result.errors = CheckHeader(*family, header);
+  std::map<std::string, int> row_of_id;
+  for (std::size_t i = 1; i < table.rows.size(); ++i) {
+    const int row = static_cast<int>(i) + 1;
+    const CsvRow& cells = table.rows[i];
+    if (cells.size() != header.size()) {
+      result.errors.push_back({row, "",
+                               "has " + std::to_string(cells.size()) + " cells, the header has " +
+                                   std::to_string(header.size())});
+      continue;
+    }
+    RowReader reader(*family, header, cells, row);
+    result.parts.push_back(reader.Read());
+    for (CsvError& error : reader.TakeErrors()) result.errors.push_back(std::move(error));
+    const auto [first, is_new] = row_of_id.emplace(result.parts.back().id, row);
+    if (!is_new)
+      result.errors.push_back(
+          {row, "id", "\"" + first->first + "\" is in row " + std::to_string(first->second)});
+  }
+  return result;
+}
+
+std::string WriteCsv(std::string_view family_name, const std::vector<Part>& parts) {
+  const Family* family = FindFamily(family_name);
+  if (family == nullptr) return {};
+  std::string text = FormatRow(Columns(*family));
+  for (const Part& part : parts) text += FormatRow(ToRow(*family, part));
+  return text;
+}
+
+}  // namespace plenum::catalog

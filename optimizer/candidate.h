@@ -1,0 +1,101 @@
+// One combination of parts, and how it performs at an operating point.
+#ifndef PLENUM_OPTIMIZER_CANDIDATE_H_
+#define PLENUM_OPTIMIZER_CANDIDATE_H_
+
+#include <vector>
+
+#include "optimizer/line.h"
+#include "optimizer/problem.h"
+
+namespace plenum::optimizer {
+
+inline constexpr int kNone = -1;
+inline constexpr int kCustom = -2;  // made-to-measure reservoir
+
+// A part of a source family, some pieces in parallel.
+struct Option {
+  int index = kNone;
+  int quantity = 0;
+  Amounts amounts;         // all pieces, gas charge included; zero for kCustom
+  double objective = 0.0;  // their share of the objective
+};
+
+struct Candidate {
+  Configuration configuration = Configuration::kMains;
+  std::vector<const Line*> lines;  // one per group
+  Option regulator, bottle, compressor, battery, reservoir;
+  double source_floor_pa =
+      0.0;  // a source pressure below which the strokes are known to be too slow
+};
+
+// Where a candidate is run. For the regulated configurations the source pressure is the regulator's
+// outlet, for a compressor it is the pressure at which it stops.
+struct OperatingPoint {
+  double source_pa = 0.0;
+  double reservoir_m3 = 0.0;
+  // Volume while the reservoir rises; equal to reservoir_m3 but for bounds over an interval of
+  // volumes (model/reservoir_stroke.h).
+  double reservoir_rising_m3 = 0.0;
+};
+
+struct Evaluation {
+  // False: a pressure is never reached or surely too late; nothing below is valid then.
+  bool works = false;
+  std::vector<GroupPerformance> groups;
+  double air_per_cycle_m3 = 0.0;  // ANR, all actuators
+  double air_total_m3 = 0.0;      // all cycles, first fill included
+  double air_available_m3 = 0.0;  // ANR on board; +∞ for pump and mains
+  double energy_first_fill_j = 0.0;
+  double energy_per_cycle_j = 0.0;  // pumps, coils and regulator
+  double energy_coils_j = 0.0;      // all cycles; the only part that falls with the source pressure
+  double energy_total_j = 0.0;
+  double energy_available_j = 0.0;  // +∞ on mains
+  double battery_current_a = 0.0;
+  double compressor_duty = 0.0;
+  double frequency_sustained_hz = 0.0;
+};
+
+struct EvaluateOptions {
+  // Coils as if every stroke were as fast as on an unlimited source: a bound from below on their
+  // energy that holds at every source pressure.
+  bool least_coil_energy = false;
+};
+
+Evaluation Evaluate(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                    const EvaluateOptions& options = {});
+
+// Range of source pressures that the parts stand and that can drive the strokes at all; empty
+// (low > high) if there is none.
+struct Window {
+  double low_pa, high_pa;
+  bool empty() const { return !(low_pa <= high_pa); }
+};
+Window SourceWindow(const Problem& problem, const Candidate& candidate);
+
+// Parts of the candidate with a made-to-measure reservoir of the given volume.
+Amounts TotalAmounts(const Problem& problem, const Candidate& candidate, double reservoir_m3);
+Amounts CustomReservoir(const Problem& problem, double volume_m3);
+double CustomRatingPa(const Problem& problem);  // absolute: what a made-to-measure one is built for
+
+// Objective at an operating point.
+double ObjectiveValue(const Problem& problem, const Candidate& candidate,
+                      const OperatingPoint& point, const Evaluation& evaluation);
+
+// Each requirement as a margin. Those that depend on the source pressure so that more is better
+// (`strokes`: rise times, half of the period) come from Shortfall; all others fall with it.
+std::vector<Margin> Margins(const Problem& problem, const Candidate& candidate,
+                            const OperatingPoint& point, const Evaluation& evaluation);
+
+// Largest relative excess of a rise time over its limit, or of the inflation over half of the
+// period; ≤ 0 where the strokes are fast enough. Does not rise with the source pressure: pressures
+// keep their order (model/reservoir_stroke.h).
+double StrokeExcess(const Problem& problem, const Evaluation& evaluation);
+
+// Smallest relative margin of all that the contract asks and that the parts stand (battery
+// current), except the strokes; ≥ 0: met.
+double SupplyMargin(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                    const Evaluation& evaluation);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_CANDIDATE_H_

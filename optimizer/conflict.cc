@@ -1,0 +1,182 @@
+#include "optimizer/conflict.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "optimizer/line.h"
+#include "optimizer/tree_search.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kBestTolerance = 0.002;  // relative, on what the catalogue reaches at best
+constexpr double kFrequencyLeastHz = 1e-4;
+
+// A requirement that can be loosened.
+struct Requirement {
+  std::string pointer;
+  double required;                            // in the units of the field
+  double loosest;                             // at this it no longer binds
+  std::function<void(Problem&, double)> set;  // to a value in those units
+  // For mass, volume and cost: the objective that finds the best at once.
+  std::optional<Objective> objective;
+};
+
+void AddGroups(const Problem& problem, std::vector<Requirement>& list) {
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    const std::string base = "/actuators/" + std::to_string(g);
+    const ActuatorGroup& group = problem.groups[g];
+    if (std::isfinite(group.rise_time_max_s))
+      list.push_back({base + "/rise_time_s_max", group.rise_time_max_s,
+                      std::max(HalfPeriod(problem), 2.0 * group.rise_time_max_s),
+                      [g](Problem& p, double value) { p.groups[g].rise_time_max_s = value; },
+                      std::nullopt});
+    if (std::isfinite(group.fall_time_max_s))
+      list.push_back({base + "/fall_time_s_max", group.fall_time_max_s,
+                      std::max(HalfPeriod(problem), 2.0 * group.fall_time_max_s),
+                      [g](Problem& p, double value) { p.groups[g].fall_time_max_s = value; },
+                      std::nullopt});
+  }
+}
+
+void AddAmounts(const Problem& problem, std::vector<Requirement>& list) {
+  const auto add = [&](const char* pointer, double limit, double Problem::*member,
+                       Objective objective) {
+    if (std::isfinite(limit))
+      list.push_back({pointer, limit, kUnlimited,
+                      [member](Problem& p, double value) { p.*member = value; }, objective});
+  };
+  add("/supply/mass_kg_max", problem.mass_max_kg, &Problem::mass_max_kg, {.mass_kg = 1.0});
+  add("/supply/volume_l_max", problem.volume_max_l, &Problem::volume_max_l, {.volume_l = 1.0});
+  add("/supply/cost_eur_max", problem.cost_max_eur, &Problem::cost_max_eur, {.cost_eur = 1.0});
+}
+
+std::vector<Requirement> Requirements(const Problem& problem) {
+  std::vector<Requirement> list;
+  AddGroups(problem, list);
+  AddAmounts(problem, list);
+  list.push_back({"/duty/actuations", problem.actuations, 1.0,
+                  [](Problem& p, double value) { p.actuations = value; }, std::nullopt});
+  list.push_back({"/duty/frequency_hz", problem.frequency_hz, kFrequencyLeastHz,
+                  [](Problem& p, double value) { p.frequency_hz = value; }, std::nullopt});
+  if (std::isfinite(problem.source_pressure_max_pa)) {
+    const double ambient_pa = problem.ambient.pressure_pa;
+    list.push_back({"/supply/source_pressure_kpa_gauge_max",
+                    (problem.source_pressure_max_pa - ambient_pa) / 1e3, 1e4,
+                    [ambient_pa](Problem& p, double value) {
+                      p.source_pressure_max_pa = ambient_pa + value * 1e3;
+                    },
+                    std::nullopt});
+  }
+  return list;
+}
+
+class ConflictSearch {
+ public:
+  ConflictSearch(const SearchOptions& options, double used_s)
+      : options_(options),
+        start_(std::chrono::steady_clock::now()),
+        limit_s_(options.time_limit_s - used_s) {
+    options_.progress = nullptr;
+  }
+
+  Answer One(Problem problem) {
+    problem.count = 1;
+    options_.time_limit_s = Left();
+    return SearchTrees(problem, options_);
+  }
+  double Left() const {
+    const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start_;
+    return limit_s_ - used.count();
+  }
+  bool OutOfTime() const { return Left() <= 0.0 || (options_.cancelled && options_.cancelled()); }
+
+ private:
+  SearchOptions options_;
+  std::chrono::steady_clock::time_point start_;
+  double limit_s_;
+};
+
+std::optional<double> Achieved(const Answer& answer, const std::string& pointer) {
+  if (answer.designs.empty()) return std::nullopt;
+  for (const Margin& margin : answer.designs.front().margins)
+    if (margin.requirement == pointer) return margin.achieved;
+  return std::nullopt;
+}
+
+// Best value between the required one, which is infeasible, and the loosest, by halving on a log
+// scale; a feasible search moves the bracket to what its design achieves.
+std::optional<double> Best(const Problem& problem, const Requirement& requirement,
+                           ConflictSearch& search) {
+  Problem loose = problem;
+  requirement.set(loose, requirement.loosest);
+  if (requirement.objective) {
+    loose.objective = *requirement.objective;
+    const Answer answer = search.One(loose);
+    if (answer.designs.empty()) return std::nullopt;
+    return answer.designs.front().objective;
+  }
+  const bool less_is_harder = requirement.loosest > requirement.required;
+  double hard = requirement.required;
+  double easy = requirement.loosest;
+  const auto reach = [&](double value) {
+    Problem trial = problem;
+    requirement.set(trial, value);
+    const Answer answer = search.One(trial);
+    if (answer.designs.empty()) return false;
+    const double achieved = Achieved(answer, requirement.pointer).value_or(value);
+    const double good = less_is_harder ? std::max(hard, std::min(achieved, value))
+                                       : std::min(hard, std::max(achieved, value));
+    easy = good;
+    return true;
+  };
+  if (!reach(easy)) return std::nullopt;
+  while (std::abs(std::log(easy / hard)) > kBestTolerance && !search.OutOfTime()) {
+    const double middle = std::sqrt(easy * hard);
+    if (!reach(middle)) hard = middle;
+  }
+  return easy;
+}
+
+}  // namespace
+
+std::vector<Conflict> FindConflict(const Problem& problem, const SearchOptions& options,
+                                   double used_s) {
+  ConflictSearch search(options, used_s);
+  const std::vector<Requirement> all = Requirements(problem);
+  std::vector<const Requirement*> kept;
+  for (const Requirement& requirement : all) kept.push_back(&requirement);
+
+  const auto without = [&](const std::vector<const Requirement*>& holding) {
+    Problem trial = problem;
+    for (const Requirement& requirement : all)
+      if (std::find(holding.begin(), holding.end(), &requirement) == holding.end())
+        requirement.set(trial, requirement.loosest);
+    return trial;
+  };
+  for (std::size_t i = 0; i < kept.size() && !search.OutOfTime();) {
+    std::vector<const Requirement*> rest = kept;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+    if (search.One(without(rest)).status == Status::kInfeasible)
+      kept = std::move(rest);
+    else
+      ++i;
+  }
+
+  std::vector<Conflict> conflict;
+  for (const Requirement* requirement : kept) {
+    std::optional<double> best;
+    if (!search.OutOfTime()) best = Best(problem, *requirement, search);
+    conflict.push_back({requirement->pointer, requirement->required, best});
+  }
+  if (conflict.empty())  // nothing that can be loosened helps: the pressures themselves
+    for (std::size_t g = 0; g < problem.groups.size(); ++g)
+      conflict.push_back(
+          {"/actuators/" + std::to_string(g) + "/operating_pressure_kpa_gauge",
+           (problem.groups[g].chamber.operating_pressure_pa - problem.ambient.pressure_pa) / 1e3,
+           std::nullopt});
+  return conflict;
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,44 @@
+// The strokes of a candidate in the periodic state, by the cheapest method that is exact for it.
+#ifndef PLENUM_OPTIMIZER_EVALUATE_STROKES_H_
+#define PLENUM_OPTIMIZER_EVALUATE_STROKES_H_
+
+#include <vector>
+
+#include "model/simulate.h"
+#include "optimizer/candidate.h"
+
+namespace plenum::optimizer {
+
+struct Strokes {
+  bool works = false;
+  std::vector<double> rise_s, inflate_s;  // per group, worst of the cycle
+  double pump_on_s = 0.0;                 // per cycle
+  double pump_energy_j = 0.0;             // per cycle, all pumps
+};
+
+model::Gas GasOf(Configuration configuration);
+
+// `works` is false where a pressure is never reached, and where a bound shows that a limit on a
+// rise time is missed. One quadrature or one small integration per group where groups do not meet
+// on the source (a single group, or staggered strokes that end before the next begins), else the
+// simulator.
+Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
+                        const OperatingPoint& point);
+
+// Bound from below on the relative excess of the strokes over their limits on a compressor's
+// reservoir: each group as if it were alone and found the reservoir full. −∞ where nothing is
+// known.
+double AloneExcess(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
+
+// The strokes by the simulator alone, from the first cycle until the source's state repeats.
+Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
+                        const OperatingPoint& point);
+
+// The candidate as a rig for the simulator, at the start of a cycle: `reservoir_pa` is what the
+// reservoir holds then, pressures[g] what the actuators of group g hold, `cycles` how many follow.
+model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                   double reservoir_pa, const std::vector<double>& pressures_pa, int cycles);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_EVALUATE_STROKES_H_

@@ -1,0 +1,77 @@
+// A line: the tube, fitting and valve that serve one group of actuators, and what can be said of it
+// before the source is known.
+#ifndef PLENUM_OPTIMIZER_LINE_H_
+#define PLENUM_OPTIMIZER_LINE_H_
+
+#include <vector>
+
+#include "model/chamber.h"
+#include "model/flow_table.h"
+#include "model/series.h"
+#include "optimizer/problem.h"
+
+namespace plenum::optimizer {
+
+// Sums of a set of parts. Cost is meaningful only where every part has a price; a part without one
+// drops out before it is summed when cost matters.
+struct Amounts {
+  double mass_kg = 0.0, volume_m3 = 0.0, cost_eur = 0.0;
+  Amounts& operator+=(const Amounts& other);
+};
+Amounts operator*(double quantity, const model::PartBasics& basics);
+
+// Weighted objective of parts alone (energy comes on top).
+double ObjectiveOf(const Objective& objective, const Amounts& amounts);
+bool CostMatters(const Problem& problem);
+
+struct Line {
+  int tubing = -1, fitting = -1,
+      valve = -1;                        // indices into Problem::parts; fitting −1: none needed
+  Amounts amounts;                       // whole group: tubes, fittings, valves
+  std::vector<model::FlowElement> fill;  // elements as crossed from source to actuator
+  std::vector<model::FlowElement> exhaust;  // and from actuator to ambient
+  model::Series fill_series;                // with gas and temperature factor
+  model::FlowTable fill_table;              // the same, tabulated
+  model::Chamber chamber;                   // with the tube's bore as dead volume
+  double fall_time_s = 0.0;
+  // Pressure of an unlimited source at which the rise time is just met (no source does it with
+  // less: droop, regulator and neighbours only slow the rise), and the highest that the line
+  // stands.
+  double source_min_pa = 0.0;
+  double source_max_pa = 0.0;
+  double inflate_time_least_s = 0.0;  // to p_op, unlimited source at source_max_pa
+  bool holds = true;
+  double coil_power_w = 0.0;  // whole group, while energised
+};
+
+struct LineSet {
+  std::vector<Line> lines;  // those that can work on some source
+  long long total = 0, incompatible = 0, infeasible = 0,
+            unpriced = 0;  // triples; add up with lines
+};
+
+// All lines of a group for a gas. Rise and fall limits, half of the period and pressure ratings are
+// applied; what depends on the source is not.
+LineSet EnumerateLines(const Problem& problem, int group, model::Gas gas);
+
+// Target pressures of a group.
+double RiseTarget(const Problem& problem, const ActuatorGroup& group);
+double FallTarget(const Problem& problem, const ActuatorGroup& group);
+
+// Most time that inflating to p_op may take: half of the period.
+inline double HalfPeriod(const Problem& problem) { return 0.5 / problem.frequency_hz; }
+
+// Factor on every conductance from the gas and its temperature.
+double FlowFactor(const Problem& problem, model::Gas gas);
+
+// Air that one actuation of the whole group takes, m³ ANR. A valve that holds closes at p_op; one
+// that cannot leaves the actuator on the source, which fills it up to `source_pa`.
+double AirPerStroke(const Problem& problem, int group, const Line& line, double source_pa);
+
+// Coil energy of one cycle of the whole group, J: a 3/2 is energised for half of the period, a pair
+// or a proportional valve while it inflates and while it vents.
+double CoilEnergyPerCycle(const Problem& problem, const Line& line, double inflate_time_s);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_LINE_H_

@@ -1,0 +1,18 @@
+// A listed design: the candidate with its settings, checked and traced by the simulator.
+#ifndef PLENUM_OPTIMIZER_REPORT_H_
+#define PLENUM_OPTIMIZER_REPORT_H_
+
+#include <optional>
+
+#include "optimizer/sizing.h"
+
+namespace plenum::optimizer {
+
+// None where the simulator, run on the whole rig in its periodic state, does not confirm that every
+// requirement is met: the design is then not listed but counted as undecided.
+std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
+                                 const Leaf& leaf);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_REPORT_H_

@@ -1,0 +1,322 @@
+#include "optimizer/sizing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "model/storage.h"
+#include "optimizer/evaluate_strokes.h"
+#include "optimizer/nlp.h"
+#include "optimizer/root.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kPressureTolerance = 1e-8;
+constexpr double kBoundTolerance = 1e-4;
+constexpr int kScanPoints = 32;
+constexpr double kVolumeTolerance = 1e-7;  // of the objective
+constexpr int kStepsPerRefine = 8;
+constexpr int kStepsMax = 400;
+
+double SmallestMargin(const Problem& problem, const Candidate& candidate,
+                      const OperatingPoint& point, const Evaluation& evaluation) {
+  return std::min(-StrokeExcess(problem, evaluation),
+                  SupplyMargin(problem, candidate, point, evaluation));
+}
+
+// Bound from below on the objective over [low, high] at a fixed volume, by intervals: everything
+// but the coils grows with the source pressure, the coils fall with it.
+double EnergyAwareBound(const Problem& problem, const Candidate& candidate, double reservoir_m3,
+                        double low_pa, double high_pa) {
+  double bound = kUnlimited;
+  std::optional<Evaluation> left;
+  for (int i = 0; i <= kScanPoints; ++i) {
+    const double source_pa = low_pa + (high_pa - low_pa) * i / kScanPoints;
+    const OperatingPoint point{source_pa, reservoir_m3, reservoir_m3};
+    const Evaluation right = Evaluate(problem, candidate, point);
+    if (left) {
+      Evaluation mixed = *left;
+      mixed.energy_total_j += right.energy_coils_j - left->energy_coils_j;
+      bound = std::min(bound, ObjectiveValue(problem, candidate, point, mixed));
+    }
+    left = right;
+  }
+  return bound;
+}
+
+// Margins that the solver works with, strokes first; all ≥ 0 where feasible.
+std::vector<double> SolverMargins(const Problem& problem, const Candidate& candidate,
+                                  const OperatingPoint& point, const Evaluation& evaluation) {
+  std::vector<double> values;
+  for (const GroupPerformance& group : evaluation.groups)
+    values.push_back(1.0 - group.inflate_time_s / HalfPeriod(problem));
+  for (const Margin& margin : Margins(problem, candidate, point, evaluation))
+    values.push_back(std::min(margin.relative_margin, 1.0));
+  if (candidate.battery.index != kNone)
+    values.push_back(1.0 - evaluation.battery_current_a /
+                               (candidate.battery.quantity *
+                                problem.parts.batteries[candidate.battery.index].current_max_a));
+  return values;
+}
+
+}  // namespace
+
+bool PumpPowerRises(const Problem& problem, const Candidate& candidate) {
+  if (candidate.compressor.index == kNone) return true;
+  const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
+  const double high_pa = SourceWindow(problem, candidate).high_pa;
+  double before_w = 0.0;
+  const auto rises = [&](double pressure_pa) {
+    const double power_w = model::ElectricalPower(curve, pressure_pa);
+    const bool ok = power_w >= before_w * (1.0 - 1e-12);
+    before_w = power_w;
+    return ok;
+  };
+  // Interpolation is monotone between the table's points, so these and the end decide.
+  for (double knot : curve.current_a.x())
+    if (knot < high_pa && !rises(knot)) return false;
+  return rises(high_pa);
+}
+
+std::optional<double> NeededSourcePressure(const Problem& problem, const Candidate& candidate,
+                                           OperatingPoint point) {
+  const Window window = SourceWindow(problem, candidate);
+  if (window.empty()) return std::nullopt;
+  const auto excess = [&](double source_pa) {
+    point.source_pa = source_pa;
+    return StrokeExcess(problem, Evaluate(problem, candidate, point));
+  };
+  if (!(excess(window.high_pa) <= 0.0)) return std::nullopt;
+  double low_pa = window.low_pa;
+  if (candidate.compressor.index != kNone) {
+    // A cheap bound from below brings the costly search close to its end.
+    const auto alone = [&](double source_pa) {
+      point.source_pa = source_pa;
+      return AloneExcess(problem, candidate, point);
+    };
+    low_pa = FeasibleBracket(alone, low_pa, window.high_pa, kBoundTolerance).low;
+  }
+  return SmallestFeasible(excess, low_pa, window.high_pa, kPressureTolerance);
+}
+
+Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3) {
+  Leaf leaf;
+  leaf.status = LeafStatus::kInfeasible;
+  OperatingPoint point{0.0, reservoir_m3, reservoir_m3};
+  const std::optional<double> needed = NeededSourcePressure(problem, candidate, point);
+  if (!needed) return leaf;
+  const double high_pa = SourceWindow(problem, candidate).high_pa;
+
+  const auto try_at = [&](double source_pa) {
+    point.source_pa = source_pa;
+    const Evaluation evaluation = Evaluate(problem, candidate, point);
+    if (!(SmallestMargin(problem, candidate, point, evaluation) >= 0.0)) return false;
+    leaf.status = LeafStatus::kFeasible;
+    leaf.point = point;
+    leaf.objective = ObjectiveValue(problem, candidate, point, evaluation);
+    return true;
+  };
+  if (!try_at(*needed)) {
+    point.source_pa = *needed;
+    const Evaluation least = Evaluate(problem, candidate, point, {.least_coil_energy = true});
+    const bool refuted =
+        SupplyMargin(problem, candidate, point, least) < 0.0 && PumpPowerRises(problem, candidate);
+    if (refuted) return leaf;
+    leaf.status = LeafStatus::kUndecided;
+    for (int i = 1; i <= kScanPoints; ++i)
+      if (try_at(*needed + (high_pa - *needed) * i / kScanPoints)) break;
+    leaf.lower_bound =
+        ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3));
+    if (leaf.status == LeafStatus::kUndecided) return leaf;
+  }
+  leaf.lower_bound = leaf.objective;
+  if (problem.objective.energy_wh > 0.0) {
+    leaf.point = Settle(problem, candidate, leaf);
+    leaf.objective =
+        ObjectiveValue(problem, candidate, leaf.point, Evaluate(problem, candidate, leaf.point));
+    leaf.lower_bound = std::min(
+        leaf.objective, EnergyAwareBound(problem, candidate, reservoir_m3, *needed, high_pa));
+  }
+  return leaf;
+}
+
+CustomSizing::CustomSizing(const Problem& problem, const PumpFacts& facts, Candidate candidate)
+    : problem_(problem), facts_(facts), candidate_(std::move(candidate)) {
+  leaf_.objective = kUnlimited;
+  Open(model::kMadeReservoirSmallestM3, model::kMadeReservoirLargestM3, 0.0);
+  leaf_.lower_bound = open_.empty() ? 0.0 : open_.top().bound;
+}
+
+// Queues what the cheap bounds leave of an interval.
+void CustomSizing::Open(double low_m3, double high_m3, double bound) {
+  const model::Battery& battery = problem_.parts.batteries[candidate_.battery.index];
+  const double usable_j = candidate_.battery.quantity *
+                          model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v);
+  for (const ReservoirNeed& need :
+       ReservoirNeeds(problem_, facts_, candidate_, usable_j, low_m3, high_m3)) {
+    Evaluation least;
+    least.energy_total_j = need.energy_j;
+    const double objective =
+        ObjectiveValue(problem_, candidate_, {need.source_pa, need.low_m3, need.low_m3}, least);
+    open_.push({need.low_m3, need.high_m3, std::max(bound, objective), false});
+  }
+}
+
+bool CustomSizing::Refine() {
+  for (int step = 0; step < kStepsPerRefine; ++step) {
+    const double good_enough = leaf_.objective - kVolumeTolerance * std::abs(leaf_.objective);
+    if (open_.empty() || open_.top().bound >= good_enough) {
+      const bool found = std::isfinite(leaf_.objective);
+      leaf_.status = found ? LeafStatus::kFeasible : LeafStatus::kInfeasible;
+      leaf_.lower_bound =
+          open_.empty() ? leaf_.objective : std::min(leaf_.objective, open_.top().bound);
+      return true;
+    }
+    Interval interval = open_.top();
+    open_.pop();
+    if (!interval.examined) {
+      if (Examine(interval)) open_.push(interval);
+    } else {
+      Split(interval);
+    }
+    if (++steps_ >= kStepsMax) {
+      // The bound stands, the leaf is as good as the incumbent, and the gap is reported.
+      leaf_.status =
+          std::isfinite(leaf_.objective) ? LeafStatus::kFeasible : LeafStatus::kUndecided;
+      return true;
+    }
+  }
+  leaf_.lower_bound = open_.empty() ? leaf_.objective : open_.top().bound;
+  return false;
+}
+
+bool CustomSizing::Examine(Interval& interval) {
+  interval.examined = true;
+  OperatingPoint point{0.0, interval.high_m3, interval.low_m3};
+  const std::optional<double> needed = NeededSourcePressure(problem_, candidate_, point);
+  if (!needed) return false;
+  point.source_pa = *needed;
+  const Evaluation best = Evaluate(problem_, candidate_, point, {.least_coil_energy = true});
+  const OperatingPoint smallest{*needed, interval.low_m3, interval.low_m3};
+  if (PumpPowerRises(problem_, candidate_)) {
+    if (SupplyMargin(problem_, candidate_, smallest, best) < 0.0) return false;
+    interval.bound = std::max(interval.bound, ObjectiveValue(problem_, candidate_, smallest, best));
+  }
+  Offer(interval.high_m3);
+  return interval.bound < leaf_.objective;
+}
+
+void CustomSizing::Split(const Interval& interval) {
+  const double middle_m3 = std::sqrt(interval.low_m3 * interval.high_m3);
+  Offer(middle_m3);
+  Open(interval.low_m3, middle_m3, interval.bound);
+  Open(middle_m3, interval.high_m3, interval.bound);
+}
+
+void CustomSizing::Offer(double volume_m3) {
+  if (ObjectiveOf(problem_.objective, TotalAmounts(problem_, candidate_, volume_m3)) >=
+      leaf_.objective)
+    return;
+  const Leaf leaf = SizeAtVolume(problem_, candidate_, volume_m3);
+  if (leaf.status != LeafStatus::kFeasible || leaf.objective >= leaf_.objective) return;
+  leaf_.point = leaf.point;
+  leaf_.objective = leaf.objective;
+  if (!polished_) Polish();
+}
+
+// From the first feasible volume Ipopt finds the best pair of pressure and volume near it.
+void CustomSizing::Polish() {
+  polished_ = true;
+  const Window window = SourceWindow(problem_, candidate_);
+  const double volume_m3 = leaf_.point.reservoir_m3;
+  const double scale = std::abs(leaf_.objective);
+  const auto point_at = [&](const std::vector<double>& x) {
+    const double volume = x[1] * volume_m3;
+    return OperatingPoint{window.low_pa + x[0] * (window.high_pa - window.low_pa), volume, volume};
+  };
+  Nlp nlp;
+  nlp.low = {0.0, std::max(0.3, model::kMadeReservoirSmallestM3 / volume_m3)};
+  nlp.high = {1.0, 1.0};
+  if (!(window.high_pa > window.low_pa) || !(nlp.low[1] < 1.0)) return;
+  nlp.start = {(leaf_.point.source_pa - window.low_pa) / (window.high_pa - window.low_pa), 1.0};
+  nlp.constraints = static_cast<int>(
+      SolverMargins(problem_, candidate_, leaf_.point, Evaluate(problem_, candidate_, leaf_.point))
+          .size());
+  nlp.evaluate = [&](const std::vector<double>& x, NlpValues& values) {
+    const OperatingPoint point = point_at(x);
+    const Evaluation evaluation = Evaluate(problem_, candidate_, point);
+    if (!evaluation.works) return false;
+    values.objective = ObjectiveValue(problem_, candidate_, point, evaluation) / scale;
+    values.constraints = SolverMargins(problem_, candidate_, point, evaluation);
+    return true;
+  };
+  const NlpResult result = SolveWithIpopt(nlp);
+  if (result.status == NlpStatus::kSolved) {
+    // The solver stops within its tolerance of the limits; a hair more volume is surely inside.
+    Offer(point_at(result.x).reservoir_m3 * (1.0 + 1e-7));
+  }
+}
+
+OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const Leaf& leaf) {
+  const Window window = SourceWindow(problem, candidate);
+  if (candidate.reservoir.index == kCustom && problem.objective.energy_wh == 0.0)
+    return leaf.point;  // at its smallest volume a made-to-measure reservoir leaves no freedom
+  const double low_pa = leaf.point.source_pa;
+  if (!(window.high_pa > low_pa)) return leaf.point;
+
+  const auto point_at = [&](double share) {
+    OperatingPoint point = leaf.point;
+    point.source_pa = low_pa + share * (window.high_pa - low_pa);
+    return point;
+  };
+  const auto margins_at = [&](double share, Evaluation& evaluation) {
+    evaluation = Evaluate(problem, candidate, point_at(share));
+    return evaluation.works ? SolverMargins(problem, candidate, point_at(share), evaluation)
+                            : std::vector<double>();
+  };
+  const bool by_energy = problem.objective.energy_wh > 0.0;
+  Evaluation at_low, at_high;
+  const std::vector<double> low = margins_at(0.0, at_low), high = margins_at(1.0, at_high);
+  if (!at_low.works || !at_high.works) return leaf.point;
+  std::vector<std::size_t> moving;  // margins that the source pressure moves
+  for (std::size_t i = 0; i < low.size(); ++i)
+    if (std::abs(high[i] - low[i]) > 1e-9) moving.push_back(i);
+  if (moving.empty()) return leaf.point;
+
+  // Variables: source pressure, and the smallest margin where that is what is maximised.
+  Nlp nlp;
+  nlp.low = {0.0};
+  nlp.high = {1.0};
+  nlp.start = {by_energy ? 0.0 : 0.3};
+  if (!by_energy) {
+    nlp.low.push_back(-10.0);
+    nlp.high.push_back(1.0);
+    nlp.start.push_back(0.0);
+  }
+  nlp.constraints = static_cast<int>(moving.size());
+  const double scale = std::max(std::abs(leaf.objective), 1e-9);
+  nlp.evaluate = [&](const std::vector<double>& x, NlpValues& values) {
+    Evaluation evaluation;
+    const std::vector<double> margins = margins_at(x[0], evaluation);
+    if (!evaluation.works || margins.size() != low.size()) return false;
+    values.objective =
+        by_energy ? ObjectiveValue(problem, candidate, point_at(x[0]), evaluation) / scale : -x[1];
+    values.constraints.clear();
+    for (std::size_t i : moving) values.constraints.push_back(margins[i] - (by_energy ? 0 : x[1]));
+    return true;
+  };
+  const NlpResult result = SolveWithIpopt(nlp);
+  if (result.x.empty()) return leaf.point;
+
+  const OperatingPoint point = point_at(std::clamp(result.x[0], 0.0, 1.0));
+  const Evaluation evaluation = Evaluate(problem, candidate, point);
+  const double margin = SmallestMargin(problem, candidate, point, evaluation);
+  const bool better =
+      by_energy ? margin >= 0.0 && ObjectiveValue(problem, candidate, point, evaluation) <
+                                       ObjectiveValue(problem, candidate, leaf.point, at_low)
+                : margin >= SmallestMargin(problem, candidate, leaf.point, at_low);
+  return better ? point : leaf.point;
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,82 @@
+// Continuous settings of one leaf of the search: is there a source pressure (and a volume of a
+// made-to-measure reservoir) that meets every requirement, and which is best?
+//
+// Feasibility is decided by bracketing on quantities that keep their order, not by a solver that
+// may fail: the strokes only get faster with the source pressure, and what the supply must bear
+// (air, energy, duty, current) only grows with it, but for coils, which are bounded from below.
+#ifndef PLENUM_OPTIMIZER_SIZING_H_
+#define PLENUM_OPTIMIZER_SIZING_H_
+
+#include <queue>
+#include <vector>
+
+#include "optimizer/candidate.h"
+#include "optimizer/pump_bounds.h"
+
+namespace plenum::optimizer {
+
+enum class LeafStatus { kFeasible, kInfeasible, kUndecided };
+
+struct Leaf {
+  LeafStatus status = LeafStatus::kUndecided;
+  OperatingPoint point;      // kFeasible: a point that meets every requirement
+  double objective = 0.0;    // there
+  double lower_bound = 0.0;  // of the objective over all settings
+};
+
+// Settings with the volume given (stock reservoir; 0 where the configuration has none).
+Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3);
+
+// Whether the pumps draw no less power at higher pressure, up to the highest of the candidate's
+// window: then duty and energy grow with the stop pressure, since the reservoir is at every instant
+// no lower and fills no sooner. True without a compressor.
+bool PumpPowerRises(const Problem& problem, const Candidate& candidate);
+
+// Lowest source pressure in the candidate's window at which the strokes meet their limits; none
+// where even the highest is too slow. `point` gives the reservoir.
+std::optional<double> NeededSourcePressure(const Problem& problem, const Candidate& candidate,
+                                           OperatingPoint point);
+
+// The best volume of a made-to-measure reservoir, by branch and bound over intervals of volumes. An
+// interval is closed when no volume in it can meet the limits: first by the cheap bounds of
+// pump_bounds.h, then by one evaluation with the volume's upper end while the reservoir falls and
+// its lower end while it rises.
+class CustomSizing {
+ public:
+  CustomSizing(const Problem& problem, const PumpFacts& facts, Candidate candidate);
+
+  // A few intervals more. True when done: leaf() is feasible with lower_bound within 1e-7 of the
+  // objective, or infeasible.
+  bool Refine();
+  const Leaf& leaf() const { return leaf_; }
+
+ private:
+  struct Interval {
+    double low_m3, high_m3, bound;
+    bool examined;
+    bool operator<(const Interval& other) const { return bound > other.bound; }  // lowest on top
+  };
+  bool Examine(Interval& interval);  // false: closed
+  void Split(const Interval& interval);
+  void Offer(double volume_m3);
+  void Polish();
+
+  void Open(double low_m3, double high_m3, double bound);
+
+  const Problem& problem_;
+  const PumpFacts& facts_;
+  Candidate candidate_;
+  std::priority_queue<Interval> open_;
+  Leaf leaf_;
+  bool polished_ = false;
+  int steps_ = 0;
+};
+
+// The settings that a listed design gets, from a feasible leaf. Where the objective leaves them
+// free they make the smallest relative margin as large as it can be. By Ipopt; the point is taken
+// only if it proves better when evaluated anew.
+OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const Leaf& leaf);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_SIZING_H_

@@ -1,0 +1,88 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "api/services.h"
+#include "server/command_options.h"
+#include "server/commands.h"
+#include "server/exit_status.h"
+#include "server/input.h"
+#include "server/interrupt.h"
+#include "server/reply.h"
+#include "server/text_design.h"
+
+namespace plenum::server {
+namespace {
+
+struct DesignOptions {
+  std::string file;
+  std::string catalog = "catalog.db";
+  std::optional<int> top;
+  std::optional<double> time_limit_s;
+  bool json = false;
+};
+
+// One line on the terminal, written over and over; nothing when errors go to a file.
+class ProgressLine {
+ public:
+  void Show(const optimizer::Progress& progress) {
+    if (!terminal_) return;
+    std::fprintf(stderr, "\r\x1b[K%s", ProgressText(progress).c_str());
+    std::fflush(stderr);
+  }
+  ~ProgressLine() {
+    if (terminal_) std::fputs("\r\x1b[K", stderr);
+  }
+
+ private:
+  const bool terminal_ = isatty(STDERR_FILENO) != 0;
+};
+
+// The requirements with what the flags say instead; checked like the rest.
+api::Json ReadRequirements(const DesignOptions& options) {
+  auto request = ReadJson(options.file);
+  if (!request.is_object()) return request;
+  const auto set = [&](const char* field, const api::Json& value) {
+    auto& ranking = request["ranking"];
+    if (ranking.is_null() || ranking.is_object()) ranking[field] = value;
+  };
+  if (options.top) set("count", *options.top);
+  if (options.time_limit_s) set("time_limit_s", *options.time_limit_s);
+  return request;
+}
+
+optimizer::Answer SearchWithProgress(const api::DesignRequest& request) {
+  ProgressLine line;
+  optimizer::SearchOptions options;
+  options.time_limit_s = request.time_limit_s;
+  options.cancelled = Interrupted;
+  options.progress = [&](const optimizer::Progress& progress) { line.Show(progress); };
+  return optimizer::Search(request.problem, options);
+}
+
+int Design(const DesignOptions& options) {
+  CatchInterrupts();
+  const auto requirements = ReadRequirements(options);
+  const auto parts = OpenCatalog(options.catalog, catalog::Access::kRead).List();
+  const auto request = ValueOrRefuse(api::ParseRequirements(requirements, parts));
+  const auto answer = SearchWithProgress(request);
+  const auto json = api::RenderAnswer(request, answer, parts);
+  std::fputs(options.json ? (Dump(json) + "\n").c_str() : DesignText(json).c_str(), stdout);
+  return Interrupted() ? kInterrupted : kAnswered;
+}
+
+}  // namespace
+
+void AddDesignCommand(CLI::App& app, int& status) {
+  auto options = std::make_shared<DesignOptions>();
+  auto* command = app.add_subcommand("design", "Ranked designs for a requirements file");
+  AddFile(*command, options->file, "Requirements as JSON; - is standard input");
+  command->add_option("--top", options->top, "Number of designs")->type_name("N");
+  command->add_option("--time-limit", options->time_limit_s, "Seconds to search")->type_name("S");
+  AddJsonFlag(*command, options->json);
+  AddCatalogOption(*command, options->catalog);
+  command->callback([options, &status] { status = Design(*options); });
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,34 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "server/commands.h"
+#include "server/exit_status.h"
+
+namespace plenum::server {
+
+int RunCommandLine(int argc, const char* const* argv) {
+  int status = kAnswered;
+  CLI::App app("Chooses the parts of a pneumatic supply for soft robots from a catalogue.",
+               "plenum");
+  app.require_subcommand(1);
+  try {
+    AddDesignCommand(app, status);
+    AddSimulateCommand(app, status);
+    AddMapCommand(app, status);
+    AddCatalogCommand(app, status);
+    AddServeCommand(app, status);
+    app.parse(argc, argv);
+    return status;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kAnswered : kBadInput;
+  } catch (const BadInput& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return kBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "plenum: fault: %s\n", error.what());
+    return kFault;
+  }
+}
+
+}  // namespace plenum::server

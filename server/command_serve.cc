@@ -1,0 +1,65 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "server/command_options.h"
+#include "server/commands.h"
+#include "server/exit_status.h"
+#include "server/http.h"
+#include "server/input.h"
+#include "server/interrupt.h"
+
+namespace plenum::server {
+namespace {
+
+struct ServeOptions {
+  std::string catalog = "catalog.db";
+  std::string host = "127.0.0.1";
+  int port = 8080;
+};
+
+std::unique_ptr<HttpService> Listen(const ServeOptions& options) {
+  if (!IsLoopback(options.host)) {
+    throw BadInput("--host: must be a loopback address (127.0.0.1, ::1, localhost), not \"" +
+                   options.host + "\"; for other machines put a reverse proxy in front");
+  }
+  OpenCatalog(options.catalog, catalog::Access::kRead);  // says what is wrong with the file
+  HttpOptions http;
+  http.catalog = options.catalog;
+  http.host = options.host;
+  http.port = options.port;
+  try {
+    return std::make_unique<HttpService>(http);
+  } catch (const ListenError& error) {
+    throw BadInput(error.what());
+  }
+}
+
+void Serve(const ServeOptions& options) {
+  BlockInterrupts();
+  const auto service = Listen(options);
+  std::fprintf(stderr, "plenum listens at http://%s:%d/\n",
+               options.host == "::1" ? "[::1]" : options.host.c_str(), service->port());
+  std::thread thread([&] { service->Run(); });
+  WaitForInterrupt();
+  std::fputs("stopping\n", stderr);
+  service->Stop();
+  thread.join();
+}
+
+}  // namespace
+
+void AddServeCommand(CLI::App& app, int&) {
+  auto options = std::make_shared<ServeOptions>();
+  auto* command = app.add_subcommand("serve", "The HTTP service");
+  command->add_option("--host", options->host, "Loopback address")->capture_default_str();
+  command->add_option("--port", options->port, "0 takes any free one")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 65535));
+  AddCatalogOption(*command, options->catalog);
+  command->callback([options] { Serve(*options); });
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,50 @@
+// The HTTP service on a loopback address.
+#ifndef PLENUM_SERVER_HTTP_H_
+#define PLENUM_SERVER_HTTP_H_
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "server/jobs.h"
+
+namespace plenum::server {
+
+struct HttpOptions {
+  std::filesystem::path catalog = "catalog.db";
+  std::string host = "127.0.0.1";
+  int port = 8080;  // 0: any free one
+  JobOptions jobs;
+};
+
+// Whether only this machine can reach `host`: localhost, ::1 or 127.a.b.c. The HTTP library stops
+// neither floods of headers nor endless ones, so no other address is served.
+bool IsLoopback(const std::string& host);
+
+// Thrown by the constructor when it cannot listen at the address.
+class ListenError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class HttpService {
+ public:
+  // Opens the catalogue (StoreError) and binds the port (ListenError). Connections wait until Run.
+  explicit HttpService(const HttpOptions& options);
+  ~HttpService();
+
+  int port() const;
+  // Serves until Stop, which any thread may call: it cancels the jobs and lets answers under way
+  // end.
+  void Run();
+  void Stop();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace plenum::server
+
+#endif  // PLENUM_SERVER_HTTP_H_

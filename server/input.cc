@@ -1,0 +1,43 @@
+#include "server/input.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "api/problem.h"
+#include "server/exit_status.h"
+
+namespace plenum::server {
+
+std::string ReadText(const std::string& path) {
+  using Iterator = std::istreambuf_iterator<char>;
+  if (path == "-") return {Iterator(std::cin), Iterator()};
+  if (std::filesystem::is_directory(path)) throw BadInput(path + ": is a folder, not a file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw BadInput(path + ": cannot be read");
+  return {Iterator(file), Iterator()};
+}
+
+api::Json ReadJson(const std::string& path) {
+  return ValueOrRefuse(api::ParseJson(ReadText(path)));
+}
+
+catalog::Store OpenCatalog(const std::string& path, catalog::Access access) {
+  if (!std::filesystem::exists(path)) {
+    throw BadInput(path + ": no such catalogue; name one with --catalog");
+  }
+  try {
+    return {path, access};
+  } catch (const catalog::StoreError& error) {
+    throw BadInput(error.what());
+  }
+}
+
+void Refuse(const api::Errors& errors) {
+  std::string lines = api::Lines(errors);
+  while (!lines.empty() && lines.back() == '\n') lines.pop_back();
+  throw BadInput(lines);
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,3 @@
+#include "server/commands.h"
+
+int main(int argc, char** argv) { return plenum::server::RunCommandLine(argc, argv); }

@@ -1,0 +1,94 @@
+#include "server/routes.h"
+
+#include "api/services.h"
+#include "server/designs_resource.h"
+#include "server/parts_resource.h"
+
+namespace plenum::server {
+namespace {
+
+constexpr std::string_view kVariable = "{id}";
+
+template <typename F>
+Reply AnswerAtOnce(const Call& call, F&& run) {
+  auto json = api::ParseJson(call.body);
+  if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
+  auto answer = run(std::get<api::Json>(json));
+  if (auto* errors = std::get_if<api::Errors>(&answer)) return ProblemReply(422, *errors);
+  return JsonReply(200, std::get<api::Json>(answer));
+}
+
+Reply StartPage(const std::vector<Route>& routes) {
+  std::string rows;
+  for (const auto& route : routes) {
+    rows += "<tr><td>" + route.method + "<td><code>" + route.path + "</code><td>" + route.summary;
+  }
+  return {200,
+          "text/html; charset=utf-8",
+          "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>plenum</title>"
+          "<h1>plenum</h1><p>Chooses the parts of a pneumatic supply for soft robots from a "
+          "catalogue, and proves that nothing in it is better.<table>" +
+              rows + "</table></html>\n",
+          {},
+          {}};
+}
+
+}  // namespace
+
+std::vector<Route> Routes(SharedCatalog& catalog, Jobs& jobs) {
+  const auto parts = [&](Reply (*answer)(SharedCatalog&, const Call&)) {
+    return [&catalog, answer](const Call& call) { return answer(catalog, call); };
+  };
+  std::vector<Route> routes = {
+      {"POST", "/v1/designs", "requirements/1 in, a job that ranks designs out",
+       [&](const Call& call) { return PostDesign(catalog, jobs, call); }},
+      {"GET", "/v1/designs", "the jobs, newest first",
+       [&](const Call&) { return ListDesigns(jobs); }},
+      {"GET", "/v1/designs/{id}", "one job: status, progress, result",
+       [&](const Call& call) { return GetDesign(jobs, call); }},
+      {"DELETE", "/v1/designs/{id}", "cancels the job",
+       [&](const Call& call) { return CancelDesign(jobs, call); }},
+      {"GET", "/v1/designs/{id}/events", "progress as server-sent events",
+       [&](const Call& call) { return DesignEvents(jobs, call); }},
+      {"POST", "/v1/simulations", "simulation/1 in, response/1 out",
+       [&](const Call& call) {
+         return AnswerAtOnce(call, [&](const api::Json& request) {
+           return api::RunSimulation(request, *catalog.Snapshot());
+         });
+       }},
+      {"POST", "/v1/maps", "map/1 in, rise time, fall time and frequency over the grid out",
+       [](const Call& call) { return AnswerAtOnce(call, api::RunMap); }},
+      {"GET", "/v1/parts", "parts; query family, limit, cursor", parts(ListParts)},
+      {"POST", "/v1/parts", "adds a part", parts(AddPart)},
+      {"GET", "/v1/parts/export", "parts of a family as CSV; query family", parts(ExportParts)},
+      {"POST", "/v1/parts/import", "parts of a family from CSV; query family", parts(ImportParts)},
+      {"GET", "/v1/parts/{id}", "one part, with ETag", parts(GetPart)},
+      {"PUT", "/v1/parts/{id}", "replaces the part that If-Match names", parts(ReplacePart)},
+      {"DELETE", "/v1/parts/{id}", "removes a part", parts(RemovePart)},
+      {"GET", "/healthz", "whether the service runs",
+       [](const Call&) {
+         return JsonReply(200, {{"status", "ok"}});
+       }},
+  };
+  Reply page = StartPage(routes);
+  routes.push_back({"GET", "/", "this page", [page](const Call&) { return page; }});
+  return routes;
+}
+
+bool Matches(const Route& route, std::string_view path, std::string& argument) {
+  const std::string_view pattern = route.path;
+  const auto at = pattern.find(kVariable);
+  if (at == std::string_view::npos) return path == pattern;
+  const auto head = pattern.substr(0, at);
+  const auto tail = pattern.substr(at + kVariable.size());
+  if (path.size() <= head.size() + tail.size() || !path.starts_with(head) ||
+      !path.ends_with(tail)) {
+    return false;
+  }
+  const auto middle = path.substr(at, path.size() - head.size() - tail.size());
+  if (middle.find('/') != std::string_view::npos) return false;
+  argument = middle;
+  return true;
+}
+
+}  // namespace plenum::server

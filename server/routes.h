@@ -1,0 +1,32 @@
+// What the service answers: one table of routes, from which requests are dispatched, 405 is decided
+// and the start page is written.
+#ifndef PLENUM_SERVER_ROUTES_H_
+#define PLENUM_SERVER_ROUTES_H_
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/jobs.h"
+#include "server/reply.h"
+#include "server/shared_catalog.h"
+
+namespace plenum::server {
+
+struct Route {
+  std::string method;
+  std::string path;  // "{id}" stands for one segment, which becomes Call::argument
+  std::string summary;
+  std::function<Reply(const Call&)> answer;
+};
+
+// `catalog` and `jobs` must outlive the routes.
+std::vector<Route> Routes(SharedCatalog& catalog, Jobs& jobs);
+
+// Whether `path` has the form of `route.path`; the segment at {id} goes to `argument`.
+bool Matches(const Route& route, std::string_view path, std::string& argument);
+
+}  // namespace plenum::server
+
+#endif  // PLENUM_SERVER_ROUTES_H_

@@ -1,0 +1,21 @@
+// designs/1 for a person.
+#ifndef PLENUM_SERVER_TEXT_DESIGN_H_
+#define PLENUM_SERVER_TEXT_DESIGN_H_
+
+#include <string>
+
+#include "api/json.h"
+#include "optimizer/problem.h"
+
+namespace plenum::server {
+
+// The ranked table, the best design in full, the proof in words; for an infeasible problem the
+// conflict in words.
+std::string DesignText(const api::Json& answer);
+
+// One line without its end.
+std::string ProgressText(const optimizer::Progress& progress);
+
+}  // namespace plenum::server
+
+#endif  // PLENUM_SERVER_TEXT_DESIGN_H_

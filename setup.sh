@@ -1,0 +1,32 @@
+# Sourced by run.sh and test.sh: the packages of packages.txt, then one preset configured.
+
+missing_packages() {  # names of packages.txt and of the arguments that are not installed
+  local package
+  for package in $(grep -v '^#' packages.txt) "$@"; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' ||
+      echo "$package"
+  done
+}
+
+install_packages() {
+  local missing
+  missing=$(missing_packages "$@" | tr '\n' ' ')
+  [ -n "$missing" ] || return 0
+  local as_root=
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "Missing Debian packages; install them as root, then run this again:" >&2
+      echo "  apt-get install --no-install-recommends $missing" >&2
+      exit 1
+    fi
+    as_root=sudo
+  fi
+  echo "Installing: $missing" >&2
+  $as_root apt-get update -q >&2
+  # shellcheck disable=SC2086
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $missing >&2
+}
+
+configure() {  # configure PRESET; ninja notices changed CMake files by itself afterwards
+  [ -f "build/$1/build.ninja" ] || cmake --preset "$1" >&2
+}

@@ -1,0 +1,117 @@
+#include "catalog/csv.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "samples.h"
+
+namespace plenum::catalog {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::Field;
+using ::testing::HasSubstr;
+
+auto Error(int row, const std::string& column, const std::string& part_of_detail) {
+  return AllOf(Field(&CsvError::row, row), Field(&CsvError::column, column),
+               Field(&CsvError::detail, HasSubstr(part_of_detail)));
+}
+
+const std::string kHeader =
+    "id,manufacturer,part_number,internal_volume_ml,mass_kg,body_volume_ml,"
+    "pressure_max_kpa_gauge\n";
+
+TEST(Csv, RoundTripIsExactForEveryFamily) {
+  std::mt19937 random(11);
+  for (const Family& family : Families()) {
+    std::vector<Part> parts;
+    for (int i = 0; i < 100; ++i) parts.push_back(AnyPart(family, "p" + std::to_string(i), random));
+    const CsvParts read = ReadCsv(family.name, WriteCsv(family.name, parts));
+    EXPECT_THAT(read.errors, ElementsAre()) << family.name;
+    EXPECT_EQ(read.parts, parts) << family.name;
+  }
+}
+
+TEST(Csv, ReadsByColumnNameWithDefaults) {
+  const CsvParts read =
+      ReadCsv("reservoir",
+              "\xEF\xBB\xBFmass_kg,id,part_number,manufacturer,internal_volume_ml,"
+              "body_volume_ml,pressure_max_kpa_gauge,mass_kg.provenance,mass_kg.source\r\n"
+              "0.25,r1,\"A \"\"1\"\", B\",Mäker,500,600,1000,datasheet,p. 3\r\n"
+              "0.5,r2,C,M,500,600,1000,,\r\n\r\n");
+  ASSERT_THAT(read.errors, ElementsAre());
+  ASSERT_EQ(read.parts.size(), 2u);
+  EXPECT_EQ(read.parts[0].part_number, "A \"1\", B");
+  EXPECT_EQ(read.parts[0].numbers.at("mass_kg"), (Number{0.25, Provenance::kDatasheet, "p. 3"}));
+  EXPECT_EQ(read.parts[1].numbers.at("mass_kg"), (Number{0.5, Provenance::kThirdParty, ""}));
+  EXPECT_FALSE(read.parts[0].numbers.contains("price_eur"));
+}
+
+TEST(Csv, ReadsACurve) {
+  const CsvParts read =
+      ReadCsv("compressor",
+              "id,manufacturer,part_number,voltage_v,duty_max,mass_kg,body_volume_ml,"
+              "pressure_max_kpa_gauge,curve,free_air.provenance,current.provenance\n"
+              "c,M,N,12,0.5,1,900,700,0:24.9:7;68.9:14.2:8,datasheet,estimated\n");
+  ASSERT_THAT(read.errors, ElementsAre());
+  ASSERT_TRUE(read.parts.at(0).curve);
+  EXPECT_THAT(read.parts[0].curve->points,
+              ElementsAre(CurvePoint{0, 24.9, 7}, CurvePoint{68.9, 14.2, 8}));
+  EXPECT_EQ(read.parts[0].curve->free_air_provenance, Provenance::kDatasheet);
+  EXPECT_EQ(read.parts[0].curve->current_provenance, Provenance::kEstimated);
+}
+
+TEST(Csv, ReportsEveryErrorWithRowAndColumn) {
+  const CsvParts read = ReadCsv("reservoir", kHeader +
+                                                 "r1,M,P,500,heavy,600,1000\n"
+                                                 "r2,M,P,500,0.2\n"
+                                                 "R3,M,P,500,inf,600,1e9\n"
+                                                 "r4,M,P,500,0.2,600,1000\n"
+                                                 "r4,,P,500,0.2,600,1000\n");
+  EXPECT_THAT(read.errors,
+              ElementsAre(Error(2, "mass_kg", "\"heavy\""), Error(3, "", "has 5 cells"),
+                          Error(4, "mass_kg", "\"inf\""), Error(4, "id", "\"R3\""),
+                          Error(4, "pressure_max_kpa_gauge", "between 1 and 50000"),
+                          Error(6, "manufacturer", "has 0"), Error(6, "id", "row 5")));
+}
+
+TEST(Csv, SuggestsTheNearestColumnAndRefusesTwins) {
+  const CsvParts read = ReadCsv("reservoir", "id,mass_kgs,id\n");
+  EXPECT_THAT(read.errors,
+              ElementsAre(Error(1, "mass_kgs", "nearest: mass_kg"), Error(1, "id", "twice")));
+}
+
+TEST(Csv, RefusesAProvenanceWithoutValueOrOutsideTheFour) {
+  const std::string header = kHeader.substr(0, kHeader.size() - 1) +
+                             ",price_eur,price_eur.provenance,mass_kg.provenance\n";
+  const CsvParts read = ReadCsv("reservoir", header + "r,M,P,500,1,600,1000,,datasheet,guess\n");
+  EXPECT_THAT(read.errors, ElementsAre(Error(2, "mass_kg.provenance", "\"guess\""),
+                                       Error(2, "price_eur.provenance", "no value")));
+}
+
+TEST(Csv, RefusesBrokenCurves) {
+  const std::string header =
+      "id,manufacturer,part_number,voltage_v,duty_max,mass_kg,body_volume_ml,"
+      "pressure_max_kpa_gauge,curve\n";
+  for (const char* curve : {"0:1", "0:1:2:3", "0:1:2;", "0:x:2", "0;1;2", "0:nan:1", ":0:1:2"})
+    EXPECT_THAT(ReadCsv("compressor", header + "c,M,N,12,0.5,1,900,700," + curve + "\n").errors,
+                ElementsAre(Error(2, "curve", "L/min")))
+        << curve;
+}
+
+TEST(Csv, RefusesBrokenQuotesAndBytes) {
+  EXPECT_THAT(ReadCsv("reservoir", kHeader + "r,\"M\n").errors,
+              ElementsAre(Error(2, "manufacturer", "never closed")));
+  EXPECT_THAT(ReadCsv("reservoir", kHeader + "r,\"M\"x,P,500,1,600,1000\n").errors,
+              ElementsAre(Error(2, "manufacturer", "after a closing quote")));
+  EXPECT_THAT(ReadCsv("reservoir", kHeader + "r,M\"x,P,500,1,600,1000\n").errors,
+              ElementsAre(Error(2, "manufacturer", "quote inside")));
+  EXPECT_THAT(ReadCsv("reservoir", kHeader + "r,M\xFF,P,500,1,600,1000\n").errors,
+              ElementsAre(Error(2, "column 2", "UTF-8")));
+  EXPECT_THAT(ReadCsv("reservoir", "").errors, ElementsAre(Error(1, "", "header")));
+  EXPECT_THAT(ReadCsv("tank", kHeader).errors, ElementsAre(Error(1, "", "\"tank\"")));
+}
+
+}  // namespace
+}  // namespace plenum::catalog

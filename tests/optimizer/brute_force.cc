@@ -1,0 +1,263 @@
+#include "tests/optimizer/brute_force.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/storage.h"
+#include "optimizer/pump_bounds.h"
+#include "tests/support/small_catalogue.h"
+
+namespace plenum::test {
+namespace {
+
+using optimizer::Candidate;
+using optimizer::Configuration;
+using optimizer::Family;
+using optimizer::Line;
+using optimizer::Option;
+using optimizer::Problem;
+
+bool NeedsPrice(const Problem& problem) {
+  return problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur);
+}
+
+bool CustomAllowed(const Problem& problem) {
+  const auto required = problem.require.find(Family::kReservoir);
+  return problem.exclude.count("custom") == 0 &&
+         (required == problem.require.end() || required->second.count("custom") > 0);
+}
+
+std::vector<Line> Lines(const Problem& problem, int group, model::Gas gas) {
+  const model::Parts& parts = problem.parts;
+  const bool fittings = problem.groups[group].fittings_per_line > 0;
+  std::vector<Line> lines;
+  for (int t = 0; t < static_cast<int>(parts.tubing.size()); ++t)
+    for (int f = fittings ? 0 : -1; f < (fittings ? static_cast<int>(parts.fittings.size()) : 0);
+         ++f)
+      for (int v = 0; v < static_cast<int>(parts.valves.size()); ++v) {
+        const bool priced = parts.tubing[t].per_metre.cost_eur && parts.valves[v].basics.cost_eur &&
+                            (f < 0 || parts.fittings[f].basics.cost_eur);
+        if (Mates(problem, t, f, v) && (priced || !NeedsPrice(problem)))
+          lines.push_back(AssembleLine(problem, group, t, f, v, gas));
+      }
+  return lines;
+}
+
+template <typename Part>
+std::vector<Option> Options(const Problem& problem, Family family, const std::vector<Part>& parts,
+                            int quantity_max) {
+  std::vector<Option> options;
+  for (int i = 0; i < static_cast<int>(parts.size()); ++i)
+    for (int quantity = 1; quantity <= quantity_max; ++quantity)
+      if (parts[i].basics.cost_eur || !NeedsPrice(problem))
+        options.push_back(MakeOption(problem, family, i, quantity));
+  return options;
+}
+
+std::vector<Option> Reservoirs(const Problem& problem) {
+  std::vector<Option> options =
+      Options(problem, Family::kReservoir, problem.parts.reservoirs, problem.limits.reservoirs);
+  if (CustomAllowed(problem) && !NeedsPrice(problem)) {
+    Option custom;
+    custom.index = optimizer::kCustom;
+    custom.quantity = 1;
+    options.push_back(custom);
+  }
+  return options;
+}
+
+bool RegulatorStands(const Problem& problem, const Candidate& candidate) {
+  const model::Regulator& regulator = problem.parts.regulators[candidate.regulator.index];
+  double inlet_pa = 0.0;
+  if (candidate.configuration == Configuration::kCylinder)
+    return regulator.inlet_pressure_max_pa >=
+           problem.parts.cylinders[candidate.bottle.index].fill_pressure_pa;
+  inlet_pa = candidate.configuration == Configuration::kCo2
+                 ? model::Co2SaturationPressure(problem.ambient.temperature_k)
+                 : problem.mains_pressure_pa;
+  return regulator.inlet_pressure_min_pa <= inlet_pa && inlet_pa <= regulator.inlet_pressure_max_pa;
+}
+
+bool VoltagesMatch(const Problem& problem, const Candidate& candidate) {
+  const double pack_v = problem.parts.batteries[candidate.battery.index].nominal_voltage_v;
+  const double pump_v = problem.parts.compressors[candidate.compressor.index].curve.voltage_v;
+  return std::abs(pack_v - pump_v) <= 0.15 * pump_v * (1.0 + 1e-9);
+}
+
+using Visit = std::function<void(const Candidate&)>;
+
+void ForEachSource(const Problem& problem, Candidate& candidate, const Visit& visit) {
+  const model::Parts& parts = problem.parts;
+  const std::vector<Option> batteries =
+      Options(problem, Family::kBattery, parts.batteries, problem.limits.batteries);
+  if (candidate.configuration == Configuration::kCompressor) {
+    for (const Option& compressor :
+         Options(problem, Family::kCompressor, parts.compressors, problem.limits.compressors))
+      for (const Option& battery : batteries)
+        for (const Option& reservoir : Reservoirs(problem)) {
+          candidate.compressor = compressor;
+          candidate.battery = battery;
+          candidate.reservoir = reservoir;
+          if (VoltagesMatch(problem, candidate)) visit(candidate);
+        }
+    return;
+  }
+  const std::vector<Option> regulators = Options(problem, Family::kRegulator, parts.regulators, 1);
+  std::vector<Option> bottles{{}};
+  if (candidate.configuration == Configuration::kCylinder)
+    bottles = Options(problem, Family::kCylinder, parts.cylinders, problem.limits.cylinders);
+  if (candidate.configuration == Configuration::kCo2)
+    bottles = Options(problem, Family::kCo2, parts.co2, problem.limits.co2);
+  const bool mains = candidate.configuration == Configuration::kMains;
+  for (const Option& regulator : regulators)
+    for (const Option& bottle : bottles)
+      for (const Option& battery : mains ? std::vector<Option>{{}} : batteries) {
+        candidate.regulator = regulator;
+        candidate.bottle = bottle;
+        candidate.battery = battery;
+        if (RegulatorStands(problem, candidate)) visit(candidate);
+      }
+}
+
+void ForEachLine(const Problem& problem, const std::vector<std::vector<Line>>& lines,
+                 Candidate& candidate, const Visit& visit) {
+  const std::size_t group = candidate.lines.size();
+  if (group == lines.size()) {
+    ForEachSource(problem, candidate, visit);
+    return;
+  }
+  for (const Line& line : lines[group]) {
+    candidate.lines.push_back(&line);
+    ForEachLine(problem, lines, candidate, visit);
+    candidate.lines.pop_back();
+  }
+}
+
+// The contract's product for one configuration.
+long long Combinations(const Problem& problem, Configuration configuration) {
+  const model::Parts& parts = problem.parts;
+  const auto count = [](const auto& family, int quantity_max) {
+    return static_cast<long long>(family.size()) * quantity_max;
+  };
+  long long product = 1;
+  for (const optimizer::ActuatorGroup& group : problem.groups)
+    product *= count(parts.tubing, 1) * count(parts.valves, 1) *
+               (group.fittings_per_line > 0 ? count(parts.fittings, 1) : 1);
+  const optimizer::Limits& limits = problem.limits;
+  if (configuration == Configuration::kCompressor)
+    return product * count(parts.compressors, limits.compressors) *
+           count(parts.batteries, limits.batteries) *
+           (count(parts.reservoirs, limits.reservoirs) + (CustomAllowed(problem) ? 1 : 0));
+  product *= count(parts.regulators, 1);
+  if (configuration == Configuration::kMains) return product;
+  return product * count(parts.batteries, limits.batteries) *
+         (configuration == Configuration::kCylinder ? count(parts.cylinders, limits.cylinders)
+                                                    : count(parts.co2, limits.co2));
+}
+
+// Runs of designs within 1e-6 of the first of the run are ties and go by part ids.
+void Rank(std::vector<Enumerated>& designs) {
+  const auto by_objective = [](const Enumerated& a, const Enumerated& b) {
+    return a.leaf.objective < b.leaf.objective;
+  };
+  const auto by_key = [](const Enumerated& a, const Enumerated& b) { return a.key < b.key; };
+  std::sort(designs.begin(), designs.end(), by_objective);
+  for (auto first = designs.begin(); first != designs.end();) {
+    const double limit = first->leaf.objective * (1.0 + 1e-6);
+    auto last = first;
+    while (last != designs.end() && last->leaf.objective <= limit) ++last;
+    std::sort(first, last, by_key);
+    first = last;
+  }
+}
+
+}  // namespace
+
+PartsKey KeyOf(const Problem& problem, const Candidate& candidate) {
+  PartsKey key;
+  const model::Parts& parts = problem.parts;
+  for (std::size_t g = 0; g < candidate.lines.size(); ++g) {
+    const Line& line = *candidate.lines[g];
+    const optimizer::ActuatorGroup& group = problem.groups[g];
+    const model::Valve& valve = parts.valves[line.valve];
+    key.emplace_back(valve.basics.id, static_cast<int>(std::ceil(static_cast<double>(group.count) /
+                                                                 valve.channels)));
+    if (line.fitting >= 0)
+      key.emplace_back(parts.fittings[line.fitting].basics.id,
+                       group.count * group.fittings_per_line);
+    key.emplace_back(parts.tubing[line.tubing].per_metre.id, 1);
+  }
+  const auto add = [&](const auto& family, const Option& option) {
+    if (option.index >= 0) key.emplace_back(family[option.index].basics.id, option.quantity);
+  };
+  add(parts.regulators, candidate.regulator);
+  if (candidate.configuration == Configuration::kCylinder) add(parts.cylinders, candidate.bottle);
+  if (candidate.configuration == Configuration::kCo2) add(parts.co2, candidate.bottle);
+  add(parts.compressors, candidate.compressor);
+  add(parts.batteries, candidate.battery);
+  add(parts.reservoirs, candidate.reservoir);
+  if (candidate.reservoir.index == optimizer::kCustom) key.emplace_back("custom", 1);
+  return key;
+}
+
+PartsKey KeyOf(const optimizer::Design& design) {
+  PartsKey key;
+  for (const optimizer::Choice& choice : design.parts)
+    key.emplace_back(choice.id, choice.family == Family::kTubing
+                                    ? 1
+                                    : static_cast<int>(std::lround(choice.quantity)));
+  return key;
+}
+
+void ForEachCombination(const Problem& problem, const Visit& visit) {
+  for (Configuration configuration : problem.configurations) {
+    const model::Gas gas =
+        configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
+    std::vector<std::vector<Line>> lines;
+    for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+      lines.push_back(Lines(problem, g, gas));
+    Candidate candidate;
+    candidate.configuration = configuration;
+    ForEachLine(problem, lines, candidate, visit);
+  }
+}
+
+double StockVolume(const Problem& problem, const Candidate& candidate) {
+  if (candidate.reservoir.index < 0) return 0.0;
+  return candidate.reservoir.quantity *
+         problem.parts.reservoirs[candidate.reservoir.index].volume_m3;
+}
+
+optimizer::Leaf SizeAlone(const Problem& problem, const Candidate& candidate) {
+  if (candidate.reservoir.index != optimizer::kCustom)
+    return optimizer::SizeAtVolume(problem, candidate, StockVolume(problem, candidate));
+  const optimizer::PumpFacts facts = optimizer::MakePumpFacts(
+      problem, problem.parts.compressors[candidate.compressor.index].curve);
+  optimizer::CustomSizing sizing(problem, facts, candidate);
+  while (!sizing.Refine()) {
+  }
+  return sizing.leaf();
+}
+
+BruteForce Enumerate(const Problem& problem) {
+  BruteForce result;
+  for (Configuration configuration : problem.configurations)
+    result.combinations += Combinations(problem, configuration);
+  ForEachCombination(problem, [&](const Candidate& candidate) {
+    const optimizer::Leaf leaf = SizeAlone(problem, candidate);
+    ++result.sized;
+    if (leaf.status == optimizer::LeafStatus::kUndecided) ++result.undecided;
+    if (leaf.status == optimizer::LeafStatus::kFeasible)
+      result.designs.push_back({KeyOf(problem, candidate), candidate.configuration, leaf});
+  });
+  Rank(result.designs);
+  return result;
+}
+
+optimizer::SearchOptions Within(double seconds) {
+  optimizer::SearchOptions options;
+  options.time_limit_s = seconds;
+  return options;
+}
+
+}  // namespace plenum::test

@@ -1,0 +1,51 @@
+// Every combination of a small problem, one after the other: nothing of the tree search is used,
+// only the sizing of one given candidate (which sizing_test checks against dense scans).
+#ifndef PLENUM_TESTS_OPTIMIZER_BRUTE_FORCE_H_
+#define PLENUM_TESTS_OPTIMIZER_BRUTE_FORCE_H_
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "optimizer/sizing.h"
+
+namespace plenum::test {
+
+// Rows of the parts list in the contract's order: id and pieces (1 for tubing).
+using PartsKey = std::vector<std::pair<std::string, int>>;
+
+PartsKey KeyOf(const optimizer::Problem& problem, const optimizer::Candidate& candidate);
+PartsKey KeyOf(const optimizer::Design& design);
+
+struct Enumerated {
+  PartsKey key;
+  optimizer::Configuration configuration;
+  optimizer::Leaf leaf;
+};
+
+struct BruteForce {
+  std::vector<Enumerated> designs;  // feasible, ranked: ties within 1e-6 by part ids
+  long long combinations = 0;       // by the contract's product
+  long long undecided = 0;
+  long long sized = 0;
+};
+
+// Calls `visit` for every combination whose parts fit together by their data sheets and have the
+// prices that are needed. The candidate and its lines live only during the call.
+void ForEachCombination(const optimizer::Problem& problem,
+                        const std::function<void(const optimizer::Candidate&)>& visit);
+
+// Volume of the candidate's reservoir; 0 without one.
+double StockVolume(const optimizer::Problem& problem, const optimizer::Candidate& candidate);
+
+// Sizes the candidate by itself.
+optimizer::Leaf SizeAlone(const optimizer::Problem& problem, const optimizer::Candidate& candidate);
+
+BruteForce Enumerate(const optimizer::Problem& problem);
+
+optimizer::SearchOptions Within(double seconds);
+
+}  // namespace plenum::test
+
+#endif  // PLENUM_TESTS_OPTIMIZER_BRUTE_FORCE_H_

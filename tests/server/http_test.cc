@@ -1,0 +1,371 @@
+// The real service on a free loopback port.
+#include "server/http.h"
+
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <httplib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <memory>
+#include <thread>
+
+#include "workbench.h"
+
+namespace plenum::server {
+namespace {
+
+using api::Json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr char kJson[] = "application/json";
+constexpr char kProblem[] = "application/problem+json";
+
+class Http : public testing::Test {
+ protected:
+  Http() {
+    HttpOptions options;
+    options.catalog = bench_.catalog();
+    options.port = 0;
+    options.jobs.workers = 1;
+    options.jobs.queued_max = 1;
+    service_ = std::make_unique<HttpService>(options);
+    thread_ = std::thread([this] { service_->Run(); });
+    client_ = std::make_unique<httplib::Client>("127.0.0.1", service_->port());
+    client_->set_read_timeout(60);
+  }
+  ~Http() override {
+    client_.reset();
+    service_->Stop();
+    thread_.join();
+  }
+
+  static Json Body(const httplib::Result& result) {
+    auto parsed = api::ParseJson(result ? result->body : "");
+    return std::holds_alternative<Json>(parsed) ? std::get<Json>(parsed) : Json();
+  }
+
+  // A problem document of that status with an error at `pointer` ("" asks for none).
+  static void ExpectProblem(const httplib::Result& result, int status,
+                            const std::string& pointer = "") {
+    ASSERT_TRUE(result) << httplib::to_string(result.error());
+    EXPECT_EQ(result->status, status) << result->body;
+    EXPECT_EQ(result->get_header_value("Content-Type"), kProblem);
+    const auto body = Body(result);
+    EXPECT_EQ(body["status"], status);
+    if (pointer.empty()) return;
+    std::string pointers;
+    for (const auto& error : body["errors"]) pointers += error["pointer"].get<std::string>() + " ";
+    EXPECT_THAT(pointers, HasSubstr(pointer));
+  }
+
+  // Sends bytes as they are and gives all that comes back until the service closes.
+  std::string Raw(const std::string& bytes) const {
+    const int fd = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(service_->port()));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const timeval patience{20, 0};
+    setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    std::string answer;
+    if (connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) {
+      send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      char buffer[4096];
+      for (ssize_t n; (n = recv(fd, buffer, sizeof buffer, 0)) > 0;)
+        answer.append(buffer, static_cast<std::size_t>(n));
+    }
+    close(fd);
+    return answer;
+  }
+
+  const Workbench bench_;
+  std::unique_ptr<HttpService> service_;
+  std::thread thread_;
+  std::unique_ptr<httplib::Client> client_;
+};
+
+TEST_F(Http, SaysThatItRunsAndWhatItIs) {
+  EXPECT_EQ(Body(client_->Get("/healthz"))["status"], "ok");
+  const auto page = client_->Get("/");
+  EXPECT_THAT(page->get_header_value("Content-Type"), StartsWith("text/html"));
+  EXPECT_THAT(page->body, HasSubstr("/v1/designs/{id}/events"));
+}
+
+TEST_F(Http, RefusesUnknownPathsAndMethods) {
+  ExpectProblem(client_->Get("/v1/wheels"), 404);
+  ExpectProblem(client_->Post("/v1/wheels", "{}", kJson), 404);
+  const auto wrong = client_->Put("/v1/designs", "{}", kJson);
+  ExpectProblem(wrong, 405);
+  EXPECT_EQ(wrong->get_header_value("Allow"), "POST, GET");
+  ExpectProblem(client_->Get("/v1/parts/" + std::string(6000, 'x')), 414);
+}
+
+TEST_F(Http, RefusesPagesOfOtherSites) {
+  const httplib::Headers other = {{"Origin", "https://example.com"}};
+  ExpectProblem(client_->Post("/v1/parts", other, NewFitting("a").dump(), kJson), 403);
+  const httplib::Headers own = {{"Origin", "http://localhost:8080"}};
+  EXPECT_EQ(client_->Post("/v1/parts", own, NewFitting("a").dump(), kJson)->status, 201);
+}
+
+TEST_F(Http, TellsNotJsonFromInvalid) {
+  for (const char* path : {"/v1/designs", "/v1/simulations", "/v1/maps", "/v1/parts"}) {
+    ExpectProblem(client_->Post(path, "", kJson), 400);
+    ExpectProblem(client_->Post(path, "{\"a\": 1,}", kJson), 400);
+    ExpectProblem(client_->Post(path, std::string("{}\0{}", 5), kJson), 400);
+    ExpectProblem(client_->Post(path, "[]", kJson), 422);
+  }
+}
+
+TEST_F(Http, SurvivesDeepNesting) {
+  ExpectProblem(client_->Post("/v1/designs", std::string(1'000'000, '['), kJson), 400);
+  EXPECT_EQ(client_->Get("/healthz")->status, 200);
+}
+
+TEST_F(Http, RefusesLargeBodiesHoweverTheyCome) {
+  const std::string large(9 << 20, ' ');
+  ExpectProblem(client_->Post("/v1/designs", large, kJson), 413);
+  std::size_t sent = 0;
+  const auto chunked = client_->Post(
+      "/v1/designs",
+      [&](std::size_t, httplib::DataSink& sink) {
+        const std::string piece(1 << 20, ' ');
+        if (sent < large.size()) {
+          sink.write(piece.data(), piece.size());
+          sent += piece.size();
+        } else {
+          sink.done();
+        }
+        return true;
+      },
+      kJson);
+  ExpectProblem(chunked, 413);
+  EXPECT_EQ(client_->Get("/healthz")->status, 200);
+}
+
+TEST_F(Http, RefusesEncodedAndFormBodies) {
+  ExpectProblem(client_->Post("/v1/maps", {{"Content-Encoding", "gzip"}}, "xyz", kJson), 415);
+  ExpectProblem(client_->Post("/v1/maps", {{"Content-Encoding", "br"}}, "xyz", kJson), 415);
+  const httplib::MultipartFormDataItems form = {{"a", "{}", "", ""}};
+  ExpectProblem(client_->Post("/v1/maps", form), 415);
+}
+
+TEST_F(Http, ClosesTheConnectionWhenABodyBreaksOff) {
+  // What follows the broken chunk must not be taken for a request of its own.
+  const auto answer =
+      Raw("POST /v1/maps HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n"
+          "DELETE /v1/parts/none HTTP/1.1\r\nHost: a\r\n\r\n");
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 400"));
+  EXPECT_EQ(answer.find("HTTP/1.1", 1), std::string::npos) << answer;
+}
+
+TEST_F(Http, AnswersPostsAndDeletesWithoutABody) {
+  EXPECT_THAT(Raw("POST /v1/maps HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n"),
+              StartsWith("HTTP/1.1 400"));
+  EXPECT_THAT(Raw("DELETE /v1/parts/none HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n"),
+              StartsWith("HTTP/1.1 404"));
+}
+
+TEST_F(Http, NamesTheFieldsThatAreInvalid) {
+  auto request = Exosuit(1.0);
+  request["actuators"][0]["rest_volume_ml"] = 0;
+  ExpectProblem(client_->Post("/v1/designs", request.dump(), kJson), 422,
+                "/actuators/0/rest_volume_ml");
+}
+
+TEST_F(Http, AddsGetsReplacesAndDeletesAPart) {
+  const std::string name = "bench-f1", path = "/v1/parts/" + name;
+  ASSERT_EQ(client_->Post("/v1/parts", NewFitting(name).dump(), kJson)->status, 201);
+  ExpectProblem(client_->Post("/v1/parts", NewFitting(name).dump(), kJson), 409);
+
+  const auto got = client_->Get(path);
+  ASSERT_EQ(got->status, 200);
+  const auto etag = got->get_header_value("ETag");
+  EXPECT_EQ(client_->Get(path, {{"If-None-Match", etag}})->status, 304);
+
+  auto heavier = NewFitting(name);
+  heavier["mass_kg"] = 0.004;
+  ExpectProblem(client_->Put(path, heavier.dump(), kJson), 412);
+  ExpectProblem(client_->Put(path, {{"If-Match", "\"old\""}}, heavier.dump(), kJson), 412);
+  const auto put = client_->Put(path, {{"If-Match", etag}}, heavier.dump(), kJson);
+  ASSERT_EQ(put->status, 200) << put->body;
+  EXPECT_NE(put->get_header_value("ETag"), etag);
+  EXPECT_EQ(Body(client_->Get(path))["mass_kg"], 0.004);
+  ExpectProblem(client_->Put(path, {{"If-Match", etag}}, heavier.dump(), kJson), 412);
+  ExpectProblem(client_->Put("/v1/parts/other", {{"If-Match", "*"}}, heavier.dump(), kJson), 422,
+                "/id");
+
+  ExpectProblem(client_->Delete(path, {{"If-Match", etag}}), 412);
+  EXPECT_EQ(client_->Delete(path)->status, 204);
+  ExpectProblem(client_->Get(path), 404);
+  ExpectProblem(client_->Delete(path), 404);
+}
+
+TEST_F(Http, GivesTheLocationOfAnAddedPart) {
+  const auto added = client_->Post("/v1/parts", NewFitting("bench-f1").dump(), kJson);
+  ASSERT_EQ(added->status, 201);
+  EXPECT_EQ(added->get_header_value("Location"), "/v1/parts/bench-f1");
+  EXPECT_EQ(Body(client_->Get("/v1/parts/bench-f1"))["origin"], "user");
+}
+
+TEST_F(Http, RefusesABadPart) {
+  auto part = NewFitting("bench-f1");
+  part["mass_kg"] = -1;
+  ExpectProblem(client_->Post("/v1/parts", part.dump(), kJson), 422, "/mass_kg");
+}
+
+TEST_F(Http, PagesThroughAllPartsOnce) {
+  std::vector<std::string> ids;
+  std::string cursor;
+  for (int pages = 0; pages < 100; ++pages) {
+    const auto page = Body(client_->Get("/v1/parts?family=valve&limit=7&cursor=" + cursor));
+    ASSERT_LE(page["parts"].size(), 7u);
+    for (const auto& part : page["parts"]) {
+      EXPECT_EQ(part["family"], "valve");
+      ids.push_back(part["id"]);
+    }
+    if (page["next_cursor"].is_null()) break;
+    cursor = page["next_cursor"];
+  }
+  EXPECT_TRUE(std::is_sorted(ids.begin(), ids.end()));
+  EXPECT_EQ(std::adjacent_find(ids.begin(), ids.end()), ids.end());
+  const auto all = Body(client_->Get("/v1/parts?family=valve&limit=1000"));
+  EXPECT_EQ(ids.size(), all["parts"].size());
+  EXPECT_GT(ids.size(), 7u);
+}
+
+TEST_F(Http, RefusesBadQueries) {
+  ExpectProblem(client_->Get("/v1/parts?family=wheels"), 422, "/family");
+  for (const char* limit : {"0", "1001", "-1", "ten", "1e2", ""}) {
+    ExpectProblem(client_->Get(std::string("/v1/parts?limit=") + limit), 422, "/limit");
+  }
+  ExpectProblem(client_->Get("/v1/parts?colour=red"), 422, "/colour");
+  ExpectProblem(client_->Get("/v1/parts/export"), 422, "/family");
+}
+
+TEST_F(Http, ExportGoesBackInUnchanged) {
+  const auto csv = client_->Get("/v1/parts/export?family=battery");
+  ASSERT_EQ(csv->status, 200);
+  EXPECT_THAT(csv->get_header_value("Content-Type"), StartsWith("text/csv"));
+  const auto imported = client_->Post("/v1/parts/import?family=battery", csv->body, "text/csv");
+  ASSERT_EQ(imported->status, 200) << imported->body;
+  EXPECT_TRUE(Body(imported)["added"].empty());
+  EXPECT_TRUE(Body(imported)["replaced"].empty());
+  EXPECT_GT(Body(imported)["unchanged"].size(), 0u);
+}
+
+TEST_F(Http, ImportRefusesAFileWithABadRowAltogether) {
+  client_->Post("/v1/parts", NewFitting("bench-f1").dump(), kJson);
+  auto csv = client_->Get("/v1/parts/export?family=fitting")->body;
+  client_->Delete("/v1/parts/bench-f1");
+  csv += "only-an-id\n";
+  ExpectProblem(client_->Post("/v1/parts/import?family=fitting", csv, "text/csv"), 422, "/");
+  ExpectProblem(client_->Get("/v1/parts/bench-f1"), 404);
+}
+
+TEST_F(Http, DesignThatIsWaitedForGivesTheResult) {
+  const auto result = client_->Post("/v1/designs", {{"Prefer", "respond-async, wait=30"}},
+                                    Exosuit(1.0).dump(), kJson);
+  ASSERT_TRUE(result);
+  ASSERT_EQ(result->status, 200) << result->body;
+  EXPECT_EQ(Body(result)["schema"], "designs/1");
+  const auto job = Body(client_->Get(result->get_header_value("Location")));
+  EXPECT_EQ(job["status"], "done");
+  EXPECT_EQ(job["result"], Body(result));
+}
+
+TEST_F(Http, DesignJobsCanBeFollowedAndCancelled) {
+  const auto accepted = client_->Post("/v1/designs", Exosuit(120.0).dump(), kJson);
+  ASSERT_EQ(accepted->status, 202) << accepted->body;
+  const auto path = accepted->get_header_value("Location");
+  const std::string id = Body(accepted)["id"];
+  EXPECT_EQ(path, "/v1/designs/" + id);
+  EXPECT_EQ(Body(accepted)["links"]["self"], path);
+  EXPECT_EQ(Body(client_->Get("/v1/designs"))["jobs"][0]["id"], id);
+
+  std::string events;
+  std::thread listener([&] {
+    httplib::Client other("127.0.0.1", service_->port());
+    other.set_read_timeout(60);
+    other.Get(path + "/events", [&](const char* data, std::size_t size) {
+      events.append(data, size);
+      return true;
+    });
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(client_->Delete(path)->status, 200);
+  listener.join();  // the stream ends with the job
+  EXPECT_THAT(events, HasSubstr("event: progress\n"));
+  EXPECT_THAT(events, HasSubstr("event: end\n"));
+  // Cancelled, unless the search came to its end before the request to stop did.
+  EXPECT_THAT(Body(client_->Get(path))["status"].get<std::string>(),
+              testing::AnyOf("cancelled", "done"));
+  ExpectProblem(client_->Get("/v1/designs/none"), 404);
+  ExpectProblem(client_->Delete("/v1/designs/none"), 404);
+  ExpectProblem(client_->Get("/v1/designs/none/events"), 404);
+}
+
+TEST_F(Http, ServesWhileConnectionsIdle) {
+  // A client may hold some connections without others being starved.
+  std::vector<std::unique_ptr<httplib::Client>> clients;
+  for (int i = 0; i < 12; ++i) {
+    clients.push_back(std::make_unique<httplib::Client>("127.0.0.1", service_->port()));
+    clients.back()->set_keep_alive(true);
+    ASSERT_EQ(clients.back()->Get("/healthz")->status, 200);
+  }
+}
+
+TEST(Loopback, IsToldFromOtherAddresses) {
+  for (const char* host : {"127.0.0.1", "127.8.9.1", "::1", "localhost"}) {
+    EXPECT_TRUE(IsLoopback(host)) << host;
+  }
+  for (const char* host :
+       {"", "0.0.0.0", "::", "10.0.0.1", "127.0.0.1.example.com", "localhost.example.com"}) {
+    EXPECT_FALSE(IsLoopback(host)) << host;
+  }
+}
+
+TEST(Serve, KeepsPartsWhenItIsKilled) {
+  const Workbench bench;
+  {
+    ServeProcess serve(bench.catalog());
+    httplib::Client client("127.0.0.1", serve.port());
+    ASSERT_EQ(client.Post("/v1/parts", NewFitting("bench-f1").dump(), kJson)->status, 201);
+    EXPECT_EQ(serve.End(SIGKILL), -SIGKILL);
+  }
+  ServeProcess serve(bench.catalog());
+  httplib::Client client("127.0.0.1", serve.port());
+  EXPECT_EQ(client.Get("/v1/parts/bench-f1")->status, 200);
+}
+
+TEST(Serve, SaysThatTheQueueIsFull) {
+  const Workbench bench;
+  HttpOptions options;
+  options.catalog = bench.catalog();
+  options.port = 0;
+  options.jobs.queued_max = 0;
+  HttpService service(options);
+  std::thread thread([&] { service.Run(); });
+  httplib::Client client("127.0.0.1", service.port());
+  const auto refused = client.Post("/v1/designs", Exosuit(1.0).dump(), kJson);
+  EXPECT_EQ(refused->status, 429);
+  EXPECT_EQ(refused->get_header_value("Retry-After"), "10");
+  service.Stop();
+  thread.join();
+}
+
+TEST(Serve, SaysWhenThePortIsTaken) {
+  const Workbench bench;
+  ServeProcess serve(bench.catalog());
+  HttpOptions options;
+  options.catalog = bench.catalog();
+  options.port = serve.port();
+  EXPECT_THROW(HttpService{options}, ListenError);
+}
+
+}  // namespace
+}  // namespace plenum::server

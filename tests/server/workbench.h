@@ -1,0 +1,60 @@
+// A folder of its own for a test, with a small catalogue, and the real command run in it.
+#ifndef PLENUM_TESTS_SERVER_WORKBENCH_H_
+#define PLENUM_TESTS_SERVER_WORKBENCH_H_
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+
+#include "api/json.h"
+
+namespace plenum::server {
+
+class Workbench {
+ public:
+  Workbench();  // copies the project's catalogue into a new folder
+  ~Workbench();
+  Workbench(const Workbench&) = delete;
+  Workbench& operator=(const Workbench&) = delete;
+
+  std::filesystem::path Path(const std::string& name) const { return folder_ / name; }
+  std::string catalog() const { return Path("catalog.db"); }
+  std::filesystem::path Write(const std::string& name, const std::string& text) const;
+
+  struct Outcome {
+    int status = -1;
+    std::string out, err;
+  };
+  // Runs `plenum <arguments>` (as the shell reads them) in the folder.
+  // `prefix` may be another command that starts it.
+  Outcome Run(const std::string& arguments, const std::string& input = "",
+              const std::string& prefix = "") const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// `plenum serve --port 0` as a process of its own.
+class ServeProcess {
+ public:
+  explicit ServeProcess(const std::string& catalog);
+  ~ServeProcess();  // kills it if it still runs
+  int port() const { return port_; }
+  // Sends `signal`; the exit status, or minus the signal that ended it.
+  int End(int signal);
+
+ private:
+  pid_t pid_ = -1;
+  int port_ = 0;
+};
+
+std::string ReadAll(const std::filesystem::path& path);
+// The exosuit example; `time_limit_s` of its search as given.
+api::Json Exosuit(double time_limit_s);
+// A fitting that the project's catalogue does not hold.
+api::Json NewFitting(const std::string& id);
+
+}  // namespace plenum::server
+
+#endif  // PLENUM_TESTS_SERVER_WORKBENCH_H_

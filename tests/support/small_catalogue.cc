@@ -1,0 +1,410 @@
+#include "tests/support/small_catalogue.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "model/storage.h"
+#include "model/stroke.h"
+#include "model/tube.h"
+
+namespace plenum::test {
+namespace {
+
+using optimizer::Configuration;
+using optimizer::Family;
+using optimizer::Problem;
+
+constexpr double kAmbientPa = 1e5;
+constexpr double kBar = 1e5;
+constexpr double kConductance = 1e-8;  // of 1 dm³/(s·bar)
+constexpr double kLitrePerMinute = 1e-3 / 60.0;
+
+constexpr std::array<double, 3> kOuterDiameterM{3e-3, 4e-3, 6e-3};
+constexpr std::array<const char*, 2> kThreads{"M5", "G1/8"};
+
+model::PartBasics Basics(Random& random, const char* family, int index, double mass_kg) {
+  model::PartBasics basics;
+  basics.id = std::string(family) + "-" + static_cast<char>('a' + index);
+  basics.mass_kg = mass_kg;
+  basics.body_volume_m3 = mass_kg / Uniform(random, 400.0, 2500.0);
+  if (!Chance(random, 0.15)) basics.cost_eur = mass_kg * LogUniform(random, 50.0, 800.0);
+  return basics;
+}
+
+model::Tubing RandomTubing(Random& random, int index) {
+  model::Tubing tubing;
+  tubing.outer_diameter_m = kOuterDiameterM[Pick(random, 0, 2)];
+  tubing.inner_diameter_m = tubing.outer_diameter_m * Uniform(random, 0.5, 0.75);
+  const double outer = std::numbers::pi / 4.0 * std::pow(tubing.outer_diameter_m, 2);
+  const double inner = std::numbers::pi / 4.0 * std::pow(tubing.inner_diameter_m, 2);
+  tubing.per_metre = Basics(random, "tube", index, (outer - inner) * 1150.0);
+  tubing.per_metre.body_volume_m3 = outer;
+  tubing.pressure_max_pa = kAmbientPa + Uniform(random, 2.0, 10.0) * kBar;
+  return tubing;
+}
+
+model::Fitting RandomFitting(Random& random, int index) {
+  model::Fitting fitting;
+  fitting.tube_outer_diameter_m = kOuterDiameterM[Pick(random, 0, 2)];
+  fitting.thread = kThreads[Pick(random, 0, 1)];
+  fitting.flow.sonic_conductance_m3_per_s_pa =
+      std::pow(fitting.tube_outer_diameter_m / 4e-3, 2) * Uniform(random, 0.4, 1.2) * kConductance;
+  fitting.flow.critical_ratio = Uniform(random, 0.2, 0.5);
+  fitting.basics =
+      Basics(random, "fitting", index,
+             0.002 + 0.004 * fitting.flow.sonic_conductance_m3_per_s_pa / kConductance);
+  fitting.pressure_max_pa = kAmbientPa + Uniform(random, 5.0, 10.0) * kBar;
+  return fitting;
+}
+
+model::Valve RandomValve(Random& random, int index) {
+  model::Valve valve;
+  valve.kind = Chance(random, 0.3)   ? model::ValveKind::kThreeWay
+               : Chance(random, 0.5) ? model::ValveKind::kPair
+                                     : model::ValveKind::kProportional;
+  valve.channels = Chance(random, 0.3) ? Pick(random, 2, 4) : 1;
+  valve.port = kThreads[Pick(random, 0, 1)];
+  const double conductance = LogUniform(random, 0.05, 1.0);
+  valve.fill.sonic_conductance_m3_per_s_pa = conductance * kConductance;
+  valve.fill.critical_ratio = Uniform(random, 0.15, 0.5);
+  valve.exhaust.sonic_conductance_m3_per_s_pa =
+      conductance * Uniform(random, 0.8, 1.2) * kConductance;
+  valve.exhaust.critical_ratio = Uniform(random, 0.15, 0.5);
+  valve.basics = Basics(random, "valve", index,
+                        valve.channels * (0.004 + 0.03 * conductance) * Uniform(random, 0.8, 1.2));
+  valve.coil_power_w = LogUniform(random, 0.2, 3.0);
+  valve.pressure_max_pa = kAmbientPa + Uniform(random, 1.5, 8.0) * kBar;
+  return valve;
+}
+
+model::Compressor RandomCompressor(Random& random, int index) {
+  model::Compressor compressor;
+  const double flow = LogUniform(random, 2.0, 20.0) * kLitrePerMinute;
+  const double highest = kAmbientPa + Uniform(random, 2.0, 6.0) * kBar;
+  const double bend = Uniform(random, 0.6, 1.6);
+  std::vector<double> pressure, delivery, current;
+  // Most pumps draw more against a higher pressure; some draw less near their end.
+  const double slope = Chance(random, 0.8) ? Uniform(random, 0.0, 1.5) : Uniform(random, -0.4, 0.0);
+  compressor.curve.voltage_v = Chance(random, 0.5) ? 12.0 : 6.0;
+  for (int i = 0; i <= 5; ++i) {
+    const double share = i / 5.0;
+    pressure.push_back(kAmbientPa + share * (highest - kAmbientPa));
+    delivery.push_back(flow * (1.0 - 0.9 * std::pow(share, bend)));
+    const double power_w = flow / kLitrePerMinute * 2.0 * (1.0 + slope * share);
+    current.push_back(power_w / compressor.curve.voltage_v);
+  }
+  compressor.curve.free_air_m3_per_s = model::MonotoneCurve(pressure, delivery);
+  compressor.curve.current_a = model::MonotoneCurve(pressure, current);
+  compressor.curve.pressure_max_pa = highest * (Chance(random, 0.3) ? 0.9 : 1.0);
+  compressor.basics = Basics(random, "pump", index,
+                             (0.05 + 0.03 * flow / kLitrePerMinute) * Uniform(random, 0.7, 1.3));
+  compressor.duty_max = Uniform(random, 0.3, 1.0);
+  return compressor;
+}
+
+model::Battery RandomBattery(Random& random, int index) {
+  constexpr std::array<double, 4> kVolts{6.4, 7.4, 11.1, 12.8};
+  model::Battery battery;
+  battery.nominal_voltage_v = kVolts[Pick(random, 0, 3)];
+  battery.capacity_ah = LogUniform(random, 0.3, 8.0);
+  battery.current_max_a = battery.capacity_ah * Uniform(random, 1.0, 20.0);
+  battery.basics =
+      Basics(random, "battery", index,
+             battery.capacity_ah * battery.nominal_voltage_v / Uniform(random, 90.0, 180.0));
+  return battery;
+}
+
+model::Cylinder RandomCylinder(Random& random, int index) {
+  model::Cylinder cylinder;
+  cylinder.water_volume_m3 = LogUniform(random, 0.1e-3, 2e-3);
+  cylinder.fill_pressure_pa = kAmbientPa + (Chance(random, 0.5) ? 200.0 : 300.0) * kBar;
+  cylinder.basics = Basics(random, "cylinder", index,
+                           0.1 + 0.9e3 * cylinder.water_volume_m3 * Uniform(random, 0.7, 1.3));
+  return cylinder;
+}
+
+model::Co2Bottle RandomCo2(Random& random, int index) {
+  model::Co2Bottle bottle;
+  bottle.co2_mass_kg = LogUniform(random, 0.016, 0.6);
+  if (Chance(random, 0.7)) bottle.water_volume_m3 = bottle.co2_mass_kg / 700.0;
+  bottle.basics = Basics(random, "co2", index, bottle.co2_mass_kg * Uniform(random, 0.8, 2.5));
+  bottle.flow_sustained_m3_per_s =
+      model::Co2SustainedFlow(bottle.co2_mass_kg / 600.0) * LogUniform(random, 1.0, 10.0);
+  return bottle;
+}
+
+model::Regulator RandomRegulator(Random& random, int index) {
+  model::Regulator regulator;
+  const double conductance = LogUniform(random, 0.2, 4.0);
+  regulator.flow = {conductance * kConductance, Uniform(random, 0.1, 0.5)};
+  regulator.flow_max_m3_per_s = Chance(random, 0.5)
+                                    ? optimizer::kUnlimited
+                                    : LogUniform(random, 30.0, 600.0) * kLitrePerMinute;
+  regulator.inlet_pressure_min_pa = kAmbientPa + Uniform(random, 1.0, 6.0) * kBar;
+  constexpr std::array<double, 3> kInletBar{10.0, 210.0, 310.0};
+  regulator.inlet_pressure_max_pa = kAmbientPa + kInletBar[Pick(random, 0, 2)] * kBar;
+  regulator.outlet_pressure_min_pa = kAmbientPa + Uniform(random, 0.0, 1.0) * kBar;
+  regulator.outlet_pressure_max_pa = kAmbientPa + Uniform(random, 2.0, 8.0) * kBar;
+  regulator.electrical_power_w = Chance(random, 0.3) ? Uniform(random, 0.1, 1.0) : 0.0;
+  regulator.basics =
+      Basics(random, "regulator", index, (0.03 + 0.06 * conductance) * Uniform(random, 0.7, 1.3));
+  return regulator;
+}
+
+model::Reservoir RandomReservoir(Random& random, int index) {
+  model::Reservoir reservoir;
+  reservoir.volume_m3 = LogUniform(random, 0.1e-3, 2e-3);
+  reservoir.pressure_max_pa = kAmbientPa + Uniform(random, 2.0, 10.0) * kBar;
+  reservoir.basics = Basics(random, "reservoir", index,
+                            0.03 + 300.0 * reservoir.volume_m3 * Uniform(random, 0.6, 1.4));
+  return reservoir;
+}
+
+template <typename Part, typename Make>
+std::vector<Part> RandomFamily(Random& random, int count, Make&& make) {
+  std::vector<Part> parts;
+  for (int i = 0; i < count; ++i) parts.push_back(make(random, i));
+  return parts;
+}
+
+// Now and then a part is sold twice, under another name: an exact tie.
+template <typename Part>
+void SellTwice(Random& random, std::vector<Part>& parts) {
+  if (parts.size() < 2 || !Chance(random, 0.15)) return;
+  const std::string id = parts.back().basics.id;
+  parts.back() = parts.front();
+  parts.back().basics.id = id;
+}
+
+optimizer::ActuatorGroup RandomGroup(Random& random, int index, double severity) {
+  optimizer::ActuatorGroup group;
+  group.name = "group" + std::to_string(index);
+  group.count = Pick(random, 1, 4);
+  group.chamber.rest_volume_m3 = LogUniform(random, 8e-6, 80e-6);
+  group.chamber.expansion_ratio = Chance(random, 0.2) ? 1.0 : Uniform(random, 1.0, 2.5);
+  group.chamber.operating_pressure_pa = kAmbientPa + Uniform(random, 0.3, 1.2) * kBar;
+  group.chamber.ambient_pressure_pa = kAmbientPa;
+  group.tube_length_m = Uniform(random, 0.2, 1.2);
+  group.fittings_per_line = Pick(random, 0, 3);
+  const double slowest_s = 4.0 * std::pow(0.04, severity);
+  if (!Chance(random, 0.15)) group.rise_time_max_s = slowest_s * LogUniform(random, 0.5, 2.0);
+  if (!Chance(random, 0.15)) group.fall_time_max_s = 2.0 * slowest_s * LogUniform(random, 0.5, 2.0);
+  group.pressure_max_pa =
+      kAmbientPa + (group.chamber.operating_pressure_pa - kAmbientPa) *
+                       (Chance(random, 0.7) ? 1.05 : Uniform(random, 1.05, 1.6));
+  return group;
+}
+
+}  // namespace
+
+double Uniform(Random& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+double LogUniform(Random& random, double low, double high) {
+  return low * std::pow(high / low, Uniform(random, 0.0, 1.0));
+}
+
+int Pick(Random& random, int low, int high) {
+  return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1));
+}
+
+bool Chance(Random& random, double share) { return Uniform(random, 0.0, 1.0) < share; }
+
+model::Parts RandomParts(Random& random, const CatalogueSize& size) {
+  model::Parts parts;
+  parts.tubing = RandomFamily<model::Tubing>(random, size.tubing, RandomTubing);
+  parts.fittings = RandomFamily<model::Fitting>(random, size.fittings, RandomFitting);
+  parts.valves = RandomFamily<model::Valve>(random, size.valves, RandomValve);
+  parts.regulators = RandomFamily<model::Regulator>(random, size.regulators, RandomRegulator);
+  parts.cylinders = RandomFamily<model::Cylinder>(random, size.cylinders, RandomCylinder);
+  parts.co2 = RandomFamily<model::Co2Bottle>(random, size.co2, RandomCo2);
+  parts.compressors = RandomFamily<model::Compressor>(random, size.compressors, RandomCompressor);
+  parts.batteries = RandomFamily<model::Battery>(random, size.batteries, RandomBattery);
+  parts.reservoirs = RandomFamily<model::Reservoir>(random, size.reservoirs, RandomReservoir);
+  SellTwice(random, parts.valves);
+  SellTwice(random, parts.batteries);
+  SellTwice(random, parts.cylinders);
+  SellTwice(random, parts.compressors);
+  // At least one fitting mates with a tube and a valve.
+  if (!parts.fittings.empty() && !parts.tubing.empty() && !parts.valves.empty()) {
+    parts.fittings[0].tube_outer_diameter_m = parts.tubing[0].outer_diameter_m;
+    parts.fittings[0].thread = parts.valves[0].port;
+  }
+  return parts;
+}
+
+Problem RandomProblem(const Draw& draw) {
+  Random random(draw.seed * 0x9e3779b97f4a7c15ULL + 1);
+  Problem problem;
+  problem.parts = RandomParts(random, draw.size);
+  problem.configurations = draw.configurations;
+  problem.simultaneous = draw.simultaneous;
+  problem.ambient.temperature_k = Chance(random, 0.7) ? 293.15 : Uniform(random, 280.0, 303.0);
+  for (int g = 0; g < draw.groups; ++g)
+    problem.groups.push_back(RandomGroup(random, g, draw.severity));
+  problem.frequency_hz = 0.03 * std::pow(20.0, draw.severity) * LogUniform(random, 0.5, 2.0);
+  problem.actuations =
+      std::round(40.0 * std::pow(20.0, draw.severity) * LogUniform(random, 0.5, 2.0));
+  problem.rise_fraction = Chance(random, 0.7) ? 0.95 : Uniform(random, 0.5, 1.0);
+  problem.fall_fraction = Chance(random, 0.7) ? 0.05 : Uniform(random, 0.02, 0.5);
+  problem.mains_pressure_pa = kAmbientPa + Uniform(random, 3.0, 7.0) * kBar;
+  if (Chance(random, 0.5))
+    problem.mains_flow_max_m3_per_s = LogUniform(random, 30.0, 300.0) * kLitrePerMinute;
+  if (Chance(random, 0.5))
+    problem.source_pressure_max_pa = kAmbientPa + Uniform(random, 2.0, 6.0) * kBar;
+  problem.objective.mass_kg = 1.0;
+  problem.limits = {Pick(random, 1, 2), Pick(random, 1, 2), Pick(random, 1, 3), Pick(random, 1, 3),
+                    1};
+  problem.count = Pick(random, 1, 20);
+  return problem;
+}
+
+Problem EasyProblem(std::uint64_t seed, std::set<Configuration> configurations) {
+  Draw draw;
+  draw.seed = seed;
+  draw.configurations = std::move(configurations);
+  draw.severity = 0.2;
+  draw.size = {3, 3, 4, 3, 3, 3, 3, 3, 1};
+  Problem problem = RandomProblem(draw);
+  for (std::size_t i = 0; i < problem.parts.tubing.size(); ++i)
+    problem.parts.tubing[i].outer_diameter_m = kOuterDiameterM[1];
+  for (std::size_t i = 0; i < problem.parts.tubing.size(); ++i)
+    problem.parts.tubing[i].inner_diameter_m = 2e-3 + 0.4e-3 * static_cast<double>(i);
+  for (model::Fitting& fitting : problem.parts.fittings) {
+    fitting.tube_outer_diameter_m = kOuterDiameterM[1];
+    fitting.thread = kThreads[0];
+  }
+  for (model::Valve& valve : problem.parts.valves) {
+    valve.port = kThreads[0];
+    valve.pressure_max_pa = kAmbientPa + 8.0 * kBar;
+    valve.kind = model::ValveKind::kPair;
+  }
+  for (model::Regulator& regulator : problem.parts.regulators) {
+    regulator.inlet_pressure_max_pa = kAmbientPa + 310.0 * kBar;
+    regulator.inlet_pressure_min_pa = kAmbientPa + 2.0 * kBar;
+    regulator.outlet_pressure_min_pa = kAmbientPa;
+    regulator.outlet_pressure_max_pa = kAmbientPa + 8.0 * kBar;
+  }
+  for (model::Compressor& compressor : problem.parts.compressors) compressor.curve.voltage_v = 12.0;
+  for (model::Battery& battery : problem.parts.batteries) battery.nominal_voltage_v = 11.1;
+  problem.groups[0].fittings_per_line = 2;
+  problem.groups[0].rise_time_max_s = 2.0;
+  problem.groups[0].fall_time_max_s = 3.0;
+  problem.source_pressure_max_pa = optimizer::kUnlimited;
+  problem.frequency_hz = 0.05;
+  problem.actuations = 30.0;
+  problem.rise_fraction = 0.95;
+  problem.fall_fraction = 0.05;
+  problem.limits = {};
+  return problem;
+}
+
+bool Mates(const Problem& problem, int tubing, int fitting, int valve) {
+  if (fitting < 0) return true;
+  const model::Fitting& part = problem.parts.fittings[fitting];
+  return std::abs(problem.parts.tubing[tubing].outer_diameter_m - part.tube_outer_diameter_m) <=
+             0.05e-3 &&
+         problem.parts.valves[valve].port == part.thread;
+}
+
+optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing_index,
+                             int fitting_index, int valve_index, model::Gas gas) {
+  const optimizer::ActuatorGroup& group = problem.groups[group_index];
+  const model::Tubing& tubing = problem.parts.tubing[tubing_index];
+  const model::Valve& valve = problem.parts.valves[valve_index];
+  const model::Fitting* fitting =
+      fitting_index < 0 ? nullptr : &problem.parts.fittings[fitting_index];
+  const double metres = group.count * group.tube_length_m;
+  const double valves = std::ceil(static_cast<double>(group.count) / valve.channels);
+  const double fittings = fitting == nullptr ? 0.0 : group.count * group.fittings_per_line;
+
+  optimizer::Line line;
+  line.tubing = tubing_index;
+  line.fitting = fitting_index;
+  line.valve = valve_index;
+  const auto add = [&](double quantity, const model::PartBasics& basics) {
+    line.amounts.mass_kg += quantity * basics.mass_kg;
+    line.amounts.volume_m3 += quantity * basics.body_volume_m3;
+    line.amounts.cost_eur += quantity * basics.cost_eur.value_or(0.0);
+  };
+  add(metres, tubing.per_metre);
+  add(valves, valve.basics);
+  if (fitting != nullptr) add(fittings, fitting->basics);
+
+  const model::FlowElement tube = model::TubeElement(tubing.inner_diameter_m, group.tube_length_m);
+  std::vector<model::FlowElement> before, after;  // the tube, seen from the valve
+  for (int i = 0; fitting != nullptr && i < group.fittings_per_line; ++i)
+    (i % 2 == 0 ? before : after).push_back(fitting->flow);
+  line.fill = {valve.fill};
+  line.fill.insert(line.fill.end(), before.begin(), before.end());
+  line.fill.push_back(tube);
+  line.fill.insert(line.fill.end(), after.begin(), after.end());
+  line.exhaust = after;
+  line.exhaust.push_back(tube);
+  line.exhaust.insert(line.exhaust.end(), before.begin(), before.end());
+  line.exhaust.push_back(valve.exhaust);
+
+  line.holds = valve.kind != model::ValveKind::kThreeWay;
+  line.source_max_pa =
+      std::min({tubing.pressure_max_pa, valve.pressure_max_pa, problem.source_pressure_max_pa});
+  if (fitting != nullptr)
+    line.source_max_pa = std::min(line.source_max_pa, fitting->pressure_max_pa);
+  if (!line.holds) line.source_max_pa = std::min(line.source_max_pa, group.pressure_max_pa);
+  line.source_min_pa = group.chamber.operating_pressure_pa;
+  line.coil_power_w = valve.coil_power_w * group.count;
+
+  line.chamber = group.chamber;
+  line.chamber.dead_volume_m3 += std::numbers::pi / 4.0 * tubing.inner_diameter_m *
+                                 tubing.inner_diameter_m * group.tube_length_m;
+  const double temperature_k = problem.ambient.temperature_k;
+  const double factor = (gas == model::Gas::kCo2 ? 0.79 : 1.0) * std::sqrt(293.15 / temperature_k);
+  line.fill_series = model::MakeSeries(line.fill, factor);
+  const double ambient_pa = problem.ambient.pressure_pa;
+  const double operating_pa = group.chamber.operating_pressure_pa;
+  line.fall_time_s = model::EmptyTime(
+      model::MakeSeries(line.exhaust, factor), line.chamber, operating_pa,
+      ambient_pa + problem.fall_fraction * (operating_pa - ambient_pa), temperature_k);
+  line.inflate_time_least_s = model::FillTime(line.fill_series, line.chamber, line.source_max_pa,
+                                              ambient_pa, operating_pa, temperature_k);
+  return line;
+}
+
+optimizer::Option MakeOption(const Problem& problem, Family family, int index, int quantity) {
+  optimizer::Option option;
+  option.index = index;
+  option.quantity = quantity;
+  const auto take = [&](const model::PartBasics& basics, double charge_kg) {
+    option.amounts.mass_kg = quantity * (basics.mass_kg + charge_kg);
+    option.amounts.volume_m3 = quantity * basics.body_volume_m3;
+    option.amounts.cost_eur = quantity * basics.cost_eur.value_or(0.0);
+  };
+  const model::Parts& parts = problem.parts;
+  switch (family) {
+    case Family::kRegulator:
+      take(parts.regulators[index].basics, 0.0);
+      break;
+    case Family::kCylinder:
+      take(parts.cylinders[index].basics,
+           model::CylinderCharge(parts.cylinders[index].water_volume_m3,
+                                 parts.cylinders[index].fill_pressure_pa,
+                                 problem.ambient.temperature_k));
+      break;
+    case Family::kCo2:
+      take(parts.co2[index].basics, parts.co2[index].co2_mass_kg);
+      break;
+    case Family::kCompressor:
+      take(parts.compressors[index].basics, 0.0);
+      break;
+    case Family::kBattery:
+      take(parts.batteries[index].basics, 0.0);
+      break;
+    default:
+      take(parts.reservoirs[index].basics, 0.0);
+  }
+  return option;
+}
+
+}  // namespace plenum::test

@@ -1,0 +1,64 @@
+// Random design problems that are small enough to enumerate, with parts whose numbers trade off as
+// real ones do: more flow, more air or more energy costs mass.
+#ifndef PLENUM_TESTS_SUPPORT_SMALL_CATALOGUE_H_
+#define PLENUM_TESTS_SUPPORT_SMALL_CATALOGUE_H_
+
+#include <cstdint>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "optimizer/candidate.h"
+#include "optimizer/problem.h"
+
+namespace plenum::test {
+
+using Random = std::mt19937_64;
+
+double Uniform(Random& random, double low, double high);
+double LogUniform(Random& random, double low, double high);
+int Pick(Random& random, int low, int high);  // both ends included
+bool Chance(Random& random, double share);
+
+// How many parts of each family a catalogue gets.
+struct CatalogueSize {
+  int tubing = 2, fittings = 2, valves = 3, regulators = 2, cylinders = 2, co2 = 2, compressors = 2,
+      batteries = 2, reservoirs = 1;
+};
+
+struct Draw {
+  std::uint64_t seed = 0;
+  std::set<optimizer::Configuration> configurations;
+  int groups = 1;
+  bool simultaneous = true;
+  double severity = 0.5;  // 0: limits that nearly everything meets; 1: that hardly anything does
+  CatalogueSize size;
+};
+
+model::Parts RandomParts(Random& random, const CatalogueSize& size);
+
+// Parts, actuators, duty, limits and a mass objective. Same draw, same problem.
+optimizer::Problem RandomProblem(const Draw& draw);
+
+// A problem of one group that parts of an ordinary catalogue meet with ease, without limits but
+// rise and fall time: the start of tests that tighten one thing.
+optimizer::Problem EasyProblem(std::uint64_t seed,
+                               std::set<optimizer::Configuration> configurations);
+
+// A line assembled from the raw parts, without the optimizer's own enumeration. `fitting` −1 where
+// the group needs none. Its fall time and least inflation time are the model's; its lowest source
+// pressure is the trivial one.
+optimizer::Line AssembleLine(const optimizer::Problem& problem, int group, int tubing, int fitting,
+                             int valve, model::Gas gas);
+
+// Raw rules of compatibility.
+bool Mates(const optimizer::Problem& problem, int tubing, int fitting, int valve);
+
+// A made part choice: `quantity` pieces of the family's part `index`.
+optimizer::Option MakeOption(const optimizer::Problem& problem, optimizer::Family family, int index,
+                             int quantity);
+
+}  // namespace plenum::test
+
+#endif  // PLENUM_TESTS_SUPPORT_SMALL_CATALOGUE_H_
