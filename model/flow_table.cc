@@ -4,32 +4,62 @@
 #include <cmath>
 
 namespace plenum::model {
+namespace {
+
+// d(1 − c)/dr inside the curve.
+double Slope(const Series& series, double cosine) {
+  const double choked = series.choked_flow_m3_per_s_pa;
+  const double flow = choked * std::sqrt((1.0 - cosine) * (1.0 + cosine));
+  return flow / (choked * choked * cosine * RatioAndSlopeAtFlow(series, flow).slope_pa_s_per_m3);
+}
+
+// At equal pressures 1 − r = ½·Σ(1 − b)·(q/C)² and 1 − c = ½·(q/q*)².
+double SlopeAtEqualPressures(const Series& series) {
+  double loss = 0.0;
+  for (std::size_t i = 0; i < series.size; ++i) {
+    const double c =
+        series.choked_flow_m3_per_s_pa / series.elements[i].sonic_conductance_m3_per_s_pa;
+    loss += (1.0 - series.elements[i].critical_ratio) * c * c;
+  }
+  return -1.0 / loss;
+}
+
+// At the choked ratio the slope is 0/0; extrapolated from two points next to it.
+double SlopeWhereChoked(const Series& series) {
+  return 1.0 / (2.0 / Slope(series, 1e-4) - 1.0 / Slope(series, 2e-4));
+}
+
+}  // namespace
 
 FlowTable::FlowTable(const Series& series)
     : choked_flow_(series.choked_flow_m3_per_s_pa), choked_ratio_(series.choked_ratio) {
-  const double y_choked = std::sqrt(1.0 - choked_ratio_);
-  cells_per_y_ = kCells / y_choked;
-  for (int i = 0; i <= kCells; ++i) {
-    const double y = i / cells_per_y_;
-    value_[i] = FlowAtRatio(series, 1.0 - y * y);
-    // dq/dy = (dq/dr)·(dr/dy) with dr/dy = −2y; at y = 0 the limit, at the choked ratio zero.
-    if (i == kCells) continue;
-    const double q = i == 0 ? 1e-6 * choked_flow_ : value_[i];
-    const RatioAndSlope at = RatioAndSlopeAtFlow(series, q);
-    const double y_at_q = i == 0 ? std::sqrt(1.0 - at.ratio) : y;
-    slope_[i] = (i == 0 ? q / y_at_q : -2.0 * y / at.slope_pa_s_per_m3) / cells_per_y_;
+  cells_per_ratio_ = kCells / (1.0 - choked_ratio_);
+  value_[kCells] = 1.0;
+  slope_[0] = -SlopeAtEqualPressures(series) / cells_per_ratio_;
+  slope_[kCells] = -SlopeWhereChoked(series) / cells_per_ratio_;
+  for (int i = 1; i < kCells; ++i) {
+    const double cosine = CosineAtRatio(series, 1.0 - i / cells_per_ratio_);
+    value_[i] = 1.0 - cosine;
+    slope_[i] = -Slope(series, cosine) / cells_per_ratio_;
+  }
+  // Fritsch and Carlson's condition: three times the secant at most keeps each piece monotone.
+  for (int i = 0; i < kCells; ++i) {
+    const double most = 3.0 * (value_[i + 1] - value_[i]);
+    slope_[i] = std::min(slope_[i], most);
+    slope_[i + 1] = std::min(slope_[i + 1], most);
   }
 }
 
 double FlowTable::operator()(double ratio) const {
   if (ratio <= choked_ratio_) return choked_flow_;
   if (ratio >= 1.0) return 0.0;
-  const double position = std::sqrt(1.0 - ratio) * cells_per_y_;
+  const double position = (1.0 - ratio) * cells_per_ratio_;
   const int cell = std::min(static_cast<int>(position), kCells - 1);
   const double t = position - cell;
   const double s = 1.0 - t;
-  return s * s * ((1.0 + 2.0 * t) * value_[cell] + t * slope_[cell]) +
-         t * t * ((1.0 + 2.0 * s) * value_[cell + 1] - s * slope_[cell + 1]);
+  const double u = s * s * ((1.0 + 2.0 * t) * value_[cell] + t * slope_[cell]) +
+                   t * t * ((1.0 + 2.0 * s) * value_[cell + 1] - s * slope_[cell + 1]);
+  return choked_flow_ * std::sqrt(u * (2.0 - u));
 }
 
 }  // namespace plenum::model

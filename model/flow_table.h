@@ -1,9 +1,7 @@
 // The flow curve of a line, tabulated once for use inside integrators.
 //
-// Over y = √(1 − r) the flow per upstream pressure is smooth from equal pressures, where it is
-// proportional to y, to the choked ratio, where its slope vanishes. Cubic Hermite pieces through
-// exact values and slopes follow it to about 1e-8 of the choked flow (1e-6 where a second element
-// is close to choking).
+// With q = q*·√(1 − c²) the cosine c rises smoothly from 0 at the choked ratio to 1 at equal
+// pressures; it is tabulated over r by cubic Hermite pieces through exact values and slopes.
 #ifndef PLENUM_MODEL_FLOW_TABLE_H_
 #define PLENUM_MODEL_FLOW_TABLE_H_
 
@@ -23,8 +21,9 @@ class FlowTable {
 
  private:
   static constexpr int kCells = 48;
-  double choked_flow_ = 0.0, choked_ratio_ = 0.0, cells_per_y_ = 0.0;
-  std::array<double, kCells + 1> value_{}, slope_{};  // slope per cell
+  double choked_flow_ = 0.0, choked_ratio_ = 0.0, cells_per_ratio_ = 0.0;
+  // 1 − c from equal pressures to the choked ratio, and its slope per cell.
+  std::array<double, kCells + 1> value_{}, slope_{};
 };
 
 }  // namespace plenum::model

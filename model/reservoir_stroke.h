@@ -5,9 +5,10 @@
 //   dt/dp  = W(p) / (P0·(T/T0)·q(p_s, p))
 //   dp_s/dp = P0·(T/T0)/V_r · (Q_c(p_s) − n·q) · dt/dp
 // with q the flow of one line and Q_c the delivery of all pumps, which run while p_s is below the
-// stop pressure. Where the reservoir has fallen to the chamber's pressure both fill as one volume.
-// Pressures order themselves: a higher start, a stronger pump or, as long as the reservoir falls, a
-// larger reservoir gives a higher p(t) at every t.
+// stop pressure and there for the share of time that covers the draw. Where the reservoir has
+// fallen to the chamber's pressure both fill as one volume. Pressures order themselves: a higher
+// start, a stronger pump or, as long as the reservoir falls, a larger reservoir gives a higher p(t)
+// at every t.
 #ifndef PLENUM_MODEL_RESERVOIR_STROKE_H_
 #define PLENUM_MODEL_RESERVOIR_STROKE_H_
 
@@ -23,7 +24,8 @@ struct ReservoirStrokeInput {
   int count = 1;
   const CompressorCurve* compressor = nullptr;
   int compressors = 1;
-  double stop_pa = 0.0;  // the reservoir starts here, and the pumps stop here
+  // The reservoir starts here, and the pumps stop here; at most the compressor's HighestPressure.
+  double stop_pa = 0.0;
   // The volume that counts while the reservoir falls and while it rises. Equal for a simulation; an
   // interval of volumes [V1, V2] with V2 falling and V1 rising gives a time below that of each
   // volume between (the right-hand side is larger everywhere, and the system keeps order).
@@ -44,10 +46,11 @@ struct ReservoirStroke {
   double pump_energy_j = 0.0;  // while inflating, all pumps
 };
 
+// To 1e-6 of the times and the energy (against the simulator on random rigs).
 ReservoirStroke FillFromReservoir(const ReservoirStrokeInput& input);
 
 // Time for `compressors` pumps to bring a closed volume from `low_pa` to `high_pa`; +∞ where the
-// delivery vanishes on the way.
+// delivery vanishes on the way or `high_pa` is above HighestPressure, which itself is reached.
 double PumpUpTime(const CompressorCurve& curve, int compressors, double volume_m3, double low_pa,
                   double high_pa, double temperature_k);
 

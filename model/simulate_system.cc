@@ -68,11 +68,23 @@ std::vector<double> System::InitialState() const {
   return y;
 }
 
+// A pump's table as far as the limit; past the limit, where only trial stages go, it runs on
+// without a kink. Error control and dense output would not notice one in the part that is cut off.
+double System::AlongTable(const MonotoneCurve& table, double source_pa) const {
+  const bool ends_before = table.back() < pump_limit_pa_;
+  return table(std::clamp(source_pa, table.front(),
+                          ends_before ? table.back() : std::numeric_limits<double>::infinity()));
+}
+
 double System::Delivery(double source_pa) const {
-  // At the limit itself the table may already say zero; the pumps run up to it.
-  const double below_limit_pa = std::nextafter(pump_limit_pa_, 0.0);
-  return FreeAirDelivery(reservoir_->compressor, std::min(source_pa, below_limit_pa)) *
+  return AlongTable(reservoir_->compressor.free_air_m3_per_s, source_pa) *
          reservoir_->compressor_count * reservoir_->duty;
+}
+
+double System::PumpPower(double source_pa) const {
+  const CompressorCurve& curve = reservoir_->compressor;
+  if (curve.current_a.empty()) return 0.0;
+  return AlongTable(curve.current_a, source_pa) * curve.voltage_v * reservoir_->compressor_count;
 }
 
 bool System::source_may_rise(double source_pa) const {
@@ -154,8 +166,7 @@ void System::operator()(double, std::span<const double> y, std::span<double> dyd
     if (pump_ == PumpState::kHolding) share = draw > 0.0 ? std::min(1.0, draw / delivery) : 0.0;
     dydt[pump_on()] = share * reservoir_->duty;
     dydt[pump_air()] = pump_ == PumpState::kHolding ? draw : delivery;
-    dydt[pump_energy()] = share * reservoir_->duty * reservoir_->compressor_count *
-                          ElectricalPower(reservoir_->compressor, y[source()]);
+    dydt[pump_energy()] = dydt[pump_on()] * PumpPower(y[source()]);
   }
   if (pump_ == PumpState::kHolding) return;
   const double net = dydt[pump_air()] - draw;

@@ -62,6 +62,8 @@ class System {
   double FinalPressure(std::size_t group, double source_pa) const;
 
  private:
+  double AlongTable(const MonotoneCurve& table, double source_pa) const;
+  double PumpPower(double source_pa) const;  // electrical, all pumps while running
   void UpdateFlows(std::span<const double> y);
   bool TakeFlowInSeries(std::size_t group, double pressure_pa);
 

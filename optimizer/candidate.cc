@@ -136,7 +136,7 @@ std::vector<Margin> SupplyMargins(const Problem& problem, const Candidate& candi
 
 Window SourceWindow(const Problem& problem, const Candidate& candidate) {
   Window window{std::max(problem.ambient.pressure_pa, candidate.source_floor_pa),
-                problem.source_pressure_max_pa};
+                std::min(problem.source_pressure_max_pa, candidate.source_cap_pa)};
   for (const Line* line : candidate.lines) {
     window.low_pa = std::max(window.low_pa, line->source_min_pa);
     window.high_pa = std::min(window.high_pa, line->source_max_pa);

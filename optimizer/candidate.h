@@ -24,8 +24,9 @@ struct Candidate {
   Configuration configuration = Configuration::kMains;
   std::vector<const Line*> lines;  // one per group
   Option regulator, bottle, compressor, battery, reservoir;
-  double source_floor_pa =
-      0.0;  // a source pressure below which the strokes are known to be too slow
+  // Source pressures outside are known to be too slow, or more than the source bears.
+  double source_floor_pa = 0.0;
+  double source_cap_pa = kUnlimited;
 };
 
 // Where a candidate is run. For the regulated configurations the source pressure is the regulator's

@@ -12,8 +12,8 @@ namespace {
 // The reservoir repeats from cycle to cycle when its pressure agrees to this.
 constexpr double kPeriodicTolerance = 1e-7;
 constexpr int kCyclesMax = 300;
-// Closer to equal pressures than the simulator's default, so that a source at the operating pressure
-// fills up to it, as the closed forms say.
+// Closer to equal pressures than the simulator's default, so that a source at the operating
+// pressure fills up to it, as the closed forms say.
 constexpr double kLinearRatio = 1.0 - 1e-5;
 
 bool Regulated(Configuration configuration) { return configuration != Configuration::kCompressor; }
@@ -134,6 +134,15 @@ Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
   return Alone::kYes;
 }
 
+// Where three pressures at the starts of successive cycles lead, if they approach it geometrically
+// (Aitken); the last of them where that makes no sense.
+double Extrapolate(double first_pa, double second_pa, double third_pa, double stop_pa) {
+  const double bend = third_pa - 2.0 * second_pa + first_pa;
+  if (bend == 0.0) return third_pa;
+  const double limit_pa = first_pa - (second_pa - first_pa) * (second_pa - first_pa) / bend;
+  return limit_pa > 0.5 * third_pa && limit_pa <= stop_pa ? limit_pa : third_pa;
+}
+
 Strokes EmptyStrokes(const Problem& problem) {
   Strokes strokes;
   strokes.rise_s.assign(problem.groups.size(), model::kNever);
@@ -155,6 +164,19 @@ double AloneExcess(const Problem& problem, const Candidate& candidate,
     const double limit_s = RiseLimit(problem, g);
     excess = std::max(
         excess, RiseWithHeadStart(input, candidate.lines[g]->fill_series, limit_s) / limit_s - 1.0);
+  }
+  return excess;
+}
+
+double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
+                         const OperatingPoint& point) {
+  double excess = -kUnlimited;
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    const model::ReservoirStroke stroke =
+        model::FillFromReservoir(MakeStrokeInput(problem, candidate, point, g));
+    if (!stroke.reached) return kUnlimited;
+    excess = std::max({excess, stroke.rise_s / RiseLimit(problem, g) - 1.0,
+                       stroke.inflate_s / HalfPeriod(problem) - 1.0});
   }
   return excess;
 }
@@ -245,17 +267,20 @@ Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
   // Warm up cycle by cycle until the reservoir repeats; a regulated source has no memory.
   if (!Regulated(candidate.configuration)) {
     options.end_s = period_s;
-    double before_pa = 0.0;
+    std::vector<double> starts;  // of the last cycles, since the last extrapolation
     for (int cycle = 0;; ++cycle) {
       const model::Response response =
           model::Simulate(MakeRig(problem, candidate, point, reservoir_pa, pressures, 1), options);
-      if (response.status != model::SimulateStatus::kDone) return strokes;
-      before_pa = reservoir_pa;
+      if (response.status != model::SimulateStatus::kDone || cycle == kCyclesMax) return strokes;
+      starts.push_back(reservoir_pa);
       reservoir_pa = response.source_final_pressure_pa;
       for (std::size_t g = 0; g < groups; ++g) pressures[g] = response.groups[g].final_pressure_pa;
-      if (cycle > 0 && std::abs(reservoir_pa - before_pa) <= kPeriodicTolerance * reservoir_pa)
+      if (cycle > 0 && std::abs(reservoir_pa - starts.back()) <= kPeriodicTolerance * reservoir_pa)
         break;
-      if (cycle == kCyclesMax) return strokes;
+      if (starts.size() == 3) {
+        reservoir_pa = Extrapolate(starts[1], starts[2], reservoir_pa, point.source_pa);
+        starts.clear();
+      }
     }
   }
   // Two cycles, so that a stroke that starts late in the first can end in the second.

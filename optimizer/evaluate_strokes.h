@@ -30,6 +30,10 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
 // known.
 double AloneExcess(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
 
+// The same by one integration a group, with the pumps as they are; about ten times the effort.
+double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
+                         const OperatingPoint& point);
+
 // The strokes by the simulator alone, from the first cycle until the source's state repeats.
 Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point);

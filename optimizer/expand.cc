@@ -266,21 +266,65 @@ double StockVolume(const Problem& problem, const Option& reservoir) {
   return reservoir.quantity * problem.parts.reservoirs[reservoir.index].volume_m3;
 }
 
+const std::vector<ReservoirNeed>& AloneNeeds(const Tree& tree, const Candidate& candidate,
+                                             std::size_t g) {
+  const Option& compressor = candidate.compressor;
+  const auto [entry, fresh] =
+      tree.alone_needs.try_emplace({compressor.index, compressor.quantity, candidate.lines[g]});
+  if (fresh) {
+    Candidate alone = candidate;
+    alone.lines = {candidate.lines[g]};
+    entry->second = ReservoirNeeds(tree.alone[g], tree.alone_pumps[g][compressor.index], alone,
+                                   tree.pump_energy_max_j[compressor.index],
+                                   tree.smallest_reservoir_m3, tree.largest_reservoir_m3);
+  }
+  return entry->second;
+}
+
+// ReservoirNeeds of several groups on one compressor: at each volume the stop pressure of the most
+// demanding group that is chosen, and duty and energy for the air of all.
+std::vector<ReservoirNeed> SharedReservoirNeeds(const Problem& problem, const Tree& tree,
+                                                const Candidate& candidate, const Need& need) {
+  const Option& compressor = candidate.compressor;
+  const model::Compressor& part = problem.parts.compressors[compressor.index];
+  const Window window = SourceWindow(problem, candidate);
+  std::vector<ReservoirNeed> shared;
+  for (ReservoirNeed volume : AloneNeeds(tree, candidate, 0)) {
+    bool possible = true;
+    for (std::size_t g = 1; g < candidate.lines.size() && possible; ++g) {
+      const std::vector<ReservoirNeed>& other = AloneNeeds(tree, candidate, g);
+      const auto same = std::find_if(other.begin(), other.end(), [&](const ReservoirNeed& o) {
+        return o.low_m3 == volume.low_m3;
+      });
+      possible = same != other.end();
+      if (!possible) break;
+      volume.source_pa = std::max(volume.source_pa, same->source_pa);
+      volume.source_max_pa = std::min(volume.source_max_pa, same->source_max_pa);
+    }
+    volume.source_pa = std::max(volume.source_pa, window.low_pa);
+    volume.source_max_pa = std::min(volume.source_max_pa, window.high_pa);
+    if (!possible || volume.source_pa > volume.source_max_pa) continue;
+    double first_fill_j = 0.0;
+    const PumpNeed pump =
+        LeastPumpNeed(problem, tree.pumps[compressor.index], compressor.quantity, need.air_m3,
+                      volume.source_pa, volume.low_m3, &first_fill_j);
+    volume.energy_j = first_fill_j + problem.actuations * (pump.energy_j + need.coil_j);
+    if (pump.on_s * problem.frequency_hz <= part.duty_max &&
+        volume.energy_j <= tree.pump_energy_max_j[compressor.index])
+      shared.push_back(volume);
+  }
+  return shared;
+}
+
 // Reservoirs behind a chosen compressor and lines: each interval of volumes has a least energy and
 // so a lightest battery; a reservoir is bounded by the interval that its volume lies in.
 void ExpandReservoirs(const Problem& problem, const Tree& tree, const Candidate& parent,
                       const StageInfo& info, const Amounts& amounts, Children& children) {
-  double largest_m3 = model::kMadeReservoirLargestM3;
-  double smallest_m3 = model::kMadeReservoirSmallestM3;
-  for (const Option& option : tree.reservoirs.options) {
-    if (option.index == kCustom) continue;
-    largest_m3 = std::max(largest_m3, StockVolume(problem, option));
-    smallest_m3 = std::min(smallest_m3, StockVolume(problem, option));
-  }
   const Need need = LeastNeed(problem, tree, parent);
   const std::vector<ReservoirNeed> volumes =
       ReservoirNeeds(problem, tree.pumps[parent.compressor.index], parent,
-                     tree.pump_energy_max_j[parent.compressor.index], smallest_m3, largest_m3);
+                     tree.pump_energy_max_j[parent.compressor.index], tree.smallest_reservoir_m3,
+                     tree.largest_reservoir_m3);
   std::vector<double> rest;  // battery and energy, per interval
   for (const ReservoirNeed& volume : volumes) {
     Candidate candidate = parent;
@@ -319,6 +363,24 @@ void ExpandReservoirs(const Problem& problem, const Tree& tree, const Candidate&
   }
 }
 
+// Raises the need of a stock reservoir to what the lowest useful source pressure takes, where that
+// is the least (the pump's power rises with pressure); false if the strokes or the pump cannot do
+// it.
+bool KnowStock(const Problem& problem, const Candidate& candidate, double volume_m3,
+               ReservoirNeed& need) {
+  OperatingPoint point{0.0, volume_m3, volume_m3};
+  Candidate bounded = candidate;
+  bounded.source_floor_pa = need.source_pa;
+  bounded.source_cap_pa = need.source_max_pa;
+  const std::optional<double> needed = NeededSourcePressure(problem, bounded, point);
+  if (!needed) return false;
+  need.source_pa = point.source_pa = *needed;
+  if (!PumpPowerRises(problem, candidate)) return true;
+  const Evaluation least = Evaluate(problem, candidate, point, {.least_coil_energy = true});
+  need.energy_j = std::max(need.energy_j, least.energy_total_j);
+  return least.frequency_sustained_hz >= problem.frequency_hz;
+}
+
 // Batteries of the compressor configuration, the last family there.
 void ExpandPumpBatteries(const Problem& problem, const Tree& tree, const Candidate& parent,
                          const Amounts& amounts, Children& children) {
@@ -327,11 +389,19 @@ void ExpandPumpBatteries(const Problem& problem, const Tree& tree, const Candida
   const Need need = LeastNeed(problem, tree, parent);
   const double chosen = ChosenObjective(problem, parent);
   const double stock_m3 = custom ? 0.0 : StockVolume(problem, parent.reservoir);
-  const std::vector<ReservoirNeed> volumes =
+  std::vector<ReservoirNeed> volumes =
       ReservoirNeeds(problem, tree.pumps[parent.compressor.index], parent,
                      tree.pump_energy_max_j[parent.compressor.index],
                      custom ? model::kMadeReservoirSmallestM3 : stock_m3,
                      custom ? model::kMadeReservoirLargestM3 : stock_m3);
+  if (!custom && !volumes.empty()) {
+    // No battery changes the strokes: find the source pressure once for all of them.
+    if (KnowStock(problem, parent, stock_m3, volumes.front()))
+      children.source_floor_pa = volumes.front().source_pa,
+      children.source_cap_pa = volumes.front().source_max_pa;
+    else
+      volumes.clear();
+  }
   for (const Option& option : tree.batteries.options) {
     if (!BatteryFitsCompressor(problem, option.index, parent.compressor.index)) {
       ++children.incompatible;
@@ -487,12 +557,26 @@ Tree MakeTree(const Problem& problem, Configuration configuration,
   if (configuration == Configuration::kCo2) add(Stage::kBottle, tree.bottles = Co2Options(problem));
   if (configuration == Configuration::kCompressor)
     add(Stage::kReservoir, tree.reservoirs = ReservoirOptions(problem));
+  if (configuration == Configuration::kCompressor && groups > 1)
+    for (int g = 0; g < groups; ++g) {
+      tree.alone.push_back(problem);
+      tree.alone.back().groups = {problem.groups[g]};
+      tree.alone_pumps.emplace_back();
+      for (const model::Compressor& compressor : problem.parts.compressors)
+        tree.alone_pumps.back().push_back(MakePumpFacts(tree.alone.back(), compressor.curve));
+    }
   for (const Option& option : tree.reservoirs.options)
     if (option.index == kCustom)
       tree.custom_allowed = true;
     else
       tree.reservoir_by_volume.push_back({StockVolume(problem, option), option.objective});
   std::sort(tree.reservoir_by_volume.begin(), tree.reservoir_by_volume.end());
+  tree.largest_reservoir_m3 = model::kMadeReservoirLargestM3;
+  tree.smallest_reservoir_m3 = model::kMadeReservoirSmallestM3;
+  for (const auto& [volume_m3, objective] : tree.reservoir_by_volume) {
+    tree.largest_reservoir_m3 = std::max(tree.largest_reservoir_m3, volume_m3);
+    tree.smallest_reservoir_m3 = std::min(tree.smallest_reservoir_m3, volume_m3);
+  }
   for (std::size_t i = tree.reservoir_by_volume.size(); i-- > 1;)
     tree.reservoir_by_volume[i - 1].second =
         std::min(tree.reservoir_by_volume[i - 1].second, tree.reservoir_by_volume[i].second);
@@ -523,6 +607,7 @@ Children Expand(const Problem& problem, const Tree& tree, const Candidate& paren
   const StageInfo& info = tree.stages[stage];
   Children children;
   children.source_floor_pa = parent.source_floor_pa;
+  children.source_cap_pa = parent.source_cap_pa;
   Amounts amounts;
   for (const Line* line : parent.lines) amounts += line->amounts;
   for (const Option* option :
@@ -543,10 +628,31 @@ Children Expand(const Problem& problem, const Tree& tree, const Candidate& paren
   return children;
 }
 
+double SharedSourceBound(const Problem& problem, const Tree& tree, const Candidate& candidate) {
+  if (tree.alone.empty() || candidate.lines.empty() || candidate.reservoir.index != kNone)
+    return -kUnlimited;
+  const Need need = LeastNeed(problem, tree, candidate);
+  double rest = kUnlimited;
+  for (const ReservoirNeed& volume : SharedReservoirNeeds(problem, tree, candidate, need)) {
+    Candidate at_volume = candidate;
+    at_volume.source_floor_pa = volume.source_pa;
+    rest = std::min(rest, LeastReservoir(problem, tree, volume.low_m3) +
+                              LeastBattery(problem, tree, at_volume,
+                                           {volume.energy_j, need.coil_power_w,
+                                            PumpCurrent(problem, at_volume)}) +
+                              PumpObjective(problem, need, volume.energy_j));
+  }
+  double bound = ChosenObjective(problem, candidate) + rest;
+  for (std::size_t g = candidate.lines.size(); g < problem.groups.size(); ++g)
+    bound += tree.line_objective_least[g];
+  return bound;
+}
+
 Candidate Chosen(const Tree& tree, const Candidate& parent, int stage, const Children& children,
                  const Child& child) {
   Candidate candidate = parent;
   candidate.source_floor_pa = children.source_floor_pa;
+  candidate.source_cap_pa = children.source_cap_pa;
   if (child.line != nullptr)
     candidate.lines.push_back(child.line);
   else

@@ -10,8 +10,9 @@
 #ifndef PLENUM_OPTIMIZER_EXPAND_H_
 #define PLENUM_OPTIMIZER_EXPAND_H_
 
-#include <functional>
+#include <map>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "optimizer/candidate.h"
@@ -47,6 +48,14 @@ struct Tree {
   bool custom_allowed = false;
   // Stock reservoirs by rising volume, each with the least objective of those no smaller.
   std::vector<std::pair<double, double>> reservoir_by_volume;
+  double smallest_reservoir_m3 = 0.0, largest_reservoir_m3 = 0.0;
+  // With several groups: the problem of each group alone, and its pump facts per compressor.
+  std::vector<Problem> alone;
+  std::vector<std::vector<PumpFacts>> alone_pumps;
+  // What a line needs of reservoirs when its group is alone on some compressors; filled as asked
+  // for.
+  using LineOnPumps = std::tuple<int, int, const Line*>;  // compressor, quantity, line
+  mutable std::map<LineOnPumps, std::vector<ReservoirNeed>> alone_needs;
   BigCount combinations;
 };
 
@@ -63,10 +72,16 @@ struct Child {
 struct Children {
   std::vector<Child> list;                                   // by rising bound
   long long incompatible = 0, infeasible = 0, unpriced = 0;  // choices left out of the list
-  double source_floor_pa = 0.0;
+  double source_floor_pa = 0.0;  // for the candidates below, as in Candidate
+  double source_cap_pa = kUnlimited;
 };
 
 Children Expand(const Problem& problem, const Tree& tree, const Candidate& parent, int stage);
+
+// Bound from below on the objective of everything below a candidate of several groups on a
+// compressor whose reservoir is not chosen yet, from what its lines need of battery and reservoir;
+// −∞ elsewhere. Costs more than the bounds of Expand, and far less than another Expand.
+double SharedSourceBound(const Problem& problem, const Tree& tree, const Candidate& candidate);
 
 // `parent` with the choice made.
 Candidate Chosen(const Tree& tree, const Candidate& parent, int stage, const Children& children,

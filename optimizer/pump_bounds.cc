@@ -101,10 +101,12 @@ PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, int pumps
   const bool burst = problem.simultaneous || problem.groups.size() == 1;
   const double last_m3 = burst ? std::max(0.0, air_to_target_m3 - early_m3) : 0.0;
   const double other_m3 = std::max(0.0, air_m3 - early_m3 - last_m3);
+  const double first_m3 = air_m3 - last_m3 - other_m3;
   const double high_pa = std::max(source_min_pa, facts.target_pa);
   const auto bound = [&](const Minorant& per_air) {
     return last_m3 * per_air.Mean(facts.target_pa, high_pa) +
-           other_m3 * per_air.At(facts.target_pa);
+           other_m3 * per_air.At(facts.target_pa) +
+           first_m3 * per_air.At(problem.ambient.pressure_pa);
   };
   return {bound(facts.seconds_per_m3) / pumps, bound(facts.energy_j_per_m3)};
 }
@@ -160,6 +162,24 @@ double AirToTarget(const Problem& problem, int group, const model::Chamber& cham
   return actuators.count * model::StandardVolume(content, problem.ambient.temperature_k);
 }
 
+namespace {
+
+// Highest stop pressure that `bearable` accepts, from one that it accepts up to `high_pa`; a little
+// too high rather than too low.
+template <typename Bearable>
+double MostBearable(ReservoirNeed need, double high_pa, Bearable&& bearable) {
+  double low_pa = need.source_pa;
+  need.source_pa = high_pa;
+  if (bearable(need)) return high_pa;
+  while (high_pa - low_pa > kNeedTolerance * high_pa) {
+    need.source_pa = 0.5 * (low_pa + high_pa);
+    (bearable(need) ? low_pa : high_pa) = need.source_pa;
+  }
+  return high_pa;
+}
+
+}  // namespace
+
 std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFacts& facts,
                                           const Candidate& candidate, double energy_max_j,
                                           double low_m3, double high_m3) {
@@ -184,7 +204,9 @@ std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFact
     return pump.on_s * problem.frequency_hz <= compressor.duty_max && need.energy_j <= energy_max_j;
   };
   for (bool last = false; !last;) {
-    ReservoirNeed need{low_m3, std::min(low_m3 * kIntervalRatio, high_m3), window.low_pa, 0.0};
+    ReservoirNeed need;
+    need.low_m3 = low_m3;
+    need.high_m3 = std::min(low_m3 * kIntervalRatio, high_m3);
     low_m3 = need.high_m3;
     last = low_m3 >= high_m3;
     // Cheap first: the mass balance (2) at the largest volume.
@@ -194,8 +216,12 @@ std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFact
     const auto excess = [&](double source_pa) {
       return AloneExcess(problem, candidate, {source_pa, need.high_m3, need.low_m3});
     };
-    if (excess(window.high_pa) > 0.0) continue;
-    need.source_pa = FeasibleBracket(excess, need.source_pa, window.high_pa, kNeedTolerance).low;
+    need.source_max_pa = MostBearable(need, window.high_pa, bearable);
+    const OperatingPoint most{need.source_max_pa, need.high_m3, need.low_m3};
+    if (excess(need.source_max_pa) > 0.0 || AloneStrokeExcess(problem, candidate, most) > 0.0)
+      continue;
+    need.source_pa =
+        FeasibleBracket(excess, need.source_pa, need.source_max_pa, kNeedTolerance).low;
     if (bearable(need)) needs.push_back(need);
   }
   return needs;

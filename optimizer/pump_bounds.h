@@ -72,9 +72,10 @@ double AirToTarget(const Problem& problem, int group, const model::Chamber& cham
 // intervals, each with what it at least takes; a single volume where low and high are equal. Left
 // out is what needs more than `energy_max_j` or more running time than the pump stands.
 struct ReservoirNeed {
-  double low_m3, high_m3;
-  double source_pa;  // stop pressure
-  double energy_j;   // whole mission: first fill, pumps, coils
+  double low_m3 = 0.0, high_m3 = 0.0;
+  double source_pa = 0.0;      // least stop pressure
+  double source_max_pa = 0.0;  // most that duty and energy bear
+  double energy_j = 0.0;       // whole mission: first fill, pumps, coils
 };
 std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFacts& facts,
                                           const Candidate& candidate, double energy_max_j,

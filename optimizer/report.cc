@@ -138,8 +138,8 @@ bool Confirm(const Problem& problem, const Candidate& candidate, const Operating
 }  // namespace
 
 std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
-                                 const Leaf& leaf) {
-  OperatingPoint point = Settle(problem, candidate, leaf);
+                                 const Leaf& leaf, bool settle) {
+  OperatingPoint point = settle ? Settle(problem, candidate, leaf) : leaf.point;
   Evaluation evaluation = Evaluate(problem, candidate, point);
   if (!Confirm(problem, candidate, point, evaluation)) {
     point = leaf.point;

@@ -10,8 +10,9 @@ namespace plenum::optimizer {
 
 // None where the simulator, run on the whole rig in its periodic state, does not confirm that every
 // requirement is met: the design is then not listed but counted as undecided.
+// `settle`: choose the settings that the objective leaves free (sizing.h), else keep the leaf's.
 std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
-                                 const Leaf& leaf);
+                                 const Leaf& leaf, bool settle = true);
 
 }  // namespace plenum::optimizer
 

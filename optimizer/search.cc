@@ -25,15 +25,17 @@ using Clock = std::chrono::steady_clock;
 
 // Objectives this close are ties, ordered by part ids.
 constexpr double kTie = 1e-6;
+constexpr int kTiesMax = 100;
 constexpr double kProgressIntervalS = 0.2;
+constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;  // of the time limit
 
 struct Node {
   double bound;
   long long serial;  // order of creation: the same search on every run
   const Tree* tree;
-  int stage;
-  Candidate candidate;                       // parent of `children`, or the leaf itself
-  std::shared_ptr<const Children> children;  // null: a leaf
+  int stage;                                 // of the children; past the last one for a leaf
+  Candidate candidate;                       // parent of the children, or the leaf itself
+  std::shared_ptr<const Children> children;  // null: not expanded yet, or a leaf
   std::size_t position = 0;
   std::shared_ptr<CustomSizing> sizing;  // a leaf with a made-to-measure reservoir, being sized
   std::shared_ptr<const Leaf> sized;     // a leaf that is feasible
@@ -41,7 +43,9 @@ struct Node {
 
 struct LowestBound {
   bool operator()(const Node& a, const Node& b) const {
-    return a.bound != b.bound ? a.bound > b.bound : a.serial > b.serial;
+    if (a.bound != b.bound) return a.bound > b.bound;
+    if (a.stage != b.stage) return a.stage < b.stage;  // among equals, the nearest to a design
+    return a.serial > b.serial;
   }
 };
 
@@ -126,17 +130,100 @@ class TreeSearch {
     while (!queue_.empty()) {
       if (Stopped()) return;
       Report();
-      if (static_cast<int>(listed_.size()) >= problem_.count && queue_.top().bound > TieLimit())
-        return;
+      DiveIfSlow();
+      if (ListIsComplete()) return;
       Node node = queue_.top();
       queue_.pop();
       if (node.children)
         Branch(node);
+      else if (node.stage < static_cast<int>(node.tree->stages.size()))
+        PushChildren(*node.tree, node.candidate, node.stage);
       else if (node.sized)
         List(node);
       else
         Size(node);
     }
+  }
+
+  // A search that is slow to prove should not come home empty-handed: with a third of the time gone
+  // it looks for good designs by depth first, trying children spread over the whole range at every
+  // stage. They serve as the best so far if time runs out; the proof does not use them.
+  void DiveIfSlow() {
+    if (dived_ || Seconds() < kDiveFrom * options_.time_limit_s) return;
+    dived_ = true;
+    for (const std::unique_ptr<Tree>& tree : trees_) {
+      Candidate root;
+      root.configuration = tree->configuration;
+      dive_until_s_ =
+          Seconds() + kDiveShare * options_.time_limit_s / static_cast<double>(trees_.size());
+      if (tree->combinations > 0) Dive(*tree, root, 0);
+    }
+  }
+
+  void Dive(const Tree& tree, const Candidate& parent, int stage) {
+    if (stage == static_cast<int>(tree.stages.size())) {
+      DiveToLeaf(tree, parent);
+      return;
+    }
+    const Children children = Expand(problem_, tree, parent, stage);
+    const std::size_t size = children.list.size();
+    for (std::size_t step : {0, 1, 2, 4, 8, 16, 32}) {
+      const std::size_t index = step * size / 40;
+      if (Seconds() > dive_until_s_ || index >= size) return;
+      const Child& child = children.list[index];
+      if (child.bound < dive_limit_)
+        Dive(tree, Chosen(tree, parent, stage, children, child), stage + 1);
+    }
+  }
+
+  void DiveToLeaf(const Tree& tree, const Candidate& candidate) {
+    Leaf leaf;
+    if (candidate.reservoir.index == kCustom) {
+      CustomSizing sizing(problem_, tree.pumps[candidate.compressor.index], candidate);
+      while (!sizing.Refine() && Seconds() < dive_until_s_) {
+      }
+      leaf = sizing.leaf();
+    } else {
+      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(candidate));
+    }
+    if (leaf.status != LeafStatus::kFeasible) return;
+    incumbents_.push_back({candidate, leaf});
+    std::sort(incumbents_.begin(), incumbents_.end(),
+              [](const auto& a, const auto& b) { return a.second.objective < b.second.objective; });
+    const std::size_t count = static_cast<std::size_t>(problem_.count);
+    if (incumbents_.size() > count) incumbents_.pop_back();
+    if (incumbents_.size() == count) dive_limit_ = incumbents_.back().second.objective;
+  }
+
+  double ReservoirVolume(const Candidate& candidate) const {
+    const Option& reservoir = candidate.reservoir;
+    return reservoir.index == kNone
+               ? 0.0
+               : reservoir.quantity * problem_.parts.reservoirs[reservoir.index].volume_m3;
+  }
+
+  // Incumbents of the dive fill a list that was not finished.
+  void ListIncumbents() {
+    for (const auto& [candidate, leaf] : incumbents_) {
+      if (static_cast<int>(listed_.size()) >= problem_.count) return;
+      std::optional<Design> design = MakeDesign(problem_, candidate, leaf, !late_);
+      if (!design) continue;
+      std::vector<std::string> ids = TieKey(*design);
+      if (std::any_of(listed_.begin(), listed_.end(),
+                      [&](const Listed& listed) { return listed.ids == ids; }))
+        continue;
+      ++proof_.simulated;
+      const double objective = design->objective;
+      listed_.push_back({objective, leaf.lower_bound, std::move(ids), std::move(*design)});
+    }
+  }
+
+  // All that ties with the last place is listed, too, so that ids can order it, up to a limit: an
+  // objective that most parts do not touch has ties without end.
+  bool ListIsComplete() const {
+    const int listed = static_cast<int>(listed_.size());
+    return listed >= problem_.count + kTiesMax ||
+           (listed >= problem_.count && queue_.top().bound > TieLimit());
   }
 
   // Largest objective that still ties with the last design of a full list.
@@ -152,10 +239,14 @@ class TreeSearch {
     const Child& child = node.children->list[node.position];
     const Tree& tree = *node.tree;
     const Candidate candidate = Chosen(tree, node.candidate, node.stage, *node.children, child);
-    if (node.stage + 1 < static_cast<int>(tree.stages.size()))
-      PushChildren(tree, candidate, node.stage + 1);
+    const double bound = std::max(child.bound, SharedSourceBound(problem_, tree, candidate));
+    const int stage = node.stage + 1;
+    if (std::isinf(bound))
+      proof_.pruned.infeasible += tree.stages[node.stage].below;
+    else if (bound > child.bound || stage == static_cast<int>(tree.stages.size()))
+      Push({bound, 0, &tree, stage, candidate, nullptr, 0, nullptr, nullptr});
     else
-      Push({child.bound, 0, &tree, node.stage, candidate, nullptr, 0, nullptr, nullptr});
+      PushChildren(tree, candidate, stage);
     if (++node.position < node.children->list.size()) {
       node.bound = node.children->list[node.position].bound;
       Push(std::move(node));
@@ -168,11 +259,7 @@ class TreeSearch {
       SizeCustom(node);
       return;
     }
-    const double volume_m3 =
-        reservoir.index == kNone
-            ? 0.0
-            : reservoir.quantity * problem_.parts.reservoirs[reservoir.index].volume_m3;
-    Conclude(node, SizeAtVolume(problem_, node.candidate, volume_m3));
+    Conclude(node, SizeAtVolume(problem_, node.candidate, ReservoirVolume(node.candidate)));
   }
 
   // A few steps at a time: as its bound rises the leaf goes back into the queue.
@@ -208,7 +295,7 @@ class TreeSearch {
 
   void List(const Node& node) {
     ++proof_.simulated;
-    std::optional<Design> design = MakeDesign(problem_, node.candidate, *node.sized);
+    std::optional<Design> design = MakeDesign(problem_, node.candidate, *node.sized, !late_);
     if (!design) {
       Undecided(node.bound);
       return;
@@ -261,6 +348,7 @@ class TreeSearch {
       if (!node.sized) proof_.pruned.bound += OpenCount(node);
       lower_bound = std::min(lower_bound, node.sized ? node.sized->lower_bound : node.bound);
     }
+    if (cancelled_ || late_) ListIncumbents();
     Rank();
     for (std::size_t i = problem_.count; i < listed_.size(); ++i)
       lower_bound = std::min(lower_bound, listed_[i].lower_bound);
@@ -290,7 +378,9 @@ class TreeSearch {
 
   // Combinations in a node that was not taken.
   static BigCount OpenCount(const Node& node) {
-    if (!node.children) return 1;
+    if (node.stage == static_cast<int>(node.tree->stages.size())) return 1;
+    if (!node.children)
+      return node.tree->stages[node.stage].total * node.tree->stages[node.stage].below;
     return node.tree->stages[node.stage].below *
            static_cast<long long>(node.children->list.size() - node.position);
   }
@@ -301,6 +391,9 @@ class TreeSearch {
   std::vector<std::unique_ptr<Tree>> trees_;
   std::priority_queue<Node, std::vector<Node>, LowestBound> queue_;
   std::vector<Listed> listed_;
+  std::vector<std::pair<Candidate, Leaf>> incumbents_;
+  double dive_limit_ = kUnlimited, dive_until_s_ = 0.0;
+  bool dived_ = false;
   Proof proof_;
   double undecided_bound_ = kUnlimited;
   double reported_s_ = 0.0;

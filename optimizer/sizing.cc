@@ -19,12 +19,6 @@ constexpr double kVolumeTolerance = 1e-7;  // of the objective
 constexpr int kStepsPerRefine = 8;
 constexpr int kStepsMax = 400;
 
-double SmallestMargin(const Problem& problem, const Candidate& candidate,
-                      const OperatingPoint& point, const Evaluation& evaluation) {
-  return std::min(-StrokeExcess(problem, evaluation),
-                  SupplyMargin(problem, candidate, point, evaluation));
-}
-
 // Bound from below on the objective over [low, high] at a fixed volume, by intervals: everything
 // but the coils grows with the source pressure, the coils fall with it.
 double EnergyAwareBound(const Problem& problem, const Candidate& candidate, double reservoir_m3,
@@ -45,7 +39,14 @@ double EnergyAwareBound(const Problem& problem, const Candidate& candidate, doub
   return bound;
 }
 
-// Margins that the solver works with, strokes first; all ≥ 0 where feasible.
+}  // namespace
+
+double SmallestMargin(const Problem& problem, const Candidate& candidate,
+                      const OperatingPoint& point, const Evaluation& evaluation) {
+  return std::min(-StrokeExcess(problem, evaluation),
+                  SupplyMargin(problem, candidate, point, evaluation));
+}
+
 std::vector<double> SolverMargins(const Problem& problem, const Candidate& candidate,
                                   const OperatingPoint& point, const Evaluation& evaluation) {
   std::vector<double> values;
@@ -59,8 +60,6 @@ std::vector<double> SolverMargins(const Problem& problem, const Candidate& candi
                                 problem.parts.batteries[candidate.battery.index].current_max_a));
   return values;
 }
-
-}  // namespace
 
 bool PumpPowerRises(const Problem& problem, const Candidate& candidate) {
   if (candidate.compressor.index == kNone) return true;
@@ -148,18 +147,23 @@ CustomSizing::CustomSizing(const Problem& problem, const PumpFacts& facts, Candi
   leaf_.lower_bound = open_.empty() ? 0.0 : open_.top().bound;
 }
 
+std::vector<ReservoirNeed> CustomSizing::CheapBounds(double low_m3, double high_m3) const {
+  const model::Battery& battery = problem_.parts.batteries[candidate_.battery.index];
+  return ReservoirNeeds(problem_, facts_, candidate_,
+                        candidate_.battery.quantity *
+                            model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v),
+                        low_m3, high_m3);
+}
+
 // Queues what the cheap bounds leave of an interval.
 void CustomSizing::Open(double low_m3, double high_m3, double bound) {
-  const model::Battery& battery = problem_.parts.batteries[candidate_.battery.index];
-  const double usable_j = candidate_.battery.quantity *
-                          model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v);
-  for (const ReservoirNeed& need :
-       ReservoirNeeds(problem_, facts_, candidate_, usable_j, low_m3, high_m3)) {
+  for (const ReservoirNeed& need : CheapBounds(low_m3, high_m3)) {
     Evaluation least;
     least.energy_total_j = need.energy_j;
     const double objective =
         ObjectiveValue(problem_, candidate_, {need.source_pa, need.low_m3, need.low_m3}, least);
-    open_.push({need.low_m3, need.high_m3, std::max(bound, objective), false});
+    open_.push({need.low_m3, need.high_m3, std::max(bound, objective), need.source_pa,
+                need.source_max_pa, false});
   }
 }
 
@@ -193,15 +197,18 @@ bool CustomSizing::Refine() {
 
 bool CustomSizing::Examine(Interval& interval) {
   interval.examined = true;
+  Candidate candidate = candidate_;
+  candidate.source_floor_pa = interval.source_floor_pa;
+  candidate.source_cap_pa = interval.source_cap_pa;
   OperatingPoint point{0.0, interval.high_m3, interval.low_m3};
-  const std::optional<double> needed = NeededSourcePressure(problem_, candidate_, point);
+  const std::optional<double> needed = NeededSourcePressure(problem_, candidate, point);
   if (!needed) return false;
-  point.source_pa = *needed;
-  const Evaluation best = Evaluate(problem_, candidate_, point, {.least_coil_energy = true});
-  const OperatingPoint smallest{*needed, interval.low_m3, interval.low_m3};
-  if (PumpPowerRises(problem_, candidate_)) {
-    if (SupplyMargin(problem_, candidate_, smallest, best) < 0.0) return false;
-    interval.bound = std::max(interval.bound, ObjectiveValue(problem_, candidate_, smallest, best));
+  if (PumpPowerRises(problem_, candidate)) {
+    point.source_pa = *needed;
+    const Evaluation best = Evaluate(problem_, candidate, point, {.least_coil_energy = true});
+    const OperatingPoint smallest{*needed, interval.low_m3, interval.low_m3};
+    if (SupplyMargin(problem_, candidate, smallest, best) < 0.0) return false;
+    interval.bound = std::max(interval.bound, ObjectiveValue(problem_, candidate, smallest, best));
   }
   Offer(interval.high_m3);
   return interval.bound < leaf_.objective;
@@ -218,7 +225,12 @@ void CustomSizing::Offer(double volume_m3) {
   if (ObjectiveOf(problem_.objective, TotalAmounts(problem_, candidate_, volume_m3)) >=
       leaf_.objective)
     return;
-  const Leaf leaf = SizeAtVolume(problem_, candidate_, volume_m3);
+  const std::vector<ReservoirNeed> needs = CheapBounds(volume_m3, volume_m3);
+  if (needs.empty()) return;
+  Candidate candidate = candidate_;
+  candidate.source_floor_pa = needs.front().source_pa;
+  candidate.source_cap_pa = needs.front().source_max_pa;
+  const Leaf leaf = SizeAtVolume(problem_, candidate, volume_m3);
   if (leaf.status != LeafStatus::kFeasible || leaf.objective >= leaf_.objective) return;
   leaf_.point = leaf.point;
   leaf_.objective = leaf.objective;
@@ -256,67 +268,6 @@ void CustomSizing::Polish() {
     // The solver stops within its tolerance of the limits; a hair more volume is surely inside.
     Offer(point_at(result.x).reservoir_m3 * (1.0 + 1e-7));
   }
-}
-
-OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const Leaf& leaf) {
-  const Window window = SourceWindow(problem, candidate);
-  if (candidate.reservoir.index == kCustom && problem.objective.energy_wh == 0.0)
-    return leaf.point;  // at its smallest volume a made-to-measure reservoir leaves no freedom
-  const double low_pa = leaf.point.source_pa;
-  if (!(window.high_pa > low_pa)) return leaf.point;
-
-  const auto point_at = [&](double share) {
-    OperatingPoint point = leaf.point;
-    point.source_pa = low_pa + share * (window.high_pa - low_pa);
-    return point;
-  };
-  const auto margins_at = [&](double share, Evaluation& evaluation) {
-    evaluation = Evaluate(problem, candidate, point_at(share));
-    return evaluation.works ? SolverMargins(problem, candidate, point_at(share), evaluation)
-                            : std::vector<double>();
-  };
-  const bool by_energy = problem.objective.energy_wh > 0.0;
-  Evaluation at_low, at_high;
-  const std::vector<double> low = margins_at(0.0, at_low), high = margins_at(1.0, at_high);
-  if (!at_low.works || !at_high.works) return leaf.point;
-  std::vector<std::size_t> moving;  // margins that the source pressure moves
-  for (std::size_t i = 0; i < low.size(); ++i)
-    if (std::abs(high[i] - low[i]) > 1e-9) moving.push_back(i);
-  if (moving.empty()) return leaf.point;
-
-  // Variables: source pressure, and the smallest margin where that is what is maximised.
-  Nlp nlp;
-  nlp.low = {0.0};
-  nlp.high = {1.0};
-  nlp.start = {by_energy ? 0.0 : 0.3};
-  if (!by_energy) {
-    nlp.low.push_back(-10.0);
-    nlp.high.push_back(1.0);
-    nlp.start.push_back(0.0);
-  }
-  nlp.constraints = static_cast<int>(moving.size());
-  const double scale = std::max(std::abs(leaf.objective), 1e-9);
-  nlp.evaluate = [&](const std::vector<double>& x, NlpValues& values) {
-    Evaluation evaluation;
-    const std::vector<double> margins = margins_at(x[0], evaluation);
-    if (!evaluation.works || margins.size() != low.size()) return false;
-    values.objective =
-        by_energy ? ObjectiveValue(problem, candidate, point_at(x[0]), evaluation) / scale : -x[1];
-    values.constraints.clear();
-    for (std::size_t i : moving) values.constraints.push_back(margins[i] - (by_energy ? 0 : x[1]));
-    return true;
-  };
-  const NlpResult result = SolveWithIpopt(nlp);
-  if (result.x.empty()) return leaf.point;
-
-  const OperatingPoint point = point_at(std::clamp(result.x[0], 0.0, 1.0));
-  const Evaluation evaluation = Evaluate(problem, candidate, point);
-  const double margin = SmallestMargin(problem, candidate, point, evaluation);
-  const bool better =
-      by_energy ? margin >= 0.0 && ObjectiveValue(problem, candidate, point, evaluation) <
-                                       ObjectiveValue(problem, candidate, leaf.point, at_low)
-                : margin >= SmallestMargin(problem, candidate, leaf.point, at_low);
-  return better ? point : leaf.point;
 }
 
 }  // namespace plenum::optimizer

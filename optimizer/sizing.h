@@ -27,6 +27,13 @@ struct Leaf {
 // Settings with the volume given (stock reservoir; 0 where the configuration has none).
 Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3);
 
+// All relative margins of an evaluation that works, strokes first and limited to 1: what a solver
+// keeps ≥ 0. The smallest of them, or −∞ where nothing works.
+std::vector<double> SolverMargins(const Problem& problem, const Candidate& candidate,
+                                  const OperatingPoint& point, const Evaluation& evaluation);
+double SmallestMargin(const Problem& problem, const Candidate& candidate,
+                      const OperatingPoint& point, const Evaluation& evaluation);
+
 // Whether the pumps draw no less power at higher pressure, up to the highest of the candidate's
 // window: then duty and energy grow with the stop pressure, since the reservoir is at every instant
 // no lower and fills no sooner. True without a compressor.
@@ -53,6 +60,7 @@ class CustomSizing {
  private:
   struct Interval {
     double low_m3, high_m3, bound;
+    double source_floor_pa, source_cap_pa;  // outside the cheap bounds already fail
     bool examined;
     bool operator<(const Interval& other) const { return bound > other.bound; }  // lowest on top
   };
@@ -62,6 +70,7 @@ class CustomSizing {
   void Polish();
 
   void Open(double low_m3, double high_m3, double bound);
+  std::vector<ReservoirNeed> CheapBounds(double low_m3, double high_m3) const;
 
   const Problem& problem_;
   const PumpFacts& facts_;

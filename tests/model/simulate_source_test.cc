@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "model/simulate.h"
 #include "tests/model/simulate_rigs.h"
@@ -109,6 +110,74 @@ TEST(SimulateSource, ReservoirAboveTheStopPressureDrainsBeforeThePumpRuns) {
   // Choked: ps' = −c·ps down to 4 bar with c = C·P0/V = 0.1/s, then towards 0.1/(1e-9·1e8) = 1 bar;
   // it ends subsonic, so only the time to 4 bar is checked, by the time the pump has run.
   EXPECT_NEAR(r.compressor_on_s, 60.0 - std::log(5.0 / 4.0) / 0.1, 1e-5);
+}
+
+// The pumps' time and energy from pressure to pressure: κ·t = V·∫ dp/Q and E = ∫ P dt, summed in
+// small steps; the stop pressure inside the table, at its end, and at the rating.
+TEST(SimulateSource, CompressorStopsOnTime) {
+  GroupRig busy = OneActuator(2e5, 2.0, {5e-10, 0.3});  // vents meanwhile
+  busy.initial_pressure_pa = 2e5;
+  busy.schedule = {{0.0, kDeflate}};
+  for (const auto& [stop_pa, rating_pa] : {std::pair{4.3e5, 6e5}, {5e5, 6e5}, {4.3e5, 4.3e5}}) {
+    SCOPED_TRACE(stop_pa);
+    ReservoirSource source = Pumped(4e5, stop_pa);
+    source.compressor.free_air_m3_per_s =
+        MonotoneCurve({1e5, 2e5, 3.5e5, 5e5}, {1e-4, 0.8e-4, 0.4e-4, 0.1e-4});
+    source.compressor.current_a = MonotoneCurve({1e5, 3.5e5, 5e5}, {3.0, 6.0, 4.0});
+    source.compressor.pressure_max_pa = rating_pa;
+    const CompressorCurve& curve = source.compressor;
+    constexpr int kSteps = 200'000;
+    const double step_pa = (stop_pa - 4e5) / kSteps;
+    double on_s = 0.0, energy_j = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double p = 4e5 + (i + 0.5) * step_pa;
+      const double dt_s = source.volume_m3 * step_pa / (1e5 * curve.free_air_m3_per_s(p));
+      on_s += dt_s;
+      energy_j += dt_s * 12.0 * curve.current_a(p);
+    }
+    for (bool vents : {false, true}) {
+      if (!vents) busy.schedule.clear();
+      const Response r = Simulate(RigOf(source, {busy}), Until(2.0 * on_s));
+      ASSERT_EQ(r.status, SimulateStatus::kDone);
+      EXPECT_EQ(r.source_final_pressure_pa, stop_pa);
+      EXPECT_NEAR(r.compressor_on_s, on_s, 1e-6 * on_s);
+      EXPECT_NEAR(r.compressor_energy_j, energy_j, 1e-6 * energy_j);
+      busy.schedule = {{0.0, kDeflate}};
+    }
+  }
+}
+
+// The volume while the pressure rises: the same volume changes nothing, a smaller one fills in
+// proportion faster and leaves the fall alone.
+TEST(SimulateSource, VolumeWhileRisingCountsOnlyWhileRising) {
+  GroupRig group = OneActuator(2e5, 2.0, {2e-8, 0.3});
+  group.count = 4;
+  group.close_at_operating = true;
+  group.schedule = {{0.0, kInflate}};
+  const auto run = [&](double rising_m3) {
+    ReservoirSource source = Pumped(4e5, 4e5);
+    source.volume_rising_m3 = rising_m3;
+    return Simulate(RigOf(source, {group}), Until(20.0));
+  };
+  const Response none = run(0.0), same = run(1e-3), half = run(0.5e-3);
+  ASSERT_EQ(half.status, SimulateStatus::kDone);
+  EXPECT_EQ(same.compressor_on_s, none.compressor_on_s);
+  EXPECT_EQ(same.strokes[0].to_target_s, none.strokes[0].to_target_s);
+  EXPECT_EQ(same.source_final_pressure_pa, 4e5);
+  EXPECT_EQ(half.source_final_pressure_pa, 4e5);
+
+  // The draw is above the delivery all through the stroke, so the reservoir only falls then.
+  const double inflate_s = none.strokes[0].to_operating_s;
+  EXPECT_EQ(half.strokes[0].to_operating_s, inflate_s);
+  EXPECT_EQ(half.strokes[0].source_lowest_pressure_pa, none.strokes[0].source_lowest_pressure_pa);
+  EXPECT_LT(none.strokes[0].source_lowest_pressure_pa, 3.6e5);
+  EXPECT_NEAR(half.compressor_on_s - inflate_s, 0.5 * (none.compressor_on_s - inflate_s), 1e-6);
+
+  // A closed reservoir that only rises: 1 L takes 30 s from 1 to 4 bar at 0.1 L/s, ½ L half of it.
+  ReservoirSource source = Pumped(1e5, 4e5);
+  source.volume_rising_m3 = 0.5e-3;
+  group.schedule.clear();
+  EXPECT_NEAR(Simulate(RigOf(source, {group}), Until(100.0)).compressor_on_s, 15.0, 1e-6);
 }
 
 }  // namespace

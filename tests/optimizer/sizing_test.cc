@@ -92,8 +92,8 @@ TEST(SizeAtVolumeTest, VerdictAgreesWithADenseScan) {
 }
 
 TEST(CustomSizingTest, NoSmallerVolumeIsFeasible) {
-  int found = 0;
-  for (std::uint64_t seed = 1; seed <= 12 && found < 6; ++seed) {
+  int found = 0, rising = 0;
+  for (std::uint64_t seed = 1; seed <= 12 && found < 9; ++seed) {
     Problem problem = EasyProblem(300 + seed, {Configuration::kCompressor});
     problem.groups[0].rise_time_max_s = 0.4;
     problem.groups[0].chamber.rest_volume_m3 = 60e-6;
@@ -115,7 +115,13 @@ TEST(CustomSizingTest, NoSmallerVolumeIsFeasible) {
       ++found;
       EXPECT_TRUE(Meets(problem, candidate, leaf.point,
                         optimizer::Evaluate(problem, candidate, leaf.point)));
-      EXPECT_GE(leaf.lower_bound, leaf.objective * (1.0 - 1.1e-7));
+      EXPECT_LE(leaf.lower_bound, leaf.objective);
+      // Where a pump draws less power at higher pressure, what the battery must bear is not known
+      // to grow with it, and an interval that only the battery rules out stays open.
+      if (optimizer::PumpPowerRises(problem, candidate)) {
+        ++rising;
+        EXPECT_GE(leaf.lower_bound, leaf.objective * (1.0 - 1.1e-7));
+      }
       std::vector<double> smaller{volume_m3 * (1.0 - 1e-5), volume_m3 * (1.0 - 1e-4)};
       for (int i = 0; i < 20; ++i)
         smaller.push_back(10e-6 * std::pow(volume_m3 * 0.999 / 10e-6, i / 19.0));
@@ -124,7 +130,8 @@ TEST(CustomSizingTest, NoSmallerVolumeIsFeasible) {
             << "seed " << seed << ": " << v << " m³ works, " << volume_m3 << " was reported";
     });
   }
-  EXPECT_GE(found, 3);
+  EXPECT_GE(rising, 3);
+  EXPECT_GT(found, rising);
 }
 
 std::vector<MassElement> Elements(const std::vector<model::FlowElement>& elements) {
