@@ -10,6 +10,10 @@ missing_packages() {  # names of packages.txt and of the arguments that are not 
 
 install_packages() {
   local missing
+  if ! command -v apt-get >/dev/null; then
+    echo "No apt-get here: what packages.txt names must be installed already." >&2
+    return 0
+  fi
   missing=$(missing_packages "$@" | tr '\n' ' ')
   [ -n "$missing" ] || return 0
   local as_root=

@@ -42,6 +42,7 @@ std::vector<Family> MakeFamilies() {
         Conductance("sonic_conductance_exhaust_dm3_per_s_bar", "sonic conductance C when venting"),
         Ratio("critical_ratio_exhaust"),
         {"coil_power_w", 0, 1e3, true, "electrical power per channel while energised"},
+        {"pressure_min_kpa_gauge", 0, 5e4, false, "lowest inlet pressure at which it switches"},
         {"response_time_ms", 0, 1e4, false, "time from command to open"},
         kMass,
         kBody,

@@ -28,7 +28,8 @@ struct ReservoirStrokeInput {
   double stop_pa = 0.0;
   // The volume that counts while the reservoir falls and while it rises. Equal for a simulation; an
   // interval of volumes [V1, V2] with V2 falling and V1 rising gives a time below that of each
-  // volume between (the right-hand side is larger everywhere, and the system keeps order).
+  // volume between (the right-hand side is larger everywhere, and the system keeps order). So is
+  // the pumps' running time up to the full reservoir; their energy only to 5e-4 for V2 = 1.3·V1.
   double volume_falling_m3 = 0.0;
   double volume_rising_m3 = 0.0;
   double from_pa = 0.0;

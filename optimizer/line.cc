@@ -66,7 +66,8 @@ bool Qualify(const Problem& problem, const ActuatorGroup& group, model::Gas gas,
   const double factor = FlowFactor(problem, gas);
   const double temperature_k = problem.ambient.temperature_k;
   const double operating_pa = group.chamber.operating_pressure_pa;
-  if (line.source_max_pa < operating_pa) return false;
+  const double switches_pa = problem.parts.valves[line.valve].pressure_min_pa;
+  if (line.source_max_pa < std::max(operating_pa, switches_pa)) return false;
 
   const double fall_max_s = std::min(group.fall_time_max_s, HalfPeriod(problem));
   line.fall_time_s = model::EmptyTime(model::MakeSeries(line.exhaust, factor), line.chamber,
@@ -86,7 +87,8 @@ bool Qualify(const Problem& problem, const ActuatorGroup& group, model::Gas gas,
                     inflate_s - HalfPeriod(problem));
   };
   if (!(excess(line.source_max_pa) <= 0.0)) return false;
-  line.source_min_pa = SmallestFeasible(excess, operating_pa, line.source_max_pa);
+  line.source_min_pa =
+      std::max(switches_pa, SmallestFeasible(excess, operating_pa, line.source_max_pa));
   line.inflate_time_least_s = model::FillTime(line.fill_series, line.chamber, line.source_max_pa,
                                               ambient_pa, operating_pa, temperature_k);
   return true;

@@ -35,7 +35,8 @@ struct Line {
   model::Chamber chamber;                   // with the tube's bore as dead volume
   double fall_time_s = 0.0;
   // Pressure of an unlimited source at which the rise time is just met (no source does it with
-  // less: droop, regulator and neighbours only slow the rise), and the highest that the line
+  // less: droop, regulator and neighbours only slow the rise) and at which the valve switches, and
+  // the highest that the line
   // stands.
   double source_min_pa = 0.0;
   double source_max_pa = 0.0;

@@ -19,21 +19,37 @@ constexpr double kVolumeTolerance = 1e-7;  // of the objective
 constexpr int kStepsPerRefine = 8;
 constexpr int kStepsMax = 400;
 
-// Bound from below on the objective over [low, high] at a fixed volume, by intervals: everything
-// but the coils grows with the source pressure, the coils fall with it.
+// Points from low to high pressure, closest at the low end, where the answer mostly lies.
+std::vector<double> ScanPressures(double low_pa, double high_pa) {
+  std::vector<double> pressures;
+  for (int i = 0; i <= kScanPoints; ++i) {
+    const double share = static_cast<double>(i) / kScanPoints;
+    pressures.push_back(low_pa + (high_pa - low_pa) * share * share);
+  }
+  return pressures;
+}
+
+// What an interval of source pressures at least takes: everything but the coils grows with the
+// pressure and is least at its left end, the coils fall with it.
+Evaluation LeastBetween(const Problem& problem, Evaluation left, const Evaluation& right) {
+  const double coils_j = std::min(0.0, right.energy_coils_j - left.energy_coils_j);
+  left.energy_coils_j += coils_j;
+  left.energy_total_j += coils_j;
+  left.energy_per_cycle_j += coils_j / problem.actuations;
+  return left;
+}
+
+// Bound from below on the objective over [low, high] at a fixed volume, by intervals.
 double EnergyAwareBound(const Problem& problem, const Candidate& candidate, double reservoir_m3,
                         double low_pa, double high_pa) {
   double bound = kUnlimited;
   std::optional<Evaluation> left;
-  for (int i = 0; i <= kScanPoints; ++i) {
-    const double source_pa = low_pa + (high_pa - low_pa) * i / kScanPoints;
+  for (double source_pa : ScanPressures(low_pa, high_pa)) {
     const OperatingPoint point{source_pa, reservoir_m3, reservoir_m3};
     const Evaluation right = Evaluate(problem, candidate, point);
-    if (left) {
-      Evaluation mixed = *left;
-      mixed.energy_total_j += right.energy_coils_j - left->energy_coils_j;
-      bound = std::min(bound, ObjectiveValue(problem, candidate, point, mixed));
-    }
+    if (left)
+      bound = std::min(
+          bound, ObjectiveValue(problem, candidate, point, LeastBetween(problem, *left, right)));
     left = right;
   }
   return bound;
@@ -117,17 +133,26 @@ Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double res
     return true;
   };
   if (!try_at(*needed)) {
-    point.source_pa = *needed;
-    const Evaluation least = Evaluate(problem, candidate, point, {.least_coil_energy = true});
-    const bool refuted =
-        SupplyMargin(problem, candidate, point, least) < 0.0 && PumpPowerRises(problem, candidate);
-    if (refuted) return leaf;
-    leaf.status = LeafStatus::kUndecided;
-    for (int i = 1; i <= kScanPoints; ++i)
-      if (try_at(*needed + (high_pa - *needed) * i / kScanPoints)) break;
+    // Higher pressures help only the coils, by closing the valves sooner.
+    bool refuted = PumpPowerRises(problem, candidate);
+    std::optional<Evaluation> left;
+    OperatingPoint left_point;
+    for (double source_pa : ScanPressures(*needed, high_pa)) {
+      if (left && try_at(source_pa)) break;
+      point.source_pa = source_pa;
+      const Evaluation right = Evaluate(problem, candidate, point);
+      if (left)
+        refuted = refuted && SupplyMargin(problem, candidate, left_point,
+                                          LeastBetween(problem, *left, right)) < 0.0;
+      left = right;
+      left_point = point;
+    }
     leaf.lower_bound =
         ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3));
-    if (leaf.status == LeafStatus::kUndecided) return leaf;
+    if (leaf.status != LeafStatus::kFeasible) {
+      leaf.status = refuted ? LeafStatus::kInfeasible : LeafStatus::kUndecided;
+      return leaf;
+    }
   }
   leaf.lower_bound = leaf.objective;
   if (problem.objective.energy_wh > 0.0) {

@@ -46,6 +46,9 @@ check() {
   arrow api server tests
   arrow server model tests
 
+  includes '\.\.?/' model catalog optimizer api server |
+    complain "includes name the room, not a relative path"
+
   stays_in cpp-httplib 'httplib' server
   stays_in nlohmann-json 'nlohmann/|json\.hpp' api
   stays_in SQLite 'sqlite3|SQLiteCpp/' catalog
@@ -53,6 +56,7 @@ check() {
   stays_in NLopt 'nlopt' optimizer
   stays_in CLI11 'CLI/' server
   stays_in fmt 'fmt/' server
+  stays_in Boost 'boost/' model optimizer
   includes 'httplib' server | grep -v '^server/http\.cc:' |
     complain "only server/http.cc includes cpp-httplib"
 }
