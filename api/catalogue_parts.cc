@@ -54,9 +54,9 @@ model::Valve Valve(const catalog::Part& row, const model::Ambient& ambient) {
           .exhaust =
               ElementOf(row, "sonic_conductance_exhaust_dm3_per_s_bar", "critical_ratio_exhaust"),
           .coil_power_w = Required(row, "coil_power_w"),
+          .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient),
           .pressure_min_pa =
-              PaFromKpaGauge(Optional(row, "pressure_min_kpa_gauge").value_or(0.0), ambient),
-          .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};
+              PaFromKpaGauge(Optional(row, "pressure_min_kpa_gauge").value_or(0.0), ambient)};
 }
 
 model::Compressor Compressor(const catalog::Part& row, const model::Ambient& ambient) {

@@ -53,9 +53,9 @@ struct Valve {
   std::string port;
   FlowElement fill;
   FlowElement exhaust;
-  double coil_power_w = 0.0;     // per channel while energised
-  double pressure_min_pa = 0.0;  // at the inlet, to switch at all (pilot-operated valves)
+  double coil_power_w = 0.0;  // per channel while energised
   double pressure_max_pa = 0.0;
+  double pressure_min_pa = 0.0;  // at the inlet, to switch at all (pilot-operated valves)
   bool operator==(const Valve&) const = default;
 };
 

@@ -109,10 +109,53 @@ TEST(Command, DesignFromStandardInputGivesOneDocument) {
 
 TEST(Command, AnInterruptedDesignPrintsWhatItHas) {
   const Workbench bench;
-  const auto outcome = bench.Run("design - --json", Exosuit(60.0).dump(),
+  const auto outcome = bench.Run("design - --json", SlowToProve(60.0).dump(),
                                  "timeout --preserve-status --signal=INT 0.5");
   EXPECT_EQ(outcome.status, 130) << outcome.err;
   EXPECT_EQ(OneDocument(outcome.out)["status"], "cancelled");
+}
+
+std::vector<std::string> PartIds(const api::Json& answer) {
+  std::vector<std::string> ids;
+  for (const auto& design : answer["designs"])
+    for (const auto& part : design["parts"]) ids.push_back(part["id"]);
+  return ids;
+}
+
+TEST(Command, ALighterBatteryTakesRankOneAndItsRemovalBringsTheListBack) {
+  const Workbench bench;
+  const auto design = [&] {
+    return OneDocument(bench.Run("design - --json", Exosuit(30.0).dump()).out);
+  };
+  const auto before = design();
+  ASSERT_EQ(before["status"], "optimal");
+  std::string battery;
+  for (const auto& part : before["designs"][0]["parts"])
+    if (part["family"] == "battery") battery = part["id"];
+  auto lighter = OneDocument(bench.Run("catalog show " + battery + " --json").out);
+  lighter["id"] = "bench-light-pack";
+  lighter["mass_kg"] = 0.5 * lighter["mass_kg"].get<double>();
+  bench.Write("part.json", lighter.dump());
+  ASSERT_EQ(bench.Run("catalog add part.json").status, 0);
+
+  const auto with = design();
+  EXPECT_THAT(PartIds(with), testing::Contains("bench-light-pack"));
+  EXPECT_EQ(with["designs"][0]["parts"][4]["id"], "bench-light-pack");
+  EXPECT_LT(with["designs"][0]["totals"]["mass_kg"].get<double>(),
+            before["designs"][0]["totals"]["mass_kg"].get<double>());
+  ASSERT_EQ(bench.Run("catalog remove bench-light-pack").status, 0);
+  EXPECT_EQ(PartIds(design()), PartIds(before));
+}
+
+TEST(Command, PartMassesSumToTheTotals) {
+  const Workbench bench;
+  const auto answer = OneDocument(bench.Run("design - --json", Exosuit(30.0).dump()).out);
+  ASSERT_FALSE(answer["designs"].empty());
+  for (const auto& design : answer["designs"]) {
+    double mass_kg = 0.0;
+    for (const auto& part : design["parts"]) mass_kg += part["mass_kg"].get<double>();
+    EXPECT_NEAR(mass_kg, design["totals"]["mass_kg"].get<double>(), 1e-9);
+  }
 }
 
 TEST(Command, SimulateAndMapPrintOneDocumentOrATable) {

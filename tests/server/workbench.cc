@@ -75,12 +75,15 @@ int ServeProcess::End(int signal) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-api::Json Exosuit(double time_limit_s) {
-  const auto text = ReadAll(fs::path(PLENUM_SOURCE_DIR) / "examples/exosuit.json");
+api::Json Example(const std::string& name, double time_limit_s) {
+  const auto text = ReadAll(fs::path(PLENUM_SOURCE_DIR) / "examples" / (name + ".json"));
   auto json = std::get<api::Json>(api::ParseJson(text));
   json["ranking"] = {{"count", 2}, {"time_limit_s", time_limit_s}};
   return json;
 }
+
+api::Json Exosuit(double time_limit_s) { return Example("exosuit", time_limit_s); }
+api::Json SlowToProve(double time_limit_s) { return Example("crawler", time_limit_s); }
 
 api::Json NewFitting(const std::string& id) {
   return {{"id", id},

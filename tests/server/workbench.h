@@ -52,6 +52,8 @@ class ServeProcess {
 std::string ReadAll(const std::filesystem::path& path);
 // The exosuit example; `time_limit_s` of its search as given.
 api::Json Exosuit(double time_limit_s);
+// A problem that takes many seconds to prove.
+api::Json SlowToProve(double time_limit_s);
 // A fitting that the project's catalogue does not hold.
 api::Json NewFitting(const std::string& id);
 
