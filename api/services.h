@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/json.h"
+#include "catalog/csv.h"
 #include "catalog/store.h"
 #include "optimizer/problem.h"
 

@@ -1,12 +1,12 @@
 #include "model/compressor.h"
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "model/air.h"
-#include "model/gauss_legendre.h"
 
 namespace plenum::model {
 namespace {
@@ -72,7 +72,8 @@ double EnergyToFill(const CompressorCurve& curve, double volume_m3, double low_p
   const std::vector<double> pieces = Pieces(curve, low_pa, high_pa);
   double integral = 0.0;
   for (std::size_t i = 1; i < pieces.size(); ++i)
-    integral += GaussLegendre(pieces[i - 1], pieces[i], energy_per_gas);
+    integral += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
+        energy_per_gas, pieces[i - 1], pieces[i], 10, 1e-9);
   return StandardVolume(volume_m3, temperature_k) * integral;
 }
 

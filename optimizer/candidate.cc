@@ -21,6 +21,7 @@ const model::Compressor& CompressorOf(const Problem& problem, const Candidate& c
 
 // Gas on board that reaches the regulator's outlet, m³ ANR.
 double AirAvailable(const Problem& problem, const Candidate& candidate, double source_pa) {
+  if (candidate.bottle.index == kNone) return kUnlimited;  // wall supply, or not chosen yet
   const double temperature_k = problem.ambient.temperature_k;
   const int quantity = candidate.bottle.quantity;
   if (candidate.configuration == Configuration::kCylinder) {
@@ -47,7 +48,7 @@ double SourceFrequency(const Problem& problem, const Candidate& candidate,
   if (candidate.configuration == Configuration::kCompressor)
     return problem.frequency_hz * CompressorOf(problem, candidate).duty_max /
            evaluation.compressor_duty;
-  if (candidate.configuration == Configuration::kCo2)
+  if (candidate.configuration == Configuration::kCo2 && candidate.bottle.index != kNone)
     return candidate.bottle.quantity *
            problem.parts.co2[candidate.bottle.index].flow_sustained_m3_per_s /
            evaluation.air_per_cycle_m3;

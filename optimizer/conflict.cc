@@ -10,8 +10,11 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kBestTolerance = 0.002;  // relative, on what the catalogue reaches at best
-constexpr double kFrequencyLeastHz = 1e-4;
+constexpr double kBestTolerance = 0.002;          // relative, on what the catalogue reaches at best
+constexpr double kLoosestFrequency = 1.0 / 64.0;  // of the one asked for
+constexpr double kLimitS = 12.0;                  // for the whole analysis
+constexpr double kSearchShare = 0.15;             // of what is left, for one search
+constexpr double kSearchLeastS = 0.5;
 
 // A requirement that can be loosened.
 struct Requirement {
@@ -58,7 +61,8 @@ std::vector<Requirement> Requirements(const Problem& problem) {
   AddAmounts(problem, list);
   list.push_back({"/duty/actuations", problem.actuations, 1.0,
                   [](Problem& p, double value) { p.actuations = value; }, std::nullopt});
-  list.push_back({"/duty/frequency_hz", problem.frequency_hz, kFrequencyLeastHz,
+  list.push_back({"/duty/frequency_hz", problem.frequency_hz,
+                  kLoosestFrequency * problem.frequency_hz,
                   [](Problem& p, double value) { p.frequency_hz = value; }, std::nullopt});
   if (std::isfinite(problem.source_pressure_max_pa)) {
     const double ambient_pa = problem.ambient.pressure_pa;
@@ -77,15 +81,15 @@ class ConflictSearch {
   ConflictSearch(const SearchOptions& options, double used_s)
       : options_(options),
         start_(std::chrono::steady_clock::now()),
-        limit_s_(options.time_limit_s - used_s) {
+        limit_s_(std::min(kLimitS, options.time_limit_s - used_s)) {
     options_.progress = nullptr;
   }
 
-  Answer One(Problem problem) {
-    problem.count = 1;
-    options_.time_limit_s = Left();
-    return SearchTrees(problem, options_);
-  }
+  // Some design that meets the problem, or the proof that there is none, or neither in time.
+  Answer Any(Problem problem) { return Run(std::move(problem), true); }
+  // The best design.
+  Answer Best(Problem problem) { return Run(std::move(problem), false); }
+
   double Left() const {
     const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start_;
     return limit_s_ - used.count();
@@ -93,6 +97,18 @@ class ConflictSearch {
   bool OutOfTime() const { return Left() <= 0.0 || (options_.cancelled && options_.cancelled()); }
 
  private:
+  Answer Run(Problem problem, bool any_design) {
+    problem.count = 1;
+    // A limit on an amount is decided soonest by minimising it.
+    if (std::isfinite(problem.mass_max_kg))
+      problem.objective = {.mass_kg = 1.0};
+    else if (std::isfinite(problem.volume_max_l))
+      problem.objective = {.volume_l = 1.0};
+    options_.any_design = any_design;
+    options_.time_limit_s = std::max(kSearchShare * Left(), std::min(Left(), kSearchLeastS));
+    return SearchTrees(problem, options_);
+  }
+
   SearchOptions options_;
   std::chrono::steady_clock::time_point start_;
   double limit_s_;
@@ -112,10 +128,19 @@ std::optional<double> Best(const Problem& problem, const Requirement& requiremen
   Problem loose = problem;
   requirement.set(loose, requirement.loosest);
   if (requirement.objective) {
-    loose.objective = *requirement.objective;
-    const Answer answer = search.One(loose);
-    if (answer.designs.empty()) return std::nullopt;
-    return answer.designs.front().objective;
+    // The lightest design is a second opinion where the search for the least amount runs out of
+    // time.
+    std::optional<double> best;
+    for (const Objective& objective : {*requirement.objective, Objective{.mass_kg = 1.0}}) {
+      loose.objective = objective;
+      const Answer answer = search.Best(loose);
+      if (answer.designs.empty()) continue;
+      const Totals& totals = answer.designs.front().totals;
+      const double amount = ObjectiveOf(*requirement.objective, {totals.mass_kg, totals.volume_m3,
+                                                                 totals.cost_eur.value_or(0.0)});
+      best = std::min(best.value_or(kUnlimited), amount);
+    }
+    return best;
   }
   const bool less_is_harder = requirement.loosest > requirement.required;
   double hard = requirement.required;
@@ -123,7 +148,7 @@ std::optional<double> Best(const Problem& problem, const Requirement& requiremen
   const auto reach = [&](double value) {
     Problem trial = problem;
     requirement.set(trial, value);
-    const Answer answer = search.One(trial);
+    const Answer answer = search.Any(trial);
     if (answer.designs.empty()) return false;
     const double achieved = Achieved(answer, requirement.pointer).value_or(value);
     const double good = less_is_harder ? std::max(hard, std::min(achieved, value))
@@ -131,7 +156,15 @@ std::optional<double> Best(const Problem& problem, const Requirement& requiremen
     easy = good;
     return true;
   };
-  if (!reach(easy)) return std::nullopt;
+  // Looser is not always easier: a slower cycle holds valves longer. Approach from the required
+  // side.
+  double reached = less_is_harder ? hard * 2.0 : hard * 0.5;
+  while (!reach(reached)) {
+    if (search.OutOfTime() || (less_is_harder ? reached >= easy : reached <= easy))
+      return std::nullopt;
+    hard = reached;
+    reached = less_is_harder ? std::min(reached * 2.0, easy) : std::max(reached * 0.5, easy);
+  }
   while (std::abs(std::log(easy / hard)) > kBestTolerance && !search.OutOfTime()) {
     const double middle = std::sqrt(easy * hard);
     if (!reach(middle)) hard = middle;
@@ -158,7 +191,7 @@ std::vector<Conflict> FindConflict(const Problem& problem, const SearchOptions& 
   for (std::size_t i = 0; i < kept.size() && !search.OutOfTime();) {
     std::vector<const Requirement*> rest = kept;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-    if (search.One(without(rest)).status == Status::kInfeasible)
+    if (search.Any(without(rest)).status == Status::kInfeasible)
       kept = std::move(rest);
     else
       ++i;

@@ -89,6 +89,11 @@ double RiseLimit(const Problem& problem, int g) {
 
 enum class Alone { kYes, kNo, kTooSlow };
 
+// Delivery just below the pressure at which a pump stops.
+double LastDelivery(const model::CompressorCurve& curve, double stop_pa) {
+  return std::max(0.0, curve.free_air_m3_per_s(std::min(stop_pa, model::HighestPressure(curve))));
+}
+
 // A valve that cannot hold leaves its actuators on the source, which fills them from p_op up to the
 // stop pressure. Counted as pumped at the stop pressure, the most that it can take.
 void AddHeldAir(const Problem& problem, const Candidate& candidate, double stop_pa, int g,
@@ -99,8 +104,7 @@ void AddHeldAir(const Problem& problem, const Candidate& candidate, double stop_
       model::Content(chamber, stop_pa) - model::Content(chamber, chamber.operating_pressure_pa);
   const double air_m3 =
       problem.groups[g].count * model::StandardVolume(content, problem.ambient.temperature_k);
-  const double seconds =
-      air_m3 / (candidate.compressor.quantity * model::FreeAirDelivery(curve, stop_pa));
+  const double seconds = air_m3 / (candidate.compressor.quantity * LastDelivery(curve, stop_pa));
   strokes.pump_on_s += seconds;
   strokes.pump_energy_j +=
       seconds * candidate.compressor.quantity * model::ElectricalPower(curve, stop_pa);

@@ -50,6 +50,7 @@ struct ActuatorGroup {
 
 struct Objective {  // weighted sum; a plain objective has one weight of 1
   double mass_kg = 0.0, volume_l = 0.0, cost_eur = 0.0, energy_wh = 0.0;
+  bool operator==(const Objective&) const = default;
 };
 
 struct Limits {  // most identical parts in parallel
@@ -90,6 +91,7 @@ struct Progress {
 
 struct SearchOptions {
   double time_limit_s = 30.0;
+  bool any_design = false;  // the first design found is enough; nothing is proved of it then
   std::function<bool()> cancelled;  // may be empty
   std::function<void(const Progress&)>
       progress;  // called at most a few times a second; may be empty

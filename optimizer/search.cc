@@ -65,10 +65,22 @@ std::vector<std::string> TieKey(const Design& design) {
   return key;
 }
 
+// Where the objective is one of the limited amounts alone, its limit bounds the objective.
+double ObjectiveLimit(const Problem& problem) {
+  const Objective& o = problem.objective;
+  if (o == Objective{.mass_kg = o.mass_kg}) return o.mass_kg * problem.mass_max_kg;
+  if (o == Objective{.volume_l = o.volume_l}) return o.volume_l * problem.volume_max_l;
+  if (o == Objective{.cost_eur = o.cost_eur}) return o.cost_eur * problem.cost_max_eur;
+  return kUnlimited;
+}
+
 class TreeSearch {
  public:
   TreeSearch(const Problem& problem, const SearchOptions& options, Clock::time_point start)
-      : problem_(problem), options_(options), start_(start) {}
+      : problem_(problem),
+        options_(options),
+        start_(start),
+        objective_limit_(ObjectiveLimit(problem)) {}
 
   Answer Run() {
     if (PlantTrees()) Enumerate();
@@ -131,7 +143,8 @@ class TreeSearch {
       if (Stopped()) return;
       Report();
       DiveIfSlow();
-      if (ListIsComplete()) return;
+      if (ListIsComplete() || queue_.top().bound > objective_limit_) return;
+      if (options_.any_design && !(incumbents_.empty() && listed_.empty())) return;
       Node node = queue_.top();
       queue_.pop();
       if (node.children)
@@ -149,7 +162,8 @@ class TreeSearch {
   // it looks for good designs by depth first, trying children spread over the whole range at every
   // stage. They serve as the best so far if time runs out; the proof does not use them.
   void DiveIfSlow() {
-    if (dived_ || Seconds() < kDiveFrom * options_.time_limit_s) return;
+    const double from = options_.any_design ? 0.0 : kDiveFrom;
+    if (dived_ || Seconds() < from * options_.time_limit_s) return;
     dived_ = true;
     for (const std::unique_ptr<Tree>& tree : trees_) {
       Candidate root;
@@ -170,6 +184,7 @@ class TreeSearch {
     for (std::size_t step : {0, 1, 2, 4, 8, 16, 32}) {
       const std::size_t index = step * size / 40;
       if (Seconds() > dive_until_s_ || index >= size) return;
+      if (options_.any_design && !incumbents_.empty()) return;
       const Child& child = children.list[index];
       if (child.bound < dive_limit_)
         Dive(tree, Chosen(tree, parent, stage, children, child), stage + 1);
@@ -345,10 +360,13 @@ class TreeSearch {
         List(node);
         continue;
       }
-      if (!node.sized) proof_.pruned.bound += OpenCount(node);
-      lower_bound = std::min(lower_bound, node.sized ? node.sized->lower_bound : node.bound);
+      if (!node.sized)
+        (node.bound > objective_limit_ ? proof_.pruned.infeasible : proof_.pruned.bound) +=
+            OpenCount(node);
+      if (node.bound <= objective_limit_)
+        lower_bound = std::min(lower_bound, node.sized ? node.sized->lower_bound : node.bound);
     }
-    if (cancelled_ || late_) ListIncumbents();
+    if (cancelled_ || late_ || options_.any_design) ListIncumbents();
     Rank();
     for (std::size_t i = problem_.count; i < listed_.size(); ++i)
       lower_bound = std::min(lower_bound, listed_[i].lower_bound);
@@ -364,7 +382,7 @@ class TreeSearch {
       proof_.gap =
           answer.designs.empty() && (cancelled_ || late_ || proof_.undecided > 0) ? 1.0 : 0.0;
     }
-    const bool stopped = cancelled_ || late_;
+    const bool stopped = cancelled_ || late_ || (options_.any_design && !answer.designs.empty());
     proof_.complete =
         !stopped && (answer.designs.empty() ? proof_.undecided == 0 : proof_.gap <= kTie);
     answer.status = cancelled_               ? Status::kCancelled
@@ -388,6 +406,7 @@ class TreeSearch {
   const Problem& problem_;
   const SearchOptions& options_;
   Clock::time_point start_;
+  double objective_limit_;  // a bound above it breaks a limit
   std::vector<std::unique_ptr<Tree>> trees_;
   std::priority_queue<Node, std::vector<Node>, LowestBound> queue_;
   std::vector<Listed> listed_;

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "api/services.h"
-#include "catalog/csv.h"
 #include "server/command_options.h"
 #include "server/commands.h"
 #include "server/exit_status.h"

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "catalog/csv.h"
+#include "api/services.h"
 
 namespace plenum::server {
 namespace {

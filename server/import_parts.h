@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "api/json.h"
-#include "catalog/store.h"
+#include "api/services.h"
 
 namespace plenum::server {
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "api/services.h"
-#include "catalog/csv.h"
 #include "server/import_parts.h"
 
 namespace plenum::server {

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <vector>
 
-#include "catalog/store.h"
+#include "api/services.h"
 
 namespace plenum::server {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "catalog/part.h"
+#include "api/services.h"
 
 namespace plenum::server {
 

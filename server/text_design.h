@@ -5,7 +5,7 @@
 #include <string>
 
 #include "api/json.h"
-#include "optimizer/problem.h"
+#include "api/services.h"
 
 namespace plenum::server {
 

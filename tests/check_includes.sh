@@ -44,7 +44,7 @@ check() {
   arrow catalog optimizer api server tests
   arrow optimizer catalog api server tests
   arrow api server tests
-  arrow server model tests
+  arrow server model catalog optimizer tests
 
   includes '\.\.?/' model catalog optimizer api server |
     complain "includes name the room, not a relative path"
