@@ -10,10 +10,9 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kBestTolerance = 0.002;          // relative, on what the catalogue reaches at best
-constexpr double kLoosestFrequency = 1.0 / 64.0;  // of the one asked for
-constexpr double kLimitS = 12.0;                  // for the whole analysis
-constexpr double kSearchShare = 0.15;             // of what is left, for one search
+constexpr double kBestTolerance = 0.002;  // relative, on what the catalogue reaches at best
+constexpr double kLimitS = 12.0;          // for the whole analysis
+constexpr double kSearchShare = 0.15;     // of what is left, for one search
 constexpr double kSearchLeastS = 0.5;
 
 // A requirement that can be loosened.
@@ -25,6 +24,11 @@ struct Requirement {
   // For mass, volume and cost: the objective that finds the best at once.
   std::optional<Objective> objective;
 };
+
+// Low enough for air and strokes; not so low that valves are held for minutes in each cycle.
+double LoosestFrequency(double required_hz) {
+  return std::min(required_hz / 8.0, std::max(1e-2, required_hz / 4096.0));
+}
 
 void AddGroups(const Problem& problem, std::vector<Requirement>& list) {
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
@@ -62,7 +66,7 @@ std::vector<Requirement> Requirements(const Problem& problem) {
   list.push_back({"/duty/actuations", problem.actuations, 1.0,
                   [](Problem& p, double value) { p.actuations = value; }, std::nullopt});
   list.push_back({"/duty/frequency_hz", problem.frequency_hz,
-                  kLoosestFrequency * problem.frequency_hz,
+                  LoosestFrequency(problem.frequency_hz),
                   [](Problem& p, double value) { p.frequency_hz = value; }, std::nullopt});
   if (std::isfinite(problem.source_pressure_max_pa)) {
     const double ambient_pa = problem.ambient.pressure_pa;
@@ -136,6 +140,7 @@ std::optional<double> Best(const Problem& problem, const Requirement& requiremen
       const Answer answer = search.Best(loose);
       if (answer.designs.empty()) continue;
       const Totals& totals = answer.designs.front().totals;
+      if (requirement.objective->cost_eur > 0.0 && !totals.cost_eur) continue;
       const double amount = ObjectiveOf(*requirement.objective, {totals.mass_kg, totals.volume_m3,
                                                                  totals.cost_eur.value_or(0.0)});
       best = std::min(best.value_or(kUnlimited), amount);
