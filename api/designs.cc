@@ -191,7 +191,8 @@ Json RenderConflict(const std::vector<optimizer::Conflict>& conflicts) {
   for (const optimizer::Conflict& conflict : conflicts)
     list.push_back({{"requirement", conflict.requirement},
                     {"required", Number(conflict.required)},
-                    {"best", OrNull(conflict.best)}});
+                    {"best", OrNull(conflict.best)},
+                    {"proved", conflict.proved}});
   return list;
 }
 

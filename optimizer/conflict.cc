@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include "optimizer/line.h"
 #include "optimizer/tree_search.h"
@@ -193,21 +194,28 @@ std::vector<Conflict> FindConflict(const Problem& problem, const SearchOptions& 
         requirement.set(trial, requirement.loosest);
     return trial;
   };
+  std::set<const Requirement*> proved;
   for (std::size_t i = 0; i < kept.size() && !search.OutOfTime();) {
     std::vector<const Requirement*> rest = kept;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-    if (search.Any(without(rest)).status == Status::kInfeasible)
+    const Answer answer = search.Any(without(rest));
+    if (answer.status == Status::kInfeasible) {
       kept = std::move(rest);
-    else
+    } else {
+      if (!answer.designs.empty()) proved.insert(kept[i]);
       ++i;
+    }
   }
 
   std::vector<Conflict> conflict;
   for (const Requirement* requirement : kept) {
     std::optional<double> best;
     if (!search.OutOfTime()) best = Best(problem, *requirement, search);
-    conflict.push_back({requirement->pointer, requirement->required, best});
+    conflict.push_back(
+        {requirement->pointer, requirement->required, best, proved.contains(requirement)});
   }
+  std::stable_partition(conflict.begin(), conflict.end(),
+                        [](const Conflict& c) { return c.proved; });
   if (conflict.empty())  // nothing that can be loosened helps: the pressures themselves
     for (std::size_t g = 0; g < problem.groups.size(); ++g)
       conflict.push_back(

@@ -177,6 +177,7 @@ struct Conflict {
   std::string requirement;  // JSON pointer
   double required = 0.0;
   std::optional<double> best;  // best the catalogue reaches while the others hold; none: not at all
+  bool proved = true;  // without it a design was found; false: time ran out before that was known
 };
 
 struct Answer {

@@ -181,7 +181,9 @@ std::string ConflictText(const Json& answer) {
     text += entry.at("best").is_number()
                 ? fmt::format("the catalogue reaches {}{}\n", Short(entry.at("best")),
                               conflict.size() > 1 ? " while the others hold" : "")
-                : std::string("the catalogue reaches nothing near it\n");
+            : entry.at("proved").get<bool>()
+                ? std::string("nothing reached while the others hold\n")
+                : std::string("not known to matter: time ran out\n");
   }
   return text;
 }

@@ -151,7 +151,7 @@ TEST(RenderAnswer, InfeasibleCarriesTheConflict) {
   optimizer::Answer answer;
   answer.status = optimizer::Status::kInfeasible;
   answer.conflict = {{"/actuators/0/rise_time_s_max", 0.1, 0.3},
-                     {"/supply/mass_kg_max", 0.5, std::nullopt}};
+                     {"/supply/mass_kg_max", 0.5, std::nullopt, false}};
   answer.proof.lower_bound = std::numeric_limits<double>::infinity();
   const Json json = RenderAnswer(Request(), answer, SmallCatalogue());
   EXPECT_EQ(json["status"], "infeasible");
@@ -159,8 +159,10 @@ TEST(RenderAnswer, InfeasibleCarriesTheConflict) {
   EXPECT_TRUE(json["best_on_measured_flow"].is_null());
   EXPECT_TRUE(json["proof"]["lower_bound"].is_null());
   EXPECT_EQ(json["conflict"],
-            Parse(R"([{"requirement": "/actuators/0/rise_time_s_max", "required": 0.1, "best": 0.3},
-                      {"requirement": "/supply/mass_kg_max", "required": 0.5, "best": null}])"));
+            Parse(R"([{"requirement": "/actuators/0/rise_time_s_max", "required": 0.1, "best": 0.3,
+                       "proved": true},
+                      {"requirement": "/supply/mass_kg_max", "required": 0.5, "best": null,
+                       "proved": false}])"));
 }
 
 TEST(RenderAnswer, SeveralGroupsGiveTheLargestValveDutyAndAllOfThem) {
