@@ -253,18 +253,21 @@ double StrokeExcess(const Problem& problem, const Evaluation& evaluation) {
   return excess;
 }
 
+double CurrentMargin(const Problem& problem, const Candidate& candidate,
+                     const Evaluation& evaluation) {
+  if (candidate.battery.index == kNone) return kUnlimited;
+  const double current_max_a =
+      candidate.battery.quantity * problem.parts.batteries[candidate.battery.index].current_max_a;
+  return 1.0 - evaluation.battery_current_a / current_max_a;
+}
+
 double SupplyMargin(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
                     const Evaluation& evaluation) {
   if (!evaluation.works) return -kUnlimited;
   double smallest = kUnlimited;
   for (const Margin& margin : SupplyMargins(problem, candidate, point, evaluation))
     smallest = std::min(smallest, margin.relative_margin);
-  if (candidate.battery.index != kNone) {
-    const double current_max_a =
-        candidate.battery.quantity * problem.parts.batteries[candidate.battery.index].current_max_a;
-    smallest = std::min(smallest, 1.0 - evaluation.battery_current_a / current_max_a);
-  }
-  return smallest;
+  return std::min(smallest, CurrentMargin(problem, candidate, evaluation));
 }
 
 }  // namespace plenum::optimizer

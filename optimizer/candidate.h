@@ -92,6 +92,10 @@ std::vector<Margin> Margins(const Problem& problem, const Candidate& candidate,
 // keep their order (model/reservoir_stroke.h).
 double StrokeExcess(const Problem& problem, const Evaluation& evaluation);
 
+// Relative margin of the batteries' current limit; +∞ without a battery.
+double CurrentMargin(const Problem& problem, const Candidate& candidate,
+                     const Evaluation& evaluation);
+
 // Smallest relative margin of all that the contract asks and that the parts stand (battery
 // current), except the strokes; ≥ 0: met.
 double SupplyMargin(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,

@@ -166,11 +166,9 @@ void ExpandOptions(const Problem& problem, const Tree& tree, const Candidate& pa
       if (info.stage == Stage::kCompressor || info.stage == Stage::kRegulator)
         need = LeastNeed(problem, tree, candidate);
       possible = info.stage != Stage::kCompressor || PumpBears(problem, candidate, need);
-      const double rest = info.stage == Stage::kReservoir
-                              ? 0.0
-                              : SourceRest(problem, tree, candidate, need, window);
       if (possible)
-        bound = chosen + option.objective + EnergyObjective(problem, need.pump.energy_j) + rest;
+        bound = chosen + option.objective + EnergyObjective(problem, need.pump.energy_j) +
+                SourceRest(problem, tree, candidate, need, window);
     }
     if (std::isfinite(bound))
       children.list.push_back({bound, option, nullptr});

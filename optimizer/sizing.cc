@@ -74,9 +74,7 @@ std::vector<double> SolverMargins(const Problem& problem, const Candidate& candi
   for (const Margin& margin : Margins(problem, candidate, point, evaluation))
     values.push_back(std::min(margin.relative_margin, 1.0));
   if (candidate.battery.index != kNone)
-    values.push_back(1.0 - evaluation.battery_current_a /
-                               (candidate.battery.quantity *
-                                problem.parts.batteries[candidate.battery.index].current_max_a));
+    values.push_back(CurrentMargin(problem, candidate, evaluation));
   return values;
 }
 

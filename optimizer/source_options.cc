@@ -45,10 +45,6 @@ OptionSet Sorted(const Problem& problem, const std::vector<Part>& parts, int qua
 
 }  // namespace
 
-double OptionSet::LeastObjective() const {
-  return options.empty() ? kUnlimited : options.front().objective;
-}
-
 OptionSet RegulatorOptions(const Problem& problem) {
   return Sorted(problem, problem.parts.regulators, 1);
 }

@@ -9,10 +9,9 @@
 namespace plenum::optimizer {
 
 struct OptionSet {
-  std::vector<Option> options;    // by rising share of the objective
-  long long total = 0;            // part × quantity, as the contract counts combinations
-  long long unpriced = 0;         // left out because a price is needed and missing
-  double LeastObjective() const;  // +∞ if empty
+  std::vector<Option> options;  // by rising share of the objective
+  long long total = 0;          // part × quantity, as the contract counts combinations
+  long long unpriced = 0;       // left out because a price is needed and missing
 };
 
 OptionSet RegulatorOptions(const Problem& problem);
