@@ -40,11 +40,12 @@ for room in model catalog optimizer api server; do
 done
 
 check() {
-  arrow model catalog optimizer api server tests
-  arrow catalog optimizer api server tests
-  arrow optimizer catalog api server tests
-  arrow api server tests
-  arrow server model catalog optimizer tests
+  arrow model catalog optimizer api server tests bench
+  arrow catalog optimizer api server tests bench
+  arrow optimizer catalog api server tests bench
+  arrow api server tests bench
+  arrow server model catalog optimizer tests bench
+  arrow tests bench
 
   includes '\.\.?/' model catalog optimizer api server |
     complain "includes name the room, not a relative path"
