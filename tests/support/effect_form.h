@@ -138,7 +138,8 @@ struct EffectResult {
   double energy_start_j = 0.0, energy_j = 0.0;
 };
 
-// Runs from time 0 to the last of `times_s` (rising) in steps of at most `step_s`.
+// Runs from time 0 to the last of `times_s` (rising) in steps of at most `step_s`: 0.2 ms keeps
+// pressures to 1e-7 of ambient, 0.1 ms with a tube; a shorter tube than 0.3 m needs shorter ones.
 EffectResult SimulateEffects(const EffectRig& rig, const std::vector<double>& times_s,
                              double step_s);
 
