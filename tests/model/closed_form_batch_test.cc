@@ -263,7 +263,7 @@ TEST(ClosedFormBatch, AgreesWithTheScalarFunctions) {
       EXPECT_NEAR(batch, from_reservoir, 1e-8 * from_reservoir);
     k.outer = 1e5, k.from = operating * 1e5, k.to = 1e5 * (1.0 + 0.1 * (operating - 1.0));
     const double fall = tau * NormalisedFallTime(stroke, operating, k.to / 1e5);
-    EXPECT_NEAR(Seconds(FallTimes, {k})[0], fall, 1e-12 * fall);  // the scalar form loses digits
+    EXPECT_NEAR(Seconds(FallTimes, {k})[0], fall, 1e-13 * fall);
   }
 }
 
