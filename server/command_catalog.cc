@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "api/part_query.h"
 #include "api/services.h"
 #include "server/command_options.h"
 #include "server/commands.h"
@@ -19,7 +20,10 @@ using catalog::WriteStatus;
 
 struct CatalogOptions {
   std::string catalog = "catalog.db";
-  std::string family, file, id;
+  std::string family, file, id, sort;
+  std::vector<std::string> filters;
+  std::optional<std::int64_t> revision;
+  int limit = 20;
   bool json = false, csv = false, dry_run = false;
 };
 using Options = std::shared_ptr<CatalogOptions>;
@@ -32,28 +36,122 @@ void CheckFamily(const std::string& family) {
   }
 }
 
+// The revision that --revision names, or the newest.
+catalog::Revision RevisionOrHead(const catalog::Store& store,
+                                 const std::optional<std::int64_t>& number) {
+  if (!number) return store.Head();
+  const auto revision = store.FindRevision(*number);
+  if (!revision) {
+    throw BadInput("revision: the catalogue has no revision " + std::to_string(*number));
+  }
+  return *revision;
+}
+
+api::PartQuery ListQuery(const CatalogOptions& options) {
+  std::multimap<std::string, std::string> query;
+  if (!options.family.empty()) query.emplace("family", options.family);
+  if (!options.sort.empty()) query.emplace("sort", options.sort);
+  for (const auto& filter : options.filters) {
+    const auto equals = filter.find('=');
+    if (equals == std::string::npos) {
+      throw BadInput("--where: must be FIELD=VALUE, FIELD_min=VALUE or FIELD_max=VALUE, not \"" +
+                     filter + "\"");
+    }
+    query.emplace(filter.substr(0, equals), filter.substr(equals + 1));
+  }
+  return ValueOrRefuse(api::ParsePartQuery(query));
+}
+
 void List(const CatalogOptions& options) {
-  std::optional<std::string> family;
-  if (!options.family.empty()) family = options.family;
-  if (family) CheckFamily(*family);
-  if (options.csv && !family) throw BadInput("--csv: needs a family, one of " + FamilyNames());
-  const auto parts = OpenCatalog(options.catalog, Access::kRead).List(family);
-  if (options.csv) return Print(catalog::WriteCsv(*family, parts));
+  if (!options.family.empty()) CheckFamily(options.family);
+  if (options.csv && options.family.empty()) {
+    throw BadInput("--csv: needs a family, one of " + FamilyNames());
+  }
+  const auto query = ListQuery(options);
+  const auto store = OpenCatalog(options.catalog, Access::kRead);
+  const auto revision = RevisionOrHead(store, options.revision);
+  const auto all = store.ListAt(revision.number);
+  std::vector<catalog::Part> parts;
+  for (const auto* part : api::Select(query, all)) parts.push_back(*part);
+  if (options.csv) return Print(catalog::WriteCsv(options.family, parts));
   if (!options.json) return Print(PartsText(parts));
   api::Json list = api::Json::array();
   for (const auto& part : parts) list.push_back(api::RenderPart(part));
-  Print(Dump({{"parts", list}}) + "\n");
+  Print(Dump({{"parts", list}, {"catalogue_revision", api::RenderRevisionName(revision)}}) + "\n");
 }
 
 void Show(const CatalogOptions& options) {
-  const auto part = OpenCatalog(options.catalog, Access::kRead).Get(options.id);
-  if (!part) throw BadInput("ID: no part has the id " + options.id);
+  const auto store = OpenCatalog(options.catalog, Access::kRead);
+  const auto revision = RevisionOrHead(store, options.revision);
+  const auto part = store.GetAt(options.id, revision.number);
+  if (!part) {
+    throw BadInput("ID: no part has the id " + options.id +
+                   (options.revision ? " in revision " + std::to_string(revision.number) : ""));
+  }
   Print(options.json ? Dump(api::RenderPart(*part), 2) + "\n" : PartText(*part));
+}
+
+void RevisionList(const CatalogOptions& options, const catalog::Store& store) {
+  const auto revisions = store.Revisions(INT64_MAX, options.limit);
+  if (!options.json) return Print(RevisionsText(revisions));
+  api::Json list = api::Json::array();
+  for (const auto& revision : revisions) list.push_back(api::RenderRevision(revision));
+  Print(Dump({{"revisions", list}}) + "\n");
+}
+
+void History(const CatalogOptions& options) {
+  const auto store = OpenCatalog(options.catalog, Access::kRead);
+  if (options.id.empty()) return RevisionList(options, store);
+  const auto changes = store.History(options.id, INT64_MAX, options.limit);
+  if (changes.empty() && !store.Get(options.id)) {
+    throw BadInput("ID: no part has or had the id " + options.id);
+  }
+  if (!options.json) return Print(HistoryText(changes));
+  api::Json list = api::Json::array();
+  for (const auto& change : changes) {
+    api::Json entry = {{"revision", api::RenderRevision(change.revision)}};
+    entry.update(api::RenderChange(change));
+    list.push_back(std::move(entry));
+  }
+  Print(Dump({{"id", options.id}, {"history", list}}) + "\n");
+}
+
+void Undo(const CatalogOptions& options) {
+  const auto number = options.revision.value();
+  const auto written =
+      OpenCatalog(options.catalog, Access::kWrite).Undo(number, CommandSignature());
+  if (written.status == WriteStatus::kNotFound) {
+    throw BadInput("REVISION: the catalogue has no revision " + std::to_string(number));
+  }
+  if (written.status != WriteStatus::kDone) Refuse(FieldErrors(written.errors));
+  Print("undone as revision " + std::to_string(written.revision.number) + "\n");
+}
+
+void CopyOrRefuse(void (*copy)(const std::filesystem::path&, const std::filesystem::path&),
+                  const CatalogOptions& options) {
+  try {
+    copy(options.catalog, options.file);
+  } catch (const catalog::StoreError& error) {
+    throw BadInput(error.what());
+  }
+}
+
+void Backup(const CatalogOptions& options) {
+  OpenCatalog(options.catalog, Access::kRead);  // says what is wrong with the file
+  CopyOrRefuse(catalog::Backup, options);
+  Print("copied to " + options.file + "\n");
+}
+
+void Restore(const CatalogOptions& options) {
+  CopyOrRefuse(catalog::Restore, options);
+  Print("restored revision " +
+        std::to_string(OpenCatalog(options.catalog, Access::kRead).Head().number) + " from " +
+        options.file + "\n");
 }
 
 void Add(const CatalogOptions& options) {
   const auto part = ValueOrRefuse(api::ParsePart(ReadJson(options.file)));
-  const auto written = OpenCatalog(options.catalog, Access::kWrite).Add(part);
+  const auto written = OpenCatalog(options.catalog, Access::kWrite).Add(part, CommandSignature());
   if (written.status == WriteStatus::kExists) {
     throw BadInput("/id: " + part.id + " is taken; choose another id or remove that part first");
   }
@@ -62,7 +160,8 @@ void Add(const CatalogOptions& options) {
 }
 
 void Remove(const CatalogOptions& options) {
-  const auto written = OpenCatalog(options.catalog, Access::kWrite).Remove(options.id);
+  const auto written =
+      OpenCatalog(options.catalog, Access::kWrite).Remove(options.id, CommandSignature());
   if (written.status == WriteStatus::kNotFound) {
     throw BadInput("ID: no part has the id " + options.id);
   }
@@ -72,12 +171,13 @@ void Remove(const CatalogOptions& options) {
 void Import(const CatalogOptions& options) {
   const auto text = ReadText(options.file);
   auto store = OpenCatalog(options.catalog, Access::kWrite);
-  const auto result = ImportCsv(store, options.family, text, options.dry_run);
+  const auto result = ImportCsv(store, options.family, text, options.dry_run, CommandSignature());
   if (!result.errors.empty()) Refuse(result.errors);
-  if (options.json) return Print(Dump(ToJson(result)) + "\n");
-  Print((options.dry_run ? "would add " : "added ") + std::to_string(result.added.size()) +
-        ", replace " + std::to_string(result.replaced.size()) + ", leave " +
-        std::to_string(result.unchanged.size()) + " unchanged\n");
+  if (options.json) return Print(Dump(ToJson(result, options.dry_run)) + "\n");
+  const auto& plan = result.plan;
+  Print((options.dry_run ? "would add " : "added ") + std::to_string(plan.added.size()) +
+        ", replace " + std::to_string(plan.replaced.size()) + ", leave " +
+        std::to_string(plan.unchanged.size()) + " unchanged\n");
 }
 
 void Export(const CatalogOptions& options) {
@@ -86,16 +186,23 @@ void Export(const CatalogOptions& options) {
   Print(catalog::WriteCsv(options.family, parts));
 }
 
+// Faults make the catalogue unfit for use; what only looks wrong does not change the exit status.
 int Check(const CatalogOptions& options) {
   const auto store = OpenCatalog(options.catalog, Access::kRead);
   const auto faults = store.Check();
-  const auto parts = store.List().size();
-  if (options.json) {
-    Print(Dump({{"parts", parts}, {"faults", faults}}) + "\n");
-  } else if (faults.empty()) {
-    Print(std::to_string(parts) + " parts, no faults\n");
-  }
   for (const auto& fault : faults) std::fprintf(stderr, "%s\n", fault.c_str());
+  std::vector<catalog::Part> parts;
+  if (faults.empty()) parts = store.List();  // what is damaged cannot be read
+  const auto outliers = catalog::FindOutliers(parts);
+  const auto gaps = catalog::FindGaps(parts);
+  if (options.json) {
+    api::Json json = {{"parts", faults.empty() ? api::Json(parts.size()) : api::Json()},
+                      {"faults", faults}};
+    json.update(api::RenderPlausibility(outliers, gaps));
+    Print(Dump(json) + "\n");
+  } else if (faults.empty()) {
+    Print(std::to_string(parts.size()) + " parts, no faults\n" + PlausibilityText(outliers, gaps));
+  }
   return faults.empty() ? kAnswered : kBadInput;
 }
 
@@ -128,18 +235,43 @@ int Answered(const CatalogOptions& options) {
   return kAnswered;
 }
 
+void AddRevision(CLI::App& command, CatalogOptions& options) {
+  command.add_option("--revision", options.revision, "As the catalogue was in this revision")
+      ->type_name("N");
+}
+
 }  // namespace
 
 void AddCatalogCommand(CLI::App& app, int& status) {
   CatalogCommands commands(app, status);
   auto& list = commands.Add("list", "The parts, of one family or all", Answered<List>);
   list.add_option("FAMILY", commands.options().family, "One of " + FamilyNames())->type_name("");
+  list.add_option("--where", commands.options().filters,
+                  "FIELD=VALUE, FIELD_min=VALUE or FIELD_max=VALUE; may be repeated")
+      ->type_name("FILTER");
+  list.add_option("--sort", commands.options().sort, "Field; -FIELD for the opposite order")
+      ->type_name("FIELD");
+  AddRevision(list, commands.options());
   AddJsonFlag(list, commands.options().json);
   list.add_flag("--csv", commands.options().csv, "CSV, as import takes it")->excludes("--json");
 
   auto& show = commands.Add("show", "One part with the source of every number", Answered<Show>);
   show.add_option("ID", commands.options().id, "Its id")->required()->type_name("");
+  AddRevision(show, commands.options());
   AddJsonFlag(show, commands.options().json);
+
+  auto& history = commands.Add("history", "Changes of a part, or all writes", Answered<History>);
+  history.add_option("ID", commands.options().id, "A part's id; all writes without")->type_name("");
+  history.add_option("--limit", commands.options().limit, "Newest N")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1'000'000));
+  AddJsonFlag(history, commands.options().json);
+
+  auto& undo = commands.Add("undo", "Takes the changes of a revision back", Answered<Undo>);
+  undo.add_option("REVISION", commands.options().revision, "Its number, see history")
+      ->required()
+      ->type_name("");
 
   auto& add = commands.Add("add", "Adds a part", Answered<Add>);
   AddFile(add, commands.options().file, "JSON as show --json prints it; - is standard input");
@@ -160,7 +292,16 @@ void AddCatalogCommand(CLI::App& app, int& status) {
       ->required()
       ->type_name("");
 
-  auto& check = commands.Add("check", "Checks the file and every row", Check);
+  auto& backup =
+      commands.Add("backup", "Copies the catalogue while it is in use", Answered<Backup>);
+  AddFile(backup, commands.options().file, "The copy; replaced if there is one");
+
+  auto& restore =
+      commands.Add("restore", "Puts parts and history of a copy in place", Answered<Restore>);
+  AddFile(restore, commands.options().file, "The copy");
+
+  auto& check =
+      commands.Add("check", "Checks the file, every row, the history and odd numbers", Check);
   AddJsonFlag(check, commands.options().json);
 }
 
