@@ -53,7 +53,8 @@ void CopyPages(const fs::path& from, const fs::path& to) {
   SQLite::Database source(from.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
   SQLite::Database target(to.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                           kBusyTimeoutMs);
-  target.exec("PRAGMA synchronous = EXTRA");
+  // Fails where the file to be replaced is too damaged to be read; then FULL, the default, must do.
+  target.tryExec("PRAGMA synchronous = EXTRA");
   CopyPages(source, target);
 }
 

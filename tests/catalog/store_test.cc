@@ -13,6 +13,7 @@
 #include <random>
 #include <sstream>
 
+#include "catalog/csv.h"
 #include "samples.h"
 
 namespace plenum::catalog {
@@ -75,6 +76,24 @@ TEST_F(StoreTest, KeepsRandomPartsExactly) {
   for (const Part& valve : valves) EXPECT_EQ(valve.family, "valve");
   EXPECT_THAT(store.List("tank"), ElementsAre());
   EXPECT_THAT(store.Check(), ElementsAre());
+}
+
+TEST_F(StoreTest, AnExportImportedElsewhereIsExportedByteForByte) {
+  std::mt19937 random(19);
+  Store store = Write();
+  for (const Family& family : Families())
+    for (int i = 0; i < 30; ++i)
+      store.Add(AnyPart(family, std::string(family.name) + std::to_string(i), random));
+  Store other(folder_ / "other.db", Access::kWrite);
+  for (const Family& family : Families()) {
+    const std::string name(family.name), exported = WriteCsv(name, store.List(name));
+    const CsvParts read = ReadCsv(name, exported);
+    ASSERT_THAT(read.errors, ElementsAre());
+    ASSERT_EQ(other.Import(read.parts, {}).plan.added.size(), 30u);
+    EXPECT_EQ(WriteCsv(name, other.List(name)), exported) << name;
+  }
+  EXPECT_EQ(other.List(), store.List());
+  EXPECT_EQ(other.Head().hash, store.Head().hash);
 }
 
 TEST_F(StoreTest, AddReplaceAndRemoveSayWhatHappened) {
