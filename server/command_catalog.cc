@@ -4,6 +4,7 @@
 
 #include "api/part_query.h"
 #include "api/services.h"
+#include "server/catalog_keeping.h"
 #include "server/command_options.h"
 #include "server/commands.h"
 #include "server/exit_status.h"
@@ -18,17 +19,7 @@ namespace {
 using catalog::Access;
 using catalog::WriteStatus;
 
-struct CatalogOptions {
-  std::string catalog = "catalog.db";
-  std::string family, file, id, sort;
-  std::vector<std::string> filters;
-  std::optional<std::int64_t> revision;
-  int limit = 20;
-  bool json = false, csv = false, dry_run = false;
-};
 using Options = std::shared_ptr<CatalogOptions>;
-
-void Print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 void CheckFamily(const std::string& family) {
   if (catalog::FindFamily(family) == nullptr) {
@@ -59,7 +50,13 @@ api::PartQuery ListQuery(const CatalogOptions& options) {
     }
     query.emplace(filter.substr(0, equals), filter.substr(equals + 1));
   }
-  return ValueOrRefuse(api::ParsePartQuery(query));
+  const auto parsed = ValueOrRefuse(api::ParsePartQuery(query));
+  for (const char* of_pages : {"limit", "cursor", "facets", "revision"}) {
+    if (query.count(of_pages) > 0) {
+      throw BadInput(std::string("--where: ") + of_pages + " is not a field");
+    }
+  }
+  return parsed;
 }
 
 void List(const CatalogOptions& options) {
@@ -89,64 +86,6 @@ void Show(const CatalogOptions& options) {
                    (options.revision ? " in revision " + std::to_string(revision.number) : ""));
   }
   Print(options.json ? Dump(api::RenderPart(*part), 2) + "\n" : PartText(*part));
-}
-
-void RevisionList(const CatalogOptions& options, const catalog::Store& store) {
-  const auto revisions = store.Revisions(INT64_MAX, options.limit);
-  if (!options.json) return Print(RevisionsText(revisions));
-  api::Json list = api::Json::array();
-  for (const auto& revision : revisions) list.push_back(api::RenderRevision(revision));
-  Print(Dump({{"revisions", list}}) + "\n");
-}
-
-void History(const CatalogOptions& options) {
-  const auto store = OpenCatalog(options.catalog, Access::kRead);
-  if (options.id.empty()) return RevisionList(options, store);
-  const auto changes = store.History(options.id, INT64_MAX, options.limit);
-  if (changes.empty() && !store.Get(options.id)) {
-    throw BadInput("ID: no part has or had the id " + options.id);
-  }
-  if (!options.json) return Print(HistoryText(changes));
-  api::Json list = api::Json::array();
-  for (const auto& change : changes) {
-    api::Json entry = {{"revision", api::RenderRevision(change.revision)}};
-    entry.update(api::RenderChange(change));
-    list.push_back(std::move(entry));
-  }
-  Print(Dump({{"id", options.id}, {"history", list}}) + "\n");
-}
-
-void Undo(const CatalogOptions& options) {
-  const auto number = options.revision.value();
-  const auto written =
-      OpenCatalog(options.catalog, Access::kWrite).Undo(number, CommandSignature());
-  if (written.status == WriteStatus::kNotFound) {
-    throw BadInput("REVISION: the catalogue has no revision " + std::to_string(number));
-  }
-  if (written.status != WriteStatus::kDone) Refuse(FieldErrors(written.errors));
-  Print("undone as revision " + std::to_string(written.revision.number) + "\n");
-}
-
-void CopyOrRefuse(void (*copy)(const std::filesystem::path&, const std::filesystem::path&),
-                  const CatalogOptions& options) {
-  try {
-    copy(options.catalog, options.file);
-  } catch (const catalog::StoreError& error) {
-    throw BadInput(error.what());
-  }
-}
-
-void Backup(const CatalogOptions& options) {
-  OpenCatalog(options.catalog, Access::kRead);  // says what is wrong with the file
-  CopyOrRefuse(catalog::Backup, options);
-  Print("copied to " + options.file + "\n");
-}
-
-void Restore(const CatalogOptions& options) {
-  CopyOrRefuse(catalog::Restore, options);
-  Print("restored revision " +
-        std::to_string(OpenCatalog(options.catalog, Access::kRead).Head().number) + " from " +
-        options.file + "\n");
 }
 
 void Add(const CatalogOptions& options) {
@@ -184,26 +123,6 @@ void Export(const CatalogOptions& options) {
   CheckFamily(options.family);
   const auto parts = OpenCatalog(options.catalog, Access::kRead).List(options.family);
   Print(catalog::WriteCsv(options.family, parts));
-}
-
-// Faults make the catalogue unfit for use; what only looks wrong does not change the exit status.
-int Check(const CatalogOptions& options) {
-  const auto store = OpenCatalog(options.catalog, Access::kRead);
-  const auto faults = store.Check();
-  for (const auto& fault : faults) std::fprintf(stderr, "%s\n", fault.c_str());
-  std::vector<catalog::Part> parts;
-  if (faults.empty()) parts = store.List();  // what is damaged cannot be read
-  const auto outliers = catalog::FindOutliers(parts);
-  const auto gaps = catalog::FindGaps(parts);
-  if (options.json) {
-    api::Json json = {{"parts", faults.empty() ? api::Json(parts.size()) : api::Json()},
-                      {"faults", faults}};
-    json.update(api::RenderPlausibility(outliers, gaps));
-    Print(Dump(json) + "\n");
-  } else if (faults.empty()) {
-    Print(std::to_string(parts.size()) + " parts, no faults\n" + PlausibilityText(outliers, gaps));
-  }
-  return faults.empty() ? kAnswered : kBadInput;
 }
 
 class CatalogCommands {
@@ -260,7 +179,8 @@ void AddCatalogCommand(CLI::App& app, int& status) {
   AddRevision(show, commands.options());
   AddJsonFlag(show, commands.options().json);
 
-  auto& history = commands.Add("history", "Changes of a part, or all writes", Answered<History>);
+  auto& history =
+      commands.Add("history", "Changes of a part, or all writes", Answered<ShowHistory>);
   history.add_option("ID", commands.options().id, "A part's id; all writes without")->type_name("");
   history.add_option("--limit", commands.options().limit, "Newest N")
       ->type_name("N")
@@ -268,7 +188,7 @@ void AddCatalogCommand(CLI::App& app, int& status) {
       ->check(CLI::Range(1, 1'000'000));
   AddJsonFlag(history, commands.options().json);
 
-  auto& undo = commands.Add("undo", "Takes the changes of a revision back", Answered<Undo>);
+  auto& undo = commands.Add("undo", "Takes the changes of a revision back", Answered<UndoWrite>);
   undo.add_option("REVISION", commands.options().revision, "Its number, see history")
       ->required()
       ->type_name("");
@@ -293,15 +213,15 @@ void AddCatalogCommand(CLI::App& app, int& status) {
       ->type_name("");
 
   auto& backup =
-      commands.Add("backup", "Copies the catalogue while it is in use", Answered<Backup>);
+      commands.Add("backup", "Copies the catalogue while it is in use", Answered<BackupCatalog>);
   AddFile(backup, commands.options().file, "The copy; replaced if there is one");
 
-  auto& restore =
-      commands.Add("restore", "Puts parts and history of a copy in place", Answered<Restore>);
+  auto& restore = commands.Add("restore", "Puts parts and history of a copy in place",
+                               Answered<RestoreCatalog>);
   AddFile(restore, commands.options().file, "The copy");
 
-  auto& check =
-      commands.Add("check", "Checks the file, every row, the history and odd numbers", Check);
+  auto& check = commands.Add("check", "Checks the file, every row, the history and odd numbers",
+                             CheckCatalog);
   AddJsonFlag(check, commands.options().json);
 }
 
