@@ -43,19 +43,19 @@ class Beside {
 };
 
 // All pages in one step: one moment of `from`, one transaction of `to`.
-void CopyPages(SQLite::Database& from, SQLite::Database& to) {
-  SQLite::Backup backup(to, from);
-  if (backup.executeStep(-1) != kSqliteDone)
-    throw SQLite::Exception("is held by another process", kSqliteBusy);
-}
-
-void CopyPages(const fs::path& from, const fs::path& to) {
-  SQLite::Database source(from.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
+void CopyPages(SQLite::Database from, const fs::path& to) {
   SQLite::Database target(to.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                           kBusyTimeoutMs);
   // Fails where the file to be replaced is too damaged to be read; then FULL, the default, must do.
   target.tryExec("PRAGMA synchronous = EXTRA");
-  CopyPages(source, target);
+  SQLite::Backup backup(target, from);
+  if (backup.executeStep(-1) != kSqliteDone)
+    throw SQLite::Exception("is held by another process", kSqliteBusy);
+}
+
+// Only looks, whatever the file is.
+SQLite::Database Peek(const fs::path& path) {
+  return {path.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs};
 }
 
 // Throws with the first fault that Check finds.
@@ -74,7 +74,7 @@ void SyncFolder(const fs::path& file) {
 
 // An empty file passes as a catalogue to be made; as a backup it would wipe everything.
 void RequireFilled(const std::string& draft) {
-  SQLite::Database db(draft, SQLite::OPEN_READONLY, kBusyTimeoutMs);
+  SQLite::Database db = Peek(draft);
   if (SchemaVersion(db) == 0) throw StoreError("is empty");
 }
 
@@ -82,7 +82,7 @@ void RequireFilled(const std::string& draft) {
 void RequireOurs(const fs::path& catalogue) {
   if (!fs::exists(catalogue)) return;
   try {
-    SQLite::Database db(catalogue.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
+    SQLite::Database db = Peek(catalogue);
     SchemaVersion(db);
   } catch (const SQLite::Exception&) {
   } catch (const StoreError& error) {
@@ -102,9 +102,11 @@ void Backup(const fs::path& catalogue, const fs::path& copy) {
   RequireOther(catalogue, copy);
   const Beside draft(copy);
   try {
-    CopyPages(catalogue, draft.path());
+    CopyPages(Connect(catalogue.string(), Access::kRead), draft.path());
   } catch (const SQLite::Exception& error) {
     throw ToStoreError(copy.string() + ": the copy could not be made", error);
+  } catch (const StoreError& error) {
+    throw StoreError(catalogue.string() + " " + error.what());
   }
   RequireSound(Store(draft.path(), Access::kRead), catalogue);
   fs::permissions(draft.path(), fs::status(catalogue).permissions());
@@ -121,7 +123,7 @@ void Restore(const fs::path& catalogue, const fs::path& copy) {
   RequireOurs(catalogue);
   const Beside draft(catalogue);
   try {
-    CopyPages(copy, draft.path());
+    CopyPages(Peek(copy), draft.path());
     RequireFilled(draft.path());
   } catch (const SQLite::Exception& error) {
     throw ToStoreError(copy.string() + ": cannot be read", error);
@@ -137,7 +139,7 @@ void Restore(const fs::path& catalogue, const fs::path& copy) {
     throw StoreError(what, error.fault());
   }
   try {
-    CopyPages(draft.path(), catalogue);
+    CopyPages(Peek(draft.path()), catalogue);
   } catch (const SQLite::Exception& error) {
     throw ToStoreError(catalogue.string() + ": was not replaced", error);
   }

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 
-#include <csignal>
+#include <algorithm>
+#include <atomic>
 #include <random>
+#include <set>
+#include <thread>
 
 #include "api/services.h"
 #include "workbench.h"
@@ -141,6 +144,55 @@ TEST_F(PartsOverHttp, ARepeatedPostActsOnceAlsoAfterARestart) {
   EXPECT_EQ(
       client_->Post("/v1/parts/import?family=fitting", key, NewFitting("f").dump(), kJson)->status,
       422);
+}
+
+// Sends the same request from eight connections at once.
+template <typename Send>
+std::vector<std::pair<int, std::string>> AtOnce(int port, const Send& send) {
+  std::vector<std::pair<int, std::string>> answers(8);
+  std::vector<std::thread> threads;
+  for (auto& answer : answers)
+    threads.emplace_back([&] {
+      httplib::Client client("127.0.0.1", port);
+      const httplib::Result result = send(client);
+      if (result) answer = {result->status, result->body};
+    });
+  for (auto& thread : threads) thread.join();
+  std::sort(answers.begin(), answers.end());
+  return answers;
+}
+
+TEST_F(PartsOverHttp, OfRequestsWithOneKeyAtOnceOneActsAndAllAnswerAlike) {
+  const auto answers = AtOnce(serve_->port(), [](httplib::Client& client) {
+    return client.Post("/v1/parts", {{"Idempotency-Key", "at once"}}, NewFitting("f").dump(),
+                       kJson);
+  });
+  EXPECT_EQ(answers.front().first, 201);
+  EXPECT_EQ(answers.front(), answers.back());
+  EXPECT_EQ(Get("/v1/parts/f/history")["history"].size(), 1u);
+}
+
+TEST_F(PartsOverHttp, OfReplacementsWithOneTagAtOnceOneIsDone) {
+  const auto tag = Add(NewFitting("f"))->get_header_value("ETag");
+  std::atomic<int> grams = 10;
+  const auto answers = AtOnce(serve_->port(), [&](httplib::Client& client) {
+    return client.Put("/v1/parts/f", {{"If-Match", tag}}, Fitting("f", ++grams / 1000.0).dump(),
+                      kJson);
+  });
+  EXPECT_EQ(answers[0].first, 200);
+  for (std::size_t i = 1; i < answers.size(); ++i) EXPECT_EQ(answers[i].first, 412);
+  EXPECT_EQ(Get("/v1/parts/f/history")["history"].size(), 2u);
+}
+
+TEST_F(PartsOverHttp, CommandsAndTheServiceWriteToOneCatalogue) {
+  std::thread commands([&] {
+    for (int i = 0; i < 10; ++i)
+      EXPECT_EQ(bench_.Run("catalog add -", NewFitting("c" + std::to_string(i)).dump()).status, 0);
+  });
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(Add(NewFitting("h" + std::to_string(i)))->status, 201);
+  commands.join();
+  EXPECT_EQ(Get("/v1/parts?family=fitting&manufacturer=bench&limit=100")["total"], 50);
+  EXPECT_EQ(bench_.Run("catalog check").status, 0);
 }
 
 TEST_F(PartsOverHttp, ARepeatedImportAnswersAsTheFirst) {
