@@ -36,7 +36,7 @@ class Crash : public InFolder {
   static End KillAt(int stop, const std::function<std::function<void()>()>& prepare) {
     const pid_t child = fork();
     if (child == 0) {
-      ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+      if (ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) _exit(2);
       const std::function<void()> act = prepare();
       raise(SIGSTOP);
       act();

@@ -22,7 +22,8 @@ namespace plenum::server {
 namespace {
 
 constexpr int kClients = 6;
-constexpr int kIdsPerClient = 8;
+constexpr int kIdsPerClient = 24;
+constexpr int kRowsPerImport = 12;
 
 int FromEnvironment(const char* name, int fallback) {
   const char* text = std::getenv(name);
@@ -105,7 +106,7 @@ class Client {
     const std::string id = Id(static_cast<int>(random_() % kIdsPerClient));
     if (random_() % 6 == 0) {
       write.kind = Write::kImport;
-      for (int i = 0; i < 3; ++i)
+      for (int i = 0; i < kRowsPerImport; ++i)
         write.after[Id(static_cast<int>(random_() % kIdsPerClient))] = grams();
     } else if (!known_.at(id)) {
       write.kind = Write::kAdd;
