@@ -17,13 +17,17 @@ std::string ETag(const std::string& text) {
 
 std::string ETag(const catalog::Part& part) { return ETag(Dump(api::RenderPart(part))); }
 
-// Whether a list of entity tags, as in If-Match, holds `etag`. Weak tags never match.
-bool Holds(const std::string& list, const std::string& etag) {
+enum class Compare { kStrong, kWeak };
+
+// Whether a list of entity tags holds `etag`. If-Match compares strongly, where no weak tag
+// matches; If-None-Match weakly, where W/ does not count (RFC 9110, 8.8.3.2).
+bool Holds(const std::string& list, const std::string& etag, Compare compare) {
   for (std::size_t start = 0; start <= list.size();) {
     std::size_t end = std::min(list.find(',', start), list.size());
     std::string item = list.substr(start, end - start);
     item.erase(0, item.find_first_not_of(" \t"));
     item.erase(item.find_last_not_of(" \t") + 1);
+    if (compare == Compare::kWeak && item.starts_with("W/")) item.erase(0, 2);
     if (item == "*" || item == etag) return true;
     start = end + 1;
   }
@@ -44,7 +48,7 @@ Reply PartReply(int status, const catalog::Part& part, const catalog::Revision& 
 // 304 where If-None-Match holds the reply's tag.
 Reply UnlessKnown(const Call& call, const std::string& etag, Reply reply) {
   const auto condition = call.header("If-None-Match");
-  if (!condition || !Holds(*condition, etag)) return reply;
+  if (!condition || !Holds(*condition, etag, Compare::kWeak)) return reply;
   reply.status = 304;
   reply.body.clear();
   return reply;
@@ -93,7 +97,7 @@ bool ReadFlag(const Call& call, const std::string& name, api::Errors& errors) {
 catalog::Precondition IfMatch(const std::string& condition, std::string& etag) {
   return [&condition, &etag](const catalog::Part& stored) {
     etag = ETag(stored);
-    return Holds(condition, etag);
+    return Holds(condition, etag, Compare::kStrong);
   };
 }
 
