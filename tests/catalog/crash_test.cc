@@ -1,9 +1,10 @@
-// A writer dies at every single system call of a write, one after the other: the catalogue is as it
-// was before or as it is after, and sound.
+// A writer dies before every single system call that changes or syncs a file, one after the other:
+// the catalogue is as it was before or as it is after, and sound.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/ptrace.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,18 +23,39 @@ using ::testing::IsEmpty;
 namespace fs = std::filesystem;
 
 #ifdef PLENUM_SANITIZED
-constexpr int kStride = 7;
+constexpr int kParts = 10;
 #else
-constexpr int kStride = 1;
+constexpr int kParts = 30;
 #endif
+
+// Whether a traced child is about to make such a call.
+bool EntersFileChange(pid_t child) {
+  __ptrace_syscall_info call{};
+  ptrace(PTRACE_GET_SYSCALL_INFO, child, sizeof call, &call);
+  if (call.op != PTRACE_SYSCALL_INFO_ENTRY) return false;
+  switch (call.entry.nr) {
+    case SYS_write:
+    case SYS_pwrite64:
+    case SYS_ftruncate:
+    case SYS_fsync:
+    case SYS_fdatasync:
+#ifdef SYS_unlink
+    case SYS_unlink:
+#endif
+    case SYS_unlinkat:
+      return true;
+    default:
+      return false;
+  }
+}
 
 class Crash : public InFolder {
  protected:
   enum class End { kKilled, kDone, kFailed };
 
-  // Runs `prepare` in a child and then what it gives, which is killed at the `stop`-th time that it
-  // enters or leaves the kernel.
-  static End KillAt(int stop, const std::function<std::function<void()>()>& prepare) {
+  // Runs `prepare` in a child and then what it gives, which is killed before its `call`-th change;
+  // `call` becomes how many it began.
+  static End KillAt(int& call, const std::function<std::function<void()>()>& prepare) {
     const pid_t child = fork();
     if (child == 0) {
       if (ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) _exit(2);
@@ -44,10 +66,15 @@ class Crash : public InFolder {
     }
     int status = 0;
     waitpid(child, &status, 0);
-    for (int i = 0; i < stop && WIFSTOPPED(status); ++i) {
+    // Without TRACESYSGOOD the kernel does not tell which call a stop belongs to.
+    ptrace(PTRACE_SETOPTIONS, child, nullptr, PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL);
+    int calls = 0;
+    while (calls < call && WIFSTOPPED(status)) {
       ptrace(PTRACE_SYSCALL, child, nullptr, nullptr);
       waitpid(child, &status, 0);
+      calls += WIFSTOPPED(status) && EntersFileChange(child);
     }
+    call = calls;
     if (WIFEXITED(status)) return WEXITSTATUS(status) == 0 ? End::kDone : End::kFailed;
     kill(child, SIGKILL);
     waitpid(child, &status, 0);
@@ -61,35 +88,45 @@ class Crash : public InFolder {
     return store.List();
   }
 
-  // Kills the write at every `stride`-th stop; each time the catalogue starts as it is now.
-  void KillEverywhere(const std::function<std::function<void()>()>& prepare, int stride = kStride) {
+  // Kills the write everywhere, each time on the catalogue as it is now, and calls `check` with
+  // whether the write came to its end.
+  void KillEverywhere(const std::function<std::function<void()>()>& prepare,
+                      const std::function<void(bool)>& check) {
     const std::string start = Bytes(path_);
     const auto reset = [&] {
       fs::remove(path_.string() + "-journal");
       std::ofstream(path_, std::ios::binary) << start;
     };
-    ASSERT_EQ(KillAt(INT_MAX, prepare), End::kDone);
-    const std::vector<Part> after = Recovered();
-    reset();
-    const std::vector<Part> before = Recovered();
-    int undone = 0, rolled_back = 0, done = 0;
-    for (int stop = 1;; stop += stride) {
+    int total = INT_MAX;
+    ASSERT_EQ(KillAt(total, prepare), End::kDone);
+    check(true);
+    for (int call = 1; call <= total; ++call) {
       reset();
-      const End end = KillAt(stop, prepare);
-      ASSERT_NE(end, End::kFailed);
-      const bool torn = fs::exists(path_.string() + "-journal");
-      const std::vector<Part> parts = Recovered();
-      ASSERT_TRUE(parts == before || parts == after) << "killed at stop " << stop;
-      if (end == End::kDone) {
-        ASSERT_EQ(parts, after);
-        break;
-      }
-      ++(parts == after ? done : torn ? rolled_back : undone);
+      int begun = call;
+      const End end = KillAt(begun, prepare);
+      ASSERT_EQ(end, End::kKilled);
+      check(false);
+      if (HasFailure()) FAIL() << "killed at call " << call << " of " << total;
     }
-    EXPECT_GT(undone, 0);
-    EXPECT_GT(rolled_back, 0);  // the journal was needed
-    EXPECT_GT(done, 0);
     reset();
+  }
+
+  // The parts are those of before or those of after; some kills tore the file.
+  void ExpectAllOrNothing(const std::function<std::function<void()>()>& prepare) {
+    const std::vector<Part> before = Recovered();
+    const std::string start = Bytes(path_);
+    std::vector<Part> after;
+    int kept = 0, rolled_back = 0, done = 0;
+    KillEverywhere(prepare, [&](bool ended) {
+      const bool touched = Bytes(path_) != start;
+      const std::vector<Part> parts = Recovered();
+      if (after.empty()) after = parts;  // the first run is not killed
+      EXPECT_TRUE(parts == after || (!ended && parts == before));
+      ++(parts == after ? done : touched ? rolled_back : kept);
+    });
+    EXPECT_GT(kept, 0);
+    EXPECT_GT(rolled_back, 0);
+    EXPECT_GT(done, 1);
   }
 
   // A write to the catalogue as it is.
@@ -103,54 +140,47 @@ class Crash : public InFolder {
 
 TEST_F(Crash, AddingReplacingAndRemovingAreAllOrNothing) {
   Write().Import({Reservoir("a"), Reservoir("b")}, {});
-  KillEverywhere(Writing([](Store& store) { store.Add(Reservoir("new")); }));
+  ExpectAllOrNothing(Writing([](Store& store) { store.Add(Reservoir("new")); }));
   Part other = Reservoir("a");
   other.notes = std::string(4000, 'n');
-  KillEverywhere(Writing([&](Store& store) { store.Replace(other); }));
-  KillEverywhere(Writing([](Store& store) { store.Remove("b"); }));
+  ExpectAllOrNothing(Writing([&](Store& store) { store.Replace(other); }));
+  ExpectAllOrNothing(Writing([](Store& store) { store.Remove("b"); }));
 }
 
 TEST_F(Crash, ImportingAndUndoingAreAllOrNothing) {
   std::mt19937 random(67);
   std::vector<Part> parts;
-  for (int i = 0; i < 60; ++i)
+  for (int i = 0; i < kParts; ++i)
     parts.push_back(AnyPart(*FindFamily("compressor"), "p" + std::to_string(i), random));
   Write().Add(parts.front());
-  KillEverywhere(Writing([&](Store& store) {
-                   store.Import(parts, {"", "key", "digest"});
-                 }),
-                 9 * kStride);
+  ExpectAllOrNothing(Writing([&](Store& store) { store.Import(parts, {"", "key", "digest"}); }));
   Write().Import(parts, {});
-  KillEverywhere(Writing([](Store& store) { store.Undo(store.Head().number, {}); }), 9 * kStride);
+  ExpectAllOrNothing(Writing([](Store& store) { store.Undo(store.Head().number, {}); }));
 }
 
 TEST_F(Crash, RestoringIsAllOrNothing) {
   std::mt19937 random(71);
-  for (int i = 0; i < 20; ++i)
+  for (int i = 0; i < 12; ++i)
     Write().Add(AnyPart(*FindFamily("valve"), "p" + std::to_string(i), random));
   const fs::path copy = folder_ / "copy.db";
   Backup(path_, copy);
-  for (int i = 0; i < 15; ++i) Write().Remove("p" + std::to_string(i));
-  KillEverywhere([&]() -> std::function<void()> { return [&] { Restore(path_, copy); }; },
-                 17 * kStride);
+  for (int i = 0; i < 9; ++i) Write().Remove("p" + std::to_string(i));
+  ExpectAllOrNothing([&]() -> std::function<void()> { return [&] { Restore(path_, copy); }; });
 }
 
+// The old or the new schema, nothing between: the old one is migrated by the next to open it.
 TEST_F(Crash, MigratingIsAllOrNothing) {
-  const std::string sql = Bytes(fs::path(PLENUM_SOURCE_DIR) / "tests/catalog/schema_1.sql");
-  Sql(sql);
-  const std::string old = Bytes(path_);
-  const auto migrate = [&]() -> std::function<void()> { return [&] { Write(); }; };
-  int killed = 0;
-  for (int stop = 1;; stop += 2 * kStride, ++killed) {
-    std::ofstream(path_, std::ios::binary) << old;
-    fs::remove(path_.string() + "-journal");
-    const End end = KillAt(stop, migrate);
-    ASSERT_NE(end, End::kFailed);
-    // The old or the new schema, nothing between: the old one is migrated by the next to open it.
-    EXPECT_EQ(Recovered().size(), 4u);
-    if (end == End::kDone) break;
-  }
-  EXPECT_GT(killed, 20);
+  Sql(Bytes(fs::path(PLENUM_SOURCE_DIR) / "tests/catalog/schema_1.sql"));
+  int old = 0;
+  KillEverywhere([&]() -> std::function<void()> { return [&] { Write(); }; },
+                 [&](bool ended) {
+                   SQLite::Database db(path_.string(), SQLite::OPEN_READWRITE);
+                   const bool is_old = db.execAndGet("PRAGMA user_version").getInt() == 1;
+                   EXPECT_FALSE(ended && is_old);
+                   old += is_old;
+                   EXPECT_EQ(Recovered().size(), 4u);
+                 });
+  EXPECT_GT(old, 0);
 }
 
 }  // namespace
