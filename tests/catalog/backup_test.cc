@@ -2,9 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <random>
@@ -162,36 +159,6 @@ TEST_F(Backups, MendsADamagedCatalogue) {
   Restore(path_, copy_);
   EXPECT_EQ(Read().Get("r"), Reservoir("r"));
   EXPECT_THAT(Read().Check(), IsEmpty());
-}
-
-// Killed at any moment, the catalogue is the old or the new one.
-TEST_F(Backups, RestoringIsAllOrNothingWhenKilled) {
-  {
-    Store store = Write();
-    for (int i = 0; i < 40; ++i) store.Add(Reservoir("old" + std::to_string(i)));
-  }
-  Backup(path_, copy_);
-  const fs::path other = folder_ / "other.db";
-  {
-    Store store(other, Access::kWrite);
-    for (int i = 0; i < 70; ++i) store.Add(Reservoir("new" + std::to_string(i)));
-  }
-  std::mt19937 random(47);
-  for (int round = 0; round < 12; ++round) {
-    const pid_t child = fork();
-    ASSERT_GE(child, 0);
-    if (child == 0)
-      for (int i = 0;; ++i) Restore(path_, i % 2 == 0 ? other : copy_);
-    usleep(std::uniform_int_distribution<useconds_t>(1'000, 60'000)(random));
-    kill(child, SIGKILL);
-    int status = 0;
-    waitpid(child, &status, 0);
-    ASSERT_TRUE(WIFSIGNALED(status));
-    const Store store = Read();
-    EXPECT_THAT(store.Check(), IsEmpty());
-    const std::size_t parts = store.List().size();
-    EXPECT_TRUE(parts == 40 || parts == 70) << parts;
-  }
 }
 
 }  // namespace
