@@ -28,13 +28,13 @@ constexpr int kParts = 10;
 constexpr int kParts = 30;
 #endif
 
-// Whether a traced child is about to make such a call.
+// Whether a traced child is about to make such a call. (SQLite writes at offsets; a plain write
+// is a sanitizer's.)
 bool EntersFileChange(pid_t child) {
   __ptrace_syscall_info call{};
   ptrace(PTRACE_GET_SYSCALL_INFO, child, sizeof call, &call);
   if (call.op != PTRACE_SYSCALL_INFO_ENTRY) return false;
   switch (call.entry.nr) {
-    case SYS_write:
     case SYS_pwrite64:
     case SYS_ftruncate:
     case SYS_fsync:
