@@ -53,6 +53,7 @@ check() {
   stays_in cpp-httplib 'httplib' server
   stays_in nlohmann-json 'nlohmann/|json\.hpp' api
   stays_in SQLite 'sqlite3|SQLiteCpp/' catalog
+  stays_in OpenSSL 'openssl/' catalog
   stays_in Ipopt 'coin/|Ip[A-Z]' optimizer
   stays_in NLopt 'nlopt' optimizer
   stays_in CLI11 'CLI/' server
