@@ -48,12 +48,11 @@ api::Json ToJson(const optimizer::Progress& progress) {
 Work DesignWork(api::DesignRequest request, Parts parts) {
   return [request = std::move(request), parts = std::move(parts)](const JobControl& control) {
     optimizer::SearchOptions options;
-    options.time_limit_s = request.time_limit_s;
     options.cancelled = control.cancelled;
     options.progress = [&](const optimizer::Progress& progress) {
       control.report(ToJson(progress));
     };
-    return api::RenderAnswer(request, optimizer::Search(request.problem, options), *parts);
+    return api::AnswerRequest(request, options, *parts);
   };
 }
 
