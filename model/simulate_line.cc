@@ -136,6 +136,20 @@ T Line<T>::Flow(const T& upstream_pa, const T& downstream_pa) const {
   return head_pa * (ratio <= choked_ratio_ ? choked_flow_ : SubsonicFlow(ratio));
 }
 
+template <class T>
+T Line<T>::ThrottledFlow(const T& opening, std::size_t fixed, const T& upstream_pa,
+                         const T& downstream_pa) const {
+  if (fixed == 0) return opening * Flow(upstream_pa, downstream_pa);
+  std::vector<LineElement<T>> elements = elements_;
+  for (std::size_t i = 0; i + fixed < elements.size(); ++i) {
+    elements[i].sonic_conductance_m3_per_s_pa *= opening;
+  }
+  if (!cracks_inside_ && !elements.empty()) {
+    elements[0].cracking_pressure_pa = cracking_pressure_pa_;
+  }
+  return Line<T>(std::move(elements), linear_ratio_).Flow(upstream_pa, downstream_pa);
+}
+
 // The largest flow with which every element can be crossed and the end pressure is not below
 // `downstream_pa`. The end pressure falls with the flow, so bisection finds it.
 template <class T>
