@@ -118,7 +118,19 @@ T Line<T>::SubsonicFlow(const T& ratio) const {
     const T share = (1.0 - ratio) / width;
     return choked_flow_ * sqrt(share * (2.0 - share));
   }
-  return LiftFlow(FlowAtRatio(series_, ValueOf(ratio)), T(1.0), ratio);
+  // The ratio moves little from call to call: the last solution leads to the next.
+  const double r = ValueOf(ratio);
+  const double guess = last_.cosine + last_.slope * (r - last_ratio_);
+  if (guess > 1e-3 && guess < 1.0) {
+    last_ = CosineNear(series_, r, guess);
+  } else {
+    const double c = CosineAtRatio(series_, r);
+    last_ = {c, 1.0 / (1.0 - choked_ratio_)};
+  }
+  last_ratio_ = r;
+  const double flow =
+      series_.choked_flow_m3_per_s_pa * std::sqrt((1.0 - last_.cosine) * (1.0 + last_.cosine));
+  return LiftFlow(flow, T(1.0), ratio);
 }
 
 template <class T>

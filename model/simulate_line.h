@@ -78,6 +78,9 @@ class Line {
   T flow_at_linear_ratio_ = T(0.0);  // the same at linear_ratio
   double choked_ratio_ = 0.0;
   double linear_ratio_ = kLinearRatio;
+  // The last solution of the march, where the next one starts: an object serves one run at a time.
+  mutable double last_ratio_ = 0.0;
+  mutable CosineAndSlope last_ = {0.0, 0.0};
 };
 
 extern template class Line<double>;
