@@ -64,9 +64,11 @@ api::Json AnswerWithProgress(const api::DesignRequest& request,
 int Design(const DesignOptions& options) {
   CatchInterrupts();
   const auto requirements = ReadRequirements(options);
-  const auto parts = OpenCatalog(options.catalog, catalog::Access::kRead).List();
+  const auto [revision, parts] =
+      OpenCatalog(options.catalog, catalog::Access::kRead).ListWithHead();
   const auto request = ValueOrRefuse(api::ParseRequirements(requirements, parts));
-  const auto json = AnswerWithProgress(request, parts);
+  auto json = AnswerWithProgress(request, parts);
+  json["catalogue_revision"] = api::RenderRevisionName(revision);
   std::fputs(options.json ? (Dump(json) + "\n").c_str() : DesignText(json).c_str(), stdout);
   return Interrupted() ? kInterrupted : kAnswered;
 }
