@@ -10,6 +10,7 @@ namespace plenum::optimizer {
 namespace {
 
 constexpr int kCells = 256;
+constexpr double kNoDelivery = 1e12;
 constexpr double kIntervalRatio = 1.25;
 constexpr double kNeedTolerance = 3e-3;  // of the source pressure; its lower end is used
 
@@ -18,11 +19,16 @@ double ContentPerVolume(const Problem& problem) {
          model::kReferenceTemperatureK;
 }
 
-// The table's points and an even division: within a cell power and delivery are monotone.
+std::vector<double> EvenCells(double low_pa, double high_pa, int cells) {
+  std::vector<double> edges;
+  for (int i = 0; i <= cells; ++i) edges.push_back(low_pa + (high_pa - low_pa) * i / cells);
+  return edges;
+}
+
+// An even division and the table's points.
 std::vector<double> Cells(const model::CompressorCurve& curve, double low_pa) {
-  const double high_pa = model::HighestPressure(curve);
-  std::vector<double> edges{low_pa};
-  for (int i = 1; i <= kCells; ++i) edges.push_back(low_pa + (high_pa - low_pa) * i / kCells);
+  const double high_pa = std::max(model::HighestPressure(curve), low_pa * (1.0 + 1e-9));
+  std::vector<double> edges = EvenCells(low_pa, high_pa, kCells);
   for (const model::MonotoneCurve* table : {&curve.free_air_m3_per_s, &curve.current_a})
     for (double knot : table->x())
       if (knot > low_pa && knot < high_pa) edges.push_back(knot);
@@ -31,8 +37,55 @@ std::vector<double> Cells(const model::CompressorCurve& curve, double low_pa) {
   return edges;
 }
 
+// Tables of a pump over cells of pressure, as minorants: delivery falls with pressure, so that a
+// cell's lower edge has the most; the least power is at an edge or at a point of the table.
+struct PumpTables {
+  std::vector<double> energy_j_per_m3, seconds_per_m3, current_a;
+};
+
+double LeastPower(const model::CompressorCurve& curve, double low_pa, double high_pa) {
+  double least_w =
+      std::min(model::ElectricalPower(curve, low_pa), model::ElectricalPower(curve, high_pa));
+  for (double knot : curve.current_a.x())
+    if (knot > low_pa && knot < high_pa)
+      least_w = std::min(least_w, model::ElectricalPower(curve, knot));
+  return least_w;
+}
+
 void MakeNonFalling(std::vector<double>& values) {
   for (std::size_t i = values.size() - 1; i-- > 0;) values[i] = std::min(values[i], values[i + 1]);
+}
+
+PumpTables MakeTables(const model::CompressorCurve& curve, int pumps,
+                      const std::vector<double>& edges) {
+  PumpTables tables;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const double delivery = model::FreeAirDelivery(curve, edges[i]);
+    const double power_w = LeastPower(curve, edges[i], edges[i + 1]);
+    // Past the last delivery nothing can be pumped; a large number keeps integrals finite.
+    tables.energy_j_per_m3.push_back(delivery > 0.0 ? power_w / delivery : kNoDelivery);
+    tables.seconds_per_m3.push_back(delivery > 0.0 ? 1.0 / (pumps * delivery) : kNoDelivery);
+    tables.current_a.push_back(pumps * model::LargestCurrent(curve, edges.front(), edges[i]));
+  }
+  MakeNonFalling(tables.energy_j_per_m3);
+  MakeNonFalling(tables.seconds_per_m3);
+  return tables;
+}
+
+PumpFacts MakeFacts(const Problem& problem, const std::vector<double>& edges, PumpTables tables) {
+  PumpFacts facts;
+  facts.target_pa = kUnlimited;
+  double rising_s = 0.0;
+  for (const ActuatorGroup& group : problem.groups) {
+    facts.target_pa = std::min(facts.target_pa, RiseTarget(problem, group));
+    const double rise_s = std::min(group.rise_time_max_s, HalfPeriod(problem));
+    rising_s = problem.simultaneous ? std::max(rising_s, rise_s) : rising_s + rise_s;
+  }
+  facts.early_m3 = rising_s / tables.seconds_per_m3.front();
+  facts.energy_j_per_m3 = Minorant(edges, std::move(tables.energy_j_per_m3));
+  facts.seconds_per_m3 = Minorant(edges, std::move(tables.seconds_per_m3));
+  facts.current_a = Minorant(edges, std::move(tables.current_a));
+  return facts;
 }
 
 }  // namespace
@@ -63,40 +116,78 @@ double Minorant::Mean(double low_pa, double high_pa) const {
   return (Integral(high_pa) - Integral(low_pa)) / (high_pa - low_pa);
 }
 
-PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve) {
-  PumpFacts facts;
-  facts.target_pa = kUnlimited;
-  double rising_s = 0.0;
-  for (const ActuatorGroup& group : problem.groups) {
-    facts.target_pa = std::min(facts.target_pa, RiseTarget(problem, group));
-    const double rise_s = std::min(group.rise_time_max_s, HalfPeriod(problem));
-    rising_s = problem.simultaneous ? std::max(rising_s, rise_s) : rising_s + rise_s;
-  }
-  facts.early_m3 = model::FreeAirDelivery(curve, problem.ambient.pressure_pa) * rising_s;
-
-  const std::vector<double> edges = Cells(curve, problem.ambient.pressure_pa);
-  std::vector<double> energy, seconds;
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    const double delivery = model::FreeAirDelivery(curve, edges[i]);
-    const double power_w = std::min(model::ElectricalPower(curve, edges[i]),
-                                    model::ElectricalPower(curve, edges[i + 1]));
-    energy.push_back(delivery > 0.0 ? power_w / delivery : kUnlimited);
-    seconds.push_back(delivery > 0.0 ? 1.0 / delivery : kUnlimited);
-  }
-  // Past the last delivery nothing can be pumped; a large number keeps integrals finite.
-  for (std::vector<double>* values : {&energy, &seconds})
-    for (double& value : *values)
-      if (std::isinf(value)) value = 1e12;
-  MakeNonFalling(energy);
-  MakeNonFalling(seconds);
-  facts.energy_j_per_m3 = Minorant(edges, energy);
-  facts.seconds_per_m3 = Minorant(edges, seconds);
-  return facts;
+// Between the points of a table the interpolation is monotone, so that they and the end decide.
+bool PowerRises(const model::CompressorCurve& curve, double low_pa, double high_pa) {
+  double before_w = model::ElectricalPower(curve, low_pa);
+  const auto rises = [&](double pressure_pa) {
+    const double power_w = model::ElectricalPower(curve, pressure_pa);
+    const bool ok = power_w >= before_w * (1.0 - 1e-12);
+    before_w = power_w;
+    return ok;
+  };
+  for (double knot : curve.current_a.x())
+    if (knot > low_pa && knot < high_pa && !rises(knot)) return false;
+  return rises(high_pa);
 }
 
-PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, int pumps, double air_m3,
+// Where power rises so does its share per air, since delivery falls; elsewhere both are cubic
+// between the points of their tables, and their quotient is looked at closely.
+bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa) {
+  constexpr int kLooks = 32;  // between two points
+  if (PowerRises(curve, low_pa, high_pa)) return true;
+  std::vector<double> knots{low_pa, high_pa};
+  for (const model::MonotoneCurve* table : {&curve.free_air_m3_per_s, &curve.current_a})
+    for (double knot : table->x())
+      if (knot > low_pa && knot < high_pa) knots.push_back(knot);
+  std::sort(knots.begin(), knots.end());
+  double before = 0.0;
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i)
+    for (int look = 0; look < kLooks; ++look) {
+      const double pressure_pa = knots[i] + (knots[i + 1] - knots[i]) * look / kLooks;
+      const double delivery = model::FreeAirDelivery(curve, pressure_pa);
+      const double per_air =
+          delivery > 0.0 ? model::ElectricalPower(curve, pressure_pa) / delivery : kNoDelivery;
+      if (per_air < before * (1.0 - 1e-12)) return false;
+      before = per_air;
+    }
+  return true;
+}
+
+PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps) {
+  const std::vector<double> edges = Cells(curve, problem.ambient.pressure_pa);
+  return MakeFacts(problem, edges, MakeTables(curve, pumps, edges));
+}
+
+double HighestPumpPressure(const Problem& problem) {
+  double highest_pa = problem.ambient.pressure_pa * 1.01;
+  for (const model::Compressor& compressor : problem.parts.compressors)
+    highest_pa = std::max(highest_pa, model::HighestPressure(compressor.curve));
+  return highest_pa;
+}
+
+CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,
+                          const model::CompressorCurve& curve, int pumps) {
+  const PumpTables tables =
+      MakeTables(curve, pumps, EvenCells(problem.ambient.pressure_pa, highest_pa, kCoarseCells));
+  CoarsePump coarse;
+  std::copy_n(tables.energy_j_per_m3.begin(), kCoarseCells, coarse.energy_j_per_m3.begin());
+  std::copy_n(tables.seconds_per_m3.begin(), kCoarseCells, coarse.seconds_per_m3.begin());
+  std::copy_n(tables.current_a.begin(), kCoarseCells, coarse.current_a.begin());
+  return coarse;
+}
+
+PumpFacts MakePumpFacts(const Problem& problem, double highest_pa, const CoarsePump& coarse) {
+  const auto table = [](const std::array<double, kCoarseCells>& values) {
+    return std::vector<double>(values.begin(), values.end());
+  };
+  return MakeFacts(problem, EvenCells(problem.ambient.pressure_pa, highest_pa, kCoarseCells),
+                   {table(coarse.energy_j_per_m3), table(coarse.seconds_per_m3),
+                    table(coarse.current_a)});
+}
+
+PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, double air_m3,
                        double air_to_target_m3, double source_min_pa) {
-  const double early_m3 = pumps * facts.early_m3;
+  const double early_m3 = facts.early_m3;
   // Strokes that take turns do not find the reservoir full; only (4) holds for them.
   const bool burst = problem.simultaneous || problem.groups.size() == 1;
   const double last_m3 = burst ? std::max(0.0, air_to_target_m3 - early_m3) : 0.0;
@@ -108,17 +199,17 @@ PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, int pumps
            other_m3 * per_air.At(facts.target_pa) +
            first_m3 * per_air.At(problem.ambient.pressure_pa);
   };
-  return {bound(facts.seconds_per_m3) / pumps, bound(facts.energy_j_per_m3)};
+  return {bound(facts.seconds_per_m3), bound(facts.energy_j_per_m3)};
 }
 
-PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, int pumps, double air_m3,
+PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, double air_m3,
                        double source_pa, double reservoir_m3, double* first_fill_j) {
   const double ambient_pa = problem.ambient.pressure_pa;
   const double per_volume = ContentPerVolume(problem);
   *first_fill_j = reservoir_m3 / per_volume * (source_pa - ambient_pa) *
                   facts.energy_j_per_m3.Mean(ambient_pa, source_pa);
   if (!problem.simultaneous && problem.groups.size() > 1)
-    return LeastPumpNeed(problem, facts, pumps, air_m3, 0.0, source_pa);
+    return LeastPumpNeed(problem, facts, air_m3, 0.0, source_pa);
   const double low_pa = source_pa - per_volume * air_m3 / reservoir_m3;  // by (1)
   const double from_pa = std::max(low_pa, ambient_pa);
   const double share = (source_pa - from_pa) / (source_pa - low_pa);
@@ -126,34 +217,26 @@ PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, int pumps
     return air_m3 *
            (share * per_air.Mean(from_pa, source_pa) + (1.0 - share) * per_air.At(from_pa));
   };
-  return {bound(facts.seconds_per_m3) / pumps, bound(facts.energy_j_per_m3)};
+  return {bound(facts.seconds_per_m3), bound(facts.energy_j_per_m3)};
 }
 
 namespace {
 
 // Air that the reservoir must give by the end of the rise times, by (2).
-double GivenByReservoir(const Problem& problem, const PumpFacts& facts, int pumps,
+double GivenByReservoir(const Problem& problem, const PumpFacts& facts,
                         double air_to_target_m3) {
   const bool burst = problem.simultaneous || problem.groups.size() == 1;
-  return burst ? std::max(0.0, air_to_target_m3 - pumps * facts.early_m3) : 0.0;
+  return burst ? std::max(0.0, air_to_target_m3 - facts.early_m3) : 0.0;
 }
 
-double LeastStopPressure(const Problem& problem, const PumpFacts& facts, int pumps,
+double LeastStopPressure(const Problem& problem, const PumpFacts& facts,
                          double air_to_target_m3, double reservoir_m3) {
   return facts.target_pa + ContentPerVolume(problem) *
-                               GivenByReservoir(problem, facts, pumps, air_to_target_m3) /
+                               GivenByReservoir(problem, facts, air_to_target_m3) /
                                reservoir_m3;
 }
 
 }  // namespace
-
-double LeastReservoirVolume(const Problem& problem, const PumpFacts& facts, int pumps,
-                            double air_to_target_m3, double source_max_pa) {
-  const double given_m3 = GivenByReservoir(problem, facts, pumps, air_to_target_m3);
-  if (given_m3 == 0.0) return 0.0;
-  if (!(source_max_pa > facts.target_pa)) return kUnlimited;
-  return ContentPerVolume(problem) * given_m3 / (source_max_pa - facts.target_pa);
-}
 
 double AirToTarget(const Problem& problem, int group, const model::Chamber& chamber) {
   const ActuatorGroup& actuators = problem.groups[group];
@@ -180,49 +263,63 @@ double MostBearable(ReservoirNeed need, double high_pa, Bearable&& bearable) {
 
 }  // namespace
 
+PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines,
+                      double source_min_pa) {
+  PumpLoad load{lines};
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    load.air_m3 += AirPerStroke(problem, g, *lines[g], source_min_pa);
+    load.air_to_target_m3 += AirToTarget(problem, g, lines[g]->chamber);
+    load.coil_j += CoilEnergyPerCycle(problem, *lines[g], lines[g]->inflate_time_least_s);
+  }
+  return load;
+}
+
+std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const PumpFacts& facts,
+                                                const PumpLoad& load, const PumpLimits& limits,
+                                                const Window& window, double low_m3,
+                                                double high_m3) {
+  // Sets what stopping at need.source_pa at least takes; false if that is too much.
+  const auto bearable = [&](ReservoirNeed& need) {
+    double first_fill_j = 0.0;
+    const PumpNeed pump =
+        LeastPumpNeed(problem, facts, load.air_m3, need.source_pa, need.low_m3, &first_fill_j);
+    need.energy_j = first_fill_j + problem.actuations * (pump.energy_j + load.coil_j);
+    return pump.on_s * problem.frequency_hz <= limits.duty_max &&
+           need.energy_j <= limits.energy_max_j;
+  };
+  const auto excess = [&](double source_pa) {
+    return AloneExcess(problem, load.lines, facts, {source_pa, high_m3, low_m3});
+  };
+  ReservoirNeed need{low_m3, high_m3};
+  // Cheap first: the mass balance (2) at the largest volume.
+  need.source_pa = std::max(window.low_pa,
+                            LeastStopPressure(problem, facts, load.air_to_target_m3, high_m3));
+  if (!(need.source_pa <= window.high_pa) || !bearable(need)) return std::nullopt;
+  need.source_max_pa = MostBearable(need, window.high_pa, bearable);
+  if (excess(need.source_max_pa) > 0.0) return std::nullopt;
+  need.source_pa = FeasibleBracket(excess, need.source_pa, need.source_max_pa, kNeedTolerance).low;
+  if (!bearable(need)) return std::nullopt;
+  return need;
+}
+
 std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFacts& facts,
                                           const Candidate& candidate, double energy_max_j,
                                           double low_m3, double high_m3) {
   std::vector<ReservoirNeed> needs;
   const Window window = SourceWindow(problem, candidate);
   if (window.empty()) return needs;
-  const model::Compressor& compressor = problem.parts.compressors[candidate.compressor.index];
-  const int pumps = candidate.compressor.quantity;
-  double air_m3 = 0.0, air_to_target_m3 = 0.0, coil_j = 0.0;
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    const Line& line = *candidate.lines[g];
-    air_m3 += AirPerStroke(problem, g, line, window.low_pa);
-    air_to_target_m3 += AirToTarget(problem, g, line.chamber);
-    coil_j += CoilEnergyPerCycle(problem, line, line.inflate_time_least_s);
-  }
-  // Sets what stopping at need.source_pa at least takes; false if that is too much.
-  const auto bearable = [&](ReservoirNeed& need) {
-    double first_fill_j = 0.0;
-    const PumpNeed pump =
-        LeastPumpNeed(problem, facts, pumps, air_m3, need.source_pa, need.low_m3, &first_fill_j);
-    need.energy_j = first_fill_j + problem.actuations * (pump.energy_j + coil_j);
-    return pump.on_s * problem.frequency_hz <= compressor.duty_max && need.energy_j <= energy_max_j;
-  };
+  const PumpLimits limits{problem.parts.compressors[candidate.compressor.index].duty_max,
+                          energy_max_j};
+  const PumpLoad load = MakePumpLoad(problem, candidate.lines, window.low_pa);
   for (bool last = false; !last;) {
-    ReservoirNeed need;
-    need.low_m3 = low_m3;
-    need.high_m3 = std::min(low_m3 * kIntervalRatio, high_m3);
-    low_m3 = need.high_m3;
-    last = low_m3 >= high_m3;
-    // Cheap first: the mass balance (2) at the largest volume.
-    need.source_pa = std::max(
-        window.low_pa, LeastStopPressure(problem, facts, pumps, air_to_target_m3, need.high_m3));
-    if (need.source_pa > window.high_pa || !bearable(need)) continue;
-    const auto excess = [&](double source_pa) {
-      return AloneExcess(problem, candidate, {source_pa, need.high_m3, need.low_m3});
-    };
-    need.source_max_pa = MostBearable(need, window.high_pa, bearable);
-    const OperatingPoint most{need.source_max_pa, need.high_m3, need.low_m3};
-    if (excess(need.source_max_pa) > 0.0 || AloneStrokeExcess(problem, candidate, most) > 0.0)
-      continue;
-    need.source_pa =
-        FeasibleBracket(excess, need.source_pa, need.source_max_pa, kNeedTolerance).low;
-    if (bearable(need)) needs.push_back(need);
+    const double next_m3 = std::min(low_m3 * kIntervalRatio, high_m3);
+    last = next_m3 >= high_m3;
+    const std::optional<ReservoirNeed> need =
+        LeastReservoirNeed(problem, facts, load, limits, window, low_m3, next_m3);
+    if (need && AloneStrokeExcess(problem, candidate,
+                                  {need->source_max_pa, need->high_m3, need->low_m3}) <= 0.0)
+      needs.push_back(*need);
+    low_m3 = next_m3;
   }
   return needs;
 }

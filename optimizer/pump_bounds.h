@@ -16,6 +16,8 @@
 #ifndef PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 #define PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "optimizer/candidate.h"
@@ -36,47 +38,78 @@ class Minorant {
   std::vector<double> pressure_pa_, value_, integral_;
 };
 
-// What the bounds need of one pump, computed once per problem.
+// Whether electrical power, and power over delivery, do not fall with pressure in between.
+bool PowerRises(const model::CompressorCurve& curve, double low_pa, double high_pa);
+bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa);
+
+// What the bounds need of the pumps of a choice, all that run in parallel together. From a single
+// choice, or from the coarse tables of many: then each number holds for the best of them.
 struct PumpFacts {
-  double early_m3 = 0.0;     // the most that it pumps during the rise times of a cycle, ANR
+  double early_m3 = 0.0;     // the most that they pump during the rise times of a cycle, ANR
   double target_pa = 0.0;    // p_t
   Minorant energy_j_per_m3;  // P/Q
   Minorant seconds_per_m3;   // 1/Q
+  Minorant current_a;        // largest on the way to a pressure
 };
-PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve);
+PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps);
+
+// The same tables over an even division of the pressures from ambient to the highest that any
+// compressor of the problem reaches, small enough to be kept for every box.
+inline constexpr int kCoarseCells = 24;
+struct CoarsePump {
+  std::array<double, kCoarseCells> energy_j_per_m3{}, seconds_per_m3{}, current_a{};
+};
+double HighestPumpPressure(const Problem& problem);
+CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,
+                          const model::CompressorCurve& curve, int pumps);
+PumpFacts MakePumpFacts(const Problem& problem, double highest_pa, const CoarsePump& coarse);
 
 struct PumpNeed {
   double on_s = 0.0;      // per cycle
   double energy_j = 0.0;  // per cycle, all pumps
 };
 
-// Bounds from below for `pumps` in parallel, whatever the reservoir. `air_m3` and
-// `air_to_target_m3` are lower bounds on A and A_t, `source_min_pa` on p_s.
-PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, int pumps, double air_m3,
+// Bounds from below whatever the reservoir. `air_m3` and `air_to_target_m3` are lower bounds on A
+// and A_t, `source_min_pa` on p_s.
+PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, double air_m3,
                        double air_to_target_m3, double source_min_pa);
-
-// Least volume of a reservoir that stops at or below `source_max_pa`, by (2); +∞ where there is
-// none.
-double LeastReservoirVolume(const Problem& problem, const PumpFacts& facts, int pumps,
-                            double air_to_target_m3, double source_max_pa);
 
 // LeastPumpNeed when the reservoir is at least `reservoir_m3` large and stops at or above
 // `source_pa`.
-PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, int pumps, double air_m3,
+PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, double air_m3,
                        double source_pa, double reservoir_m3, double* first_fill_j);
 
 // Air of one stroke of a group up to its rise target, all its actuators, m³ ANR.
 double AirToTarget(const Problem& problem, int group, const model::Chamber& chamber);
 
-// Volumes of reservoirs that might serve a candidate whose compressor and lines are chosen, by
-// intervals, each with what it at least takes; a single volume where low and high are equal. Left
-// out is what needs more than `energy_max_j` or more running time than the pump stands.
+// What lines ask of a compressor and its reservoir, before or after either is chosen: bounds from
+// below.
+struct PumpLoad {
+  const std::vector<const Line*>& lines;  // one per group
+  double air_m3 = 0.0, air_to_target_m3 = 0.0, coil_j = 0.0;  // per cycle
+};
+PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines,
+                      double source_min_pa);
+
+// What a reservoir at least takes whose volume is in [low, high].
 struct ReservoirNeed {
   double low_m3 = 0.0, high_m3 = 0.0;
   double source_pa = 0.0;      // least stop pressure
   double source_max_pa = 0.0;  // most that duty and energy bear
   double energy_j = 0.0;       // whole mission: first fill, pumps, coils
 };
+struct PumpLimits {
+  double duty_max = 1.0;
+  double energy_max_j = kUnlimited;
+};
+// None where no volume in it will do.
+std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const PumpFacts& facts,
+                                                const PumpLoad& load, const PumpLimits& limits,
+                                                const Window& window, double low_m3,
+                                                double high_m3);
+
+// The same for a candidate whose compressor and lines are chosen, by intervals of volumes that
+// divide [low, high]; intervals that will not do are left out.
 std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFacts& facts,
                                           const Candidate& candidate, double energy_max_j,
                                           double low_m3, double high_m3);

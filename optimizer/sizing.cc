@@ -43,7 +43,7 @@ Evaluation LeastBetween(const Problem& problem, Evaluation left, const Evaluatio
 // Bound from below on the objective over [low, high] at a fixed volume, by intervals.
 double EnergyAwareBound(const Problem& problem, const Candidate& candidate, double reservoir_m3,
                         double low_pa, double high_pa) {
-  if (!PumpPowerRises(problem, candidate))
+  if (!PumpEnergyRises(problem, candidate))
     return ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3));
   double bound = kUnlimited;
   std::optional<Evaluation> left;
@@ -78,21 +78,14 @@ std::vector<double> SolverMargins(const Problem& problem, const Candidate& candi
   return values;
 }
 
-bool PumpPowerRises(const Problem& problem, const Candidate& candidate) {
+bool PumpEnergyRises(const Problem& problem, const Candidate& candidate) {
   if (candidate.compressor.index == kNone) return true;
   const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
+  const double low_pa = problem.ambient.pressure_pa;
   const double high_pa = SourceWindow(problem, candidate).high_pa;
-  double before_w = 0.0;
-  const auto rises = [&](double pressure_pa) {
-    const double power_w = model::ElectricalPower(curve, pressure_pa);
-    const bool ok = power_w >= before_w * (1.0 - 1e-12);
-    before_w = power_w;
-    return ok;
-  };
-  // Interpolation is monotone between the table's points, so these and the end decide.
-  for (double knot : curve.current_a.x())
-    if (knot < high_pa && !rises(knot)) return false;
-  return rises(high_pa);
+  if (problem.simultaneous || problem.groups.size() == 1)
+    return EnergyPerAirRises(curve, low_pa, high_pa);
+  return PowerRises(curve, low_pa, high_pa);
 }
 
 std::optional<double> NeededSourcePressure(const Problem& problem, const Candidate& candidate,
@@ -107,9 +100,12 @@ std::optional<double> NeededSourcePressure(const Problem& problem, const Candida
   double low_pa = window.low_pa;
   if (candidate.compressor.index != kNone) {
     // A cheap bound from below brings the costly search close to its end.
+    const PumpFacts pumps =
+        MakePumpFacts(problem, problem.parts.compressors[candidate.compressor.index].curve,
+                      candidate.compressor.quantity);
     const auto alone = [&](double source_pa) {
       point.source_pa = source_pa;
-      return AloneExcess(problem, candidate, point);
+      return AloneExcess(problem, candidate.lines, pumps, point);
     };
     low_pa = FeasibleBracket(alone, low_pa, window.high_pa, kBoundTolerance).low;
   }
@@ -135,7 +131,7 @@ Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double res
   };
   if (!try_at(*needed)) {
     // Higher pressures help only the coils, by closing the valves sooner.
-    bool refuted = PumpPowerRises(problem, candidate);
+    bool refuted = PumpEnergyRises(problem, candidate);
     std::optional<Evaluation> left;
     OperatingPoint left_point;
     for (double source_pa : ScanPressures(*needed, high_pa)) {
@@ -166,8 +162,11 @@ Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double res
   return leaf;
 }
 
-CustomSizing::CustomSizing(const Problem& problem, const PumpFacts& facts, Candidate candidate)
-    : problem_(problem), facts_(facts), candidate_(std::move(candidate)) {
+CustomSizing::CustomSizing(const Problem& problem, Candidate candidate)
+    : problem_(problem),
+      candidate_(std::move(candidate)),
+      facts_(MakePumpFacts(problem, problem.parts.compressors[candidate_.compressor.index].curve,
+                           candidate_.compressor.quantity)) {
   leaf_.objective = kUnlimited;
   Open(model::kMadeReservoirSmallestM3, model::kMadeReservoirLargestM3, 0.0);
   leaf_.lower_bound = open_.empty() ? 0.0 : open_.top().bound;
@@ -229,7 +228,7 @@ bool CustomSizing::Examine(Interval& interval) {
   OperatingPoint point{0.0, interval.high_m3, interval.low_m3};
   const std::optional<double> needed = NeededSourcePressure(problem_, candidate, point);
   if (!needed) return false;
-  if (PumpPowerRises(problem_, candidate)) {
+  if (PumpEnergyRises(problem_, candidate)) {
     point.source_pa = *needed;
     Evaluation best = Evaluate(problem_, candidate, point, {.least_coil_energy = true});
     // Times over an interval of volumes are bounds; energy may pass that of a volume inside by a

@@ -34,10 +34,15 @@ std::vector<double> SolverMargins(const Problem& problem, const Candidate& candi
 double SmallestMargin(const Problem& problem, const Candidate& candidate,
                       const OperatingPoint& point, const Evaluation& evaluation);
 
-// Whether the pumps draw no less power at higher pressure, up to the highest of the candidate's
-// window: then duty and energy grow with the stop pressure, since the reservoir is at every instant
-// no lower and fills no sooner. True without a compressor.
-bool PumpPowerRises(const Problem& problem, const Candidate& candidate);
+// Whether duty and energy of the pumps grow with the stop pressure. True without a compressor.
+//
+// Let m be the air pumped since the reservoir was full. In m the pressures of reservoir and chambers
+// keep order (dp_g/dm = q_g/Q and dp_s/dm ∝ 1 − Σq_g/Q, each non-falling in the other pressures), so
+// with a higher stop pressure every bit of air is pumped at no lower a pressure: it takes no less
+// time, since Q falls with pressure, and no less energy where P/Q does not fall. Groups that take
+// turns start by the clock and not by m: there the power P itself must not fall, since the reservoir
+// is at every instant no lower and is full no sooner.
+bool PumpEnergyRises(const Problem& problem, const Candidate& candidate);
 
 // Lowest source pressure in the candidate's window at which the strokes meet their limits; none
 // where even the highest is too slow. `point` gives the reservoir.
@@ -50,7 +55,7 @@ std::optional<double> NeededSourcePressure(const Problem& problem, const Candida
 // its lower end while it rises.
 class CustomSizing {
  public:
-  CustomSizing(const Problem& problem, const PumpFacts& facts, Candidate candidate);
+  CustomSizing(const Problem& problem, Candidate candidate);
 
   // A few intervals more. True when done: leaf() is feasible with lower_bound within 1e-7 of the
   // objective, or infeasible.
@@ -73,8 +78,8 @@ class CustomSizing {
   std::vector<ReservoirNeed> CheapBounds(double low_m3, double high_m3) const;
 
   const Problem& problem_;
-  const PumpFacts& facts_;
   Candidate candidate_;
+  PumpFacts facts_;
   std::priority_queue<Interval> open_;
   Leaf leaf_;
   bool polished_ = false;
