@@ -63,8 +63,7 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
         !(fill_time(RiseTarget(problem_, group)) <= group.rise_time_max_s * kRounding))
       return Constraint::kRise;
     box.air_m3 += AirPerStroke(problem_, g, line, box.window.low_pa);
-    // Lines that all hold are energised while they inflate, too (make_line.cc).
-    if (line.inflate_time_least_s > 0.0)
+    if (line.all_hold)  // energised while they inflate, too
       box.energy_beyond_j += problem_.actuations * line.coil_power_w * inflate_s;
   }
   box.energy_j = box.energy_beyond_j +

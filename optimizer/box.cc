@@ -38,14 +38,18 @@ bool Bounds::CoreIsSingle(const Box& box) const {
 
 int Bounds::WidestSlot(const Box& box) const {
   int widest = -1;
-  const auto wider = [&](const BoxNode& a, const BoxNode& b) {
-    const double x = a.objective_high - a.objective_low, y = b.objective_high - b.objective_low;
+  static const double F = getenv("FC") ? atof(getenv("FC")) : 1.0, FR = getenv("FR") ? atof(getenv("FR")) : 1.0;
+  const auto weight = [&](int s) { return s == plan_.compressor_slot || s==plan_.regulator_slot? F : s == plan_.reservoir_slot ? FR : 1.0; };
+  const auto wider = [&](int i, int j) {
+    const BoxNode& a = Node(box, i);
+    const BoxNode& b = Node(box, j);
+    const double x = weight(i)*(a.objective_high - a.objective_low), y = weight(j)*(b.objective_high - b.objective_low);
     return x != y ? x > y : a.size() > b.size();
   };
   for (const bool core : {true, false}) {
     for (int s = 0; s < static_cast<int>(box.nodes.size()); ++s)
       if (DecidesSource(s) == core && !Node(box, s).single() &&
-          (widest < 0 || wider(Node(box, s), Node(box, widest))))
+          (widest < 0 || wider(s, widest)))
         widest = s;
     if (widest >= 0) break;
   }

@@ -6,6 +6,7 @@
 #include "model/reservoir_stroke.h"
 #include "model/stroke.h"
 #include "optimizer/pump_bounds.h"
+#include "optimizer/pump_march.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -81,13 +82,11 @@ double RiseWithHeadStart(const Problem& problem, int g, const Line& line,
   const double temperature_k = problem.ambient.temperature_k;
   const double content_per_volume =
       model::kReferencePressurePa * temperature_k / model::kReferenceTemperatureK;
-  // Before the target is reached no more is drawn than that takes, so the reservoir stays above:
-  const double drawn =
-      count * (model::Content(line.chamber, target_pa) - model::Content(line.chamber, ambient_pa));
-  const double lowest_pa =
-      std::max(ambient_pa, point.source_pa - drawn / point.reservoir_rising_m3);
-  const double head_start_pa = content_per_volume * RiseLimit(problem, g) *
-                               delivery_m3_per_s(lowest_pa) / point.reservoir_rising_m3;
+  const double pumped_m3 = MostPumped(
+      problem, point.source_pa, point.reservoir_rising_m3,
+      [&](double p) { return MostDrawn(problem, g, line, p, target_pa); }, delivery_m3_per_s,
+      RiseLimit(problem, g));
+  const double head_start_pa = content_per_volume * pumped_m3 / point.reservoir_rising_m3;
   return model::FillTimeFromReservoir(line.fill_series, line.chamber, count, point.reservoir_m3,
                                       point.source_pa + head_start_pa, ambient_pa, target_pa,
                                       temperature_k);
@@ -169,16 +168,19 @@ model::Gas GasOf(Configuration configuration) {
   return configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
 }
 
-double AloneExcess(const Problem& problem, const std::vector<const Line*>& lines,
-                   const PumpFacts& pumps, const OperatingPoint& point) {
-  double excess = -kUnlimited;
+double AloneExcess(const Problem& problem, int g, const Line& line, const PumpFacts& pumps,
+                   const OperatingPoint& point) {
   const auto delivery = [&](double pressure_pa) {
     return 1.0 / pumps.seconds_per_m3.At(pressure_pa);
   };
+  return RiseWithHeadStart(problem, g, line, point, delivery) / RiseLimit(problem, g) - 1.0;
+}
+
+double AloneExcess(const Problem& problem, const std::vector<const Line*>& lines,
+                   const PumpFacts& pumps, const OperatingPoint& point) {
+  double excess = -kUnlimited;
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
-    excess = std::max(excess, RiseWithHeadStart(problem, g, *lines[g], point, delivery) /
-                                      RiseLimit(problem, g) -
-                                  1.0);
+    excess = std::max(excess, AloneExcess(problem, g, *lines[g], pumps, point));
   return excess;
 }
 

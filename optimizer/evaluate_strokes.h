@@ -30,6 +30,8 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
 // Bound from below on the relative excess of the strokes over their limits on a compressor's
 // reservoir: each group as if it were alone and found the reservoir full. −∞ where nothing is
 // known.
+double AloneExcess(const Problem& problem, int group, const Line& line, const PumpFacts& pumps,
+                   const OperatingPoint& point);
 double AloneExcess(const Problem& problem, const std::vector<const Line*>& lines,
                    const PumpFacts& pumps, const OperatingPoint& point);
 

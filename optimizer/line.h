@@ -42,7 +42,10 @@ struct Line {
   double source_min_pa = 0.0;
   double source_max_pa = 0.0;
   double inflate_time_least_s = 0.0;  // to p_op, unlimited source at source_max_pa
-  bool holds = true;
+  bool holds = true;  // in a box of lines: some hold
+  // For a box: whether all hold, and how much more dead volume than the chamber's the widest has.
+  bool all_hold = false;
+  double dead_volume_spread_m3 = 0.0;
   double coil_power_w = 0.0;  // whole group, while energised
 };
 

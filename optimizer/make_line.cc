@@ -25,6 +25,7 @@ Line Assemble(const Problem& problem, const ActuatorGroup& group, const LineCorn
   line.source_max_pa = std::min({tube.pressure_max_pa, valve.pressure_max_pa,
                                  fitting.pressure_max_pa, problem.source_pressure_max_pa});
   line.holds = valve.some_hold;
+  line.all_hold = valve.all_hold;
   if (!line.holds) line.source_max_pa = std::min(line.source_max_pa, group.pressure_max_pa);
 
   const int near_valve = (group.fittings_per_line + 1) / 2;
@@ -38,7 +39,10 @@ Line Assemble(const Problem& problem, const ActuatorGroup& group, const LineCorn
 
   line.coil_power_w = valve.coil_power_w;
   line.chamber = group.chamber;
-  line.chamber.dead_volume_m3 += model::BoreVolume(tube.inner_low_m, group.tube_length_m);
+  const double bore_m3 = model::BoreVolume(tube.inner_low_m, group.tube_length_m);
+  line.chamber.dead_volume_m3 += bore_m3;
+  line.dead_volume_spread_m3 =
+      model::BoreVolume(tube.inner_high_m, group.tube_length_m) - bore_m3;
   return line;
 }
 
@@ -83,7 +87,7 @@ Constraint MakeLine(const Problem& problem, int g, model::Gas gas, const LineCor
                                         exact ? 1e-9 : kBoxTolerance);
   line.source_min_pa = std::max(switches_pa, exact ? least.high : least.low);
   // A lone 3/2 is energised for half of the period whatever the stroke.
-  if (corners.valve.all_hold)
+  if (line.all_hold)
     line.inflate_time_least_s = fill_time(line.source_max_pa, operating_pa);
   if (exact) line.fill_table = model::FlowTable(line.fill_series);
   return Constraint::kNone;

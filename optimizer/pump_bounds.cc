@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "optimizer/evaluate_strokes.h"
+#include "optimizer/pump_march.h"
 #include "optimizer/root.h"
 
 namespace plenum::optimizer {
@@ -185,39 +186,67 @@ PumpFacts MakePumpFacts(const Problem& problem, double highest_pa, const CoarseP
                     table(coarse.current_a)});
 }
 
-PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, double air_m3,
-                       double air_to_target_m3, double source_min_pa) {
-  const double early_m3 = facts.early_m3;
-  // Strokes that take turns do not find the reservoir full; only (4) holds for them.
-  const bool burst = problem.simultaneous || problem.groups.size() == 1;
-  const double last_m3 = burst ? std::max(0.0, air_to_target_m3 - early_m3) : 0.0;
-  const double other_m3 = std::max(0.0, air_m3 - early_m3 - last_m3);
-  const double first_m3 = air_m3 - last_m3 - other_m3;
-  const double high_pa = std::max(source_min_pa, facts.target_pa);
-  const auto bound = [&](const Minorant& per_air) {
-    return last_m3 * per_air.Mean(facts.target_pa, high_pa) +
-           other_m3 * per_air.At(facts.target_pa) +
-           first_m3 * per_air.At(problem.ambient.pressure_pa);
-  };
-  return {bound(facts.seconds_per_m3), bound(facts.energy_j_per_m3)};
+double MostDrawn(const Problem& problem, int group, const Line& line, double pressure_pa,
+                 double full_pa) {
+  const double p = std::min(pressure_pa, full_pa);
+  const double ambient_pa = problem.ambient.pressure_pa;
+  return problem.groups[group].count *
+         (model::Content(line.chamber, p) - model::Content(line.chamber, ambient_pa) +
+          line.dead_volume_spread_m3 * (p - ambient_pa));
 }
 
-PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, double air_m3,
-                       double source_pa, double reservoir_m3, double* first_fill_j) {
+namespace {
+
+// Air that the pumps deliver at a pressure or above.
+struct PumpedAir {
+  double pressure_pa, air_m3;
+};
+
+}  // namespace
+
+std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& facts,
+                                      const PumpLoad& load, const std::vector<double>& start_pa,
+                                      double reservoir_m3) {
+  std::vector<PumpedAir> bits;
+  const double phase_s = 1.0 / problem.frequency_hz / static_cast<double>(start_pa.size());
+  for (int phase = 0; phase < static_cast<int>(start_pa.size()); ++phase) {
+    const bool apart = start_pa.size() == problem.groups.size();  // one group in each phase
+    const Line& line = *load.lines[phase];
+    const double full_pa =
+        line.all_hold ? problem.groups[phase].chamber.operating_pressure_pa : kUnlimited;
+    const auto drawn = [&](double p) {
+      return apart ? MostDrawn(problem, phase, line, p, full_pa) : load.air_m3 * ContentPerVolume(problem);
+    };
+    double left_s = phase_s;
+    MarchPump(problem, start_pa[phase], reservoir_m3, drawn, [&](double p, double air_m3) {
+      const double slowness = facts.seconds_per_m3.At(p);
+      const double bit_m3 = std::min(air_m3, left_s / slowness);
+      bits.push_back({p, bit_m3});
+      left_s -= bit_m3 * slowness;
+      return left_s > 0.0;
+    });
+  }
+  if (start_pa.size() > 1)
+    std::stable_sort(bits.begin(), bits.end(), [](const PumpedAir& a, const PumpedAir& b) {
+      return a.pressure_pa < b.pressure_pa;
+    });
+  PumpNeed need;
+  double left_m3 = load.air_m3;
+  for (const PumpedAir& bit : bits) {
+    const double air_m3 = std::min(bit.air_m3, left_m3);
+    need.on_s += air_m3 * facts.seconds_per_m3.At(bit.pressure_pa);
+    need.energy_j += air_m3 * facts.energy_j_per_m3.At(bit.pressure_pa);
+    left_m3 -= air_m3;
+  }
+  if (left_m3 > 1e-9 * load.air_m3) return std::nullopt;
+  return need;
+}
+
+double LeastFirstFill(const Problem& problem, const PumpFacts& facts, double source_pa,
+                      double reservoir_m3) {
   const double ambient_pa = problem.ambient.pressure_pa;
-  const double per_volume = ContentPerVolume(problem);
-  *first_fill_j = reservoir_m3 / per_volume * (source_pa - ambient_pa) *
-                  facts.energy_j_per_m3.Mean(ambient_pa, source_pa);
-  if (!problem.simultaneous && problem.groups.size() > 1)
-    return LeastPumpNeed(problem, facts, air_m3, 0.0, source_pa);
-  const double low_pa = source_pa - per_volume * air_m3 / reservoir_m3;  // by (1)
-  const double from_pa = std::max(low_pa, ambient_pa);
-  const double share = (source_pa - from_pa) / (source_pa - low_pa);
-  const auto bound = [&](const Minorant& per_air) {
-    return air_m3 *
-           (share * per_air.Mean(from_pa, source_pa) + (1.0 - share) * per_air.At(from_pa));
-  };
-  return {bound(facts.seconds_per_m3), bound(facts.energy_j_per_m3)};
+  return reservoir_m3 / ContentPerVolume(problem) * (source_pa - ambient_pa) *
+         facts.energy_j_per_m3.Mean(ambient_pa, source_pa);
 }
 
 namespace {
@@ -278,23 +307,54 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
                                                 const PumpLoad& load, const PumpLimits& limits,
                                                 const Window& window, double low_m3,
                                                 double high_m3) {
+  const auto excess = [&](double start_pa) {
+    return AloneExcess(problem, load.lines, facts, {start_pa, high_m3, low_m3});
+  };
+  // Groups that take turns may find less than the stop pressure.
+  const bool turns = !problem.simultaneous && problem.groups.size() > 1;
+  std::vector<double> start_pa(1, 0.0);
   // Sets what stopping at need.source_pa at least takes; false if that is too much.
   const auto bearable = [&](ReservoirNeed& need) {
-    double first_fill_j = 0.0;
-    const PumpNeed pump =
-        LeastPumpNeed(problem, facts, load.air_m3, need.source_pa, need.low_m3, &first_fill_j);
-    need.energy_j = first_fill_j + problem.actuations * (pump.energy_j + load.coil_j);
-    return pump.on_s * problem.frequency_hz <= limits.duty_max &&
+    if (!turns) start_pa.front() = need.source_pa;
+    const std::optional<PumpNeed> pump =
+        LeastPumpNeed(problem, facts, load, start_pa, need.low_m3);
+    if (!pump) return false;
+    need.energy_j = LeastFirstFill(problem, facts, need.source_pa, need.low_m3) +
+                    problem.actuations * (pump->energy_j + load.coil_j);
+    return pump->on_s * problem.frequency_hz <= limits.duty_max &&
            need.energy_j <= limits.energy_max_j;
   };
-  const auto excess = [&](double source_pa) {
-    return AloneExcess(problem, load.lines, facts, {source_pa, high_m3, low_m3});
-  };
   ReservoirNeed need{low_m3, high_m3};
+  need.source_max_pa = window.high_pa;
   // Cheap first: the mass balance (2) at the largest volume.
   need.source_pa = std::max(window.low_pa,
                             LeastStopPressure(problem, facts, load.air_to_target_m3, high_m3));
-  if (!(need.source_pa <= window.high_pa) || !bearable(need)) return std::nullopt;
+  if (!(need.source_pa <= window.high_pa)) return std::nullopt;
+  if (turns) {
+    if (excess(window.high_pa) > 0.0) return std::nullopt;
+    start_pa.clear();
+    for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+      start_pa.push_back(
+          FeasibleBracket(
+              [&](double p) {
+                return AloneExcess(problem, g, *load.lines[g], facts, {p, high_m3, low_m3});
+              },
+              problem.ambient.pressure_pa, window.high_pa, kNeedTolerance)
+              .low);
+    const double most_pa = *std::max_element(start_pa.begin(), start_pa.end());
+    // Of two groups each finds what the other has left: its own operating pressure at least, since
+    // air only flows downhill.
+    if (problem.groups.size() == 2)
+      for (int g : {0, 1})
+        start_pa[g] =
+            std::max(start_pa[g], problem.groups[1 - g].chamber.operating_pressure_pa);
+    // Of more than two groups some may draw at the same time.
+    if (problem.groups.size() > 2) start_pa = {most_pa};
+    need.source_pa = std::max(need.source_pa, most_pa);
+    if (!bearable(need)) return std::nullopt;
+    return need;
+  }
+  if (!bearable(need)) return std::nullopt;
   need.source_max_pa = MostBearable(need, window.high_pa, bearable);
   if (excess(need.source_max_pa) > 0.0) return std::nullopt;
   need.source_pa = FeasibleBracket(excess, need.source_pa, need.source_max_pa, kNeedTolerance).low;

@@ -1,18 +1,17 @@
-// What a compressor must at least bear to feed the strokes, before the reservoir is known and
-// after.
+// What a compressor must at least bear to feed the strokes, by intervals of reservoir volumes.
 //
 // Let A be the air of a cycle, A_t the part of it up to the rise targets, p_t the lowest target,
-// and m the air pumped since the strokes began, all ANR; κ = P0·T/T0 converts to content. The
-// reservoir starts at the stop pressure p_s.
-//  (1) No more than A is ever drawn, so the m-th bit of air is pumped at p(m) ≥ p_s − κ·(A−m)/V.
-//  (2) Within the rise times the pumps deliver at most `early`, so the reservoir gives at least
-//      A_t − early and still ends at or above p_t: p_s ≥ p_t + κ·(A_t − early)/V.
-//  (3) p_s is at least what an unlimited source would need.
-//  (4) After the rise times the reservoir never falls below p_t: air only flows downhill.
-// So the last A_t − early of the air is pumped at pressures spread evenly over an interval that
-// begins at or above p_t and ends at or above p_s,min, whatever the volume; by (4) the rest that is
-// not early is pumped at or above p_t. Energy per air, made non-falling in pressure from below, and
-// time per air, which does not fall with pressure, then bound energy and running time.
+// and m the air pumped since a stroke began, all ANR; κ = P0·T/T0 converts to content. The reservoir
+// holds p_1 when the stroke begins: the stop pressure p_s, or less where groups take turns.
+//  (1) No more than A is drawn in a cycle, so the m-th bit of air is pumped at
+//      p(m) ≥ p_1 − κ·(A−m)/V.
+//  (2) Where all strokes begin at once: within the rise times the pumps deliver at most `early`, so
+//      the reservoir gives at least A_t − early and still ends at or above p_t:
+//      p_s ≥ p_t + κ·(A_t − early)/V.
+//  (3) p_1 is at least what a group would need that is alone on a closed reservoir which holds from
+//      the start all that the pumps could add during the rise.
+// Energy per air, made non-falling in pressure from below, and time per air, which does not fall
+// with pressure, then bound energy and running time.
 #ifndef PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 #define PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 
@@ -69,15 +68,9 @@ struct PumpNeed {
   double energy_j = 0.0;  // per cycle, all pumps
 };
 
-// Bounds from below whatever the reservoir. `air_m3` and `air_to_target_m3` are lower bounds on A
-// and A_t, `source_min_pa` on p_s.
-PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, double air_m3,
-                       double air_to_target_m3, double source_min_pa);
-
-// LeastPumpNeed when the reservoir is at least `reservoir_m3` large and stops at or above
-// `source_pa`.
-PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, double air_m3,
-                       double source_pa, double reservoir_m3, double* first_fill_j);
+// Of filling the reservoir for the first time, J.
+double LeastFirstFill(const Problem& problem, const PumpFacts& facts, double source_pa,
+                      double reservoir_m3);
 
 // Air of one stroke of a group up to its rise target, all its actuators, m³ ANR.
 double AirToTarget(const Problem& problem, int group, const model::Chamber& chamber);
@@ -90,6 +83,13 @@ struct PumpLoad {
 };
 PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines,
                       double source_min_pa);
+
+// What the pumps at least take in a cycle, with a reservoir of `reservoir_m3` or more that holds
+// start_pa[i] or more when phase i of the cycle begins: one phase, or one per group where two take
+// turns. None where they cannot deliver the air of a cycle within it.
+std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& facts,
+                                      const PumpLoad& load, const std::vector<double>& start_pa,
+                                      double reservoir_m3);
 
 // What a reservoir at least takes whose volume is in [low, high].
 struct ReservoirNeed {

@@ -188,9 +188,27 @@ class BoxSearch {
 
   void Step(NodePtr node) {
     ++steps_;
+    if (getenv("DBG") && steps_ % atoi(getenv("DBG")) == 0) {
+      const Candidate c = node->bounds->CandidateOf(node->box);
+      fprintf(stderr, "%.2fs step %lld open %zu bound %.6f depth %d single %d conf %d comp %d x%d res %d bat %d x%d vols %zu lines", Seconds(), steps_, open_.size(), node->box.bound, node->depth, node->bounds->IsSingle(node->box), (int)c.configuration, c.compressor.index, c.compressor.quantity, c.reservoir.index, c.battery.index, c.battery.quantity, node->box.volumes.size());
+      for (auto* l : c.lines) fprintf(stderr, " %d/%d/%d", l->tubing, l->fitting, l->valve);
+      fprintf(stderr, " sizes");
+      for (size_t s = 0; s < node->box.nodes.size(); ++s) fprintf(stderr, " %d", (*node->bounds->plan().slots[s].nodes)[node->box.nodes[s]].size());
+      fprintf(stderr, " eval %s\n", proof_.evaluated.str().c_str());
+    }
     Bounds& bounds = *node->bounds;
     if (bounds.CanFindSource(node->box)) {
+      const double t0 = Seconds(), b0 = node->box.bound, s0=node->box.volumes.empty()?0:node->box.volumes[0].need.source_pa;
       const Constraint missed = bounds.FindSource(node->box);
+      if (getenv("DBG2") && missed != Constraint::kNone) {
+        const Candidate c = bounds.CandidateOf(node->box);
+        const auto& curve = problem_.parts.compressors[c.compressor.index].curve;
+        fprintf(stderr, "%s duty %.2f highest %.0f Q(l/min ANR):", problem_.parts.compressors[c.compressor.index].basics.id.c_str(), problem_.parts.compressors[c.compressor.index].duty_max, model::HighestPressure(curve));
+        for (double p : {1e5, 1.5e5,1.7e5,1.8e5,1.9e5,2e5,2.2e5,2.5e5}) fprintf(stderr, " %.2f", 6e4*model::FreeAirDelivery(curve,p));
+        double air=0; for (int g=0;g<(int)c.lines.size();++g){ double a=AirPerStroke(problem_,g,*c.lines[g],2e5); air+=a; fprintf(stderr," [%.1f ml min %.0f rise %.3f holds %d]",a*1e6,c.lines[g]->source_min_pa, 0.0, c.lines[g]->holds);}
+        fprintf(stderr, " mean %.2f l/min, reservoir %.3f l window %.0f..%.0f\n", air*problem_.frequency_hz*6e4, 1e3*ReservoirVolume(problem_,c), node->box.window.low_pa,node->box.window.high_pa);
+      }
+      if (getenv("DBG")) fprintf(stderr, "find source: missed %d, %.4f s, bound %.5f -> %.5f, source %.0f -> %.0f\n", (int)missed, Seconds()-t0, b0, node->box.bound, s0, node->box.source_floor_pa);
       Keep(std::move(node), missed);
     } else if (bounds.IsSingle(node->box)) {
       Size(std::move(node));
@@ -225,6 +243,12 @@ class BoxSearch {
       return;
     }
     const Candidate candidate = node->bounds->CandidateOf(node->box);
+    if (getenv("DBG3")) {
+      fprintf(stderr, "size bound %.4f comp %d x%d res %d bat %d x%d:", node->box.bound, candidate.compressor.index, candidate.compressor.quantity, candidate.reservoir.index, candidate.battery.index, candidate.battery.quantity);
+      for (auto& v : node->box.volumes) fprintf(stderr, " [%.3f %.3f l p %.1f..%.1f kPa E %.0f J]", v.need.low_m3*1e3, v.need.high_m3*1e3, v.need.source_pa*1e-3, v.need.source_max_pa*1e-3, v.need.energy_j);
+      for (auto* l : candidate.lines) fprintf(stderr, " line %d/%d/%d min %.1f max %.1f holds %d", l->tubing,l->fitting,l->valve,l->source_min_pa*1e-3,l->source_max_pa*1e-3,l->holds);
+      fprintf(stderr, "\n");
+    }
     Leaf leaf;
     if (candidate.reservoir.index == kCustom) {
       // A few steps at a time: as its bound rises the box goes back into the queue.
@@ -330,8 +354,7 @@ class BoxSearch {
 
   Answer Conclude() {
     Answer answer;
-    const double lower_bound =
-        std::min({undecided_bound_, CloseRest(), ranking_.BoundBehind()});
+    double lower_bound = std::min({undecided_bound_, CloseRest(), ranking_.BoundBehind()});
     for (Found& found : ranking_.list()) {
       if (static_cast<int>(answer.designs.size()) == problem_.count || !found.design) break;
       if (found.record >= 0)
@@ -340,6 +363,9 @@ class BoxSearch {
                                        .bound = found.leaf.objective});
       answer.designs.push_back(std::move(*found.design));
     }
+    // Designs with a choice that was left out are no better than the last of a full list.
+    if (proof_.pruned.dominated > 0 && static_cast<int>(answer.designs.size()) == problem_.count)
+      lower_bound = std::min(lower_bound, ranking_.last().leaf.objective);
     proof_.lower_bound = planted_ ? lower_bound : 0.0;
     if (!answer.designs.empty() && planted_) {
       const double last = answer.designs.back().objective;
