@@ -13,10 +13,14 @@
 namespace plenum::optimizer {
 namespace {
 
-// Intervals of made-to-measure volumes are halved down to these ratios of their ends, in boxes and
-// where compressor and lines are single choices.
+// Intervals of made-to-measure volumes are halved down to this ratio of their ends; where
+// compressor and lines are single choices down to ever smaller ones.
 constexpr double kBoxRatio = 2.0;
-constexpr double kSingleRatio = 1.25;
+constexpr double kRatioSteps[] = {1.25, 1.06, 1.015};
+constexpr double kFinestRatio = 1.004;
+// Of the least source pressure, whose lower end is used.
+constexpr double kBoxTolerance = 1e-2;
+constexpr double kSingleTolerance = 1e-3;
 
 }  // namespace
 
@@ -52,12 +56,11 @@ const PumpFacts& Bounds::PumpOf(const Box& box) {
   if (fresh) {
     if (Node(box, plan_.compressor_slot).single()) {
       const Option& option = OptionOf(box, plan_.compressor_slot);
-      entry->second = MakePumpFacts(problem_, problem_.parts.compressors[option.index].curve,
-                                    option.quantity);
+      entry->second =
+          MakePumpFacts(problem_, problem_.parts.compressors[option.index].curve, option.quantity);
     } else {
-      entry->second = MakePumpFacts(
-          problem_, plan_.highest_pump_pa,
-          CornerAt(plan_.compressors, box, plan_.compressor_slot).pump);
+      entry->second = MakePumpFacts(problem_, plan_.highest_pump_pa,
+                                    CornerAt(plan_.compressors, box, plan_.compressor_slot).pump);
     }
   }
   return entry->second;
@@ -67,8 +70,8 @@ Constraint Bounds::NeedOfCompressor(Box& box, bool reservoir_changed) {
   const CompressorCorner& compressor = CornerAt(plan_.compressors, box, plan_.compressor_slot);
   const ReservoirCorner& reservoir = CornerAt(plan_.reservoirs, box, plan_.reservoir_slot);
   AddLines(box);
-  box.window.high_pa = std::min(
-      {box.window.high_pa, compressor.pressure_max_pa, reservoir.pressure_max_pa});
+  box.window.high_pa =
+      std::min({box.window.high_pa, compressor.pressure_max_pa, reservoir.pressure_max_pa});
   if (box.window.empty()) return Constraint::kPressure;
   if (reservoir_changed) {
     VolumeNeed all;
@@ -99,20 +102,20 @@ void Bounds::DivideVolumes(Box& box) {
   const PumpFacts& pump = PumpOf(box);
   const bool custom = CornerAt(plan_.reservoirs, box, plan_.reservoir_slot).custom &&
                       Node(box, plan_.reservoir_slot).single();
-  const double ratio_max = !custom                ? kUnlimited
-                           : CoreIsSingle(box) ? kSingleRatio
-                                                  : kBoxRatio;
+  const double ratio_max = !custom                      ? kUnlimited
+                           : box.volume_ratio_max > 0.0 ? box.volume_ratio_max
+                                                        : kBoxRatio;
+  const double tolerance = CoreIsSingle(box) ? kSingleTolerance : kBoxTolerance;
   std::vector<const Line*> lines;
   for (const std::shared_ptr<const Line>& line : box.lines) lines.push_back(line.get());
   const PumpLoad load = MakePumpLoad(problem_, lines, box.window.low_pa);
-  const PumpLimits limits{
-      CornerAt(plan_.compressors, box, plan_.compressor_slot).duty_max,
-      CornerAt(plan_.batteries, box, plan_.battery_slot).energy_j};
+  const PumpLimits limits{CornerAt(plan_.compressors, box, plan_.compressor_slot).duty_max,
+                          CornerAt(plan_.batteries, box, plan_.battery_slot).energy_j};
   for (VolumeNeed& volume : box.volumes) volume.rest = RestAt(box, volume);
   while (!box.volumes.empty()) {
-    const auto lowest = std::min_element(
-        box.volumes.begin(), box.volumes.end(),
-        [](const VolumeNeed& a, const VolumeNeed& b) { return a.rest < b.rest; });
+    const auto lowest =
+        std::min_element(box.volumes.begin(), box.volumes.end(),
+                         [](const VolumeNeed& a, const VolumeNeed& b) { return a.rest < b.rest; });
     VolumeNeed volume = *lowest;
     const bool wide = volume.need.high_m3 > ratio_max * volume.need.low_m3;
     if (volume.fresh && !wide) return;
@@ -120,7 +123,7 @@ void Bounds::DivideVolumes(Box& box) {
     const double middle_m3 = std::sqrt(volume.need.low_m3 * volume.need.high_m3);
     const auto look = [&](double low_m3, double high_m3) {
       const std::optional<ReservoirNeed> need =
-          LeastReservoirNeed(problem_, pump, load, limits, box.window, low_m3, high_m3);
+          LeastReservoirNeed(problem_, pump, load, limits, box.window, low_m3, high_m3, tolerance);
       if (!need) return;
       const double objective =
           custom ? ObjectiveOf(problem_.objective, CustomReservoir(problem_, low_m3))
@@ -138,9 +141,11 @@ void Bounds::DivideVolumes(Box& box) {
 }
 
 Constraint Bounds::FindSource(Box& box) {
+  if (plan_.configuration == Configuration::kCompressor)
+    return OptionOf(box, plan_.reservoir_slot).index == kCustom ? RefineVolumes(box)
+                                                                : FindStockSource(box);
   box.source_known = true;
   const Candidate candidate = CandidateOf(box);
-  if (plan_.configuration == Configuration::kCompressor) return FindStockSource(box);
   const std::optional<double> needed = NeededSourcePressure(problem_, candidate, {});
   if (!needed) return Constraint::kRise;
   box.source_floor_pa = *needed;
@@ -148,9 +153,23 @@ Constraint Bounds::FindSource(Box& box) {
   return RestOfRegulated(box);
 }
 
+Constraint Bounds::RefineVolumes(Box& box) {
+  double next = kFinestRatio;
+  for (double ratio : kRatioSteps)
+    if (box.volume_ratio_max == 0.0 || ratio < box.volume_ratio_max) {
+      next = ratio;
+      break;
+    }
+  box.volume_ratio_max = next;
+  box.source_known = next == kFinestRatio;
+  DivideVolumes(box);
+  return RestOfCompressor(box);
+}
+
 // No battery changes the strokes. The need at the lowest useful source pressure is the least there
 // is where the pump takes no less energy per air at higher pressure.
 Constraint Bounds::FindStockSource(Box& box) {
+  box.source_known = true;
   VolumeNeed& volume = box.volumes.front();
   const double volume_m3 = volume.need.low_m3;
   Candidate candidate = CandidateOf(box);

@@ -85,8 +85,8 @@ Constraint Bounds::RestOfRegulated(Box& box) {
     const double high = GasLeft(problem_, plan_.configuration, plan_.bottle_range.high_pa);
     const double left = GasLeft(problem_, plan_.configuration, inlet_pa);
     const double share = high > low ? std::max(0.0, (left - low) / (high - low)) : 0.0;
-    const double bottle = LeastObjective(
-        plan_.bottles, box.nodes[plan_.bottle_slot], [&](const BottleCorner& c) {
+    const double bottle =
+        LeastObjective(plan_.bottles, box.nodes[plan_.bottle_slot], [&](const BottleCorner& c) {
           return c.fill_pressure_pa <= regulator.inlet_max_pa &&
                  (1.0 - share) * c.gas_to_low_m3 + share * c.gas_to_high_m3 >= air_m3 / kRounding &&
                  c.flow_sustained_m3_per_s * kRounding >= box.air_m3 * problem_.frequency_hz;

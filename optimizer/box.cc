@@ -37,19 +37,21 @@ bool Bounds::CoreIsSingle(const Box& box) const {
 }
 
 int Bounds::WidestSlot(const Box& box) const {
-  int widest = -1;
-  static const double F = getenv("FC") ? atof(getenv("FC")) : 1.0, FR = getenv("FR") ? atof(getenv("FR")) : 1.0;
-  const auto weight = [&](int s) { return s == plan_.compressor_slot || s==plan_.regulator_slot? F : s == plan_.reservoir_slot ? FR : 1.0; };
-  const auto wider = [&](int i, int j) {
-    const BoxNode& a = Node(box, i);
-    const BoxNode& b = Node(box, j);
-    const double x = weight(i)*(a.objective_high - a.objective_low), y = weight(j)*(b.objective_high - b.objective_low);
-    return x != y ? x > y : a.size() > b.size();
+  // What a pump adds to battery and reservoir is not in its own share.
+  constexpr double kPumpWeight = 10.0;
+  const auto spread = [&](int s) {
+    const BoxNode& node = Node(box, s);
+    return (node.objective_high - node.objective_low) *
+           (s == plan_.compressor_slot ? kPumpWeight : 1.0);
   };
+  const auto wider = [&](int a, int b) {
+    return spread(a) != spread(b) ? spread(a) > spread(b)
+                                  : Node(box, a).size() > Node(box, b).size();
+  };
+  int widest = -1;
   for (const bool core : {true, false}) {
     for (int s = 0; s < static_cast<int>(box.nodes.size()); ++s)
-      if (DecidesSource(s) == core && !Node(box, s).single() &&
-          (widest < 0 || wider(s, widest)))
+      if (DecidesSource(s) == core && !Node(box, s).single() && (widest < 0 || wider(s, widest)))
         widest = s;
     if (widest >= 0) break;
   }
@@ -58,8 +60,7 @@ int Bounds::WidestSlot(const Box& box) const {
 
 BigCount Bounds::Count(const Box& box) const {
   BigCount count = 1;
-  for (std::size_t s = 0; s < box.nodes.size(); ++s)
-    count *= Node(box, static_cast<int>(s)).size();
+  for (std::size_t s = 0; s < box.nodes.size(); ++s) count *= Node(box, static_cast<int>(s)).size();
   return count;
 }
 
@@ -71,13 +72,14 @@ Constraint Bounds::RemakeLine(Box& box, int group) {
   auto& [constraint, kept] = entry->second;
   if (fresh) {
     const GroupTrees& trees = plan_.groups[group];
-    const bool exact = Node(box, first).single() && Node(box, first + 1).single() &&
-                       Node(box, first + 2).single();
+    const bool exact =
+        Node(box, first).single() && Node(box, first + 1).single() && Node(box, first + 2).single();
     Line line;
-    constraint = MakeLine(problem_, group, gas_,
-                          {CornerAt(trees.tubes, box, first), CornerAt(trees.fittings, box, first + 1),
-                           CornerAt(trees.valves, box, first + 2)},
-                          exact, line);
+    constraint =
+        MakeLine(problem_, group, gas_,
+                 {CornerAt(trees.tubes, box, first), CornerAt(trees.fittings, box, first + 1),
+                  CornerAt(trees.valves, box, first + 2)},
+                 exact, line);
     if (exact) {
       line.tubing = OptionOf(box, first).index;
       line.fitting = OptionOf(box, first + 1).index;
@@ -140,10 +142,11 @@ double Bounds::LeastBattery(const Box& box, double energy_j, double pump_current
   const Kinds pump = plan_.compressor_slot < 0
                          ? ~Kinds{0}
                          : CornerAt(plan_.compressors, box, plan_.compressor_slot).voltages;
-  return LeastObjective(plan_.batteries, box.nodes[plan_.battery_slot], [&](const BatteryCorner& c) {
-    return (c.voltages & pump) && energy_j <= c.energy_j &&
-           pump_current_a + box.coil_power_w / c.voltage_v <= c.current_max_a;
-  });
+  return LeastObjective(plan_.batteries, box.nodes[plan_.battery_slot],
+                        [&](const BatteryCorner& c) {
+                          return (c.voltages & pump) && energy_j <= c.energy_j &&
+                                 pump_current_a + box.coil_power_w / c.voltage_v <= c.current_max_a;
+                        });
 }
 
 Candidate Bounds::CandidateOf(const Box& box) const {
@@ -163,9 +166,6 @@ Candidate Bounds::CandidateOf(const Box& box) const {
   return candidate;
 }
 
-bool Bounds::CanFindSource(const Box& box) const {
-  if (box.source_known || !CoreIsSingle(box)) return false;
-  return plan_.reservoir_slot < 0 || OptionOf(box, plan_.reservoir_slot).index != kCustom;
-}
+bool Bounds::CanFindSource(const Box& box) const { return !box.source_known && CoreIsSingle(box); }
 
 }  // namespace plenum::optimizer

@@ -31,12 +31,13 @@ struct Box {
   double bound = 0.0;                              // of the objective
   Window window{0.0, 0.0};                         // source pressures
   double source_floor_pa = 0.0, source_cap_pa = kUnlimited;  // as in Candidate
-  double air_m3 = 0.0;                             // per cycle
-  double coil_power_w = 0.0;                       // with the regulator's
-  double energy_j = 0.0;        // of the mission; regulated configurations
-  double energy_beyond_j = 0.0;  // what of it the shares of the choices do not count
-  std::vector<VolumeNeed> volumes;                 // compressor
-  bool source_known = false;  // the least source pressure is that of the real parts
+  double air_m3 = 0.0;                                       // per cycle
+  double coil_power_w = 0.0;                                 // with the regulator's
+  double energy_j = 0.0;            // of the mission; regulated configurations
+  double energy_beyond_j = 0.0;     // what of it the shares of the choices do not count
+  std::vector<VolumeNeed> volumes;  // compressor
+  double volume_ratio_max = 0.0;    // of the ends of an interval of made-to-measure volumes
+  bool source_known = false;        // the least source pressure is that of the real parts
 };
 
 class Bounds {
@@ -51,8 +52,9 @@ class Bounds {
   // the box that was assessed before, or −1 for all.
   Constraint Assess(Box& box, int changed);
 
-  // Once all but bottle and battery are single choices (and the reservoir is not made to measure)
-  // their source pressure can be found for good; it costs a hundred times more than Assess().
+  // Once all but bottle and battery are single choices their source pressure can be found for good;
+  // it costs a hundred times more than Assess(). With a made-to-measure reservoir the intervals of
+  // volumes get finer instead, time after time.
   bool CanFindSource(const Box& box) const;
   Constraint FindSource(Box& box);
 
@@ -97,6 +99,7 @@ class Bounds {
   Constraint RestOfCompressor(Box& box);
   const PumpFacts& PumpOf(const Box& box);
   Constraint FindStockSource(Box& box);
+  Constraint RefineVolumes(Box& box);
 
   double LeastBattery(const Box& box, double energy_j, double pump_current_a) const;
   double EnergyShare(double energy_j) const;

@@ -121,8 +121,8 @@ std::array<double, 7> SplitKeys(const ValveCorner& c) {
 }
 
 std::array<double, 6> SplitKeys(const RegulatorCorner& c) {
-  return {Log(c.objective),    Log(c.flow.sonic_conductance_m3_per_s_pa),
-          Log(c.inlet_min_pa), Log(c.inlet_max_pa),
+  return {Log(c.objective),     Log(c.flow.sonic_conductance_m3_per_s_pa),
+          Log(c.inlet_min_pa),  Log(c.inlet_max_pa),
           Log(c.outlet_max_pa), Log(c.electrical_power_w + 1e-2)};
 }
 

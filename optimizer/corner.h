@@ -63,7 +63,7 @@ struct BottleCorner {
   Amounts amounts;
   double objective = 0.0;
   double gas_to_low_m3 = 0.0, gas_to_high_m3 = 0.0;
-  double fill_pressure_pa = 0.0;          // a regulator must stand it
+  double fill_pressure_pa = 0.0;  // a regulator must stand it
   double flow_sustained_m3_per_s = 0.0;
 };
 
@@ -112,7 +112,9 @@ std::array<double, 3> SplitKeys(const ReservoirCorner& c);
 
 // Choices of different classes mate with different parts; only single choices are asked.
 inline Kinds MatingClass(const TubeCorner& c) { return c.diameters; }
-inline Kinds MatingClass(const FittingCorner& c) { return c.threads * 0x9e3779b97f4a7c15u + c.diameters; }
+inline Kinds MatingClass(const FittingCorner& c) {
+  return c.threads * 0x9e3779b97f4a7c15u + c.diameters;
+}
 inline Kinds MatingClass(const ValveCorner& c) { return 2 * c.threads + c.some_hold; }
 inline Kinds MatingClass(const RegulatorCorner&) { return 0; }
 inline Kinds MatingClass(const BottleCorner&) { return 0; }

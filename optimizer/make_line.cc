@@ -41,8 +41,7 @@ Line Assemble(const Problem& problem, const ActuatorGroup& group, const LineCorn
   line.chamber = group.chamber;
   const double bore_m3 = model::BoreVolume(tube.inner_low_m, group.tube_length_m);
   line.chamber.dead_volume_m3 += bore_m3;
-  line.dead_volume_spread_m3 =
-      model::BoreVolume(tube.inner_high_m, group.tube_length_m) - bore_m3;
+  line.dead_volume_spread_m3 = model::BoreVolume(tube.inner_high_m, group.tube_length_m) - bore_m3;
   return line;
 }
 
@@ -78,17 +77,17 @@ Constraint MakeLine(const Problem& problem, int g, model::Gas gas, const LineCor
     const double late = inflate_s - HalfPeriod(problem) * slack;
     if (std::isinf(group.rise_time_max_s)) return late;
     // Reaching the target takes no longer than reaching the operating pressure.
-    if (inflate_s <= group.rise_time_max_s) return std::max(late, inflate_s - group.rise_time_max_s);
-    return std::max(late,
-                    fill_time(source_pa, RiseTarget(problem, group)) - group.rise_time_max_s * slack);
+    if (inflate_s <= group.rise_time_max_s)
+      return std::max(late, inflate_s - group.rise_time_max_s);
+    return std::max(
+        late, fill_time(source_pa, RiseTarget(problem, group)) - group.rise_time_max_s * slack);
   };
   if (!(excess(line.source_max_pa) <= 0.0)) return Constraint::kRise;
-  const Bracket least = FeasibleBracket(excess, operating_pa, line.source_max_pa,
-                                        exact ? 1e-9 : kBoxTolerance);
+  const Bracket least =
+      FeasibleBracket(excess, operating_pa, line.source_max_pa, exact ? 1e-9 : kBoxTolerance);
   line.source_min_pa = std::max(switches_pa, exact ? least.high : least.low);
   // A lone 3/2 is energised for half of the period whatever the stroke.
-  if (line.all_hold)
-    line.inflate_time_least_s = fill_time(line.source_max_pa, operating_pa);
+  if (line.all_hold) line.inflate_time_least_s = fill_time(line.source_max_pa, operating_pa);
   if (exact) line.fill_table = model::FlowTable(line.fill_series);
   return Constraint::kNone;
 }

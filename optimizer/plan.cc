@@ -58,8 +58,7 @@ Corner CornerOf(const Problem& problem, const Amounts& amounts) {
 
 std::string Bytes(std::initializer_list<double> values) {
   std::string bytes;
-  for (double value : values)
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  for (double value : values) bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   return bytes;
 }
 
@@ -153,15 +152,17 @@ class Planter {
     for (const model::Cylinder& c : parts.cylinders)
       gas_kg_ = std::max(gas_kg_, model::CylinderCharge(c.water_volume_m3, c.fill_pressure_pa,
                                                         problem_.ambient.temperature_k));
-    for (const model::Co2Bottle& bottle : parts.co2) gas_kg_ = std::max(gas_kg_, bottle.co2_mass_kg);
+    for (const model::Co2Bottle& bottle : parts.co2)
+      gas_kg_ = std::max(gas_kg_, bottle.co2_mass_kg);
     sum += problem_.objective.mass_kg * gas_kg_ *
            std::max(problem_.limits.cylinders, problem_.limits.co2);
-    sum += ObjectiveOf(problem_.objective, CustomReservoir(problem_, model::kMadeReservoirLargestM3));
+    sum +=
+        ObjectiveOf(problem_.objective, CustomReservoir(problem_, model::kMadeReservoirLargestM3));
     double energy_j = 0.0;  // no design uses more than its batteries give
     for (const model::Battery& battery : parts.batteries)
-      energy_j = std::max(energy_j, problem_.limits.batteries *
-                                        model::UsableEnergy(battery.capacity_ah,
-                                                            battery.nominal_voltage_v));
+      energy_j = std::max(energy_j,
+                          problem_.limits.batteries *
+                              model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v));
     if (plan_->configuration == Configuration::kMains) energy_j = MainsEnergy();
     return kTie * (sum + EnergyWeight(problem_) * energy_j);
   }
@@ -302,18 +303,18 @@ class Planter {
       entry.item.option = {i, 1, static_cast<double>(pieces) * part.basics};
       ValveCorner& corner = entry.item.corner;
       corner = CornerOf<ValveCorner>(problem_, entry.item.option.amounts);
-      corner.threads = needs_fittings ? threads.Where([&](const std::string& thread) {
-        return thread == part.port;
-      })
-                                      : ~Kinds{0};
+      corner.threads =
+          needs_fittings
+              ? threads.Where([&](const std::string& thread) { return thread == part.port; })
+              : ~Kinds{0};
       corner.some_hold = corner.all_hold = model::Holds(part.kind);
       corner.fill = part.fill;
       corner.exhaust = part.exhaust;
       corner.coil_power_w = part.coil_power_w * group.count;
       corner.pressure_min_pa = part.pressure_min_pa;
       corner.pressure_max_pa = part.pressure_max_pa;
-      corner.objective += EnergyWeight(problem_) * problem_.actuations * corner.coil_power_w *
-                          HalfPeriod(problem_);
+      corner.objective +=
+          EnergyWeight(problem_) * problem_.actuations * corner.coil_power_w * HalfPeriod(problem_);
       entry.id = part.basics.id;
       entry.mates = (corner.some_hold ? "holds " : "vents ") + (needs_fittings ? part.port : "");
       entry.losses = {corner.coil_power_w, -part.pressure_max_pa, part.pressure_min_pa};
@@ -379,8 +380,8 @@ class Planter {
   }
 
   // `full_m3`: gas down to an inlet pressure of nothing; `water_m3`: what holds gas back.
-  void SetBottle(double gas_kg, double full_m3, double water_m3, double fill_pa, double flow_m3_per_s,
-                 Entry<BottleCorner>& entry) const {
+  void SetBottle(double gas_kg, double full_m3, double water_m3, double fill_pa,
+                 double flow_m3_per_s, Entry<BottleCorner>& entry) const {
     entry.item.option.amounts.mass_kg += gas_kg;
     BottleCorner& corner = entry.item.corner;
     corner = CornerOf<BottleCorner>(problem_, entry.item.option.amounts);
@@ -397,8 +398,8 @@ class Planter {
   int PlantCylinders() {
     const double temperature_k = problem_.ambient.temperature_k;
     const auto make = [&](const model::Cylinder& part, int quantity, Entry<BottleCorner>& entry) {
-      const double full_m3 = part.water_volume_m3 *
-                             GasLeft(problem_, plan_->configuration, part.fill_pressure_pa);
+      const double full_m3 =
+          part.water_volume_m3 * GasLeft(problem_, plan_->configuration, part.fill_pressure_pa);
       SetBottle(quantity * model::CylinderCharge(part.water_volume_m3, part.fill_pressure_pa,
                                                  temperature_k),
                 quantity * full_m3, quantity * part.water_volume_m3, part.fill_pressure_pa,

@@ -26,18 +26,6 @@ std::vector<double> EvenCells(double low_pa, double high_pa, int cells) {
   return edges;
 }
 
-// An even division and the table's points.
-std::vector<double> Cells(const model::CompressorCurve& curve, double low_pa) {
-  const double high_pa = std::max(model::HighestPressure(curve), low_pa * (1.0 + 1e-9));
-  std::vector<double> edges = EvenCells(low_pa, high_pa, kCells);
-  for (const model::MonotoneCurve* table : {&curve.free_air_m3_per_s, &curve.current_a})
-    for (double knot : table->x())
-      if (knot > low_pa && knot < high_pa) edges.push_back(knot);
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
-}
-
 // Tables of a pump over cells of pressure, as minorants: delivery falls with pressure, so that a
 // cell's lower edge has the most; the least power is at an edge or at a point of the table.
 struct PumpTables {
@@ -73,7 +61,7 @@ PumpTables MakeTables(const model::CompressorCurve& curve, int pumps,
   return tables;
 }
 
-PumpFacts MakeFacts(const Problem& problem, const std::vector<double>& edges, PumpTables tables) {
+PumpFacts MakeFacts(const Problem& problem, double highest_pa, PumpTables tables) {
   PumpFacts facts;
   facts.target_pa = kUnlimited;
   double rising_s = 0.0;
@@ -83,33 +71,31 @@ PumpFacts MakeFacts(const Problem& problem, const std::vector<double>& edges, Pu
     rising_s = problem.simultaneous ? std::max(rising_s, rise_s) : rising_s + rise_s;
   }
   facts.early_m3 = rising_s / tables.seconds_per_m3.front();
-  facts.energy_j_per_m3 = Minorant(edges, std::move(tables.energy_j_per_m3));
-  facts.seconds_per_m3 = Minorant(edges, std::move(tables.seconds_per_m3));
-  facts.current_a = Minorant(edges, std::move(tables.current_a));
+  const auto minorant = [&](std::vector<double>& values) {
+    return Minorant(problem.ambient.pressure_pa, highest_pa, std::move(values));
+  };
+  facts.energy_j_per_m3 = minorant(tables.energy_j_per_m3);
+  facts.seconds_per_m3 = minorant(tables.seconds_per_m3);
+  facts.current_a = minorant(tables.current_a);
   return facts;
 }
 
 }  // namespace
 
-Minorant::Minorant(std::vector<double> pressure_pa, std::vector<double> value)
-    : pressure_pa_(std::move(pressure_pa)), value_(std::move(value)) {
-  integral_.assign(pressure_pa_.size(), 0.0);
-  for (std::size_t i = 0; i < value_.size(); ++i)
-    integral_[i + 1] = integral_[i] + value_[i] * (pressure_pa_[i + 1] - pressure_pa_[i]);
-}
-
-double Minorant::At(double pressure_pa) const {
-  const auto above = std::upper_bound(pressure_pa_.begin(), pressure_pa_.end(), pressure_pa);
-  const std::ptrdiff_t cell = std::clamp<std::ptrdiff_t>(
-      above - pressure_pa_.begin() - 1, 0, static_cast<std::ptrdiff_t>(value_.size()) - 1);
-  return value_[cell];
+Minorant::Minorant(double low_pa, double high_pa, std::vector<double> value)
+    : low_pa_(low_pa),
+      cells_per_pa_(static_cast<double>(value.size()) / (high_pa - low_pa)),
+      last_(static_cast<double>(value.size() - 1)),
+      value_(std::move(value)),
+      integral_(value_.size(), 0.0) {
+  for (std::size_t i = 0; i + 1 < value_.size(); ++i)
+    integral_[i + 1] = integral_[i] + value_[i] / cells_per_pa_;
 }
 
 double Minorant::Integral(double pressure_pa) const {
-  const auto above = std::upper_bound(pressure_pa_.begin(), pressure_pa_.end(), pressure_pa);
-  const std::ptrdiff_t cell = std::clamp<std::ptrdiff_t>(
-      above - pressure_pa_.begin() - 1, 0, static_cast<std::ptrdiff_t>(value_.size()) - 1);
-  return integral_[cell] + value_[cell] * (pressure_pa - pressure_pa_[cell]);
+  const std::size_t cell = Cell(pressure_pa);
+  return integral_[cell] +
+         value_[cell] * (pressure_pa - low_pa_ - static_cast<double>(cell) / cells_per_pa_);
 }
 
 double Minorant::Mean(double low_pa, double high_pa) const {
@@ -155,8 +141,10 @@ bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, doubl
 }
 
 PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps) {
-  const std::vector<double> edges = Cells(curve, problem.ambient.pressure_pa);
-  return MakeFacts(problem, edges, MakeTables(curve, pumps, edges));
+  const double ambient_pa = problem.ambient.pressure_pa;
+  const double highest_pa = std::max(model::HighestPressure(curve), 1.01 * ambient_pa);
+  return MakeFacts(problem, highest_pa,
+                   MakeTables(curve, pumps, EvenCells(ambient_pa, highest_pa, kCells)));
 }
 
 double HighestPumpPressure(const Problem& problem) {
@@ -181,9 +169,9 @@ PumpFacts MakePumpFacts(const Problem& problem, double highest_pa, const CoarseP
   const auto table = [](const std::array<double, kCoarseCells>& values) {
     return std::vector<double>(values.begin(), values.end());
   };
-  return MakeFacts(problem, EvenCells(problem.ambient.pressure_pa, highest_pa, kCoarseCells),
-                   {table(coarse.energy_j_per_m3), table(coarse.seconds_per_m3),
-                    table(coarse.current_a)});
+  return MakeFacts(
+      problem, highest_pa,
+      {table(coarse.energy_j_per_m3), table(coarse.seconds_per_m3), table(coarse.current_a)});
 }
 
 double MostDrawn(const Problem& problem, int group, const Line& line, double pressure_pa,
@@ -215,7 +203,8 @@ std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& f
     const double full_pa =
         line.all_hold ? problem.groups[phase].chamber.operating_pressure_pa : kUnlimited;
     const auto drawn = [&](double p) {
-      return apart ? MostDrawn(problem, phase, line, p, full_pa) : load.air_m3 * ContentPerVolume(problem);
+      return apart ? MostDrawn(problem, phase, line, p, full_pa)
+                   : load.air_m3 * ContentPerVolume(problem);
     };
     double left_s = phase_s;
     MarchPump(problem, start_pa[phase], reservoir_m3, drawn, [&](double p, double air_m3) {
@@ -252,17 +241,15 @@ double LeastFirstFill(const Problem& problem, const PumpFacts& facts, double sou
 namespace {
 
 // Air that the reservoir must give by the end of the rise times, by (2).
-double GivenByReservoir(const Problem& problem, const PumpFacts& facts,
-                        double air_to_target_m3) {
+double GivenByReservoir(const Problem& problem, const PumpFacts& facts, double air_to_target_m3) {
   const bool burst = problem.simultaneous || problem.groups.size() == 1;
   return burst ? std::max(0.0, air_to_target_m3 - facts.early_m3) : 0.0;
 }
 
-double LeastStopPressure(const Problem& problem, const PumpFacts& facts,
-                         double air_to_target_m3, double reservoir_m3) {
+double LeastStopPressure(const Problem& problem, const PumpFacts& facts, double air_to_target_m3,
+                         double reservoir_m3) {
   return facts.target_pa + ContentPerVolume(problem) *
-                               GivenByReservoir(problem, facts, air_to_target_m3) /
-                               reservoir_m3;
+                               GivenByReservoir(problem, facts, air_to_target_m3) / reservoir_m3;
 }
 
 }  // namespace
@@ -279,11 +266,11 @@ namespace {
 // Highest stop pressure that `bearable` accepts, from one that it accepts up to `high_pa`; a little
 // too high rather than too low.
 template <typename Bearable>
-double MostBearable(ReservoirNeed need, double high_pa, Bearable&& bearable) {
+double MostBearable(ReservoirNeed need, double high_pa, double tolerance, Bearable&& bearable) {
   double low_pa = need.source_pa;
   need.source_pa = high_pa;
   if (bearable(need)) return high_pa;
-  while (high_pa - low_pa > kNeedTolerance * high_pa) {
+  while (high_pa - low_pa > tolerance * high_pa) {
     need.source_pa = 0.5 * (low_pa + high_pa);
     (bearable(need) ? low_pa : high_pa) = need.source_pa;
   }
@@ -305,8 +292,8 @@ PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& li
 
 std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const PumpFacts& facts,
                                                 const PumpLoad& load, const PumpLimits& limits,
-                                                const Window& window, double low_m3,
-                                                double high_m3) {
+                                                const Window& window, double low_m3, double high_m3,
+                                                double tolerance) {
   const auto excess = [&](double start_pa) {
     return AloneExcess(problem, load.lines, facts, {start_pa, high_m3, low_m3});
   };
@@ -316,8 +303,7 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
   // Sets what stopping at need.source_pa at least takes; false if that is too much.
   const auto bearable = [&](ReservoirNeed& need) {
     if (!turns) start_pa.front() = need.source_pa;
-    const std::optional<PumpNeed> pump =
-        LeastPumpNeed(problem, facts, load, start_pa, need.low_m3);
+    const std::optional<PumpNeed> pump = LeastPumpNeed(problem, facts, load, start_pa, need.low_m3);
     if (!pump) return false;
     need.energy_j = LeastFirstFill(problem, facts, need.source_pa, need.low_m3) +
                     problem.actuations * (pump->energy_j + load.coil_j);
@@ -327,8 +313,8 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
   ReservoirNeed need{low_m3, high_m3};
   need.source_max_pa = window.high_pa;
   // Cheap first: the mass balance (2) at the largest volume.
-  need.source_pa = std::max(window.low_pa,
-                            LeastStopPressure(problem, facts, load.air_to_target_m3, high_m3));
+  need.source_pa =
+      std::max(window.low_pa, LeastStopPressure(problem, facts, load.air_to_target_m3, high_m3));
   if (!(need.source_pa <= window.high_pa)) return std::nullopt;
   if (turns) {
     if (excess(window.high_pa) > 0.0) return std::nullopt;
@@ -339,15 +325,14 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
               [&](double p) {
                 return AloneExcess(problem, g, *load.lines[g], facts, {p, high_m3, low_m3});
               },
-              problem.ambient.pressure_pa, window.high_pa, kNeedTolerance)
+              problem.ambient.pressure_pa, window.high_pa, tolerance)
               .low);
     const double most_pa = *std::max_element(start_pa.begin(), start_pa.end());
     // Of two groups each finds what the other has left: its own operating pressure at least, since
     // air only flows downhill.
     if (problem.groups.size() == 2)
       for (int g : {0, 1})
-        start_pa[g] =
-            std::max(start_pa[g], problem.groups[1 - g].chamber.operating_pressure_pa);
+        start_pa[g] = std::max(start_pa[g], problem.groups[1 - g].chamber.operating_pressure_pa);
     // Of more than two groups some may draw at the same time.
     if (problem.groups.size() > 2) start_pa = {most_pa};
     need.source_pa = std::max(need.source_pa, most_pa);
@@ -355,9 +340,9 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
     return need;
   }
   if (!bearable(need)) return std::nullopt;
-  need.source_max_pa = MostBearable(need, window.high_pa, bearable);
+  need.source_max_pa = MostBearable(need, window.high_pa, tolerance, bearable);
   if (excess(need.source_max_pa) > 0.0) return std::nullopt;
-  need.source_pa = FeasibleBracket(excess, need.source_pa, need.source_max_pa, kNeedTolerance).low;
+  need.source_pa = FeasibleBracket(excess, need.source_pa, need.source_max_pa, tolerance).low;
   if (!bearable(need)) return std::nullopt;
   return need;
 }
@@ -375,7 +360,7 @@ std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFact
     const double next_m3 = std::min(low_m3 * kIntervalRatio, high_m3);
     last = next_m3 >= high_m3;
     const std::optional<ReservoirNeed> need =
-        LeastReservoirNeed(problem, facts, load, limits, window, low_m3, next_m3);
+        LeastReservoirNeed(problem, facts, load, limits, window, low_m3, next_m3, kNeedTolerance);
     if (need && AloneStrokeExcess(problem, candidate,
                                   {need->source_max_pa, need->high_m3, need->low_m3}) <= 0.0)
       needs.push_back(*need);

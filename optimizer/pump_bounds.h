@@ -1,8 +1,9 @@
 // What a compressor must at least bear to feed the strokes, by intervals of reservoir volumes.
 //
 // Let A be the air of a cycle, A_t the part of it up to the rise targets, p_t the lowest target,
-// and m the air pumped since a stroke began, all ANR; κ = P0·T/T0 converts to content. The reservoir
-// holds p_1 when the stroke begins: the stop pressure p_s, or less where groups take turns.
+// and m the air pumped since a stroke began, all ANR; κ = P0·T/T0 converts to content. The
+// reservoir holds p_1 when the stroke begins: the stop pressure p_s, or less where groups take
+// turns.
 //  (1) No more than A is drawn in a cycle, so the m-th bit of air is pumped at
 //      p(m) ≥ p_1 − κ·(A−m)/V.
 //  (2) Where all strokes begin at once: within the rise times the pumps deliver at most `early`, so
@@ -23,18 +24,24 @@
 
 namespace plenum::optimizer {
 
-// A step function of pressure that nowhere exceeds the true one and does not fall.
+// A step function of pressure that nowhere exceeds the true one and does not fall, over an even
+// division of [low, high]; its end values hold outside.
 class Minorant {
  public:
   Minorant() = default;
-  // value[i] holds on [pressure[i], pressure[i+1]); one more pressure than values.
-  Minorant(std::vector<double> pressure_pa, std::vector<double> value);
-  double At(double pressure_pa) const;
+  Minorant(double low_pa, double high_pa, std::vector<double> value);
+  double At(double pressure_pa) const { return value_[Cell(pressure_pa)]; }
   double Mean(double low_pa, double high_pa) const;  // At(high) where low ≥ high
 
  private:
+  std::size_t Cell(double pressure_pa) const {
+    const double position = (pressure_pa - low_pa_) * cells_per_pa_;
+    if (!(position > 0.0)) return 0;
+    return position < last_ ? static_cast<std::size_t>(position) : value_.size() - 1;
+  }
   double Integral(double pressure_pa) const;
-  std::vector<double> pressure_pa_, value_, integral_;
+  double low_pa_ = 0.0, cells_per_pa_ = 0.0, last_ = 0.0;
+  std::vector<double> value_, integral_;
 };
 
 // Whether electrical power, and power over delivery, do not fall with pressure in between.
@@ -78,7 +85,7 @@ double AirToTarget(const Problem& problem, int group, const model::Chamber& cham
 // What lines ask of a compressor and its reservoir, before or after either is chosen: bounds from
 // below.
 struct PumpLoad {
-  const std::vector<const Line*>& lines;  // one per group
+  const std::vector<const Line*>& lines;                      // one per group
   double air_m3 = 0.0, air_to_target_m3 = 0.0, coil_j = 0.0;  // per cycle
 };
 PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines,
@@ -102,11 +109,12 @@ struct PumpLimits {
   double duty_max = 1.0;
   double energy_max_j = kUnlimited;
 };
-// None where no volume in it will do.
+// None where no volume in it will do. `tolerance`: of the source pressures, relative; they stay on
+// the safe side.
 std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const PumpFacts& facts,
                                                 const PumpLoad& load, const PumpLimits& limits,
-                                                const Window& window, double low_m3,
-                                                double high_m3);
+                                                const Window& window, double low_m3, double high_m3,
+                                                double tolerance);
 
 // The same for a candidate whose compressor and lines are chosen, by intervals of volumes that
 // divide [low, high]; intervals that will not do are left out.

@@ -1,9 +1,9 @@
 // Exact best-k by branch and bound over boxes.
 //
-// All configurations' boxes wait in one queue, the one with the lowest bound first. A box that comes
-// out is divided, and the corner of each part is assessed; a single combination is sized. When the
-// lowest bound lies above the last place of the list no box can improve it, and the list is
-// complete. Boxes that only tie with the last place are searched by part ids instead, since ids
+// All configurations' boxes wait in one queue, the one with the lowest bound first. A box that
+// comes out is divided, and the corner of each part is assessed; a single combination is sized.
+// When the lowest bound lies above the last place of the list no box can improve it, and the list
+// is complete. Boxes that only tie with the last place are searched by part ids instead, since ids
 // order ties: that ends as soon as no box can hold an earlier combination.
 #include <algorithm>
 #include <chrono>
@@ -96,8 +96,7 @@ class BoxSearch {
 
   Answer Run() {
     if (Plant()) {
-      do
-        Enumerate();
+      do Enumerate();
       while (!stopped() && !ConfirmList());
     }
     if (stopped()) ConfirmList();
@@ -188,27 +187,9 @@ class BoxSearch {
 
   void Step(NodePtr node) {
     ++steps_;
-    if (getenv("DBG") && steps_ % atoi(getenv("DBG")) == 0) {
-      const Candidate c = node->bounds->CandidateOf(node->box);
-      fprintf(stderr, "%.2fs step %lld open %zu bound %.6f depth %d single %d conf %d comp %d x%d res %d bat %d x%d vols %zu lines", Seconds(), steps_, open_.size(), node->box.bound, node->depth, node->bounds->IsSingle(node->box), (int)c.configuration, c.compressor.index, c.compressor.quantity, c.reservoir.index, c.battery.index, c.battery.quantity, node->box.volumes.size());
-      for (auto* l : c.lines) fprintf(stderr, " %d/%d/%d", l->tubing, l->fitting, l->valve);
-      fprintf(stderr, " sizes");
-      for (size_t s = 0; s < node->box.nodes.size(); ++s) fprintf(stderr, " %d", (*node->bounds->plan().slots[s].nodes)[node->box.nodes[s]].size());
-      fprintf(stderr, " eval %s\n", proof_.evaluated.str().c_str());
-    }
     Bounds& bounds = *node->bounds;
     if (bounds.CanFindSource(node->box)) {
-      const double t0 = Seconds(), b0 = node->box.bound, s0=node->box.volumes.empty()?0:node->box.volumes[0].need.source_pa;
       const Constraint missed = bounds.FindSource(node->box);
-      if (getenv("DBG2") && missed != Constraint::kNone) {
-        const Candidate c = bounds.CandidateOf(node->box);
-        const auto& curve = problem_.parts.compressors[c.compressor.index].curve;
-        fprintf(stderr, "%s duty %.2f highest %.0f Q(l/min ANR):", problem_.parts.compressors[c.compressor.index].basics.id.c_str(), problem_.parts.compressors[c.compressor.index].duty_max, model::HighestPressure(curve));
-        for (double p : {1e5, 1.5e5,1.7e5,1.8e5,1.9e5,2e5,2.2e5,2.5e5}) fprintf(stderr, " %.2f", 6e4*model::FreeAirDelivery(curve,p));
-        double air=0; for (int g=0;g<(int)c.lines.size();++g){ double a=AirPerStroke(problem_,g,*c.lines[g],2e5); air+=a; fprintf(stderr," [%.1f ml min %.0f rise %.3f holds %d]",a*1e6,c.lines[g]->source_min_pa, 0.0, c.lines[g]->holds);}
-        fprintf(stderr, " mean %.2f l/min, reservoir %.3f l window %.0f..%.0f\n", air*problem_.frequency_hz*6e4, 1e3*ReservoirVolume(problem_,c), node->box.window.low_pa,node->box.window.high_pa);
-      }
-      if (getenv("DBG")) fprintf(stderr, "find source: missed %d, %.4f s, bound %.5f -> %.5f, source %.0f -> %.0f\n", (int)missed, Seconds()-t0, b0, node->box.bound, s0, node->box.source_floor_pa);
       Keep(std::move(node), missed);
     } else if (bounds.IsSingle(node->box)) {
       Size(std::move(node));
@@ -243,17 +224,10 @@ class BoxSearch {
       return;
     }
     const Candidate candidate = node->bounds->CandidateOf(node->box);
-    if (getenv("DBG3")) {
-      fprintf(stderr, "size bound %.4f comp %d x%d res %d bat %d x%d:", node->box.bound, candidate.compressor.index, candidate.compressor.quantity, candidate.reservoir.index, candidate.battery.index, candidate.battery.quantity);
-      for (auto& v : node->box.volumes) fprintf(stderr, " [%.3f %.3f l p %.1f..%.1f kPa E %.0f J]", v.need.low_m3*1e3, v.need.high_m3*1e3, v.need.source_pa*1e-3, v.need.source_max_pa*1e-3, v.need.energy_j);
-      for (auto* l : candidate.lines) fprintf(stderr, " line %d/%d/%d min %.1f max %.1f holds %d", l->tubing,l->fitting,l->valve,l->source_min_pa*1e-3,l->source_max_pa*1e-3,l->holds);
-      fprintf(stderr, "\n");
-    }
     Leaf leaf;
     if (candidate.reservoir.index == kCustom) {
       // A few steps at a time: as its bound rises the box goes back into the queue.
-      if (!node->sizing)
-        node->sizing = std::make_unique<CustomSizing>(problem_, candidate);
+      if (!node->sizing) node->sizing = std::make_unique<CustomSizing>(problem_, candidate);
       if (!node->sizing->Refine()) {
         node->box.bound = std::max(node->box.bound, node->sizing->leaf().lower_bound);
         Push(std::move(node));
@@ -287,10 +261,11 @@ class BoxSearch {
     if (dived_ || Seconds() < from * options_.time_limit_s) return;
     dived_ = true;
     for (const std::unique_ptr<Bounds>& bounds : bounds_) {
-      const double until_s = Seconds() + kDiveShare * options_.time_limit_s /
-                                             static_cast<double>(bounds_.size());
-      Dive(problem_, *bounds, options_.any_design,
-           [&] { return Seconds() > until_s || Stopped(); }, ranking_);
+      const double until_s =
+          Seconds() + kDiveShare * options_.time_limit_s / static_cast<double>(bounds_.size());
+      Dive(
+          problem_, *bounds, options_.any_design, [&] { return Seconds() > until_s || Stopped(); },
+          ranking_);
     }
   }
 

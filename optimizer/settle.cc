@@ -3,12 +3,15 @@
 
 #include "optimizer/evaluate_strokes.h"
 #include "optimizer/nlp.h"
+#include "optimizer/root.h"
 #include "optimizer/sizing.h"
 
 namespace plenum::optimizer {
 namespace {
 
 constexpr int kScanPoints = 8;
+constexpr double kBalanceTolerance = 1e-6;
+constexpr double kMoves = 1e-9;  // a margin that the pressure moves
 
 // Source pressures from that of a feasible leaf to the highest that the parts stand, as a share.
 class Freedom {
@@ -49,35 +52,47 @@ class Freedom {
     return best;
   }
 
-  // Variables: the share, and the smallest margin where that is what is maximised.
+  // Strokes gain by pressure and the supply loses: of the margins that the pressure moves the
+  // smallest is largest where those that rise meet those that fall.
+  double BestByBalance() const {
+    const std::vector<double> low = MarginsAt(0.0), high = MarginsAt(1.0);
+    if (low.empty() || low.size() != high.size()) return 0.0;
+    const auto excess = [&](double share) {
+      const std::vector<double> margins = MarginsAt(share);
+      if (margins.empty()) return kUnlimited;
+      double rising = kUnlimited, falling = kUnlimited;
+      for (std::size_t i = 0; i < margins.size(); ++i) {
+        if (high[i] > low[i] + kMoves) rising = std::min(rising, margins[i]);
+        if (high[i] < low[i] - kMoves) falling = std::min(falling, margins[i]);
+      }
+      if (std::isinf(rising)) return 0.0;
+      return std::min(falling, 2.0) - rising;
+    };
+    return SmallestFeasible(excess, 0.0, 1.0, kBalanceTolerance);
+  }
+
+  // Where the pressure moves the objective.
   double BestByIpopt() const {
     const std::vector<double> low = MarginsAt(0.0), high = MarginsAt(1.0);
     if (low.empty() || low.size() != high.size()) return 0.0;
     std::vector<std::size_t> moving;  // margins that the source pressure moves
     for (std::size_t i = 0; i < low.size(); ++i)
-      if (std::abs(high[i] - low[i]) > 1e-9) moving.push_back(i);
+      if (std::abs(high[i] - low[i]) > kMoves) moving.push_back(i);
     if (moving.empty()) return 0.0;
 
     Nlp nlp;
     nlp.low = {0.0};
     nlp.high = {1.0};
-    nlp.start = {by_energy_ ? 0.0 : 0.3};
-    if (!by_energy_) {
-      nlp.low.push_back(-10.0);
-      nlp.high.push_back(1.0);
-      nlp.start.push_back(0.0);
-    }
+    nlp.start = {0.0};
     nlp.constraints = static_cast<int>(moving.size());
     const double scale = std::max(std::abs(leaf_.objective), 1e-9);
     nlp.evaluate = [&](const std::vector<double>& x, NlpValues& values) {
       const Evaluation evaluation = Evaluate(problem_, candidate_, At(x[0]));
       if (!evaluation.works) return false;
       const std::vector<double> margins = SolverMargins(problem_, candidate_, At(x[0]), evaluation);
-      values.objective =
-          by_energy_ ? ObjectiveValue(problem_, candidate_, At(x[0]), evaluation) / scale : -x[1];
+      values.objective = ObjectiveValue(problem_, candidate_, At(x[0]), evaluation) / scale;
       values.constraints.clear();
-      for (std::size_t i : moving)
-        values.constraints.push_back(margins[i] - (by_energy_ ? 0.0 : x[1]));
+      for (std::size_t i : moving) values.constraints.push_back(margins[i]);
       return true;
     };
     const NlpResult result = SolveWithIpopt(nlp);
@@ -106,7 +121,9 @@ OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const 
   const Freedom freedom(problem, candidate, leaf);
   if (freedom.empty()) return leaf.point;
   const bool quick = problem.groups.size() == 1 || !problem.simultaneous;
-  const double share = quick ? freedom.BestByIpopt() : freedom.BestByScan();
+  const double share = problem.objective.energy_wh == 0.0 ? freedom.BestByBalance()
+                       : quick                            ? freedom.BestByIpopt()
+                                                          : freedom.BestByScan();
   return freedom.Cost(share) <= freedom.Cost(0.0) ? freedom.At(share) : leaf.point;
 }
 

@@ -116,8 +116,8 @@ TEST(CustomSizingTest, NoSmallerVolumeIsFeasible) {
       EXPECT_TRUE(Meets(problem, candidate, leaf.point,
                         optimizer::Evaluate(problem, candidate, leaf.point)));
       EXPECT_LE(leaf.lower_bound, leaf.objective);
-      // Where a pump takes less energy per air at higher pressure, what the battery must bear is not
-      // known to grow with it, and an interval that only the battery rules out stays open.
+      // Where a pump takes less energy per air at higher pressure, what the battery must bear is
+      // not known to grow with it, and an interval that only the battery rules out stays open.
       if (optimizer::PumpEnergyRises(problem, candidate)) {
         ++rising;
         EXPECT_GE(leaf.lower_bound, leaf.objective * (1.0 - 1.1e-7));
