@@ -7,6 +7,8 @@ namespace plenum::model {
 
 double FlowFactor(Gas gas) { return gas == Gas::kCo2 ? 0.79 : 1.0; }
 
+double HeatCapacityRatio(Gas gas) { return gas == Gas::kCo2 ? 1.29 : 1.4; }
+
 double ReferenceDensity(Gas gas) {
   return gas == Gas::kCo2 ? kReferenceDensityCo2KgPerM3 : kReferenceDensityKgPerM3;
 }

@@ -28,6 +28,9 @@ enum class Gas { kAir, kCo2 };
 // air, 0.79 for CO2 (ratio of the ideal choked nozzle flows; used both ways and at any ratio).
 double FlowFactor(Gas gas);
 
+// Ratio of heat capacities c_p/c_v: 1.4 for air, 1.29 for CO2.
+double HeatCapacityRatio(Gas gas);
+
 // Density at the reference state, kg/m³.
 double ReferenceDensity(Gas gas);
 

@@ -8,7 +8,8 @@
 //   stepper.Start(rhs, t, y, step);             // rhs(t, y, dydt) with spans
 //   while (…) stepper.Step(rhs, step_max, norm);  // norm(y0, y1, error) ≤ 1 accepts
 //
-// Memory is taken once, by the constructor. A norm that is not finite counts as a rejection.
+// Memory is taken once, by the constructor. A norm that is not finite counts as a rejection. With
+// T = Dual time and state carry derivatives; the sizes of the steps are chosen by the values alone.
 #ifndef PLENUM_MODEL_DORMAND_PRINCE_H_
 #define PLENUM_MODEL_DORMAND_PRINCE_H_
 
@@ -19,41 +20,47 @@
 #include <span>
 #include <vector>
 
+#include "model/scalar.h"
+
 namespace plenum::model {
 
-class DormandPrince {
+template <class T>
+class DormandPrinceOf {
  public:
   // kTooSmall: the step was accepted at the smallest size that moves t although its error is above
   // tolerance; kNotFinite: even then the result is not finite, and nothing was accepted.
   enum class Outcome { kAccepted, kTooSmall, kNotFinite };
 
-  explicit DormandPrince(std::size_t size) : y0_(size), y1_(size), stage_(size), error_(size) {
+  explicit DormandPrinceOf(std::size_t size) : y0_(size), y1_(size), stage_(size), error_(size) {
     for (auto& k : k_) k.resize(size);
     for (auto& r : dense_) r.resize(size);
   }
 
   // Sets the state and evaluates the derivative there: at the start and after any change of rhs.
   template <class Rhs>
-  void Start(Rhs&& rhs, double t, std::span<const double> y, double step) {
+  void Start(Rhs&& rhs, const T& t, std::span<const T> y, double step) {
     t1_ = t;
     std::copy(y.begin(), y.end(), y1_.begin());
-    rhs(t, std::span<const double>(y1_), std::span<double>(k_[6]));
+    rhs(t, std::span<const T>(y1_), std::span<T>(k_[6]));
     next_step_ = step;
     old_error_ = 1e-4;
   }
 
   // Advances by one accepted step of at most `step_max`.
   template <class Rhs, class Norm>
-  Outcome Step(Rhs&& rhs, double step_max, Norm&& norm) {
+  Outcome Step(Rhs&& rhs, const T& step_max, Norm&& norm) {
     t0_ = t1_;
     y0_.swap(y1_);
     k_[0].swap(k_[6]);
-    double h = std::min(next_step_, step_max);
-    const double h_smallest = std::min(step_max, 16.0 * kEpsilon * std::max(std::abs(t0_), 1e-9));
+    const double h_max = ValueOf(step_max);
+    double h = std::min(next_step_, h_max);
+    const double h_smallest =
+        std::min(h_max, 16.0 * kEpsilon * std::max(std::abs(ValueOf(t0_)), 1e-9));
     for (bool rejected = false;; rejected = true) {
-      Stages(rhs, h);
-      const double error = norm(std::span<const double>(y0_), std::span<const double>(y1_),
-                                std::span<const double>(error_));
+      h_ = h == h_max ? step_max : T(h);
+      Stages(rhs);
+      const double error =
+          norm(std::span<const T>(y0_), std::span<const T>(y1_), std::span<const T>(error_));
       const bool smallest = h <= h_smallest;
       if (error <= 1.0 || (smallest && std::isfinite(error))) {
         const double bounded = std::max(error, 1e-10);
@@ -61,10 +68,9 @@ class DormandPrince {
             kSafety * std::pow(bounded, -kExponent) * std::pow(old_error_, kMemory);
         next_step_ = h * std::clamp(factor, 0.2, rejected ? 1.0 : 10.0);
         // A step cut short by step_max says nothing against the longer one.
-        if (error <= 1.0 && h == step_max) next_step_ = std::max(next_step_, h);
+        if (error <= 1.0 && h == h_max) next_step_ = std::max(next_step_, h);
         old_error_ = std::max(error, 1e-4);
-        h_ = h;
-        t1_ = t0_ + h;
+        t1_ = t0_ + h_;
         MakeDense();
         return error <= 1.0 ? Outcome::kAccepted : Outcome::kTooSmall;
       }
@@ -74,25 +80,53 @@ class DormandPrince {
     }
   }
 
-  double start_time() const { return t0_; }
-  double time() const { return t1_; }
-  double step() const { return h_; }
+  // Takes the last step again up to a share `theta` of it, without a new estimate of the error.
+  template <class Rhs>
+  void Shorten(Rhs&& rhs, double theta) {
+    h_ = T(theta * ValueOf(h_));
+    Stages(rhs);
+    t1_ = t0_ + h_;
+    MakeDense();
+  }
+
+  // Moves the end of the last step by a small time along the slope there. A new Start must follow.
+  void MoveEnd(const T& shift) {
+    for (std::size_t i = 0; i < y1_.size(); ++i) y1_[i] += shift * k_[6][i];
+    t1_ += shift;
+  }
+
+  // |λ|·h of the fastest mode seen in the last two stages; above 3.3 the step was held down by
+  // stability (Hairer, Wanner, Solving Ordinary Differential Equations II, IV.2).
+  double StiffnessOfStep() const {
+    double slopes = 0.0, states = 0.0;
+    for (std::size_t i = 0; i < y1_.size(); ++i) {
+      const double size = 1.0 / std::max(1e-300, std::abs(ValueOf(y1_[i])));
+      slopes += std::pow(size * (ValueOf(k_[6][i]) - ValueOf(k_[5][i])), 2);
+      states += std::pow(size * (ValueOf(y1_[i]) - ValueOf(stage_[i])), 2);
+    }
+    return states > 0.0 ? std::abs(ValueOf(h_)) * std::sqrt(slopes / states) : 0.0;
+  }
+
+  const T& start_time() const { return t0_; }
+  const T& time() const { return t1_; }
+  const T& step() const { return h_; }
   double next_step() const { return next_step_; }
-  std::span<const double> start_state() const { return y0_; }
-  std::span<const double> state() const { return y1_; }
-  std::span<const double> derivative() const { return k_[6]; }
-  std::span<const double> start_derivative() const { return k_[0]; }
+  void set_next_step(double step) { next_step_ = step; }
+  std::span<const T> start_state() const { return y0_; }
+  std::span<const T> state() const { return y1_; }
+  std::span<const T> derivative() const { return k_[6]; }
+  std::span<const T> start_derivative() const { return k_[0]; }
 
   // Dense output of the last step at t = start_time() + θ·step(), θ in [0, 1].
-  double At(double theta, std::size_t i) const {
-    const double rest = 1.0 - theta;
+  T At(const T& theta, std::size_t i) const {
+    const T rest = 1.0 - theta;
     return dense_[0][i] +
            theta * (dense_[1][i] +
                     rest * (dense_[2][i] + theta * (dense_[3][i] + rest * dense_[4][i])));
   }
   // Its derivative with respect to θ.
-  double SlopeAt(double theta, std::size_t i) const {
-    const double rest = 1.0 - theta;
+  T SlopeAt(const T& theta, std::size_t i) const {
+    const T rest = 1.0 - theta;
     return dense_[1][i] + (1.0 - 2.0 * theta) * dense_[2][i] +
            theta * (2.0 - 3.0 * theta) * dense_[3][i] +
            2.0 * theta * rest * (1.0 - 2.0 * theta) * dense_[4][i];
@@ -105,7 +139,7 @@ class DormandPrince {
   static constexpr double kExponent = 0.2 - 0.75 * kMemory;
 
   template <class Rhs>
-  void Stages(Rhs&& rhs, double h) {
+  void Stages(Rhs&& rhs) {
     static constexpr std::array<double, 7> kC = {0.0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
     static constexpr double kA[7][6] = {
         {},
@@ -118,18 +152,20 @@ class DormandPrince {
     static constexpr std::array<double, 7> kE = {
         71.0 / 57600, 0.0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
     for (std::size_t s = 1; s < 7; ++s) {
-      std::vector<double>& y = s == 6 ? y1_ : stage_;
+      std::vector<T>& y = s == 6 ? y1_ : stage_;
       for (std::size_t i = 0; i < y.size(); ++i) {
-        double sum = 0.0;
-        for (std::size_t j = 0; j < s; ++j) sum += kA[s][j] * k_[j][i];
-        y[i] = y0_[i] + h * sum;
+        T sum = kA[s][0] * k_[0][i];
+        for (std::size_t j = 1; j < s; ++j) {
+          if (kA[s][j] != 0.0) sum += kA[s][j] * k_[j][i];
+        }
+        y[i] = y0_[i] + h_ * sum;
       }
-      rhs(t0_ + kC[s] * h, std::span<const double>(y), std::span<double>(k_[s]));
+      rhs(t0_ + kC[s] * h_, std::span<const T>(y), std::span<T>(k_[s]));
     }
     for (std::size_t i = 0; i < error_.size(); ++i) {
-      double sum = 0.0;
-      for (std::size_t j = 0; j < 7; ++j) sum += kE[j] * k_[j][i];
-      error_[i] = h * sum;
+      T sum = kE[0] * k_[0][i];
+      for (std::size_t j = 2; j < 7; ++j) sum += kE[j] * k_[j][i];
+      error_[i] = h_ * sum;
     }
   }
 
@@ -140,10 +176,10 @@ class DormandPrince {
         701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0,
         69997945.0 / 29380423.0};
     for (std::size_t i = 0; i < y0_.size(); ++i) {
-      const double difference = y1_[i] - y0_[i];
-      const double bend = h_ * k_[0][i] - difference;
-      double sum = 0.0;
-      for (std::size_t j = 0; j < 7; ++j) sum += kD[j] * k_[j][i];
+      const T difference = y1_[i] - y0_[i];
+      const T bend = h_ * k_[0][i] - difference;
+      T sum = kD[0] * k_[0][i];
+      for (std::size_t j = 2; j < 7; ++j) sum += kD[j] * k_[j][i];
       dense_[0][i] = y0_[i];
       dense_[1][i] = difference;
       dense_[2][i] = bend;
@@ -152,11 +188,14 @@ class DormandPrince {
     }
   }
 
-  double t0_ = 0.0, t1_ = 0.0, h_ = 0.0, next_step_ = 0.0, old_error_ = 1e-4;
-  std::vector<double> y0_, y1_, stage_, error_;
-  std::array<std::vector<double>, 7> k_;
-  std::array<std::vector<double>, 5> dense_;
+  T t0_ = T(0.0), t1_ = T(0.0), h_ = T(0.0);
+  double next_step_ = 0.0, old_error_ = 1e-4;
+  std::vector<T> y0_, y1_, stage_, error_;
+  std::array<std::vector<T>, 7> k_;
+  std::array<std::vector<T>, 5> dense_;
 };
+
+using DormandPrince = DormandPrinceOf<double>;
 
 }  // namespace plenum::model
 

@@ -74,4 +74,15 @@ double MonotoneCurve::Slope(double x) const {
          t * (1.0 - 3.0 * s) * slope_[i];
 }
 
+double MonotoneCurve::Curvature(double x) const {
+  assert(!empty());
+  if (x <= x_.front() || x >= x_.back()) return 0.0;
+  const auto i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
+  const double h = x_[i] - x_[i - 1];
+  const double t = (x - x_[i - 1]) / h;
+  return (6.0 * (1.0 - 2.0 * t) * (y_[i] - y_[i - 1]) / h + (6.0 * t - 4.0) * slope_[i - 1] +
+          (6.0 * t - 2.0) * slope_[i]) /
+         h;
+}
+
 }  // namespace plenum::model

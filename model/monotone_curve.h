@@ -17,6 +17,7 @@ class MonotoneCurve {
   // extrapolate test the range first.
   double operator()(double x) const;
   double Slope(double x) const;
+  double Curvature(double x) const;  // second derivative; 0 outside the table
 
   bool empty() const { return x_.empty(); }
   double front() const { return x_.front(); }

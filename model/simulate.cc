@@ -19,6 +19,17 @@ Response Refused(const std::string& reason) {
   return response;
 }
 
+Response RunRig(const Rig& rig, const SimulateOptions& options, RunUntil until) {
+  if (options.integrator != Integrator::kCvode) {
+    Run<double, ExplicitIntegrator<double>> run(rig, options, until);
+    Response response = run.Execute();
+    if (!run.stiff()) return response;
+  }
+  Response response = Run<double, CvodeIntegrator>(rig, options, until).Execute();
+  response.stiff = true;
+  return response;
+}
+
 // All groups obey one command from the given pressures on; time to target by group.
 std::vector<double> StrokeTimes(Rig rig, const SimulateOptions& options, ValveState state) {
   for (GroupRig& group : rig.groups) {
@@ -30,7 +41,7 @@ std::vector<double> StrokeTimes(Rig rig, const SimulateOptions& options, ValveSt
   }
   std::vector<double> times(rig.groups.size(), kInfinity);
   if (!WhyInvalid(rig).empty()) return times;
-  const Response response = Run(rig, options, RunUntil::kTargets).Execute();
+  const Response response = RunRig(rig, options, RunUntil::kTargets);
   for (const Stroke& stroke : response.strokes) {
     times[static_cast<std::size_t>(stroke.group)] = stroke.to_target_s;
   }
@@ -54,7 +65,7 @@ Response Simulate(const Rig& rig, const SimulateOptions& options) {
   std::string reason = WhyInvalid(options);
   if (reason.empty()) reason = WhyInvalid(rig);
   if (!reason.empty()) return Refused(reason);
-  return Run(rig, options, RunUntil::kEnd).Execute();
+  return RunRig(rig, options, RunUntil::kEnd);
 }
 
 std::vector<FullStroke> FullStrokes(const Rig& rig, const SimulateOptions& options) {

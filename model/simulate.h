@@ -1,19 +1,22 @@
 // The simulator: groups of actuators on one source, through a schedule of valve commands.
 //
-// States: the pressure of one actuator per group (its `count` copies move alike), the pressure of
-// the reservoir if there is one, and the gas that crossed each border, so that balances can be
-// checked. Base model: isothermal at the ambient temperature T_a,
+// States: the pressure of one actuator per group (its `count` copies move alike), the states of its
+// effects, the pressure of the reservoir if there is one, and the gas and energy that crossed each
+// border, so that balances can be checked. Base model: isothermal at the ambient temperature T_a,
 //   dp_i/dt = P0·(T_a/T0)·(Q_in,i − Q_out,i) / W_i(p_i),   W = V + p·dV/dp
 //   dp_s/dt = P0·(T_a/T0)·(D·n_c·Q_c(p_s) − Σ n_i·Q_in,i) / V_r
 // with Q from the exact series march of each line (source pressure to actuator when inflating,
 // actuator to ambient when deflating). A regulator is one element shared by all lines: the node
 // behind it is where its flow equals what the lines take. Flow only ever goes source → actuator →
-// ambient: a check in the line holds against a source that has fallen below the actuator.
+// ambient: a check in the line holds against a source that has fallen below the actuator. Effects
+// (model/effects) change these equations; model/effects/unit.h has the general form.
 //
 // Integration: Dormand–Prince 5(4) with error control and dense output; no step crosses a switch.
-// Valve commands are exact step ends; reaching the operating pressure (with close_at_operating),
-// the compressor's stop and restart, and target crossings are located by root finding on the dense
-// output to 1e-12 s relative to the step.
+// Valve commands and ends of ramps are exact step ends. Reaching the operating pressure (with
+// close_at_operating), the compressor's stop and restart, target crossings, the change between
+// choked and subsonic flow and the ends of a hysteresis are located on the dense output; the step
+// is then taken again up to there. Where the step is held down by stability and not by accuracy for
+// long, the run starts over with CVODE (BDF, its own root finding).
 #ifndef PLENUM_MODEL_SIMULATE_H_
 #define PLENUM_MODEL_SIMULATE_H_
 
@@ -27,6 +30,7 @@
 #include "model/air.h"
 #include "model/chamber.h"
 #include "model/compressor.h"
+#include "model/effects/effect.h"
 #include "model/iso6358.h"
 
 namespace plenum::model {
@@ -51,9 +55,13 @@ struct GroupRig {
   std::vector<FlowElement> fill;     // in the order crossed from source to actuator
   std::vector<FlowElement> exhaust;  // in the order crossed from actuator to ambient
   std::vector<ValveCommand>
-      schedule;                     // times not falling; before the first command the valve holds
+      schedule;  // times not falling; before the first command the valve holds. Commands before 0
+                 // set the valve's position at the start and make no stroke
   bool close_at_operating = false;  // an inflating valve closes when p_op is reached
   double initial_pressure_pa = kReferencePressurePa;
+  double initial_temperature_k = 0.0;  // matters to heat_transfer alone; 0: the ambient's
+  bool blocked = false;                // the volume stays at the rest volume
+  std::vector<Effect> effects;
 };
 
 struct NoSource {};
@@ -86,58 +94,79 @@ struct Rig {
   std::vector<GroupRig> groups;
 };
 
+// kAutomatic: Dormand–Prince, and CVODE where that turns out stiff.
+enum class Integrator { kAutomatic, kDormandPrince, kCvode };
+
 struct SimulateOptions {
   double end_s = 0.0;
   double sample_hz = 0.0;  // 0: no samples, only strokes and balances
   double rise_fraction = 0.95;
   double fall_fraction = 0.05;
-  double relative_tolerance = 1e-8;  // local error of each pressure ≤ rtol·p + atol
-  double absolute_tolerance_pa = 1e-4;
+  double relative_tolerance = 1e-8;  // local error of each pressure ≤ rtol·p + atol, and of every
+  double absolute_tolerance_pa = 1e-4;  // other state ≤ rtol·(its size)
+  Integrator integrator = Integrator::kAutomatic;
   double linear_ratio = kLinearRatio;
   std::size_t steps_max = 2'000'000;
   std::function<bool()> cancelled;  // asked now and then; may be empty
 };
 
 // One inflating or deflating command and what came of it. Times are from the command; +∞ where not
-// reached before the next command or the end.
-struct Stroke {
+// reached before the next command or the end. T is double, or Dual inside model/sensitivity.h.
+template <class T>
+struct StrokeOf {
   int group = 0;
   ValveState state = ValveState::kInflate;
-  double command_s = 0.0;
-  double start_pressure_pa = 0.0;
-  double source_start_pressure_pa = 0.0;  // NaN without a source
+  T command_s = T(0.0);
+  T start_pressure_pa = T(0.0);
+  T source_start_pressure_pa = T(0.0);  // at the head of the line; NaN without a source
   // Until the next command or until the valve closes at the operating pressure.
-  double source_lowest_pressure_pa = 0.0;
-  double to_target_s = std::numeric_limits<double>::infinity();     // rise or fall fraction
-  double to_operating_s = std::numeric_limits<double>::infinity();  // inflating only: p_op reached
+  T source_lowest_pressure_pa = T(0.0);
+  T to_target_s = T(std::numeric_limits<double>::infinity());     // rise or fall fraction
+  T to_operating_s = T(std::numeric_limits<double>::infinity());  // inflating only: p_op reached
 };
+using Stroke = StrokeOf<double>;
 
+// kNotFinite: the step that leaves the range of the equations could not be taken at any size.
 enum class SimulateStatus { kNotRun, kDone, kCancelled, kTooManySteps, kNotFinite, kInvalid };
 
-struct GroupResponse {
+template <class T>
+struct GroupResponseOf {
   std::string name;
-  std::vector<double> pressure_pa;  // at t_s
-  std::vector<double> volume_m3;    // of the actuator without dead volume
-  double final_pressure_pa = 0.0;
-  double air_in_m3 = 0.0;   // m³ ANR into all actuators of the group
-  double air_out_m3 = 0.0;  // m³ ANR vented by all of them
+  std::vector<T> pressure_pa;    // at t_s
+  std::vector<T> reading_pa;     // what the sensor shows, absolute; empty without a sensor effect
+  std::vector<T> volume_m3;      // of the actuator without dead volume
+  std::vector<T> temperature_k;  // of the gas; empty without heat_transfer
+  T final_pressure_pa = T(0.0);
+  // All actuators of the group together, m³ ANR.
+  T air_drawn_m3 = T(0.0);                         // from the source
+  T air_in_m3 = T(0.0);                            // through the lines, in
+  T air_out_m3 = T(0.0);                           // through the lines, vented
+  T air_leaked_m3 = T(0.0);                        // net, leak effects
+  T gas_start_m3 = T(0.0), gas_final_m3 = T(0.0);  // behind the valves
+  // With heat_transfer, J: what the gas in the actuators gained and its sources.
+  T energy_start_j = T(0.0), energy_final_j = T(0.0);
+  T enthalpy_in_j = T(0.0), enthalpy_out_j = T(0.0), wall_heat_j = T(0.0), work_j = T(0.0);
 };
+using GroupResponse = GroupResponseOf<double>;
 
-struct Response {
+template <class T>
+struct ResponseOf {
   SimulateStatus status = SimulateStatus::kNotRun;
   std::string detail;  // for any status but kDone: where and why
   std::vector<double> t_s;
-  std::vector<GroupResponse> groups;
-  std::vector<double> source_pressure_pa;  // at t_s; empty without a source
-  double source_final_pressure_pa = 0.0;
+  std::vector<GroupResponseOf<T>> groups;
+  std::vector<T> source_pressure_pa;  // at t_s; empty without a source
+  T source_final_pressure_pa = T(0.0);
   // ∫ share of time that each pump runs: the duty while on; at the stop pressure the part of it
   // that covers the draw; 0 while off.
-  double compressor_on_s = 0.0;
-  double compressor_air_m3 = 0.0;    // m³ ANR delivered
-  double compressor_energy_j = 0.0;  // electrical, all pumps
-  std::vector<Stroke> strokes;       // in order of their commands
+  T compressor_on_s = T(0.0);
+  T compressor_air_m3 = T(0.0);      // m³ ANR delivered
+  T compressor_energy_j = T(0.0);    // electrical, all pumps
+  std::vector<StrokeOf<T>> strokes;  // in order of their commands
   std::size_t steps = 0;
+  bool stiff = false;  // CVODE took over
 };
+using Response = ResponseOf<double>;
 
 // Never throws for a physical reason: the status says what happened, and on any but kDone the
 // numbers up to that point stand.

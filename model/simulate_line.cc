@@ -1,61 +1,169 @@
 #include "model/simulate_line.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace plenum::model {
+namespace {
 
-Line::Line(std::span<const FlowElement> elements, double flow_factor, double linear_ratio)
-    : elements_(elements.begin(), elements.end()), linear_ratio_(linear_ratio) {
-  if (elements_.empty()) return;
-  for (const FlowElement& element : elements_)
-    cracking_pressure_pa_ += element.cracking_pressure_pa;
-  if (cracking_pressure_pa_ == 0.0) {
-    series_ = MakeSeries(elements, flow_factor);
-    flow_at_linear_ratio_ = FlowAtRatio(series_, linear_ratio);
-  }
-  for (FlowElement& element : elements_) element.sonic_conductance_m3_per_s_pa *= flow_factor;
+using std::sqrt;
+
+// b + (1−b)·√(1 − z^{1/m}): pressure behind an element per pressure in front of it.
+template <class T>
+T PressureRatio(const LineElement<T>& element, const T& z) {
+  using std::pow;
+  const T power =
+      element.subsonic_index == 0.5 ? T(z * z) : T(pow(z, 1.0 / element.subsonic_index));
+  return element.critical_ratio + (1.0 - element.critical_ratio) * sqrt(1.0 - power);
 }
 
-double Line::Flow(double upstream_pa, double downstream_pa) const {
-  const double head_pa = upstream_pa - cracking_pressure_pa_;
-  if (elements_.empty() || !(head_pa > 0.0) || head_pa <= downstream_pa) return 0.0;
-  const double ratio = downstream_pa / head_pa;
-  const double share = (1.0 - ratio) / (1.0 - linear_ratio_);
-  if (cracking_pressure_pa_ > 0.0) {
-    return share >= 1.0 ? FlowWithCracking(upstream_pa, downstream_pa)
-                        : share * FlowWithCracking(upstream_pa, linear_ratio_ * head_pa);
+template <class T>
+LineElement<double> ValuesOf(const LineElement<T>& element) {
+  return {ValueOf(element.sonic_conductance_m3_per_s_pa), ValueOf(element.critical_ratio),
+          ValueOf(element.cracking_pressure_pa), element.subsonic_index};
+}
+
+}  // namespace
+
+template <class T>
+Line<T>::Line(std::vector<LineElement<T>> elements, double linear_ratio)
+    : elements_(std::move(elements)), linear_ratio_(linear_ratio) {
+  if (elements_.empty()) return;
+  std::array<FlowElement, kMaxSeriesElements> values;
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    cracking_pressure_pa_ += elements_[i].cracking_pressure_pa;
+    cracks_inside_ = cracks_inside_ || (i > 0 && elements_[i].cracking_pressure_pa > 0.0);
+    values[i] = {
+        .sonic_conductance_m3_per_s_pa = ValueOf(elements_[i].sonic_conductance_m3_per_s_pa),
+        .critical_ratio = ValueOf(elements_[i].critical_ratio),
+        .subsonic_index = elements_[i].subsonic_index};
   }
-  return upstream_pa * (share >= 1.0 ? FlowAtRatio(series_, ratio) : share * flow_at_linear_ratio_);
+  if (cracks_inside_) return;
+  // A cracking pressure in front of everything is lost head, and the rest is homogeneous.
+  elements_[0].cracking_pressure_pa = T(0.0);
+  series_ = MakeSeries(std::span(values.data(), elements_.size()));
+  choked_ratio_ = series_.choked_ratio;
+  choked_flow_ = LiftFlow(series_.choked_flow_m3_per_s_pa, T(1.0), T(series_.choked_ratio));
+  flow_at_linear_ratio_ = SubsonicFlow(T(linear_ratio));
+}
+
+// Pressure behind the first `count` elements at flow q, and how it falls with q.
+template <class T>
+typename Line<T>::MarchPoint Line<T>::March(const T& upstream_pa, const T& flow,
+                                            std::size_t count) const {
+  MarchPoint point = {upstream_pa, 0.0};
+  for (std::size_t i = 0; i < count; ++i) {
+    const LineElement<T>& element = elements_[i];
+    const T front = point.pressure - element.cracking_pressure_pa;
+    const T z = flow / (element.sonic_conductance_m3_per_s_pa * front);
+    const T ratio = PressureRatio(element, z);
+    const double zv = ValueOf(z);
+    const double b = ValueOf(element.critical_ratio);
+    const double exponent = 1.0 / element.subsonic_index;
+    const double root = (ValueOf(ratio) - b) / (1.0 - b);
+    const double ratio_slope = -0.5 * (1.0 - b) * exponent * std::pow(zv, exponent - 1.0) / root;
+    const double z_slope = zv / ValueOf(flow) - zv * point.slope / ValueOf(front);
+    point.slope = point.slope * ValueOf(ratio) + ValueOf(front) * ratio_slope * z_slope;
+    point.pressure = front * ratio;
+  }
+  return point;
+}
+
+// The element that uses the largest share z of the flow it could pass, and that share.
+template <class T>
+typename Line<T>::Bottleneck Line<T>::FindBottleneck(double upstream_pa, double flow) const {
+  Bottleneck largest = {0, 0.0};
+  double pressure = upstream_pa;
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const LineElement<double> element = ValuesOf(elements_[i]);
+    pressure -= element.cracking_pressure_pa;
+    const double z = std::min(1.0, flow / (element.sonic_conductance_m3_per_s_pa * pressure));
+    if (z > largest.share) largest = {i, z};
+    pressure *= PressureRatio(element, z);
+  }
+  return largest;
+}
+
+// The solved flow with derivatives: one Newton step in dual numbers on the equation that sets it,
+// q = C·p(q) at the element that chokes, else the pressure at the end of the line.
+template <class T>
+T Line<T>::LiftFlow(double flow, const T& upstream_pa, const T& downstream_pa) const {
+  if constexpr (kIsDual<T>) {
+    if (!(flow > 0.0)) return T(flow);
+    const Bottleneck bottleneck = FindBottleneck(ValueOf(upstream_pa), flow);
+    const bool choked = bottleneck.share > 1.0 - 1e-12;
+    const MarchPoint end =
+        March(upstream_pa, T(flow), choked ? bottleneck.element : elements_.size());
+    T residual = end.pressure - downstream_pa;
+    double slope = end.slope;
+    if (choked) {
+      const LineElement<T>& element = elements_[bottleneck.element];
+      residual =
+          element.sonic_conductance_m3_per_s_pa * (end.pressure - element.cracking_pressure_pa) -
+          flow;
+      slope = ValueOf(element.sonic_conductance_m3_per_s_pa) * end.slope - 1.0;
+    }
+    return T(flow) - (residual - ValueOf(residual)) / slope;
+  }
+  return T(flow);
+}
+
+// Flow per upstream pressure at a ratio above choked_ratio_.
+template <class T>
+T Line<T>::SubsonicFlow(const T& ratio) const {
+  if (elements_.size() == 1 && elements_[0].subsonic_index == 0.5) {
+    const T width = 1.0 - elements_[0].critical_ratio;
+    const T share = (1.0 - ratio) / width;
+    return choked_flow_ * sqrt(share * (2.0 - share));
+  }
+  return LiftFlow(FlowAtRatio(series_, ValueOf(ratio)), T(1.0), ratio);
+}
+
+template <class T>
+T Line<T>::Flow(const T& upstream_pa, const T& downstream_pa) const {
+  const T head_pa = upstream_pa - cracking_pressure_pa_;
+  if (elements_.empty() || !(head_pa > 0.0) || head_pa <= downstream_pa) return T(0.0);
+  const T ratio = downstream_pa / head_pa;
+  const bool linear = ratio > linear_ratio_;
+  const T share = (1.0 - ratio) / (1.0 - linear_ratio_);
+  if (cracks_inside_) {
+    return linear ? T(share * FlowWithCracking(upstream_pa, linear_ratio_ * head_pa))
+                  : FlowWithCracking(upstream_pa, downstream_pa);
+  }
+  if (linear) return head_pa * share * flow_at_linear_ratio_;
+  return head_pa * (ratio <= choked_ratio_ ? choked_flow_ : SubsonicFlow(ratio));
 }
 
 // The largest flow with which every element can be crossed and the end pressure is not below
 // `downstream_pa`. The end pressure falls with the flow, so bisection finds it.
-double Line::FlowWithCracking(double upstream_pa, double downstream_pa) const {
+template <class T>
+T Line<T>::FlowWithCracking(const T& upstream_pa, const T& downstream_pa) const {
   const auto arrives = [&](double flow) {
-    double pressure = upstream_pa;
-    for (const FlowElement& element : elements_) {
+    double pressure = ValueOf(upstream_pa);
+    for (const LineElement<T>& lifted : elements_) {
+      const LineElement<double> element = ValuesOf(lifted);
       pressure -= element.cracking_pressure_pa;
       const double z = flow / (element.sonic_conductance_m3_per_s_pa * pressure);
       if (!(pressure > 0.0) || z > 1.0) return false;
-      const double power =
-          element.subsonic_index == 0.5 ? z * z : std::pow(z, 1.0 / element.subsonic_index);
-      const double b = element.critical_ratio;
-      pressure *= b + (1.0 - b) * std::sqrt(1.0 - power);
+      pressure *= PressureRatio(element, z);
     }
-    return pressure >= downstream_pa;
+    return pressure >= ValueOf(downstream_pa);
   };
   double low = 0.0;
   double high = std::numeric_limits<double>::infinity();
-  for (const FlowElement& element : elements_) {
-    high = std::min(high, element.sonic_conductance_m3_per_s_pa * upstream_pa);
+  for (const LineElement<T>& element : elements_) {
+    high = std::min(high, ValueOf(element.sonic_conductance_m3_per_s_pa) * ValueOf(upstream_pa));
   }
   for (double middle = 0.5 * high; middle > low && middle < high; middle = 0.5 * (low + high)) {
     (arrives(middle) ? low : high) = middle;
     if (high - low <= 1e-15 * high) break;
   }
-  return low;
+  return LiftFlow(low, upstream_pa, downstream_pa);
 }
+
+template class Line<double>;
+template class Line<Dual>;
 
 }  // namespace plenum::model

@@ -3,40 +3,80 @@
 #ifndef PLENUM_MODEL_SIMULATE_LINE_H_
 #define PLENUM_MODEL_SIMULATE_LINE_H_
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "model/iso6358.h"
+#include "model/scalar.h"
 #include "model/series.h"
 
 namespace plenum::model {
 
+template <class T>
+struct LineElement {
+  T sonic_conductance_m3_per_s_pa = T(0.0);
+  T critical_ratio = T(0.0);
+  T cracking_pressure_pa = T(0.0);
+  double subsonic_index = 0.5;
+};
+
+// T is double or Dual (model/scalar.h).
+template <class T>
 class Line {
  public:
   Line() = default;  // passes nothing
-  // At most kMaxSeriesElements, in the order crossed. `flow_factor` scales every C.
-  Line(std::span<const FlowElement> elements, double flow_factor, double linear_ratio);
+  // At most kMaxSeriesElements, in the order crossed.
+  Line(std::vector<LineElement<T>> elements, double linear_ratio);
 
   // m³/s ANR from `upstream_pa` to `downstream_pa`, 0 where Σ Δp_c or more of the upstream pressure
   // is needed to get there. Above `linear_ratio` of the highest downstream pressure that flow can
   // reach, p1 − Σ Δp_c, a straight line to zero.
-  double Flow(double upstream_pa, double downstream_pa) const;
+  T Flow(const T& upstream_pa, const T& downstream_pa) const;
+
+  // Between these values of downstream_pa / (upstream_pa − Σ Δp_c) the flow is smooth: choked below
+  // the first, none above the last.
+  static constexpr std::size_t kKinks = 3;
+  std::array<double, kKinks> kinks() const { return {choked_ratio_, linear_ratio_, 1.0}; }
+  T RatioOf(const T& upstream_pa, const T& downstream_pa) const {
+    return downstream_pa / (upstream_pa - cracking_pressure_pa_);
+  }
 
   // Flow per upstream pressure at which the straight line begins; only without cracking pressure.
-  double linear_flow_m3_per_s_pa() const { return flow_at_linear_ratio_; }
+  double linear_flow_m3_per_s_pa() const { return ValueOf(flow_at_linear_ratio_); }
 
   // Σ Δp_c: no flow below this difference.
-  double cracking_pressure_pa() const { return cracking_pressure_pa_; }
+  const T& cracking_pressure_pa() const { return cracking_pressure_pa_; }
+  bool empty() const { return elements_.empty(); }
 
  private:
-  double FlowWithCracking(double upstream_pa, double downstream_pa) const;
+  struct MarchPoint {
+    T pressure;
+    double slope;  // d pressure / dq
+  };
+  T SubsonicFlow(const T& ratio) const;
+  T FlowWithCracking(const T& upstream_pa, const T& downstream_pa) const;
+  MarchPoint March(const T& upstream_pa, const T& flow, std::size_t count) const;
+  struct Bottleneck {
+    std::size_t element;
+    double share;
+  };
+  Bottleneck FindBottleneck(double upstream_pa, double flow) const;
+  T LiftFlow(double flow, const T& upstream_pa, const T& downstream_pa) const;
 
-  std::vector<FlowElement> elements_;
-  Series series_;  // if no element has a cracking pressure
-  double cracking_pressure_pa_ = 0.0;
+  std::vector<LineElement<T>> elements_;
+  Series series_;  // of the values, if no element but the first has a cracking pressure
+  bool cracks_inside_ = false;
+  T cracking_pressure_pa_ = T(0.0);
+  T choked_flow_ = T(0.0);           // of series_, per upstream pressure
+  T flow_at_linear_ratio_ = T(0.0);  // the same at linear_ratio
+  double choked_ratio_ = 0.0;
   double linear_ratio_ = kLinearRatio;
-  double flow_at_linear_ratio_ = 0.0;  // of series_, per upstream pressure
 };
+
+extern template class Line<double>;
+extern template class Line<Dual>;
 
 }  // namespace plenum::model
 

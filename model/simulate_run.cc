@@ -11,18 +11,29 @@ namespace {
 constexpr std::size_t kStepsBetweenQuestions = 64;
 // A valve counts as closed when it is this share of the tolerance away from equal pressures.
 constexpr double kSettledShare = 1e-3;
+// Steps at the border of stability after which CVODE is the better integrator.
+constexpr long long kStiffSteps = 5000;
+// Nothing moves by more than this share of its size until the end: the state is steady.
+constexpr double kStalledShare = 1e-6;
 
 }  // namespace
 
-Run::Run(const Rig& rig, const SimulateOptions& options, RunUntil until)
+template <class T, class Stepper>
+Run<T, Stepper>::Run(const Rig& rig, const SimulateOptions& options, RunUntil until,
+                     const Lift& lift)
     : rig_(rig),
       options_(options),
       until_(until),
-      system_(rig, options.linear_ratio),
-      stepper_(system_.size()),
+      lift_(lift),
+      system_(rig, options.linear_ratio, lift, until == RunUntil::kEnd),
+      stepper_(system_, options.relative_tolerance, options.absolute_tolerance_pa),
       y_(system_.InitialState()),
+      sample_(system_.size()),
       valves_(rig.groups.size()) {
-  for (const GroupRig& group : rig.groups) response_.groups.emplace_back().name = group.name;
+  response_.groups.resize(rig.groups.size());
+  for (std::size_t i = 0; i < rig.groups.size(); ++i) {
+    response_.groups[i].name = rig.groups[i].name;
+  }
   if (options.sample_hz > 0.0) {
     sample_count_ =
         1 + static_cast<std::size_t>(std::ceil(options.end_s * options.sample_hz * (1.0 - 1e-12)));
@@ -30,219 +41,336 @@ Run::Run(const Rig& rig, const SimulateOptions& options, RunUntil until)
   }
 }
 
-Response Run::Execute() {
+template <class T, class Stepper>
+ResponseOf<T> Run<T, Stepper>::Execute(std::span<const T> start) {
+  std::copy(start.begin(), start.end(), y_.begin());
   response_.status = SimulateStatus::kDone;
-  SampleTo(0.0, SampleFrom::kRest);
-  ApplyCommands();
-  while (t_s_ < options_.end_s && IntegrateTo(NextBoundary())) ApplyCommands();
+  system_.Look(t_s_, y_);
   for (std::size_t i = 0; i < system_.groups(); ++i) {
-    CollectCrossed(i);
-    response_.groups[i].final_pressure_pa = y_[i];
+    response_.groups[i].gas_start_m3 = system_.Stored(i, y_);
+    response_.groups[i].energy_start_j = system_.Energy(i);
   }
-  response_.source_final_pressure_pa = y_[system_.source()];
-  response_.compressor_on_s = y_[system_.pump_on()];
-  response_.compressor_air_m3 = y_[system_.pump_air()];
-  response_.compressor_energy_j = y_[system_.pump_energy()];
+  ApplySwitches();
+  SampleTo(0.0, SampleFrom::kRest);
+  while (ValueOf(t_s_) < options_.end_s && IntegrateTo(NextBoundary())) ApplySwitches();
+  RecordEnd();
   return std::move(response_);
 }
 
-void Run::ApplyCommands() {
+// All commands and movements of valves that are due.
+template <class T, class Stepper>
+void Run<T, Stepper>::ApplySwitches() {
+  smooth_ = false;
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     const auto& schedule = rig_.groups[i].schedule;
-    std::size_t& next = valves_[i].next_command;
-    while (next < schedule.size() && schedule[next].time_s <= t_s_) {
-      Command(i, schedule[next++].state);
+    Valve& valve = valves_[i];
+    while (valve.next_command < schedule.size() &&
+           schedule[valve.next_command].time_s <= ValueOf(t_s_)) {
+      Command(i, schedule[valve.next_command++]);
+    }
+    while (valve.next_move < schedule.size()) {
+      const ValveCommand& command = schedule[valve.next_move];
+      const T at_s = lift_.operator()<T>(command.time_s) + system_.valve_delay_s(i);
+      if (at_s > t_s_) break;
+      Move(i, command.state, at_s);
+      ++valve.next_move;
+    }
+    if (valve.close_at_s && *valve.close_at_s <= t_s_) {
+      system_.filling(i).Turn(*valve.close_at_s, 0.0);
+      valve.close_at_s.reset();
     }
     // A valve that was closed at equal pressures may have something to pass again.
-    if (valves_[i].state == ValveState::kDeflate) system_.set_valve(i, ValveFlow::kOut);
-    if (valves_[i].state == ValveState::kInflate) system_.set_valve(i, ValveFlow::kIn);
+    system_.set_settled(i, false);
   }
 }
 
-void Run::Command(std::size_t group, ValveState state) {
-  CollectCrossed(group);
-  Valve& valve = valves_[group];
-  valve.state = state;
-  valve.stroke = -1;
-  valve.target_pending = valve.operating_pending = false;
-  system_.set_valve(group, ValveFlow::kNone);
-  if (state == ValveState::kHold) return;
-
-  const double source_pa =
-      system_.has_source() ? y_[system_.source()] : std::numeric_limits<double>::quiet_NaN();
-  valve.stroke = static_cast<int>(response_.strokes.size());
-  response_.strokes.push_back({.group = static_cast<int>(group),
-                               .state = state,
-                               .command_s = t_s_,
-                               .start_pressure_pa = y_[group],
-                               .source_start_pressure_pa = source_pa,
-                               .source_lowest_pressure_pa = source_pa});
-  const double fraction =
-      state == ValveState::kInflate ? options_.rise_fraction : options_.fall_fraction;
-  const Chamber& chamber = rig_.groups[group].chamber;
-  valve.target_pa = rig_.ambient.pressure_pa +
-                    fraction * (chamber.operating_pressure_pa - rig_.ambient.pressure_pa);
-  valve.target_pending = true;
-  valve.operating_pending = state == ValveState::kInflate;
+template <class T, class Stepper>
+void Run<T, Stepper>::Move(std::size_t group, ValveState state, const T& at_s) {
+  system_.filling(group).Turn(at_s, state == ValveState::kInflate ? 1.0 : 0.0);
+  system_.venting(group).Turn(at_s, state == ValveState::kDeflate ? 1.0 : 0.0);
 }
 
-double Run::NextBoundary() const {
-  double boundary_s = options_.end_s;
+template <class T, class Stepper>
+void Run<T, Stepper>::Command(std::size_t group, const ValveCommand& command) {
+  Valve& valve = valves_[group];
+  valve.state = command.state;
+  valve.stroke = -1;
+  valve.target_pending = valve.operating_pending = false;
+  if (command.state == ValveState::kHold || command.time_s < 0.0) return;
+
+  const T source_pa = system_.has_source() ? system_.HeadPressure(group, y_)
+                                           : T(std::numeric_limits<double>::quiet_NaN());
+  valve.stroke = static_cast<int>(response_.strokes.size());
+  StrokeOf<T>& stroke = response_.strokes.emplace_back();
+  stroke.group = static_cast<int>(group);
+  stroke.state = command.state;
+  stroke.command_s = lift_.operator()<T>(command.time_s);
+  stroke.start_pressure_pa = y_[system_.pressure(group)];
+  stroke.source_start_pressure_pa = stroke.source_lowest_pressure_pa = source_pa;
+  const bool inflate = command.state == ValveState::kInflate;
+  const double fraction = inflate ? options_.rise_fraction : options_.fall_fraction;
+  const GroupSetup<T>& setup = system_.setup(group);
+  valve.target_pa = setup.ambient_pressure_pa +
+                    fraction * (setup.operating_pressure_pa - setup.ambient_pressure_pa);
+  valve.target_pending = true;
+  valve.operating_pending = inflate;
+}
+
+template <class T, class Stepper>
+T Run<T, Stepper>::NextBoundary() const {
+  T boundary_s(options_.end_s);
+  const auto consider = [&](const T& time_s) {
+    if (time_s > t_s_ && time_s < boundary_s) boundary_s = time_s;
+  };
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     const auto& schedule = rig_.groups[i].schedule;
-    const std::size_t next = valves_[i].next_command;
-    if (next < schedule.size()) boundary_s = std::min(boundary_s, schedule[next].time_s);
+    const Valve& valve = valves_[i];
+    if (valve.next_command < schedule.size()) {
+      consider(lift_.operator()<T>(schedule[valve.next_command].time_s));
+    }
+    if (valve.next_move < schedule.size()) {
+      consider(lift_.operator()<T>(schedule[valve.next_move].time_s) + system_.valve_delay_s(i));
+    }
+    if (valve.close_at_s) consider(*valve.close_at_s);
+    consider(system_.filling(i).EndTime());
+    consider(system_.venting(i).EndTime());
   }
   return boundary_s;
 }
 
-bool Run::IntegrateTo(double boundary_s) {
+template <class T, class Stepper>
+bool Run<T, Stepper>::IntegrateTo(const T& boundary_s) {
   while (t_s_ < boundary_s) {
     for (std::size_t i = 0; i < valves_.size(); ++i) CheckTargets(i);
+    // A valve that closes after its delay adds a boundary of its own.
+    if (NextBoundary() < boundary_s) return true;
     ChoosePumpState();
     CloseSettledValves();
     if (until_ == RunUntil::kTargets && TargetsDecided()) return false;
-
-    stepper_.Start(system_, t_s_, y_, 0.0);
-    const auto slope = stepper_.derivative();
-    if (std::all_of(slope.begin(), slope.end(), [](double s) { return s == 0.0; })) {
-      SampleTo(boundary_s, SampleFrom::kRest);
+    system_.Settle(t_s_, y_);
+    AddGuards();
+    stepper_.Start(t_s_, y_, smooth_);
+    if (AtRest()) {
+      SampleTo(ValueOf(boundary_s), SampleFrom::kRest);
       t_s_ = boundary_s;
       break;
     }
-    stepper_.Start(system_, t_s_, y_, InitialStep(boundary_s - t_s_));
-    for (bool switched = false; !switched && t_s_ < boundary_s;) {
-      if (response_.steps >= options_.steps_max) {
-        return Fail(SimulateStatus::kTooManySteps,
-                    "more than " + std::to_string(options_.steps_max) + " steps");
-      }
-      if (response_.steps % kStepsBetweenQuestions == 0 && options_.cancelled &&
-          options_.cancelled()) {
-        return Fail(SimulateStatus::kCancelled, "cancelled");
-      }
-      if (TryStep(boundary_s) == DormandPrince::Outcome::kNotFinite) {
-        return Fail(SimulateStatus::kNotFinite, "pressure is not finite");
-      }
-      const Event event = FirstEvent();
-      RecordStep(std::min(event.theta, 1.0));
-      TakeState(event);
-      if (event.theta > 1.0 && stepper_.step() == boundary_s - stepper_.start_time()) {
-        t_s_ = boundary_s;
-      }
-      switched = event.theta <= 1.0 || CloseSettledValves() ||
-                 (until_ == RunUntil::kTargets && TargetsDecided());
+    smooth_ = true;
+    for (bool cut = false; !cut && t_s_ < boundary_s;) {
+      if (!StepsLeft() || !TakeStep(boundary_s)) return false;
+      cut = stepper_.event().has_value();
+      if (cut) smooth_ = !TakeEvent(*stepper_.event());
+      if (CloseSettledValves()) cut = true, smooth_ = false;
+      if (until_ == RunUntil::kTargets && (TargetsDecided() || Stalled())) return false;
     }
   }
   return true;
 }
 
-DormandPrince::Outcome Run::TryStep(double boundary_s) {
-  ++response_.steps;
-  return stepper_.Step(system_, boundary_s - t_s_,
-                       [&](std::span<const double> before, std::span<const double> after,
-                           std::span<const double> error) {
-                         double norm = 0.0;
-                         for (std::size_t i = 0; i <= system_.groups(); ++i) {
-                           const double size = std::max(std::abs(before[i]), std::abs(after[i]));
-                           const double share = std::abs(error[i]) / Tolerance(size);
-                           if (!(share <= norm)) norm = share;
-                         }
-                         return norm;
-                       });
-}
-
-double Run::InitialStep(double remaining_s) const {
-  double step_s = remaining_s;
-  for (std::size_t i = 0; i <= system_.groups(); ++i) {
-    const double slope = std::abs(stepper_.derivative()[i]);
-    if (slope > 0.0) step_s = std::min(step_s, 1e-2 * y_[i] / slope);
+template <class T, class Stepper>
+bool Run<T, Stepper>::StepsLeft() {
+  if (response_.steps >= options_.steps_max) {
+    return Fail(SimulateStatus::kTooManySteps,
+                "more than " + std::to_string(options_.steps_max) + " steps");
   }
-  return step_s;
+  if (response_.steps % kStepsBetweenQuestions == 0 && options_.cancelled && options_.cancelled()) {
+    return Fail(SimulateStatus::kCancelled, "cancelled");
+  }
+  if (options_.integrator == Integrator::kAutomatic && !kIsDual<T> &&
+      stepper_.steps_at_stability() > kStiffSteps) {
+    stiff_ = true;
+    return Fail(SimulateStatus::kTooManySteps, "steps held down by stability");
+  }
+  return true;
 }
 
-double Run::Tolerance(double pressure_pa) const {
+template <class T, class Stepper>
+bool Run<T, Stepper>::TakeStep(const T& boundary_s) {
+  ++response_.steps;
+  if (stepper_.Step(boundary_s) == StepOutcome::kNotFinite) {
+    return Fail(SimulateStatus::kNotFinite,
+                "the equations leave their range (volume or its slope not positive, or a pressure "
+                "not finite)");
+  }
+  RecordSourceLowest();
+  SampleTo(ValueOf(stepper_.time()), SampleFrom::kStep);
+  std::copy(stepper_.state().begin(), stepper_.state().end(), y_.begin());
+  const bool whole = !stepper_.event() && ValueOf(stepper_.time()) >= ValueOf(boundary_s);
+  t_s_ = whole ? boundary_s : stepper_.time();
+  return true;
+}
+
+// Nothing changes by itself until the boundary.
+template <class T, class Stepper>
+bool Run<T, Stepper>::AtRest() const {
+  for (std::size_t i = 0; i < valves_.size(); ++i) {
+    if (system_.Moving(i, ValueOf(t_s_))) return false;
+  }
+  const auto slope = stepper_.slope();
+  return std::all_of(slope.begin(), slope.end(), [](const T& s) { return s == 0.0; });
+}
+
+template <class T, class Stepper>
+bool Run<T, Stepper>::TakeEvent(std::size_t event) {
+  const Guard<T> guard = system_.guards()[event];
+  switch (guard.kind) {
+    case GuardKind::kKink:
+      system_.PassKink(guard);
+      return false;
+    case GuardKind::kTarget: {
+      Valve& valve = valves_[guard.group];
+      StrokeOf<T>& stroke = StrokeOfValve(valve);
+      stroke.to_target_s = t_s_ - stroke.command_s;
+      valve.target_pending = false;
+      return false;
+    }
+    case GuardKind::kOperating:
+      y_[system_.pressure(guard.group)] = guard.level;
+      ReachOperating(guard.group);
+      return rig_.groups[guard.group].close_at_operating;
+    case GuardKind::kPumpLimit:
+      y_[*system_.source_state()] = guard.level;
+      return true;
+    case GuardKind::kEffect:
+      return true;
+  }
+  return true;
+}
+
+// Guards of what the run itself watches.
+template <class T, class Stepper>
+void Run<T, Stepper>::AddGuards() {
+  std::vector<Guard<T>>& guards = system_.guards();
+  for (std::size_t i = 0; i < valves_.size(); ++i) {
+    const Valve& valve = valves_[i];
+    if (valve.stroke < 0) continue;
+    const double sign = valve.state == ValveState::kInflate ? 1.0 : -1.0;
+    if (valve.target_pending) guards.push_back({GuardKind::kTarget, i, 0, sign, valve.target_pa});
+    if (valve.operating_pending) {
+      guards.push_back({GuardKind::kOperating, i, 0, 1.0, system_.setup(i).operating_pressure_pa});
+    }
+  }
+  const PumpState pump = system_.pump();
+  if (pump == PumpState::kRunning || pump == PumpState::kStopped) {
+    const double sign = pump == PumpState::kRunning ? 1.0 : -1.0;
+    guards.push_back({GuardKind::kPumpLimit, 0, 0, sign, system_.pump_limit_pa()});
+  }
+}
+
+template <class T, class Stepper>
+double Run<T, Stepper>::Tolerance(double pressure_pa) const {
   return options_.relative_tolerance * pressure_pa + options_.absolute_tolerance_pa;
 }
 
-bool Run::Fail(SimulateStatus status, const std::string& what) {
+template <class T, class Stepper>
+bool Run<T, Stepper>::Fail(SimulateStatus status, const std::string& what) {
   std::ostringstream text;
   text.precision(12);
-  text << what << " at t = " << t_s_ << " s";
+  text << what << " at t = " << ValueOf(t_s_) << " s";
   response_.status = status;
   response_.detail = text.str();
   return false;
 }
 
 // What holds at this instant without a step: targets already passed, valves to be closed.
-void Run::CheckTargets(std::size_t group) {
+template <class T, class Stepper>
+void Run<T, Stepper>::CheckTargets(std::size_t group) {
   Valve& valve = valves_[group];
   if (valve.stroke < 0) return;
-  Stroke& stroke = response_.strokes[static_cast<std::size_t>(valve.stroke)];
+  StrokeOf<T>& stroke = StrokeOfValve(valve);
   const bool inflating = valve.state == ValveState::kInflate;
-  const double pressure_pa = y_[group];
+  const T& pressure_pa = y_[system_.pressure(group)];
   if (valve.target_pending &&
       (inflating ? pressure_pa >= valve.target_pa : pressure_pa <= valve.target_pa)) {
     stroke.to_target_s = t_s_ - stroke.command_s;
     valve.target_pending = false;
   }
   // Equal groups reach their pressure in the same step, apart by rounding.
-  const double operating_pa = rig_.groups[group].chamber.operating_pressure_pa;
-  if (!inflating || pressure_pa < operating_pa * (1.0 - 1e-13)) return;
+  const double operating_pa = ValueOf(system_.setup(group).operating_pressure_pa);
+  if (inflating && pressure_pa >= operating_pa * (1.0 - 1e-13)) ReachOperating(group);
+}
+
+template <class T, class Stepper>
+void Run<T, Stepper>::ReachOperating(std::size_t group) {
+  Valve& valve = valves_[group];
+  StrokeOf<T>& stroke = StrokeOfValve(valve);
+  if (valve.target_pending && y_[system_.pressure(group)] >= valve.target_pa) {
+    stroke.to_target_s = t_s_ - stroke.command_s;
+    valve.target_pending = false;
+  }
   if (valve.operating_pending) stroke.to_operating_s = t_s_ - stroke.command_s;
   valve.operating_pending = false;
-  if (rig_.groups[group].close_at_operating) {
-    system_.set_valve(group, ValveFlow::kNone);
-    valve.stroke = -1;
-    CollectCrossed(group);
-    valve.state = ValveState::kHold;
+  if (!rig_.groups[group].close_at_operating) return;
+  valve.stroke = -1;
+  valve.state = ValveState::kHold;
+  const T close_s = t_s_ + system_.valve_delay_s(group);
+  if (close_s > t_s_) {
+    valve.close_at_s = close_s;
+  } else {
+    system_.filling(group).Turn(t_s_, 0.0);
   }
 }
 
-void Run::ChoosePumpState() {
+template <class T, class Stepper>
+void Run<T, Stepper>::ChoosePumpState() {
   if (system_.pump() == PumpState::kAbsent) return;
-  const double source_pa = y_[system_.source()];
-  const double limit_pa = system_.pump_limit_pa();
+  const T& source_pa = y_[*system_.source_state()];
+  const T& limit_pa = system_.pump_limit_pa();
   if (source_pa == limit_pa) {
-    const bool covers = system_.Draw(y_) <= system_.Delivery(limit_pa);
+    const bool covers = system_.Draw(t_s_, y_) <= system_.Delivery(limit_pa);
     system_.set_pump(covers ? PumpState::kHolding : PumpState::kRunning);
   } else {
     system_.set_pump(source_pa < limit_pa ? PumpState::kRunning : PumpState::kStopped);
   }
 }
 
-// Valves with nothing left to pass. Filling from a closed reservoir ends when all groups have
-// arrived, since each one's draw moves the source of the others.
-bool Run::CloseSettledValves() {
-  const double source_pa = y_[system_.source()];
+// Valves that have nothing left to pass: they have arrived. Filling from a closed reservoir ends
+// when all groups have arrived, since each one's draw moves the source of the others.
+template <class T, class Stepper>
+bool Run<T, Stepper>::CloseSettledValves() {
+  const T source_pa = system_.SourcePressure(y_);
+  const double now_s = ValueOf(t_s_);
+  const auto filling = [&](std::size_t i) { return !system_.filling(i).Closed(now_s); };
   const auto arrived = [&](std::size_t i) {
-    const double left = system_.FinalPressure(i, source_pa) - y_[i];
-    const double signed_left = system_.valve(i) == ValveFlow::kOut ? -left : left;
-    return signed_left <= kSettledShare * Tolerance(y_[i]);
+    if (!system_.settles(i) || system_.Moving(i, now_s)) return false;
+    const double pressure_pa = ValueOf(y_[system_.pressure(i)]);
+    const double left = ValueOf(system_.FinalPressure(i, source_pa)) - pressure_pa;
+    return (filling(i) ? left : -left) <= kSettledShare * Tolerance(pressure_pa);
   };
-  bool inflow_settles = !system_.source_may_rise(source_pa);
+  bool inflow_settles = !system_.source_may_rise(ValueOf(source_pa));
   if (system_.has_reservoir() && system_.pump() != PumpState::kHolding) {
     for (std::size_t i = 0; i < valves_.size(); ++i) {
-      if (system_.valve(i) == ValveFlow::kIn) inflow_settles = inflow_settles && arrived(i);
+      if (system_.Passing(i, now_s) && filling(i)) inflow_settles = inflow_settles && arrived(i);
     }
   }
   bool closed = false;
   for (std::size_t i = 0; i < valves_.size(); ++i) {
-    const ValveFlow flow = system_.valve(i);
-    if (flow == ValveFlow::kNone || (flow == ValveFlow::kIn && !inflow_settles)) continue;
-    if (!arrived(i)) continue;
-    system_.set_valve(i, ValveFlow::kNone);
+    if (!system_.Passing(i, now_s) || (filling(i) && !inflow_settles) || !arrived(i)) continue;
+    system_.set_settled(i, true);
+    // A source that has fallen below the actuator leaves it where it is.
+    T& pressure_pa = y_[system_.pressure(i)];
+    const T final_pa = system_.FinalPressure(i, source_pa);
+    const double apart_pa = std::abs(ValueOf(final_pa) - ValueOf(pressure_pa));
+    if (apart_pa <= kSettledShare * Tolerance(ValueOf(pressure_pa))) pressure_pa = final_pa;
     closed = true;
   }
   return closed;
 }
 
-bool Run::TargetsDecided() const {
-  double source_pa = y_[system_.source()];
-  if (system_.has_reservoir()) source_pa = std::max(source_pa, system_.pump_limit_pa());
+template <class T, class Stepper>
+bool Run<T, Stepper>::TargetsDecided() const {
+  T source_pa = system_.SourcePressure(y_);
+  if (system_.has_reservoir() && source_pa < system_.pump_limit_pa()) {
+    source_pa = system_.pump_limit_pa();
+  }
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     const Valve& valve = valves_[i];
-    if (!valve.target_pending || system_.valve(i) == ValveFlow::kNone) continue;
-    const double final_pa = system_.FinalPressure(i, source_pa);
+    if (!valve.target_pending) continue;
+    const bool moves = system_.Moving(i, ValueOf(t_s_)) || valve.close_at_s ||
+                       valve.next_move < rig_.groups[i].schedule.size();
+    if (!system_.settles(i) || moves) return false;
+    if (!system_.Passing(i, ValueOf(t_s_))) continue;
+    const T final_pa = system_.FinalPressure(i, source_pa);
     const bool reachable = valve.state == ValveState::kInflate ? valve.target_pa <= final_pa
                                                                : valve.target_pa >= final_pa;
     if (reachable) return false;
@@ -250,12 +378,20 @@ bool Run::TargetsDecided() const {
   return true;
 }
 
-void Run::CollectCrossed(std::size_t group) {
-  double& crossed = y_[system_.crossed(group)];
-  GroupResponse& response = response_.groups[group];
-  if (valves_[group].state == ValveState::kInflate) response.air_in_m3 += crossed;
-  if (valves_[group].state == ValveState::kDeflate) response.air_out_m3 += crossed;
-  crossed = 0.0;
+// With effects: nothing will move noticeably before the end.
+template <class T, class Stepper>
+bool Run<T, Stepper>::Stalled() const {
+  if (ValueOf(NextBoundary()) < options_.end_s) return false;
+  const double left_s = options_.end_s - ValueOf(t_s_);
+  for (std::size_t i = 0; i < system_.dynamic_size(); ++i) {
+    const double size = std::max(std::abs(ValueOf(y_[i])), system_.sizes()[i]);
+    if (!(std::abs(ValueOf(stepper_.slope()[i])) * left_s <= kStalledShare * size)) return false;
+  }
+  return true;
 }
+
+template class Run<double, ExplicitIntegrator<double>>;
+template class Run<double, CvodeIntegrator>;
+template class Run<Dual, ExplicitIntegrator<Dual>>;
 
 }  // namespace plenum::model

@@ -3,78 +3,97 @@
 #define PLENUM_MODEL_SIMULATE_RUN_H_
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "model/dormand_prince.h"
+#include "model/cvode_integrator.h"
+#include "model/explicit_integrator.h"
 #include "model/simulate.h"
 #include "model/simulate_system.h"
 
 namespace plenum::model {
 
-// When a run ends: at end_s, or already when every stroke has reached its target or cannot.
+// When a run ends: at end_s, or already when every stroke has reached its target or cannot. Only
+// runs to the end keep the accounts of gas and energy.
 enum class RunUntil { kEnd, kTargets };
 
+// T is double or Dual, Stepper ExplicitIntegrator<T> or CvodeIntegrator.
+template <class T, class Stepper>
 class Run {
  public:
   // Rig and options must be valid and outlive the run.
-  Run(const Rig& rig, const SimulateOptions& options, RunUntil until);
+  Run(const Rig& rig, const SimulateOptions& options, RunUntil until, const Lift& lift = Lift());
 
-  Response Execute();
+  // `start`: pressures, effect states and source in the order of the system's state vector, in
+  // place of the rig's initial ones.
+  ResponseOf<T> Execute(std::span<const T> start = {});
+
+  // The dynamic part of the state at the end.
+  std::span<const T> final_state() const { return {y_.data(), system_.dynamic_size()}; }
+  // The run gave up because stability, not accuracy, held its steps down.
+  bool stiff() const { return stiff_; }
 
  private:
   // The command that a group obeys now.
   struct Valve {
-    std::size_t next_command = 0;
+    std::size_t next_command = 0, next_move = 0;  // as given, and after the valve's delay
     ValveState state = ValveState::kHold;
     int stroke = -1;  // index into response_.strokes
-    double target_pa = 0.0;
+    T target_pa = T(0.0);
     bool target_pending = false;
     bool operating_pending = false;
-  };
-  // What cuts a step short.
-  struct Event {
-    double theta = 2.0;  // of the step; above 1: none
-    int group = -1;      // closes at its operating pressure; −1: the source reaches pump_limit_pa
+    std::optional<T> close_at_s;  // on reaching the operating pressure, after the valve's delay
   };
 
-  void ApplyCommands();
-  void Command(std::size_t group, ValveState state);
-  double NextBoundary() const;
-  bool IntegrateTo(double boundary_s);
+  void ApplySwitches();
+  void Command(std::size_t group, const ValveCommand& command);
+  void Move(std::size_t group, ValveState state, const T& at_s);
+  T NextBoundary() const;
+  bool IntegrateTo(const T& boundary_s);
+  bool StepsLeft();
+  bool AtRest() const;
+  bool TakeStep(const T& boundary_s);
+  bool TakeEvent(std::size_t event);  // whether the equations switch there
 
+  void AddGuards();
   void CheckTargets(std::size_t group);
+  void ReachOperating(std::size_t group);
   void ChoosePumpState();
   bool CloseSettledValves();
   bool TargetsDecided() const;
+  bool Stalled() const;
 
-  DormandPrince::Outcome TryStep(double boundary_s);
-  Event FirstEvent() const;
-  Event SourceEvent() const;
-  double CrossingTheta(std::size_t state, double level) const;
-  void RecordStep(double theta_end);
-  void RecordSourceLowest(double theta_end);
-  void TakeState(const Event& event);
-
-  void CollectCrossed(std::size_t group);
-  // Appends the samples up to and including `time_s`, out of the last step or of y_ at rest.
+  void RecordSourceLowest();
+  void RecordEnd();
   enum class SampleFrom { kStep, kRest };
   void SampleTo(double time_s, SampleFrom from);
+  void TakeSample(double time_s, std::span<const T> y);
   bool Fail(SimulateStatus status, const std::string& what);
-  double InitialStep(double remaining_s) const;
   double Tolerance(double pressure_pa) const;
+  StrokeOf<T>& StrokeOfValve(const Valve& valve) {
+    return response_.strokes[static_cast<std::size_t>(valve.stroke)];
+  }
 
   const Rig& rig_;
   const SimulateOptions& options_;
   RunUntil until_;
-  System system_;
-  DormandPrince stepper_;
-  double t_s_ = 0.0;
-  std::vector<double> y_;
+  Lift lift_;
+  System<T> system_;
+  Stepper stepper_;
+  T t_s_ = T(0.0);
+  std::vector<T> y_, sample_;
   std::vector<Valve> valves_;
-  Response response_;
+  ResponseOf<T> response_;
   std::size_t sample_count_ = 0;
+  bool smooth_ = false;  // the last cut changed nothing at once
+  bool stiff_ = false;
 };
+
+extern template class Run<double, ExplicitIntegrator<double>>;
+extern template class Run<double, CvodeIntegrator>;
+extern template class Run<Dual, ExplicitIntegrator<Dual>>;
 
 }  // namespace plenum::model
 

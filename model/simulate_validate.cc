@@ -1,6 +1,7 @@
 #include "model/simulate_validate.h"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <variant>
 
@@ -54,11 +55,11 @@ class Check {
 };
 
 void CheckSchedule(const GroupRig& group, Check& check) {
-  double before_s = 0.0;
+  double before_s = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < group.schedule.size(); ++i) {
     const auto& [time_s, state] = group.schedule[i];
     const std::string field = "schedule[" + std::to_string(i) + "]";
-    check.NotNegative(field + ".time_s", time_s);
+    check.Require(std::isfinite(time_s), field + ".time_s", time_s, "finite");
     check.Require(time_s >= before_s, field + ".time_s", time_s, "no earlier than the one before");
     before_s = time_s;
     if (state == ValveState::kInflate && group.fill.empty()) {
@@ -81,6 +82,9 @@ std::string WhyGroupInvalid(const GroupRig& group, std::size_t index, const Ambi
   check.Elements("fill", group.fill);
   check.Elements("exhaust", group.exhaust);
   check.Positive("initial_pressure_pa", group.initial_pressure_pa);
+  check.NotNegative("initial_temperature_k", group.initial_temperature_k);
+  const std::string effects = WhyInvalid(group.effects);
+  if (!effects.empty()) check.Fails("", effects);
   CheckSchedule(group, check);
   return check.reason();
 }

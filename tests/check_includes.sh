@@ -57,6 +57,8 @@ check() {
   stays_in CLI11 'CLI/' server
   stays_in fmt 'fmt/' server
   stays_in Boost 'boost/' model optimizer
+  stays_in SUNDIALS 'cvode|nvector/|sun(dials|linsol|matrix)' model
+  stays_in Ceres 'ceres/' model
   includes 'httplib' server | grep -v '^server/http\.cc:' |
     complain "only server/http.cc includes cpp-httplib"
 }

@@ -7,33 +7,13 @@
 namespace plenum::test {
 namespace {
 
-constexpr double kGasConstant = 287.05;
-constexpr double kDensity = 1e5 / (kGasConstant * 293.15);  // at the reference state
-
 using State = std::vector<double>;  // kg: actuators, reservoir, delivered, vented
-
-double Ellipse(double ratio, double b, double index) {
-  if (ratio <= b) return 1.0;
-  if (ratio >= 1.0) return 0.0;
-  return std::pow(1.0 - std::pow((ratio - b) / (1.0 - b), 2), index);
-}
-
-// x in [low, high] with f(x) = 0, f falling.
-template <class Function>
-double Bisect(double low, double high, const Function& f, double width) {
-  while (high - low > width) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
-    (f(middle) > 0.0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 class Simulator {
  public:
   explicit Simulator(const MassRig& rig)
       : rig_(rig), n_(rig.groups.size()), direction_(n_, 0), next_(n_, 0) {
-    factor_ = kDensity * rig.gas_factor * std::sqrt(293.15 / rig.temperature_k);
+    factor_ = kReferenceDensity * rig.gas_factor * std::sqrt(kReferenceK / rig.temperature_k);
   }
 
   MassResult Run(double end_s, double step_s, double sample_s);
@@ -41,43 +21,8 @@ class Simulator {
  private:
   double Temperature() const { return kGasConstant * rig_.temperature_k; }
 
-  // Pressure behind an element that passes `flow`, found without inverting the ellipse by hand;
-  // negative where it cannot pass it.
-  double Behind(const MassElement& e, double upstream, double flow) const {
-    const double p = upstream - e.cracking_pa;
-    const double choked = factor_ * e.conductance * p;
-    if (p <= 0.0 || flow > choked) return -1.0;
-    const double psi = flow / choked;
-    const double root = 1.0 - std::pow(psi, 1.0 / e.index);
-    return p * (e.critical_ratio + (1.0 - e.critical_ratio) * std::sqrt(root));
-  }
-
   double LineFlow(const std::vector<MassElement>& line, double upstream, double downstream) const {
-    double head = upstream;
-    for (const MassElement& e : line) head -= e.cracking_pa;
-    if (line.empty() || head <= downstream) return 0.0;
-    const double ratio = downstream / head;
-    if (ratio > rig_.linear_ratio) {
-      return LineFlow(line, upstream, rig_.linear_ratio * head * (1.0 - 1e-15)) * (1.0 - ratio) /
-             (1.0 - rig_.linear_ratio);
-    }
-    if (line.size() == 1) {
-      const MassElement& e = line[0];
-      return factor_ * e.conductance * head * Ellipse(ratio, e.critical_ratio, e.index);
-    }
-    double most = factor_ * upstream;
-    double least_c = line[0].conductance;
-    for (const MassElement& e : line) least_c = std::min(least_c, e.conductance);
-    most *= least_c;
-    const auto surplus = [&](double flow) {
-      double p = upstream;
-      for (const MassElement& e : line) {
-        p = Behind(e, p, flow);
-        if (p < 0.0) return -1.0;
-      }
-      return p - downstream;
-    };
-    return Bisect(0.0, most, surplus, 1e-11 * most);
+    return ChainFlow(line, upstream, downstream, factor_, rig_.linear_ratio);
   }
 
   double Pressure(std::size_t i, double mass) const {
@@ -114,7 +59,7 @@ class Simulator {
       flow = lower->second + (upper->second - lower->second) * (pressure - lower->first) /
                                  (upper->first - lower->first);
     }
-    return kDensity * flow;
+    return kReferenceDensity * flow;
   }
 
   double NodePressure(double source, const State& pressure) const {
@@ -123,7 +68,7 @@ class Simulator {
       if (direction_[i] > 0) lowest = std::min(lowest, pressure[i]);
     }
     const auto surplus = [&](double node) {
-      double flow = kDensity * rig_.flow_max_m3_per_s;
+      double flow = kReferenceDensity * rig_.flow_max_m3_per_s;
       if (!rig_.regulator.empty()) flow = std::min(flow, LineFlow(rig_.regulator, source, node));
       for (std::size_t i = 0; i < n_; ++i) {
         if (direction_[i] <= 0) continue;

@@ -12,14 +12,9 @@
 #include <utility>
 #include <vector>
 
-namespace plenum::test {
+#include "tests/support/iso_chain.h"
 
-struct MassElement {
-  double conductance = 0.0;  // C, m³/(s·Pa)
-  double critical_ratio = 0.0;
-  double index = 0.5;
-  double cracking_pa = 0.0;
-};
+namespace plenum::test {
 
 struct MassCommand {
   double time_s = 0.0;

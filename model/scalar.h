@@ -1,0 +1,66 @@
+// Numbers of the simulator: double, or a dual number that carries derivatives through the run.
+//
+// The equations, the integrator and the events are templates over the number T. With T = Dual each
+// number is value + Σ (∂/∂θ_j)·ε_j for up to kDirections parameters θ at once (forward mode;
+// ceres::Jet). Comparisons see the values alone.
+#ifndef PLENUM_MODEL_SCALAR_H_
+#define PLENUM_MODEL_SCALAR_H_
+
+#include <ceres/jet.h>
+
+#include <span>
+#include <type_traits>
+
+#include "model/monotone_curve.h"
+
+namespace plenum::model {
+
+inline constexpr int kDirections = 8;
+using Dual = ceres::Jet<double, kDirections>;
+
+template <class T>
+inline constexpr bool kIsDual = !std::is_same_v<T, double>;
+
+inline double ValueOf(double x) { return x; }
+inline double ValueOf(const Dual& x) { return x.a; }
+
+// f(x) with its derivative df/dx, both taken at the value of x.
+inline double Chain(double, double f, double) { return f; }
+inline Dual Chain(const Dual& x, double f, double slope) { return Dual(f, slope * x.v); }
+
+template <class T>
+T CurveAt(const MonotoneCurve& curve, const T& x) {
+  if constexpr (kIsDual<T>) return Chain(x, curve(x.a), curve.Slope(x.a));
+  return T(curve(ValueOf(x)));
+}
+
+template <class T>
+T CurveSlopeAt(const MonotoneCurve& curve, const T& x) {
+  if constexpr (kIsDual<T>) return Chain(x, curve.Slope(x.a), curve.Curvature(x.a));
+  return T(curve.Slope(ValueOf(x)));
+}
+
+// Turns the numbers of a rig into T. A parameter is the address of a number in the rig: that number
+// starts with derivative 1 in its own direction, every other with none.
+class Lift {
+ public:
+  explicit Lift(std::span<const double* const> parameters = {}) : parameters_(parameters) {}
+
+  template <class T>
+  T operator()(const double& number) const {
+    T lifted(number);
+    if constexpr (kIsDual<T>) {
+      for (std::size_t j = 0; j < parameters_.size(); ++j) {
+        if (parameters_[j] == &number) lifted.v[static_cast<Eigen::Index>(j)] = 1.0;
+      }
+    }
+    return lifted;
+  }
+
+ private:
+  std::span<const double* const> parameters_;  // at most kDirections
+};
+
+}  // namespace plenum::model
+
+#endif  // PLENUM_MODEL_SCALAR_H_
