@@ -170,6 +170,7 @@ struct Proof {
   bool complete = false;
   double lower_bound = 0.0;  // of the objective of every design not listed
   double gap = 0.0;
+  long long boxes = 0;      // looked at
   BigCount evaluated;       // leaves sized
   long long simulated = 0;  // designs that went through the simulator
   long long undecided = 0;  // leaves that could be neither sized nor refuted

@@ -186,7 +186,7 @@ class BoxSearch {
   }
 
   void Step(NodePtr node) {
-    ++steps_;
+    ++proof_.boxes;
     Bounds& bounds = *node->bounds;
     if (bounds.CanFindSource(node->box)) {
       const Constraint missed = bounds.FindSource(node->box);
@@ -376,7 +376,7 @@ class BoxSearch {
   Proof proof_;
   double undecided_bound_ = kUnlimited;
   double reported_s_ = 0.0;
-  long long serial_ = 0, steps_ = 0;
+  long long serial_ = 0;
   bool cancelled_ = false, late_ = false, planted_ = false, dived_ = false;
 };
 
