@@ -42,7 +42,7 @@ int Bounds::WidestSlot(const Box& box) const {
   const auto spread = [&](int s) {
     const BoxNode& node = Node(box, s);
     return (node.objective_high - node.objective_low) *
-           (s == plan_.compressor_slot ? kPumpWeight : 1.0);
+           (s == plan_.compressor_slot || s == plan_.regulator_slot ? kPumpWeight : 1.0);
   };
   const auto wider = [&](int a, int b) {
     return spread(a) != spread(b) ? spread(a) > spread(b)

@@ -5,8 +5,7 @@
 namespace plenum::optimizer {
 namespace {
 
-// After this many single combinations without a design below a box the dive turns elsewhere.
-constexpr int kTriesPerBox = 4;
+constexpr int kTurnsMax = 12;
 
 class Diver {
  public:
@@ -14,22 +13,28 @@ class Diver {
         Ranking& ranking)
       : problem_(problem), bounds_(bounds), any_(any), stop_(stop), ranking_(ranking) {}
 
+  // Follows the lower bound at every division but for a few, first none of them, then one, and so
+  // on: the first choices, made on the weakest bounds, are the likeliest to be wrong.
   void Run() {
     if (bounds_.plan().empty()) return;
-    Box root = bounds_.Root();
-    if (bounds_.Assess(root, -1) == Constraint::kNone) Below(std::move(root));
+    for (int turns = 0; turns <= kTurnsMax && !Done(); ++turns) {
+      Box root = bounds_.Root();
+      if (bounds_.Assess(root, -1) != Constraint::kNone) return;
+      Below(std::move(root), turns);
+    }
   }
 
  private:
   bool Done() const { return stop_() || (any_ && !ranking_.list().empty()); }
 
-  // Number of single combinations tried below the box.
-  int Below(Box box) {
-    if (Done() || box.bound > ranking_.run_end()) return 0;
-    if (bounds_.CanFindSource(box) && bounds_.FindSource(box) != Constraint::kNone) return 1;
+  // `turns`: how often the part with the higher bound is taken below the box.
+  void Below(Box box, int turns) {
+    if (Done() || box.bound > ranking_.run_end()) return;
+    while (bounds_.CanFindSource(box))
+      if (bounds_.FindSource(box) != Constraint::kNone) return;
     if (bounds_.IsSingle(box)) {
-      Try(std::move(box));
-      return 1;
+      if (turns == 0) Try(std::move(box));
+      return;
     }
     const int slot = bounds_.WidestSlot(box);
     const BoxNode& divided = (*bounds_.plan().slots[slot].nodes)[box.nodes[slot]];
@@ -41,12 +46,8 @@ class Diver {
     }
     std::sort(parts.begin(), parts.end(),
               [](const Box& a, const Box& b) { return a.bound < b.bound; });
-    int tries = 0;
-    for (Box& part : parts) {
-      tries += Below(std::move(part));
-      if (tries >= kTriesPerBox) break;
-    }
-    return tries;
+    if (parts.size() == 2 && turns > 0) Below(std::move(parts[1]), turns - 1);
+    if (!parts.empty()) Below(std::move(parts[0]), turns);
   }
 
   void Try(Box box) {

@@ -28,6 +28,10 @@ class Draw {
   double LogUniform(double low, double high) {
     return low * std::pow(high / low, Uniform(0.0, 1.0));
   }
+  // A number as data sheets round it.
+  double Step(double low, double high, double step) {
+    return step * std::round(Uniform(low, high) / step);
+  }
   // Around 1: products of this kind lie within a third of their rule.
   double Scatter() { return LogUniform(0.75, 1.35); }
   int Pick(int count) { return static_cast<int>(random_() % static_cast<std::uint64_t>(count)); }
@@ -56,7 +60,7 @@ model::Tubing MakeTubing(Draw& draw, int index) {
   tubing.per_metre = Basics(draw, "tube", index, wall_mm2 * 1.15e-3 * draw.Scatter());
   tubing.per_metre.body_volume_m3 = std::numbers::pi / 4.0 * outer_mm * outer_mm * 1e-6;
   tubing.pressure_max_pa =
-      kAmbientPa + 25.0 * kBar * (outer_mm - inner_mm) / outer_mm * draw.Scatter();
+      kAmbientPa + kBar * std::round(25.0 * (outer_mm - inner_mm) / outer_mm * draw.Scatter());
   return tubing;
 }
 
@@ -67,10 +71,10 @@ model::Fitting MakeFitting(Draw& draw, int index) {
   fitting.thread = kThreads[draw.Pick(kThreads.size())];
   const double bore_mm = outer_mm * draw.Uniform(0.4, 0.75);
   const double conductance = 0.16 * std::numbers::pi / 4.0 * bore_mm * bore_mm * draw.Scatter();
-  fitting.flow = {conductance * kConductance, draw.Uniform(0.3, 0.55)};
+  fitting.flow = {conductance * kConductance, draw.Step(0.3, 0.5, 0.1)};
   fitting.basics = Basics(draw, "fitting", index,
                           (0.001 + 0.0012 * outer_mm + 0.002 * conductance) * draw.Scatter());
-  fitting.pressure_max_pa = kAmbientPa + draw.Uniform(6.0, 16.0) * kBar;
+  fitting.pressure_max_pa = kAmbientPa + draw.Step(6.0, 16.0, 2.0) * kBar;
   return fitting;
 }
 
@@ -82,15 +86,17 @@ model::Valve MakeValve(Draw& draw, int index) {
   valve.channels = draw.Chance(0.2) ? 2 + draw.Pick(3) : 1;
   valve.port = kThreads[draw.Pick(kThreads.size())];
   const double conductance = draw.LogUniform(0.03, 3.0);
-  valve.fill = {conductance * kConductance, draw.Uniform(0.15, 0.5)};
-  valve.exhaust = {conductance * draw.Uniform(0.8, 1.2) * kConductance, draw.Uniform(0.15, 0.5)};
-  valve.coil_power_w = 0.3 + 1.2 * std::sqrt(conductance) * draw.Scatter();
+  valve.fill = {conductance * kConductance, draw.Step(0.2, 0.5, 0.1)};
+  valve.exhaust = {conductance * draw.Step(0.8, 1.2, 0.1) * kConductance,
+                   valve.fill.critical_ratio};
+  valve.coil_power_w =
+      std::max(0.3, 0.1 * std::round(10.0 * (0.3 + 1.2 * std::sqrt(conductance) * draw.Scatter())));
   valve.basics =
       Basics(draw, "valve", index,
              valve.channels * (0.006 + 0.05 * std::pow(conductance, 0.7) / valve.coil_power_w) *
                  draw.Scatter());
-  valve.pressure_max_pa = kAmbientPa + draw.Uniform(2.0, 9.0) * kBar;
-  valve.pressure_min_pa = draw.Chance(0.2) ? kAmbientPa + draw.Uniform(0.5, 2.0) * kBar : 0.0;
+  valve.pressure_max_pa = kAmbientPa + draw.Step(2.0, 10.0, 1.0) * kBar;
+  valve.pressure_min_pa = draw.Chance(0.2) ? kAmbientPa + draw.Step(0.5, 2.0, 0.5) * kBar : 0.0;
   return valve;
 }
 
@@ -99,13 +105,13 @@ model::Regulator MakeRegulator(Draw& draw, int index) {
   const double conductance = draw.LogUniform(0.2, 8.0);
   constexpr std::array<double, 3> kInletBar{15.0, 210.0, 310.0};
   const double inlet_bar = kInletBar[draw.Pick(kInletBar.size())];
-  regulator.flow = {conductance * kConductance, draw.Uniform(0.1, 0.5)};
-  regulator.flow_max_m3_per_s = draw.LogUniform(50.0, 2000.0) * kLitrePerMinute;
-  regulator.inlet_pressure_min_pa = kAmbientPa + draw.Uniform(1.0, 8.0) * kBar;
+  regulator.flow = {conductance * kConductance, draw.Step(0.2, 0.5, 0.1)};
+  regulator.flow_max_m3_per_s = 250.0 * conductance * kLitrePerMinute;
+  regulator.inlet_pressure_min_pa = kAmbientPa + draw.Step(1.0, 8.0, 1.0) * kBar;
   regulator.inlet_pressure_max_pa = kAmbientPa + inlet_bar * kBar;
-  regulator.outlet_pressure_min_pa = kAmbientPa + draw.Uniform(0.0, 0.6) * kBar;
-  regulator.outlet_pressure_max_pa = kAmbientPa + draw.Uniform(2.0, 9.0) * kBar;
-  regulator.electrical_power_w = draw.Chance(0.3) ? draw.Uniform(0.1, 1.5) : 0.0;
+  regulator.outlet_pressure_min_pa = kAmbientPa + draw.Step(0.0, 0.6, 0.2) * kBar;
+  regulator.outlet_pressure_max_pa = kAmbientPa + draw.Step(2.0, 10.0, 1.0) * kBar;
+  regulator.electrical_power_w = draw.Chance(0.3) ? draw.Step(0.2, 1.4, 0.4) : 0.0;
   regulator.basics = Basics(draw, "regulator", index,
                             (0.03 + 0.05 * conductance + 0.0004 * inlet_bar) * draw.Scatter());
   return regulator;
@@ -151,7 +157,8 @@ model::Battery MakeBattery(Draw& draw, int index) {
   model::Battery battery;
   battery.nominal_voltage_v = kPackVolts[draw.Pick(kPackVolts.size())];
   const double energy_wh = draw.LogUniform(1.0, 200.0);
-  const double discharge_per_h = draw.LogUniform(1.0, 40.0);
+  constexpr std::array<double, 7> kDischarge{1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 40.0};
+  const double discharge_per_h = kDischarge[draw.Pick(kDischarge.size())];
   battery.capacity_ah = energy_wh / battery.nominal_voltage_v;
   battery.current_max_a = battery.capacity_ah * discharge_per_h;
   battery.basics =
@@ -162,8 +169,11 @@ model::Battery MakeBattery(Draw& draw, int index) {
 
 model::Reservoir MakeReservoir(Draw& draw, int index) {
   model::Reservoir reservoir;
-  reservoir.volume_m3 = draw.LogUniform(0.05e-3, 10e-3);
-  const double gauge_bar = draw.Uniform(2.0, 12.0);
+  // Two digits, as on the label.
+  const double litres = draw.LogUniform(0.05, 10.0);
+  const double digit = std::pow(10.0, std::floor(std::log10(litres)) - 1.0);
+  reservoir.volume_m3 = digit * std::round(litres / digit) * 1e-3;
+  const double gauge_bar = draw.Step(2.0, 12.0, 2.0);
   reservoir.pressure_max_pa = kAmbientPa + gauge_bar * kBar;
   reservoir.basics =
       Basics(draw, "reservoir", index,
