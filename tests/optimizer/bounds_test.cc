@@ -179,9 +179,9 @@ TEST(BoundsTest, CompressorTwoGroups) {
     problem.simultaneous = false;
     problem.limits = {1, 1, 1, 1, 1};
     SCOPED_TRACE("seed " + std::to_string(seed));
-    CheckAll(problem, random, 0.5, checked);
+    CheckAll(problem, random, 0.25, checked);
   }
-  EXPECT_GT(checked, 10);
+  EXPECT_GT(checked, 2);
 }
 
 TEST(BoundsTest, CompressorOneGroup) {

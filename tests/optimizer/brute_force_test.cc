@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <set>
 
 #include "optimizer/tree_search.h"
@@ -230,6 +231,56 @@ TEST(BruteForceTest, AllConfigurationsTogether) {
     SCOPED_TRACE(Trace(seed, problem));
     Compare(problem, tally);
   }
+  EXPECT_LE(20 * tally.undecided, tally.evaluated);
+}
+
+// Everything at once: sources, objectives, one to three groups, numbers of designs, parts in
+// parallel, parts that are required or excluded. PLENUM_BRUTE_FORCE sets the number of problems
+// (1000 take some minutes).
+Problem DrawnAtRandom(std::uint64_t seed) {
+  constexpr optimizer::Objective kObjectives[] = {{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0},
+                                                  {0.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0},
+                                                  {1.0, 0.3, 0.0, 0.0}, {0.5, 0.0, 0.002, 0.05}};
+  Random random(seed);
+  Draw draw;
+  draw.seed = 20000 + seed;
+  draw.groups = Chance(random, 0.75) ? 1 : Pick(random, 2, 3);
+  draw.simultaneous = draw.groups > 1 && Chance(random, 0.3);
+  draw.severity = Uniform(random, 0.0, 0.5);
+  draw.configurations = {static_cast<Configuration>(Pick(random, 0, 3))};
+  if (draw.groups == 1 && Chance(random, 0.4))
+    draw.configurations.insert(static_cast<Configuration>(Pick(random, 0, 3)));
+  draw.size = draw.groups == 1 ? CatalogueSize{2, 2, 3, 2, 2, 2, 2, 2, 2}
+                               : CatalogueSize{1, 2, 2, 1, 1, 2, 1, 2, 1};
+  Problem problem = RandomProblem(draw);
+  problem.objective = kObjectives[Pick(random, 0, 5)];
+  problem.count = Pick(random, 1, 20);
+  const bool small = draw.groups == 1 && Chance(random, 0.1);
+  if (small) problem.parts.compressors.resize(1), problem.parts.batteries.resize(1);
+  if (!small || problem.objective.energy_wh > 0.0)
+    problem.exclude.insert("custom");
+  else if (Chance(random, 0.5))
+    problem.require[optimizer::Family::kReservoir] = {"custom"};
+  if (small) problem.limits = {1, 1, 1, 1, 1};
+  if (draw.groups > 1) problem.limits = {1, 2, 2, 2, 1};
+  if (Chance(random, 0.2)) problem.mass_max_kg = Uniform(random, 0.5, 3.0);
+  if (Chance(random, 0.1)) problem.volume_max_l = Uniform(random, 0.5, 3.0);
+  return problem;
+}
+
+TEST(BruteForceTest, EverythingAtRandom) {
+  const char* wanted = std::getenv("PLENUM_BRUTE_FORCE");
+  const int problems = wanted != nullptr ? std::atoi(wanted) : kSanitized ? 10 : 60;
+  Tally tally;
+  for (int seed = 1; seed <= problems; ++seed) {
+    const Problem problem = DrawnAtRandom(static_cast<std::uint64_t>(seed));
+    SCOPED_TRACE(Trace(static_cast<std::uint64_t>(seed), problem) + " groups " +
+                 std::to_string(problem.groups.size()) +
+                 (problem.simultaneous ? " together" : " in turns") + ", " +
+                 std::to_string(problem.count) + " wanted");
+    Compare(problem, tally);
+  }
+  EXPECT_GT(tally.designs, problems);
   EXPECT_LE(20 * tally.undecided, tally.evaluated);
 }
 

@@ -47,16 +47,14 @@ TEST(DominanceTest, LeavesOutWhatKOthersDominate) {
       for (const auto& left_out : skyband.left_out) {
         ASSERT_EQ(static_cast<int>(left_out.dominators.size()), k);
         for (const auto& dominator : left_out.dominators) {
-          EXPECT_TRUE(
-              Dominates(contenders[dominator.part], contenders[left_out.item.part], tie));
+          EXPECT_TRUE(Dominates(contenders[dominator.part], contenders[left_out.item.part], tie));
           EXPECT_EQ(std::count(skyband.kept.begin(), skyband.kept.end(), dominator.part), 1);
         }
       }
       for (int i : skyband.kept) {
-        const auto dominators =
-            std::count_if(contenders.begin(), contenders.end(), [&](const Contender& other) {
-              return Dominates(other, contenders[i], tie);
-            });
+        const auto dominators = std::count_if(
+            contenders.begin(), contenders.end(),
+            [&](const Contender& other) { return Dominates(other, contenders[i], tie); });
         EXPECT_LT(dominators, k);
       }
     }

@@ -72,7 +72,8 @@ ProofItem ItemOf(const ProofSlot& slot, const Candidate& candidate) {
     case Family::kTubing:
       return {candidate.lines[slot.group]->tubing, 1};
     case Family::kFitting:
-      return {candidate.lines[slot.group]->fitting, candidate.lines[slot.group]->fitting < 0 ? 0 : 1};
+      return {candidate.lines[slot.group]->fitting,
+              candidate.lines[slot.group]->fitting < 0 ? 0 : 1};
     case Family::kValve:
       return {candidate.lines[slot.group]->valve, 1};
     case Family::kRegulator:
@@ -137,8 +138,7 @@ void Check(const Problem& problem, int& dominated) {
     const auto plan = plans.find(candidate.configuration);
     if (plan == plans.end()) return;  // some family has no choice
     const optimizer::Leaf leaf = SizeAlone(problem, candidate);
-    const ClosedBox* box =
-        Holder(*plan->second, replays.at(candidate.configuration), candidate);
+    const ClosedBox* box = Holder(*plan->second, replays.at(candidate.configuration), candidate);
     if (leaf.status != optimizer::LeafStatus::kFeasible) return;
     if (box == nullptr) {  // the list is full of designs that are no worse
       ++dominated;
