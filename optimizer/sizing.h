@@ -87,8 +87,8 @@ class CustomSizing {
 };
 
 // The settings that a listed design gets, from a feasible leaf. Where the objective leaves them
-// free they make the smallest relative margin as large as it can be. By Ipopt; the point is taken
-// only if it proves better when evaluated anew.
+// free they make the smallest relative margin that they move as large as it can be; the point is
+// taken only if it proves better when evaluated anew.
 OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const Leaf& leaf);
 
 }  // namespace plenum::optimizer
