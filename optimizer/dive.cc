@@ -61,7 +61,7 @@ class Diver {
       }
       leaf = sizing.leaf();
     } else {
-      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate));
+      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate), stop_);
     }
     if (leaf.status == LeafStatus::kFeasible)
       ranking_.Add({std::move(box), &bounds_, leaf, std::move(ids), -1, nullptr});

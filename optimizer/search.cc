@@ -235,7 +235,8 @@ class BoxSearch {
       }
       leaf = node->sizing->leaf();
     } else {
-      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate));
+      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate),
+                          [this] { return Stopped(); });
     }
     proof_.evaluated += 1;
     if (leaf.status == LeafStatus::kUndecided)
@@ -244,6 +245,7 @@ class BoxSearch {
       recorder_.Close(node->record, {.kind = BoxKind::kRefuted});
     if (leaf.status != LeafStatus::kFeasible) return;
     recorder_.Close(node->record, {.kind = BoxKind::kNotListed, .bound = leaf.objective});
+    leaf.lower_bound = std::clamp(node->box.bound, leaf.lower_bound, leaf.objective);
     ranking_.Add({std::move(node->box), node->bounds, leaf, std::move(ids), node->record, nullptr});
   }
 

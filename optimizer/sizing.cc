@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kPressureTolerance = 1e-8;
 constexpr double kBoundTolerance = 1e-4;
-constexpr int kEvaluationsMax = 600;
-constexpr double kObjectiveTolerance = 2e-8;
+constexpr int kEvaluationsMax = 4000;
+constexpr double kObjectiveTolerance = 2e-7;
 constexpr double kVolumeTolerance = 1e-7;  // of the objective
 constexpr int kStepsPerRefine = 8;
 constexpr int kStepsMax = 400;
@@ -43,13 +43,13 @@ class PressureSearch {
         parts_objective_(
             ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3))) {}
 
-  Leaf Run(double low_pa, double high_pa) {
+  Leaf Run(double low_pa, double high_pa, const std::function<bool()>& stop) {
     leaf_.objective = kUnlimited;
     const Evaluation low = Try(low_pa);
     // Without energy in the objective the lowest pressure that works is as good as any.
     if (std::isfinite(leaf_.objective) && problem_.objective.energy_wh == 0.0) return Done();
     if (high_pa > low_pa) Open(low_pa, low, high_pa, Try(high_pa));
-    while (!open_.empty() && evaluations_ < kEvaluationsMax) {
+    while (!open_.empty() && evaluations_ < kEvaluationsMax && !(stop && stop())) {
       if (open_.top().bound >= leaf_.objective * (1.0 - kObjectiveTolerance)) return Done();
       const Interval interval = open_.top();
       open_.pop();
@@ -64,8 +64,11 @@ class PressureSearch {
  private:
   struct Interval {
     double low_pa, high_pa, bound;
+    double near;  // lowest objective at its ends: the order where no bound is known
     Evaluation low, high;
-    bool operator<(const Interval& other) const { return bound > other.bound; }  // lowest on top
+    bool operator<(const Interval& other) const {  // lowest on top
+      return bound != other.bound ? bound > other.bound : near > other.near;
+    }
   };
 
   OperatingPoint At(double source_pa) const { return {source_pa, reservoir_m3_, reservoir_m3_}; }
@@ -90,7 +93,9 @@ class PressureSearch {
       if (SupplyMargin(problem_, candidate_, At(low_pa), least) < 0.0) return;
       bound = ObjectiveValue(problem_, candidate_, At(low_pa), least);
     }
-    open_.push({low_pa, high_pa, bound, low, high});
+    const double near = std::min(ObjectiveValue(problem_, candidate_, At(low_pa), low),
+                                 ObjectiveValue(problem_, candidate_, At(high_pa), high));
+    open_.push({low_pa, high_pa, bound, near, low, high});
   }
 
   Leaf Done() {
@@ -168,14 +173,15 @@ std::optional<double> NeededSourcePressure(const Problem& problem, const Candida
   return SmallestFeasible(excess, low_pa, window.high_pa, kPressureTolerance);
 }
 
-Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3) {
+Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
+                  const std::function<bool()>& stop) {
   Leaf leaf;
   leaf.status = LeafStatus::kInfeasible;
   const std::optional<double> needed =
       NeededSourcePressure(problem, candidate, {0.0, reservoir_m3, reservoir_m3});
   if (!needed) return leaf;
   return PressureSearch(problem, candidate, reservoir_m3)
-      .Run(*needed, SourceWindow(problem, candidate).high_pa);
+      .Run(*needed, SourceWindow(problem, candidate).high_pa, stop);
 }
 
 CustomSizing::CustomSizing(const Problem& problem, Candidate candidate)

@@ -7,6 +7,7 @@
 #ifndef PLENUM_OPTIMIZER_SIZING_H_
 #define PLENUM_OPTIMIZER_SIZING_H_
 
+#include <functional>
 #include <queue>
 #include <vector>
 
@@ -24,8 +25,10 @@ struct Leaf {
   double lower_bound = 0.0;  // of the objective over all settings
 };
 
-// Settings with the volume given (stock reservoir; 0 where the configuration has none).
-Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3);
+// Settings with the volume given (stock reservoir; 0 where the configuration has none). Where
+// `stop` says so the best so far is returned, with a bound that holds, or kUndecided.
+Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
+                  const std::function<bool()>& stop = {});
 
 // All relative margins of an evaluation that works, strokes first and limited to 1: what a solver
 // keeps ≥ 0. The smallest of them, or −∞ where nothing works.
