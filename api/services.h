@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "api/json.h"
+#include "catalog/backup.h"
+#include "catalog/content_hash.h"
 #include "catalog/csv.h"
+#include "catalog/plausibility.h"
 #include "catalog/store.h"
 #include "optimizer/problem.h"
 
@@ -39,6 +42,16 @@ Json RenderPart(const catalog::Part& part);
 // `request` is what RenderPart gives, or a part of a user's own; what the server sets (origin) is
 // accepted and ignored.
 Parsed<catalog::Part> ParsePart(const Json& request);
+// { number, hash }: `catalogue_revision` of an answer, which names the parts it was computed from.
+Json RenderRevisionName(const catalog::Revision& revision);
+// { number, hash, at, who, what }.
+Json RenderRevision(const catalog::Revision& revision);
+// { id, before, after }, each a part or null.
+Json RenderChange(const catalog::Change& change);
+// { "outliers": [{ id, family, field, value, family_median, robust_z }],
+// "gaps": [{ family, field, blocks, parts, missing: ids }] }.
+Json RenderPlausibility(const std::vector<catalog::Outlier>& outliers,
+                        const std::vector<catalog::Gap>& gaps);
 
 }  // namespace plenum::api
 

@@ -110,7 +110,7 @@ TEST(Command, DesignFromStandardInputGivesOneDocument) {
 TEST(Command, AnInterruptedDesignPrintsWhatItHas) {
   const Workbench bench;
   const auto outcome = bench.Run("design - --json", SlowToProve(60.0).dump(),
-                                 "timeout --preserve-status --signal=INT 0.5");
+                                 "timeout --foreground --preserve-status --signal=INT 0.5");
   EXPECT_EQ(outcome.status, 130) << outcome.err;
   EXPECT_EQ(OneDocument(outcome.out)["status"], "cancelled");
 }
