@@ -36,7 +36,8 @@ struct GroupSetup {
   T flow_factor;         // √(T0/T_a) and the gas
   double heat_capacity_ratio = 1.4;
   std::vector<LineElement<T>> fill, exhaust;  // in the order crossed, flow_factor included
-  std::vector<LineElement<T>> feed;           // between source and Moment::head_pa; empty: none
+  std::size_t exhaust_fixed = 0;  // elements at the end of the exhaust that the valve does not turn
+  std::vector<LineElement<T>> feed;  // between source and Moment::head_pa; empty: none
   T valve_delay_s = T(0.0), valve_ramp_s = T(0.0);
 
   // Volume law without dead volume, and its slope dV/dp.
