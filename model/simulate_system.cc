@@ -142,6 +142,7 @@ void System<T>::LayOut() {
     group.at = sizes_.size();
     sizes_.push_back(0.0);
     for (const auto& unit : group.units) {
+      has_modes_ = has_modes_ || unit->guards() > 0;
       group.unit_at.push_back(sizes_.size());
       sizes_.resize(sizes_.size() + static_cast<std::size_t>(unit->states()), 0.0);
     }
