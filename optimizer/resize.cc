@@ -4,6 +4,7 @@
 #include <set>
 
 #include "model/storage.h"
+#include "optimizer/make_line.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -32,18 +33,51 @@ const Choice* ChoiceOf(const Design& design, Family family, int group) {
 }
 
 template <typename Part>
-bool Matches(const std::vector<Part>& parts, int index, const Choice* choice) {
-  return choice == nullptr ? index < 0 : index >= 0 && IdOf(parts[index]) == choice->id;
+const Part* Find(const std::vector<Part>& parts, const Choice* choice) {
+  if (choice == nullptr) return nullptr;
+  for (const Part& part : parts)
+    if (IdOf(part) == choice->id) return &part;
+  return nullptr;
 }
 
-const Line* FindLine(const Problem& problem, const Design& design, int group,
-                     const LineSet& lines) {
-  for (const Line& line : lines.lines)
-    if (Matches(problem.parts.valves, line.valve, ChoiceOf(design, Family::kValve, group)) &&
-        Matches(problem.parts.fittings, line.fitting, ChoiceOf(design, Family::kFitting, group)) &&
-        Matches(problem.parts.tubing, line.tubing, ChoiceOf(design, Family::kTubing, group)))
-      return &line;
-  return nullptr;
+// False: a part is missing, or no source makes the line meet its limits.
+bool SetLine(const Problem& problem, const Design& design, int g, Line& line) {
+  const Choice* fitting_choice = ChoiceOf(design, Family::kFitting, g);
+  const model::Tubing* tube = Find(problem.parts.tubing, ChoiceOf(design, Family::kTubing, g));
+  const model::Fitting* fitting = Find(problem.parts.fittings, fitting_choice);
+  const model::Valve* valve = Find(problem.parts.valves, ChoiceOf(design, Family::kValve, g));
+  if (tube == nullptr || valve == nullptr || (fitting_choice != nullptr && fitting == nullptr))
+    return false;
+  const ActuatorGroup& group = problem.groups[g];
+  const int pieces = (group.count + valve->channels - 1) / valve->channels;
+  constexpr Kinds kMate = 1;  // they do
+  TubeCorner tube_corner;
+  tube_corner.amounts = group.count * group.tube_length_m * tube->per_metre;
+  tube_corner.diameters = kMate;
+  tube_corner.inner_low_m = tube_corner.inner_high_m = tube->inner_diameter_m;
+  tube_corner.pressure_max_pa = tube->pressure_max_pa;
+  FittingCorner fitting_corner;
+  fitting_corner.diameters = fitting_corner.threads = kMate;
+  fitting_corner.pressure_max_pa = kUnlimited;
+  if (fitting != nullptr) {
+    fitting_corner.amounts =
+        static_cast<double>(group.count * group.fittings_per_line) * fitting->basics;
+    fitting_corner.flow = fitting->flow;
+    fitting_corner.pressure_max_pa = fitting->pressure_max_pa;
+  }
+  ValveCorner valve_corner;
+  valve_corner.amounts = static_cast<double>(pieces) * valve->basics;
+  valve_corner.threads = kMate;
+  valve_corner.some_hold = valve_corner.all_hold = model::Holds(valve->kind);
+  valve_corner.fill = valve->fill;
+  valve_corner.exhaust = valve->exhaust;
+  valve_corner.coil_power_w = valve->coil_power_w * group.count;
+  valve_corner.pressure_min_pa = valve->pressure_min_pa;
+  valve_corner.pressure_max_pa = valve->pressure_max_pa;
+  const model::Gas gas =
+      design.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
+  return MakeLine(problem, g, gas, {tube_corner, fitting_corner, valve_corner}, true, line) ==
+         Constraint::kNone;
 }
 
 // False: the design has such a part and the problem does not. `charge_kg` is the gas in one piece.
@@ -110,17 +144,12 @@ Leaf Resize(const Problem& problem, const Design& design) {
   Leaf infeasible;
   infeasible.status = LeafStatus::kInfeasible;
   const model::Parts& parts = problem.parts;
-  const model::Gas gas =
-      design.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
   Candidate candidate;
   candidate.configuration = design.configuration;
-  std::vector<LineSet> lines;
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
-    lines.push_back(EnumerateLines(problem, g, gas));
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    const Line* line = FindLine(problem, design, g, lines[g]);
-    if (line == nullptr) return infeasible;
-    candidate.lines.push_back(line);
+  std::vector<Line> lines(problem.groups.size());
+  for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
+    if (!SetLine(problem, design, g, lines[g])) return infeasible;
+    candidate.lines.push_back(&lines[g]);
   }
   if (!SetOptions(problem, design, candidate)) return infeasible;
   if (candidate.reservoir.index != kCustom)
@@ -129,9 +158,7 @@ Leaf Resize(const Problem& problem, const Design& design) {
         candidate.reservoir.index == kNone
             ? 0.0
             : candidate.reservoir.quantity * parts.reservoirs[candidate.reservoir.index].volume_m3);
-  const PumpFacts facts =
-      MakePumpFacts(problem, parts.compressors[candidate.compressor.index].curve);
-  CustomSizing sizing(problem, facts, candidate);
+  CustomSizing sizing(problem, candidate);
   while (!sizing.Refine()) {
   }
   return sizing.leaf();
