@@ -115,15 +115,5 @@ TEST(EffectsCompare, APlayAtItsEdgeIsPushedOnByARamp) {
   ExpectSame(rig, Integrator::kCvode, 1e-6);
 }
 
-// A start so far out that trial steps leave the range of the equations.
-TEST(EffectsCompare, StepsOutOfRangeAreNotTaken) {
-  EffectRig rig = test::Bench();
-  rig.schedule = {{0.0, 0}, {0.25, -1}};
-  rig.initial_pa = 1.24e5;
-  rig.heat_time_constant_s = 1.724;
-  rig.line = {3.5e-3, 0.8};
-  ExpectSame(rig, Integrator::kDormandPrince, 1e-6);
-}
-
 }  // namespace
 }  // namespace plenum::model

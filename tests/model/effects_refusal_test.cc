@@ -59,6 +59,17 @@ TEST(EffectRefusal, OfTwiceTheSameOrTheWrongNumberOfParameters) {
   EXPECT_THAT(detail({Effect{}}), HasSubstr("no spec"));
 }
 
+// A line holds at most eight elements, the restriction included.
+TEST(EffectRefusal, OfARestrictionBehindAFullLine) {
+  Rig rig = BenchWith({MakeEffect("exhaust_restriction", {test::kUnitC, 0.3})});
+  GroupRig& group = rig.groups[0];
+  group.exhaust.resize(8, group.exhaust.front());
+  EXPECT_EQ(Simulate(rig, Until(1.0)).status, SimulateStatus::kInvalid);
+  EXPECT_THAT(Simulate(rig, Until(1.0)).detail, HasSubstr("at most 7 with exhaust_restriction"));
+  group.exhaust.pop_back();
+  EXPECT_EQ(Simulate(rig, Until(1.0)).status, SimulateStatus::kDone);
+}
+
 void ExpectFinite(const Response& response) {
   for (const GroupResponse& group : response.groups) {
     for (const std::vector<double>* numbers :
