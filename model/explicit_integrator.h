@@ -121,7 +121,8 @@ class ExplicitIntegrator {
       if (!(start > 0.0)) {
         start_theta = 0.5;
         start = GuardAt(k, 0.5);
-        const bool must_stop = system_.guards()[k].kind == GuardKind::kPumpLimit;
+        const GuardKind kind = system_.guards()[k].kind;
+        const bool must_stop = kind == GuardKind::kPumpLimit || kind == GuardKind::kPumpDemand;
         if (!(start > 0.0)) {
           if (must_stop && end < 0.0 && first > 1.0) first = 1.0, event_ = k;
           continue;

@@ -40,25 +40,31 @@ T CurveSlopeAt(const MonotoneCurve& curve, const T& x) {
   return T(curve.Slope(ValueOf(x)));
 }
 
+// One number of a rig that moves with one direction.
+struct Seed {
+  const double* number = nullptr;
+  int direction = 0;  // below kDirections
+};
+
 // Turns the numbers of a rig into T. A parameter is the address of a number in the rig: that number
 // starts with derivative 1 in its own direction, every other with none.
 class Lift {
  public:
-  explicit Lift(std::span<const double* const> parameters = {}) : parameters_(parameters) {}
+  explicit Lift(std::span<const Seed> seeds = {}) : seeds_(seeds) {}
 
   template <class T>
   T operator()(const double& number) const {
     T lifted(number);
     if constexpr (kIsDual<T>) {
-      for (std::size_t j = 0; j < parameters_.size(); ++j) {
-        if (parameters_[j] == &number) lifted.v[static_cast<Eigen::Index>(j)] = 1.0;
+      for (const Seed& seed : seeds_) {
+        if (seed.number == &number) lifted.v[seed.direction] += 1.0;
       }
     }
     return lifted;
   }
 
  private:
-  std::span<const double* const> parameters_;  // at most kDirections
+  std::span<const Seed> seeds_;
 };
 
 }  // namespace plenum::model
