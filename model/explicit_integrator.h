@@ -138,10 +138,10 @@ class ExplicitIntegrator {
   // Takes the step again up to the event, then one Newton step in time onto it, which also gives
   // the event's time its derivatives. A kink needs neither: nothing jumps there.
   void EndAtEvent(double theta) {
+    const double h = 1e-4 * ValueOf(stepper_.step());
     if (theta < 1.0) stepper_.Shorten(system_, std::max(theta, 1e-12));
     Guards(stepper_.time(), stepper_.state(), after_);
     if (system_.guards()[*event_].kind == GuardKind::kKink) return;
-    const double h = 1e-4 * ValueOf(stepper_.step());
     const auto moved = [&](double shift) {
       for (std::size_t i = 0; i < trial_.size(); ++i) {
         trial_[i] = stepper_.state()[i] + shift * stepper_.derivative()[i];
@@ -150,10 +150,11 @@ class ExplicitIntegrator {
       return ValueOf(during_[*event_]);
     };
     const double rate = (moved(h) - moved(-h)) / (2.0 * h);
-    const T shift = -after_[*event_] / rate;
-    if (std::isfinite(ValueOf(shift)) && std::abs(ValueOf(shift)) < ValueOf(stepper_.step())) {
-      stepper_.MoveEnd(shift);
-    }
+    T shift = -after_[*event_] / rate;
+    if (!std::isfinite(ValueOf(shift))) return;
+    // After a step as short as rounding the time is as good as it gets; its derivatives still move.
+    if (std::abs(ValueOf(shift)) >= ValueOf(stepper_.step())) shift -= ValueOf(shift);
+    stepper_.MoveEnd(shift);
   }
 
   System<T>& system_;

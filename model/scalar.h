@@ -24,6 +24,10 @@ inline constexpr bool kIsDual = !std::is_same_v<T, double>;
 inline double ValueOf(double x) { return x; }
 inline double ValueOf(const Dual& x) { return x.a; }
 
+// Zero, and no parameter moves it from there.
+inline bool IsZero(double x) { return x == 0.0; }
+inline bool IsZero(const Dual& x) { return x.a == 0.0 && x.v.isZero(0.0); }
+
 // f(x) with its derivative df/dx, both taken at the value of x.
 inline double Chain(double, double f, double) { return f; }
 inline Dual Chain(const Dual& x, double f, double slope) { return Dual(f, slope * x.v); }

@@ -14,7 +14,7 @@ constexpr double kSettledShare = 1e-3;
 // Steps at the border of stability after which CVODE is the better integrator.
 constexpr long long kStiffSteps = 5000;
 // Pressures this close have arrived at the same instant.
-constexpr double kTogetherShare = 1e-12;
+constexpr double kTogetherShare = 1e-9;
 // Nothing moves by more than this share of its size until the end: the state is steady.
 constexpr double kStalledShare = 1e-6;
 
@@ -231,10 +231,7 @@ bool Run<T, Stepper>::AtRest() const {
     if (system_.Moving(i, ValueOf(t_s_))) return false;
   }
   const auto slope = stepper_.slope();
-  return std::all_of(slope.begin(), slope.end(), [](const T& s) {
-    if constexpr (kIsDual<T>) return s.a == 0.0 && s.v.isZero(0.0);
-    return s == 0.0;
-  });
+  return std::all_of(slope.begin(), slope.end(), [](const T& s) { return IsZero(s); });
 }
 
 template <class T, class Stepper>
