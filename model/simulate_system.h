@@ -109,6 +109,9 @@ class System {
   // Values of all guards at a state.
   void GuardValues(const T& t, std::span<const T> y, std::span<T> values);
   void PassKink(const Guard<T>& guard);  // the flow goes on in the regime beyond
+  void PassEffect(const Guard<T>& guard) {
+    groups_[guard.group].units[guard.index]->Turned(guard.step);
+  }
 
   // One actuator of the group, as the last call of Look, Draw or () left it.
   const Moment<T>& moment(std::size_t group) const { return groups_[group].moment; }

@@ -104,6 +104,9 @@ class EffectUnit {
   virtual int guards() const { return 0; }
   virtual void Guards(const Moment<T>&, const T* /*x*/, T* /*guards*/) const {}
   virtual void Settle(const Moment<T>&, const T* /*x*/) {}
+  // A step was cut where this guard turned. Settle follows, at a state that rounding may leave on
+  // either side.
+  virtual void Turned(int /*guard*/) {}
 };
 
 }  // namespace plenum::model
