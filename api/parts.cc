@@ -206,4 +206,43 @@ Parsed<catalog::Part> ParsePart(const Json& request) {
   return part;
 }
 
+Json RenderRevisionName(const catalog::Revision& revision) {
+  return {{"number", revision.number}, {"hash", revision.hash}};
+}
+
+Json RenderRevision(const catalog::Revision& revision) {
+  Json document = RenderRevisionName(revision);
+  document["at"] = revision.at;
+  document["who"] = revision.who;
+  document["what"] = revision.what;
+  return document;
+}
+
+Json RenderChange(const catalog::Change& change) {
+  return {{"id", change.id},
+          {"before", change.before ? RenderPart(*change.before) : Json()},
+          {"after", change.after ? RenderPart(*change.after) : Json()}};
+}
+
+Json RenderPlausibility(const std::vector<catalog::Outlier>& outliers,
+                        const std::vector<catalog::Gap>& gaps) {
+  Json json = {{"outliers", Json::array()}, {"gaps", Json::array()}};
+  for (const auto& outlier : outliers) {
+    json["outliers"].push_back({{"id", outlier.id},
+                                {"family", outlier.family},
+                                {"field", outlier.field},
+                                {"value", Number(outlier.value)},
+                                {"family_median", Number(outlier.median)},
+                                {"robust_z", Number(outlier.robust_z)}});
+  }
+  for (const auto& gap : gaps) {
+    json["gaps"].push_back({{"family", gap.family},
+                            {"field", gap.field},
+                            {"blocks", gap.blocks},
+                            {"parts", gap.parts},
+                            {"missing", gap.ids}});
+  }
+  return json;
+}
+
 }  // namespace plenum::api

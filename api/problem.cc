@@ -33,6 +33,8 @@ const char* Title(int status) {
       return "Internal Server Error";
     case 503:
       return "Service Unavailable";
+    case 507:
+      return "Insufficient Storage";
     default:
       return status < 500 ? "Request refused" : "Fault of the service";
   }

@@ -3,12 +3,19 @@
 #ifndef PLENUM_API_SERVICES_H_
 #define PLENUM_API_SERVICES_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "api/explanation.h"
 #include "api/json.h"
+#include "api/robustness.h"
+#include "catalog/backup.h"
+#include "catalog/content_hash.h"
 #include "catalog/csv.h"
+#include "catalog/plausibility.h"
 #include "catalog/store.h"
+#include "optimizer/pareto.h"
 #include "optimizer/problem.h"
 
 namespace plenum::api {
@@ -18,12 +25,19 @@ struct DesignRequest {
   optimizer::Problem problem;
   double time_limit_s = 30.0;
   std::string name;
+  std::vector<optimizer::Amount> pareto;  // amounts of a front; empty: one objective
+  std::optional<RobustRequest> robust;
+  std::optional<ExplainRequest> explain;  // with one objective only
   Json request;  // as it was given; the answer echoes it, so that a saved answer can be checked
 };
 // Parses and validates requirements against the catalogue: every error at once. `parts` have passed
 // catalog::Validate.
 Parsed<DesignRequest> ParseRequirements(const Json& request,
                                         const std::vector<catalog::Part>& parts);
+// Searches and renders what the request asks for; `options` say how to stop and to report progress,
+// the time limit is the request's. `parts` are the rows the problem was made of.
+Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions options,
+                   const std::vector<catalog::Part>& parts);
 // The answer as JSON. `parts` are the rows the problem was made of: makers, provenance.
 Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
                   const std::vector<catalog::Part>& parts);
@@ -39,6 +53,16 @@ Json RenderPart(const catalog::Part& part);
 // `request` is what RenderPart gives, or a part of a user's own; what the server sets (origin) is
 // accepted and ignored.
 Parsed<catalog::Part> ParsePart(const Json& request);
+// { number, hash }: `catalogue_revision` of an answer, which names the parts it was computed from.
+Json RenderRevisionName(const catalog::Revision& revision);
+// { number, hash, at, who, what }.
+Json RenderRevision(const catalog::Revision& revision);
+// { id, before, after }, each a part or null.
+Json RenderChange(const catalog::Change& change);
+// { "outliers": [{ id, family, field, value, family_median, robust_z }],
+// "gaps": [{ family, field, blocks, parts, missing: ids }] }.
+Json RenderPlausibility(const std::vector<catalog::Outlier>& outliers,
+                        const std::vector<catalog::Gap>& gaps);
 
 }  // namespace plenum::api
 

@@ -7,6 +7,7 @@
 
 #include "catalog/csv_table.h"
 #include "catalog/fields.h"
+#include "catalog/quantity.h"
 #include "catalog/text.h"
 
 namespace plenum::catalog {
@@ -14,6 +15,8 @@ namespace {
 
 constexpr std::string_view kProvenance = ".provenance";
 constexpr std::string_view kSource = ".source";
+// Names whose ends give the units of a curve point.
+constexpr std::string_view kPointUnits[] = {"_kpa_gauge", "_l_per_min", "_a"};
 
 std::string Column(std::string_view field, std::string_view suffix) {
   return std::string(field) + std::string(suffix);
@@ -110,12 +113,13 @@ class RowReader {
   void ReadNumber(std::string_view field, Part& part) {
     const std::string cell = Cell(field);
     if (cell.empty()) return CheckNoOrigin(field);
-    const auto value = ParseNumber(cell);
+    const Quantity quantity = ParseQuantity(cell, field);
     const Provenance provenance = ReadProvenance(field);
-    if (value)
-      part.numbers[std::string(field)] = {*value, provenance, Cell(Column(field, kSource))};
+    if (quantity.value)
+      part.numbers[std::string(field)] = {*quantity.value, provenance,
+                                          Cell(Column(field, kSource))};
     else
-      Fail(std::string(field), "must be a finite number, is \"" + cell + "\"");
+      Fail(std::string(field), quantity.error);
   }
 
   void ReadText(std::string_view field, Part& part) {
@@ -137,12 +141,14 @@ class RowReader {
     curve.current_provenance = ReadProvenance("current");
     curve.current_source = Cell("current.source");
     for (std::string_view point : Split(cell, ';')) {
+      const auto numbers = Split(point, ':');
       std::vector<double> values;
-      for (std::string_view number : Split(point, ':'))
-        if (const auto value = ParseNumber(number)) values.push_back(*value);
-      if (values.size() != 3 || std::count(point.begin(), point.end(), ':') != 2) {
+      for (std::size_t i = 0; i < std::min(numbers.size(), std::size(kPointUnits)); ++i)
+        if (const auto value = ParseQuantity(numbers[i], kPointUnits[i]).value)
+          values.push_back(*value);
+      if (values.size() != 3 || numbers.size() != 3) {
         Fail("curve", "must be points \"kPa gauge:L/min:A\" joined by ';', has \"" +
-                          std::string(point) + "\"");
+                          std::string(point.substr(0, 100)) + "\"");
         return;
       }
       curve.points.push_back({values[0], values[1], values[2]});
@@ -211,11 +217,11 @@ CsvRow ToRow(const Family& family, const Part& part) {
 CsvParts ReadCsv(std::string_view family_name, std::string_view text) {
   const Family* family = FindFamily(family_name);
   if (family == nullptr)
-    return {{}, {{1, "", "unknown family \"" + std::string(family_name) + "\""}}};
+    return {{}, {}, {{1, "", "unknown family \"" + std::string(family_name) + "\""}}};
   CsvTable table = ParseTable(text);
-  CsvParts result{{}, std::move(table.errors)};
+  CsvParts result{{}, {}, std::move(table.errors)};
   if (!result.errors.empty()) return result;
-  if (table.rows.empty()) return {{}, {{1, "", "the header row is missing"}}};
+  if (table.rows.empty()) return {{}, {}, {{1, "", "the header row is missing"}}};
 
   const CsvRow& header = table.rows.front();
   result.errors = CheckHeader(*family, header);
@@ -231,6 +237,7 @@ CsvParts ReadCsv(std::string_view family_name, std::string_view text) {
     }
     RowReader reader(*family, header, cells, row);
     result.parts.push_back(reader.Read());
+    result.rows.push_back(row);
     for (CsvError& error : reader.TakeErrors()) result.errors.push_back(std::move(error));
     const auto [first, is_new] = row_of_id.emplace(result.parts.back().id, row);
     if (!is_new)

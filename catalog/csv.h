@@ -4,7 +4,8 @@
 // F.provenance, F.source; for families with a curve also `curve` (points
 // "kPa_gauge:L/min:A" joined by ';'), free_air.provenance, free_air.source, current.provenance,
 // current.source. A column may be missing; an empty cell means no value. Without a provenance a
-// number counts as third_party. Values round-trip exactly.
+// number counts as third_party. A number may carry a unit of its own (catalog/quantity.h), also in
+// a curve. What WriteCsv writes is read back exactly and written again byte for byte.
 #ifndef PLENUM_CATALOG_CSV_H_
 #define PLENUM_CATALOG_CSV_H_
 
@@ -17,7 +18,7 @@
 namespace plenum::catalog {
 
 struct CsvError {
-  int row = 0;  // 1 is the header
+  int row = 0;  // counts records; 1 is the header
   std::string column;
   std::string detail;
   bool operator==(const CsvError&) const = default;
@@ -25,6 +26,7 @@ struct CsvError {
 
 struct CsvParts {
   std::vector<Part> parts;
+  std::vector<int> rows;         // of the parts
   std::vector<CsvError> errors;  // not empty: nothing of the file may be used
 };
 

@@ -27,8 +27,8 @@ Provenance ReadProvenance(const SQLite::Column& column) {
 
 std::string Word(Provenance provenance) { return std::string(Name(provenance)); }
 
-// Hands each row of a table to its part. Rows and parts are both
-// in order of id, so one walk along both suffices.
+// Hands each row of a table to its part. Rows and parts are both in order of id, so one walk along
+// both suffices.
 template <class Take>
 void Distribute(SQLite::Database& db, const std::string& select, const std::string& order,
                 const std::optional<Filter>& filter, std::vector<Part>& parts, const Take& take) {
@@ -53,7 +53,8 @@ PartWriter::PartWriter(SQLite::Database& db)
       number_(db, "INSERT INTO number VALUES (?, ?, ?, ?, ?)"),
       text_(db, "INSERT INTO text VALUES (?, ?, ?, ?, ?)"),
       curve_(db, "INSERT INTO curve VALUES (?, ?, ?, ?, ?)"),
-      point_(db, "INSERT INTO curve_point VALUES (?, ?, ?, ?)") {}
+      point_(db, "INSERT INTO curve_point VALUES (?, ?, ?, ?)"),
+      delete_(db, "DELETE FROM part WHERE id = ?") {}
 
 void PartWriter::Insert(const Part& part) {
   Run(part_, part.id, part.family, part.manufacturer, part.part_number, part.origin, part.notes);
@@ -68,6 +69,8 @@ void PartWriter::Insert(const Part& part) {
   for (const CurvePoint& point : curve.points)
     Run(point_, part.id, point.pressure_kpa_gauge, point.free_air_l_per_min, point.current_a);
 }
+
+void PartWriter::Delete(const std::string& id) { Run(delete_, id); }
 
 std::vector<Part> ReadParts(SQLite::Database& db, const std::optional<Filter>& filter) {
   std::vector<Part> parts;

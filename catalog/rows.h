@@ -12,14 +12,15 @@
 
 namespace plenum::catalog {
 
-// Inserts parts through statements prepared once; the caller owns the transaction.
+// Inserts and deletes parts through statements prepared once; the caller owns the transaction.
 class PartWriter {
  public:
   explicit PartWriter(SQLite::Database& db);
   void Insert(const Part& part);
+  void Delete(const std::string& id);
 
  private:
-  SQLite::Statement part_, number_, text_, curve_, point_;
+  SQLite::Statement part_, number_, text_, curve_, point_, delete_;
 };
 
 // Which parts to read: all, or those whose `column` (id or family) equals `value`.

@@ -4,102 +4,49 @@
 
 #include <algorithm>
 #include <mutex>
-#include <set>
 #include <utility>
 
-#include "catalog/migrations.h"
+#include "catalog/connection.h"
+#include "catalog/history.h"
 #include "catalog/rows.h"
 
 namespace plenum::catalog {
 namespace {
 
-constexpr int kBusyTimeoutMs = 10'000;
-constexpr int kApplicationId = 1886154349;  // "plnm", set by the first migration
-constexpr int kSqliteReadOnly = 8;          // SQLITE_READONLY
-
-int Pragma(SQLite::Database& db, const std::string& name) {
-  return db.execAndGet("PRAGMA " + name).getInt();
+// Equal but for the origin, which a CSV file does not carry.
+bool SameContent(Part a, const Part& b) {
+  a.origin = b.origin;
+  return a == b;
 }
 
-bool Exists(SQLite::Database& db, const std::string& id) {
-  SQLite::Statement query(db, "SELECT 1 FROM part WHERE id = ?");
-  query.bind(1, id);
-  return query.executeStep();
-}
-
-bool Delete(SQLite::Database& db, const std::string& id) {
-  SQLite::Statement statement(db, "DELETE FROM part WHERE id = ?");
-  statement.bind(1, id);
-  return statement.exec() > 0;
-}
-
-void CountWrite(SQLite::Database& db) { db.exec("UPDATE revision SET number = number + 1"); }
-
-// A rollback journal, not a write-ahead log: the shipped file must also open from a folder without
-// write permission, and SQLite 3.40 can corrupt a write-ahead log that several connections reset.
-// Writes are rare and take milliseconds, so readers hardly wait. EXTRA also syncs the folder when
-// the journal goes, so a commit that was acknowledged outlasts a power cut.
-void ConfigureForWriting(SQLite::Database& db) {
-  db.exec("PRAGMA foreign_keys = ON");
-  SQLite::Statement(db, "PRAGMA journal_mode = DELETE").executeStep();
-  db.exec("PRAGMA synchronous = EXTRA");
-}
-
-// Number of migrations that the file has seen. Throws where it is not a catalogue or a newer one.
-int SchemaVersion(SQLite::Database& db) {
-  const int version = Pragma(db, "user_version");
-  const bool empty = db.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
-  const bool ours = version > 0 && Pragma(db, "application_id") == kApplicationId;
-  if (!ours && !(version == 0 && empty)) throw StoreError("is not a catalogue of parts");
-  const auto known = static_cast<int>(Migrations().size());
-  if (version > known)
-    throw StoreError("has schema " + std::to_string(version) + ", this program knows up to " +
-                     std::to_string(known) + "; use a newer program");
-  return version;
-}
-
-// Applies the next migration, if any is left. The version is read again under the lock: another
-// process may have migrated meanwhile.
-bool MigrateOnce(SQLite::Database& db) {
-  SQLite::Transaction transaction(db, SQLite::TransactionBehavior::IMMEDIATE);
-  const int version = SchemaVersion(db);
-  if (version == static_cast<int>(Migrations().size())) return false;
-  const Migration& next = Migrations()[version];
-  db.exec(next.sql);
-  SQLite::Statement record(
-      db, "INSERT INTO migration VALUES (?, ?, strftime('%Y-%m-%dT%H:%M:%SZ', 'now'))");
-  record.bind(1, version + 1);
-  record.bind(2, std::string(next.name));
-  record.exec();
-  db.exec("PRAGMA user_version = " + std::to_string(version + 1));
-  transaction.commit();
-  return true;
-}
-
-SQLite::Database OpenForReading(const std::string& path) {
-  SQLite::Database db(path, SQLite::OPEN_READONLY, kBusyTimeoutMs);
-  try {
-    Pragma(db, "user_version");
-    return db;
-  } catch (const SQLite::Exception& error) {
-    if (error.getErrorCode() != kSqliteReadOnly) throw;
+// `stored(id)` gives the part as it was when the import began.
+template <class Stored>
+ImportPlan Plan(const std::vector<Part>& parts, const Stored& stored) {
+  ImportPlan plan;
+  for (const Part& part : parts) {
+    const std::optional<Part> old = stored(part.id);
+    if (!old)
+      plan.added.push_back(part.id);
+    else if (old->family != part.family)
+      plan.taken.push_back(part.id);
+    else
+      (SameContent(part, *old) ? plan.unchanged : plan.replaced).push_back(part.id);
   }
-  // A writer died in the middle of a transaction and only a writer may roll it back.
-  SQLite::Database writer(path, SQLite::OPEN_READWRITE, kBusyTimeoutMs);
-  Pragma(writer, "user_version");
-  return {path, SQLite::OPEN_READONLY, kBusyTimeoutMs};
+  return plan;
 }
 
-SQLite::Database Open(const std::string& path, Access access) {
-  if (access == Access::kWrite)
-    return {path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs};
-  return OpenForReading(path);
+std::vector<FieldError> ValidateAll(const std::vector<Part>& parts) {
+  std::vector<FieldError> errors;
+  for (const Part& part : parts)
+    for (const FieldError& error : Validate(part))
+      errors.push_back({error.field, part.id + ": " + error.detail});
+  return errors;
 }
 
 }  // namespace
 
 struct Store::Impl {
-  Impl(std::string file, Access access) : path(std::move(file)), db(Open(path, access)) {}
+  Impl(std::string file, Access access) : path(std::move(file)), db(Connect(path, access)) {}
 
   // Runs `action` with the connection to itself and names the file in every error.
   template <class Action>
@@ -108,29 +55,39 @@ struct Store::Impl {
     try {
       return action(db);
     } catch (const SQLite::Exception& error) {
-      throw StoreError(path + ": " + error.what());
+      throw ToStoreError(path, error);
     } catch (const StoreError& error) {
-      throw StoreError(path + " " + error.what());
+      throw StoreError(path + " " + error.what(), error.fault());
     }
   }
 
-  // Runs `action` in one transaction, committed only if it answers kDone.
+  // Runs `action(writer)` in one transaction; only if it answers kDone, what it changed is recorded
+  // as a revision and committed. A request that was done before under its key is not done again.
   template <class Action>
-  WriteResult Write(const Action& action) {
+  WriteResult Write(const Signature& by, const std::string& what, const Action& action) {
     return Do([&](SQLite::Database& connection) -> WriteResult {
       SQLite::Transaction transaction(connection, SQLite::TransactionBehavior::IMMEDIATE);
-      const WriteStatus status = action(connection);
-      if (status != WriteStatus::kDone) return {status, {}};
-      CountWrite(connection);
+      if (const auto kept = by.key.empty() ? std::nullopt : FindKey(connection, by.key)) {
+        if (kept->request != by.request) return {WriteStatus::kKeyReused, {}, {}};
+        return {
+            WriteStatus::kRepeated, {}, catalog::FindRevision(connection, kept->revision).value()};
+      }
+      RevisionWriter writer(connection);
+      WriteResult result = action(writer);
+      if (result.status != WriteStatus::kDone) return result;
+      result.revision = writer.Record(by.who, what);
+      if (!by.key.empty()) KeepKey(connection, by, writer.head().number, result.revision.number);
       transaction.commit();
-      return {};
+      return result;
     });
   }
 
-  std::vector<Part> Read(const std::optional<Filter>& filter) {
+  // Runs `action` on tables that are all of one moment.
+  template <class Action>
+  auto Read(const Action& action) {
     return Do([&](SQLite::Database& connection) {
       SQLite::Transaction one_moment(connection);
-      return ReadParts(connection, filter);
+      return action(connection);
     });
   }
 
@@ -143,19 +100,12 @@ Store::Store(const std::filesystem::path& path, Access access) {
   try {
     impl_ = std::make_unique<Impl>(path.string(), access);
   } catch (const SQLite::Exception& error) {
-    throw StoreError(path.string() + ": cannot be opened for " +
-                     (access == Access::kRead ? "reading" : "writing") + ": " + error.what());
+    throw ToStoreError(path.string() + ": cannot be opened for " +
+                           (access == Access::kRead ? "reading" : "writing"),
+                       error);
+  } catch (const StoreError& error) {
+    throw StoreError(path.string() + " " + error.what());
   }
-  impl_->Do([&](SQLite::Database& db) {
-    if (access == Access::kWrite) {
-      SchemaVersion(db);  // a foreign file is refused before anything in it changes
-      ConfigureForWriting(db);
-      while (MigrateOnce(db)) {
-      }
-    } else if (SchemaVersion(db) < static_cast<int>(Migrations().size())) {
-      throw StoreError("has an older schema; open it once for writing to migrate it");
-    }
-  });
 }
 
 Store::~Store() = default;
@@ -163,85 +113,168 @@ Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
 
 std::vector<Part> Store::List(const std::optional<std::string>& family) const {
-  return impl_->Read(family ? std::optional(Filter{"family", *family}) : std::nullopt);
-}
-
-std::optional<Part> Store::Get(const std::string& id) const {
-  std::vector<Part> found = impl_->Read(Filter{"id", id});
-  return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
-}
-
-WriteResult Store::Add(const Part& part) {
-  if (auto errors = Validate(part); !errors.empty())
-    return {WriteStatus::kInvalid, std::move(errors)};
-  return impl_->Write([&](SQLite::Database& db) {
-    if (Exists(db, part.id)) return WriteStatus::kExists;
-    PartWriter(db).Insert(part);
-    return WriteStatus::kDone;
+  return impl_->Read([&](SQLite::Database& db) {
+    return ReadParts(db, family ? std::optional(Filter{"family", *family}) : std::nullopt);
   });
 }
 
-WriteResult Store::Replace(const Part& part) {
-  if (auto errors = Validate(part); !errors.empty())
-    return {WriteStatus::kInvalid, std::move(errors)};
-  return impl_->Write([&](SQLite::Database& db) {
-    if (!Delete(db, part.id)) return WriteStatus::kNotFound;
-    PartWriter(db).Insert(part);
-    return WriteStatus::kDone;
+std::pair<Revision, std::vector<Part>> Store::ListWithHead() const {
+  return impl_->Read([](SQLite::Database& db) {
+    return std::pair(catalog::Head(db), ReadParts(db, std::nullopt));
   });
 }
 
-WriteResult Store::Remove(const std::string& id) {
-  return impl_->Write([&](SQLite::Database& db) {
-    return Delete(db, id) ? WriteStatus::kDone : WriteStatus::kNotFound;
+std::optional<Part> Store::Get(const std::string& id) const { return GetAt(id, INT64_MAX); }
+
+Revision Store::Head() const {
+  return impl_->Read([](SQLite::Database& db) { return catalog::Head(db); });
+}
+
+std::optional<Revision> Store::FindRevision(std::int64_t number) const {
+  return impl_->Read([&](SQLite::Database& db) { return catalog::FindRevision(db, number); });
+}
+
+std::vector<Revision> Store::Revisions(std::int64_t below, int limit) const {
+  return impl_->Read([&](SQLite::Database& db) { return ReadRevisions(db, below, limit); });
+}
+
+std::vector<Part> Store::ListAt(std::int64_t number) const {
+  return impl_->Read([&](SQLite::Database& db) { return PartsAt(db, number); });
+}
+
+std::optional<Part> Store::GetAt(const std::string& id, std::int64_t number) const {
+  return impl_->Read([&](SQLite::Database& db) { return PartAt(db, id, number); });
+}
+
+std::vector<Change> Store::History(const std::string& id, std::int64_t below, int limit) const {
+  return impl_->Read([&](SQLite::Database& db) { return ChangesOf(db, id, below, limit); });
+}
+
+std::vector<Change> Store::Changes(const Revision& revision) const {
+  return impl_->Read([&](SQLite::Database& db) { return ChangesIn(db, revision); });
+}
+
+WriteResult Store::Add(const Part& part, const Signature& by) {
+  if (auto errors = Validate(part); !errors.empty())
+    return {WriteStatus::kInvalid, std::move(errors), {}};
+  return impl_->Write(by, "add " + part.id, [&](RevisionWriter& writer) -> WriteResult {
+    if (writer.Get(part.id)) return {WriteStatus::kExists, {}, {}};
+    writer.Change(part.id, std::nullopt, part);
+    return {};
+  });
+}
+
+WriteResult Store::Replace(const Part& part, const Signature& by, const Precondition& may) {
+  if (auto errors = Validate(part); !errors.empty())
+    return {WriteStatus::kInvalid, std::move(errors), {}};
+  return impl_->Write(by, "replace " + part.id, [&](RevisionWriter& writer) -> WriteResult {
+    const auto old = writer.Get(part.id);
+    if (!old) return {WriteStatus::kNotFound, {}, {}};
+    if (may && !may(*old)) return {WriteStatus::kChanged, {}, {}};
+    writer.Change(part.id, old, part);
+    return {};
+  });
+}
+
+WriteResult Store::Remove(const std::string& id, const Signature& by, const Precondition& may) {
+  return impl_->Write(by, "remove " + id, [&](RevisionWriter& writer) -> WriteResult {
+    const auto old = writer.Get(id);
+    if (!old) return {WriteStatus::kNotFound, {}, {}};
+    if (may && !may(*old)) return {WriteStatus::kChanged, {}, {}};
+    writer.Change(id, old, std::nullopt);
+    return {};
+  });
+}
+
+ImportPlan Store::PlanImport(const std::vector<Part>& parts) const {
+  return impl_->Read([&](SQLite::Database& db) {
+    return Plan(parts, [&](const std::string& id) { return PartAt(db, id, INT64_MAX); });
+  });
+}
+
+ImportResult Store::Import(const std::vector<Part>& parts, const Signature& by) {
+  ImportResult result;
+  result.write.errors = ValidateAll(parts);
+  result.write.status = WriteStatus::kInvalid;
+  if (!result.write.errors.empty()) return result;
+  const std::string what = "import " + (parts.empty() ? "nothing" : parts.front().family);
+  result.write = impl_->Write(by, what, [&](RevisionWriter& writer) -> WriteResult {
+    result.plan = Plan(parts, [&](const std::string& id) { return writer.Get(id); });
+    if (!result.plan.taken.empty()) return {WriteStatus::kExists, {}, {}};
+    for (const Part& part : parts) {
+      const auto old = writer.Get(part.id);
+      if (!old || !SameContent(part, *old)) writer.Change(part.id, old, part);
+    }
+    return {};
+  });
+  if (result.write.status == WriteStatus::kRepeated)
+    result.plan = impl_->Read([&](SQLite::Database& db) {
+      const std::int64_t base = FindKey(db, by.key).value().base;
+      return Plan(parts, [&](const std::string& id) { return PartAt(db, id, base); });
+    });
+  return result;
+}
+
+WriteResult Store::Undo(std::int64_t number, const Signature& by) {
+  const auto revision = FindRevision(number);
+  if (!revision) return {WriteStatus::kNotFound, {}, {}};
+  const std::vector<Change> changes = Changes(*revision);
+  WriteResult refused;
+  for (const Change& change : changes)
+    if (change.before)
+      for (FieldError& error : Validate(*change.before)) refused.errors.push_back(std::move(error));
+  if (!refused.errors.empty()) {
+    refused.status = WriteStatus::kInvalid;
+    return refused;
+  }
+  const std::string what = "undo " + std::to_string(number);
+  return impl_->Write(by, what, [&](RevisionWriter& writer) -> WriteResult {
+    for (const Change& change : changes)
+      if (writer.Get(change.id) != change.after)
+        refused.errors.push_back(
+            {"", change.id + " was changed since revision " + std::to_string(number)});
+    if (!refused.errors.empty()) return {WriteStatus::kSuperseded, refused.errors, {}};
+    for (const Change& change : changes) writer.Change(change.id, change.after, change.before);
+    return {};
   });
 }
 
 void Store::ReplaceSeed(const std::vector<Part>& parts) {
   std::vector<Part> seed = parts;
-  for (Part& part : seed) {
-    part.origin = "seed";
-    if (const auto errors = Validate(part); !errors.empty())
-      throw StoreError(impl_->path + ": seed part \"" + part.id + "\", " + errors.front().field +
-                       ": " + errors.front().detail);
-  }
+  for (Part& part : seed) part.origin = "seed";
+  if (const auto errors = ValidateAll(seed); !errors.empty())
+    throw StoreError(impl_->path + ": seed part " + errors.front().detail + " (" +
+                     errors.front().field + ")");
   std::sort(seed.begin(), seed.end(), [](const Part& a, const Part& b) { return a.id < b.id; });
-  impl_->Write([&](SQLite::Database& db) {
-    db.exec("DELETE FROM part WHERE origin = 'seed'");
-    std::set<std::string> of_users;
-    SQLite::Statement query(db, "SELECT id FROM part");
-    while (query.executeStep()) of_users.insert(query.getColumn(0).getString());
-    PartWriter writer(db);
-    for (const Part& part : seed)
-      if (!of_users.contains(part.id)) writer.Insert(part);
-    return WriteStatus::kDone;
+  for (std::size_t i = 1; i < seed.size(); ++i)
+    if (seed[i].id == seed[i - 1].id)
+      throw StoreError(impl_->path + ": two seed parts have the id " + seed[i].id);
+
+  const std::vector<Part> old = List();
+  impl_->Write({"build_catalog", {}, {}}, "seed", [&](RevisionWriter& writer) -> WriteResult {
+    for (const Part& part : old) {
+      const bool kept = std::binary_search(
+          seed.begin(), seed.end(), part, [](const Part& a, const Part& b) { return a.id < b.id; });
+      if (part.origin == "seed" && !kept) writer.Change(part.id, writer.Get(part.id), std::nullopt);
+    }
+    for (const Part& part : seed) {
+      const auto stored = writer.Get(part.id);
+      if (!stored || stored->origin == "seed") writer.Change(part.id, stored, part);
+    }
+    return {};
   });
   impl_->Do([](SQLite::Database& db) { db.exec("VACUUM"); });
 }
 
 std::vector<std::string> Store::Check() const {
-  std::vector<std::string> faults = impl_->Do([](SQLite::Database& db) {
-    std::vector<std::string> found;
-    SQLite::Statement integrity(db, "PRAGMA integrity_check");
-    while (integrity.executeStep())
-      if (std::string line = integrity.getColumn(0).getString(); line != "ok")
-        found.push_back(std::move(line));
-    SQLite::Statement keys(db, "PRAGMA foreign_key_check");
-    while (keys.executeStep())
-      found.push_back("a row of table " + keys.getColumn(0).getString() + " belongs to no " +
-                      keys.getColumn(2).getString());
-    return found;
-  });
-  if (!faults.empty()) return faults;  // what is damaged cannot be read part by part
-  for (const Part& part : List())
-    for (const FieldError& error : Validate(part))
-      faults.push_back(part.id + ", " + error.field + ": " + error.detail);
-  return faults;
-}
-
-long long Store::DataVersion() const {
-  return impl_->Do([](SQLite::Database& db) {
-    return static_cast<long long>(db.execAndGet("SELECT number FROM revision").getInt64());
+  return impl_->Read([](SQLite::Database& db) {
+    std::vector<std::string> faults = CheckFile(db);
+    if (!faults.empty()) return faults;  // what is damaged cannot be read part by part
+    for (const Part& part : ReadParts(db, std::nullopt))
+      for (const FieldError& error : Validate(part))
+        faults.push_back(part.id + ", " + error.field + ": " + error.detail);
+    for (std::string& fault : CheckHistory(db)) faults.push_back(std::move(fault));
+    return faults;
   });
 }
 

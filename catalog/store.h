@@ -1,13 +1,14 @@
-// catalog.db: opens, migrates, reads and writes parts. The only room that knows SQLite.
+// catalog.db: reads and writes parts, and remembers every change. The only room that knows SQLite.
 //
 // Exactly one read-write connection per process writes; readers open their own read-only
-// connection. Every write is one transaction under a rollback journal, so the file alone is the
-// catalogue and can be read where nothing can be written. One store may be used from several
-// threads; its calls take turns.
+// connection. Every write is one transaction under a rollback journal and becomes one revision, so
+// the file alone is the catalogue and can be read where nothing can be written. One store may be
+// used from several threads; its calls take turns.
 #ifndef PLENUM_CATALOG_STORE_H_
 #define PLENUM_CATALOG_STORE_H_
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -16,28 +17,61 @@
 
 #include "catalog/fields.h"
 #include "catalog/part.h"
+#include "catalog/revision.h"
 
 namespace plenum::catalog {
 
 enum class Access { kRead, kWrite };
 
+// kStorage: the disk is full or fails, or the file cannot be written; kBusy: another process holds
+// it for longer than ten seconds. In all cases nothing of the write was done.
+enum class StoreFault { kOther, kStorage, kBusy };
+
 // Thrown when the database cannot be opened, read or written; the message names the file and what
 // to do. (I/O is the one place of plenum where exceptions carry an outcome.)
 class StoreError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit StoreError(const std::string& what, StoreFault fault = StoreFault::kOther)
+      : std::runtime_error(what), fault_(fault) {}
+  StoreFault fault() const { return fault_; }
+
+ private:
+  StoreFault fault_;
 };
 
-enum class WriteStatus { kDone, kInvalid, kExists, kNotFound };
+enum class WriteStatus {
+  kDone,
+  kRepeated,    // the signature's key and request were done before; nothing was written
+  kInvalid,     // see errors
+  kExists,      // the id is taken
+  kNotFound,    // no part has the id, no revision the number
+  kChanged,     // the precondition does not hold
+  kSuperseded,  // undo: a part was changed again since; errors name them
+  kKeyReused    // the key stands for another request
+};
 struct WriteResult {
   WriteStatus status = WriteStatus::kDone;
   std::vector<FieldError> errors;
+  Revision revision;  // kDone, kRepeated: the one that holds the write
 };
+
+// What importing a list of parts does to each of them.
+struct ImportPlan {
+  std::vector<std::string> added, replaced, unchanged;  // ids
+  std::vector<std::string> taken;  // ids of parts of another family: nothing can be imported
+};
+struct ImportResult {
+  ImportPlan plan;
+  WriteResult write;
+};
+
+// Whether a write may go on, seen the part as it is stored; evaluated inside the transaction.
+using Precondition = std::function<bool(const Part&)>;
 
 class Store {
  public:
-  // Opens `path`. With kWrite the file is created if missing and migrated to the newest schema in
-  // one transaction per migration; with kRead an older schema is refused with a StoreError.
+  // Opens `path`. With kWrite the file is created if missing. An older schema is migrated to the
+  // newest in one transaction, also with kRead if the file can be written; a newer one is refused.
   Store(const std::filesystem::path& path, Access access);
   ~Store();
   Store(Store&&) noexcept;
@@ -47,19 +81,42 @@ class Store {
   std::vector<Part> List(const std::optional<std::string>& family = std::nullopt) const;
   std::optional<Part> Get(const std::string& id) const;
 
-  WriteResult Add(const Part& part);      // kExists if the id is taken, kInvalid with the reasons
-  WriteResult Replace(const Part& part);  // kNotFound if there is none
-  WriteResult Remove(const std::string& id);
+  // The newest revision, all of them from the newest on below `below`, and the state of one: parts
+  // as they were, exactly. `number` must be one that FindRevision finds.
+  Revision Head() const;
+  std::optional<Revision> FindRevision(std::int64_t number) const;
+  std::vector<Revision> Revisions(std::int64_t below, int limit) const;
+  std::vector<Part> ListAt(std::int64_t number) const;
+  std::optional<Part> GetAt(const std::string& id, std::int64_t number) const;
+  // Changes of a part, newest first, in revisions below `below`; and of a revision, by id.
+  std::vector<Change> History(const std::string& id, std::int64_t below, int limit) const;
+  std::vector<Change> Changes(const Revision& revision) const;
+  // Parts together with the revision that they are.
+  std::pair<Revision, std::vector<Part>> ListWithHead() const;
+
+  WriteResult Add(const Part& part, const Signature& by = {});
+  WriteResult Replace(const Part& part, const Signature& by = {}, const Precondition& may = {});
+  WriteResult Remove(const std::string& id, const Signature& by = {}, const Precondition& may = {});
+
+  // Adds or replaces all of `parts`, which have different ids and passed Validate, or none. A part
+  // that is stored with the same content but its origin is left alone.
+  ImportPlan PlanImport(const std::vector<Part>& parts) const;
+  ImportResult Import(const std::vector<Part>& parts, const Signature& by);
+
+  // Brings every part that revision `number` changed back to what it was before, as a revision of
+  // its own; all or none. Only where none of them was changed again since.
+  WriteResult Undo(std::int64_t number, const Signature& by);
 
   // Replaces all seed rows by `parts` (origin set to "seed"); rows of users stay. All or nothing.
   // A user's row with the id of a seed row keeps its place and the seed row is left out.
   void ReplaceSeed(const std::vector<Part>& parts);
 
-  // SQLite's own integrity and foreign-key check plus Validate on every row; empty: all is well.
+  // SQLite's own integrity and foreign-key check, Validate on every row, and whether the history
+  // agrees with the parts; empty: all is well.
   std::vector<std::string> Check() const;
 
-  // Changes with every committed write, by any process: part of ETags and cache keys.
-  long long DataVersion() const;
+  // Changes with every committed write, by any process: the number of the newest revision.
+  std::int64_t DataVersion() const { return Head().number; }
 
  private:
   struct Impl;

@@ -49,7 +49,8 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 
 std::string FormatNumber(double value) {
   std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  // The sum has no minus zero, which the database does not keep.
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0).ptr;
   return {buffer.data(), end};
 }
 

@@ -259,7 +259,6 @@ bool Run<T, Stepper>::TakeEvent(std::size_t event) {
       demand_exceeds_ = true;
       return true;
     case GuardKind::kEffect:
-      system_.PassEffect(guard);
       return true;
   }
   return true;

@@ -109,9 +109,6 @@ class System {
   // Values of all guards at a state.
   void GuardValues(const T& t, std::span<const T> y, std::span<T> values);
   void PassKink(const Guard<T>& guard);  // the flow goes on in the regime beyond
-  void PassEffect(const Guard<T>& guard) {
-    groups_[guard.group].units[guard.index]->Turned(guard.step);
-  }
 
   // One actuator of the group, as the last call of Look, Draw or () left it.
   const Moment<T>& moment(std::size_t group) const { return groups_[group].moment; }
@@ -158,6 +155,7 @@ class System {
   void SourceRates(const T& draw, std::span<const T> y, std::span<T> dydt) const;
   bool TakeFlowInSeries(const NodeOutlet<T>& outlet, T& flow) const;
   bool LineOpen(const Group& group, std::size_t line, double time_s) const;
+  void LookAhead(const T& t, std::span<const T> y);
   std::optional<T> KinkRatio(const Group& group, std::size_t line, std::span<const T> y) const;
   T AlongTable(const MonotoneCurve& table, const T& source_pa) const;
   T PumpPower(const T& source_pa) const;
@@ -175,6 +173,7 @@ class System {
   std::vector<Group> groups_;
   std::size_t source_ = 0, pump_accounts_ = 0, dynamic_size_ = 0;
   bool account_;
+  bool has_modes_ = false;  // some effect has
   std::vector<double> sizes_;
   std::vector<NodeOutlet<T>> outlets_;
   std::vector<Guard<T>> guards_;

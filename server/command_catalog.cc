@@ -2,7 +2,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "api/part_query.h"
 #include "api/services.h"
+#include "server/catalog_keeping.h"
 #include "server/command_options.h"
 #include "server/commands.h"
 #include "server/exit_status.h"
@@ -17,14 +19,7 @@ namespace {
 using catalog::Access;
 using catalog::WriteStatus;
 
-struct CatalogOptions {
-  std::string catalog = "catalog.db";
-  std::string family, file, id;
-  bool json = false, csv = false, dry_run = false;
-};
 using Options = std::shared_ptr<CatalogOptions>;
-
-void Print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 void CheckFamily(const std::string& family) {
   if (catalog::FindFamily(family) == nullptr) {
@@ -32,28 +27,70 @@ void CheckFamily(const std::string& family) {
   }
 }
 
+// The revision that --revision names, or the newest.
+catalog::Revision RevisionOrHead(const catalog::Store& store,
+                                 const std::optional<std::int64_t>& number) {
+  if (!number) return store.Head();
+  const auto revision = store.FindRevision(*number);
+  if (!revision) {
+    throw BadInput("revision: the catalogue has no revision " + std::to_string(*number));
+  }
+  return *revision;
+}
+
+api::PartQuery ListQuery(const CatalogOptions& options) {
+  std::multimap<std::string, std::string> query;
+  if (!options.family.empty()) query.emplace("family", options.family);
+  if (!options.sort.empty()) query.emplace("sort", options.sort);
+  for (const auto& filter : options.filters) {
+    const auto equals = filter.find('=');
+    if (equals == std::string::npos) {
+      throw BadInput("--where: must be FIELD=VALUE, FIELD_min=VALUE or FIELD_max=VALUE, not \"" +
+                     filter + "\"");
+    }
+    query.emplace(filter.substr(0, equals), filter.substr(equals + 1));
+  }
+  const auto parsed = ValueOrRefuse(api::ParsePartQuery(query));
+  for (const char* of_pages : {"limit", "cursor", "facets", "revision"}) {
+    if (query.count(of_pages) > 0) {
+      throw BadInput(std::string("--where: ") + of_pages + " is not a field");
+    }
+  }
+  return parsed;
+}
+
 void List(const CatalogOptions& options) {
-  std::optional<std::string> family;
-  if (!options.family.empty()) family = options.family;
-  if (family) CheckFamily(*family);
-  if (options.csv && !family) throw BadInput("--csv: needs a family, one of " + FamilyNames());
-  const auto parts = OpenCatalog(options.catalog, Access::kRead).List(family);
-  if (options.csv) return Print(catalog::WriteCsv(*family, parts));
+  if (!options.family.empty()) CheckFamily(options.family);
+  if (options.csv && options.family.empty()) {
+    throw BadInput("--csv: needs a family, one of " + FamilyNames());
+  }
+  const auto query = ListQuery(options);
+  const auto store = OpenCatalog(options.catalog, Access::kRead);
+  const auto revision = RevisionOrHead(store, options.revision);
+  const auto all = store.ListAt(revision.number);
+  std::vector<catalog::Part> parts;
+  for (const auto* part : api::Select(query, all)) parts.push_back(*part);
+  if (options.csv) return Print(catalog::WriteCsv(options.family, parts));
   if (!options.json) return Print(PartsText(parts));
   api::Json list = api::Json::array();
   for (const auto& part : parts) list.push_back(api::RenderPart(part));
-  Print(Dump({{"parts", list}}) + "\n");
+  Print(Dump({{"parts", list}, {"catalogue_revision", api::RenderRevisionName(revision)}}) + "\n");
 }
 
 void Show(const CatalogOptions& options) {
-  const auto part = OpenCatalog(options.catalog, Access::kRead).Get(options.id);
-  if (!part) throw BadInput("ID: no part has the id " + options.id);
+  const auto store = OpenCatalog(options.catalog, Access::kRead);
+  const auto revision = RevisionOrHead(store, options.revision);
+  const auto part = store.GetAt(options.id, revision.number);
+  if (!part) {
+    throw BadInput("ID: no part has the id " + options.id +
+                   (options.revision ? " in revision " + std::to_string(revision.number) : ""));
+  }
   Print(options.json ? Dump(api::RenderPart(*part), 2) + "\n" : PartText(*part));
 }
 
 void Add(const CatalogOptions& options) {
   const auto part = ValueOrRefuse(api::ParsePart(ReadJson(options.file)));
-  const auto written = OpenCatalog(options.catalog, Access::kWrite).Add(part);
+  const auto written = OpenCatalog(options.catalog, Access::kWrite).Add(part, CommandSignature());
   if (written.status == WriteStatus::kExists) {
     throw BadInput("/id: " + part.id + " is taken; choose another id or remove that part first");
   }
@@ -62,7 +99,8 @@ void Add(const CatalogOptions& options) {
 }
 
 void Remove(const CatalogOptions& options) {
-  const auto written = OpenCatalog(options.catalog, Access::kWrite).Remove(options.id);
+  const auto written =
+      OpenCatalog(options.catalog, Access::kWrite).Remove(options.id, CommandSignature());
   if (written.status == WriteStatus::kNotFound) {
     throw BadInput("ID: no part has the id " + options.id);
   }
@@ -72,31 +110,19 @@ void Remove(const CatalogOptions& options) {
 void Import(const CatalogOptions& options) {
   const auto text = ReadText(options.file);
   auto store = OpenCatalog(options.catalog, Access::kWrite);
-  const auto result = ImportCsv(store, options.family, text, options.dry_run);
+  const auto result = ImportCsv(store, options.family, text, options.dry_run, CommandSignature());
   if (!result.errors.empty()) Refuse(result.errors);
-  if (options.json) return Print(Dump(ToJson(result)) + "\n");
-  Print((options.dry_run ? "would add " : "added ") + std::to_string(result.added.size()) +
-        ", replace " + std::to_string(result.replaced.size()) + ", leave " +
-        std::to_string(result.unchanged.size()) + " unchanged\n");
+  if (options.json) return Print(Dump(ToJson(result, options.dry_run)) + "\n");
+  const auto& plan = result.plan;
+  Print((options.dry_run ? "would add " : "added ") + std::to_string(plan.added.size()) +
+        ", replace " + std::to_string(plan.replaced.size()) + ", leave " +
+        std::to_string(plan.unchanged.size()) + " unchanged\n");
 }
 
 void Export(const CatalogOptions& options) {
   CheckFamily(options.family);
   const auto parts = OpenCatalog(options.catalog, Access::kRead).List(options.family);
   Print(catalog::WriteCsv(options.family, parts));
-}
-
-int Check(const CatalogOptions& options) {
-  const auto store = OpenCatalog(options.catalog, Access::kRead);
-  const auto faults = store.Check();
-  const auto parts = store.List().size();
-  if (options.json) {
-    Print(Dump({{"parts", parts}, {"faults", faults}}) + "\n");
-  } else if (faults.empty()) {
-    Print(std::to_string(parts) + " parts, no faults\n");
-  }
-  for (const auto& fault : faults) std::fprintf(stderr, "%s\n", fault.c_str());
-  return faults.empty() ? kAnswered : kBadInput;
 }
 
 class CatalogCommands {
@@ -128,18 +154,44 @@ int Answered(const CatalogOptions& options) {
   return kAnswered;
 }
 
+void AddRevision(CLI::App& command, CatalogOptions& options) {
+  command.add_option("--revision", options.revision, "As the catalogue was in this revision")
+      ->type_name("N");
+}
+
 }  // namespace
 
 void AddCatalogCommand(CLI::App& app, int& status) {
   CatalogCommands commands(app, status);
   auto& list = commands.Add("list", "The parts, of one family or all", Answered<List>);
   list.add_option("FAMILY", commands.options().family, "One of " + FamilyNames())->type_name("");
+  list.add_option("--where", commands.options().filters,
+                  "FIELD=VALUE, FIELD_min=VALUE or FIELD_max=VALUE; may be repeated")
+      ->type_name("FILTER");
+  list.add_option("--sort", commands.options().sort, "Field; -FIELD for the opposite order")
+      ->type_name("FIELD");
+  AddRevision(list, commands.options());
   AddJsonFlag(list, commands.options().json);
   list.add_flag("--csv", commands.options().csv, "CSV, as import takes it")->excludes("--json");
 
   auto& show = commands.Add("show", "One part with the source of every number", Answered<Show>);
   show.add_option("ID", commands.options().id, "Its id")->required()->type_name("");
+  AddRevision(show, commands.options());
   AddJsonFlag(show, commands.options().json);
+
+  auto& history =
+      commands.Add("history", "Changes of a part, or all writes", Answered<ShowHistory>);
+  history.add_option("ID", commands.options().id, "A part's id; all writes without")->type_name("");
+  history.add_option("--limit", commands.options().limit, "Newest N")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1'000'000));
+  AddJsonFlag(history, commands.options().json);
+
+  auto& undo = commands.Add("undo", "Takes the changes of a revision back", Answered<UndoWrite>);
+  undo.add_option("REVISION", commands.options().revision, "Its number, see history")
+      ->required()
+      ->type_name("");
 
   auto& add = commands.Add("add", "Adds a part", Answered<Add>);
   AddFile(add, commands.options().file, "JSON as show --json prints it; - is standard input");
@@ -160,7 +212,16 @@ void AddCatalogCommand(CLI::App& app, int& status) {
       ->required()
       ->type_name("");
 
-  auto& check = commands.Add("check", "Checks the file and every row", Check);
+  auto& backup =
+      commands.Add("backup", "Copies the catalogue while it is in use", Answered<BackupCatalog>);
+  AddFile(backup, commands.options().file, "The copy; replaced if there is one");
+
+  auto& restore = commands.Add("restore", "Puts parts and history of a copy in place",
+                               Answered<RestoreCatalog>);
+  AddFile(restore, commands.options().file, "The copy");
+
+  auto& check = commands.Add("check", "Checks the file, every row, the history and odd numbers",
+                             CheckCatalog);
   AddJsonFlag(check, commands.options().json);
 }
 

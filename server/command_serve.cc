@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -39,6 +40,8 @@ std::unique_ptr<HttpService> Listen(const ServeOptions& options) {
 
 void Serve(const ServeOptions& options) {
   BlockInterrupts();
+  // A write past the limit on the size of files then fails, as on a full disk, and ends nothing.
+  std::signal(SIGXFSZ, SIG_IGN);
   const auto service = Listen(options);
   std::fprintf(stderr, "plenum listens at http://%s:%d/\n",
                options.host == "::1" ? "[::1]" : options.host.c_str(), service->port());

@@ -98,7 +98,7 @@ Call ToCall(const httplib::Request& request, std::string argument, std::string b
             if (!request.has_header(name)) return std::nullopt;
             return request.get_header_value(name);
           },
-          std::move(body)};
+          std::move(body), request.path};
 }
 
 }  // namespace
@@ -147,8 +147,7 @@ struct HttpService::Impl {
       return httplib::Server::HandlerResponse::Unhandled;
     });
     server.set_exception_handler([](const auto& request, auto& response, std::exception_ptr fault) {
-      LogFault(request, fault);
-      Send(ProblemReply(500, "a fault of the program; its log says more"), response, true);
+      Send(FaultReply(request, fault), response, true);
     });
     // What httplib itself refuses has no body yet.
     server.set_error_handler([](const auto&, auto& response) {
@@ -170,15 +169,29 @@ struct HttpService::Impl {
     server.Delete(all, httplib::Server::HandlerWithContentReader(with_body));
   }
 
-  static void LogFault(const httplib::Request& request, const std::exception_ptr& fault) {
+  // The log gets all of it, the client what it can act on.
+  static Reply FaultReply(const httplib::Request& request, const std::exception_ptr& fault) {
     std::string what = "unknown";
+    auto store_fault = catalog::StoreFault::kOther;
     try {
       std::rethrow_exception(fault);
+    } catch (const catalog::StoreError& error) {
+      what = error.what();
+      store_fault = error.fault();
     } catch (const std::exception& error) {
       what = error.what();
     } catch (...) {
     }
     std::fprintf(stderr, "%s %s: %s\n", request.method.c_str(), request.path.c_str(), what.c_str());
+    if (store_fault == catalog::StoreFault::kStorage)
+      return ProblemReply(507,
+                          "the catalogue cannot be written or read: its disk is full or fails; "
+                          "nothing was changed");
+    if (store_fault == catalog::StoreFault::kOther)
+      return ProblemReply(500, "a fault of the program; its log says more");
+    auto reply = ProblemReply(503, "another process holds the catalogue; nothing was changed");
+    reply.headers.emplace_back("Retry-After", "5");
+    return reply;
   }
 
   void Answer(const httplib::Request& request, httplib::Response& response,

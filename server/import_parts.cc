@@ -1,17 +1,11 @@
 #include "server/import_parts.h"
 
-#include <map>
+#include <algorithm>
 
 #include "api/services.h"
 
 namespace plenum::server {
 namespace {
-
-// Equal but for the origin, which a CSV file does not carry.
-bool SameContent(catalog::Part a, const catalog::Part& b) {
-  a.origin = b.origin;
-  return a == b;
-}
 
 api::Errors ToErrors(const std::vector<catalog::CsvError>& csv_errors) {
   api::Errors errors;
@@ -39,9 +33,9 @@ api::Errors FieldErrors(const std::vector<catalog::FieldError>& field_errors) {
   return errors;
 }
 
-ImportResult ImportCsv(catalog::Store& store, const std::string& family, std::string_view text,
-                       bool dry_run) {
-  ImportResult result;
+CsvImport ImportCsv(catalog::Store& store, const std::string& family, std::string_view text,
+                    bool dry_run, const catalog::Signature& by) {
+  CsvImport result;
   if (catalog::FindFamily(family) == nullptr) {
     result.errors.push_back(
         {"/family", "must be one of " + FamilyNames() + ", not \"" + family + "\""});
@@ -49,39 +43,32 @@ ImportResult ImportCsv(catalog::Store& store, const std::string& family, std::st
   }
   const auto csv = catalog::ReadCsv(family, text);
   result.errors = ToErrors(csv.errors);
-  std::map<std::string, catalog::Part> stored;
-  for (const auto& part : csv.parts) {
-    auto old = store.Get(part.id);
-    if (!old) continue;
-    if (old->family != family) {
-      result.errors.push_back({"/id", "\"" + part.id + "\" is taken by a part of the family " +
-                                          old->family + "; choose another id"});
-    }
-    stored.emplace(part.id, std::move(*old));
-  }
   if (!result.errors.empty()) return result;
 
-  std::vector<const catalog::Part*> changed;
-  for (const auto& part : csv.parts) {
-    const auto old = stored.find(part.id);
-    const bool is_new = old == stored.end();
-    const bool same = !is_new && SameContent(part, old->second);
-    (is_new ? result.added : same ? result.unchanged : result.replaced).push_back(part.id);
-    if (!same) changed.push_back(&part);
+  if (dry_run) {
+    result.plan = store.PlanImport(csv.parts);
+    result.revision = store.Head();
+  } else {
+    auto imported = store.Import(csv.parts, by);
+    result.plan = std::move(imported.plan);
+    result.status = imported.write.status;
+    result.revision = std::move(imported.write.revision);
   }
-  if (dry_run) return result;
-  for (const auto* part : changed) {
-    const auto written = stored.count(part->id) > 0 ? store.Replace(*part) : store.Add(*part);
-    if (written.status != catalog::WriteStatus::kDone) {
-      throw catalog::StoreError("import stopped at part " + part->id +
-                                ": the catalogue was changed meanwhile; import again");
-    }
+  for (std::size_t i = 0; i < csv.parts.size(); ++i) {
+    const std::string& id = csv.parts[i].id;
+    if (std::count(result.plan.taken.begin(), result.plan.taken.end(), id) == 0) continue;
+    result.errors.push_back({"/" + std::to_string(csv.rows[i]) + "/id",
+                             "\"" + id + "\" is taken by a part of another family"});
   }
   return result;
 }
 
-api::Json ToJson(const ImportResult& result) {
-  return {{"added", result.added}, {"replaced", result.replaced}, {"unchanged", result.unchanged}};
+api::Json ToJson(const CsvImport& import, bool dry_run) {
+  return {{"added", import.plan.added},
+          {"replaced", import.plan.replaced},
+          {"unchanged", import.plan.unchanged},
+          {"dry_run", dry_run},
+          {"catalogue_revision", api::RenderRevisionName(import.revision)}};
 }
 
 }  // namespace plenum::server

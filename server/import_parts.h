@@ -11,15 +11,19 @@
 
 namespace plenum::server {
 
-struct ImportResult {
-  std::vector<std::string> added, replaced, unchanged;  // ids
-  api::Errors errors;  // not empty: nothing was written; pointers are /row/column, row 1 the header
+struct CsvImport {
+  catalog::ImportPlan plan;
+  // Not empty: nothing was written. Pointers are /row/column, row 1 the header.
+  api::Errors errors;
+  catalog::WriteStatus status = catalog::WriteStatus::kDone;  // or kRepeated, kKeyReused
+  catalog::Revision revision;  // that holds the rows; of a dry run the one it was compared with
 };
 
-// Reads `text` as parts of `family` and writes them as a user's rows. A row that equals the stored
-// one is left alone, so that an exported file goes back in without turning seed rows into a user's.
-ImportResult ImportCsv(catalog::Store& store, const std::string& family, std::string_view text,
-                       bool dry_run);
+// Reads `text` as parts of `family` and writes them as a user's rows, all in one transaction. A row
+// that equals the stored one is left alone, so that an exported file goes back in without turning
+// seed rows into a user's. A dry run finds the same errors and the same plan and writes nothing.
+CsvImport ImportCsv(catalog::Store& store, const std::string& family, std::string_view text,
+                    bool dry_run, const catalog::Signature& by);
 
 // Names of all families, for messages.
 std::string FamilyNames();
@@ -27,7 +31,8 @@ std::string FamilyNames();
 // The catalogue's errors on a part as the errors of a request.
 api::Errors FieldErrors(const std::vector<catalog::FieldError>& errors);
 
-api::Json ToJson(const ImportResult& result);
+// { added, replaced, unchanged, dry_run, catalogue_revision }.
+api::Json ToJson(const CsvImport& import, bool dry_run);
 
 }  // namespace plenum::server
 

@@ -1,5 +1,8 @@
 #include "server/input.h"
 
+#include <pwd.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -32,6 +35,11 @@ catalog::Store OpenCatalog(const std::string& path, catalog::Access access) {
   } catch (const catalog::StoreError& error) {
     throw BadInput(error.what());
   }
+}
+
+catalog::Signature CommandSignature() {
+  const passwd* user = getpwuid(geteuid());
+  return {user != nullptr ? user->pw_name : "uid " + std::to_string(geteuid()), {}, {}};
 }
 
 void Refuse(const api::Errors& errors) {

@@ -17,6 +17,9 @@ api::Json ReadJson(const std::string& path);
 // An existing catalogue.
 catalog::Store OpenCatalog(const std::string& path, catalog::Access access);
 
+// The user who runs the command, by login name.
+catalog::Signature CommandSignature();
+
 [[noreturn]] void Refuse(const api::Errors& errors);
 
 // The value, or BadInput with every error.

@@ -1,35 +1,33 @@
 #include "server/parts_resource.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cstdint>
 
+#include "api/part_query.h"
 #include "api/services.h"
 #include "server/import_parts.h"
+#include "server/signature.h"
 
 namespace plenum::server {
 namespace {
 
-constexpr int kLimitDefault = 100;
-constexpr int kLimitMax = 1000;
-
+// Strong: equal texts only, and no two texts in practice, have the same tag.
 std::string ETag(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  char digits[17] = {};
-  std::to_chars(digits, digits + 16, hash, 16);
-  return "\"" + std::string(digits) + "\"";
+  return '"' + catalog::Sha256(text).substr(0, 32) + '"';
 }
 
 std::string ETag(const catalog::Part& part) { return ETag(Dump(api::RenderPart(part))); }
 
-// Whether a list of entity tags, as in If-Match, holds `etag`. Weak tags never match.
-bool Holds(const std::string& list, const std::string& etag) {
+enum class Compare { kStrong, kWeak };
+
+// Whether a list of entity tags holds `etag`. If-Match compares strongly, where no weak tag
+// matches; If-None-Match weakly, where W/ does not count (RFC 9110, 8.8.3.2).
+bool Holds(const std::string& list, const std::string& etag, Compare compare) {
   for (std::size_t start = 0; start <= list.size();) {
     std::size_t end = std::min(list.find(',', start), list.size());
     std::string item = list.substr(start, end - start);
     item.erase(0, item.find_first_not_of(" \t"));
     item.erase(item.find_last_not_of(" \t") + 1);
+    if (compare == Compare::kWeak && item.starts_with("W/")) item.erase(0, 2);
     if (item == "*" || item == etag) return true;
     start = end + 1;
   }
@@ -38,9 +36,21 @@ bool Holds(const std::string& list, const std::string& etag) {
 
 Reply NoPart(const std::string& id) { return ProblemReply(404, "no part has the id " + id); }
 
-Reply PartReply(int status, const catalog::Part& part) {
+// `revision` is one in which the part is as shown.
+Reply PartReply(int status, const catalog::Part& part, const catalog::Revision& revision) {
   auto reply = JsonReply(status, api::RenderPart(part));
   reply.headers.emplace_back("ETag", ETag(part));
+  reply.headers.emplace_back("Catalogue-Revision",
+                             std::to_string(revision.number) + " " + revision.hash);
+  return reply;
+}
+
+// 304 where If-None-Match holds the reply's tag.
+Reply UnlessKnown(const Call& call, const std::string& etag, Reply reply) {
+  const auto condition = call.header("If-None-Match");
+  if (!condition || !Holds(*condition, etag, Compare::kWeak)) return reply;
+  reply.status = 304;
+  reply.body.clear();
   return reply;
 }
 
@@ -75,68 +85,89 @@ void CheckFamily(const std::optional<std::string>& family, api::Errors& errors) 
   }
 }
 
-int ReadLimit(const Call& call, api::Errors& errors) {
-  const auto text = QueryValue(call, "limit");
-  if (!text) return kLimitDefault;
-  int limit = 0;
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), limit);
-  if (error != std::errc() || end != text->data() + text->size() || limit < 1 ||
-      limit > kLimitMax) {
-    errors.push_back({"/limit", "must be an integer ≥ 1 and ≤ " + std::to_string(kLimitMax) +
-                                    ", not \"" + *text + "\""});
-  }
-  return limit;
+// "true" or "false"; false where it is missing.
+bool ReadFlag(const Call& call, const std::string& name, api::Errors& errors) {
+  const std::string text = QueryValue(call, name).value_or("false");
+  if (text != "true" && text != "false")
+    errors.push_back({"/" + name, "must be true or false, not \"" + text + "\""});
+  return text == "true";
+}
+
+// Evaluated on the part as it is stored; writes its tag to `etag`.
+catalog::Precondition IfMatch(const std::string& condition, std::string& etag) {
+  return [&condition, &etag](const catalog::Part& stored) {
+    etag = ETag(stored);
+    return Holds(condition, etag, Compare::kStrong);
+  };
+}
+
+Reply NoCondition(const char* what) {
+  return ProblemReply(412,
+                      std::string("If-Match is missing: send the ETag of the part to be ") + what);
+}
+
+Reply Changed(const std::string& etag) {
+  return ProblemReply(412, "the part was changed: its ETag is now " + etag);
 }
 
 }  // namespace
 
 Reply ListParts(SharedCatalog& catalog, const Call& call) {
-  auto errors = CheckQuery(call, {"family", "limit", "cursor"});
-  const auto family = QueryValue(call, "family");
-  CheckFamily(family, errors);
-  const int limit = ReadLimit(call, errors);
-  if (!errors.empty()) return ProblemReply(422, errors);
-  const std::string cursor = QueryValue(call, "cursor").value_or("");
+  const auto parsed = api::ParsePartQuery(call.query);
+  if (const auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
+  const auto& query = std::get<api::PartQuery>(parsed);
 
-  const Parts parts = catalog.Snapshot();
-  api::Json list = api::Json::array();
-  api::Json next_cursor;
-  for (const auto& part : *parts) {
-    if (part.id <= cursor || (family && part.family != *family)) continue;
-    if (static_cast<int>(list.size()) == limit) {
-      next_cursor = list.back().at("id");
-      break;
-    }
-    list.push_back(api::RenderPart(part));
-  }
-  return JsonReply(200, {{"parts", std::move(list)}, {"next_cursor", std::move(next_cursor)}});
+  auto number = query.revision;
+  if (!number && query.cursor) number = query.cursor->revision;
+  const auto view = number ? catalog.ViewAt(*number) : catalog.View();
+  if (!view) return ProblemReply(404, "the catalogue has no revision " + std::to_string(*number));
+  const auto page = api::RenderPage(query, view->revision, *view->parts);
+  if (const auto* errors = std::get_if<api::Errors>(&page)) return ProblemReply(422, *errors);
+  auto reply = JsonReply(200, std::get<api::Json>(page));
+  const std::string etag = ETag(reply.body);
+  reply.headers.emplace_back("ETag", etag);
+  return UnlessKnown(call, etag, std::move(reply));
 }
 
 Reply GetPart(SharedCatalog& catalog, const Call& call) {
-  const auto part = catalog.With([&](auto& store) { return store.Get(call.argument); });
-  if (!part) return NoPart(call.argument);
-  auto reply = PartReply(200, *part);
-  const auto condition = call.header("If-None-Match");
-  if (condition && Holds(*condition, ETag(*part))) {
-    reply.status = 304;
-    reply.body.clear();
-  }
-  return reply;
+  const auto errors = CheckQuery(call, {"revision"});
+  if (!errors.empty()) return ProblemReply(422, errors);
+  // The same reading of the number as in a list.
+  const auto parsed = api::ParsePartQuery(call.query);
+  if (const auto* wrong = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *wrong);
+  const auto number = std::get<api::PartQuery>(parsed).revision;
+  return catalog.With([&](catalog::Store& store) {
+    const auto revision = number ? store.FindRevision(*number) : store.Head();
+    if (!revision) {
+      return ProblemReply(404, "the catalogue has no revision " + std::to_string(*number));
+    }
+    const auto part = store.GetAt(call.argument, revision->number);
+    if (!part) return NoPart(call.argument);
+    return UnlessKnown(call, ETag(*part), PartReply(200, *part, *revision));
+  });
 }
 
 Reply AddPart(SharedCatalog& catalog, const Call& call) {
   auto body = PartInBody(call);
   if (auto* reply = std::get_if<Reply>(&body)) return std::move(*reply);
   const auto& part = std::get<catalog::Part>(body);
+  const auto signature = SignatureOf(call);
+  if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
   return catalog.With([&](catalog::Store& store) {
-    const auto written = store.Add(part);
-    if (written.status == catalog::WriteStatus::kExists) {
-      return ProblemReply(409, "the id " + part.id + " is taken; PUT replaces a part");
+    const auto written = store.Add(part, std::get<catalog::Signature>(signature));
+    switch (written.status) {
+      case catalog::WriteStatus::kExists:
+        return ProblemReply(409, "the id " + part.id + " is taken; PUT replaces a part");
+      case catalog::WriteStatus::kInvalid:
+        return ProblemReply(422, FieldErrors(written.errors));
+      case catalog::WriteStatus::kKeyReused:
+        return KeyReused();
+      default:
+        break;
     }
-    if (written.status == catalog::WriteStatus::kInvalid) {
-      return ProblemReply(422, FieldErrors(written.errors));
-    }
-    auto reply = PartReply(201, store.Get(part.id).value_or(part));
+    // As it was added, also if it was changed between the request and its repetition.
+    const auto added = store.GetAt(part.id, written.revision.number).value_or(part);
+    auto reply = PartReply(201, added, written.revision);
     reply.headers.emplace_back("Location", Location(part.id));
     return reply;
   });
@@ -150,36 +181,42 @@ Reply ReplacePart(SharedCatalog& catalog, const Call& call) {
     return ProblemReply(422, api::Errors{{"/id", "must be the id in the path, " + call.argument +
                                                      ", not " + part.id}});
   }
+  const auto signature = SignatureOf(call);
+  if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
+  auto by = std::get<catalog::Signature>(signature);
+  by.key.clear();  // If-Match makes it act once
   return catalog.With([&](catalog::Store& store) {
-    const auto old = store.Get(part.id);
-    if (!old) return NoPart(part.id);
+    if (!store.Get(part.id)) return NoPart(part.id);
     const auto condition = call.header("If-Match");
-    if (!condition) {
-      return ProblemReply(412, "If-Match is missing: send the ETag of the part to be replaced");
+    if (!condition) return NoCondition("replaced");
+    std::string etag;
+    const auto written = store.Replace(part, by, IfMatch(*condition, etag));
+    switch (written.status) {
+      case catalog::WriteStatus::kInvalid:
+        return ProblemReply(422, FieldErrors(written.errors));
+      case catalog::WriteStatus::kNotFound:
+        return NoPart(part.id);
+      case catalog::WriteStatus::kChanged:
+        return Changed(etag);
+      default:
+        return PartReply(200, part, written.revision);
     }
-    if (!Holds(*condition, ETag(*old))) {
-      return ProblemReply(412, "the part was changed: its ETag is now " + ETag(*old));
-    }
-    const auto written = store.Replace(part);
-    if (written.status == catalog::WriteStatus::kInvalid) {
-      return ProblemReply(422, FieldErrors(written.errors));
-    }
-    if (written.status == catalog::WriteStatus::kNotFound) return NoPart(part.id);
-    return PartReply(200, store.Get(part.id).value_or(part));
   });
 }
 
 Reply RemovePart(SharedCatalog& catalog, const Call& call) {
+  const auto signature = SignatureOf(call);
+  if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
+  auto by = std::get<catalog::Signature>(signature);
+  by.key.clear();  // If-Match makes it act once
   return catalog.With([&](catalog::Store& store) {
-    const auto old = store.Get(call.argument);
-    if (!old) return NoPart(call.argument);
+    if (!store.Get(call.argument)) return NoPart(call.argument);
     const auto condition = call.header("If-Match");
-    if (condition && !Holds(*condition, ETag(*old))) {
-      return ProblemReply(412, "the part was changed: its ETag is now " + ETag(*old));
-    }
-    if (store.Remove(call.argument).status == catalog::WriteStatus::kNotFound) {
-      return NoPart(call.argument);
-    }
+    if (!condition) return NoCondition("removed");
+    std::string etag;
+    const auto written = store.Remove(call.argument, by, IfMatch(*condition, etag));
+    if (written.status == catalog::WriteStatus::kNotFound) return NoPart(call.argument);
+    if (written.status == catalog::WriteStatus::kChanged) return Changed(etag);
     return Reply{204, "", "", {}, {}};
   });
 }
@@ -199,14 +236,19 @@ Reply ExportParts(SharedCatalog& catalog, const Call& call) {
 }
 
 Reply ImportParts(SharedCatalog& catalog, const Call& call) {
-  auto errors = CheckQuery(call, {"family"});
+  auto errors = CheckQuery(call, {"family", "dry_run"});
   const auto family = QueryValue(call, "family");
   if (!family) errors.push_back({"/family", "is missing; one of " + FamilyNames()});
+  const bool dry_run = ReadFlag(call, "dry_run", errors);
   if (!errors.empty()) return ProblemReply(422, errors);
-  const auto result =
-      catalog.With([&](auto& store) { return ImportCsv(store, *family, call.body, false); });
+  const auto signature = SignatureOf(call);
+  if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
+  const auto result = catalog.With([&](auto& store) {
+    return ImportCsv(store, *family, call.body, dry_run, std::get<catalog::Signature>(signature));
+  });
   if (!result.errors.empty()) return ProblemReply(422, result.errors);
-  return JsonReply(200, ToJson(result));
+  if (result.status == catalog::WriteStatus::kKeyReused) return KeyReused();
+  return JsonReply(200, ToJson(result, dry_run));
 }
 
 }  // namespace plenum::server

@@ -7,19 +7,21 @@
 
 namespace plenum::server {
 
-// { "parts": […], "next_cursor": id or null }, in order of id. Query: family, limit (1…1000, 100 if
-// not given), cursor (the last id seen).
+// One page: api/part_query.h. With ETag; 304 when If-None-Match holds it.
 Reply ListParts(SharedCatalog& catalog, const Call& call);
-// With ETag; 304 when If-None-Match holds it.
+// With ETag; 304 when If-None-Match holds it. The header Catalogue-Revision has the number and the
+// hash of the revision shown: the newest, or the one that the query's `revision` names.
 Reply GetPart(SharedCatalog& catalog, const Call& call);
+// With an Idempotency-Key the request acts once: a repetition gets the same answer, also after a
+// restart (server/signature.h).
 Reply AddPart(SharedCatalog& catalog, const Call& call);
-// Only over the row that If-Match names: 412 otherwise, also without If-Match.
+// Only what If-Match names: 412 otherwise, also without If-Match.
 Reply ReplacePart(SharedCatalog& catalog, const Call& call);
-// If-Match is honoured when given.
 Reply RemovePart(SharedCatalog& catalog, const Call& call);
 
 Reply ExportParts(SharedCatalog& catalog, const Call& call);
-// All rows or none when a row is invalid. Rows whose id exists are replaced.
+// All rows or none when a row is invalid. Rows whose id exists are replaced. `dry_run=true` answers
+// what would be done. Takes an Idempotency-Key as AddPart does.
 Reply ImportParts(SharedCatalog& catalog, const Call& call);
 
 }  // namespace plenum::server

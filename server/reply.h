@@ -19,6 +19,7 @@ struct Call {
   std::multimap<std::string, std::string> query;
   std::function<std::optional<std::string>(const char*)> header;
   std::string body;
+  std::string path;
 };
 
 using Write = std::function<bool(std::string_view)>;  // false: the client is gone

@@ -2,6 +2,7 @@
 
 #include "api/services.h"
 #include "server/designs_resource.h"
+#include "server/history_resource.h"
 #include "server/parts_resource.h"
 
 namespace plenum::server {
@@ -58,13 +59,20 @@ std::vector<Route> Routes(SharedCatalog& catalog, Jobs& jobs) {
        }},
       {"POST", "/v1/maps", "map/1 in, rise time, fall time and frequency over the grid out",
        [](const Call& call) { return AnswerAtOnce(call, api::RunMap); }},
-      {"GET", "/v1/parts", "parts; query family, limit, cursor", parts(ListParts)},
+      {"GET", "/v1/parts",
+       "parts; query family, field_min, field_max, sort, facets, limit, cursor, revision",
+       parts(ListParts)},
       {"POST", "/v1/parts", "adds a part", parts(AddPart)},
       {"GET", "/v1/parts/export", "parts of a family as CSV; query family", parts(ExportParts)},
-      {"POST", "/v1/parts/import", "parts of a family from CSV; query family", parts(ImportParts)},
+      {"POST", "/v1/parts/import", "parts of a family from CSV; query family, dry_run",
+       parts(ImportParts)},
       {"GET", "/v1/parts/{id}", "one part, with ETag", parts(GetPart)},
       {"PUT", "/v1/parts/{id}", "replaces the part that If-Match names", parts(ReplacePart)},
-      {"DELETE", "/v1/parts/{id}", "removes a part", parts(RemovePart)},
+      {"DELETE", "/v1/parts/{id}", "removes the part that If-Match names", parts(RemovePart)},
+      {"GET", "/v1/parts/{id}/history", "changes of a part, newest first", parts(PartHistory)},
+      {"GET", "/v1/revisions", "writes to the catalogue, newest first", parts(ListRevisions)},
+      {"GET", "/v1/revisions/{id}", "one write with its changes", parts(GetRevision)},
+      {"POST", "/v1/revisions/{id}/undo", "takes the changes of a write back", parts(UndoRevision)},
       {"GET", "/healthz", "whether the service runs",
        [](const Call&) {
          return JsonReply(200, {{"status", "ok"}});

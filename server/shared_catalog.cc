@@ -1,19 +1,30 @@
 #include "server/shared_catalog.h"
 
+#include <utility>
+
 namespace plenum::server {
 
 SharedCatalog::SharedCatalog(const std::filesystem::path& path)
     : store_(path, catalog::Access::kWrite) {}
 
-Parts SharedCatalog::Snapshot() {
+CatalogView SharedCatalog::View() {
   const std::lock_guard lock(mutex_);
-  // Read before the rows: a write in between costs one needless reload, never a stale row.
-  const long long version = store_.DataVersion();
-  if (!snapshot_ || version != snapshot_version_) {
-    snapshot_ = std::make_shared<const std::vector<catalog::Part>>(store_.List());
-    snapshot_version_ = version;
+  // The whole revision counts: after a restore the same number may stand for other parts.
+  if (!view_.parts || view_.revision != store_.Head()) {
+    auto [revision, parts] = store_.ListWithHead();
+    view_ = {std::move(revision),
+             std::make_shared<const std::vector<catalog::Part>>(std::move(parts))};
   }
-  return snapshot_;
+  return view_;
+}
+
+std::optional<CatalogView> SharedCatalog::ViewAt(std::int64_t revision) {
+  if (auto view = View(); view.revision.number == revision) return view;
+  const std::lock_guard lock(mutex_);
+  const auto found = store_.FindRevision(revision);
+  if (!found) return std::nullopt;
+  return CatalogView{*found,
+                     std::make_shared<const std::vector<catalog::Part>>(store_.ListAt(revision))};
 }
 
 }  // namespace plenum::server

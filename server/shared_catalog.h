@@ -2,9 +2,11 @@
 #ifndef PLENUM_SERVER_SHARED_CATALOG_H_
 #define PLENUM_SERVER_SHARED_CATALOG_H_
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "api/services.h"
@@ -13,12 +15,21 @@ namespace plenum::server {
 
 using Parts = std::shared_ptr<const std::vector<catalog::Part>>;
 
+// All parts of one revision.
+struct CatalogView {
+  catalog::Revision revision;
+  Parts parts;
+};
+
 class SharedCatalog {
  public:
   explicit SharedCatalog(const std::filesystem::path& path);
 
-  // All parts as they are now; the same vector until something, in any process, writes.
-  Parts Snapshot();
+  // The parts as they are now; the same vector until something, in any process, writes.
+  CatalogView View();
+  Parts Snapshot() { return View().parts; }
+  // The parts as they were in a revision; none if there is no such revision.
+  std::optional<CatalogView> ViewAt(std::int64_t revision);
 
   // Runs `f(store)` while no other thread of this process uses the store.
   template <typename F>
@@ -30,8 +41,7 @@ class SharedCatalog {
  private:
   std::mutex mutex_;
   catalog::Store store_;
-  Parts snapshot_;
-  long long snapshot_version_ = 0;
+  CatalogView view_;
 };
 
 }  // namespace plenum::server

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "server/reply.h"
 #include "server/text_table.h"
 
 namespace plenum::server {
@@ -26,6 +27,22 @@ std::string Conductance(const Part& part) {
   }
   return NumberOrDash(part, "sonic_conductance_fill_dm3_per_s_bar") + " / " +
          NumberOrDash(part, "sonic_conductance_exhaust_dm3_per_s_bar");
+}
+
+// "mass_kg: 0.003 → 0.004" for every field of the document that differs.
+std::string DifferenceText(const api::Json& before, const api::Json& after) {
+  std::string text;
+  const auto line = [&](const std::string& field, const std::string& from, const std::string& to) {
+    text += fmt::format("    {}: {} → {}\n", field, Cut(from, 60), Cut(to, 60));
+  };
+  for (const auto& [field, value] : before.items()) {
+    const bool kept = after.contains(field);
+    if (!kept || after[field] != value)
+      line(field, Dump(value), kept ? Dump(after[field]) : std::string("none"));
+  }
+  for (const auto& [field, value] : after.items())
+    if (!before.contains(field)) line(field, "none", Dump(value));
+  return text;
 }
 
 }  // namespace
@@ -70,6 +87,55 @@ std::string PartText(const Part& part) {
          fmt::format("  flow: {} {}\n  current: {} {}\n", Name(part.curve->free_air_provenance),
                      part.curve->free_air_source, Name(part.curve->current_provenance),
                      part.curve->current_source);
+}
+
+std::string RevisionsText(const std::vector<catalog::Revision>& revisions) {
+  using enum Table::Align;
+  Table table({{"revision"}, {"at", kLeft}, {"who", kLeft}, {"what", kLeft}, {"hash", kLeft}});
+  for (const auto& revision : revisions) {
+    table.Add({std::to_string(revision.number), revision.at, Cut(revision.who, 30),
+               Cut(revision.what, 60), revision.hash.substr(0, 16)});
+  }
+  return table.Text();
+}
+
+std::string HistoryText(const std::vector<catalog::Change>& changes) {
+  std::string text;
+  for (const auto& change : changes) {
+    const auto& revision = change.revision;
+    text += fmt::format("revision {}, {}, {}: {}\n", revision.number, revision.at, revision.who,
+                        revision.what);
+    if (change.before && change.after) {
+      text += DifferenceText(api::RenderPart(*change.before), api::RenderPart(*change.after));
+    } else {
+      text += change.after ? "    the part was added\n" : "    the part was removed\n";
+    }
+  }
+  return text;
+}
+
+std::string PlausibilityText(const std::vector<catalog::Outlier>& outliers,
+                             const std::vector<catalog::Gap>& gaps) {
+  using enum Table::Align;
+  std::string text;
+  if (!outliers.empty()) {
+    Table table({{"id", kLeft}, {"field", kLeft}, {"value"}, {"family median"}, {"robust z"}}, 2);
+    for (const auto& outlier : outliers) {
+      table.Add({outlier.id, outlier.field, Short(outlier.value), Short(outlier.median),
+                 fmt::format("{:+.1f}", outlier.robust_z)});
+    }
+    text += "\nFar from the rest of their family, worth a second look:\n" + table.Text();
+  }
+  if (!gaps.empty()) {
+    Table table({{"family", kLeft}, {"field", kLeft}, {"missing"}, {"of"}, {"blocks", kLeft}}, 2);
+    for (const auto& gap : gaps) {
+      table.Add({gap.family, gap.field, std::to_string(gap.ids.size()), std::to_string(gap.parts),
+                 gap.blocks});
+    }
+    text +=
+        "\nMissing, which keeps parts out of rankings by what the field blocks:\n" + table.Text();
+  }
+  return text;
 }
 
 }  // namespace plenum::server

@@ -14,6 +14,15 @@ std::string PartsText(const std::vector<catalog::Part>& parts);
 // One part with every number, where it comes from, and its curve.
 std::string PartText(const catalog::Part& part);
 
+// One line a revision, newest first as given.
+std::string RevisionsText(const std::vector<catalog::Revision>& revisions);
+// One line a change and one for each field that it changed.
+std::string HistoryText(const std::vector<catalog::Change>& changes);
+
+// Numbers that look wrong and fields that are missing.
+std::string PlausibilityText(const std::vector<catalog::Outlier>& outliers,
+                             const std::vector<catalog::Gap>& gaps);
+
 }  // namespace plenum::server
 
 #endif  // PLENUM_SERVER_TEXT_CATALOG_H_

@@ -40,11 +40,12 @@ for room in model catalog optimizer api server; do
 done
 
 check() {
-  arrow model catalog optimizer api server tests
-  arrow catalog optimizer api server tests
-  arrow optimizer catalog api server tests
-  arrow api server tests
-  arrow server model catalog optimizer tests
+  arrow model catalog optimizer api server tests bench
+  arrow catalog optimizer api server tests bench
+  arrow optimizer catalog api server tests bench
+  arrow api server tests bench
+  arrow server model catalog optimizer tests bench
+  arrow tests bench
 
   includes '\.\.?/' model catalog optimizer api server |
     complain "includes name the room, not a relative path"
@@ -52,6 +53,7 @@ check() {
   stays_in cpp-httplib 'httplib' server
   stays_in nlohmann-json 'nlohmann/|json\.hpp' api
   stays_in SQLite 'sqlite3|SQLiteCpp/' catalog
+  stays_in OpenSSL 'openssl/' catalog
   stays_in Ipopt 'coin/|Ip[A-Z]' optimizer
   stays_in NLopt 'nlopt' optimizer
   stays_in CLI11 'CLI/' server

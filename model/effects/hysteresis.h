@@ -4,8 +4,6 @@
 #ifndef PLENUM_MODEL_EFFECTS_HYSTERESIS_H_
 #define PLENUM_MODEL_EFFECTS_HYSTERESIS_H_
 
-#include <utility>
-
 #include "model/effects/unit.h"
 
 namespace plenum::model {
@@ -23,7 +21,6 @@ class Hysteresis final : public EffectUnit<T> {
     x[0] = m.pressure_pa;
     size[0] = ValueOf(m.pressure_pa);
     mode_ = Mode::kFree;
-    released_ = false;
   }
   void BeforeVolume(const GroupSetup<T>&, const T* x, Moment<T>& m) const override {
     m.volume_pressure_pa = mode_ == Mode::kFree ? x[0] : T(m.pressure_pa - Sign() * half_width_pa_);
@@ -44,12 +41,7 @@ class Hysteresis final : public EffectUnit<T> {
       guards[1] = T(1.0);
     }
   }
-  void Turned(int) override { released_ = mode_ != Mode::kFree; }
   void Settle(const Moment<T>& m, const T* x) override {
-    if (std::exchange(released_, false)) {
-      mode_ = Mode::kFree;
-      return;
-    }
     const double rate = ValueOf(m.pressure_rate_pa_per_s);
     const double gap = ValueOf(m.pressure_pa) - ValueOf(x[0]);
     const double edge = ValueOf(half_width_pa_) - 1e-9 * ValueOf(m.pressure_pa);
@@ -62,8 +54,8 @@ class Hysteresis final : public EffectUnit<T> {
   enum class Mode { kFree, kUp, kDown };
   double Sign() const { return mode_ == Mode::kUp ? 1.0 : -1.0; }
   Mode mode_ = Mode::kFree;
-  bool released_ = false;  // the pressure has just turned
 
+ private:
   T half_width_pa_;
 };
 

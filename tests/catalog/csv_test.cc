@@ -62,6 +62,32 @@ TEST(Csv, ReadsACurve) {
   EXPECT_EQ(read.parts[0].curve->current_provenance, Provenance::kEstimated);
 }
 
+TEST(Csv, TakesUnitsInCells) {
+  const CsvParts read = ReadCsv("reservoir", kHeader + "r,M,P,0.5 L,350 g,600 cm³,6 bar\n");
+  ASSERT_THAT(read.errors, ElementsAre());
+  const auto& numbers = read.parts.at(0).numbers;
+  EXPECT_EQ(numbers.at("internal_volume_ml").value, 500);
+  EXPECT_EQ(numbers.at("mass_kg").value, 0.35);
+  EXPECT_EQ(numbers.at("body_volume_ml").value, 600);
+  EXPECT_EQ(numbers.at("pressure_max_kpa_gauge").value, 600);
+  // Written in the unit of the column, so that it is converted only once.
+  EXPECT_THAT(WriteCsv("reservoir", read.parts), HasSubstr(",0.35,third_party,"));
+
+  const CsvParts pump = ReadCsv("compressor",
+                                "id,manufacturer,part_number,voltage_v,duty_max,mass_kg,"
+                                "body_volume_ml,pressure_max_kpa_gauge,curve\n"
+                                "c,M,N,12 V,50 %,1 kg,0.9 L,7 bar,0 bar:24 L/min:7000 mA;"
+                                "0.7 bar : 0.2 L/s : 8 A\n");
+  ASSERT_THAT(pump.errors, ElementsAre());
+  EXPECT_THAT(pump.parts.at(0).curve->points,
+              ElementsAre(CurvePoint{0, 24, 7}, CurvePoint{70, 12, 8}));
+  EXPECT_EQ(pump.parts[0].numbers.at("duty_max").value, 0.5);
+
+  EXPECT_THAT(ReadCsv("reservoir", kHeader + "r,M,P,500 kg,1,600,6 bar abs\n").errors,
+              ElementsAre(Error(2, "internal_volume_ml", "one of mL, cm3"),
+                          Error(2, "pressure_max_kpa_gauge", "\"6 bar abs\"")));
+}
+
 TEST(Csv, ReportsEveryErrorWithRowAndColumn) {
   const CsvParts read = ReadCsv("reservoir", kHeader +
                                                  "r1,M,P,500,heavy,600,1000\n"

@@ -13,6 +13,7 @@
 #include <random>
 #include <sstream>
 
+#include "catalog/csv.h"
 #include "samples.h"
 
 namespace plenum::catalog {
@@ -75,6 +76,24 @@ TEST_F(StoreTest, KeepsRandomPartsExactly) {
   for (const Part& valve : valves) EXPECT_EQ(valve.family, "valve");
   EXPECT_THAT(store.List("tank"), ElementsAre());
   EXPECT_THAT(store.Check(), ElementsAre());
+}
+
+TEST_F(StoreTest, AnExportImportedElsewhereIsExportedByteForByte) {
+  std::mt19937 random(19);
+  Store store = Write();
+  for (const Family& family : Families())
+    for (int i = 0; i < 30; ++i)
+      store.Add(AnyPart(family, std::string(family.name) + std::to_string(i), random));
+  Store other(folder_ / "other.db", Access::kWrite);
+  for (const Family& family : Families()) {
+    const std::string name(family.name), exported = WriteCsv(name, store.List(name));
+    const CsvParts read = ReadCsv(name, exported);
+    ASSERT_THAT(read.errors, ElementsAre());
+    ASSERT_EQ(other.Import(read.parts, {}).plan.added.size(), 30u);
+    EXPECT_EQ(WriteCsv(name, other.List(name)), exported) << name;
+  }
+  EXPECT_EQ(other.List(), store.List());
+  EXPECT_EQ(other.Head().hash, store.Head().hash);
 }
 
 TEST_F(StoreTest, AddReplaceAndRemoveSayWhatHappened) {
@@ -179,7 +198,8 @@ TEST_F(StoreTest, CheckFindsRowsThatWereChangedBehindItsBack) {
   store.Add(Reservoir("r"));
   EXPECT_THAT(store.Check(), ElementsAre());
   Sql("UPDATE number SET value = 900 WHERE field = 'mass_kg'");
-  EXPECT_THAT(store.Check(), ElementsAre(HasSubstr("r, mass_kg: must be between")));
+  EXPECT_THAT(store.Check(), ElementsAre(HasSubstr("r, mass_kg: must be between"),
+                                         HasSubstr("revision 1: its hash does not agree")));
   Sql("PRAGMA foreign_keys = OFF; DELETE FROM part");
   EXPECT_THAT(store.Check(), ::testing::Contains(HasSubstr("belongs to no part")));
 }
@@ -188,9 +208,10 @@ TEST_F(StoreTest, MigratesFromNothingAndRecordsIt) {
   Write();
   Write();
   SQLite::Database db(path_.string());
-  EXPECT_EQ(db.execAndGet("PRAGMA user_version").getInt(), 1);
-  EXPECT_EQ(db.execAndGet("SELECT group_concat(name) FROM migration").getString(), "0001_parts");
-  EXPECT_EQ(db.execAndGet("SELECT unixepoch(applied) > 1.7e9 FROM migration").getInt(), 1);
+  EXPECT_EQ(db.execAndGet("PRAGMA user_version").getInt(), 2);
+  EXPECT_EQ(db.execAndGet("SELECT group_concat(name) FROM migration").getString(),
+            "0001_parts,0002_history");
+  EXPECT_EQ(db.execAndGet("SELECT min(unixepoch(applied)) > 1.7e9 FROM migration").getInt(), 1);
   EXPECT_EQ(db.execAndGet("SELECT count(*) FROM pragma_table_list WHERE schema = 'main' AND "
                           "type = 'table' AND name NOT LIKE 'sqlite%' AND NOT strict")
                 .getInt(),

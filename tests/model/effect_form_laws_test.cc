@@ -200,5 +200,58 @@ TEST(EffectForm, LeaksDecayInClosedForm) {
   EXPECT_LT(orifice[4], 4.9e5);
 }
 
+// Below ambient the leaks let gas in: a choked orifice at a constant rate.
+TEST(EffectForm, LeaksFillWhatIsBelowAmbient) {
+  EffectRig rig;
+  rig.blocked = true;
+  rig.source = EffectRig::Source::kNone;
+  rig.initial_pa = 1e4;
+  const double g = 0.01 * kUnitC, a = 2e5 / (kReferenceDensity * g);
+  rig.leak = OrificeLeak{g, 0.3};
+  EXPECT_NEAR(SimulateEffects(rig, {0.5}, 1e-3).pressure_pa[0],
+              1e4 + 0.5 * 1e5 * g * 1e5 / rig.rest_volume_m3, 1e-3);
+  const double y = -0.9 / 1.1 * std::exp(-2.0 * g * 1e5 / rig.rest_volume_m3);
+  rig.leak = LaminarLeak{g};
+  EXPECT_NEAR(SimulateEffects(rig, {2.0}, 1e-3).pressure_pa[0], 1e5 * (1.0 + y) / (1.0 - y), 1e-3);
+  rig.leak = PorousLeak{a, 0.0};
+  EXPECT_NEAR(SimulateEffects(rig, {2.0}, 1e-3).pressure_pa[0], 1e5 * (1.0 + y) / (1.0 - y), 1e-3);
+}
+
+// A closed rigid chamber cools by its wall alone, T − T_a ~ exp(−hA·t/(m·c_v)); the wall is that of
+// the unblocked actuator at the operating pressure.
+TEST(EffectForm, BlockedChamberKeepsTheWallOfTheFreeOne) {
+  EffectRig rig;
+  rig.blocked = true;
+  rig.source = EffectRig::Source::kNone;
+  rig.initial_pa = 1.5e5;
+  rig.initial_k = 400.0;
+  rig.heat_time_constant_s = 2.0;
+  const double rate_per_s = 2e5 * rig.expansion_ratio / (293.15 * 2.0) * 400.0 / 1.5e5;
+  const EffectResult r = SimulateEffects(rig, {0.25, 0.5}, 1e-3);
+  for (std::size_t i = 0; i < r.t_s.size(); ++i) {
+    const double expected_k = 293.15 + (400.0 - 293.15) * std::exp(-rate_per_s * r.t_s[i]);
+    EXPECT_NEAR(r.temperature_k[i], expected_k, 1e-6);
+    EXPECT_NEAR(r.pressure_pa[i], 1.5e5 * expected_k / 400.0, 1e-3);
+  }
+}
+
+// The ramp opens the valve, not the restriction behind it. With b = 0 conductances in series add as
+// 1/C² and  q = C·√(p² − p_a²): the gas that leaves a large chamber while the valve opens is
+// √(p² − p_a²)·t·(C2/C1)·(√(C1² + C2²) − C2).
+TEST(EffectForm, RampLeavesTheRestrictionAlone) {
+  EffectRig rig = Bench();
+  rig.rest_volume_m3 = 1e3;
+  rig.expansion_ratio = 1.0;
+  rig.initial_pa = 4e5;
+  const double c1 = 0.05 * kUnitC, c2 = 0.04 * kUnitC;
+  rig.exhaust = {{c1, 0.0}};
+  rig.exhaust_restriction = {c2, 0.0};
+  rig.valve_ramp_s = 0.1;
+  rig.schedule = {{0.0, -1}};
+  const double expected_kg =
+      kReferenceDensity * std::sqrt(15.0) * 1e5 * 0.1 * c2 / c1 * (std::hypot(c1, c2) - c2);
+  EXPECT_NEAR(SimulateEffects(rig, {0.1}, 1e-3).exhaust_kg, expected_kg, 1e-6 * expected_kg);
+}
+
 }  // namespace
 }  // namespace plenum::test

@@ -229,5 +229,21 @@ TEST(Tube, NarrowTubeRelaxesByFriction) {
   EXPECT_NEAR(-0.1 / std::log(left), 54.5e-3, 0.03 * 54.5e-3);
 }
 
+// Gas of a hot chamber is at ambient temperature by the time it reaches the tube's end.
+TEST(Tube, CoolsTheGasThatLeaves) {
+  EffectRig rig = Bench();
+  rig.rest_volume_m3 = 1e3;
+  rig.blocked = true;
+  rig.heat_time_constant_s = kAdiabatic;
+  rig.initial_pa = 4e5;
+  rig.initial_k = 400.0;
+  rig.line = {4e-3, 0.5};
+  rig.schedule = {{0.0, -1}};
+  const EffectResult before = SimulateEffects(rig, {2.0}, 1e-4);
+  const EffectResult after = SimulateEffects(rig, {2.1}, 1e-4);
+  const double choked_kg_per_s = 0.05 * kUnitC * kReferenceDensity * after.node_pa[0];
+  EXPECT_NEAR(after.exhaust_kg - before.exhaust_kg, 0.1 * choked_kg_per_s, 1e-4 * choked_kg_per_s);
+}
+
 }  // namespace
 }  // namespace plenum::test

@@ -200,9 +200,11 @@ TEST_F(Http, AddsGetsReplacesAndDeletesAPart) {
                 "/id");
 
   ExpectProblem(client_->Delete(path, {{"If-Match", etag}}), 412);
-  EXPECT_EQ(client_->Delete(path)->status, 204);
+  ExpectProblem(client_->Delete(path), 412);
+  const auto now = put->get_header_value("ETag");
+  EXPECT_EQ(client_->Delete(path, {{"If-Match", now}})->status, 204);
   ExpectProblem(client_->Get(path), 404);
-  ExpectProblem(client_->Delete(path), 404);
+  ExpectProblem(client_->Delete(path, {{"If-Match", now}}), 404);
 }
 
 TEST_F(Http, GivesTheLocationOfAnAddedPart) {
@@ -261,7 +263,7 @@ TEST_F(Http, ExportGoesBackInUnchanged) {
 TEST_F(Http, ImportRefusesAFileWithABadRowAltogether) {
   client_->Post("/v1/parts", NewFitting("bench-f1").dump(), kJson);
   auto csv = client_->Get("/v1/parts/export?family=fitting")->body;
-  client_->Delete("/v1/parts/bench-f1");
+  ASSERT_EQ(client_->Delete("/v1/parts/bench-f1", {{"If-Match", "*"}})->status, 204);
   csv += "only-an-id\n";
   ExpectProblem(client_->Post("/v1/parts/import?family=fitting", csv, "text/csv"), 422, "/");
   ExpectProblem(client_->Get("/v1/parts/bench-f1"), 404);
@@ -279,21 +281,25 @@ TEST_F(Http, DesignThatIsWaitedForGivesTheResult) {
 }
 
 TEST_F(Http, APostedPartChangesTheRankingUntilItIsDeleted) {
+  int revision = 0;  // of the catalogue that the last answer names
   const auto rank_one = [&] {
     const auto result =
         client_->Post("/v1/designs", {{"Prefer", "wait=60"}}, Exosuit(30.0).dump(), kJson);
+    revision = Body(result)["catalogue_revision"]["number"];
     const auto parts = Body(result)["designs"][0]["parts"];
     std::map<std::string, std::string> ids;
     for (const auto& part : parts) ids[part["family"]] = part["id"];
     return ids;
   };
   const auto before = rank_one();
+  const int first = revision;
   auto lighter = Body(client_->Get("/v1/parts/" + before.at("battery")));
   lighter["id"] = "bench-light-pack";
   lighter["mass_kg"] = 0.5 * lighter["mass_kg"].get<double>();
   ASSERT_EQ(client_->Post("/v1/parts", lighter.dump(), kJson)->status, 201);
   EXPECT_EQ(rank_one().at("battery"), "bench-light-pack");
-  ASSERT_EQ(client_->Delete("/v1/parts/bench-light-pack")->status, 204);
+  EXPECT_EQ(revision, first + 1);
+  ASSERT_EQ(client_->Delete("/v1/parts/bench-light-pack", {{"If-Match", "*"}})->status, 204);
   EXPECT_EQ(rank_one(), before);
 }
 

@@ -1,6 +1,7 @@
 #include "workbench.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -44,12 +45,14 @@ Workbench::Outcome Workbench::Run(const std::string& arguments, const std::strin
           ReadAll(Path("stderr"))};
 }
 
-ServeProcess::ServeProcess(const std::string& catalog) {
+ServeProcess::ServeProcess(const std::string& catalog, unsigned long file_bytes_max) {
   int pipe_ends[2];
   if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   pid_ = fork();
   if (pid_ == 0) {
     dup2(pipe_ends[1], STDERR_FILENO);
+    pid_ = getpid();
+    if (file_bytes_max > 0) LimitFiles(file_bytes_max);
     execl(PLENUM_BINARY, "plenum", "serve", "--port", "0", "--catalog", catalog.c_str(), nullptr);
     _exit(127);
   }
@@ -61,6 +64,11 @@ ServeProcess::ServeProcess(const std::string& catalog) {
     throw std::runtime_error(std::string("serve did not start: ") + line);
   }
   std::fclose(err);
+}
+
+void ServeProcess::LimitFiles(unsigned long bytes_max) const {
+  const rlimit limit{bytes_max, RLIM_INFINITY};
+  prlimit(pid_, RLIMIT_FSIZE, &limit, nullptr);
 }
 
 ServeProcess::~ServeProcess() {

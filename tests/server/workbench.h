@@ -38,9 +38,11 @@ class Workbench {
 // `plenum serve --port 0` as a process of its own.
 class ServeProcess {
  public:
-  explicit ServeProcess(const std::string& catalog);
+  // `file_bytes_max` limits the size of the files that it may write (RLIMIT_FSIZE); 0: no limit.
+  explicit ServeProcess(const std::string& catalog, unsigned long file_bytes_max = 0);
   ~ServeProcess();  // kills it if it still runs
   int port() const { return port_; }
+  void LimitFiles(unsigned long bytes_max) const;
   // Sends `signal`; the exit status, or minus the signal that ended it.
   int End(int signal);
 

@@ -1,0 +1,29 @@
+// A part as one text, for its history and its hash: comma-separated lines, each named by its first
+// cell.
+//
+//   part,id,family,manufacturer,part_number,origin,notes
+//   number,field,value,provenance,source                        one a number, in order of field
+//   text,field,value,provenance,source                          one a text
+//   curve,provenance and source of free air, of current         compressors
+//   point,kPa gauge,L/min,A
+//
+// It knows no vocabulary of fields, so that old records stay readable when fields come and go.
+#ifndef PLENUM_CATALOG_PART_RECORD_H_
+#define PLENUM_CATALOG_PART_RECORD_H_
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "catalog/part.h"
+
+namespace plenum::catalog {
+
+// Equal parts have equal records.
+std::string FormatRecord(const Part& part);
+// The part again, exactly; none if the text is no record.
+std::optional<Part> ParseRecord(std::string_view text);
+
+}  // namespace plenum::catalog
+
+#endif  // PLENUM_CATALOG_PART_RECORD_H_
