@@ -104,7 +104,7 @@ template <class T>
 void System<T>::GuardValues(const T& t, std::span<const T> y, std::span<T> values) {
   const bool plain = std::all_of(groups_.begin(), groups_.end(),
                                  [](const Group& group) { return group.units.empty(); });
-  if (!plain) (*this)(t, y, scratch_);
+  if (!plain || pump_ == PumpState::kHolding) (*this)(t, y, scratch_);
   for (std::size_t k = 0; k < guards_.size(); ++k) {
     const Guard<T>& guard = guards_[k];
     const Group& group = groups_[guard.group];
@@ -121,6 +121,13 @@ void System<T>::GuardValues(const T& t, std::span<const T> y, std::span<T> value
       case GuardKind::kPumpLimit:
         values[k] = guard.sign * (guard.level - y[source_]) / kReferencePressurePa;
         break;
+      case GuardKind::kPumpDemand: {
+        values[k] = Delivery(pump_limit_pa_);
+        for (const Group& drawing : groups_) {
+          values[k] -= drawing.count * drawing.moment.draw_m3_per_s;
+        }
+        break;
+      }
       case GuardKind::kEffect: {
         std::array<T, 4> unit_values;
         group.units[guard.index]->Guards(group.moment, y.data() + group.unit_at[guard.index],

@@ -19,6 +19,11 @@ namespace plenum::model {
 // runs to the end keep the accounts of gas and energy.
 enum class RunUntil { kEnd, kTargets };
 
+// The rig and the options of a full stroke (simulate.h): all groups obey one command at time 0,
+// from ambient pressure when they inflate and from the operating pressure when they deflate.
+Rig StrokeRig(Rig rig, ValveState state);
+SimulateOptions StrokeOptions(SimulateOptions options);
+
 // T is double or Dual, Stepper ExplicitIntegrator<T> or CvodeIntegrator.
 template <class T, class Stepper>
 class Run {
@@ -48,6 +53,8 @@ class Run {
   };
 
   void ApplySwitches();
+  template <class Change>
+  void SwitchAt(std::size_t group, const T& at_s, const Change& change);
   void Command(std::size_t group, const ValveCommand& command);
   void Move(std::size_t group, ValveState state, const T& at_s);
   T NextBoundary() const;
@@ -60,6 +67,7 @@ class Run {
   void AddGuards();
   void CheckTargets(std::size_t group);
   void ReachOperating(std::size_t group);
+  T CrossingTime(std::size_t group, const T& level_pa) const;
   void ChoosePumpState();
   bool CloseSettledValves();
   bool TargetsDecided() const;
@@ -87,7 +95,8 @@ class Run {
   std::vector<Valve> valves_;
   ResponseOf<T> response_;
   std::size_t sample_count_ = 0;
-  bool smooth_ = false;  // the last cut changed nothing at once
+  bool demand_exceeds_ = false;  // the lines take more than pumps that hold the limit can deliver
+  bool smooth_ = false;          // the last cut changed nothing at once
   bool stiff_ = false;
 };
 

@@ -35,7 +35,7 @@ struct Opening {
 };
 
 // What cuts a step: the present mode of the system holds while the guard is positive.
-enum class GuardKind { kKink, kOperating, kTarget, kPumpLimit, kEffect };
+enum class GuardKind { kKink, kOperating, kTarget, kPumpLimit, kPumpDemand, kEffect };
 template <class T>
 struct Guard {
   GuardKind kind;
