@@ -44,10 +44,32 @@ Run<T, Stepper>::Run(const Rig& rig, const SimulateOptions& options, RunUntil un
 }
 
 template <class T, class Stepper>
+void Run<T, Stepper>::Resume(std::vector<ValveProgress<T>> valves,
+                             std::vector<StrokeOf<T>> strokes) {
+  valves_ = std::move(valves);
+  response_.strokes = std::move(strokes);
+  for (std::size_t i = 0; i < valves_.size(); ++i) {
+    system_.filling(i) = valves_[i].filling;
+    system_.venting(i) = valves_[i].venting;
+  }
+}
+
+template <class T, class Stepper>
+std::vector<ValveProgress<T>> Run<T, Stepper>::final_valves() const {
+  std::vector<ValveProgress<T>> valves = valves_;
+  for (std::size_t i = 0; i < valves.size(); ++i) {
+    valves[i].filling = system_.filling(i);
+    valves[i].venting = system_.venting(i);
+  }
+  return valves;
+}
+
+template <class T, class Stepper>
 ResponseOf<T> Run<T, Stepper>::Execute(std::span<const T> start) {
   std::copy(start.begin(), start.end(), y_.begin());
   response_.status = SimulateStatus::kDone;
   system_.Look(t_s_, y_);
+  response_.source_lowest_pressure_pa = system_.SourcePressure(y_);
   for (std::size_t i = 0; i < system_.groups(); ++i) {
     response_.groups[i].gas_start_m3 = system_.Stored(i, y_);
     response_.groups[i].energy_start_j = system_.Energy(i);

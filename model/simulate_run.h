@@ -24,6 +24,19 @@ enum class RunUntil { kEnd, kTargets };
 Rig StrokeRig(Rig rig, ValveState state);
 SimulateOptions StrokeOptions(SimulateOptions options);
 
+// What the valve of a group is doing, on the clock of its run.
+template <class T>
+struct ValveProgress {
+  std::size_t next_command = 0, next_move = 0;  // as given, and after the valve's delay
+  ValveState state = ValveState::kHold;         // that the group obeys
+  int stroke = -1;                              // index into Response::strokes
+  T target_pa = T(0.0);
+  bool target_pending = false;
+  bool operating_pending = false;
+  std::optional<T> close_at_s;  // on reaching the operating pressure, after the valve's delay
+  Opening<T> filling, venting;  // where a run ended, and where another goes on
+};
+
 // T is double or Dual, Stepper ExplicitIntegrator<T> or CvodeIntegrator.
 template <class T, class Stepper>
 class Run {
@@ -31,26 +44,23 @@ class Run {
   // Rig and options must be valid and outlive the run.
   Run(const Rig& rig, const SimulateOptions& options, RunUntil until, const Lift& lift = Lift());
 
+  // Goes on where another run of the rig ended, instead of at valves that hold: what the valves are
+  // doing, and the strokes under way, which the record then begins with.
+  void Resume(std::vector<ValveProgress<T>> valves, std::vector<StrokeOf<T>> strokes);
+
   // `start`: pressures, effect states and source in the order of the system's state vector, in
   // place of the rig's initial ones.
   ResponseOf<T> Execute(std::span<const T> start = {});
 
   // The dynamic part of the state at the end.
   std::span<const T> final_state() const { return {y_.data(), system_.dynamic_size()}; }
+  // What the valves are doing at the end.
+  std::vector<ValveProgress<T>> final_valves() const;
   // The run gave up because stability, not accuracy, held its steps down.
   bool stiff() const { return stiff_; }
 
  private:
-  // The command that a group obeys now.
-  struct Valve {
-    std::size_t next_command = 0, next_move = 0;  // as given, and after the valve's delay
-    ValveState state = ValveState::kHold;
-    int stroke = -1;  // index into response_.strokes
-    T target_pa = T(0.0);
-    bool target_pending = false;
-    bool operating_pending = false;
-    std::optional<T> close_at_s;  // on reaching the operating pressure, after the valve's delay
-  };
+  using Valve = ValveProgress<T>;
 
   void ApplySwitches();
   template <class Change>
