@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +12,9 @@
 
 namespace plenum::api {
 namespace {
+
+// A requirement that is met by less than this is called binding.
+constexpr double kBinding = 0.01;
 
 using Rows = std::map<std::string, const catalog::Part*>;
 
@@ -87,7 +91,8 @@ Json RenderMargins(const std::vector<optimizer::Margin>& margins) {
     list.push_back({{"requirement", margin.requirement},
                     {"required", Number(margin.required)},
                     {"achieved", Number(margin.achieved)},
-                    {"relative_margin", Number(margin.relative_margin)}});
+                    {"relative_margin", Number(margin.relative_margin)},
+                    {"binding", margin.relative_margin < kBinding}});
   return list;
 }
 
@@ -192,6 +197,9 @@ Json RenderConflict(const std::vector<optimizer::Conflict>& conflicts) {
     list.push_back({{"requirement", conflict.requirement},
                     {"required", Number(conflict.required)},
                     {"best", OrNull(conflict.best)},
+                    {"relaxation", conflict.best && conflict.required != 0.0
+                                       ? Number(std::abs(*conflict.best / conflict.required - 1.0))
+                                       : Json(nullptr)},
                     {"proved", conflict.proved}});
   return list;
 }

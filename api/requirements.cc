@@ -137,39 +137,77 @@ constexpr NamedWeight kWeights[] = {{"mass_kg", &optimizer::Objective::mass_kg},
                                     {"cost_eur", &optimizer::Objective::cost_eur},
                                     {"energy_wh", &optimizer::Objective::energy_wh}};
 
-optimizer::Objective ReadObjective(Reader& request) {
-  optimizer::Objective objective;
-  auto reader = request.OptionalObject("objective");
-  if (!reader) {
-    objective.mass_kg = 1.0;
-    return objective;
+// The amounts of a front; without "minimize" its designs are listed by the first of them.
+void ReadPareto(Reader& reader, DesignRequest& parsed) {
+  constexpr optimizer::Amount kAmounts[] = {optimizer::Amount::kMass, optimizer::Amount::kVolume,
+                                            optimizer::Amount::kCost, optimizer::Amount::kEnergy};
+  std::vector<std::string> names;
+  for (const optimizer::Amount amount : kAmounts) names.emplace_back(optimizer::Name(amount));
+  const std::vector<std::string> given = reader.Texts("pareto", 2, 3);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const auto found = std::find(names.begin(), names.end(), given[i]);
+    if (found != names.end())
+      parsed.pareto.push_back(kAmounts[found - names.begin()]);
+    else if (!given[i].empty())
+      reader.FailAt("pareto/" + std::to_string(i),
+                    "must be " + OneOf(names) + ", not " + Quoted(given[i]));
   }
-  if (reader->Has("pareto"))
-    reader->Fail("pareto", "pareto fronts are not available in this version; give minimize");
-  const Json* minimize = reader->Raw("minimize");
+}
+
+optimizer::Objective ReadMinimize(Reader& reader) {
+  optimizer::Objective objective;
+  const Json* minimize = reader.Raw("minimize");
   if (minimize != nullptr && minimize->is_object()) {
-    Reader weights = reader->Object("minimize");
+    Reader weights = reader.Object("minimize");
     double sum = 0.0;
     for (const auto& [name, weight] : kWeights)
       sum += objective.*weight = weights.Number(name, {0, 1e6}, 0.0);
     weights.Finish();
     if (sum == 0.0) weights.FailHere("at least one weight must be > 0");
-  } else if (minimize != nullptr || !reader->Has("pareto")) {
-    std::vector<std::string> names;
-    for (const NamedWeight& weight : kWeights) names.emplace_back(weight.name);
-    const std::string chosen = reader->Choice("minimize", names);
-    for (const auto& [name, weight] : kWeights) objective.*weight = chosen == name ? 1.0 : 0.0;
+    return objective;
   }
-  reader->Finish();
+  std::vector<std::string> names;
+  for (const NamedWeight& weight : kWeights) names.emplace_back(weight.name);
+  const std::string chosen = reader.Choice("minimize", names);
+  for (const auto& [name, weight] : kWeights) objective.*weight = chosen == name ? 1.0 : 0.0;
   return objective;
 }
 
-void ReadRanking(Reader& request, DesignRequest& parsed) {
+void ReadObjective(Reader& request, DesignRequest& parsed) {
+  optimizer::Objective& objective = parsed.problem.objective;
+  auto reader = request.OptionalObject("objective");
+  if (!reader) {
+    objective.mass_kg = 1.0;
+    return;
+  }
+  if (reader->Has("pareto")) ReadPareto(*reader, parsed);
+  if (reader->Has("minimize") || !reader->Has("pareto"))
+    objective = ReadMinimize(*reader);
+  else if (!parsed.pareto.empty())
+    for (const auto& [name, weight] : kWeights)
+      if (std::string_view(name) == optimizer::Name(parsed.pareto.front())) objective.*weight = 1.0;
+  if (!parsed.pareto.empty())
+    for (const auto& [name, weight] : kWeights)
+      if (objective.*weight > 0.0 &&
+          std::none_of(parsed.pareto.begin(), parsed.pareto.end(), [&](optimizer::Amount amount) {
+            return std::string_view(name) == optimizer::Name(amount);
+          }))
+        reader->Fail("minimize",
+                     std::string(name) +
+                         " is not an amount of the front; it orders the front's designs "
+                         "and must be made of these");
+  reader->Finish();
+}
+
+// Gives the least probability, if one is asked for.
+std::optional<double> ReadRanking(Reader& request, DesignRequest& parsed) {
   auto ranking = request.OptionalObject("ranking");
-  if (!ranking) return;
+  if (!ranking) return std::nullopt;
   parsed.problem.count = ranking->Integer("count", 1, 500, 20);
   parsed.time_limit_s = ranking->Number("time_limit_s", {0.01, 3600}, 30.0);
+  const auto probability_min = ranking->OptionalNumber("probability_min", {0, 1});
   ranking->Finish();
+  return probability_min;
 }
 
 optimizer::Limits ReadLimits(Reader& request) {
@@ -224,8 +262,14 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   problem.fall_fraction = fractions.fall;
   ReadSupply(reader, problem);
   CheckPressures(problem, operating_kpa, errors);
-  problem.objective = ReadObjective(reader);
-  ReadRanking(reader, parsed);
+  ReadObjective(reader, parsed);
+  const std::optional<double> probability_min = ReadRanking(reader, parsed);
+  parsed.robust = ReadRobust(reader, probability_min);
+  parsed.explain = ReadExplain(reader);
+  if (parsed.explain && !parsed.pareto.empty())
+    reader.Fail("explain", "explains a list by one objective, not a front");
+  if (parsed.explain && parsed.explain->ranks > 0 && probability_min)
+    reader.FailAt("explain/ranks", "must be 0 with /ranking/probability_min");
   problem.limits = ReadLimits(reader);
   ReadSelection(reader, parts, problem);
   ReadModel(reader);

@@ -3,15 +3,19 @@
 #ifndef PLENUM_API_SERVICES_H_
 #define PLENUM_API_SERVICES_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "api/explanation.h"
 #include "api/json.h"
+#include "api/robustness.h"
 #include "catalog/backup.h"
 #include "catalog/content_hash.h"
 #include "catalog/csv.h"
 #include "catalog/plausibility.h"
 #include "catalog/store.h"
+#include "optimizer/pareto.h"
 #include "optimizer/problem.h"
 
 namespace plenum::api {
@@ -21,12 +25,19 @@ struct DesignRequest {
   optimizer::Problem problem;
   double time_limit_s = 30.0;
   std::string name;
+  std::vector<optimizer::Amount> pareto;  // amounts of a front; empty: one objective
+  std::optional<RobustRequest> robust;
+  std::optional<ExplainRequest> explain;  // with one objective only
   Json request;  // as it was given; the answer echoes it, so that a saved answer can be checked
 };
 // Parses and validates requirements against the catalogue: every error at once. `parts` have passed
 // catalog::Validate.
 Parsed<DesignRequest> ParseRequirements(const Json& request,
                                         const std::vector<catalog::Part>& parts);
+// Searches and renders what the request asks for; `options` say how to stop and to report progress,
+// the time limit is the request's. `parts` are the rows the problem was made of.
+Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions options,
+                   const std::vector<catalog::Part>& parts);
 // The answer as JSON. `parts` are the rows the problem was made of: makers, provenance.
 Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
                   const std::vector<catalog::Part>& parts);

@@ -106,6 +106,26 @@ double ConstantPressure(int groups, int cycles) {
                            cycles);
 }
 
+double WithEffects(int groups, int cycles, const std::vector<model::Effect>& effects) {
+  model::Rig rig = CycleRig(model::RegulatedSource{.pressure_pa = 3e5}, groups, cycles);
+  for (model::GroupRig& group : rig.groups) group.effects = effects;
+  return SecondsToSimulate(rig, cycles);
+}
+
+double WithHeat(int groups, int cycles) {
+  return WithEffects(groups, cycles, {{model::FindEffect("heat_transfer"), {0.5}}});
+}
+
+double WithSixEffects(int groups, int cycles) {
+  return WithEffects(groups, cycles,
+                     {{model::FindEffect("heat_transfer"), {0.5}},
+                      {model::FindEffect("creep"), {0.15, 3.0}},
+                      {model::FindEffect("hysteresis"), {4e3}},
+                      {model::FindEffect("leak", "orifice"), {5e-12, 0.3}},
+                      {model::FindEffect("valve_ramp"), {0.02}},
+                      {model::FindEffect("sensor_lag"), {0.03}}});
+}
+
 double ReservoirAndCompressor(int groups, int cycles) {
   model::ReservoirSource source;
   source.volume_m3 = 2e-3;
@@ -128,7 +148,9 @@ std::vector<Method> Simulators() {
 
 std::vector<CycleVariant> CycleVariants() {
   return {{"constant pressure", ConstantPressure},
-          {"reservoir and compressor", ReservoirAndCompressor}};
+          {"reservoir and compressor", ReservoirAndCompressor},
+          {"constant, heat transfer", WithHeat},
+          {"constant, six effects", WithSixEffects}};
 }
 
 }  // namespace plenum::bench

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -82,7 +83,8 @@ class ExplicitIntegrator {
     for (std::size_t i = 0; i < error.size(); ++i) {
       const double size = std::max(std::abs(ValueOf(before[i])), std::abs(ValueOf(after[i])));
       const double share = std::abs(ValueOf(error[i])) / Tolerance(i, size);
-      if (!(share <= norm)) norm = share;
+      if (!std::isfinite(share)) return std::numeric_limits<double>::infinity();
+      norm = std::max(norm, share);
     }
     return norm;
   }

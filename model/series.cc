@@ -175,6 +175,18 @@ double CosineAtRatio(const Series& series, double ratio) {
   });
 }
 
+CosineAndSlope CosineNear(const Series& series, double ratio, double guess) {
+  const double flow_max = series.choked_flow_m3_per_s_pa;
+  double slope = 1.0;  // d ratio / dc at the last point
+  const double c = SolveCosine(flow_max, guess, [&](double flow) {
+    const MarchPoint point = March(Elements(series), flow);
+    const double q = flow / flow_max;
+    slope = -point.slope * flow_max * std::sqrt((1.0 - q) * (1.0 + q)) / q;
+    return MarchPoint{point.pressure - ratio, point.slope};
+  });
+  return {c, 1.0 / slope};
+}
+
 double FlowAtRatio(const Series& series, double ratio) {
   const double c = CosineAtRatio(series, ratio);
   return series.choked_flow_m3_per_s_pa * std::sqrt((1.0 - c) * (1.0 + c));

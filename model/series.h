@@ -51,6 +51,14 @@ double FlowAtRatio(const Series& series, double ratio);
 // end to end (m = ½) and keeps the digits that q loses close to q*.
 double CosineAtRatio(const Series& series, double ratio);
 
+// The same from a guess, and how c rises with the ratio there: for many ratios close to each other.
+// 0 < guess < 1.
+struct CosineAndSlope {
+  double cosine;
+  double slope;
+};
+CosineAndSlope CosineNear(const Series& series, double ratio, double guess);
+
 // FlowAtRatio with the straight line to zero from ratio `linear_ratio` to 1, for the simulator.
 double RegularisedFlowAtRatio(const Series& series, double ratio,
                               double linear_ratio = kLinearRatio);

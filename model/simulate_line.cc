@@ -118,7 +118,19 @@ T Line<T>::SubsonicFlow(const T& ratio) const {
     const T share = (1.0 - ratio) / width;
     return choked_flow_ * sqrt(share * (2.0 - share));
   }
-  return LiftFlow(FlowAtRatio(series_, ValueOf(ratio)), T(1.0), ratio);
+  // The ratio moves little from call to call: the last solution leads to the next.
+  const double r = ValueOf(ratio);
+  const double guess = last_.cosine + last_.slope * (r - last_ratio_);
+  if (guess > 1e-3 && guess < 1.0) {
+    last_ = CosineNear(series_, r, guess);
+  } else {
+    const double c = CosineAtRatio(series_, r);
+    last_ = {c, 1.0 / (1.0 - choked_ratio_)};
+  }
+  last_ratio_ = r;
+  const double flow =
+      series_.choked_flow_m3_per_s_pa * std::sqrt((1.0 - last_.cosine) * (1.0 + last_.cosine));
+  return LiftFlow(flow, T(1.0), ratio);
 }
 
 template <class T>
@@ -134,6 +146,20 @@ T Line<T>::Flow(const T& upstream_pa, const T& downstream_pa) const {
   }
   if (linear) return head_pa * share * flow_at_linear_ratio_;
   return head_pa * (ratio <= choked_ratio_ ? choked_flow_ : SubsonicFlow(ratio));
+}
+
+template <class T>
+T Line<T>::ThrottledFlow(const T& opening, std::size_t fixed, const T& upstream_pa,
+                         const T& downstream_pa) const {
+  if (fixed == 0) return opening * Flow(upstream_pa, downstream_pa);
+  std::vector<LineElement<T>> elements = elements_;
+  for (std::size_t i = 0; i + fixed < elements.size(); ++i) {
+    elements[i].sonic_conductance_m3_per_s_pa *= opening;
+  }
+  if (!cracks_inside_ && !elements.empty()) {
+    elements[0].cracking_pressure_pa = cracking_pressure_pa_;
+  }
+  return Line<T>(std::move(elements), linear_ratio_).Flow(upstream_pa, downstream_pa);
 }
 
 // The largest flow with which every element can be crossed and the end pressure is not below

@@ -35,6 +35,11 @@ class Line {
   // reach, p1 − Σ Δp_c, a straight line to zero.
   T Flow(const T& upstream_pa, const T& downstream_pa) const;
 
+  // Flow while the valve is only partly open: every element but the last `fixed` conducts `opening`
+  // (above 0) times its C.
+  T ThrottledFlow(const T& opening, std::size_t fixed, const T& upstream_pa,
+                  const T& downstream_pa) const;
+
   // Between these values of downstream_pa / (upstream_pa − Σ Δp_c) the flow is smooth: choked below
   // the first, none above the last.
   static constexpr std::size_t kKinks = 3;
@@ -73,6 +78,9 @@ class Line {
   T flow_at_linear_ratio_ = T(0.0);  // the same at linear_ratio
   double choked_ratio_ = 0.0;
   double linear_ratio_ = kLinearRatio;
+  // The last solution of the march, where the next one starts: an object serves one run at a time.
+  mutable double last_ratio_ = 0.0;
+  mutable CosineAndSlope last_ = {0.0, 0.0};
 };
 
 extern template class Line<double>;

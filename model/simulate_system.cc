@@ -142,6 +142,7 @@ void System<T>::LayOut() {
     group.at = sizes_.size();
     sizes_.push_back(0.0);
     for (const auto& unit : group.units) {
+      has_modes_ = has_modes_ || unit->guards() > 0;
       group.unit_at.push_back(sizes_.size());
       sizes_.resize(sizes_.size() + static_cast<std::size_t>(unit->states()), 0.0);
     }
@@ -308,7 +309,10 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
     const T filling = group.settled ? T(0.0) : group.filling.At(t);
     const T venting = group.settled ? T(0.0) : group.venting.At(t);
     if (venting > 0.0) {
-      m.line_out_m3_per_s = venting * group.lines[kExhaust].Flow(m.tail_pa, ambient_pa_);
+      const Line<T>& out = group.lines[kExhaust];
+      m.line_out_m3_per_s = venting < 1.0 ? out.ThrottledFlow(venting, group.setup.exhaust_fixed,
+                                                              m.tail_pa, ambient_pa_)
+                                          : out.Flow(m.tail_pa, ambient_pa_);
       if (group.heated) m.line_out_m3_per_s *= sqrt(ambient_k_ / m.tail_temperature_k);
     }
     if (!group.lines[kFeed].empty()) {

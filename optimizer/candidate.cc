@@ -161,6 +161,13 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
   return window;
 }
 
+double ReservoirVolume(const Problem& problem, const Candidate& candidate) {
+  const Option& reservoir = candidate.reservoir;
+  return reservoir.index < 0
+             ? 0.0
+             : reservoir.quantity * problem.parts.reservoirs[reservoir.index].volume_m3;
+}
+
 double CustomRatingPa(const Problem& problem) {
   return std::min(problem.source_pressure_max_pa,
                   problem.ambient.pressure_pa + model::kMadeReservoirPressureMaxGaugePa);

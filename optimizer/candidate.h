@@ -9,6 +9,9 @@
 
 namespace plenum::optimizer {
 
+// Objectives within this relative distance are ties, ordered by part ids.
+inline constexpr double kTie = 1e-6;
+
 inline constexpr int kNone = -1;
 inline constexpr int kCustom = -2;  // made-to-measure reservoir
 
@@ -72,6 +75,9 @@ struct Window {
   bool empty() const { return !(low_pa <= high_pa); }
 };
 Window SourceWindow(const Problem& problem, const Candidate& candidate);
+
+// Volume of a stock reservoir; 0 where there is none, or where it is made to measure.
+double ReservoirVolume(const Problem& problem, const Candidate& candidate);
 
 // Parts of the candidate with a made-to-measure reservoir of the given volume.
 Amounts TotalAmounts(const Problem& problem, const Candidate& candidate, double reservoir_m3);

@@ -5,6 +5,8 @@
 
 #include "model/reservoir_stroke.h"
 #include "model/stroke.h"
+#include "optimizer/pump_bounds.h"
+#include "optimizer/pump_march.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -46,25 +48,6 @@ void RegulatedStroke(const Problem& problem, const Candidate& candidate, double 
   strokes.inflate_s[g] = fill_time(group.chamber.operating_pressure_pa);
 }
 
-// Rise time out of a closed reservoir that holds from the start all that the pumps could add within
-// the limit: no more than the real one if that is within the limit, since the real reservoir is
-// then at every instant no fuller.
-double RiseWithHeadStart(const model::ReservoirStrokeInput& input, const model::Series& fill,
-                         double limit_s) {
-  const double content_per_volume =
-      model::kReferencePressurePa * input.temperature_k / model::kReferenceTemperatureK;
-  // Before the target is reached no more is drawn than that takes, so the reservoir stays above:
-  const double drawn = input.count * (model::Content(*input.chamber, input.target_pa) -
-                                      model::Content(*input.chamber, input.from_pa));
-  const double lowest_pa = std::max(input.from_pa, input.stop_pa - drawn / input.volume_rising_m3);
-  const double pumped_m3 =
-      limit_s * input.compressors * model::FreeAirDelivery(*input.compressor, lowest_pa);
-  const double head_start_pa = content_per_volume * pumped_m3 / input.volume_rising_m3;
-  return model::FillTimeFromReservoir(fill, *input.chamber, input.count, input.volume_falling_m3,
-                                      input.stop_pa + head_start_pa, input.from_pa, input.target_pa,
-                                      input.temperature_k);
-}
-
 model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candidate& candidate,
                                             const OperatingPoint& point, int g) {
   model::ReservoirStrokeInput input;
@@ -85,6 +68,28 @@ model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candid
 
 double RiseLimit(const Problem& problem, int g) {
   return std::min(problem.groups[g].rise_time_max_s, HalfPeriod(problem));
+}
+
+// Rise time out of a closed reservoir that holds from the start all that the pumps could add within
+// the limit, `delivery_m3_per_s(pressure)` at most: no more than the real one if that is within the
+// limit, since the real reservoir is then at every instant no fuller.
+template <typename Delivery>
+double RiseWithHeadStart(const Problem& problem, int g, const Line& line,
+                         const OperatingPoint& point, Delivery&& delivery_m3_per_s) {
+  const int count = problem.groups[g].count;
+  const double ambient_pa = problem.ambient.pressure_pa;
+  const double target_pa = RiseTarget(problem, problem.groups[g]);
+  const double temperature_k = problem.ambient.temperature_k;
+  const double content_per_volume =
+      model::kReferencePressurePa * temperature_k / model::kReferenceTemperatureK;
+  const double pumped_m3 = MostPumped(
+      problem, point.source_pa, point.reservoir_rising_m3,
+      [&](double p) { return MostDrawn(problem, g, line, p, target_pa); }, delivery_m3_per_s,
+      RiseLimit(problem, g));
+  const double head_start_pa = content_per_volume * pumped_m3 / point.reservoir_rising_m3;
+  return model::FillTimeFromReservoir(line.fill_series, line.chamber, count, point.reservoir_m3,
+                                      point.source_pa + head_start_pa, ambient_pa, target_pa,
+                                      temperature_k);
 }
 
 enum class Alone { kYes, kNo, kTooSlow };
@@ -118,7 +123,10 @@ Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
                       const OperatingPoint& point, int g, double time_s, Strokes& strokes) {
   const model::ReservoirStrokeInput input = MakeStrokeInput(problem, candidate, point, g);
   const double limit_s = RiseLimit(problem, g);
-  if (RiseWithHeadStart(input, candidate.lines[g]->fill_series, limit_s) > limit_s)
+  const auto delivery = [&](double pressure_pa) {
+    return input.compressors * model::FreeAirDelivery(*input.compressor, pressure_pa);
+  };
+  if (RiseWithHeadStart(problem, g, *candidate.lines[g], point, delivery) > limit_s)
     return Alone::kTooSlow;
   const model::ReservoirStroke stroke = model::FillFromReservoir(input);
   if (!stroke.reached) return Alone::kTooSlow;
@@ -160,15 +168,19 @@ model::Gas GasOf(Configuration configuration) {
   return configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
 }
 
-double AloneExcess(const Problem& problem, const Candidate& candidate,
+double AloneExcess(const Problem& problem, int g, const Line& line, const PumpFacts& pumps,
                    const OperatingPoint& point) {
+  const auto delivery = [&](double pressure_pa) {
+    return 1.0 / pumps.seconds_per_m3.At(pressure_pa);
+  };
+  return RiseWithHeadStart(problem, g, line, point, delivery) / RiseLimit(problem, g) - 1.0;
+}
+
+double AloneExcess(const Problem& problem, const std::vector<const Line*>& lines,
+                   const PumpFacts& pumps, const OperatingPoint& point) {
   double excess = -kUnlimited;
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    const model::ReservoirStrokeInput input = MakeStrokeInput(problem, candidate, point, g);
-    const double limit_s = RiseLimit(problem, g);
-    excess = std::max(
-        excess, RiseWithHeadStart(input, candidate.lines[g]->fill_series, limit_s) / limit_s - 1.0);
-  }
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    excess = std::max(excess, AloneExcess(problem, g, *lines[g], pumps, point));
   return excess;
 }
 

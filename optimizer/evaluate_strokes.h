@@ -9,6 +9,8 @@
 
 namespace plenum::optimizer {
 
+struct PumpFacts;
+
 struct Strokes {
   bool works = false;
   std::vector<double> rise_s, inflate_s;  // per group, worst of the cycle
@@ -28,7 +30,10 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
 // Bound from below on the relative excess of the strokes over their limits on a compressor's
 // reservoir: each group as if it were alone and found the reservoir full. −∞ where nothing is
 // known.
-double AloneExcess(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
+double AloneExcess(const Problem& problem, int group, const Line& line, const PumpFacts& pumps,
+                   const OperatingPoint& point);
+double AloneExcess(const Problem& problem, const std::vector<const Line*>& lines,
+                   const PumpFacts& pumps, const OperatingPoint& point);
 
 // The same by one integration a group, with the pumps as they are; about ten times the effort.
 double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,

@@ -28,6 +28,7 @@ struct Line {
   int tubing = -1, fitting = -1,
       valve = -1;                        // indices into Problem::parts; fitting −1: none needed
   Amounts amounts;                       // whole group: tubes, fittings, valves
+  double objective = 0.0;                // their share, with what they take of energy at any speed
   std::vector<model::FlowElement> fill;  // elements as crossed from source to actuator
   std::vector<model::FlowElement> exhaust;  // and from actuator to ambient
   model::Series fill_series;                // with gas and temperature factor
@@ -41,19 +42,17 @@ struct Line {
   double source_min_pa = 0.0;
   double source_max_pa = 0.0;
   double inflate_time_least_s = 0.0;  // to p_op, unlimited source at source_max_pa
-  bool holds = true;
+  bool holds = true;                  // in a box of lines: some hold
+  // For a box: whether all hold, and how much more dead volume than the chamber's the widest has.
+  bool all_hold = false;
+  double dead_volume_spread_m3 = 0.0;
   double coil_power_w = 0.0;  // whole group, while energised
 };
 
-struct LineSet {
-  std::vector<Line> lines;  // those that can work on some source
-  long long total = 0, incompatible = 0, infeasible = 0,
-            unpriced = 0;  // triples; add up with lines
-};
-
-// All lines of a group for a gas. Rise and fall limits, half of the period and pressure ratings are
-// applied; what depends on the source is not.
-LineSet EnumerateLines(const Problem& problem, int group, model::Gas gas);
+// Tubes and fittings mate when their diameters agree to 0.05 mm, fittings and valves when thread
+// and port are the same. Nothing has to mate where no fitting is needed.
+bool DiametersMate(double tube_outer_m, double fitting_outer_m);
+bool PartsMate(const Problem& problem, const Line& line);
 
 // Target pressures of a group.
 double RiseTarget(const Problem& problem, const ActuatorGroup& group);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -15,6 +16,7 @@
 #include "model/chamber.h"
 #include "model/parts.h"
 #include "optimizer/big_count.h"
+#include "optimizer/proof.h"
 
 namespace plenum::optimizer {
 
@@ -90,6 +92,7 @@ struct Progress {
 };
 
 struct SearchOptions {
+  bool record = false;  // fill Proof::record
   double time_limit_s = 30.0;
   bool any_design = false;  // the first design found is enough; nothing is proved of it then
   std::function<bool()> cancelled;  // may be empty
@@ -167,10 +170,12 @@ struct Proof {
   bool complete = false;
   double lower_bound = 0.0;  // of the objective of every design not listed
   double gap = 0.0;
+  long long boxes = 0;      // looked at
   BigCount evaluated;       // leaves sized
   long long simulated = 0;  // designs that went through the simulator
   long long undecided = 0;  // leaves that could be neither sized nor refuted
   Pruned pruned;
+  std::shared_ptr<const ProofRecord> record;  // where SearchOptions asks for it
 };
 
 struct Conflict {

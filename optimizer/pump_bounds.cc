@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "optimizer/evaluate_strokes.h"
+#include "optimizer/pump_march.h"
 #include "optimizer/root.h"
 
 namespace plenum::optimizer {
 namespace {
 
 constexpr int kCells = 256;
+constexpr double kNoDelivery = 1e12;
 constexpr double kIntervalRatio = 1.25;
 constexpr double kNeedTolerance = 3e-3;  // of the source pressure; its lower end is used
 
@@ -18,52 +20,48 @@ double ContentPerVolume(const Problem& problem) {
          model::kReferenceTemperatureK;
 }
 
-// The table's points and an even division: within a cell power and delivery are monotone.
-std::vector<double> Cells(const model::CompressorCurve& curve, double low_pa) {
-  const double high_pa = model::HighestPressure(curve);
-  std::vector<double> edges{low_pa};
-  for (int i = 1; i <= kCells; ++i) edges.push_back(low_pa + (high_pa - low_pa) * i / kCells);
-  for (const model::MonotoneCurve* table : {&curve.free_air_m3_per_s, &curve.current_a})
-    for (double knot : table->x())
-      if (knot > low_pa && knot < high_pa) edges.push_back(knot);
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+std::vector<double> EvenCells(double low_pa, double high_pa, int cells) {
+  std::vector<double> edges;
+  for (int i = 0; i <= cells; ++i) edges.push_back(low_pa + (high_pa - low_pa) * i / cells);
   return edges;
+}
+
+// Tables of a pump over cells of pressure, as minorants: delivery falls with pressure, so that a
+// cell's lower edge has the most; the least power is at an edge or at a point of the table.
+struct PumpTables {
+  std::vector<double> energy_j_per_m3, seconds_per_m3, current_a;
+};
+
+double LeastPower(const model::CompressorCurve& curve, double low_pa, double high_pa) {
+  double least_w =
+      std::min(model::ElectricalPower(curve, low_pa), model::ElectricalPower(curve, high_pa));
+  for (double knot : curve.current_a.x())
+    if (knot > low_pa && knot < high_pa)
+      least_w = std::min(least_w, model::ElectricalPower(curve, knot));
+  return least_w;
 }
 
 void MakeNonFalling(std::vector<double>& values) {
   for (std::size_t i = values.size() - 1; i-- > 0;) values[i] = std::min(values[i], values[i + 1]);
 }
 
-}  // namespace
-
-Minorant::Minorant(std::vector<double> pressure_pa, std::vector<double> value)
-    : pressure_pa_(std::move(pressure_pa)), value_(std::move(value)) {
-  integral_.assign(pressure_pa_.size(), 0.0);
-  for (std::size_t i = 0; i < value_.size(); ++i)
-    integral_[i + 1] = integral_[i] + value_[i] * (pressure_pa_[i + 1] - pressure_pa_[i]);
+PumpTables MakeTables(const model::CompressorCurve& curve, int pumps,
+                      const std::vector<double>& edges) {
+  PumpTables tables;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const double delivery = model::FreeAirDelivery(curve, edges[i]);
+    const double power_w = LeastPower(curve, edges[i], edges[i + 1]);
+    // Past the last delivery nothing can be pumped; a large number keeps integrals finite.
+    tables.energy_j_per_m3.push_back(delivery > 0.0 ? power_w / delivery : kNoDelivery);
+    tables.seconds_per_m3.push_back(delivery > 0.0 ? 1.0 / (pumps * delivery) : kNoDelivery);
+    tables.current_a.push_back(pumps * model::LargestCurrent(curve, edges.front(), edges[i]));
+  }
+  MakeNonFalling(tables.energy_j_per_m3);
+  MakeNonFalling(tables.seconds_per_m3);
+  return tables;
 }
 
-double Minorant::At(double pressure_pa) const {
-  const auto above = std::upper_bound(pressure_pa_.begin(), pressure_pa_.end(), pressure_pa);
-  const std::ptrdiff_t cell = std::clamp<std::ptrdiff_t>(
-      above - pressure_pa_.begin() - 1, 0, static_cast<std::ptrdiff_t>(value_.size()) - 1);
-  return value_[cell];
-}
-
-double Minorant::Integral(double pressure_pa) const {
-  const auto above = std::upper_bound(pressure_pa_.begin(), pressure_pa_.end(), pressure_pa);
-  const std::ptrdiff_t cell = std::clamp<std::ptrdiff_t>(
-      above - pressure_pa_.begin() - 1, 0, static_cast<std::ptrdiff_t>(value_.size()) - 1);
-  return integral_[cell] + value_[cell] * (pressure_pa - pressure_pa_[cell]);
-}
-
-double Minorant::Mean(double low_pa, double high_pa) const {
-  if (!(high_pa > low_pa)) return At(high_pa);
-  return (Integral(high_pa) - Integral(low_pa)) / (high_pa - low_pa);
-}
-
-PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve) {
+PumpFacts MakeFacts(const Problem& problem, double highest_pa, PumpTables tables) {
   PumpFacts facts;
   facts.target_pa = kUnlimited;
   double rising_s = 0.0;
@@ -72,88 +70,189 @@ PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& cu
     const double rise_s = std::min(group.rise_time_max_s, HalfPeriod(problem));
     rising_s = problem.simultaneous ? std::max(rising_s, rise_s) : rising_s + rise_s;
   }
-  facts.early_m3 = model::FreeAirDelivery(curve, problem.ambient.pressure_pa) * rising_s;
-
-  const std::vector<double> edges = Cells(curve, problem.ambient.pressure_pa);
-  std::vector<double> energy, seconds;
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    const double delivery = model::FreeAirDelivery(curve, edges[i]);
-    const double power_w = std::min(model::ElectricalPower(curve, edges[i]),
-                                    model::ElectricalPower(curve, edges[i + 1]));
-    energy.push_back(delivery > 0.0 ? power_w / delivery : kUnlimited);
-    seconds.push_back(delivery > 0.0 ? 1.0 / delivery : kUnlimited);
-  }
-  // Past the last delivery nothing can be pumped; a large number keeps integrals finite.
-  for (std::vector<double>* values : {&energy, &seconds})
-    for (double& value : *values)
-      if (std::isinf(value)) value = 1e12;
-  MakeNonFalling(energy);
-  MakeNonFalling(seconds);
-  facts.energy_j_per_m3 = Minorant(edges, energy);
-  facts.seconds_per_m3 = Minorant(edges, seconds);
+  facts.early_m3 = rising_s / tables.seconds_per_m3.front();
+  const auto minorant = [&](std::vector<double>& values) {
+    return Minorant(problem.ambient.pressure_pa, highest_pa, std::move(values));
+  };
+  facts.energy_j_per_m3 = minorant(tables.energy_j_per_m3);
+  facts.seconds_per_m3 = minorant(tables.seconds_per_m3);
+  facts.current_a = minorant(tables.current_a);
   return facts;
 }
 
-PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, int pumps, double air_m3,
-                       double air_to_target_m3, double source_min_pa) {
-  const double early_m3 = pumps * facts.early_m3;
-  // Strokes that take turns do not find the reservoir full; only (4) holds for them.
-  const bool burst = problem.simultaneous || problem.groups.size() == 1;
-  const double last_m3 = burst ? std::max(0.0, air_to_target_m3 - early_m3) : 0.0;
-  const double other_m3 = std::max(0.0, air_m3 - early_m3 - last_m3);
-  const double first_m3 = air_m3 - last_m3 - other_m3;
-  const double high_pa = std::max(source_min_pa, facts.target_pa);
-  const auto bound = [&](const Minorant& per_air) {
-    return last_m3 * per_air.Mean(facts.target_pa, high_pa) +
-           other_m3 * per_air.At(facts.target_pa) +
-           first_m3 * per_air.At(problem.ambient.pressure_pa);
-  };
-  return {bound(facts.seconds_per_m3) / pumps, bound(facts.energy_j_per_m3)};
+}  // namespace
+
+Minorant::Minorant(double low_pa, double high_pa, std::vector<double> value)
+    : low_pa_(low_pa),
+      cells_per_pa_(static_cast<double>(value.size()) / (high_pa - low_pa)),
+      last_(static_cast<double>(value.size() - 1)),
+      value_(std::move(value)),
+      integral_(value_.size(), 0.0) {
+  for (std::size_t i = 0; i + 1 < value_.size(); ++i)
+    integral_[i + 1] = integral_[i] + value_[i] / cells_per_pa_;
 }
 
-PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, int pumps, double air_m3,
-                       double source_pa, double reservoir_m3, double* first_fill_j) {
-  const double ambient_pa = problem.ambient.pressure_pa;
-  const double per_volume = ContentPerVolume(problem);
-  *first_fill_j = reservoir_m3 / per_volume * (source_pa - ambient_pa) *
-                  facts.energy_j_per_m3.Mean(ambient_pa, source_pa);
-  if (!problem.simultaneous && problem.groups.size() > 1)
-    return LeastPumpNeed(problem, facts, pumps, air_m3, 0.0, source_pa);
-  const double low_pa = source_pa - per_volume * air_m3 / reservoir_m3;  // by (1)
-  const double from_pa = std::max(low_pa, ambient_pa);
-  const double share = (source_pa - from_pa) / (source_pa - low_pa);
-  const auto bound = [&](const Minorant& per_air) {
-    return air_m3 *
-           (share * per_air.Mean(from_pa, source_pa) + (1.0 - share) * per_air.At(from_pa));
+double Minorant::Integral(double pressure_pa) const {
+  const std::size_t cell = Cell(pressure_pa);
+  return integral_[cell] +
+         value_[cell] * (pressure_pa - low_pa_ - static_cast<double>(cell) / cells_per_pa_);
+}
+
+double Minorant::Mean(double low_pa, double high_pa) const {
+  if (!(high_pa > low_pa)) return At(high_pa);
+  return (Integral(high_pa) - Integral(low_pa)) / (high_pa - low_pa);
+}
+
+// Between the points of a table the interpolation is monotone, so that they and the end decide.
+bool PowerRises(const model::CompressorCurve& curve, double low_pa, double high_pa) {
+  double before_w = model::ElectricalPower(curve, low_pa);
+  const auto rises = [&](double pressure_pa) {
+    const double power_w = model::ElectricalPower(curve, pressure_pa);
+    const bool ok = power_w >= before_w * (1.0 - 1e-12);
+    before_w = power_w;
+    return ok;
   };
-  return {bound(facts.seconds_per_m3) / pumps, bound(facts.energy_j_per_m3)};
+  for (double knot : curve.current_a.x())
+    if (knot > low_pa && knot < high_pa && !rises(knot)) return false;
+  return rises(high_pa);
+}
+
+// Where power rises so does its share per air, since delivery falls; elsewhere both are cubic
+// between the points of their tables, and their quotient is looked at closely.
+bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa) {
+  constexpr int kLooks = 32;  // between two points
+  if (PowerRises(curve, low_pa, high_pa)) return true;
+  std::vector<double> knots{low_pa, high_pa};
+  for (const model::MonotoneCurve* table : {&curve.free_air_m3_per_s, &curve.current_a})
+    for (double knot : table->x())
+      if (knot > low_pa && knot < high_pa) knots.push_back(knot);
+  std::sort(knots.begin(), knots.end());
+  double before = 0.0;
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i)
+    for (int look = 0; look < kLooks; ++look) {
+      const double pressure_pa = knots[i] + (knots[i + 1] - knots[i]) * look / kLooks;
+      const double delivery = model::FreeAirDelivery(curve, pressure_pa);
+      const double per_air =
+          delivery > 0.0 ? model::ElectricalPower(curve, pressure_pa) / delivery : kNoDelivery;
+      if (per_air < before * (1.0 - 1e-12)) return false;
+      before = per_air;
+    }
+  return true;
+}
+
+PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps) {
+  const double ambient_pa = problem.ambient.pressure_pa;
+  const double highest_pa = std::max(model::HighestPressure(curve), 1.01 * ambient_pa);
+  return MakeFacts(problem, highest_pa,
+                   MakeTables(curve, pumps, EvenCells(ambient_pa, highest_pa, kCells)));
+}
+
+double HighestPumpPressure(const Problem& problem) {
+  double highest_pa = problem.ambient.pressure_pa * 1.01;
+  for (const model::Compressor& compressor : problem.parts.compressors)
+    highest_pa = std::max(highest_pa, model::HighestPressure(compressor.curve));
+  return highest_pa;
+}
+
+CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,
+                          const model::CompressorCurve& curve, int pumps) {
+  const PumpTables tables =
+      MakeTables(curve, pumps, EvenCells(problem.ambient.pressure_pa, highest_pa, kCoarseCells));
+  CoarsePump coarse;
+  std::copy_n(tables.energy_j_per_m3.begin(), kCoarseCells, coarse.energy_j_per_m3.begin());
+  std::copy_n(tables.seconds_per_m3.begin(), kCoarseCells, coarse.seconds_per_m3.begin());
+  std::copy_n(tables.current_a.begin(), kCoarseCells, coarse.current_a.begin());
+  return coarse;
+}
+
+PumpFacts MakePumpFacts(const Problem& problem, double highest_pa, const CoarsePump& coarse) {
+  const auto table = [](const std::array<double, kCoarseCells>& values) {
+    return std::vector<double>(values.begin(), values.end());
+  };
+  return MakeFacts(
+      problem, highest_pa,
+      {table(coarse.energy_j_per_m3), table(coarse.seconds_per_m3), table(coarse.current_a)});
+}
+
+double MostDrawn(const Problem& problem, int group, const Line& line, double pressure_pa,
+                 double full_pa) {
+  const double p = std::min(pressure_pa, full_pa);
+  const double ambient_pa = problem.ambient.pressure_pa;
+  return problem.groups[group].count *
+         (model::Content(line.chamber, p) - model::Content(line.chamber, ambient_pa) +
+          line.dead_volume_spread_m3 * (p - ambient_pa));
+}
+
+namespace {
+
+// Air that the pumps deliver at a pressure or above.
+struct PumpedAir {
+  double pressure_pa, air_m3;
+};
+
+}  // namespace
+
+std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& facts,
+                                      const PumpLoad& load, const std::vector<double>& start_pa,
+                                      double reservoir_m3) {
+  std::vector<PumpedAir> bits;
+  const double phase_s = 1.0 / problem.frequency_hz / static_cast<double>(start_pa.size());
+  for (int phase = 0; phase < static_cast<int>(start_pa.size()); ++phase) {
+    const bool apart = start_pa.size() == problem.groups.size();  // one group in each phase
+    const Line& line = *load.lines[phase];
+    const double full_pa =
+        line.all_hold ? problem.groups[phase].chamber.operating_pressure_pa : kUnlimited;
+    const auto drawn = [&](double p) {
+      return apart ? MostDrawn(problem, phase, line, p, full_pa)
+                   : load.air_m3 * ContentPerVolume(problem);
+    };
+    double left_s = phase_s;
+    MarchPump(problem, start_pa[phase], reservoir_m3, drawn, [&](double p, double air_m3) {
+      const double slowness = facts.seconds_per_m3.At(p);
+      const double bit_m3 = std::min(air_m3, left_s / slowness);
+      bits.push_back({p, bit_m3});
+      left_s -= bit_m3 * slowness;
+      return left_s > 0.0;
+    });
+  }
+  if (start_pa.size() > 1)
+    std::stable_sort(bits.begin(), bits.end(), [](const PumpedAir& a, const PumpedAir& b) {
+      return a.pressure_pa < b.pressure_pa;
+    });
+  PumpNeed need;
+  double left_m3 = load.air_m3;
+  for (const PumpedAir& bit : bits) {
+    const double air_m3 = std::min(bit.air_m3, left_m3);
+    need.on_s += air_m3 * facts.seconds_per_m3.At(bit.pressure_pa);
+    need.energy_j += air_m3 * facts.energy_j_per_m3.At(bit.pressure_pa);
+    left_m3 -= air_m3;
+  }
+  if (left_m3 > 1e-9 * load.air_m3) return std::nullopt;
+  return need;
+}
+
+double LeastFirstFill(const Problem& problem, const PumpFacts& facts, double source_pa,
+                      double reservoir_m3) {
+  const double ambient_pa = problem.ambient.pressure_pa;
+  return reservoir_m3 / ContentPerVolume(problem) * (source_pa - ambient_pa) *
+         facts.energy_j_per_m3.Mean(ambient_pa, source_pa);
 }
 
 namespace {
 
 // Air that the reservoir must give by the end of the rise times, by (2).
-double GivenByReservoir(const Problem& problem, const PumpFacts& facts, int pumps,
-                        double air_to_target_m3) {
+double GivenByReservoir(const Problem& problem, const PumpFacts& facts, double air_to_target_m3) {
   const bool burst = problem.simultaneous || problem.groups.size() == 1;
-  return burst ? std::max(0.0, air_to_target_m3 - pumps * facts.early_m3) : 0.0;
+  return burst ? std::max(0.0, air_to_target_m3 - facts.early_m3) : 0.0;
 }
 
-double LeastStopPressure(const Problem& problem, const PumpFacts& facts, int pumps,
-                         double air_to_target_m3, double reservoir_m3) {
+double LeastStopPressure(const Problem& problem, const PumpFacts& facts, double air_to_target_m3,
+                         double reservoir_m3) {
   return facts.target_pa + ContentPerVolume(problem) *
-                               GivenByReservoir(problem, facts, pumps, air_to_target_m3) /
-                               reservoir_m3;
+                               GivenByReservoir(problem, facts, air_to_target_m3) / reservoir_m3;
 }
 
 }  // namespace
-
-double LeastReservoirVolume(const Problem& problem, const PumpFacts& facts, int pumps,
-                            double air_to_target_m3, double source_max_pa) {
-  const double given_m3 = GivenByReservoir(problem, facts, pumps, air_to_target_m3);
-  if (given_m3 == 0.0) return 0.0;
-  if (!(source_max_pa > facts.target_pa)) return kUnlimited;
-  return ContentPerVolume(problem) * given_m3 / (source_max_pa - facts.target_pa);
-}
 
 double AirToTarget(const Problem& problem, int group, const model::Chamber& chamber) {
   const ActuatorGroup& actuators = problem.groups[group];
@@ -167,11 +266,11 @@ namespace {
 // Highest stop pressure that `bearable` accepts, from one that it accepts up to `high_pa`; a little
 // too high rather than too low.
 template <typename Bearable>
-double MostBearable(ReservoirNeed need, double high_pa, Bearable&& bearable) {
+double MostBearable(ReservoirNeed need, double high_pa, double tolerance, Bearable&& bearable) {
   double low_pa = need.source_pa;
   need.source_pa = high_pa;
   if (bearable(need)) return high_pa;
-  while (high_pa - low_pa > kNeedTolerance * high_pa) {
+  while (high_pa - low_pa > tolerance * high_pa) {
     need.source_pa = 0.5 * (low_pa + high_pa);
     (bearable(need) ? low_pa : high_pa) = need.source_pa;
   }
@@ -180,49 +279,92 @@ double MostBearable(ReservoirNeed need, double high_pa, Bearable&& bearable) {
 
 }  // namespace
 
+PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines,
+                      double source_min_pa) {
+  PumpLoad load{lines};
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    load.air_m3 += AirPerStroke(problem, g, *lines[g], source_min_pa);
+    load.air_to_target_m3 += AirToTarget(problem, g, lines[g]->chamber);
+    load.coil_j += CoilEnergyPerCycle(problem, *lines[g], lines[g]->inflate_time_least_s);
+  }
+  return load;
+}
+
+std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const PumpFacts& facts,
+                                                const PumpLoad& load, const PumpLimits& limits,
+                                                const Window& window, double low_m3, double high_m3,
+                                                double tolerance) {
+  const auto excess = [&](double start_pa) {
+    return AloneExcess(problem, load.lines, facts, {start_pa, high_m3, low_m3});
+  };
+  // Groups that take turns may find less than the stop pressure.
+  const bool turns = !problem.simultaneous && problem.groups.size() > 1;
+  std::vector<double> start_pa(1, 0.0);
+  // Sets what stopping at need.source_pa at least takes; false if that is too much.
+  const auto bearable = [&](ReservoirNeed& need) {
+    if (!turns) start_pa.front() = need.source_pa;
+    const std::optional<PumpNeed> pump = LeastPumpNeed(problem, facts, load, start_pa, need.low_m3);
+    if (!pump) return false;
+    need.energy_j = LeastFirstFill(problem, facts, need.source_pa, need.low_m3) +
+                    problem.actuations * (pump->energy_j + load.coil_j);
+    return pump->on_s * problem.frequency_hz <= limits.duty_max &&
+           need.energy_j <= limits.energy_max_j;
+  };
+  ReservoirNeed need{low_m3, high_m3};
+  need.source_max_pa = window.high_pa;
+  // Cheap first: the mass balance (2) at the largest volume.
+  need.source_pa =
+      std::max(window.low_pa, LeastStopPressure(problem, facts, load.air_to_target_m3, high_m3));
+  if (!(need.source_pa <= window.high_pa)) return std::nullopt;
+  if (turns) {
+    if (excess(window.high_pa) > 0.0) return std::nullopt;
+    start_pa.clear();
+    for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+      start_pa.push_back(
+          FeasibleBracket(
+              [&](double p) {
+                return AloneExcess(problem, g, *load.lines[g], facts, {p, high_m3, low_m3});
+              },
+              problem.ambient.pressure_pa, window.high_pa, tolerance)
+              .low);
+    const double most_pa = *std::max_element(start_pa.begin(), start_pa.end());
+    // Of two groups each finds what the other has left: its own operating pressure at least, since
+    // air only flows downhill.
+    if (problem.groups.size() == 2)
+      for (int g : {0, 1})
+        start_pa[g] = std::max(start_pa[g], problem.groups[1 - g].chamber.operating_pressure_pa);
+    // Of more than two groups some may draw at the same time.
+    if (problem.groups.size() > 2) start_pa = {most_pa};
+    need.source_pa = std::max(need.source_pa, most_pa);
+    if (!bearable(need)) return std::nullopt;
+    return need;
+  }
+  if (!bearable(need)) return std::nullopt;
+  need.source_max_pa = MostBearable(need, window.high_pa, tolerance, bearable);
+  if (excess(need.source_max_pa) > 0.0) return std::nullopt;
+  need.source_pa = FeasibleBracket(excess, need.source_pa, need.source_max_pa, tolerance).low;
+  if (!bearable(need)) return std::nullopt;
+  return need;
+}
+
 std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFacts& facts,
                                           const Candidate& candidate, double energy_max_j,
                                           double low_m3, double high_m3) {
   std::vector<ReservoirNeed> needs;
   const Window window = SourceWindow(problem, candidate);
   if (window.empty()) return needs;
-  const model::Compressor& compressor = problem.parts.compressors[candidate.compressor.index];
-  const int pumps = candidate.compressor.quantity;
-  double air_m3 = 0.0, air_to_target_m3 = 0.0, coil_j = 0.0;
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    const Line& line = *candidate.lines[g];
-    air_m3 += AirPerStroke(problem, g, line, window.low_pa);
-    air_to_target_m3 += AirToTarget(problem, g, line.chamber);
-    coil_j += CoilEnergyPerCycle(problem, line, line.inflate_time_least_s);
-  }
-  // Sets what stopping at need.source_pa at least takes; false if that is too much.
-  const auto bearable = [&](ReservoirNeed& need) {
-    double first_fill_j = 0.0;
-    const PumpNeed pump =
-        LeastPumpNeed(problem, facts, pumps, air_m3, need.source_pa, need.low_m3, &first_fill_j);
-    need.energy_j = first_fill_j + problem.actuations * (pump.energy_j + coil_j);
-    return pump.on_s * problem.frequency_hz <= compressor.duty_max && need.energy_j <= energy_max_j;
-  };
+  const PumpLimits limits{problem.parts.compressors[candidate.compressor.index].duty_max,
+                          energy_max_j};
+  const PumpLoad load = MakePumpLoad(problem, candidate.lines, window.low_pa);
   for (bool last = false; !last;) {
-    ReservoirNeed need;
-    need.low_m3 = low_m3;
-    need.high_m3 = std::min(low_m3 * kIntervalRatio, high_m3);
-    low_m3 = need.high_m3;
-    last = low_m3 >= high_m3;
-    // Cheap first: the mass balance (2) at the largest volume.
-    need.source_pa = std::max(
-        window.low_pa, LeastStopPressure(problem, facts, pumps, air_to_target_m3, need.high_m3));
-    if (need.source_pa > window.high_pa || !bearable(need)) continue;
-    const auto excess = [&](double source_pa) {
-      return AloneExcess(problem, candidate, {source_pa, need.high_m3, need.low_m3});
-    };
-    need.source_max_pa = MostBearable(need, window.high_pa, bearable);
-    const OperatingPoint most{need.source_max_pa, need.high_m3, need.low_m3};
-    if (excess(need.source_max_pa) > 0.0 || AloneStrokeExcess(problem, candidate, most) > 0.0)
-      continue;
-    need.source_pa =
-        FeasibleBracket(excess, need.source_pa, need.source_max_pa, kNeedTolerance).low;
-    if (bearable(need)) needs.push_back(need);
+    const double next_m3 = std::min(low_m3 * kIntervalRatio, high_m3);
+    last = next_m3 >= high_m3;
+    const std::optional<ReservoirNeed> need =
+        LeastReservoirNeed(problem, facts, load, limits, window, low_m3, next_m3, kNeedTolerance);
+    if (need && AloneStrokeExcess(problem, candidate,
+                                  {need->source_max_pa, need->high_m3, need->low_m3}) <= 0.0)
+      needs.push_back(*need);
+    low_m3 = next_m3;
   }
   return needs;
 }

@@ -1,82 +1,123 @@
-// What a compressor must at least bear to feed the strokes, before the reservoir is known and
-// after.
+// What a compressor must at least bear to feed the strokes, by intervals of reservoir volumes.
 //
 // Let A be the air of a cycle, A_t the part of it up to the rise targets, p_t the lowest target,
-// and m the air pumped since the strokes began, all ANR; κ = P0·T/T0 converts to content. The
-// reservoir starts at the stop pressure p_s.
-//  (1) No more than A is ever drawn, so the m-th bit of air is pumped at p(m) ≥ p_s − κ·(A−m)/V.
-//  (2) Within the rise times the pumps deliver at most `early`, so the reservoir gives at least
-//      A_t − early and still ends at or above p_t: p_s ≥ p_t + κ·(A_t − early)/V.
-//  (3) p_s is at least what an unlimited source would need.
-//  (4) After the rise times the reservoir never falls below p_t: air only flows downhill.
-// So the last A_t − early of the air is pumped at pressures spread evenly over an interval that
-// begins at or above p_t and ends at or above p_s,min, whatever the volume; by (4) the rest that is
-// not early is pumped at or above p_t. Energy per air, made non-falling in pressure from below, and
-// time per air, which does not fall with pressure, then bound energy and running time.
+// and m the air pumped since a stroke began, all ANR; κ = P0·T/T0 converts to content. The
+// reservoir holds p_1 when the stroke begins: the stop pressure p_s, or less where groups take
+// turns.
+//  (1) No more than A is drawn in a cycle, so the m-th bit of air is pumped at
+//      p(m) ≥ p_1 − κ·(A−m)/V.
+//  (2) Where all strokes begin at once: within the rise times the pumps deliver at most `early`, so
+//      the reservoir gives at least A_t − early and still ends at or above p_t:
+//      p_s ≥ p_t + κ·(A_t − early)/V.
+//  (3) p_1 is at least what a group would need that is alone on a closed reservoir which holds from
+//      the start all that the pumps could add during the rise.
+// Energy per air, made non-falling in pressure from below, and time per air, which does not fall
+// with pressure, then bound energy and running time.
 #ifndef PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 #define PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "optimizer/candidate.h"
 
 namespace plenum::optimizer {
 
-// A step function of pressure that nowhere exceeds the true one and does not fall.
+// A step function of pressure that nowhere exceeds the true one and does not fall, over an even
+// division of [low, high]; its end values hold outside.
 class Minorant {
  public:
   Minorant() = default;
-  // value[i] holds on [pressure[i], pressure[i+1]); one more pressure than values.
-  Minorant(std::vector<double> pressure_pa, std::vector<double> value);
-  double At(double pressure_pa) const;
+  Minorant(double low_pa, double high_pa, std::vector<double> value);
+  double At(double pressure_pa) const { return value_[Cell(pressure_pa)]; }
   double Mean(double low_pa, double high_pa) const;  // At(high) where low ≥ high
 
  private:
+  std::size_t Cell(double pressure_pa) const {
+    const double position = (pressure_pa - low_pa_) * cells_per_pa_;
+    if (!(position > 0.0)) return 0;
+    return position < last_ ? static_cast<std::size_t>(position) : value_.size() - 1;
+  }
   double Integral(double pressure_pa) const;
-  std::vector<double> pressure_pa_, value_, integral_;
+  double low_pa_ = 0.0, cells_per_pa_ = 0.0, last_ = 0.0;
+  std::vector<double> value_, integral_;
 };
 
-// What the bounds need of one pump, computed once per problem.
+// Whether electrical power, and power over delivery, do not fall with pressure in between.
+bool PowerRises(const model::CompressorCurve& curve, double low_pa, double high_pa);
+bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa);
+
+// What the bounds need of the pumps of a choice, all that run in parallel together. From a single
+// choice, or from the coarse tables of many: then each number holds for the best of them.
 struct PumpFacts {
-  double early_m3 = 0.0;     // the most that it pumps during the rise times of a cycle, ANR
+  double early_m3 = 0.0;     // the most that they pump during the rise times of a cycle, ANR
   double target_pa = 0.0;    // p_t
   Minorant energy_j_per_m3;  // P/Q
   Minorant seconds_per_m3;   // 1/Q
+  Minorant current_a;        // largest on the way to a pressure
 };
-PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve);
+PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps);
+
+// The same tables over an even division of the pressures from ambient to the highest that any
+// compressor of the problem reaches, small enough to be kept for every box.
+inline constexpr int kCoarseCells = 24;
+struct CoarsePump {
+  std::array<double, kCoarseCells> energy_j_per_m3{}, seconds_per_m3{}, current_a{};
+};
+double HighestPumpPressure(const Problem& problem);
+CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,
+                          const model::CompressorCurve& curve, int pumps);
+PumpFacts MakePumpFacts(const Problem& problem, double highest_pa, const CoarsePump& coarse);
 
 struct PumpNeed {
   double on_s = 0.0;      // per cycle
   double energy_j = 0.0;  // per cycle, all pumps
 };
 
-// Bounds from below for `pumps` in parallel, whatever the reservoir. `air_m3` and
-// `air_to_target_m3` are lower bounds on A and A_t, `source_min_pa` on p_s.
-PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, int pumps, double air_m3,
-                       double air_to_target_m3, double source_min_pa);
-
-// Least volume of a reservoir that stops at or below `source_max_pa`, by (2); +∞ where there is
-// none.
-double LeastReservoirVolume(const Problem& problem, const PumpFacts& facts, int pumps,
-                            double air_to_target_m3, double source_max_pa);
-
-// LeastPumpNeed when the reservoir is at least `reservoir_m3` large and stops at or above
-// `source_pa`.
-PumpNeed LeastPumpNeed(const Problem& problem, const PumpFacts& facts, int pumps, double air_m3,
-                       double source_pa, double reservoir_m3, double* first_fill_j);
+// Of filling the reservoir for the first time, J.
+double LeastFirstFill(const Problem& problem, const PumpFacts& facts, double source_pa,
+                      double reservoir_m3);
 
 // Air of one stroke of a group up to its rise target, all its actuators, m³ ANR.
 double AirToTarget(const Problem& problem, int group, const model::Chamber& chamber);
 
-// Volumes of reservoirs that might serve a candidate whose compressor and lines are chosen, by
-// intervals, each with what it at least takes; a single volume where low and high are equal. Left
-// out is what needs more than `energy_max_j` or more running time than the pump stands.
+// What lines ask of a compressor and its reservoir, before or after either is chosen: bounds from
+// below.
+struct PumpLoad {
+  const std::vector<const Line*>& lines;                      // one per group
+  double air_m3 = 0.0, air_to_target_m3 = 0.0, coil_j = 0.0;  // per cycle
+};
+PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines,
+                      double source_min_pa);
+
+// What the pumps at least take in a cycle, with a reservoir of `reservoir_m3` or more that holds
+// start_pa[i] or more when phase i of the cycle begins: one phase, or one per group where two take
+// turns. None where they cannot deliver the air of a cycle within it.
+std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& facts,
+                                      const PumpLoad& load, const std::vector<double>& start_pa,
+                                      double reservoir_m3);
+
+// What a reservoir at least takes whose volume is in [low, high].
 struct ReservoirNeed {
   double low_m3 = 0.0, high_m3 = 0.0;
   double source_pa = 0.0;      // least stop pressure
   double source_max_pa = 0.0;  // most that duty and energy bear
   double energy_j = 0.0;       // whole mission: first fill, pumps, coils
 };
+struct PumpLimits {
+  double duty_max = 1.0;
+  double energy_max_j = kUnlimited;
+};
+// None where no volume in it will do. `tolerance`: of the source pressures, relative; they stay on
+// the safe side.
+std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const PumpFacts& facts,
+                                                const PumpLoad& load, const PumpLimits& limits,
+                                                const Window& window, double low_m3, double high_m3,
+                                                double tolerance);
+
+// The same for a candidate whose compressor and lines are chosen, by intervals of volumes that
+// divide [low, high]; intervals that will not do are left out.
 std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFacts& facts,
                                           const Candidate& candidate, double energy_max_j,
                                           double low_m3, double high_m3);

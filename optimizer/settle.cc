@@ -2,13 +2,14 @@
 #include <cmath>
 
 #include "optimizer/evaluate_strokes.h"
-#include "optimizer/nlp.h"
+#include "optimizer/root.h"
 #include "optimizer/sizing.h"
 
 namespace plenum::optimizer {
 namespace {
 
-constexpr int kScanPoints = 8;
+constexpr double kBalanceTolerance = 1e-6;
+constexpr double kMoves = 1e-9;  // a margin that the pressure moves
 
 // Source pressures from that of a feasible leaf to the highest that the parts stand, as a share.
 class Freedom {
@@ -17,8 +18,7 @@ class Freedom {
       : problem_(problem),
         candidate_(candidate),
         leaf_(leaf),
-        span_pa_(SourceWindow(problem, candidate).high_pa - leaf.point.source_pa),
-        by_energy_(problem.objective.energy_wh > 0.0) {}
+        span_pa_(SourceWindow(problem, candidate).high_pa - leaf.point.source_pa) {}
 
   bool empty() const { return !(span_pa_ > 0.0); }
 
@@ -28,60 +28,28 @@ class Freedom {
     return point;
   }
 
-  // What settling makes small: the objective if the pressure moves it, else the margin's negative;
-  // +∞ where a requirement is missed.
-  double Cost(double share) const {
-    const Evaluation evaluation = Evaluate(problem_, candidate_, At(share));
-    const double margin = SmallestMargin(problem_, candidate_, At(share), evaluation);
-    if (!(margin >= 0.0)) return kUnlimited;
-    return by_energy_ ? ObjectiveValue(problem_, candidate_, At(share), evaluation) : -margin;
+  double SmallestMarginAt(double share) const {
+    const OperatingPoint point = At(share);
+    return SmallestMargin(problem_, candidate_, point, Evaluate(problem_, candidate_, point));
   }
 
-  double BestByScan() const {
-    double best = 0.0, best_cost = Cost(0.0);
-    for (int i = 1; i <= kScanPoints; ++i) {
-      const double share = static_cast<double>(i) / kScanPoints;
-      if (const double cost = Cost(share); cost < best_cost) {
-        best = share;
-        best_cost = cost;
-      }
-    }
-    return best;
-  }
-
-  // Variables: the share, and the smallest margin where that is what is maximised.
-  double BestByIpopt() const {
+  // Strokes gain by pressure and the supply loses: of the margins that the pressure moves the
+  // smallest is largest where those that rise meet those that fall.
+  double Balance() const {
     const std::vector<double> low = MarginsAt(0.0), high = MarginsAt(1.0);
     if (low.empty() || low.size() != high.size()) return 0.0;
-    std::vector<std::size_t> moving;  // margins that the source pressure moves
-    for (std::size_t i = 0; i < low.size(); ++i)
-      if (std::abs(high[i] - low[i]) > 1e-9) moving.push_back(i);
-    if (moving.empty()) return 0.0;
-
-    Nlp nlp;
-    nlp.low = {0.0};
-    nlp.high = {1.0};
-    nlp.start = {by_energy_ ? 0.0 : 0.3};
-    if (!by_energy_) {
-      nlp.low.push_back(-10.0);
-      nlp.high.push_back(1.0);
-      nlp.start.push_back(0.0);
-    }
-    nlp.constraints = static_cast<int>(moving.size());
-    const double scale = std::max(std::abs(leaf_.objective), 1e-9);
-    nlp.evaluate = [&](const std::vector<double>& x, NlpValues& values) {
-      const Evaluation evaluation = Evaluate(problem_, candidate_, At(x[0]));
-      if (!evaluation.works) return false;
-      const std::vector<double> margins = SolverMargins(problem_, candidate_, At(x[0]), evaluation);
-      values.objective =
-          by_energy_ ? ObjectiveValue(problem_, candidate_, At(x[0]), evaluation) / scale : -x[1];
-      values.constraints.clear();
-      for (std::size_t i : moving)
-        values.constraints.push_back(margins[i] - (by_energy_ ? 0.0 : x[1]));
-      return true;
+    const auto excess = [&](double share) {
+      const std::vector<double> margins = MarginsAt(share);
+      if (margins.empty()) return kUnlimited;
+      double rising = kUnlimited, falling = kUnlimited;
+      for (std::size_t i = 0; i < margins.size(); ++i) {
+        if (high[i] > low[i] + kMoves) rising = std::min(rising, margins[i]);
+        if (high[i] < low[i] - kMoves) falling = std::min(falling, margins[i]);
+      }
+      if (std::isinf(rising)) return 0.0;
+      return std::min(falling, 2.0) - rising;
     };
-    const NlpResult result = SolveWithIpopt(nlp);
-    return result.x.empty() ? 0.0 : std::clamp(result.x[0], 0.0, 1.0);
+    return SmallestFeasible(excess, 0.0, 1.0, kBalanceTolerance);
   }
 
  private:
@@ -95,19 +63,19 @@ class Freedom {
   const Candidate& candidate_;
   const Leaf& leaf_;
   double span_pa_;
-  bool by_energy_;
 };
 
 }  // namespace
 
 OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const Leaf& leaf) {
-  // At its smallest volume a made-to-measure reservoir leaves no freedom.
-  if (candidate.reservoir.index == kCustom && problem.objective.energy_wh == 0.0) return leaf.point;
+  // An objective that the pressure moves leaves no freedom, nor does a made-to-measure reservoir at
+  // its smallest volume.
+  if (problem.objective.energy_wh > 0.0 || candidate.reservoir.index == kCustom) return leaf.point;
   const Freedom freedom(problem, candidate, leaf);
   if (freedom.empty()) return leaf.point;
-  const bool quick = problem.groups.size() == 1 || !problem.simultaneous;
-  const double share = quick ? freedom.BestByIpopt() : freedom.BestByScan();
-  return freedom.Cost(share) <= freedom.Cost(0.0) ? freedom.At(share) : leaf.point;
+  const double share = freedom.Balance();
+  return freedom.SmallestMarginAt(share) >= freedom.SmallestMarginAt(0.0) ? freedom.At(share)
+                                                                          : leaf.point;
 }
 
 }  // namespace plenum::optimizer

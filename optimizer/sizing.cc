@@ -14,21 +14,12 @@ namespace {
 
 constexpr double kPressureTolerance = 1e-8;
 constexpr double kBoundTolerance = 1e-4;
-constexpr int kScanPoints = 32;
+constexpr int kEvaluationsMax = 4000;
+constexpr double kObjectiveTolerance = 2e-7;
 constexpr double kVolumeTolerance = 1e-7;  // of the objective
 constexpr int kStepsPerRefine = 8;
 constexpr int kStepsMax = 400;
 constexpr double kEnergySlack = 1e-2;  // per relative width of an interval of volumes
-
-// Points from low to high pressure, closest at the low end, where the answer mostly lies.
-std::vector<double> ScanPressures(double low_pa, double high_pa) {
-  std::vector<double> pressures;
-  for (int i = 0; i <= kScanPoints; ++i) {
-    const double share = static_cast<double>(i) / kScanPoints;
-    pressures.push_back(low_pa + (high_pa - low_pa) * share * share);
-  }
-  return pressures;
-}
 
 // What an interval of source pressures at least takes: everything but the coils grows with the
 // pressure and is least at its left end, the coils fall with it.
@@ -40,23 +31,93 @@ Evaluation LeastBetween(const Problem& problem, Evaluation left, const Evaluatio
   return left;
 }
 
-// Bound from below on the objective over [low, high] at a fixed volume, by intervals.
-double EnergyAwareBound(const Problem& problem, const Candidate& candidate, double reservoir_m3,
-                        double low_pa, double high_pa) {
-  if (!PumpPowerRises(problem, candidate))
-    return ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3));
-  double bound = kUnlimited;
-  std::optional<Evaluation> left;
-  for (double source_pa : ScanPressures(low_pa, high_pa)) {
-    const OperatingPoint point{source_pa, reservoir_m3, reservoir_m3};
-    const Evaluation right = Evaluate(problem, candidate, point);
-    if (left)
-      bound = std::min(
-          bound, ObjectiveValue(problem, candidate, point, LeastBetween(problem, *left, right)));
-    left = right;
+// Source pressures at a fixed volume, by branch and bound over intervals: what is not known of an
+// interval is the objective of the pumps at its left end with that of the coils at its right one.
+class PressureSearch {
+ public:
+  PressureSearch(const Problem& problem, const Candidate& candidate, double reservoir_m3)
+      : problem_(problem),
+        candidate_(candidate),
+        reservoir_m3_(reservoir_m3),
+        bounded_(PumpEnergyRises(problem, candidate)),
+        parts_objective_(
+            ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3))) {}
+
+  Leaf Run(double low_pa, double high_pa, const std::function<bool()>& stop) {
+    leaf_.objective = kUnlimited;
+    const Evaluation low = Try(low_pa);
+    // Without energy in the objective the lowest pressure that works is as good as any.
+    if (std::isfinite(leaf_.objective) && problem_.objective.energy_wh == 0.0) return Done();
+    if (high_pa > low_pa) Open(low_pa, low, high_pa, Try(high_pa));
+    while (!open_.empty() && evaluations_ < kEvaluationsMax && !(stop && stop())) {
+      if (open_.top().bound >= leaf_.objective * (1.0 - kObjectiveTolerance)) return Done();
+      const Interval interval = open_.top();
+      open_.pop();
+      const double middle_pa = 0.5 * (interval.low_pa + interval.high_pa);
+      const Evaluation middle = Try(middle_pa);
+      Open(interval.low_pa, interval.low, middle_pa, middle);
+      Open(middle_pa, middle, interval.high_pa, interval.high);
+    }
+    return Done();
   }
-  return bound;
-}
+
+ private:
+  struct Interval {
+    double low_pa, high_pa, bound;
+    double near;  // lowest objective at its ends: the order where no bound is known
+    Evaluation low, high;
+    bool operator<(const Interval& other) const {  // lowest on top
+      return bound != other.bound ? bound > other.bound : near > other.near;
+    }
+  };
+
+  OperatingPoint At(double source_pa) const { return {source_pa, reservoir_m3_, reservoir_m3_}; }
+
+  Evaluation Try(double source_pa) {
+    ++evaluations_;
+    const OperatingPoint point = At(source_pa);
+    Evaluation evaluation = Evaluate(problem_, candidate_, point);
+    if (!(SmallestMargin(problem_, candidate_, point, evaluation) >= 0.0)) return evaluation;
+    const double objective = ObjectiveValue(problem_, candidate_, point, evaluation);
+    if (objective < leaf_.objective) {
+      leaf_.objective = objective;
+      leaf_.point = point;
+    }
+    return evaluation;
+  }
+
+  void Open(double low_pa, const Evaluation& low, double high_pa, const Evaluation& high) {
+    double bound = parts_objective_;
+    if (bounded_ && low.works && high.works) {
+      const Evaluation least = LeastBetween(problem_, low, high);
+      if (SupplyMargin(problem_, candidate_, At(low_pa), least) < 0.0) return;
+      bound = ObjectiveValue(problem_, candidate_, At(low_pa), least);
+    }
+    const double near = std::min(ObjectiveValue(problem_, candidate_, At(low_pa), low),
+                                 ObjectiveValue(problem_, candidate_, At(high_pa), high));
+    open_.push({low_pa, high_pa, bound, near, low, high});
+  }
+
+  Leaf Done() {
+    const bool found = std::isfinite(leaf_.objective);
+    leaf_.status = found           ? LeafStatus::kFeasible
+                   : open_.empty() ? LeafStatus::kInfeasible
+                                   : LeafStatus::kUndecided;
+    leaf_.lower_bound = open_.empty() ? leaf_.objective : open_.top().bound;
+    if (problem_.objective.energy_wh == 0.0) leaf_.lower_bound = parts_objective_;
+    if (found) leaf_.lower_bound = std::min(leaf_.lower_bound, leaf_.objective);
+    return leaf_;
+  }
+
+  const Problem& problem_;
+  const Candidate& candidate_;
+  double reservoir_m3_;
+  bool bounded_;
+  double parts_objective_;
+  std::priority_queue<Interval> open_;
+  Leaf leaf_;
+  int evaluations_ = 0;
+};
 
 }  // namespace
 
@@ -78,21 +139,14 @@ std::vector<double> SolverMargins(const Problem& problem, const Candidate& candi
   return values;
 }
 
-bool PumpPowerRises(const Problem& problem, const Candidate& candidate) {
+bool PumpEnergyRises(const Problem& problem, const Candidate& candidate) {
   if (candidate.compressor.index == kNone) return true;
   const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
+  const double low_pa = problem.ambient.pressure_pa;
   const double high_pa = SourceWindow(problem, candidate).high_pa;
-  double before_w = 0.0;
-  const auto rises = [&](double pressure_pa) {
-    const double power_w = model::ElectricalPower(curve, pressure_pa);
-    const bool ok = power_w >= before_w * (1.0 - 1e-12);
-    before_w = power_w;
-    return ok;
-  };
-  // Interpolation is monotone between the table's points, so these and the end decide.
-  for (double knot : curve.current_a.x())
-    if (knot < high_pa && !rises(knot)) return false;
-  return rises(high_pa);
+  if (problem.simultaneous || problem.groups.size() == 1)
+    return EnergyPerAirRises(curve, low_pa, high_pa);
+  return PowerRises(curve, low_pa, high_pa);
 }
 
 std::optional<double> NeededSourcePressure(const Problem& problem, const Candidate& candidate,
@@ -107,67 +161,34 @@ std::optional<double> NeededSourcePressure(const Problem& problem, const Candida
   double low_pa = window.low_pa;
   if (candidate.compressor.index != kNone) {
     // A cheap bound from below brings the costly search close to its end.
+    const PumpFacts pumps =
+        MakePumpFacts(problem, problem.parts.compressors[candidate.compressor.index].curve,
+                      candidate.compressor.quantity);
     const auto alone = [&](double source_pa) {
       point.source_pa = source_pa;
-      return AloneExcess(problem, candidate, point);
+      return AloneExcess(problem, candidate.lines, pumps, point);
     };
     low_pa = FeasibleBracket(alone, low_pa, window.high_pa, kBoundTolerance).low;
   }
   return SmallestFeasible(excess, low_pa, window.high_pa, kPressureTolerance);
 }
 
-Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3) {
+Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
+                  const std::function<bool()>& stop) {
   Leaf leaf;
   leaf.status = LeafStatus::kInfeasible;
-  OperatingPoint point{0.0, reservoir_m3, reservoir_m3};
-  const std::optional<double> needed = NeededSourcePressure(problem, candidate, point);
+  const std::optional<double> needed =
+      NeededSourcePressure(problem, candidate, {0.0, reservoir_m3, reservoir_m3});
   if (!needed) return leaf;
-  const double high_pa = SourceWindow(problem, candidate).high_pa;
-
-  const auto try_at = [&](double source_pa) {
-    point.source_pa = source_pa;
-    const Evaluation evaluation = Evaluate(problem, candidate, point);
-    if (!(SmallestMargin(problem, candidate, point, evaluation) >= 0.0)) return false;
-    leaf.status = LeafStatus::kFeasible;
-    leaf.point = point;
-    leaf.objective = ObjectiveValue(problem, candidate, point, evaluation);
-    return true;
-  };
-  if (!try_at(*needed)) {
-    // Higher pressures help only the coils, by closing the valves sooner.
-    bool refuted = PumpPowerRises(problem, candidate);
-    std::optional<Evaluation> left;
-    OperatingPoint left_point;
-    for (double source_pa : ScanPressures(*needed, high_pa)) {
-      if (left && try_at(source_pa)) break;
-      point.source_pa = source_pa;
-      const Evaluation right = Evaluate(problem, candidate, point);
-      if (left)
-        refuted = refuted && SupplyMargin(problem, candidate, left_point,
-                                          LeastBetween(problem, *left, right)) < 0.0;
-      left = right;
-      left_point = point;
-    }
-    leaf.lower_bound =
-        ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3));
-    if (leaf.status != LeafStatus::kFeasible) {
-      leaf.status = refuted ? LeafStatus::kInfeasible : LeafStatus::kUndecided;
-      return leaf;
-    }
-  }
-  leaf.lower_bound = leaf.objective;
-  if (problem.objective.energy_wh > 0.0) {
-    leaf.point = Settle(problem, candidate, leaf);
-    leaf.objective =
-        ObjectiveValue(problem, candidate, leaf.point, Evaluate(problem, candidate, leaf.point));
-    leaf.lower_bound = std::min(
-        leaf.objective, EnergyAwareBound(problem, candidate, reservoir_m3, *needed, high_pa));
-  }
-  return leaf;
+  return PressureSearch(problem, candidate, reservoir_m3)
+      .Run(*needed, SourceWindow(problem, candidate).high_pa, stop);
 }
 
-CustomSizing::CustomSizing(const Problem& problem, const PumpFacts& facts, Candidate candidate)
-    : problem_(problem), facts_(facts), candidate_(std::move(candidate)) {
+CustomSizing::CustomSizing(const Problem& problem, Candidate candidate)
+    : problem_(problem),
+      candidate_(std::move(candidate)),
+      facts_(MakePumpFacts(problem, problem.parts.compressors[candidate_.compressor.index].curve,
+                           candidate_.compressor.quantity)) {
   leaf_.objective = kUnlimited;
   Open(model::kMadeReservoirSmallestM3, model::kMadeReservoirLargestM3, 0.0);
   leaf_.lower_bound = open_.empty() ? 0.0 : open_.top().bound;
@@ -229,7 +250,7 @@ bool CustomSizing::Examine(Interval& interval) {
   OperatingPoint point{0.0, interval.high_m3, interval.low_m3};
   const std::optional<double> needed = NeededSourcePressure(problem_, candidate, point);
   if (!needed) return false;
-  if (PumpPowerRises(problem_, candidate)) {
+  if (PumpEnergyRises(problem_, candidate)) {
     point.source_pa = *needed;
     Evaluation best = Evaluate(problem_, candidate, point, {.least_coil_energy = true});
     // Times over an interval of volumes are bounds; energy may pass that of a volume inside by a

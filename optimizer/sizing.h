@@ -7,6 +7,7 @@
 #ifndef PLENUM_OPTIMIZER_SIZING_H_
 #define PLENUM_OPTIMIZER_SIZING_H_
 
+#include <functional>
 #include <queue>
 #include <vector>
 
@@ -24,8 +25,10 @@ struct Leaf {
   double lower_bound = 0.0;  // of the objective over all settings
 };
 
-// Settings with the volume given (stock reservoir; 0 where the configuration has none).
-Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3);
+// Settings with the volume given (stock reservoir; 0 where the configuration has none). Where
+// `stop` says so the best so far is returned, with a bound that holds, or kUndecided.
+Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
+                  const std::function<bool()>& stop = {});
 
 // All relative margins of an evaluation that works, strokes first and limited to 1: what a solver
 // keeps ≥ 0. The smallest of them, or −∞ where nothing works.
@@ -34,10 +37,15 @@ std::vector<double> SolverMargins(const Problem& problem, const Candidate& candi
 double SmallestMargin(const Problem& problem, const Candidate& candidate,
                       const OperatingPoint& point, const Evaluation& evaluation);
 
-// Whether the pumps draw no less power at higher pressure, up to the highest of the candidate's
-// window: then duty and energy grow with the stop pressure, since the reservoir is at every instant
-// no lower and fills no sooner. True without a compressor.
-bool PumpPowerRises(const Problem& problem, const Candidate& candidate);
+// Whether duty and energy of the pumps grow with the stop pressure. True without a compressor.
+//
+// Let m be the air pumped since the reservoir was full. In m the pressures of reservoir and
+// chambers keep order (dp_g/dm = q_g/Q and dp_s/dm ∝ 1 − Σq_g/Q, each non-falling in the other
+// pressures), so with a higher stop pressure every bit of air is pumped at no lower a pressure: it
+// takes no less time, since Q falls with pressure, and no less energy where P/Q does not fall.
+// Groups that take turns start by the clock and not by m: there the power P itself must not fall,
+// since the reservoir is at every instant no lower and is full no sooner.
+bool PumpEnergyRises(const Problem& problem, const Candidate& candidate);
 
 // Lowest source pressure in the candidate's window at which the strokes meet their limits; none
 // where even the highest is too slow. `point` gives the reservoir.
@@ -50,7 +58,7 @@ std::optional<double> NeededSourcePressure(const Problem& problem, const Candida
 // its lower end while it rises.
 class CustomSizing {
  public:
-  CustomSizing(const Problem& problem, const PumpFacts& facts, Candidate candidate);
+  CustomSizing(const Problem& problem, Candidate candidate);
 
   // A few intervals more. True when done: leaf() is feasible with lower_bound within 1e-7 of the
   // objective, or infeasible.
@@ -73,8 +81,8 @@ class CustomSizing {
   std::vector<ReservoirNeed> CheapBounds(double low_m3, double high_m3) const;
 
   const Problem& problem_;
-  const PumpFacts& facts_;
   Candidate candidate_;
+  PumpFacts facts_;
   std::priority_queue<Interval> open_;
   Leaf leaf_;
   bool polished_ = false;
@@ -82,8 +90,8 @@ class CustomSizing {
 };
 
 // The settings that a listed design gets, from a feasible leaf. Where the objective leaves them
-// free they make the smallest relative margin as large as it can be. By Ipopt; the point is taken
-// only if it proves better when evaluated anew.
+// free they make the smallest relative margin that they move as large as it can be; the point is
+// taken only if it proves better when evaluated anew.
 OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const Leaf& leaf);
 
 }  // namespace plenum::optimizer

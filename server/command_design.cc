@@ -52,22 +52,23 @@ api::Json ReadRequirements(const DesignOptions& options) {
   return request;
 }
 
-optimizer::Answer SearchWithProgress(const api::DesignRequest& request) {
+api::Json AnswerWithProgress(const api::DesignRequest& request,
+                             const std::vector<catalog::Part>& parts) {
   ProgressLine line;
   optimizer::SearchOptions options;
-  options.time_limit_s = request.time_limit_s;
   options.cancelled = Interrupted;
   options.progress = [&](const optimizer::Progress& progress) { line.Show(progress); };
-  return optimizer::Search(request.problem, options);
+  return api::AnswerRequest(request, options, parts);
 }
 
 int Design(const DesignOptions& options) {
   CatchInterrupts();
   const auto requirements = ReadRequirements(options);
-  const auto parts = OpenCatalog(options.catalog, catalog::Access::kRead).List();
+  const auto [revision, parts] =
+      OpenCatalog(options.catalog, catalog::Access::kRead).ListWithHead();
   const auto request = ValueOrRefuse(api::ParseRequirements(requirements, parts));
-  const auto answer = SearchWithProgress(request);
-  const auto json = api::RenderAnswer(request, answer, parts);
+  auto json = AnswerWithProgress(request, parts);
+  json["catalogue_revision"] = api::RenderRevisionName(revision);
   std::fputs(options.json ? (Dump(json) + "\n").c_str() : DesignText(json).c_str(), stdout);
   return Interrupted() ? kInterrupted : kAnswered;
 }

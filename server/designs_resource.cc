@@ -45,15 +45,16 @@ api::Json ToJson(const optimizer::Progress& progress) {
           {"lower_bound", api::Number(progress.lower_bound)}};
 }
 
-Work DesignWork(api::DesignRequest request, Parts parts) {
-  return [request = std::move(request), parts = std::move(parts)](const JobControl& control) {
+Work DesignWork(api::DesignRequest request, CatalogView catalog) {
+  return [request = std::move(request), catalog = std::move(catalog)](const JobControl& control) {
     optimizer::SearchOptions options;
-    options.time_limit_s = request.time_limit_s;
     options.cancelled = control.cancelled;
     options.progress = [&](const optimizer::Progress& progress) {
       control.report(ToJson(progress));
     };
-    return api::RenderAnswer(request, optimizer::Search(request.problem, options), *parts);
+    api::Json answer = api::AnswerRequest(request, options, *catalog.parts);
+    answer["catalogue_revision"] = api::RenderRevisionName(catalog.revision);
+    return answer;
   };
 }
 
@@ -96,13 +97,13 @@ std::string Event(const char* name, const api::Json& data) {
 Reply PostDesign(SharedCatalog& catalog, Jobs& jobs, const Call& call) {
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
-  Parts parts = catalog.Snapshot();
-  auto parsed = api::ParseRequirements(std::get<api::Json>(json), *parts);
+  CatalogView view = catalog.View();
+  auto parsed = api::ParseRequirements(std::get<api::Json>(json), *view.parts);
   if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
   auto& request = std::get<api::DesignRequest>(parsed);
 
   const std::string name = request.name;
-  const auto id = jobs.Submit(name, DesignWork(std::move(request), std::move(parts)));
+  const auto id = jobs.Submit(name, DesignWork(std::move(request), std::move(view)));
   if (!id) {
     auto reply = ProblemReply(429, "the queue of design jobs is full; try again later");
     reply.headers.emplace_back("Retry-After", "10");

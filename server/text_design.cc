@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "server/text_explain.h"
 #include "server/text_table.h"
 
 namespace plenum::server {
@@ -179,8 +180,9 @@ std::string ConflictText(const Json& answer) {
     text += fmt::format("  {}: required {}, ", entry.at("requirement").get<std::string>(),
                         Short(entry.at("required")));
     text += entry.at("best").is_number()
-                ? fmt::format("the catalogue reaches {}{}\n", Short(entry.at("best")),
-                              conflict.size() > 1 ? " while the others hold" : "")
+                ? fmt::format("the catalogue reaches {}{} ({} off)\n", Short(entry.at("best")),
+                              conflict.size() > 1 ? " while the others hold" : "",
+                              Percent(entry.at("relaxation")))
             : entry.at("proved").get<bool>()
                 ? std::string("nothing reached while the others hold\n")
                 : std::string("not known to matter: time ran out\n");
@@ -191,6 +193,10 @@ std::string ConflictText(const Json& answer) {
 std::string StatusText(const Json& answer) {
   const std::string status = answer.at("status");
   const auto& proof = answer.at("proof");
+  if (answer.contains("front")) {
+    if (status == "optimal") return "Proved: no other combination belongs to the front.";
+    if (status != "infeasible") return "Not proved: the front may lack points.";
+  }
   if (status == "optimal") {
     return "Proved: no other combination of catalogue parts beats the last design shown.";
   }
@@ -235,6 +241,7 @@ std::string DesignText(const Json& answer) {
                 : std::string(".\n\n");
     text += Details(designs.front()) + "\n";
   }
+  text += FrontText(answer) + RobustText(answer) + PricesText(answer) + FlipsText(answer);
   return text + ProofText(answer);
 }
 

@@ -1,5 +1,5 @@
 // One more element at the end of the way out: silencer, clogged port, shared exhaust manifold.
-// ISO 6358 (C, b) in series after the line when deflating.
+// ISO 6358 (C, b) in series after the line when deflating; a ramp of the valve does not act on it.
 #ifndef PLENUM_MODEL_EFFECTS_EXHAUST_RESTRICTION_H_
 #define PLENUM_MODEL_EFFECTS_EXHAUST_RESTRICTION_H_
 
@@ -22,6 +22,7 @@ class ExhaustRestriction final : public EffectUnit<T> {
     setup.exhaust.push_back(
         {.sonic_conductance_m3_per_s_pa = sonic_conductance_m3_per_s_pa_ * setup.flow_factor,
          .critical_ratio = critical_ratio_});
+    ++setup.exhaust_fixed;
   }
 
  private:

@@ -36,7 +36,8 @@ struct GroupSetup {
   T flow_factor;         // √(T0/T_a) and the gas
   double heat_capacity_ratio = 1.4;
   std::vector<LineElement<T>> fill, exhaust;  // in the order crossed, flow_factor included
-  std::vector<LineElement<T>> feed;           // between source and Moment::head_pa; empty: none
+  std::size_t exhaust_fixed = 0;  // elements at the end of the exhaust that the valve does not turn
+  std::vector<LineElement<T>> feed;  // between source and Moment::head_pa; empty: none
   T valve_delay_s = T(0.0), valve_ramp_s = T(0.0);
 
   // Volume law without dead volume, and its slope dV/dp.
@@ -99,8 +100,9 @@ class EffectUnit {
   // What the sensor shows: turns the gauge pressure, Pa, into the reading.
   virtual void Measure(const T* /*x*/, T& /*gauge_pa*/) const {}
 
-  // Modes: the present one holds while all guards are positive. Settle chooses the mode at the
-  // instant; it is called at the start and wherever a step was cut.
+  // Modes: the present one holds while all guards are positive. Settle chooses the mode from the
+  // instant on; it is called at the start and wherever a step was cut. There the pressure's rate is
+  // that of a moment later.
   virtual int guards() const { return 0; }
   virtual void Guards(const Moment<T>&, const T* /*x*/, T* /*guards*/) const {}
   virtual void Settle(const Moment<T>&, const T* /*x*/) {}

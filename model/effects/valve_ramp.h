@@ -1,7 +1,7 @@
 // Opening time of the valve: each way through it opens and closes at a constant rate, the full
-// stroke taking `duration_s`, and the flow of the line goes in proportion to the opening. The ramps
-// of filling and exhaust may overlap. Source: openings of on/off valves measured as straight lines,
-// 2 to 200 ms.
+// stroke taking `duration_s`, and the conductance of the line goes in proportion to the opening.
+// The ramps of filling and exhaust may overlap. Source: openings of on/off valves measured as
+// straight lines, 2 to 200 ms.
 #ifndef PLENUM_MODEL_EFFECTS_VALVE_RAMP_H_
 #define PLENUM_MODEL_EFFECTS_VALVE_RAMP_H_
 

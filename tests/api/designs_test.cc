@@ -80,7 +80,7 @@ TEST(RenderAnswer, HasEveryFieldOfTheContract) {
                       "air_total_l_anr": 900.0, "run_time_s": 10000.0})"));
   EXPECT_EQ(design["margins"],
             Parse(R"([{"requirement": "/actuators/0/rise_time_s_max", "required": 0.5,
-                       "achieved": 0.44, "relative_margin": 0.12}])"));
+                       "achieved": 0.44, "relative_margin": 0.12, "binding": false}])"));
   EXPECT_EQ(design["response"], Parse(R"({"t_s": [0.0, 0.5],
                       "groups": [{"name": "spa_pack", "pressure_kpa_gauge": [0.0, 100.0]}],
                       "source_pressure_kpa_gauge": [182.0, 170.0]})"));
@@ -160,9 +160,9 @@ TEST(RenderAnswer, InfeasibleCarriesTheConflict) {
   EXPECT_TRUE(json["proof"]["lower_bound"].is_null());
   EXPECT_EQ(json["conflict"],
             Parse(R"([{"requirement": "/actuators/0/rise_time_s_max", "required": 0.1, "best": 0.3,
-                       "proved": true},
+                       "relaxation": 2.0, "proved": true},
                       {"requirement": "/supply/mass_kg_max", "required": 0.5, "best": null,
-                       "proved": false}])"));
+                       "relaxation": null, "proved": false}])"));
 }
 
 TEST(RenderAnswer, SeveralGroupsGiveTheLargestValveDutyAndAllOfThem) {

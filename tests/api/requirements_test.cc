@@ -139,9 +139,16 @@ TEST(Requirements, NamesEveryFieldOutOfRange) {
       {"/objective/minimize", "\"weight\"", "mass_kg, volume_l, cost_eur or energy_wh"},
       {"/objective/minimize", R"({"mass_kg": 0})", "at least one weight"},
       {"/objective/minimize/mass_kg", "-1", "≥ 0"},
-      {"/objective/pareto", R"(["mass_kg", "cost_eur"])",
-       "pareto fronts are not available in this version"},
+      {"/objective/pareto", R"(["mass_kg"])", "2 to 3"},
       {"/ranking/count", "501", "≤ 500"},
+      {"/ranking/probability_min", "1.5", "≥ 0 and ≤ 1"},
+      {"/robust", "true", "object"},
+      {"/robust/draws", "0", "≥ 1"},
+      {"/robust/tolerance/derived", "1", "< 1"},
+      {"/robust/tolerance/guessed", "0.1", "unknown field"},
+      {"/explain", "[]", "object"},
+      {"/explain/prices", "1", "true or false"},
+      {"/explain/ranks", "21", "≤ 20"},
       {"/ranking/time_limit_s", "0", "≥ 0.01 and ≤ 3600"},
       {"/limits/co2_max", "17", "≤ 16"},
       {"/require/valve", "[]", "1 to"},
@@ -155,8 +162,48 @@ TEST(Requirements, NamesEveryFieldOutOfRange) {
     Json request = Requirements();
     if (std::string(pointer) == "/objective/minimize/mass_kg")
       request["objective"]["minimize"] = {};
+    if (std::string(pointer).starts_with("/explain/")) request["explain"] = Json::object();
+    if (std::string(pointer).starts_with("/robust/"))
+      request["robust"]["tolerance"] = Json::object();
     EXPECT_THAT(OnlyError(With(request, pointer, Parse(value)), pointer), HasSubstr(detail));
   }
+}
+
+TEST(Requirements, ReadsAFront) {
+  const auto objective = [](const char* text) {
+    return With(Requirements(), "/objective", Parse(text));
+  };
+  using optimizer::Amount;
+  const DesignRequest first = Good(objective(R"({"pareto": ["volume_l", "mass_kg"]})"));
+  EXPECT_EQ(first.pareto, (std::vector{Amount::kVolume, Amount::kMass}));
+  EXPECT_EQ(first.problem.objective, optimizer::Objective{.volume_l = 1.0});
+  const DesignRequest ordered =
+      Good(objective(R"({"pareto": ["volume_l", "energy_wh"], "minimize": {"energy_wh": 2}})"));
+  EXPECT_EQ(ordered.problem.objective, optimizer::Objective{.energy_wh = 2.0});
+  EXPECT_THAT(OnlyError(objective(R"({"pareto": ["volume_l", "mass_kg"], "minimize": "cost_eur"})"),
+                        "/objective/minimize"),
+              HasSubstr("cost_eur is not an amount of the front"));
+  EXPECT_THAT(OnlyError(objective(R"({"pareto": ["mass_kg", "weight"]})"), "/objective/pareto/1"),
+              HasSubstr("mass_kg, volume_l, cost_eur or energy_wh"));
+  EXPECT_THAT(OnlyError(objective(R"({"pareto": ["mass_kg", "mass_kg"]})"), "/objective/pareto/1"),
+              HasSubstr("listed twice"));
+  EXPECT_TRUE(Good(Requirements()).pareto.empty());
+}
+
+TEST(Requirements, ExplanationsNeedAPlainList) {
+  Json request = Requirements();
+  EXPECT_FALSE(Good(request).explain.has_value());
+  request["explain"] = Parse(R"({"prices": true, "ranks": 3, "time_limit_s": 5})");
+  const DesignRequest parsed = Good(request);
+  EXPECT_TRUE(parsed.explain->prices);
+  EXPECT_EQ(parsed.explain->ranks, 3);
+  EXPECT_EQ(parsed.explain->time_limit_s, 5.0);
+  EXPECT_THAT(OnlyError(With(request, "/ranking/probability_min", 0.9), "/explain/ranks"),
+              HasSubstr("must be 0"));
+  EXPECT_THAT(
+      OnlyError(With(request, "/objective", Parse(R"({"pareto": ["mass_kg", "volume_l"]})")),
+                "/explain"),
+      HasSubstr("not a front"));
 }
 
 TEST(Requirements, RequiresTheFieldsWithoutDefault) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "model/storage.h"
-#include "optimizer/pump_bounds.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
@@ -231,9 +230,7 @@ double StockVolume(const Problem& problem, const Candidate& candidate) {
 optimizer::Leaf SizeAlone(const Problem& problem, const Candidate& candidate) {
   if (candidate.reservoir.index != optimizer::kCustom)
     return optimizer::SizeAtVolume(problem, candidate, StockVolume(problem, candidate));
-  const optimizer::PumpFacts facts = optimizer::MakePumpFacts(
-      problem, problem.parts.compressors[candidate.compressor.index].curve);
-  optimizer::CustomSizing sizing(problem, facts, candidate);
+  optimizer::CustomSizing sizing(problem, candidate);
   while (!sizing.Refine()) {
   }
   return sizing.leaf();

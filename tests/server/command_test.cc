@@ -107,6 +107,38 @@ TEST(Command, DesignFromStandardInputGivesOneDocument) {
   EXPECT_LT(answer["seconds"].get<double>(), 10.0);
 }
 
+TEST(Command, DesignPrintsAFrontAndItsRobustness) {
+  const Workbench bench;
+  Json request =
+      OneDocument(ReadAll(std::filesystem::path(PLENUM_SOURCE_DIR) / "examples/gripper.json"));
+  request["objective"] = {{"pareto", {"mass_kg", "volume_l"}}};
+  request["robust"] = {{"draws", 20}};
+  const auto text = bench.Run("design -", request.dump());
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("Pareto front"));
+  EXPECT_THAT(text.out, HasSubstr("20 draws"));
+  const auto json = OneDocument(bench.Run("design - --json", request.dump()).out);
+  ASSERT_EQ(json["status"], "optimal");
+  const auto& front = json["front"];
+  ASSERT_EQ(front.size(), json["designs"].size());
+  for (std::size_t i = 1; i < front.size(); ++i) {
+    EXPECT_GT(front[i]["objectives"]["mass_kg"], front[i - 1]["objectives"]["mass_kg"]);
+    EXPECT_LT(front[i]["objectives"]["volume_l"], front[i - 1]["objectives"]["volume_l"]);
+  }
+}
+
+TEST(Command, DesignExplainsWhatIsAsked) {
+  const Workbench bench;
+  Json request =
+      OneDocument(ReadAll(std::filesystem::path(PLENUM_SOURCE_DIR) / "examples/gripper.json"));
+  request["explain"] = {{"prices", true}, {"ranks", 3}};
+  request["ranking"] = {{"count", 3}};
+  const auto text = bench.Run("design -", request.dump());
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("Price of each requirement"));
+  EXPECT_THAT(text.out, HasSubstr("Design 3 would be first"));
+}
+
 TEST(Command, AnInterruptedDesignPrintsWhatItHas) {
   const Workbench bench;
   const auto outcome = bench.Run("design - --json", SlowToProve(60.0).dump(),

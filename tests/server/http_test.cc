@@ -281,20 +281,24 @@ TEST_F(Http, DesignThatIsWaitedForGivesTheResult) {
 }
 
 TEST_F(Http, APostedPartChangesTheRankingUntilItIsDeleted) {
+  int revision = 0;  // of the catalogue that the last answer names
   const auto rank_one = [&] {
     const auto result =
         client_->Post("/v1/designs", {{"Prefer", "wait=60"}}, Exosuit(30.0).dump(), kJson);
+    revision = Body(result)["catalogue_revision"]["number"];
     const auto parts = Body(result)["designs"][0]["parts"];
     std::map<std::string, std::string> ids;
     for (const auto& part : parts) ids[part["family"]] = part["id"];
     return ids;
   };
   const auto before = rank_one();
+  const int first = revision;
   auto lighter = Body(client_->Get("/v1/parts/" + before.at("battery")));
   lighter["id"] = "bench-light-pack";
   lighter["mass_kg"] = 0.5 * lighter["mass_kg"].get<double>();
   ASSERT_EQ(client_->Post("/v1/parts", lighter.dump(), kJson)->status, 201);
   EXPECT_EQ(rank_one().at("battery"), "bench-light-pack");
+  EXPECT_EQ(revision, first + 1);
   ASSERT_EQ(client_->Delete("/v1/parts/bench-light-pack", {{"If-Match", "*"}})->status, 204);
   EXPECT_EQ(rank_one(), before);
 }

@@ -1,0 +1,47 @@
+#include "api/front.h"
+#include "api/services.h"
+
+namespace plenum::api {
+
+namespace {
+
+Json AnswerFront(const DesignRequest& request, const optimizer::SearchOptions& options,
+                 const std::vector<catalog::Part>& parts) {
+  optimizer::Front front = optimizer::ParetoFront(request.problem, request.pareto, options);
+  if (!request.robust) {
+    Json document = RenderAnswer(request, front.answer, parts);
+    AddFront(front, document);
+    return document;
+  }
+  const optimizer::RobustAnswer robust = optimizer::AssessRobustness(
+      request.problem, std::move(front.answer), options, request.robust->options,
+      MakeDraws(parts, request.problem, request.robust->tolerance,
+                static_cast<std::uint64_t>(request.robust->seed)));
+  front.answer = robust.answer;
+  Json document = RenderAnswer(request, front.answer, parts);
+  AddFront(front, document);
+  AddRobustness(*request.robust, robust, document);
+  return document;
+}
+
+}  // namespace
+
+Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions options,
+                   const std::vector<catalog::Part>& parts) {
+  options.time_limit_s = request.time_limit_s;
+  if (!request.pareto.empty()) return AnswerFront(request, options, parts);
+  optimizer::RobustAnswer robust;
+  if (request.robust)
+    robust = optimizer::SearchRobust(request.problem, options, request.robust->options,
+                                     MakeDraws(parts, request.problem, request.robust->tolerance,
+                                               static_cast<std::uint64_t>(request.robust->seed)));
+  else
+    robust.answer = optimizer::Search(request.problem, options);
+  Json document = RenderAnswer(request, robust.answer, parts);
+  if (request.robust) AddRobustness(*request.robust, robust, document);
+  if (request.explain)
+    AddExplanation(*request.explain, request.problem, robust.answer, options, document);
+  return document;
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,79 @@
+// Time to the proof on synthetic catalogues.
+//   search_bench [parts per family]… [--requirements N] [--time-limit S]
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "bench/search/synthetic.h"
+#include "optimizer/tree_search.h"
+
+namespace plenum::bench {
+namespace {
+
+double Quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double position = share * static_cast<double>(values.size() - 1);
+  return values[static_cast<std::size_t>(position + 0.5)];
+}
+
+double PeakGigabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / (1024.0 * 1024.0);
+}
+
+void Run(int size, int requirements, double time_limit_s) {
+  const auto start = std::chrono::steady_clock::now();
+  const model::Parts parts = SyntheticParts(1, size);
+  const double made_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::vector<double> seconds, boxes;
+  int proved = 0, infeasible = 0, worst = 0;
+  long long undecided = 0;
+  for (int i = 0; i < requirements; ++i) {
+    optimizer::Problem problem = SyntheticRequirements(static_cast<std::uint64_t>(i));
+    problem.parts = parts;
+    optimizer::SearchOptions options;
+    options.time_limit_s = time_limit_s;
+    const optimizer::Answer answer = optimizer::SearchTrees(problem, options);
+    proved += answer.proof.complete;
+    infeasible += answer.status == optimizer::Status::kInfeasible;
+    undecided += answer.proof.undecided;
+    if (seconds.empty() || answer.seconds > *std::max_element(seconds.begin(), seconds.end()))
+      worst = i;
+    seconds.push_back(answer.seconds);
+    boxes.push_back(static_cast<double>(answer.proof.boxes));
+  }
+  std::printf(
+      "%7d parts per family (made in %.1f s), %d requirements: median %.4f s, p90 %.4f, p99 %.4f, "
+      "max %.4f (number %d); boxes median %.0f, max %.0f; proved %d, infeasible %d, undecided "
+      "leaves %lld; peak %.2f GB\n",
+      size, made_s, requirements, Quantile(seconds, 0.5), Quantile(seconds, 0.9),
+      Quantile(seconds, 0.99), Quantile(seconds, 1.0), worst, Quantile(boxes, 0.5),
+      Quantile(boxes, 1.0), proved, infeasible, undecided, PeakGigabytes());
+  std::fflush(stdout);
+}
+
+}  // namespace
+}  // namespace plenum::bench
+
+int main(int argc, char** argv) {
+  std::vector<int> sizes;
+  int requirements = 50;
+  double time_limit_s = 60.0;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--requirements") == 0 && i + 1 < argc)
+      requirements = std::stoi(argv[++i]);
+    else if (std::strcmp(argv[i], "--time-limit") == 0 && i + 1 < argc)
+      time_limit_s = std::stod(argv[++i]);
+    else
+      sizes.push_back(std::stoi(argv[i]));
+  }
+  if (sizes.empty()) sizes = {1000, 10000, 100000};
+  for (int size : sizes) plenum::bench::Run(size, requirements, time_limit_s);
+}

@@ -1,0 +1,103 @@
+// Boxes of the configurations with a regulator: cylinder, CO2 and mains.
+#include <algorithm>
+#include <cmath>
+
+#include "model/storage.h"
+#include "model/stroke.h"
+#include "optimizer/box.h"
+#include "optimizer/line.h"
+#include "optimizer/sizing.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kRounding = 1.0 + 1e-9;  // as in make_line.cc
+
+}  // namespace
+
+Constraint Bounds::AssessRegulated(Box& box, bool source_changed) {
+  if (source_changed)
+    if (const Constraint missed = NeedOfRegulated(box); missed != Constraint::kNone) return missed;
+  return RestOfRegulated(box);
+}
+
+// Window, strokes and needs. Strokes are those of each group alone on the regulator, at the highest
+// pressure that parts stand: neighbours and lower pressures only slow them.
+Constraint Bounds::NeedOfRegulated(Box& box) {
+  const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
+  if (plan_.configuration != Configuration::kCylinder) {
+    const double inlet_pa = plan_.configuration == Configuration::kCo2
+                                ? model::Co2SaturationPressure(problem_.ambient.temperature_k)
+                                : problem_.mains_pressure_pa;
+    if (regulator.inlet_max_pa < inlet_pa || regulator.inlet_min_pa > inlet_pa)
+      return Constraint::kMating;
+  }
+  AddLines(box);
+  box.window.low_pa = std::max(box.window.low_pa, regulator.outlet_min_pa);
+  box.window.high_pa = std::min(box.window.high_pa, regulator.outlet_max_pa);
+  double flow_max = regulator.flow_max_m3_per_s;
+  if (plan_.configuration == Configuration::kMains) {
+    box.window.high_pa = std::min(box.window.high_pa, problem_.mains_pressure_pa);
+    flow_max = std::min(flow_max, problem_.mains_flow_max_m3_per_s);
+  }
+  if (box.window.empty()) return Constraint::kPressure;
+
+  const double seconds = problem_.actuations / problem_.frequency_hz;
+  box.air_m3 = 0.0;
+  box.energy_beyond_j = 0.0;
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
+    const Line& line = *box.lines[g];
+    const ActuatorGroup& group = problem_.groups[g];
+    model::FlowElement share = regulator.flow;
+    share.sonic_conductance_m3_per_s_pa /= group.count;
+    std::vector<model::FlowElement> elements{share};
+    elements.insert(elements.end(), line.fill.begin(), line.fill.end());
+    const model::Series fill = model::MakeSeries(elements, FlowFactor(problem_, gas_));
+    const auto fill_time = [&](double to_pa) {
+      return model::FillTime(fill, line.chamber, box.window.high_pa, problem_.ambient.pressure_pa,
+                             to_pa, problem_.ambient.temperature_k, flow_max / group.count);
+    };
+    const double inflate_s = fill_time(group.chamber.operating_pressure_pa);
+    if (!(inflate_s <= HalfPeriod(problem_) * kRounding)) return Constraint::kRise;
+    if (inflate_s > group.rise_time_max_s &&
+        !(fill_time(RiseTarget(problem_, group)) <= group.rise_time_max_s * kRounding))
+      return Constraint::kRise;
+    box.air_m3 += AirPerStroke(problem_, g, line, box.window.low_pa);
+    if (line.all_hold)  // energised while they inflate, too
+      box.energy_beyond_j += problem_.actuations * line.coil_power_w * inflate_s;
+  }
+  box.energy_j = box.energy_beyond_j +
+                 problem_.actuations * HalfPeriod(problem_) * box.coil_power_w +
+                 regulator.electrical_power_w * seconds;
+  box.coil_power_w += regulator.electrical_power_w;
+  return Constraint::kNone;
+}
+
+// The lightest bottle and battery of the box that bear the needs.
+Constraint Bounds::RestOfRegulated(Box& box) {
+  const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
+  double bound = regulator.objective + EnergyShare(box.energy_beyond_j);
+  for (const std::shared_ptr<const Line>& line : box.lines) bound += line->objective;
+  if (plan_.bottle_slot >= 0) {
+    const double inlet_pa = std::max(box.window.low_pa, regulator.inlet_min_pa);
+    const double air_m3 = problem_.actuations * box.air_m3;
+    const double low = GasLeft(problem_, plan_.configuration, plan_.bottle_range.low_pa);
+    const double high = GasLeft(problem_, plan_.configuration, plan_.bottle_range.high_pa);
+    const double left = GasLeft(problem_, plan_.configuration, inlet_pa);
+    const double share = high > low ? std::max(0.0, (left - low) / (high - low)) : 0.0;
+    const double bottle =
+        LeastObjective(plan_.bottles, box.nodes[plan_.bottle_slot], [&](const BottleCorner& c) {
+          return c.fill_pressure_pa <= regulator.inlet_max_pa &&
+                 (1.0 - share) * c.gas_to_low_m3 + share * c.gas_to_high_m3 >= air_m3 / kRounding &&
+                 c.flow_sustained_m3_per_s * kRounding >= box.air_m3 * problem_.frequency_hz;
+        });
+    if (std::isinf(bottle)) return Constraint::kGas;
+    bound += bottle;
+  }
+  const double battery = LeastBattery(box, box.energy_j / kRounding, 0.0);
+  if (std::isinf(battery)) return Constraint::kBattery;
+  box.bound = std::max(box.bound, bound + battery);
+  return Constraint::kNone;
+}
+
+}  // namespace plenum::optimizer

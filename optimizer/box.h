@@ -1,0 +1,116 @@
+// Boxes of combinations and what is known of everything in them.
+//
+// A box is one node of every slot's tree. Assess() looks at its corner, the combination of the best
+// numbers that its choices have: if that misses a requirement so does every combination in the box,
+// and its objective bounds theirs from below. As a box is divided its corner comes closer to real
+// combinations, up to a single one.
+#ifndef PLENUM_OPTIMIZER_BOX_H_
+#define PLENUM_OPTIMIZER_BOX_H_
+
+#include <map>
+#include <memory>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include "optimizer/plan.h"
+
+namespace plenum::optimizer {
+
+// An interval of volumes that a box's reservoir may have.
+struct VolumeNeed {
+  ReservoirNeed need;
+  double objective = 0.0;  // of a reservoir in it, at least
+  double rest = 0.0;       // of reservoir, battery and energy, at least
+  bool fresh = false;      // false: from a larger box that this one is a part of; still a bound
+};
+
+struct Box {
+  std::vector<int> nodes;                          // per slot
+  std::vector<std::shared_ptr<const Line>> lines;  // per group; empty before the first Assess()
+  double bound = 0.0;                              // of the objective
+  Window window{0.0, 0.0};                         // source pressures
+  double source_floor_pa = 0.0, source_cap_pa = kUnlimited;  // as in Candidate
+  double air_m3 = 0.0;                                       // per cycle
+  double coil_power_w = 0.0;                                 // with the regulator's
+  double energy_j = 0.0;            // of the mission; regulated configurations
+  double energy_beyond_j = 0.0;     // what of it the shares of the choices do not count
+  std::vector<VolumeNeed> volumes;  // compressor
+  double volume_ratio_max = 0.0;    // of the ends of an interval of made-to-measure volumes
+  bool source_known = false;        // the least source pressure is that of the real parts
+};
+
+class Bounds {
+ public:
+  Bounds(const Problem& problem, const Plan& plan);
+
+  const Plan& plan() const { return plan_; }
+
+  Box Root() const;  // all combinations, not assessed yet
+
+  // What the corner misses, or kNone with box.bound raised. `changed`: the slot that differs from
+  // the box that was assessed before, or −1 for all.
+  Constraint Assess(Box& box, int changed);
+
+  // Once all but bottle and battery are single choices their source pressure can be found for good;
+  // it costs a hundred times more than Assess(). With a made-to-measure reservoir the intervals of
+  // volumes get finer instead, time after time.
+  bool CanFindSource(const Box& box) const;
+  Constraint FindSource(Box& box);
+
+  bool IsSingle(const Box& box) const;
+  // The slot to divide: of those that decide the source pressure the one whose choices differ most
+  // in their share of the objective, then bottles and batteries.
+  int WidestSlot(const Box& box) const;
+  BigCount Count(const Box& box) const;
+
+  Candidate CandidateOf(const Box& box) const;
+
+ private:
+  using LineKey = std::tuple<int, int, int, int>;  // group, nodes
+
+  const BoxNode& Node(const Box& box, int slot) const {
+    return (*plan_.slots[slot].nodes)[box.nodes[slot]];
+  }
+  template <typename Corner>
+  const Corner& CornerAt(const BoxTree<Corner>& tree, const Box& box, int slot) const {
+    return tree.corners[box.nodes[slot]];
+  }
+  const Option& OptionOf(const Box& box, int slot) const {
+    return (*plan_.slots[slot].options)[Node(box, slot).first];
+  }
+  bool DecidesSource(int slot) const {
+    return slot != plan_.bottle_slot && slot != plan_.battery_slot;
+  }
+  bool CoreIsSingle(const Box& box) const;
+
+  Constraint RemakeLine(Box& box, int group);
+  bool WithinAmounts(const Box& box) const;
+  void AddLines(Box& box) const;  // window, coils
+
+  Constraint AssessRegulated(Box& box, bool source_changed);
+  Constraint NeedOfRegulated(Box& box);
+  Constraint RestOfRegulated(Box& box);
+
+  Constraint AssessCompressor(Box& box, bool source_changed, bool reservoir_changed);
+  Constraint NeedOfCompressor(Box& box, bool reservoir_changed);
+  void DivideVolumes(Box& box);
+  double RestAt(const Box& box, const VolumeNeed& volume);
+  Constraint RestOfCompressor(Box& box);
+  const PumpFacts& PumpOf(const Box& box);
+  Constraint FindStockSource(Box& box);
+  Constraint RefineVolumes(Box& box);
+
+  double LeastBattery(const Box& box, double energy_j, double pump_current_a) const;
+  double EnergyShare(double energy_j) const;
+
+  const Problem& problem_;
+  const Plan& plan_;
+  model::Gas gas_;
+  std::map<LineKey, std::pair<Constraint, std::shared_ptr<const Line>>> lines_;  // made before
+  std::unordered_map<int, PumpFacts> pumps_;  // per node of the compressors' tree
+};
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_BOX_H_

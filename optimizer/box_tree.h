@@ -1,0 +1,165 @@
+// A family's choices as a tree of boxes: a binary kd-tree whose every node stands for all choices
+// below it by their corner, the componentwise best of what they can do. Whatever the corner cannot
+// do, none of the choices can; what it costs, each of them costs at least.
+#ifndef PLENUM_OPTIMIZER_BOX_TREE_H_
+#define PLENUM_OPTIMIZER_BOX_TREE_H_
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "optimizer/candidate.h"
+
+namespace plenum::optimizer {
+
+// A choice and what it can do.
+template <typename Corner>
+struct Item {
+  Option option;
+  Corner corner;
+  int rank = 0;  // in the order of ids, then quantities
+};
+
+struct BoxNode {
+  int left = -1, right = -1;  // −1: a single choice
+  int first = 0, last = 0;    // the choices [first, last) of the tree's order
+  double objective_low = 0.0, objective_high = 0.0;
+  int earliest = 0;  // the choice of the lowest rank
+  bool single() const { return left < 0; }
+  int size() const { return last - first; }
+};
+
+// Node 0 is the root; no nodes where the family has no choices.
+template <typename Corner>
+struct BoxTree {
+  std::vector<BoxNode> nodes;
+  std::vector<Corner> corners;  // per node
+  std::vector<Option> options;  // in the tree's order
+};
+
+namespace box_tree_internal {
+
+template <typename Corner>
+class Builder {
+ public:
+  explicit Builder(const std::vector<Item<Corner>>& items) : items_(items), order_(items.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+    for (const Item<Corner>& item : items) keys_.push_back(SplitKeys(item.corner));
+  }
+
+  BoxTree<Corner> Build() {
+    if (items_.empty()) return {};
+    scale_ = Spread(0, static_cast<int>(order_.size()));
+    Grow(0, static_cast<int>(order_.size()));
+    for (int i : order_) tree_.options.push_back(items_[i].option);
+    return std::move(tree_);
+  }
+
+ private:
+  using Keys = decltype(SplitKeys(std::declval<Corner>()));
+
+  int Rank(int position) const { return items_[order_[position]].rank; }
+
+  Keys Spread(int first, int last) const {
+    Keys low = keys_[order_[first]], high = low;
+    for (int i = first; i < last; ++i)
+      for (std::size_t k = 0; k < low.size(); ++k) {
+        low[k] = std::min(low[k], keys_[order_[i]][k]);
+        high[k] = std::max(high[k], keys_[order_[i]][k]);
+      }
+    for (std::size_t k = 0; k < low.size(); ++k) high[k] -= low[k];
+    return high;
+  }
+
+  // Where [first, last) is divided: between two classes of parts that mate differently as long as
+  // there are several, else at the median of the attribute that is spread most.
+  int Divide(int first, int last) {
+    const auto begin = order_.begin() + first, end = order_.begin() + last;
+    const auto class_of = [&](int i) { return MatingClass(items_[i].corner); };
+    const auto by_class = [&](int a, int b) {
+      return class_of(a) != class_of(b) ? class_of(a) < class_of(b) : a < b;
+    };
+    const auto [least, most] = std::minmax_element(begin, end, by_class);
+    if (class_of(*least) != class_of(*most)) {
+      std::sort(begin, end, by_class);
+      int best = first;  // the border that is nearest to the middle
+      for (int i = first + 1; i < last; ++i)
+        if (class_of(order_[i - 1]) != class_of(order_[i]) &&
+            (best == first || std::abs(2 * i - first - last) < std::abs(2 * best - first - last)))
+          best = i;
+      return best;
+    }
+    const Keys spread = Spread(first, last);
+    std::size_t widest = 0;
+    double width = -1.0;
+    for (std::size_t k = 0; k < spread.size(); ++k)
+      if (const double w = scale_[k] > 0.0 ? spread[k] / scale_[k] : 0.0; w > width) {
+        width = w;
+        widest = k;
+      }
+    const int middle = first + (last - first) / 2;
+    std::nth_element(begin, order_.begin() + middle, end, [&](int a, int b) {
+      return keys_[a][widest] != keys_[b][widest] ? keys_[a][widest] < keys_[b][widest] : a < b;
+    });
+    return middle;
+  }
+
+  int Grow(int first, int last) {
+    const int index = static_cast<int>(tree_.nodes.size());
+    tree_.nodes.push_back({-1, -1, first, last});
+    tree_.corners.push_back(items_[order_[first]].corner);
+    double low = tree_.corners[index].objective, high = low;
+    int earliest = first;
+    if (last - first > 1) {
+      const int middle = Divide(first, last);
+      const int left = Grow(first, middle);
+      const int right = Grow(middle, last);
+      tree_.nodes[index].left = left;
+      tree_.nodes[index].right = right;
+      tree_.corners[index] = tree_.corners[left];
+      Widen(tree_.corners[index], tree_.corners[right]);
+      low = std::min(tree_.nodes[left].objective_low, tree_.nodes[right].objective_low);
+      high = std::max(tree_.nodes[left].objective_high, tree_.nodes[right].objective_high);
+      earliest = tree_.nodes[left].earliest;
+      if (Rank(tree_.nodes[right].earliest) < Rank(earliest))
+        earliest = tree_.nodes[right].earliest;
+    }
+    tree_.nodes[index].objective_low = low;
+    tree_.nodes[index].objective_high = high;
+    tree_.nodes[index].earliest = earliest;
+    return index;
+  }
+
+  const std::vector<Item<Corner>>& items_;
+  std::vector<int> order_;
+  std::vector<Keys> keys_;
+  Keys scale_{};
+  BoxTree<Corner> tree_;
+};
+
+}  // namespace box_tree_internal
+
+template <typename Corner>
+BoxTree<Corner> MakeBoxTree(const std::vector<Item<Corner>>& items) {
+  return box_tree_internal::Builder<Corner>(items).Build();
+}
+
+// Least objective of a choice below `node` that `could` accepts; it must accept the corner of every
+// box that holds an accepted choice. `limit` (+∞ at first) where there is none below it.
+template <typename Corner, typename Could>
+double LeastObjective(const BoxTree<Corner>& tree, int node, const Could& could,
+                      double limit = kUnlimited) {
+  const Corner& corner = tree.corners[node];
+  if (corner.objective >= limit || !could(corner)) return limit;
+  const BoxNode& box = tree.nodes[node];
+  if (box.single()) return corner.objective;
+  int near = box.left, far = box.right;
+  if (tree.corners[far].objective < tree.corners[near].objective) std::swap(near, far);
+  limit = LeastObjective(tree, near, could, limit);
+  return LeastObjective(tree, far, could, limit);
+}
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_BOX_TREE_H_

@@ -1,0 +1,84 @@
+#include "optimizer/dive.h"
+
+#include <algorithm>
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr int kTurnsMax = 12;
+
+class Diver {
+ public:
+  Diver(const Problem& problem, Bounds& bounds, bool any, const std::function<bool()>& stop,
+        Ranking& ranking)
+      : problem_(problem), bounds_(bounds), any_(any), stop_(stop), ranking_(ranking) {}
+
+  // Follows the lower bound at every division but for a few, first none of them, then one, and so
+  // on: the first choices, made on the weakest bounds, are the likeliest to be wrong.
+  void Run() {
+    if (bounds_.plan().empty()) return;
+    for (int turns = 0; turns <= kTurnsMax && !Done(); ++turns) {
+      Box root = bounds_.Root();
+      if (bounds_.Assess(root, -1) != Constraint::kNone) return;
+      Below(std::move(root), turns);
+    }
+  }
+
+ private:
+  bool Done() const { return stop_() || (any_ && !ranking_.list().empty()); }
+
+  // `turns`: how often the part with the higher bound is taken below the box.
+  void Below(Box box, int turns) {
+    if (Done() || box.bound > ranking_.run_end()) return;
+    while (bounds_.CanFindSource(box))
+      if (bounds_.FindSource(box) != Constraint::kNone) return;
+    if (bounds_.IsSingle(box)) {
+      if (turns == 0) Try(std::move(box));
+      return;
+    }
+    const int slot = bounds_.WidestSlot(box);
+    const BoxNode& divided = (*bounds_.plan().slots[slot].nodes)[box.nodes[slot]];
+    std::vector<Box> parts;
+    for (int child : {divided.left, divided.right}) {
+      Box part = box;
+      part.nodes[slot] = child;
+      if (bounds_.Assess(part, slot) == Constraint::kNone) parts.push_back(std::move(part));
+    }
+    std::sort(parts.begin(), parts.end(),
+              [](const Box& a, const Box& b) { return a.bound < b.bound; });
+    if (parts.size() == 2 && turns > 0) Below(std::move(parts[1]), turns - 1);
+    if (!parts.empty()) Below(std::move(parts[0]), turns);
+  }
+
+  void Try(Box box) {
+    PartIds ids = EarliestIds(problem_, bounds_.plan(), box);
+    if (ranking_.Find(ids) != nullptr) return;
+    const Candidate candidate = bounds_.CandidateOf(box);
+    Leaf leaf;
+    if (candidate.reservoir.index == kCustom) {
+      CustomSizing sizing(problem_, candidate);
+      while (!sizing.Refine() && !stop_()) {
+      }
+      leaf = sizing.leaf();
+    } else {
+      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate), stop_);
+    }
+    if (leaf.status == LeafStatus::kFeasible)
+      ranking_.Add({std::move(box), &bounds_, leaf, std::move(ids), -1, nullptr});
+  }
+
+  const Problem& problem_;
+  Bounds& bounds_;
+  bool any_;
+  const std::function<bool()>& stop_;
+  Ranking& ranking_;
+};
+
+}  // namespace
+
+void Dive(const Problem& problem, Bounds& bounds, bool any, const std::function<bool()>& stop,
+          Ranking& ranking) {
+  Diver(problem, bounds, any, stop, ranking).Run();
+}
+
+}  // namespace plenum::optimizer

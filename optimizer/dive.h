@@ -1,0 +1,17 @@
+// Depth first into one configuration: good designs soon, and nothing proved.
+#ifndef PLENUM_OPTIMIZER_DIVE_H_
+#define PLENUM_OPTIMIZER_DIVE_H_
+
+#include <functional>
+
+#include "optimizer/ranking.h"
+
+namespace plenum::optimizer {
+
+// Adds what it finds to the ranking until `stop` says so; the first design is enough if `any`.
+void Dive(const Problem& problem, Bounds& bounds, bool any, const std::function<bool()>& stop,
+          Ranking& ranking);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_DIVE_H_

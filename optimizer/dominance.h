@@ -1,0 +1,40 @@
+// Choices that cannot be among the k best, because k others of the family are at least as good in
+// every respect.
+//
+// A dominates B when it mates with the same parts, is no worse in any number that a requirement or
+// the objective depends on, and is listed first: its share of the objective is smaller by more than
+// a tie, or no larger with the earlier id. Any design with B then has k better designs, one with
+// each of B's dominators in its place: each meets what that design meets, at the same settings,
+// with an objective that is no larger. The relation is a strict order, so that dominators which are
+// left out themselves have k dominators that stay.
+#ifndef PLENUM_OPTIMIZER_DOMINANCE_H_
+#define PLENUM_OPTIMIZER_DOMINANCE_H_
+
+#include <string>
+#include <vector>
+
+#include "optimizer/proof.h"
+
+namespace plenum::optimizer {
+
+// A choice as dominance sees it.
+struct Contender {
+  ProofItem item;
+  std::string id;
+  double objective = 0.0;      // its share
+  std::string mates;           // equal for parts that mate with the same parts and behave alike
+  std::vector<double> losses;  // smaller is better, as many for each choice of a family
+};
+
+struct Skyband {
+  std::vector<int> kept;  // indices into the contenders
+  std::vector<ProofDominated> left_out;
+};
+
+// `tie`: objectives closer than this may tie. Only the first few thousand of each class that stay
+// are tried as dominators: that leaves out less, never too much.
+Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_DOMINANCE_H_

@@ -1,0 +1,26 @@
+// Lines from the corners of their parts: exact for single parts, and for boxes a line that no line
+// of the box outdoes. That holds because the exact march passes no less at any pressure ratio when
+// the C or b of an element grows, and because less dead volume makes every stroke faster.
+#ifndef PLENUM_OPTIMIZER_MAKE_LINE_H_
+#define PLENUM_OPTIMIZER_MAKE_LINE_H_
+
+#include "optimizer/corner.h"
+#include "optimizer/proof.h"
+
+namespace plenum::optimizer {
+
+struct LineCorners {
+  const TubeCorner& tube;
+  const FittingCorner& fitting;
+  const ValveCorner& valve;
+};
+
+// kNone, or why no source makes the line meet its group's limits: rise and fall time, half of the
+// period, pressure ratings. For a box the least source pressure is bounded from below only, and the
+// flow table is missing.
+Constraint MakeLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
+                    bool exact, Line& line);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_MAKE_LINE_H_

@@ -1,0 +1,101 @@
+// Tubes, fittings and valves of a group.
+#include "optimizer/planter.h"
+
+namespace plenum::optimizer {
+
+void Planter::PlantGroup(int g) {
+  const ActuatorGroup& group = problem_.groups[g];
+  const model::Parts& parts = problem_.parts;
+  GroupTrees& trees = plan_->groups[g];
+  const bool needs_fittings = group.fittings_per_line > 0;
+  KindsOf<double> diameters;
+  KindsOf<std::string> threads;
+  for (const model::Fitting& fitting : parts.fittings) {
+    diameters.Bit(fitting.tube_outer_diameter_m);
+    threads.Bit(fitting.thread);
+  }
+
+  std::map<double, Kinds> diameters_of;  // by outer diameter of the tube
+  std::vector<Entry<TubeCorner>> tubes;
+  for (int i = 0; i < static_cast<int>(parts.tubing.size()); ++i) {
+    const model::Tubing& part = parts.tubing[i];
+    if (!Priced(part.per_metre)) continue;
+    const double outer_m = part.outer_diameter_m;
+    const auto [kinds, fresh] = diameters_of.try_emplace(outer_m, ~Kinds{0});
+    if (fresh && needs_fittings)
+      kinds->second = diameters.Where([&](double d) { return DiametersMate(outer_m, d); });
+    Entry<TubeCorner> entry;
+    entry.item.option = {i, 1, group.count * group.tube_length_m * part.per_metre};
+    entry.item.corner = CornerOf<TubeCorner>(problem_, entry.item.option.amounts);
+    entry.item.corner.diameters = kinds->second;
+    entry.item.corner.inner_low_m = entry.item.corner.inner_high_m = part.inner_diameter_m;
+    entry.item.corner.pressure_max_pa = part.pressure_max_pa;
+    entry.id = part.per_metre.id;
+    entry.mates = Bytes({needs_fittings ? outer_m : 0.0, part.inner_diameter_m});
+    entry.losses = {-part.pressure_max_pa};
+    tubes.push_back(std::move(entry));
+  }
+  PlantSlot(Family::kTubing, g, static_cast<long long>(parts.tubing.size()), std::move(tubes),
+            trees.tubes);
+
+  std::vector<Entry<FittingCorner>> fittings;
+  if (!needs_fittings) {
+    Entry<FittingCorner> none;
+    none.item.option.index = kNone;
+    none.item.corner.diameters = none.item.corner.threads = ~Kinds{0};
+    none.item.corner.pressure_max_pa = kUnlimited;
+    fittings.push_back(none);
+  }
+  for (int i = 0; needs_fittings && i < static_cast<int>(parts.fittings.size()); ++i) {
+    const model::Fitting& part = parts.fittings[i];
+    if (!Priced(part.basics)) continue;
+    Entry<FittingCorner> entry;
+    entry.item.option = {i, 1,
+                         static_cast<double>(group.count * group.fittings_per_line) * part.basics};
+    entry.item.corner = CornerOf<FittingCorner>(problem_, entry.item.option.amounts);
+    entry.item.corner.diameters = diameters.Bit(part.tube_outer_diameter_m);
+    entry.item.corner.threads = threads.Bit(part.thread);
+    entry.item.corner.flow = part.flow;
+    entry.item.corner.pressure_max_pa = part.pressure_max_pa;
+    entry.id = part.basics.id;
+    entry.mates = Bytes({part.tube_outer_diameter_m}) + part.thread;
+    entry.losses = {-part.pressure_max_pa};
+    AddFlow(part.flow, entry.losses);
+    fittings.push_back(std::move(entry));
+  }
+  PlantSlot(Family::kFitting, g, needs_fittings ? static_cast<long long>(parts.fittings.size()) : 1,
+            std::move(fittings), trees.fittings);
+
+  std::vector<Entry<ValveCorner>> valves;
+  for (int i = 0; i < static_cast<int>(parts.valves.size()); ++i) {
+    const model::Valve& part = parts.valves[i];
+    if (!Priced(part.basics)) continue;
+    const int pieces = (group.count + part.channels - 1) / part.channels;
+    Entry<ValveCorner> entry;
+    entry.item.option = {i, 1, static_cast<double>(pieces) * part.basics};
+    ValveCorner& corner = entry.item.corner;
+    corner = CornerOf<ValveCorner>(problem_, entry.item.option.amounts);
+    corner.threads =
+        needs_fittings
+            ? threads.Where([&](const std::string& thread) { return thread == part.port; })
+            : ~Kinds{0};
+    corner.some_hold = corner.all_hold = model::Holds(part.kind);
+    corner.fill = part.fill;
+    corner.exhaust = part.exhaust;
+    corner.coil_power_w = part.coil_power_w * group.count;
+    corner.pressure_min_pa = part.pressure_min_pa;
+    corner.pressure_max_pa = part.pressure_max_pa;
+    corner.objective +=
+        EnergyWeight(problem_) * problem_.actuations * corner.coil_power_w * HalfPeriod(problem_);
+    entry.id = part.basics.id;
+    entry.mates = (corner.some_hold ? "holds " : "vents ") + (needs_fittings ? part.port : "");
+    entry.losses = {corner.coil_power_w, -part.pressure_max_pa, part.pressure_min_pa};
+    AddFlow(part.fill, entry.losses);
+    AddFlow(part.exhaust, entry.losses);
+    valves.push_back(std::move(entry));
+  }
+  PlantSlot(Family::kValve, g, static_cast<long long>(parts.valves.size()), std::move(valves),
+            trees.valves);
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,21 @@
+// A given set of parts sized anew: the settings are tuned again to a problem whose requirements, or
+// whose parts' numbers, are not those the design was made for.
+#ifndef PLENUM_OPTIMIZER_RESIZE_H_
+#define PLENUM_OPTIMIZER_RESIZE_H_
+
+#include "optimizer/sizing.h"
+
+namespace plenum::optimizer {
+
+// The problem with no parts but those of the design.
+Problem WithPartsOf(const Problem& problem, const Design& design);
+
+// Sizes the design's parts, found in the problem by their ids, with the evaluation that ranks
+// (candidate.h). A made-to-measure reservoir is sized, too, unless the problem has a stock
+// reservoir with the id "custom". Infeasible where a line misses its limits on any source or where
+// a part is missing. Whether the parts fit together is not asked again.
+Leaf Resize(const Problem& problem, const Design& design);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_RESIZE_H_

@@ -1,0 +1,56 @@
+// How a ranked list stands up to part numbers that are not quite what the catalogue says.
+#ifndef PLENUM_OPTIMIZER_ROBUST_H_
+#define PLENUM_OPTIMIZER_ROBUST_H_
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "optimizer/problem.h"
+
+namespace plenum::optimizer {
+
+// The parts of a design as draw number `draw` has them, with the ids of the design; a
+// made-to-measure reservoir is by then a stock reservoir with the id "custom". A part has the same
+// numbers in every design of a draw, and a draw is the same whenever it is asked for.
+using DrawParts = std::function<model::Parts(const Design& design, int draw)>;
+
+struct RobustOptions {
+  int draws = 200;
+  double time_limit_s = 10.0;             // of the draws; the search has its own
+  std::optional<double> probability_min;  // list only designs that meet all with this probability
+};
+
+struct Robustness {
+  int met = 0;    // draws in which the design meets every requirement
+  int first = 0;  // draws in which it meets them and no listed design is better (ties: by rank)
+};
+
+struct RobustAnswer {
+  Answer answer;
+  int draws = 0;                       // done
+  std::vector<Robustness> robustness;  // per design of the answer
+  int below = 0;                       // designs left out for probability_min
+};
+
+// Monte Carlo with common random numbers. The parts of each design are bought: they stay, and so
+// does the volume of a made-to-measure reservoir. The settings can be tuned on the bench: source
+// pressure and duties are sized anew in each draw, with the evaluation that ranks. A draw is met
+// where sizing proves it feasible. Compared are the listed designs; the search is not repeated.
+//
+// With `probability_min` p a design stays in the list if at least p of its draws are met; the
+// search goes deeper until Problem::count designs stay, 500 were looked at, or time is up. Every
+// design that is not listed then has an objective of at least the proof's lower bound, or was
+// looked at and left out: `optimal` says that. If none stays the status is `feasible` without
+// designs.
+RobustAnswer SearchRobust(const Problem& problem, const SearchOptions& search_options,
+                          const RobustOptions& options, const DrawParts& draw_parts);
+
+// The draws for a given list, such as a Pareto front.
+RobustAnswer AssessRobustness(const Problem& problem, Answer answer,
+                              const SearchOptions& search_options, const RobustOptions& options,
+                              const DrawParts& draw_parts);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_ROBUST_H_
