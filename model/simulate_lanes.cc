@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-// Kernels are free of branches and calls, so that the loops over lanes become vector loops.
-#define PLENUM_KERNEL [[gnu::always_inline]] inline
+#include "model/vector_kernel.h"
 
 namespace plenum::model {
 namespace {
@@ -24,9 +23,6 @@ constexpr double kGrowMost = 1.5;   // an estimate that is small by chance does 
 constexpr double kFirstStep = 3.0;  // times rtol^0.2 of the way to the nearest singularity
 constexpr double kLanding = 0.1;    // bound on what landing adds to the error, per tolerance
 constexpr double kLastShare = 0.1;  // of the step may be left to landing
-
-PLENUM_KERNEL double Min(double a, double b) { return a < b ? a : b; }
-PLENUM_KERNEL double Max(double a, double b) { return a > b ? a : b; }
 
 PLENUM_KERNEL double If(bool condition) { return condition ? 1.0 : 0.0; }
 
@@ -202,12 +198,6 @@ PLENUM_KERNEL void Integrate(std::span<const Leg> legs, const LegTolerance& tole
     }
   }
 }
-
-#ifdef __x86_64__
-#define PLENUM_TARGET(name) [[gnu::target(name)]]
-#else
-#define PLENUM_TARGET(name)
-#endif
 
 template <LegStroke kStroke, LegFlow kFlow>
 void IntegrateBaseline(std::span<const Leg> legs, const LegTolerance& tolerance,
