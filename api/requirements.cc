@@ -281,7 +281,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   if (!HasErrorIn(errors, {"/supply", "/require", "/exclude"}))
     CheckFamilies(parts, problem, needs_fittings, errors);
   if (!errors.empty()) return errors;
-  problem.parts = ToModelParts(parts, problem.ambient);
+  problem.parts = ToModelParts(AllowedParts(parts, problem), problem.ambient);
   parsed.request = request;
   return parsed;
 }
