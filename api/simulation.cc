@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <string>
 
+#include "api/effects.h"
 #include "api/fields.h"
 #include "api/rig.h"
 #include "api/services.h"
@@ -22,37 +24,28 @@ struct Simulation {
   model::SimulateOptions options;
 };
 
-void RefuseEffects(Reader& request) {
-  const std::vector<Element> effects = request.List("effects", 0, 100);
-  for (const Element& element : effects) {
-    Reader effect(element, request.errors());
-    const std::string id = effect.Text("id");
-    effect.Raw("parameters");
-    if (!id.empty())
-      effect.Fail("id", "no effect " + Quoted(id) +
-                            "; this version knows the base model alone, "
-                            "so the list must be empty");
-    effect.Finish();
-  }
-}
+// Every actuator at the start; the temperature matters only to heat_transfer, 0 is the ambient's.
+struct Initial {
+  double pressure_pa = 0.0;
+  double temperature_k = 0.0;
+};
 
-// Gauge pressure of every actuator at the start, absolute in Pa. The temperature matters only to
-// effects.
-double ReadInitialPressure(Reader& request, const model::Ambient& ambient) {
-  auto initial = request.OptionalObject("initial");
-  if (!initial) return ambient.pressure_pa;
+Initial ReadInitial(Reader& request, const model::Ambient& ambient) {
+  auto reader = request.OptionalObject("initial");
+  if (!reader) return {.pressure_pa = ambient.pressure_pa};
   const double lowest_kpa = -ambient.pressure_pa / kPaPerKpa;
   const double gauge =
-      initial->Number("pressure_kpa_gauge", Above(lowest_kpa, kOperatingGaugeMaxKpa), 0.0);
-  initial->OptionalNumber("temperature_k", {200, 400});
-  initial->Finish();
-  return PaFromKpaGauge(gauge, ambient);
+      reader->Number("pressure_kpa_gauge", Above(lowest_kpa, kOperatingGaugeMaxKpa), 0.0);
+  const std::optional<double> temperature_k = reader->OptionalNumber("temperature_k", {200, 400});
+  reader->Finish();
+  return {PaFromKpaGauge(gauge, ambient), temperature_k.value_or(0.0)};
 }
 
 model::GroupRig ReadGroup(const Element& element, std::size_t index, const Simulation& simulation,
                           const std::vector<catalog::Part>& parts,
-                          const std::optional<Schedule>& shared, std::vector<std::string>& names,
-                          double& duration_s, Errors& errors) {
+                          const std::optional<Schedule>& shared,
+                          const std::vector<model::Effect>& shared_effects,
+                          std::vector<std::string>& names, double& duration_s, Errors& errors) {
   Reader reader(element, errors);
   model::GroupRig group;
   group.name = ReadName(reader, index, names);
@@ -67,6 +60,9 @@ model::GroupRig ReadGroup(const Element& element, std::size_t index, const Simul
     reader.Fail("valve", "is required: commands of the group or of the whole request, or a cycle");
   else
     group.schedule = (own ? own : shared)->commands;
+  group.blocked = reader.Bool("blocked", false);
+  group.effects = ReadEffects(reader, shared_effects);
+  group.effects.insert(group.effects.end(), shared_effects.begin(), shared_effects.end());
   duration_s = std::max(duration_s, own ? own->duration_s.value_or(0.0) : 0.0);
   reader.Finish();
   return group;
@@ -97,14 +93,17 @@ Parsed<Simulation> ParseSimulation(const Json& request, const std::vector<catalo
       reader.Choice("gas", {"air", "co2"}, "air") == "co2" ? model::Gas::kCo2 : model::Gas::kAir;
   const std::optional<Schedule> shared = ReadSchedule(reader);
   double duration_s = shared ? shared->duration_s.value_or(0.0) : 0.0;
+  const std::vector<model::Effect> effects = ReadEffects(reader);
   std::vector<std::string> names;
   for (const Element& element : reader.List("actuators", 1, kGroupsMax))
     simulation.rig.groups.push_back(ReadGroup(element, simulation.rig.groups.size(), simulation,
-                                              parts, shared, names, duration_s, errors));
+                                              parts, shared, effects, names, duration_s, errors));
   simulation.rig.source = ReadSource(reader, simulation.rig.ambient);
-  const double initial_pa = ReadInitialPressure(reader, simulation.rig.ambient);
-  for (model::GroupRig& group : simulation.rig.groups) group.initial_pressure_pa = initial_pa;
-  RefuseEffects(reader);
+  const Initial initial = ReadInitial(reader, simulation.rig.ambient);
+  for (model::GroupRig& group : simulation.rig.groups) {
+    group.initial_pressure_pa = initial.pressure_pa;
+    group.initial_temperature_k = initial.temperature_k;
+  }
   const Fractions fractions = ReadFractions(reader);
   simulation.options.rise_fraction = fractions.rise;
   simulation.options.fall_fraction = fractions.fall;
@@ -156,12 +155,19 @@ Json RenderResponse(const model::Response& response, const std::vector<model::Fu
                     const model::Rig& rig) {
   const auto gauge = [&](double pa) { return KpaGaugeFromPa(pa, rig.ambient); };
   Json groups = Json::array();
-  for (const model::GroupResponse& group : response.groups)
-    groups.push_back({{"name", group.name},
-                      {"pressure_kpa_gauge", Numbers(group.pressure_pa, gauge)},
-                      {"volume_ml", Numbers(group.volume_m3, MlFromM3)},
-                      {"air_in_l_anr", Number(LFromM3(group.air_in_m3))},
-                      {"air_out_l_anr", Number(LFromM3(group.air_out_m3))}});
+  for (const model::GroupResponse& group : response.groups) {
+    const bool measured = !group.reading_pa.empty();
+    Json rendered = {
+        {"name", group.name},
+        {"pressure_kpa_gauge", Numbers(measured ? group.reading_pa : group.pressure_pa, gauge)},
+        {"volume_ml", Numbers(group.volume_m3, MlFromM3)},
+        {"air_in_l_anr", Number(LFromM3(group.air_in_m3))},
+        {"air_out_l_anr", Number(LFromM3(group.air_out_m3))}};
+    if (measured) rendered["actuator_pressure_kpa_gauge"] = Numbers(group.pressure_pa, gauge);
+    if (!group.temperature_k.empty())
+      rendered["temperature_k"] = Numbers(group.temperature_k, std::identity());
+    groups.push_back(std::move(rendered));
+  }
   Json document = {{"schema", "response/1"}, {"status", StatusName(response.status)}};
   if (response.status != model::SimulateStatus::kDone) document["detail"] = response.detail;
   document["t_s"] = Numbers(response.t_s, [](double t) { return t; });

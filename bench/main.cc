@@ -22,8 +22,7 @@ constexpr std::size_t kRigs = 10'000;
 
 std::vector<Method> AllMethods() {
   std::vector<Method> methods = ClosedForms();
-  methods.push_back(Simulator());
-  for (auto&& group : {OdeintMethods(), CvodeMethods()}) {
+  for (auto&& group : {Simulators(), OdeintMethods(), CvodeMethods()}) {
     methods.insert(methods.end(), group.begin(), group.end());
   }
   return methods;

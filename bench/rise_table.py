@@ -4,7 +4,7 @@ import csv
 import sys
 
 COLUMNS = ("method", "tolerance", "max error", "median error", "us/rig", "rigs/s per core",
-           "time / closed form", "time / simulator")
+           "time / closed form", "time / simulator", "time / batch simulator")
 
 
 def main(directory):
@@ -23,7 +23,8 @@ def main(directory):
          f"{1e6 * seconds[row['method']]:.4g}",
          f"{1.0 / seconds[row['method']]:,.0f}",
          ratio(row, "plenum closed form"),
-         ratio(row, "plenum simulator")) for row in rows]
+         ratio(row, "plenum simulator"),
+         ratio(row, "plenum simulator, batch")) for row in rows]
     widths = [max(len(line[i]) for line in cells) for i in range(len(COLUMNS))]
     cells.insert(1, ["-" * widths[0]] + ["-" * (width - 1) + ":" for width in widths[1:]])
     print("Rise from ambient to 95 % of the operating gauge pressure, each method with the loosest "

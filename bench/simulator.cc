@@ -1,39 +1,75 @@
 #include "bench/simulator.h"
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
+#include <variant>
+#include <vector>
 
 #include "bench/method.h"
 #include "model/simulate.h"
+#include "model/simulate_batch.h"
 
 namespace plenum::bench {
 namespace {
 
-// One actuator at constant pressure. Without an exhaust line FullStrokes simulates the rise alone.
+// One actuator at constant pressure. Without an exhaust line only the rise is simulated.
+model::Rig EmptyRig() {
+  model::Rig rig;
+  rig.source = model::RegulatedSource{};
+  rig.groups.resize(1);
+  rig.groups[0].fill.resize(1);
+  return rig;
+}
+
+void SetRig(const RiseRig& rise, model::Rig& rig) {
+  rig.ambient.pressure_pa = rise.ambient_pa;
+  std::get<model::RegulatedSource>(rig.source).pressure_pa = rise.source_pa;
+  model::GroupRig& group = rig.groups[0];
+  group.fill[0].sonic_conductance_m3_per_s_pa = rise.conductance_m3_per_s_pa;
+  group.fill[0].critical_ratio = rise.critical_ratio;
+  group.initial_pressure_pa = rise.ambient_pa;
+  group.chamber.rest_volume_m3 = rise.rest_volume_m3;
+  group.chamber.expansion_ratio = rise.expansion_ratio;
+  group.chamber.operating_pressure_pa = rise.operating_pa;
+  group.chamber.ambient_pressure_pa = rise.ambient_pa;
+}
+
+model::SimulateOptions OptionsAt(double tolerance) {
+  model::SimulateOptions options;
+  options.relative_tolerance = tolerance;
+  return options;
+}
+
 class RiseSimulation {
  public:
-  RiseSimulation() {
-    rig_.groups.resize(1);
-    rig_.groups[0].fill.resize(1);
-  }
-
   double operator()(const RiseRig& rise, double tolerance) {
-    rig_.ambient.pressure_pa = rise.ambient_pa;
-    rig_.source = model::RegulatedSource{.pressure_pa = rise.source_pa};
-    model::GroupRig& group = rig_.groups[0];
-    group.fill[0] = {rise.conductance_m3_per_s_pa, rise.critical_ratio};
-    group.initial_pressure_pa = rise.ambient_pa;
-    group.chamber.rest_volume_m3 = rise.rest_volume_m3;
-    group.chamber.expansion_ratio = rise.expansion_ratio;
-    group.chamber.operating_pressure_pa = rise.operating_pa;
-    group.chamber.ambient_pressure_pa = rise.ambient_pa;
-    model::SimulateOptions options;
-    options.relative_tolerance = tolerance;
-    return model::FullStrokes(rig_, options)[0].rise_time_s;
+    SetRig(rise, rig_);
+    return model::FullStrokes(rig_, OptionsAt(tolerance))[0].rise_time_s;
   }
 
  private:
-  model::Rig rig_;
+  model::Rig rig_ = EmptyRig();
+};
+
+// As many rigs at a time as a cache holds.
+class RiseSimulations {
+ public:
+  void operator()(std::span<const RiseRig> rises, double tolerance, std::span<double> rise_s) {
+    const model::SimulateOptions options = OptionsAt(tolerance);
+    for (std::size_t first = 0; first < rises.size(); first += rigs_.size()) {
+      const std::size_t size = std::min(rigs_.size(), rises.size() - first);
+      for (std::size_t i = 0; i < size; ++i) SetRig(rises[first + i], rigs_[i]);
+      model::FullStrokesOfMany(std::span(rigs_).first(size), options,
+                               std::span(strokes_).first(size));
+      for (std::size_t i = 0; i < size; ++i) rise_s[first + i] = strokes_[i].rise_time_s;
+    }
+  }
+
+ private:
+  static constexpr std::size_t kRigs = 1024;
+  std::vector<model::Rig> rigs_ = std::vector(kRigs, EmptyRig());
+  std::vector<model::FullStroke> strokes_ = std::vector<model::FullStroke>(kRigs);
 };
 
 constexpr double kCycleHz = 1.0;
@@ -105,7 +141,10 @@ double ReservoirAndCompressor(int groups, int cycles) {
 
 }  // namespace
 
-Method Simulator() { return OneByOne("plenum simulator", true, RiseSimulation()); }
+std::vector<Method> Simulators() {
+  return {OneByOne("plenum simulator", true, RiseSimulation()),
+          {"plenum simulator, batch", true, RiseSimulations()}};
+}
 
 std::vector<CycleVariant> CycleVariants() {
   return {{"constant pressure", ConstantPressure},

@@ -10,8 +10,7 @@
 #include <numbers>
 #include <utility>
 
-// Kernels are free of branches and calls, so that the loops over candidates become vector loops.
-#define PLENUM_KERNEL [[gnu::always_inline]] inline
+#include "model/vector_kernel.h"
 
 namespace plenum::model {
 namespace {
@@ -19,8 +18,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTiny = std::numeric_limits<double>::min();
 
-PLENUM_KERNEL double Min(double a, double b) { return a < b ? a : b; }
-PLENUM_KERNEL double Max(double a, double b) { return a > b ? a : b; }
 PLENUM_KERNEL double Root(double a) { return std::sqrt(Max(a, 0.0)); }
 
 // H(z) = 1/3 + z/5 + z²/7 + …, for arctan(w) = w·(1 − w²·H(−w²)) and artanh(w) = w·(1 + w²·H(w²)).
@@ -206,12 +203,6 @@ PLENUM_KERNEL void Loop(const StrokeBatch& batch, std::span<double> time_s, doub
         per_content * kIntegral({c[i], b[i], v0[i], v1[i], outer[i], from[i], to[i], reservoir[i]});
   }
 }
-
-#ifdef __x86_64__
-#define PLENUM_TARGET(name) [[gnu::target(name)]]
-#else
-#define PLENUM_TARGET(name)
-#endif
 
 template <auto kIntegral>
 void LoopBaseline(const StrokeBatch& batch, std::span<double> time_s, double per_content) {

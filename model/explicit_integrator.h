@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -82,7 +83,8 @@ class ExplicitIntegrator {
     for (std::size_t i = 0; i < error.size(); ++i) {
       const double size = std::max(std::abs(ValueOf(before[i])), std::abs(ValueOf(after[i])));
       const double share = std::abs(ValueOf(error[i])) / Tolerance(i, size);
-      if (!(share <= norm)) norm = share;
+      if (!std::isfinite(share)) return std::numeric_limits<double>::infinity();
+      norm = std::max(norm, share);
     }
     return norm;
   }
@@ -121,7 +123,8 @@ class ExplicitIntegrator {
       if (!(start > 0.0)) {
         start_theta = 0.5;
         start = GuardAt(k, 0.5);
-        const bool must_stop = system_.guards()[k].kind == GuardKind::kPumpLimit;
+        const GuardKind kind = system_.guards()[k].kind;
+        const bool must_stop = kind == GuardKind::kPumpLimit || kind == GuardKind::kPumpDemand;
         if (!(start > 0.0)) {
           if (must_stop && end < 0.0 && first > 1.0) first = 1.0, event_ = k;
           continue;
@@ -137,10 +140,10 @@ class ExplicitIntegrator {
   // Takes the step again up to the event, then one Newton step in time onto it, which also gives
   // the event's time its derivatives. A kink needs neither: nothing jumps there.
   void EndAtEvent(double theta) {
+    const double h = 1e-4 * ValueOf(stepper_.step());
     if (theta < 1.0) stepper_.Shorten(system_, std::max(theta, 1e-12));
     Guards(stepper_.time(), stepper_.state(), after_);
     if (system_.guards()[*event_].kind == GuardKind::kKink) return;
-    const double h = 1e-4 * ValueOf(stepper_.step());
     const auto moved = [&](double shift) {
       for (std::size_t i = 0; i < trial_.size(); ++i) {
         trial_[i] = stepper_.state()[i] + shift * stepper_.derivative()[i];
@@ -149,10 +152,11 @@ class ExplicitIntegrator {
       return ValueOf(during_[*event_]);
     };
     const double rate = (moved(h) - moved(-h)) / (2.0 * h);
-    const T shift = -after_[*event_] / rate;
-    if (std::isfinite(ValueOf(shift)) && std::abs(ValueOf(shift)) < ValueOf(stepper_.step())) {
-      stepper_.MoveEnd(shift);
-    }
+    T shift = -after_[*event_] / rate;
+    if (!std::isfinite(ValueOf(shift))) return;
+    // After a step as short as rounding the time is as good as it gets; its derivatives still move.
+    if (std::abs(ValueOf(shift)) >= ValueOf(stepper_.step())) shift -= ValueOf(shift);
+    stepper_.MoveEnd(shift);
   }
 
   System<T>& system_;

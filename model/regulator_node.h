@@ -18,6 +18,7 @@ struct NodeOutlet {
   T copies = T(1.0);
   T pressure_pa = T(0.0);
   std::size_t group = 0;  // whose line it is
+  int regime = Line<T>::kUnknown;
 };
 
 template <class T>

@@ -24,6 +24,10 @@ inline constexpr bool kIsDual = !std::is_same_v<T, double>;
 inline double ValueOf(double x) { return x; }
 inline double ValueOf(const Dual& x) { return x.a; }
 
+// Zero, and no parameter moves it from there.
+inline bool IsZero(double x) { return x == 0.0; }
+inline bool IsZero(const Dual& x) { return x.a == 0.0 && x.v.isZero(0.0); }
+
 // f(x) with its derivative df/dx, both taken at the value of x.
 inline double Chain(double, double f, double) { return f; }
 inline Dual Chain(const Dual& x, double f, double slope) { return Dual(f, slope * x.v); }
@@ -40,25 +44,31 @@ T CurveSlopeAt(const MonotoneCurve& curve, const T& x) {
   return T(curve.Slope(ValueOf(x)));
 }
 
+// One number of a rig that moves with one direction.
+struct Seed {
+  const double* number = nullptr;
+  int direction = 0;  // below kDirections
+};
+
 // Turns the numbers of a rig into T. A parameter is the address of a number in the rig: that number
 // starts with derivative 1 in its own direction, every other with none.
 class Lift {
  public:
-  explicit Lift(std::span<const double* const> parameters = {}) : parameters_(parameters) {}
+  explicit Lift(std::span<const Seed> seeds = {}) : seeds_(seeds) {}
 
   template <class T>
   T operator()(const double& number) const {
     T lifted(number);
     if constexpr (kIsDual<T>) {
-      for (std::size_t j = 0; j < parameters_.size(); ++j) {
-        if (parameters_[j] == &number) lifted.v[static_cast<Eigen::Index>(j)] = 1.0;
+      for (const Seed& seed : seeds_) {
+        if (seed.number == &number) lifted.v[seed.direction] += 1.0;
       }
     }
     return lifted;
   }
 
  private:
-  std::span<const double* const> parameters_;  // at most kDirections
+  std::span<const Seed> seeds_;
 };
 
 }  // namespace plenum::model

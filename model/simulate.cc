@@ -30,18 +30,12 @@ Response RunRig(const Rig& rig, const SimulateOptions& options, RunUntil until) 
   return response;
 }
 
-// All groups obey one command from the given pressures on; time to target by group.
-std::vector<double> StrokeTimes(Rig rig, const SimulateOptions& options, ValveState state) {
-  for (GroupRig& group : rig.groups) {
-    const bool inflate = state == ValveState::kInflate;
-    group.initial_pressure_pa =
-        inflate ? rig.ambient.pressure_pa : group.chamber.operating_pressure_pa;
-    group.schedule.clear();
-    if (!(inflate ? group.fill : group.exhaust).empty()) group.schedule = {{0.0, state}};
-  }
+// Time to target by group.
+std::vector<double> StrokeTimes(const Rig& rig, const SimulateOptions& options, ValveState state) {
   std::vector<double> times(rig.groups.size(), kInfinity);
-  if (!WhyInvalid(rig).empty()) return times;
-  const Response response = RunRig(rig, options, RunUntil::kTargets);
+  const Rig stroke_rig = StrokeRig(rig, state);
+  if (!WhyInvalid(stroke_rig).empty()) return times;
+  const Response response = RunRig(stroke_rig, options, RunUntil::kTargets);
   for (const Stroke& stroke : response.strokes) {
     times[static_cast<std::size_t>(stroke.group)] = stroke.to_target_s;
   }
@@ -49,6 +43,24 @@ std::vector<double> StrokeTimes(Rig rig, const SimulateOptions& options, ValveSt
 }
 
 }  // namespace
+
+Rig StrokeRig(Rig rig, ValveState state) {
+  const bool inflate = state == ValveState::kInflate;
+  if (!inflate) rig.source = NoSource{};
+  for (GroupRig& group : rig.groups) {
+    group.initial_pressure_pa =
+        inflate ? rig.ambient.pressure_pa : group.chamber.operating_pressure_pa;
+    group.schedule.clear();
+    if (!(inflate ? group.fill : group.exhaust).empty()) group.schedule = {{0.0, state}};
+  }
+  return rig;
+}
+
+SimulateOptions StrokeOptions(SimulateOptions options) {
+  options.end_s = kFullStrokeHorizonS;
+  options.sample_hz = 0.0;
+  return options;
+}
 
 std::vector<ValveCommand> CycleSchedule(double frequency_hz, double inflate_fraction, int cycles,
                                         double phase) {
@@ -69,16 +81,12 @@ Response Simulate(const Rig& rig, const SimulateOptions& options) {
 }
 
 std::vector<FullStroke> FullStrokes(const Rig& rig, const SimulateOptions& options) {
-  SimulateOptions until_reached = options;
-  until_reached.end_s = kFullStrokeHorizonS;
-  until_reached.sample_hz = 0.0;
+  const SimulateOptions until_reached = StrokeOptions(options);
   std::vector<FullStroke> strokes(rig.groups.size(), {kInfinity, kInfinity, 0.0});
   if (!WhyInvalid(until_reached).empty()) return strokes;
 
-  Rig vented = rig;
-  vented.source = NoSource{};
   const std::vector<double> rise = StrokeTimes(rig, until_reached, ValveState::kInflate);
-  const std::vector<double> fall = StrokeTimes(vented, until_reached, ValveState::kDeflate);
+  const std::vector<double> fall = StrokeTimes(rig, until_reached, ValveState::kDeflate);
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     strokes[i] = {rise[i], fall[i], 1.0 / (rise[i] + fall[i])};
   }

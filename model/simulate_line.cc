@@ -10,6 +10,9 @@ namespace {
 
 using std::sqrt;
 
+// A ratio this close to the border of two regimes is on it.
+constexpr double kBorderWidth = 1e-9;
+
 // b + (1−b)·√(1 − z^{1/m}): pressure behind an element per pressure in front of it.
 template <class T>
 T PressureRatio(const LineElement<T>& element, const T& z) {
@@ -34,7 +37,7 @@ Line<T>::Line(std::vector<LineElement<T>> elements, double linear_ratio)
   std::array<FlowElement, kMaxSeriesElements> values;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     cracking_pressure_pa_ += elements_[i].cracking_pressure_pa;
-    cracks_inside_ = cracks_inside_ || (i > 0 && elements_[i].cracking_pressure_pa > 0.0);
+    cracks_inside_ = cracks_inside_ || (i > 0 && !IsZero(elements_[i].cracking_pressure_pa));
     values[i] = {
         .sonic_conductance_m3_per_s_pa = ValueOf(elements_[i].sonic_conductance_m3_per_s_pa),
         .critical_ratio = ValueOf(elements_[i].critical_ratio),
@@ -134,11 +137,15 @@ T Line<T>::SubsonicFlow(const T& ratio) const {
 }
 
 template <class T>
-T Line<T>::Flow(const T& upstream_pa, const T& downstream_pa) const {
+T Line<T>::Flow(const T& upstream_pa, const T& downstream_pa, int regime) const {
   const T head_pa = upstream_pa - cracking_pressure_pa_;
   if (elements_.empty() || !(head_pa > 0.0) || head_pa <= downstream_pa) return T(0.0);
   const T ratio = downstream_pa / head_pa;
-  const bool linear = ratio > linear_ratio_;
+  bool linear = ratio > linear_ratio_;
+  // The flow is the same on both sides, but its derivatives are not.
+  if (kIsDual<T> && regime != kUnknown && std::abs(ValueOf(ratio) - linear_ratio_) < kBorderWidth) {
+    linear = regime > 1;
+  }
   const T share = (1.0 - ratio) / (1.0 - linear_ratio_);
   if (cracks_inside_) {
     return linear ? T(share * FlowWithCracking(upstream_pa, linear_ratio_ * head_pa))

@@ -33,7 +33,10 @@ class Line {
   // m³/s ANR from `upstream_pa` to `downstream_pa`, 0 where Σ Δp_c or more of the upstream pressure
   // is needed to get there. Above `linear_ratio` of the highest downstream pressure that flow can
   // reach, p1 − Σ Δp_c, a straight line to zero.
-  T Flow(const T& upstream_pa, const T& downstream_pa) const;
+  // On the border itself `regime` decides, the number of kinks below the ratio; kUnknown: the
+  // value.
+  static constexpr int kUnknown = -1;
+  T Flow(const T& upstream_pa, const T& downstream_pa, int regime = kUnknown) const;
 
   // Flow while the valve is only partly open: every element but the last `fixed` conducts `opening`
   // (above 0) times its C.

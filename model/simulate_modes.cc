@@ -9,6 +9,8 @@ namespace {
 
 // A ratio this close to the border of two regimes counts as inside the one that it came from.
 constexpr double kKinkWidth = 1e-9;
+// How far ahead the direction of a motion is asked for.
+constexpr double kAheadS = 1e-9;
 
 }  // namespace
 
@@ -38,9 +40,28 @@ bool System<T>::LineOpen(const Group& group, std::size_t line, double time_s) co
   return !group.settled && !(line == kFill ? group.filling : group.venting).Closed(time_s);
 }
 
+// The pressures' rates an instant later: at a turn, and where a ramp begins, they are zero.
+template <class T>
+void System<T>::LookAhead(const T& t, std::span<const T> y) {
+  (*this)(t, y, scratch_);
+  std::vector<T> ahead(y.begin(), y.end());
+  for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] += kAheadS * scratch_[i];
+  (*this)(t + kAheadS, ahead, scratch_);
+  std::vector<T> rates;
+  for (const Group& group : groups_) rates.push_back(group.moment.pressure_rate_pa_per_s);
+  (*this)(t, y, scratch_);
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    groups_[i].moment.pressure_rate_pa_per_s = rates[i];
+  }
+}
+
 template <class T>
 void System<T>::Settle(const T& t, std::span<const T> y) {
-  (*this)(t, y, scratch_);
+  if (has_modes_) {
+    LookAhead(t, y);
+  } else {
+    (*this)(t, y, scratch_);
+  }
   guards_.clear();
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
@@ -83,7 +104,7 @@ template <class T>
 void System<T>::GuardValues(const T& t, std::span<const T> y, std::span<T> values) {
   const bool plain = std::all_of(groups_.begin(), groups_.end(),
                                  [](const Group& group) { return group.units.empty(); });
-  if (!plain) (*this)(t, y, scratch_);
+  if (!plain || pump_ == PumpState::kHolding) (*this)(t, y, scratch_);
   for (std::size_t k = 0; k < guards_.size(); ++k) {
     const Guard<T>& guard = guards_[k];
     const Group& group = groups_[guard.group];
@@ -100,6 +121,13 @@ void System<T>::GuardValues(const T& t, std::span<const T> y, std::span<T> value
       case GuardKind::kPumpLimit:
         values[k] = guard.sign * (guard.level - y[source_]) / kReferencePressurePa;
         break;
+      case GuardKind::kPumpDemand: {
+        values[k] = Delivery(pump_limit_pa_);
+        for (const Group& drawing : groups_) {
+          values[k] -= drawing.count * drawing.moment.draw_m3_per_s;
+        }
+        break;
+      }
       case GuardKind::kEffect: {
         std::array<T, 4> unit_values;
         group.units[guard.index]->Guards(group.moment, y.data() + group.unit_at[guard.index],
@@ -115,6 +143,7 @@ void System<T>::GuardValues(const T& t, std::span<const T> y, std::span<T> value
   template std::optional<T> System<T>::KinkRatio(const Group&, std::size_t, std::span<const T>) \
       const;                                                                                    \
   template bool System<T>::LineOpen(const Group&, std::size_t, double) const;                   \
+  template void System<T>::LookAhead(const T&, std::span<const T>);                             \
   template void System<T>::Settle(const T&, std::span<const T>);                                \
   template void System<T>::PassKink(const Guard<T>&);                                           \
   template void System<T>::GuardValues(const T&, std::span<const T>, std::span<T>);

@@ -14,21 +14,25 @@ constexpr double kThetaTolerance = 1e-14;
 
 template <class T, class Stepper>
 void Run<T, Stepper>::RecordSourceLowest() {
-  for (std::size_t i = 0; i < valves_.size(); ++i) {
-    if (valves_[i].stroke < 0) continue;
-    const std::optional<std::size_t> s = system_.HeadState(i);
-    if (!s) continue;
-    T lowest_pa = stepper_.state()[*s];
-    const auto slope = [&](double theta) { return stepper_.Slope(theta, *s); };
+  const auto lower = [&](std::size_t s, T& lowest_pa) {
+    if (stepper_.state()[s] < lowest_pa) lowest_pa = stepper_.state()[s];
+    const auto slope = [&](double theta) { return stepper_.Slope(theta, s); };
     const double before = slope(0.0);
     const double after = slope(1.0);
     if (before < 0.0 && after > 0.0) {
       const double theta = RootBetween(slope, 0.0, before, 1.0, after, kThetaTolerance);
-      const T inside_pa = stepper_.At(theta, *s);
+      const T inside_pa = stepper_.At(theta, s);
       if (inside_pa < lowest_pa) lowest_pa = inside_pa;
     }
-    T& lowest = StrokeOfValve(valves_[i]).source_lowest_pressure_pa;
-    if (lowest_pa < lowest) lowest = lowest_pa;
+  };
+  if (const auto source = system_.source_state()) {
+    lower(*source, response_.source_lowest_pressure_pa);
+  }
+  for (std::size_t i = 0; i < valves_.size(); ++i) {
+    const std::optional<std::size_t> head = system_.HeadState(i);
+    if (valves_[i].stroke >= 0 && head) {
+      lower(*head, StrokeOfValve(valves_[i]).source_lowest_pressure_pa);
+    }
   }
 }
 

@@ -13,6 +13,8 @@ constexpr std::size_t kStepsBetweenQuestions = 64;
 constexpr double kSettledShare = 1e-3;
 // Steps at the border of stability after which CVODE is the better integrator.
 constexpr long long kStiffSteps = 5000;
+// Pressures this close have arrived at the same instant.
+constexpr double kTogetherShare = 1e-9;
 // Nothing moves by more than this share of its size until the end: the state is steady.
 constexpr double kStalledShare = 1e-6;
 
@@ -42,10 +44,32 @@ Run<T, Stepper>::Run(const Rig& rig, const SimulateOptions& options, RunUntil un
 }
 
 template <class T, class Stepper>
+void Run<T, Stepper>::Resume(std::vector<ValveProgress<T>> valves,
+                             std::vector<StrokeOf<T>> strokes) {
+  valves_ = std::move(valves);
+  response_.strokes = std::move(strokes);
+  for (std::size_t i = 0; i < valves_.size(); ++i) {
+    system_.filling(i) = valves_[i].filling;
+    system_.venting(i) = valves_[i].venting;
+  }
+}
+
+template <class T, class Stepper>
+std::vector<ValveProgress<T>> Run<T, Stepper>::final_valves() const {
+  std::vector<ValveProgress<T>> valves = valves_;
+  for (std::size_t i = 0; i < valves.size(); ++i) {
+    valves[i].filling = system_.filling(i);
+    valves[i].venting = system_.venting(i);
+  }
+  return valves;
+}
+
+template <class T, class Stepper>
 ResponseOf<T> Run<T, Stepper>::Execute(std::span<const T> start) {
   std::copy(start.begin(), start.end(), y_.begin());
   response_.status = SimulateStatus::kDone;
   system_.Look(t_s_, y_);
+  response_.source_lowest_pressure_pa = system_.SourcePressure(y_);
   for (std::size_t i = 0; i < system_.groups(); ++i) {
     response_.groups[i].gas_start_m3 = system_.Stored(i, y_);
     response_.groups[i].energy_start_j = system_.Energy(i);
@@ -72,16 +96,38 @@ void Run<T, Stepper>::ApplySwitches() {
       const ValveCommand& command = schedule[valve.next_move];
       const T at_s = lift_.operator()<T>(command.time_s) + system_.valve_delay_s(i);
       if (at_s > t_s_) break;
-      Move(i, command.state, at_s);
+      SwitchAt(i, at_s, [&] { Move(i, command.state, at_s); });
       ++valve.next_move;
     }
     if (valve.close_at_s && *valve.close_at_s <= t_s_) {
-      system_.filling(i).Turn(*valve.close_at_s, 0.0);
+      SwitchAt(i, *valve.close_at_s, [&] { system_.filling(i).Turn(*valve.close_at_s, 0.0); });
       valve.close_at_s.reset();
     }
     // A valve that was closed at equal pressures may have something to pass again.
     system_.set_settled(i, false);
   }
+}
+
+// Switches that fall together keep their own derivatives: between the instant of one and that of
+// another the state follows the slopes of before.
+template <class T, class Stepper>
+template <class Change>
+void Run<T, Stepper>::SwitchAt(std::size_t group, const T& at_s, const Change& change) {
+  if constexpr (kIsDual<T>) {
+    if (at_s.v != t_s_.v) {
+      const Dual apart_s(0.0, at_s.v - t_s_.v);
+      std::vector<T> before(y_.size()), after(y_.size());
+      system_(t_s_, y_, before);
+      change();
+      system_.set_settled(group, false);
+      system_(t_s_, y_, after);
+      for (std::size_t i = 0; i < y_.size(); ++i) {
+        y_[i] += (before[i].a - after[i].a) * apart_s;
+      }
+      return;
+    }
+  }
+  change();
 }
 
 template <class T, class Stepper>
@@ -207,7 +253,7 @@ bool Run<T, Stepper>::AtRest() const {
     if (system_.Moving(i, ValueOf(t_s_))) return false;
   }
   const auto slope = stepper_.slope();
-  return std::all_of(slope.begin(), slope.end(), [](const T& s) { return s == 0.0; });
+  return std::all_of(slope.begin(), slope.end(), [](const T& s) { return IsZero(s); });
 }
 
 template <class T, class Stepper>
@@ -230,6 +276,9 @@ bool Run<T, Stepper>::TakeEvent(std::size_t event) {
       return rig_.groups[guard.group].close_at_operating;
     case GuardKind::kPumpLimit:
       y_[*system_.source_state()] = guard.level;
+      return true;
+    case GuardKind::kPumpDemand:
+      demand_exceeds_ = true;
       return true;
     case GuardKind::kEffect:
       return true;
@@ -255,6 +304,7 @@ void Run<T, Stepper>::AddGuards() {
     const double sign = pump == PumpState::kRunning ? 1.0 : -1.0;
     guards.push_back({GuardKind::kPumpLimit, 0, 0, sign, system_.pump_limit_pa()});
   }
+  if (pump == PumpState::kHolding) guards.push_back({GuardKind::kPumpDemand});
 }
 
 template <class T, class Stepper>
@@ -282,7 +332,7 @@ void Run<T, Stepper>::CheckTargets(std::size_t group) {
   const T& pressure_pa = y_[system_.pressure(group)];
   if (valve.target_pending &&
       (inflating ? pressure_pa >= valve.target_pa : pressure_pa <= valve.target_pa)) {
-    stroke.to_target_s = t_s_ - stroke.command_s;
+    stroke.to_target_s = CrossingTime(group, valve.target_pa) - stroke.command_s;
     valve.target_pending = false;
   }
   // Equal groups reach their pressure in the same step, apart by rounding.
@@ -295,20 +345,36 @@ void Run<T, Stepper>::ReachOperating(std::size_t group) {
   Valve& valve = valves_[group];
   StrokeOf<T>& stroke = StrokeOfValve(valve);
   if (valve.target_pending && y_[system_.pressure(group)] >= valve.target_pa) {
-    stroke.to_target_s = t_s_ - stroke.command_s;
+    stroke.to_target_s = CrossingTime(group, valve.target_pa) - stroke.command_s;
     valve.target_pending = false;
   }
-  if (valve.operating_pending) stroke.to_operating_s = t_s_ - stroke.command_s;
+  const T reached_s = CrossingTime(group, system_.setup(group).operating_pressure_pa);
+  if (valve.operating_pending) stroke.to_operating_s = reached_s - stroke.command_s;
   valve.operating_pending = false;
   if (!rig_.groups[group].close_at_operating) return;
   valve.stroke = -1;
   valve.state = ValveState::kHold;
-  const T close_s = t_s_ + system_.valve_delay_s(group);
+  const T close_s = reached_s + system_.valve_delay_s(group);
   if (close_s > t_s_) {
     valve.close_at_s = close_s;
   } else {
-    system_.filling(group).Turn(t_s_, 0.0);
+    SwitchAt(group, close_s, [&] { system_.filling(group).Turn(close_s, 0.0); });
   }
+}
+
+// Now, with the derivatives of the instant at which the group itself came to the level: groups that
+// are equal in value reach it together, and only one of them ended the step there.
+template <class T, class Stepper>
+T Run<T, Stepper>::CrossingTime(std::size_t group, const T& level_pa) const {
+  if constexpr (kIsDual<T>) {
+    const std::size_t at = system_.pressure(group);
+    const T left_pa = level_pa - y_[at];
+    const double rate = stepper_.slope()[at].a;
+    if (rate != 0.0 && std::abs(left_pa.a) <= kTogetherShare * level_pa.a) {
+      return t_s_ + Dual(0.0, left_pa.v / rate);
+    }
+  }
+  return t_s_;
 }
 
 template <class T, class Stepper>
@@ -317,7 +383,8 @@ void Run<T, Stepper>::ChoosePumpState() {
   const T& source_pa = y_[*system_.source_state()];
   const T& limit_pa = system_.pump_limit_pa();
   if (source_pa == limit_pa) {
-    const bool covers = system_.Draw(t_s_, y_) <= system_.Delivery(limit_pa);
+    const bool covers = !demand_exceeds_ && system_.Draw(t_s_, y_) <= system_.Delivery(limit_pa);
+    demand_exceeds_ = false;
     system_.set_pump(covers ? PumpState::kHolding : PumpState::kRunning);
   } else {
     system_.set_pump(source_pa < limit_pa ? PumpState::kRunning : PumpState::kStopped);

@@ -19,6 +19,24 @@ namespace plenum::model {
 // runs to the end keep the accounts of gas and energy.
 enum class RunUntil { kEnd, kTargets };
 
+// The rig and the options of a full stroke (simulate.h): all groups obey one command at time 0,
+// from ambient pressure when they inflate and from the operating pressure when they deflate.
+Rig StrokeRig(Rig rig, ValveState state);
+SimulateOptions StrokeOptions(SimulateOptions options);
+
+// What the valve of a group is doing, on the clock of its run.
+template <class T>
+struct ValveProgress {
+  std::size_t next_command = 0, next_move = 0;  // as given, and after the valve's delay
+  ValveState state = ValveState::kHold;         // that the group obeys
+  int stroke = -1;                              // index into Response::strokes
+  T target_pa = T(0.0);
+  bool target_pending = false;
+  bool operating_pending = false;
+  std::optional<T> close_at_s;  // on reaching the operating pressure, after the valve's delay
+  Opening<T> filling, venting;  // where a run ended, and where another goes on
+};
+
 // T is double or Dual, Stepper ExplicitIntegrator<T> or CvodeIntegrator.
 template <class T, class Stepper>
 class Run {
@@ -26,28 +44,27 @@ class Run {
   // Rig and options must be valid and outlive the run.
   Run(const Rig& rig, const SimulateOptions& options, RunUntil until, const Lift& lift = Lift());
 
+  // Goes on where another run of the rig ended, instead of at valves that hold: what the valves are
+  // doing, and the strokes under way, which the record then begins with.
+  void Resume(std::vector<ValveProgress<T>> valves, std::vector<StrokeOf<T>> strokes);
+
   // `start`: pressures, effect states and source in the order of the system's state vector, in
   // place of the rig's initial ones.
   ResponseOf<T> Execute(std::span<const T> start = {});
 
   // The dynamic part of the state at the end.
   std::span<const T> final_state() const { return {y_.data(), system_.dynamic_size()}; }
+  // What the valves are doing at the end.
+  std::vector<ValveProgress<T>> final_valves() const;
   // The run gave up because stability, not accuracy, held its steps down.
   bool stiff() const { return stiff_; }
 
  private:
-  // The command that a group obeys now.
-  struct Valve {
-    std::size_t next_command = 0, next_move = 0;  // as given, and after the valve's delay
-    ValveState state = ValveState::kHold;
-    int stroke = -1;  // index into response_.strokes
-    T target_pa = T(0.0);
-    bool target_pending = false;
-    bool operating_pending = false;
-    std::optional<T> close_at_s;  // on reaching the operating pressure, after the valve's delay
-  };
+  using Valve = ValveProgress<T>;
 
   void ApplySwitches();
+  template <class Change>
+  void SwitchAt(std::size_t group, const T& at_s, const Change& change);
   void Command(std::size_t group, const ValveCommand& command);
   void Move(std::size_t group, ValveState state, const T& at_s);
   T NextBoundary() const;
@@ -60,6 +77,7 @@ class Run {
   void AddGuards();
   void CheckTargets(std::size_t group);
   void ReachOperating(std::size_t group);
+  T CrossingTime(std::size_t group, const T& level_pa) const;
   void ChoosePumpState();
   bool CloseSettledValves();
   bool TargetsDecided() const;
@@ -87,7 +105,8 @@ class Run {
   std::vector<Valve> valves_;
   ResponseOf<T> response_;
   std::size_t sample_count_ = 0;
-  bool smooth_ = false;  // the last cut changed nothing at once
+  bool demand_exceeds_ = false;  // the lines take more than pumps that hold the limit can deliver
+  bool smooth_ = false;          // the last cut changed nothing at once
   bool stiff_ = false;
 };
 

@@ -142,6 +142,7 @@ void System<T>::LayOut() {
     group.at = sizes_.size();
     sizes_.push_back(0.0);
     for (const auto& unit : group.units) {
+      has_modes_ = has_modes_ || unit->guards() > 0;
       group.unit_at.push_back(sizes_.size());
       sizes_.resize(sizes_.size() + static_cast<std::size_t>(unit->states()), 0.0);
     }
@@ -309,18 +310,21 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
     const T venting = group.settled ? T(0.0) : group.venting.At(t);
     if (venting > 0.0) {
       const Line<T>& out = group.lines[kExhaust];
-      m.line_out_m3_per_s = venting < 1.0 ? out.ThrottledFlow(venting, group.setup.exhaust_fixed,
-                                                              m.tail_pa, ambient_pa_)
-                                          : out.Flow(m.tail_pa, ambient_pa_);
+      m.line_out_m3_per_s =
+          venting < 1.0
+              ? out.ThrottledFlow(venting, group.setup.exhaust_fixed, m.tail_pa, ambient_pa_)
+              : out.Flow(m.tail_pa, ambient_pa_, group.regime[kExhaust]);
       if (group.heated) m.line_out_m3_per_s *= sqrt(ambient_k_ / m.tail_temperature_k);
     }
     if (!group.lines[kFeed].empty()) {
-      outlets_.push_back({&group.lines[kFeed], T(group.count), m.head_pa, i});
+      outlets_.push_back({&group.lines[kFeed], T(group.count), m.head_pa, i, group.regime[kFeed]});
       if (filling > 0.0) {
-        m.line_in_m3_per_s = filling * group.lines[kFill].Flow(m.head_pa, m.tail_pa);
+        m.line_in_m3_per_s =
+            filling * group.lines[kFill].Flow(m.head_pa, m.tail_pa, group.regime[kFill]);
       }
     } else if (filling > 0.0) {
-      outlets_.push_back({&group.lines[kFill], group.count * filling, m.tail_pa, i});
+      outlets_.push_back(
+          {&group.lines[kFill], group.count * filling, m.tail_pa, i, group.regime[kFill]});
     }
   }
   if (outlets_.empty()) return;
@@ -333,7 +337,9 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
   }
   for (const NodeOutlet<T>& outlet : outlets_) {
     Group& group = groups_[outlet.group];
-    const T flow = solved ? in_series : outlet.line->Flow(node_pa, outlet.pressure_pa);
+    const T flow = solved ? in_series
+                          : outlet.line->Flow(node_pa, outlet.pressure_pa,
+                                              node_at_supply_ ? outlet.regime : Line<T>::kUnknown);
     group.moment.draw_m3_per_s = outlet.copies / group.count * flow;
     if (group.lines[kFeed].empty()) {
       group.moment.line_in_m3_per_s = group.moment.draw_m3_per_s;

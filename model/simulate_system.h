@@ -35,7 +35,7 @@ struct Opening {
 };
 
 // What cuts a step: the present mode of the system holds while the guard is positive.
-enum class GuardKind { kKink, kOperating, kTarget, kPumpLimit, kEffect };
+enum class GuardKind { kKink, kOperating, kTarget, kPumpLimit, kPumpDemand, kEffect };
 template <class T>
 struct Guard {
   GuardKind kind;
@@ -155,6 +155,7 @@ class System {
   void SourceRates(const T& draw, std::span<const T> y, std::span<T> dydt) const;
   bool TakeFlowInSeries(const NodeOutlet<T>& outlet, T& flow) const;
   bool LineOpen(const Group& group, std::size_t line, double time_s) const;
+  void LookAhead(const T& t, std::span<const T> y);
   std::optional<T> KinkRatio(const Group& group, std::size_t line, std::span<const T> y) const;
   T AlongTable(const MonotoneCurve& table, const T& source_pa) const;
   T PumpPower(const T& source_pa) const;
@@ -172,6 +173,7 @@ class System {
   std::vector<Group> groups_;
   std::size_t source_ = 0, pump_accounts_ = 0, dynamic_size_ = 0;
   bool account_;
+  bool has_modes_ = false;  // some effect has
   std::vector<double> sizes_;
   std::vector<NodeOutlet<T>> outlets_;
   std::vector<Guard<T>> guards_;

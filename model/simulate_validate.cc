@@ -1,5 +1,6 @@
 #include "model/simulate_validate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -85,6 +86,11 @@ std::string WhyGroupInvalid(const GroupRig& group, std::size_t index, const Ambi
   check.NotNegative("initial_temperature_k", group.initial_temperature_k);
   const std::string effects = WhyInvalid(group.effects);
   if (!effects.empty()) check.Fails("", effects);
+  const bool restricted =
+      std::any_of(group.effects.begin(), group.effects.end(),
+                  [](const Effect& e) { return e.spec && e.spec->id == "exhaust_restriction"; });
+  check.Require(!restricted || group.exhaust.size() < kMaxSeriesElements, "exhaust element count",
+                static_cast<double>(group.exhaust.size()), "at most 7 with exhaust_restriction");
   CheckSchedule(group, check);
   return check.reason();
 }

@@ -31,8 +31,12 @@ std::string PressureTable(const Json& response) {
   const auto& source = response.at("source_pressure_kpa_gauge");
   std::vector<Table::Column> columns = {{"t s"}};
   for (const auto& group : response.at("groups")) {
-    columns.push_back({group.at("name").get<std::string>() + " kPa gauge"});
+    const bool measured = group.contains("actuator_pressure_kpa_gauge");
+    columns.push_back(
+        {group.at("name").get<std::string>() + (measured ? " sensor" : "") + " kPa gauge"});
+    if (measured) columns.push_back({"actuator kPa gauge"});
     columns.push_back({"mL"});
+    if (group.contains("temperature_k")) columns.push_back({"K"});
   }
   columns.push_back({"source kPa gauge"});
   Table table(columns);
@@ -40,8 +44,10 @@ std::string PressureTable(const Json& response) {
   for (std::size_t i = 0; i < t_s.size(); i += stride) {
     std::vector<std::string> cells = {Short(t_s[i])};
     for (const auto& group : response.at("groups")) {
-      cells.push_back(Short(group.at("pressure_kpa_gauge")[i]));
-      cells.push_back(Short(group.at("volume_ml")[i]));
+      for (const char* field :
+           {"pressure_kpa_gauge", "actuator_pressure_kpa_gauge", "volume_ml", "temperature_k"}) {
+        if (group.contains(field)) cells.push_back(Short(group.at(field)[i]));
+      }
     }
     cells.push_back(i < source.size() ? Short(source[i]) : "–");
     table.Add(std::move(cells));

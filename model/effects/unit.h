@@ -100,8 +100,9 @@ class EffectUnit {
   // What the sensor shows: turns the gauge pressure, Pa, into the reading.
   virtual void Measure(const T* /*x*/, T& /*gauge_pa*/) const {}
 
-  // Modes: the present one holds while all guards are positive. Settle chooses the mode at the
-  // instant; it is called at the start and wherever a step was cut.
+  // Modes: the present one holds while all guards are positive. Settle chooses the mode from the
+  // instant on; it is called at the start and wherever a step was cut. There the pressure's rate is
+  // that of a moment later.
   virtual int guards() const { return 0; }
   virtual void Guards(const Moment<T>&, const T* /*x*/, T* /*guards*/) const {}
   virtual void Settle(const Moment<T>&, const T* /*x*/) {}

@@ -166,7 +166,14 @@ TEST(Fuzz, MutatedTreesAreRefusedOrReadNeverACrash) {
 TEST(Fuzz, MutatedSimulationsAndMapsAnswerOrSayWhy) {
   Random random(4242);
   const auto parts = SmallCatalogue();
-  const Json simulation = With(Simulation(), "/sample_hz", 5), map = Map();
+  const Json simulation =
+      With(With(Simulation(), "/sample_hz", 5), "/effects",
+           Parse(R"([{"id": "leak", "parameters": {"law": "porous", "viscous_pa2_s_per_kg": 1e15,
+                                              "inertial_pa2_s2_per_kg2": 1e21}},
+                {"id": "heat_transfer", "parameters": {"time_constant_s": 0.5}},
+                {"id": "valve_ramp", "parameters": {"duration_s": 0.02}},
+                {"id": "sensor_lag", "parameters": {"time_constant_s": 0.01}}])"));
+  const Json map = Map();
   int answered = 0;
   for (int i = 0; i < 3'000; ++i) {
     const Json document = MutateTree(i % 2 == 0 ? simulation : map, random);

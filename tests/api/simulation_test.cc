@@ -182,7 +182,7 @@ TEST(Simulation, NamesEveryFieldThatIsWrong) {
       {"/valve/2/t_s", "1", "1 follows 1.07"},
       {"/valve/0/state", "\"open\"", "hold, inflate or deflate"},
       {"/cycle", "{}", "not both"},
-      {"/effects", R"([{"id": "leak", "parameters": {}}])", "effect"},
+      {"/effects", R"([{"id": "leek", "parameters": {}}])", "effect"},
       {"/initial/pressure_kpa_gauge", "-100", "> -100"},
       {"/t_end_s", "0", "> 0"},
       {"/sample_hz", "1e5", "≤ 25000 with t_end_s 8"},

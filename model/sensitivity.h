@@ -1,0 +1,71 @@
+// Derivatives of a simulated response with respect to numbers of the rig, exact along the steps
+// that the simulator takes: the whole run, its flow laws, switches and event times included, is
+// computed in dual numbers (model/scalar.h), kDirections parameters at a time.
+//
+// A parameter is the address of a number inside the given rig; DifferentiableNumbers lists all of
+// them. Only that number moves:
+//   * ambient.pressure_pa moves the ambient pressure of all groups with it (chamber
+//     .ambient_pressure_pa is a copy that must stay equal, so it is no parameter of its own), but
+//     no initial pressure, operating pressure or source pressure, which are absolute.
+//   * a number that two parts share in life moves as the sum of its derivatives.
+//   * a command's time moves that command, and its stroke's times, which count from it.
+// Times of events move as the implicit function theorem says: dt/dθ = −(∂g/∂θ)/(dg/dt) for the
+// guard g that turned there. Commands that fall together keep their own derivatives.
+//
+// Where a derivative does not exist or says nothing:
+//   * a target never reached: the time is +∞ and its derivative 0.
+//   * a pressure that only grazes a level (dg/dt → 0): the derivative grows without bound and is
+//     returned as computed; the time itself may jump to +∞ beside it.
+//   * a number on the border of two behaviours (a reservoir that starts at the stop pressure, b on
+//     a choked ratio at the very start): the derivative of the behaviour taken.
+//   * samples at the instant of an event: the derivative of one side.
+// The error control sees the values alone. At relative tolerance r the derivatives of smooth rigs
+// are about as good relative to their own size as the values are to theirs; ask for 1e-9 or less
+// where 1e-6 of a derivative matters. Stiff rigs stay with the explicit integrator and may end with
+// kTooManySteps.
+#ifndef PLENUM_MODEL_SENSITIVITY_H_
+#define PLENUM_MODEL_SENSITIVITY_H_
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/simulate.h"
+
+namespace plenum::model {
+
+struct RigNumber {
+  std::string name;  // e.g. "groups[0].fill[1].critical_ratio", "groups[0].effects[2].delay_s"
+  const double* number = nullptr;
+};
+
+// Every number of the rig that may be a parameter, in a fixed order.
+std::vector<RigNumber> DifferentiableNumbers(const Rig& rig);
+
+struct SensitivityResponse {
+  Response response;
+  // One per parameter and of the response's shape: in place of each computed number q stands
+  // ∂q/∂θ, in its unit per the parameter's. Counts, names, sample times and status are the
+  // response's.
+  std::vector<Response> derivatives;
+};
+
+// kInvalid, with the parameter's place in the list, where an address is no differentiable number of
+// the rig; kNotFinite where a derivative is not finite. SimulateOptions::integrator is not used.
+SensitivityResponse SimulateWithSensitivities(const Rig& rig, const SimulateOptions& options,
+                                              std::span<const double* const> parameters);
+
+// FullStrokes and its derivatives. The initial pressures follow the ambient and the operating
+// pressure that they stand for; initial_pressure_pa and command times of the rig play no part.
+struct SensitivityStrokes {
+  SimulateStatus status = SimulateStatus::kNotRun;
+  std::string detail;                                // for any status but kDone
+  std::vector<FullStroke> strokes;                   // by group
+  std::vector<std::vector<FullStroke>> derivatives;  // by parameter, by group; 0 where never
+};
+SensitivityStrokes FullStrokesWithSensitivities(const Rig& rig, const SimulateOptions& options,
+                                                std::span<const double* const> parameters);
+
+}  // namespace plenum::model
+
+#endif  // PLENUM_MODEL_SENSITIVITY_H_

@@ -1,0 +1,372 @@
+#include "model/sensitivity.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/model/simulate_rigs.h"
+
+namespace plenum::model {
+namespace {
+
+constexpr FlowElement kValve = {.sonic_conductance_m3_per_s_pa = 0.1e-8, .critical_ratio = 0.3};
+constexpr FlowElement kTube = {.sonic_conductance_m3_per_s_pa = 0.06e-8, .critical_ratio = 0.15};
+
+GroupRig TwoElements() {
+  GroupRig group = OneActuator(2e5, 2.0, kValve);
+  group.name = "a";
+  group.chamber.dead_volume_m3 = 2e-6;
+  group.fill = {kValve, kTube};
+  group.exhaust = {kTube, kValve};
+  group.schedule = {{0.1, ValveState::kInflate}, {1.3, ValveState::kDeflate}};
+  return group;
+}
+
+SimulateOptions Tight(double end_s = 2.5) {
+  SimulateOptions options = Until(end_s, 17.3);
+  options.relative_tolerance = 1e-11;
+  options.absolute_tolerance_pa = 1e-7;
+  return options;
+}
+
+// Every number of a response by name.
+std::map<std::string, double> Flat(const Response& r) {
+  std::map<std::string, double> all;
+  const auto add = [&](const std::string& name, const std::vector<double>& series) {
+    for (std::size_t k = 0; k < series.size(); ++k) all[name + std::to_string(k)] = series[k];
+  };
+  for (std::size_t i = 0; i < r.groups.size(); ++i) {
+    const GroupResponse& g = r.groups[i];
+    const std::string name = "group" + std::to_string(i) + ".";
+    add(name + "pressure", g.pressure_pa);
+    add(name + "reading", g.reading_pa);
+    add(name + "volume", g.volume_m3);
+    add(name + "temperature", g.temperature_k);
+    all[name + "final"] = g.final_pressure_pa;
+    all[name + "drawn"] = g.air_drawn_m3;
+    all[name + "in"] = g.air_in_m3;
+    all[name + "out"] = g.air_out_m3;
+    all[name + "leaked"] = g.air_leaked_m3;
+    all[name + "gas_start"] = g.gas_start_m3;
+    all[name + "gas_final"] = g.gas_final_m3;
+    all[name + "energy_start"] = g.energy_start_j;
+    all[name + "energy_final"] = g.energy_final_j;
+    all[name + "enthalpy_in"] = g.enthalpy_in_j;
+    all[name + "enthalpy_out"] = g.enthalpy_out_j;
+    all[name + "wall_heat"] = g.wall_heat_j;
+    all[name + "work"] = g.work_j;
+  }
+  add("source", r.source_pressure_pa);
+  all["source_final"] = r.source_final_pressure_pa;
+  all["on"] = r.compressor_on_s;
+  all["pumped"] = r.compressor_air_m3;
+  all["energy"] = r.compressor_energy_j;
+  std::map<int, int> strokes_of;
+  for (const Stroke& s : r.strokes) {
+    const std::string name =
+        "group" + std::to_string(s.group) + ".stroke" + std::to_string(strokes_of[s.group]++) + ".";
+    all[name + "command"] = s.command_s;
+    all[name + "start"] = s.start_pressure_pa;
+    if (std::isfinite(s.source_start_pressure_pa)) {
+      all[name + "source_start"] = s.source_start_pressure_pa;
+      all[name + "source_lowest"] = s.source_lowest_pressure_pa;
+    }
+    if (std::isfinite(s.to_target_s)) all[name + "target"] = s.to_target_s;
+    if (std::isfinite(s.to_operating_s)) all[name + "operating"] = s.to_operating_s;
+  }
+  return all;
+}
+
+// Series are compared on the size of the whole series, other numbers on their own.
+std::string SeriesOf(const std::string& name) {
+  return name.substr(0, name.find_last_not_of("0123456789") + 1);
+}
+
+struct Worst {
+  double error = 0.0;  // of a derivative, per size of the derivatives of its series
+  std::string where;
+};
+
+constexpr double kStepFromZero = 20.0;  // Pa, of the cracking pressures
+
+// Differences of fourth order at a relative step h of each number. The response is smooth
+// in the number where no event comes or goes, so the error falls as h⁴ down to the noise of the
+// integration over h. A derivative counts as small beside 1e-7 of its quantity per h.
+Worst AgainstDifferences(Rig rig, const SimulateOptions& options, double step,
+                         const std::function<bool(const std::string&)>& compared) {
+  Worst worst;
+  for (const RigNumber& parameter : DifferentiableNumbers(rig)) {
+    if (!std::isfinite(*parameter.number)) continue;
+    const double* address = parameter.number;
+    const SensitivityResponse exact = SimulateWithSensitivities(rig, options, {&address, 1});
+    EXPECT_EQ(exact.response.status, SimulateStatus::kDone) << exact.response.detail;
+    if (exact.response.status != SimulateStatus::kDone) return worst;
+    double& number = const_cast<double&>(*address);
+    const double value = number;
+    // A number at the end of its range, 0, can only grow.
+    const bool one_sided = value == 0.0;
+    const double h = one_sided ? kStepFromZero : step * std::abs(value);
+    const double base = one_sided ? 2.0 : 0.0;
+    const auto at = [&](double shift) {
+      number = value + (base + shift) * h;
+      // The copy of the ambient pressure that the chamber carries.
+      for (GroupRig& group : rig.groups) {
+        group.chamber.ambient_pressure_pa = rig.ambient.pressure_pa;
+      }
+      return Flat(Simulate(rig, options));
+    };
+    const auto down2 = at(-2), down = at(-1), middle = at(0), up = at(1), up2 = at(2);
+    (void)at(-base);
+    number = value;
+    const auto values = Flat(exact.response);
+    const auto derivatives = Flat(exact.derivatives[0]);
+    std::map<std::string, double> sizes, errors;
+    for (const auto& [name, q] : values) {
+      if (!up.contains(name) || !down.contains(name) || !up2.contains(name) ||
+          !down2.contains(name)) {
+        ADD_FAILURE() << name << " is not on both sides of " << parameter.name;
+        continue;
+      }
+      const double difference =
+          one_sided ? (-25.0 * down2.at(name) + 48.0 * down.at(name) - 36.0 * middle.at(name) +
+                       16.0 * up.at(name) - 3.0 * up2.at(name)) /
+                          (12.0 * h)
+                    : (8.0 * (up.at(name) - down.at(name)) - (up2.at(name) - down2.at(name))) /
+                          (12.0 * h);
+      // What rounding and the integration leave in the difference.
+      const double size = std::max(std::abs(difference), 1e-7 * std::abs(q) / h);
+      double& series = sizes[SeriesOf(name)];
+      series = std::max(series, size);
+      double& error = errors[SeriesOf(name)];
+      error = std::max(error, std::abs(derivatives.at(name) - difference));
+    }
+    for (const auto& [name, error] : errors) {
+      if (error == 0.0 || !compared(name)) continue;
+      if (error / sizes[name] > worst.error) {
+        worst = {error / sizes[name], name + " by " + parameter.name};
+      }
+    }
+  }
+  return worst;
+}
+
+bool Any(const std::string&) { return true; }
+
+CompressorCurve Pump() {
+  return {.free_air_m3_per_s = MonotoneCurve({1e5, 2e5, 4e5, 6e5}, {3e-4, 2.4e-4, 1.3e-4, 0.5e-4}),
+          .current_a = MonotoneCurve({1e5, 3e5, 6e5}, {1.0, 1.8, 2.2}),
+          .voltage_v = 12.0,
+          .pressure_max_pa = 6e5};
+}
+
+TEST(Sensitivity, OfTheBaseModelOnARegulatedSource) {
+  const Rig rig = RigOf(Regulated(3e5), {TwoElements()});
+  const Worst worst = AgainstDifferences(rig, Tight(), 1e-4, Any);
+  EXPECT_LT(worst.error, 1e-5) << worst.where;
+}
+
+TEST(Sensitivity, OfTwoGroupsBehindOneRegulator) {
+  RegulatedSource source = Regulated(3.2e5);
+  source.regulator = FlowElement{.sonic_conductance_m3_per_s_pa = 0.15e-8, .critical_ratio = 0.25};
+  GroupRig second = TwoElements();
+  second.count = 2;
+  second.chamber.rest_volume_m3 = 31e-6;
+  second.schedule = {{0.25, ValveState::kInflate}, {1.47, ValveState::kDeflate}};
+  const Rig rig = RigOf(source, {TwoElements(), second});
+  const Worst worst = AgainstDifferences(rig, Tight(), 1e-4, Any);
+  EXPECT_LT(worst.error, 1e-5) << worst.where;
+}
+
+// The valve closes at the operating pressure; the pump stops, holds and runs again.
+TEST(Sensitivity, OfAReservoirWhoseCompressorStops) {
+  ReservoirSource source = {.volume_m3 = 0.4e-3,
+                            .initial_pressure_pa = 3.5e5,
+                            .compressor = Pump(),
+                            .compressor_count = 2,
+                            .duty = 0.9,
+                            .stop_pressure_pa = 3.6e5};
+  GroupRig group = TwoElements();
+  group.close_at_operating = true;
+  const Rig rig = RigOf(source, {group});
+  const Worst worst = AgainstDifferences(rig, Tight(), 1e-4, Any);
+  EXPECT_LT(worst.error, 1e-5) << worst.where;
+}
+
+// Both groups are told at once, and each closes at its own instant, which is the same. The source
+// pressures of a stroke have a corner there: the one that acts last sees what the other draws.
+// Second derivatives jump as well, so the differences converge in
+// the first order and take a shorter step.
+TEST(Sensitivity, OfEqualGroupsThatSwitchTogether) {
+  ReservoirSource source = {.volume_m3 = 0.5e-3, .initial_pressure_pa = 4e5};
+  GroupRig group = TwoElements();
+  group.close_at_operating = true;
+  const Rig rig = RigOf(source, {group, group});
+  const auto smooth = [](const std::string& name) {
+    return name.find(".source_") == std::string::npos;
+  };
+  const Worst worst = AgainstDifferences(rig, Tight(), 2e-6, smooth);
+  EXPECT_LT(worst.error, 1e-5) << worst.where;
+}
+
+TEST(Sensitivity, OfACommandAtTheStart) {
+  GroupRig group = TwoElements();
+  group.schedule[0].time_s = 0.0;
+  const Rig rig = RigOf(Regulated(3e5), {group});
+  const double* start = &rig.groups[0].schedule[0].time_s;
+  SimulateOptions options = Tight(1.0);
+  const SensitivityResponse r = SimulateWithSensitivities(rig, options, {&start, 1});
+  ASSERT_EQ(r.response.status, SimulateStatus::kDone);
+  // A later start shifts the whole curve: ∂p/∂t0 = −dp/dt.
+  const auto& p = r.response.groups[0].pressure_pa;
+  for (std::size_t k = 2; k < 7; ++k) {
+    const double rate = (8.0 * (p[k + 1] - p[k - 1]) - (p[k + 2] - p[k - 2])) / (12.0 / 17.3);
+    EXPECT_NEAR(r.derivatives[0].groups[0].pressure_pa[k], -rate, 2e-3 * rate) << k;
+  }
+  EXPECT_NEAR(r.derivatives[0].strokes[0].to_target_s, 0.0, 1e-8);
+}
+
+struct EffectCase {
+  const char* id;
+  const char* law;
+  std::vector<double> parameters;
+};
+
+class SensitivityOfEffect : public ::testing::TestWithParam<EffectCase> {};
+
+TEST_P(SensitivityOfEffect, AgreesWithDifferences) {
+  GroupRig group = TwoElements();
+  group.close_at_operating = true;
+  group.initial_pressure_pa = 1.02e5;  // laws of leaks have a bend at the ambient pressure
+  group.effects = {{FindEffect(GetParam().id, GetParam().law), GetParam().parameters}};
+  const Rig rig = RigOf(Regulated(3e5), {group});
+  const Worst worst = AgainstDifferences(rig, Tight(), 1e-4, Any);
+  EXPECT_LT(worst.error, 1e-5) << worst.where;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, SensitivityOfEffect,
+    ::testing::Values(
+        EffectCase{"valve_delay", "", {0.0213}}, EffectCase{"valve_ramp", "", {0.083}},
+        EffectCase{"directional_conductance", "", {0.93}},
+        EffectCase{"cracking_pressure", "", {4321.0}},
+        EffectCase{"exhaust_restriction", "", {0.12e-8, 0.4}},
+        EffectCase{"dead_volume", "", {7e-6}}, EffectCase{"nonlinear_compliance", "", {0.2, -0.15}},
+        EffectCase{"hysteresis", "", {4567.0}}, EffectCase{"creep", "", {0.2, 0.3}},
+        EffectCase{"inertia", "", {37.0, 0.4}}, EffectCase{"heat_transfer", "", {0.4}},
+        EffectCase{"supply_droop", "", {2e-4, 0.08e-8, 0.3}},
+        EffectCase{"line_dynamics", "", {0.7, 3e-3}},
+        EffectCase{"leak", "orifice", {0.004e-8, 0.3}}, EffectCase{"leak", "laminar", {0.003e-8}},
+        EffectCase{"leak", "porous", {1e15, 1e21}}, EffectCase{"sensor_lag", "", {0.02}},
+        EffectCase{"sensor_gain", "", {1.03}}, EffectCase{"sensor_offset", "", {512.0}}),
+    [](const auto& test) { return std::string(test.param.id) + test.param.law; });
+
+TEST(Sensitivity, OfFullStrokesFollowsTheScalingOfTime) {
+  GroupRig group = OneActuator(2e5, 1.7, kValve);
+  const Rig rig = RigOf(Regulated(3e5), {group});
+  const GroupRig& g = rig.groups[0];
+  const double* parameters[] = {&g.chamber.rest_volume_m3, &g.fill[0].sonic_conductance_m3_per_s_pa,
+                                &g.exhaust[0].sonic_conductance_m3_per_s_pa,
+                                &rig.ambient.temperature_k};
+  const SensitivityStrokes s = FullStrokesWithSensitivities(rig, Tight(), parameters);
+  ASSERT_EQ(s.status, SimulateStatus::kDone) << s.detail;
+  const double rise = s.strokes[0].rise_time_s, fall = s.strokes[0].fall_time_s;
+  const FullStroke plain = FullStrokes(rig, Tight())[0];
+  EXPECT_NEAR(rise, plain.rise_time_s, 1e-10 * rise);
+  EXPECT_NEAR(fall, plain.fall_time_s, 1e-10 * fall);
+  // t ∝ V0, t ∝ 1/C and t ∝ T^−½ (Pa·m³ per m³ ANR times the flow's √(T0/T)).
+  EXPECT_NEAR(s.derivatives[0][0].rise_time_s * *parameters[0], rise, 1e-8 * rise);
+  EXPECT_NEAR(s.derivatives[0][0].fall_time_s * *parameters[0], fall, 1e-8 * fall);
+  EXPECT_NEAR(s.derivatives[1][0].rise_time_s * *parameters[1], -rise, 1e-8 * rise);
+  EXPECT_EQ(s.derivatives[1][0].fall_time_s, 0.0);
+  EXPECT_EQ(s.derivatives[2][0].rise_time_s, 0.0);
+  EXPECT_NEAR(s.derivatives[2][0].fall_time_s * *parameters[2], -fall, 1e-8 * fall);
+  EXPECT_NEAR(s.derivatives[3][0].rise_time_s * *parameters[3], -0.5 * rise, 1e-8 * rise);
+  const double f = plain.frequency_max_hz;
+  EXPECT_NEAR(s.derivatives[0][0].frequency_max_hz * *parameters[0], -f, 1e-8 * f);
+}
+
+TEST(Sensitivity, OfFullStrokesAgreesWithDifferences) {
+  Rig rig = RigOf(Regulated(3e5), {TwoElements()});
+  rig.groups[0].effects = {{FindEffect("hysteresis"), {3000.0}},
+                           {FindEffect("valve_ramp"), {0.03}}};
+  const auto numbers = DifferentiableNumbers(rig);
+  for (const RigNumber& n : numbers) {
+    if (*n.number == 0.0) continue;
+    const SensitivityStrokes s = FullStrokesWithSensitivities(rig, Tight(), {&n.number, 1});
+    ASSERT_EQ(s.status, SimulateStatus::kDone) << s.detail;
+    double& number = const_cast<double&>(*n.number);
+    const double value = number;
+    const double h = 1e-4 * value;
+    const auto at = [&](double shift) {
+      number = value + shift * h;
+      rig.groups[0].chamber.ambient_pressure_pa = rig.ambient.pressure_pa;
+      return FullStrokes(rig, Tight())[0];
+    };
+    const FullStroke up = at(1), down = at(-1), up2 = at(2), down2 = at(-2);
+    number = value;
+    rig.groups[0].chamber.ambient_pressure_pa = rig.ambient.pressure_pa;
+    const auto compare = [&](double FullStroke::*part) {
+      const double difference =
+          (8.0 * (up.*part - down.*part) - (up2.*part - down2.*part)) / (12.0 * h);
+      const double size = std::max(std::abs(difference), 1e-6 * (s.strokes[0].*part) / h);
+      EXPECT_NEAR(s.derivatives[0][0].*part, difference, 1e-5 * size) << n.name;
+    };
+    compare(&FullStroke::rise_time_s);
+    compare(&FullStroke::fall_time_s);
+    compare(&FullStroke::frequency_max_hz);
+  }
+}
+
+TEST(Sensitivity, ValuesAreThoseOfSimulateInAnyNumberOfChunks) {
+  const Rig rig = RigOf(Regulated(3e5), {TwoElements()});
+  std::vector<const double*> all;
+  for (const RigNumber& n : DifferentiableNumbers(rig)) all.push_back(n.number);
+  ASSERT_GT(all.size(), 16u);
+  const SensitivityResponse together = SimulateWithSensitivities(rig, Tight(), all);
+  ASSERT_EQ(together.derivatives.size(), all.size());
+  const auto plain = Flat(Simulate(rig, Tight()));
+  for (const auto& [name, value] : Flat(together.response)) {
+    EXPECT_NEAR(value, plain.at(name), 1e-9 * std::abs(plain.at(name))) << name;
+  }
+  for (std::size_t j : {0u, 9u, 17u}) {
+    const SensitivityResponse alone = SimulateWithSensitivities(rig, Tight(), {&all[j], 1});
+    const auto derivatives = Flat(together.derivatives[j]);
+    for (const auto& [name, value] : Flat(alone.derivatives[0])) {
+      EXPECT_NEAR(value, derivatives.at(name), 1e-8 * std::abs(value)) << name;
+    }
+  }
+  const SensitivityResponse none = SimulateWithSensitivities(rig, Tight(), {});
+  EXPECT_EQ(Flat(none.response), Flat(together.response));
+  EXPECT_TRUE(none.derivatives.empty());
+}
+
+TEST(Sensitivity, RefusesWhatIsNoNumberOfTheRig) {
+  const Rig rig = RigOf(Regulated(3e5), {TwoElements()});
+  const double stranger = 1.0;
+  const double* parameters[] = {&rig.groups[0].chamber.rest_volume_m3, &stranger};
+  const SensitivityResponse r = SimulateWithSensitivities(rig, Tight(), parameters);
+  EXPECT_EQ(r.response.status, SimulateStatus::kInvalid);
+  EXPECT_THAT(r.response.detail, ::testing::HasSubstr("parameters[1]"));
+  const double* copy = &rig.groups[0].chamber.ambient_pressure_pa;
+  const SensitivityStrokes s = FullStrokesWithSensitivities(rig, Tight(), {&copy, 1});
+  EXPECT_EQ(s.status, SimulateStatus::kInvalid);
+  EXPECT_THAT(s.detail, ::testing::HasSubstr("ambient.pressure_pa itself"));
+}
+
+TEST(Sensitivity, OfATargetNeverReachedIsZeroBesideAnInfiniteTime) {
+  const Rig rig = RigOf(Regulated(1.9e5), {TwoElements()});
+  const double* source = &std::get<RegulatedSource>(rig.source).pressure_pa;
+  const SensitivityResponse r = SimulateWithSensitivities(rig, Tight(), {&source, 1});
+  ASSERT_EQ(r.response.status, SimulateStatus::kDone) << r.response.detail;
+  EXPECT_EQ(r.response.strokes[0].to_target_s, kInf);
+  EXPECT_EQ(r.derivatives[0].strokes[0].to_target_s, 0.0);
+}
+
+}  // namespace
+}  // namespace plenum::model
