@@ -31,8 +31,8 @@ LineElement<double> ValuesOf(const LineElement<T>& element) {
 }  // namespace
 
 template <class T>
-Line<T>::Line(std::vector<LineElement<T>> elements, double linear_ratio)
-    : elements_(std::move(elements)), linear_ratio_(linear_ratio) {
+Line<T>::Line(std::span<const LineElement<T>> elements, double linear_ratio)
+    : elements_(elements.begin(), elements.end()), linear_ratio_(linear_ratio) {
   if (elements_.empty()) return;
   std::array<FlowElement, kMaxSeriesElements> values;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
@@ -159,14 +159,15 @@ template <class T>
 T Line<T>::ThrottledFlow(const T& opening, std::size_t fixed, const T& upstream_pa,
                          const T& downstream_pa) const {
   if (fixed == 0) return opening * Flow(upstream_pa, downstream_pa);
-  std::vector<LineElement<T>> elements = elements_;
+  auto elements = elements_;
   for (std::size_t i = 0; i + fixed < elements.size(); ++i) {
     elements[i].sonic_conductance_m3_per_s_pa *= opening;
   }
   if (!cracks_inside_ && !elements.empty()) {
     elements[0].cracking_pressure_pa = cracking_pressure_pa_;
   }
-  return Line<T>(std::move(elements), linear_ratio_).Flow(upstream_pa, downstream_pa);
+  return Line<T>({elements.data(), elements.size()}, linear_ratio_)
+      .Flow(upstream_pa, downstream_pa);
 }
 
 // The largest flow with which every element can be crossed and the end pressure is not below

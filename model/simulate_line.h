@@ -4,9 +4,9 @@
 #define PLENUM_MODEL_SIMULATE_LINE_H_
 
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "model/iso6358.h"
 #include "model/scalar.h"
@@ -28,7 +28,7 @@ class Line {
  public:
   Line() = default;  // passes nothing
   // At most kMaxSeriesElements, in the order crossed.
-  Line(std::vector<LineElement<T>> elements, double linear_ratio);
+  Line(std::span<const LineElement<T>> elements, double linear_ratio);
 
   // m³/s ANR from `upstream_pa` to `downstream_pa`, 0 where Σ Δp_c or more of the upstream pressure
   // is needed to get there. Above `linear_ratio` of the highest downstream pressure that flow can
@@ -73,7 +73,7 @@ class Line {
   Bottleneck FindBottleneck(double upstream_pa, double flow) const;
   T LiftFlow(double flow, const T& upstream_pa, const T& downstream_pa) const;
 
-  std::vector<LineElement<T>> elements_;
+  boost::container::static_vector<LineElement<T>, kMaxSeriesElements> elements_;
   Series series_;  // of the values, if no element but the first has a cracking pressure
   bool cracks_inside_ = false;
   T cracking_pressure_pa_ = T(0.0);

@@ -127,7 +127,7 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
     const bool cracks = std::any_of(both.begin(), both.end(), [](const LineElement<T>& e) {
       return e.cracking_pressure_pa > 0.0;
     });
-    if (!cracks) group.with_regulator.emplace(std::move(both), linear_ratio);
+    if (!cracks) group.with_regulator.emplace(both, linear_ratio);
   }
   group.lines = {Line<T>(setup.fill, linear_ratio), Line<T>(setup.exhaust, linear_ratio),
                  Line<T>(setup.feed, linear_ratio)};
