@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -89,6 +90,8 @@ struct Case {
   Plant plant;
 };
 
+void PrintTo(const Case& rig, std::ostream* out) { *out << rig.name; }
+
 Case With(const char* name, Plant plant, const std::vector<std::pair<Number, double>>& effects) {
   for (const auto& [number, value] : effects) {
     plant.value[number] = value;
@@ -126,8 +129,10 @@ TEST_P(SensitivityCvodes, PressuresAndTheTimeToOperating) {
   const Rig rig = RigOf(plant);
   std::vector<const double*> addresses;
   for (const Number number : plant.numbers) addresses.push_back(AddressOf(rig, number));
-  SimulateOptions options = Until(3.2, 41.7);
-  options.relative_tolerance = 1e-11;
+  SimulateOptions options = Until(4.8, 41.7);
+  // Corners that no event marks (a leak at ratio 0.999, a line that shuts as the pressure swings
+  // below ambient) cost derivatives more than values: 1e-11 leaves 1e-5 with inertia, this 2e-6.
+  options.relative_tolerance = 1e-13;
   options.absolute_tolerance_pa = 1e-7;
   const SensitivityResponse model = SimulateWithSensitivities(rig, options, addresses);
   ASSERT_EQ(model.response.status, SimulateStatus::kDone) << model.response.detail;
@@ -139,6 +144,7 @@ TEST_P(SensitivityCvodes, PressuresAndTheTimeToOperating) {
   for (std::size_t k = 0; k < times_s.size(); ++k) {
     EXPECT_NEAR(pressures[k], kBar * reference.points[k].y[kPressure], 1e-3) << times_s[k] << " s";
   }
+  EXPECT_LT(pressures.back(), kReferencePressurePa / 0.999);  // on the straight line
   for (std::size_t j = 0; j < plant.numbers.size(); ++j) {
     SCOPED_TRACE(testing::Message() << "number " << plant.numbers[j]);
     const double value = plant.value[plant.numbers[j]];
