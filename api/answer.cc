@@ -29,6 +29,7 @@ Json AnswerFront(const DesignRequest& request, const optimizer::SearchOptions& o
 Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions options,
                    const std::vector<catalog::Part>& parts) {
   options.time_limit_s = request.time_limit_s;
+  options.record = request.proof;
   if (!request.pareto.empty()) return AnswerFront(request, options, parts);
   optimizer::RobustAnswer robust;
   if (request.robust)

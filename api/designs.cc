@@ -6,6 +6,7 @@
 #include <string>
 
 #include "api/catalogue_parts.h"
+#include "api/proof_record.h"
 #include "api/selection.h"
 #include "api/services.h"
 #include "api/units.h"
@@ -175,20 +176,22 @@ Json Count(const optimizer::BigCount& count) {
   return count.str();
 }
 
-Json RenderProof(const optimizer::Proof& proof) {
-  return {{"combinations", proof.combinations.str()},
-          {"complete", proof.complete},
-          {"lower_bound", Number(proof.lower_bound)},
-          {"gap", Number(proof.gap)},
-          {"evaluated", Count(proof.evaluated)},
-          {"simulated", proof.simulated},
-          {"undecided", proof.undecided},
-          {"pruned",
-           {{"incompatible", proof.pruned.incompatible.str()},
-            {"infeasible", proof.pruned.infeasible.str()},
-            {"bound", proof.pruned.bound.str()},
-            {"dominated", proof.pruned.dominated.str()},
-            {"unpriced", proof.pruned.unpriced.str()}}}};
+Json RenderProof(const optimizer::Proof& proof, const model::Parts& parts) {
+  Json json = {{"combinations", proof.combinations.str()},
+               {"complete", proof.complete},
+               {"lower_bound", Number(proof.lower_bound)},
+               {"gap", Number(proof.gap)},
+               {"evaluated", Count(proof.evaluated)},
+               {"simulated", proof.simulated},
+               {"undecided", proof.undecided},
+               {"pruned",
+                {{"incompatible", proof.pruned.incompatible.str()},
+                 {"infeasible", proof.pruned.infeasible.str()},
+                 {"bound", proof.pruned.bound.str()},
+                 {"dominated", proof.pruned.dominated.str()},
+                 {"unpriced", proof.pruned.unpriced.str()}}}};
+  if (proof.record) json["record"] = RenderRecord(*proof.record, parts);
+  return json;
 }
 
 Json RenderConflict(const std::vector<optimizer::Conflict>& conflicts) {
@@ -225,7 +228,7 @@ Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
   document["status"] = optimizer::Name(answer.status);
   document["designs"] = std::move(designs);
   document["best_on_measured_flow"] = best_on_measured_flow;
-  document["proof"] = RenderProof(answer.proof);
+  document["proof"] = RenderProof(answer.proof, request.problem.parts);
   if (answer.status == optimizer::Status::kInfeasible)
     document["conflict"] = RenderConflict(answer.conflict);
   document["seconds"] = Number(answer.seconds);

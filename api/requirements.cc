@@ -206,6 +206,7 @@ std::optional<double> ReadRanking(Reader& request, DesignRequest& parsed) {
   parsed.problem.count = ranking->Integer("count", 1, 500, 20);
   parsed.time_limit_s = ranking->Number("time_limit_s", {0.01, 3600}, 30.0);
   const auto probability_min = ranking->OptionalNumber("probability_min", {0, 1});
+  parsed.proof = ranking->Bool("proof", false);
   ranking->Finish();
   return probability_min;
 }
@@ -266,6 +267,8 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   const std::optional<double> probability_min = ReadRanking(reader, parsed);
   parsed.robust = ReadRobust(reader, probability_min);
   parsed.explain = ReadExplain(reader);
+  if (parsed.proof && (parsed.robust || !parsed.pareto.empty()))
+    reader.FailAt("ranking/proof", "is for a list by one objective, without robust");
   if (parsed.explain && !parsed.pareto.empty())
     reader.Fail("explain", "explains a list by one objective, not a front");
   if (parsed.explain && parsed.explain->ranks > 0 && probability_min)
@@ -281,7 +284,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   if (!HasErrorIn(errors, {"/supply", "/require", "/exclude"}))
     CheckFamilies(parts, problem, needs_fittings, errors);
   if (!errors.empty()) return errors;
-  problem.parts = ToModelParts(parts, problem.ambient);
+  problem.parts = ToModelParts(AllowedParts(parts, problem), problem.ambient);
   parsed.request = request;
   return parsed;
 }

@@ -31,17 +31,18 @@ std::vector<Family> SourceFamilies(Configuration configuration) {
   return {};
 }
 
+bool IsAllowed(const optimizer::Problem& problem, Family family, const std::string& id) {
+  const auto required = problem.require.find(family);
+  return !problem.exclude.contains(id) &&
+         (required == problem.require.end() || required->second.contains(id));
+}
+
 // Whether the request leaves a part of the family to choose.
 bool HasChoice(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
                Family family) {
-  const auto required = problem.require.find(family);
-  const auto allowed = [&](const std::string& id) {
-    return !problem.exclude.contains(id) &&
-           (required == problem.require.end() || required->second.contains(id));
-  };
-  if (family == Family::kReservoir && allowed(kCustomReservoir)) return true;
+  if (family == Family::kReservoir && IsAllowed(problem, family, kCustomReservoir)) return true;
   return std::any_of(parts.begin(), parts.end(), [&](const catalog::Part& part) {
-    return part.family == optimizer::Name(family) && allowed(part.id);
+    return part.family == optimizer::Name(family) && IsAllowed(problem, family, part.id);
   });
 }
 
@@ -98,6 +99,16 @@ void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
         !id.empty() && id != kCustomReservoir && !family_of.contains(id))
       request.FailAt("exclude/" + std::to_string(i), unknown(id));
   problem.exclude = {unwanted.begin(), unwanted.end()};
+}
+
+std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
+                                        const optimizer::Problem& problem) {
+  std::vector<catalog::Part> allowed;
+  for (const Family family : kFamilies)
+    for (const catalog::Part& part : parts)
+      if (part.family == optimizer::Name(family) && IsAllowed(problem, family, part.id))
+        allowed.push_back(part);
+  return allowed;
 }
 
 void CheckFamilies(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,

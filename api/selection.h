@@ -18,6 +18,10 @@ inline constexpr const char* kCustomReservoir = "custom";
 void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
                    optimizer::Problem& problem);
 
+// The parts that the problem's `require` and `exclude` leave; by family, else in their order.
+std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
+                                        const optimizer::Problem& problem);
+
 // Records an error for each empty family if that leaves no allowed configuration: at
 // /require/<family> or /exclude where the request emptied it, at "" where the catalogue has none.
 // `needs_fittings`: some line has any.

@@ -24,6 +24,7 @@ namespace plenum::api {
 struct DesignRequest {
   optimizer::Problem problem;
   double time_limit_s = 30.0;
+  bool proof = false;  // the answer holds the record of the search
   std::string name;
   std::vector<optimizer::Amount> pareto;  // amounts of a front; empty: one objective
   std::optional<RobustRequest> robust;

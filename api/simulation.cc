@@ -147,6 +147,9 @@ Json RenderPerformance(const std::vector<model::FullStroke>& strokes, const mode
          {"fall_time_s", Number(stroke.fall_time_s)},
          {"frequency_hz_max",
           stroke.frequency_max_hz > 0.0 ? Number(stroke.frequency_max_hz) : Json(nullptr)}});
+    // A null is then not known, rather than never reached.
+    if (stroke.status != model::SimulateStatus::kDone)
+      groups.back()["status"] = StatusName(stroke.status);
   }
   return {{"groups", groups}};
 }

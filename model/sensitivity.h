@@ -19,10 +19,10 @@
 //   * a number on the border of two behaviours (a reservoir that starts at the stop pressure, b on
 //     a choked ratio at the very start): the derivative of the behaviour taken.
 //   * samples at the instant of an event: the derivative of one side.
-// The error control sees the values alone. At relative tolerance r the derivatives of smooth rigs
-// are about as good relative to their own size as the values are to theirs; ask for 1e-9 or less
-// where 1e-6 of a derivative matters. Stiff rigs stay with the explicit integrator and may end with
-// kTooManySteps.
+// The error control sees the values alone: the derivatives are those of the computed solution, and
+// come to the true ones with the tolerance. At 1e-11 they agree with differences to 1e-5 and
+// better; derivatives that decay slowly near equal pressures are the last to. Stiff rigs stay with
+// the explicit integrator and may end with kTooManySteps.
 #ifndef PLENUM_MODEL_SENSITIVITY_H_
 #define PLENUM_MODEL_SENSITIVITY_H_
 

@@ -30,15 +30,20 @@ Response RunRig(const Rig& rig, const SimulateOptions& options, RunUntil until) 
   return response;
 }
 
-// Time to target by group.
-std::vector<double> StrokeTimes(const Rig& rig, const SimulateOptions& options, ValveState state) {
-  std::vector<double> times(rig.groups.size(), kInfinity);
+struct StrokeTimes {
+  std::vector<double> to_target_s;  // by group
+  SimulateStatus status;
+};
+
+StrokeTimes RunStrokes(const Rig& rig, const SimulateOptions& options, ValveState state) {
+  StrokeTimes times = {std::vector<double>(rig.groups.size(), kInfinity), SimulateStatus::kInvalid};
   const Rig stroke_rig = StrokeRig(rig, state);
   if (!WhyInvalid(stroke_rig).empty()) return times;
   const Response response = RunRig(stroke_rig, options, RunUntil::kTargets);
   for (const Stroke& stroke : response.strokes) {
-    times[static_cast<std::size_t>(stroke.group)] = stroke.to_target_s;
+    times.to_target_s[static_cast<std::size_t>(stroke.group)] = stroke.to_target_s;
   }
+  times.status = response.status;
   return times;
 }
 
@@ -82,13 +87,17 @@ Response Simulate(const Rig& rig, const SimulateOptions& options) {
 
 std::vector<FullStroke> FullStrokes(const Rig& rig, const SimulateOptions& options) {
   const SimulateOptions until_reached = StrokeOptions(options);
-  std::vector<FullStroke> strokes(rig.groups.size(), {kInfinity, kInfinity, 0.0});
+  std::vector<FullStroke> strokes(rig.groups.size(),
+                                  {kInfinity, kInfinity, 0.0, SimulateStatus::kInvalid});
   if (!WhyInvalid(until_reached).empty()) return strokes;
 
-  const std::vector<double> rise = StrokeTimes(rig, until_reached, ValveState::kInflate);
-  const std::vector<double> fall = StrokeTimes(rig, until_reached, ValveState::kDeflate);
+  const StrokeTimes rise = RunStrokes(rig, until_reached, ValveState::kInflate);
+  const StrokeTimes fall = RunStrokes(rig, until_reached, ValveState::kDeflate);
   for (std::size_t i = 0; i < strokes.size(); ++i) {
-    strokes[i] = {rise[i], fall[i], 1.0 / (rise[i] + fall[i])};
+    const double rise_s = rise.to_target_s[i];
+    const double fall_s = fall.to_target_s[i];
+    strokes[i] = {rise_s, fall_s, 1.0 / (rise_s + fall_s),
+                  rise.status == SimulateStatus::kDone ? fall.status : rise.status};
   }
   return strokes;
 }

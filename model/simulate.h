@@ -181,6 +181,8 @@ struct FullStroke {
   double rise_time_s;
   double fall_time_s;
   double frequency_max_hz;  // 1/(rise + fall); 0 where either is never reached
+  // Of the run that ended first by anything but kDone: then +∞ may also mean that it is not known.
+  SimulateStatus status = SimulateStatus::kDone;
 };
 std::vector<FullStroke> FullStrokes(const Rig& rig, const SimulateOptions& options);
 

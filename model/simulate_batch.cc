@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <thread>
 #include <variant>
 #include <vector>
 
@@ -243,23 +245,43 @@ std::size_t GroupsOf(std::span<const Rig> rigs) {
   return groups;
 }
 
+struct Piece {
+  std::span<const Rig> rigs;
+  std::span<FullStroke> strokes;
+};
+
 }  // namespace
 
 void FullStrokesOfMany(std::span<const Rig> rigs, const SimulateOptions& options,
-                       std::span<FullStroke> strokes, Instructions instructions) {
+                       std::span<FullStroke> strokes, int threads, Instructions instructions) {
   assert(strokes.size() == GroupsOf(rigs));
-  std::fill(strokes.begin(), strokes.end(), FullStroke{kInfinity, kInfinity, 0.0});
   SimulateOptions checked = options;
   checked.end_s = checked.sample_hz = 0.0;
-  if (!WhyInvalid(checked).empty()) return;
-  Batch batch(options, instructions);
-  while (!rigs.empty() && !(options.cancelled && options.cancelled())) {
-    const auto some = rigs.first(std::min(rigs.size(), kRigsAtOnce));
+  const bool valid = WhyInvalid(checked).empty();
+  std::fill(strokes.begin(), strokes.end(),
+            FullStroke{kInfinity, kInfinity, 0.0,
+                       valid ? SimulateStatus::kCancelled : SimulateStatus::kInvalid});
+  if (!valid) return;
+
+  // Every thread takes the next piece of the list until none is left.
+  std::vector<Piece> pieces;
+  for (std::size_t at = 0; at < rigs.size(); at += kRigsAtOnce) {
+    const auto some = rigs.subspan(at, std::min(rigs.size() - at, kRigsAtOnce));
     const std::size_t groups = GroupsOf(some);
-    batch.Run(some, strokes.first(groups));
-    rigs = rigs.subspan(some.size());
+    pieces.push_back({some, strokes.first(groups)});
     strokes = strokes.subspan(groups);
   }
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    Batch batch(options, instructions);
+    for (std::size_t i = next++; i < pieces.size(); i = next++) {
+      if (options.cancelled && options.cancelled()) return;
+      batch.Run(pieces[i].rigs, pieces[i].strokes);
+    }
+  };
+  std::vector<std::jthread> helpers;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
+  work();
 }
 
 }  // namespace plenum::model

@@ -18,10 +18,11 @@
 namespace plenum::model {
 
 // `strokes` holds one entry per group of every rig, in the order of rigs and groups. A rig's result
-// does not depend on the others, so that a list may be split among threads, and is the same bits
-// for all `instructions`. Once options.cancelled says so, the rest is +∞.
+// does not depend on the others or on the number of threads, and is the same bits for all
+// `instructions`. Once options.cancelled says so, the rest is +∞ with status kCancelled; with
+// several threads it is asked by all of them.
 void FullStrokesOfMany(std::span<const Rig> rigs, const SimulateOptions& options,
-                       std::span<FullStroke> strokes,
+                       std::span<FullStroke> strokes, int threads = 1,
                        Instructions instructions = WidestSupported());
 
 }  // namespace plenum::model

@@ -20,6 +20,7 @@ struct DesignOptions {
   std::string catalog = "catalog.db";
   std::optional<int> top;
   std::optional<double> time_limit_s;
+  bool proof = false;
   bool json = false;
 };
 
@@ -49,6 +50,7 @@ api::Json ReadRequirements(const DesignOptions& options) {
   };
   if (options.top) set("count", *options.top);
   if (options.time_limit_s) set("time_limit_s", *options.time_limit_s);
+  if (options.proof) set("proof", true);
   return request;
 }
 
@@ -81,6 +83,7 @@ void AddDesignCommand(CLI::App& app, int& status) {
   AddFile(*command, options->file, "Requirements as JSON; - is standard input");
   command->add_option("--top", options->top, "Number of designs")->type_name("N");
   command->add_option("--time-limit", options->time_limit_s, "Seconds to search")->type_name("S");
+  command->add_flag("--proof", options->proof, "Keep the record of the search, for verify");
   AddJsonFlag(*command, options->json);
   AddCatalogOption(*command, options->catalog);
   command->callback([options, &status] { status = Design(*options); });

@@ -14,6 +14,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   app.require_subcommand(1);
   try {
     AddDesignCommand(app, status);
+    AddVerifyCommand(app, status);
     AddSimulateCommand(app, status);
     AddMapCommand(app, status);
     AddCatalogCommand(app, status);

@@ -10,6 +10,7 @@ class App;
 namespace plenum::server {
 
 void AddDesignCommand(CLI::App& app, int& status);
+void AddVerifyCommand(CLI::App& app, int& status);
 void AddSimulateCommand(CLI::App& app, int& status);
 void AddMapCommand(CLI::App& app, int& status);
 void AddCatalogCommand(CLI::App& app, int& status);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 
 #include "api/services.h"
 #include "tests/api/support.h"
@@ -64,6 +65,27 @@ TEST(Requirements, ReadsTheContractsExampleInSi) {
   EXPECT_EQ(problem.require.at(optimizer::Family::kValve), std::set<std::string>{"valve-1"});
   EXPECT_EQ(problem.exclude, std::set<std::string>{"reservoir-1"});
   EXPECT_EQ(problem.parts.valves.size(), 1u);
+}
+
+TEST(Requirements, LeavesOutPartsThatAreExcludedOrNotRequired) {
+  std::vector<catalog::Part> parts = SmallCatalogue();
+  parts.push_back(PartOf("valve"));
+  parts.back().id = "valve-2";
+  parts.push_back(PartOf("tubing"));
+  parts.back().id = "tubing-2";
+  const auto ids = [&](const Json& request) {
+    const auto parsed = std::get<DesignRequest>(ParseRequirements(request, parts));
+    std::set<std::string> left;
+    for (const auto& valve : parsed.problem.parts.valves) left.insert(valve.basics.id);
+    for (const auto& tube : parsed.problem.parts.tubing) left.insert(tube.per_metre.id);
+    return left;
+  };
+  const Json all = Without(Without(Requirements(), "/require"), "/exclude");
+  EXPECT_EQ(ids(all), (std::set<std::string>{"valve-1", "valve-2", "tubing-1", "tubing-2"}));
+  EXPECT_EQ(ids(With(all, "/exclude", {"tubing-1", "valve-2"})),
+            (std::set<std::string>{"valve-1", "tubing-2"}));
+  EXPECT_EQ(ids(With(all, "/require", {{"valve", {"valve-2"}}})),
+            (std::set<std::string>{"valve-2", "tubing-1", "tubing-2"}));
 }
 
 TEST(Requirements, FillsInDefaults) {

@@ -91,14 +91,10 @@ class RandomRigs {
     std::sort(commands.begin(), commands.end(),
               [](const ValveCommand& a, const ValveCommand& b) { return a.time_s < b.time_s; });
     group.schedule = commands;
-    if (Coin(0.3)) {
-      group.effects.push_back(Make("hysteresis", {Uniform(500.0, 6e3)}));
-    } else {
-      if (Coin(0.4))
-        group.effects.push_back(Make("creep", {Uniform(0.05, 0.3), Uniform(0.2, 4.0)}));
-      if (Coin(0.4)) group.effects.push_back(Make("heat_transfer", {Uniform(0.1, 3.0)}));
-      if (Coin(0.4)) group.effects.push_back(Make("valve_ramp", {Uniform(0.01, 0.15)}));
-    }
+    if (Coin(0.3)) group.effects.push_back(Make("hysteresis", {Uniform(500.0, 6e3)}));
+    if (Coin(0.4)) group.effects.push_back(Make("creep", {Uniform(0.05, 0.3), Uniform(0.2, 4.0)}));
+    if (Coin(0.4)) group.effects.push_back(Make("heat_transfer", {Uniform(0.1, 3.0)}));
+    if (Coin(0.4)) group.effects.push_back(Make("valve_ramp", {Uniform(0.01, 0.15)}));
     if (Coin(0.3)) group.effects.push_back(Make("supply_droop", {2e-4, 0.08 * kUnitC, 0.3}));
     if (Coin(0.3)) group.effects.push_back(Make("valve_delay", {Uniform(0.005, 0.15)}));
     return group;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <random>
 #include <vector>
 
@@ -118,11 +118,11 @@ SimulateOptions At(double tolerance) {
 }
 
 std::vector<FullStroke> Batch(const std::vector<Rig>& rigs, const SimulateOptions& options,
-                              Instructions instructions = WidestSupported()) {
+                              Instructions instructions = WidestSupported(), int threads = 1) {
   std::size_t groups = 0;
   for (const Rig& rig : rigs) groups += rig.groups.size();
   std::vector<FullStroke> strokes(groups, {-1.0, -1.0, -1.0});
-  FullStrokesOfMany(rigs, options, strokes, instructions);
+  FullStrokesOfMany(rigs, options, strokes, threads, instructions);
   return strokes;
 }
 
@@ -135,7 +135,9 @@ std::vector<FullStroke> OneByOne(const std::vector<Rig>& rigs, const SimulateOpt
 }
 
 bool SameBits(const FullStroke& a, const FullStroke& b) {
-  return std::memcmp(&a, &b, sizeof(FullStroke)) == 0;
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  return bits(a.rise_time_s) == bits(b.rise_time_s) && bits(a.fall_time_s) == bits(b.fall_time_s) &&
+         bits(a.frequency_max_hz) == bits(b.frequency_max_hz) && a.status == b.status;
 }
 
 // Largest difference of a and b per b; infinities must agree.
@@ -262,6 +264,15 @@ TEST(SimulateBatch, NeitherOrderNorSizeNorInstructionsMatter) {
       EXPECT_TRUE(SameBits(same[i], strokes[i])) << i << ' ' << static_cast<int>(instructions);
     }
   }
+}
+
+TEST(SimulateBatch, ThreadsDoNotMatter) {
+  Draw draw;
+  std::vector<Rig> rigs;
+  for (int i = 0; i < 2500; ++i) rigs.push_back(draw.LaneRig());
+  const auto alone = Batch(rigs, At(1e-6));
+  const auto shared = Batch(rigs, At(1e-6), WidestSupported(), 3);
+  for (std::size_t i = 0; i < rigs.size(); ++i) EXPECT_TRUE(SameBits(alone[i], shared[i])) << i;
 }
 
 TEST(SimulateBatch, TargetsNearAndBeyondTheEndOfTheStroke) {

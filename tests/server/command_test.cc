@@ -49,9 +49,30 @@ TEST(Command, HelpIsAnAnswer) {
   const Workbench bench;
   const auto outcome = bench.Run("--help");
   EXPECT_EQ(outcome.status, 0);
-  for (const char* command : {"design", "simulate", "map", "catalog", "serve"}) {
+  for (const char* command : {"design", "verify", "simulate", "map", "catalog", "serve"}) {
     EXPECT_THAT(outcome.out, HasSubstr(command));
   }
+}
+
+TEST(Command, VerifyAcceptsAnAnswerAndRefusesAChangedOne) {
+  const Workbench bench;
+  bench.Write("request.json", Exosuit(120.0).dump());
+  const auto designed = bench.Run("design request.json --top 2 --proof --json");
+  ASSERT_EQ(designed.status, 0) << designed.err;
+  Json answer = OneDocument(designed.out);
+  bench.Write("result.json", designed.out);
+  const auto accepted = bench.Run("verify result.json --json");
+  EXPECT_EQ(accepted.status, 0) << accepted.err;
+  EXPECT_EQ(OneDocument(accepted.out)["accepted"], true);
+  EXPECT_THAT(bench.Run("verify result.json").out, HasSubstr("Accepted."));
+
+  answer["designs"][0]["totals"]["mass_kg"] = 0.1;
+  bench.Write("changed.json", answer.dump());
+  const auto refused = bench.Run("verify changed.json --json");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("refused: amounts"));
+  EXPECT_EQ(OneDocument(refused.out)["accepted"], false);
+  EXPECT_EQ(bench.Run("verify request.json").status, 2);
 }
 
 TEST(Command, MissingFilesAreNamed) {

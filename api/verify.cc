@@ -1,0 +1,219 @@
+#include "api/verify.h"
+
+#include <map>
+
+#include "api/proof_record.h"
+#include "api/text.h"
+#include "api/units.h"
+#include "optimizer/verify.h"
+
+namespace plenum::api {
+namespace {
+
+using optimizer::BigCount;
+using optimizer::Choice;
+using optimizer::Configuration;
+using optimizer::Design;
+using optimizer::Family;
+using optimizer::Problem;
+
+const Range kAnyNumber{-1e300, 1e300};
+constexpr std::size_t kDesignsMax = 500, kRowsMax = 1000;
+
+template <typename Enum>
+Enum ReadEnum(Reader& reader, const char* field, const std::vector<Enum>& values) {
+  std::vector<std::string> names;
+  for (const Enum value : values) names.emplace_back(optimizer::Name(value));
+  const std::string chosen = reader.Choice(field, names);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == chosen) return values[i];
+  return values.front();
+}
+
+// A decimal string, or a number up to 2⁵³.
+BigCount ReadCount(Reader& reader, const char* field) {
+  const Json* value = reader.Raw(field);
+  if (value != nullptr && value->is_number_integer() && *value >= 0)
+    return value->get<std::int64_t>();
+  if (value != nullptr && value->is_string()) {
+    const std::string& digits = value->get_ref<const std::string&>();
+    if (!digits.empty() && digits.size() <= 1000 &&
+        digits.find_first_not_of("0123456789") == std::string::npos)
+      return BigCount(digits.substr(std::min(digits.find_first_not_of('0'), digits.size() - 1)));
+  }
+  reader.Fail(field, "must be a count");
+  return 0;
+}
+
+int GroupNamed(const Problem& problem, const std::string& name) {
+  for (std::size_t g = 0; g < problem.groups.size(); ++g)
+    if (problem.groups[g].name == name) return static_cast<int>(g);
+  return -1;
+}
+
+Choice ReadRow(Reader row, const Problem& problem) {
+  Choice choice;
+  choice.family = ReadEnum<Family>(
+      row, "family",
+      {Family::kTubing, Family::kFitting, Family::kValve, Family::kCompressor, Family::kCylinder,
+       Family::kCo2, Family::kBattery, Family::kRegulator, Family::kReservoir});
+  choice.id = row.Text("id");
+  if (row.Has("group")) {
+    choice.group = GroupNamed(problem, row.Text("group"));
+    if (choice.group < 0) row.Fail("group", "is no group of the request");
+  }
+  choice.quantity = row.Number("quantity", Above(0, 1e6));
+  choice.mass_kg = row.Number("mass_kg", kAnyNumber);
+  choice.volume_m3 = M3FromL(row.Number("volume_l", kAnyNumber));
+  choice.cost_eur = row.OptionalNumber("cost_eur", kAnyNumber);
+  return choice;
+}
+
+void ReadPerformance(Reader performance, const Problem& problem, Design& design) {
+  optimizer::Performance& given = design.performance;
+  const std::size_t groups = problem.groups.size();
+  for (const Element& element : performance.List("groups", groups, groups)) {
+    Reader group(element, performance.errors());
+    given.groups.push_back(
+        {group.Number("rise_time_s", kAnyNumber), group.Number("fall_time_s", kAnyNumber),
+         group.Number("inflate_time_s", kAnyNumber), group.Number("frequency_hz_max", kAnyNumber)});
+  }
+  given.frequency_sustained_hz = performance.Number("frequency_hz_sustained", kAnyNumber);
+  given.air_per_actuation_m3 = M3FromL(performance.Number("air_per_actuation_l_anr", kAnyNumber));
+  given.air_total_m3 = M3FromL(performance.Number("air_total_l_anr", kAnyNumber));
+  given.run_time_s = performance.Number("run_time_s", kAnyNumber);
+}
+
+Design ReadDesign(const Element& element, int rank, const Problem& problem, Errors& errors) {
+  Reader reader(element, errors);
+  Design design;
+  if (reader.Integer("rank", 1, 1'000'000) != rank)
+    reader.Fail("rank", "must be " + std::to_string(rank) + ", the place in the list");
+  design.configuration =
+      ReadEnum<Configuration>(reader, "configuration",
+                              {Configuration::kCylinder, Configuration::kCo2,
+                               Configuration::kCompressor, Configuration::kMains});
+  design.objective = reader.Number("objective", kAnyNumber);
+  for (const Element& row : reader.List("parts", 1, kRowsMax))
+    design.parts.push_back(ReadRow(Reader(row, errors), problem));
+  Reader settings = reader.Object("settings");
+  design.settings.source_pressure_pa =
+      PaFromKpaGauge(settings.Number("source_pressure_kpa_gauge", kAnyNumber), problem.ambient);
+  design.settings.compressor_duty = settings.OptionalNumber("compressor_duty", kAnyNumber);
+  if (const auto ml = settings.OptionalNumber("reservoir_volume_ml", kAnyNumber))
+    design.settings.reservoir_volume_m3 = M3FromMl(*ml);
+  design.settings.valve_duty = settings.Numbers("valve_duty_groups", kRowsMax, kAnyNumber);
+  if (design.settings.valve_duty.size() != problem.groups.size())
+    settings.Fail("valve_duty_groups", "must have one number for each group");
+  Reader totals = reader.Object("totals");
+  design.totals.mass_kg = totals.Number("mass_kg", kAnyNumber);
+  design.totals.volume_m3 = M3FromL(totals.Number("volume_l", kAnyNumber));
+  design.totals.cost_eur = totals.OptionalNumber("cost_eur", kAnyNumber);
+  design.totals.energy_j = totals.Number("energy_wh", kAnyNumber) * kJPerWh;
+  ReadPerformance(reader.Object("performance"), problem, design);
+  for (const Element& row : reader.List("margins", 0, kRowsMax)) {
+    Reader margin(row, errors);
+    design.margins.push_back({margin.Text("requirement"), margin.Number("required", kAnyNumber),
+                              margin.Number("achieved", kAnyNumber),
+                              margin.Number("relative_margin", kAnyNumber)});
+  }
+  return design;
+}
+
+optimizer::Proof ReadProof(Reader reader, const Problem& problem) {
+  optimizer::Proof proof;
+  proof.combinations = ReadCount(reader, "combinations");
+  proof.complete = reader.Bool("complete", false);
+  proof.lower_bound =
+      reader.OptionalNumber("lower_bound", kAnyNumber).value_or(optimizer::kUnlimited);
+  proof.gap = reader.Number("gap", {0, 1});
+  proof.evaluated = ReadCount(reader, "evaluated");
+  proof.undecided = reader.Integer("undecided", 0, 2'000'000'000);
+  Reader pruned = reader.Object("pruned");
+  proof.pruned = {ReadCount(pruned, "incompatible"), ReadCount(pruned, "infeasible"),
+                  ReadCount(pruned, "bound"), ReadCount(pruned, "dominated"),
+                  ReadCount(pruned, "unpriced")};
+  if (auto record = reader.OptionalObject("record"))
+    proof.record = std::make_shared<optimizer::ProofRecord>(ReadRecord(*record, problem.parts));
+  return proof;
+}
+
+optimizer::Answer ReadAnswer(Reader& reader, const Problem& problem) {
+  optimizer::Answer answer;
+  using optimizer::Status;
+  answer.status = ReadEnum<Status>(
+      reader, "status",
+      {Status::kOptimal, Status::kFeasible, Status::kInfeasible, Status::kCancelled});
+  for (const Element& design : reader.List("designs", 0, kDesignsMax))
+    answer.designs.push_back(
+        ReadDesign(design, static_cast<int>(answer.designs.size()) + 1, problem, reader.errors()));
+  answer.proof = ReadProof(reader.Object("proof"), problem);
+  return answer;
+}
+
+std::string RevisionName(const Json& number, const std::string& hash) {
+  return "revision " + number.dump() + " (" + Clip(hash, 12) + ")";
+}
+
+// What the result was computed from is what is on the table.
+Json CheckCatalogue(Reader& reader, const catalog::Revision& revision) {
+  Reader named = reader.Object("catalogue_revision");
+  const Json* number = named.Raw("number");
+  const std::string hash = named.Text("hash");
+  const bool same = hash == revision.hash;
+  return {{"check", "catalogue"},
+          {"ok", same},
+          {"detail", same ? "the result was computed from these parts"
+                          : "the result was computed from " +
+                                RevisionName(number ? *number : Json(nullptr), hash) +
+                                ", the catalogue is at " +
+                                RevisionName(revision.number, revision.hash)}};
+}
+
+Json Refused(const std::string& check, const std::string& detail) {
+  return {{"check", check}, {"ok", false}, {"detail", detail}};
+}
+
+}  // namespace
+
+Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& parts,
+                          const catalog::Revision& revision) {
+  Errors errors;
+  Reader reader(result, "", errors);
+  reader.Schema("designs/1");
+  Json document = {{"schema", "verification/1"}, {"accepted", false}};
+  Json checks = Json::array({CheckCatalogue(reader, revision)});
+  const Json* request = reader.Raw("requirements");
+  if (request == nullptr) reader.Fail("requirements", "is required, the request as it was given");
+  for (const char* other : {"front", "robust"})
+    if (reader.Has(other)) reader.Fail(other, "only a list by one objective can be verified");
+  if (!errors.empty()) return errors;
+  Json not_rechecked = Json::array();
+  if (checks[0]["ok"].get<bool>()) {
+    auto parsed = ParseRequirements(*request, parts);
+    if (auto* wrong = std::get_if<Errors>(&parsed)) {
+      for (Error& error : *wrong) error.pointer.insert(0, "/requirements");
+      return *wrong;
+    }
+    const Problem& problem = std::get<DesignRequest>(parsed).problem;
+    const optimizer::Answer answer = ReadAnswer(reader, problem);
+    if (errors.empty()) {
+      const optimizer::Verification verification = optimizer::Verify(problem, answer);
+      for (const optimizer::Check& check : verification.checks)
+        checks.push_back({{"check", check.name}, {"ok", check.ok}, {"detail", check.detail}});
+      for (const optimizer::NotRechecked& open : verification.not_rechecked)
+        not_rechecked.push_back({{"what", open.what}, {"combinations", open.combinations.str()}});
+    } else {
+      for (const Error& error : errors)
+        checks.push_back(Refused("form", error.pointer + ": " + error.detail));
+    }
+  }
+  bool accepted = true;
+  for (const Json& check : checks) accepted = accepted && check["ok"].get<bool>();
+  document["accepted"] = accepted;
+  document["checks"] = std::move(checks);
+  document["not_rechecked"] = std::move(not_rechecked);
+  return document;
+}
+
+}  // namespace plenum::api

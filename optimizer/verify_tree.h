@@ -1,0 +1,41 @@
+// The record of a search, replayed. Internal to verify*.cc.
+#ifndef PLENUM_OPTIMIZER_VERIFY_TREE_H_
+#define PLENUM_OPTIMIZER_VERIFY_TREE_H_
+
+#include <utility>
+#include <vector>
+
+#include "optimizer/verify.h"
+
+namespace plenum::optimizer {
+
+using Ranges = std::vector<std::pair<int, int>>;  // of choices per slot, half-open
+
+struct ClosedBox {
+  ProofBox end;
+  Ranges ranges;
+};
+
+// The closed boxes of a plan. A tree that does not divide the choices, with every box closed
+// exactly once, is a finding.
+std::vector<ClosedBox> Replay(const ProofPlan& plan, Findings& findings);
+
+BigCount CountOf(const Ranges& ranges);
+
+// Parts of a family, as many as there are of them in parallel at most.
+int FamilySize(const Problem& problem, Family family);
+int QuantityMax(const Problem& problem, Family family);
+std::vector<Family> SourceFamilies(Configuration configuration);
+bool MadeReservoirAllowed(const Problem& problem);
+const model::PartBasics* BasicsOf(const Problem& problem, Family family, int part);
+
+// By the contract: of one configuration, from the catalogue alone.
+BigCount Combinations(const Problem& problem, Configuration configuration);
+
+// Whether choices, dominated and unpriced ones make up each family, and dominators dominate by the
+// rule of proof.h. Adds to the counts.
+void CheckSlots(const Problem& problem, const ProofPlan& plan, Pruned& counts, Findings& findings);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_VERIFY_TREE_H_

@@ -1,0 +1,225 @@
+// Answers of the search are accepted; each of many ways to tamper with them is refused, and by the
+// check that is meant to see it.
+#include "api/verify.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+#include "tests/api/support.h"
+
+namespace plenum::api {
+namespace {
+
+const std::filesystem::path kRoot = PLENUM_SOURCE_DIR;
+
+struct Catalogue {
+  catalog::Revision revision;
+  std::vector<catalog::Part> parts;
+};
+
+const Catalogue& Project() {
+  static const Catalogue catalogue = [] {
+    const catalog::Store store(kRoot / "catalog.db", catalog::Access::kRead);
+    auto [revision, parts] = store.ListWithHead();
+    return Catalogue{revision, parts};
+  }();
+  return catalogue;
+}
+
+Json Answered(const std::string& example, int count) {
+  std::ifstream file(kRoot / "examples" / (example + ".json"));
+  Json request = Parse(std::string(std::istreambuf_iterator<char>(file), {}));
+  request["ranking"] = {{"count", count}, {"time_limit_s", 300}, {"proof", true}};
+  const auto parsed = std::get<DesignRequest>(ParseRequirements(request, Project().parts));
+  Json answer = AnswerRequest(parsed, {}, Project().parts);
+  answer["catalogue_revision"] = RenderRevisionName(Project().revision);
+  return Parse(answer.dump());
+}
+
+const Json& Exosuit() {
+  static const Json answer = Answered("exosuit", 4);
+  return answer;
+}
+
+Json Verified(const Json& answer) {
+  const auto verified = VerifyAnswer(answer, Project().parts, Project().revision);
+  for (const Error& error : ErrorsOf(verified)) ADD_FAILURE() << error.pointer << error.detail;
+  return std::get<Json>(verified);
+}
+
+// Names of the checks that refuse, and what they say.
+std::string Refusals(const Json& answer) {
+  std::string refusals;
+  const Json verified = Verified(answer);
+  for (const Json& check : verified["checks"])
+    if (!check["ok"])
+      refusals +=
+          check["check"].get<std::string>() + ": " + check["detail"].get<std::string>() + "\n";
+  EXPECT_EQ(verified["accepted"], refusals.empty());
+  return refusals;
+}
+
+void Scale(Json& number, double factor) { number = number.get<double>() * factor; }
+
+Json& Boxes(Json& answer, std::size_t plan = 0) {
+  return answer["proof"]["record"]["plans"][plan]["boxes"];
+}
+
+// The first box of a kind in any plan.
+Json& BoxOf(Json& answer, int kind) {
+  for (Json& plan : answer["proof"]["record"]["plans"])
+    for (Json& box : plan["boxes"])
+      if (box[0] == kind) return box;
+  throw std::out_of_range("no such box");
+}
+
+TEST(Verify, AcceptsTheAnswersOfTheSearch) {
+  EXPECT_EQ(Refusals(Exosuit()), "");
+  const Json verified = Verified(Exosuit());
+  EXPECT_EQ(verified["schema"], "verification/1");
+  EXPECT_EQ(verified["accepted"], true);
+  EXPECT_EQ(Refusals(Answered("gripper", 3)), "");
+}
+
+TEST(Verify, SaysWhatItDidNotRecheckWithoutARecord) {
+  Json answer = Exosuit();
+  answer["proof"].erase("record");
+  const Json verified = Verified(answer);
+  EXPECT_EQ(verified["accepted"], true);
+  ASSERT_EQ(verified["not_rechecked"].size(), 1u);
+  const optimizer::BigCount others =
+      optimizer::BigCount(answer["proof"]["combinations"].get<std::string>()) -
+      answer["designs"].size();
+  EXPECT_EQ(verified["not_rechecked"][0]["combinations"], others.str());
+}
+
+TEST(Verify, RefusesWhatIsNoAnswerOfOneList) {
+  const auto errors = [](const Json& json) {
+    return ErrorsOf(VerifyAnswer(json, Project().parts, Project().revision));
+  };
+  EXPECT_NE(DetailAt(errors(Parse("{}")), "/schema"), "");
+  EXPECT_NE(DetailAt(errors(Without(Exosuit(), "/requirements")), "/requirements"), "");
+  EXPECT_NE(DetailAt(errors(With(Exosuit(), "/front", Json::object())), "/front"), "");
+  EXPECT_NE(DetailAt(errors(With(Exosuit(), "/requirements/duty/frequency_hz", -1)),
+                     "/requirements/duty/frequency_hz"),
+            "");
+}
+
+struct Tampering {
+  const char* name;
+  const char* check;  // that must refuse
+  std::function<void(Json&)> tamper;
+};
+
+TEST(Verify, RefusesTampering) {
+  const std::vector<Tampering> all{
+      {"ranks swapped", "order",
+       [](Json& a) {
+         std::swap(a["designs"][0], a["designs"][3]);
+         std::swap(a["designs"][0]["rank"], a["designs"][3]["rank"]);
+       }},
+      {"rank renumbered", "form", [](Json& a) { a["designs"][1]["rank"] = 1; }},
+      {"mass of a row", "amounts",
+       [](Json& a) { Scale(a["designs"][0]["parts"][0]["mass_kg"], 0.9); }},
+      {"mass of the totals and objective", "amounts",
+       [](Json& a) {
+         Scale(a["designs"][0]["totals"]["mass_kg"], 0.99);
+         Scale(a["designs"][0]["objective"], 0.99);
+       }},
+      {"objective alone", "amounts", [](Json& a) { Scale(a["designs"][2]["objective"], 1.00001); }},
+      {"part replaced", "parts",
+       [](Json& a) { a["designs"][0]["parts"][0]["id"] = a["designs"][0]["parts"][1]["id"]; }},
+      {"one piece less", "parts", [](Json& a) { a["designs"][0]["parts"][1]["quantity"] = 11; }},
+      {"part left out", "parts", [](Json& a) { a["designs"][0]["parts"].erase(3); }},
+      {"rise time", "strokes",
+       [](Json& a) { Scale(a["designs"][0]["performance"]["groups"][0]["rise_time_s"], 0.99); }},
+      {"energy", "strokes", [](Json& a) { Scale(a["designs"][0]["totals"]["energy_wh"], 0.98); }},
+      {"source pressure", "strokes",
+       [](Json& a) { Scale(a["designs"][0]["settings"]["source_pressure_kpa_gauge"], 1.1); }},
+      {"margin", "margins",
+       [](Json& a) { Scale(a["designs"][0]["margins"][0]["relative_margin"], 1.01); }},
+      {"achieved and its margin", "margins",
+       [](Json& a) {
+         Json& margin = a["designs"][0]["margins"][0];
+         margin["achieved"] = 0.9 * margin["achieved"].get<double>();
+         margin["relative_margin"] =
+             1.0 - margin["achieved"].get<double>() / margin["required"].get<double>();
+       }},
+      {"margin left out", "margins", [](Json& a) { a["designs"][0]["margins"].erase(1); }},
+      {"tighter requirement", "supply",
+       [](Json& a) { a["requirements"]["actuators"][0]["rise_time_s_max"] = 0.05; }},
+      {"last design removed", "designs_in_tree", [](Json& a) { a["designs"].erase(3); }},
+      {"bound below the list", "bound", [](Json& a) { BoxOf(a, 2)[1] = 0.1; }},
+      {"box removed", "boxes", [](Json& a) { Boxes(a).erase(Boxes(a).size() - 1); }},
+      {"box added", "boxes", [](Json& a) { Boxes(a).push_back({6}); }},
+      {"split moved", "boxes", [](Json& a) { BoxOf(a, 0)[2] = 0; }},
+      {"design's box refuted", "designs_in_tree", [](Json& a) { BoxOf(a, 4) = Json::array({6}); }},
+      {"incompatible box that is not", "infeasible",
+       [](Json& a) {
+         BoxOf(a, 2) = Json::array({1, 1});
+       }},
+      {"kind of a count", "counts",
+       [](Json& a) {
+         Json& pruned = a["proof"]["pruned"];
+         std::swap(pruned["bound"], pruned["infeasible"]);
+       }},
+      {"one more evaluated", "combinations",
+       [](Json& a) { a["proof"]["evaluated"] = a["proof"]["evaluated"].get<int>() + 1; }},
+      {"combinations", "combinations", [](Json& a) { a["proof"]["combinations"] = "12345"; }},
+      {"catalogue", "catalogue",
+       [](Json& a) { a["catalogue_revision"]["hash"] = std::string(64, '0'); }},
+      {"dominator that is none", "dominance",
+       [](Json& a) {
+         for (Json& slot : a["proof"]["record"]["plans"][0]["slots"])
+           if (!slot["dominated"].empty()) {
+             Json& dominators = slot["dominated"][0][2];
+             dominators[0] = dominators[1];
+             return;
+           }
+       }},
+      {"dominator of another", "dominance",
+       [](Json& a) {
+         for (Json& plan : a["proof"]["record"]["plans"])
+           for (Json& slot : plan["slots"])
+             if (!slot["dominated"].empty()) {
+               Json& dominators = slot["dominated"][0][2];
+               for (std::size_t i = 0; i < dominators.size(); ++i)
+                 dominators[i] = slot["choices"].size() - 1 - i;
+             }
+       }},
+      {"choice left out", "choices",
+       [](Json& a) {
+         for (Json& slot : a["proof"]["record"]["plans"][0]["slots"])
+           if (!slot["dominated"].empty()) {
+             slot["dominated"].erase(0);
+             return;
+           }
+       }},
+      {"stopped search called optimal", "status", [](Json& a) { a["proof"]["complete"] = false; }},
+      {"proof called infeasible", "status", [](Json& a) { a["status"] = "infeasible"; }},
+      {"lower bound", "bound", [](Json& a) { Scale(a["proof"]["lower_bound"], 1.1); }},
+      {"gap", "bound", [](Json& a) { a["proof"]["gap"] = 0.1; }},
+      {"excluded part listed", "parts",
+       [](Json& a) {
+         a["requirements"]["exclude"] = {a["designs"][0]["parts"][0]["id"]};
+         a["proof"].erase("record");
+       }},
+  };
+  for (const Tampering& tampering : all) {
+    Json answer = Exosuit();
+    tampering.tamper(answer);
+    ASSERT_NE(answer, Exosuit()) << tampering.name;
+    const std::string refusals = Refusals(answer);
+    EXPECT_NE(("\n" + refusals).find(std::string("\n") + tampering.check + ": "), std::string::npos)
+        << tampering.name << " is refused by\n"
+        << refusals;
+  }
+}
+
+}  // namespace
+}  // namespace plenum::api
