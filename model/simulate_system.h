@@ -128,6 +128,9 @@ class System {
  private:
   static constexpr std::size_t kLines = 3;  // fill, exhaust, feed
   struct Group {
+    Group() = default;
+    Group(Group&&) = default;
+
     double count = 1.0;
     GroupSetup<T> setup;
     std::array<Line<T>, kLines> lines;
