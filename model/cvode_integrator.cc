@@ -50,9 +50,7 @@ struct CvodeIntegrator::Memory {
     const std::span<const double> state = Span(y);
     const std::span<double> weight = Span(weights);
     for (std::size_t i = 0; i < state.size(); ++i) {
-      const double size = std::abs(state[i]);
-      weight[i] = 1.0 / (sizes[i] > 0.0 ? memory.rtol * std::max(size, sizes[i])
-                                        : memory.rtol * size + memory.atol_pa);
+      weight[i] = 1.0 / ErrorBound(std::abs(state[i]), sizes[i], memory.rtol, memory.atol_pa);
     }
     return 0;
   }

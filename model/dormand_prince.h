@@ -112,7 +112,6 @@ class DormandPrinceOf {
   const T& step() const { return h_; }
   double next_step() const { return next_step_; }
   void set_next_step(double step) { next_step_ = step; }
-  std::span<const T> start_state() const { return y0_; }
   std::span<const T> state() const { return y1_; }
   std::span<const T> derivative() const { return k_[6]; }
   std::span<const T> start_derivative() const { return k_[0]; }

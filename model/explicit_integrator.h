@@ -73,16 +73,12 @@ class ExplicitIntegrator {
   static constexpr double kThetaTolerance = 1e-14;
   static constexpr double kStabilityBound = 3.25;
 
-  double Tolerance(std::size_t i, double size) const {
-    const double typical = system_.sizes()[i];
-    return typical > 0.0 ? rtol_ * std::max(size, typical) : rtol_ * size + atol_pa_;
-  }
-
   double Norm(std::span<const T> before, std::span<const T> after, std::span<const T> error) const {
     double norm = 0.0;
     for (std::size_t i = 0; i < error.size(); ++i) {
       const double size = std::max(std::abs(ValueOf(before[i])), std::abs(ValueOf(after[i])));
-      const double share = std::abs(ValueOf(error[i])) / Tolerance(i, size);
+      const double share =
+          std::abs(ValueOf(error[i])) / ErrorBound(size, system_.sizes()[i], rtol_, atol_pa_);
       if (!std::isfinite(share)) return std::numeric_limits<double>::infinity();
       norm = std::max(norm, share);
     }

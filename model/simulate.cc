@@ -10,7 +10,6 @@ namespace plenum::model {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFullStrokeHorizonS = 1e6;
 
 Response Refused(const std::string& reason) {
   Response response;

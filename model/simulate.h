@@ -177,6 +177,7 @@ Response Simulate(const Rig& rig, const SimulateOptions& options);
 // rise_fraction of the operating gauge pressure from the source's initial state with all groups
 // inflating together, fall from the operating pressure to fall_fraction of it. +∞ where not
 // reached, and everywhere for a rig that Simulate refuses. end_s and sample_hz are not used.
+inline constexpr double kFullStrokeHorizonS = 1e6;  // what takes longer is not reached
 struct FullStroke {
   double rise_time_s;
   double fall_time_s;

@@ -19,7 +19,6 @@ namespace plenum::model {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kHorizonS = 1e6;  // of FullStrokes
 constexpr double kTooCloseToCall = 1e-6;
 constexpr std::size_t kLaneStepsMax = 1000;
 constexpr std::size_t kRigsAtOnce = 1024;
@@ -226,7 +225,7 @@ class Batch {
     for (std::size_t i = 0; i < times_.size(); ++i) {
       double& seconds = seconds_[list.stroke[i]];
       seconds += times_[i];
-      if (seconds > kHorizonS) seconds = kInfinity;
+      if (seconds > kFullStrokeHorizonS) seconds = kInfinity;
     }
     list.legs.clear();
     list.stroke.clear();

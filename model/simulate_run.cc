@@ -309,7 +309,7 @@ void Run<T, Stepper>::AddGuards() {
 
 template <class T, class Stepper>
 double Run<T, Stepper>::Tolerance(double pressure_pa) const {
-  return options_.relative_tolerance * pressure_pa + options_.absolute_tolerance_pa;
+  return ErrorBound(pressure_pa, 0.0, options_.relative_tolerance, options_.absolute_tolerance_pa);
 }
 
 template <class T, class Stepper>

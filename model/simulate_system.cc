@@ -252,11 +252,10 @@ T System<T>::FinalPressure(std::size_t i, const T& source_pa) const {
 
 // Volume law and the effects on it.
 template <class T>
-void System<T>::FillMoment(Group& group, const T& t, std::span<const T> y) const {
+void System<T>::FillMoment(Group& group, std::span<const T> y) const {
   const GroupSetup<T>& setup = group.setup;
   Moment<T>& m = group.moment;
   m = Moment<T>();
-  m.time_s = t;
   m.pressure_pa = y[group.at] > kLowestPressurePa ? y[group.at] : T(kLowestPressurePa);
   m.volume_pressure_pa = m.tail_pa = m.pressure_pa;
   m.head_pa = SourcePressure(y);
@@ -304,7 +303,7 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
   outlets_.clear();
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
-    FillMoment(group, t, y);
+    FillMoment(group, y);
     Moment<T>& m = group.moment;
     const T filling = group.settled ? T(0.0) : group.filling.At(t);
     const T venting = group.settled ? T(0.0) : group.venting.At(t);

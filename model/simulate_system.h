@@ -2,6 +2,7 @@
 #ifndef PLENUM_MODEL_SIMULATE_SYSTEM_H_
 #define PLENUM_MODEL_SIMULATE_SYSTEM_H_
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -15,6 +16,12 @@
 #include "model/simulate_line.h"
 
 namespace plenum::model {
+
+// Local error allowed to a state whose value is about `value`: rtol·(its size) with the larger of
+// value and typical size, or rtol·p + atol for a pressure (typical size 0).
+inline double ErrorBound(double value, double typical, double rtol, double atol_pa) {
+  return typical > 0.0 ? rtol * std::max(value, typical) : rtol * value + atol_pa;
+}
 
 // kHolding: the reservoir is at the limit pressure and the pumps run the share of time that covers
 // what the lines draw.
@@ -152,7 +159,7 @@ class System {
   Group MakeGroup(const GroupRig& rig, const Lift& lift, const T& factor,
                   double linear_ratio) const;
   void LayOut();
-  void FillMoment(Group& group, const T& t, std::span<const T> y) const;
+  void FillMoment(Group& group, std::span<const T> y) const;
   void UpdateFlows(const T& t, std::span<const T> y);
   void Balance(Group& group, std::span<const T> y, std::span<T> dydt) const;
   void SourceRates(const T& draw, std::span<const T> y, std::span<T> dydt) const;

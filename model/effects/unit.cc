@@ -12,37 +12,35 @@ T GroupSetup<T>::Law(const T& pressure_pa) const {
   return rest_volume_m3 * (1.0 + (expansion_ratio - 1.0) * x);
 }
 
-// The share x of the operating pressure is bent to x + a·x·(x−1) + s·sin(2πx)/(2π) first.
+// The pressure at which the law is read: the share x of the operating pressure is bent to
+// x + a·x·(x−1) + s·sin(2πx)/(2π).
 template <class T>
-T GroupSetup<T>::QuasiStaticVolume(const T& pressure_pa) const {
+T GroupSetup<T>::BentPressure(const T& pressure_pa) const {
   using std::sin;
-  if (blocked) return Law(ambient_pressure_pa);
-  if (!bent) return Law(pressure_pa);
+  if (!bent) return pressure_pa;
   const T span = operating_pressure_pa - ambient_pressure_pa;
   const T x = (pressure_pa - ambient_pressure_pa) / span;
   constexpr double kTurn = 2.0 * std::numbers::pi;
   const T bent_x = x + curvature * x * (x - 1.0) + s_amplitude * sin(kTurn * x) / kTurn;
-  return Law(ambient_pressure_pa + bent_x * span);
+  return ambient_pressure_pa + bent_x * span;
+}
+
+template <class T>
+T GroupSetup<T>::QuasiStaticVolume(const T& pressure_pa) const {
+  return Law(blocked ? ambient_pressure_pa : BentPressure(pressure_pa));
 }
 
 template <class T>
 T GroupSetup<T>::QuasiStaticSlope(const T& pressure_pa) const {
   using std::cos;
-  using std::sin;
   if (blocked) return T(0.0);
   const T span = operating_pressure_pa - ambient_pressure_pa;
-  const T x = (pressure_pa - ambient_pressure_pa) / span;
-  T bent_pressure = pressure_pa;
-  T bent_slope(1.0);
-  if (bent) {
-    constexpr double kTurn = 2.0 * std::numbers::pi;
-    const T bent_x = x + curvature * x * (x - 1.0) + s_amplitude * sin(kTurn * x) / kTurn;
-    bent_pressure = ambient_pressure_pa + bent_x * span;
-    bent_slope = 1.0 + curvature * (2.0 * x - 1.0) + s_amplitude * cos(kTurn * x);
-  }
-  const T slope = volume_curve ? CurveSlopeAt(*volume_curve, bent_pressure)
+  const T slope = volume_curve ? CurveSlopeAt(*volume_curve, BentPressure(pressure_pa))
                                : T(rest_volume_m3 * (expansion_ratio - 1.0) / span);
-  return slope * bent_slope;
+  if (!bent) return slope;
+  const T x = (pressure_pa - ambient_pressure_pa) / span;
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  return slope * (1.0 + curvature * (2.0 * x - 1.0) + s_amplitude * cos(kTurn * x));
 }
 
 template <class T>

@@ -52,12 +52,12 @@ struct GroupSetup {
 
  private:
   T Law(const T& pressure_pa) const;
+  T BentPressure(const T& pressure_pa) const;
 };
 
 // One actuator at an instant.
 template <class T>
 struct Moment {
-  T time_s;
   T pressure_pa;
   T volume_pressure_pa;             // at which the volume law is taken
   bool volume_follows = true;       // whether that moves with the pressure
