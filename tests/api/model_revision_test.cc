@@ -76,6 +76,7 @@ TEST(ModelRevision, ARankingNamesOne) {
 TEST(ModelRevision, TheAnswerComparesWithTheNominalOne) {
   Json request = With(Requirements(), "/model", "bench");
   request["ranking"] = {{"count", 3}, {"time_limit_s", 60}};
+  request["supply"]["configurations"] = {"cylinder"};
   const auto parsed =
       std::get<DesignRequest>(ParseRequirements(request, SmallCatalogue(), {Saved()}));
   const Json answer = AnswerRequest(parsed, {}, SmallCatalogue());
