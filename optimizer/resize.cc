@@ -76,7 +76,7 @@ bool SetLine(const Problem& problem, const Design& design, int g, Line& line) {
   valve_corner.pressure_max_pa = valve->pressure_max_pa;
   const model::Gas gas =
       design.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
-  return MakeLine(problem, g, gas, {tube_corner, fitting_corner, valve_corner}, true, line) ==
+  return MakeLine(problem, g, gas, {tube_corner, fitting_corner, valve_corner}, true, true, line) ==
          Constraint::kNone;
 }
 

@@ -8,6 +8,7 @@
 #include "optimizer/evaluate_strokes.h"
 #include "optimizer/nlp.h"
 #include "optimizer/root.h"
+#include "optimizer/stroke_bound.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -165,8 +166,9 @@ std::optional<double> NeededSourcePressure(const Problem& problem, const Candida
         MakePumpFacts(problem, problem.parts.compressors[candidate.compressor.index].curve,
                       candidate.compressor.quantity);
     const auto alone = [&](double source_pa) {
-      point.source_pa = source_pa;
-      return AloneExcess(problem, candidate.lines, pumps, point);
+      return LeastStrokeExcess(
+          problem, candidate.lines, pumps,
+          {source_pa, source_pa, point.reservoir_rising_m3, point.reservoir_m3});
     };
     low_pa = FeasibleBracket(alone, low_pa, window.high_pa, kBoundTolerance).low;
   }
