@@ -202,6 +202,7 @@ Evaluation Evaluate(const Problem& problem, const Candidate& candidate, const Op
   const Strokes strokes = EvaluateStrokes(problem, candidate, point);
   if (!strokes.works) return evaluation;
   evaluation.works = true;
+  evaluation.from_full = strokes.from_full;
 
   double coil_power_w = 0.0;
   double slowest_s = 0.0;

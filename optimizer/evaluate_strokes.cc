@@ -160,6 +160,7 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
       if (outcome == Alone::kNo) return SimulateStrokes(problem, candidate, point);
     }
   }
+  strokes.from_full = true;
   strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
                               [](double s) { return std::isfinite(s); });
   return strokes;

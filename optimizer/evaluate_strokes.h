@@ -14,6 +14,7 @@ struct Strokes {
   std::vector<double> rise_s, inflate_s;  // per group, worst of the cycle
   double pump_on_s = 0.0;                 // per cycle
   double pump_energy_j = 0.0;             // per cycle, all pumps
+  bool from_full = false;                 // no two groups meet, and each finds the reservoir full
 };
 
 model::Gas GasOf(Configuration configuration);

@@ -104,43 +104,6 @@ double Minorant::Mean(double low_pa, double high_pa) const {
   return (Integral(high_pa) - Integral(low_pa)) / (high_pa - low_pa);
 }
 
-// Between the points of a table the interpolation is monotone, so that they and the end decide.
-bool PowerRises(const model::CompressorCurve& curve, double low_pa, double high_pa) {
-  double before_w = model::ElectricalPower(curve, low_pa);
-  const auto rises = [&](double pressure_pa) {
-    const double power_w = model::ElectricalPower(curve, pressure_pa);
-    const bool ok = power_w >= before_w * (1.0 - 1e-12);
-    before_w = power_w;
-    return ok;
-  };
-  for (double knot : curve.current_a.x())
-    if (knot > low_pa && knot < high_pa && !rises(knot)) return false;
-  return rises(high_pa);
-}
-
-// Where power rises so does its share per air, since delivery falls; elsewhere both are cubic
-// between the points of their tables, and their quotient is looked at closely.
-bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa) {
-  constexpr int kLooks = 32;  // between two points
-  if (PowerRises(curve, low_pa, high_pa)) return true;
-  std::vector<double> knots{low_pa, high_pa};
-  for (const model::MonotoneCurve* table : {&curve.free_air_m3_per_s, &curve.current_a})
-    for (double knot : table->x())
-      if (knot > low_pa && knot < high_pa) knots.push_back(knot);
-  std::sort(knots.begin(), knots.end());
-  double before = 0.0;
-  for (std::size_t i = 0; i + 1 < knots.size(); ++i)
-    for (int look = 0; look < kLooks; ++look) {
-      const double pressure_pa = knots[i] + (knots[i + 1] - knots[i]) * look / kLooks;
-      const double delivery = model::FreeAirDelivery(curve, pressure_pa);
-      const double per_air =
-          delivery > 0.0 ? model::ElectricalPower(curve, pressure_pa) / delivery : kNoDelivery;
-      if (per_air < before * (1.0 - 1e-12)) return false;
-      before = per_air;
-    }
-  return true;
-}
-
 PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps) {
   const double ambient_pa = problem.ambient.pressure_pa;
   const double highest_pa = std::max(model::HighestPressure(curve), 1.01 * ambient_pa);

@@ -44,10 +44,6 @@ class Minorant {
   std::vector<double> value_, integral_;
 };
 
-// Whether electrical power, and power over delivery, do not fall with pressure in between.
-bool PowerRises(const model::CompressorCurve& curve, double low_pa, double high_pa);
-bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa);
-
 // What the bounds need of the pumps of a choice, all that run in parallel together. From a single
 // choice, or from the coarse tables of many: then each number holds for the best of them.
 struct PumpFacts {
