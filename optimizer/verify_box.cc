@@ -1,0 +1,162 @@
+#include "optimizer/verify_box.h"
+
+#include "optimizer/verify_size.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr int kLooksMax = 200'000;  // at parts of one box
+// A combination counts as feasible here only if it meets every requirement with this to spare.
+constexpr double kToSpare = 1e-6;
+
+// The order of a parts list.
+constexpr Family kOrder[] = {Family::kValve,      Family::kFitting,  Family::kTubing,
+                             Family::kRegulator,  Family::kCylinder, Family::kCo2,
+                             Family::kCompressor, Family::kBattery,  Family::kReservoir};
+
+std::string IdOf(const Problem& problem, Family family, const ProofItem& item) {
+  return item.part == -2 ? "custom" : BasicsOf(problem, family, item.part)->id;
+}
+
+}  // namespace
+
+Ids IdsOf(const Design& design) {
+  Ids ids;
+  for (const Choice& choice : design.parts)
+    ids.emplace_back(choice.id, choice.group < 0 ? static_cast<int>(choice.quantity) : 1);
+  return ids;
+}
+
+Claim ClaimOf(const Problem& problem, const Answer& answer) {
+  if (!answer.proof.complete)
+    return {answer.proof.lower_bound * (1.0 - kSumTolerance), -kUnlimited, {}};
+  if (static_cast<int>(answer.designs.size()) < problem.count) return {kUnlimited, -kUnlimited, {}};
+  double run = -kUnlimited;  // objective of the first of the run of ties that the last one is in
+  for (const Design& design : answer.designs)
+    if (!(design.objective <= run + kTieTolerance * std::abs(run))) run = design.objective;
+  const double tie = kTieTolerance * std::abs(run);
+  return {run - tie, run + tie, IdsOf(answer.designs.back())};
+}
+
+Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges& single) {
+  const model::Parts& parts = problem.parts;
+  Assembly assembly;
+  assembly.configuration = plan.configuration;
+  assembly.lines.resize(problem.groups.size());
+  for (std::size_t s = 0; s < plan.slots.size(); ++s) {
+    const ProofSlot& slot = plan.slots[s];
+    const ProofItem& item = slot.choices[single[s].first];
+    LineParts* line = slot.group < 0 ? nullptr : &assembly.lines[slot.group];
+    if (slot.family == Family::kTubing) line->tube = &parts.tubing[item.part];
+    if (slot.family == Family::kFitting && item.part >= 0)
+      line->fitting = &parts.fittings[item.part];
+    if (slot.family == Family::kValve) line->valve = &parts.valves[item.part];
+    if (slot.family == Family::kRegulator) assembly.regulator = &parts.regulators[item.part];
+    if (slot.family == Family::kCylinder) assembly.cylinder = &parts.cylinders[item.part];
+    if (slot.family == Family::kCo2) assembly.co2 = &parts.co2[item.part];
+    if (slot.family == Family::kCompressor) assembly.compressor = &parts.compressors[item.part];
+    if (slot.family == Family::kBattery) assembly.battery = &parts.batteries[item.part];
+    if (slot.family == Family::kReservoir && item.part >= 0)
+      assembly.reservoir = &parts.reservoirs[item.part];
+    if (slot.family == Family::kCylinder || slot.family == Family::kCo2)
+      assembly.bottles = item.quantity;
+    if (slot.family == Family::kCompressor) assembly.compressors = item.quantity;
+    if (slot.family == Family::kBattery) assembly.batteries = item.quantity;
+    if (slot.family == Family::kReservoir) assembly.reservoirs = item.quantity;
+  }
+  return assembly;
+}
+
+BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claim& claim)
+    : problem_(problem), plan_(plan), claim_(claim), corners_(problem, plan) {}
+
+// Of each slot the choice with the first id: no combination in the box comes before these.
+Ids BoxCheck::EarliestIds(const Ranges& ranges) const {
+  Ids ids;
+  const int groups = static_cast<int>(problem_.groups.size());
+  for (int group = 0; group <= groups; ++group)
+    for (const Family family : kOrder) {
+      const int slot = SlotOf(plan_, family, group < groups ? group : -1);
+      if (slot < 0) continue;
+      std::optional<Ids::value_type> first;
+      for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
+        const ProofItem& item = plan_.slots[slot].choices[i];
+        if (item.part == -1) continue;
+        Ids::value_type id{IdOf(problem_, family, item), item.quantity};
+        if (!first || id < *first) first = std::move(id);
+      }
+      if (first) ids.push_back(std::move(*first));
+    }
+  return ids;
+}
+
+// Whether a bound on the objective of everything in the box bears out the claim.
+bool BoxCheck::Holds(double bound, const Ranges& ranges) const {
+  if (!(bound >= claim_.least)) return false;
+  return bound > claim_.tie_end || EarliestIds(ranges) > claim_.last;
+}
+
+// The slot whose choices differ most in their share of the objective; bottles and batteries, which
+// do not change the strokes, last.
+int BoxCheck::SlotToDivide(const Ranges& ranges) {
+  int widest = -1;
+  std::pair<bool, double> most{false, -1.0};
+  for (int s = 0; s < static_cast<int>(ranges.size()); ++s) {
+    if (ranges[s].second - ranges[s].first < 2) continue;
+    const Family family = plan_.slots[s].family;
+    const LeastAmounts& amounts = corners_.Least(ranges, s);
+    const std::pair<bool, double> spread{
+        family != Family::kCylinder && family != Family::kCo2 && family != Family::kBattery,
+        amounts.objective_most - amounts.least.objective};
+    if (widest < 0 || spread > most) {
+      widest = s;
+      most = spread;
+    }
+  }
+  return widest;
+}
+
+bool BoxCheck::IsSettled(const Ranges& single, Findings& findings) {
+  const Assembly assembly = AssemblyAt(problem_, plan_, single);
+  const double enough = std::max(claim_.least, claim_.tie_end);
+  const Sizing sizing = Size(problem_, assembly, -kToSpare, enough);
+  if (sizing.status == Sized::kInfeasible || Holds(sizing.lower_bound, single)) return true;
+  if (sizing.status != Sized::kFeasible || Holds(sizing.objective, single)) return false;
+  std::string parts;
+  for (const auto& [id, quantity] : EarliestIds(single)) {
+    if (!parts.empty()) parts += ", ";
+    if (quantity > 1) parts += std::to_string(quantity) + " × ";
+    parts += id;
+  }
+  findings.push_back({"rechecked", "a " + std::string(Name(plan_.configuration)) +
+                                       " design that is not listed comes to " +
+                                       std::to_string(sizing.objective) + ": " + parts});
+  return true;
+}
+
+BigCount BoxCheck::Recheck(const Ranges& ranges, Findings& findings) {
+  const double enough = std::max(claim_.least, claim_.tie_end);
+  BigCount open = 0;
+  std::vector<Ranges> waiting{ranges};
+  for (int looks = 0; !waiting.empty(); ++looks) {
+    Ranges part = std::move(waiting.back());
+    waiting.pop_back();
+    if (Holds(corners_.LeastObjective(part, enough), part)) continue;
+    const int slot = SlotToDivide(part);
+    if (slot < 0) {
+      if (!IsSettled(part, findings)) open += 1;
+      continue;
+    }
+    if (looks >= kLooksMax) {
+      open += CountOf(part);
+      continue;
+    }
+    Ranges right = part;
+    part[slot].second = right[slot].first = (part[slot].first + part[slot].second) / 2;
+    waiting.push_back(std::move(right));
+    waiting.push_back(std::move(part));
+  }
+  return open;
+}
+
+}  // namespace plenum::optimizer
