@@ -161,7 +161,15 @@ bool Pumps::TooSlow(const Case& c, int g, double start_pa, Volumes v) const {
 
 // The least pressure at the start of a group's stroke; none where even the highest is too slow.
 std::optional<double> Pumps::LeastStart(const Case& c, int g, double low_pa, double high_pa,
-                                        Volumes v) const {
+                                        Volumes v) {
+  const auto [entry, fresh] =
+      starts_.try_emplace({c.lines[g], &c.pumps, low_pa, high_pa, v.low_m3, v.high_m3});
+  if (fresh) entry->second = FindStart(c, g, low_pa, high_pa, v);
+  return entry->second;
+}
+
+std::optional<double> Pumps::FindStart(const Case& c, int g, double low_pa, double high_pa,
+                                       Volumes v) const {
   if (!(low_pa <= high_pa) || TooSlow(c, g, high_pa, v)) return std::nullopt;
   if (!TooSlow(c, g, low_pa, v)) return low_pa;
   while (high_pa - low_pa > kStartTolerance * high_pa) {
@@ -212,7 +220,7 @@ double Pumps::Rest(const Case& c, const std::vector<double>& starts_pa, double s
   return c.packs.Least(beyond_j + coils_j) + problem_.objective.energy_wh * beyond_j / 3600.0;
 }
 
-double Pumps::LeastAt(const Case& c, double reservoir, Volumes v) const {
+double Pumps::LeastAt(const Case& c, double reservoir, Volumes v) {
   const int groups = static_cast<int>(problem_.groups.size());
   const bool together = problem_.simultaneous || groups == 1;
   double low_pa = problem_.ambient.pressure_pa;
@@ -223,31 +231,30 @@ double Pumps::LeastAt(const Case& c, double reservoir, Volumes v) const {
   }
   if (!(low_pa <= high_pa)) return kUnlimited;
   const double parts = c.chosen + reservoir;
-  if (together) {
-    const double quick = parts + Rest(c, {low_pa}, low_pa, v);
-    if (quick > c.enough) return quick;
-    for (int g = 0; g < groups; ++g) {
-      const auto start_pa = LeastStart(c, g, low_pa, high_pa, v);
-      if (!start_pa) return kUnlimited;
-      low_pa = *start_pa;
-    }
-    return parts + Rest(c, {low_pa}, low_pa, v);
-  }
-  std::vector<double> starts_pa;
+  // Where each stroke starts: of two groups in turn each finds at least what the other was filled
+  // to, since air only flows downhill.
+  std::vector<double> starts_pa{low_pa};
+  if (!together) starts_pa.assign(groups, problem_.ambient.pressure_pa);
+  if (!together && groups == 2)
+    starts_pa = {std::min(OperatingPa(problem_, 1), high_pa),
+                 std::min(OperatingPa(problem_, 0), high_pa)};
+  const auto least = [&] {
+    const double most_pa = *std::max_element(starts_pa.begin(), starts_pa.end());
+    const std::vector<double> most{most_pa};  // of more than two groups some may draw at once
+    return parts + Rest(c, groups > 2 ? most : starts_pa, std::max(low_pa, most_pa), v);
+  };
+  const double quick = least();
+  if (quick > c.enough) return quick;
   for (int g = 0; g < groups; ++g) {
-    // Of two groups each finds at least what the other was filled to: air only flows downhill.
-    const double left_pa =
-        groups == 2 ? OperatingPa(problem_, 1 - g) : problem_.ambient.pressure_pa;
-    const auto start_pa = LeastStart(c, g, std::min(left_pa, high_pa), high_pa, v);
-    if (!start_pa) return kUnlimited;
-    starts_pa.push_back(*start_pa);
+    double& start_pa = starts_pa[together ? 0 : g];
+    const auto needed_pa = LeastStart(c, g, start_pa, high_pa, v);
+    if (!needed_pa) return kUnlimited;
+    start_pa = *needed_pa;
   }
-  const double most_pa = *std::max_element(starts_pa.begin(), starts_pa.end());
-  if (groups > 2) starts_pa = {most_pa};
-  return parts + Rest(c, starts_pa, std::max(low_pa, most_pa), v);
+  return least();
 }
 
-double Pumps::LeastMade(const Case& c, Volumes v) const {
+double Pumps::LeastMade(const Case& c, Volumes v) {
   const double rating_pa = std::min(problem_.source_pressure_max_pa - problem_.ambient.pressure_pa,
                                     model::kMadeReservoirPressureMaxGaugePa);
   const model::MadeReservoir made = model::MakeReservoir(v.low_m3, rating_pa);

@@ -16,6 +16,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "optimizer/verify_dominance.h"
@@ -75,9 +76,11 @@ class Pumps {
 
   bool TooSlow(const Case& c, int group, double start_pa, Volumes v) const;
   std::optional<double> LeastStart(const Case& c, int group, double low_pa, double high_pa,
-                                   Volumes v) const;
-  double LeastAt(const Case& c, double reservoir, Volumes v) const;
-  double LeastMade(const Case& c, Volumes v) const;
+                                   Volumes v);
+  std::optional<double> FindStart(const Case& c, int group, double low_pa, double high_pa,
+                                  Volumes v) const;
+  double LeastAt(const Case& c, double reservoir, Volumes v);
+  double LeastMade(const Case& c, Volumes v);
   double Rest(const Case& c, const std::vector<double>& starts_pa, double stop_pa, Volumes v) const;
 
   const Problem& problem_;
@@ -89,6 +92,8 @@ class Pumps {
   std::vector<PumpCells> items_;          // of single choices
   std::map<Range, PumpCells> ranges_;
   std::map<std::array<int, 4>, Packs> packs_;
+  using StartKey = std::tuple<const BestLine*, const PumpCells*, double, double, double, double>;
+  std::map<StartKey, std::optional<double>> starts_;  // found before
 };
 
 }  // namespace plenum::optimizer
