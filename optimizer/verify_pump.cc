@@ -8,19 +8,9 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr std::size_t kCells = 128;
-constexpr double kStartTolerance = 1e-3;  // of a pressure; its lower end counts
-constexpr double kFinestRatio = 1.01;     // of the ends of an interval of made-to-measure volumes
+constexpr double kPressureTolerance = 1e-3;  // relative; the safe end counts
+constexpr double kFinestRatio = 1.01;  // of the ends of an interval of made-to-measure volumes
 constexpr double kSlack = 1.0 + kSumTolerance;
-
-double LeastPower(const model::CompressorCurve& curve, double low_pa, double high_pa) {
-  double least_w =
-      std::min(model::ElectricalPower(curve, low_pa), model::ElectricalPower(curve, high_pa));
-  for (double knot : curve.current_a.x())  // in between the table is monotone
-    if (knot > low_pa && knot < high_pa)
-      least_w = std::min(least_w, model::ElectricalPower(curve, knot));
-  return least_w;
-}
 
 double RiseLimit(const Problem& problem, int g) {
   return std::min(problem.groups[g].rise_time_max_s, 0.5 / problem.frequency_hz);
@@ -32,111 +22,16 @@ double OperatingPa(const Problem& problem, int g) {
 
 }  // namespace
 
-Packs::Packs(std::vector<Pack> packs) : packs_(std::move(packs)) {
-  std::sort(packs_.begin(), packs_.end(),
-            [](const Pack& a, const Pack& b) { return a.energy_j < b.energy_j; });
-  for (std::size_t i = packs_.size(); i-- > 1;)
-    packs_[i - 1].objective = std::min(packs_[i - 1].objective, packs_[i].objective);
-}
-
-double Packs::Least(double energy_j) const {
-  const auto found =
-      std::lower_bound(packs_.begin(), packs_.end(), energy_j / kSlack,
-                       [](const Pack& pack, double energy) { return pack.energy_j < energy; });
-  return found == packs_.end() ? kUnlimited : found->objective;
-}
-
 Pumps::Pumps(const Problem& problem, const ProofPlan& plan, const SlotAmounts& amounts)
     : problem_(problem),
       plan_(plan),
       amounts_(amounts),
+      choices_(problem, plan, amounts),
       compressor_(SlotOf(plan, Family::kCompressor, -1)),
       reservoir_(SlotOf(plan, Family::kReservoir, -1)),
       battery_(SlotOf(plan, Family::kBattery, -1)),
       content_per_m3_(model::kReferencePressurePa * problem.ambient.temperature_k /
-                      model::kReferenceTemperatureK),
-      highest_pa_(1.01 * problem.ambient.pressure_pa) {
-  for (const model::Compressor& compressor : problem.parts.compressors)
-    highest_pa_ = std::max(highest_pa_, model::HighestPressure(compressor.curve));
-  for (const ProofItem& item : plan.slots[compressor_].choices) items_.push_back(CellsOf(item));
-}
-
-double Pumps::PressureOf(std::size_t cell) const {
-  const double ambient_pa = problem_.ambient.pressure_pa;
-  return ambient_pa + (highest_pa_ - ambient_pa) * static_cast<double>(cell) / kCells;
-}
-
-// Delivery falls with pressure: a cell's lower end has the most.
-PumpCells Pumps::CellsOf(const ProofItem& item) const {
-  const model::Compressor& compressor = problem_.parts.compressors[item.part];
-  const model::CompressorCurve& curve = compressor.curve;
-  PumpCells cells;
-  for (std::size_t i = 0; i < kCells; ++i) {
-    const double delivery = model::FreeAirDelivery(curve, PressureOf(i));
-    cells.delivery_m3_per_s.push_back(item.quantity * delivery);
-    cells.energy_j_per_m3.push_back(
-        delivery > 0.0 ? LeastPower(curve, PressureOf(i), PressureOf(i + 1)) / delivery
-                       : kUnlimited);
-  }
-  double operating_pa = problem_.ambient.pressure_pa;
-  for (const ActuatorGroup& group : problem_.groups)
-    operating_pa = std::max(operating_pa, group.chamber.operating_pressure_pa);
-  cells.highest_pa = model::HighestPressure(curve);
-  cells.duty_max = compressor.duty_max;
-  cells.current_a =
-      item.quantity * model::LargestCurrent(curve, problem_.ambient.pressure_pa, operating_pa);
-  return cells;
-}
-
-const PumpCells& Pumps::CellsIn(Range range) {
-  const auto [entry, fresh] = ranges_.try_emplace(range);
-  PumpCells& best = entry->second;
-  if (!fresh) return best;
-  best = items_[range.first];
-  for (int item = range.first + 1; item < range.second; ++item) {
-    const PumpCells& cells = items_[item];
-    for (std::size_t i = 0; i < kCells; ++i) {
-      best.delivery_m3_per_s[i] = std::max(best.delivery_m3_per_s[i], cells.delivery_m3_per_s[i]);
-      best.energy_j_per_m3[i] = std::min(best.energy_j_per_m3[i], cells.energy_j_per_m3[i]);
-    }
-    best.highest_pa = std::max(best.highest_pa, cells.highest_pa);
-    best.duty_max = std::max(best.duty_max, cells.duty_max);
-    best.current_a = std::min(best.current_a, cells.current_a);
-  }
-  for (std::size_t i = kCells - 1; i-- > 0;)
-    best.energy_j_per_m3[i] = std::min(best.energy_j_per_m3[i], best.energy_j_per_m3[i + 1]);
-  return best;
-}
-
-// Batteries that can drive some pump of the range at all.
-const Packs& Pumps::PacksIn(Range compressors, Range batteries) {
-  const std::array<int, 4> key{compressors.first, compressors.second, batteries.first,
-                               batteries.second};
-  if (const auto found = packs_.find(key); found != packs_.end()) return found->second;
-  const double current_a = CellsIn(compressors).current_a;
-  std::vector<Packs::Pack> packs;
-  for (int i = batteries.first; i < batteries.second; ++i) {
-    const ProofItem& item = plan_.slots[battery_].choices[i];
-    const model::Battery& battery = problem_.parts.batteries[item.part];
-    bool drives = false;
-    for (int c = compressors.first; c < compressors.second && !drives; ++c)
-      drives = model::VoltageMatches(
-          battery.nominal_voltage_v,
-          problem_.parts.compressors[plan_.slots[compressor_].choices[c].part].curve.voltage_v);
-    if (drives && item.quantity * battery.current_max_a * kSlack >= current_a)
-      packs.push_back(
-          {item.quantity * model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v),
-           amounts_[battery_][i].objective});
-  }
-  return packs_.emplace(key, Packs(std::move(packs))).first->second;
-}
-
-double Pumps::DeliveryAt(const PumpCells& pumps, double pressure_pa) const {
-  const double ambient_pa = problem_.ambient.pressure_pa;
-  const double cell = (pressure_pa - ambient_pa) / (highest_pa_ - ambient_pa) * kCells;
-  return pumps
-      .delivery_m3_per_s[std::min(static_cast<std::size_t>(std::max(cell, 0.0)), kCells - 1)];
-}
+                      model::kReferenceTemperatureK) {}
 
 bool Pumps::TooSlow(const Case& c, int g, double start_pa, Volumes v) const {
   const BestLine& line = *c.lines[g];
@@ -145,14 +40,14 @@ bool Pumps::TooSlow(const Case& c, int g, double start_pa, Volumes v) const {
   model::Chamber widest = line.chamber;
   widest.dead_volume_m3 = line.widest_dead_m3;
   double low_pa = ambient_pa, high_pa = start_pa;  // around the lowest pressure of the stroke
-  while (high_pa - low_pa > kStartTolerance * high_pa) {
+  while (high_pa - low_pa > kPressureTolerance * high_pa) {
     const double p = 0.5 * (low_pa + high_pa);
     const double held =
         v.low_m3 * (p - start_pa) + Drawn(problem_, g, widest, std::min(p, target_pa));
     (held < 0.0 ? low_pa : high_pa) = p;
   }
   const double limit_s = RiseLimit(problem_, g);
-  const double pumped_m3 = limit_s * DeliveryAt(c.pumps, low_pa);
+  const double pumped_m3 = limit_s * choices_.DeliveryAt(c.pumps, low_pa);
   return model::FillTimeFromReservoir(line.fill_series, line.chamber, problem_.groups[g].count,
                                       v.high_m3, start_pa + content_per_m3_ * pumped_m3 / v.low_m3,
                                       ambient_pa, target_pa,
@@ -172,7 +67,7 @@ std::optional<double> Pumps::FindStart(const Case& c, int g, double low_pa, doub
                                        Volumes v) const {
   if (!(low_pa <= high_pa) || TooSlow(c, g, high_pa, v)) return std::nullopt;
   if (!TooSlow(c, g, low_pa, v)) return low_pa;
-  while (high_pa - low_pa > kStartTolerance * high_pa) {
+  while (high_pa - low_pa > kPressureTolerance * high_pa) {
     const double middle_pa = 0.5 * (low_pa + high_pa);
     (TooSlow(c, g, middle_pa, v) ? low_pa : high_pa) = middle_pa;
   }
@@ -199,8 +94,8 @@ double Pumps::Rest(const Case& c, const std::vector<double>& starts_pa, double s
     return std::max(0.0, v.low_m3 * (p - starts_pa[i]) + drawn) / content_per_m3_;
   };
   double left_m3 = c.air_m3, on_s = 0.0, pump_j = 0.0, first_fill_j = 0.0;
-  for (std::size_t cell = 0; cell < kCells; ++cell) {
-    const double from_pa = PressureOf(cell), to_pa = PressureOf(cell + 1);
+  for (std::size_t cell = 0; cell < kPumpCells; ++cell) {
+    const double from_pa = choices_.PressureOf(cell), to_pa = choices_.PressureOf(cell + 1);
     if (from_pa >= stop_pa) break;
     const double energy = c.pumps.energy_j_per_m3[cell];
     const double delivery = c.pumps.delivery_m3_per_s[cell];
@@ -221,8 +116,7 @@ double Pumps::Rest(const Case& c, const std::vector<double>& starts_pa, double s
 }
 
 double Pumps::LeastAt(const Case& c, double reservoir, Volumes v) {
-  const int groups = static_cast<int>(problem_.groups.size());
-  const bool together = problem_.simultaneous || groups == 1;
+  const bool together = problem_.simultaneous || c.lines.size() == 1;
   double low_pa = problem_.ambient.pressure_pa;
   double high_pa = std::min(c.pumps.highest_pa, c.reservoir_pa);
   for (const BestLine* line : c.lines) {
@@ -231,25 +125,48 @@ double Pumps::LeastAt(const Case& c, double reservoir, Volumes v) {
   }
   if (!(low_pa <= high_pa)) return kUnlimited;
   const double parts = c.chosen + reservoir;
-  // Where each stroke starts: of two groups in turn each finds at least what the other was filled
-  // to, since air only flows downhill.
-  std::vector<double> starts_pa{low_pa};
-  if (!together) starts_pa.assign(groups, problem_.ambient.pressure_pa);
-  if (!together && groups == 2)
+  return together ? parts + LeastTogether(c, c.enough - parts, low_pa, high_pa, v)
+                  : parts + LeastInTurns(c, c.enough - parts, low_pa, high_pa, v);
+}
+
+// One pressure for all: it is enough to ask whether strokes are too slow at the pressure whose
+// needs are just too large.
+double Pumps::LeastTogether(const Case& c, double enough, double low_pa, double high_pa,
+                            Volumes v) const {
+  const auto rest = [&](double p) { return Rest(c, {p}, p, v); };
+  const double quick = rest(low_pa);
+  if (quick > enough) return quick;
+  double bound = kUnlimited;
+  if (rest(high_pa) > enough) {
+    while (high_pa - low_pa > kPressureTolerance * high_pa) {
+      const double middle_pa = 0.5 * (low_pa + high_pa);
+      (rest(middle_pa) > enough ? high_pa : low_pa) = middle_pa;
+    }
+    bound = rest(high_pa);
+  }
+  for (int g = 0; g < static_cast<int>(c.lines.size()); ++g)
+    if (TooSlow(c, g, high_pa, v)) return bound;
+  return quick;
+}
+
+// Of two groups each finds at least what the other was filled to: air only flows downhill.
+double Pumps::LeastInTurns(const Case& c, double enough, double low_pa, double high_pa, Volumes v) {
+  const int groups = static_cast<int>(c.lines.size());
+  std::vector<double> starts_pa(groups, problem_.ambient.pressure_pa);
+  if (groups == 2)
     starts_pa = {std::min(OperatingPa(problem_, 1), high_pa),
                  std::min(OperatingPa(problem_, 0), high_pa)};
   const auto least = [&] {
     const double most_pa = *std::max_element(starts_pa.begin(), starts_pa.end());
     const std::vector<double> most{most_pa};  // of more than two groups some may draw at once
-    return parts + Rest(c, groups > 2 ? most : starts_pa, std::max(low_pa, most_pa), v);
+    return Rest(c, groups > 2 ? most : starts_pa, std::max(low_pa, most_pa), v);
   };
   const double quick = least();
-  if (quick > c.enough) return quick;
+  if (quick > enough) return quick;
   for (int g = 0; g < groups; ++g) {
-    double& start_pa = starts_pa[together ? 0 : g];
-    const auto needed_pa = LeastStart(c, g, start_pa, high_pa, v);
+    const auto needed_pa = LeastStart(c, g, starts_pa[g], high_pa, v);
     if (!needed_pa) return kUnlimited;
-    start_pa = *needed_pa;
+    starts_pa[g] = *needed_pa;
   }
   return least();
 }
@@ -269,8 +186,8 @@ double Pumps::LeastMade(const Case& c, Volumes v) {
 
 double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& lines, double chosen,
                     double enough) {
-  Case c{CellsIn(ranges[compressor_]),
-         PacksIn(ranges[compressor_], ranges[battery_]),
+  Case c{choices_.CellsIn(ranges[compressor_]),
+         choices_.PacksIn(ranges[compressor_], ranges[battery_]),
          lines,
          0.0,
          0.0,

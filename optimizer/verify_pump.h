@@ -13,37 +13,14 @@
 #ifndef PLENUM_OPTIMIZER_VERIFY_PUMP_H_
 #define PLENUM_OPTIMIZER_VERIFY_PUMP_H_
 
-#include <array>
 #include <map>
 #include <optional>
 #include <tuple>
 #include <vector>
 
-#include "optimizer/verify_dominance.h"
-#include "optimizer/verify_line.h"
+#include "optimizer/verify_pump_choices.h"
 
 namespace plenum::optimizer {
-
-using SlotAmounts = std::vector<std::vector<ItemAmounts>>;  // per slot and choice
-
-// Batteries of a range by energy.
-class Packs {
- public:
-  struct Pack {
-    double energy_j, objective;
-  };
-  explicit Packs(std::vector<Pack> packs);
-  double Least(double energy_j) const;  // share of the objective; +∞: none has the energy
-
- private:
-  std::vector<Pack> packs_;  // by energy; objective: the least of this and all with more
-};
-
-// The best of several pumps over cells of pressure.
-struct PumpCells {
-  std::vector<double> delivery_m3_per_s, energy_j_per_m3;
-  double highest_pa = 0.0, duty_max = 0.0, current_a = kUnlimited;
-};
 
 class Pumps {
  public:
@@ -55,7 +32,6 @@ class Pumps {
                double enough);
 
  private:
-  using Range = std::pair<int, int>;
   struct Case {  // one interval of volumes
     const PumpCells& pumps;
     const Packs& packs;
@@ -68,17 +44,14 @@ class Pumps {
     double low_m3, high_m3;
   };
 
-  PumpCells CellsOf(const ProofItem& item) const;
-  const PumpCells& CellsIn(Range range);
-  const Packs& PacksIn(Range compressors, Range batteries);
-  double PressureOf(std::size_t cell) const;
-  double DeliveryAt(const PumpCells& pumps, double pressure_pa) const;
-
   bool TooSlow(const Case& c, int group, double start_pa, Volumes v) const;
   std::optional<double> LeastStart(const Case& c, int group, double low_pa, double high_pa,
                                    Volumes v);
   std::optional<double> FindStart(const Case& c, int group, double low_pa, double high_pa,
                                   Volumes v) const;
+  double LeastTogether(const Case& c, double enough, double low_pa, double high_pa,
+                       Volumes v) const;
+  double LeastInTurns(const Case& c, double enough, double low_pa, double high_pa, Volumes v);
   double LeastAt(const Case& c, double reservoir, Volumes v);
   double LeastMade(const Case& c, Volumes v);
   double Rest(const Case& c, const std::vector<double>& starts_pa, double stop_pa, Volumes v) const;
@@ -86,12 +59,9 @@ class Pumps {
   const Problem& problem_;
   const ProofPlan& plan_;
   const SlotAmounts& amounts_;
+  PumpChoices choices_;
   int compressor_, reservoir_, battery_;  // slots
   double content_per_m3_;                 // κ
-  double highest_pa_;                     // of any compressor
-  std::vector<PumpCells> items_;          // of single choices
-  std::map<Range, PumpCells> ranges_;
-  std::map<std::array<int, 4>, Packs> packs_;
   using StartKey = std::tuple<const BestLine*, const PumpCells*, double, double, double, double>;
   std::map<StartKey, std::optional<double>> starts_;  // found before
 };
