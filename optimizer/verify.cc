@@ -3,6 +3,7 @@
 #include <set>
 
 #include "optimizer/verify_box.h"
+#include "optimizer/verify_brute_force.h"
 #include "optimizer/verify_record.h"
 
 namespace plenum::optimizer {
@@ -108,7 +109,8 @@ std::vector<Check> Gather(const std::vector<std::pair<const char*, const char*>>
 
 }  // namespace
 
-Verification Verify(const Problem& problem, const Answer& answer) {
+Verification Verify(const Problem& problem, const Answer& answer,
+                    const BruteForceOptions* brute_force) {
   Verification result;
   Findings findings;
   CheckDesigns(problem, answer, findings, result.not_rechecked);
@@ -137,6 +139,10 @@ Verification Verify(const Problem& problem, const Answer& answer) {
     result.not_rechecked.push_back(
         {"combinations that are not listed: the result holds no record of the search",
          answer.proof.combinations - answer.designs.size()});
+  }
+  if (brute_force) {
+    result.brute_force = CheckByBruteForce(problem, answer, *brute_force, findings);
+    names.emplace_back("brute_force", "the list is that of all combinations, one by one");
   }
   result.checks = Gather(names, findings);
   return result;

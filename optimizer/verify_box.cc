@@ -27,6 +27,35 @@ Ids IdsOf(const Design& design) {
   return ids;
 }
 
+std::string Text(const Ids& ids) {
+  std::string text;
+  for (const auto& [id, quantity] : ids) {
+    if (!text.empty()) text += ", ";
+    if (quantity > 1) text += std::to_string(quantity) + " × ";
+    text += id;
+  }
+  return text;
+}
+
+Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
+  Ids ids;
+  const int groups = static_cast<int>(problem.groups.size());
+  for (int group = 0; group <= groups; ++group)
+    for (const Family family : kOrder) {
+      const int slot = SlotOf(plan, family, group < groups ? group : -1);
+      if (slot < 0) continue;
+      std::optional<Ids::value_type> first;
+      for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
+        const ProofItem& item = plan.slots[slot].choices[i];
+        if (item.part == -1) continue;
+        Ids::value_type id{IdOf(problem, family, item), item.quantity};
+        if (!first || id < *first) first = std::move(id);
+      }
+      if (first) ids.push_back(std::move(*first));
+    }
+  return ids;
+}
+
 Claim ClaimOf(const Problem& problem, const Answer& answer) {
   if (!answer.proof.complete)
     return {answer.proof.lower_bound * (1.0 - kSumTolerance), -kUnlimited, {}};
@@ -70,30 +99,10 @@ Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges&
 BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claim& claim)
     : problem_(problem), plan_(plan), claim_(claim), corners_(problem, plan) {}
 
-// Of each slot the choice with the first id: no combination in the box comes before these.
-Ids BoxCheck::EarliestIds(const Ranges& ranges) const {
-  Ids ids;
-  const int groups = static_cast<int>(problem_.groups.size());
-  for (int group = 0; group <= groups; ++group)
-    for (const Family family : kOrder) {
-      const int slot = SlotOf(plan_, family, group < groups ? group : -1);
-      if (slot < 0) continue;
-      std::optional<Ids::value_type> first;
-      for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
-        const ProofItem& item = plan_.slots[slot].choices[i];
-        if (item.part == -1) continue;
-        Ids::value_type id{IdOf(problem_, family, item), item.quantity};
-        if (!first || id < *first) first = std::move(id);
-      }
-      if (first) ids.push_back(std::move(*first));
-    }
-  return ids;
-}
-
 // Whether a bound on the objective of everything in the box bears out the claim.
 bool BoxCheck::Holds(double bound, const Ranges& ranges) const {
   if (!(bound >= claim_.least)) return false;
-  return bound > claim_.tie_end || EarliestIds(ranges) > claim_.last;
+  return bound > claim_.tie_end || EarliestIds(problem_, plan_, ranges) > claim_.last;
 }
 
 // The slot whose choices differ most in their share of the objective; bottles and batteries, which
@@ -122,15 +131,10 @@ bool BoxCheck::IsSettled(const Ranges& single, Findings& findings) {
   const Sizing sizing = Size(problem_, assembly, -kToSpare, enough);
   if (sizing.status == Sized::kInfeasible || Holds(sizing.lower_bound, single)) return true;
   if (sizing.status != Sized::kFeasible || Holds(sizing.objective, single)) return false;
-  std::string parts;
-  for (const auto& [id, quantity] : EarliestIds(single)) {
-    if (!parts.empty()) parts += ", ";
-    if (quantity > 1) parts += std::to_string(quantity) + " × ";
-    parts += id;
-  }
   findings.push_back({"rechecked", "a " + std::string(Name(plan_.configuration)) +
                                        " design that is not listed comes to " +
-                                       std::to_string(sizing.objective) + ": " + parts});
+                                       std::to_string(sizing.objective) + ": " +
+                                       Text(EarliestIds(problem_, plan_, single))});
   return true;
 }
 

@@ -14,6 +14,7 @@ namespace plenum::optimizer {
 // Ids in the order of a parts list, with pieces where parts of the source stand in parallel.
 using Ids = std::vector<std::pair<std::string, int>>;
 Ids IdsOf(const Design& design);
+std::string Text(const Ids& ids);
 
 // What an answer says of every combination that is not listed: its objective is `least` or more,
 // and past `tie_end` unless its ids come after `last`.
@@ -22,6 +23,9 @@ struct Claim {
   Ids last;
 };
 Claim ClaimOf(const Problem& problem, const Answer& answer);
+
+// Of each slot the choice with the first id: no combination in the box comes before these.
+Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ranges);
 
 // The parts at one place of each slot.
 Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges& single);
@@ -38,7 +42,6 @@ class BoxCheck {
 
  private:
   bool Holds(double bound, const Ranges& ranges) const;
-  Ids EarliestIds(const Ranges& ranges) const;
   int SlotToDivide(const Ranges& ranges);
   bool IsSettled(const Ranges& single, Findings& findings);
 

@@ -178,45 +178,67 @@ double Target(const Problem& problem, const ActuatorGroup& group, double fractio
   return ambient_pa + fraction * (group.chamber.operating_pressure_pa - ambient_pa);
 }
 
-// One group alone on a regulator, of which each of its lines has an equal share.
-void FillFromRegulator(const Problem& problem, const Settings& settings, const Assembly& assembly,
-                       const model::GroupRig& rig, double factor, int g, Cycle& cycle) {
-  const model::Regulator& regulator = *assembly.regulator;
+}  // namespace
+
+std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& settings,
+                                   const Assembly& assembly) {
+  return Simulated(problem, settings, assembly, settings.reservoir_volume_m3.value_or(0.0));
+}
+
+QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly)
+    : problem_(problem), assembly_(assembly) {
   const double temperature_k = problem.ambient.temperature_k;
-  std::vector<model::FlowElement> elements{regulator.flow};
-  elements.front().sonic_conductance_m3_per_s_pa /= rig.count;
-  elements.insert(elements.end(), rig.fill.begin(), rig.fill.end());
-  double flow_max = regulator.flow_max_m3_per_s;
-  if (assembly.configuration == Configuration::kMains)
-    flow_max = std::min(flow_max, problem.mains_flow_max_m3_per_s);
-  const model::Series fill = model::MakeSeries(elements, factor);
+  const double factor = model::FlowFactor(assembly.co2 ? model::Gas::kCo2 : model::Gas::kAir) *
+                        std::sqrt(model::kReferenceTemperatureK / temperature_k);
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    const model::GroupRig rig = MakeGroup(problem, assembly, g, 0.0, 0);
+    std::vector<model::FlowElement> elements = rig.fill;
+    if (assembly.regulator) {  // each of equal lines has an equal share of it
+      elements.insert(elements.begin(), assembly.regulator->flow);
+      elements.front().sonic_conductance_m3_per_s_pa /= rig.count;
+    }
+    fills_.push_back(model::MakeSeries(elements, factor));
+    fall_s_.push_back(model::EmptyTime(
+        model::MakeSeries(rig.exhaust, factor), rig.chamber, rig.chamber.operating_pressure_pa,
+        Target(problem, problem.groups[g], problem.fall_fraction), temperature_k));
+    rigs_.push_back(rig);
+  }
+  if (assembly.compressor && rigs_.size() == 1) fill_table_ = model::FlowTable(fills_.front());
+}
+
+void QuickCycles::FillFromRegulator(const Settings& settings, int g, Cycle& cycle) const {
+  const model::GroupRig& rig = rigs_[g];
+  double flow_max = assembly_.regulator->flow_max_m3_per_s;
+  if (assembly_.configuration == Configuration::kMains)
+    flow_max = std::min(flow_max, problem_.mains_flow_max_m3_per_s);
   const auto seconds = [&](double to_pa) {
-    return model::FillTime(fill, rig.chamber, settings.source_pressure_pa,
-                           problem.ambient.pressure_pa, to_pa, temperature_k, flow_max / rig.count);
+    return model::FillTime(fills_[g], rig.chamber, settings.source_pressure_pa,
+                           problem_.ambient.pressure_pa, to_pa, problem_.ambient.temperature_k,
+                           flow_max / rig.count);
   };
-  cycle.rise_s[g] = seconds(Target(problem, problem.groups[g], problem.rise_fraction));
+  cycle.rise_s[g] = seconds(Target(problem_, problem_.groups[g], problem_.rise_fraction));
   cycle.inflate_s[g] = seconds(rig.chamber.operating_pressure_pa);
 }
 
 // The only group, out of a reservoir that was full when its stroke began. Where the pumps cannot
 // fill it up again within a period the running time passes the period, which no duty allows.
-void FillFromReservoir(const Problem& problem, const Settings& settings, const Assembly& assembly,
-                       const model::GroupRig& rig, double factor, double rising_m3, Cycle& cycle) {
-  const model::FlowTable fill(model::MakeSeries(rig.fill, factor));
-  const model::CompressorCurve& curve = assembly.compressor->curve;
-  const double temperature_k = problem.ambient.temperature_k;
+void QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3,
+                                    Cycle& cycle) const {
+  const model::GroupRig& rig = rigs_.front();
+  const model::CompressorCurve& curve = assembly_.compressor->curve;
+  const double temperature_k = problem_.ambient.temperature_k;
   const double source_pa = settings.source_pressure_pa;
   model::ReservoirStrokeInput input;
-  input.fill = &fill;
+  input.fill = &fill_table_;
   input.chamber = &rig.chamber;
   input.count = rig.count;
   input.compressor = &curve;
-  input.compressors = assembly.compressors;
+  input.compressors = assembly_.compressors;
   input.stop_pa = source_pa;
   input.volume_falling_m3 = settings.reservoir_volume_m3.value_or(0.0);
   input.volume_rising_m3 = rising_m3;
-  input.from_pa = problem.ambient.pressure_pa;
-  input.target_pa = Target(problem, problem.groups[0], problem.rise_fraction);
+  input.from_pa = problem_.ambient.pressure_pa;
+  input.target_pa = Target(problem_, problem_.groups[0], problem_.rise_fraction);
   input.operating_pa = rig.chamber.operating_pressure_pa;
   input.temperature_k = temperature_k;
   const model::ReservoirStroke stroke = model::FillFromReservoir(input);
@@ -232,47 +254,32 @@ void FillFromReservoir(const Problem& problem, const Settings& settings, const A
   if (rig.close_at_operating) return;
   const double content = model::Content(rig.chamber, source_pa) -
                          model::Content(rig.chamber, rig.chamber.operating_pressure_pa);
+  if (!(content > 0.0)) return;
   const double last_pa = std::min(source_pa, model::HighestPressure(curve));
   const double seconds = rig.count * model::StandardVolume(content, temperature_k) /
                          (input.compressors * std::max(0.0, curve.free_air_m3_per_s(last_pa)));
-  if (content > 0.0) {
-    cycle.pump_on_s += seconds;
-    cycle.pump_j += seconds * input.compressors * model::ElectricalPower(curve, source_pa);
-  }
+  cycle.pump_on_s += seconds;
+  cycle.pump_j += seconds * input.compressors * model::ElectricalPower(curve, source_pa);
 }
 
-}  // namespace
-
-std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& settings,
-                                   const Assembly& assembly) {
-  return Simulated(problem, settings, assembly, settings.reservoir_volume_m3.value_or(0.0));
-}
-
-std::optional<Cycle> QuickCycle(const Problem& problem, const Settings& settings,
-                                const Assembly& assembly, double rising_m3) {
-  const std::size_t groups = problem.groups.size();
-  if (groups > 1 && (problem.simultaneous || assembly.compressor))
-    return Simulated(problem, settings, assembly, rising_m3);
-  const double temperature_k = problem.ambient.temperature_k;
-  const double factor = model::FlowFactor(assembly.co2 ? model::Gas::kCo2 : model::Gas::kAir) *
-                        std::sqrt(model::kReferenceTemperatureK / temperature_k);
-  const double turn_s = 1.0 / problem.frequency_hz / static_cast<double>(groups);
+std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3) const {
+  const std::size_t groups = problem_.groups.size();
+  if (groups > 1 && (problem_.simultaneous || assembly_.compressor))
+    return Simulated(problem_, settings, assembly_, rising_m3);
+  const double turn_s = 1.0 / problem_.frequency_hz / static_cast<double>(groups);
   Cycle cycle;
   cycle.rise_s.assign(groups, model::kNever);
   cycle.inflate_s.assign(groups, model::kNever);
-  for (std::size_t g = 0; g < groups; ++g) {
-    const model::GroupRig rig = MakeGroup(problem, assembly, static_cast<int>(g), 0.0, 0);
-    if (assembly.compressor)
-      FillFromReservoir(problem, settings, assembly, rig, factor, rising_m3, cycle);
+  cycle.fall_s = fall_s_;
+  for (int g = 0; g < static_cast<int>(groups); ++g) {
+    if (assembly_.compressor)
+      FillFromReservoir(settings, rising_m3, cycle);
     else
-      FillFromRegulator(problem, settings, assembly, rig, factor, static_cast<int>(g), cycle);
+      FillFromRegulator(settings, g, cycle);
     if (groups > 1 && !(cycle.inflate_s[g] <= turn_s))
-      return Simulated(problem, settings, assembly, rising_m3);
-    cycle.fall_s.push_back(model::EmptyTime(
-        model::MakeSeries(rig.exhaust, factor), rig.chamber, rig.chamber.operating_pressure_pa,
-        Target(problem, problem.groups[g], problem.fall_fraction), temperature_k));
+      return Simulated(problem_, settings, assembly_, rising_m3);
   }
-  AddNeeds(problem, settings, assembly, cycle);
+  AddNeeds(problem_, settings, assembly_, cycle);
   return cycle;
 }
 

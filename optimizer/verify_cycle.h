@@ -5,6 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "model/flow_table.h"
+#include "model/series.h"
+#include "model/simulate.h"
 #include "optimizer/verify_design.h"
 
 namespace plenum::optimizer {
@@ -23,12 +26,28 @@ struct Cycle {
 std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& settings,
                                    const Assembly& assembly);
 
-// By one quadrature or integration for each group, where groups do not meet on the source; else as
-// above. `rising_m3`: the reservoir's volume while its pressure rises, where it is to bound those
-// of an interval of volumes (model/reservoir_stroke.h). Air that pumps add to actuators that stay
-// open to the reservoir is pumped at the stop pressure, the most that it can take.
-std::optional<Cycle> QuickCycle(const Problem& problem, const Settings& settings,
-                                const Assembly& assembly, double rising_m3);
+// The same at many settings: by one quadrature or integration for each group, where groups do not
+// meet on the source; else by the simulator, too. Air that pumps add to actuators that stay open to
+// the reservoir is pumped at the stop pressure, the most that it can take.
+class QuickCycles {
+ public:
+  QuickCycles(const Problem& problem, const Assembly& assembly);
+
+  // `rising_m3`: the reservoir's volume while its pressure rises, where it is to bound those of an
+  // interval of volumes (model/reservoir_stroke.h).
+  std::optional<Cycle> At(const Settings& settings, double rising_m3) const;
+
+ private:
+  void FillFromRegulator(const Settings& settings, int group, Cycle& cycle) const;
+  void FillFromReservoir(const Settings& settings, double rising_m3, Cycle& cycle) const;
+
+  const Problem& problem_;
+  const Assembly& assembly_;
+  std::vector<model::GroupRig> rigs_;
+  std::vector<model::Series> fills_;  // with the regulator's share
+  model::FlowTable fill_table_;       // of the only group
+  std::vector<double> fall_s_;
+};
 
 }  // namespace plenum::optimizer
 

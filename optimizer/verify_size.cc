@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kGrid = 500;
 constexpr double kPressureTolerance = 1e-9;  // relative
+constexpr double kBoundTolerance = 1e-4;     // for an interval of volumes
 constexpr double kGap = 2e-7;                // of the objective
 constexpr int kLooksMax = 2000, kVolumesMax = 2000;
 constexpr int kFirstVolumes = 48;
@@ -47,9 +48,11 @@ struct Look {
 
 class PressureSizing {
  public:
-  PressureSizing(const Problem& problem, const Assembly& assembly, Volumes volumes, double slack)
+  PressureSizing(const Problem& problem, const Assembly& assembly, const QuickCycles& cycles,
+                 Volumes volumes, double slack)
       : problem_(problem),
         assembly_(assembly),
+        cycles_(cycles),
         volumes_(volumes),
         slack_(slack),
         totals_(TotalsOf(problem, assembly, volumes.low_m3)),
@@ -115,8 +118,7 @@ class PressureSizing {
 
   std::optional<Look> At(double source_pa) {
     ++looks_;
-    auto cycle =
-        QuickCycle(problem_, SettingsAt(source_pa, volumes_.high_m3), assembly_, volumes_.low_m3);
+    auto cycle = cycles_.At(SettingsAt(source_pa, volumes_.high_m3), volumes_.low_m3);
     if (!cycle) return std::nullopt;
     return Look{source_pa, std::move(*cycle)};
   }
@@ -132,20 +134,22 @@ class PressureSizing {
     return excess;
   }
 
-  // The lowest source pressure at which strokes are fast enough.
+  // The lowest source pressure at which strokes are fast enough; for an interval of volumes one a
+  // little below.
   std::optional<Look> FastEnough(Look fast) {
-    double slow_pa = stood_.low_pa;
-    const auto lowest = At(slow_pa);
-    if (!lowest || StrokeExcess(lowest->cycle) <= slack_) return lowest;
-    while (fast.source_pa - slow_pa > kPressureTolerance * fast.source_pa) {
-      auto middle = At(0.5 * (slow_pa + fast.source_pa));
+    auto slow = At(stood_.low_pa);
+    if (!slow || StrokeExcess(slow->cycle) <= slack_) return slow;
+    const bool bound = volumes_.high_m3 > volumes_.low_m3;
+    const double tolerance = bound ? kBoundTolerance : kPressureTolerance;
+    while (fast.source_pa - slow->source_pa > tolerance * fast.source_pa) {
+      auto middle = At(0.5 * (slow->source_pa + fast.source_pa));
       if (!middle) return std::nullopt;
       if (StrokeExcess(middle->cycle) <= slack_)
         fast = std::move(*middle);
       else
-        slow_pa = middle->source_pa;
+        slow = std::move(middle);
     }
-    return fast;
+    return bound ? *slow : fast;
   }
 
   // Largest share by which the cycle misses a requirement, and the objective.
@@ -186,6 +190,7 @@ class PressureSizing {
 
   const Problem& problem_;
   const Assembly& assembly_;
+  const QuickCycles& cycles_;
   Volumes volumes_;
   double slack_;
   Totals totals_;
@@ -204,6 +209,7 @@ Sizing SizeMade(const Problem& problem, const Assembly& assembly, double slack, 
     bool looked_at;
     bool operator<(const Interval& other) const { return bound > other.bound; }
   };
+  const QuickCycles cycles(problem, assembly);
   std::priority_queue<Interval> open;
   const auto add = [&](double low_m3, double high_m3, double bound) {
     const double parts = ObjectiveOf(problem, TotalsOf(problem, assembly, low_m3));
@@ -220,15 +226,15 @@ Sizing SizeMade(const Problem& problem, const Assembly& assembly, double slack, 
     open.pop();
     const Volumes& v = interval.volumes;
     if (!interval.looked_at) {
-      const Sizing all = PressureSizing(problem, assembly, v, slack).Run(kUnlimited);
+      const Sizing all = PressureSizing(problem, assembly, cycles, v, slack).Run(enough);
       if (all.status == Sized::kInfeasible) continue;
       interval.bound = std::max(interval.bound, all.lower_bound);
       interval.looked_at = true;
       open.push(interval);
       continue;
     }
-    const Sizing largest =
-        PressureSizing(problem, assembly, {v.high_m3, v.high_m3}, slack).Run(best.objective);
+    const Sizing largest = PressureSizing(problem, assembly, cycles, {v.high_m3, v.high_m3}, slack)
+                               .Run(best.objective);
     best.objective = std::min(best.objective, largest.objective);
     const double middle_m3 = std::sqrt(v.low_m3 * v.high_m3);
     add(v.low_m3, middle_m3, interval.bound);
@@ -255,7 +261,8 @@ Sizing Size(const Problem& problem, const Assembly& assembly, double slack, doub
   if (assembly.compressor && !assembly.reservoir) return SizeMade(problem, assembly, slack, enough);
   const double volume_m3 =
       assembly.reservoir ? assembly.reservoirs * assembly.reservoir->volume_m3 : 0.0;
-  return PressureSizing(problem, assembly, {volume_m3, volume_m3}, slack).Run(enough);
+  const QuickCycles cycles(problem, assembly);
+  return PressureSizing(problem, assembly, cycles, {volume_m3, volume_m3}, slack).Run(enough);
 }
 
 }  // namespace plenum::optimizer
