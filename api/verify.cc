@@ -235,7 +235,8 @@ Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& 
     if (brute_force && combinations > brute_force->combinations_max)
       return Errors{{"/proof/combinations", "brute force would look at " + combinations.str() +
                                                 " combinations, the limit is " +
-                                                std::to_string(brute_force->combinations_max)}};
+                                                std::to_string(brute_force->combinations_max) +
+                                                " (--combinations-max raises it)"}};
     const optimizer::Answer answer = ReadAnswer(reader, problem);
     if (errors.empty())
       AddVerification(problem, answer, brute_force, document);

@@ -99,10 +99,10 @@ Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges&
 BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claim& claim)
     : problem_(problem), plan_(plan), claim_(claim), corners_(problem, plan) {}
 
-// Whether a bound on the objective of everything in the box bears out the claim.
-bool BoxCheck::Holds(double bound, const Ranges& ranges) const {
-  if (!(bound >= claim_.least)) return false;
-  return bound > claim_.tie_end || EarliestIds(problem_, plan_, ranges) > claim_.last;
+// Whether a combination with this objective, or more, bears out the claim.
+bool BoxCheck::Holds(double objective, const Ranges& single) const {
+  if (!(objective >= claim_.least)) return false;
+  return objective > claim_.tie_end || EarliestIds(problem_, plan_, single) > claim_.last;
 }
 
 // The slot whose choices differ most in their share of the objective; bottles and batteries, which
@@ -138,14 +138,23 @@ bool BoxCheck::IsSettled(const Ranges& single, Findings& findings) {
   return true;
 }
 
+// Whether bounds alone bear out the claim; ids, which cost more, are asked only where they may
+// help.
+bool BoxCheck::IsBeyond(const Ranges& ranges) {
+  const double past_ties = std::max(claim_.least, claim_.tie_end);
+  const double bound = corners_.LeastObjective(ranges, past_ties);
+  if (bound > past_ties || (bound >= claim_.least && std::isinf(claim_.tie_end))) return true;
+  return std::isfinite(claim_.tie_end) && EarliestIds(problem_, plan_, ranges) > claim_.last &&
+         corners_.LeastObjective(ranges, claim_.least) > claim_.least;
+}
+
 BigCount BoxCheck::Recheck(const Ranges& ranges, Findings& findings) {
-  const double enough = std::max(claim_.least, claim_.tie_end);
   BigCount open = 0;
   std::vector<Ranges> waiting{ranges};
   for (int looks = 0; !waiting.empty(); ++looks) {
     Ranges part = std::move(waiting.back());
     waiting.pop_back();
-    if (Holds(corners_.LeastObjective(part, enough), part)) continue;
+    if (IsBeyond(part)) continue;
     const int slot = SlotToDivide(part);
     if (slot < 0) {
       if (!IsSettled(part, findings)) open += 1;

@@ -41,7 +41,8 @@ class BoxCheck {
   BigCount Recheck(const Ranges& ranges, Findings& findings);
 
  private:
-  bool Holds(double bound, const Ranges& ranges) const;
+  bool Holds(double objective, const Ranges& single) const;
+  bool IsBeyond(const Ranges& ranges);
   int SlotToDivide(const Ranges& ranges);
   bool IsSettled(const Ranges& single, Findings& findings);
 

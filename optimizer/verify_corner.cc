@@ -241,7 +241,8 @@ double Corners::LeastObjective(const Ranges& ranges, double enough) {
     if (!lines.back()->works) return kUnlimited;
   }
   if (!SourceMates(ranges)) return kUnlimited;
-  return pumps_ ? pumps_->Least(ranges, lines, chosen, enough) : LeastRegulated(ranges, chosen);
+  return pumps_ ? pumps_->Least(ranges, lines, chosen, sum, enough)
+                : LeastRegulated(ranges, chosen);
 }
 
 }  // namespace plenum::optimizer

@@ -38,6 +38,30 @@ void CheckMargins(const std::map<std::string, Reached>& requirements, const Desi
   }
 }
 
+// Close to equal pressures the simulator follows a straight line instead of the flow law, which
+// delays the end of a stroke whose source is hardly above the operating pressure: there the
+// quadratures count.
+constexpr double kHardlyAbove = 1.0 + 1e-3;
+
+std::optional<Cycle> CycleOf(const Problem& problem, const Design& design,
+                             const Assembly& assembly) {
+  std::optional<Cycle> cycle = SimulateCycle(problem, design.settings, assembly);
+  const bool hardly_above =
+      std::any_of(problem.groups.begin(), problem.groups.end(), [&](const ActuatorGroup& group) {
+        return design.settings.source_pressure_pa <
+               kHardlyAbove * group.chamber.operating_pressure_pa;
+      });
+  if (!cycle || !hardly_above) return cycle;
+  const std::optional<Cycle> quick =
+      QuickCycles(problem, assembly)
+          .At(design.settings, design.settings.reservoir_volume_m3.value_or(0.0));
+  if (!quick) return std::nullopt;
+  cycle->rise_s = quick->rise_s;
+  cycle->inflate_s = quick->inflate_s;
+  cycle->inflating_j = quick->inflating_j;
+  return cycle;
+}
+
 }  // namespace
 
 bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& assembly,
@@ -51,7 +75,7 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
       !Near(design.settings.reservoir_volume_m3.value_or(0.0),
             assembly.reservoirs * assembly.reservoir->volume_m3, kSumTolerance))
     findings.push_back({"supply", "the reservoir's volume is not that of the part"});
-  const std::optional<Cycle> cycle = SimulateCycle(problem, design.settings, assembly);
+  const std::optional<Cycle> cycle = CycleOf(problem, design, assembly);
   if (!cycle) return false;
 
   bool held_air = false;  // pumped into actuators that stay open to the reservoir

@@ -178,14 +178,15 @@ double Pumps::LeastMade(const Case& c, Volumes v) {
   const double reservoir = problem_.objective.mass_kg * made.mass_kg +
                            problem_.objective.volume_l * made.body_volume_m3 * 1e3;
   const double least = LeastAt(c, reservoir, v);
-  if (least > c.enough || v.high_m3 < kFinestRatio * v.low_m3) return least;
+  const auto settled = [&](double bound) { return bound > c.enough || std::isinf(bound); };
+  if (settled(least) || v.high_m3 < kFinestRatio * v.low_m3) return least;
   const double middle_m3 = std::sqrt(v.low_m3 * v.high_m3);
   const double low = LeastMade(c, {v.low_m3, middle_m3});
-  return low > c.enough ? std::min(low, LeastMade(c, {middle_m3, v.high_m3})) : low;
+  return settled(low) ? std::min(low, LeastMade(c, {middle_m3, v.high_m3})) : least;
 }
 
 double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& lines, double chosen,
-                    double enough) {
+                    double floor, double enough) {
   Case c{choices_.CellsIn(ranges[compressor_]),
          choices_.PacksIn(ranges[compressor_], ranges[battery_]),
          lines,
@@ -201,7 +202,8 @@ double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& li
     c.inflating_j += lines[g]->coil_w * lines[g]->inflate_s;
   }
   double least = kUnlimited;
-  for (int i = ranges[reservoir_].first; i < ranges[reservoir_].second && least > enough; ++i) {
+  for (int i = ranges[reservoir_].first; i < ranges[reservoir_].second; ++i) {
+    if (std::isfinite(least) && least <= enough) return floor;  // no closer look is asked for
     const ProofItem& item = plan_.slots[reservoir_].choices[i];
     if (item.part < 0) {
       c.reservoir_pa = problem_.ambient.pressure_pa + model::kMadeReservoirPressureMaxGaugePa;

@@ -26,10 +26,10 @@ class Pumps {
  public:
   Pumps(const Problem& problem, const ProofPlan& plan, const SlotAmounts& amounts);
 
-  // Least objective of the box whose lines and compressors come to `chosen`; not looked at closely
-  // once it is above `enough`.
+  // Bound on the objective of the box whose lines and compressors come to `chosen` and whose parts
+  // to `floor`, which is returned where the bound is not above `enough`.
   double Least(const Ranges& ranges, const std::vector<const BestLine*>& lines, double chosen,
-               double enough);
+               double floor, double enough);
 
  private:
   struct Case {  // one interval of volumes
