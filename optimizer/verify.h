@@ -48,7 +48,7 @@ struct BruteForceCounts {
   BigCount combinations;   // those below together
   BigCount incompatible;   // parts that do not fit together
   BigCount unpriced;       // without a price where cost matters
-  BigCount beyond;         // compatible, but their parts alone come to more than the last design
+  BigCount beyond;         // compatible, but they come to more than the last design whatever else
   BigCount infeasible;     // of the rest, sized one by one: no setting meets the requirements
   BigCount feasible;
   BigCount undecided;  // within 1e-6 of a requirement, or not sized

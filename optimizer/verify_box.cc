@@ -5,7 +5,9 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr int kLooksMax = 200'000;  // at parts of one box
+// Looks at parts of boxes, sized combinations counted as many: some minutes.
+constexpr long long kLooksMax = 20'000'000;
+constexpr long long kLooksPerSize = 200;
 // A combination counts as feasible here only if it meets every requirement with this to spare.
 constexpr double kToSpare = 1e-6;
 
@@ -151,17 +153,19 @@ bool BoxCheck::IsBeyond(const Ranges& ranges) {
 BigCount BoxCheck::Recheck(const Ranges& ranges, Findings& findings) {
   BigCount open = 0;
   std::vector<Ranges> waiting{ranges};
-  for (int looks = 0; !waiting.empty(); ++looks) {
+  while (!waiting.empty()) {
+    ++looks_;
     Ranges part = std::move(waiting.back());
     waiting.pop_back();
     if (IsBeyond(part)) continue;
-    const int slot = SlotToDivide(part);
-    if (slot < 0) {
-      if (!IsSettled(part, findings)) open += 1;
+    if (looks_ > kLooksMax) {
+      open += CountOf(part);
       continue;
     }
-    if (looks >= kLooksMax) {
-      open += CountOf(part);
+    const int slot = SlotToDivide(part);
+    if (slot < 0) {
+      looks_ += kLooksPerSize;
+      if (!IsSettled(part, findings)) open += 1;
       continue;
     }
     Ranges right = part;

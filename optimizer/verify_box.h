@@ -50,6 +50,7 @@ class BoxCheck {
   const ProofPlan& plan_;
   const Claim& claim_;
   Corners corners_;
+  long long looks_ = 0;
 };
 
 }  // namespace plenum::optimizer

@@ -145,13 +145,17 @@ class Enumeration {
     }
     if (++sized_ % 64 == 0) Report();
     const Assembly assembly = AssemblyAt(problem_, *plan_, single_);
-    const Sizing surely = Size(problem_, assembly, -kToSpare, kUnlimited);
+    const Sizing surely = Size(problem_, assembly, -kToSpare, enough_);
+    if (surely.status == Sized::kUnknown && surely.lower_bound > enough_) {
+      counts_.beyond += 1;
+      return;
+    }
     if (surely.status == Sized::kFeasible) {
       counts_.feasible += 1;
       Judge(assembly, surely.objective, true);
       return;
     }
-    const Sizing perhaps = Size(problem_, assembly, kToSpare, kUnlimited);
+    const Sizing perhaps = Size(problem_, assembly, kToSpare, enough_);
     (perhaps.status == Sized::kInfeasible ? counts_.infeasible : counts_.undecided) += 1;
     if (perhaps.status == Sized::kFeasible) Judge(assembly, perhaps.objective, false);
     if (perhaps.status == Sized::kUnknown) Judge(assembly, kUnlimited, false);

@@ -21,6 +21,7 @@ struct LeastAmounts {
 class Corners {
  public:
   Corners(const Problem& problem, const ProofPlan& plan);
+  Corners(const Corners&) = delete;  // its pumps look at its amounts
 
   // No choices in the box fit together.
   bool CannotMate(const Ranges& ranges);

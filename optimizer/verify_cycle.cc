@@ -164,6 +164,10 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
       continue;
     cycle.rise_s[stroke.group] = stroke.to_target_s;
     cycle.inflate_s[stroke.group] = stroke.to_operating_s;
+    const double ambient_pa = problem.ambient.pressure_pa;
+    const double operating_pa = problem.groups[stroke.group].chamber.operating_pressure_pa;
+    cycle.left_over = std::max(
+        cycle.left_over, (stroke.start_pressure_pa - ambient_pa) / (operating_pa - ambient_pa));
   }
   for (const model::FullStroke& stroke : model::FullStrokes(rig, OptionsOf(problem, period_s)))
     cycle.fall_s.push_back(stroke.fall_time_s);

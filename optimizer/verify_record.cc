@@ -1,5 +1,6 @@
 #include "optimizer/verify_record.h"
 
+#include <list>
 #include <map>
 #include <set>
 
@@ -79,11 +80,19 @@ class RecordCheck {
     const double least = LeastBehind();
     if (answer_.proof.lower_bound > least * (1.0 + kSumTolerance))
       findings_.push_back({"bound", "the lower bound is above that of a box that is not listed"});
-    for (const auto& [what, count] : open_)
-      if (count > 0) open.push_back({what, count});
+    for (Replayed& replayed : replayed_) Recheck(replayed, open);
   }
 
  private:
+  struct Replayed {
+    Replayed(const Problem& problem, const ProofPlan& replayed, const Claim& claim,
+             Findings& findings)
+        : plan(replayed), closed(Replay(plan, findings)), check(problem, plan, claim) {}
+    const ProofPlan& plan;
+    std::vector<ClosedBox> closed;
+    BoxCheck check;
+  };
+
   double last() const {
     return static_cast<int>(answer_.designs.size()) == problem_.count
                ? answer_.designs.back().objective
@@ -99,9 +108,9 @@ class RecordCheck {
     CheckSlots(problem_, plan, counts_, findings_);
     for (const Finding& finding : Findings(findings_.begin() + before, findings_.end()))
       if (finding.check == "choices") return;  // the boxes mean nothing then
-    const std::vector<ClosedBox> closed = Replay(plan, findings_);
-    BoxCheck check(problem_, plan, claim_);
-    for (const ClosedBox& box : closed) CheckBox(plan, box, check);
+    Replayed& replayed = replayed_.emplace_back(problem_, plan, claim_, findings_);
+    const std::vector<ClosedBox>& closed = replayed.closed;
+    for (const ClosedBox& box : closed) CheckBox(plan, box, replayed.check);
     for (std::size_t i = 0; i < answer_.designs.size(); ++i)
       if (answer_.designs[i].configuration == plan.configuration) Place(plan, closed, i);
   }
@@ -167,7 +176,21 @@ class RecordCheck {
           ++undecided_;
         }
     }
-    open_["combinations of closed boxes" + where] += check.Recheck(box.ranges, findings_);
+  }
+
+  // Looks at every closed box again; an answer that is refused already is left at that.
+  void Recheck(Replayed& replayed, std::vector<NotRechecked>& open) {
+    BigCount count = 0;
+    for (const ClosedBox& box : replayed.closed) {
+      if (box.end.kind == BoxKind::kDesign || box.end.constraint == Constraint::kMating) continue;
+      count +=
+          findings_.empty() ? replayed.check.Recheck(box.ranges, findings_) : CountOf(box.ranges);
+    }
+    if (count > 0)
+      open.push_back({std::string("combinations of closed boxes (") +
+                          Name(replayed.plan.configuration) + ")" +
+                          (findings_.empty() ? "" : ", since the answer is refused"),
+                      count});
   }
 
   // Takes note of a bound of what is not listed.
@@ -204,7 +227,7 @@ class RecordCheck {
   long long undecided_ = 0;
   double behind_ = kUnlimited;  // least bound of what is not listed
   std::map<std::size_t, int> found_;
-  std::map<std::string, BigCount> open_;
+  std::list<Replayed> replayed_;
 };
 
 }  // namespace
