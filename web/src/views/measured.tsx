@@ -1,0 +1,1 @@
+export const MeasuredView = () => null;
