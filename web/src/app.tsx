@@ -65,10 +65,10 @@ export function App() {
   void route.value;
   return (
     <>
-      <a class="skip" href={location.hash} onClick={(event) => { event.preventDefault(); document.querySelector<HTMLElement>('main')?.focus(); }}>
-        Skip to the content
-      </a>
       <header class="top">
+        <a class="skip" href={location.hash} onClick={(event) => { event.preventDefault(); document.querySelector<HTMLElement>('main')?.focus(); }}>
+          Skip to the content
+        </a>
         <a class="brand" href={link(['requirements'])} aria-label="plenum, to the requirements">
           <svg viewBox="0 0 32 32" width="20" height="20" aria-hidden="true">
             <path d="M3 21h6l4-12 6 15 4-8h6" fill="none" stroke="currentColor" stroke-width="3" stroke-linejoin="round" stroke-linecap="round" />

@@ -83,6 +83,15 @@ const units: [RegExp, string][] = [
   [/_k$/, 'K'],
 ];
 
+// The same, short enough for the head of a column: C and b as in ISO 6358.
+export function columnName(field: string): { label: string; unit: string } {
+  const { label, unit } = fieldName(field);
+  return {
+    label: label.replace('sonic conductance', 'C').replace('critical ratio', 'b').replace('pressure', 'p').replace(' diameter', ' ⌀'),
+    unit: unit === 'kPa gauge' ? 'kPa' : unit,
+  };
+}
+
 export function fieldName(field: string): { label: string; unit: string } {
   if (field === 'current_max_a') return { label: 'current max', unit: 'A' };
   for (const [suffix, unit] of units) {

@@ -147,7 +147,7 @@ function BrushAxis(props: {
   const range = props.range;
   return (
     <g
-      class="brush-axis" tabIndex={0} role="slider" aria-orientation="vertical"
+      class="brush-axis" tabindex={0} role="slider" aria-orientation="vertical"
       aria-label={`Filter by ${axis.label}: arrows up and down move the upper end, left and right the lower, Escape clears`}
       aria-valuemin={low} aria-valuemax={high} aria-valuenow={range?.[1] ?? high}
       aria-valuetext={range ? `${text(range[0])} to ${text(range[1])} ${axisUnit(axis)}` : 'all'}

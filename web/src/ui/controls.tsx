@@ -1,7 +1,7 @@
 // Small controls that the views share.
 import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
-import { useEffect, useId, useRef } from 'preact/hooks';
+import { useEffect, useId, useLayoutEffect, useRef } from 'preact/hooks';
 
 import { short } from '../lib/format';
 import { fromShown, type Kind, toShown, unitOf } from '../lib/units';
@@ -11,13 +11,14 @@ export function Panel(props: {
   aside?: ComponentChildren;
   class?: string;
   children: ComponentChildren;
-  id?: string;
+  first?: boolean; // heads the view
 }) {
+  const Heading = props.first ? 'h1' : 'h2';
   return (
-    <section class={`panel ${props.class ?? ''}`} id={props.id}>
+    <section class={`panel ${props.class ?? ''}`}>
       {props.title !== undefined && (
         <header class="panel-head">
-          <h2>{props.title}</h2>
+          <Heading>{props.title}</Heading>
           {props.aside !== undefined && <div class="aside">{props.aside}</div>}
         </header>
       )}
@@ -115,7 +116,7 @@ export function NumberField(props: NumberFieldProps) {
   const sent = useRef<number | null | undefined>(props.value);
   const shownUnit = useRef(unit);
 
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (props.value === sent.current && unit === shownUnit.current) return;
     text.value = asText(kind, props.value);
     broken.value = false;

@@ -47,7 +47,7 @@ export function DesignsView() {
   const now = useJob(id);
   if (!id) {
     return (
-      <Panel title="Designs">
+      <Panel first title="Designs">
         <p>
           No search yet. <a href={link(['requirements'])}>Write the requirements</a> and start one.
         </p>
@@ -56,7 +56,7 @@ export function DesignsView() {
   }
   if (!now?.job) {
     return now?.problem ? (
-      <Panel title="Designs">
+      <Panel first title="Designs">
         <Notice kind="bad">{now.problem.message}</Notice>
         <p><a href={link(['jobs'])}>All searches</a></p>
       </Panel>
@@ -75,7 +75,7 @@ export function DesignsView() {
   const answer = now.job.result;
   if (!answer) {
     return (
-      <Panel title={now.job.name || 'Designs'}>
+      <Panel first title={now.job.name || 'Designs'}>
         <Notice kind={now.job.status === 'failed' ? 'bad' : 'warn'}>
           {now.job.detail ?? 'The search was cancelled before it began.'}
         </Notice>
@@ -179,7 +179,7 @@ export function JobsView() {
   }, []);
   const jobs = jobList.value;
   return (
-    <Panel title="Searches since the service started">
+    <Panel first title="Searches since the service started">
       {jobs === null && <p role="status">Loading…</p>}
       {jobs?.length === 0 && <p>None yet. <a href={link(['requirements'])}>Write the requirements</a> and start one.</p>}
       {jobs !== null && jobs.length > 0 && (

@@ -55,10 +55,12 @@ const Valve = () => (
   </>
 );
 
+// Also of a form that is half written.
+const volumeOf = (group: Group): number => Math.max(group.rest_volume_ml ?? group.pressure_volume?.[0]?.volume_ml ?? 0, 1e-3);
+
 function Actuator({ group, largest }: { group: Group; largest: number }) {
-  const volume = group.rest_volume_ml ?? group.pressure_volume?.[0]?.volume_ml ?? 10;
-  const rest = 5 + 10 * Math.cbrt(volume / largest);
-  const grown = rest * Math.cbrt(Math.min(group.expansion_ratio ?? 1, 8));
+  const rest = 5 + 10 * Math.cbrt(volumeOf(group) / largest);
+  const grown = rest * Math.cbrt(Math.min(Math.max(group.expansion_ratio ?? 1, 1), 8));
   return (
     <>
       <ellipse rx={grown * 1.15} ry={grown} class="grown" />
@@ -78,7 +80,7 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
   const width = 430;
   const yOf = (i: number, n: number) => height / 2 + (i - (n - 1) / 2) * step;
   const bus = 160;
-  const largest = Math.max(...groups.map((g) => g.rest_volume_ml ?? g.pressure_volume?.[0]?.volume_ml ?? 10), 1e-9);
+  const largest = Math.max(...groups.map(volumeOf));
   const ends = [...kinds.map((_, i) => yOf(i, kinds.length)), ...groups.map((_, i) => yOf(i, groups.length))];
   return (
     <svg class="drawing" viewBox={`0 0 ${width} ${height}`} role="img" aria-label={describe(kinds, groups)}>

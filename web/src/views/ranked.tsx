@@ -1,6 +1,6 @@
 // The ranked list: plots that filter, and a table of which only the rows in sight are drawn.
-import { computed, signal, useComputed, useSignal } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
+import { computed, signal, useComputed } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
 
 import { type Axis, axes, axisOf, axisUnit, leastMargin, requirementName } from '../lib/amounts';
 import { change, digitsApart, percent, significant } from '../lib/format';
@@ -12,6 +12,7 @@ import { type Brushes, Parallel } from '../plots/parallel';
 import { Scatter } from '../plots/scatter';
 import { Chip, Panel, Select } from '../ui/controls';
 import { csv, saveFile } from '../ui/files';
+import { useWindow } from '../ui/window';
 import { useJob } from './designs';
 
 const rowHeight = 36;
@@ -159,12 +160,9 @@ function Table(props: {
   sort: string;
   before?: Map<string, number>;
 }) {
-  const box = useRef<HTMLDivElement>(null);
-  const first = useSignal(0);
   const { answer, rows, baseline, sort } = props;
-  const inSight = 22;
-  const start = Math.max(0, Math.min(first.value, rows.length - inSight));
-  const visible = rows.slice(start, start + inSight);
+  const sight = useWindow(rowHeight, rows.length, 34);
+  const visible = rows.slice(sight.start, sight.end);
   const used = columns
     .filter((axis) => answer.designs.some((design) => axis.of(design) !== null))
     .map((axis) => ({ axis, digits: digitsOf(axis, answer.designs) }));
@@ -185,13 +183,7 @@ function Table(props: {
     setQuery({ pick: next.join(',') });
   };
   return (
-    <div
-      ref={box} class="scroll ranked" tabIndex={0} role="region" aria-label="Ranked designs"
-      onScroll={(event) => {
-        const row = Math.floor(event.currentTarget.scrollTop / rowHeight) - 4;
-        first.value = Math.max(0, row - (row % 2));
-      }}
-    >
+    <div class="scroll ranked" tabIndex={0} role="region" aria-label="Ranked designs" onScroll={sight.onScroll}>
       <table aria-rowcount={rows.length + 1}>
         <thead>
           <tr>
@@ -206,9 +198,9 @@ function Table(props: {
           </tr>
         </thead>
         <tbody>
-          {start > 0 && <tr aria-hidden="true" class="spacer" style={{ height: `${start * rowHeight}px` }} />}
+          {sight.above > 0 && <tr aria-hidden="true" class="spacer" style={{ height: `${sight.above}px` }} />}
           {visible.map((design, i) => (
-            <tr key={design.rank} aria-rowindex={start + i + 2} class={design.rank === baseline ? 'baseline' : ''}>
+            <tr key={design.rank} aria-rowindex={sight.start + i + 2} class={design.rank === baseline ? 'baseline' : ''}>
               <td>
                 <input type="checkbox" aria-label={`Compare design ${design.rank}`} checked={picked.value.includes(design.rank)} onChange={() => toggle(design.rank)} />
               </td>
@@ -228,9 +220,7 @@ function Table(props: {
               {props.before && <td class="num nowrap">{was(props.before.get(signature(design)), design.rank)}</td>}
             </tr>
           ))}
-          {start + inSight < rows.length && (
-            <tr aria-hidden="true" class="spacer" style={{ height: `${(rows.length - start - inSight) * rowHeight}px` }} />
-          )}
+          {sight.below > 0 && <tr aria-hidden="true" class="spacer" style={{ height: `${sight.below}px` }} />}
         </tbody>
       </table>
     </div>
