@@ -74,7 +74,7 @@ export async function makeDiagnosis(service, measurement, verdict = 'explained')
       { effects: ['leak'], bic: tie ? -2889.9 : -1904.4, delta_bic: tie ? 1.3 : 986.8, rms_kpa: tie ? 0.204 : 0.81, holdout_rms_kpa: null },
       { effects: ['creep', 'leak'], bic: -2884.4, delta_bic: 6.8, rms_kpa: 0.203, holdout_rms_kpa: null },
       { effects: [], bic: -640.1, delta_bic: 2251.1, rms_kpa: 2.9, holdout_rms_kpa: null },
-    ],
+    ].sort((a, b) => a.bic - b.bic),
     tied: tie ? [['creep'], ['leak']] : [],
     next_experiment: tie ? { id: 'next', blocked: true, source_pressure_kpa_gauge: 200, valve, t_end_s: 20, sample_hz: 50, measure: ['pressure_kpa_gauge'], expected_difference_kpa: 4.2, why: 'With a blocked actuator a leak goes on and creep does not.' } : null,
     residual: { white: true, independent_of_inputs: true, phases },

@@ -1,4 +1,5 @@
 // What designs are compared by: the axes of plots and the columns of tables.
+import { short, shown } from './format';
 import type { Design } from './types';
 import { type Kind, unitOf } from './units';
 
@@ -59,7 +60,24 @@ export function requirementName(pointer: string, groups: { name: string }[]): st
   return groups.length > 1 ? `${what} of ${groups[Number(group[1])]?.name ?? group[1]}` : what;
 }
 
-// The least number of a set, and which designs no other beats in both amounts.
+export function requirementUnit(pointer: string): string {
+  if (pointer.includes('pressure')) return unitOf('pressure');
+  if (pointer.endsWith('_time_s_max')) return 's';
+  if (pointer.endsWith('frequency_hz')) return 'Hz';
+  if (pointer.endsWith('mass_kg_max')) return 'kg';
+  if (pointer.endsWith('volume_l_max')) return unitOf('volume_l');
+  if (pointer.endsWith('cost_eur_max')) return '€';
+  return pointer.endsWith('_anr_max') ? 'L/min' : '';
+}
+
+// A requirement's number in the units chosen.
+export function requirementNumber(pointer: string, value: number | null): string {
+  if (pointer.includes('pressure')) return shown('pressure', value);
+  if (pointer.endsWith('volume_l_max')) return shown('volume_l', value);
+  return value === null ? '–' : short(value, pointer.endsWith('actuations') ? 9 : 3);
+}
+
+// Which designs no other beats in both amounts.
 export function paretoFront(points: { x: number; y: number }[], x: Axis, y: Axis): boolean[] {
   const sx = x.better === 'low' ? 1 : -1;
   const sy = y.better === 'low' ? 1 : -1;

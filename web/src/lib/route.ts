@@ -32,6 +32,24 @@ export function go(path: string[], query: Record<string, string | undefined> = {
   location.hash = link(path, query);
 }
 
+// Browsers refuse many changes of the address in a row, as while something is dragged.
+const addressPeriodMs = 200;
+let written = 0;
+let later = 0;
+
+function writeAddress(): void {
+  clearTimeout(later);
+  const wait = written + addressPeriodMs - performance.now();
+  if (wait > 0) {
+    later = window.setTimeout(writeAddress, wait);
+    return;
+  }
+  const { path, query } = route.peek();
+  if (parse(location.hash).path.join('/') !== path.join('/')) return; // another view was gone to
+  written = performance.now();
+  history.replaceState(null, '', link(path, Object.fromEntries(query)));
+}
+
 // Changes names of the query in place; an empty value removes its name. No entry in the history.
 export function setQuery(patch: Record<string, string | undefined>): void {
   const { path, query } = route.peek();
@@ -42,5 +60,5 @@ export function setQuery(patch: Record<string, string | undefined>): void {
   }
   if (next.toString() === query.toString()) return;
   route.value = { path, query: next };
-  history.replaceState(null, '', link(path, Object.fromEntries(next)));
+  writeAddress();
 }

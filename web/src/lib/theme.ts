@@ -22,11 +22,21 @@ matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
 const probe = document.createElement('span');
 probe.hidden = true;
 
+const known = new Map<string, string>();
+effect(() => {
+  void palette.value;
+  known.clear();
+});
+
 // The colour that a custom property of the style sheet stands for now, as canvases need it.
 export function colour(name: string): string {
+  const found = known.get(name);
+  if (found) return found;
   if (!probe.isConnected) document.body.append(probe);
   probe.style.color = `var(${name})`;
-  return getComputedStyle(probe).color;
+  const value = getComputedStyle(probe).color;
+  known.set(name, value);
+  return value;
 }
 
 export const seriesColours = ['--c1', '--c2', '--c3', '--c4', '--c5', '--c6'] as const;

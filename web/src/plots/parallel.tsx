@@ -3,7 +3,7 @@ import { scaleLinear } from 'd3-scale';
 import { useEffect, useRef } from 'preact/hooks';
 
 import { type Axis, axisUnit } from '../lib/amounts';
-import { digitsApart, isSame, significant } from '../lib/format';
+import { digitsApart, isSame, short, significant } from '../lib/format';
 import { colour, palette } from '../lib/theme';
 import type { Design } from '../lib/types';
 import { toShown } from '../lib/units';
@@ -34,19 +34,19 @@ export function Parallel(props: {
     const pad = !single ? 0 : Math.abs(high) * 0.05 || 1;
     return { axis, single, scale: scaleLinear([low - pad, high + pad], [height - bottom, top]) };
   });
-  const xOf = (i: number) => inset + (i * (width - 2 * inset)) / Math.max(1, shown.length - 1);
+  const inner = Math.max(width, shown.length * 70);
+  const xOf = (i: number) => inset + (i * (inner - 2 * inset)) / Math.max(1, shown.length - 1);
 
   useEffect(() => {
     const element = canvas.current;
     const ctx = element?.getContext('2d');
     if (!element || !ctx || width === 0) return;
     const ratio = devicePixelRatio;
-    element.width = width * ratio;
+    element.width = inner * ratio;
     element.height = height * ratio;
     ctx.scale(ratio, ratio);
-    ctx.clearRect(0, 0, width, height);
-    const draw = (design: Design) => {
-      ctx.beginPath();
+    ctx.clearRect(0, 0, inner, height);
+    const trace = (design: Design) => {
       let pen = false;
       shown.forEach(({ axis, scale }, i) => {
         const value = axis.of(design);
@@ -58,19 +58,20 @@ export function Parallel(props: {
         else ctx.moveTo(xOf(i), scale(value));
         pen = true;
       });
+    };
+    // One stroke for all lines of a colour: many short ones cost frames.
+    const draw = (designs: Design[], ink: string, thickness: number, alpha: number) => {
+      ctx.strokeStyle = colour(ink);
+      ctx.lineWidth = thickness;
+      ctx.globalAlpha = alpha;
+      ctx.beginPath();
+      designs.forEach(trace);
       ctx.stroke();
     };
-    ctx.lineWidth = 1;
-    ctx.strokeStyle = colour('--faint-line');
-    for (const design of props.designs) if (!props.inBrush(design)) draw(design);
-    ctx.strokeStyle = colour('--c1');
-    ctx.globalAlpha = Math.max(0.18, Math.min(0.8, 40 / props.designs.length));
-    for (const design of props.designs) if (props.inBrush(design)) draw(design);
-    ctx.globalAlpha = 1;
-    ctx.lineWidth = 2.2;
-    ctx.strokeStyle = colour('--c2');
-    const baseline = props.designs.find((design) => design.rank === props.baseline);
-    if (baseline) draw(baseline);
+    const inside = props.designs.map(props.inBrush);
+    draw(props.designs.filter((_, i) => !inside[i]), '--faint-line', 1, 1);
+    draw(props.designs.filter((_, i) => inside[i]), '--c1', 1, props.designs.length > 100 ? 0.5 : 0.8);
+    draw(props.designs.filter((design) => design.rank === props.baseline), '--c2', 2.2, 1);
   });
   void paint;
 
@@ -84,15 +85,15 @@ export function Parallel(props: {
           <span class="legend-item">drag along an axis to filter</span>
         </span>
       </figcaption>
-      <div ref={ref} class="parallel-box" style={{ height: `${height}px` }}>
+      <div ref={ref} class="parallel-box" style={{ height: `${height + (inner > width ? 14 : 0)}px` }}>
         {width > 0 && (
           <>
-            <canvas ref={canvas} style={{ width: `${width}px`, height: `${height}px` }} aria-hidden="true" />
-            <svg width={width} height={height}>
+            <canvas ref={canvas} style={{ width: `${inner}px`, height: `${height}px` }} aria-hidden="true" />
+            <svg width={inner} height={height}>
               {shown.map(({ axis, scale, single }, i) => (
                 <BrushAxis
                   key={axis.id} axis={axis} x={xOf(i)} scale={scale} range={props.brushes[axis.id]}
-                  low={i % 2 === 1 && width < 560} single={single} onBrush={(range) => props.onBrush(axis.id, range)}
+                  single={single} onBrush={(range) => props.onBrush(axis.id, range)}
                 />
               ))}
             </svg>
@@ -108,7 +109,6 @@ function BrushAxis(props: {
   x: number;
   scale: ReturnType<typeof scaleLinear<number, number>>;
   range?: [number, number];
-  low: boolean;
   single: boolean; // one value only
   onBrush: (range: [number, number] | null) => void;
 }) {
@@ -122,10 +122,12 @@ function BrushAxis(props: {
     const y = Math.min(Math.max(event.clientY - box.top, top), height - bottom);
     return scale.invert(y);
   };
+  const frame = useRef(0);
   const move = (event: PointerEvent) => {
     if (from.current === null) return;
-    const to = pointer(event);
-    props.onBrush([Math.min(from.current, to), Math.max(from.current, to)]);
+    const [start, to] = [from.current, pointer(event)];
+    cancelAnimationFrame(frame.current);
+    frame.current = requestAnimationFrame(() => props.onBrush([Math.min(start, to), Math.max(start, to)]));
   };
   const nudge = (event: KeyboardEvent) => {
     const step = (high - low) / 20;
@@ -166,13 +168,16 @@ function BrushAxis(props: {
         onPointerMove={move}
         onPointerUp={(event) => {
           const end = pointer(event);
-          if (from.current !== null && Math.abs(scale(end) - scale(from.current)) < 4) props.onBrush(null);
+          if (from.current !== null && Math.abs(scale(end) - scale(from.current)) < 4) {
+            cancelAnimationFrame(frame.current);
+            props.onBrush(null);
+          }
           from.current = null;
         }}
       />
-      <text x={x} y={props.low ? 22 : 10} class="name">{axis.label}</text>
-      {!props.low && <text x={x} y={22} class="unit">{axisUnit(axis)}</text>}
-      <text x={x} y={props.single ? (top + height - bottom) / 2 - 5 : top - 2} class="end">{text(props.single ? (low + high) / 2 : high)}</text>
+      <text x={x} y={10} class="name">{axis.label}</text>
+      <text x={x} y={22} class="unit">{axisUnit(axis)}</text>
+      <text x={x} y={props.single ? (top + height - bottom) / 2 - 5 : top - 2} class="end">{props.single ? short(toShown(axis.kind, (low + high) / 2), 4) : text(high)}</text>
       {!props.single && <text x={x} y={height - 5} class="end">{text(low)}</text>}
     </g>
   );

@@ -1,5 +1,6 @@
 // Two amounts of all designs: the Pareto front as a line, dominated designs grey.
 import { scaleLinear } from 'd3-scale';
+import { useMemo } from 'preact/hooks';
 
 import { axes, type Axis, axisUnit, paretoFront } from '../lib/amounts';
 import { short, shown } from '../lib/format';
@@ -10,6 +11,13 @@ import { useWidth } from './width';
 
 const height = 260;
 const space = { left: 52, right: 14, top: 10, bottom: 36 };
+
+interface Point {
+  design: Design;
+  x: number;
+  y: number;
+  tip: string;
+}
 
 const options = (list: Axis[]) => list.map((axis) => ({ value: axis.id, label: axis.label }));
 
@@ -24,10 +32,17 @@ export function Scatter(props: {
 }) {
   const { ref, width } = useWidth();
   const { x, y } = props;
-  const points = props.designs
-    .map((design) => ({ design, x: x.of(design), y: y.of(design) }))
-    .filter((p): p is { design: Design; x: number; y: number } => p.x !== null && p.y !== null);
-  const front = paretoFront(points, x, y);
+  const units = `${axisUnit(x)} ${axisUnit(y)}`;
+  const { points, front } = useMemo(() => {
+    const found: Point[] = [];
+    for (const design of props.designs) {
+      const [px, py] = [x.of(design), y.of(design)];
+      if (px === null || py === null) continue;
+      const tip = `#${design.rank} ${design.configuration}: ${x.label} ${shown(x.kind, px, 4)} ${axisUnit(x)}, ${y.label} ${shown(y.kind, py, 4)} ${axisUnit(y)}`;
+      found.push({ design, x: px, y: py, tip });
+    }
+    return { points: found, front: paretoFront(found, x, y) };
+  }, [props.designs, x, y, units]);
   const extent = (values: number[]): [number, number] => {
     const [low, high] = [Math.min(...values), Math.max(...values)];
     const pad = (high - low) * 0.06 || Math.abs(high) * 0.05 || 1;
@@ -81,7 +96,7 @@ export function Scatter(props: {
               <circle
                 key={p.design.rank} cx={px(p.x)} cy={py(p.y)} r={p.design.rank === props.baseline ? 6 : 4}
                 class={`point ${front[i] ? 'front' : ''} ${props.inBrush(p.design) ? '' : 'out'} ${p.design.rank === props.baseline ? 'baseline' : ''}`}
-                data-tip={`#${p.design.rank} ${p.design.configuration}: ${x.label} ${shown(x.kind, p.x, 4)} ${axisUnit(x)}, ${y.label} ${shown(y.kind, p.y, 4)} ${axisUnit(y)}`}
+                data-tip={p.tip}
                 onClick={() => props.onOpen(p.design.rank)}
               />
             ))}

@@ -152,7 +152,7 @@ function Facets({ meta, list }: { meta: Family; list: Part[] }) {
         const range = chosen.numbers[field.name];
         return (
           <div key={field.name} class="facet" role="group" aria-label={`${label} ${unit}`}>
-            <h3 data-tip={field.meaning}>{label} <small>{unit}</small></h3>
+            <p class="facet-name" data-tip={field.meaning}>{label} <small>{unit}</small></p>
             <span class="range">
               <input
                 type="text" inputMode="decimal" aria-label={`${label}, at least`} value={range ? bound(range[0]) : ''}
@@ -176,7 +176,7 @@ function Facets({ meta, list }: { meta: Family; list: Part[] }) {
         if (counts.size < 2 && !chosen.texts[field]?.length) return null;
         return (
           <div key={field} class="facet" role="group" aria-label={field}>
-            <h3>{field.replaceAll('_', ' ')}</h3>
+            <p class="facet-name">{field.replaceAll('_', ' ')}</p>
             {[...counts].sort((a, b) => b[1] - a[1] || a[0].localeCompare(b[0])).map(([value, count]) => (
               <label key={value} class="check">
                 <input type="checkbox" checked={chosen.texts[field]?.includes(value) ?? false} onChange={(e) => toggle(field, value, e.currentTarget.checked)} />

@@ -2,8 +2,8 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
-import { axes, axisUnit, requirementName } from '../lib/amounts';
-import { percent, shown, significant } from '../lib/format';
+import { axes, axisUnit, requirementName, requirementNumber, requirementUnit } from '../lib/amounts';
+import { fieldName, percent, significant } from '../lib/format';
 import { type Parts, partsOf } from '../lib/rig';
 import { link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
@@ -136,8 +136,6 @@ function PartsPanel({ design }: { design: Design }) {
 function MarginsPanel({ design, answer }: { design: Design; answer: Answer }) {
   const groups = answer.requirements.actuators;
   const least = Math.min(...design.margins.map((m) => m.relative_margin));
-  const say = (pointer: string, value: number) =>
-    pointer.includes('pressure') ? shown('pressure', value) : significant(value, pointer.includes('actuations') ? 4 : 3);
   return (
     <Panel title="Requirements and margins">
       <div class="scroll" tabIndex={0} role="region" aria-label="Margins">
@@ -148,9 +146,9 @@ function MarginsPanel({ design, answer }: { design: Design; answer: Answer }) {
           <tbody>
             {design.margins.map((m) => (
               <tr key={m.requirement}>
-                <th scope="row">{requirementName(m.requirement, groups)}</th>
-                <td class="num">{say(m.requirement, m.required)}</td>
-                <td class="num">{say(m.requirement, m.achieved)}</td>
+                <th scope="row">{requirementName(m.requirement, groups)} <small class="muted">{requirementUnit(m.requirement)}</small></th>
+                <td class="num">{requirementNumber(m.requirement, m.required)}</td>
+                <td class="num">{requirementNumber(m.requirement, m.achieved)}</td>
                 <td>
                   <span class="margin-bar">
                     <span class="track"><span class={m.relative_margin === least ? (m.binding ? 'binding' : 'least') : ''} style={{ width: `${Math.min(100, 100 * Math.max(0, m.relative_margin))}%` }} /></span>
@@ -177,7 +175,7 @@ function Estimates({ design }: { design: Design }) {
   const byFamily = new Map<string, string[]>();
   for (const name of quality.estimated) {
     const [family = '', field = ''] = name.split('.');
-    byFamily.set(family, [...(byFamily.get(family) ?? []), field.replaceAll('_', ' ')]);
+    byFamily.set(family, [...(byFamily.get(family) ?? []), fieldName(field).label]);
   }
   return (
     <Panel title="What rests on estimates">

@@ -1,7 +1,7 @@
 // The answer of one job: while it runs its progress, then the ranked list.
 import { useEffect } from 'preact/hooks';
 
-import { requirementName } from '../lib/amounts';
+import { requirementName, requirementNumber, requirementUnit } from '../lib/amounts';
 import { duration, percent, significant } from '../lib/format';
 import { ended, follow, jobList, previousJob, refreshJobs, start, watched } from '../lib/jobs';
 import { load } from '../lib/requirements';
@@ -135,9 +135,9 @@ function Conflict({ answer }: { answer: Answer }) {
           <tbody>
             {answer.conflict!.map((row) => (
               <tr key={row.requirement}>
-                <td>{requirementName(row.requirement, answer.requirements.actuators)}</td>
-                <td class="num">{significant(row.required)}</td>
-                <td class="num">{significant(row.best)}</td>
+                <td>{requirementName(row.requirement, answer.requirements.actuators)} <small class="muted">{requirementUnit(row.requirement)}</small></td>
+                <td class="num">{requirementNumber(row.requirement, row.required)}</td>
+                <td class="num">{requirementNumber(row.requirement, row.best)}</td>
                 <td class="num">{percent(row.relaxation)}</td>
               </tr>
             ))}

@@ -69,13 +69,15 @@ function Actuator({ group, largest }: { group: Group; largest: number }) {
   );
 }
 
+const clip = (name: string): string => (name.length > 14 ? `${name.slice(0, 13)}…` : name);
+
 const place = (x: number, y: number) => `translate(${x} ${y})`;
 
 export function Drawing({ requirements }: { requirements: Requirements }) {
   const kinds = requirements.supply?.configurations ?? ['cylinder', 'co2', 'compressor'];
   const groups = requirements.actuators;
   const rows = Math.max(kinds.length, groups.length, 1);
-  const step = 74;
+  const step = 92;
   const height = rows * step + 10;
   const width = 430;
   const yOf = (i: number, n: number) => height / 2 + (i - (n - 1) / 2) * step;
@@ -107,19 +109,18 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
         const fall = group.fall_time_s_max;
         return (
           <g key={i}>
-            <path class="pipe" d={`M${bus} ${y} H380`} />
+            <path class="pipe" d={`M${bus} ${y} H370`} />
             <g transform={place(200, y)} class="sign"><Valve /></g>
             <path class="tube" d={`M232 ${y} q8 -12 16 0 t16 0 t16 0 t16 0`} />
-            <g transform={place(376, y)} class="sign actuator"><Actuator group={group} largest={largest} /></g>
+            <g transform={place(366, y)} class="sign actuator"><Actuator group={group} largest={largest} /></g>
             <text x="200" y={y + 27}>valve</text>
             <text x="266" y={y + 27}>{short(group.tube_length_m)} m</text>
             <text x="266" y={y - 16}>
               {short(toShown('pressure', group.operating_pressure_kpa_gauge), 4)} {unitOf('pressure')}
             </text>
-            <text x="376" y={y + 40} class="name" text-anchor="middle">
-              {group.count} × {group.name}
-              {rise ? ` ↑${short(rise)} s` : ''}
-              {fall ? ` ↓${short(fall)} s` : ''}
+            <text x="366" y={y + 38} class="name">{group.count} × {clip(group.name)}</text>
+            <text x="366" y={y + 51}>
+              {[rise && `↑ ${short(rise)} s`, fall && `↓ ${short(fall)} s`].filter(Boolean).join('  ')}
             </text>
           </g>
         );

@@ -3,7 +3,7 @@ import { computed, signal, useComputed } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
 import { type Axis, axes, axisOf, axisUnit, leastMargin, requirementName } from '../lib/amounts';
-import { change, digitsApart, percent, significant } from '../lib/format';
+import { change, digitsApart, isSame, percent, significant } from '../lib/format';
 import { jobList, refreshJobs } from '../lib/jobs';
 import { go, link, route, setQuery } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
@@ -85,7 +85,7 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
           />
         </div>
         <div class="panel">
-          <Parallel designs={answer.designs} axes={usable.filter((a) => a.id !== 'estimated')} brushes={brushes} inBrush={inBrush} baseline={baseline} onBrush={onBrush} />
+          <Parallel designs={answer.designs} axes={usable.filter((axis) => axis.id !== 'estimated' && !(answer.designs.length > 1 && isAlike(axis, answer.designs)))} brushes={brushes} inBrush={inBrush} baseline={baseline} onBrush={onBrush} />
         </div>
       </div>
       <Panel
@@ -146,10 +146,24 @@ const columns = ['mass', 'volume', 'cost', 'energy', 'source', 'reservoir', 'dut
   (name) => axisOf(name)!,
 );
 
-// Enough digits to tell the designs apart, at most five.
-function digitsOf(axis: Axis, designs: Design[]): number {
+function extentOf(axis: Axis, designs: Design[]): [number, number] {
   const values = designs.map(axis.of).filter((value): value is number => value !== null);
-  return Math.min(5, digitsApart(Math.min(...values), Math.max(...values)));
+  return [Math.min(...values), Math.max(...values)];
+}
+
+// Enough digits to tell the designs apart, within reason.
+const digitsOf = (axis: Axis, designs: Design[]): number =>
+  Math.min(axis.id === 'mass' ? 5 : 4, digitsApart(...extentOf(axis, designs)));
+
+const isAlike = (axis: Axis, designs: Design[]): boolean =>
+  designs.every((design) => axis.of(design) !== null) && isSame(...extentOf(axis, designs));
+
+// What of a design's parts is other than in the baseline; of the baseline the source.
+function partsInShort(design: Design, base: Design | undefined): string {
+  const key = (p: Design['parts'][number]) => `${p.id} ${p.group} ${p.quantity}`;
+  const known = new Set(design === base ? [] : base?.parts.map(key));
+  const rows = design.parts.filter((p) => !known.has(key(p)) && (design !== base || ['compressor', 'cylinder', 'co2', 'regulator', 'valve'].includes(p.family)));
+  return rows.map((p) => (p.id === 'custom' ? `${p.family} made to measure` : `${p.family} ${p.part_number}`)).join(', ');
 }
 
 function Table(props: {
@@ -163,9 +177,9 @@ function Table(props: {
   const { answer, rows, baseline, sort } = props;
   const sight = useWindow(rowHeight, rows.length, 34);
   const visible = rows.slice(sight.start, sight.end);
-  const used = columns
-    .filter((axis) => answer.designs.some((design) => axis.of(design) !== null))
-    .map((axis) => ({ axis, digits: digitsOf(axis, answer.designs) }));
+  const some = columns.filter((axis) => answer.designs.some((design) => axis.of(design) !== null));
+  const alike = answer.designs.length > 1 ? some.filter((axis) => isAlike(axis, answer.designs)) : [];
+  const used = some.filter((axis) => !alike.includes(axis)).map((axis) => ({ axis, digits: digitsOf(axis, answer.designs) }));
   const base = answer.designs.find((design) => design.rank === baseline);
   const sortBy = (name: string) => setQuery({ sort: sort === name ? `-${name}` : name === 'rank' ? undefined : name });
   const head = (name: string, text: string, unit = '', tip?: string) => (
@@ -183,49 +197,60 @@ function Table(props: {
     setQuery({ pick: next.join(',') });
   };
   return (
-    <div class="scroll ranked" tabIndex={0} role="region" aria-label="Ranked designs" onScroll={sight.onScroll}>
-      <table aria-rowcount={rows.length + 1}>
-        <thead>
-          <tr>
-            <th scope="col"><span class="only-heard">compare</span></th>
-            {head('rank', '#')}
-            {head('configuration', 'supply')}
-            {used.map(({ axis }) => head(axis.id, axis.label, axisUnit(axis)))}
-            {head('margin', 'margins', '', 'One bar a requirement, full at 50 %; the least one is marked')}
-            {head('estimated', 'data', '', 'How much of the mass rests on estimates; ~ flow data are estimates, too')}
-            <th scope="col" class="num">to #{baseline}</th>
-            {props.before && <th scope="col" class="num">before</th>}
-          </tr>
-        </thead>
-        <tbody>
-          {sight.above > 0 && <tr aria-hidden="true" class="spacer" style={{ height: `${sight.above}px` }} />}
-          {visible.map((design, i) => (
-            <tr key={design.rank} aria-rowindex={sight.start + i + 2} class={design.rank === baseline ? 'baseline' : ''}>
-              <td>
-                <input type="checkbox" aria-label={`Compare design ${design.rank}`} checked={picked.value.includes(design.rank)} onChange={() => toggle(design.rank)} />
-              </td>
-              <th scope="row" class="num">
-                <a href={link(['designs', props.id, String(design.rank)])}>{design.rank}</a>
-              </th>
-              <td class="nowrap" data-tip={design.parts.map((p) => `${p.quantity} × ${p.manufacturer} ${p.part_number}`).join('; ')}>{design.configuration}</td>
-              {used.map(({ axis, digits }) => {
-                const value = axis.of(design);
-                return <td key={axis.id} class="num">{value === null ? '–' : significant(toShown(axis.kind, value), digits)}</td>;
-              })}
-              <td><Margins design={design} answer={answer} /></td>
-              <td class="num nowrap">
-                <Quality design={design} />
-              </td>
-              <td class="num nowrap">{base && design !== base ? change(design.objective / base.objective - 1) : '–'}</td>
-              {props.before && <td class="num nowrap">{was(props.before.get(signature(design)), design.rank)}</td>}
+    <>
+      {alike.length > 0 && (
+        <p class="alike muted">
+          The same in all: {alike.map((axis) => `${axis.label} ${significant(toShown(axis.kind, axis.of(answer.designs[0]!)!))} ${axisUnit(axis)}`).join(', ')}.
+        </p>
+      )}
+      <div class="scroll ranked" tabIndex={0} role="region" aria-label="Ranked designs" onScroll={sight.onScroll}>
+        <table aria-rowcount={rows.length + 1}>
+          <thead>
+            <tr>
+              <th scope="col"><span class="only-heard">compare</span></th>
+              {head('rank', '#')}
+              {head('configuration', 'supply')}
+              {used.map(({ axis }) => head(axis.id, axis.label, axisUnit(axis)))}
+              {head('margin', 'margins', '', 'One bar a requirement, full at 50 %; the least one is marked')}
+              {head('estimated', 'data', '', 'How much of the mass rests on estimates; ~ flow data are estimates, too')}
+              <th scope="col" class="num">to #{baseline}</th>
+              <th scope="col">other parts than #{baseline}</th>
+              {props.before && <th scope="col" class="num">before</th>}
             </tr>
-          ))}
-          {sight.below > 0 && <tr aria-hidden="true" class="spacer" style={{ height: `${sight.below}px` }} />}
-        </tbody>
-      </table>
-    </div>
+          </thead>
+          <tbody>
+            {sight.above > 0 && <tr aria-hidden="true" class="spacer" style={{ height: `${sight.above}px` }} />}
+            {visible.map((design, i) => (
+              <tr key={design.rank} aria-rowindex={sight.start + i + 2} class={design.rank === baseline ? 'baseline' : ''}>
+                <td>
+                  <input type="checkbox" aria-label={`Compare design ${design.rank}`} checked={picked.value.includes(design.rank)} onChange={() => toggle(design.rank)} />
+                </td>
+                <th scope="row" class="num">
+                  <a href={link(['designs', props.id, String(design.rank)])}>{design.rank}</a>
+                </th>
+                <td class="nowrap" data-tip={design.parts.map((p) => `${p.quantity} × ${p.manufacturer} ${p.part_number}`).join('; ')}>{design.configuration}</td>
+                {used.map(({ axis, digits }) => {
+                  const value = axis.of(design);
+                  return <td key={axis.id} class="num">{value === null ? '–' : significant(toShown(axis.kind, value), digits)}</td>;
+                })}
+                <td><Margins design={design} answer={answer} /></td>
+                <td class="num nowrap">
+                  <Quality design={design} />
+                </td>
+                <td class="num nowrap">{base && design !== base ? change(design.objective / base.objective - 1) : '–'}</td>
+                <Others text={partsInShort(design, base)} />
+                {props.before && <td class="num nowrap">{was(props.before.get(signature(design)), design.rank)}</td>}
+              </tr>
+            ))}
+            {sight.below > 0 && <tr aria-hidden="true" class="spacer" style={{ height: `${sight.below}px` }} />}
+          </tbody>
+        </table>
+      </div>
+    </>
   );
 }
+
+const Others = ({ text }: { text: string }) => <td class="others" data-tip={text}>{text}</td>;
 
 function was(rank: number | undefined, now: number) {
   if (rank === undefined) return <Chip kind="good">new</Chip>;

@@ -5,6 +5,7 @@ import { useEffect, useId, useRef } from 'preact/hooks';
 import { asProblem, post, type Problem } from '../lib/api';
 import { change as changeOf, short, significant } from '../lib/format';
 import { asDesigned, type Change, missingPart, type Parts, simulationOf, strokesOf } from '../lib/rig';
+import { route, setQuery } from '../lib/route';
 import { seriesColours } from '../lib/theme';
 import type { Design, Requirements, Response } from '../lib/types';
 import { type Kind, toShown, unitOf } from '../lib/units';
@@ -13,10 +14,20 @@ import { Notice, Panel, Segmented } from '../ui/controls';
 
 type Cycles = '1' | '3' | '10';
 
+// What is tried, in the address: source, reservoir, tube and volume.
+const toText = (c: Change): string => [c.source_kpa, c.reservoir_ml ?? '', c.tube, c.rest_volume].map((v) => (v === '' ? '' : Number(Number(v).toPrecision(6)))).join(':');
+
+function fromText(start: Change, text: string | null): Change {
+  const [source, reservoir, tube, volume] = (text ?? '').split(':').map(Number);
+  if (!source || !tube || !volume) return start;
+  return { ...start, source_kpa: source, reservoir_ml: start.reservoir_ml === null ? null : reservoir || start.reservoir_ml, tube, rest_volume: volume };
+}
+
 export function WhatIf({ design, requirements, parts }: { design: Design; requirements: Requirements; parts: Parts }) {
   const start = asDesigned(design);
-  const change = useSignal<Change>(start);
-  const cycles = useSignal<Cycles>('3');
+  const asked = route.peek().query;
+  const change = useSignal<Change>(fromText(start, asked.get('try')));
+  const cycles = useSignal<Cycles>(asked.get('cycles') === '1' ? '1' : asked.get('cycles') === '10' ? '10' : '3');
   const base = useSignal<Response | null>(null);
   const tried = useSignal<Response | null>(null);
   const took = useSignal<number | null>(null);
@@ -56,10 +67,12 @@ export function WhatIf({ design, requirements, parts }: { design: Design; requir
   };
   const set = (patch: Partial<Change>) => {
     change.value = { ...change.value, ...patch };
+    setQuery({ try: toText(change.value) });
     void attempt(change.value);
   };
   const reset = () => {
     change.value = start;
+    setQuery({ try: undefined });
     tried.value = null;
     took.value = null;
   };
@@ -70,7 +83,7 @@ export function WhatIf({ design, requirements, parts }: { design: Design; requir
   return (
     <Panel
       title="Response and what if"
-      aside={<Segmented label="cycles" options={['1', '3', '10'] as const} value={cycles.value} onChange={(v) => (cycles.value = v)} />}
+      aside={<Segmented label="cycles" options={['1', '3', '10'] as const} value={cycles.value} onChange={(v) => { cycles.value = v; setQuery({ cycles: v === '3' ? undefined : v }); }} />}
     >
       {missing && <Notice kind="warn">It cannot be simulated: {missing}.</Notice>}
       {problem.value && <Notice kind="bad">{problem.value.message} {problem.value.errors.map((e) => `${e.pointer} ${e.detail}`).join('; ')}</Notice>}
