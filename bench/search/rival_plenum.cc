@@ -1,8 +1,12 @@
+#include <algorithm>
+
 #include "bench/search/rival.h"
 #include "optimizer/tree_search.h"
 
 namespace plenum::bench {
 namespace {
+
+constexpr int kRuns = 5;  // of milliseconds; the middle one counts
 
 int IndexOf(const std::string& id) { return std::stoi(id.substr(id.find('-') + 1)); }
 
@@ -12,9 +16,15 @@ Rival Plenum() {
   const auto solve = [](const BaseInstance& base, std::uint64_t, double time_limit_s) {
     optimizer::SearchOptions options;
     options.time_limit_s = time_limit_s;
-    const optimizer::Answer answer = optimizer::SearchTrees(base.problem, options);
+    optimizer::Answer answer;
+    std::vector<double> seconds;
+    for (int run = 0; run < kRuns; ++run) {
+      answer = optimizer::SearchTrees(base.problem, options);
+      seconds.push_back(answer.seconds);
+    }
+    std::sort(seconds.begin(), seconds.end());
     Outcome outcome;
-    outcome.total_s = outcome.find_s = answer.seconds;
+    outcome.total_s = outcome.find_s = seconds[kRuns / 2];
     outcome.claimed = answer.status == optimizer::Status::kOptimal;
     if (answer.designs.empty()) return outcome;
     outcome.found = true;
@@ -29,7 +39,7 @@ Rival Plenum() {
     return outcome;
   };
   return {"plenum", "best-first over boxes, exact march at their corners; trees of parts made anew",
-          "count 1", solve};
+          "count 1; the middle one of five runs", solve};
 }
 
 }  // namespace plenum::bench

@@ -27,6 +27,6 @@ echo
 taskset -c "$core" build/rivals/rivals "$results" "${sizes[@]}" --instances 5 \
   --time-limit "$time_limit_s" >&2
 # Debian's Python, which has Debian's SciPy.
-taskset -c "$core" /usr/bin/python3 bench/search/rivals_scipy.py build/rivals/bench/search/libbase_library.so \
-  "$results" "$time_limit_s"
+taskset -c "$core" /usr/bin/python3 bench/search/rivals_scipy.py \
+  build/rivals/bench/search/libbase_library.so "$results" "$time_limit_s"
 /usr/bin/python3 bench/search/rivals_table.py "$results"
