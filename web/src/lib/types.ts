@@ -121,6 +121,7 @@ export interface Answer {
   best_on_measured_flow: number | null;
   proof: Proof;
   front?: { objectives: Partial<Record<Amount, number>>; rank: number }[];
+  front_proof?: { complete: boolean; searches: number; proved: number; unexplored: unknown[] };
   conflict?: {
     requirement: string;
     required: number;

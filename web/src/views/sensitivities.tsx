@@ -4,7 +4,15 @@ import { useEffect } from 'preact/hooks';
 
 import { asProblem, post } from '../lib/api';
 import { change as changeOf } from '../lib/format';
-import { asDesigned, type Change, missingPart, type Parts, simulationOf, strokesOf, type StrokeTimes } from '../lib/rig';
+import {
+  asDesigned,
+  type Change,
+  missingPart,
+  type Parts,
+  simulationOf,
+  strokesOf,
+  type StrokeTimes,
+} from '../lib/rig';
 import type { Design, Requirements, Response } from '../lib/types';
 import { Notice, Panel } from '../ui/controls';
 
@@ -22,7 +30,15 @@ const worst = (strokes: StrokeTimes[], name: keyof StrokeTimes): number | null =
   return values.some((v) => v === null) ? null : Math.max(...(values as number[]));
 };
 
-export function Sensitivities({ design, requirements, parts }: { design: Design; requirements: Requirements; parts: Parts }) {
+export function Sensitivities({
+  design,
+  requirements,
+  parts,
+}: {
+  design: Design;
+  requirements: Requirements;
+  parts: Parts;
+}) {
   const rows = useSignal<Row[] | null>(null);
   const problem = useSignal('');
   useEffect(() => {
@@ -34,15 +50,30 @@ export function Sensitivities({ design, requirements, parts }: { design: Design;
       ['actuator volume', { rest_volume: 1 + step }],
       ['operating pressure', { operating: 1 + step }],
     ];
-    if (start.reservoir_ml !== null) more.splice(1, 0, ['reservoir', { reservoir_ml: start.reservoir_ml * (1 + step) }]);
+    if (start.reservoir_ml !== null)
+      more.splice(1, 0, ['reservoir', { reservoir_ml: start.reservoir_ml * (1 + step) }]);
     const run = async (change: Change) => {
       // The target moves with a changed operating pressure.
-      const asked = { ...requirements, actuators: requirements.actuators.map((g) => ({ ...g, operating_pressure_kpa_gauge: g.operating_pressure_kpa_gauge * change.operating })) };
-      return strokesOf(await post<Response>('/v1/simulations', simulationOf(design, requirements, parts, change, cycles, 6000)), asked, cycles);
+      const asked = {
+        ...requirements,
+        actuators: requirements.actuators.map((g) => ({
+          ...g,
+          operating_pressure_kpa_gauge: g.operating_pressure_kpa_gauge * change.operating,
+        })),
+      };
+      return strokesOf(
+        await post<Response>(
+          '/v1/simulations',
+          simulationOf(design, requirements, parts, change, cycles, 6000),
+        ),
+        asked,
+        cycles,
+      );
     };
     const load = async () => {
       const base = await run(start);
-      const share = (now: number | null, was: number | null) => (now === null || was === null ? null : now / was - 1);
+      const share = (now: number | null, was: number | null) =>
+        now === null || was === null ? null : now / was - 1;
       const found: Row[] = [];
       for (const [label, patch] of more) {
         const response = await run({ ...start, ...patch });
@@ -56,27 +87,41 @@ export function Sensitivities({ design, requirements, parts }: { design: Design;
     };
     load().catch((error) => (problem.value = asProblem(error).message));
   }, [design, parts]);
-  const most = Math.max(0.01, ...(rows.value ?? []).flatMap((r) => [Math.abs(r.rise ?? 0), Math.abs(r.fall ?? 0)]));
+  const most = Math.max(
+    0.01,
+    ...(rows.value ?? []).flatMap((r) => [Math.abs(r.rise ?? 0), Math.abs(r.fall ?? 0)]),
+  );
   return (
     <Panel title="Sensitivities" aside={<span class="muted">for 10 % more</span>}>
       {problem.value && <Notice kind="bad">{problem.value}</Notice>}
       {rows.value && (
         <table class="tornado">
           <thead>
-            <tr><th scope="col">of</th><th scope="col">rise time</th><th scope="col">fall time</th></tr>
+            <tr>
+              <th scope="col">of</th>
+              <th scope="col">rise time</th>
+              <th scope="col">fall time</th>
+            </tr>
           </thead>
           <tbody>
             {rows.value.map((row) => (
               <tr key={row.label}>
                 <th scope="row">{row.label}</th>
-                <td><Swing share={row.rise} most={most} /></td>
-                <td><Swing share={row.fall} most={most} /></td>
+                <td>
+                  <Swing share={row.rise} most={most} />
+                </td>
+                <td>
+                  <Swing share={row.fall} most={most} />
+                </td>
               </tr>
             ))}
           </tbody>
         </table>
       )}
-      <p class="hint">The slowest stroke of two cycles from the full source, simulated again with each number 10 % greater.</p>
+      <p class="hint">
+        The slowest stroke of two cycles from the full source, simulated again with each number 10 %
+        greater.
+      </p>
     </Panel>
   );
 }
@@ -87,7 +132,10 @@ function Swing({ share, most }: { share: number | null; most: number }) {
   return (
     <span class="swing">
       <span class="swing-track">
-        <i class={share > 0 ? 'slower' : 'faster'} style={{ width: `${size}%`, left: share > 0 ? '50%' : `${50 - size}%` }} />
+        <i
+          class={share > 0 ? 'slower' : 'faster'}
+          style={{ width: `${size}%`, left: share > 0 ? '50%' : `${50 - size}%` }}
+        />
       </span>
       <span class="num">{changeOf(share)}</span>
     </span>
