@@ -3,6 +3,7 @@
 #include "api/services.h"
 #include "server/designs_resource.h"
 #include "server/history_resource.h"
+#include "server/models_resource.h"
 #include "server/page_resource.h"
 #include "server/parts_resource.h"
 
@@ -69,6 +70,8 @@ std::vector<Route> Routes(SharedCatalog& catalog, Jobs& jobs) {
        [](const Call&) { return JsonReply(200, api::RenderFamilies()); }},
       {"GET", "/v1/revisions", "writes to the catalogue, newest first", parts(ListRevisions)},
       {"GET", "/v1/revisions/{id}", "one write with its changes", parts(GetRevision)},
+      {"GET", "/v1/models", "saved model revisions, the newest of each name", parts(ListModels)},
+      {"GET", "/v1/models/{id}", "all versions of a saved model revision", parts(GetModel)},
       {"POST", "/v1/revisions/{id}/undo", "takes the changes of a write back", parts(UndoRevision)},
       {"GET", "/healthz", "whether the service runs",
        [](const Call&) {
