@@ -139,11 +139,12 @@ test('a part is added and the ranking changes', async () => {
 
 test('a measurement is diagnosed and the revision ranks', async () => {
   const measurement = await makeMeasurement(service);
-  const before = await rank(service, example('exosuit'));
+  const before = await rank(service, example('gripper'));
   const { page, close } = await openPage(browser, service.base, `#/designs/${before}`, {
     before: (p) => standIn(p, service),
   });
   await rows(page).first().waitFor();
+  await page.getByRole('button', { name: 'Requirements', exact: true }).click();
   await page.getByRole('link', { name: 'Measured data' }).click();
   await page
     .locator('input[type=file]')
@@ -159,11 +160,15 @@ test('a measurement is diagnosed and the revision ranks', async () => {
     .getByRole('region', { name: 'Candidate models' })
     .getByText('creep of the wall', { exact: true })
     .waitFor();
-  await page.getByLabel('Name').fill('bench creep');
+  await page.getByLabel('Name').fill('bench-creep');
   await page.getByRole('button', { name: 'Save the revision' }).click();
-  await page.getByRole('button', { name: 'Rank exosuit with bench creep' }).click();
-  await page.getByText('The same designs as before.').waitFor(); // the stand-in ranks by the nominal model
-  assert.match(page.url(), new RegExp(`with=${before}`));
+  await page.getByRole('button', { name: 'Rank gripper with bench-creep' }).click();
+  await page.getByText(/Against the nominal model: \d+ new, \d+ no longer listed/).waitFor();
+  await page.getByText('model bench-creep').waitFor();
+  const id = /designs\/([0-9a-f]+)/.exec(page.url())[1];
+  const { result } = await service.get(`/v1/designs/${id}`);
+  assert.equal(result.model.name, 'bench-creep');
+  assert.deepEqual(result.model.effects[0].parameters, { fraction: 0.149, time_constant_s: 2.03 });
   await close();
 });
 

@@ -174,62 +174,33 @@ export async function makeDiagnosis(service, measurement, verdict = 'explained')
   };
 }
 
-// Answers for the service what it does not serve yet: diagnoses, saved models, ranking by one.
+// Answers diagnoses for a service that does not serve them.
 export async function standIn(page, service, verdict = 'explained') {
-  const served = new Set(
-    (await service.get('/v1')).routes.map((route) => `${route.method} ${route.path}`),
+  const { routes } = await service.get('/v1');
+  const isServed = routes.some(
+    (route) => route.method === 'POST' && route.path === '/v1/diagnoses',
   );
-  if (served.has('POST /v1/diagnoses')) return;
+  if (isServed) return;
   const json = (body, status = 200) => ({
     status,
     contentType: 'application/json',
     body: JSON.stringify(body),
   });
-  const models = [];
+  const self = '/v1/diagnoses/d1';
   let measurement;
-  await page.route('**/v1', async (route) => {
-    const table = await service.get('/v1');
-    table.routes.push(
-      { method: 'POST', path: '/v1/diagnoses' },
-      { method: 'GET', path: '/v1/models' },
-      { method: 'POST', path: '/v1/models' },
-    );
-    await route.fulfill(json(table));
-  });
+  await page.route('**/v1', (route) =>
+    route.fulfill(json({ routes: [...routes, { method: 'POST', path: '/v1/diagnoses' }] })),
+  );
   await page.route('**/v1/diagnoses', async (route) => {
     measurement = route.request().postDataJSON();
     await route.fulfill(
-      json(
-        {
-          id: 'd1',
-          status: 'queued',
-          links: { self: '/v1/diagnoses/d1', events: '/v1/diagnoses/d1/events' },
-        },
-        202,
-      ),
+      json({ id: 'd1', status: 'queued', links: { self, events: `${self}/events` } }, 202),
     );
   });
-  await page.route('**/v1/diagnoses/d1', async (route) =>
-    route.fulfill(
-      json({
-        id: 'd1',
-        name: 'pneunet bench',
-        status: 'done',
-        progress: null,
-        result: await makeDiagnosis(service, measurement, verdict),
-        links: {},
-      }),
-    ),
-  );
-  await page.route('**/v1/models', async (route) => {
-    if (route.request().method() === 'POST') models.push(route.request().postDataJSON());
-    await route.fulfill(json(route.request().method() === 'POST' ? models.at(-1) : { models }));
-  });
-  await page.route(/\/v1\/designs(\?.*)?$/, async (route) => {
-    const request = route.request();
-    if (request.method() !== 'POST') return route.continue();
-    const body = request.postDataJSON();
-    if (models.some((model) => model.name === body.model)) body.model = 'nominal';
-    return route.continue({ postData: JSON.stringify(body) });
+  await page.route(`**${self}`, async (route) => {
+    const result = await makeDiagnosis(service, measurement, verdict);
+    await route.fulfill(
+      json({ id: 'd1', name: 'pneunet bench', status: 'done', progress: null, result, links: {} }),
+    );
   });
 }

@@ -196,6 +196,24 @@ export function bandsOf(
   }));
 }
 
+// What a diagnosis established as model/1, which rankings can name.
+export function revisionOf(d: Diagnosis): unknown {
+  const effects = d.effects.map(({ id, parameters }) => ({
+    id,
+    parameters: Object.fromEntries(
+      Object.entries(parameters).map(([name, v]) => [name, typeof v === 'string' ? v : v.value]),
+    ),
+  }));
+  return {
+    schema: 'model/1',
+    effects,
+    noise_kpa: d.noise_kpa,
+    before_rms_kpa: d.before.rms_kpa,
+    after_rms_kpa: d.after.rms_kpa,
+    holdout_rms_kpa: d.after.holdout_rms_kpa ?? null,
+  };
+}
+
 const effectWords: Record<string, string> = {
   leak: 'a leak',
   inertia: 'inertia of the wall',

@@ -131,6 +131,12 @@ export interface Answer {
   }[];
   prices?: { requirement: string; saving: number | null; status: string }[];
   seconds: number;
+  model?: { name: string; version: number; proved: boolean };
+  against_nominal?: {
+    status: string;
+    designs: { rank: number; nominal_rank: number | null }[];
+    dropped: { nominal_rank: number; objective: number; parts: PartRow[]; why: string | null }[];
+  };
   requirements: Requirements;
   catalogue_revision?: { number: number; hash: string };
 }

@@ -4,8 +4,14 @@ import { useSignal } from '@preact/signals';
 
 import { asProblem, post } from '../lib/api';
 import { significant } from '../lib/format';
-import { previousJob, start } from '../lib/jobs';
-import { bandsOf, type Diagnosis, type Measurement, verdictSentence } from '../lib/measurement';
+import { start } from '../lib/jobs';
+import {
+  bandsOf,
+  type Diagnosis,
+  type Measurement,
+  revisionOf,
+  verdictSentence,
+} from '../lib/measurement';
 import { models, refreshModels, serves } from '../lib/models';
 import { load, requirements } from '../lib/requirements';
 import { go } from '../lib/route';
@@ -78,7 +84,7 @@ export function DiagnosisView({
         </Panel>
       )}
       <Candidates d={d} />
-      {d.effects.length > 0 && <SaveModel id={id} />}
+      {d.effects.length > 0 && <SaveModel diagnosis={d} />}
     </>
   );
 }
@@ -127,14 +133,14 @@ function Curves({ d, data }: { d: Diagnosis; data: Measurement | null }) {
 }
 
 // Saves the revision and ranks the requirements of the other view with it.
-function SaveModel({ id }: { id: string }) {
+function SaveModel({ diagnosis }: { diagnosis: Diagnosis }) {
   const name = useSignal('');
   const problem = useSignal('');
   const saved = useSignal('');
   const canSave = serves('POST /v1/models');
   const save = async () => {
     try {
-      await post('/v1/models', { name: name.value, diagnosis: id });
+      await post('/v1/models', { name: name.value, model: revisionOf(diagnosis) });
       saved.value = name.value;
       problem.value = '';
       await refreshModels();
@@ -144,12 +150,11 @@ function SaveModel({ id }: { id: string }) {
     }
   };
   const rank = async () => {
-    const before = previousJob.value;
     const revised = { ...requirements.value, model: saved.value };
     try {
       const job = await start(revised);
       load(revised);
-      go(['designs', job], { with: before ?? undefined });
+      go(['designs', job]);
     } catch (error) {
       const refused = asProblem(error);
       problem.value = [refused.message, ...refused.errors.map((e) => e.detail)].join(' ');
@@ -166,7 +171,11 @@ function SaveModel({ id }: { id: string }) {
           label="Name"
           value={name.value}
           onChange={(v) => (name.value = v)}
-          hint={models.value.some((m) => m.name === name.value) ? 'taken' : ''}
+          hint={
+            models.value.some((m) => m.name === name.value)
+              ? 'becomes its next version'
+              : 'a-z, 0-9, -'
+          }
         />
         <button
           type="button"

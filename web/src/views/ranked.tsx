@@ -2,7 +2,7 @@
 import { computed, useComputed } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
-import { axes, axisOf, leastMargin } from '../lib/amounts';
+import { axes, axisOf, leastMargin, requirementName } from '../lib/amounts';
 import { percent, significant } from '../lib/format';
 import { jobList, refreshJobs, useJob } from '../lib/jobs';
 import { go, route, setQuery } from '../lib/route';
@@ -67,9 +67,19 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
     const order = u < v ? -1 : u > v ? 1 : a.rank - b.rank;
     return descending ? -order : order;
   });
-  const before = other
-    ? new Map(other.designs.map((design) => [signature(design), design.rank]))
-    : undefined;
+  const nominal = answer.against_nominal;
+  // Which rank a design had, by its parts: with the nominal model, or in the search chosen.
+  const before = nominal
+    ? new Map(
+        nominal.designs.flatMap((d) =>
+          d.nominal_rank === null
+            ? []
+            : [[signature(answer.designs[d.rank - 1]!), d.nominal_rank] as const],
+        ),
+      )
+    : other
+      ? new Map(other.designs.map((design) => [signature(design), design.rank]))
+      : undefined;
   const jobs = (jobList.value ?? []).filter((job) => job.id !== id && job.status === 'done');
   return (
     <>
@@ -126,7 +136,7 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
                 .slice(0, 500)
                 .map((d) => ({ value: String(d.rank), label: `#${d.rank}` }))}
             />
-            {jobs.length > 0 && (
+            {!nominal && jobs.length > 0 && (
               <Select
                 label="Before"
                 value={q.get('with') ?? ''}
@@ -158,7 +168,8 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
           </>
         }
       >
-        {before && other && <Changes answer={answer} other={other} before={before} />}
+        {nominal && <AgainstNominal answer={answer} />}
+        {!nominal && before && other && <Changes answer={answer} other={other} before={before} />}
         <Table
           answer={answer}
           rows={rows}
@@ -169,6 +180,33 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
         />
       </Panel>
     </>
+  );
+}
+
+// What the revised model changes in the ranking.
+function AgainstNominal({ answer }: { answer: Answer }) {
+  const { designs, dropped } = answer.against_nominal!;
+  const fresh = designs.filter((d) => d.nominal_rank === null).length;
+  const groups = answer.requirements.actuators;
+  return (
+    <div class="changes" role="status">
+      <p>
+        Against the nominal model: {fresh} new, {dropped.length} no longer listed.
+      </p>
+      {dropped.length > 0 && (
+        <details>
+          <summary>No longer listed</summary>
+          <ul class="history">
+            {dropped.map((d) => (
+              <li key={d.nominal_rank}>
+                nominal #{d.nominal_rank}, objective {significant(d.objective, 4)}:{' '}
+                {d.why ? `misses ${requirementName(d.why, groups)}` : 'no longer among the best'}
+              </li>
+            ))}
+          </ul>
+        </details>
+      )}
+    </div>
   );
 }
 
