@@ -1,6 +1,6 @@
 // A design as a simulation/1 request: the same line, source and schedule that its ranking used.
 import { loadPart, numberOf } from './catalogue';
-import type { Design, Group, Part, Requirements, Response } from './types';
+import type { Design, Effect, Group, Part, Requirements, Response } from './types';
 
 // What may be tried on a design; 1 or the design's own value changes nothing.
 export interface Change {
@@ -9,14 +9,17 @@ export interface Change {
   tube: number; // factors
   rest_volume: number;
   operating: number;
+  effects: Effect[]; // of the model that ranked
 }
 
-export const asDesigned = (design: Design): Change => ({
+export const asDesigned = (design: Design, effects: Effect[] = []): Change => ({
   source_kpa: design.settings.source_pressure_kpa_gauge,
   reservoir_ml: design.settings.reservoir_volume_ml,
   tube: 1,
   rest_volume: 1,
   operating: 1,
+  // What a sensor would show is not what rankings are about.
+  effects: effects.filter((effect) => !effect.id.startsWith('sensor_')),
 });
 
 export type Parts = Map<string, Part>;
@@ -163,6 +166,7 @@ export function simulationOf(
   const end = cycles / requirements.duty.frequency_hz;
   return {
     schema: 'simulation/1',
+    ...(change.effects.length > 0 && { effects: change.effects }),
     ...(design.configuration === 'co2' && { gas: 'co2' }),
     ...(requirements.ambient && { ambient: requirements.ambient }),
     ...(requirements.rise && { rise: requirements.rise }),

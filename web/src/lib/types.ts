@@ -113,6 +113,11 @@ export interface Proof {
   pruned: Record<string, string>;
 }
 
+export interface Effect {
+  id: string;
+  parameters: Record<string, number | string>;
+}
+
 export interface Answer {
   schema: 'designs/1';
   name?: string;
@@ -131,7 +136,7 @@ export interface Answer {
   }[];
   prices?: { requirement: string; saving: number | null; status: string }[];
   seconds: number;
-  model?: { name: string; version: number; proved: boolean };
+  model?: { name: string; version: number; proved: boolean; effects: Effect[] };
   against_nominal?: {
     status: string;
     designs: { rank: number; nominal_rank: number | null }[];

@@ -21,6 +21,8 @@ export function proofInWords(answer: Answer): string {
         ? `Proved: nothing can be listed. ${did}`
         : `Proved: no other combination of catalogue parts beats ${listed === 1 ? 'this design' : `the last of these ${listed} designs`}. ${did}`;
     case 'feasible':
+      if (listed === 0)
+        return `Nothing was found in the time given, and nothing was proved: there may be designs. ${did}`;
       return proof.gap === null
         ? `Best found so far; nothing was proved. ${did}`
         : `Best found, not proved: a design that is not listed could be up to ${percent(proof.gap)} better. ${did}`;

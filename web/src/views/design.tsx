@@ -76,12 +76,22 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
         <MarginsPanel design={design} answer={answer} />
       </div>
       {parts.value && (
-        <WhatIf design={design} requirements={answer.requirements} parts={parts.value} />
+        <WhatIf
+          design={design}
+          requirements={answer.requirements}
+          parts={parts.value}
+          effects={answer.model?.effects}
+        />
       )}
       <div class="plots three">
         <Maps design={design} requirements={answer.requirements} parts={parts.value} />
         {parts.value && (
-          <Sensitivities design={design} requirements={answer.requirements} parts={parts.value} />
+          <Sensitivities
+            design={design}
+            requirements={answer.requirements}
+            parts={parts.value}
+            effects={answer.model?.effects}
+          />
         )}
       </div>
       <Estimates design={design} />

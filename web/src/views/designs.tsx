@@ -13,7 +13,7 @@ import { saveFile } from '../ui/files';
 import { ComparePanel } from './compare';
 import { DesignPage } from './design';
 import { ProgressPanel } from './progress';
-import { Ranked } from './ranked';
+import { AgainstNominal, Ranked } from './ranked';
 
 function useNewestJob(id: string | undefined) {
   useEffect(() => {
@@ -84,6 +84,11 @@ export function DesignsView() {
       <Headline answer={answer} id={id} />
       {answer.conflict && <Conflict answer={answer} />}
       {answer.designs.length > 0 && <Ranked answer={answer} id={id} key={id} />}
+      {answer.designs.length === 0 && answer.against_nominal && (
+        <Panel title="What the model changes">
+          <AgainstNominal answer={answer} />
+        </Panel>
+      )}
       {answer.prices && answer.prices.length > 0 && <Prices answer={answer} />}
     </>
   );

@@ -184,7 +184,7 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
 }
 
 // What the revised model changes in the ranking.
-function AgainstNominal({ answer }: { answer: Answer }) {
+export function AgainstNominal({ answer }: { answer: Answer }) {
   const { designs, dropped } = answer.against_nominal!;
   const fresh = designs.filter((d) => d.nominal_rank === null).length;
   const groups = answer.requirements.actuators;

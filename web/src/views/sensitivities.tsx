@@ -13,7 +13,7 @@ import {
   strokesOf,
   type StrokeTimes,
 } from '../lib/rig';
-import type { Design, Requirements, Response } from '../lib/types';
+import type { Design, Effect, Requirements, Response } from '../lib/types';
 import { Notice, Panel } from '../ui/controls';
 
 const step = 0.1;
@@ -34,16 +34,18 @@ export function Sensitivities({
   design,
   requirements,
   parts,
+  effects,
 }: {
   design: Design;
   requirements: Requirements;
   parts: Parts;
+  effects?: Effect[];
 }) {
   const rows = useSignal<Row[] | null>(null);
   const problem = useSignal('');
   useEffect(() => {
     if (missingPart(design, parts)) return;
-    const start = asDesigned(design);
+    const start = asDesigned(design, effects);
     const more: [string, Partial<Change>][] = [
       ['source pressure', { source_kpa: start.source_kpa * (1 + step) }],
       ['tube length', { tube: 1 + step }],

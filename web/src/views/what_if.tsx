@@ -5,7 +5,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { asProblem, post, type Problem } from '../lib/api';
 import { asDesigned, type Change, missingPart, type Parts, simulationOf } from '../lib/rig';
 import { route, setQuery } from '../lib/route';
-import type { Design, Requirements, Response } from '../lib/types';
+import type { Design, Effect, Requirements, Response } from '../lib/types';
 import { Notice, Panel, Segmented } from '../ui/controls';
 import { ResponsePlot, Slider, Times } from './what_if_views';
 
@@ -33,12 +33,14 @@ export function WhatIf({
   design,
   requirements,
   parts,
+  effects,
 }: {
   design: Design;
   requirements: Requirements;
   parts: Parts;
+  effects?: Effect[];
 }) {
-  const start = asDesigned(design);
+  const start = asDesigned(design, effects);
   const asked = route.peek().query;
   const change = useSignal<Change>(fromText(start, asked.get('try')));
   const cycles = useSignal<Cycles>(
