@@ -1,6 +1,9 @@
 #include "server/models_resource.h"
 
+#include "api/model_revision.h"
+#include "api/reader.h"
 #include "api/services.h"
+#include "server/signature.h"
 
 namespace plenum::server {
 namespace {
@@ -26,6 +29,32 @@ Reply GetModel(SharedCatalog& catalog, const Call& call) {
   if (versions.empty())
     return ProblemReply(404, "no model revision is named \"" + call.argument + "\"");
   return JsonReply(200, {{"name", call.argument}, {"versions", Rendered(versions)}});
+}
+
+Reply SaveModel(SharedCatalog& catalog, const Call& call) {
+  auto json = api::ParseJson(call.body);
+  if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
+  api::Errors errors;
+  api::Reader reader(std::get<api::Json>(json), "", errors);
+  const std::string name = reader.Text("name");
+  const std::string why = catalog::WhyInvalidModelName(name);
+  if (!name.empty() && !why.empty()) reader.Fail("name", why);
+  const api::Json* document = reader.Raw("model");
+  if (document == nullptr) reader.Fail("model", "is required: a document model/1");
+  reader.Finish();
+  if (!errors.empty()) return ProblemReply(422, errors);
+  auto model = api::ParseModel(*document);
+  if (auto* wrong = std::get_if<api::Errors>(&model)) {
+    for (api::Error& error : *wrong) error.pointer = "/model" + error.pointer;
+    return ProblemReply(422, *wrong);
+  }
+  const auto signature = SignatureOf(call);
+  if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
+  const std::string text = Dump(api::RenderModel(std::get<api::SavedModel>(model)));
+  return catalog.With([&](catalog::Store& store) {
+    const auto saved = store.SaveModel(name, text, std::get<catalog::Signature>(signature).who);
+    return JsonReply(201, api::RenderModelRevision(saved, true));
+  });
 }
 
 }  // namespace plenum::server

@@ -13,6 +13,10 @@ Reply ListModels(SharedCatalog& catalog, const Call& call);
 // was saved under the name.
 Reply GetModel(SharedCatalog& catalog, const Call& call);
 
+// Saves { "name", "model": model/1 } as the next version of its name; 201 with the version, also
+// where the newest one holds the same document already. 422 for a document that does not rank.
+Reply SaveModel(SharedCatalog& catalog, const Call& call);
+
 }  // namespace plenum::server
 
 #endif  // PLENUM_SERVER_MODELS_RESOURCE_H_

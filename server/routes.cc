@@ -71,6 +71,7 @@ std::vector<Route> Routes(SharedCatalog& catalog, Jobs& jobs) {
       {"GET", "/v1/revisions", "writes to the catalogue, newest first", parts(ListRevisions)},
       {"GET", "/v1/revisions/{id}", "one write with its changes", parts(GetRevision)},
       {"GET", "/v1/models", "saved model revisions, the newest of each name", parts(ListModels)},
+      {"POST", "/v1/models", "saves a model revision: its name and model/1", parts(SaveModel)},
       {"GET", "/v1/models/{id}", "all versions of a saved model revision", parts(GetModel)},
       {"POST", "/v1/revisions/{id}/undo", "takes the changes of a write back", parts(UndoRevision)},
       {"GET", "/healthz", "whether the service runs",

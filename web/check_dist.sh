@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Whether web/dist is what the sources build. Needs Node 20.19 or later.
+# Whether the sources are formatted and web/dist is what they build. Needs Node 20.19 or later.
 set -euo pipefail
 cd "$(dirname "$0")"
 [ -d node_modules ] || npm ci
 built=$(mktemp -d)
 trap 'rm -rf "$built"' EXIT
 npx tsc --noEmit
+npx prettier --check --log-level warn src tests vite.config.ts
 npx vite build --logLevel warn --outDir "$built/dist"
 diff -r "$built/dist" dist && echo "web/dist is up to date" || {
   echo "web/dist is not what the sources build: npm run build" >&2

@@ -433,6 +433,35 @@ TEST(Serve, SaysWhenThePortIsTaken) {
   EXPECT_THROW(HttpService{options}, ListenError);
 }
 
+TEST_F(Http, SavesAModelThatThenRanks) {
+  const Json creep = {{"id", "creep"},
+                      {"parameters", {{"fraction", 0.15}, {"time_constant_s", 2.0}}}};
+  Json request = {{"name", "bench-creep"},
+                  {"model", {{"schema", "model/1"}, {"effects", Json::array({creep})}}}};
+  const auto saved = client_->Post("/v1/models", request.dump(), kJson);
+  ASSERT_EQ(saved->status, 201) << saved->body;
+  EXPECT_EQ(Body(saved)["version"], 1);
+  EXPECT_EQ(Body(saved)["model"]["effects"][0]["id"], "creep");
+  EXPECT_EQ(Body(client_->Get("/v1/models"))["models"][0]["name"], "bench-creep");
+  // The same again is the same version.
+  EXPECT_EQ(Body(client_->Post("/v1/models", request.dump(), kJson))["version"], 1);
+
+  Json requirements = Exosuit(1.0);
+  requirements["model"] = "bench-creep";
+  EXPECT_EQ(client_->Post("/v1/designs?validate_only=true", requirements.dump(), kJson)->status,
+            200);
+
+  request["name"] = "nominal";
+  ExpectProblem(client_->Post("/v1/models", request.dump(), kJson), 422, "/name");
+  request["name"] = "bench-creep";
+  request["model"]["effects"][0]["parameters"]["fraction"] = -1;
+  ExpectProblem(client_->Post("/v1/models", request.dump(), kJson), 422,
+                "/model/effects/0/parameters/fraction");
+  request.erase("model");
+  ExpectProblem(client_->Post("/v1/models", request.dump(), kJson), 422, "/model");
+  EXPECT_EQ(Body(client_->Get("/v1/models/bench-creep"))["versions"].size(), 1u);
+}
+
 TEST_F(Http, ListsSavedModelsAndTheirVersions) {
   EXPECT_EQ(Body(client_->Get("/v1/models")), Json({{"models", Json::array()}}));
   {

@@ -5,7 +5,14 @@ import { refreshModels } from './lib/models';
 import { previousJob } from './lib/jobs';
 import { link, route, view } from './lib/route';
 import { theme } from './lib/theme';
-import { pressureUnit, pressureUnits, reference, references, volumeUnit, volumeUnits } from './lib/units';
+import {
+  pressureUnit,
+  pressureUnits,
+  reference,
+  references,
+  volumeUnit,
+  volumeUnits,
+} from './lib/units';
 import { Segmented } from './ui/controls';
 import { Tooltip } from './ui/tooltip';
 import { CatalogueView } from './views/catalogue';
@@ -66,29 +73,73 @@ export function App() {
   return (
     <>
       <header class="top">
-        <a class="skip" href={location.hash} onClick={(event) => { event.preventDefault(); document.querySelector<HTMLElement>('main')?.focus(); }}>
+        <a
+          class="skip"
+          href={location.hash}
+          onClick={(event) => {
+            event.preventDefault();
+            document.querySelector<HTMLElement>('main')?.focus();
+          }}
+        >
           Skip to the content
         </a>
         <a class="brand" href={link(['requirements'])} aria-label="plenum, to the requirements">
           <svg viewBox="0 0 32 32" width="20" height="20" aria-hidden="true">
-            <path d="M3 21h6l4-12 6 15 4-8h6" fill="none" stroke="currentColor" stroke-width="3" stroke-linejoin="round" stroke-linecap="round" />
+            <path
+              d="M3 21h6l4-12 6 15 4-8h6"
+              fill="none"
+              stroke="currentColor"
+              stroke-width="3"
+              stroke-linejoin="round"
+              stroke-linecap="round"
+            />
           </svg>
           plenum
         </a>
         <nav aria-label="Views">
           {views.map((v) => (
-            <a key={v.name} href={addressOf(v.name)} aria-current={sameAs(v.name)} data-tip={`Alt+${v.key}`}>
+            <a
+              key={v.name}
+              href={addressOf(v.name)}
+              aria-current={sameAs(v.name)}
+              data-tip={`Alt+${v.key}`}
+            >
               {v.label}
             </a>
           ))}
         </nav>
         <div class="units">
-          <Segmented hideLabel label="Unit of pressure" options={pressureUnits} value={pressureUnit.value} onChange={(v) => (pressureUnit.value = v)} />
-          <Segmented hideLabel label="Pressure above ambient or absolute" options={references} value={reference.value} onChange={(v) => (reference.value = v)} />
-          <Segmented hideLabel label="Unit of volume" options={volumeUnits} value={volumeUnit.value} onChange={(v) => (volumeUnit.value = v)} />
           <Segmented
-            hideLabel label="Colours" value={theme.value} onChange={(v) => (theme.value = v)}
-            options={[{ value: 'system', label: 'auto' }, { value: 'light', label: 'light' }, { value: 'dark', label: 'dark' }]}
+            hideLabel
+            label="Unit of pressure"
+            options={pressureUnits}
+            value={pressureUnit.value}
+            onChange={(v) => (pressureUnit.value = v)}
+          />
+          <Segmented
+            hideLabel
+            label="Pressure above ambient or absolute"
+            options={references}
+            value={reference.value}
+            onChange={(v) => (reference.value = v)}
+          />
+          <Segmented
+            hideLabel
+            label="Unit of volume"
+            options={volumeUnits}
+            value={volumeUnit.value}
+            onChange={(v) => (volumeUnit.value = v)}
+          />
+          <Segmented
+            hideLabel
+            label="Colours"
+            value={theme.value}
+            onChange={(v) => (theme.value = v)}
+            options={[
+              { value: 'system', label: 'auto' },
+              { value: 'light', label: 'light' },
+              { value: 'dark', label: 'dark' },
+            ]}
           />
         </div>
       </header>

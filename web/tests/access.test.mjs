@@ -26,12 +26,17 @@ for (const colorScheme of schemes) {
       const found = [];
       for (const view of views) {
         const { page, close } = await openPage(browser, service.base, view.hash, {
-          colorScheme, viewport: { width, height: 900 }, before: view.before,
+          colorScheme,
+          viewport: { width, height: 900 },
+          before: view.before,
         });
         await view.ready(page);
         await page.evaluate(axe);
-        const { violations } = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ['violations'] }));
-        for (const { id, nodes } of violations) found.push(`${view.name}: ${id}: ${nodes.map((n) => n.html.slice(0, 160)).join(' | ')}`);
+        const { violations } = await page.evaluate(() =>
+          globalThis.axe.run(document, { resultTypes: ['violations'] }),
+        );
+        for (const { id, nodes } of violations)
+          found.push(`${view.name}: ${id}: ${nodes.map((n) => n.html.slice(0, 160)).join(' | ')}`);
         const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
         if (over > 0) found.push(`${view.name} is ${over} px wider than the window`);
         await close();
@@ -45,11 +50,15 @@ test('a search is written and started with the keyboard alone', async () => {
   const { page, close } = await openPage(browser, service.base);
   await page.getByText('can be searched').waitFor();
   await page.keyboard.press('Tab');
-  assert.equal(await page.evaluate(() => document.activeElement.textContent.trim()), 'Skip to the content');
+  assert.equal(
+    await page.evaluate(() => document.activeElement.textContent.trim()),
+    'Skip to the content',
+  );
   await page.keyboard.press('Enter');
   for (let i = 0; i < 80; ++i) {
     await page.keyboard.press('Tab');
-    if (await page.evaluate(() => document.activeElement.textContent === 'Find the best designs')) break;
+    if (await page.evaluate(() => document.activeElement.textContent === 'Find the best designs'))
+      break;
   }
   await page.keyboard.press('Enter');
   await page.getByText('Proved: no other combination').waitFor();

@@ -32,7 +32,10 @@ test('a bad number is marked at its field while it is typed', async () => {
 test('units change what is shown and never what is asked', async () => {
   const { page, close } = await openPage(browser, service.base);
   const posted = [];
-  page.on('request', (request) => request.url().includes('validate_only') && posted.push(request.postDataJSON()));
+  page.on(
+    'request',
+    (request) => request.url().includes('validate_only') && posted.push(request.postDataJSON()),
+  );
   const field = page.getByLabel('Operating pressure');
   await page.getByRole('button', { name: 'bar' }).click();
   assert.equal(await field.inputValue(), '1');
@@ -56,9 +59,20 @@ test('requirements are saved, loaded and shared by address', async () => {
   const address = page.url();
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Save' }).click();
-  const saved = JSON.parse(await (await (await download).createReadStream()).toArray().then((parts) => Buffer.concat(parts).toString()));
-  assert.deepEqual(saved, { ...example('exosuit'), duty: { ...example('exosuit').duty, frequency_hz: 0.2 } });
-  await page.locator('input[type=file]').setInputFiles(file('mine.json', JSON.stringify({ ...saved, name: 'mine' })));
+  const saved = JSON.parse(
+    await (
+      await (await download).createReadStream()
+    )
+      .toArray()
+      .then((parts) => Buffer.concat(parts).toString()),
+  );
+  assert.deepEqual(saved, {
+    ...example('exosuit'),
+    duty: { ...example('exosuit').duty, frequency_hz: 0.2 },
+  });
+  await page
+    .locator('input[type=file]')
+    .setInputFiles(file('mine.json', JSON.stringify({ ...saved, name: 'mine' })));
   await page.waitForFunction(() => document.querySelector('input[type=text]').value === 'mine');
   await page.locator('input[type=file]').setInputFiles(file('broken.json', '{'));
   await page.getByText('broken.json is no requirements file').waitFor();
@@ -83,7 +97,10 @@ test('a job or design that is not there says so', async () => {
   const { page, close } = await openPage(browser, service.base, '#/designs/none');
   await page.getByText('no design job has the id none').waitFor();
   await close([404]);
-  const id = await rank(service, { ...example('gripper'), ranking: { count: 2, time_limit_s: 10 } });
+  const id = await rank(service, {
+    ...example('gripper'),
+    ranking: { count: 2, time_limit_s: 10 },
+  });
   const other = await openPage(browser, service.base, `#/designs/${id}/9`);
   await other.page.getByText('lists no design 9').waitFor();
   await other.close();
@@ -103,7 +120,9 @@ test('a bad part is refused at its fields, and a stale one is not overwritten', 
   await page.getByRole('button', { name: 'Edit' }).click();
   await page.getByLabel('mass', { exact: true }).waitFor();
   const changed = await fetch(`${service.base}/v1/parts/${part.id}`, {
-    method: 'PUT', headers: { 'If-Match': '*', 'Content-Type': 'application/json' }, body: JSON.stringify({ ...part, notes: 'changed elsewhere' }),
+    method: 'PUT',
+    headers: { 'If-Match': '*', 'Content-Type': 'application/json' },
+    body: JSON.stringify({ ...part, notes: 'changed elsewhere' }),
   });
   assert.equal(changed.status, 200);
   await page.getByLabel('mass', { exact: true }).fill('0.5');

@@ -13,11 +13,16 @@ for (const view of await makeViews(service)) {
   for (const colorScheme of schemes) {
     for (const width of widths) {
       const { page, close } = await openPage(browser, service.base, view.hash, {
-        colorScheme, viewport: { width, height: width === 1920 ? 1080 : 900 }, before: view.before,
+        colorScheme,
+        viewport: { width, height: width === 1920 ? 1080 : 900 },
+        before: view.before,
       });
       await view.ready(page);
       await page.waitForTimeout(400);
-      await page.screenshot({ path: join(folder, `${view.name}-${width}-${colorScheme}.png`), fullPage: true });
+      await page.screenshot({
+        path: join(folder, `${view.name}-${width}-${colorScheme}.png`),
+        fullPage: true,
+      });
       await close();
     }
   }

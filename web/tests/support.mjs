@@ -16,7 +16,9 @@ export async function startService() {
   const folder = mkdtempSync(join(tmpdir(), 'plenum-page-'));
   const catalog = join(folder, 'catalog.db');
   copyFileSync(join(top, 'catalog.db'), catalog);
-  const child = spawn(binary, ['serve', '--port', '0', '--catalog', catalog], { stdio: ['ignore', 'ignore', 'pipe'] });
+  const child = spawn(binary, ['serve', '--port', '0', '--catalog', catalog], {
+    stdio: ['ignore', 'ignore', 'pipe'],
+  });
   const base = await new Promise((resolve, reject) => {
     let said = '';
     child.stderr.on('data', (data) => {
@@ -30,7 +32,13 @@ export async function startService() {
     base,
     get: async (path) => (await fetch(base + path)).json(),
     post: async (path, body, headers = {}) =>
-      (await fetch(base + path, { method: 'POST', headers: { 'Content-Type': 'application/json', ...headers }, body: JSON.stringify(body) })).json(),
+      (
+        await fetch(base + path, {
+          method: 'POST',
+          headers: { 'Content-Type': 'application/json', ...headers },
+          body: JSON.stringify(body),
+        })
+      ).json(),
     async stop() {
       child.removeAllListeners('exit');
       const gone = new Promise((resolve) => child.on('exit', resolve));
@@ -44,7 +52,15 @@ export async function startService() {
 export const startBrowser = () =>
   chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
+    args: [
+      '--no-sandbox',
+      '--disable-gpu',
+      '--disable-quic',
+      '--no-first-run',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+    ],
   });
 
 // A page of its own. `close` fails the test on console errors and on requests to elsewhere; a test
@@ -54,17 +70,23 @@ export async function openPage(browser, base, hash = '', options = {}) {
   const page = await context.newPage();
   const errors = [];
   const outside = [];
-  page.on('console', (message) => ['error', 'warning'].includes(message.type()) && errors.push(message.text()));
+  page.on(
+    'console',
+    (message) => ['error', 'warning'].includes(message.type()) && errors.push(message.text()),
+  );
   page.on('pageerror', (error) => errors.push(String(error)));
   page.on('request', (request) => {
-    if (!request.url().startsWith(base) && !/^(data|blob):/.test(request.url())) outside.push(request.url());
+    if (!request.url().startsWith(base) && !/^(data|blob):/.test(request.url()))
+      outside.push(request.url());
   });
   await options.before?.(page);
   await page.goto(`${base}/${hash}`);
   return {
     page,
     async close(expectedStatuses = []) {
-      const unexpected = errors.filter((text) => !expectedStatuses.some((status) => text.includes(`status of ${status} `)));
+      const unexpected = errors.filter(
+        (text) => !expectedStatuses.some((status) => text.includes(`status of ${status} `)),
+      );
       assert.deepEqual(unexpected, [], 'console errors');
       assert.deepEqual(outside, [], 'requests to elsewhere');
       await context.close();
@@ -72,7 +94,8 @@ export async function openPage(browser, base, hash = '', options = {}) {
   };
 }
 
-export const example = (name) => JSON.parse(readFileSync(join(top, 'examples', `${name}.json`), 'utf8'));
+export const example = (name) =>
+  JSON.parse(readFileSync(join(top, 'examples', `${name}.json`), 'utf8'));
 
 // Ranks an example and gives the job's id.
 export async function rank(service, requirements) {

@@ -1,6 +1,6 @@
 // What designs are compared by: the axes of plots and the columns of tables.
 import { short, shown } from './format';
-import type { Design } from './types';
+import type { Design, Requirements } from './types';
 import { type Kind, unitOf } from './units';
 
 export interface Axis {
@@ -18,7 +18,12 @@ export const leastMargin = (design: Design): number =>
   Math.min(...design.margins.map((margin) => margin.relative_margin));
 
 const plain = (
-  id: string, label: string, unit: string, of: Axis['of'], better: Axis['better'] = 'low', kind: Kind = 'plain',
+  id: string,
+  label: string,
+  unit: string,
+  of: Axis['of'],
+  better: Axis['better'] = 'low',
+  kind: Kind = 'plain',
 ): Axis => ({ id, label, unit, of, better, kind });
 
 export const axes: Axis[] = [
@@ -32,12 +37,21 @@ export const axes: Axis[] = [
   plain('source', 'source', '', (d) => d.settings.source_pressure_kpa_gauge, 'low', 'pressure'),
   plain('reservoir', 'reservoir', '', (d) => d.settings.reservoir_volume_ml, 'low', 'volume_ml'),
   plain('sustained', 'sustained', 'Hz', (d) => d.performance.frequency_hz_sustained, 'high'),
-  plain('duty', 'pump duty', '%', (d) => (d.settings.compressor_duty === null ? null : 100 * d.settings.compressor_duty)),
+  plain('duty', 'pump duty', '%', (d) =>
+    d.settings.compressor_duty === null ? null : 100 * d.settings.compressor_duty,
+  ),
   plain('estimated', 'estimated mass', '%', (d) => 100 * d.data_quality.mass_share_estimated),
-  plain('probability', 'probability', '%', (d) => (d.robustness ? 100 * d.robustness.probability : null), 'high'),
+  plain(
+    'probability',
+    'probability',
+    '%',
+    (d) => (d.robustness ? 100 * d.robustness.probability : null),
+    'high',
+  ),
 ];
 
-export const axisOf = (id: string | null | undefined): Axis | undefined => axes.find((axis) => axis.id === id);
+export const axisOf = (id: string | null | undefined): Axis | undefined =>
+  axes.find((axis) => axis.id === id);
 export const axisUnit = (axis: Axis): string => unitOf(axis.kind, axis.unit);
 
 // A requirement's pointer in words, as the groups are named.
@@ -70,11 +84,19 @@ export function requirementUnit(pointer: string): string {
   return pointer.endsWith('_anr_max') ? 'L/min' : '';
 }
 
+// Of what a search minimises; none for a weighted sum.
+export function objectiveUnit(requirements: Requirements): string {
+  const { minimize, pareto } = requirements.objective ?? {};
+  const amount =
+    typeof minimize === 'string' ? minimize : minimize ? '' : (pareto?.[0] ?? 'mass_kg');
+  return { mass_kg: 'kg', volume_l: 'L', cost_eur: '€', energy_wh: 'Wh', '': '' }[amount];
+}
+
 // A requirement's number in the units chosen.
 export function requirementNumber(pointer: string, value: number | null): string {
   if (pointer.includes('pressure')) return shown('pressure', value);
   if (pointer.endsWith('volume_l_max')) return shown('volume_l', value);
-  return value === null ? '–' : short(value, pointer.endsWith('actuations') ? 9 : 3);
+  return value === null ? '–' : short(value, pointer.endsWith('actuations') ? 4 : 3);
 }
 
 // Which designs no other beats in both amounts.

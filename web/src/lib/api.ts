@@ -35,7 +35,12 @@ async function problemOf(response: Response): Promise<Problem> {
 export async function ask<T>(
   method: string,
   path: string,
-  options: { body?: unknown; text?: string; headers?: Record<string, string>; signal?: AbortSignal } = {},
+  options: {
+    body?: unknown;
+    text?: string;
+    headers?: Record<string, string>;
+    signal?: AbortSignal;
+  } = {},
 ): Promise<Answered<T>> {
   const headers: Record<string, string> = { ...options.headers };
   let body: string | undefined = options.text;
@@ -53,7 +58,11 @@ export async function ask<T>(
   if (!response.ok) throw await problemOf(response);
   const text = response.status === 204 ? '' : await response.text();
   const isJson = (response.headers.get('Content-Type') ?? '').includes('json');
-  return { body: (isJson && text ? JSON.parse(text) : text) as T, status: response.status, headers: response.headers };
+  return {
+    body: (isJson && text ? JSON.parse(text) : text) as T,
+    status: response.status,
+    headers: response.headers,
+  };
 }
 
 export const get = async <T>(path: string): Promise<T> => (await ask<T>('GET', path)).body;

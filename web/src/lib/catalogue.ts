@@ -17,7 +17,8 @@ interface Page {
 }
 
 export async function loadFamilies(): Promise<void> {
-  if (families.value.length === 0) families.value = (await get<{ families: Family[] }>('/v1/families')).families;
+  if (families.value.length === 0)
+    families.value = (await get<{ families: Family[] }>('/v1/families')).families;
   const page = await get<Page>('/v1/parts?limit=1&facets=true');
   familyCounts.value = page.facets?.texts.family ?? {};
   revision.value = page.catalogue_revision;
@@ -27,7 +28,9 @@ export async function loadFamily(family: string): Promise<Part[]> {
   const parts: Part[] = [];
   let cursor = '';
   for (;;) {
-    const page = await get<Page>(`/v1/parts?family=${encodeURIComponent(family)}&limit=1000${cursor && `&cursor=${encodeURIComponent(cursor)}`}`);
+    const page = await get<Page>(
+      `/v1/parts?family=${encodeURIComponent(family)}&limit=1000${cursor && `&cursor=${encodeURIComponent(cursor)}`}`,
+    );
     parts.push(...page.parts);
     revision.value = page.catalogue_revision;
     if (!page.next_cursor) return parts;

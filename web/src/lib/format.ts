@@ -22,7 +22,8 @@ export const short = (value: number, digits = 6): string => {
   return text.includes('.') && !text.includes('e') ? text.replace(/\.?0+$/, '') : text;
 };
 
-export const isSame = (a: number, b: number): boolean => Math.abs(a - b) <= 1e-5 * Math.max(Math.abs(a), Math.abs(b));
+export const isSame = (a: number, b: number): boolean =>
+  Math.abs(a - b) <= 1e-5 * Math.max(Math.abs(a), Math.abs(b));
 
 // Enough digits to tell two numbers apart.
 export function digitsApart(a: number, b: number): number {
@@ -35,7 +36,9 @@ export const shown = (kind: Kind, value: number | null | undefined, digits = 3):
   value === null || value === undefined ? '–' : significant(toShown(kind, value), digits);
 
 export const percent = (share: number | null | undefined, digits = 1): string =>
-  share === null || share === undefined ? '–' : `${(100 * share).toFixed(digits).replace('-', '−')} %`;
+  share === null || share === undefined
+    ? '–'
+    : `${(100 * share).toFixed(digits).replace('-', '−')} %`;
 
 export function signed(value: number, digits = 3): string {
   if (Math.abs(value) < 1e-12) return '±0';
@@ -43,7 +46,8 @@ export function signed(value: number, digits = 3): string {
 }
 
 // A relative change, "±0 %" below what a person would call one.
-export const change = (share: number): string => (Math.abs(share) < 5e-5 ? '±0 %' : `${signed(100 * share, 2)} %`);
+export const change = (share: number): string =>
+  Math.abs(share) < 5e-5 ? '±0 %' : `${signed(100 * share, 2)} %`;
 
 // A count that may pass 2⁵³, as digits.
 export const count = (value: number | string | undefined): string => group(String(value ?? '–'));
@@ -51,7 +55,8 @@ export const count = (value: number | string | undefined): string => group(Strin
 export const scientific = (value: string): string =>
   value.length > 7 ? `${value[0]}.${value[1]} × 10${superscript(value.length - 1)}` : group(value);
 
-const superscript = (n: number): string => [...String(n)].map((d) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(d)]).join('');
+const superscript = (n: number): string =>
+  [...String(n)].map((d) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(d)]).join('');
 
 export function duration(seconds: number): string {
   if (seconds < 60) return `${significant(seconds, 2)} s`;
@@ -87,7 +92,11 @@ const units: [RegExp, string][] = [
 export function columnName(field: string): { label: string; unit: string } {
   const { label, unit } = fieldName(field);
   return {
-    label: label.replace('sonic conductance', 'C').replace('critical ratio', 'b').replace('pressure', 'p').replace(' diameter', ' ⌀'),
+    label: label
+      .replace('sonic conductance', 'C')
+      .replace('critical ratio', 'b')
+      .replace('pressure', 'p')
+      .replace(' diameter', ' ⌀'),
     unit: unit === 'kPa gauge' ? 'kPa' : unit,
   };
 }

@@ -1,5 +1,6 @@
 // Design jobs: started, followed, cancelled, and their answers once fetched.
 import { signal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
 
 import { ask, asProblem, get, post, type Problem } from './api';
 import type { Answer, Job, JobStatus, Progress, Requirements } from './types';
@@ -84,3 +85,13 @@ export async function refreshJobs(): Promise<void> {
 
 // Jobs of this visit that were looked at, newest first; what the page compares with.
 export const previousJob = signal<string | null>(null);
+
+export const pathOf = (id: string): string => `/v1/designs/${id}`;
+
+// Loads the job of the address and keeps following it.
+export function useJob(id: string | undefined) {
+  useEffect(() => {
+    if (id) void follow(pathOf(id));
+  }, [id]);
+  return id ? watched.value[pathOf(id)] : undefined;
+}

@@ -1,4 +1,7 @@
 // Measured runs: read from JSON (measurement/1) or CSV, and what a diagnosis says of them.
+import { signal } from '@preact/signals';
+
+import type { FieldError } from './api';
 
 export type ValveState = 'hold' | 'inflate' | 'deflate';
 
@@ -14,7 +17,11 @@ export interface Run {
 }
 
 export interface Rig {
-  actuator: { rest_volume_ml: number; expansion_ratio: number; operating_pressure_kpa_gauge: number };
+  actuator: {
+    rest_volume_ml: number;
+    expansion_ratio: number;
+    operating_pressure_kpa_gauge: number;
+  };
   line: { sonic_conductance_dm3_per_s_bar: number; critical_ratio: number };
   supply: { kind: 'regulated' | 'measured' | 'compressor' | 'none' };
   [more: string]: unknown;
@@ -52,7 +59,13 @@ export interface Diagnosis {
   before: ErrorReport;
   after: ErrorReport;
   effects: { id: string; parameters: Record<string, Estimate | string> }[];
-  candidates: { effects: string[]; bic: number; delta_bic: number; rms_kpa: number; holdout_rms_kpa?: number | null }[];
+  candidates: {
+    effects: string[];
+    bic: number;
+    delta_bic: number;
+    rms_kpa: number;
+    holdout_rms_kpa?: number | null;
+  }[];
   tied: string[][];
   next_experiment: {
     blocked?: boolean;
@@ -66,7 +79,15 @@ export interface Diagnosis {
   residual: {
     white: boolean;
     independent_of_inputs: boolean;
-    phases: { run: string; phase: string; mean_kpa: number; trend_kpa_per_s: number; rms_kpa?: number; start_s?: number; end_s?: number }[];
+    phases: {
+      run: string;
+      phase: string;
+      mean_kpa: number;
+      trend_kpa_per_s: number;
+      rms_kpa?: number;
+      start_s?: number;
+      end_s?: number;
+    }[];
   };
   fitted: Record<string, Estimate>;
   discrepancy?: { places?: { axis: string; where: string; share: number }[] } | null;
@@ -82,7 +103,13 @@ export interface Diagnosis {
   }[];
 }
 
-const channelNames = ['source_pressure_kpa_gauge', 'inlet_pressure_kpa_gauge', 'temperature_k', 'volume_ml', 'flow_l_per_min_anr'];
+const channelNames = [
+  'source_pressure_kpa_gauge',
+  'inlet_pressure_kpa_gauge',
+  'temperature_k',
+  'volume_ml',
+  'flow_l_per_min_anr',
+];
 const states = new Set(['hold', 'inflate', 'deflate']);
 
 // Long form: run,t_s,valve,pressure_kpa_gauge and channels. Throws a sentence with the line.
@@ -90,14 +117,16 @@ export function readCsv(text: string): Run[] {
   const lines = text.split(/\r?\n/).filter((line) => line.trim() && !line.startsWith('#'));
   const head = (lines[0] ?? '').split(',').map((name) => name.trim());
   for (const name of ['run', 't_s', 'valve', 'pressure_kpa_gauge']) {
-    if (!head.includes(name)) throw new Error(`the CSV needs a column ${name}; it has ${head.join(', ')}`);
+    if (!head.includes(name))
+      throw new Error(`the CSV needs a column ${name}; it has ${head.join(', ')}`);
   }
   const column = (name: string) => head.indexOf(name);
   const runs = new Map<string, Run>();
   const number = (cell: string | undefined, line: number, name: string): number | null => {
     if (cell === undefined || cell.trim() === '' || cell.trim() === 'nan') return null;
     const value = Number(cell);
-    if (!Number.isFinite(value)) throw new Error(`line ${line}: ${name} is "${cell}", not a number`);
+    if (!Number.isFinite(value))
+      throw new Error(`line ${line}: ${name} is "${cell}", not a number`);
     return value;
   };
   lines.slice(1).forEach((line, i) => {
@@ -106,13 +135,18 @@ export function readCsv(text: string): Run[] {
     const at = number(cells[column('t_s')], i + 2, 't_s');
     const state = cells[column('valve')] ?? '';
     if (at === null) throw new Error(`line ${i + 2}: t_s is missing`);
-    if (!states.has(state)) throw new Error(`line ${i + 2}: valve is "${state}", not hold, inflate or deflate`);
+    if (!states.has(state))
+      throw new Error(`line ${i + 2}: valve is "${state}", not hold, inflate or deflate`);
     let run = runs.get(id);
     if (!run) runs.set(id, (run = { id, valve: [], t_s: [], pressure_kpa_gauge: [] }));
-    if (run.t_s.length > 0 && at <= run.t_s[run.t_s.length - 1]!) throw new Error(`line ${i + 2}: t_s must rise within run ${id}`);
-    if (run.valve[run.valve.length - 1]?.state !== state) run.valve.push({ t_s: at, state: state as ValveState });
+    if (run.t_s.length > 0 && at <= run.t_s[run.t_s.length - 1]!)
+      throw new Error(`line ${i + 2}: t_s must rise within run ${id}`);
+    if (run.valve[run.valve.length - 1]?.state !== state)
+      run.valve.push({ t_s: at, state: state as ValveState });
     run.t_s.push(at);
-    run.pressure_kpa_gauge.push(number(cells[column('pressure_kpa_gauge')], i + 2, 'pressure_kpa_gauge'));
+    run.pressure_kpa_gauge.push(
+      number(cells[column('pressure_kpa_gauge')], i + 2, 'pressure_kpa_gauge'),
+    );
     for (const name of channelNames) {
       if (column(name) < 0) continue;
       ((run.channels ??= {})[name] ??= []).push(number(cells[column(name)], i + 2, name));
@@ -131,27 +165,73 @@ export const plainRig = (): Rig => ({
 // `name` is the file's; a CSV gets a rig to be filled in.
 export function readMeasurement(name: string, text: string): Measurement {
   const title = name.replace(/\.[^.]*$/, '');
-  if (!text.trimStart().startsWith('{')) return { schema: 'measurement/1', name: title, rig: plainRig(), runs: readCsv(text) };
+  if (!text.trimStart().startsWith('{'))
+    return { schema: 'measurement/1', name: title, rig: plainRig(), runs: readCsv(text) };
   const given = JSON.parse(text) as Measurement;
-  if (given.schema !== 'measurement/1') throw new Error(`its schema is ${JSON.stringify(given.schema)}, not "measurement/1"`);
+  if (given.schema !== 'measurement/1')
+    throw new Error(`its schema is ${JSON.stringify(given.schema)}, not "measurement/1"`);
   if (!Array.isArray(given.runs) || given.runs.length === 0) throw new Error('it has no runs');
-  const broken = given.runs.find((run) => !Array.isArray(run.t_s) || run.t_s.length !== run.pressure_kpa_gauge?.length);
+  const broken = given.runs.find(
+    (run) => !Array.isArray(run.t_s) || run.t_s.length !== run.pressure_kpa_gauge?.length,
+  );
   if (broken) throw new Error(`run ${broken.id} has not as many pressures as times`);
   return { ...given, name: given.name ?? title };
 }
 
-const phaseOf: Record<ValveState, string> = { inflate: '--phase-inflate', hold: '--phase-hold', deflate: '--phase-deflate' };
+const phaseOf: Record<ValveState, string> = {
+  inflate: '--phase-inflate',
+  hold: '--phase-hold',
+  deflate: '--phase-deflate',
+};
 
 // Shades behind a plot: what the valve was told.
-export function bandsOf(run: Run | undefined, end: number): { from: number; to: number; colour: string }[] {
-  return (run?.valve ?? []).map((command, i, all) => ({ from: command.t_s, to: all[i + 1]?.t_s ?? end, colour: phaseOf[command.state] }));
+export function bandsOf(
+  run: Run | undefined,
+  end: number,
+): { from: number; to: number; colour: string }[] {
+  return (run?.valve ?? []).map((command, i, all) => ({
+    from: command.t_s,
+    to: all[i + 1]?.t_s ?? end,
+    colour: phaseOf[command.state],
+  }));
+}
+
+// What a diagnosis established as model/1, which rankings can name.
+export function revisionOf(d: Diagnosis): unknown {
+  const effects = d.effects.map(({ id, parameters }) => ({
+    id,
+    parameters: Object.fromEntries(
+      Object.entries(parameters).map(([name, v]) => [name, typeof v === 'string' ? v : v.value]),
+    ),
+  }));
+  return {
+    schema: 'model/1',
+    effects,
+    noise_kpa: d.noise_kpa,
+    before_rms_kpa: d.before.rms_kpa,
+    after_rms_kpa: d.after.rms_kpa,
+    holdout_rms_kpa: d.after.holdout_rms_kpa ?? null,
+  };
 }
 
 const effectWords: Record<string, string> = {
-  leak: 'a leak', inertia: 'inertia of the wall', creep: 'creep of the wall', hysteresis: 'hysteresis', heat_transfer: 'heat transfer to the wall',
-  valve_delay: 'a delay of the valve', valve_ramp: 'a slow valve', dead_volume: 'dead volume', supply_droop: 'a drooping supply',
-  exhaust_restriction: 'a restricted exhaust', nonlinear_compliance: 'a bent volume law', sensor_lag: 'lag of the sensor', sensor_offset: 'offset of the sensor',
-  sensor_gain: 'gain of the sensor', cracking_pressure: 'a cracking pressure', line_dynamics: 'dynamics of the line', directional_conductance: 'a line that conducts better one way',
+  leak: 'a leak',
+  inertia: 'inertia of the wall',
+  creep: 'creep of the wall',
+  hysteresis: 'hysteresis',
+  heat_transfer: 'heat transfer to the wall',
+  valve_delay: 'a delay of the valve',
+  valve_ramp: 'a slow valve',
+  dead_volume: 'dead volume',
+  supply_droop: 'a drooping supply',
+  exhaust_restriction: 'a restricted exhaust',
+  nonlinear_compliance: 'a bent volume law',
+  sensor_lag: 'lag of the sensor',
+  sensor_offset: 'offset of the sensor',
+  sensor_gain: 'gain of the sensor',
+  cracking_pressure: 'a cracking pressure',
+  line_dynamics: 'dynamics of the line',
+  directional_conductance: 'a line that conducts better one way',
 };
 
 export const effectName = (id: string): string => effectWords[id] ?? id.replaceAll('_', ' ');
@@ -173,3 +253,7 @@ export function verdictSentence(d: Diagnosis): string {
       return 'It could not be decided.';
   }
 }
+
+// What the page has open, and what the service finds wrong with it.
+export const measurement = signal<Measurement | null>(null);
+export const measurementErrors = signal<FieldError[]>([]);

@@ -15,11 +15,13 @@ export const presets: Record<string, Requirements> = {
   crawler: crawler as Requirements,
 };
 
-const bytesOf = (text: string): string =>
-  String.fromCharCode(...new TextEncoder().encode(text));
+const bytesOf = (text: string): string => String.fromCharCode(...new TextEncoder().encode(text));
 
 export function encode(document: Requirements): string {
-  return btoa(bytesOf(JSON.stringify(document))).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
+  return btoa(bytesOf(JSON.stringify(document)))
+    .replaceAll('+', '-')
+    .replaceAll('/', '_')
+    .replace(/=+$/, '');
 }
 
 export function decode(text: string): Requirements | null {

@@ -1,6 +1,6 @@
 // A design as a simulation/1 request: the same line, source and schedule that its ranking used.
 import { loadPart, numberOf } from './catalogue';
-import type { Design, Group, Part, Requirements, Response } from './types';
+import type { Design, Effect, Group, Part, Requirements, Response } from './types';
 
 // What may be tried on a design; 1 or the design's own value changes nothing.
 export interface Change {
@@ -9,14 +9,17 @@ export interface Change {
   tube: number; // factors
   rest_volume: number;
   operating: number;
+  effects: Effect[]; // of the model that ranked
 }
 
-export const asDesigned = (design: Design): Change => ({
+export const asDesigned = (design: Design, effects: Effect[] = []): Change => ({
   source_kpa: design.settings.source_pressure_kpa_gauge,
   reservoir_ml: design.settings.reservoir_volume_ml,
   tube: 1,
   rest_volume: 1,
   operating: 1,
+  // What a sensor would show is not what rankings are about.
+  effects: effects.filter((effect) => !effect.id.startsWith('sensor_')),
 });
 
 export type Parts = Map<string, Part>;
@@ -24,7 +27,9 @@ export type Parts = Map<string, Part>;
 export async function partsOf(design: Design): Promise<Parts> {
   const ids = [...new Set(design.parts.map((row) => row.id))].filter((id) => id !== 'custom');
   const loaded = await Promise.all(ids.map((id) => loadPart(id).catch(() => null)));
-  return new Map(loaded.filter((entry) => entry !== null).map((entry) => [entry.part.id, entry.part]));
+  return new Map(
+    loaded.filter((entry) => entry !== null).map((entry) => [entry.part.id, entry.part]),
+  );
 }
 
 // Why a design can no longer be simulated as it was, or null.
@@ -44,7 +49,10 @@ function lineOf(design: Design, group: Group, change: Change) {
     elements: [
       { part: id('valve') },
       ...fitting.slice(0, Math.ceil(fittings / 2)),
-      { part: id('tubing'), length_m: Math.min(100, Math.max(0.01, group.tube_length_m * change.tube)) },
+      {
+        part: id('tubing'),
+        length_m: Math.min(100, Math.max(0.01, group.tube_length_m * change.tube)),
+      },
       ...fitting.slice(Math.ceil(fittings / 2)),
     ],
   };
@@ -55,7 +63,10 @@ function sourceOf(design: Design, requirements: Requirements, parts: Parts, chan
   if (pump) {
     return {
       kind: 'compressor',
-      curve: parts.get(pump.id)!.curve!.map(({ pressure_kpa_gauge, free_air_l_per_min }) => ({ pressure_kpa_gauge, free_air_l_per_min })),
+      curve: parts.get(pump.id)!.curve!.map(({ pressure_kpa_gauge, free_air_l_per_min }) => ({
+        pressure_kpa_gauge,
+        free_air_l_per_min,
+      })),
       count: pump.quantity,
       reservoir_volume_ml: change.reservoir_ml,
       initial_pressure_kpa_gauge: change.source_kpa,
@@ -66,7 +77,9 @@ function sourceOf(design: Design, requirements: Requirements, parts: Parts, chan
   const regulator = row && parts.get(row.id);
   const flows = [
     regulator ? numberOf(regulator, 'flow_max_l_per_min_anr') : null,
-    design.configuration === 'mains' ? (requirements.supply?.mains?.flow_l_per_min_anr_max ?? null) : null,
+    design.configuration === 'mains'
+      ? (requirements.supply?.mains?.flow_l_per_min_anr_max ?? null)
+      : null,
   ].filter((flow): flow is number => flow !== null);
   return {
     kind: 'regulated',
@@ -98,7 +111,11 @@ export interface StrokeTimes {
 
 // Rise and fall of each group as the schedule of `simulationOf` asks for them, the slowest of the
 // cycles; between samples on a straight line. null: some stroke does not get there.
-export function strokesOf(response: Response, requirements: Requirements, cycles: number): StrokeTimes[] {
+export function strokesOf(
+  response: Response,
+  requirements: Requirements,
+  cycles: number,
+): StrokeTimes[] {
   const t = response.t_s;
   const period = 1 / requirements.duty.frequency_hz;
   const groups = requirements.actuators;
@@ -108,7 +125,14 @@ export function strokesOf(response: Response, requirements: Requirements, cycles
     const low = (requirements.fall?.to_fraction ?? 0.05) * group.operating_pressure_kpa_gauge;
     const phase = requirements.duty.simultaneous === false ? g / groups.length : 0;
     const crossing = (from: number, level: number, sign: number): number | null => {
-      for (let i = Math.max(1, t.findIndex((time) => time >= from)); i < t.length && t[i]! <= from + period / 2; ++i) {
+      for (
+        let i = Math.max(
+          1,
+          t.findIndex((time) => time >= from),
+        );
+        i < t.length && t[i]! <= from + period / 2;
+        ++i
+      ) {
         const [a, b] = [p[i - 1], p[i]];
         if (a == null || b == null || sign * (b - level) < 0) continue;
         const share = b === a ? 1 : Math.min(1, Math.max(0, (level - a) / (b - a)));
@@ -131,12 +155,18 @@ export function strokesOf(response: Response, requirements: Requirements, cycles
 }
 
 export function simulationOf(
-  design: Design, requirements: Requirements, parts: Parts, change: Change, cycles: number, samples = 2400,
+  design: Design,
+  requirements: Requirements,
+  parts: Parts,
+  change: Change,
+  cycles: number,
+  samples = 2400,
 ): unknown {
   const groups = requirements.actuators;
   const end = cycles / requirements.duty.frequency_hz;
   return {
     schema: 'simulation/1',
+    ...(change.effects.length > 0 && { effects: change.effects }),
     ...(design.configuration === 'co2' && { gas: 'co2' }),
     ...(requirements.ambient && { ambient: requirements.ambient }),
     ...(requirements.rise && { rise: requirements.rise }),
@@ -147,8 +177,16 @@ export function simulationOf(
         name: group.name,
         count: group.count,
         ...(group.pressure_volume
-          ? { pressure_volume: group.pressure_volume.map((p) => ({ ...p, volume_ml: p.volume_ml * change.rest_volume })) }
-          : { rest_volume_ml: group.rest_volume_ml! * change.rest_volume, expansion_ratio: group.expansion_ratio }),
+          ? {
+              pressure_volume: group.pressure_volume.map((p) => ({
+                ...p,
+                volume_ml: p.volume_ml * change.rest_volume,
+              })),
+            }
+          : {
+              rest_volume_ml: group.rest_volume_ml! * change.rest_volume,
+              expansion_ratio: group.expansion_ratio,
+            }),
         operating_pressure_kpa_gauge: group.operating_pressure_kpa_gauge * change.operating,
         close_at_operating_pressure: valve?.function !== '3/2',
         line: lineOf(design, group, change),

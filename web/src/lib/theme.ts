@@ -15,9 +15,11 @@ effect(() => {
   else document.documentElement.dataset.theme = chosen;
   palette.value = palette.peek() + 1;
 });
-matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
-  palette.value = palette.peek() + 1;
-});
+for (const medium of ['(prefers-color-scheme: dark)', 'print']) {
+  matchMedia(medium).addEventListener('change', () => {
+    palette.value = palette.peek() + 1;
+  });
+}
 
 const probe = document.createElement('span');
 probe.hidden = true;

@@ -113,6 +113,11 @@ export interface Proof {
   pruned: Record<string, string>;
 }
 
+export interface Effect {
+  id: string;
+  parameters: Record<string, number | string>;
+}
+
 export interface Answer {
   schema: 'designs/1';
   name?: string;
@@ -121,6 +126,7 @@ export interface Answer {
   best_on_measured_flow: number | null;
   proof: Proof;
   front?: { objectives: Partial<Record<Amount, number>>; rank: number }[];
+  front_proof?: { complete: boolean; searches: number; proved: number; unexplored: unknown[] };
   conflict?: {
     requirement: string;
     required: number;
@@ -130,6 +136,12 @@ export interface Answer {
   }[];
   prices?: { requirement: string; saving: number | null; status: string }[];
   seconds: number;
+  model?: { name: string; version: number; proved: boolean; effects: Effect[] };
+  against_nominal?: {
+    status: string;
+    designs: { rank: number; nominal_rank: number | null }[];
+    dropped: { nominal_rank: number; objective: number; parts: PartRow[]; why: string | null }[];
+  };
   requirements: Requirements;
   catalogue_revision?: { number: number; hash: string };
 }

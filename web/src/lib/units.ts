@@ -42,7 +42,9 @@ export function unitOf(kind: Kind, plain = ''): string {
 export function toShown(kind: Kind, value: number): number {
   switch (kind) {
     case 'pressure':
-      return (value + (reference.value === 'abs' ? ambientKpa.value : 0)) / kpaPer[pressureUnit.value];
+      return (
+        (value + (reference.value === 'abs' ? ambientKpa.value : 0)) / kpaPer[pressureUnit.value]
+      );
     case 'volume_ml':
       return volumeUnit.value === 'L' ? value / 1000 : value;
     case 'volume_l':
@@ -55,7 +57,10 @@ export function toShown(kind: Kind, value: number): number {
 export function fromShown(kind: Kind, shown: number): number {
   switch (kind) {
     case 'pressure':
-      return clean(shown * kpaPer[pressureUnit.value]) - (reference.value === 'abs' ? ambientKpa.value : 0);
+      return (
+        clean(shown * kpaPer[pressureUnit.value]) -
+        (reference.value === 'abs' ? ambientKpa.value : 0)
+      );
     case 'volume_ml':
       return volumeUnit.value === 'L' ? clean(shown * 1000) : shown;
     case 'volume_l':

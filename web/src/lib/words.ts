@@ -8,14 +8,21 @@ export function proofInWords(answer: Answer): string {
   const listed = designs.length;
   const rest = proof.complete ? ', the rest ruled out by bounds' : '';
   const did = `${total} combinations in ${duration(answer.seconds)}: ${count(proof.evaluated)} evaluated, ${count(proof.simulated)} simulated${rest}.`;
+  if (answer.front_proof && listed > 0) {
+    const { searches, proved, unexplored } = answer.front_proof;
+    const work = `${searches} searches among ${total} combinations in ${duration(answer.seconds)}, ${proved === searches ? 'all' : count(proved)} proved.`;
+    return unexplored.length === 0
+      ? `Proved: these ${listed} designs are the whole front. ${work}`
+      : `Best front found, not proved: ${unexplored.length} of its regions may hide designs. ${work}`;
+  }
   switch (status) {
     case 'optimal':
-      return answer.front
-        ? `Proved: these ${listed} designs are the whole front. ${did}`
-        : listed === 0
-          ? `Proved: nothing can be listed. ${did}`
-          : `Proved: no other combination of catalogue parts beats ${listed === 1 ? 'this design' : `the last of these ${listed} designs`}. ${did}`;
+      return listed === 0
+        ? `Proved: nothing can be listed. ${did}`
+        : `Proved: no other combination of catalogue parts beats ${listed === 1 ? 'this design' : `the last of these ${listed} designs`}. ${did}`;
     case 'feasible':
+      if (listed === 0)
+        return `Nothing was found in the time given, and nothing was proved: there may be designs. ${did}`;
       return proof.gap === null
         ? `Best found so far; nothing was proved. ${did}`
         : `Best found, not proved: a design that is not listed could be up to ${percent(proof.gap)} better. ${did}`;

@@ -46,7 +46,11 @@ function drawGuides(plot: uPlot, guides: Guide[], ink: string) {
     ctx.stroke();
     ctx.textAlign = 'right';
     ctx.textBaseline = y - bbox.top < 14 * devicePixelRatio ? 'top' : 'bottom';
-    ctx.fillText(guide.label, bbox.left + bbox.width - 3, ctx.textBaseline === 'top' ? y + 2 : y - 2);
+    ctx.fillText(
+      guide.label,
+      bbox.left + bbox.width - 3,
+      ctx.textBaseline === 'top' ? y + 2 : y - 2,
+    );
   }
   ctx.restore();
 }
@@ -84,7 +88,14 @@ export function Lines(props: {
   const paint = palette.value;
   // What the plot is made of but its values; a change makes a new one.
   const shape = JSON.stringify([
-    props.title, props.xLabel, props.yLabel, height, props.guides, props.bands, props.yFromZero, paint,
+    props.title,
+    props.xLabel,
+    props.yLabel,
+    height,
+    props.guides,
+    props.bands,
+    props.yFromZero,
+    paint,
     props.lines.map((line) => [line.label, line.colour, line.dash, line.width, line.points]),
   ]);
   const data = [props.x, ...props.lines.map((line) => line.values)] as uPlot.AlignedData;
@@ -108,7 +119,14 @@ export function Lines(props: {
         },
         scales: {
           x: { time: false },
-          y: props.yFromZero ? { range: (_, low, high) => [Math.min(0, low), high + 0.06 * (high - Math.min(0, low)) || 1] } : {},
+          y: props.yFromZero
+            ? {
+                range: (_, low, high) => [
+                  Math.min(0, low),
+                  high + 0.06 * (high - Math.min(0, low)) || 1,
+                ],
+              }
+            : {},
         },
         axes: [
           { ...axis, label: props.xLabel, labelSize: 16, size: 30, labelGap: 0 },
@@ -128,7 +146,9 @@ export function Lines(props: {
             stroke: colour(line.colour),
             width: line.width ?? 1.6,
             dash: line.dash,
-            points: line.points ? { show: true, size: 3, fill: colour(line.colour) } : { show: false },
+            points: line.points
+              ? { show: true, size: 3, fill: colour(line.colour) }
+              : { show: false },
           })),
         ],
         hooks: {
@@ -164,7 +184,12 @@ export function Lines(props: {
             <span key={line.label} class="legend-item">
               <svg width="18" height="8" aria-hidden="true">
                 <line
-                  x1="0" y1="4" x2="18" y2="4" stroke={`var(${line.colour})`} stroke-width="2"
+                  x1="0"
+                  y1="4"
+                  x2="18"
+                  y2="4"
+                  stroke={`var(${line.colour})`}
+                  stroke-width="2"
                   stroke-dasharray={line.dash?.join(' ')}
                 />
               </svg>

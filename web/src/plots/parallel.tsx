@@ -69,31 +69,68 @@ export function Parallel(props: {
       ctx.stroke();
     };
     const inside = props.designs.map(props.inBrush);
-    draw(props.designs.filter((_, i) => !inside[i]), '--faint-line', 1, 1);
-    draw(props.designs.filter((_, i) => inside[i]), '--c1', 1, props.designs.length > 100 ? 0.5 : 0.8);
-    draw(props.designs.filter((design) => design.rank === props.baseline), '--c2', 2.2, 1);
+    draw(
+      props.designs.filter((_, i) => !inside[i]),
+      '--faint-line',
+      1,
+      1,
+    );
+    draw(
+      props.designs.filter((_, i) => inside[i]),
+      '--c1',
+      1,
+      props.designs.length > 100 ? 0.5 : 0.8,
+    );
+    draw(
+      props.designs.filter((design) => design.rank === props.baseline),
+      '--c2',
+      2.2,
+      1,
+    );
   });
   void paint;
 
   return (
-    <figure class="plot parallel" aria-label="Designs over parallel axes; drag along an axis to filter">
+    <figure
+      class="plot parallel"
+      aria-label="Designs over parallel axes; drag along an axis to filter"
+    >
       <figcaption>
         <strong>All amounts</strong>
         <span class="legend">
-          <span class="legend-item"><i class="dash c1" />designs</span>
-          <span class="legend-item"><i class="dash c2" />baseline</span>
+          <span class="legend-item">
+            <i class="dash c1" />
+            designs
+          </span>
+          <span class="legend-item">
+            <i class="dash c2" />
+            baseline
+          </span>
           <span class="legend-item">drag along an axis to filter</span>
         </span>
       </figcaption>
-      <div ref={ref} class="parallel-box" style={{ height: `${height + (inner > width ? 14 : 0)}px` }}>
+      <div
+        ref={ref}
+        class="parallel-box"
+        style={{ height: `${height + (inner > width ? 14 : 0)}px` }}
+      >
         {width > 0 && (
           <>
-            <canvas ref={canvas} style={{ width: `${inner}px`, height: `${height}px` }} aria-hidden="true" />
+            <canvas
+              ref={canvas}
+              style={{ width: `${inner}px`, height: `${height}px` }}
+              aria-hidden="true"
+            />
             <svg width={inner} height={height}>
               {shown.map(({ axis, scale, single }, i) => (
                 <BrushAxis
-                  key={axis.id} axis={axis} x={xOf(i)} scale={scale} range={props.brushes[axis.id]}
-                  single={single} onBrush={(range) => props.onBrush(axis.id, range)}
+                  key={axis.id}
+                  axis={axis}
+                  x={xOf(i)}
+                  scale={scale}
+                  range={props.brushes[axis.id]}
+                  single={single}
+                  onBrush={(range) => props.onBrush(axis.id, range)}
                 />
               ))}
             </svg>
@@ -127,7 +164,9 @@ function BrushAxis(props: {
     if (from.current === null) return;
     const [start, to] = [from.current, pointer(event)];
     cancelAnimationFrame(frame.current);
-    frame.current = requestAnimationFrame(() => props.onBrush([Math.min(start, to), Math.max(start, to)]));
+    frame.current = requestAnimationFrame(() =>
+      props.onBrush([Math.min(start, to), Math.max(start, to)]),
+    );
   };
   const nudge = (event: KeyboardEvent) => {
     const step = (high - low) / 20;
@@ -149,18 +188,33 @@ function BrushAxis(props: {
   const range = props.range;
   return (
     <g
-      class="brush-axis" tabindex={0} role="slider" aria-orientation="vertical"
+      class="brush-axis"
+      tabindex={0}
+      role="slider"
+      aria-orientation="vertical"
       aria-label={`Filter by ${axis.label}: arrows up and down move the upper end, left and right the lower, Escape clears`}
-      aria-valuemin={low} aria-valuemax={high} aria-valuenow={range?.[1] ?? high}
+      aria-valuemin={low}
+      aria-valuemax={high}
+      aria-valuenow={range?.[1] ?? high}
       aria-valuetext={range ? `${text(range[0])} to ${text(range[1])} ${axisUnit(axis)}` : 'all'}
       onKeyDown={nudge}
     >
       <line x1={x} x2={x} y1={top} y2={height - bottom} />
       {range && (
-        <rect class="brush" x={x - 6} width={12} y={scale(range[1])} height={Math.max(2, scale(range[0]) - scale(range[1]))} />
+        <rect
+          class="brush"
+          x={x - 6}
+          width={12}
+          y={scale(range[1])}
+          height={Math.max(2, scale(range[0]) - scale(range[1]))}
+        />
       )}
       <rect
-        class="grab" x={x - 14} width={28} y={top} height={height - top - bottom}
+        class="grab"
+        x={x - 14}
+        width={28}
+        y={top}
+        height={height - top - bottom}
         onPointerDown={(event) => {
           (event.currentTarget as Element).setPointerCapture(event.pointerId);
           from.current = pointer(event);
@@ -175,10 +229,20 @@ function BrushAxis(props: {
           from.current = null;
         }}
       />
-      <text x={x} y={10} class="name">{axis.label}</text>
-      <text x={x} y={22} class="unit">{axisUnit(axis)}</text>
-      <text x={x} y={props.single ? (top + height - bottom) / 2 - 5 : top - 2} class="end">{props.single ? short(toShown(axis.kind, (low + high) / 2), 4) : text(high)}</text>
-      {!props.single && <text x={x} y={height - 5} class="end">{text(low)}</text>}
+      <text x={x} y={10} class="name">
+        {axis.label}
+      </text>
+      <text x={x} y={22} class="unit">
+        {axisUnit(axis)}
+      </text>
+      <text x={x} y={props.single ? (top + height - bottom) / 2 - 5 : top - 2} class="end">
+        {props.single ? short(toShown(axis.kind, (low + high) / 2), 4) : text(high)}
+      </text>
+      {!props.single && (
+        <text x={x} y={height - 5} class="end">
+          {text(low)}
+        </text>
+      )}
     </g>
   );
 }

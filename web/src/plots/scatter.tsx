@@ -48,8 +48,14 @@ export function Scatter(props: {
     const pad = (high - low) * 0.06 || Math.abs(high) * 0.05 || 1;
     return [low - pad, high + pad];
   };
-  const sx = scaleLinear(extent(points.map((p) => toShown(x.kind, p.x))), [space.left, width - space.right]);
-  const sy = scaleLinear(extent(points.map((p) => toShown(y.kind, p.y))), [height - space.bottom, space.top]);
+  const sx = scaleLinear(extent(points.map((p) => toShown(x.kind, p.x))), [
+    space.left,
+    width - space.right,
+  ]);
+  const sy = scaleLinear(extent(points.map((p) => toShown(y.kind, p.y))), [
+    height - space.bottom,
+    space.top,
+  ]);
   const px = (value: number) => sx(toShown(x.kind, value));
   const py = (value: number) => sy(toShown(y.kind, value));
   const line = points
@@ -62,12 +68,30 @@ export function Scatter(props: {
     <figure class="plot scatter" aria-label={`Designs by ${x.label} and ${y.label}`}>
       <figcaption>
         <strong>Designs by</strong>
-        <Select label="Across" hideLabel value={x.id} options={options(usable)} onChange={(id) => props.onAxes(id, y.id)} />
+        <Select
+          label="Across"
+          hideLabel
+          value={x.id}
+          options={options(usable)}
+          onChange={(id) => props.onAxes(id, y.id)}
+        />
         <span>and</span>
-        <Select label="Upwards" hideLabel value={y.id} options={options(usable)} onChange={(id) => props.onAxes(x.id, id)} />
+        <Select
+          label="Upwards"
+          hideLabel
+          value={y.id}
+          options={options(usable)}
+          onChange={(id) => props.onAxes(x.id, id)}
+        />
         <span class="legend">
-          <span class="legend-item"><i class="dot front" />not dominated</span>
-          <span class="legend-item"><i class="dot" />dominated</span>
+          <span class="legend-item">
+            <i class="dot front" />
+            not dominated
+          </span>
+          <span class="legend-item">
+            <i class="dot" />
+            dominated
+          </span>
         </span>
       </figcaption>
       <div ref={ref} style={{ height: `${height}px` }}>
@@ -76,25 +100,41 @@ export function Scatter(props: {
             {sx.ticks(Math.max(3, width / 90)).map((tick) => (
               <g key={tick} class="tick">
                 <line x1={sx(tick)} x2={sx(tick)} y1={space.top} y2={height - space.bottom} />
-                <text x={sx(tick)} y={height - space.bottom + 14} text-anchor="middle">{short(tick, 7)}</text>
+                <text x={sx(tick)} y={height - space.bottom + 14} text-anchor="middle">
+                  {short(tick, 7)}
+                </text>
               </g>
             ))}
             {sy.ticks(5).map((tick) => (
               <g key={tick} class="tick">
                 <line x1={space.left} x2={width - space.right} y1={sy(tick)} y2={sy(tick)} />
-                <text x={space.left - 6} y={sy(tick) + 3.5} text-anchor="end">{short(tick, 7)}</text>
+                <text x={space.left - 6} y={sy(tick) + 3.5} text-anchor="end">
+                  {short(tick, 7)}
+                </text>
               </g>
             ))}
-            <text class="axis" x={(space.left + width - space.right) / 2} y={height - 4} text-anchor="middle">
+            <text
+              class="axis"
+              x={(space.left + width - space.right) / 2}
+              y={height - 4}
+              text-anchor="middle"
+            >
               {x.label}, {axisUnit(x)}
             </text>
-            <text class="axis" transform={`translate(11 ${(space.top + height - space.bottom) / 2}) rotate(-90)`} text-anchor="middle">
+            <text
+              class="axis"
+              transform={`translate(11 ${(space.top + height - space.bottom) / 2}) rotate(-90)`}
+              text-anchor="middle"
+            >
               {y.label}, {axisUnit(y)}
             </text>
             <path class="front-line" d={line} />
             {points.map((p, i) => (
               <circle
-                key={p.design.rank} cx={px(p.x)} cy={py(p.y)} r={p.design.rank === props.baseline ? 6 : 4}
+                key={p.design.rank}
+                cx={px(p.x)}
+                cy={py(p.y)}
+                r={p.design.rank === props.baseline ? 6 : 4}
                 class={`point ${front[i] ? 'front' : ''} ${props.inBrush(p.design) ? '' : 'out'} ${p.design.rank === props.baseline ? 'baseline' : ''}`}
                 data-tip={p.tip}
                 onClick={() => props.onOpen(p.design.rank)}

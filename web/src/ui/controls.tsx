@@ -42,7 +42,12 @@ export function Segmented<T extends string>(props: {
           const value = typeof option === 'string' ? option : option.value;
           const text = typeof option === 'string' ? option : option.label;
           return (
-            <button type="button" key={value} aria-pressed={props.value === value} onClick={() => props.onChange(value)}>
+            <button
+              type="button"
+              key={value}
+              aria-pressed={props.value === value}
+              onClick={() => props.onChange(value)}
+            >
               {text}
             </button>
           );
@@ -65,7 +70,11 @@ export function Select<T extends string>(props: {
       <label for={id} class={props.hideLabel ? 'only-heard' : ''}>
         {props.label}
       </label>
-      <select id={id} value={props.value} onChange={(event) => props.onChange(event.currentTarget.value as T)}>
+      <select
+        id={id}
+        value={props.value}
+        onChange={(event) => props.onChange(event.currentTarget.value as T)}
+      >
         {props.options.map((option) => (
           <option key={option.value} value={option.value}>
             {option.label}
@@ -76,7 +85,11 @@ export function Select<T extends string>(props: {
   );
 }
 
-export function Check(props: { label: ComponentChildren; checked: boolean; onChange: (on: boolean) => void }) {
+export function Check(props: {
+  label: ComponentChildren;
+  checked: boolean;
+  onChange: (on: boolean) => void;
+}) {
   return (
     <label class="check">
       <input
@@ -210,7 +223,10 @@ export function TextField(props: {
   );
 }
 
-export function Notice(props: { kind: 'info' | 'warn' | 'bad' | 'good'; children: ComponentChildren }) {
+export function Notice(props: {
+  kind: 'info' | 'warn' | 'bad' | 'good';
+  children: ComponentChildren;
+}) {
   return (
     <div class={`notice ${props.kind}`} role={props.kind === 'bad' ? 'alert' : 'status'}>
       {props.children}
@@ -225,7 +241,12 @@ export const Chip = (props: { kind?: string; children: ComponentChildren; tip?: 
 );
 
 // A modal window; Escape closes it.
-export function Dialog(props: { title: string; onClose: () => void; children: ComponentChildren; wide?: boolean }) {
+export function Dialog(props: {
+  title: string;
+  onClose: () => void;
+  children: ComponentChildren;
+  wide?: boolean;
+}) {
   const ref = useRef<HTMLDialogElement>(null);
   const id = useId();
   useEffect(() => {

@@ -1,15 +1,29 @@
 // Files in and out.
 import { useRef } from 'preact/hooks';
 
-export function FilePicker(props: { label: string; accept: string; onFile: (file: File) => void; primary?: boolean }) {
+export function FilePicker(props: {
+  label: string;
+  accept: string;
+  onFile: (file: File) => void;
+  primary?: boolean;
+}) {
   const input = useRef<HTMLInputElement>(null);
   return (
     <>
-      <button type="button" class={props.primary ? 'primary' : ''} onClick={() => input.current?.click()}>
+      <button
+        type="button"
+        class={props.primary ? 'primary' : ''}
+        onClick={() => input.current?.click()}
+      >
         {props.label}
       </button>
       <input
-        ref={input} type="file" class="only-heard" tabIndex={-1} aria-label={props.label} accept={props.accept}
+        ref={input}
+        type="file"
+        class="only-heard"
+        tabIndex={-1}
+        aria-label={props.label}
+        accept={props.accept}
         onChange={(event) => {
           const file = event.currentTarget.files?.[0];
           if (file) props.onFile(file);
@@ -34,4 +48,5 @@ export const csvCell = (value: unknown): string => {
   return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 };
 
-export const csv = (rows: unknown[][]): string => `${rows.map((row) => row.map(csvCell).join(',')).join('\n')}\n`;
+export const csv = (rows: unknown[][]): string =>
+  `${rows.map((row) => row.map(csvCell).join(',')).join('\n')}\n`;

@@ -36,7 +36,11 @@ export function Tooltip() {
   if (!now) return null;
   const x = Math.min(Math.max(now.x, 150), Math.max(150, innerWidth - 150));
   return (
-    <div class={`tooltip ${now.below ? 'below' : ''}`} role="tooltip" style={{ left: `${x}px`, top: `${now.y}px` }}>
+    <div
+      class={`tooltip ${now.below ? 'below' : ''}`}
+      role="tooltip"
+      style={{ left: `${x}px`, top: `${now.y}px` }}
+    >
       {now.text}
     </div>
   );

@@ -56,7 +56,8 @@ const Valve = () => (
 );
 
 // Also of a form that is half written.
-const volumeOf = (group: Group): number => Math.max(group.rest_volume_ml ?? group.pressure_volume?.[0]?.volume_ml ?? 0, 1e-3);
+const volumeOf = (group: Group): number =>
+  Math.max(group.rest_volume_ml ?? group.pressure_volume?.[0]?.volume_ml ?? 0, 1e-3);
 
 function Actuator({ group, largest }: { group: Group; largest: number }) {
   const rest = 5 + 10 * Math.cbrt(volumeOf(group) / largest);
@@ -83,10 +84,20 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
   const yOf = (i: number, n: number) => height / 2 + (i - (n - 1) / 2) * step;
   const bus = 160;
   const largest = Math.max(...groups.map(volumeOf));
-  const ends = [...kinds.map((_, i) => yOf(i, kinds.length)), ...groups.map((_, i) => yOf(i, groups.length))];
+  const ends = [
+    ...kinds.map((_, i) => yOf(i, kinds.length)),
+    ...groups.map((_, i) => yOf(i, groups.length)),
+  ];
   return (
-    <svg class="drawing" viewBox={`0 0 ${width} ${height}`} role="img" aria-label={describe(kinds, groups)}>
-      {ends.length > 0 && <path class="pipe" d={`M${bus} ${Math.min(...ends)} V${Math.max(...ends)}`} />}
+    <svg
+      class="drawing"
+      viewBox={`0 0 ${width} ${height}`}
+      role="img"
+      aria-label={describe(kinds, groups)}
+    >
+      {ends.length > 0 && (
+        <path class="pipe" d={`M${bus} ${Math.min(...ends)} V${Math.max(...ends)}`} />
+      )}
       {kinds.map((kind, i) => {
         const y = yOf(i, kinds.length);
         return (
@@ -98,8 +109,12 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
             <g transform={place(112, y)} class="sign">
               {kind === 'compressor' ? <Reservoir /> : <Regulator />}
             </g>
-            <text x="38" y={y + 27}>{names[kind]}</text>
-            <text x="112" y={y + 27}>{kind === 'compressor' ? 'reservoir' : 'regulator'}</text>
+            <text x="38" y={y + 27}>
+              {names[kind]}
+            </text>
+            <text x="112" y={y + 27}>
+              {kind === 'compressor' ? 'reservoir' : 'regulator'}
+            </text>
           </g>
         );
       })}
@@ -110,17 +125,30 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
         return (
           <g key={i}>
             <path class="pipe" d={`M${bus} ${y} H370`} />
-            <g transform={place(200, y)} class="sign"><Valve /></g>
+            <g transform={place(200, y)} class="sign">
+              <Valve />
+            </g>
             <path class="tube" d={`M232 ${y} q8 -12 16 0 t16 0 t16 0 t16 0`} />
-            <g transform={place(366, y)} class="sign actuator"><Actuator group={group} largest={largest} /></g>
-            <text x="200" y={y + 27}>valve</text>
-            <text x="266" y={y + 27}>{short(group.tube_length_m)} m</text>
-            <text x="266" y={y - 16}>
-              {short(toShown('pressure', group.operating_pressure_kpa_gauge), 4)} {unitOf('pressure')}
+            <g transform={place(366, y)} class="sign actuator">
+              <Actuator group={group} largest={largest} />
+            </g>
+            <text x="200" y={y + 27}>
+              valve
             </text>
-            <text x="366" y={y + 38} class="name">{group.count} × {clip(group.name)}</text>
+            <text x="266" y={y + 27}>
+              {short(group.tube_length_m)} m
+            </text>
+            <text x="266" y={y - 16}>
+              {short(toShown('pressure', group.operating_pressure_kpa_gauge), 4)}{' '}
+              {unitOf('pressure')}
+            </text>
+            <text x="366" y={y + 38} class="name">
+              {group.count} × {clip(group.name)}
+            </text>
             <text x="366" y={y + 51}>
-              {[rise && `↑ ${short(rise)} s`, fall && `↓ ${short(fall)} s`].filter(Boolean).join('  ')}
+              {[rise && `↑ ${short(rise)} s`, fall && `↓ ${short(fall)} s`]
+                .filter(Boolean)
+                .join('  ')}
             </text>
           </g>
         );

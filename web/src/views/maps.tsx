@@ -31,14 +31,24 @@ async function grid(request: Record<string, unknown>): Promise<Row[]> {
   return (await post<{ rows: Row[] }>('/v1/maps', { schema: 'map/1', ...request })).rows;
 }
 
-export function Maps({ design, requirements, parts }: { design: Design; requirements: Requirements; parts: Parts | null }) {
+export function Maps({
+  design,
+  requirements,
+  parts,
+}: {
+  design: Design;
+  requirements: Requirements;
+  parts: Parts | null;
+}) {
   const index = useSignal(0);
   const rise = useSignal<MapData | null>(null);
   const fall = useSignal<MapData | null>(null);
   const problem = useSignal('');
   const ambient = requirements.ambient?.pressure_kpa_abs ?? 100;
   const group = requirements.actuators[index.value]!;
-  const valve = parts?.get(design.parts.find((p) => p.family === 'valve' && p.group === group.name)?.id ?? '');
+  const valve = parts?.get(
+    design.parts.find((p) => p.family === 'valve' && p.group === group.name)?.id ?? '',
+  );
   const ratio = (kpaGauge: number) => (kpaGauge + ambient) / ambient;
   const source = ratio(design.settings.source_pressure_kpa_gauge);
   const operating = ratio(group.operating_pressure_kpa_gauge);
@@ -47,26 +57,51 @@ export function Maps({ design, requirements, parts }: { design: Design; requirem
 
   useEffect(() => {
     if (!parts) return;
-    const fractions = { rise: requirements.rise ?? { to_fraction: 0.95 }, fall: requirements.fall ?? { to_fraction: 0.05 } };
+    const fractions = {
+      rise: requirements.rise ?? { to_fraction: 0.95 },
+      fall: requirements.fall ?? { to_fraction: 0.05 },
+    };
     const sources = steps(1.1, Math.max(2 * source - 1, source + 1, 4), 56);
     const operatings = steps(1.05, Math.max(2 * operating - 1, 3), 44);
     const expansions = steps(1, Math.max(2 * expansion - 1, 3), 32);
     const load = async () => {
-      const up = await grid({ ...fractions, source_pressure_ratio: sources, operating_pressure_ratio: operatings, expansion_ratio: [expansion], critical_ratio: [critical] });
+      const up = await grid({
+        ...fractions,
+        source_pressure_ratio: sources,
+        operating_pressure_ratio: operatings,
+        expansion_ratio: [expansion],
+        critical_ratio: [critical],
+      });
       // Rows come with the source outermost; the plot wants them by operating pressure.
-      const values = operatings.flatMap((_, j) => sources.map((__, i) => up[i * operatings.length + j]!.rise_time_normalised));
-      for (let k = sources.length; k < values.length; ++k) values[k] ??= values[k - sources.length]!; // hidden behind the border
+      const values = operatings.flatMap((_, j) =>
+        sources.map((__, i) => up[i * operatings.length + j]!.rise_time_normalised),
+      );
+      for (let k = sources.length; k < values.length; ++k)
+        values[k] ??= values[k - sources.length]!; // hidden behind the border
       rise.value = { x: sources, y: operatings, values };
-      const down = await grid({ ...fractions, source_pressure_ratio: [1000], operating_pressure_ratio: operatings, expansion_ratio: expansions, critical_ratio: [critical] });
-      const fallen = expansions.flatMap((_, j) => operatings.map((__, i) => down[i * expansions.length + j]!.fall_time_normalised));
+      const down = await grid({
+        ...fractions,
+        source_pressure_ratio: [1000],
+        operating_pressure_ratio: operatings,
+        expansion_ratio: expansions,
+        critical_ratio: [critical],
+      });
+      const fallen = expansions.flatMap((_, j) =>
+        operatings.map((__, i) => down[i * expansions.length + j]!.fall_time_normalised),
+      );
       fall.value = { x: operatings, y: expansions, values: fallen };
     };
-    load().then(() => (problem.value = ''), (error) => (problem.value = asProblem(error).message));
+    load().then(
+      () => (problem.value = ''),
+      (error) => (problem.value = asProblem(error).message),
+    );
   }, [design, parts, index.value]);
 
   const pick = requirements.actuators.length > 1 && (
     <Segmented
-      label="group" value={String(index.value)} onChange={(v) => (index.value = Number(v))}
+      label="group"
+      value={String(index.value)}
+      onChange={(v) => (index.value = Number(v))}
       options={requirements.actuators.map((g, i) => ({ value: String(i), label: g.name }))}
     />
   );
@@ -77,17 +112,35 @@ export function Maps({ design, requirements, parts }: { design: Design; requirem
         {problem.value && <Notice kind="bad">{problem.value}</Notice>}
         {rise.value && (
           <ContourMap
-            title="Rise time × C·P₀/V₀" data={rise.value} levels={levels} xLabel="source pressure / ambient" yLabel="operating pressure / ambient"
-            border={(ratioOfSource) => 1 + (ratioOfSource - 1) / (requirements.rise?.to_fraction ?? 0.95)}
-            at={{ x: source, y: operating, label: `Source ${significant(source)}, operating ${significant(operating)}; expansion ${short(expansion)}, b ${short(critical)} (valve), constant source` }}
+            title="Rise time × C·P₀/V₀"
+            data={rise.value}
+            levels={levels}
+            xLabel="source pressure / ambient"
+            yLabel="operating pressure / ambient"
+            border={(ratioOfSource) =>
+              1 + (ratioOfSource - 1) / (requirements.rise?.to_fraction ?? 0.95)
+            }
+            at={{
+              x: source,
+              y: operating,
+              label: `Source ${significant(source)}, operating ${significant(operating)}; expansion ${short(expansion)}, b ${short(critical)} (valve), constant source`,
+            }}
           />
         )}
       </div>
       <div class="panel">
         {fall.value && (
           <ContourMap
-            title="Fall time × C·P₀/V₀" data={fall.value} levels={levels} xLabel="operating pressure / ambient" yLabel="expansion ratio"
-            at={{ x: operating, y: expansion, label: `Operating ${significant(operating)}, expansion ${short(expansion)}; b ${short(critical)} (valve)` }}
+            title="Fall time × C·P₀/V₀"
+            data={fall.value}
+            levels={levels}
+            xLabel="operating pressure / ambient"
+            yLabel="expansion ratio"
+            at={{
+              x: operating,
+              y: expansion,
+              label: `Operating ${significant(operating)}, expansion ${short(expansion)}; b ${short(critical)} (valve)`,
+            }}
           />
         )}
       </div>

@@ -11,13 +11,22 @@ interface Plan {
   unchanged: string[];
 }
 
-export function ImportDialog({ family, onClose }: { family: string; onClose: (done: boolean) => void }) {
+export function ImportDialog({
+  family,
+  onClose,
+}: {
+  family: string;
+  onClose: (done: boolean) => void;
+}) {
   const text = useSignal('');
   const plan = useSignal<Plan | null>(null);
   const errors = useSignal<FieldError[]>([]);
   const problem = useSignal('');
   const send = (dryRun: boolean) =>
-    ask<Plan>('POST', `/v1/parts/import?family=${family}&dry_run=${dryRun}`, { text: text.value, headers: { 'Content-Type': 'text/csv' } });
+    ask<Plan>('POST', `/v1/parts/import?family=${family}&dry_run=${dryRun}`, {
+      text: text.value,
+      headers: { 'Content-Type': 'text/csv' },
+    });
   const preview = async (csv: string) => {
     text.value = csv;
     plan.value = null;
@@ -29,7 +38,9 @@ export function ImportDialog({ family, onClose }: { family: string; onClose: (do
     } catch (error) {
       const refused = asProblem(error);
       errors.value = refused.errors;
-      problem.value = refused.errors.length ? `${refused.errors.length} errors; nothing can be imported.` : refused.message;
+      problem.value = refused.errors.length
+        ? `${refused.errors.length} errors; nothing can be imported.`
+        : refused.message;
     }
   };
   const write = async () => {
@@ -42,22 +53,50 @@ export function ImportDialog({ family, onClose }: { family: string; onClose: (do
   };
   const n = plan.value ? plan.value.added.length + plan.value.replaced.length : 0;
   const list = (label: string, ids: string[]) =>
-    ids.length > 0 && <p><b>{ids.length} {label}:</b> {ids.slice(0, 12).join(', ')}{ids.length > 12 && ' …'}</p>;
+    ids.length > 0 && (
+      <p>
+        <b>
+          {ids.length} {label}:
+        </b>{' '}
+        {ids.slice(0, 12).join(', ')}
+        {ids.length > 12 && ' …'}
+      </p>
+    );
   return (
     <Dialog wide title={`Import ${family} parts from CSV`} onClose={() => onClose(false)}>
-      <p class="hint">The columns are those of the export; cells may carry units, such as 6 bar or 350 g.</p>
+      <p class="hint">
+        The columns are those of the export; cells may carry units, such as 6 bar or 350 g.
+      </p>
       <div class="toolbar">
-        <FilePicker label="Choose a file…" accept=".csv,text/csv" onFile={(file) => void file.text().then(preview)} />
-        <a class="button like" href={`/v1/parts/export?family=${family}`} download={`${family}.csv`}>Export as a pattern</a>
+        <FilePicker
+          label="Choose a file…"
+          accept=".csv,text/csv"
+          onFile={(file) => void file.text().then(preview)}
+        />
+        <a
+          class="button like"
+          href={`/v1/parts/export?family=${family}`}
+          download={`${family}.csv`}
+        >
+          Export as a pattern
+        </a>
       </div>
       <label class="curve">
         or paste it here
-        <textarea rows={8} value={text.value} onInput={(e) => void preview(e.currentTarget.value)} />
+        <textarea
+          rows={8}
+          value={text.value}
+          onInput={(e) => void preview(e.currentTarget.value)}
+        />
       </label>
       {problem.value && <Notice kind="bad">{problem.value}</Notice>}
       {errors.value.length > 0 && (
         <ul class="import-errors">
-          {errors.value.slice(0, 50).map((e) => <li key={e.pointer + e.detail}><code>{e.pointer}</code> {e.detail}</li>)}
+          {errors.value.slice(0, 50).map((e) => (
+            <li key={e.pointer + e.detail}>
+              <code>{e.pointer}</code> {e.detail}
+            </li>
+          ))}
         </ul>
       )}
       {plan.value && (
@@ -68,7 +107,9 @@ export function ImportDialog({ family, onClose }: { family: string; onClose: (do
         </Notice>
       )}
       <div class="toolbar end">
-        <button type="button" class="primary" disabled={n === 0} onClick={() => void write()}>Import {n} parts</button>
+        <button type="button" class="primary" disabled={n === 0} onClick={() => void write()}>
+          Import {n} parts
+        </button>
       </div>
     </Dialog>
   );
