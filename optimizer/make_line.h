@@ -16,8 +16,16 @@ struct LineCorners {
 };
 
 // kNone, or why no source makes the line meet its group's limits: rise and fall time, half of the
-// period, pressure ratings. For a box the least source pressure is bounded from below only, and the
-// flow table is missing.
+// period, pressure ratings. Leaves the line without what FinishLine() adds.
+Constraint ScreenLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
+                      bool exact, Line& line);
+
+// Adds to a line that passed the least source pressure, the least inflation time and the flow
+// table; for a box the pressure is bounded from below only, and the table is missing.
+void FinishLine(const Problem& problem, int group, const ValveCorner& valve, bool exact,
+                Line& line);
+
+// Both.
 Constraint MakeLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
                     bool exact, Line& line);
 
