@@ -8,7 +8,6 @@
 #include "optimizer/box.h"
 #include "optimizer/evaluate_strokes.h"
 #include "optimizer/line.h"
-#include "optimizer/root.h"
 #include "optimizer/sizing.h"
 
 namespace plenum::optimizer {
@@ -22,7 +21,6 @@ constexpr double kFinestRatio = 1.004;
 // Of the least source pressure, whose lower end is used.
 constexpr double kBoxTolerance = 1e-2;
 constexpr double kSingleTolerance = 1e-3;
-constexpr double kSourceTolerance = 1e-8;  // once it is found for good
 
 }  // namespace
 
@@ -79,7 +77,6 @@ Constraint Bounds::NeedOfCompressor(Box& box, bool reservoir_changed) {
     VolumeNeed all;
     all.need.low_m3 = reservoir.low_m3;
     all.need.high_m3 = reservoir.high_m3;
-    all.need.source_max_pa = kUnlimited;
     all.objective = reservoir.objective;
     box.volumes = {all};
   }
@@ -124,12 +121,12 @@ void Bounds::DivideVolumes(Box& box) {
     if (volume.fresh && !wide) return;
     box.volumes.erase(lowest);
     const double middle_m3 = std::sqrt(volume.need.low_m3 * volume.need.high_m3);
-    // What the larger interval, or this one in a larger box, did not bear nothing in it does.
-    const Window window{std::max(box.window.low_pa, volume.need.source_pa),
-                        std::min(box.window.high_pa, volume.need.source_max_pa)};
     const auto look = [&](double low_m3, double high_m3) {
+      ReservoirNeed known = volume.need;
+      known.low_m3 = low_m3;
+      known.high_m3 = high_m3;
       const std::optional<ReservoirNeed> need =
-          LeastReservoirNeed(problem_, pump, load, limits, window, low_m3, high_m3, tolerance);
+          LeastReservoirNeed(problem_, pump, load, limits, box.window, known, tolerance);
       if (!need) return;
       const double objective =
           custom ? ObjectiveOf(problem_.objective, CustomReservoir(problem_, low_m3))
@@ -182,14 +179,10 @@ Constraint Bounds::FindStockSource(Box& box) {
   candidate.source_floor_pa = volume.need.source_pa;
   candidate.source_cap_pa = volume.need.source_max_pa;
   OperatingPoint point{0.0, volume_m3, volume_m3};
-  const auto excess = [&](double source_pa) {
-    point.source_pa = source_pa;
-    return StrokeExcess(problem_, Evaluate(problem_, candidate, point));
-  };
-  const Window window = SourceWindow(problem_, candidate);
-  if (window.empty() || !(excess(window.high_pa) <= 0.0)) return Constraint::kRise;
-  point.source_pa = SmallestFeasible(excess, window.low_pa, window.high_pa, kSourceTolerance);
-  volume.need.source_pa = box.source_floor_pa = point.source_pa;
+  const std::optional<double> needed = NeededSourcePressure(problem_, candidate, point);
+  if (!needed) return Constraint::kRise;
+  volume.need.source_pa = point.source_pa = *needed;
+  box.source_floor_pa = *needed;
   box.source_cap_pa = volume.need.source_max_pa;
   if (PumpEnergyRises(problem_, candidate)) {
     const Evaluation least = Evaluate(problem_, candidate, point, {.least_coil_energy = true});

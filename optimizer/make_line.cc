@@ -104,7 +104,8 @@ Constraint ScreenLine(const Problem& problem, int g, model::Gas gas, const LineC
   return Constraint::kNone;
 }
 
-void FinishLine(const Problem& problem, int g, const ValveCorner& valve, bool exact, Line& line) {
+void FinishLine(const Problem& problem, int g, const ValveCorner& valve, bool exact,
+                bool with_table, Line& line) {
   const double operating_pa = problem.groups[g].chamber.operating_pressure_pa;
   const Lateness late(problem, g, line, exact);
   const Bracket least =
@@ -112,13 +113,13 @@ void FinishLine(const Problem& problem, int g, const ValveCorner& valve, bool ex
   line.source_min_pa = std::max(valve.pressure_min_pa, exact ? least.high : least.low);
   // A lone 3/2 is energised for half of the period whatever the stroke.
   if (line.all_hold) line.inflate_time_least_s = late.FillTime(line.source_max_pa, operating_pa);
-  if (exact) line.fill_table = model::FlowTable(line.fill_series);
+  if (with_table) line.fill_table = model::FlowTable(line.fill_series);
 }
 
 Constraint MakeLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
-                    bool exact, Line& line) {
+                    bool exact, bool with_table, Line& line) {
   const Constraint missed = ScreenLine(problem, g, gas, corners, exact, line);
-  if (missed == Constraint::kNone) FinishLine(problem, g, corners.valve, exact, line);
+  if (missed == Constraint::kNone) FinishLine(problem, g, corners.valve, exact, with_table, line);
   return missed;
 }
 

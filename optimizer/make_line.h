@@ -20,14 +20,14 @@ struct LineCorners {
 Constraint ScreenLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
                       bool exact, Line& line);
 
-// Adds to a line that passed the least source pressure, the least inflation time and the flow
-// table; for a box the pressure is bounded from below only, and the table is missing.
+// Adds to a line that passed the least source pressure, for a box bounded from below only, the
+// least inflation time and, `with_table`, the flow table.
 void FinishLine(const Problem& problem, int group, const ValveCorner& valve, bool exact,
-                Line& line);
+                bool with_table, Line& line);
 
 // Both.
 Constraint MakeLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
-                    bool exact, Line& line);
+                    bool exact, bool with_table, Line& line);
 
 }  // namespace plenum::optimizer
 

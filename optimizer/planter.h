@@ -14,6 +14,7 @@
 #include "optimizer/dominance.h"
 #include "optimizer/line.h"
 #include "optimizer/plan.h"
+#include "optimizer/pump_slope.h"
 
 namespace plenum::optimizer {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/storage.h"
+#include "optimizer/effect_strokes.h"
 #include "optimizer/evaluate_strokes.h"
 
 namespace plenum::optimizer {
@@ -105,9 +106,7 @@ Design::Trace TraceCycle(const Problem& problem, const Candidate& candidate,
   options.sample_hz = kSamplesPerCycle * problem.frequency_hz;
   options.rise_fraction = problem.rise_fraction;
   options.fall_fraction = problem.fall_fraction;
-  const std::vector<double> rest(problem.groups.size(), problem.ambient.pressure_pa);
-  model::Response response =
-      model::Simulate(MakeRig(problem, candidate, point, point.source_pa, rest, 1), options);
+  model::Response response = model::Simulate(MakeRig(problem, candidate, point), options);
   Design::Trace trace;
   if (response.status != model::SimulateStatus::kDone) return trace;
   trace.t_s = std::move(response.t_s);
@@ -123,6 +122,7 @@ bool Confirm(const Problem& problem, const Candidate& candidate, const Operating
   if (StrokeExcess(problem, evaluation) > 0.0 ||
       SupplyMargin(problem, candidate, point, evaluation) < 0.0)
     return false;
+  if (HasEffects(problem)) return true;  // the evaluation was the simulator's
   const Strokes strokes = SimulateStrokes(problem, candidate, point);
   if (!strokes.works) return false;
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
