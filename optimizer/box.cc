@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
 
 #include "optimizer/evaluate_strokes.h"
 #include "optimizer/line.h"
@@ -10,7 +11,7 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr std::size_t kLinesKept = 20000;
+constexpr std::size_t kLinesKept = 50000;
 
 }  // namespace
 
@@ -64,32 +65,94 @@ BigCount Bounds::Count(const Box& box) const {
   return count;
 }
 
-Constraint Bounds::RemakeLine(Box& box, int group) {
-  const int first = kSlotsPerGroup * group;
-  const LineKey key{group, box.nodes[first], box.nodes[first + 1], box.nodes[first + 2]};
-  if (lines_.size() > kLinesKept) lines_.clear();
+Bounds::KnownLine& Bounds::KnowLine(const LineKey& key) {
   const auto [entry, fresh] = lines_.try_emplace(key);
-  auto& [constraint, kept] = entry->second;
-  if (fresh) {
-    const GroupTrees& trees = plan_.groups[group];
-    const bool exact =
-        Node(box, first).single() && Node(box, first + 1).single() && Node(box, first + 2).single();
-    Line line;
-    constraint =
-        MakeLine(problem_, group, gas_,
-                 {CornerAt(trees.tubes, box, first), CornerAt(trees.fittings, box, first + 1),
-                  CornerAt(trees.valves, box, first + 2)},
-                 exact, exact || plan_.configuration == Configuration::kCompressor, line);
-    if (exact) {
-      line.tubing = OptionOf(box, first).index;
-      line.fitting = OptionOf(box, first + 1).index;
-      line.valve = OptionOf(box, first + 2).index;
-      if (!PartsMate(problem_, line)) constraint = Constraint::kMating;
-    }
-    if (constraint == Constraint::kNone) kept = std::make_shared<const Line>(std::move(line));
+  KnownLine& known = entry->second;
+  if (!fresh) return known;
+  const LineParts parts = PartsOf(key);
+  Line line;
+  known.missed = ScreenLine(problem_, key.group, gas_, parts.corners, parts.single(), line);
+  if (known.missed == Constraint::kNone && parts.single()) {
+    const GroupTrees& trees = plan_.groups[key.group];
+    line.tubing = trees.tubes.options[parts.nodes[0]->first].index;
+    line.fitting = trees.fittings.options[parts.nodes[1]->first].index;
+    line.valve = trees.valves.options[parts.nodes[2]->first].index;
+    if (!PartsMate(problem_, line)) known.missed = Constraint::kMating;
   }
-  box.lines[group] = kept;
-  return constraint;
+  if (known.missed == Constraint::kNone) known.line = std::make_shared<Line>(std::move(line));
+  return known;
+}
+
+bool Bounds::LineParts::single() const {
+  return std::all_of(nodes.begin(), nodes.end(), [](const BoxNode* n) { return n->single(); });
+}
+
+int Bounds::LineParts::widest() const {
+  const auto spread = [](const BoxNode* node) {
+    return node->single() ? -1.0 : node->objective_high - node->objective_low;
+  };
+  return static_cast<int>(
+      std::max_element(nodes.begin(), nodes.end(),
+                       [&](const BoxNode* a, const BoxNode* b) { return spread(a) < spread(b); }) -
+      nodes.begin());
+}
+
+Bounds::LineParts Bounds::PartsOf(const LineKey& key) const {
+  const GroupTrees& trees = plan_.groups[key.group];
+  const auto [tube, fitting, valve] = key.nodes;
+  return {
+      {&trees.tubes.nodes[tube], &trees.fittings.nodes[fitting], &trees.valves.nodes[valve]},
+      {trees.tubes.corners[tube], trees.fittings.corners[fitting], trees.valves.corners[valve]}};
+}
+
+// The limits of fall and rise and what mates with what already rule out the lightest lines of a
+// box, each slot's lightest choice put together. A box's least objective is that of the part that
+// is looked at next when lines alone are searched best first; after so many divisions it is near
+// the true one.
+Constraint Bounds::FindLeastObjective(const LineKey& key, Line& line) {
+  constexpr int kDivisions = 50;
+  using Open = std::pair<double, LineKey>;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  open.push({line.objective, key});
+  Constraint missed = Constraint::kNone;
+  for (int division = 0; division < kDivisions && !open.empty(); ++division) {
+    const auto [objective, lowest] = open.top();
+    const LineParts parts = PartsOf(lowest);
+    if (parts.single()) break;
+    open.pop();
+    const int widest = parts.widest();
+    for (int child : {parts.nodes[widest]->left, parts.nodes[widest]->right}) {
+      LineKey part = lowest;
+      part.nodes[widest] = child;
+      const KnownLine& known = KnowLine(part);
+      if (known.line)
+        open.push({std::max(objective, known.line->objective), part});
+      else if (missed == Constraint::kNone || missed == Constraint::kMating)
+        missed = known.missed;
+    }
+  }
+  if (open.empty()) return missed;
+  line.objective = open.top().first;
+  return Constraint::kNone;
+}
+
+Constraint Bounds::RemakeLine(Box& box, int group) {
+  if (lines_.size() > kLinesKept) lines_.clear();
+  const int first = kSlotsPerGroup * group;
+  const LineKey key{group, {box.nodes[first], box.nodes[first + 1], box.nodes[first + 2]}};
+  KnownLine& known = KnowLine(key);
+  if (known.line && !known.finished) {
+    known.finished = true;
+    known.missed = FindLeastObjective(key, *known.line);
+    const LineParts parts = PartsOf(key);
+    if (known.missed == Constraint::kNone)
+      FinishLine(problem_, group, parts.corners.valve, parts.single(),
+                 parts.single() || plan_.configuration == Configuration::kCompressor, *known.line);
+    else
+      known.line = nullptr;
+  }
+  box.lines[group] = known.line;
+  return known.missed;
 }
 
 Constraint Bounds::Assess(Box& box, int changed) {

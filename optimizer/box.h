@@ -7,12 +7,13 @@
 #ifndef PLENUM_OPTIMIZER_BOX_H_
 #define PLENUM_OPTIMIZER_BOX_H_
 
+#include <array>
 #include <map>
 #include <memory>
-#include <tuple>
 #include <unordered_map>
 #include <vector>
 
+#include "optimizer/make_line.h"
 #include "optimizer/plan.h"
 
 namespace plenum::optimizer {
@@ -67,7 +68,19 @@ class Bounds {
   Candidate CandidateOf(const Box& box) const;
 
  private:
-  using LineKey = std::tuple<int, int, int, int>;  // group, nodes
+  // A box of lines: a node of each of the group's trees.
+  struct LineKey {
+    int group = 0;
+    std::array<int, kSlotsPerGroup> nodes{};
+    auto operator<=>(const LineKey&) const = default;
+  };
+  struct LineParts {
+    std::array<const BoxNode*, kSlotsPerGroup> nodes;
+    LineCorners corners;
+    bool single() const;
+    int widest() const;  // of a box that is not single: by the share of the objective
+  };
+  LineParts PartsOf(const LineKey& key) const;
 
   const BoxNode& Node(const Box& box, int slot) const {
     return (*plan_.slots[slot].nodes)[box.nodes[slot]];
@@ -84,6 +97,14 @@ class Bounds {
   }
   bool CoreIsSingle(const Box& box) const;
 
+  // What is known of a box of lines, whatever the source.
+  struct KnownLine {
+    Constraint missed = Constraint::kNone;
+    std::shared_ptr<Line> line;  // of the corner; none if it misses something
+    bool finished = false;       // by FinishLine(), and its objective by FindLeastObjective()
+  };
+  KnownLine& KnowLine(const LineKey& key);
+  Constraint FindLeastObjective(const LineKey& key, Line& line);
   Constraint RemakeLine(Box& box, int group);
   bool WithinAmounts(const Box& box) const;
   void AddLines(Box& box) const;  // window, coils
@@ -107,7 +128,7 @@ class Bounds {
   const Problem& problem_;
   const Plan& plan_;
   model::Gas gas_;
-  std::map<LineKey, std::pair<Constraint, std::shared_ptr<const Line>>> lines_;  // made before
+  std::map<LineKey, KnownLine> lines_;        // made before
   std::unordered_map<int, PumpFacts> pumps_;  // per node of the compressors' tree
 };
 

@@ -16,8 +16,16 @@ struct LineCorners {
 };
 
 // kNone, or why no source makes the line meet its group's limits: rise and fall time, half of the
-// period, pressure ratings. For a box the least source pressure is bounded from below only.
-// `with_table`: whether the flow table is made too.
+// period, pressure ratings. Leaves the line without what FinishLine() adds.
+Constraint ScreenLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
+                      bool exact, Line& line);
+
+// Adds to a line that passed the least source pressure, for a box bounded from below only, the
+// least inflation time and, `with_table`, the flow table.
+void FinishLine(const Problem& problem, int group, const ValveCorner& valve, bool exact,
+                bool with_table, Line& line);
+
+// Both.
 Constraint MakeLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
                     bool exact, bool with_table, Line& line);
 

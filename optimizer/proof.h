@@ -45,7 +45,9 @@
 // The corner at its best takes: the exact march through the largest C and b of each element into
 // the smallest dead volume, from the highest source pressure that any of the choices stands; the
 // least air, coil power and amounts; and for bottles, batteries and reservoirs the least objective
-// of those in the box that bear this need. In a compressor's box each group counts as if it were
+// of those in the box that bear this need. A bound may also rest on divisions of the box
+// that are not recorded: of the lines in it only those count that mate and are fast enough on an
+// unlimited source. In a compressor's box each group counts as if it were
 // alone on the reservoir, with the largest delivery of the box at each pressure; of two groups that
 // take turns each leaves enough for the other.
 #ifndef PLENUM_OPTIMIZER_PROOF_H_
