@@ -6,6 +6,7 @@
 #include "model/periodic.h"
 #include "model/reservoir_stroke.h"
 #include "model/stroke.h"
+#include "optimizer/effect_strokes.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -145,7 +146,7 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
   const int groups = static_cast<int>(problem.groups.size());
   const bool alone = groups == 1 || !problem.simultaneous;
-  if (!alone) return SimulateStrokes(problem, candidate, point);
+  if (!alone || HasEffects(problem)) return SimulateStrokes(problem, candidate, point);
 
   Strokes strokes = EmptyStrokes(problem);
   const double time_s = 1.0 / problem.frequency_hz / groups;  // until the next group's command
@@ -166,8 +167,8 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
   return strokes;
 }
 
-model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
-                   const OperatingPoint& point) {
+model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                   int cycles) {
   model::Rig rig;
   rig.ambient = problem.ambient;
   rig.gas = GasOf(candidate.configuration);
@@ -197,11 +198,15 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
     group.exhaust = line.exhaust;
     group.close_at_operating = line.holds;
     group.initial_pressure_pa = problem.ambient.pressure_pa;
+    group.effects = ActingEffects(problem.groups[g], candidate.configuration);
     const double inflate_s = problem.simultaneous ? 0.0 : period_s * g / groups;
     const double deflate_s = std::fmod(inflate_s + 0.5 * period_s, period_s);
-    group.schedule = {{inflate_s, model::ValveState::kInflate},
-                      {deflate_s, model::ValveState::kDeflate}};
-    if (deflate_s < inflate_s) std::swap(group.schedule[0], group.schedule[1]);
+    for (int cycle = 0; cycle < cycles; ++cycle) {
+      group.schedule.push_back({cycle * period_s + inflate_s, model::ValveState::kInflate});
+      group.schedule.push_back({cycle * period_s + deflate_s, model::ValveState::kDeflate});
+    }
+    std::sort(group.schedule.begin(), group.schedule.end(),
+              [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
     rig.groups.push_back(std::move(group));
   }
   return rig;
@@ -231,6 +236,7 @@ void EmptyInTime(const Problem& problem, const Candidate& candidate, const Opera
 
 Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
+  if (HasEffects(problem)) return SimulateWithEffects(problem, candidate, point);
   Strokes strokes = EmptyStrokes(problem);
   model::Rig rig = MakeRig(problem, candidate, point);
   EmptyInTime(problem, candidate, point, rig);
@@ -238,9 +244,13 @@ Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
   options.rise_fraction = problem.rise_fraction;
   options.fall_fraction = problem.fall_fraction;
   options.linear_ratio = kLinearRatio;
-  const model::PeriodicState state = model::FindPeriodicState(
-      rig, 1.0 / problem.frequency_hz, options, {.tolerance = kPeriodicTolerance});
-  if (state.status != model::PeriodicStatus::kConverged) return strokes;
+  const Workbench own;
+  const Workbench& bench = candidate.bench != nullptr ? *candidate.bench : own;
+  options.cancelled = bench.stop;
+  const model::PeriodicState state =
+      bench.periodic(rig, 1.0 / problem.frequency_hz, options, {.tolerance = kPeriodicTolerance});
+  strokes.failed = state.status != model::PeriodicStatus::kConverged;
+  if (strokes.failed) return strokes;
   for (const model::Stroke& stroke : state.response.strokes) {
     if (stroke.state != model::ValveState::kInflate) continue;
     strokes.rise_s[stroke.group] = stroke.to_target_s;

@@ -11,10 +11,14 @@ namespace plenum::optimizer {
 
 struct Strokes {
   bool works = false;
+  bool failed = false;                    // the simulator gave up or was stopped: nothing is known
   std::vector<double> rise_s, inflate_s;  // per group, worst of the cycle
   double pump_on_s = 0.0;                 // per cycle
   double pump_energy_j = 0.0;             // per cycle, all pumps
   bool from_full = false;                 // no two groups meet, and each finds the reservoir full
+  // With effects only; without them the line knows.
+  std::vector<double> fall_s, highest_pa;  // per group
+  double air_m3 = 0.0;                     // ANR, per cycle, all actuators
 };
 
 model::Gas GasOf(Configuration configuration);
@@ -31,13 +35,15 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
 double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
                          const OperatingPoint& point);
 
-// The strokes by the simulator alone, in the periodic state.
+// The strokes by the simulator alone, in the periodic state; with effects by SimulateWithEffects
+// (effect_strokes.h).
 Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point);
 
-// The candidate as a rig for the simulator, with one cycle of commands: actuators at rest and a
+// The candidate as a rig for the simulator, with commands for some cycles: actuators at rest and a
 // full reservoir.
-model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
+model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                   int cycles = 1);
 
 }  // namespace plenum::optimizer
 

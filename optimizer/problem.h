@@ -14,7 +14,9 @@
 
 #include "model/air.h"
 #include "model/chamber.h"
+#include "model/effects/effect.h"
 #include "model/parts.h"
+#include "model/periodic.h"
 #include "optimizer/big_count.h"
 #include "optimizer/proof.h"
 
@@ -48,6 +50,7 @@ struct ActuatorGroup {
   double rise_time_max_s = kUnlimited;
   double fall_time_max_s = kUnlimited;
   double pressure_max_pa = 0.0;
+  std::vector<model::Effect> effects;  // of a revised model; none: the base model
 };
 
 struct Objective {  // weighted sum; a plain objective has one weight of 1
@@ -91,6 +94,11 @@ struct Progress {
   double lower_bound = 0.0;
 };
 
+// Finds the periodic state of a rig: model::FindPeriodicState, unless a test takes its place.
+using PeriodicSolver = std::function<model::PeriodicState(const model::Rig&, double period_s,
+                                                          const model::SimulateOptions&,
+                                                          const model::PeriodicOptions&)>;
+
 struct SearchOptions {
   bool record = false;  // fill Proof::record
   double time_limit_s = 30.0;
@@ -98,6 +106,7 @@ struct SearchOptions {
   std::function<bool()> cancelled;  // may be empty
   std::function<void(const Progress&)>
       progress;  // called at most a few times a second; may be empty
+  PeriodicSolver periodic = model::FindPeriodicState;
 };
 
 // One row of the parts list.
@@ -127,6 +136,7 @@ struct GroupPerformance {
   double rise_time_s = 0.0, fall_time_s = 0.0;
   double inflate_time_s = 0.0;  // to the operating pressure
   double frequency_max_hz = 0.0;
+  double highest_pressure_pa = 0.0;  // of the periodic state; 0: that at which the valve closes
 };
 
 struct Performance {

@@ -26,13 +26,13 @@ stays_in() {  # stays_in LIBRARY PATTERN ROOM…
   library=$1
   pattern=$2
   shift 2
-  for room in model catalog optimizer api server; do
+  for room in model catalog optimizer calibration api server; do
     case " $* " in *" $room "*) continue ;; esac
     includes "$pattern" "$room" | complain "$library may not be included in $room/"
   done
 }
 
-for room in model catalog optimizer api server; do
+for room in model catalog optimizer calibration api server; do
   if [ -z "$(find "$room" -name '*.h')" ]; then
     echo "$room/ has no headers: nothing was checked"
     exit 2
@@ -40,14 +40,15 @@ for room in model catalog optimizer api server; do
 done
 
 check() {
-  arrow model catalog optimizer api server tests bench
-  arrow catalog optimizer api server tests bench
-  arrow optimizer catalog api server tests bench
+  arrow model catalog optimizer calibration api server tests bench
+  arrow catalog optimizer calibration api server tests bench
+  arrow optimizer catalog calibration api server tests bench
+  arrow calibration catalog optimizer api server tests bench
   arrow api server tests bench
-  arrow server model catalog optimizer tests bench
+  arrow server model catalog optimizer calibration tests bench
   arrow tests bench
 
-  includes '\.\.?/' model catalog optimizer api server |
+  includes '\.\.?/' model catalog optimizer calibration api server |
     complain "includes name the room, not a relative path"
 
   stays_in cpp-httplib 'httplib' server
@@ -60,7 +61,7 @@ check() {
   stays_in fmt 'fmt/' server
   stays_in Boost 'boost/' model optimizer
   stays_in SUNDIALS 'cvode|nvector/|sun(dials|linsol|matrix)' model
-  stays_in Ceres 'ceres/' model
+  stays_in Ceres 'ceres/' model calibration
   includes 'httplib' server | grep -v '^server/http\.cc:' |
     complain "only server/http.cc includes cpp-httplib"
 }
