@@ -53,7 +53,10 @@ def main():
         done = subprocess.run([PLENUM, "design", "-", "--json"], input=json.dumps(request), text=True,
                               capture_output=True)
         over = time.monotonic() - start - limit
-        status = json.loads(done.stdout)["status"] if done.returncode == 0 else done.stderr.strip()[:200]
+        status = (json.loads(done.stdout)["status"] if done.returncode == 0
+                  else f"exit {done.returncode} {done.stderr.strip()[:200]}")
+        if done.returncode != 0:
+            print(f"run {run}: {json.dumps(request)}", flush=True)
         statuses[status] = statuses.get(status, 0) + 1
         worst = max(worst, over)
         if over > 0.1:

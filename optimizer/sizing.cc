@@ -384,6 +384,7 @@ void CustomSizing::Polish() {
     values.constraints = SolverMargins(problem_, candidate_, point, evaluation);
     return true;
   };
+  nlp.stop = [&] { return candidate_.stopped(); };
   const NlpResult result = SolveWithIpopt(nlp);
   if (result.status == NlpStatus::kSolved) {
     // The solver stops within its tolerance of the limits; a hair more volume is surely inside.

@@ -17,7 +17,7 @@ struct Sample {
 
 Nlp Program(std::vector<double> low, std::vector<double> high, std::vector<double> start,
             int constraints, std::function<bool(const std::vector<double>&, NlpValues&)> evaluate) {
-  return {std::move(low), std::move(high), std::move(start), constraints, std::move(evaluate)};
+  return {std::move(low), std::move(high), std::move(start), constraints, std::move(evaluate), {}};
 }
 
 std::vector<Sample> Zoo() {
@@ -108,6 +108,20 @@ TEST(NlpTest, NloptClaimsNothingWrongWhereTheModelIsNotDefined) {
 TEST(NlpTest, NoSolverClaimsToHaveSolvedAnInfeasibleProgram) {
   EXPECT_NE(SolveWithIpopt(Infeasible()).status, NlpStatus::kSolved);
   EXPECT_NE(SolveWithNlopt(Infeasible()).status, NlpStatus::kSolved);
+}
+
+// What is stopped is not solved, and stops at once.
+TEST(NlpTest, StopEndsBothSolvers) {
+  for (const Sample& sample : Zoo()) {
+    for (const auto& solve : {SolveWithIpopt, SolveWithNlopt}) {
+      Nlp nlp = sample.nlp;
+      int asked = 0;
+      nlp.stop = [&] { return ++asked > 1; };
+      const NlpResult result = solve(nlp);
+      EXPECT_NE(result.status, NlpStatus::kSolved) << sample.name;
+      EXPECT_LE(result.evaluations, 8) << sample.name;
+    }
+  }
 }
 
 TEST(NlpTest, NeverDefinedFails) {
