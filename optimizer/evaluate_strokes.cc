@@ -167,8 +167,8 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
   return strokes;
 }
 
-model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
-                   int cycles) {
+model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
+                   const OperatingPoint& point) {
   model::Rig rig;
   rig.ambient = problem.ambient;
   rig.gas = GasOf(candidate.configuration);
@@ -201,12 +201,9 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
     group.effects = ActingEffects(problem.groups[g], candidate.configuration);
     const double inflate_s = problem.simultaneous ? 0.0 : period_s * g / groups;
     const double deflate_s = std::fmod(inflate_s + 0.5 * period_s, period_s);
-    for (int cycle = 0; cycle < cycles; ++cycle) {
-      group.schedule.push_back({cycle * period_s + inflate_s, model::ValveState::kInflate});
-      group.schedule.push_back({cycle * period_s + deflate_s, model::ValveState::kDeflate});
-    }
-    std::sort(group.schedule.begin(), group.schedule.end(),
-              [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+    group.schedule = {{inflate_s, model::ValveState::kInflate},
+                      {deflate_s, model::ValveState::kDeflate}};
+    if (deflate_s < inflate_s) std::swap(group.schedule[0], group.schedule[1]);
     rig.groups.push_back(std::move(group));
   }
   return rig;

@@ -40,10 +40,9 @@ double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
 Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point);
 
-// The candidate as a rig for the simulator, with commands for some cycles: actuators at rest and a
+// The candidate as a rig for the simulator, with the commands of one cycle: actuators at rest and a
 // full reservoir.
-model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
-                   int cycles = 1);
+model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
 
 }  // namespace plenum::optimizer
 

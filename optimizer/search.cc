@@ -296,6 +296,11 @@ class BoxSearch {
         Candidate candidate = found.bounds->CandidateOf(found.box);
         candidate.bench = &report_bench_;
         std::optional<Design> design = MakeDesign(problem_, candidate, found.leaf, !Stopped());
+        if (!design && report_bench_.stopped()) {  // the rest is left out, and bounds the list
+          for (; i < list.size(); ++i)
+            undecided_bound_ = std::min(undecided_bound_, list[i].leaf.lower_bound);
+          return false;
+        }
         if (!design) {
           Undecided(found.leaf.lower_bound, found.record);
           ranking_.Remove(i);
