@@ -149,9 +149,10 @@ Constraint Bounds::FindSource(Box& box) {
                                                                 : FindStockSource(box);
   box.source_known = true;
   const Candidate candidate = CandidateOf(box);
-  const std::optional<double> needed = NeededSourcePressure(problem_, candidate, {});
-  if (!needed) return Constraint::kRise;
-  box.source_floor_pa = *needed;
+  const NeededPressure needed = NeededSourcePressure(problem_, candidate, {});
+  if (needed.status == LeafStatus::kInfeasible) return Constraint::kRise;
+  if (needed.status == LeafStatus::kUndecided) return Constraint::kNone;
+  box.source_floor_pa = needed.source_pa;
   if (const Constraint missed = NeedOfRegulated(box); missed != Constraint::kNone) return missed;
   return RestOfRegulated(box);
 }
@@ -179,13 +180,14 @@ Constraint Bounds::FindStockSource(Box& box) {
   candidate.source_floor_pa = volume.need.source_pa;
   candidate.source_cap_pa = volume.need.source_max_pa;
   OperatingPoint point{0.0, volume_m3, volume_m3};
-  const std::optional<double> needed = NeededSourcePressure(problem_, candidate, point);
-  if (!needed) return Constraint::kRise;
-  volume.need.source_pa = point.source_pa = *needed;
-  box.source_floor_pa = *needed;
+  const NeededPressure needed = NeededSourcePressure(problem_, candidate, point);
+  if (needed.status == LeafStatus::kInfeasible) return Constraint::kRise;
+  if (needed.status == LeafStatus::kUndecided) return Constraint::kNone;
+  volume.need.source_pa = box.source_floor_pa = point.source_pa = needed.source_pa;
   box.source_cap_pa = volume.need.source_max_pa;
   if (PumpEnergyRises(problem_, candidate)) {
     const Evaluation least = Evaluate(problem_, candidate, point, {.least_coil_energy = true});
+    if (least.failed) return Constraint::kNone;
     volume.need.energy_j = std::max(volume.need.energy_j, least.energy_total_j);
     if (!(least.frequency_sustained_hz >= problem_.frequency_hz)) return Constraint::kPump;
   }

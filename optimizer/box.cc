@@ -15,8 +15,8 @@ constexpr std::size_t kLinesKept = 50000;
 
 }  // namespace
 
-Bounds::Bounds(const Problem& problem, const Plan& plan)
-    : problem_(problem), plan_(plan), gas_(GasOf(plan.configuration)) {}
+Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench)
+    : problem_(problem), plan_(plan), bench_(bench), gas_(GasOf(plan.configuration)) {}
 
 Box Bounds::Root() const {
   Box box;
@@ -217,6 +217,7 @@ Candidate Bounds::CandidateOf(const Box& box) const {
   candidate.configuration = plan_.configuration;
   candidate.source_floor_pa = box.source_floor_pa;
   candidate.source_cap_pa = box.source_cap_pa;
+  candidate.bench = bench_;
   for (const std::shared_ptr<const Line>& line : box.lines) candidate.lines.push_back(line.get());
   const auto choose = [&](int slot, Option& option) {
     if (slot >= 0 && Node(box, slot).single()) option = OptionOf(box, slot);

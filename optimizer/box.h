@@ -43,7 +43,8 @@ struct Box {
 
 class Bounds {
  public:
-  Bounds(const Problem& problem, const Plan& plan);
+  // `bench`: handed to the candidates; may be null.
+  Bounds(const Problem& problem, const Plan& plan, const Workbench* bench = nullptr);
 
   const Plan& plan() const { return plan_; }
 
@@ -127,6 +128,7 @@ class Bounds {
 
   const Problem& problem_;
   const Plan& plan_;
+  const Workbench* bench_;
   model::Gas gas_;
   std::map<LineKey, KnownLine> lines_;        // made before
   std::unordered_map<int, PumpFacts> pumps_;  // per node of the compressors' tree

@@ -202,6 +202,7 @@ Evaluation Evaluate(const Problem& problem, const Candidate& candidate, const Op
                     const EvaluateOptions& options) {
   Evaluation evaluation;
   const Strokes strokes = EvaluateStrokes(problem, candidate, point);
+  evaluation.failed = strokes.failed;
   if (!strokes.works) return evaluation;
   evaluation.works = true;
   evaluation.from_full = strokes.from_full;

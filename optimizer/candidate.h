@@ -23,6 +23,14 @@ struct Option {
   double objective = 0.0;  // their share of the objective
 };
 
+// How candidates are evaluated. A solver that gives up, or is told to stop, leaves an evaluation
+// failed: nothing is known then.
+struct Workbench {
+  std::function<bool()> stop;  // may be empty
+  PeriodicSolver periodic = model::FindPeriodicState;
+  bool stopped() const { return stop && stop(); }
+};
+
 struct Candidate {
   Configuration configuration = Configuration::kMains;
   std::vector<const Line*> lines;  // one per group
@@ -30,6 +38,8 @@ struct Candidate {
   // Source pressures outside are known to be too slow, or more than the source bears.
   double source_floor_pa = 0.0;
   double source_cap_pa = kUnlimited;
+  const Workbench* bench = nullptr;  // null: the simulator of the model, never stopped
+  bool stopped() const { return bench != nullptr && bench->stopped(); }
 };
 
 // Where a candidate is run. For the regulated configurations the source pressure is the regulator's
@@ -43,8 +53,10 @@ struct OperatingPoint {
 };
 
 struct Evaluation {
-  // False: a pressure is never reached or surely too late; nothing below is valid then.
+  // False: a pressure is never reached, or surely too late, or the solver failed; nothing below is
+  // valid then.
   bool works = false;
+  bool failed = false;
   std::vector<GroupPerformance> groups;
   double air_per_cycle_m3 = 0.0;  // ANR, all actuators
   double air_total_m3 = 0.0;      // all cycles, first fill included

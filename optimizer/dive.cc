@@ -57,11 +57,11 @@ class Diver {
     Leaf leaf;
     if (candidate.reservoir.index == kCustom) {
       CustomSizing sizing(problem_, candidate);
-      while (!sizing.Refine() && !stop_()) {
+      while (!stop_() && !sizing.Refine()) {
       }
       leaf = sizing.leaf();
     } else {
-      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate), stop_);
+      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate));
     }
     if (leaf.status == LeafStatus::kFeasible)
       ranking_.Add({std::move(box), &bounds_, leaf, std::move(ids), -1, nullptr});

@@ -89,6 +89,7 @@ Strokes SimulateWithEffects(const Problem& problem, const Candidate& candidate,
   options.fall_fraction = problem.fall_fraction;
   options.relative_tolerance = 0.1 * kPeriodicTolerance;
   options.sample_hz = kSamplesPerCycle * problem.frequency_hz;
+  if (candidate.bench != nullptr) options.cancelled = candidate.bench->stop;
 
   Strokes strokes = NoStrokes(groups);
   const model::PeriodicState periodic = model::FindPeriodicState(
@@ -103,7 +104,8 @@ Strokes SimulateWithEffects(const Problem& problem, const Candidate& candidate,
     options.end_s = (kPlainCycles + 1) * period_s;  // one more, so that the last strokes can end
     Repeat(rig, period_s, kPlainCycles + 1);
     const model::Response response = model::Simulate(rig, options);
-    if (response.status != model::SimulateStatus::kDone) return strokes;
+    strokes.failed = response.status != model::SimulateStatus::kDone;
+    if (strokes.failed) return strokes;
     const double cycles = kPlainCycles + 1.0;
     TakeWorst(response, 0.5 * kPlainCycles * period_s, kPlainCycles * period_s, strokes);
     TakeHighest(response, 0.5 * kPlainCycles * period_s, strokes);

@@ -197,8 +197,8 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
     group.fill = line.fill;
     group.exhaust = line.exhaust;
     group.close_at_operating = line.holds;
-    group.effects = ActingEffects(problem.groups[g], candidate.configuration);
     group.initial_pressure_pa = problem.ambient.pressure_pa;
+    group.effects = ActingEffects(problem.groups[g], candidate.configuration);
     const double inflate_s = problem.simultaneous ? 0.0 : period_s * g / groups;
     const double deflate_s = std::fmod(inflate_s + 0.5 * period_s, period_s);
     group.schedule = {{inflate_s, model::ValveState::kInflate},
@@ -241,9 +241,13 @@ Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
   options.rise_fraction = problem.rise_fraction;
   options.fall_fraction = problem.fall_fraction;
   options.linear_ratio = kLinearRatio;
-  const model::PeriodicState state = model::FindPeriodicState(
-      rig, 1.0 / problem.frequency_hz, options, {.tolerance = kPeriodicTolerance});
-  if (state.status != model::PeriodicStatus::kConverged) return strokes;
+  const Workbench own;
+  const Workbench& bench = candidate.bench != nullptr ? *candidate.bench : own;
+  options.cancelled = bench.stop;
+  const model::PeriodicState state =
+      bench.periodic(rig, 1.0 / problem.frequency_hz, options, {.tolerance = kPeriodicTolerance});
+  strokes.failed = state.status != model::PeriodicStatus::kConverged;
+  if (strokes.failed) return strokes;
   for (const model::Stroke& stroke : state.response.strokes) {
     if (stroke.state != model::ValveState::kInflate) continue;
     strokes.rise_s[stroke.group] = stroke.to_target_s;

@@ -11,6 +11,7 @@ namespace plenum::optimizer {
 
 struct Strokes {
   bool works = false;
+  bool failed = false;                    // the simulator gave up or was stopped: nothing is known
   std::vector<double> rise_s, inflate_s;  // per group, worst of the cycle
   double pump_on_s = 0.0;                 // per cycle
   double pump_energy_j = 0.0;             // per cycle, all pumps
@@ -39,7 +40,7 @@ double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
 Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point);
 
-// The candidate as a rig for the simulator, with one cycle of commands: actuators at rest and a
+// The candidate as a rig for the simulator, with the commands of one cycle: actuators at rest and a
 // full reservoir.
 model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
 

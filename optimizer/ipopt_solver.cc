@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kIpoptInfinity = 2e19;
 
-// Ipopt's view of an Nlp. Values and derivatives of one point are computed once and shared by the
-// four callbacks.
+// Ipopt's view of an Nlp. Values and derivatives of one point are computed once each and shared by
+// the callbacks; the line search asks for values alone.
 class IpoptProblem : public Ipopt::TNLP {
  public:
   IpoptProblem(const Nlp& nlp, NlpResult& result) : nlp_(nlp), result_(result) {}
@@ -42,20 +42,20 @@ class IpoptProblem : public Ipopt::TNLP {
   }
 
   bool eval_f(int n, const double* x, bool, double& value) override {
-    if (!Update(n, x)) return false;
-    value = at_.values.objective;
+    if (!UpdateValues(n, x)) return false;
+    value = values_.objective;
     return true;
   }
 
   bool eval_grad_f(int n, const double* x, bool, double* gradient) override {
-    if (!Update(n, x)) return false;
+    if (!UpdateDerivatives(n, x)) return false;
     std::copy_n(at_.gradient.begin(), n, gradient);
     return true;
   }
 
   bool eval_g(int n, const double* x, bool, int m, double* g) override {
-    if (!Update(n, x)) return false;
-    std::copy_n(at_.values.constraints.begin(), m, g);
+    if (!UpdateValues(n, x)) return false;
+    std::copy_n(values_.constraints.begin(), m, g);
     return true;
   }
 
@@ -69,9 +69,15 @@ class IpoptProblem : public Ipopt::TNLP {
         }
       return true;
     }
-    if (!Update(n, x)) return false;
+    if (!UpdateDerivatives(n, x)) return false;
     for (int c = 0; c < m; ++c) std::copy_n(at_.jacobian[c].begin(), n, values + c * n);
     return true;
+  }
+
+  bool intermediate_callback(Ipopt::AlgorithmMode, int, double, double, double, double, double,
+                             double, double, double, int, const Ipopt::IpoptData*,
+                             Ipopt::IpoptCalculatedQuantities*) override {
+    return !Stopped();
   }
 
   void finalize_solution(Ipopt::SolverReturn, int n, const double* x, const double*, const double*,
@@ -82,23 +88,33 @@ class IpoptProblem : public Ipopt::TNLP {
   }
 
  private:
+  bool Stopped() const { return nlp_.stop && nlp_.stop(); }
+
   // False (Ipopt then shortens the step) where the model is not defined. Nothing may be thrown
   // through Ipopt.
-  bool Update(int n, const double* x) {
+  bool UpdateValues(int n, const double* x) {
     std::vector<double> point(x, x + n);
     for (int i = 0; i < n; ++i) point[i] = std::clamp(point[i], nlp_.low[i], nlp_.high[i]);
     if (point == point_) return defined_;
     point_ = std::move(point);
+    differentiated_ = false;
     ++result_.evaluations;
-    defined_ = Differentiate(nlp_, point_, at_);
+    defined_ = !Stopped() && nlp_.evaluate(point_, values_);
     return defined_;
+  }
+
+  bool UpdateDerivatives(int n, const double* x) {
+    if (!UpdateValues(n, x)) return false;
+    if (!differentiated_) differentiated_ = Differentiate(nlp_, point_, at_);
+    return differentiated_;
   }
 
   const Nlp& nlp_;
   NlpResult& result_;
   std::vector<double> point_;
+  NlpValues values_;
   NlpDerivatives at_;
-  bool defined_ = false;
+  bool defined_ = false, differentiated_ = false;
 };
 
 }  // namespace

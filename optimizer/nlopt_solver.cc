@@ -17,7 +17,8 @@ struct Callback {
 NlpDerivatives At(Callback& callback, unsigned n, const double* x) {
   NlpDerivatives at;
   ++callback.result->evaluations;
-  if (!Differentiate(*callback.nlp, {x, x + n}, at)) {
+  const bool stopped = callback.nlp->stop && callback.nlp->stop();
+  if (stopped || !Differentiate(*callback.nlp, {x, x + n}, at)) {
     nlopt_force_stop(callback.solver);
     at.values.objective = 0.0;
     at.values.constraints.assign(callback.nlp->constraints, 0.0);

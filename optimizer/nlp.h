@@ -22,6 +22,7 @@ struct Nlp {
   int constraints = 0;
   // False where the model is not defined at x; the solver then shortens its step.
   std::function<bool(const std::vector<double>& x, NlpValues& values)> evaluate;
+  std::function<bool()> stop;  // asked at every point; may be empty
 };
 
 enum class NlpStatus { kNotRun, kSolved, kNotConverged, kFailed };

@@ -16,6 +16,7 @@
 #include "model/chamber.h"
 #include "model/effects/effect.h"
 #include "model/parts.h"
+#include "model/periodic.h"
 #include "optimizer/big_count.h"
 #include "optimizer/proof.h"
 
@@ -93,6 +94,11 @@ struct Progress {
   double lower_bound = 0.0;
 };
 
+// Finds the periodic state of a rig: model::FindPeriodicState, unless a test takes its place.
+using PeriodicSolver = std::function<model::PeriodicState(const model::Rig&, double period_s,
+                                                          const model::SimulateOptions&,
+                                                          const model::PeriodicOptions&)>;
+
 struct SearchOptions {
   bool record = false;  // fill Proof::record
   double time_limit_s = 30.0;
@@ -100,6 +106,7 @@ struct SearchOptions {
   std::function<bool()> cancelled;  // may be empty
   std::function<void(const Progress&)>
       progress;  // called at most a few times a second; may be empty
+  PeriodicSolver periodic = model::FindPeriodicState;
 };
 
 // One row of the parts list.

@@ -169,17 +169,19 @@ Problem WithPartsOf(const Problem& problem, const Design& design) {
   return own;
 }
 
-Leaf Resize(const Problem& problem, const Design& design) {
+Leaf Resize(const Problem& problem, const Design& design, const std::function<bool()>& stop) {
   Rebuilt rebuilt;
   if (!Rebuild(problem, problem, design, rebuilt)) {
     Leaf infeasible;
     infeasible.status = LeafStatus::kInfeasible;
     return infeasible;
   }
+  const Workbench bench{.stop = stop};
+  rebuilt.candidate.bench = &bench;
   if (rebuilt.candidate.reservoir.index != kCustom)
     return SizeAtVolume(problem, rebuilt.candidate, ReservoirVolume(problem, rebuilt.candidate));
   CustomSizing sizing(problem, rebuilt.candidate);
-  while (!sizing.Refine()) {
+  while (!bench.stopped() && !sizing.Refine()) {
   }
   return sizing.leaf();
 }

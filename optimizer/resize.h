@@ -17,8 +17,9 @@ Problem WithPartsOf(const Problem& problem, const Design& design);
 // Sizes the design's parts, found in the problem by their ids, with the evaluation that ranks
 // (candidate.h). A made-to-measure reservoir is sized, too, unless the problem has a stock
 // reservoir with the id "custom". Infeasible where a line misses its limits on any source or where
-// a part is missing. Whether the parts fit together is not asked again.
-Leaf Resize(const Problem& problem, const Design& design);
+// a part is missing, undecided where `stop` says so. Whether the parts fit together is not asked
+// again.
+Leaf Resize(const Problem& problem, const Design& design, const std::function<bool()>& stop = {});
 
 // The design's parts under a revised model: sized by SizeWithEffects (effect_sizing.h) and made
 // anew. `relaxed` (relaxation.h) says what a line can do at best, the design comes from there.

@@ -41,9 +41,14 @@ class Draws {
     for (draws_ = 0; draws_ < options_.draws && !Stopped(start); ++draws_)
       for (std::size_t i = 0; i < designs.size(); ++i) {
         if (Hopeless(missed[i])) continue;
-        objectives_[i].push_back(ObjectiveIn(designs[i], draws_));
+        objectives_[i].push_back(ObjectiveIn(designs[i], draws_, [&] { return Stopped(start); }));
         missed[i] += std::isinf(objectives_[i].back());
       }
+    if (Stopped(start) && draws_ > 0) {  // the last one may be incomplete
+      --draws_;
+      for (Objectives& of : objectives_)
+        of.resize(std::min(of.size(), static_cast<std::size_t>(draws_)));
+    }
     used_s_ += SecondsSince(start);
   }
 
@@ -69,9 +74,9 @@ class Draws {
            options_.draws - missed < *options_.probability_min * options_.draws;
   }
 
-  double ObjectiveIn(const Design& design, int draw) {
+  double ObjectiveIn(const Design& design, int draw, const std::function<bool()>& stop) {
     problem_.parts = draw_parts_(design, draw);
-    const Leaf leaf = Resize(problem_, design);
+    const Leaf leaf = Resize(problem_, design, stop);
     return leaf.status == LeafStatus::kFeasible ? leaf.objective : kUnlimited;
   }
 

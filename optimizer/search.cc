@@ -28,6 +28,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kProgressIntervalS = 0.2;
+// After the end designs found before are still confirmed, one at least and others for so long.
+constexpr double kGraceS = 0.1;
 constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;  // of the time limit
 
 struct Node {
@@ -94,7 +96,11 @@ class BoxSearch {
         start_(start),
         objective_limit_(ObjectiveLimit(problem) * (1.0 + 1e-12)),
         ranking_(problem.count),
-        recorder_(options.record) {}
+        recorder_(options.record),
+        bench_{[this] { return Stopped() || Seconds() > dive_until_s_; }, options.periodic},
+        report_bench_{
+            [this] { return reported_ > 0 && Stopped() && Seconds() > stopped_s_ + kGraceS; },
+            options.periodic} {}
 
   Answer Run() {
     if (Plant()) {
@@ -110,8 +116,10 @@ class BoxSearch {
 
   bool stopped() const { return cancelled_ || late_; }
   bool Stopped() {
-    cancelled_ = cancelled_ || (options_.cancelled && options_.cancelled());
-    late_ = late_ || Seconds() > options_.time_limit_s;
+    if (stopped()) return true;
+    cancelled_ = options_.cancelled && options_.cancelled();
+    late_ = Seconds() > options_.time_limit_s;
+    if (stopped()) stopped_s_ = Seconds();
     return stopped();
   }
 
@@ -120,7 +128,7 @@ class BoxSearch {
     for (Configuration configuration : problem_.configurations) {
       if (Stopped()) return false;
       plans_.push_back(MakePlan(problem_, configuration));
-      bounds_.push_back(std::make_unique<Bounds>(problem_, *plans_.back()));
+      bounds_.push_back(std::make_unique<Bounds>(problem_, *plans_.back(), &bench_));
     }
     planted_ = true;
     for (const std::unique_ptr<Bounds>& bounds : bounds_) {
@@ -237,8 +245,11 @@ class BoxSearch {
       }
       leaf = node->sizing->leaf();
     } else {
-      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate),
-                          [this] { return Stopped(); });
+      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate));
+    }
+    if (leaf.status == LeafStatus::kUndecided && Stopped()) {
+      Push(std::move(node));
+      return;
     }
     proof_.evaluated += 1;
     if (leaf.status == LeafStatus::kUndecided)
@@ -267,9 +278,9 @@ class BoxSearch {
     for (const std::unique_ptr<Bounds>& bounds : bounds_) {
       const double until_s =
           Seconds() + kDiveShare * options_.time_limit_s / static_cast<double>(bounds_.size());
-      Dive(
-          problem_, *bounds, options_.any_design, [&] { return Seconds() > until_s || Stopped(); },
-          ranking_);
+      dive_until_s_ = until_s;
+      Dive(problem_, *bounds, options_.any_design, bench_.stop, ranking_);
+      dive_until_s_ = kUnlimited;
     }
   }
 
@@ -282,8 +293,14 @@ class BoxSearch {
       Found& found = list[i];
       if (!found.design) {
         ++proof_.simulated;
-        std::optional<Design> design =
-            MakeDesign(problem_, found.bounds->CandidateOf(found.box), found.leaf, !late_);
+        Candidate candidate = found.bounds->CandidateOf(found.box);
+        candidate.bench = &report_bench_;
+        std::optional<Design> design = MakeDesign(problem_, candidate, found.leaf, !Stopped());
+        if (!design && report_bench_.stopped()) {  // the rest is left out, and bounds the list
+          for (; i < list.size(); ++i)
+            undecided_bound_ = std::min(undecided_bound_, list[i].leaf.lower_bound);
+          return false;
+        }
         if (!design) {
           Undecided(found.leaf.lower_bound, found.record);
           ranking_.Remove(i);
@@ -292,6 +309,7 @@ class BoxSearch {
           continue;
         }
         found.design = std::make_shared<Design>(std::move(*design));
+        ++reported_;
       }
       ++i;
     }
@@ -379,7 +397,9 @@ class BoxSearch {
   Recorder recorder_;
   Proof proof_;
   double undecided_bound_ = kUnlimited;
-  double reported_s_ = 0.0;
+  Workbench bench_, report_bench_;  // for the search, for the designs of the list
+  int reported_ = 0;
+  double reported_s_ = 0.0, stopped_s_ = 0.0, dive_until_s_ = kUnlimited;
   long long serial_ = 0;
   bool cancelled_ = false, late_ = false, planted_ = false, dived_ = false;
 };

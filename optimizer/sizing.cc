@@ -64,13 +64,13 @@ class PressureSearch {
         parts_objective_(
             ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3))) {}
 
-  Leaf Run(double low_pa, double high_pa, const std::function<bool()>& stop) {
+  Leaf Run(double low_pa, double high_pa) {
     leaf_.objective = kUnlimited;
     const Evaluation low = Try(low_pa);
     // Without energy in the objective the lowest pressure that works is as good as any.
     if (std::isfinite(leaf_.objective) && problem_.objective.energy_wh == 0.0) return Done();
     if (high_pa > low_pa) Open(low_pa, low, high_pa, Try(high_pa));
-    while (!open_.empty() && evaluations_ < kEvaluationsMax && !(stop && stop())) {
+    while (!open_.empty() && evaluations_ < kEvaluationsMax && !failed_ && !candidate_.stopped()) {
       if (open_.top().bound >= leaf_.objective * (1.0 - kObjectiveTolerance)) return Done();
       const Interval interval = open_.top();
       open_.pop();
@@ -98,6 +98,7 @@ class PressureSearch {
     ++evaluations_;
     const OperatingPoint point = At(source_pa);
     Evaluation evaluation = Evaluate(problem_, candidate_, point);
+    failed_ = failed_ || evaluation.failed;
     if (!(SmallestMargin(problem_, candidate_, point, evaluation) >= 0.0)) return evaluation;
     const double objective = ObjectiveValue(problem_, candidate_, point, evaluation);
     if (objective < leaf_.objective) {
@@ -147,11 +148,11 @@ class PressureSearch {
 
   Leaf Done() {
     const bool found = std::isfinite(leaf_.objective);
-    leaf_.status = found           ? LeafStatus::kFeasible
-                   : open_.empty() ? LeafStatus::kInfeasible
-                                   : LeafStatus::kUndecided;
+    leaf_.status = found                       ? LeafStatus::kFeasible
+                   : open_.empty() && !failed_ ? LeafStatus::kInfeasible
+                                               : LeafStatus::kUndecided;
     leaf_.lower_bound = open_.empty() ? leaf_.objective : open_.top().bound;
-    if (problem_.objective.energy_wh == 0.0) leaf_.lower_bound = parts_objective_;
+    if (problem_.objective.energy_wh == 0.0 || failed_) leaf_.lower_bound = parts_objective_;
     if (found) leaf_.lower_bound = std::min(leaf_.lower_bound, leaf_.objective);
     return leaf_;
   }
@@ -166,6 +167,7 @@ class PressureSearch {
   std::priority_queue<Interval> open_;
   Leaf leaf_;
   int evaluations_ = 0;
+  bool failed_ = false;
 };
 
 }  // namespace
@@ -198,15 +200,19 @@ bool PumpEnergyRises(const Problem& problem, const Candidate& candidate) {
   return PowerRises(curve, low_pa, high_pa);
 }
 
-std::optional<double> NeededSourcePressure(const Problem& problem, const Candidate& candidate,
-                                           OperatingPoint point) {
+NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& candidate,
+                                    OperatingPoint point) {
   const Window window = SourceWindow(problem, candidate);
-  if (window.empty()) return std::nullopt;
+  if (window.empty()) return {LeafStatus::kInfeasible};
+  bool failed = false;
   const auto excess = [&](double source_pa) {
     point.source_pa = source_pa;
-    return StrokeExcess(problem, Evaluate(problem, candidate, point));
+    const Evaluation evaluation = Evaluate(problem, candidate, point);
+    failed = failed || evaluation.failed;
+    return StrokeExcess(problem, evaluation);
   };
-  if (!(excess(window.high_pa) <= 0.0)) return std::nullopt;
+  if (!(excess(window.high_pa) <= 0.0))
+    return {failed ? LeafStatus::kUndecided : LeafStatus::kInfeasible};
   double low_pa = window.low_pa;
   if (candidate.compressor.index != kNone) {
     // A cheap bound from below brings the costly search close to its end.
@@ -220,18 +226,22 @@ std::optional<double> NeededSourcePressure(const Problem& problem, const Candida
     };
     low_pa = FeasibleBracket(alone, low_pa, window.high_pa, kBoundTolerance).low;
   }
-  return SmallestFeasible(excess, low_pa, window.high_pa, kPressureTolerance);
+  const auto unless_failed = [&](double source_pa) { return failed ? 0.0 : excess(source_pa); };
+  const double source_pa =
+      SmallestFeasible(unless_failed, low_pa, window.high_pa, kPressureTolerance);
+  return {failed ? LeafStatus::kUndecided : LeafStatus::kFeasible, source_pa};
 }
 
-Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
-                  const std::function<bool()>& stop) {
-  Leaf leaf;
-  leaf.status = LeafStatus::kInfeasible;
-  const std::optional<double> needed =
+Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3) {
+  const NeededPressure needed =
       NeededSourcePressure(problem, candidate, {0.0, reservoir_m3, reservoir_m3});
-  if (!needed) return leaf;
-  return PressureSearch(problem, candidate, reservoir_m3)
-      .Run(*needed, SourceWindow(problem, candidate).high_pa, stop);
+  if (needed.status == LeafStatus::kFeasible)
+    return PressureSearch(problem, candidate, reservoir_m3)
+        .Run(needed.source_pa, SourceWindow(problem, candidate).high_pa);
+  Leaf leaf;
+  leaf.status = needed.status;
+  leaf.lower_bound = ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3));
+  return leaf;
 }
 
 CustomSizing::CustomSizing(const Problem& problem, Candidate candidate)
@@ -265,7 +275,7 @@ void CustomSizing::Open(double low_m3, double high_m3, double bound) {
 }
 
 bool CustomSizing::Refine() {
-  for (int step = 0; step < kStepsPerRefine; ++step) {
+  for (int step = 0; step < kStepsPerRefine && !candidate_.stopped(); ++step) {
     const double good_enough = leaf_.objective - kVolumeTolerance * std::abs(leaf_.objective);
     if (open_.empty() || open_.top().bound >= good_enough) {
       const bool found = std::isfinite(leaf_.objective);
@@ -281,10 +291,13 @@ bool CustomSizing::Refine() {
     } else {
       Split(interval);
     }
-    if (++steps_ >= kStepsMax) {
+    if (candidate_.stopped()) break;
+    if (failed_ || ++steps_ >= kStepsMax) {
       // The bound stands, the leaf is as good as the incumbent, and the gap is reported.
       leaf_.status =
           std::isfinite(leaf_.objective) ? LeafStatus::kFeasible : LeafStatus::kUndecided;
+      leaf_.lower_bound =
+          open_.empty() ? leaf_.lower_bound : std::min(leaf_.objective, open_.top().bound);
       return true;
     }
   }
@@ -298,17 +311,23 @@ bool CustomSizing::Examine(Interval& interval) {
   candidate.source_floor_pa = interval.source_floor_pa;
   candidate.source_cap_pa = interval.source_cap_pa;
   OperatingPoint point{0.0, interval.high_m3, interval.low_m3};
-  const std::optional<double> needed = NeededSourcePressure(problem_, candidate, point);
-  if (!needed) return false;
+  const NeededPressure needed = NeededSourcePressure(problem_, candidate, point);
+  if (needed.status == LeafStatus::kInfeasible) return false;
+  failed_ = failed_ || needed.status == LeafStatus::kUndecided;
+  if (failed_) return true;
   if (PumpEnergyRises(problem_, candidate)) {
-    point.source_pa = *needed;
+    point.source_pa = needed.source_pa;
     Evaluation best = Evaluate(problem_, candidate, point, {.least_coil_energy = true});
     // Times over an interval of volumes are bounds; energy may pass that of a volume inside by a
     // few 1e-4 where the pump nearly refills within the stroke (model/reservoir_stroke.h).
     const double slack = kEnergySlack * (interval.high_m3 / interval.low_m3 - 1.0);
     best.energy_total_j *= 1.0 - slack;
     best.energy_per_cycle_j *= 1.0 - slack;
-    const OperatingPoint smallest{*needed, interval.low_m3, interval.low_m3};
+    const OperatingPoint smallest{needed.source_pa, interval.low_m3, interval.low_m3};
+    if (best.failed) {
+      failed_ = true;
+      return true;
+    }
     if (SupplyMargin(problem_, candidate, smallest, best) < 0.0) return false;
     interval.bound = std::max(interval.bound, ObjectiveValue(problem_, candidate, smallest, best));
   }
@@ -365,6 +384,7 @@ void CustomSizing::Polish() {
     values.constraints = SolverMargins(problem_, candidate_, point, evaluation);
     return true;
   };
+  nlp.stop = [&] { return candidate_.stopped(); };
   const NlpResult result = SolveWithIpopt(nlp);
   if (result.status == NlpStatus::kSolved) {
     // The solver stops within its tolerance of the limits; a hair more volume is surely inside.

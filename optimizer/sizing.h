@@ -25,10 +25,9 @@ struct Leaf {
   double lower_bound = 0.0;  // of the objective over all settings
 };
 
-// Settings with the volume given (stock reservoir; 0 where the configuration has none). Where
-// `stop` says so the best so far is returned, with a bound that holds, or kUndecided.
-Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
-                  const std::function<bool()>& stop = {});
+// Settings with the volume given (stock reservoir; 0 where the configuration has none). Where the
+// solver fails or is stopped: the best so far with a bound that holds, or kUndecided.
+Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3);
 
 // All relative margins of an evaluation that works, strokes first and limited to 1: what a solver
 // keeps ≥ 0. The smallest of them, or −∞ where nothing works.
@@ -41,10 +40,14 @@ double SmallestMargin(const Problem& problem, const Candidate& candidate,
 // compressor.
 bool PumpEnergyRises(const Problem& problem, const Candidate& candidate);
 
-// Lowest source pressure in the candidate's window at which the strokes meet their limits; none
-// where even the highest is too slow. `point` gives the reservoir.
-std::optional<double> NeededSourcePressure(const Problem& problem, const Candidate& candidate,
-                                           OperatingPoint point);
+// Lowest source pressure in the candidate's window at which the strokes meet their limits;
+// kInfeasible where even the highest is too slow. `point` gives the reservoir.
+struct NeededPressure {
+  LeafStatus status = LeafStatus::kUndecided;
+  double source_pa = 0.0;
+};
+NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& candidate,
+                                    OperatingPoint point);
 
 // The best volume of a made-to-measure reservoir, by branch and bound over intervals of volumes. An
 // interval is closed when no volume in it can meet the limits: first by the cheap bounds of
@@ -55,7 +58,8 @@ class CustomSizing {
   CustomSizing(const Problem& problem, Candidate candidate);
 
   // A few intervals more. True when done: leaf() is feasible with lower_bound within 1e-7 of the
-  // objective, or infeasible.
+  // objective, or infeasible; or undecided, or feasible with a lower bound that holds, where a
+  // solver failed. Not done where it was stopped.
   bool Refine();
   const Leaf& leaf() const { return leaf_; }
 
@@ -81,6 +85,7 @@ class CustomSizing {
   Leaf leaf_;
   bool polished_ = false;
   int steps_ = 0;
+  bool failed_ = false;
 };
 
 // The settings that a listed design gets, from a feasible leaf. Where the objective leaves them

@@ -125,11 +125,12 @@ void CheckAll(const Problem& problem, Random& random, double share, int& checked
     const Box reached = Descend(random, *plan, bounds, positions, candidate, leaf.objective);
     if (!bounds.IsSingle(reached) || candidate.reservoir.index == optimizer::kCustom) return;
     const double volume_m3 = StockVolume(problem, candidate);
-    const std::optional<double> needed =
+    const optimizer::NeededPressure needed =
         optimizer::NeededSourcePressure(problem, candidate, {0.0, volume_m3, volume_m3});
-    ASSERT_TRUE(needed.has_value());
-    for (const auto& line : reached.lines) EXPECT_LE(line->source_min_pa, *needed * (1.0 + 1e-8));
-    EXPECT_NEAR(reached.source_floor_pa, *needed, 1e-6 * *needed);
+    ASSERT_EQ(needed.status, LeafStatus::kFeasible);
+    for (const auto& line : reached.lines)
+      EXPECT_LE(line->source_min_pa, needed.source_pa * (1.0 + 1e-8));
+    EXPECT_NEAR(reached.source_floor_pa, needed.source_pa, 1e-6 * needed.source_pa);
     if (configuration == Configuration::kCompressor && problem.groups.size() == 1)
       ExpectPumpNeedHolds(problem, candidate, leaf);
   });

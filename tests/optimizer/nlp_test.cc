@@ -17,7 +17,7 @@ struct Sample {
 
 Nlp Program(std::vector<double> low, std::vector<double> high, std::vector<double> start,
             int constraints, std::function<bool(const std::vector<double>&, NlpValues&)> evaluate) {
-  return {std::move(low), std::move(high), std::move(start), constraints, std::move(evaluate)};
+  return {std::move(low), std::move(high), std::move(start), constraints, std::move(evaluate), {}};
 }
 
 std::vector<Sample> Zoo() {
@@ -108,6 +108,16 @@ TEST(NlpTest, NloptClaimsNothingWrongWhereTheModelIsNotDefined) {
 TEST(NlpTest, NoSolverClaimsToHaveSolvedAnInfeasibleProgram) {
   EXPECT_NE(SolveWithIpopt(Infeasible()).status, NlpStatus::kSolved);
   EXPECT_NE(SolveWithNlopt(Infeasible()).status, NlpStatus::kSolved);
+}
+
+// What is stopped is not solved.
+TEST(NlpTest, StopEndsBothSolvers) {
+  for (const Sample& sample : Zoo()) {
+    Nlp nlp = sample.nlp;
+    nlp.stop = [] { return true; };
+    EXPECT_NE(SolveWithIpopt(nlp).status, NlpStatus::kSolved) << sample.name;
+    EXPECT_NE(SolveWithNlopt(nlp).status, NlpStatus::kSolved) << sample.name;
+  }
 }
 
 TEST(NlpTest, NeverDefinedFails) {
