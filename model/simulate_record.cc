@@ -28,7 +28,8 @@ void Run<T, Stepper>::RecordSourceLowest() {
   if (const auto source = system_.source_state()) {
     lower(*source, response_.source_lowest_pressure_pa);
   }
-  if (system_.driven()) {  // monotone within a step, which ends at the record's knots at the latest
+  if (system_
+          .driven()) {  // monotone within a step, which ends at the record's points at the latest
     const T source_pa = system_.SourcePressure(stepper_.time(), stepper_.state());
     const auto lower_to = [&](T& lowest_pa) {
       if (source_pa < lowest_pa) lowest_pa = source_pa;

@@ -110,7 +110,7 @@ void Run<T, Stepper>::ApplySwitches() {
     // A valve that was closed at equal pressures may have something to pass again.
     system_.set_settled(i, false);
   }
-  // At a knot of a source's record alone the step goes on as it was.
+  // At a point of a source's record alone the step goes on as it was.
   smooth_ = system_.driven() && !switched && response_.steps > 0;
 }
 
@@ -188,9 +188,9 @@ T Run<T, Stepper>::NextBoundary() const {
     consider(system_.venting(i).EndTime());
   }
   if (const auto* driven = std::get_if<DrivenSource>(&rig_.source)) {
-    const std::span<const double> knots = driven->pressure_pa.x();
-    const auto next = std::upper_bound(knots.begin(), knots.end(), ValueOf(t_s_));
-    if (next != knots.end()) consider(T(*next));
+    const std::vector<double>& points = driven->time_s;
+    const auto next = std::upper_bound(points.begin(), points.end(), ValueOf(t_s_));
+    if (next != points.end()) consider(T(*next));
   }
   return boundary_s;
 }

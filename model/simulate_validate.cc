@@ -128,10 +128,17 @@ void CheckSource(const ReservoirSource& source, Check& check) {
 }
 
 void CheckSource(const DrivenSource& source, Check& check) {
-  if (source.pressure_pa.empty()) check.Fails("pressure_pa", "is empty, must hold a point");
-  for (const double pressure_pa : source.pressure_pa.y()) {
-    check.Positive("pressure_pa", pressure_pa);
+  if (source.time_s.empty()) check.Fails("time_s", "is empty, must hold a point");
+  if (source.pressure_pa.size() != source.time_s.size()) {
+    check.Fails("pressure_pa", "must hold as many points as time_s");
   }
+  double before_s = -std::numeric_limits<double>::infinity();
+  for (const double time_s : source.time_s) {
+    check.Require(std::isfinite(time_s) && time_s > before_s, "time_s", time_s,
+                  "finite and above the one before");
+    before_s = time_s;
+  }
+  for (const double pressure_pa : source.pressure_pa) check.Positive("pressure_pa", pressure_pa);
   check.Positive("factor", source.factor);
 }
 

@@ -189,16 +189,14 @@ TEST(Sensitivity, OfTwoGroupsBehindOneRegulator) {
 TEST(Sensitivity, OfADrivenSourceAndTheInletPressure) {
   GroupRig group = TwoElements();
   group.inlet_after = 1;
-  const DrivenSource source = {
-      MonotoneCurve({0.0, 0.2, 0.5, 1.0, 2.0}, {3e5, 2.7e5, 2.8e5, 3.1e5, 2e5}), 0.97};
+  const DrivenSource source = {{0.0, 0.2, 0.5, 1.0, 2.0}, {3e5, 2.7e5, 2.8e5, 3.1e5, 2e5}, 0.97};
   const Worst worst = AgainstDifferences(RigOf(source, {group}), Tight(), 1e-4, Any);
   EXPECT_LT(worst.error, 1e-5) << worst.where;
 }
 
 // One parameter that moves the volume, both ways through the valve and the source together.
 TEST(Sensitivity, AlongADirectionAgreesWithDifferences) {
-  Rig rig =
-      RigOf(DrivenSource{MonotoneCurve({0.0, 0.5, 2.0}, {3e5, 2.7e5, 2.9e5})}, {TwoElements()});
+  Rig rig = RigOf(DrivenSource{{0.0, 0.5, 2.0}, {3e5, 2.7e5, 2.9e5}, 1.0}, {TwoElements()});
   rig.groups[0].effects = {{FindEffect("creep"), {0.2, 0.3}}};
   GroupRig& group = rig.groups[0];
   auto& source = std::get<DrivenSource>(rig.source);

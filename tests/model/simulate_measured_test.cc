@@ -36,7 +36,7 @@ std::vector<double> Pressures(const Rig& rig, const SimulateOptions& options) {
 TEST(DrivenSource, FillsByTheIntegralOfItsPressureWhileTheLineIsChoked) {
   GroupRig group = OneActuator(2e5, 1.0, kValve);
   group.schedule = {{0.0, kInflate}};
-  const Rig rig = RigOf(DrivenSource{MonotoneCurve({0.0, 0.5}, {5e5, 7e5})}, {group});
+  const Rig rig = RigOf(DrivenSource{{0.0, 0.5}, {5e5, 7e5}, 1.0}, {group});
   const std::vector<double> p = Pressures(rig, Until(0.05, 400.0));
   for (std::size_t k = 0; k < p.size(); ++k) {
     const double t = static_cast<double>(k) / 400.0;
@@ -49,7 +49,7 @@ TEST(DrivenSource, FillsByTheIntegralOfItsPressureWhileTheLineIsChoked) {
 TEST(DrivenSource, ConstantIsARegulatedOneAndItsFactorScalesTheGaugePressure) {
   const std::vector<double> regulated =
       Pressures(RigOf(Regulated(2.8e5), {ValveAndTube()}), Until(2.0, 50.0));
-  const DrivenSource driven = {MonotoneCurve({0.0, 0.3, 0.7}, {1.9e5, 1.9e5, 1.9e5}), 2.0};
+  const DrivenSource driven = {{0.0, 0.3, 0.7}, {1.9e5, 1.9e5, 1.9e5}, 2.0};
   const std::vector<double> same = Pressures(RigOf(driven, {ValveAndTube()}), Until(2.0, 50.0));
   ASSERT_EQ(same.size(), regulated.size());
   for (std::size_t k = 0; k < same.size(); ++k) EXPECT_NEAR(same[k], regulated[k], 0.02) << k;
@@ -61,7 +61,7 @@ TEST(DrivenSource, PlaysBackAReservoir) {
   const Rig rig = RigOf(reservoir, {ValveAndTube()});
   const Response recorded = Simulate(rig, Until(1.5, 1000.0));
   const Rig played =
-      RigOf(DrivenSource{MonotoneCurve(recorded.t_s, recorded.source_pressure_pa)}, rig.groups);
+      RigOf(DrivenSource{recorded.t_s, recorded.source_pressure_pa, 1.0}, rig.groups);
   const Response r = Simulate(played, Until(1.5, 1000.0));
   ASSERT_EQ(r.status, SimulateStatus::kDone) << r.detail;
   for (std::size_t k = 0; k < r.t_s.size(); ++k) {
@@ -75,7 +75,7 @@ TEST(DrivenSource, ABriefRiseLongAfterTheValveSettledIsNotPassedOver) {
   GroupRig group = OneActuator(2e5, 1.0, kValve);
   group.schedule = {{0.0, kInflate}};
   const DrivenSource source = {
-      MonotoneCurve({0.0, 50.0, 50.01, 50.02, 100.0}, {1.5e5, 1.5e5, 1.8e5, 1.5e5, 1.5e5})};
+      {0.0, 50.0, 50.01, 50.02, 100.0}, {1.5e5, 1.5e5, 1.8e5, 1.5e5, 1.5e5}, 1.0};
   const std::vector<double> p = Pressures(RigOf(source, {group}), Until(100.0, 1.0));
   EXPECT_NEAR(p[49], 1.5e5, 1.0);
   // Flow of a rise by 30 kPa for about 10 ms: between a tenth and all of what choked flow brings.
