@@ -156,6 +156,12 @@ Reading ReadingOf(const model::Response& response) {
   return reading;
 }
 
+// Without heat_transfer the gas has the ambient's temperature.
+void FillTemperature(const Run& run, Reading& reading) {
+  if (reading.channels.temperature_k.empty())
+    reading.channels.temperature_k.assign(reading.pressure_pa.size(), run.ambient.temperature_k);
+}
+
 double FirstReading(const Run& run) {
   const auto first = std::find_if(run.pressure_pa.begin(), run.pressure_pa.end(),
                                   [](double pa) { return !std::isnan(pa); });
@@ -289,6 +295,7 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
     prediction.status = response.status;
     prediction.detail = response.detail;
     prediction.reading = ReadingOf(response);
+    FillTemperature(run, prediction.reading);
     prediction.derivatives.resize(parameters.size());
     return prediction;
   }
@@ -297,6 +304,7 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
   prediction.status = result.response.status;
   prediction.detail = result.response.detail;
   prediction.reading = ReadingOf(result.response);
+  FillTemperature(run, prediction.reading);
   prediction.derivatives.resize(parameters.size());
   for (std::size_t j = 0; j < result.derivatives.size(); ++j)
     prediction.derivatives[moved[j]] = ReadingOf(result.derivatives[j]);

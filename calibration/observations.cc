@@ -34,9 +34,8 @@ ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
   signal.sigma = noise.sigma_pa;
   const std::vector<double>& measured = Measured(run, signal);
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    const bool dropped =
-        std::binary_search(noise.outliers.begin(), noise.outliers.end(), i) ||
-        std::binary_search(noise.clipped.begin(), noise.clipped.end(), i);
+    const bool dropped = std::binary_search(noise.outliers.begin(), noise.outliers.end(), i) ||
+                         std::binary_search(noise.clipped.begin(), noise.clipped.end(), i);
     if (std::isfinite(measured[i]) && !dropped) signal.samples.push_back(i);
   }
   for (std::size_t k = 0; k < signal.samples.size(); ++k) {
@@ -143,8 +142,8 @@ void Residuals(const Run& run, const ObservedRun& observed, const Reading& predi
   for (const ObservedSignal& signal : observed.signals) {
     const std::vector<double>& model = Predicted(predicted, signal);
     const std::vector<double>& measured = Measured(run, signal);
-    Whiten(signal, [&](std::size_t i) { return model.empty() ? 0.0 : model[i] - measured[i]; },
-           row);
+    Whiten(
+        signal, [&](std::size_t i) { return model.empty() ? 0.0 : model[i] - measured[i]; }, row);
   }
 }
 
@@ -152,7 +151,8 @@ void Whitened(const ObservedRun& observed, const Reading& derivative, std::span<
   double* row = rows.data();
   for (const ObservedSignal& signal : observed.signals) {
     const std::vector<double>& series = Predicted(derivative, signal);
-    Whiten(signal, [&](std::size_t i) { return series.empty() ? 0.0 : series[i]; }, row);
+    Whiten(
+        signal, [&](std::size_t i) { return series.empty() ? 0.0 : series[i]; }, row);
   }
 }
 

@@ -28,7 +28,7 @@ struct ObservedSignal {
 };
 
 struct ObservedRun {
-  Noise noise;  // of the pressure, as the readings show it
+  Noise noise;                          // of the pressure, as the readings show it
   std::vector<ObservedSignal> signals;  // the pressure first
   std::size_t rows() const;
 };
