@@ -17,17 +17,22 @@ constexpr double kSameInstant = 1e-3;   // of the mean spacing
 constexpr double kGapMax = 10.0;        // of the median spacing
 constexpr double kNoiseless = 1e-4;     // of the range: wild values smaller than that pass
 constexpr double kSigmaError = 1.07;    // standard error of σ over σ is this over √windows
-constexpr int kRepeatsMin = 8;          // degrees of freedom
-constexpr int kWindowsMin = 30;         // else look further than the quiet spans
+// A signal that settles reads (q/2)² off at worst, three times the mean over levels, q²/12.
+constexpr double kRoundingError = 0.4;
+constexpr int kRepeatsMin = 8;   // degrees of freedom
+constexpr int kWindowsMin = 30;  // else look further than the quiet spans
 constexpr int kCorrelationWindowsMin = 100;
 constexpr std::size_t kCorrelationWindows = 2000;  // thinned to about these
 constexpr int kStridesMax = 6;                     // 1, 2, … 32
-// Standard error of ln(D_2k/D_k) of white noise is 2.2/√n (found by simulation); more than three of
+// Standard error of ln(D_2k/D_k) of white noise is 2.2/√n (found by simulation); more than two of
 // them tell correlation.
 constexpr double kGrowthError = 2.2;
-constexpr double kGrowthSigmas = 3.0;
-// No covariance of the assumed form grows faster than 2; beyond, the signal itself is seen.
-constexpr double kGrowthMax = 2.3;
+constexpr double kGrowthSigmas = 2.0;
+constexpr double kGrowthMax = 2.0;  // of any θ; what grows faster is the signal's own bend
+// Standard errors of ρ and, where ρ > 0, of σ over σ, times √windows (by simulation, ρ ≤ 0.9).
+constexpr double kLagError = 2.0;
+constexpr double kLagMax = 0.95;
+double CorrelatedSigmaError(double rho) { return 0.6 * (1.0 + rho) / (1.0 - rho); }
 
 struct Samples {
   std::vector<double> t_s, y;
@@ -147,10 +152,11 @@ std::vector<std::vector<Window>> GrowingStrides(const Samples& samples,
     std::vector<Window> next = Windows(samples, spans, stride, spacing_s);
     Trim(next, floor);
     if (static_cast<int>(next.size()) < kCorrelationWindowsMin) break;
-    const double growth = MeanSquare(next) / MeanSquare(strides.back());
-    if (!(growth < kGrowthMax)) break;
+    const double growth = std::log(MeanSquare(next) / MeanSquare(strides.back()));
     const double independent = static_cast<double>(next.size()) / static_cast<double>(stride / 2);
-    growing = std::log(growth) > kGrowthSigmas * kGrowthError / std::sqrt(independent);
+    const double margin = kGrowthSigmas * kGrowthError / std::sqrt(independent);
+    if (!(growth < std::log(kGrowthMax) + margin)) break;
+    growing = growth > margin;
     if (growing || strides.size() > 1) strides.push_back(std::move(next));
   }
   return strides;
@@ -264,14 +270,23 @@ void FromDifferences(const Samples& samples, std::span<const TimeSpan> places, d
   Trim(windows, floor);
   noise.windows = static_cast<int>(windows.size());
   if (windows.empty()) return;
-  noise.relative_error = kSigmaError / std::sqrt(static_cast<double>(noise.windows));
+  const double root = std::sqrt(static_cast<double>(noise.windows));
+  noise.relative_error = kSigmaError / root;
   noise.sigma_pa = std::sqrt(MeanSquare(windows));
-  if (noise.sigma_pa < 0.5 * noise.quantum_pa) return;  // a staircase
+  if (noise.sigma_pa < 0.5 * noise.quantum_pa) {  // a staircase: rounding depends on the level
+    noise.relative_error = std::max(noise.relative_error, kRoundingError);
+    return;
+  }
+  noise.lag1_error = std::min(kLagError / root, 1.0);
   const auto strides = GrowingStrides(samples, places, std::move(windows), spacing_s, floor);
   if (strides.size() > 1) {
     noise.correlation_time_s = CorrelationTime(strides, spacing_s);
     noise.sigma_pa = std::exp(0.5 * Agree(strides, noise.correlation_time_s).log_variance);
     noise.lag1 = std::exp(-spacing_s / noise.correlation_time_s);
+    noise.relative_error =
+        std::max(kSigmaError,
+                 CorrelatedSigmaError(std::min(noise.lag1 + noise.lag1_error, kLagMax))) /
+        root;
   }
 }
 
@@ -310,8 +325,9 @@ Noise EstimateNoise(std::span<const double> t_s, std::span<const double> y,
     noise.source = NoiseSource::kRepeats;
     noise.sigma_pa = TrimmedRms(deviations, rounding_pa);
     noise.relative_error = 1.0 / std::sqrt(2.0 * noise.repeat_freedom);
-    noise.correlation_time_s = noise.lag1 = 0.0;
+    noise.correlation_time_s = noise.lag1 = noise.lag1_error = 0.0;
   }
+  if (samples.t_s.size() > 1) noise.spacing_s = MedianSpacing(samples.t_s);
   noise.staircase = noise.sigma_pa < 0.5 * noise.quantum_pa;
   noise.sigma_pa = std::max(noise.sigma_pa, rounding_pa);
   noise.effective_samples = usable * (1.0 - noise.lag1) / (1.0 + noise.lag1);

@@ -34,7 +34,9 @@ struct Noise {
   double quantum_pa = 0.0;          // step of the readings' grid; 0: none found
   bool staircase = false;           // noise below half a quantum: errors are sawtooth, not random
   double correlation_time_s = 0.0;  // θ; 0: not told from white noise
-  double lag1 = 0.0;                // exp(−Δt/θ) at the median spacing
+  double spacing_s = 0.0;           // median Δt between instants
+  double lag1 = 0.0;                // ρ = exp(−Δt/θ) at that spacing
+  double lag1_error = 0.0;          // standard error of ρ, also where it is 0
   double effective_samples = 0.0;   // n·(1−ρ)/(1+ρ) of the n usable readings
   double repeat_sigma_pa = std::numeric_limits<double>::quiet_NaN();  // pooled over overlaid
                                                                       // samples, NaN without
