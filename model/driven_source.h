@@ -1,0 +1,38 @@
+// A source whose pressure over time is given, such as the record of a sensor at the source.
+//   p_s(t) = p_a + factor·(p(t) − p_a)
+// with p(t) the straight lines through the record's points, and its first and last value outside.
+// Steps of the simulator end at every point, so that no feature of the record is passed over: a
+// noisy record costs a step or more a sample and should be condensed first. The check in the line
+// passes what noise lifts and holds what it drops, so noise also biases a line near equal
+// pressures.
+#ifndef PLENUM_MODEL_DRIVEN_SOURCE_H_
+#define PLENUM_MODEL_DRIVEN_SOURCE_H_
+
+#include <algorithm>
+#include <vector>
+
+#include "model/scalar.h"
+
+namespace plenum::model {
+
+struct DrivenSource {
+  std::vector<double> time_s;       // rising
+  std::vector<double> pressure_pa;  // absolute, as many
+  double factor = 1.0;              // on the gauge pressure
+  bool operator==(const DrivenSource&) const = default;
+
+  // p(t) of the record.
+  template <class T>
+  T RecordedPressure(const T& t_s) const {
+    if (t_s <= time_s.front()) return T(pressure_pa.front());
+    if (t_s >= time_s.back()) return T(pressure_pa.back());
+    const auto next = std::upper_bound(time_s.begin(), time_s.end(), ValueOf(t_s));
+    const auto i = static_cast<std::size_t>(next - time_s.begin());
+    const double slope = (pressure_pa[i] - pressure_pa[i - 1]) / (time_s[i] - time_s[i - 1]);
+    return pressure_pa[i - 1] + slope * (t_s - time_s[i - 1]);
+  }
+};
+
+}  // namespace plenum::model
+
+#endif  // PLENUM_MODEL_DRIVEN_SOURCE_H_
