@@ -15,7 +15,12 @@ using Spec = const model::EffectSpec*;
 using Set = std::vector<Spec>;
 
 constexpr double kSameOptimum = 1.0;  // χ² apart
-constexpr int kTriplesFrom = 2;       // best pairs
+// Fits that only have to be compared end where χ² falls by less than this share, at most after so
+// many steps; those near the best are then taken further.
+constexpr double kScreening = 1e-4;
+constexpr int kScreeningIterations = 15;
+constexpr double kNear = 20.0;   // of BIC
+constexpr int kTriplesFrom = 2;  // best pairs
 
 std::size_t Place(Spec spec) {
   const auto all = model::Effects();
@@ -50,6 +55,8 @@ class Search {
       : options_(options), enough_(enough) {
     result_.data = data;
     fit_options_.cancelled = options.cancelled;
+    fit_options_.function_tolerance = kScreening;
+    fit_options_.iterations_max = kScreeningIterations;
   }
 
   SearchResult Run() {
@@ -64,11 +71,8 @@ class Search {
     std::size_t chosen = Best(0);
     for (int size = 1; size <= kEffectsMax && !Cancelled(); ++size) {
       if (size > 1) {
-        if (enough_(Of(chosen).fit) && !result_.contenders.empty()) {
-          ExtendSets({Of(chosen).effects}, size);
-        } else {
-          ExtendSets(Seeds(size - 1), size);
-        }
+        if (enough_(Of(chosen).fit)) break;
+        ExtendSets(Seeds(size - 1), size);
       }
       const Contender* best = BestOfSize(size);
       if (!best || !(best->fit.bic < Of(chosen).fit.bic - kAccept)) break;
@@ -165,7 +169,28 @@ class Search {
       const std::lock_guard lock(reporting);
       Report(from_share + share * (to_share - from_share), what);
     });
+    if (jobs.empty()) return;
+    const std::size_t size = jobs.front().set.size();
     for (Job& job : jobs) Take(std::move(job));
+    Refine(size);
+  }
+
+  // Takes the fits of sets of a size that come near the best one further.
+  void Refine(std::size_t size) {
+    const Contender* best = BestOfSize(static_cast<int>(size));
+    if (!best) return;
+    std::vector<Contender*> near;
+    for (Contender& contender : result_.contenders)
+      if (contender.effects.size() == size && contender.fit.Usable() &&
+          contender.fit.bic < best->fit.bic + kNear)
+        near.push_back(&contender);
+    FitOptions further = fit_options_;
+    further.function_tolerance = 0.01 * kScreening;
+    further.iterations_max = 3 * kScreeningIterations;
+    ForAll(near.size(), options_.threads, [&](std::size_t i) {
+      Fit fit = FitModel(result_.data, near[i]->fit.state, further);
+      if (fit.Usable() && fit.bic < near[i]->fit.bic) near[i]->fit = std::move(fit);
+    });
   }
 
   void Take(Job job) {

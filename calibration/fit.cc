@@ -1,6 +1,7 @@
 #include "calibration/fit.h"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -204,6 +205,7 @@ double Edge(const Coordinate& coordinate, double u) {
 }  // namespace
 
 Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& options) {
+  FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres says is in the status
   Fit fit;
   fit.state = start;
   fit.coordinates = CoordinatesOf(data, start);

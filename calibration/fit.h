@@ -35,7 +35,7 @@ struct FitOptions {
   double noise_share = 1e-2;         // integration error allowed, as a share of the noise
   double function_tolerance = 1e-6;  // relative change of χ² that ends the search
   int iterations_max = 40;
-  std::size_t steps_max = 20'000;  // of one run's integration; beyond, a step is not taken
+  std::size_t steps_max = 3'000;  // of one run's integration; beyond, a step is not taken
   int threads = 1;
   std::function<bool()> cancelled;  // may be empty
 };
