@@ -62,7 +62,7 @@ Json UncertaintyJson(const Numbers& sd) {
   Json json = Json::object();
   for (std::size_t n = 0; n < sd.size(); ++n) {
     if (sd[n] == 0.0) continue;
-    json[std::string(kNumberNames[n])] = std::isinf(sd[n]) ? Json("unknown") : Json(sd[n]);
+    json[std::string(kNumberNames[n])] = std::isinf(sd[n]) ? Json("unknown") : Json(api::Rounded(sd[n]));
   }
   return json;
 }
