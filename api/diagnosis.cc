@@ -249,6 +249,8 @@ Json RenderExperiment(const calibration::Experiment& experiment) {
     document["t_end_s"] = Number(run.t_s.back());
     document["sample_hz"] =
         Number(static_cast<double>(run.t_s.size() - 1) / (run.t_s.back() - run.t_s.front()));
+    document["t_s"] = Json::array();
+    for (const double t : run.t_s) document["t_s"].push_back(Number(std::round(t * 1e6) / 1e6));
   }
   Json measure = {"pressure_kpa_gauge"};
   for (const std::string& channel : experiment.measure) measure.push_back(channel);

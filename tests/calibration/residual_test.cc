@@ -26,7 +26,7 @@ constexpr double kSigmaPa = 200.0;
 #ifdef PLENUM_SANITIZED
 constexpr int kSeeds = 100;
 #else
-constexpr int kSeeds = 2000;
+constexpr int kSeeds = 1000;
 #endif
 
 // Two cycles of rise, hold, fall and rest.
