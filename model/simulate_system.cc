@@ -321,14 +321,14 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
     Group& group = groups_[i];
     FillMoment(group, t, y);
     Moment<T>& m = group.moment;
-    const T filling = group.settled ? T(0.0) : group.filling.At(t);
-    const T venting = group.settled ? T(0.0) : group.venting.At(t);
+    const T filling = group.settled ? T(0.0) : T(m.line_factor * group.filling.At(t));
+    const T venting = group.settled ? T(0.0) : T(m.line_factor * group.venting.At(t));
     if (venting > 0.0) {
       const Line<T>& out = group.lines[kExhaust];
+      const bool whole = IsZero(T(venting - 1.0));
       m.line_out_m3_per_s =
-          venting < 1.0
-              ? out.ThrottledFlow(venting, group.setup.exhaust_fixed, m.tail_pa, ambient_pa_)
-              : out.Flow(m.tail_pa, ambient_pa_, group.regime[kExhaust]);
+          whole ? out.Flow(m.tail_pa, ambient_pa_, group.regime[kExhaust])
+                : out.ThrottledFlow(venting, group.setup.exhaust_fixed, m.tail_pa, ambient_pa_);
       if (group.heated) m.line_out_m3_per_s *= sqrt(ambient_k_ / m.tail_temperature_k);
     }
     if (!group.lines[kFeed].empty()) {
@@ -479,8 +479,9 @@ T System<T>::InletPressure(std::size_t i, const T& t) const {
     return PressureBehind(setup.fill, group.fill_before_inlet, T(1.0), 0, m.head_pa, m.tail_pa);
   }
   if (m.line_out_m3_per_s > 0.0) {
-    return PressureBehind(setup.exhaust, group.exhaust_before_inlet, group.venting.At(t),
-                          setup.exhaust_fixed, m.tail_pa, ambient_pa_);
+    return PressureBehind(setup.exhaust, group.exhaust_before_inlet,
+                          m.line_factor * group.venting.At(t), setup.exhaust_fixed, m.tail_pa,
+                          ambient_pa_);
   }
   return m.tail_pa;
 }
