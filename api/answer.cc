@@ -1,4 +1,5 @@
 #include "api/front.h"
+#include "api/revised_ranking.h"
 #include "api/services.h"
 
 namespace plenum::api {
@@ -26,11 +27,8 @@ Json AnswerFront(const DesignRequest& request, const optimizer::SearchOptions& o
 
 }  // namespace
 
-Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions options,
-                   const std::vector<catalog::Part>& parts) {
-  options.time_limit_s = request.time_limit_s;
-  options.record = request.proof;
-  if (!request.pareto.empty()) return AnswerFront(request, options, parts);
+ListAnswer AnswerList(const DesignRequest& request, const optimizer::SearchOptions& options,
+                      const std::vector<catalog::Part>& parts) {
   optimizer::RobustAnswer robust;
   if (request.robust)
     robust = optimizer::SearchRobust(request.problem, options, request.robust->options,
@@ -42,7 +40,16 @@ Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions option
   if (request.robust) AddRobustness(*request.robust, robust, document);
   if (request.explain)
     AddExplanation(*request.explain, request.problem, robust.answer, options, document);
-  return document;
+  return {std::move(robust.answer), std::move(document)};
+}
+
+Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions options,
+                   const std::vector<catalog::Part>& parts) {
+  options.time_limit_s = request.time_limit_s;
+  options.record = request.proof;
+  if (!request.pareto.empty()) return AnswerFront(request, options, parts);
+  if (request.model) return AnswerRevised(request, options, parts);
+  return AnswerList(request, options, parts).document;
 }
 
 }  // namespace plenum::api

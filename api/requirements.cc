@@ -227,10 +227,22 @@ optimizer::Limits ReadLimits(Reader& request) {
   return limits;
 }
 
-void ReadModel(Reader& request) {
+// Effects of the revision go to every group; those of its sensor change no actuator.
+void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& models,
+               DesignRequest& parsed) {
   const std::string name = request.Text("model", "nominal");
-  if (!name.empty() && name != "nominal")
-    request.Fail("model", "no model revision is named " + Quoted(name) + "; available: nominal");
+  if (name.empty() || name == "nominal") return;
+  auto found = FindModel(name, models, request.Pointer("model"));
+  if (const auto* errors = std::get_if<Errors>(&found)) {
+    request.errors().insert(request.errors().end(), errors->begin(), errors->end());
+    return;
+  }
+  for (const model::Effect& effect : std::get<SavedModel>(found).effects) {
+    if (effect.spec->place == model::EffectPlace::kSensor) continue;
+    for (optimizer::ActuatorGroup& group : parsed.problem.groups) group.effects.push_back(effect);
+  }
+  parsed.model = *std::find_if(models.begin(), models.end(),
+                               [&](const auto& model) { return model.name == name; });
 }
 
 bool HasErrorIn(const Errors& errors, std::initializer_list<std::string_view> places) {
@@ -243,7 +255,8 @@ bool HasErrorIn(const Errors& errors, std::initializer_list<std::string_view> pl
 }  // namespace
 
 Parsed<DesignRequest> ParseRequirements(const Json& request,
-                                        const std::vector<catalog::Part>& parts) {
+                                        const std::vector<catalog::Part>& parts,
+                                        const std::vector<catalog::ModelRevision>& models) {
   Errors errors;
   DesignRequest parsed;
   optimizer::Problem& problem = parsed.problem;
@@ -275,7 +288,9 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
     reader.FailAt("explain/ranks", "must be 0 with /ranking/probability_min");
   problem.limits = ReadLimits(reader);
   ReadSelection(reader, parts, problem);
-  ReadModel(reader);
+  ReadModel(reader, models, parsed);
+  if (parsed.model && parsed.proof)
+    reader.FailAt("ranking/proof", "is for the nominal model: its record cannot be verified");
   reader.Finish();
 
   const bool needs_fittings =

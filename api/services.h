@@ -9,6 +9,7 @@
 
 #include "api/explanation.h"
 #include "api/json.h"
+#include "api/model_revision.h"
 #include "api/robustness.h"
 #include "catalog/backup.h"
 #include "catalog/content_hash.h"
@@ -28,13 +29,15 @@ struct DesignRequest {
   std::string name;
   std::vector<optimizer::Amount> pareto;  // amounts of a front; empty: one objective
   std::optional<RobustRequest> robust;
-  std::optional<ExplainRequest> explain;  // with one objective only
+  std::optional<ExplainRequest> explain;        // with one objective only
+  std::optional<catalog::ModelRevision> model;  // that ranks instead of the nominal one
   Json request;  // as it was given; the answer echoes it, so that a saved answer can be checked
 };
 // Parses and validates requirements against the catalogue: every error at once. `parts` have passed
-// catalog::Validate.
+// catalog::Validate; `models` are the newest of each name that "model" may ask for.
 Parsed<DesignRequest> ParseRequirements(const Json& request,
-                                        const std::vector<catalog::Part>& parts);
+                                        const std::vector<catalog::Part>& parts,
+                                        const std::vector<catalog::ModelRevision>& models = {});
 // Searches and renders what the request asks for; `options` say how to stop and to report progress,
 // the time limit is the request's. `parts` are the rows the problem was made of.
 Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions options,

@@ -190,6 +190,8 @@ Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& 
   if (!errors.empty()) return errors;
   Json not_rechecked = Json::array();
   if (checks[0]["ok"].get<bool>()) {
+    if (request->is_object() && request->value("model", Json("nominal")) != "nominal")
+      return Errors{{"/requirements/model", "only answers of the nominal model can be verified"}};
     auto parsed = ParseRequirements(*request, parts);
     if (auto* wrong = std::get_if<Errors>(&parsed)) {
       for (Error& error : *wrong) error.pointer.insert(0, "/requirements");

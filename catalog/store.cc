@@ -8,6 +8,7 @@
 
 #include "catalog/connection.h"
 #include "catalog/history.h"
+#include "catalog/models.h"
 #include "catalog/rows.h"
 
 namespace plenum::catalog {
@@ -239,6 +240,29 @@ WriteResult Store::Undo(std::int64_t number, const Signature& by) {
   });
 }
 
+std::vector<ModelRevision> Store::Models() const {
+  return impl_->Read([](SQLite::Database& db) { return ReadModels(db); });
+}
+
+std::vector<ModelRevision> Store::ModelVersions(const std::string& name) const {
+  return impl_->Read([&](SQLite::Database& db) { return ReadVersions(db, name); });
+}
+
+std::optional<ModelRevision> Store::FindModel(const std::string& name,
+                                              std::optional<std::int64_t> version) const {
+  return impl_->Read([&](SQLite::Database& db) { return ReadModel(db, name, version); });
+}
+
+ModelRevision Store::SaveModel(const std::string& name, const std::string& document,
+                               const std::string& who) {
+  return impl_->Do([&](SQLite::Database& db) {
+    SQLite::Transaction transaction(db, SQLite::TransactionBehavior::IMMEDIATE);
+    ModelRevision saved = InsertModel(db, name, document, who);
+    transaction.commit();
+    return saved;
+  });
+}
+
 void Store::ReplaceSeed(const std::vector<Part>& parts) {
   std::vector<Part> seed = parts;
   for (Part& part : seed) part.origin = "seed";
@@ -274,6 +298,7 @@ std::vector<std::string> Store::Check() const {
       for (const FieldError& error : Validate(part))
         faults.push_back(part.id + ", " + error.field + ": " + error.detail);
     for (std::string& fault : CheckHistory(db)) faults.push_back(std::move(fault));
+    for (std::string& fault : CheckModels(db)) faults.push_back(std::move(fault));
     return faults;
   });
 }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "catalog/fields.h"
+#include "catalog/model_revision.h"
 #include "catalog/part.h"
 #include "catalog/revision.h"
 
@@ -107,12 +108,23 @@ class Store {
   // its own; all or none. Only where none of them was changed again since.
   WriteResult Undo(std::int64_t number, const Signature& by);
 
+  // Saved model revisions: the newest of each name in order of name; all of one name, newest first;
+  // one of them, the newest where no version is given. SaveModel adds a version, or gives the
+  // newest where it holds the same document already; `name` must pass WhyInvalidModelName, a
+  // document has 2 to 10,000,000 bytes. Parts, and so revisions of the catalogue, do not change.
+  std::vector<ModelRevision> Models() const;
+  std::vector<ModelRevision> ModelVersions(const std::string& name) const;
+  std::optional<ModelRevision> FindModel(const std::string& name,
+                                         std::optional<std::int64_t> version = {}) const;
+  ModelRevision SaveModel(const std::string& name, const std::string& document,
+                          const std::string& who);
+
   // Replaces all seed rows by `parts` (origin set to "seed"); rows of users stay. All or nothing.
   // A user's row with the id of a seed row keeps its place and the seed row is left out.
   void ReplaceSeed(const std::vector<Part>& parts);
 
-  // SQLite's own integrity and foreign-key check, Validate on every row, and whether the history
-  // agrees with the parts; empty: all is well.
+  // SQLite's own integrity and foreign-key check, Validate on every row, whether the history agrees
+  // with the parts and saved models with their hashes; empty: all is well.
   std::vector<std::string> Check() const;
 
   // Changes with every committed write, by any process: the number of the newest revision.

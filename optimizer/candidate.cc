@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/storage.h"
+#include "optimizer/effect_strokes.h"
 #include "optimizer/evaluate_strokes.h"
 
 namespace plenum::optimizer {
@@ -101,7 +102,8 @@ std::vector<Margin> SupplyMargins(const Problem& problem, const Candidate& candi
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const ActuatorGroup& group = problem.groups[g];
     const double highest_pa =
-        candidate.lines[g]->holds ? group.chamber.operating_pressure_pa : point.source_pa;
+        std::max(evaluation.groups[g].highest_pressure_pa,
+                 candidate.lines[g]->holds ? group.chamber.operating_pressure_pa : point.source_pa);
     margins.push_back(AtMost(Pointer(g, "pressure_kpa_gauge_max"),
                              (group.pressure_max_pa - ambient_pa) / kPaPerKpa,
                              (highest_pa - ambient_pa) / kPaPerKpa));
@@ -203,21 +205,24 @@ Evaluation Evaluate(const Problem& problem, const Candidate& candidate, const Op
   if (!strokes.works) return evaluation;
   evaluation.works = true;
 
+  const bool revised = HasEffects(problem);
+  evaluation.air_per_cycle_m3 = revised ? strokes.air_m3 : 0.0;
   double coil_power_w = 0.0;
   double slowest_s = 0.0;
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const Line& line = *candidate.lines[g];
     const double rise_s = strokes.rise_s[g];
     const double inflate_s = strokes.inflate_s[g];
-    evaluation.groups.push_back(
-        {rise_s, line.fall_time_s, inflate_s, 1.0 / (rise_s + line.fall_time_s)});
-    evaluation.air_per_cycle_m3 += AirPerStroke(problem, g, line, point.source_pa);
+    const double fall_s = revised ? strokes.fall_s[g] : line.fall_time_s;
+    evaluation.groups.push_back({rise_s, fall_s, inflate_s, 1.0 / (rise_s + fall_s),
+                                 revised ? strokes.highest_pa[g] : 0.0});
+    evaluation.air_per_cycle_m3 += revised ? 0.0 : AirPerStroke(problem, g, line, point.source_pa);
     evaluation.energy_coils_j +=
         problem.actuations *
         CoilEnergyPerCycle(problem, line,
                            options.least_coil_energy ? line.inflate_time_least_s : inflate_s);
     coil_power_w += line.coil_power_w;
-    slowest_s = std::max({slowest_s, inflate_s, line.fall_time_s});
+    slowest_s = std::max({slowest_s, inflate_s, fall_s});
   }
   evaluation.air_total_m3 = problem.actuations * evaluation.air_per_cycle_m3;
   evaluation.energy_per_cycle_j = evaluation.energy_coils_j / problem.actuations;

@@ -5,6 +5,7 @@
 
 #include "model/reservoir_stroke.h"
 #include "model/stroke.h"
+#include "optimizer/effect_strokes.h"
 #include "optimizer/pump_bounds.h"
 #include "optimizer/pump_march.h"
 
@@ -201,7 +202,7 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
   const int groups = static_cast<int>(problem.groups.size());
   const bool alone = groups == 1 || !problem.simultaneous;
-  if (!alone) return SimulateStrokes(problem, candidate, point);
+  if (!alone || HasEffects(problem)) return SimulateStrokes(problem, candidate, point);
 
   Strokes strokes = EmptyStrokes(problem);
   const double time_s = 1.0 / problem.frequency_hz / groups;  // until the next group's command
@@ -252,6 +253,7 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
     group.exhaust = line.exhaust;
     group.close_at_operating = line.holds;
     group.initial_pressure_pa = pressures_pa[g];
+    group.effects = ActingEffects(problem.groups[g], candidate.configuration);
     const double phase = problem.simultaneous ? 0.0 : static_cast<double>(g) / groups;
     // A staggered stroke that began before this cycle is still held at its start.
     if (phase >= 0.5) {
@@ -270,6 +272,7 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
 
 Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
+  if (HasEffects(problem)) return SimulateWithEffects(problem, candidate, point);
   Strokes strokes = EmptyStrokes(problem);
   const double period_s = 1.0 / problem.frequency_hz;
   const std::size_t groups = problem.groups.size();

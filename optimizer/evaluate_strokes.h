@@ -16,6 +16,9 @@ struct Strokes {
   std::vector<double> rise_s, inflate_s;  // per group, worst of the cycle
   double pump_on_s = 0.0;                 // per cycle
   double pump_energy_j = 0.0;             // per cycle, all pumps
+  // With effects only; without them the line knows.
+  std::vector<double> fall_s, highest_pa;  // per group
+  double air_m3 = 0.0;                     // ANR, per cycle, all actuators
 };
 
 model::Gas GasOf(Configuration configuration);
@@ -39,7 +42,8 @@ double AloneExcess(const Problem& problem, const std::vector<const Line*>& lines
 double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
                          const OperatingPoint& point);
 
-// The strokes by the simulator alone, from the first cycle until the source's state repeats.
+// The strokes by the simulator alone, from the first cycle until the source's state repeats; with
+// effects by SimulateWithEffects (effect_strokes.h).
 Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point);
 

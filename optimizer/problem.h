@@ -14,6 +14,7 @@
 
 #include "model/air.h"
 #include "model/chamber.h"
+#include "model/effects/effect.h"
 #include "model/parts.h"
 #include "optimizer/big_count.h"
 #include "optimizer/proof.h"
@@ -48,6 +49,7 @@ struct ActuatorGroup {
   double rise_time_max_s = kUnlimited;
   double fall_time_max_s = kUnlimited;
   double pressure_max_pa = 0.0;
+  std::vector<model::Effect> effects;  // of a revised model; none: the base model
 };
 
 struct Objective {  // weighted sum; a plain objective has one weight of 1
@@ -127,6 +129,7 @@ struct GroupPerformance {
   double rise_time_s = 0.0, fall_time_s = 0.0;
   double inflate_time_s = 0.0;  // to the operating pressure
   double frequency_max_hz = 0.0;
+  double highest_pressure_pa = 0.0;  // of the periodic state; 0: that at which the valve closes
 };
 
 struct Performance {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/storage.h"
+#include "optimizer/effect_strokes.h"
 #include "optimizer/evaluate_strokes.h"
 
 namespace plenum::optimizer {
@@ -123,6 +124,7 @@ bool Confirm(const Problem& problem, const Candidate& candidate, const Operating
   if (StrokeExcess(problem, evaluation) > 0.0 ||
       SupplyMargin(problem, candidate, point, evaluation) < 0.0)
     return false;
+  if (HasEffects(problem)) return true;  // the evaluation was the simulator's
   const Strokes strokes = SimulateStrokes(problem, candidate, point);
   if (!strokes.works) return false;
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {

@@ -4,7 +4,9 @@
 #include <set>
 
 #include "model/storage.h"
+#include "optimizer/effect_sizing.h"
 #include "optimizer/make_line.h"
+#include "optimizer/report.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -76,8 +78,13 @@ bool SetLine(const Problem& problem, const Design& design, int g, Line& line) {
   valve_corner.pressure_max_pa = valve->pressure_max_pa;
   const model::Gas gas =
       design.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
-  return MakeLine(problem, g, gas, {tube_corner, fitting_corner, valve_corner}, true, line) ==
-         Constraint::kNone;
+  const Constraint missed =
+      MakeLine(problem, g, gas, {tube_corner, fitting_corner, valve_corner}, true, line);
+  line.tubing = static_cast<int>(tube - problem.parts.tubing.data());
+  line.fitting =
+      fitting == nullptr ? -1 : static_cast<int>(fitting - problem.parts.fittings.data());
+  line.valve = static_cast<int>(valve - problem.parts.valves.data());
+  return missed == Constraint::kNone;
 }
 
 // False: the design has such a part and the problem does not. `charge_kg` is the gas in one piece.
@@ -121,6 +128,28 @@ bool SetOptions(const Problem& problem, const Design& design, Candidate& candida
          set(Family::kBattery, parts.batteries, none, candidate.battery);
 }
 
+// A candidate with lines of its own.
+struct Rebuilt {
+  std::vector<Line> lines;
+  Candidate candidate;
+};
+
+// The design's parts out of `problem`; what its lines can do at best is taken from `relaxed`.
+bool Rebuild(const Problem& problem, const Problem& relaxed, const Design& design,
+             Rebuilt& rebuilt) {
+  rebuilt.candidate.configuration = design.configuration;
+  rebuilt.lines.resize(problem.groups.size());
+  for (int g = 0; g < static_cast<int>(rebuilt.lines.size()); ++g) {
+    Line& line = rebuilt.lines[g];
+    if (!SetLine(relaxed, design, g, line)) return false;
+    const double bore_m3 = line.chamber.dead_volume_m3 - relaxed.groups[g].chamber.dead_volume_m3;
+    line.chamber = problem.groups[g].chamber;
+    line.chamber.dead_volume_m3 += bore_m3;
+    rebuilt.candidate.lines.push_back(&line);
+  }
+  return SetOptions(problem, design, rebuilt.candidate);
+}
+
 }  // namespace
 
 Problem WithPartsOf(const Problem& problem, const Design& design) {
@@ -141,27 +170,44 @@ Problem WithPartsOf(const Problem& problem, const Design& design) {
 }
 
 Leaf Resize(const Problem& problem, const Design& design) {
-  Leaf infeasible;
-  infeasible.status = LeafStatus::kInfeasible;
-  const model::Parts& parts = problem.parts;
-  Candidate candidate;
-  candidate.configuration = design.configuration;
-  std::vector<Line> lines(problem.groups.size());
-  for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
-    if (!SetLine(problem, design, g, lines[g])) return infeasible;
-    candidate.lines.push_back(&lines[g]);
+  Rebuilt rebuilt;
+  if (!Rebuild(problem, problem, design, rebuilt)) {
+    Leaf infeasible;
+    infeasible.status = LeafStatus::kInfeasible;
+    return infeasible;
   }
-  if (!SetOptions(problem, design, candidate)) return infeasible;
-  if (candidate.reservoir.index != kCustom)
-    return SizeAtVolume(
-        problem, candidate,
-        candidate.reservoir.index == kNone
-            ? 0.0
-            : candidate.reservoir.quantity * parts.reservoirs[candidate.reservoir.index].volume_m3);
-  CustomSizing sizing(problem, candidate);
+  if (rebuilt.candidate.reservoir.index != kCustom)
+    return SizeAtVolume(problem, rebuilt.candidate, ReservoirVolume(problem, rebuilt.candidate));
+  CustomSizing sizing(problem, rebuilt.candidate);
   while (!sizing.Refine()) {
   }
   return sizing.leaf();
+}
+
+Remade Remake(const Problem& problem, const Problem& relaxed, const Design& design,
+              const std::function<bool()>& stop) {
+  Rebuilt rebuilt;
+  if (!Rebuild(problem, relaxed, design, rebuilt)) return {LeafStatus::kInfeasible, {}};
+  const Leaf leaf = SizeWithEffects(problem, rebuilt.candidate,
+                                    design.settings.reservoir_volume_m3.value_or(0.0), stop);
+  Remade remade{leaf.status, {}};
+  if (leaf.status != LeafStatus::kFeasible) return remade;
+  remade.design = MakeDesign(problem, rebuilt.candidate, leaf);
+  if (!remade.design) remade.status = LeafStatus::kUndecided;
+  return remade;
+}
+
+std::optional<std::vector<Margin>> MarginsOf(const Problem& problem, const Problem& relaxed,
+                                             const Design& design) {
+  Rebuilt rebuilt;
+  if (!Rebuild(problem, relaxed, design, rebuilt)) return std::nullopt;
+  OperatingPoint point;
+  point.source_pa = design.settings.source_pressure_pa;
+  point.reservoir_m3 = point.reservoir_rising_m3 =
+      design.settings.reservoir_volume_m3.value_or(0.0);
+  const Evaluation evaluation = Evaluate(problem, rebuilt.candidate, point);
+  if (!evaluation.works) return std::nullopt;
+  return Margins(problem, rebuilt.candidate, point, evaluation);
 }
 
 }  // namespace plenum::optimizer

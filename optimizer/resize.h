@@ -3,6 +3,10 @@
 #ifndef PLENUM_OPTIMIZER_RESIZE_H_
 #define PLENUM_OPTIMIZER_RESIZE_H_
 
+#include <functional>
+#include <optional>
+#include <vector>
+
 #include "optimizer/sizing.h"
 
 namespace plenum::optimizer {
@@ -15,6 +19,20 @@ Problem WithPartsOf(const Problem& problem, const Design& design);
 // reservoir with the id "custom". Infeasible where a line misses its limits on any source or where
 // a part is missing. Whether the parts fit together is not asked again.
 Leaf Resize(const Problem& problem, const Design& design);
+
+// The design's parts under a revised model: sized by SizeWithEffects (effect_sizing.h) and made
+// anew. `relaxed` (relaxation.h) says what a line can do at best, the design comes from there.
+struct Remade {
+  LeafStatus status = LeafStatus::kUndecided;
+  std::optional<Design> design;  // kFeasible
+};
+Remade Remake(const Problem& problem, const Problem& relaxed, const Design& design,
+              const std::function<bool()>& stop);
+
+// Margins of the design's parts at its own settings under the problem's effects; none where a
+// stroke is never completed.
+std::optional<std::vector<Margin>> MarginsOf(const Problem& problem, const Problem& relaxed,
+                                             const Design& design);
 
 }  // namespace plenum::optimizer
 

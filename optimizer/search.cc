@@ -13,10 +13,12 @@
 
 #include "optimizer/conflict.h"
 #include "optimizer/dive.h"
+#include "optimizer/effect_strokes.h"
 #include "optimizer/problem.h"
 #include "optimizer/ranking.h"
 #include "optimizer/recorder.h"
 #include "optimizer/report.h"
+#include "optimizer/revised_search.h"
 #include "optimizer/sizing.h"
 #include "optimizer/tree_search.h"
 
@@ -385,6 +387,7 @@ class BoxSearch {
 }  // namespace
 
 Answer SearchTrees(const Problem& problem, const SearchOptions& options) {
+  if (HasEffects(problem)) return SearchRevised(problem, options);
   return BoxSearch(problem, options, Clock::now()).Run();
 }
 

@@ -66,9 +66,9 @@ api::Json AnswerWithProgress(const api::DesignRequest& request,
 int Design(const DesignOptions& options) {
   CatchInterrupts();
   const auto requirements = ReadRequirements(options);
-  const auto [revision, parts] =
-      OpenCatalog(options.catalog, catalog::Access::kRead).ListWithHead();
-  const auto request = ValueOrRefuse(api::ParseRequirements(requirements, parts));
+  const catalog::Store store = OpenCatalog(options.catalog, catalog::Access::kRead);
+  const auto [revision, parts] = store.ListWithHead();
+  const auto request = ValueOrRefuse(api::ParseRequirements(requirements, parts, store.Models()));
   auto json = AnswerWithProgress(request, parts);
   json["catalogue_revision"] = api::RenderRevisionName(revision);
   std::fputs(options.json ? (Dump(json) + "\n").c_str() : DesignText(json).c_str(), stdout);

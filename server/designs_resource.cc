@@ -98,7 +98,9 @@ Reply PostDesign(SharedCatalog& catalog, Jobs& jobs, const Call& call) {
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
   CatalogView view = catalog.View();
-  auto parsed = api::ParseRequirements(std::get<api::Json>(json), *view.parts);
+  auto parsed = api::ParseRequirements(
+      std::get<api::Json>(json), *view.parts,
+      catalog.With([](const catalog::Store& store) { return store.Models(); }));
   if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
   auto& request = std::get<api::DesignRequest>(parsed);
 

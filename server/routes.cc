@@ -3,6 +3,7 @@
 #include "api/services.h"
 #include "server/designs_resource.h"
 #include "server/history_resource.h"
+#include "server/models_resource.h"
 #include "server/parts_resource.h"
 
 namespace plenum::server {
@@ -72,6 +73,8 @@ std::vector<Route> Routes(SharedCatalog& catalog, Jobs& jobs) {
       {"GET", "/v1/parts/{id}/history", "changes of a part, newest first", parts(PartHistory)},
       {"GET", "/v1/revisions", "writes to the catalogue, newest first", parts(ListRevisions)},
       {"GET", "/v1/revisions/{id}", "one write with its changes", parts(GetRevision)},
+      {"GET", "/v1/models", "saved model revisions, the newest of each name", parts(ListModels)},
+      {"GET", "/v1/models/{id}", "all versions of a saved model revision", parts(GetModel)},
       {"POST", "/v1/revisions/{id}/undo", "takes the changes of a write back", parts(UndoRevision)},
       {"GET", "/healthz", "whether the service runs",
        [](const Call&) {

@@ -59,6 +59,16 @@ TEST_F(Migrating, AFileOfSchema1KeepsItsPartsAndGoesOnCounting) {
   ExpectPartsOfSchema1(store);
 }
 
+TEST_F(Migrating, AFileOfSchema2KeepsItsPartsAndHistoryAndTakesModels) {
+  MakeOld(2);
+  Store store = Write();
+  ExpectPartsOfSchema1(store);
+  EXPECT_EQ(store.Head().number, 9);
+  EXPECT_EQ(store.Changes(store.Head()).size(), 1u);
+  EXPECT_THAT(store.Models(), IsEmpty());
+  EXPECT_EQ(store.SaveModel("bench", "{}", "me").version, 1);
+}
+
 TEST_F(Migrating, ReadingMigratesToo) {
   MakeOld(1);
   ExpectPartsOfSchema1(Read());

@@ -13,6 +13,7 @@
 #include <memory>
 #include <thread>
 
+#include "catalog/store.h"
 #include "workbench.h"
 
 namespace plenum::server {
@@ -388,6 +389,24 @@ TEST(Serve, SaysWhenThePortIsTaken) {
   options.catalog = bench.catalog();
   options.port = serve.port();
   EXPECT_THROW(HttpService{options}, ListenError);
+}
+
+TEST_F(Http, ListsSavedModelsAndTheirVersions) {
+  EXPECT_EQ(Body(client_->Get("/v1/models")), Json({{"models", Json::array()}}));
+  {
+    catalog::Store store(bench_.catalog(), catalog::Access::kWrite);
+    store.SaveModel("bench", "{\"a\":1}", "me");
+    store.SaveModel("bench", "{\"a\":2}", "me");
+  }
+  const Json models = Body(client_->Get("/v1/models"))["models"];
+  ASSERT_EQ(models.size(), 1u);
+  EXPECT_EQ(models[0]["version"], 2);
+  EXPECT_EQ(models[0]["model"], Json({{"a", 2}}));
+  const Json versions = Body(client_->Get("/v1/models/bench"))["versions"];
+  ASSERT_EQ(versions.size(), 2u);
+  EXPECT_EQ(versions[1]["model"], Json({{"a", 1}}));
+  ExpectProblem(client_->Get("/v1/models/none"), 404);
+  ExpectProblem(client_->Delete("/v1/models/bench"), 405);
 }
 
 }  // namespace
