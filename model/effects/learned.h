@@ -9,7 +9,10 @@
 //   learned_volume       pressure_N   V = V_qs + V0·∫g(x)dx, g the extra growth
 //   learned_sensor       pressure_N   the reading is c(x)·(p_op − p_a) above the pressure
 //                        drift        … and a·(1 − e^(−t/τ)) + b·t
-// Two have a memory instead:
+// Where the structure is narrower than knots, it has one place of its own, S(z) = 1/(1 + e^−z):
+//   learned_leak         opening      as pressure_N with r(x) = r·S((x − x0)/w)
+//   learned_volume       bend         V = V_qs + V0·g·(S((x − x0)/w) − S(−x0/w))
+// Two have a memory:
 //   learned_volume       memory_N     below the highest x so far, x_m, the wall is softer by
 //                                     V0·x_m·h(x/x_m), h on knots in (0, 1), 0 at both ends
 //   learned_leak         store        a rigid volume behind an orifice (C, b), both ways
@@ -85,9 +88,9 @@ T PressureShare(const GroupSetup<T>& setup, const T& pressure_pa) {
          (setup.operating_pressure_pa - setup.ambient_pressure_pa);
 }
 
-inline constexpr std::array<ParameterSpec, 17> LearnedSpecs(
-    const std::array<std::string_view, 17>& names, double low, double high) {
-  std::array<ParameterSpec, 17> specs{};
+inline constexpr std::array<ParameterSpec, 9> LearnedSpecs(
+    const std::array<std::string_view, 9>& names, double low, double high) {
+  std::array<ParameterSpec, 9> specs{};
   for (std::size_t k = 0; k < specs.size(); ++k) specs[k] = {names[k], low, high};
   return specs;
 }
@@ -95,9 +98,20 @@ inline constexpr std::array<ParameterSpec, 17> LearnedSpecs(
 // The law's name with its number of knots.
 template <int N>
 constexpr std::string_view Knotted(std::string_view three, std::string_view five,
-                                   std::string_view nine, std::string_view seventeen) {
-  static_assert(N == 3 || N == 5 || N == 9 || N == 17);
-  return N == 3 ? three : N == 5 ? five : N == 9 ? nine : seventeen;
+                                   std::string_view nine) {
+  static_assert(N == 3 || N == 5 || N == 9);
+  return N == 3 ? three : N == 5 ? five : nine;
+}
+
+// S(z) = 1/(1 + e^−z).
+template <class T>
+T Sigmoid(const T& z) {
+  using std::exp;
+  if (z < 0.0) {
+    const T growing = exp(z);
+    return growing / (1.0 + growing);
+  }
+  return 1.0 / (1.0 + exp(-z));
 }
 
 }  // namespace plenum::model

@@ -11,16 +11,15 @@ enum class ConductanceFeature { kPressure, kExpansion };
 template <class T, int N, ConductanceFeature kFeature>
 class LearnedConductance final : public EffectUnit<T> {
  public:
-  static constexpr auto kNames = std::to_array<std::string_view>(
-      {"change_0", "change_1", "change_2", "change_3", "change_4", "change_5", "change_6",
-       "change_7", "change_8", "change_9", "change_10", "change_11", "change_12", "change_13",
-       "change_14", "change_15", "change_16"});
+  static constexpr auto kNames =
+      std::to_array<std::string_view>({"change_0", "change_1", "change_2", "change_3", "change_4",
+                                       "change_5", "change_6", "change_7", "change_8"});
   static constexpr auto kParameters = LearnedSpecs(kNames, -0.99, 10.0);
   static constexpr EffectSpec kSpec = {
       "learned_conductance",
       kFeature == ConductanceFeature::kPressure
-          ? Knotted<N>("pressure_3", "pressure_5", "pressure_9", "pressure_17")
-          : Knotted<N>("expansion_3", "expansion_5", "expansion_9", "expansion_17"),
+          ? Knotted<N>("pressure_3", "pressure_5", "pressure_9")
+          : Knotted<N>("expansion_3", "expansion_5", "expansion_9"),
       EffectPlace::kLine,
       {kParameters.data(), N}};
 

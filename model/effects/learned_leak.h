@@ -12,15 +12,12 @@ class LearnedLeak final : public EffectUnit<T> {
  public:
   static constexpr auto kNames = std::to_array<std::string_view>(
       {"rate_0_per_s", "rate_1_per_s", "rate_2_per_s", "rate_3_per_s", "rate_4_per_s",
-       "rate_5_per_s", "rate_6_per_s", "rate_7_per_s", "rate_8_per_s", "rate_9_per_s",
-       "rate_10_per_s", "rate_11_per_s", "rate_12_per_s", "rate_13_per_s", "rate_14_per_s",
-       "rate_15_per_s", "rate_16_per_s"});
+       "rate_5_per_s", "rate_6_per_s", "rate_7_per_s", "rate_8_per_s"});
   static constexpr auto kParameters = LearnedSpecs(kNames, 0.0, 1e3);
-  static constexpr EffectSpec kSpec = {
-      "learned_leak",
-      Knotted<N>("pressure_3", "pressure_5", "pressure_9", "pressure_17"),
-      EffectPlace::kChamber,
-      {kParameters.data(), N}};
+  static constexpr EffectSpec kSpec = {"learned_leak",
+                                       Knotted<N>("pressure_3", "pressure_5", "pressure_9"),
+                                       EffectPlace::kChamber,
+                                       {kParameters.data(), N}};
 
   explicit LearnedLeak(std::span<const T> p) : rate_(p, kLearnedEnd) {}
 
@@ -50,6 +47,27 @@ class LearnedLeak final : public EffectUnit<T> {
 
   LearnedCurve<T> rate_;
   T ambient_pa_, span_pa_;
+};
+
+template <class T>
+class LearnedOpening final : public EffectUnit<T> {
+ public:
+  static constexpr ParameterSpec kParameters[] = {
+      {"rate_per_s", 0.0, 1e3}, {"centre", 0.0, kLearnedEnd}, {"width", 0.003, 0.5}};
+  static constexpr EffectSpec kSpec = {"learned_leak", "opening", EffectPlace::kChamber,
+                                       kParameters};
+
+  explicit LearnedOpening(std::span<const T> p) : rate_per_s_(p[0]), centre_(p[1]), width_(p[2]) {}
+
+  void AfterFlow(const GroupSetup<T>& setup, const T*, Moment<T>& m) const override {
+    const T above = m.pressure_pa - setup.ambient_pressure_pa;
+    const T open = Sigmoid<T>((PressureShare(setup, m.pressure_pa) - centre_) / width_);
+    LeakOrifice<T>::AddLeak(
+        rate_per_s_ * open * setup.rest_volume_m3 * above / kReferencePressurePa, m);
+  }
+
+ private:
+  T rate_per_s_, centre_, width_;
 };
 
 template <class T>

@@ -9,16 +9,14 @@ namespace plenum::model {
 template <class T, int N>
 class LearnedSensor final : public EffectUnit<T> {
  public:
-  static constexpr auto kNames = std::to_array<std::string_view>(
-      {"shift_0", "shift_1", "shift_2", "shift_3", "shift_4", "shift_5", "shift_6", "shift_7",
-       "shift_8", "shift_9", "shift_10", "shift_11", "shift_12", "shift_13", "shift_14", "shift_15",
-       "shift_16"});
+  static constexpr auto kNames =
+      std::to_array<std::string_view>({"shift_0", "shift_1", "shift_2", "shift_3", "shift_4",
+                                       "shift_5", "shift_6", "shift_7", "shift_8"});
   static constexpr auto kParameters = LearnedSpecs(kNames, -10.0, 10.0);
-  static constexpr EffectSpec kSpec = {
-      "learned_sensor",
-      Knotted<N>("pressure_3", "pressure_5", "pressure_9", "pressure_17"),
-      EffectPlace::kSensor,
-      {kParameters.data(), N}};
+  static constexpr EffectSpec kSpec = {"learned_sensor",
+                                       Knotted<N>("pressure_3", "pressure_5", "pressure_9"),
+                                       EffectPlace::kSensor,
+                                       {kParameters.data(), N}};
 
   explicit LearnedSensor(std::span<const T> p) : shift_(p, kLearnedEnd) {}
 

@@ -10,16 +10,14 @@ namespace plenum::model {
 template <class T, int N>
 class LearnedVolume final : public EffectUnit<T> {
  public:
-  static constexpr auto kNames = std::to_array<std::string_view>(
-      {"growth_0", "growth_1", "growth_2", "growth_3", "growth_4", "growth_5", "growth_6",
-       "growth_7", "growth_8", "growth_9", "growth_10", "growth_11", "growth_12", "growth_13",
-       "growth_14", "growth_15", "growth_16"});
+  static constexpr auto kNames =
+      std::to_array<std::string_view>({"growth_0", "growth_1", "growth_2", "growth_3", "growth_4",
+                                       "growth_5", "growth_6", "growth_7", "growth_8"});
   static constexpr auto kParameters = LearnedSpecs(kNames, -100.0, 100.0);
-  static constexpr EffectSpec kSpec = {
-      "learned_volume",
-      Knotted<N>("pressure_3", "pressure_5", "pressure_9", "pressure_17"),
-      EffectPlace::kVolume,
-      {kParameters.data(), N}};
+  static constexpr EffectSpec kSpec = {"learned_volume",
+                                       Knotted<N>("pressure_3", "pressure_5", "pressure_9"),
+                                       EffectPlace::kVolume,
+                                       {kParameters.data(), N}};
 
   explicit LearnedVolume(std::span<const T> p) : growth_(p, kLearnedEnd) {}
 
@@ -54,6 +52,31 @@ class LearnedVolume final : public EffectUnit<T> {
 
   LearnedCurve<T> growth_;
   T ambient_pa_, span_pa_;
+};
+
+template <class T>
+class LearnedBend final : public EffectUnit<T> {
+ public:
+  static constexpr ParameterSpec kParameters[] = {
+      {"growth", -10.0, 10.0}, {"centre", 0.0, kLearnedEnd}, {"width", 0.003, 0.5}};
+  static constexpr EffectSpec kSpec = {"learned_volume", "bend", EffectPlace::kVolume, kParameters};
+
+  explicit LearnedBend(std::span<const T> p) : growth_(p[0]), centre_(p[1]), width_(p[2]) {}
+
+  void AfterVolume(const GroupSetup<T>& setup, const T*, Moment<T>& m) const override {
+    if (setup.blocked) return;
+    const T grown = Sigmoid<T>((PressureShare(setup, m.volume_pressure_pa) - centre_) / width_);
+    const T size_m3 = setup.rest_volume_m3 * growth_;
+    const T extra_m3 = size_m3 * (grown - Sigmoid<T>(-centre_ / width_));
+    m.quasi_static_volume_m3 += extra_m3;
+    m.volume_m3 += extra_m3;
+    if (!m.volume_follows) return;
+    const T span_pa = setup.operating_pressure_pa - setup.ambient_pressure_pa;
+    m.volume_slope_m3_per_pa += size_m3 * grown * (1.0 - grown) / (width_ * span_pa);
+  }
+
+ private:
+  T growth_, centre_, width_;
 };
 
 // The state is the highest share of the operating pressure so far.

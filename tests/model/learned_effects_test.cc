@@ -122,8 +122,32 @@ TEST(LearnedEffects, AnEvenGrowthIsAnotherExpansionRatio) {
   GroupRig other = Cycled();
   other.chamber.expansion_ratio = 2.3;
   GroupRig group = Cycled();
-  group.effects = {Learned("learned_volume", "pressure_17", std::vector(17, 0.3))};
+  group.effects = {Learned("learned_volume", "pressure_9", std::vector(9, 0.3))};
   ExpectNear(Pressures(group), Pressures(other), 0.05);
+}
+
+// A narrow bend is a step of the volume at its place.
+TEST(LearnedEffects, ABendAddsItsVolumeAboveItsPlace) {
+  GroupRig group = Cycled();
+  group.effects = {Learned("learned_volume", "bend", {0.2, 0.5, 0.01})};
+  const Response with = Simulate(RigOf(Regulated(3e5), {group}), Until(4.5, 40.0));
+  ASSERT_EQ(with.status, SimulateStatus::kDone) << with.detail;
+  for (std::size_t k = 0; k < with.t_s.size(); ++k) {
+    const double x = (with.groups[0].pressure_pa[k] - 1e5) / 1e5;
+    if (std::abs(x - 0.5) < 0.1) continue;
+    EXPECT_NEAR(with.groups[0].volume_m3[k], 50e-6 * (1.0 + x + (x > 0.5 ? 0.2 : 0.0)), 1e-8);
+  }
+  EXPECT_NEAR(with.groups[0].gas_final_m3 - with.groups[0].gas_start_m3,
+              with.groups[0].air_in_m3 - with.groups[0].air_out_m3, 1e-10);
+}
+
+TEST(LearnedEffects, AnOpeningIsTightBelowItsPlace) {
+  GroupRig group = OneActuator(2e5, 1.0, kLine);
+  group.initial_pressure_pa = 2e5;
+  group.effects = {Learned("learned_leak", "opening", {2.0, 0.6, 0.005})};
+  const std::vector<double> p = Pressures(group, 20.0);
+  EXPECT_NEAR(p.back(), 1.6e5, 5e3);
+  EXPECT_NEAR(p[4], 1e5 + 1e5 * std::exp(-2.0 * 0.1), 1.0);  // wide open far above
 }
 
 TEST(LearnedEffects, AMemoryActsOnlyBelowTheHighestPressure) {

@@ -318,6 +318,8 @@ INSTANTIATE_TEST_SUITE_P(
         EffectCase{"supply_droop", "", {2e-4, 0.08e-8, 0.3}},
         EffectCase{"line_dynamics", "", {0.7, 3e-3}},
         EffectCase{"learned_leak", "pressure_5", {0.01, 0.02, 0.1, 0.3, 0.2}},
+        EffectCase{"learned_leak", "opening", {0.3, 0.5, 0.05}},
+        EffectCase{"learned_volume", "bend", {0.1, 0.5, 0.05}},
         EffectCase{"learned_leak", "store", {9e-6, 0.004e-8, 0.4}, 2e-4},
         EffectCase{"learned_conductance", "pressure_5", {0.02, -0.03, -0.1, -0.2, 0.1}},
         EffectCase{"learned_conductance", "expansion_3", {0.02, -0.1, -0.2}},
