@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastFactor = 0.05, kMostFactor = 20.0;  // of a number known to a share
-constexpr double kUnknownSpan = 9.0;                       // e-folds either way
+constexpr double kUnknownSpan = 14.0;                      // e-folds either way
 constexpr double kSeriesLow = 1e-3, kSeriesHigh = 1e6;     // of u
 constexpr double kClockIntervals = 2.0;                    // most that a clock may be off
 constexpr double kPressureStepPa = 1e3;                    // scale of an initial pressure
@@ -75,8 +75,8 @@ const std::vector<Search>& Searches() {
       {"leak", "sonic_conductance_m3_per_s_pa", kLinear, Size::kLeak, 0.0, {0.03}},
       {"leak", "conductance_m3_per_s_pa", kLinear, Size::kLeak, 0.0, {0.03}},
       {"leak", "critical_ratio", kLinear, Size::kOne, 0.0, {0.3}},
-      {"leak", "viscous_pa2_s_per_kg", kLog, Size::kViscous, 0.0, {30.0, 30.0}},
-      {"leak", "inertial_pa2_s2_per_kg2", kLog, Size::kInertial, 0.0, {1000.0, 10.0}},
+      {"leak", "viscous_pa2_s_per_kg", kLog, Size::kViscous, 0.0, {30.0, 1.0, 0.02}},
+      {"leak", "inertial_pa2_s2_per_kg2", kLog, Size::kInertial, 0.0, {1000.0, 1.0, 1e-3}},
       {"sensor_lag", "time_constant_s", kLinear, Size::kStroke, 0.0, {0.02}},
       {"sensor_gain", "gain", kLinear, Size::kOne, 1.0, {0.01}},
       {"sensor_offset", "offset_pa", kLinear, Size::kPressure, 0.0, {0.005}},
@@ -134,8 +134,8 @@ double InUnit(Size size, const TypicalSizes& sizes) {
   return 1.0;
 }
 
-// Where an effect is as good as absent because it follows at once, so that going on would only make
-// the simulation stiff.
+// The part of a parameter's range that is searched: up to where an effect is as good as absent
+// because it follows at once, so that going on would only make the simulation stiff.
 std::pair<double, double> Visible(const model::EffectSpec& effect, const model::ParameterSpec& spec,
                                   const TypicalSizes& sizes) {
   std::pair<double, double> range = {spec.low, spec.high};
@@ -144,6 +144,7 @@ std::pair<double, double> Visible(const model::EffectSpec& effect, const model::
   if (effect.id == "heat_transfer") range.first = std::max(spec.low, 0.01 * sizes.stroke_s);
   if (effect.id == "supply_droop" && spec.name == "volume_m3")
     range.first = std::max(spec.low, 0.03 * sizes.volume_m3);
+  if (effect.id == "sensor_gain") range = {0.7, 1.4};  // beyond that a sensor is broken
   if (spec.name.ends_with("_rad_per_s")) range.second = std::min(spec.high, 150.0 / sizes.stroke_s);
   return range;
 }

@@ -17,6 +17,7 @@ namespace plenum::calibration {
 namespace {
 
 constexpr std::size_t kCandidatesShown = 30;
+constexpr std::size_t kFinalSteps = 200'000;
 constexpr std::size_t kFinalists = 5;  // whose held-out error is found by leaving out each run
 
 // Sum of squares and worst of many residuals.
@@ -52,6 +53,7 @@ class Diagnosing {
     for (std::size_t i = 0; i < dataset.runs.size(); ++i)
       (HeldOut(i) ? held_out_ : data_.runs).push_back(i);
     tight_.noise_share = 1e-3;
+    tight_.steps_max = kFinalSteps;
     tight_.threads = options.threads;
     tight_.cancelled = options.cancelled;
   }

@@ -14,6 +14,7 @@ namespace {
 using Spec = const model::EffectSpec*;
 using Set = std::vector<Spec>;
 
+constexpr std::size_t kFinalSteps = 30'000;
 constexpr double kSameOptimum = 1.0;  // χ² apart
 // Fits that only have to be compared end where χ² falls by less than this share, at most after so
 // many steps; those near the best are then taken further.
@@ -369,6 +370,7 @@ class Search {
     Report(0.92, "final fits");
     FitOptions tight = fit_options_;
     tight.noise_share = 1e-3;
+    tight.steps_max = kFinalSteps;
     tight.function_tolerance = 1e-9;
     tight.iterations_max = 100;
     tight.threads = options_.threads;

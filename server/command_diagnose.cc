@@ -1,18 +1,13 @@
 #include <unistd.h>
 
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "api/diagnosis.h"
-#include "api/measurement.h"
-#include "api/model_revision.h"
-#include "api/revision_of_diagnosis.h"
-#include "calibration/diagnose.h"
-#include "catalog/content_hash.h"
+#include "api/diagnose.h"
 #include "server/command_options.h"
 #include "server/commands.h"
 #include "server/exit_status.h"
@@ -56,7 +51,7 @@ std::vector<api::Json> ReadDocuments(const DiagnoseCommand& command, api::Proven
   std::vector<api::Json> documents;
   for (const std::string& file : command.files) {
     const std::string text = ReadText(file);
-    provenance.files.push_back({file, catalog::Sha256(text)});
+    provenance.files.push_back(api::FileOf(file, text));
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first != std::string::npos && (text[first] == '{' || text[first] == '[')) {
       documents.push_back(DocumentOf(text));
@@ -72,10 +67,20 @@ std::vector<api::Json> ReadDocuments(const DiagnoseCommand& command, api::Proven
   return documents;
 }
 
-calibration::Dataset ReadDataset(const DiagnoseCommand& command, api::Provenance& provenance) {
-  api::Json document = ValueOrRefuse(api::MergeMeasurements(ReadDocuments(command, provenance)));
+std::vector<model::Effect> GivenEffects(const DiagnoseCommand& command) {
+  if (command.model.empty() || command.model == "nominal") return {};
+  const auto models = OpenCatalog(command.catalog, catalog::Access::kRead).Models();
+  return ValueOrRefuse(api::FindModel(command.model, models, "--model")).effects;
+}
+
+api::DiagnosisRequest ReadRequest(const DiagnoseCommand& command) {
+  api::DiagnosisRequest request;
+  api::Json document =
+      ValueOrRefuse(api::MergeMeasurements(ReadDocuments(command, request.provenance)));
   if (!command.holdout.empty() && document.is_object()) document["holdout"] = command.holdout;
-  return ValueOrRefuse(api::ParseMeasurement(document));
+  request.dataset = ValueOrRefuse(api::ParseMeasurement(document));
+  request.given = GivenEffects(command);
+  return request;
 }
 
 void WriteReport(const std::string& path, const api::Json& answer) {
@@ -84,48 +89,37 @@ void WriteReport(const std::string& path, const api::Json& answer) {
   if (!file.flush()) Refuse({{"--report", "cannot write " + path}});
 }
 
-std::vector<model::Effect> GivenEffects(const DiagnoseCommand& command) {
-  if (command.model.empty() || command.model == "nominal") return {};
-  const auto models = OpenCatalog(command.catalog, catalog::Access::kRead).Models();
-  return ValueOrRefuse(api::FindModel(command.model, models, "--model")).effects;
-}
-
-void SaveModel(const DiagnoseCommand& command, const calibration::Diagnosis& diagnosis,
-               const api::Provenance& provenance) {
-  const std::string reason = catalog::WhyInvalidModelName(command.save);
-  if (!reason.empty()) Refuse({{"--save", reason}});
-  const bool found = diagnosis.verdict == calibration::Verdict::kExplained ||
-                     diagnosis.verdict == calibration::Verdict::kAdequate ||
-                     diagnosis.verdict == calibration::Verdict::kUnexplained;
-  if (!found) {
+void SaveModel(const DiagnoseCommand& command, const std::optional<api::SavedModel>& revision) {
+  if (!revision) {
     std::fprintf(stderr, "not saved: the diagnosis settled on no model\n");
     return;
   }
   catalog::Store store = OpenCatalog(command.catalog, catalog::Access::kWrite);
   const auto saved =
-      store.SaveModel(command.save, api::RenderModel(api::RevisionOf(diagnosis, provenance)).dump(),
-                      CommandSignature().who);
+      store.SaveModel(command.save, api::RenderModel(*revision).dump(), CommandSignature().who);
   std::fprintf(stderr, "saved as %s, version %lld\n", saved.name.c_str(),
                static_cast<long long>(saved.version));
 }
 
 int Diagnose(const DiagnoseCommand& command) {
   CatchInterrupts();
-  api::Provenance provenance;
-  const calibration::Dataset dataset = ReadDataset(command, provenance);
-  calibration::Diagnosis diagnosis;
+  if (!command.save.empty()) {  // before the long work
+    const std::string reason = catalog::WhyInvalidModelName(command.save);
+    if (!reason.empty()) Refuse({{"--save", reason}});
+  }
+  const api::DiagnosisRequest request = ReadRequest(command);
+  api::DiagnosisAnswer result;
   {
     ProgressLine line;
-    calibration::DiagnoseOptions options;
-    options.given = GivenEffects(command);
-    options.cancelled = Interrupted;
-    options.progress = [&](double share, const std::string& what) { line.Show(share, what); };
-    diagnosis = calibration::Diagnose(dataset, options);
+    result = api::RunDiagnosis(
+        request, {.cancelled = Interrupted, .progress = [&](double share, const std::string& what) {
+                    line.Show(share, what);
+                  }});
   }
-  const api::Json answer = api::RenderDiagnosis(diagnosis, dataset, provenance);
+  const api::Json& answer = result.answer;
   std::fputs(command.json ? (Dump(answer) + "\n").c_str() : DiagnosisText(answer).c_str(), stdout);
   if (!command.report.empty()) WriteReport(command.report, answer);
-  if (!command.save.empty()) SaveModel(command, diagnosis, provenance);
+  if (!command.save.empty()) SaveModel(command, result.revision);
   return Interrupted() ? kInterrupted : kAnswered;
 }
 

@@ -54,12 +54,6 @@ TEST(Diagnose, InertiaIsNamedBesideABlockedRun) {
   EXPECT_GE(d.effects[0].parameters[0].high, 12.0);
 }
 
-TEST(Diagnose, AKinkingTubeIsNoKnownEffect) {
-  const Diagnosis d =
-      Of([](EffectRig& rig) { rig.unlisted.kinking_line = test::KinkingLine{0.6}; }, 24);
-  EXPECT_EQ(d.verdict, Verdict::kUnexplained) << d.sentence;
-  EXPECT_GT(d.unexplained_fraction, 0.0);
-}
 #endif
 
 TEST(Diagnose, CancelledIsUndecided) {
