@@ -31,7 +31,8 @@ SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance&
   std::vector<double> variances;
   for (const calibration::FittedEffect& fitted : diagnosis.effects) {
     model.effects.push_back(fitted.effect);
-    for (const auto& [name, deviation] : Deviations(fitted).items())
+    const Json deviations = Deviations(fitted);
+    for (const auto& [name, deviation] : deviations.items())
       if (deviation.is_number())
         AddVariance(std::string(fitted.effect.spec->id) + "." + name, deviation.get<double>(),
                     variances, model);
