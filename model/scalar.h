@@ -44,14 +44,15 @@ T CurveSlopeAt(const MonotoneCurve& curve, const T& x) {
   return T(curve.Slope(ValueOf(x)));
 }
 
-// One number of a rig that moves with one direction.
+// One number of a rig that moves with one direction, by `weight` per unit of it.
 struct Seed {
   const double* number = nullptr;
   int direction = 0;  // below kDirections
+  double weight = 1.0;
 };
 
-// Turns the numbers of a rig into T. A parameter is the address of a number in the rig: that number
-// starts with derivative 1 in its own direction, every other with none.
+// Turns the numbers of a rig into T. A number is known by its address in the rig: it starts with
+// the weights of its seeds as derivatives, one without seeds with none.
 class Lift {
  public:
   explicit Lift(std::span<const Seed> seeds = {}) : seeds_(seeds) {}
@@ -61,7 +62,7 @@ class Lift {
     T lifted(number);
     if constexpr (kIsDual<T>) {
       for (const Seed& seed : seeds_) {
-        if (seed.number == &number) lifted.v[seed.direction] += 1.0;
+        if (seed.number == &number) lifted.v[seed.direction] += seed.weight;
       }
     }
     return lifted;

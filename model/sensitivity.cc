@@ -46,6 +46,10 @@ void AddSource(const ReservoirSource& source, Collector& all) {
   all.Add("source.stop_pressure_pa", source.stop_pressure_pa);
 }
 
+void AddSource(const DrivenSource& source, Collector& all) {
+  all.Add("source.factor", source.factor);
+}
+
 void AddGroup(const std::string& name, const GroupRig& group, Collector& all) {
   const Chamber& chamber = group.chamber;
   if (chamber.volume_curve.empty()) {
@@ -80,21 +84,31 @@ std::vector<RigNumber> NumbersOfParts(const Rig& rig) {
   return all.numbers;
 }
 
-std::string WhyRefused(const Rig& rig, std::span<const double* const> parameters) {
+// A parameter that moves alone.
+std::vector<Direction> Alone(std::span<const double* const> parameters) {
+  std::vector<Direction> directions;
+  for (const double* number : parameters) directions.push_back({{number, 1.0}});
+  return directions;
+}
+
+std::string WhyRefused(const Rig& rig, std::span<const Direction> directions) {
   const std::vector<RigNumber> numbers = DifferentiableNumbers(rig);
-  for (std::size_t j = 0; j < parameters.size(); ++j) {
+  for (std::size_t j = 0; j < directions.size(); ++j) {
     const std::string name = "parameters[" + std::to_string(j) + "]";
-    for (const GroupRig& group : rig.groups) {
-      if (parameters[j] == &group.chamber.ambient_pressure_pa) {
-        return name + " is a copy of ambient.pressure_pa, must be ambient.pressure_pa itself";
+    for (const WeightedNumber& moved : directions[j]) {
+      for (const GroupRig& group : rig.groups) {
+        if (moved.number == &group.chamber.ambient_pressure_pa) {
+          return name + " is a copy of ambient.pressure_pa, must be ambient.pressure_pa itself";
+        }
       }
-    }
-    const bool known = std::any_of(numbers.begin(), numbers.end(),
-                                   [&](const RigNumber& n) { return n.number == parameters[j]; });
-    if (!known) {
-      return name +
-             " is not the address of a differentiable number of the rig, must be one of "
-             "DifferentiableNumbers";
+      const bool known = std::any_of(numbers.begin(), numbers.end(),
+                                     [&](const RigNumber& n) { return n.number == moved.number; });
+      if (!known) {
+        return name +
+               " is not the address of a differentiable number of the rig, must be one of "
+               "DifferentiableNumbers";
+      }
+      if (!std::isfinite(moved.weight)) return name + " has a weight that is not finite";
     }
   }
   return {};
@@ -114,6 +128,7 @@ class Projection {
     for (const auto& group : dual.groups) response.groups.push_back(OfGroup(group));
     response.source_pressure_pa = Of(dual.source_pressure_pa);
     response.source_final_pressure_pa = part_(dual.source_final_pressure_pa);
+    response.source_lowest_pressure_pa = part_(dual.source_lowest_pressure_pa);
     response.compressor_on_s = part_(dual.compressor_on_s);
     response.compressor_air_m3 = part_(dual.compressor_air_m3);
     response.compressor_energy_j = part_(dual.compressor_energy_j);
@@ -135,6 +150,8 @@ class Projection {
             .reading_pa = Of(group.reading_pa),
             .volume_m3 = Of(group.volume_m3),
             .temperature_k = Of(group.temperature_k),
+            .flow_m3_per_s = Of(group.flow_m3_per_s),
+            .inlet_pressure_pa = Of(group.inlet_pressure_pa),
             .final_pressure_pa = part_(group.final_pressure_pa),
             .air_drawn_m3 = part_(group.air_drawn_m3),
             .air_in_m3 = part_(group.air_in_m3),
@@ -171,8 +188,8 @@ void ForEachChunk(const Rig& rig, const SimulateOptions& options, RunUntil until
     const std::size_t count = std::min<std::size_t>(kDirections, parameters - first);
     std::vector<Seed> seeds;
     for (std::size_t j = 0; j < count; ++j) {
-      for (const double* number : seeds_of(first + j)) {
-        seeds.push_back({number, static_cast<int>(j)});
+      for (const WeightedNumber& moved : seeds_of(first + j)) {
+        seeds.push_back({moved.number, static_cast<int>(j), moved.weight});
       }
     }
     Run<Dual, ExplicitIntegrator<Dual>> run(rig, options, until, Lift(seeds));
@@ -193,7 +210,7 @@ bool AllFinite(const Response& r) {
   };
   const auto group_finite = [](const GroupResponse& g) {
     return Finite(g.pressure_pa) && Finite(g.reading_pa) && Finite(g.volume_m3) &&
-           Finite(g.temperature_k) &&
+           Finite(g.temperature_k) && Finite(g.flow_m3_per_s) && Finite(g.inlet_pressure_pa) &&
            Finite({g.final_pressure_pa, g.air_drawn_m3, g.air_in_m3, g.air_out_m3, g.air_leaked_m3,
                    g.gas_start_m3, g.gas_final_m3, g.energy_start_j, g.energy_final_j,
                    g.enthalpy_in_j, g.enthalpy_out_j, g.wall_heat_j, g.work_j});
@@ -207,21 +224,21 @@ bool AllFinite(const Response& r) {
 
 // What a parameter moves in the rig of a full stroke: the same number, and the initial pressures
 // that stand for it.
-std::vector<const double*> MovedInStroke(const Rig& rig, const double* parameter, const Rig& stroke,
-                                         ValveState state) {
-  std::vector<const double*> moved;
+Direction MovedInStroke(const Rig& rig, const double* parameter, const Rig& stroke,
+                        ValveState state) {
+  Direction moved;
   const std::vector<RigNumber> numbers = NumbersOfParts(stroke);
   for (const RigNumber& original : NumbersOfParts(rig)) {
     if (original.number != parameter) continue;
     for (const RigNumber& copy : numbers) {
-      if (copy.name == original.name) moved.push_back(copy.number);
+      if (copy.name == original.name) moved.push_back({copy.number, 1.0});
     }
   }
   for (std::size_t i = 0; i < rig.groups.size(); ++i) {
     const double* start = state == ValveState::kInflate
                               ? &rig.ambient.pressure_pa
                               : &rig.groups[i].chamber.operating_pressure_pa;
-    if (parameter == start) moved.push_back(&stroke.groups[i].initial_pressure_pa);
+    if (parameter == start) moved.push_back({&stroke.groups[i].initial_pressure_pa, 1.0});
   }
   return moved;
 }
@@ -244,16 +261,21 @@ std::vector<RigNumber> DifferentiableNumbers(const Rig& rig) {
 
 SensitivityResponse SimulateWithSensitivities(const Rig& rig, const SimulateOptions& options,
                                               std::span<const double* const> parameters) {
+  return SimulateAlongDirections(rig, options, Alone(parameters));
+}
+
+SensitivityResponse SimulateAlongDirections(const Rig& rig, const SimulateOptions& options,
+                                            std::span<const Direction> directions) {
   SensitivityResponse result;
   std::string reason = WhyInvalid(options);
   if (reason.empty()) reason = WhyInvalid(rig);
-  if (reason.empty()) reason = WhyRefused(rig, parameters);
+  if (reason.empty()) reason = WhyRefused(rig, directions);
   if (!reason.empty()) {
     result.response.status = SimulateStatus::kInvalid;
     result.response.detail = reason;
     return result;
   }
-  const auto seeds_of = [&](std::size_t j) { return std::vector{parameters[j]}; };
+  const auto seeds_of = [&](std::size_t j) -> const Direction& { return directions[j]; };
   const auto take = [&](const DualResponse& dual, std::size_t first, std::size_t count) {
     if (first == 0 || dual.status != SimulateStatus::kDone) {
       result.response = Projection([](const Dual& x) { return x.a; })(dual);
@@ -263,7 +285,7 @@ SensitivityResponse SimulateWithSensitivities(const Rig& rig, const SimulateOpti
           Projection([j](const Dual& x) { return x.v[static_cast<Eigen::Index>(j)]; })(dual));
     }
   };
-  ForEachChunk(rig, options, RunUntil::kEnd, parameters.size(), seeds_of, take);
+  ForEachChunk(rig, options, RunUntil::kEnd, directions.size(), seeds_of, take);
   for (std::size_t j = 0; j < result.derivatives.size(); ++j) {
     if (result.response.status != SimulateStatus::kDone || AllFinite(result.derivatives[j]))
       continue;
@@ -288,7 +310,7 @@ SensitivityStrokes FullStrokesWithSensitivities(const Rig& rig, const SimulateOp
   for (const ValveState state : {ValveState::kInflate, ValveState::kDeflate}) {
     const Rig stroke = StrokeRig(rig, state);
     if (reason.empty()) reason = WhyInvalid(stroke);
-    if (reason.empty()) reason = WhyRefused(rig, parameters);
+    if (reason.empty()) reason = WhyRefused(rig, Alone(parameters));
     if (!reason.empty()) return {SimulateStatus::kInvalid, reason, {}, {}};
     auto& times = state == ValveState::kInflate ? rise : fall;
     const auto moved = [&](std::size_t j) {

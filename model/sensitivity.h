@@ -3,7 +3,7 @@
 // computed in dual numbers (model/scalar.h), kDirections parameters at a time.
 //
 // A parameter is the address of a number inside the given rig; DifferentiableNumbers lists all of
-// them. Only that number moves:
+// them. Only that number moves, or along a direction several numbers together, by its weights:
 //   * ambient.pressure_pa moves the ambient pressure of all groups with it (chamber
 //     .ambient_pressure_pa is a copy that must stay equal, so it is no parameter of its own), but
 //     no initial pressure, operating pressure or source pressure, which are absolute.
@@ -40,6 +40,13 @@ struct RigNumber {
   const double* number = nullptr;
 };
 
+// ∂/∂θ along a direction is Σ weight·∂/∂number: one parameter of a fit that moves several numbers.
+struct WeightedNumber {
+  const double* number = nullptr;
+  double weight = 1.0;
+};
+using Direction = std::vector<WeightedNumber>;
+
 // Every number of the rig that may be a parameter, in a fixed order.
 std::vector<RigNumber> DifferentiableNumbers(const Rig& rig);
 
@@ -55,6 +62,10 @@ struct SensitivityResponse {
 // the rig; kNotFinite where a derivative is not finite. SimulateOptions::integrator is not used.
 SensitivityResponse SimulateWithSensitivities(const Rig& rig, const SimulateOptions& options,
                                               std::span<const double* const> parameters);
+
+// The same along directions; an empty one moves nothing.
+SensitivityResponse SimulateAlongDirections(const Rig& rig, const SimulateOptions& options,
+                                            std::span<const Direction> directions);
 
 // FullStrokes and its derivatives. The initial pressures follow the ambient and the operating
 // pressure that they stand for; initial_pressure_pa and command times of the rig play no part.

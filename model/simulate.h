@@ -30,6 +30,7 @@
 #include "model/air.h"
 #include "model/chamber.h"
 #include "model/compressor.h"
+#include "model/driven_source.h"
 #include "model/effects/effect.h"
 #include "model/iso6358.h"
 
@@ -61,6 +62,9 @@ struct GroupRig {
   double initial_pressure_pa = kReferencePressurePa;
   double initial_temperature_k = 0.0;  // matters to heat_transfer alone; 0: the ambient's
   bool blocked = false;                // the volume stays at the rest volume
+  // Elements between source and the inlet sensor (after the valve, before the tube), the same ones
+  // on the way out; 0: no such sensor.
+  std::size_t inlet_after = 0;
   std::vector<Effect> effects;
 };
 
@@ -85,7 +89,7 @@ struct ReservoirSource {
   double stop_pressure_pa = std::numeric_limits<double>::infinity();
 };
 
-using Source = std::variant<NoSource, RegulatedSource, ReservoirSource>;
+using Source = std::variant<NoSource, RegulatedSource, ReservoirSource, DrivenSource>;
 
 struct Rig {
   Ambient ambient;
@@ -99,7 +103,8 @@ enum class Integrator { kAutomatic, kDormandPrince, kCvode };
 
 struct SimulateOptions {
   double end_s = 0.0;
-  double sample_hz = 0.0;  // 0: no samples, only strokes and balances
+  double sample_hz = 0.0;              // 0: no samples, only strokes and balances
+  std::vector<double> sample_times_s;  // not falling, within the run; if any, instead of sample_hz
   double rise_fraction = 0.95;
   double fall_fraction = 0.05;
   double relative_tolerance = 1e-8;  // local error of each pressure ≤ rtol·p + atol, and of every
@@ -136,6 +141,9 @@ struct GroupResponseOf {
   std::vector<T> reading_pa;     // what the sensor shows, absolute; empty without a sensor effect
   std::vector<T> volume_m3;      // of the actuator without dead volume
   std::vector<T> temperature_k;  // of the gas; empty without heat_transfer
+  std::vector<T> flow_m3_per_s;  // ANR, into the line of one actuator
+  // Behind the first inlet_after elements; the pressure at the line's end while nothing flows.
+  std::vector<T> inlet_pressure_pa;  // empty without an inlet sensor
   T final_pressure_pa = T(0.0);
   // All actuators of the group together, m³ ANR.
   T air_drawn_m3 = T(0.0);                         // from the source

@@ -50,6 +50,8 @@ bool LaneTakes(const ReservoirSource& source) {
          Positive(source.initial_pressure_pa) && source.compressor.free_air_m3_per_s.empty();
 }
 
+bool LaneTakes(const DrivenSource&) { return false; }
+
 // Only rigs that FullStrokes would find valid.
 bool LaneTakes(const Rig& rig, double linear_ratio) {
   if (rig.groups.size() != 1) return false;

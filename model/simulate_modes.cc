@@ -17,11 +17,11 @@ constexpr double kAheadS = 1e-9;
 // Downstream to upstream pressure of a line that passes, or may; none where its upstream pressure
 // is not known without solving for the node.
 template <class T>
-std::optional<T> System<T>::KinkRatio(const Group& group, std::size_t line,
+std::optional<T> System<T>::KinkRatio(const Group& group, std::size_t line, const T& t,
                                       std::span<const T> y) const {
   const bool plain = group.units.empty();
   const T tail = plain ? y[group.at] : group.moment.tail_pa;
-  const T source = SourcePressure(y);
+  const T source = SourcePressure(t, y);
   const T head = group.lines[kFeed].empty() ? source : group.moment.head_pa;
   const Line<T>& flow = group.lines[line];
   if (line == kExhaust) return flow.RatioOf(tail, ambient_pa_);
@@ -73,7 +73,7 @@ void System<T>::Settle(const T& t, std::span<const T> y) {
     }
     for (std::size_t line = 0; line < kLines; ++line) {
       if (!LineOpen(group, line, ValueOf(t))) continue;
-      const std::optional<T> ratio = KinkRatio(group, line, y);
+      const std::optional<T> ratio = KinkRatio(group, line, t, y);
       if (!ratio) continue;
       const auto kinks = group.lines[line].kinks();
       int& regime = group.regime[line];
@@ -110,7 +110,7 @@ void System<T>::GuardValues(const T& t, std::span<const T> y, std::span<T> value
     const Group& group = groups_[guard.group];
     switch (guard.kind) {
       case GuardKind::kKink: {
-        const std::optional<T> ratio = KinkRatio(group, guard.index, y);
+        const std::optional<T> ratio = KinkRatio(group, guard.index, t, y);
         values[k] = guard.sign * (guard.level - *ratio);
         break;
       }
@@ -139,13 +139,13 @@ void System<T>::GuardValues(const T& t, std::span<const T> y, std::span<T> value
   }
 }
 
-#define PLENUM_MODES(T)                                                                         \
-  template std::optional<T> System<T>::KinkRatio(const Group&, std::size_t, std::span<const T>) \
-      const;                                                                                    \
-  template bool System<T>::LineOpen(const Group&, std::size_t, double) const;                   \
-  template void System<T>::LookAhead(const T&, std::span<const T>);                             \
-  template void System<T>::Settle(const T&, std::span<const T>);                                \
-  template void System<T>::PassKink(const Guard<T>&);                                           \
+#define PLENUM_MODES(T)                                                               \
+  template std::optional<T> System<T>::KinkRatio(const Group&, std::size_t, const T&, \
+                                                 std::span<const T>) const;           \
+  template bool System<T>::LineOpen(const Group&, std::size_t, double) const;         \
+  template void System<T>::LookAhead(const T&, std::span<const T>);                   \
+  template void System<T>::Settle(const T&, std::span<const T>);                      \
+  template void System<T>::PassKink(const Guard<T>&);                                 \
   template void System<T>::GuardValues(const T&, std::span<const T>, std::span<T>);
 PLENUM_MODES(double)
 PLENUM_MODES(Dual)

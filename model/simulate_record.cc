@@ -28,6 +28,19 @@ void Run<T, Stepper>::RecordSourceLowest() {
   if (const auto source = system_.source_state()) {
     lower(*source, response_.source_lowest_pressure_pa);
   }
+  if (system_
+          .driven()) {  // monotone within a step, which ends at the record's points at the latest
+    const T source_pa = system_.SourcePressure(stepper_.time(), stepper_.state());
+    const auto lower_to = [&](T& lowest_pa) {
+      if (source_pa < lowest_pa) lowest_pa = source_pa;
+    };
+    lower_to(response_.source_lowest_pressure_pa);
+    for (std::size_t i = 0; i < valves_.size(); ++i) {
+      if (valves_[i].stroke >= 0 && !system_.HeadState(i)) {
+        lower_to(StrokeOfValve(valves_[i]).source_lowest_pressure_pa);
+      }
+    }
+  }
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     const std::optional<std::size_t> head = system_.HeadState(i);
     if (valves_[i].stroke >= 0 && head) {
@@ -37,11 +50,16 @@ void Run<T, Stepper>::RecordSourceLowest() {
 }
 
 template <class T, class Stepper>
+double Run<T, Stepper>::SampleTime(std::size_t k) const {
+  if (!options_.sample_times_s.empty()) return options_.sample_times_s[k];
+  return k + 1 == sample_count_ ? options_.end_s : static_cast<double>(k) / options_.sample_hz;
+}
+
+template <class T, class Stepper>
 void Run<T, Stepper>::SampleTo(double time_s, SampleFrom from) {
   while (response_.t_s.size() < sample_count_) {
     const std::size_t k = response_.t_s.size();
-    const double sample_s =
-        k + 1 == sample_count_ ? options_.end_s : static_cast<double>(k) / options_.sample_hz;
+    const double sample_s = SampleTime(k);
     if (sample_s > time_s) return;
     if (from == SampleFrom::kStep) stepper_.StateAt(sample_s, sample_);
     TakeSample(sample_s, from == SampleFrom::kStep ? sample_ : y_);
@@ -59,8 +77,13 @@ void Run<T, Stepper>::TakeSample(double time_s, std::span<const T> y) {
     group.volume_m3.push_back(moment.volume_m3 - system_.setup(i).dead_volume_m3);
     if (system_.measured(i)) group.reading_pa.push_back(system_.Reading(i, y));
     if (system_.heated(i)) group.temperature_k.push_back(moment.temperature_k);
+    group.flow_m3_per_s.push_back(moment.line_in_m3_per_s);
+    if (rig_.groups[i].inlet_after > 0) {
+      group.inlet_pressure_pa.push_back(system_.InletPressure(i, T(time_s)));
+    }
   }
-  if (system_.has_source()) response_.source_pressure_pa.push_back(system_.HeadPressure(0, y));
+  if (system_.has_source())
+    response_.source_pressure_pa.push_back(system_.HeadPressure(0, T(time_s), y));
 }
 
 template <class T, class Stepper>
@@ -81,7 +104,7 @@ void Run<T, Stepper>::RecordEnd() {
     group.wall_heat_j = system_.Of(i, S::kWallHeat, y_);
     group.work_j = system_.Of(i, S::kWork, y_);
   }
-  response_.source_final_pressure_pa = system_.SourcePressure(y_);
+  response_.source_final_pressure_pa = system_.SourcePressure(t_s_, y_);
   response_.compressor_on_s = system_.Of(System<T>::kOnTime, y_);
   response_.compressor_air_m3 = system_.Of(System<T>::kPumpAir, y_);
   response_.compressor_energy_j = system_.Of(System<T>::kPumpEnergy, y_);
@@ -89,6 +112,7 @@ void Run<T, Stepper>::RecordEnd() {
 
 #define PLENUM_RECORD(T, Stepper)                                        \
   template void Run<T, Stepper>::RecordSourceLowest();                   \
+  template double Run<T, Stepper>::SampleTime(std::size_t) const;        \
   template void Run<T, Stepper>::SampleTo(double, SampleFrom);           \
   template void Run<T, Stepper>::TakeSample(double, std::span<const T>); \
   template void Run<T, Stepper>::RecordEnd();

@@ -36,11 +36,13 @@ Run<T, Stepper>::Run(const Rig& rig, const SimulateOptions& options, RunUntil un
   for (std::size_t i = 0; i < rig.groups.size(); ++i) {
     response_.groups[i].name = rig.groups[i].name;
   }
-  if (options.sample_hz > 0.0) {
+  if (!options.sample_times_s.empty()) {
+    sample_count_ = options.sample_times_s.size();
+  } else if (options.sample_hz > 0.0) {
     sample_count_ =
         1 + static_cast<std::size_t>(std::ceil(options.end_s * options.sample_hz * (1.0 - 1e-12)));
-    response_.t_s.reserve(sample_count_);
   }
+  response_.t_s.reserve(sample_count_);
 }
 
 template <class T, class Stepper>
@@ -69,7 +71,7 @@ ResponseOf<T> Run<T, Stepper>::Execute(std::span<const T> start) {
   std::copy(start.begin(), start.end(), y_.begin());
   response_.status = SimulateStatus::kDone;
   system_.Look(t_s_, y_);
-  response_.source_lowest_pressure_pa = system_.SourcePressure(y_);
+  response_.source_lowest_pressure_pa = system_.SourcePressure(t_s_, y_);
   for (std::size_t i = 0; i < system_.groups(); ++i) {
     response_.groups[i].gas_start_m3 = system_.Stored(i, y_);
     response_.groups[i].energy_start_j = system_.Energy(i);
@@ -84,7 +86,7 @@ ResponseOf<T> Run<T, Stepper>::Execute(std::span<const T> start) {
 // All commands and movements of valves that are due.
 template <class T, class Stepper>
 void Run<T, Stepper>::ApplySwitches() {
-  smooth_ = false;
+  bool switched = false;
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     const auto& schedule = rig_.groups[i].schedule;
     Valve& valve = valves_[i];
@@ -97,15 +99,19 @@ void Run<T, Stepper>::ApplySwitches() {
       const T at_s = lift_.operator()<T>(command.time_s) + system_.valve_delay_s(i);
       if (at_s > t_s_) break;
       SwitchAt(i, at_s, [&] { Move(i, command.state, at_s); });
+      switched = true;
       ++valve.next_move;
     }
     if (valve.close_at_s && *valve.close_at_s <= t_s_) {
       SwitchAt(i, *valve.close_at_s, [&] { system_.filling(i).Turn(*valve.close_at_s, 0.0); });
       valve.close_at_s.reset();
+      switched = true;
     }
     // A valve that was closed at equal pressures may have something to pass again.
     system_.set_settled(i, false);
   }
+  // At a point of a source's record alone the step goes on as it was.
+  smooth_ = system_.driven() && !switched && response_.steps > 0;
 }
 
 // Switches that fall together keep their own derivatives: between the instant of one and that of
@@ -144,7 +150,7 @@ void Run<T, Stepper>::Command(std::size_t group, const ValveCommand& command) {
   valve.target_pending = valve.operating_pending = false;
   if (command.state == ValveState::kHold || command.time_s < 0.0) return;
 
-  const T source_pa = system_.has_source() ? system_.HeadPressure(group, y_)
+  const T source_pa = system_.has_source() ? system_.HeadPressure(group, t_s_, y_)
                                            : T(std::numeric_limits<double>::quiet_NaN());
   valve.stroke = static_cast<int>(response_.strokes.size());
   StrokeOf<T>& stroke = response_.strokes.emplace_back();
@@ -180,6 +186,11 @@ T Run<T, Stepper>::NextBoundary() const {
     if (valve.close_at_s) consider(*valve.close_at_s);
     consider(system_.filling(i).EndTime());
     consider(system_.venting(i).EndTime());
+  }
+  if (const auto* driven = std::get_if<DrivenSource>(&rig_.source)) {
+    const std::vector<double>& points = driven->time_s;
+    const auto next = std::upper_bound(points.begin(), points.end(), ValueOf(t_s_));
+    if (next != points.end()) consider(T(*next));
   }
   return boundary_s;
 }
@@ -251,6 +262,7 @@ template <class T, class Stepper>
 bool Run<T, Stepper>::AtRest() const {
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     if (system_.Moving(i, ValueOf(t_s_))) return false;
+    if (system_.driven() && system_.Fed(i, ValueOf(t_s_))) return false;
   }
   const auto slope = stepper_.slope();
   return std::all_of(slope.begin(), slope.end(), [](const T& s) { return IsZero(s); });
@@ -395,7 +407,7 @@ void Run<T, Stepper>::ChoosePumpState() {
 // when all groups have arrived, since each one's draw moves the source of the others.
 template <class T, class Stepper>
 bool Run<T, Stepper>::CloseSettledValves() {
-  const T source_pa = system_.SourcePressure(y_);
+  const T source_pa = system_.SourcePressure(t_s_, y_);
   const double now_s = ValueOf(t_s_);
   const auto filling = [&](std::size_t i) { return !system_.filling(i).Closed(now_s); };
   const auto arrived = [&](std::size_t i) {
@@ -426,14 +438,14 @@ bool Run<T, Stepper>::CloseSettledValves() {
 
 template <class T, class Stepper>
 bool Run<T, Stepper>::TargetsDecided() const {
-  T source_pa = system_.SourcePressure(y_);
+  T source_pa = system_.SourcePressure(t_s_, y_);
   if (system_.has_reservoir() && source_pa < system_.pump_limit_pa()) {
     source_pa = system_.pump_limit_pa();
   }
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     const Valve& valve = valves_[i];
     if (!valve.target_pending) continue;
-    const bool moves = system_.Moving(i, ValueOf(t_s_)) || valve.close_at_s ||
+    const bool moves = system_.driven() || system_.Moving(i, ValueOf(t_s_)) || valve.close_at_s ||
                        valve.next_move < rig_.groups[i].schedule.size();
     if (!system_.settles(i) || moves) return false;
     if (!system_.Passing(i, ValueOf(t_s_))) continue;

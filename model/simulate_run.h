@@ -86,6 +86,7 @@ class Run {
   void RecordSourceLowest();
   void RecordEnd();
   enum class SampleFrom { kStep, kRest };
+  double SampleTime(std::size_t k) const;
   void SampleTo(double time_s, SampleFrom from);
   void TakeSample(double time_s, std::span<const T> y);
   bool Fail(SimulateStatus status, const std::string& what);

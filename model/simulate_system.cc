@@ -47,6 +47,8 @@ System<T>::System(const Rig& rig, double linear_ratio, const Lift& lift, bool ac
       ambient_k_(lift.operator()<T>(rig.ambient.temperature_k)),
       regulated_(std::get_if<RegulatedSource>(&rig.source)),
       reservoir_(std::get_if<ReservoirSource>(&rig.source)),
+      driven_(std::get_if<DrivenSource>(&rig.source)),
+      linear_ratio_(linear_ratio),
       pump_limit_pa_(-kInfinity),
       account_(account) {
   using std::sqrt;
@@ -61,6 +63,10 @@ System<T>::System(const Rig& rig, double linear_ratio, const Lift& lift, bool ac
                                 linear_ratio);
     }
     node_at_supply_ = !supply_.regulator && std::isinf(supply_.flow_max_m3_per_s);
+  }
+  if (driven_) {
+    driven_factor_ = lift.operator()<T>(driven_->factor);
+    source_initial_pa_ = SourcePressure(T(0.0), {});
   }
   if (reservoir_) {
     source_initial_pa_ = lift.operator()<T>(reservoir_->initial_pressure_pa);
@@ -129,6 +135,8 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
     });
     if (!cracks) group.with_regulator.emplace(both, linear_ratio);
   }
+  group.fill_before_inlet = rig.inlet_after;
+  if (!rig.exhaust.empty()) group.exhaust_before_inlet = rig.exhaust.size() - rig.inlet_after;
   group.lines = {Line<T>(setup.fill, linear_ratio), Line<T>(setup.exhaust, linear_ratio),
                  Line<T>(setup.feed, linear_ratio)};
   return group;
@@ -184,8 +192,13 @@ std::vector<T> System<T>::InitialState() {
 }
 
 template <class T>
-T System<T>::SourcePressure(std::span<const T> y) const {
+T System<T>::SourcePressure(const T& t, std::span<const T> y) const {
   if (regulated_) return supply_.pressure_pa;
+  if (driven_) {
+    return ambient_pa_ + driven_factor_ * (Chain(t, driven_->RecordedPressure(ValueOf(t)),
+                                                 driven_->RecordedSlope(ValueOf(t))) -
+                                           ambient_pa_);
+  }
   return reservoir_ ? y[source_] : T(0.0);
 }
 
@@ -197,15 +210,20 @@ std::optional<std::size_t> System<T>::HeadState(std::size_t i) const {
 }
 
 template <class T>
-T System<T>::HeadPressure(std::size_t i, std::span<const T> y) const {
+T System<T>::HeadPressure(std::size_t i, const T& t, std::span<const T> y) const {
   const std::optional<std::size_t> state = HeadState(i);
-  return state ? y[*state] : SourcePressure(y);
+  return state ? y[*state] : SourcePressure(t, y);
 }
 
 template <class T>
 bool System<T>::Passing(std::size_t i, double time_s) const {
   const Group& group = groups_[i];
   return !group.settled && !(group.filling.Closed(time_s) && group.venting.Closed(time_s));
+}
+
+template <class T>
+bool System<T>::Fed(std::size_t i, double time_s) const {
+  return !groups_[i].lines[kFeed].empty() || !groups_[i].filling.Closed(time_s);
 }
 
 template <class T>
@@ -239,7 +257,7 @@ T System<T>::PumpPower(const T& source_pa) const {
 
 template <class T>
 bool System<T>::source_may_rise(double source_pa) const {
-  return pump_ == PumpState::kRunning && Delivery(T(source_pa)) > 0.0;
+  return driven_ || (pump_ == PumpState::kRunning && Delivery(T(source_pa)) > 0.0);
 }
 
 template <class T>
@@ -252,13 +270,13 @@ T System<T>::FinalPressure(std::size_t i, const T& source_pa) const {
 
 // Volume law and the effects on it.
 template <class T>
-void System<T>::FillMoment(Group& group, std::span<const T> y) const {
+void System<T>::FillMoment(Group& group, const T& t, std::span<const T> y) const {
   const GroupSetup<T>& setup = group.setup;
   Moment<T>& m = group.moment;
   m = Moment<T>();
   m.pressure_pa = y[group.at] > kLowestPressurePa ? y[group.at] : T(kLowestPressurePa);
   m.volume_pressure_pa = m.tail_pa = m.pressure_pa;
-  m.head_pa = SourcePressure(y);
+  m.head_pa = SourcePressure(t, y);
   m.temperature_k = m.tail_temperature_k = setup.ambient_temperature_k;
   for (std::size_t u = 0; u < group.units.size(); ++u) {
     group.units[u]->BeforeVolume(setup, y.data() + group.unit_at[u], m);
@@ -303,16 +321,16 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
   outlets_.clear();
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
-    FillMoment(group, y);
+    FillMoment(group, t, y);
     Moment<T>& m = group.moment;
-    const T filling = group.settled ? T(0.0) : group.filling.At(t);
-    const T venting = group.settled ? T(0.0) : group.venting.At(t);
+    const T filling = group.settled ? T(0.0) : T(m.line_factor * group.filling.At(t));
+    const T venting = group.settled ? T(0.0) : T(m.line_factor * group.venting.At(t));
     if (venting > 0.0) {
       const Line<T>& out = group.lines[kExhaust];
+      const bool whole = IsZero(T(venting - 1.0));
       m.line_out_m3_per_s =
-          venting < 1.0
-              ? out.ThrottledFlow(venting, group.setup.exhaust_fixed, m.tail_pa, ambient_pa_)
-              : out.Flow(m.tail_pa, ambient_pa_, group.regime[kExhaust]);
+          whole ? out.Flow(m.tail_pa, ambient_pa_, group.regime[kExhaust])
+                : out.ThrottledFlow(venting, group.setup.exhaust_fixed, m.tail_pa, ambient_pa_);
       if (group.heated) m.line_out_m3_per_s *= sqrt(ambient_k_ / m.tail_temperature_k);
     }
     if (!group.lines[kFeed].empty()) {
@@ -327,7 +345,7 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
     }
   }
   if (outlets_.empty()) return;
-  T node_pa = SourcePressure(y);
+  T node_pa = SourcePressure(t, y);
   T in_series;
   bool solved = false;
   if (!node_at_supply_) {
@@ -432,6 +450,42 @@ T System<T>::Reading(std::size_t i, std::span<const T> y) const {
     group.units[u]->Measure(y.data() + group.unit_at[u], gauge_pa);
   }
   return ambient_pa_ + gauge_pa;
+}
+
+// Between two parts of a line that pass the same flow; all elements but the last `fixed` conduct
+// `opening` times their C.
+template <class T>
+T System<T>::PressureBehind(std::vector<LineElement<T>> elements, std::size_t count,
+                            const T& opening, std::size_t fixed, const T& upstream_pa,
+                            const T& downstream_pa) const {
+  for (std::size_t i = 0; i + fixed < elements.size(); ++i) {
+    elements[i].sonic_conductance_m3_per_s_pa *= opening;
+  }
+  const std::span<const LineElement<T>> all = elements;
+  if (count == 0) return upstream_pa;
+  if (count == elements.size()) return downstream_pa;
+  NodeSupply<T> before;
+  before.pressure_pa = upstream_pa;
+  before.regulator.emplace(all.first(count), linear_ratio_);
+  const Line<T> behind(all.subspan(count), linear_ratio_);
+  const NodeOutlet<T> outlet = {&behind, T(1.0), downstream_pa};
+  return NodePressure<T>(before, {&outlet, 1});
+}
+
+template <class T>
+T System<T>::InletPressure(std::size_t i, const T& t) const {
+  const Group& group = groups_[i];
+  const GroupSetup<T>& setup = group.setup;
+  const Moment<T>& m = group.moment;
+  if (m.line_in_m3_per_s > 0.0) {
+    return PressureBehind(setup.fill, group.fill_before_inlet, T(1.0), 0, m.head_pa, m.tail_pa);
+  }
+  if (m.line_out_m3_per_s > 0.0) {
+    return PressureBehind(setup.exhaust, group.exhaust_before_inlet,
+                          m.line_factor * group.venting.At(t), setup.exhaust_fixed, m.tail_pa,
+                          ambient_pa_);
+  }
+  return m.tail_pa;
 }
 
 template <class T>

@@ -72,9 +72,9 @@ class System {
 
   // Places in the state vector.
   std::size_t pressure(std::size_t group) const { return groups_[group].at; }
-  T SourcePressure(std::span<const T> y) const;
+  T SourcePressure(const T& t, std::span<const T> y) const;
   // At the head of the group's line, and which state that is, if it is one.
-  T HeadPressure(std::size_t group, std::span<const T> y) const;
+  T HeadPressure(std::size_t group, const T& t, std::span<const T> y) const;
   std::optional<std::size_t> HeadState(std::size_t group) const;
   std::optional<std::size_t> source_state() const {
     return reservoir_ ? std::optional(source_) : std::nullopt;
@@ -91,19 +91,21 @@ class System {
   void set_settled(std::size_t group, bool settled) { groups_[group].settled = settled; }
   bool Passing(std::size_t group, double time_s) const;  // open and not settled
   bool Moving(std::size_t group, double time_s) const;   // its valve opens or closes
+  bool Fed(std::size_t group, double time_s) const;      // open to the source
   // Whether a valve once at equal pressures has nothing to pass before the next switch.
   bool settles(std::size_t group) const { return groups_[group].settles; }
 
   PumpState pump() const { return pump_; }
   void set_pump(PumpState pump) { pump_ = pump; }
   const T& pump_limit_pa() const { return pump_limit_pa_; }  // stop pressure or end of the table
-  bool has_source() const { return regulated_ != nullptr || reservoir_ != nullptr; }
+  bool has_source() const { return regulated_ || reservoir_ || driven_; }
   bool has_reservoir() const { return reservoir_ != nullptr; }
 
   // m³/s ANR that the lines take from the source, and what all pumps deliver while running.
   T Draw(const T& t, std::span<const T> y);
   T Delivery(const T& source_pa) const;
-  bool source_may_rise(double source_pa) const;  // whether running pumps raise the source
+  bool driven() const { return driven_ != nullptr; }
+  bool source_may_rise(double source_pa) const;  // by running pumps, or because it is driven
 
   // Pressure that the group approaches through its open valve while the source stays as it is.
   T FinalPressure(std::size_t group, const T& source_pa) const;
@@ -123,6 +125,7 @@ class System {
   T Reading(std::size_t group, std::span<const T> y) const;  // absolute; of the moment
   bool measured(std::size_t group) const { return groups_[group].measured; }
   bool heated(std::size_t group) const { return groups_[group].heated; }
+  T InletPressure(std::size_t group, const T& t) const;     // of the moment
   T Stored(std::size_t group, std::span<const T> y) const;  // m³ ANR behind the valves, all copies
   T Energy(std::size_t group) const;                        // J, all copies; of the moment
 
@@ -150,8 +153,9 @@ class System {
     bool settled = false;
     bool settles = true;
     bool measured = false, heated = false;
-    std::size_t at = 0;        // of the pressure
-    std::size_t accounts = 0;  // of the first account
+    std::size_t fill_before_inlet = 0, exhaust_before_inlet = 0;  // elements
+    std::size_t at = 0;                                           // of the pressure
+    std::size_t accounts = 0;                                     // of the first account
     Moment<T> moment;
   };
   enum LineIndex : std::size_t { kFill, kExhaust, kFeed };
@@ -159,14 +163,17 @@ class System {
   Group MakeGroup(const GroupRig& rig, const Lift& lift, const T& factor,
                   double linear_ratio) const;
   void LayOut();
-  void FillMoment(Group& group, std::span<const T> y) const;
+  void FillMoment(Group& group, const T& t, std::span<const T> y) const;
   void UpdateFlows(const T& t, std::span<const T> y);
   void Balance(Group& group, std::span<const T> y, std::span<T> dydt) const;
   void SourceRates(const T& draw, std::span<const T> y, std::span<T> dydt) const;
   bool TakeFlowInSeries(const NodeOutlet<T>& outlet, T& flow) const;
+  T PressureBehind(std::vector<LineElement<T>> elements, std::size_t count, const T& opening,
+                   std::size_t fixed, const T& upstream_pa, const T& downstream_pa) const;
   bool LineOpen(const Group& group, std::size_t line, double time_s) const;
   void LookAhead(const T& t, std::span<const T> y);
-  std::optional<T> KinkRatio(const Group& group, std::size_t line, std::span<const T> y) const;
+  std::optional<T> KinkRatio(const Group& group, std::size_t line, const T& t,
+                             std::span<const T> y) const;
   T AlongTable(const MonotoneCurve& table, const T& source_pa) const;
   T PumpPower(const T& source_pa) const;
 
@@ -175,8 +182,10 @@ class System {
   T content_rate_;  // Pa·m³ per m³ ANR: P0·T_a/T0
   const RegulatedSource* regulated_ = nullptr;
   const ReservoirSource* reservoir_ = nullptr;
+  const DrivenSource* driven_ = nullptr;
+  double linear_ratio_;
   NodeSupply<T> supply_;
-  T reservoir_volume_m3_, reservoir_rising_m3_, duty_, source_initial_pa_;
+  T reservoir_volume_m3_, reservoir_rising_m3_, duty_, driven_factor_, source_initial_pa_;
   bool node_at_supply_ = true;
   T pump_limit_pa_;
   PumpState pump_ = PumpState::kAbsent;

@@ -91,6 +91,11 @@ std::string WhyGroupInvalid(const GroupRig& group, std::size_t index, const Ambi
                   [](const Effect& e) { return e.spec && e.spec->id == "exhaust_restriction"; });
   check.Require(!restricted || group.exhaust.size() < kMaxSeriesElements, "exhaust element count",
                 static_cast<double>(group.exhaust.size()), "at most 7 with exhaust_restriction");
+  const auto holds_inlet = [&](const std::vector<FlowElement>& line) {
+    return line.empty() || group.inlet_after <= line.size();
+  };
+  check.Require(holds_inlet(group.fill) && holds_inlet(group.exhaust), "inlet_after",
+                static_cast<double>(group.inlet_after), "at most the element count of the line");
   CheckSchedule(group, check);
   return check.reason();
 }
@@ -122,6 +127,21 @@ void CheckSource(const ReservoirSource& source, Check& check) {
                 "above 0");
 }
 
+void CheckSource(const DrivenSource& source, Check& check) {
+  if (source.time_s.empty()) check.Fails("time_s", "is empty, must hold a point");
+  if (source.pressure_pa.size() != source.time_s.size()) {
+    check.Fails("pressure_pa", "must hold as many points as time_s");
+  }
+  double before_s = -std::numeric_limits<double>::infinity();
+  for (const double time_s : source.time_s) {
+    check.Require(std::isfinite(time_s) && time_s > before_s, "time_s", time_s,
+                  "finite and above the one before");
+    before_s = time_s;
+  }
+  for (const double pressure_pa : source.pressure_pa) check.Positive("pressure_pa", pressure_pa);
+  check.Positive("factor", source.factor);
+}
+
 void CheckSource(const NoSource&, Check&) {}
 
 }  // namespace
@@ -150,6 +170,14 @@ std::string WhyInvalid(const SimulateOptions& options) {
   check.NotNegative("sample_hz", options.sample_hz);
   check.Require(options.end_s * options.sample_hz <= kSamplesMax, "end_s * sample_hz",
                 options.end_s * options.sample_hz, "at most 2e7 samples");
+  double before_s = 0.0;
+  for (std::size_t k = 0; k < options.sample_times_s.size(); ++k) {
+    const double time_s = options.sample_times_s[k];
+    check.Require(time_s >= before_s && time_s <= options.end_s,
+                  "sample_times_s[" + std::to_string(k) + "]", time_s,
+                  "no earlier than the one before, at least 0 and at most end_s");
+    before_s = time_s;
+  }
   check.Require(options.rise_fraction > 0.0 && options.rise_fraction <= 1.0, "rise_fraction",
                 options.rise_fraction, "in (0, 1]");
   check.Require(options.fall_fraction >= 0.0 && options.fall_fraction < 1.0, "fall_fraction",

@@ -59,7 +59,7 @@ check() {
   stays_in NLopt 'nlopt' optimizer
   stays_in CLI11 'CLI/' server
   stays_in fmt 'fmt/' server
-  stays_in Boost 'boost/' model optimizer
+  stays_in Boost 'boost/' model optimizer calibration
   stays_in SUNDIALS 'cvode|nvector/|sun(dials|linsol|matrix)' model
   stays_in Ceres 'ceres/' model calibration
   includes 'httplib' server | grep -v '^server/http\.cc:' |

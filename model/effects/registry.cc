@@ -14,6 +14,10 @@
 #include "model/effects/hysteresis.h"
 #include "model/effects/inertia.h"
 #include "model/effects/leak.h"
+#include "model/effects/learned_conductance.h"
+#include "model/effects/learned_leak.h"
+#include "model/effects/learned_sensor.h"
+#include "model/effects/learned_volume.h"
 #include "model/effects/line_dynamics.h"
 #include "model/effects/nonlinear_compliance.h"
 #include "model/effects/sensor_gain.h"
@@ -46,6 +50,23 @@ constexpr Entry MakeEntry() {
           }};
 }
 
+// The units of one number of knots.
+template <int N>
+struct Learned {
+  template <class T>
+  using Leak = LearnedLeak<T, N>;
+  template <class T>
+  using ConductanceByPressure = LearnedConductance<T, N, ConductanceFeature::kPressure>;
+  template <class T>
+  using ConductanceByExpansion = LearnedConductance<T, N, ConductanceFeature::kExpansion>;
+  template <class T>
+  using Volume = LearnedVolume<T, N>;
+  template <class T>
+  using Memory = LearnedMemory<T, N>;
+  template <class T>
+  using Sensor = LearnedSensor<T, N>;
+};
+
 // In the order of application: what comes later acts on what those before it have left.
 constexpr auto kRegistry = std::to_array<Entry>({
     MakeEntry<ValveDelay>(),
@@ -56,17 +77,38 @@ constexpr auto kRegistry = std::to_array<Entry>({
     MakeEntry<DeadVolume>(),
     MakeEntry<NonlinearCompliance>(),
     MakeEntry<Hysteresis>(),
+    MakeEntry<Learned<3>::Volume>(),
+    MakeEntry<Learned<5>::Volume>(),
+    MakeEntry<Learned<9>::Volume>(),
+    MakeEntry<LearnedBend>(),
+    MakeEntry<Learned<1>::Memory>(),
+    MakeEntry<Learned<3>::Memory>(),
     MakeEntry<Creep>(),
     MakeEntry<Inertia>(),
     MakeEntry<HeatTransfer>(),
     MakeEntry<SupplyDroop>(),
     MakeEntry<LineDynamics>(),
+    MakeEntry<Learned<3>::ConductanceByPressure>(),
+    MakeEntry<Learned<5>::ConductanceByPressure>(),
+    MakeEntry<Learned<9>::ConductanceByPressure>(),
+    MakeEntry<Learned<3>::ConductanceByExpansion>(),
+    MakeEntry<Learned<5>::ConductanceByExpansion>(),
+    MakeEntry<Learned<9>::ConductanceByExpansion>(),
     MakeEntry<LeakOrifice>(),
     MakeEntry<LeakLaminar>(),
     MakeEntry<LeakPorous>(),
+    MakeEntry<Learned<3>::Leak>(),
+    MakeEntry<Learned<5>::Leak>(),
+    MakeEntry<Learned<9>::Leak>(),
+    MakeEntry<LearnedOpening>(),
+    MakeEntry<LearnedStore>(),
     MakeEntry<SensorLag>(),
     MakeEntry<SensorGain>(),
     MakeEntry<SensorOffset>(),
+    MakeEntry<Learned<3>::Sensor>(),
+    MakeEntry<Learned<5>::Sensor>(),
+    MakeEntry<Learned<9>::Sensor>(),
+    MakeEntry<LearnedDrift>(),
 });
 
 constexpr auto kSpecs = [] {

@@ -70,6 +70,7 @@ struct Moment {
   T temperature_k, tail_temperature_k;
   double heat_capacity_ratio = 1.0;  // κ
   T wall_heat_w = T(0.0);
+  T line_factor = T(1.0);                         // on the conductance of the line, both ways
   T draw_m3_per_s = T(0.0);                       // ANR, out of the source
   T line_in_m3_per_s = T(0.0);                    // ANR, head to tail
   T line_out_m3_per_s = T(0.0);                   // ANR, tail to ambient

@@ -159,8 +159,10 @@ TEST(SimulationEffects, RenderAndReadBackEveryEffect) {
       for (const auto& parameter : spec->parameters)
         effect.parameters.push_back(high ? parameter.high : parameter.low);
       const Json owner = {{"effects", RenderEffects(std::vector{effect})}};
-      for (const auto& [name, value] : owner["effects"][0]["parameters"].items())
-        names.insert(name);
+      if (!spec->id.starts_with("learned_")) {
+        for (const auto& [name, value] : owner["effects"][0]["parameters"].items())
+          names.insert(name);
+      }
       Errors errors;
       Reader reader(owner, "", errors);
       const auto read = ReadEffects(reader);

@@ -13,15 +13,26 @@ EffectChamber::EffectChamber(const EffectRig& rig)
       ambient_pa_(rig.ambient_pa),
       span_pa_(rig.operating_pa - rig.ambient_pa),
       compliance_(rig.compliance.value_or(Compliance{})),
+      softening_(rig.unlisted.softening),
+      snap_(rig.unlisted.snap_through),
+      highest_x_((rig.initial_pa - rig.ambient_pa) / span_pa_),
       half_width_pa_(rig.hysteresis_half_width_pa.value_or(0.0)),
       side_(half_width_pa_ > 0.0 ? 0 : 1),
-      held_pa_(rig.initial_pa) {}
+      held_pa_(rig.initial_pa) {
+  if ((softening_ || snap_) && rig.heat_time_constant_s) {
+    throw std::invalid_argument("effect_chamber: this volume law has no work");
+  }
+}
 
 double EffectChamber::VolumeAt(double pressure_pa) const {
   const double x = (pressure_pa - ambient_pa_) / span_pa_;
   const double turn = 2.0 * std::numbers::pi;
-  const double shape = x + compliance_.curvature * x * (x - 1.0) +
-                       compliance_.s_amplitude * std::sin(turn * x) / turn;
+  double shape = x + compliance_.curvature * x * (x - 1.0) +
+                 compliance_.s_amplitude * std::sin(turn * x) / turn;
+  if (softening_ && x > 0.0 && x < highest_x_) {
+    shape += softening_->share * x * (1.0 - x / highest_x_);
+  }
+  if (snap_) shape += SnappedShare(*snap_, x) - x;
   return rest_m3_ * (1.0 + growth_ * shape);
 }
 
@@ -63,6 +74,10 @@ void EffectChamber::Turn(int side, double pressure_pa) {
   work_j_ = Work(pressure_pa);
   held_pa_ = play;
   side_ = side;
+}
+
+void EffectChamber::Remember(double pressure_pa) {
+  highest_x_ = std::max(highest_x_, (PlayOf(pressure_pa) - ambient_pa_) / span_pa_);
 }
 
 }  // namespace plenum::test

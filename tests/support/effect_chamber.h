@@ -26,6 +26,9 @@ class EffectChamber {
   double Below(double pressure_pa) const { return held_pa_ - half_width_pa_ - pressure_pa; }
   void Turn(int side, double pressure_pa);
 
+  // The end of a step: where the wall has been.
+  void Remember(double pressure_pa);
+
  private:
   double PlayOf(double pressure_pa) const {
     return side_ == 0 ? held_pa_ : pressure_pa - side_ * half_width_pa_;
@@ -35,6 +38,9 @@ class EffectChamber {
 
   double rest_m3_, growth_, ambient_pa_, span_pa_;
   Compliance compliance_;
+  std::optional<Softening> softening_;
+  std::optional<SnapThrough> snap_;
+  double highest_x_;  // of the play, so far
   double half_width_pa_;
   int side_;
   double held_pa_;       // the play's output when it last turned

@@ -32,7 +32,7 @@ class Simulator {
   const EffectRig& Rig() const { return system_.Rig(); }
   EffectState Slope(double t_s, const EffectState& y) const {
     const double after_s = t_s - since_s_;
-    return system_.Slope(y, fill_.At(after_s, Rig().valve_ramp_s),
+    return system_.Slope(t_s, y, fill_.At(after_s, Rig().valve_ramp_s),
                          exhaust_.At(after_s, Rig().valve_ramp_s));
   }
   EffectState RungeKutta(double t_s, const EffectState& y, double h) const;
@@ -42,7 +42,7 @@ class Simulator {
   void Advance(EffectState& y, double t_s, double to_s);
   void Command(double t_s);
   double NextSwitch(double t_s, double limit_s) const;
-  void Sample(const EffectState& y, EffectResult& result) const;
+  void Sample(double t_s, const EffectState& y, EffectResult& result) const;
 
   EffectSystem system_;
   double step_s_;
@@ -119,7 +119,9 @@ void Simulator::Advance(EffectState& y, double t_s, double to_s) {
       next = RungeKutta(t_s, y, h);
     }
     y = next;
-    system_.Expect(system_.Gas(y).pressure_pa);
+    const double p = system_.Gas(y).pressure_pa;
+    system_.Expect(p);
+    system_.Law().Remember(p);
     t_s = h == to_s - t_s ? to_s : t_s + h;
   }
 }
@@ -150,7 +152,7 @@ double Simulator::NextSwitch(double t_s, double limit_s) const {
   return next_s;
 }
 
-void Simulator::Sample(const EffectState& y, EffectResult& result) const {
+void Simulator::Sample(double t_s, const EffectState& y, EffectResult& result) const {
   const ChamberGas gas = system_.Gas(y);
   const double ambient_pa = Rig().ambient_pa;
   const double felt_pa = Rig().sensor_lag_s > 0.0 ? y[kSensor] : gas.pressure_pa;
@@ -159,7 +161,7 @@ void Simulator::Sample(const EffectState& y, EffectResult& result) const {
                                Rig().sensor_offset_pa);
   result.volume_m3.push_back(gas.volume_m3);
   result.temperature_k.push_back(gas.temperature_k);
-  result.supply_pa.push_back(system_.SupplyPressure(y));
+  result.supply_pa.push_back(system_.SupplyPressure(t_s, y));
   result.node_pa.push_back(system_.NodePressure(y));
 }
 
@@ -167,7 +169,7 @@ EffectResult Simulator::Run(const std::vector<double>& times_s) {
   EffectState y = system_.Start();
   EffectResult result;
   result.t_s = times_s;
-  result.gas_start_kg = y[kMass] + y[kDroop] + y[kNode];
+  result.gas_start_kg = y[kMass] + y[kDroop] + y[kNode] + y[kSecond];
   result.energy_start_j = system_.Energy(y);
   double t_s = 0.0;
   Command(t_s);
@@ -178,16 +180,17 @@ EffectResult Simulator::Run(const std::vector<double>& times_s) {
       t_s = to_s;
       Command(t_s);
     }
-    Sample(y, result);
+    Sample(sample_s, y, result);
   }
   result.source_kg = y[kSource];
+  result.delivered_kg = y[kDelivered];
   result.exhaust_kg = y[kExhaust];
   result.leak_kg = y[kLeak];
   result.heat_j = y[kHeat];
   result.work_j = system_.Work(y);
   result.enthalpy_in_j = y[kIn];
   result.enthalpy_out_j = y[kOut];
-  result.gas_kg = y[kMass] + y[kDroop] + y[kNode];
+  result.gas_kg = y[kMass] + y[kDroop] + y[kNode] + y[kSecond];
   result.energy_j = system_.Energy(y);
   return result;
 }

@@ -1,7 +1,7 @@
 // A second simulator of one actuator with physical effects, for comparison: it shares no code with
 // the model.
 //
-// States are the mass of gas in the chamber, in the supply and in the line (kg) and the energy
+// States are the masses of gas in the chamber, in the supply and in the line (kg) and the energy
 // that the chamber's gas has taken up (J); pressure and temperature follow from inverting them:
 //   isothermal      p·V = m·R·T_a
 //   heat_transfer   p·V = (γ−1)·U, T = U/(m·c_v), U = U(0) + enthalpy in − out + heat − ∫p·dV
@@ -17,11 +17,14 @@
 #ifndef PLENUM_TESTS_SUPPORT_EFFECT_FORM_H_
 #define PLENUM_TESTS_SUPPORT_EFFECT_FORM_H_
 
+#include <functional>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "tests/support/mass_form.h"
+#include "tests/support/unlisted_effects.h"
 
 namespace plenum::test {
 
@@ -91,8 +94,12 @@ struct EffectRig {
   std::optional<double> initial_k;  // with heat_transfer only; else ambient
 
   enum class Source { kNone, kRegulated, kReservoir } source = Source::kRegulated;
-  double source_pa = 3e5;  // regulated, or the reservoir's at the start
+  double source_pa = 3e5;                       // regulated, or the reservoir's at the start
+  std::function<double(double)> source_course;  // of a regulated source over time, for source_pa
   double reservoir_m3 = 0.0;
+  // What a compressor sends into the reservoir all the time: absolute Pa rising, m³/s ANR; straight
+  // between the points, constant before them, nothing past them. Empty: none.
+  std::vector<std::pair<double, double>> delivery;
   std::vector<MassElement> fill, exhaust;  // in the order crossed
   std::vector<MassCommand> schedule;
 
@@ -113,6 +120,7 @@ struct EffectRig {
   double cracking_pa = 0.0;
   double fill_factor = 1.0;  // directional_conductance
   std::optional<LineDynamics> line;
+  UnlistedEffects unlisted;
 
   double linear_ratio = 0.999;  // above it flow falls to zero along a straight line
 };
@@ -127,14 +135,15 @@ struct EffectResult {
   std::vector<double> node_pa;        // at the line's end; the chamber's without line dynamics
 
   // Totals from time 0 to the last time.
-  double source_kg = 0.0;   // out of the regulated source or the reservoir
-  double exhaust_kg = 0.0;  // through the valve to ambient
-  double leak_kg = 0.0;     // out, less what came in
+  double source_kg = 0.0;     // out of the regulated source or the reservoir
+  double delivered_kg = 0.0;  // by the compressor
+  double exhaust_kg = 0.0;    // through the valve to ambient
+  double leak_kg = 0.0;       // out, less what came in
   // Of the chamber's gas; heat and energy mean nothing without heat_transfer.
   double heat_j = 0.0;  // from the wall
   double work_j = 0.0;  // ∫p·dV
   double enthalpy_in_j = 0.0, enthalpy_out_j = 0.0;
-  double gas_start_kg = 0.0, gas_kg = 0.0;  // in chamber, tube and droop volume
+  double gas_start_kg = 0.0, gas_kg = 0.0;  // in chambers, tube and droop volume
   double energy_start_j = 0.0, energy_j = 0.0;
 };
 

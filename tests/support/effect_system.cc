@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace plenum::test {
@@ -25,6 +26,9 @@ EffectRig Effective(EffectRig rig) {
     rig.creep.reset();
     rig.hysteresis_half_width_pa.reset();
     rig.compliance.reset();
+    rig.unlisted.softening.reset();
+    rig.unlisted.snap_through.reset();
+    rig.unlisted.kinking_line.reset();
   }
   if (rig.hysteresis_half_width_pa == 0.0) rig.hysteresis_half_width_pa.reset();
   return rig;
@@ -55,6 +59,9 @@ EffectState EffectSystem::Start() {
       rig_.heat_time_constant_s ? rig_.initial_k.value_or(rig_.ambient_k) : rig_.ambient_k;
   y[kMass] = rig_.initial_pa * (y[kVolume] + rig_.dead_volume_m3) / (kGasConstant * temperature_k);
   if (rig_.supply_droop) y[kDroop] = rig_.source_pa * rig_.supply_droop->volume_m3 / per_mass_;
+  if (const auto& second = rig_.unlisted.second_chamber) {
+    y[kSecond] = rig_.initial_pa * second->volume_m3 / per_mass_;
+  }
   if (rig_.line) y[kNode] = rig_.initial_pa * TubeVolume() / per_mass_;
   start_energy_j_ = kCv * y[kMass] * temperature_k;
   return y;
@@ -79,14 +86,27 @@ ChamberGas EffectSystem::Gas(const EffectState& y) const {
   return gas;
 }
 
-double EffectSystem::SourcePressure(const EffectState& y) const {
-  if (rig_.source != EffectRig::Source::kReservoir) return rig_.source_pa;
-  return rig_.source_pa - y[kSource] * per_mass_ / rig_.reservoir_m3;
+double EffectSystem::SourcePressure(double t_s, const EffectState& y) const {
+  if (rig_.source != EffectRig::Source::kReservoir) {
+    return rig_.source_course ? rig_.source_course(t_s) : rig_.source_pa;
+  }
+  return rig_.source_pa + (y[kDelivered] - y[kSource]) * per_mass_ / rig_.reservoir_m3;
 }
 
-double EffectSystem::SupplyPressure(const EffectState& y) const {
+double EffectSystem::SupplyPressure(double t_s, const EffectState& y) const {
   return rig_.supply_droop ? y[kDroop] * per_mass_ / rig_.supply_droop->volume_m3
-                           : SourcePressure(y);
+                           : SourcePressure(t_s, y);
+}
+
+// kg/s
+double EffectSystem::Delivery(double reservoir_pa) const {
+  const auto& table = rig_.delivery;
+  if (table.empty() || reservoir_pa > table.back().first) return 0.0;
+  if (reservoir_pa <= table.front().first) return kReferenceDensity * table.front().second;
+  std::size_t i = 1;
+  while (table[i].first < reservoir_pa) ++i;
+  const double share = (reservoir_pa - table[i - 1].first) / (table[i].first - table[i - 1].first);
+  return kReferenceDensity * std::lerp(table[i - 1].second, table[i].second, share);
 }
 
 double EffectSystem::NodePressure(const EffectState& y) const {
@@ -113,8 +133,8 @@ double EffectSystem::LineFlow(const std::vector<MassElement>& line, double openi
 }
 
 double EffectSystem::LeakFlow(const ChamberGas& gas) const {
-  if (!rig_.leak) return 0.0;
   const double p = gas.pressure_pa, p_a = rig_.ambient_pa;
+  if (!rig_.leak) return 0.0;
   const double squares = p * p - p_a * p_a;
   if (const auto* orifice = std::get_if<OrificeLeak>(&*rig_.leak)) {
     const std::vector<MassElement> hole{{orifice->conductance, orifice->critical_ratio}};
@@ -127,6 +147,31 @@ double EffectSystem::LeakFlow(const ChamberGas& gas) const {
   const auto& porous = std::get<PorousLeak>(*rig_.leak);
   const double a = porous.viscous_pa2_s_per_kg, c = porous.inertial_pa2_s2_per_kg2;
   return 2.0 * squares / (a + std::sqrt(a * a + 4.0 * c * std::abs(squares)));
+}
+
+double EffectSystem::SeamFlow(const ChamberGas& gas) const {
+  if (!rig_.unlisted.gaping_seam) return 0.0;
+  const GapingSeam& seam = *rig_.unlisted.gaping_seam;
+  const double open = OpenShare(seam, gas.pressure_pa);
+  return ChainFlow({{open * seam.conductance, seam.critical_ratio}}, gas.pressure_pa,
+                   rig_.ambient_pa, Density(gas.temperature_k), rig_.linear_ratio);
+}
+
+double EffectSystem::KinkOfLine(double volume_m3) const {
+  if (!rig_.unlisted.kinking_line) return 1.0;
+  const double expansion_m3 = rig_.rest_volume_m3 * (rig_.expansion_ratio - 1.0);
+  return KinkFactor(*rig_.unlisted.kinking_line,
+                    (volume_m3 - rig_.dead_volume_m3 - rig_.rest_volume_m3) / expansion_m3);
+}
+
+double EffectSystem::FlowToSecond(const EffectState& y, double pressure_pa) const {
+  if (!rig_.unlisted.second_chamber) return 0.0;
+  const SecondChamber& second = *rig_.unlisted.second_chamber;
+  const std::vector<MassElement> hole{{second.conductance, second.critical_ratio}};
+  const double behind_pa = y[kSecond] * per_mass_ / second.volume_m3;
+  const double density = Density(rig_.ambient_k);
+  return ChainFlow(hole, pressure_pa, behind_pa, density, rig_.linear_ratio) -
+         ChainFlow(hole, behind_pa, pressure_pa, density, rig_.linear_ratio);
 }
 
 double EffectSystem::ColumnRate(double flow, double node_pa, double pressure_pa) const {
@@ -152,28 +197,31 @@ void EffectSystem::MoveWall(const EffectState& y, double pressure_pa, EffectStat
   }
 }
 
-EffectState EffectSystem::Slope(const EffectState& y, double fill_opening,
+EffectState EffectSystem::Slope(double t_s, const EffectState& y, double fill_opening,
                                 double exhaust_opening) const {
   const ChamberGas gas = Gas(y);
   const double p = gas.pressure_pa;
   const double end_pa = rig_.line ? NodePressure(y) : p;
   const double end_k = rig_.line ? rig_.ambient_k : gas.temperature_k;
+  const double kink = KinkOfLine(gas.volume_m3);
   EffectState slope{};
 
   double fill = 0.0;
   if (rig_.source != EffectRig::Source::kNone) {
-    const double supply_pa = SupplyPressure(y);
-    fill = LineFlow(rig_.fill, rig_.fill_factor * fill_opening, supply_pa, end_pa, rig_.ambient_k,
-                    std::nullopt);
+    const double supply_pa = SupplyPressure(t_s, y);
+    fill = LineFlow(rig_.fill, rig_.fill_factor * kink * fill_opening, supply_pa, end_pa,
+                    rig_.ambient_k, std::nullopt);
     slope[kSource] = fill;
     if (const auto& droop = rig_.supply_droop) {
-      slope[kSource] = ChainFlow({{droop->conductance, droop->critical_ratio}}, SourcePressure(y),
-                                 supply_pa, Density(rig_.ambient_k), rig_.linear_ratio);
+      slope[kSource] =
+          ChainFlow({{droop->conductance, droop->critical_ratio}}, SourcePressure(t_s, y),
+                    supply_pa, Density(rig_.ambient_k), rig_.linear_ratio);
       slope[kDroop] = slope[kSource] - fill;
     }
+    slope[kDelivered] = Delivery(SourcePressure(t_s, y));
   }
-  const double exhaust = LineFlow(rig_.exhaust, exhaust_opening, end_pa, rig_.ambient_pa, end_k,
-                                  rig_.exhaust_restriction);
+  const double exhaust = LineFlow(rig_.exhaust, kink * exhaust_opening, end_pa, rig_.ambient_pa,
+                                  end_k, rig_.exhaust_restriction);
   slope[kExhaust] = exhaust;
 
   double in = fill, out = exhaust;
@@ -184,11 +232,13 @@ EffectState EffectSystem::Slope(const EffectState& y, double fill_opening,
     in = std::max(column, 0.0);
     out = std::max(-column, 0.0);
   }
-  slope[kLeak] = LeakFlow(gas);
+  slope[kLeak] = LeakFlow(gas) + SeamFlow(gas);
   in += std::max(-slope[kLeak], 0.0);
   out += std::max(slope[kLeak], 0.0);
 
-  slope[kMass] = in - out;
+  slope[kSecond] = FlowToSecond(y, p);
+
+  slope[kMass] = in - out - slope[kSecond];
   slope[kIn] = kCp * rig_.ambient_k * in;
   slope[kOut] = kCp * gas.temperature_k * out;
   slope[kHeat] = wall_w_per_k_ * (rig_.ambient_k - gas.temperature_k);

@@ -10,13 +10,13 @@
 
 namespace plenum::test {
 
-// Masses of chamber, droop volume and tube; the volume and its rate (with inertia) and the creep;
-// the column's flow, m³/s ANR; the lagging sensor; and the totals of EffectResult, where kWork
-// holds only what the quasi-static law does not.
+// Masses of chamber, droop volume, tube and second chamber; the volume and its rate (with inertia)
+// and the creep; the column's flow, m³/s ANR; the lagging sensor; and the totals of EffectResult,
+// where kWork holds only what the quasi-static law does not.
 // clang-format off
 enum EffectIndex {
-  kMass, kDroop, kNode, kVolume, kVelocity, kCreep, kColumn, kSensor,
-  kSource, kExhaust, kLeak, kHeat, kWork, kIn, kOut, kSize
+  kMass, kDroop, kNode, kSecond, kVolume, kVelocity, kCreep, kColumn, kSensor,
+  kSource, kDelivered, kExhaust, kLeak, kHeat, kWork, kIn, kOut, kSize
 };
 // clang-format on
 using EffectState = std::array<double, kSize>;
@@ -30,10 +30,11 @@ class EffectSystem {
   explicit EffectSystem(const EffectRig& declared);
 
   EffectState Start();
-  EffectState Slope(const EffectState& y, double fill_opening, double exhaust_opening) const;
+  EffectState Slope(double t_s, const EffectState& y, double fill_opening,
+                    double exhaust_opening) const;
 
   ChamberGas Gas(const EffectState& y) const;
-  double SupplyPressure(const EffectState& y) const;
+  double SupplyPressure(double t_s, const EffectState& y) const;
   double NodePressure(const EffectState& y) const;
   double Work(const EffectState& y) const;  // ∫p·dV since the start
   double Energy(const EffectState& y) const;
@@ -45,11 +46,15 @@ class EffectSystem {
 
  private:
   double TubeVolume() const { return bore_m2_ * rig_.line->length_m; }
-  double SourcePressure(const EffectState& y) const;
+  double SourcePressure(double t_s, const EffectState& y) const;
+  double Delivery(double reservoir_pa) const;
   double LineFlow(const std::vector<MassElement>& line, double opening, double upstream_pa,
                   double downstream_pa, double temperature_k,
                   const std::optional<ExhaustRestriction>& after) const;
   double LeakFlow(const ChamberGas& gas) const;
+  double SeamFlow(const ChamberGas& gas) const;
+  double KinkOfLine(double volume_m3) const;
+  double FlowToSecond(const EffectState& y, double pressure_pa) const;
   double ColumnRate(double flow, double node_pa, double pressure_pa) const;
   void MoveWall(const EffectState& y, double pressure_pa, EffectState& slope) const;
 

@@ -1,0 +1,27 @@
+#include "api/diagnose.h"
+
+#include "api/revision_of_diagnosis.h"
+#include "calibration/diagnose.h"
+#include "catalog/content_hash.h"
+
+namespace plenum::api {
+
+DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisProgress& progress) {
+  calibration::DiagnoseOptions options;
+  options.given = request.given;
+  options.cancelled = progress.cancelled;
+  options.progress = progress.progress;
+  const calibration::Diagnosis diagnosis = calibration::Diagnose(request.dataset, options);
+  DiagnosisAnswer answer;
+  answer.answer = RenderDiagnosis(diagnosis, request.dataset, request.provenance);
+  if (diagnosis.verdict != calibration::Verdict::kTie &&
+      diagnosis.verdict != calibration::Verdict::kUndecided)
+    answer.revision = RevisionOf(diagnosis, request.provenance);
+  return answer;
+}
+
+Provenance::File FileOf(const std::string& name, std::string_view text) {
+  return {name, catalog::Sha256(text)};
+}
+
+}  // namespace plenum::api

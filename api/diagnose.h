@@ -1,0 +1,39 @@
+// A diagnosis from documents to answer, for the command line and the service.
+#ifndef PLENUM_API_DIAGNOSE_H_
+#define PLENUM_API_DIAGNOSE_H_
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/diagnosis.h"
+#include "api/measurement.h"
+#include "api/model_revision.h"
+
+namespace plenum::api {
+
+struct DiagnosisRequest {
+  calibration::Dataset dataset;
+  std::vector<model::Effect> given;  // of a saved model; part of the base model
+  Provenance provenance;
+};
+
+struct DiagnosisProgress {
+  std::function<bool()> cancelled;                           // may be empty
+  std::function<void(double, const std::string&)> progress;  // share done, what is under way
+};
+
+struct DiagnosisAnswer {
+  Json answer;                         // diagnosis/1
+  std::optional<SavedModel> revision;  // to be saved; none of a tie or of what is undecided
+};
+DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisProgress& progress);
+
+// A file by name and the hash of its text.
+Provenance::File FileOf(const std::string& name, std::string_view text);
+
+}  // namespace plenum::api
+
+#endif  // PLENUM_API_DIAGNOSE_H_

@@ -1,0 +1,431 @@
+#include "api/measurement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "api/fields.h"
+#include "api/reader.h"
+#include "api/rig.h"
+#include "api/text.h"
+#include "api/units.h"
+
+namespace plenum::api {
+namespace {
+
+using calibration::Channels;
+using calibration::Dataset;
+using calibration::Declared;
+using calibration::LinePiece;
+using calibration::Run;
+using calibration::Supply;
+
+constexpr std::size_t kRunsMax = 1000;
+constexpr std::size_t kSamplesMax = 200'000;  // of a run
+constexpr std::size_t kElementsMax = 16;
+constexpr std::size_t kReadingsMin = 8;
+constexpr double kTimeMaxS = 1e6;
+constexpr double kSmallReservoirMl = 10.0;  // where a compressor feeds the line directly
+constexpr double kAbsurd = 3.0;  // a reading that many times above all that could cause it
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// What people write into such files for themselves.
+constexpr const char* kRemarks[] = {"note",    "notes",  "comment", "description", "date",
+                                    "license", "origin", "url",     "author"};
+
+void AllowRemarks(Reader& reader) {
+  for (const char* remark : kRemarks) reader.Raw(remark);
+}
+
+// What a rig declares, before the run adds its own.
+struct RigPart {
+  model::Ambient ambient;
+  model::Chamber chamber;
+  std::vector<LinePiece> line;
+  Supply supply = Supply::kNone;
+  std::optional<double> source_pressure_pa;
+  model::CompressorCurve compressor;
+  double reservoir_volume_m3 = 0.0;
+};
+
+model::FlowElement ReadPair(Reader& reader) {
+  model::FlowElement element;
+  element.sonic_conductance_m3_per_s_pa =
+      ConductanceFromDm3PerSBar(reader.Number("sonic_conductance_dm3_per_s_bar", {1e-6, 1e4}));
+  element.critical_ratio = reader.Number("critical_ratio", {0, 0.95});
+  return element;
+}
+
+LinePiece ReadPairs(Reader& reader) {
+  LinePiece piece;
+  piece.fill = piece.exhaust = ReadPair(reader);
+  if (auto exhaust = reader.OptionalObject("exhaust")) {
+    piece.exhaust = ReadPair(*exhaust);
+    exhaust->Finish();
+  }
+  return piece;
+}
+
+LinePiece ReadTube(Reader tube) {
+  LinePiece piece;
+  piece.tube.emplace();
+  piece.tube->inner_diameter_m = MFromMm(tube.Number("inner_diameter_mm", {0.3, 30}));
+  piece.tube->length_m = tube.Number("length_m", TubeLengthRange());
+  tube.Finish();
+  return piece;
+}
+
+std::vector<LinePiece> ReadPieces(Reader line) {
+  std::vector<LinePiece> pieces;
+  if (line.Has("elements")) {
+    for (const Element& element : line.List("elements", 1, kElementsMax)) {
+      Reader reader(element, line.errors());
+      pieces.push_back(reader.Has("tube") ? ReadTube(reader.Object("tube")) : ReadPairs(reader));
+      reader.Finish();
+    }
+  } else {
+    pieces.push_back(ReadPairs(line));
+    if (line.Has("tube")) pieces.push_back(ReadTube(line.Object("tube")));
+  }
+  line.Finish();
+  return pieces;
+}
+
+void ReadSupply(Reader& rig, RigPart& part) {
+  auto supply = rig.OptionalObject("supply");
+  if (!supply) return;
+  const std::string kind = supply->Choice("kind", {"regulated", "measured", "compressor", "none"});
+  if (kind == "regulated") part.supply = Supply::kRegulated;
+  if (kind == "measured") part.supply = Supply::kMeasured;
+  if (kind == "compressor") {
+    part.supply = Supply::kCompressor;
+    part.compressor = ReadPumpCurve(*supply, part.ambient);
+    part.reservoir_volume_m3 =
+        M3FromMl(supply->Number("reservoir_volume_ml", {1, 1e6}, kSmallReservoirMl));
+  }
+  if (const auto kpa = supply->OptionalNumber("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}))
+    part.source_pressure_pa = PaFromKpaGauge(*kpa, part.ambient);
+  if (!kind.empty()) supply->Finish();
+}
+
+RigPart ReadRig(const Json& document, const std::string& pointer, Errors& errors) {
+  Reader reader(document, pointer, errors);
+  RigPart part;
+  AllowRemarks(reader);
+  part.ambient = ReadAmbient(reader);
+  Reader actuator = reader.Object("actuator");
+  AllowRemarks(actuator);
+  part.chamber = ReadChamber(actuator, part.ambient);
+  actuator.Finish();
+  if (reader.Has("line")) part.line = ReadPieces(reader.Object("line"));
+  ReadSupply(reader, part);
+  reader.Finish();
+  return part;
+}
+
+// An error of a merged rig belongs to the shared one if the run's own does not hold the place.
+std::string PlaceInShared(const std::string& pointer, const std::string& own_pointer,
+                          const Json& own, const Json& shared) {
+  const Json::json_pointer path(pointer.substr(own_pointer.size()));
+  for (auto at = path; !at.empty(); at = at.parent_pointer()) {
+    if (own.contains(at)) return pointer;
+    if (shared.contains(at)) return "/rig" + path.to_string();
+  }
+  return pointer;
+}
+
+void AddOnce(Error error, Errors& errors) {
+  if (std::find(errors.begin(), errors.end(), error) == errors.end())
+    errors.push_back(std::move(error));
+}
+
+RigPart ReadRigOfRun(const Json& shared, const Json* own, const std::string& own_pointer,
+                     Errors& errors) {
+  Errors found;
+  RigPart part;
+  if (own == nullptr || !own->is_object() || !shared.is_object()) {
+    if (own != nullptr && !own->is_object())
+      found.push_back({own_pointer, "must be an object, not " + KindOf(*own)});
+    part = ReadRig(shared, "/rig", found);
+  } else {
+    Json merged = shared;
+    merged.merge_patch(*own);
+    part = ReadRig(merged, own_pointer, found);
+    for (Error& error : found)
+      error.pointer = PlaceInShared(error.pointer, own_pointer, *own, shared);
+  }
+  for (Error& error : found) AddOnce(std::move(error), errors);
+  return part;
+}
+
+// Collects errors of one list up to a number, then says how many more there are.
+class SeriesErrors {
+ public:
+  SeriesErrors(Reader& owner, std::string name) : owner_(owner), name_(std::move(name)) {}
+  ~SeriesErrors() {
+    if (count_ > kSeriesErrors)
+      owner_.Fail(name_, "and " + std::to_string(count_ - kSeriesErrors) + " more like these");
+  }
+  SeriesErrors(const SeriesErrors&) = delete;
+  void Add(std::size_t index, const std::string& detail) {
+    if (++count_ <= kSeriesErrors) owner_.FailAt(name_ + "/" + std::to_string(index), detail);
+  }
+
+ private:
+  Reader& owner_;
+  std::string name_;
+  std::size_t count_ = 0;
+};
+
+// Samples; null is NaN where `gaps` are allowed.
+std::vector<double> ReadSeries(Reader& owner, const std::string& name, Range range, bool gaps,
+                               std::size_t least) {
+  std::vector<double> series;
+  SeriesErrors errors(owner, name);
+  for (const Element& element : owner.List(name, least, kSamplesMax)) {
+    const Json& value = *element.value;
+    double number = kNaN;
+    if (value.is_number()) {
+      number = value.get<double>();
+      if (!range.Contains(number))
+        errors.Add(series.size(), "must be " + range.Text() + ", not " + Decimal(number));
+    } else if (!value.is_null() || !gaps) {
+      errors.Add(series.size(), "must be a number" + std::string(gaps ? " or null" : "") +
+                                    ", not " + KindOf(value));
+    }
+    series.push_back(number);
+  }
+  return series;
+}
+
+void CheckRising(Reader& owner, const std::vector<double>& t_s) {
+  SeriesErrors errors(owner, "t_s");
+  for (std::size_t i = 1; i < t_s.size(); ++i)
+    if (t_s[i] < t_s[i - 1])
+      errors.Add(i, "must not fall from sample to sample: " + Decimal(t_s[i]) + " follows " +
+                        Decimal(t_s[i - 1]));
+  if (!t_s.empty() && t_s.front() == t_s.back())
+    owner.Fail("t_s", "must span some time; all samples are at " + Decimal(t_s.front()) + " s");
+}
+
+void CheckLength(Reader& owner, const std::string& name, std::size_t length, std::size_t samples) {
+  if (length > 0 && samples > 0 && length != samples)
+    owner.Fail(name, "must have one value for each of the " + std::to_string(samples) +
+                         " sample times, not " + std::to_string(length));
+}
+
+std::vector<double> InSi(const std::vector<double>& series, auto&& convert) {
+  std::vector<double> si(series.size());
+  std::transform(series.begin(), series.end(), si.begin(), convert);
+  return si;
+}
+
+void ReadChannels(Reader& owner, Run& run) {
+  auto channels = owner.OptionalObject("channels");
+  if (!channels) return;
+  const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
+  const auto gauge = [&](double kpa) { return PaFromKpaGauge(kpa, run.ambient); };
+  const auto read = [&](const char* name, Range range, auto&& convert,
+                        std::vector<double>& channel) {
+    if (!channels->Has(name)) return;
+    channel = InSi(ReadSeries(*channels, name, range, true, 0), convert);
+    CheckLength(*channels, name, channel.size(), run.t_s.size());
+    const bool silent =
+        std::all_of(channel.begin(), channel.end(), [](double value) { return std::isnan(value); });
+    if (silent) channel.clear();
+  };
+  const Range pressure = Above(lowest_kpa, kGaugeMaxKpa);
+  read("source_pressure_kpa_gauge", pressure, gauge, run.channels.source_pressure_pa);
+  read("inlet_pressure_kpa_gauge", pressure, gauge, run.channels.inlet_pressure_pa);
+  read("temperature_k", {50, 2000}, std::identity(), run.channels.temperature_k);
+  read("volume_ml", Above(0, 1e9), M3FromMl, run.channels.volume_m3);
+  read("flow_l_per_min_anr", {-1e6, 1e6}, M3PerSFromLPerMin, run.channels.flow_m3_per_s);
+  channels->Finish();
+}
+
+void ReadInitial(Reader& owner, Run& run) {
+  auto initial = owner.OptionalObject("initial");
+  if (!initial) return;
+  const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
+  if (const auto kpa =
+          initial->OptionalNumber("pressure_kpa_gauge", Above(lowest_kpa, kGaugeMaxKpa)))
+    run.initial_pressure_pa = PaFromKpaGauge(*kpa, run.ambient);
+  run.initial_temperature_k = initial->OptionalNumber("temperature_k", {150, 600});
+  initial->Finish();
+}
+
+bool Opens(const Run& run, model::ValveState state) {
+  return std::any_of(run.valve.begin(), run.valve.end(),
+                     [&](const model::ValveCommand& command) { return command.state == state; });
+}
+
+// What the run does must be possible with what is declared.
+void CheckAgreement(Reader& owner, const Run& run, bool has_source_pressure) {
+  const bool inflates = Opens(run, model::ValveState::kInflate);
+  if ((inflates || Opens(run, model::ValveState::kDeflate)) && run.line.empty())
+    owner.Fail("valve", "opens, but the rig has no line");
+  if (inflates && run.supply == Supply::kNone)
+    owner.Fail("valve", "inflates, but the rig's supply is none");
+  if (run.supply == Supply::kRegulated && inflates && !has_source_pressure)
+    owner.Fail("source_pressure_kpa_gauge", "is required with a regulated supply, a number ≥ 0");
+  if (run.supply == Supply::kMeasured && run.channels.source_pressure_pa.empty())
+    owner.Fail("channels", "source_pressure_kpa_gauge is required with supply.kind measured");
+}
+
+// Readings that can tell something.
+void CheckReadings(Reader& owner, const Run& run) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  std::size_t count = 0;
+  for (const double pa : run.pressure_pa) {
+    if (std::isnan(pa)) continue;
+    low = std::min(low, pa), high = std::max(high, pa);
+    ++count;
+  }
+  if (run.pressure_pa.empty()) return;  // reported
+  if (count < kReadingsMin) {
+    owner.Fail("pressure_kpa_gauge", "must hold at least " + std::to_string(kReadingsMin) +
+                                         " readings, not " + std::to_string(count));
+    return;
+  }
+  const double high_kpa = KpaGaugeFromPa(high, run.ambient);
+  if (low == high)
+    owner.Fail("pressure_kpa_gauge", "must change; all " + std::to_string(count) +
+                                         " readings are " + Decimal(Rounded(high_kpa)));
+  double cause_pa = std::max({run.source_pressure_pa, run.chamber.operating_pressure_pa,
+                              run.initial_pressure_pa.value_or(0.0)});
+  for (const double pa : run.channels.source_pressure_pa)
+    if (!std::isnan(pa)) cause_pa = std::max(cause_pa, pa);
+  if (run.supply == Supply::kCompressor)
+    cause_pa = std::max(cause_pa, run.compressor.pressure_max_pa);
+  const double cause_kpa = KpaGaugeFromPa(cause_pa, run.ambient);
+  if (run.initial_pressure_pa && high_kpa > kAbsurd * cause_kpa)
+    owner.Fail("pressure_kpa_gauge", "reaches " + Decimal(Rounded(high_kpa)) +
+                                         " kPa, but nothing in the run is above " +
+                                         Decimal(Rounded(cause_kpa)) + " kPa; are the units kPa?");
+}
+
+Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& ids,
+            Errors& errors) {
+  Reader reader(element, errors);
+  AllowRemarks(reader);
+  Run run;
+  run.id = reader.Text("id");
+  if (!run.id.empty() && !ids.insert(run.id).second)
+    reader.Fail("id", "must be unique; " + Quoted(run.id) + " is taken by an earlier run");
+  const RigPart rig = ReadRigOfRun(shared, reader.Has("rig") ? reader.Raw("rig") : nullptr,
+                                   reader.Pointer("rig"), errors);
+  run.ambient = rig.ambient;
+  run.chamber = rig.chamber;
+  run.line = rig.line;
+  run.supply = rig.supply;
+  run.compressor = rig.compressor;
+  run.reservoir_volume_m3 = rig.reservoir_volume_m3;
+  run.blocked = reader.Bool("blocked", false);
+  const auto source_kpa = reader.OptionalNumber("source_pressure_kpa_gauge", {0, kGaugeMaxKpa});
+  const bool has_source = source_kpa || rig.source_pressure_pa;
+  run.source_pressure_pa = source_kpa ? PaFromKpaGauge(*source_kpa, run.ambient)
+                                      : rig.source_pressure_pa.value_or(run.ambient.pressure_pa);
+  ReadInitial(reader, run);
+  if (const auto schedule = ReadSchedule(reader))
+    run.valve = schedule->commands;
+  else
+    reader.Fail("valve", "is required, a list of commands { t_s, state }");
+  run.t_s = ReadSeries(reader, "t_s", {-kTimeMaxS, kTimeMaxS}, false, kReadingsMin);
+  CheckRising(reader, run.t_s);
+  const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
+  run.pressure_pa = InSi(ReadSeries(reader, "pressure_kpa_gauge", {1.5 * lowest_kpa, kGaugeMaxKpa},
+                                    true, kReadingsMin),
+                         [&](double kpa) { return PaFromKpaGauge(kpa, run.ambient); });
+  CheckLength(reader, "pressure_kpa_gauge", run.pressure_pa.size(), run.t_s.size());
+  ReadChannels(reader, run);
+  CheckAgreement(reader, run, has_source);
+  CheckReadings(reader, run);
+  reader.Finish();
+  return run;
+}
+
+void ReadUncertainty(Reader& document, Dataset& dataset) {
+  auto reader = document.OptionalObject("relative_uncertainty");
+  if (!reader) return;
+  for (int k = 0; k < calibration::kDeclaredCount; ++k) {
+    const auto name = calibration::Name(static_cast<Declared>(k));
+    double& uncertainty = dataset.relative_uncertainty[static_cast<std::size_t>(k)];
+    if (!reader->Has(name)) continue;
+    const Json& value = *reader->Raw(name);
+    if (value.is_string() && value.get_ref<const std::string&>() == "unknown")
+      uncertainty = calibration::kUnknown;
+    else if (value.is_string())
+      reader->Fail(name, "must be a number or \"unknown\", not " + KindOf(value));
+    else
+      uncertainty = reader->Number(name, {0, 10});
+  }
+  reader->Finish();
+}
+
+void CheckHoldout(Reader& document, const std::set<std::string>& ids, const Dataset& dataset) {
+  for (std::size_t i = 0; i < dataset.holdout.size(); ++i) {
+    if (ids.contains(dataset.holdout[i])) continue;
+    const std::vector<std::string> known(ids.begin(), ids.end());
+    const std::string nearest = Nearest(dataset.holdout[i], known);
+    document.FailAt("holdout/" + std::to_string(i),
+                    "no run " + Quoted(dataset.holdout[i]) +
+                        (nearest.empty() ? "" : "; nearest id: " + nearest));
+  }
+  if (!ids.empty() && dataset.holdout.size() >= ids.size())
+    document.Fail("holdout", "must leave at least one run to fit");
+}
+
+}  // namespace
+
+Parsed<Dataset> ParseMeasurement(const Json& document) {
+  Errors errors;
+  Dataset dataset;
+  Reader reader(document, "", errors);
+  AllowRemarks(reader);
+  reader.Schema("measurement/1");
+  dataset.name = reader.Text("name", "measurement");
+  static const Json kNoRig = Json::object();
+  const Json* shared = reader.Has("rig") ? reader.Raw("rig") : &kNoRig;
+  ReadUncertainty(reader, dataset);
+  std::set<std::string> ids;
+  for (const Element& element : reader.List("runs", 1, kRunsMax))
+    dataset.runs.push_back(ReadRun(element, *shared, ids, errors));
+  dataset.holdout = reader.Texts("holdout", 0, kRunsMax);
+  CheckHoldout(reader, ids, dataset);
+  reader.Finish();
+  if (!errors.empty()) return errors;
+  return dataset;
+}
+
+Parsed<Json> MergeMeasurements(const std::vector<Json>& documents) {
+  Json merged = documents.front();
+  Errors errors;
+  for (std::size_t d = 1; d < documents.size(); ++d) {
+    const Json& document = documents[d];
+    if (!document.is_object() || !merged.is_object()) {
+      errors.push_back({"", "document " + std::to_string(d + 1) + " is not an object"});
+      continue;
+    }
+    if (document.value("relative_uncertainty", Json::object()) !=
+        merged.value("relative_uncertainty", Json::object()))
+      errors.push_back({"/relative_uncertainty",
+                        "differs between the files; one factor serves "
+                        "all runs, so it must be the same in all"});
+    const bool same_rig = document.value("rig", Json()) == merged.value("rig", Json());
+    for (Json run : document.value("runs", Json::array())) {
+      if (!same_rig && run.is_object()) {
+        Json rig = document.value("rig", Json::object());
+        rig.merge_patch(run.value("rig", Json::object()));
+        run["rig"] = std::move(rig);
+      }
+      merged["runs"].push_back(std::move(run));
+    }
+    for (const Json& id : document.value("holdout", Json::array())) merged["holdout"].push_back(id);
+  }
+  if (!errors.empty()) return errors;
+  return merged;
+}
+
+}  // namespace plenum::api

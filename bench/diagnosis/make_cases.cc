@@ -1,0 +1,60 @@
+// Writes measured data sets with known truth.
+//   make_cases SERIES COUNT FOLDER
+// FOLDER/cases/NNNN.json are measurements, FOLDER/truth/NNNN.json what is true of them; what is
+// there already is kept.
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/bench_json.h"
+
+namespace {
+
+void Write(const std::filesystem::path& path, const plenum::api::Json& json) {
+  std::ofstream file(path);
+  file << json.dump() << '\n';
+  if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: make_cases SERIES COUNT FOLDER\n");
+    return 2;
+  }
+  const std::uint64_t series = std::strtoull(argv[1], nullptr, 10);
+  const int count = std::atoi(argv[2]);
+  const std::filesystem::path folder = argv[3];
+  std::filesystem::create_directories(folder / "cases");
+  std::filesystem::create_directories(folder / "truth");
+  std::atomic<int> next = 0, failed = 0;
+  const auto work = [&] {
+    for (int i = next++; i < count; i = next++) {
+      char name[32];
+      std::snprintf(name, sizeof name, "%04d.json", i);
+      if (std::filesystem::exists(folder / "truth" / name)) continue;
+      try {
+        const plenum::test::BenchCase bench = plenum::test::CaseOfSeries(series, i);
+        Write(folder / "cases" / name, MeasurementJson(bench));
+        plenum::api::Json truth = TruthJson(bench);
+        truth["series"] = series;
+        truth["index"] = i;
+        Write(folder / "truth" / name, truth);
+      } catch (const std::exception& e) {
+        std::fprintf(stderr, "case %d: %s\n", i, e.what());
+        ++failed;
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int k = 0; k < 2; ++k) threads.emplace_back(work);
+  for (std::thread& thread : threads) thread.join();
+  return failed > 0 ? 3 : 0;
+}

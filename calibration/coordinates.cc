@@ -1,0 +1,367 @@
+#include "calibration/coordinates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+namespace plenum::calibration {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLeastFactor = 0.05, kMostFactor = 20.0;  // of a number known to a share
+constexpr double kUnknownSpan = 14.0;                      // e-folds either way
+constexpr double kSeriesLow = 1e-3, kSeriesHigh = 1e6;     // of u
+constexpr double kClockIntervals = 2.0;                    // most that a clock may be off
+constexpr double kPressureStepPa = 1e3;                    // scale of an initial pressure
+
+enum class Size {
+  kOne,
+  kDuration,
+  kStroke,
+  kRate,
+  kPressure,
+  kVolume,
+  kConductance,
+  kLeak,
+  kViscous,
+  kInertial
+};
+
+// How a parameter is searched: kind, the size that it goes by, starts in units of that size.
+struct Search {
+  std::string_view effect, parameter;
+  Coordinate::Kind kind;
+  Size size;
+  double absent;               // linear only, in SI
+  std::vector<double> starts;  // as many for each parameter of an effect
+};
+
+using enum Coordinate::Kind;
+
+const std::vector<Search>& Searches() {
+  static const std::vector<Search> kSearches = {
+      {"valve_delay", "delay_s", kLinear, Size::kStroke, 0.0, {0.02}},
+      {"valve_ramp", "duration_s", kLinear, Size::kStroke, 0.0, {0.05}},
+      {"directional_conductance", "fill_factor", kLinear, Size::kOne, 1.0, {0.02}},
+      {"cracking_pressure", "pressure_pa", kLinear, Size::kPressure, 0.0, {0.02}},
+      {"exhaust_restriction",
+       "sonic_conductance_m3_per_s_pa",
+       kSeries,
+       Size::kConductance,
+       0.0,
+       {0.3}},
+      {"exhaust_restriction", "critical_ratio", kLinear, Size::kOne, 0.0, {0.3}},
+      {"dead_volume", "volume_m3", kLinear, Size::kVolume, 0.0, {0.05}},
+      {"nonlinear_compliance", "curvature", kLinear, Size::kOne, 0.0, {0.05}},
+      {"nonlinear_compliance", "s_amplitude", kLinear, Size::kOne, 0.0, {0.0}},
+      {"hysteresis", "half_width_pa", kLinear, Size::kPressure, 0.0, {0.02}},
+      {"creep", "fraction", kLinear, Size::kOne, 0.0, {0.05, 0.05}},
+      {"creep", "time_constant_s", kLog, Size::kDuration, 0.0, {0.15, 0.02}},
+      {"inertia", "natural_frequency_rad_per_s", kLog, Size::kRate, 0.0, {15.0, 50.0}},
+      {"inertia", "damping_ratio", kLinear, Size::kOne, 0.0, {0.3, 0.3}},
+      {"heat_transfer", "time_constant_s", kLog, Size::kStroke, 0.0, {0.3, 5.0}},
+      {"supply_droop", "volume_m3", kLog, Size::kVolume, 0.0, {6.0, 2.0}},
+      {"supply_droop",
+       "sonic_conductance_m3_per_s_pa",
+       kSeries,
+       Size::kConductance,
+       0.0,
+       {10.0, 0.5}},
+      {"supply_droop", "critical_ratio", kLinear, Size::kOne, 0.0, {0.3, 0.3}},
+      {"line_dynamics", "length_m", kLog, Size::kOne, 0.0, {0.5, 2.0}},
+      {"line_dynamics", "inner_diameter_m", kLog, Size::kOne, 0.0, {2e-3, 3e-3}},
+      {"leak", "sonic_conductance_m3_per_s_pa", kLinear, Size::kLeak, 0.0, {0.03}},
+      {"leak", "conductance_m3_per_s_pa", kLinear, Size::kLeak, 0.0, {0.03}},
+      {"leak", "critical_ratio", kLinear, Size::kOne, 0.0, {0.3}},
+      {"leak", "viscous_pa2_s_per_kg", kLog, Size::kViscous, 0.0, {30.0, 1.0, 0.02}},
+      {"leak", "inertial_pa2_s2_per_kg2", kLog, Size::kInertial, 0.0, {1000.0, 1.0, 1e-3}},
+      {"sensor_lag", "time_constant_s", kLinear, Size::kStroke, 0.0, {0.02}},
+      {"sensor_gain", "gain", kLinear, Size::kOne, 1.0, {0.01}},
+      {"sensor_offset", "offset_pa", kLinear, Size::kPressure, 0.0, {0.005}},
+  };
+  return kSearches;
+}
+
+// For a parameter that the list does not know, by its unit.
+Search SearchByUnit(std::string_view effect, const model::ParameterSpec& spec) {
+  const auto ends = [&](std::string_view unit) { return spec.name.ends_with(unit); };
+  const Size size = ends("conductance_m3_per_s_pa") ? Size::kConductance
+                    : ends("_rad_per_s")            ? Size::kRate
+                    : ends("_s")                    ? Size::kStroke
+                    : ends("_pa")                   ? Size::kPressure
+                    : ends("_m3")                   ? Size::kVolume
+                                                    : Size::kOne;
+  const bool above_zero = spec.low > 0.0;
+  return {effect, spec.name, above_zero ? kLog : kLinear, size, 0.0, {above_zero ? 0.3 : 0.05}};
+}
+
+Search SearchOf(const model::EffectSpec& effect, const model::ParameterSpec& spec) {
+  for (const Search& search : Searches())
+    if (search.effect == effect.id && search.parameter == spec.name) return search;
+  return SearchByUnit(effect.id, spec);
+}
+
+double InUnit(Size size, const TypicalSizes& sizes) {
+  // A leak that empties the chamber in the time of a run, and the mass flow that goes with it.
+  const double leak_m3_per_s = sizes.volume_m3 / sizes.duration_s;
+  const double leak_kg_per_s = leak_m3_per_s * model::kReferenceDensityKgPerM3;
+  const double high_pa = sizes.gauge_pa + model::kReferencePressurePa;
+  const double squares = high_pa * high_pa - std::pow(model::kReferencePressurePa, 2);
+  switch (size) {
+    case Size::kDuration:
+      return sizes.duration_s;
+    case Size::kStroke:
+      return sizes.stroke_s;
+    case Size::kRate:
+      return 1.0 / sizes.stroke_s;
+    case Size::kPressure:
+      return sizes.gauge_pa;
+    case Size::kVolume:
+      return sizes.volume_m3;
+    case Size::kConductance:
+      return sizes.conductance_m3_per_s_pa;
+    case Size::kLeak:
+      return leak_m3_per_s / model::kReferencePressurePa;
+    case Size::kViscous:
+      return squares / leak_kg_per_s;
+    case Size::kInertial:
+      return squares / (leak_kg_per_s * leak_kg_per_s);
+    case Size::kOne:
+      break;
+  }
+  return 1.0;
+}
+
+// The part of a parameter's range that is searched: up to where an effect is as good as absent
+// because it follows at once, so that going on would only make the simulation stiff.
+std::pair<double, double> Visible(const model::EffectSpec& effect, const model::ParameterSpec& spec,
+                                  const TypicalSizes& sizes) {
+  std::pair<double, double> range = {spec.low, spec.high};
+  if (effect.id == "sensor_lag")
+    range.first = std::max(spec.low, 0.2 * std::min(sizes.interval_s, 0.1 * sizes.stroke_s));
+  if (effect.id == "heat_transfer") range.first = std::max(spec.low, 0.01 * sizes.stroke_s);
+  if (effect.id == "supply_droop" && spec.name == "volume_m3")
+    range.first = std::max(spec.low, 0.03 * sizes.volume_m3);
+  if (effect.id == "sensor_gain") range = {0.7, 1.4};  // beyond that a sensor is broken
+  if (spec.name.ends_with("_rad_per_s")) range.second = std::min(spec.high, 150.0 / sizes.stroke_s);
+  return range;
+}
+
+Coordinate CoordinateOf(const model::EffectSpec& effect, const model::ParameterSpec& spec,
+                        const TypicalSizes& sizes) {
+  const Search search = SearchOf(effect, spec);
+  Coordinate coordinate;
+  coordinate.kind = search.kind;
+  coordinate.scale = InUnit(search.size, sizes);
+  if (search.kind == kSeries) {
+    coordinate.low = kSeriesLow;
+    coordinate.high = kSeriesHigh;
+    return coordinate;
+  }
+  coordinate.origin = search.absent;
+  coordinate.low = coordinate.At(spec.low);
+  coordinate.high = coordinate.At(spec.high);
+  const auto [least, most] = Visible(effect, spec, sizes);
+  coordinate.low = std::max(coordinate.low, coordinate.At(least));
+  coordinate.high = std::min(coordinate.high, coordinate.At(most));
+  if (search.kind == kLog) {
+    const double middle = std::log(search.starts.front());
+    coordinate.low = std::max(coordinate.low, middle - kUnknownSpan);
+    coordinate.high = std::min(coordinate.high, middle + kUnknownSpan);
+  }
+  return coordinate;
+}
+
+bool Has(const Run& run, Declared number) {
+  const auto any = [&](bool tube) {
+    return std::any_of(run.line.begin(), run.line.end(),
+                       [&](const LinePiece& piece) { return piece.tube.has_value() == tube; });
+  };
+  switch (number) {
+    case Declared::kExpansionRatio:
+    case Declared::kOperatingPressure:
+      return !run.blocked && run.chamber.expansion_ratio > 1.0;
+    case Declared::kSourcePressure:
+      return run.supply != Supply::kNone;
+    case Declared::kSonicConductance:
+    case Declared::kCriticalRatio:
+      return any(false);
+    case Declared::kTubeInnerDiameter:
+      return any(true);
+    case Declared::kReservoirVolume:
+      return run.supply == Supply::kCompressor;
+    case Declared::kRestVolume:
+      break;
+  }
+  return true;
+}
+
+Coordinate FactorCoordinate(Declared number, double uncertainty) {
+  Coordinate coordinate;
+  coordinate.parameter = {.kind = Parameter::Kind::kDeclared, .declared = number};
+  if (uncertainty == kUnknown) {
+    coordinate.kind = kLog;
+    coordinate.low = -kUnknownSpan, coordinate.high = kUnknownSpan;
+  } else {
+    coordinate.origin = 1.0;
+    coordinate.scale = uncertainty;
+    coordinate.low = (kLeastFactor - 1.0) / uncertainty;
+    coordinate.high = (kMostFactor - 1.0) / uncertainty;
+    coordinate.prior = true;
+  }
+  return coordinate;
+}
+
+double IntervalOf(const Run& run) {
+  return (run.t_s.back() - run.t_s.front()) / static_cast<double>(run.t_s.size() - 1);
+}
+
+// The valve opens only after the run has begun, so that its commands can be late or early.
+bool StartsClosed(const Run& run) {
+  for (const model::ValveCommand& command : run.valve)
+    if (command.state != model::ValveState::kHold)
+      return command.time_s > StartOf(run) + kClockIntervals * IntervalOf(run);
+  return false;
+}
+
+// A declared pressure that is the first reading itself was read, not set.
+bool InitialIsRead(const Run& run) {
+  return !run.initial_pressure_pa ||
+         (!run.pressure_pa.empty() && *run.initial_pressure_pa == run.pressure_pa.front() &&
+          *run.initial_pressure_pa != run.ambient.pressure_pa);
+}
+
+}  // namespace
+
+double Coordinate::Number(double u) const {
+  switch (kind) {
+    case Kind::kLog:
+      return scale * std::exp(u);
+    case Kind::kSeries:
+      return scale / std::sqrt(u);
+    case Kind::kLinear:
+      break;
+  }
+  return origin + scale * u;
+}
+
+double Coordinate::Slope(double u) const {
+  switch (kind) {
+    case Kind::kLog:
+      return scale * std::exp(u);
+    case Kind::kSeries:
+      return -0.5 * scale / (u * std::sqrt(u));
+    case Kind::kLinear:
+      break;
+  }
+  return scale;
+}
+
+double Coordinate::At(double number) const {
+  switch (kind) {
+    case Kind::kLog:
+      return number > 0.0 ? std::log(number / scale) : -kInfinity;
+    case Kind::kSeries:
+      return std::pow(scale / number, 2);
+    case Kind::kLinear:
+      break;
+  }
+  return (number - origin) / scale;
+}
+
+TypicalSizes SizesOf(const Dataset& dataset) {
+  TypicalSizes sizes;
+  double conductance = kInfinity, operating_volume_m3 = 0.0;
+  sizes.duration_s = 0.0;
+  double samples = 0.0, sampled_s = 0.0;
+  for (const Run& run : dataset.runs) {
+    sizes.duration_s = std::max(sizes.duration_s, run.t_s.back() - StartOf(run));
+    sampled_s += run.t_s.back() - run.t_s.front();
+    samples += static_cast<double>(run.t_s.size());
+    for (const LinePiece& piece : run.line)
+      if (!piece.tube)
+        conductance = std::min({conductance, piece.fill.sonic_conductance_m3_per_s_pa,
+                                piece.exhaust.sonic_conductance_m3_per_s_pa});
+    sizes.gauge_pa = run.chamber.operating_pressure_pa - run.ambient.pressure_pa;
+    sizes.volume_m3 = run.chamber.rest_volume_m3;
+    operating_volume_m3 = model::Volume(run.chamber, run.chamber.operating_pressure_pa);
+  }
+  sizes.interval_s = sampled_s / samples;
+  if (std::isfinite(conductance)) {
+    sizes.conductance_m3_per_s_pa = conductance;
+    sizes.stroke_s = operating_volume_m3 / (conductance * model::kReferencePressurePa);
+  } else {
+    sizes.stroke_s = sizes.duration_s;
+    sizes.conductance_m3_per_s_pa =
+        operating_volume_m3 / (sizes.stroke_s * model::kReferencePressurePa);
+  }
+  return sizes;
+}
+
+std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
+                                        const std::vector<std::size_t>& runs, bool clocks) {
+  const Dataset& dataset = forward.dataset();
+  std::vector<Coordinate> coordinates;
+  for (int k = 0; k < kDeclaredCount; ++k) {
+    const auto number = static_cast<Declared>(k);
+    const double uncertainty = dataset.relative_uncertainty[static_cast<std::size_t>(k)];
+    const bool has = std::any_of(runs.begin(), runs.end(),
+                                 [&](std::size_t i) { return Has(dataset.runs[i], number); });
+    if (uncertainty > 0.0 && has) coordinates.push_back(FactorCoordinate(number, uncertainty));
+  }
+  const ModelState declared = forward.Declared();
+  for (const std::size_t i : runs) {
+    if (!InitialIsRead(dataset.runs[i])) continue;
+    Coordinate coordinate;
+    coordinate.parameter = {.kind = Parameter::Kind::kInitialPressure, .run = i};
+    coordinate.origin = declared.initial_pressure_pa[i];
+    coordinate.scale = kPressureStepPa;
+    coordinate.low = (1.0 - coordinate.origin) / kPressureStepPa;
+    coordinate.high = 9.0 * coordinate.origin / kPressureStepPa;
+    coordinates.push_back(coordinate);
+  }
+  for (const std::size_t i : runs) {
+    if (!clocks || !StartsClosed(dataset.runs[i])) continue;
+    Coordinate coordinate;
+    coordinate.parameter = {.kind = Parameter::Kind::kClock, .run = i};
+    coordinate.scale = IntervalOf(dataset.runs[i]) / std::sqrt(12.0);
+    coordinate.low = -kClockIntervals * std::sqrt(12.0);
+    coordinate.high = kClockIntervals * std::sqrt(12.0);
+    coordinate.prior = true;
+    coordinates.push_back(coordinate);
+  }
+  return coordinates;
+}
+
+std::vector<Coordinate> EffectCoordinates(const model::EffectSpec& spec, std::size_t effect,
+                                          const TypicalSizes& sizes) {
+  std::vector<Coordinate> coordinates;
+  for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
+    coordinates.push_back(CoordinateOf(spec, spec.parameters[i], sizes));
+    coordinates.back().parameter = {
+        .kind = Parameter::Kind::kEffect, .effect = effect, .number = i};
+  }
+  return coordinates;
+}
+
+std::vector<model::Effect> EffectStarts(const model::EffectSpec& spec, const TypicalSizes& sizes) {
+  std::size_t count = 1;
+  for (const auto& parameter : spec.parameters)
+    count = std::max(count, SearchOf(spec, parameter).starts.size());
+  std::vector<model::Effect> starts(count, model::Effect{&spec, {}});
+  for (const auto& parameter : spec.parameters) {
+    const Coordinate coordinate = CoordinateOf(spec, parameter, sizes);
+    const std::vector<double> values = SearchOf(spec, parameter).starts;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double value = values[std::min(k, values.size() - 1)];
+      const double u = coordinate.kind == kLog ? std::log(value) : value;
+      starts[k].parameters.push_back(
+          std::clamp(coordinate.Number(u), parameter.low, parameter.high));
+    }
+  }
+  return starts;
+}
+
+}  // namespace plenum::calibration

@@ -1,0 +1,321 @@
+#include "calibration/fit.h"
+
+#include <ceres/ceres.h>
+#include <glog/logging.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace plenum::calibration {
+namespace {
+
+constexpr double kTwoSided95 = 1.96;
+constexpr double kToleranceTightest = 1e-9, kToleranceLoosest = 1e-5;
+constexpr double kParameterTolerance = 1e-7;
+constexpr double kAtBound = 1e-9;
+constexpr double kLeastCurvature = 1e-12;
+
+PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions& options) {
+  const ObservedSignal& pressure = (*data.observed)[run].signals.front();
+  const double size_pa = data.forward->dataset().runs[run].chamber.operating_pressure_pa;
+  PredictOptions predict;
+  predict.relative_tolerance = std::clamp(options.noise_share * pressure.sigma / size_pa,
+                                          kToleranceTightest, kToleranceLoosest);
+  predict.steps_max = options.steps_max;
+  predict.cancelled = options.cancelled;
+  return predict;
+}
+
+ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coordinates,
+                   const double* u) {
+  ModelState state = start;
+  for (std::size_t j = 0; j < coordinates.size(); ++j) {
+    double& number = NumberOf(state, coordinates[j].parameter);
+    number = coordinates[j].Number(u[j]);
+    if (coordinates[j].parameter.kind != Parameter::Kind::kEffect) continue;
+    const Parameter& parameter = coordinates[j].parameter;
+    const model::ParameterSpec& spec =
+        state.effects[parameter.effect].spec->parameters[parameter.number];
+    number = std::clamp(number, spec.low, spec.high);
+  }
+  return state;
+}
+
+// Residuals of one run over all coordinates as one block.
+class RunCost : public ceres::CostFunction {
+ public:
+  RunCost(const FitData& data, std::size_t run, const ModelState& start,
+          const std::vector<Coordinate>& coordinates, const PredictOptions& options)
+      : data_(data), run_(run), start_(start), coordinates_(coordinates), options_(options) {
+    for (const Coordinate& coordinate : coordinates) parameters_.push_back(coordinate.parameter);
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(coordinates.size()));
+    set_num_residuals(static_cast<int>(Observed().rows()));
+  }
+
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    const double* u = blocks[0];
+    const ModelState state = StateAt(start_, coordinates_, u);
+    const bool derive = jacobians && jacobians[0];
+    const Prediction prediction = data_.forward->Predict(
+        run_, state,
+        derive ? std::span<const Parameter>(parameters_) : std::span<const Parameter>(), options_);
+    if (prediction.status != model::SimulateStatus::kDone) return false;
+    const std::size_t rows = Observed().rows();
+    Residuals(data_.forward->dataset().runs[run_], Observed(), prediction.reading,
+              {residuals, rows});
+    if (!derive) return true;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(
+        jacobians[0], static_cast<Eigen::Index>(rows),
+        static_cast<Eigen::Index>(coordinates_.size()));
+    Eigen::VectorXd column(static_cast<Eigen::Index>(rows));
+    for (std::size_t j = 0; j < coordinates_.size(); ++j) {
+      Whitened(Observed(), prediction.derivatives[j], {column.data(), rows});
+      jacobian.col(static_cast<Eigen::Index>(j)) = coordinates_[j].Slope(u[j]) * column;
+    }
+    return jacobian.allFinite();
+  }
+
+ private:
+  const ObservedRun& Observed() const { return (*data_.observed)[run_]; }
+
+  const FitData& data_;
+  std::size_t run_;
+  const ModelState& start_;
+  const std::vector<Coordinate>& coordinates_;
+  std::vector<Parameter> parameters_;
+  PredictOptions options_;
+};
+
+// u of every coordinate that has a prior.
+class PriorCost : public ceres::CostFunction {
+ public:
+  explicit PriorCost(const std::vector<Coordinate>& coordinates) : size_(coordinates.size()) {
+    for (std::size_t j = 0; j < size_; ++j)
+      if (coordinates[j].prior) with_prior_.push_back(j);
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(size_));
+    set_num_residuals(static_cast<int>(with_prior_.size()));
+  }
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    for (std::size_t k = 0; k < with_prior_.size(); ++k) residuals[k] = blocks[0][with_prior_[k]];
+    if (!jacobians || !jacobians[0]) return true;
+    std::fill_n(jacobians[0], with_prior_.size() * size_, 0.0);
+    for (std::size_t k = 0; k < with_prior_.size(); ++k)
+      jacobians[0][k * size_ + with_prior_[k]] = 1.0;
+    return true;
+  }
+
+ private:
+  std::size_t size_;
+  std::vector<std::size_t> with_prior_;
+};
+
+class StopWhenCancelled : public ceres::IterationCallback {
+ public:
+  explicit StopWhenCancelled(const std::function<bool()>& cancelled) : cancelled_(cancelled) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    return cancelled_ && cancelled_() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const std::function<bool()>& cancelled_;
+};
+
+bool HasPrior(const std::vector<Coordinate>& coordinates) {
+  return std::any_of(coordinates.begin(), coordinates.end(),
+                     [](const Coordinate& coordinate) { return coordinate.prior; });
+}
+
+std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& start,
+                                      const FitOptions& options) {
+  std::vector<Coordinate> coordinates = BaseCoordinates(*data.forward, data.runs, data.clocks);
+  if (options.nuisance_only) {
+    std::erase_if(coordinates, [](const Coordinate& coordinate) {
+      return coordinate.parameter.kind == Parameter::Kind::kDeclared;
+    });
+    return coordinates;
+  }
+  for (std::size_t i = 0; i < start.effects.size(); ++i)
+    for (const Coordinate& coordinate : EffectCoordinates(*start.effects[i].spec, i, data.sizes))
+      coordinates.push_back(coordinate);
+  return coordinates;
+}
+
+void AddCosts(const FitData& data, const ModelState& start, const FitOptions& options,
+              const std::vector<Coordinate>& coordinates, double* u, ceres::Problem& problem) {
+  for (const std::size_t run : data.runs)
+    problem.AddResidualBlock(
+        new RunCost(data, run, start, coordinates, OptionsOf(data, run, options)), nullptr, u);
+  if (HasPrior(coordinates)) problem.AddResidualBlock(new PriorCost(coordinates), nullptr, u);
+}
+
+double Chi2Prior(const Fit& fit) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < fit.coordinates.size(); ++j)
+    if (fit.coordinates[j].prior) sum += std::pow(fit.u[static_cast<Eigen::Index>(j)], 2);
+  return sum;
+}
+
+// n·ln(χ²/n) + χ²_prior + k·ln n; numbers with a prior are the same in every model and do not
+// count.
+double Bic(const Fit& fit) {
+  const double n = static_cast<double>(fit.rows);
+  const auto free = std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
+                                  [](const Coordinate& coordinate) { return !coordinate.prior; });
+  return n * std::log(fit.chi2_data / n) + fit.chi2_prior + static_cast<double>(free) * std::log(n);
+}
+
+std::size_t RowsOf(const FitData& data) {
+  std::size_t rows = 0;
+  for (const std::size_t run : data.runs) rows += (*data.observed)[run].rows();
+  return rows;
+}
+
+// No coordinate can move: the χ² of the start.
+void EvaluateStart(const FitData& data, const FitOptions& options, Fit& fit) {
+  for (const std::size_t run : data.runs) {
+    const Prediction prediction =
+        data.forward->Predict(run, fit.state, {}, OptionsOf(data, run, options));
+    if (prediction.status != model::SimulateStatus::kDone) {
+      fit.detail = prediction.detail;
+      return;
+    }
+    std::vector<double> rows((*data.observed)[run].rows());
+    Residuals(data.forward->dataset().runs[run], (*data.observed)[run], prediction.reading, rows);
+    for (const double e : rows) fit.chi2_data += e * e;
+  }
+  fit.status = FitStatus::kConverged;
+  fit.bic = Bic(fit);
+}
+
+FitStatus StatusOf(const ceres::Solver::Summary& summary) {
+  switch (summary.termination_type) {
+    case ceres::CONVERGENCE:
+    case ceres::USER_SUCCESS:
+      return FitStatus::kConverged;
+    case ceres::NO_CONVERGENCE:
+      return FitStatus::kIterationsSpent;
+    case ceres::USER_FAILURE:
+      return FitStatus::kCancelled;
+    case ceres::FAILURE:
+      break;
+  }
+  return FitStatus::kFailed;
+}
+
+// The number at u, held within the bounds.
+double Edge(const Coordinate& coordinate, double u) {
+  return coordinate.Number(std::clamp(u, coordinate.low, coordinate.high));
+}
+
+}  // namespace
+
+Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& options) {
+  FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres says is in the status
+  Fit fit;
+  fit.state = start;
+  fit.coordinates = CoordinatesOf(data, start, options);
+  fit.rows = RowsOf(data);
+  const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
+  fit.u.resize(size);
+  if (size == 0) {
+    EvaluateStart(data, options, fit);
+    return fit;
+  }
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
+    fit.u[j] = std::clamp(coordinate.At(NumberOf(start, coordinate.parameter)), coordinate.low,
+                          coordinate.high);
+  }
+  ceres::Problem problem;
+  problem.AddParameterBlock(fit.u.data(), static_cast<int>(size));
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
+    problem.SetParameterLowerBound(fit.u.data(), static_cast<int>(j), coordinate.low);
+    problem.SetParameterUpperBound(fit.u.data(), static_cast<int>(j), coordinate.high);
+  }
+  AddCosts(data, start, options, fit.coordinates, fit.u.data(), problem);
+
+  StopWhenCancelled stop(options.cancelled);
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  solver.max_num_iterations = options.iterations_max;
+  solver.function_tolerance = options.function_tolerance;
+  solver.parameter_tolerance = kParameterTolerance;
+  solver.gradient_tolerance = 0.0;
+  solver.initial_trust_region_radius = 1e3;
+  solver.num_threads = options.threads;
+  solver.logging_type = ceres::SILENT;
+  solver.callbacks.push_back(&stop);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+
+  fit.status = options.cancelled && options.cancelled() ? FitStatus::kCancelled : StatusOf(summary);
+  if (fit.status == FitStatus::kFailed) fit.detail = summary.message;
+  fit.state = StateAt(start, fit.coordinates, fit.u.data());
+  fit.chi2_prior = Chi2Prior(fit);
+  fit.chi2_data = 2.0 * summary.final_cost - fit.chi2_prior;
+  fit.bic = Bic(fit);
+  return fit;
+}
+
+std::vector<Estimate> Intervals(const FitData& data, const Fit& fit, const FitOptions& options) {
+  const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
+  Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(size, size);
+  for (const std::size_t run : data.runs) {
+    const RunCost cost(data, run, fit.state, fit.coordinates, OptionsOf(data, run, options));
+    const Eigen::Index rows = cost.num_residuals();
+    Eigen::VectorXd residuals(rows);
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian(rows, size);
+    const double* blocks[] = {fit.u.data()};
+    double* jacobians[] = {jacobian.data()};
+    if (cost.Evaluate(blocks, residuals.data(), jacobians))
+      curvature += jacobian.transpose() * jacobian;
+  }
+  const double freedom = static_cast<double>(fit.rows) - static_cast<double>(size);
+  const double inflation = std::max(1.0, fit.chi2_data / std::max(1.0, freedom));
+  curvature /= inflation;
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
+    if (coordinate.prior) curvature(j, j) += 1.0;
+    const double room = std::min(fit.u[j] - coordinate.low, coordinate.high - fit.u[j]);
+    const bool at_bound = room <= kAtBound * std::max(1.0, std::abs(fit.u[j]));
+    if (at_bound) {  // held there by the data: others see it fixed
+      curvature.row(j).setZero();
+      curvature.col(j).setZero();
+      curvature(j, j) = 1.0 / kLeastCurvature;
+    }
+  }
+  // By eigenvalues of the scaled curvature: directions without any leave their parameters unknown.
+  const Eigen::VectorXd scale = curvature.diagonal().cwiseMax(kLeastCurvature).cwiseSqrt();
+  const Eigen::MatrixXd scaled =
+      scale.cwiseInverse().asDiagonal() * curvature * scale.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  const Eigen::VectorXd spread = eigen.eigenvalues().cwiseMax(kLeastCurvature).cwiseInverse();
+  std::vector<Estimate> estimates;
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
+    const double variance =
+        eigen.eigenvectors().row(j).cwiseAbs2().dot(spread.transpose()) / (scale[j] * scale[j]);
+    const double half = kTwoSided95 * std::sqrt(variance);
+    const double one = Edge(coordinate, fit.u[j] - half), other = Edge(coordinate, fit.u[j] + half);
+    const double range = coordinate.kind == Coordinate::Kind::kLinear && !coordinate.prior
+                             ? coordinate.high - coordinate.low
+                             : 1.0;
+    estimates.push_back({.value = coordinate.Number(fit.u[j]),
+                         .low = std::min(one, other),
+                         .high = std::max(one, other),
+                         .identified = std::sqrt(variance) < kUnidentified * range});
+  }
+  return estimates;
+}
+
+Reading Predicted(const FitData& data, const ModelState& state, std::size_t run,
+                  const FitOptions& options) {
+  Prediction prediction = data.forward->Predict(run, state, {}, OptionsOf(data, run, options));
+  if (prediction.status != model::SimulateStatus::kDone) return {};
+  return std::move(prediction.reading);
+}
+
+}  // namespace plenum::calibration

@@ -1,0 +1,74 @@
+// Fits a model to measured runs: the least whitened squares with the priors of the declared
+// numbers,
+//   χ² = Σ e² + Σ u²,
+// e the whitened residuals (observations.h), u the deviations of declared numbers in their standard
+// deviations. Minimised by Levenberg–Marquardt within bounds (Ceres) with exact derivatives.
+//
+// Intervals: the curvature of χ² at the optimum gives the covariance of the coordinates
+// (coordinates.h), inflated by χ²/(n − k) where that is above 1; ±1.96 standard deviations there,
+// carried to the numbers through the coordinate and cut at its bounds. A parameter whose standard
+// deviation is above kUnidentified (in e-folds, or of a declared number's prior) is not identified.
+#ifndef PLENUM_CALIBRATION_FIT_H_
+#define PLENUM_CALIBRATION_FIT_H_
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "calibration/coordinates.h"
+#include "calibration/diagnosis.h"
+#include "calibration/observations.h"
+
+namespace plenum::calibration {
+
+// What fits of one data set share. Values below must outlive it.
+struct FitData {
+  const ForwardModel* forward = nullptr;
+  const std::vector<ObservedRun>* observed = nullptr;
+  std::vector<std::size_t> runs;  // that the fit may see
+  TypicalSizes sizes = {};
+  bool clocks = false;  // the runs' clocks may be off by a part of a sample
+};
+
+struct FitOptions {
+  double noise_share = 1e-2;         // integration error allowed, as a share of the noise
+  double function_tolerance = 1e-6;  // relative change of χ² that ends the search
+  int iterations_max = 40;
+  std::size_t steps_max = 3'000;  // of one run's integration; beyond, a step is not taken
+  bool nuisance_only = false;     // only initial pressures and clocks move
+  int threads = 1;
+  std::function<bool()> cancelled;  // may be empty
+};
+
+enum class FitStatus { kConverged, kIterationsSpent, kFailed, kCancelled };
+
+struct Fit {
+  FitStatus status = FitStatus::kFailed;
+  std::string detail;  // for kFailed
+  ModelState state;
+  std::vector<Coordinate> coordinates;
+  Eigen::VectorXd u;
+  double chi2_data = 0.0, chi2_prior = 0.0;
+  std::size_t rows = 0;  // residuals
+  double bic = 0.0;
+  bool Usable() const {
+    return status == FitStatus::kConverged || status == FitStatus::kIterationsSpent;
+  }
+};
+
+// From the state: its effects and factors are the start.
+Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& options);
+
+inline constexpr double kUnidentified = 0.9;
+
+// Per coordinate. Costs one evaluation.
+std::vector<Estimate> Intervals(const FitData& data, const Fit& fit, const FitOptions& options);
+
+// Readings of a run that the fitted model predicts. Empty where the simulation failed.
+Reading Predicted(const FitData& data, const ModelState& state, std::size_t run,
+                  const FitOptions& options);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_FIT_H_

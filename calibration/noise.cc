@@ -1,0 +1,353 @@
+#include "calibration/noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "calibration/phases.h"
+#include "calibration/readings.h"
+
+namespace plenum::calibration {
+namespace {
+
+constexpr double kMadToSigma = 1.4826;  // of a normal distribution
+constexpr double kTrimSigmas = 5.0;     // windows beyond are of the signal, not of the noise
+constexpr double kSameInstant = 1e-3;   // of the mean spacing
+constexpr double kGapMax = 10.0;        // of the median spacing
+constexpr double kNoiseless = 1e-4;     // of the range: wild values smaller than that pass
+constexpr double kSigmaError = 1.07;    // standard error of σ over σ is this over √windows
+// A signal that settles reads (q/2)² off at worst, three times the mean over levels, q²/12.
+constexpr double kRoundingError = 0.4;
+constexpr int kRepeatsMin = 8;   // degrees of freedom
+constexpr int kWindowsMin = 30;  // else look further than the quiet spans
+constexpr int kCorrelationWindowsMin = 100;
+constexpr std::size_t kCorrelationWindows = 2000;  // thinned to about these
+constexpr int kStridesMax = 6;                     // 1, 2, … 32
+// Standard error of ln(D_2k/D_k) of white noise is 2.2/√n (found by simulation); more than two of
+// them tell correlation.
+constexpr double kGrowthError = 2.2;
+constexpr double kGrowthSigmas = 2.0;
+constexpr double kGrowthMax = 2.0;  // of any θ; what grows faster is the signal's own bend
+// Standard errors of ρ and, where ρ > 0, of σ over σ, times √windows (by simulation, ρ ≤ 0.9).
+constexpr double kLagError = 2.0;
+constexpr double kLagMax = 0.95;
+double CorrelatedSigmaError(double rho) { return 0.6 * (1.0 + rho) / (1.0 - rho); }
+
+struct Samples {
+  std::vector<double> t_s, y;
+  std::vector<std::size_t> index;  // in the run
+};
+
+struct Window {
+  std::array<double, 4> t_s, weight;
+  double z = 0.0;
+};
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double MedianSpacing(const std::vector<double>& t_s) {
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < t_s.size(); ++i) gaps.push_back(t_s[i] - t_s[i - 1]);
+  return Median(gaps);
+}
+
+Window MakeWindow(const Samples& samples, std::size_t first, std::size_t stride) {
+  Window window;
+  for (std::size_t i = 0; i < 4; ++i) window.t_s[i] = samples.t_s[first + i * stride];
+  double squares = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    double product = 1.0;
+    for (std::size_t j = 0; j < 4; ++j)
+      if (j != i) product *= (window.t_s[i] - window.t_s[j]) / (window.t_s[3] - window.t_s[0]);
+    window.weight[i] = 1.0 / product;
+    squares += window.weight[i] * window.weight[i];
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    window.weight[i] /= std::sqrt(squares);
+    window.z += window.weight[i] * samples.y[first + i * stride];
+  }
+  return window;
+}
+
+// Every window of that stride that lies in one of the spans and crosses no gap of the sampling.
+std::vector<Window> Windows(const Samples& samples, std::span<const TimeSpan> spans,
+                            std::size_t stride, double spacing_s) {
+  std::vector<Window> windows;
+  for (const TimeSpan& span : spans) {
+    const auto begin = std::lower_bound(samples.t_s.begin(), samples.t_s.end(), span.start_s);
+    const auto end = std::upper_bound(samples.t_s.begin(), samples.t_s.end(), span.end_s);
+    const auto first = static_cast<std::size_t>(begin - samples.t_s.begin());
+    const auto last = static_cast<std::size_t>(end - samples.t_s.begin());
+    for (std::size_t i = first; i + 3 * stride < last; ++i) {
+      const Window window = MakeWindow(samples, i, stride);
+      double gap = 0.0;
+      for (std::size_t j = 1; j < 4; ++j) gap = std::max(gap, window.t_s[j] - window.t_s[j - 1]);
+      if (gap <= kGapMax * static_cast<double>(stride) * spacing_s) windows.push_back(window);
+    }
+  }
+  return windows;
+}
+
+// Drops what lies beyond kTrimSigmas robust deviations (at least `floor` each).
+void Trim(std::vector<Window>& windows, double floor) {
+  if (windows.empty()) return;
+  std::vector<double> sizes;
+  for (const Window& window : windows) sizes.push_back(std::abs(window.z));
+  const double limit = kTrimSigmas * std::max(kMadToSigma * Median(sizes), floor);
+  if (limit > 0.0)
+    std::erase_if(windows, [&](const Window& window) { return std::abs(window.z) > limit; });
+}
+
+double MeanSquare(const std::vector<Window>& windows) {
+  double sum = 0.0;
+  for (const Window& window : windows) sum += window.z * window.z;
+  return sum / static_cast<double>(windows.size());
+}
+
+// E z² over σ² for noise of correlation time θ, mean over windows.
+double Expected(const std::vector<Window>& windows, double theta_s) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  const std::size_t step = std::max<std::size_t>(1, windows.size() / kCorrelationWindows);
+  for (std::size_t w = 0; w < windows.size(); w += step, ++count) {
+    const Window& window = windows[w];
+    sum += 1.0;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j)
+        sum += 2.0 * window.weight[i] * window.weight[j] *
+               std::exp((window.t_s[i] - window.t_s[j]) / theta_s);
+  }
+  return sum / static_cast<double>(count);
+}
+
+// ln of σ² for a θ, and how badly the strides agree on it (sum of squares).
+struct Agreement {
+  double log_variance = 0.0, misfit = 0.0;
+};
+
+Agreement Agree(const std::vector<std::vector<Window>>& strides, double theta_s) {
+  std::vector<double> logs;
+  Agreement result;
+  for (const auto& windows : strides)
+    logs.push_back(std::log(MeanSquare(windows) / Expected(windows, theta_s)));
+  for (const double log : logs) result.log_variance += log / static_cast<double>(logs.size());
+  for (const double log : logs) result.misfit += std::pow(log - result.log_variance, 2);
+  return result;
+}
+
+// Windows of stride 1, 2, 4, … as far as the differences keep growing as correlated noise makes
+// them grow; stride 1 alone where they do not.
+std::vector<std::vector<Window>> GrowingStrides(const Samples& samples,
+                                                std::span<const TimeSpan> spans,
+                                                std::vector<Window> first, double spacing_s,
+                                                double floor) {
+  std::vector<std::vector<Window>> strides = {std::move(first)};
+  for (bool growing = true; growing && static_cast<int>(strides.size()) < kStridesMax;) {
+    const std::size_t stride = std::size_t{1} << strides.size();
+    std::vector<Window> next = Windows(samples, spans, stride, spacing_s);
+    Trim(next, floor);
+    if (static_cast<int>(next.size()) < kCorrelationWindowsMin) break;
+    const double growth = std::log(MeanSquare(next) / MeanSquare(strides.back()));
+    const double independent = static_cast<double>(next.size()) / static_cast<double>(stride / 2);
+    const double margin = kGrowthSigmas * kGrowthError / std::sqrt(independent);
+    if (!(growth < std::log(kGrowthMax) + margin)) break;
+    growing = growth > margin;
+    if (growing || strides.size() > 1) strides.push_back(std::move(next));
+  }
+  return strides;
+}
+
+// Golden section over ln θ from a tenth of the spacing to the longest stride's reach.
+double CorrelationTime(const std::vector<std::vector<Window>>& strides, double spacing_s) {
+  const double ratio = (std::sqrt(5.0) - 1.0) / 2.0;
+  double low = std::log(0.1 * spacing_s);
+  double high = std::log(spacing_s * std::pow(2.0, static_cast<double>(strides.size()) + 1.0));
+  const auto misfit = [&](double log_theta) { return Agree(strides, std::exp(log_theta)).misfit; };
+  double a = high - ratio * (high - low), b = low + ratio * (high - low);
+  double at_a = misfit(a), at_b = misfit(b);
+  while (high - low > 0.01) {
+    if (at_a < at_b) {
+      high = b;
+      b = std::exchange(a, high - ratio * (high - low));
+      at_b = std::exchange(at_a, misfit(a));
+    } else {
+      low = a;
+      a = std::exchange(b, low + ratio * (high - low));
+      at_a = std::exchange(at_b, misfit(b));
+    }
+  }
+  return std::exp(0.5 * (low + high));
+}
+
+// Deviations within the groups of samples that share an instant, scaled to the variance of one
+// reading; leaves the first of each group in `samples`.
+std::vector<double> TakeRepeats(Samples& samples, int& freedom) {
+  const double span_s = samples.t_s.back() - samples.t_s.front();
+  const double same_s = kSameInstant * span_s / static_cast<double>(samples.t_s.size());
+  std::vector<double> deviations;
+  Samples first;
+  for (std::size_t i = 0; i < samples.t_s.size();) {
+    std::size_t end = i + 1;
+    while (end < samples.t_s.size() && samples.t_s[end] - samples.t_s[i] <= same_s) ++end;
+    const double count = static_cast<double>(end - i);
+    double mean = 0.0;
+    for (std::size_t j = i; j < end; ++j) mean += samples.y[j] / count;
+    for (std::size_t j = i; j < end && count > 1.0; ++j)
+      deviations.push_back((samples.y[j] - mean) * std::sqrt(count / (count - 1.0)));
+    freedom += static_cast<int>(end - i) - 1;
+    first.t_s.push_back(samples.t_s[i]);
+    first.y.push_back(samples.y[i]);
+    first.index.push_back(samples.index[i]);
+    i = end;
+  }
+  samples = std::move(first);
+  return deviations;
+}
+
+double TrimmedRms(const std::vector<double>& deviations, double floor) {
+  std::vector<Window> windows;
+  for (const double deviation : deviations) windows.push_back({{}, {}, deviation});
+  Trim(windows, floor);
+  return std::sqrt(MeanSquare(windows));
+}
+
+std::vector<TimeSpan> Tails(std::span<const TimeSpan> strokes) {
+  std::vector<TimeSpan> tails;
+  for (const TimeSpan& span : strokes)
+    tails.push_back({0.5 * (span.start_s + span.end_s), span.end_s});
+  return tails;
+}
+
+// The windows to go by: the quiet ones, with the tails of the strokes if those are few, else all.
+std::vector<TimeSpan> Places(const Samples& samples, std::span<const TimeSpan> quiet,
+                             std::span<const TimeSpan> strokes, double spacing_s,
+                             NoiseSource& source) {
+  const auto enough = [&](const std::vector<TimeSpan>& spans) {
+    return static_cast<int>(Windows(samples, spans, 1, spacing_s).size()) >= kWindowsMin;
+  };
+  std::vector<TimeSpan> spans(quiet.begin(), quiet.end());
+  source = NoiseSource::kClosed;
+  if (enough(spans)) return spans;
+  for (const TimeSpan& tail : Tails(strokes)) spans.push_back(tail);
+  source = NoiseSource::kTail;
+  if (enough(spans)) return spans;
+  source = NoiseSource::kWhole;
+  return {{samples.t_s.front(), samples.t_s.back()}};
+}
+
+Samples Without(const Samples& samples, const std::vector<std::size_t>& dropped) {
+  Samples kept;
+  for (std::size_t i = 0; i < samples.index.size(); ++i) {
+    if (std::binary_search(dropped.begin(), dropped.end(), i)) continue;
+    kept.t_s.push_back(samples.t_s[i]);
+    kept.y.push_back(samples.y[i]);
+    kept.index.push_back(samples.index[i]);
+  }
+  return kept;
+}
+
+Samples Usable(std::span<const double> t_s, std::span<const double> y,
+               const std::vector<std::size_t>& clipped) {
+  Samples samples;
+  for (std::size_t i = 0; i < t_s.size(); ++i) {
+    if (!std::isfinite(y[i]) || std::binary_search(clipped.begin(), clipped.end(), i)) continue;
+    samples.t_s.push_back(t_s[i]);
+    samples.y.push_back(y[i]);
+    samples.index.push_back(i);
+  }
+  return samples;
+}
+
+// σ, θ and what follows from them, from the windows of the places.
+void FromDifferences(const Samples& samples, std::span<const TimeSpan> places, double spacing_s,
+                     double floor, Noise& noise) {
+  std::vector<Window> windows = Windows(samples, places, 1, spacing_s);
+  Trim(windows, floor);
+  noise.windows = static_cast<int>(windows.size());
+  if (windows.empty()) return;
+  const double root = std::sqrt(static_cast<double>(noise.windows));
+  noise.relative_error = kSigmaError / root;
+  noise.sigma_pa = std::sqrt(MeanSquare(windows));
+  noise.lag1_error = std::min(kLagError / root, 1.0);
+  if (noise.sigma_pa < 0.5 * noise.quantum_pa) {  // a staircase: rounding depends on the level
+    noise.relative_error = std::max(noise.relative_error, kRoundingError);
+    return;
+  }
+  const auto strides = GrowingStrides(samples, places, std::move(windows), spacing_s, floor);
+  if (strides.size() > 1) {
+    noise.correlation_time_s = CorrelationTime(strides, spacing_s);
+    noise.sigma_pa = std::exp(0.5 * Agree(strides, noise.correlation_time_s).log_variance);
+    noise.lag1 = std::exp(-spacing_s / noise.correlation_time_s);
+    noise.relative_error =
+        std::max(kSigmaError,
+                 CorrelatedSigmaError(std::min(noise.lag1 + noise.lag1_error, kLagMax))) /
+        root;
+  }
+}
+
+}  // namespace
+
+Noise EstimateNoise(std::span<const double> t_s, std::span<const double> y,
+                    std::span<const TimeSpan> quiet, std::span<const TimeSpan> strokes) {
+  Noise noise;
+  noise.quantum_pa = Quantum(y);
+  noise.clipped = Clipped(y);
+  Samples samples = Usable(t_s, y, noise.clipped);
+  if (!noise.clipped.empty()) {
+    const double highest = *std::max_element(y.begin(), y.end(), [](double a, double b) {
+      return std::isnan(b) ? false : std::isnan(a) || a < b;
+    });
+    for (const std::size_t i : noise.clipped)
+      (y[i] == highest ? noise.clip_high_pa : noise.clip_low_pa) = y[i];
+  }
+  const double usable = static_cast<double>(samples.y.size());
+  noise.effective_samples = usable;
+  if (samples.y.size() < 4) return noise;
+
+  const double rounding_pa = noise.quantum_pa / std::sqrt(12.0);
+  const std::vector<double> deviations = TakeRepeats(samples, noise.repeat_freedom);
+  if (noise.repeat_freedom > 0) {
+    double sum = 0.0;  // each is scaled to one reading's variance
+    for (const double deviation : deviations) sum += deviation * deviation;
+    noise.repeat_sigma_pa = std::sqrt(sum / static_cast<double>(deviations.size()));
+  }
+  if (samples.y.size() >= 4) {
+    const double spacing_s = MedianSpacing(samples.t_s);
+    const auto [low, high] = std::minmax_element(samples.y.begin(), samples.y.end());
+    auto places = Places(samples, quiet, strokes, spacing_s, noise.source);
+    std::vector<Window> windows = Windows(samples, places, 1, spacing_s);
+    Trim(windows, rounding_pa);
+    const double local_pa = windows.empty() ? 0.0 : std::sqrt(MeanSquare(windows));
+    const double floor_pa = std::max({local_pa, rounding_pa, kNoiseless * (*high - *low)});
+    const std::vector<std::size_t> wild = Outliers(samples.t_s, samples.y, floor_pa);
+    for (const std::size_t i : wild) noise.outliers.push_back(samples.index[i]);
+    FromDifferences(Without(samples, wild), places, spacing_s, rounding_pa, noise);
+  }
+  if (noise.repeat_freedom > std::max(noise.windows, kRepeatsMin)) {
+    noise.source = NoiseSource::kRepeats;
+    noise.sigma_pa = TrimmedRms(deviations, rounding_pa);
+    noise.relative_error = 1.0 / std::sqrt(2.0 * noise.repeat_freedom);
+    noise.correlation_time_s = noise.lag1 = noise.lag1_error = 0.0;
+  }
+  if (samples.t_s.size() > 1) noise.spacing_s = MedianSpacing(samples.t_s);
+  noise.staircase = noise.sigma_pa < 0.5 * noise.quantum_pa;
+  noise.sigma_pa = std::max(noise.sigma_pa, rounding_pa);
+  noise.effective_samples = usable * (1.0 - noise.lag1) / (1.0 + noise.lag1);
+  return noise;
+}
+
+Noise EstimateNoise(const Run& run) {
+  std::vector<TimeSpan> quiet, strokes;
+  for (const PhaseSpan& span : PhasesOf(run)) {
+    const bool closed = span.phase == Phase::kRest || span.phase == Phase::kHold;
+    (closed ? quiet : strokes).push_back({span.start_s, span.end_s});
+  }
+  return EstimateNoise(run.t_s, run.pressure_pa, quiet, strokes);
+}
+
+}  // namespace plenum::calibration

@@ -1,0 +1,67 @@
+// How much of a run is noise, from its readings alone: no model is asked.
+//
+// Noise is seen through third differences. For samples at t_0 … t_3 the divided difference
+// z = Σ c_i·y_i with c_i ∝ 1/Π_{j≠i}(t_i − t_j) and Σ c_i² = 1 cancels any parabola, so that on a
+// smooth signal E z² = Σ c_i·c_j·γ(|t_i − t_j|), which is σ² for white noise, at any spacing. The
+// windows are taken where the signal is quiet; samples of one instant enter as differences of
+// pairs. With noise of covariance γ(h) = σ²·exp(−h/θ) the same sums over every 2nd, 4th, … sample
+// grow with the stride until it passes θ: that fixes θ. Readings on a grid of step q carry q²/12 of
+// their own (Widrow); where the other noise is below about q/2 the differences of a staircase tell
+// nothing, and q²/12 is the least that is reported.
+//
+// The relative standard error of σ from n windows is 1.07/√n: 5 % needs 450. Noise that depends on
+// the pressure is seen at the quiet places alone. Sources: Gasser, Sroka & Jennen-Steinmetz,
+// Biometrika 73 (1986) 625; Widrow & Kollár, Quantization Noise (2008).
+#ifndef PLENUM_CALIBRATION_NOISE_H_
+#define PLENUM_CALIBRATION_NOISE_H_
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "calibration/dataset.h"
+
+namespace plenum::calibration {
+
+// Where the windows lay: closed valve; the second half of each stroke; everywhere; overlaid samples
+// alone. kNone: fewer than four usable readings, all numbers are NaN.
+enum class NoiseSource { kNone, kClosed, kTail, kWhole, kRepeats };
+
+struct Noise {
+  double sigma_pa = std::numeric_limits<double>::quiet_NaN();  // of one reading, quantum included
+  double relative_error = std::numeric_limits<double>::quiet_NaN();  // standard error of σ over σ
+  double quantum_pa = 0.0;          // step of the readings' grid; 0: none found
+  bool staircase = false;           // noise below half a quantum: errors are sawtooth, not random
+  double correlation_time_s = 0.0;  // θ; 0: not told from white noise
+  double spacing_s = 0.0;           // median Δt between instants
+  double lag1 = 0.0;                // ρ = exp(−Δt/θ) at that spacing
+  double lag1_error = 0.0;          // standard error of ρ, also where it is 0
+  double effective_samples = 0.0;   // n·(1−ρ)/(1+ρ) of the n usable readings
+  double repeat_sigma_pa = std::numeric_limits<double>::quiet_NaN();  // pooled over overlaid
+                                                                      // samples, NaN without
+  int repeat_freedom = 0;  // Σ (samples of an instant − 1)
+  NoiseSource source = NoiseSource::kNone;
+  int windows = 0;
+  std::vector<std::size_t> outliers;  // single readings off both neighbours' trends by more than
+                                      // 6 σ; left out of σ
+  std::vector<std::size_t> clipped;   // at an end of the sensor's range; left out of σ
+  // The ends of the range, as far as clipped readings show them.
+  double clip_low_pa = -std::numeric_limits<double>::infinity();
+  double clip_high_pa = std::numeric_limits<double>::infinity();
+};
+
+// Of readings y at times t (rising, NaN where missing); `quiet` are the spans to look at first and
+// `strokes` the others, both as pairs of start and end.
+struct TimeSpan {
+  double start_s = 0.0, end_s = 0.0;
+};
+Noise EstimateNoise(std::span<const double> t_s, std::span<const double> y,
+                    std::span<const TimeSpan> quiet, std::span<const TimeSpan> strokes);
+
+// Of a run's pressure readings: quiet is a closed valve.
+Noise EstimateNoise(const Run& run);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_NOISE_H_

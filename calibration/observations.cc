@@ -1,0 +1,198 @@
+#include "calibration/observations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace plenum::calibration {
+namespace {
+
+// A run's σ stands for itself where it is off the common one by more than this many of its standard
+// errors and by more than kOwnShare.
+constexpr double kOwnErrors = 4.0;
+constexpr double kOwnShare = 0.3;
+// Less noise than this share of the operating gauge pressure is not believed: it would ask more of
+// the model's integration than any sensor does.
+constexpr double kLeastNoise = 1e-5;
+constexpr double kCarryMax = 0.95;
+constexpr double kClipSigmas = 4.0;
+constexpr std::size_t kClipNeighbours = 5;
+
+constexpr std::vector<double> Channels::*kSupporting[] = {
+    &Channels::inlet_pressure_pa, &Channels::temperature_k, &Channels::volume_m3,
+    &Channels::flow_m3_per_s, &Channels::source_pressure_pa};
+
+const std::vector<double>& Measured(const Run& run, const ObservedSignal& signal) {
+  return signal.channel ? run.channels.*signal.channel : run.pressure_pa;
+}
+
+const std::vector<double>& Predicted(const Reading& reading, const ObservedSignal& signal) {
+  return signal.channel ? reading.channels.*signal.channel : reading.pressure_pa;
+}
+
+ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
+                        const Noise& noise) {
+  ObservedSignal signal;
+  signal.channel = channel;
+  signal.sigma = noise.sigma_pa;
+  const std::vector<double>& measured = Measured(run, signal);
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const bool dropped = std::binary_search(noise.outliers.begin(), noise.outliers.end(), i) ||
+                         std::binary_search(noise.clipped.begin(), noise.clipped.end(), i);
+    if (std::isfinite(measured[i]) && !dropped) signal.samples.push_back(i);
+  }
+  for (std::size_t k = 0; k < signal.samples.size(); ++k) {
+    const double gap_s = k == 0 ? 0.0 : run.t_s[signal.samples[k]] - run.t_s[signal.samples[k - 1]];
+    const bool carries = k > 0 && noise.correlation_time_s > 0.0;
+    signal.carry.push_back(
+        carries ? std::min(kCarryMax, std::exp(-gap_s / noise.correlation_time_s)) : 0.0);
+  }
+  return signal;
+}
+
+// // At an end of the sensor's range the readings that noise would have carried beyond it are cut
+// off, and those left over are biased: all samples count as clipped whose neighbours' median comes
+// within kClipSigmas of that end.
+void WidenClipped(const Run& run, Noise& noise) {
+  if (noise.clipped.empty() || noise.staircase) return;
+  std::set<double> ends;
+  for (const std::size_t i : noise.clipped) ends.insert(run.pressure_pa[i]);
+  const std::size_t size = run.pressure_pa.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    std::vector<double> around;
+    const std::size_t first = i < kClipNeighbours ? 0 : i - kClipNeighbours;
+    for (std::size_t k = first; k < std::min(size, i + kClipNeighbours + 1); ++k)
+      if (!std::isnan(run.pressure_pa[k])) around.push_back(run.pressure_pa[k]);
+    if (around.empty()) continue;
+    const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
+    std::nth_element(around.begin(), middle, around.end());
+    const auto near = [&](double end) {
+      return std::abs(*middle - end) < kClipSigmas * noise.sigma_pa;
+    };
+    if (std::any_of(ends.begin(), ends.end(), near)) noise.clipped.push_back(i);
+  }
+  std::sort(noise.clipped.begin(), noise.clipped.end());
+  noise.clipped.erase(std::unique(noise.clipped.begin(), noise.clipped.end()), noise.clipped.end());
+}
+
+// Root of the mean variance over the runs, by their windows.
+double CommonSigma(const std::vector<Noise>& noises) {
+  double sum = 0.0, weight = 0.0;
+  for (const Noise& noise : noises) {
+    if (!std::isfinite(noise.sigma_pa)) continue;
+    const double windows = std::max(1, noise.windows);
+    sum += windows * noise.sigma_pa * noise.sigma_pa;
+    weight += windows;
+  }
+  return weight > 0.0 ? std::sqrt(sum / weight) : 0.0;
+}
+
+// Noise of one sensor remembers alike in all runs: the median where most runs show it.
+double CommonCorrelationTime(const std::vector<Noise>& noises) {
+  std::vector<double> times_s;
+  for (const Noise& noise : noises) times_s.push_back(noise.correlation_time_s);
+  std::sort(times_s.begin(), times_s.end());
+  return times_s.empty() ? 0.0 : times_s[times_s.size() / 2];
+}
+
+void ShareAmongRuns(const Dataset& dataset, std::vector<Noise>& noises) {
+  const double common_pa = CommonSigma(noises);
+  const double theta_s = CommonCorrelationTime(noises);
+  for (std::size_t i = 0; i < noises.size(); ++i) {
+    Noise& noise = noises[i];
+    const double apart = std::abs(noise.sigma_pa / common_pa - 1.0);
+    const bool own = apart > std::max(kOwnShare, kOwnErrors * noise.relative_error);
+    if (!own) noise.sigma_pa = common_pa;
+    noise.correlation_time_s = theta_s;
+    noise.lag1 = theta_s > 0.0 ? std::exp(-noise.spacing_s / theta_s) : 0.0;
+    const Run& run = dataset.runs[i];
+    const double span_pa = run.chamber.operating_pressure_pa - run.ambient.pressure_pa;
+    noise.sigma_pa = std::max(noise.sigma_pa, kLeastNoise * span_pa);
+  }
+}
+
+// Of a channel, σ at its sensor's assumed accuracy at least.
+Noise NoiseOfChannel(const Run& run, const std::vector<double>& measured) {
+  Noise noise = EstimateNoise(run.t_s, measured, {}, {});
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double value : measured) {
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value), high = std::max(high, value);
+  }
+  noise.sigma_pa = std::fmax(noise.sigma_pa, kChannelAccuracy * (high - low));
+  return noise;
+}
+
+// The whitening map on a series given sample by sample.
+template <class At>
+void Whiten(const ObservedSignal& signal, const At& at, double*& row) {
+  double before = 0.0;
+  for (std::size_t k = 0; k < signal.samples.size(); ++k) {
+    const double value = at(signal.samples[k]);
+    const double carry = signal.carry[k];
+    *row++ = (value - carry * before) / (signal.sigma * std::sqrt(1.0 - carry * carry));
+    before = value;
+  }
+}
+
+}  // namespace
+
+std::size_t ObservedRun::rows() const {
+  std::size_t rows = 0;
+  for (const ObservedSignal& signal : signals) rows += signal.samples.size();
+  return rows;
+}
+
+std::vector<ObservedRun> Observe(const Dataset& dataset) {
+  std::vector<Noise> noises;
+  for (const Run& run : dataset.runs) noises.push_back(EstimateNoise(run));
+  ShareAmongRuns(dataset, noises);
+  for (std::size_t i = 0; i < noises.size(); ++i) WidenClipped(dataset.runs[i], noises[i]);
+  std::vector<ObservedRun> observed;
+  for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
+    const Run& run = dataset.runs[i];
+    ObservedRun& of_run = observed.emplace_back();
+    of_run.noise = noises[i];
+    of_run.signals.push_back(SignalOf(run, nullptr, noises[i]));
+    for (const auto channel : kSupporting) {
+      const bool drives = channel == &Channels::source_pressure_pa &&
+                          (run.supply == Supply::kMeasured || run.supply == Supply::kNone);
+      const std::vector<double>& measured = run.channels.*channel;
+      if (drives || measured.empty()) continue;
+      const Noise noise = NoiseOfChannel(run, measured);
+      if (noise.sigma_pa > 0.0) of_run.signals.push_back(SignalOf(run, channel, noise));
+    }
+  }
+  return observed;
+}
+
+void Residuals(const Run& run, const ObservedRun& observed, const Reading& predicted,
+               std::span<double> rows) {
+  double* row = rows.data();
+  for (const ObservedSignal& signal : observed.signals) {
+    const std::vector<double>& model = Predicted(predicted, signal);
+    const std::vector<double>& measured = Measured(run, signal);
+    Whiten(
+        signal, [&](std::size_t i) { return model.empty() ? 0.0 : model[i] - measured[i]; }, row);
+  }
+}
+
+void Whitened(const ObservedRun& observed, const Reading& derivative, std::span<double> rows) {
+  double* row = rows.data();
+  for (const ObservedSignal& signal : observed.signals) {
+    const std::vector<double>& series = Predicted(derivative, signal);
+    Whiten(
+        signal, [&](std::size_t i) { return series.empty() ? 0.0 : series[i]; }, row);
+  }
+}
+
+std::vector<double> PressureResidual(const Run& run, const ObservedRun& observed,
+                                     const Reading& predicted) {
+  std::vector<double> residual(run.t_s.size(), std::numeric_limits<double>::quiet_NaN());
+  for (const std::size_t i : observed.signals.front().samples)
+    residual[i] = run.pressure_pa[i] - predicted.pressure_pa[i];
+  return residual;
+}
+
+}  // namespace plenum::calibration

@@ -1,0 +1,147 @@
+#include "calibration/readings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace plenum::calibration {
+namespace {
+
+constexpr double kGridTolerance = 0.1;   // of the quantum
+constexpr double kSameValue = 1e-9;      // of the range: rounding of unit conversions
+constexpr std::size_t kDistinctMin = 8;  // values on a grid by chance: 0.2^6
+constexpr std::size_t kClipLengthMin = 4;
+constexpr double kClipChance = 1e-3;
+constexpr double kStillShareMax = 0.5;      // more: a staircase that stands by itself
+constexpr double kReversalShareMin = 0.02;  // less: a smooth signal that may well stand still
+constexpr double kOutlierSigmas = 6.0;
+
+std::vector<double> Finite(std::span<const double> y) {
+  std::vector<double> values;
+  for (const double value : y)
+    if (std::isfinite(value)) values.push_back(value);
+  return values;
+}
+
+// Gaps between neighbouring distinct values.
+std::vector<double> Gaps(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const double same = kSameValue * (values.back() - values.front());
+  std::vector<double> gaps;
+  double last = values.front();
+  for (const double value : values) {
+    if (value - last <= same) continue;
+    gaps.push_back(value - last);
+    last = value;
+  }
+  return gaps;
+}
+
+// Share of the inner values that are higher or lower than both neighbours: 2/3 of white noise.
+double ReversalShare(const std::vector<double>& values) {
+  int reversals = 0;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i)
+    reversals += (values[i] - values[i - 1]) * (values[i + 1] - values[i]) < 0.0;
+  return reversals / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+double Quantum(std::span<const double> y) {
+  const std::vector<double> values = Finite(y);
+  if (values.size() < kDistinctMin) return 0.0;
+  const std::vector<double> gaps = Gaps(values);
+  const bool recurring = gaps.size() >= 2 && 2 * (gaps.size() + 1) <= values.size();
+  if (gaps.size() + 1 < kDistinctMin && !recurring) return 0.0;
+  // The steps counted along the gaps, from small to large, sharpen the step as they go.
+  std::vector<double> sorted = gaps;
+  std::sort(sorted.begin(), sorted.end());
+  double total = 0.0, count = 0.0;
+  for (const double gap : sorted) {
+    const double quantum = count > 0.0 ? total / count : sorted.front();
+    const double steps = std::round(gap / quantum);
+    if (std::abs(gap - steps * quantum) > kGridTolerance * quantum) return 0.0;
+    total += gap;
+    count += steps;
+  }
+  return total / count;
+}
+
+std::vector<std::size_t> Clipped(std::span<const double> y) {
+  const std::vector<double> values = Finite(y);
+  if (values.size() < 2 * kClipLengthMin) return {};
+  if (ReversalShare(values) < kReversalShareMin) return {};
+  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+  const double same = kSameValue * (*highest - *lowest);
+  std::vector<std::size_t> clipped;
+  for (const double end : {*lowest, *highest}) {
+    const auto at_end = [&](double value) { return std::abs(value - end) <= same; };
+    int pairs = 0, repeated = 0;  // away from this end
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      if (at_end(values[i]) || at_end(values[i - 1])) continue;
+      ++pairs;
+      if (std::abs(values[i] - values[i - 1]) <= same) ++repeated;
+    }
+    const double share = (repeated + 1.0) / (pairs + 2.0);
+    if (share > kStillShareMax) continue;
+    std::vector<std::size_t> stretch;
+    const auto judge = [&] {
+      const double length = static_cast<double>(stretch.size());
+      const double chance = static_cast<double>(values.size()) * std::pow(share, length - 1.0);
+      if (stretch.size() >= kClipLengthMin && chance < kClipChance)
+        clipped.insert(clipped.end(), stretch.begin(), stretch.end());
+      stretch.clear();
+    };
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      if (!std::isfinite(y[i])) continue;
+      if (at_end(y[i]))
+        stretch.push_back(i);
+      else
+        judge();
+    }
+    judge();
+  }
+  std::sort(clipped.begin(), clipped.end());
+  return clipped;
+}
+
+double Extrapolate(std::span<const double> t_s, std::span<const double> y, double at,
+                   double* gain2) {
+  double value = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < t_s.size(); ++i) {
+    double weight = 1.0;
+    for (std::size_t j = 0; j < t_s.size(); ++j)
+      if (j != i) weight *= (at - t_s[j]) / (t_s[i] - t_s[j]);
+    value += weight * y[i];
+    squares += weight * weight;
+  }
+  if (gain2) *gain2 = squares;
+  return value;
+}
+
+std::vector<std::size_t> Outliers(std::span<const double> t_s, std::span<const double> y,
+                                  double sigma) {
+  std::vector<std::size_t> wild;
+  std::vector<double> size(t_s.size(), 0.0);
+  for (std::size_t i = 3; i + 3 < t_s.size(); ++i) {
+    const std::array around_t = {t_s[i - 2], t_s[i - 1], t_s[i + 1], t_s[i + 2]};
+    const std::array around_y = {y[i - 2], y[i - 1], y[i + 1], y[i + 2]};
+    double gain2 = 0.0;
+    const double off = y[i] - Extrapolate(around_t, around_y, t_s[i], &gain2);
+    if (!(std::abs(off) > kOutlierSigmas * sigma * std::sqrt(1.0 + gain2))) continue;
+    const double before = y[i] - Extrapolate(t_s.subspan(i - 3, 3), y.subspan(i - 3, 3), t_s[i]);
+    const double after = y[i] - Extrapolate(t_s.subspan(i + 1, 3), y.subspan(i + 1, 3), t_s[i]);
+    const double sign = off > 0.0 ? 1.0 : -1.0;
+    if (sign * before > 0.5 * std::abs(off) && sign * after > 0.5 * std::abs(off))
+      size[i] = std::abs(off);
+  }
+  for (std::size_t i = 3; i + 3 < t_s.size(); ++i) {  // a wild value throws its neighbours off
+    const auto around = std::span(size).subspan(i - 3, 7);
+    if (size[i] > 0.0 && size[i] == *std::max_element(around.begin(), around.end()))
+      wild.push_back(i);
+  }
+  return wild;
+}
+
+}  // namespace plenum::calibration

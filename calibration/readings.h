@@ -1,0 +1,38 @@
+// What a sensor does to its readings besides noise: the grid that it rounds to, the ends of its
+// range, single wild values.
+#ifndef PLENUM_CALIBRATION_READINGS_H_
+#define PLENUM_CALIBRATION_READINGS_H_
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace plenum::calibration {
+
+// Step q of the grid that the finite values lie on, each within q/10; 0 if they lie on none. Asked
+// of at least eight distinct values, or of fewer where most readings recur.
+double Quantum(std::span<const double> y);
+
+// Indices of readings at an end of the sensor's range: unbroken stretches of the run's highest or
+// lowest value, so long that the readings elsewhere, which repeat their neighbour with a share p,
+// would hold still that long with a chance n·p^(length−1) below 1e-3. None where that cannot be
+// told: p above one half (a coarse grid) or a signal without visible noise.
+std::vector<std::size_t> Clipped(std::span<const double> y);
+
+// Indices i of single readings that are off by more than 6 standard deviations from the cubic
+// through two neighbours on either side, and off by at least half as much, the same way, from the
+// parabolas through the three before and the three after: a kink or a step of the signal agrees
+// with one of the two sides, a wild value with neither. Of candidates within three samples of each
+// other the largest is the one. `t_s` rises strictly, all values are finite, `sigma` is that of one
+// reading. The first and last three samples are not judged.
+std::vector<std::size_t> Outliers(std::span<const double> t_s, std::span<const double> y,
+                                  double sigma);
+
+// Value at `at` of the polynomial through the points (Lagrange), and in `gain2` the sum of the
+// squared weights, by which white noise of the points grows.
+double Extrapolate(std::span<const double> t_s, std::span<const double> y, double at,
+                   double* gain2 = nullptr);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_READINGS_H_

@@ -1,0 +1,191 @@
+#include "calibration/residual.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "calibration/phases.h"
+#include "calibration/rounding.h"
+#include "calibration/whiteness.h"
+
+namespace plenum::calibration {
+namespace {
+
+// The noise's memory is an estimate, and third differences cannot tell all of it being short from a
+// part of it being longer. A residual passes a test of structure if it does for any memory of at
+// most kRhoLongest that agrees with the growth of the differences within three standard errors.
+constexpr std::array kCorrelationErrors = {0.0, 1.5, -1.5, 3.0, -3.0};
+constexpr std::array kRhos = {0.0, 0.3, 0.45, 0.6,
+                              0.75};  // of the part that remembers; 0: all of it
+constexpr double kCorrelationMax = 0.98;
+constexpr double kClipSigmas = 3.0;
+
+// Residual in units of the noise, without what a coarse grid does to it.
+std::vector<double> InNoise(const FittedRun& fitted) {
+  std::vector<double> residual = Residual(fitted);
+  if (fitted.noise.staircase) {
+    for (std::size_t i = 0; i < residual.size(); ++i) residual[i] += fitted.model_pa[i];
+    return StandardiseRounded(residual, fitted.model_pa, fitted.noise.quantum_pa).e;
+  }
+  for (double& value : residual) value /= fitted.noise.sigma_pa;
+  return residual;
+}
+
+void TestLackOfFit(const std::vector<FittedRun>& runs, int fitted_numbers, ResidualReport& report) {
+  double squares = 0.0, count = 0.0, variance = 0.0;
+  for (const FittedRun& fitted : runs) {
+    double samples = 0.0;
+    for (const double value : Residual(fitted)) {
+      if (!std::isfinite(value)) continue;
+      squares += std::pow(value / fitted.noise.sigma_pa, 2);
+      samples += 1.0;
+    }
+    const double rho2 = fitted.noise.lag1 * fitted.noise.lag1;
+    variance += 2.0 * samples * (1.0 + rho2) / (1.0 - rho2) +
+                std::pow(2.0 * samples * fitted.noise.relative_error, 2);
+    count += samples;
+  }
+  const double alarm =
+      boost::math::quantile(boost::math::complement(boost::math::normal(), kFalseAlarm));
+  report.lack_of_fit = squares / std::max(1.0, count - fitted_numbers);
+  report.lack_of_fit_limit = 1.0 + alarm * std::sqrt(variance) / std::max(1.0, count);
+}
+
+// E z² of third differences over every `stride`-th sample, times 20.
+double Difference(double rho, double share, int stride) {
+  const double r = std::pow(rho, stride);
+  return 20.0 - share * (30.0 * r - 12.0 * r * r + 2.0 * r * r * r);
+}
+
+// The memory with the noise's ρ moved by so many of its standard errors, all in one part; or, where
+// that is shorter than `rho`, a part that remembers with `rho` and is as large as lets the
+// differences grow alike.
+NoiseMemory MemoryOf(const Noise& noise, double errors, double rho) {
+  if (errors == 0.0 && rho == 0.0) return {noise.correlation_time_s};
+  const double whole = std::clamp(noise.lag1 + errors * noise.lag1_error, 0.0, kCorrelationMax);
+  if (whole == 0.0) return {};
+  if (whole >= rho) return {-noise.spacing_s / std::log(whole)};
+  const auto growth = [](double r, double share) {
+    return Difference(r, share, 2) / Difference(r, share, 1);
+  };
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 30; ++i) {
+    const double share = 0.5 * (low + high);
+    (growth(rho, share) < growth(whole, 1.0) ? low : high) = share;
+  }
+  return {-noise.spacing_s / std::log(rho), high};
+}
+
+// Of all runs together and of each, which share the false-alarm rate: the one furthest towards its
+// limit.
+Portmanteau TestWhite(const std::vector<ResidualSeries>& series) {
+  std::vector<std::vector<double>> white;
+  for (const ResidualSeries& one : series)
+    white.push_back(Whitened(one.run->t_s, one.residual, one.memory));
+  const int count = white.size() > 1 ? static_cast<int>(white.size()) + 1 : 1;
+  Portmanteau worst = TestWhiteness(white, count);
+  for (std::size_t i = 0; count > 1 && i < white.size(); ++i) {
+    const Portmanteau one = TestWhiteness({&white[i], 1}, count);
+    if (one.statistic / one.limit > worst.statistic / worst.limit) worst = one;
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::vector<double> Residual(const FittedRun& fitted) {
+  const Run& run = *fitted.run;
+  std::vector<double> residual(run.t_s.size());
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    residual[i] = run.pressure_pa[i] - fitted.model_pa[i];
+  const double margin_pa = kClipSigmas * fitted.noise.sigma_pa;
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    if (fitted.model_pa[i] > fitted.noise.clip_high_pa - margin_pa ||
+        fitted.model_pa[i] < fitted.noise.clip_low_pa + margin_pa)
+      residual[i] = std::numeric_limits<double>::quiet_NaN();
+  for (const auto* dropped : {&fitted.noise.clipped, &fitted.noise.outliers})
+    for (const std::size_t i : *dropped) residual[i] = std::numeric_limits<double>::quiet_NaN();
+  return residual;
+}
+
+std::vector<PhaseResidual> ResidualByPhase(const Run& run, std::span<const double> residual_pa) {
+  std::vector<PhaseResidual> result;
+  for (const PhaseSpan& span : PhasesOf(run))
+    result.push_back({run.id, span.phase, span.cycle, span.start_s, span.end_s});
+  const std::vector<PhaseSpan> phases = PhasesOf(run);
+  struct Moments {
+    double t = 0.0, tt = 0.0, tr = 0.0;
+  };
+  std::vector<Moments> moments(result.size());
+  for (std::size_t i = 0; i < residual_pa.size(); ++i) {
+    if (!std::isfinite(residual_pa[i])) continue;
+    const std::size_t at = PhaseAt(phases, run.t_s[i]);
+    const double t = run.t_s[i] - phases[at].start_s;
+    PhaseResidual& phase = result[at];
+    ++phase.samples;
+    phase.mean_pa += residual_pa[i];
+    phase.rms_pa += residual_pa[i] * residual_pa[i];
+    moments[at].t += t;
+    moments[at].tt += t * t;
+    moments[at].tr += t * residual_pa[i];
+  }
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    PhaseResidual& phase = result[i];
+    if (phase.samples == 0) continue;
+    const double count = phase.samples;
+    phase.mean_pa /= count;
+    phase.rms_pa = std::sqrt(phase.rms_pa / count);
+    const double spread = moments[i].tt - moments[i].t * moments[i].t / count;
+    if (phase.samples > 2 && spread > 0.0)
+      phase.trend_pa_per_s = (moments[i].tr - moments[i].t * phase.mean_pa) / spread;
+  }
+  return result;
+}
+
+ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_numbers,
+                               std::vector<InputCorrelation>* by_input) {
+  ResidualReport report;
+  std::vector<ResidualSeries> series;
+  double low_pa = -std::numeric_limits<double>::infinity(), high_pa = -low_pa;
+  for (const FittedRun& fitted :
+       runs) {  // one sensor: what one run shows of its range holds in all
+    low_pa = std::max(low_pa, fitted.noise.clip_low_pa);
+    high_pa = std::min(high_pa, fitted.noise.clip_high_pa);
+  }
+  for (FittedRun fitted : runs) {
+    fitted.noise.clip_low_pa = low_pa;
+    fitted.noise.clip_high_pa = high_pa;
+    series.push_back({fitted.run, InNoise(fitted), fitted.model_pa, {}});
+    for (PhaseResidual& phase : ResidualByPhase(*fitted.run, Residual(fitted)))
+      report.phases.push_back(std::move(phase));
+  }
+  TestLackOfFit(runs, fitted_numbers, report);
+  report.portmanteau = report.cross = std::numeric_limits<double>::infinity();
+  report.portmanteau_limit = report.cross_limit = 1.0;
+  for (const double errors : kCorrelationErrors) {
+    for (const double rho : kRhos) {
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        series[i].memory = MemoryOf(runs[i].noise, errors, rho);
+      const Portmanteau white = TestWhite(series);
+      if (white.statistic / white.limit < report.portmanteau / report.portmanteau_limit) {
+        report.portmanteau = white.statistic;
+        report.portmanteau_limit = white.limit;
+      }
+      Independence independence = TestIndependence(series);
+      if (independence.statistic < report.cross) {
+        report.cross = independence.statistic;
+        report.cross_limit = independence.limit;
+        if (by_input) *by_input = std::move(independence.inputs);
+      }
+      report.white = report.portmanteau <= report.portmanteau_limit;
+      report.independent_of_inputs = report.cross <= report.cross_limit;
+      if (report.white && report.independent_of_inputs) return report;
+    }
+  }
+  return report;
+}
+
+}  // namespace plenum::calibration

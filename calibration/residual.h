@@ -1,0 +1,51 @@
+// What a fit leaves over, judged: by phase, against its own past (whiteness.h), against the inputs
+// (independence.h) and against the noise of the readings (noise.h).
+//
+// Lack of fit: with N readings in units of their runs' noise σ_j and p fitted numbers,
+//   F = Σ r²/σ_j² / (N − p),   standard error √(Σ 2·n_j·(1+ρ_j²)/(1−ρ_j²) + Σ (2·n_j·δ_j)²)/N,
+// where δ_j is the relative error of σ_j and ρ_j the noise's correlation at the run's spacing: the
+// limit allows for a noise that is itself an estimate. Limits are passed by pure noise with
+// kFalseAlarm each. Fitted numbers make residuals a little whiter, so that the other tests err to
+// the quiet side.
+//
+// Where noise is below half of the readings' quantum, whiteness and independence are tested of the
+// residual that rounding.h makes of it.
+#ifndef PLENUM_CALIBRATION_RESIDUAL_H_
+#define PLENUM_CALIBRATION_RESIDUAL_H_
+
+#include <span>
+#include <vector>
+
+#include "calibration/dataset.h"
+#include "calibration/diagnosis.h"
+#include "calibration/independence.h"
+#include "calibration/noise.h"
+
+namespace plenum::calibration {
+
+// One run after a fit. `model_pa` is at the run's sample times, absolute, as the sensor would show
+// it; clipped and wild readings are those of `noise`.
+struct FittedRun {
+  const Run* run = nullptr;
+  std::vector<double> model_pa;
+  Noise noise;
+};
+
+// measured − model; NaN where the reading is missing, clipped or wild, and where the model is
+// within three standard deviations of an end of the sensor's range or beyond, because noise is cut
+// there.
+std::vector<double> Residual(const FittedRun& fitted);
+
+// Mean, RMS and least-squares slope over each phase of the run.
+std::vector<PhaseResidual> ResidualByPhase(const Run& run, std::span<const double> residual_pa);
+
+// Of all runs together, and white only if each run by itself is: the portmanteau reported is the
+// one furthest towards its limit. The noise's correlation is an estimate, so both tests of
+// structure are passed if they are for any ρ within three standard errors. `by_input`, if asked,
+// gets the statistic of every input.
+ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_numbers,
+                               std::vector<InputCorrelation>* by_input = nullptr);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_RESIDUAL_H_

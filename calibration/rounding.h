@@ -1,0 +1,30 @@
+// What a coarse grid does to a residual.
+//
+// A reading y on a grid of step q says that signal and noise lie in [y − q/2, y + q/2]. Where the
+// noise is below q/2, reading less model is a sawtooth along the signal however good the model is.
+// Given the model m and normal noise of deviation s, the reading is the grid value k·q with chance
+// Φ((k·q + q/2 − m)/s) − Φ((k·q − q/2 − m)/s): that gives its mean μ(m) and variance v(m), and
+//   e = (y − μ)/√v
+// has mean 0, variance 1 and no memory if model and noise are right. s is the most likely one given
+// the readings (so that a wrong model raises s). Readings that are all but sure, v < 0.02·q², tell
+// nothing and become NaN: without noise all do, and only a model outside the intervals is seen.
+#ifndef PLENUM_CALIBRATION_ROUNDING_H_
+#define PLENUM_CALIBRATION_ROUNDING_H_
+
+#include <span>
+#include <vector>
+
+namespace plenum::calibration {
+
+struct RoundedResidual {
+  std::vector<double> e;
+  double noise = 0.0;  // s, in the unit of the readings
+};
+
+// NaN readings stay NaN. q > 0.
+RoundedResidual StandardiseRounded(std::span<const double> readings, std::span<const double> model,
+                                   double quantum);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_ROUNDING_H_

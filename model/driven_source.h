@@ -1,0 +1,45 @@
+// A source whose pressure over time is given, such as the record of a sensor at the source.
+//   p_s(t) = p_a + factor·(p(t) − p_a)
+// with p(t) the straight lines through the record's points, and its first and last value outside.
+// Steps of the simulator end at every point, so that no feature of the record is passed over: a
+// noisy record costs a step or more a sample and should be condensed first. The check in the line
+// passes what noise lifts and holds what it drops, so noise also biases a line near equal
+// pressures.
+#ifndef PLENUM_MODEL_DRIVEN_SOURCE_H_
+#define PLENUM_MODEL_DRIVEN_SOURCE_H_
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace plenum::model {
+
+struct DrivenSource {
+  std::vector<double> time_s;       // rising
+  std::vector<double> pressure_pa;  // absolute, as many
+  double factor = 1.0;              // on the gauge pressure
+  bool operator==(const DrivenSource&) const = default;
+
+  // p(t) of the record, and its slope in Pa/s, 0 outside.
+  double RecordedPressure(double t_s) const {
+    if (t_s <= time_s.front()) return pressure_pa.front();
+    if (t_s >= time_s.back()) return pressure_pa.back();
+    return pressure_pa[PieceOf(t_s) - 1] + RecordedSlope(t_s) * (t_s - time_s[PieceOf(t_s) - 1]);
+  }
+  double RecordedSlope(double t_s) const {
+    if (t_s <= time_s.front() || t_s >= time_s.back()) return 0.0;
+    const std::size_t i = PieceOf(t_s);
+    return (pressure_pa[i] - pressure_pa[i - 1]) / (time_s[i] - time_s[i - 1]);
+  }
+
+ private:
+  // The first point after an instant within the record.
+  std::size_t PieceOf(double t_s) const {
+    const auto next = std::upper_bound(time_s.begin(), time_s.end(), t_s);
+    return static_cast<std::size_t>(next - time_s.begin());
+  }
+};
+
+}  // namespace plenum::model
+
+#endif  // PLENUM_MODEL_DRIVEN_SOURCE_H_
