@@ -191,7 +191,8 @@ void Identify(const std::filesystem::path& truth, const std::filesystem::path& a
   const Json json = Json::parse(file);
   if (json["kind"] == "clean" || json["kind"] == "outside") return;
   const test::BenchCase bench = test::CaseOfSeries(json["series"], json["index"]);
-  std::ofstream(answer) << Judge(bench).Nearest().dump() << '\n';
+  const std::string nearest = Judge(bench).Nearest().dump();
+  std::ofstream(answer) << nearest << '\n';
 }
 
 }  // namespace
