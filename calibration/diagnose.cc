@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "calibration/experiment.h"
+#include "calibration/identifiability.h"
 #include "calibration/phases.h"
 #include "calibration/residual.h"
 #include "calibration/thresholds.h"
@@ -57,7 +59,7 @@ class Diagnosing {
     const auto enough = [this](const Fit& fit) { return IsNoise(LeftoverOf(fit, false)); };
     search_ = SearchEffects(data_, options_, enough);
     data_ = search_.data;
-    FindBase();
+    base_ = &search_.contenders[search_.base];
     Assess();
     return std::move(diagnosis_);
   }
@@ -67,11 +69,6 @@ class Diagnosing {
     const std::string& id = dataset_.runs[run].id;
     return std::find(dataset_.holdout.begin(), dataset_.holdout.end(), id) !=
            dataset_.holdout.end();
-  }
-
-  void FindBase() {
-    for (const Contender& contender : search_.contenders)
-      if (contender.effects.empty()) base_ = &contender;
   }
 
   Squares ErrorsOf(std::size_t run, const ModelState& state) const {
@@ -167,7 +164,7 @@ class Diagnosing {
     const Contender& chosen = search_.contenders[search_.chosen];
     Evidence evidence;
     evidence.complete = search_.complete && base_->fit.Usable() && chosen.fit.Usable();
-    evidence.accepted = !chosen.effects.empty();
+    evidence.accepted = &chosen != base_;
     diagnosis_.noise_pa = NoiseOf(data_.runs);
     diagnosis_.declared = ErrorOf(forward_.Declared());
     if (!base_->fit.Usable()) {
@@ -189,10 +186,18 @@ class Diagnosing {
     AddCandidates();
     if (diagnosis_.verdict == Verdict::kTie) {
       diagnosis_.effects.clear();
-      for (const Contender* contender : tied) diagnosis_.tied.push_back(IdsOf(*contender));
+      std::vector<TiedFit> fits;
+      for (const Contender* contender : tied) {
+        diagnosis_.tied.push_back(IdsOf(*contender));
+        fits.push_back({IdsOf(*contender), &contender->fit});
+      }
+      diagnosis_.next_experiment = DesignExperiment(data_, fits, tight_);
     }
     AddSeries(chosen.fit.state);
     AddWarnings();
+    if (const auto found = Identify(data_, chosen.fit, tight_))
+      for (std::string& sentence : Sentences(*found))
+        diagnosis_.warnings.push_back(std::move(sentence));
     diagnosis_.sentence = Sentence();
   }
 
@@ -233,7 +238,7 @@ class Diagnosing {
     const double best = search_.contenders.front().fit.bic;
     for (std::size_t i = 0; i < search_.contenders.size(); ++i) {
       const Contender& contender = search_.contenders[i];
-      if (i >= kCandidatesShown && !contender.effects.empty()) continue;
+      if (i >= kCandidatesShown && &contender != base_) continue;
       Candidate candidate;
       for (const model::EffectSpec* spec : contender.effects)
         candidate.effects.push_back(TitleOf(*spec));
@@ -298,16 +303,7 @@ class Diagnosing {
     if (data_.clocks)
       warnings.push_back(
           "the clocks of readings and valve are off by a part of a sample; each run's was fitted");
-    for (const auto& [number, estimate] : diagnosis_.fitted)
-      if (!estimate.identified)
-        warnings.push_back("the data do not fix " + std::string(Name(number)) +
-                           " beyond what was declared");
     for (const FittedEffect& effect : diagnosis_.effects) {
-      for (std::size_t i = 0; i < effect.parameters.size(); ++i)
-        if (!effect.parameters[i].identified)
-          warnings.push_back("the data do not fix " +
-                             std::string(effect.effect.spec->parameters[i].name) + " of " +
-                             TitleOf(*effect.effect.spec));
       if (effect.effect.spec->id == "dead_volume")
         warnings.push_back(
             "dead_volume differs from a larger rest_volume only by the declared uncertainties");

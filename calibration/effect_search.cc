@@ -100,6 +100,11 @@ class Search {
   }
   bool Cancelled() const { return options_.cancelled && options_.cancelled(); }
 
+  // Of a set with so many effects beside those given.
+  std::size_t SizeOf(int added) const {
+    return options_.given.size() + static_cast<std::size_t>(added);
+  }
+
   void Report(double share, const std::string& what) const {
     if (options_.progress) options_.progress(share, what);
   }
@@ -108,8 +113,7 @@ class Search {
   const Contender* BestOfSize(int size) const {
     const Contender* best = nullptr;
     for (const Contender& contender : result_.contenders) {
-      if (contender.effects.size() != static_cast<std::size_t>(size) || !contender.fit.Usable())
-        continue;
+      if (contender.effects.size() != SizeOf(size) || !contender.fit.Usable()) continue;
       if (!best || contender.fit.bic < best->fit.bic) best = &contender;
     }
     return best;
@@ -130,7 +134,12 @@ class Search {
     Contender base;
     FitOptions options = fit_options_;
     options.threads = options_.threads;
-    base.fit = FitModel(result_.data, result_.data.forward->Declared(), options);
+    ModelState start = result_.data.forward->Declared();
+    start.effects = options_.given;
+    std::sort(start.effects.begin(), start.effects.end(),
+              [](const auto& a, const auto& b) { return Place(a.spec) < Place(b.spec); });
+    for (const model::Effect& effect : start.effects) base.effects.push_back(effect.spec);
+    base.fit = FitModel(result_.data, start, options);
     base.starts = base.found_again = 1;
     result_.contenders.push_back(std::move(base));
   }
@@ -177,7 +186,7 @@ class Search {
 
   // Takes the fits of sets of a size that come near the best one further.
   void Refine(std::size_t size) {
-    const Contender* best = BestOfSize(static_cast<int>(size));
+    const Contender* best = BestOfSize(static_cast<int>(size - options_.given.size()));
     if (!best) return;
     std::vector<Contender*> near;
     for (Contender& contender : result_.contenders)
@@ -218,7 +227,7 @@ class Search {
   std::vector<Set> Seeds(int size) const {
     std::vector<const Contender*> sorted;
     for (const Contender& contender : result_.contenders)
-      if (contender.effects.size() == static_cast<std::size_t>(size) && contender.fit.Usable())
+      if (contender.effects.size() == SizeOf(size) && contender.fit.Usable())
         sorted.push_back(&contender);
     std::sort(sorted.begin(), sorted.end(),
               [](const auto* a, const auto* b) { return a->fit.bic < b->fit.bic; });
@@ -235,17 +244,23 @@ class Search {
     return seeds;
   }
 
+  Set WithGiven(Spec spec) const {
+    Set set = {spec};
+    for (const model::Effect& effect : options_.given) set.push_back(effect.spec);
+    return Ordered(set);
+  }
+
   // Of an id with several laws the one whose single fit is best.
   std::vector<Spec> BestLaws() {
     std::vector<Spec> best;
     for (const Spec spec : model::Effects()) {
-      const Contender* single = Find({spec});
+      const Contender* single = Find(WithGiven(spec));
       if (!single || !single->fit.Usable()) continue;
       const auto same =
           std::find_if(best.begin(), best.end(), [&](Spec other) { return other->id == spec->id; });
       if (same == best.end())
         best.push_back(spec);
-      else if (single->fit.bic < Find({*same})->fit.bic)
+      else if (single->fit.bic < Find(WithGiven(*same))->fit.bic)
         *same = spec;
     }
     return best;
@@ -263,6 +278,9 @@ class Search {
   void Exchange(const Set& set) {
     std::vector<Job> jobs;
     for (const Spec out : set) {
+      const bool given = std::any_of(options_.given.begin(), options_.given.end(),
+                                     [&](const model::Effect& e) { return e.spec == out; });
+      if (given) continue;
       Set rest;
       std::copy_if(set.begin(), set.end(), std::back_inserter(rest),
                    [&](Spec spec) { return spec != out; });
@@ -322,7 +340,7 @@ class Search {
     for (Contender& contender : result_.contenders) {
       const bool rival = contender.effects.size() == chosen.size() && contender.fit.Usable() &&
                          contender.fit.bic < best + 2.0 * kTie;
-      if (!rival && !contender.effects.empty()) continue;
+      if (!rival && contender.effects.size() != options_.given.size()) continue;
       Fit fit = FitModel(result_.data, contender.fit.state, tight);
       if (fit.Usable() && fit.bic < contender.fit.bic + kSameOptimum)
         contender.fit = std::move(fit);
@@ -333,6 +351,8 @@ class Search {
                        return a.fit.bic < b.fit.bic;
                      });
     result_.complete = !Cancelled();
+    for (std::size_t i = 0; i < result_.contenders.size(); ++i)
+      if (result_.contenders[i].effects.size() == options_.given.size()) result_.base = i;
     result_.chosen = 0;
     for (std::size_t i = result_.contenders.size(); i-- > 0;) {
       const Contender& contender = result_.contenders[i];

@@ -26,6 +26,7 @@ struct Contender {
 };
 
 struct SearchOptions {
+  std::vector<model::Effect> given;  // belong to the base model; their parameters are fitted too
   int threads = 2;
   std::function<bool()> cancelled;                           // may be empty
   std::function<void(double, const std::string&)> progress;  // share done, what is under way
@@ -33,8 +34,9 @@ struct SearchOptions {
 
 struct SearchResult {
   FitData data;                       // clocks as decided
-  std::vector<Contender> contenders;  // by BIC; the base model has no effects
+  std::vector<Contender> contenders;  // by BIC; the base model is among them
   std::size_t chosen = 0;             // index of the chosen set
+  std::size_t base = 0;               // index of the base model
   bool complete = false;              // nothing was cut short
 };
 

@@ -9,9 +9,8 @@
 #define PLENUM_MODEL_DRIVEN_SOURCE_H_
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
-
-#include "model/scalar.h"
 
 namespace plenum::model {
 
@@ -21,15 +20,23 @@ struct DrivenSource {
   double factor = 1.0;              // on the gauge pressure
   bool operator==(const DrivenSource&) const = default;
 
-  // p(t) of the record.
-  template <class T>
-  T RecordedPressure(const T& t_s) const {
-    if (t_s <= time_s.front()) return T(pressure_pa.front());
-    if (t_s >= time_s.back()) return T(pressure_pa.back());
-    const auto next = std::upper_bound(time_s.begin(), time_s.end(), ValueOf(t_s));
-    const auto i = static_cast<std::size_t>(next - time_s.begin());
-    const double slope = (pressure_pa[i] - pressure_pa[i - 1]) / (time_s[i] - time_s[i - 1]);
-    return pressure_pa[i - 1] + slope * (t_s - time_s[i - 1]);
+  // p(t) of the record, and its slope in Pa/s, 0 outside.
+  double RecordedPressure(double t_s) const {
+    if (t_s <= time_s.front()) return pressure_pa.front();
+    if (t_s >= time_s.back()) return pressure_pa.back();
+    return pressure_pa[PieceOf(t_s) - 1] + RecordedSlope(t_s) * (t_s - time_s[PieceOf(t_s) - 1]);
+  }
+  double RecordedSlope(double t_s) const {
+    if (t_s <= time_s.front() || t_s >= time_s.back()) return 0.0;
+    const std::size_t i = PieceOf(t_s);
+    return (pressure_pa[i] - pressure_pa[i - 1]) / (time_s[i] - time_s[i - 1]);
+  }
+
+ private:
+  // The first point after an instant within the record.
+  std::size_t PieceOf(double t_s) const {
+    const auto next = std::upper_bound(time_s.begin(), time_s.end(), t_s);
+    return static_cast<std::size_t>(next - time_s.begin());
   }
 };
 

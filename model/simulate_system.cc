@@ -195,7 +195,9 @@ template <class T>
 T System<T>::SourcePressure(const T& t, std::span<const T> y) const {
   if (regulated_) return supply_.pressure_pa;
   if (driven_) {
-    return ambient_pa_ + driven_factor_ * (driven_->RecordedPressure(t) - ambient_pa_);
+    return ambient_pa_ + driven_factor_ * (Chain(t, driven_->RecordedPressure(ValueOf(t)),
+                                                 driven_->RecordedSlope(ValueOf(t))) -
+                                           ambient_pa_);
   }
   return reservoir_ ? y[source_] : T(0.0);
 }

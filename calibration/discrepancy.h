@@ -1,0 +1,45 @@
+// Structure that no known effect accounts for: where it lives, and a term inside one equation that
+// is learned from it.
+//
+// The effects established stay, and are fitted again together with each learned term in turn
+// (model/effects/learned.h): leak, line conductance, volume law, sensor. Each family of terms is
+// tried from coarse to fine; the finer one stays if the BIC says so. The families with the best BIC
+// then compete on whole runs that the fit does not see: each run is left out once, the term is
+// learned from the others, and the family with the least squares on the runs left out is the
+// answer, if it beats the model without a term there. With one run only, the BIC decides.
+// A term stands for what is true of every run: a valve that sticks now and then leaves nothing that
+// can be learned, and none is then returned. Sources: discrepancies inside equations keep the
+// physics identifiable (Kennedy & O'Hagan 2001; Brynjarsdóttir & O'Hagan 2014); leave-one-out over
+// runs.
+#ifndef PLENUM_CALIBRATION_DISCREPANCY_H_
+#define PLENUM_CALIBRATION_DISCREPANCY_H_
+
+#include <vector>
+
+#include "calibration/diagnosis.h"
+#include "calibration/fit.h"
+
+namespace plenum::calibration {
+
+struct LearnedModel {
+  Discrepancy discrepancy;
+  Fit fit;  // of all fitted runs with the term; the established one without a term
+};
+
+// `established` is a usable fit of data.runs; `holdout` are runs that no fit sees, for the report
+// alone.
+LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
+                              const std::vector<std::size_t>& holdout, const FitOptions& options);
+
+// RMS of the pressure residual over all usable readings of the runs; NaN where a run fails.
+double PressureRms(const FitData& data, const ModelState& state,
+                   const std::vector<std::size_t>& runs, const FitOptions& options);
+
+// The shares of the residual's energy above the noise by phase, pressure, rate, time and cycle: for
+// each the part that holds most of it, where that is more than its part of the readings.
+std::vector<Discrepancy::Place> PlacesOf(const FitData& data, const ModelState& state,
+                                         const FitOptions& options);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_DISCREPANCY_H_
