@@ -27,7 +27,7 @@ def wilson(hits, count):
     z, p = 1.96, hits / count
     middle = (p + z * z / (2 * count)) / (1 + z * z / count)
     half = z * math.sqrt(p * (1 - p) / count + z * z / (4 * count * count)) / (1 + z * z / count)
-    return middle - half, middle + half
+    return max(0.0, middle - half), min(1.0, middle + half)
 
 
 def share(label, flags, target=""):
@@ -83,10 +83,17 @@ class Case:
         return any(frozenset(tied) == self.true_ids for tied in self.answer["tied"])
 
     @property
+    def only_learned(self):
+        return self.ids and all(i.startswith("learned_") for i in self.ids)
+
+    @property
     def wrongly_confident(self):
+        """Names an effect that is not there; a learned term outside the list is no such name."""
         if self.verdict != "explained":
             return False
-        return self.kind == "outside" or not self.ids <= self.true_ids
+        if self.kind == "outside":
+            return not self.only_learned
+        return not self.ids <= self.true_ids
 
     def floor(self):
         """Of the runs held out, kPa."""
@@ -127,6 +134,9 @@ def naming(cases):
               (c.exact or c.tie_holds_truth for c in of[kind]),
               ">= 85 %" if kind in ("fifth", "pair") else "")
     share("outside: unexplained", (c.verdict == "unexplained" for c in of["outside"]), ">= 85 %")
+    share("outside: unexplained, or explained by learned terms alone",
+          (c.verdict == "unexplained" or c.verdict == "explained" and c.only_learned
+           for c in of["outside"]))
     share("wrong effect named with confidence, of all", (c.wrongly_confident for c in cases),
           "<= 2 %")
     ties = [c for c in cases if c.verdict == "tie"]
@@ -201,9 +211,15 @@ def errors(cases):
     named = [c for c in cases if c.exact and c.heldout_clean() and c.heldout("after") is not None]
     share("right answers: after <= 1.1 floors", (c.heldout("after") <= 1.1 * c.floor() for c in named),
           "all")
-    learned = [c for c in cases if c.kind == "outside" and c.verdict == "unexplained"]
     halved = []
-    for c in learned:
+    for c in cases:
+        if c.kind != "outside" or not c.answer:
+            continue
+        if c.verdict == "explained" and c.only_learned:
+            before, after = c.heldout("before"), c.heldout("after")
+            halved.append(before is not None and after is not None and after <= 0.5 * before)
+        if c.verdict != "unexplained":
+            continue
         d = c.answer.get("discrepancy") or {}
         before, after = d.get("holdout_before_kpa"), d.get("holdout_after_kpa")
         halved.append(before is not None and after is not None and after <= 0.5 * before)
@@ -219,6 +235,8 @@ def without_holdout(c):
             continue
         penalty = candidate["parameters"] * (2.0 - math.log(samples))
         ids = frozenset(candidate["effects"])
+        if any(i.startswith("learned_") for i in ids):
+            continue
         aic[ids] = min(aic.get(ids, math.inf), candidate["bic"] + penalty)
     chosen = frozenset()
     while True:

