@@ -170,6 +170,7 @@ void FillTemperature(const Run& run, Reading& reading) {
 // Mean of the readings before the valve first opens, at most kFirstReadings; the first one if it is
 // open from the start.
 double FirstReading(const Run& run) {
+  if (run.pressure_pa.empty()) return run.ambient.pressure_pa;
   const auto opens = std::find_if(
       run.valve.begin(), run.valve.end(),
       [](const model::ValveCommand& command) { return command.state != model::ValveState::kHold; });

@@ -6,8 +6,9 @@
 // cases, which every set contains, and those outside the list are left out.
 //
 // Rivals: no effect, every single one, pairs of the best singles; of a pair also either of its
-// effects with every other one. Never a set that contains the true one. Every start of an effect is
-// tried. Runs are thinned to kSamples each with the noise scaled so that they say as much.
+// effects with every other one. Never a set that contains the true one, and no learned term: it is
+// no name, and follows many laws. Every start of an effect is tried. Runs are thinned to kSamples
+// each with the noise scaled so that they say as much.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -54,6 +55,14 @@ bool Contains(const Ids& all, const Ids& some) {
   return std::includes(all.begin(), all.end(), some.begin(), some.end());
 }
 
+std::vector<const model::EffectSpec*> NamedEffects() {
+  std::vector<const model::EffectSpec*> named;
+  for (const model::EffectSpec* spec : model::Effects()) {
+    if (!spec->id.starts_with("learned_")) named.push_back(spec);
+  }
+  return named;
+}
+
 // Noise that remembers says less than white noise of its size: as much as white noise of its
 // spectral density at low frequencies.
 double EffectiveNoise(const test::Sensor& sensor) {
@@ -80,7 +89,7 @@ class Judge {
 
   Json Nearest() {
     Consider({});
-    for (const model::EffectSpec* spec : model::Effects()) ConsiderFrom({}, *spec);
+    for (const model::EffectSpec* spec : NamedEffects()) ConsiderFrom({}, *spec);
     std::sort(singles_.begin(), singles_.end(),
               [](const Tried& a, const Tried& b) { return a.bic < b.bic; });
     for (std::size_t i = 0; i < std::min(kBestSingles, singles_.size()); ++i) {
@@ -92,7 +101,7 @@ class Judge {
     }
     if (true_.effects.size() == 2) {
       for (const model::Effect& kept : true_.effects) {
-        for (const model::EffectSpec* spec : model::Effects()) ConsiderFrom({kept}, *spec);
+        for (const model::EffectSpec* spec : NamedEffects()) ConsiderFrom({kept}, *spec);
       }
     }
     const double distance = nearest_.bic - true_bic_;
@@ -191,7 +200,8 @@ void Identify(const std::filesystem::path& truth, const std::filesystem::path& a
   const Json json = Json::parse(file);
   if (json["kind"] == "clean" || json["kind"] == "outside") return;
   const test::BenchCase bench = test::CaseOfSeries(json["series"], json["index"]);
-  std::ofstream(answer) << Judge(bench).Nearest().dump() << '\n';
+  const std::string nearest = Judge(bench).Nearest().dump();
+  std::ofstream(answer) << nearest << '\n';
 }
 
 }  // namespace

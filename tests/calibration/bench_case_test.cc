@@ -247,10 +247,12 @@ double LargestDisagreement(const BenchCase& bench) {
   calibration::ModelState state = forward.Declared();
   std::copy(bench.factors.begin(), bench.factors.end(), state.factor.begin());
   state.effects = ListedOf(bench);
+  calibration::PredictOptions options;
+  options.relative_tolerance = 1e-8;
   double largest_pa = 0.0;
   for (std::size_t r = 0; r < bench.runs.size(); ++r) {
     state.initial_pressure_pa[r] = bench.declared.ambient_pa + bench.runs[r].initial_gauge_pa;
-    const auto prediction = forward.Predict(r, state, {}, {1e-8, {}});
+    const auto prediction = forward.Predict(r, state, {}, options);
     EXPECT_EQ(prediction.status, model::SimulateStatus::kDone) << prediction.detail;
     const std::vector<double>& clean = bench.records[r].clean_gauge_pa;
     if (prediction.reading.pressure_pa.size() != clean.size()) return INFINITY;

@@ -81,7 +81,9 @@ Run MakeRun(const std::string& id, double source_pa, const Tie& tie) {
 struct Fitted {
   explicit Fitted(const Dataset& dataset, const Tie& tie)
       : forward(dataset), observed(Observe(dataset)) {
-    data = {&forward, &observed, {}, SizesOf(dataset)};
+    data.forward = &forward;
+    data.observed = &observed;
+    data.sizes = SizesOf(dataset);
     for (std::size_t i = 0; i < dataset.runs.size(); ++i) data.runs.push_back(i);
     for (const Side& side : tie.sides) {
       Fit best;

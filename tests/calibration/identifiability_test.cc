@@ -43,7 +43,11 @@ Dataset MakeData(bool blocked, bool flow_known) {
 Identifiability Of(const Dataset& dataset, std::vector<model::Effect> effects = {}) {
   const ForwardModel forward(dataset);
   const std::vector<ObservedRun> observed = Observe(dataset);
-  const FitData data = {&forward, &observed, {0}, SizesOf(dataset)};
+  FitData data;
+  data.forward = &forward;
+  data.observed = &observed;
+  data.runs = {0};
+  data.sizes = SizesOf(dataset);
   ModelState start = forward.Declared();
   start.effects = std::move(effects);
   const Fit fit = FitModel(data, start, {});
