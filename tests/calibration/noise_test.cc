@@ -13,7 +13,7 @@
 namespace plenum::calibration {
 namespace {
 
-using test::AgreesWithRate;
+using test::AtMostRate;
 using test::CorrelatedNoise;
 using test::EvenTimes;
 using test::RandomTimes;
@@ -70,8 +70,8 @@ TEST(Noise, WhiteNoiseOnACreepingHoldIsMeasuredAndItsStandardErrorIsAsStated) {
   const Spread spread = SpreadOf(ratios);
   EXPECT_NEAR(spread.mean, 1.0, 0.012);
   EXPECT_NEAR(spread.deviation, 1.07 / 20.0, 0.008);
-  EXPECT_LE(correlated, kSeeds * 7 / 100);  // beyond two standard errors on one side
-  EXPECT_LE(wild, kSeeds / 100);
+  EXPECT_TRUE(AtMostRate(correlated, kSeeds, 0.045)) << correlated;  // two standard errors
+  EXPECT_TRUE(AtMostRate(wild, kSeeds, 0.001)) << wild;
 }
 
 TEST(Noise, UnevenSamplingChangesNothing) {
@@ -84,7 +84,7 @@ TEST(Noise, UnevenSamplingChangesNothing) {
     correlated += noise.correlation_time_s > 0.0;
   }
   EXPECT_NEAR(SpreadOf(ratios).mean, 1.0, 0.02);
-  EXPECT_LE(correlated, kSeeds / 25);
+  EXPECT_TRUE(AtMostRate(correlated, kSeeds, 0.045)) << correlated;
 }
 
 class CorrelatedNoiseTest : public ::testing::TestWithParam<double> {};

@@ -55,6 +55,11 @@ inline bool AgreesWithRate(int hits, int draws, double rate) {
   return std::abs(hits - expected) <= 4.0 * std::sqrt(expected * (1.0 - rate)) + 1.0;
 }
 
+// Whether `hits` of `draws` agree with a chance of at most `rate`: the upper end of that band.
+inline bool AtMostRate(int hits, int draws, double rate) {
+  return hits <= draws * rate + 4.0 * std::sqrt(draws * rate * (1.0 - rate)) + 1.0;
+}
+
 }  // namespace plenum::test
 
 #endif  // PLENUM_TESTS_CALIBRATION_PROCESSES_H_

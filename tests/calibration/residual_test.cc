@@ -16,6 +16,7 @@ namespace {
 
 using model::ValveState;
 using test::AgreesWithRate;
+using test::AtMostRate;
 using test::CorrelatedNoise;
 using test::EvenTimes;
 using test::RandomTimes;
@@ -106,7 +107,7 @@ TEST(Residual, SoDoesCorrelatedNoiseOfKnownCorrelation) {
     EXPECT_TRUE(AgreesWithRate(alarms.white, kSeeds, kFalseAlarm)) << alarms.white;
     EXPECT_TRUE(AgreesWithRate(alarms.inputs, kSeeds, kFalseAlarm)) << alarms.inputs;
   }
-  EXPECT_LE(even.fit, 5 + kSeeds / 200);
+  EXPECT_TRUE(AtMostRate(even.fit, kSeeds, 0.004)) << even.fit;
 }
 
 TEST(Residual, CorrelatedNoiseTakenForWhiteIsSeen) {
@@ -131,10 +132,11 @@ TEST(Residual, EstimatedNoiseKeepsTheAlarmsRare) {
       alarms.Count(Assess(made));
     }
     const int draws = kSeeds / 4;
-    EXPECT_LE(alarms.white, 2 + draws / 50) << rho;
-    EXPECT_LE(alarms.inputs, 2 + draws / 50) << rho;
+    EXPECT_TRUE(AtMostRate(alarms.white, draws, 0.01)) << rho << ": " << alarms.white;
+    EXPECT_TRUE(AtMostRate(alarms.inputs, draws, 0.01)) << rho << ": " << alarms.inputs;
     // Of correlated noise 300 windows give σ to 20 to 40 %, with a skew that no normal limit has.
-    EXPECT_LE(alarms.fit, rho > 0.0 ? draws * 7 / 100 : 2 + draws / 100) << rho;
+    const double rate = rho > 0.0 ? 0.06 : 0.005;
+    EXPECT_TRUE(AtMostRate(alarms.fit, draws, rate)) << rho << ": " << alarms.fit;
   }
 }
 
@@ -225,8 +227,8 @@ TEST(Residual, NoiseThatRemembersInPartIsNoStructure) {
     made.fitted.noise = EstimateNoise(made.run);
     alarms.Count(Assess(made));
   }
-  EXPECT_LE(alarms.white, 1 + kDraws / 20);
-  EXPECT_LE(alarms.inputs, 1 + kDraws / 50);
+  EXPECT_TRUE(AtMostRate(alarms.white, kDraws, 0.03)) << alarms.white;
+  EXPECT_TRUE(AtMostRate(alarms.inputs, kDraws, 0.01)) << alarms.inputs;
 }
 
 // Noise is cut off at the end of the sensor's range: readings just below it are too low in the
