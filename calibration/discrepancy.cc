@@ -11,9 +11,10 @@
 namespace plenum::calibration {
 namespace {
 
-constexpr double kBicGain = 10.0;      // of a finer term over a coarser one, and of any over none
+constexpr double kGain = 10.0;         // of a finer term over a coarser one, and of any over none
 constexpr std::size_t kFinalists = 3;  // families that compete on runs left out
 constexpr std::size_t kFolds = 4;      // runs left out, at most
+constexpr int kIterations = 25;        // of a fit; terms are compared, not polished
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 // One kind of term: laws from coarse to fine.
@@ -39,6 +40,16 @@ const std::vector<Family>& Families() {
   return kFamilies;
 }
 
+// n·ln((χ² + χ²_prior)/n) + k·ln n. A model that lacks something has a χ² far above n; the priors
+// then weigh in the selection what they weigh in its fit.
+double Score(const Fit& fit) {
+  const double n = static_cast<double>(fit.rows);
+  const auto free = std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
+                                  [](const Coordinate& coordinate) { return !coordinate.prior; });
+  return n * std::log((fit.chi2_data + fit.chi2_prior) / n) +
+         static_cast<double>(free) * std::log(n);
+}
+
 bool Holds(const ModelState& state, std::string_view id) {
   return std::any_of(state.effects.begin(), state.effects.end(),
                      [&](const model::Effect& effect) { return effect.spec->id == id; });
@@ -56,9 +67,7 @@ std::vector<model::Effect> Starts(const model::EffectSpec& spec, const TypicalSi
     return {{&spec, {0.02, 0.3, 0.05}}, {&spec, {0.02, 0.5, 0.05}}, {&spec, {0.02, 0.7, 0.05}}};
   }
   if (spec.law == "store") {
-    const double c = sizes.conductance_m3_per_s_pa;
-    return {{&spec, {0.2 * sizes.volume_m3, 0.03 * c, 0.3}},
-            {&spec, {0.05 * sizes.volume_m3, 0.3 * c, 0.3}}};
+    return {{&spec, {0.2 * sizes.volume_m3, 0.03 * sizes.conductance_m3_per_s_pa, 0.3}}};
   }
   if (spec.law == "drift") return {{&spec, {0.0, 0.2 * sizes.duration_s, 0.0}}};
   return {{&spec, std::vector<double>(spec.parameters.size(), 0.0)}};
@@ -69,13 +78,17 @@ Fit FitTerm(const FitData& data, const std::vector<std::size_t>& runs, const Mod
             const std::vector<model::Effect>& starts, const FitOptions& options) {
   FitData on_runs = data;
   on_runs.runs = runs;
+  FitOptions few = options;
+  few.iterations_max = std::min(options.iterations_max, kIterations);
   Fit best;
-  best.bic = kNone;
+  double least = kNone;
   for (const model::Effect& start : starts) {
     ModelState state = base;
     state.effects.push_back(start);
-    Fit fit = FitModel(on_runs, state, options);
-    if (fit.Usable() && fit.bic < best.bic) best = std::move(fit);
+    Fit fit = FitModel(on_runs, state, few);
+    if (!fit.Usable() || !(Score(fit) < least)) continue;
+    least = Score(fit);
+    best = std::move(fit);
   }
   return best;
 }
@@ -83,19 +96,20 @@ Fit FitTerm(const FitData& data, const std::vector<std::size_t>& runs, const Mod
 struct Attempt {
   const Family* family = nullptr;
   Fit fit;
+  double score = kNone;
   double left_out = kNone;  // whitened squares of the runs left out
 };
 
 Attempt FitFamily(const FitData& data, const Family& family, const ModelState& base,
                   const FitOptions& options) {
   Attempt attempt{&family, {}};
-  attempt.fit.bic = kNone;
-  double bound = kNone;
   for (const char* law : family.laws) {
     const model::EffectSpec* spec = model::FindEffect(family.id, law);
     Fit fit = FitTerm(data, data.runs, base, Starts(*spec, data.sizes), options);
-    if (!fit.Usable() || !(fit.bic < bound)) continue;
-    bound = fit.bic - kBicGain;
+    if (!fit.Usable() || !(Score(fit) < attempt.score - (attempt.fit.Usable() ? kGain : 0.0))) {
+      continue;
+    }
+    attempt.score = Score(fit);
     attempt.fit = std::move(fit);
   }
   return attempt;
@@ -149,9 +163,9 @@ double LeftOutWithout(const FitData& data, const ModelState& base, const FitOpti
 const Attempt* Choose(const FitData& data, const Fit& established, std::vector<Attempt>& attempts,
                       const FitOptions& options) {
   std::stable_sort(attempts.begin(), attempts.end(),
-                   [](const Attempt& a, const Attempt& b) { return a.fit.bic < b.fit.bic; });
+                   [](const Attempt& a, const Attempt& b) { return a.score < b.score; });
   const auto gains = [&](const Attempt& attempt) {
-    return attempt.fit.bic < established.bic - kBicGain;
+    return attempt.score < Score(established) - kGain;
   };
   if (attempts.empty() || !gains(attempts.front())) return nullptr;
   if (data.runs.size() < 2) return &attempts.front();

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 #include "model/effects/cracking_pressure.h"
 #include "model/effects/creep.h"
@@ -19,6 +21,7 @@
 #include "model/effects/learned_sensor.h"
 #include "model/effects/learned_volume.h"
 #include "model/effects/line_dynamics.h"
+#include "model/effects/line_storage.h"
 #include "model/effects/nonlinear_compliance.h"
 #include "model/effects/sensor_gain.h"
 #include "model/effects/sensor_lag.h"
@@ -26,6 +29,7 @@
 #include "model/effects/supply_droop.h"
 #include "model/effects/valve_delay.h"
 #include "model/effects/valve_ramp.h"
+#include "model/effects/wall_heat.h"
 
 namespace plenum::model {
 namespace {
@@ -86,8 +90,10 @@ constexpr auto kRegistry = std::to_array<Entry>({
     MakeEntry<Creep>(),
     MakeEntry<Inertia>(),
     MakeEntry<HeatTransfer>(),
+    MakeEntry<WallHeat>(),
     MakeEntry<SupplyDroop>(),
     MakeEntry<LineDynamics>(),
+    MakeEntry<LineStorage>(),
     MakeEntry<Learned<3>::ConductanceByPressure>(),
     MakeEntry<Learned<5>::ConductanceByPressure>(),
     MakeEntry<Learned<9>::ConductanceByPressure>(),
@@ -117,6 +123,16 @@ constexpr auto kSpecs = [] {
   return specs;
 }();
 
+// What stands for the same part of the rig.
+constexpr std::pair<std::string_view, std::string_view> kInstead[] = {
+    {"heat_transfer", "wall_heat"}, {"line_dynamics", "line_storage"}};
+
+bool Exclude(std::string_view a, std::string_view b) {
+  return std::any_of(std::begin(kInstead), std::end(kInstead), [&](const auto& pair) {
+    return pair == std::pair(a, b) || pair == std::pair(b, a);
+  });
+}
+
 std::string Title(const EffectSpec& spec) {
   std::string title(spec.id);
   if (!spec.law.empty()) title += " (" + std::string(spec.law) + ")";
@@ -144,6 +160,10 @@ std::string WhyInvalid(std::span<const Effect> effects) {
     for (std::size_t j = 0; j < i; ++j) {
       if (effects[j].spec->id == effect.spec->id) {
         return field + ": " + Title(*effect.spec) + " stands there twice";
+      }
+      if (Exclude(effects[j].spec->id, effect.spec->id)) {
+        return field + ": " + Title(*effect.spec) + " cannot stand beside " +
+               Title(*effects[j].spec);
       }
     }
     const auto specs = effect.spec->parameters;
