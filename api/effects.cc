@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "api/text.h"
 #include "api/units.h"
@@ -111,6 +112,11 @@ std::vector<model::Effect> ReadEffects(Reader& owner, std::span<const model::Eff
     if (owner.errors().size() == errors_before) effects.push_back(std::move(effect));
   }
   return effects;
+}
+
+ContractParameter InContract(const model::ParameterSpec& spec) {
+  Parameter parameter = ParameterOf(spec);
+  return {std::move(parameter.name), parameter.factor};
 }
 
 Json RenderEffects(std::span<const model::Effect> effects) {

@@ -4,6 +4,7 @@
 #define PLENUM_API_EFFECTS_H_
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "api/reader.h"
@@ -14,6 +15,13 @@ namespace plenum::api {
 // The list "effects" of the owner (a request or a group), each id once and none of those of
 // `others`, with which they act together; empty where missing. An entry with an error is left out.
 std::vector<model::Effect> ReadEffects(Reader& owner, std::span<const model::Effect> others = {});
+
+// A parameter's name in the contract, with its unit, and that unit in the model's.
+struct ContractParameter {
+  std::string name;
+  double factor = 1.0;  // value in the contract = value in the model / factor
+};
+ContractParameter InContract(const model::ParameterSpec& spec);
 
 // The same form again.
 Json RenderEffects(std::span<const model::Effect> effects);

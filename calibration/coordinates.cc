@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 namespace plenum::calibration {
 namespace {
@@ -11,7 +12,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastFactor = 0.05, kMostFactor = 20.0;  // of a number known to a share
 constexpr double kUnknownSpan = 9.0;                       // e-folds either way
-constexpr double kSeriesLow = 1e-6, kSeriesHigh = 1e6;     // of u
+constexpr double kSeriesLow = 1e-3, kSeriesHigh = 1e6;     // of u
+constexpr double kClockIntervals = 2.0;                    // most that a clock may be off
 constexpr double kPressureStepPa = 1e3;                    // scale of an initial pressure
 
 enum class Size {
@@ -132,6 +134,20 @@ double InUnit(Size size, const TypicalSizes& sizes) {
   return 1.0;
 }
 
+// Where an effect is as good as absent because it follows at once, so that going on would only make
+// the simulation stiff.
+std::pair<double, double> Visible(const model::EffectSpec& effect, const model::ParameterSpec& spec,
+                                  const TypicalSizes& sizes) {
+  std::pair<double, double> range = {spec.low, spec.high};
+  if (effect.id == "sensor_lag")
+    range.first = std::max(spec.low, 0.2 * std::min(sizes.interval_s, 0.1 * sizes.stroke_s));
+  if (effect.id == "heat_transfer") range.first = std::max(spec.low, 0.01 * sizes.stroke_s);
+  if (effect.id == "supply_droop" && spec.name == "volume_m3")
+    range.first = std::max(spec.low, 0.03 * sizes.volume_m3);
+  if (spec.name.ends_with("_rad_per_s")) range.second = std::min(spec.high, 150.0 / sizes.stroke_s);
+  return range;
+}
+
 Coordinate CoordinateOf(const model::EffectSpec& effect, const model::ParameterSpec& spec,
                         const TypicalSizes& sizes) {
   const Search search = SearchOf(effect, spec);
@@ -146,6 +162,9 @@ Coordinate CoordinateOf(const model::EffectSpec& effect, const model::ParameterS
   coordinate.origin = search.absent;
   coordinate.low = coordinate.At(spec.low);
   coordinate.high = coordinate.At(spec.high);
+  const auto [least, most] = Visible(effect, spec, sizes);
+  coordinate.low = std::max(coordinate.low, coordinate.At(least));
+  coordinate.high = std::min(coordinate.high, coordinate.At(most));
   if (search.kind == kLog) {
     const double middle = std::log(search.starts.front());
     coordinate.low = std::max(coordinate.low, middle - kUnknownSpan);
@@ -192,6 +211,18 @@ Coordinate FactorCoordinate(Declared number, double uncertainty) {
     coordinate.prior = true;
   }
   return coordinate;
+}
+
+double IntervalOf(const Run& run) {
+  return (run.t_s.back() - run.t_s.front()) / static_cast<double>(run.t_s.size() - 1);
+}
+
+// The valve opens only after the run has begun, so that its commands can be late or early.
+bool StartsClosed(const Run& run) {
+  for (const model::ValveCommand& command : run.valve)
+    if (command.state != model::ValveState::kHold)
+      return command.time_s > StartOf(run) + kClockIntervals * IntervalOf(run);
+  return false;
 }
 
 // A declared pressure that is the first reading itself was read, not set.
@@ -243,9 +274,11 @@ TypicalSizes SizesOf(const Dataset& dataset) {
   TypicalSizes sizes;
   double conductance = kInfinity, operating_volume_m3 = 0.0;
   sizes.duration_s = 0.0;
+  double samples = 0.0, sampled_s = 0.0;
   for (const Run& run : dataset.runs) {
-    if (!run.t_s.empty())
-      sizes.duration_s = std::max(sizes.duration_s, run.t_s.back() - StartOf(run));
+    sizes.duration_s = std::max(sizes.duration_s, run.t_s.back() - StartOf(run));
+    sampled_s += run.t_s.back() - run.t_s.front();
+    samples += static_cast<double>(run.t_s.size());
     for (const LinePiece& piece : run.line)
       if (!piece.tube)
         conductance = std::min({conductance, piece.fill.sonic_conductance_m3_per_s_pa,
@@ -254,6 +287,7 @@ TypicalSizes SizesOf(const Dataset& dataset) {
     sizes.volume_m3 = run.chamber.rest_volume_m3;
     operating_volume_m3 = model::Volume(run.chamber, run.chamber.operating_pressure_pa);
   }
+  sizes.interval_s = sampled_s / samples;
   if (std::isfinite(conductance)) {
     sizes.conductance_m3_per_s_pa = conductance;
     sizes.stroke_s = operating_volume_m3 / (conductance * model::kReferencePressurePa);
@@ -266,7 +300,7 @@ TypicalSizes SizesOf(const Dataset& dataset) {
 }
 
 std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
-                                        const std::vector<std::size_t>& runs) {
+                                        const std::vector<std::size_t>& runs, bool clocks) {
   const Dataset& dataset = forward.dataset();
   std::vector<Coordinate> coordinates;
   for (int k = 0; k < kDeclaredCount; ++k) {
@@ -285,6 +319,16 @@ std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
     coordinate.scale = kPressureStepPa;
     coordinate.low = (1.0 - coordinate.origin) / kPressureStepPa;
     coordinate.high = 9.0 * coordinate.origin / kPressureStepPa;
+    coordinates.push_back(coordinate);
+  }
+  for (const std::size_t i : runs) {
+    if (!clocks || !StartsClosed(dataset.runs[i])) continue;
+    Coordinate coordinate;
+    coordinate.parameter = {.kind = Parameter::Kind::kClock, .run = i};
+    coordinate.scale = IntervalOf(dataset.runs[i]) / std::sqrt(12.0);
+    coordinate.low = -kClockIntervals * std::sqrt(12.0);
+    coordinate.high = kClockIntervals * std::sqrt(12.0);
+    coordinate.prior = true;
     coordinates.push_back(coordinate);
   }
   return coordinates;

@@ -32,6 +32,7 @@ struct Coordinate {
 // What sizes and times are typical of a data set: effects start and scale by them.
 struct TypicalSizes {
   double duration_s = 1.0;                // the longest run
+  double interval_s = 1e-2;               // mean, of the sampling
   double stroke_s = 1.0;                  // V(p_op)/(C·P0) of the narrowest declared pair
   double gauge_pa = 1e5;                  // operating pressure
   double volume_m3 = 50e-6;               // at rest
@@ -39,10 +40,12 @@ struct TypicalSizes {
 };
 TypicalSizes SizesOf(const Dataset& dataset);
 
-// The declared numbers that may move, and the initial pressures that are not known better than by
-// a reading: of the runs given. A declared number that no such run has is left out.
+// The declared numbers that may move, and the initial pressures that are not known better than by a
+// reading: of the runs given. A declared number that no such run has is left out. With `clocks`,
+// each run's clock too: commands fall between samples, so that the prior is that of a time rounded
+// to the sampling, 1/√12 of the interval.
 std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
-                                        const std::vector<std::size_t>& runs);
+                                        const std::vector<std::size_t>& runs, bool clocks);
 
 // All parameters of effect number `effect` of a state.
 std::vector<Coordinate> EffectCoordinates(const model::EffectSpec& spec, std::size_t effect,

@@ -1,6 +1,7 @@
 #include "calibration/fit.h"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -12,7 +13,6 @@ namespace {
 
 constexpr double kTwoSided95 = 1.96;
 constexpr double kToleranceTightest = 1e-9, kToleranceLoosest = 1e-5;
-constexpr double kFunctionTolerance = 1e-7;
 constexpr double kParameterTolerance = 1e-7;
 constexpr double kAtBound = 1e-9;
 constexpr double kLeastCurvature = 1e-12;
@@ -23,6 +23,7 @@ PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions&
   PredictOptions predict;
   predict.relative_tolerance = std::clamp(options.noise_share * pressure.sigma / size_pa,
                                           kToleranceTightest, kToleranceLoosest);
+  predict.steps_max = options.steps_max;
   predict.cancelled = options.cancelled;
   return predict;
 }
@@ -127,7 +128,7 @@ bool HasPrior(const std::vector<Coordinate>& coordinates) {
 }
 
 std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& start) {
-  std::vector<Coordinate> coordinates = BaseCoordinates(*data.forward, data.runs);
+  std::vector<Coordinate> coordinates = BaseCoordinates(*data.forward, data.runs, data.clocks);
   for (std::size_t i = 0; i < start.effects.size(); ++i)
     for (const Coordinate& coordinate : EffectCoordinates(*start.effects[i].spec, i, data.sizes))
       coordinates.push_back(coordinate);
@@ -196,14 +197,15 @@ FitStatus StatusOf(const ceres::Solver::Summary& summary) {
   return FitStatus::kFailed;
 }
 
+// The number at u, held within the bounds.
 double Edge(const Coordinate& coordinate, double u) {
-  const double number = coordinate.Number(std::clamp(u, coordinate.low, coordinate.high));
-  return number;
+  return coordinate.Number(std::clamp(u, coordinate.low, coordinate.high));
 }
 
 }  // namespace
 
 Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& options) {
+  FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres says is in the status
   Fit fit;
   fit.state = start;
   fit.coordinates = CoordinatesOf(data, start);
@@ -232,7 +234,7 @@ Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& opt
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   solver.max_num_iterations = options.iterations_max;
-  solver.function_tolerance = kFunctionTolerance;
+  solver.function_tolerance = options.function_tolerance;
   solver.parameter_tolerance = kParameterTolerance;
   solver.gradient_tolerance = 0.0;
   solver.initial_trust_region_radius = 1e3;
@@ -290,14 +292,13 @@ std::vector<Estimate> Intervals(const FitData& data, const Fit& fit, const FitOp
     const double variance =
         eigen.eigenvectors().row(j).cwiseAbs2().dot(spread.transpose()) / (scale[j] * scale[j]);
     const double half = kTwoSided95 * std::sqrt(variance);
-    const auto [low, high] =
-        std::minmax(Edge(coordinate, fit.u[j] - half), Edge(coordinate, fit.u[j] + half));
+    const double one = Edge(coordinate, fit.u[j] - half), other = Edge(coordinate, fit.u[j] + half);
     const double range = coordinate.kind == Coordinate::Kind::kLinear && !coordinate.prior
                              ? coordinate.high - coordinate.low
                              : 1.0;
     estimates.push_back({.value = coordinate.Number(fit.u[j]),
-                         .low = low,
-                         .high = high,
+                         .low = std::min(one, other),
+                         .high = std::max(one, other),
                          .identified = std::sqrt(variance) < kUnidentified * range});
   }
   return estimates;

@@ -27,12 +27,15 @@ struct FitData {
   const ForwardModel* forward = nullptr;
   const std::vector<ObservedRun>* observed = nullptr;
   std::vector<std::size_t> runs;  // that the fit may see
+  bool clocks = false;            // the runs' clocks may be off by a part of a sample
   TypicalSizes sizes;
 };
 
 struct FitOptions {
-  double noise_share = 1e-2;  // integration error allowed, as a share of the noise
-  int iterations_max = 60;
+  double noise_share = 1e-2;         // integration error allowed, as a share of the noise
+  double function_tolerance = 1e-6;  // relative change of χ² that ends the search
+  int iterations_max = 40;
+  std::size_t steps_max = 3'000;  // of one run's integration; beyond, a step is not taken
   int threads = 1;
   std::function<bool()> cancelled;  // may be empty
 };

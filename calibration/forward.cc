@@ -14,6 +14,7 @@ namespace {
 using model::FlowElement;
 
 constexpr double kCriticalRatioMax = 0.95;
+constexpr int kFirstReadings = 10;
 constexpr double kBoreStep = 1e-5;  // relative, of a central difference
 
 double Factor(const ModelState& state, Declared number) {
@@ -55,6 +56,10 @@ class DirectionOf {
         break;
       case Parameter::Kind::kInitialPressure:
         if (parameter.run == run_index) Add(group_.initial_pressure_pa, 1.0);
+        break;
+      case Parameter::Kind::kClock:
+        if (parameter.run != run_index) break;
+        for (const model::ValveCommand& command : group_.schedule) Add(command.time_s, 1.0);
         break;
     }
     return direction_;
@@ -162,10 +167,22 @@ void FillTemperature(const Run& run, Reading& reading) {
     reading.channels.temperature_k.assign(reading.pressure_pa.size(), run.ambient.temperature_k);
 }
 
+// Mean of the readings before the valve first opens, at most kFirstReadings; the first one if it is
+// open from the start.
 double FirstReading(const Run& run) {
-  const auto first = std::find_if(run.pressure_pa.begin(), run.pressure_pa.end(),
-                                  [](double pa) { return !std::isnan(pa); });
-  return first == run.pressure_pa.end() ? run.ambient.pressure_pa : *first;
+  const auto opens = std::find_if(
+      run.valve.begin(), run.valve.end(),
+      [](const model::ValveCommand& command) { return command.state != model::ValveState::kHold; });
+  const double until_s = opens == run.valve.end() ? run.t_s.back() : opens->time_s;
+  double sum_pa = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < run.t_s.size() && count < kFirstReadings; ++i) {
+    if (count > 0 && run.t_s[i] >= until_s) break;
+    if (std::isnan(run.pressure_pa[i])) continue;
+    sum_pa += run.pressure_pa[i];
+    ++count;
+  }
+  return count == 0 ? run.ambient.pressure_pa : sum_pa / count;
 }
 
 }  // namespace
@@ -176,6 +193,8 @@ double& NumberOf(ModelState& state, const Parameter& parameter) {
       return state.effects[parameter.effect].parameters[parameter.number];
     case Parameter::Kind::kInitialPressure:
       return state.initial_pressure_pa[parameter.run];
+    case Parameter::Kind::kClock:
+      return state.clock_s[parameter.run];
     case Parameter::Kind::kDeclared:
       break;
   }
@@ -206,6 +225,7 @@ ModelState ForwardModel::Declared() const {
   ModelState state;
   for (const Run& run : dataset_->runs)
     state.initial_pressure_pa.push_back(run.initial_pressure_pa.value_or(FirstReading(run)));
+  state.clock_s.assign(dataset_->runs.size(), 0.0);
   return state;
 }
 
@@ -258,7 +278,7 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
   }
   group.inlet_after = InletAfter(run);
   for (const model::ValveCommand& command : run.valve)
-    group.schedule.push_back({command.time_s - StartOf(run), command.state});
+    group.schedule.push_back({command.time_s - StartOf(run) + state.clock_s[index], command.state});
   group.initial_pressure_pa = state.initial_pressure_pa[index];
   group.initial_temperature_k = run.initial_temperature_k.value_or(0.0);
   group.blocked = run.blocked;
@@ -275,7 +295,7 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
   model::SimulateOptions simulate;
   simulate.relative_tolerance = options.relative_tolerance;
   simulate.absolute_tolerance_pa = 1e4 * options.relative_tolerance;
-  simulate.steps_max = 200'000;
+  simulate.steps_max = options.steps_max;
   simulate.cancelled = options.cancelled;
   for (const double t_s : run.t_s) simulate.sample_times_s.push_back(t_s - StartOf(run));
   simulate.end_s = simulate.sample_times_s.back();

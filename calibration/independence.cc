@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "calibration/phases.h"
-#include "calibration/whiteness.h"
 
 namespace plenum::calibration {
 namespace {
@@ -128,7 +127,7 @@ Independence TestIndependence(const std::vector<ResidualSeries>& series) {
   for (const ResidualSeries& one : series) {
     if (one.residual.empty()) continue;
     const Run& run = *one.run;
-    const std::vector<double> e = Whitened(run.t_s, one.residual, one.correlation_time_s);
+    const std::vector<double> e = Whitened(run.t_s, one.residual, one.memory);
     for (const double value : e) {
       if (!std::isfinite(value)) continue;
       squares += value * value;
@@ -137,7 +136,7 @@ Independence TestIndependence(const std::vector<ResidualSeries>& series) {
     for (Function& function : FunctionsOf(run, one.model_pa)) {
       for (std::size_t i = 0; i < e.size(); ++i)
         if (!std::isfinite(e[i])) function.values[i] = kMissing;
-      const std::vector<double> u = Whitened(run.t_s, function.values, one.correlation_time_s);
+      const std::vector<double> u = Whitened(run.t_s, function.values, one.memory);
       Sums& sum = sums[{function.input, function.name}];
       for (std::size_t i = 0; i < e.size(); ++i) {
         if (!std::isfinite(e[i])) continue;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "calibration/dataset.h"
+#include "calibration/whiteness.h"
 
 namespace plenum::calibration {
 
@@ -24,7 +25,7 @@ struct ResidualSeries {
   const Run* run = nullptr;
   std::vector<double> residual;  // in units of its noise; NaN where left out
   std::vector<double> model_pa;
-  double correlation_time_s = 0.0;
+  NoiseMemory memory;
 };
 
 struct InputCorrelation {

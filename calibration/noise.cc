@@ -273,11 +273,11 @@ void FromDifferences(const Samples& samples, std::span<const TimeSpan> places, d
   const double root = std::sqrt(static_cast<double>(noise.windows));
   noise.relative_error = kSigmaError / root;
   noise.sigma_pa = std::sqrt(MeanSquare(windows));
+  noise.lag1_error = std::min(kLagError / root, 1.0);
   if (noise.sigma_pa < 0.5 * noise.quantum_pa) {  // a staircase: rounding depends on the level
     noise.relative_error = std::max(noise.relative_error, kRoundingError);
     return;
   }
-  noise.lag1_error = std::min(kLagError / root, 1.0);
   const auto strides = GrowingStrides(samples, places, std::move(windows), spacing_s, floor);
   if (strides.size() > 1) {
     noise.correlation_time_s = CorrelationTime(strides, spacing_s);
@@ -298,6 +298,13 @@ Noise EstimateNoise(std::span<const double> t_s, std::span<const double> y,
   noise.quantum_pa = Quantum(y);
   noise.clipped = Clipped(y);
   Samples samples = Usable(t_s, y, noise.clipped);
+  if (!noise.clipped.empty()) {
+    const double highest = *std::max_element(y.begin(), y.end(), [](double a, double b) {
+      return std::isnan(b) ? false : std::isnan(a) || a < b;
+    });
+    for (const std::size_t i : noise.clipped)
+      (y[i] == highest ? noise.clip_high_pa : noise.clip_low_pa) = y[i];
+  }
   const double usable = static_cast<double>(samples.y.size());
   noise.effective_samples = usable;
   if (samples.y.size() < 4) return noise;

@@ -46,6 +46,9 @@ struct Noise {
   std::vector<std::size_t> outliers;  // single readings off both neighbours' trends by more than
                                       // 6 σ; left out of σ
   std::vector<std::size_t> clipped;   // at an end of the sensor's range; left out of σ
+  // The ends of the range, as far as clipped readings show them.
+  double clip_low_pa = -std::numeric_limits<double>::infinity();
+  double clip_high_pa = std::numeric_limits<double>::infinity();
 };
 
 // Of readings y at times t (rising, NaN where missing); `quiet` are the spans to look at first and

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 
 namespace plenum::calibration {
 namespace {
@@ -14,6 +16,8 @@ constexpr double kOwnShare = 0.3;
 // the model's integration than any sensor does.
 constexpr double kLeastNoise = 1e-5;
 constexpr double kCarryMax = 0.95;
+constexpr double kClipSigmas = 4.0;
+constexpr std::size_t kClipNeighbours = 5;
 
 constexpr std::vector<double> Channels::*kSupporting[] = {
     &Channels::inlet_pressure_pa, &Channels::temperature_k, &Channels::volume_m3,
@@ -47,6 +51,31 @@ ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
   return signal;
 }
 
+// // At an end of the sensor's range the readings that noise would have carried beyond it are cut
+// off, and those left over are biased: all samples count as clipped whose neighbours' median comes
+// within kClipSigmas of that end.
+void WidenClipped(const Run& run, Noise& noise) {
+  if (noise.clipped.empty() || noise.staircase) return;
+  std::set<double> ends;
+  for (const std::size_t i : noise.clipped) ends.insert(run.pressure_pa[i]);
+  const std::size_t size = run.pressure_pa.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    std::vector<double> around;
+    const std::size_t first = i < kClipNeighbours ? 0 : i - kClipNeighbours;
+    for (std::size_t k = first; k < std::min(size, i + kClipNeighbours + 1); ++k)
+      if (!std::isnan(run.pressure_pa[k])) around.push_back(run.pressure_pa[k]);
+    if (around.empty()) continue;
+    const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
+    std::nth_element(around.begin(), middle, around.end());
+    const auto near = [&](double end) {
+      return std::abs(*middle - end) < kClipSigmas * noise.sigma_pa;
+    };
+    if (std::any_of(ends.begin(), ends.end(), near)) noise.clipped.push_back(i);
+  }
+  std::sort(noise.clipped.begin(), noise.clipped.end());
+  noise.clipped.erase(std::unique(noise.clipped.begin(), noise.clipped.end()), noise.clipped.end());
+}
+
 // Root of the mean variance over the runs, by their windows.
 double CommonSigma(const std::vector<Noise>& noises) {
   double sum = 0.0, weight = 0.0;
@@ -76,6 +105,7 @@ void ShareAmongRuns(const Dataset& dataset, std::vector<Noise>& noises) {
     const bool own = apart > std::max(kOwnShare, kOwnErrors * noise.relative_error);
     if (!own) noise.sigma_pa = common_pa;
     noise.correlation_time_s = theta_s;
+    noise.lag1 = theta_s > 0.0 ? std::exp(-noise.spacing_s / theta_s) : 0.0;
     const Run& run = dataset.runs[i];
     const double span_pa = run.chamber.operating_pressure_pa - run.ambient.pressure_pa;
     noise.sigma_pa = std::max(noise.sigma_pa, kLeastNoise * span_pa);
@@ -118,6 +148,7 @@ std::vector<ObservedRun> Observe(const Dataset& dataset) {
   std::vector<Noise> noises;
   for (const Run& run : dataset.runs) noises.push_back(EstimateNoise(run));
   ShareAmongRuns(dataset, noises);
+  for (std::size_t i = 0; i < noises.size(); ++i) WidenClipped(dataset.runs[i], noises[i]);
   std::vector<ObservedRun> observed;
   for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
     const Run& run = dataset.runs[i];

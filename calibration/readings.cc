@@ -14,7 +14,7 @@ constexpr std::size_t kDistinctMin = 8;  // values on a grid by chance: 0.2^6
 constexpr std::size_t kClipLengthMin = 4;
 constexpr double kClipChance = 1e-3;
 constexpr double kStillShareMax = 0.5;      // more: a staircase that stands by itself
-constexpr double kReversalShareMin = 0.05;  // less: a smooth signal that may well stand still
+constexpr double kReversalShareMin = 0.02;  // less: a smooth signal that may well stand still
 constexpr double kOutlierSigmas = 6.0;
 
 std::vector<double> Finite(std::span<const double> y) {

@@ -14,10 +14,14 @@
 namespace plenum::calibration {
 namespace {
 
-// The noise's correlation is an estimate: a residual passes a test of structure if it does for any
-// ρ within three standard errors of it.
-constexpr std::array kCorrelationErrors = {0.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0};
+// The noise's memory is an estimate, and third differences cannot tell all of it being short from a
+// part of it being longer. A residual passes a test of structure if it does for any memory of at
+// most kRhoLongest that agrees with the growth of the differences within three standard errors.
+constexpr std::array kCorrelationErrors = {0.0, 1.5, -1.5, 3.0, -3.0};
+constexpr std::array kRhos = {0.0, 0.3, 0.45, 0.6,
+                              0.75};  // of the part that remembers; 0: all of it
 constexpr double kCorrelationMax = 0.98;
+constexpr double kClipSigmas = 3.0;
 
 // Residual in units of the noise, without what a coarse grid does to it.
 std::vector<double> InNoise(const FittedRun& fitted) {
@@ -50,11 +54,29 @@ void TestLackOfFit(const std::vector<FittedRun>& runs, int fitted_numbers, Resid
   report.lack_of_fit_limit = 1.0 + alarm * std::sqrt(variance) / std::max(1.0, count);
 }
 
-// θ with the noise's ρ moved by so many of its standard errors; 0 where that leaves no correlation.
-double CorrelationTime(const Noise& noise, double errors) {
-  if (errors == 0.0) return noise.correlation_time_s;
-  const double rho = std::min(noise.lag1 + errors * noise.lag1_error, kCorrelationMax);
-  return rho > 0.0 ? -noise.spacing_s / std::log(rho) : 0.0;
+// E z² of third differences over every `stride`-th sample, times 20.
+double Difference(double rho, double share, int stride) {
+  const double r = std::pow(rho, stride);
+  return 20.0 - share * (30.0 * r - 12.0 * r * r + 2.0 * r * r * r);
+}
+
+// The memory with the noise's ρ moved by so many of its standard errors, all in one part; or, where
+// that is shorter than `rho`, a part that remembers with `rho` and is as large as lets the
+// differences grow alike.
+NoiseMemory MemoryOf(const Noise& noise, double errors, double rho) {
+  if (errors == 0.0 && rho == 0.0) return {noise.correlation_time_s};
+  const double whole = std::clamp(noise.lag1 + errors * noise.lag1_error, 0.0, kCorrelationMax);
+  if (whole == 0.0) return {};
+  if (whole >= rho) return {-noise.spacing_s / std::log(whole)};
+  const auto growth = [](double r, double share) {
+    return Difference(r, share, 2) / Difference(r, share, 1);
+  };
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 30; ++i) {
+    const double share = 0.5 * (low + high);
+    (growth(rho, share) < growth(whole, 1.0) ? low : high) = share;
+  }
+  return {-noise.spacing_s / std::log(rho), high};
 }
 
 // Of all runs together and of each, which share the false-alarm rate: the one furthest towards its
@@ -62,7 +84,7 @@ double CorrelationTime(const Noise& noise, double errors) {
 Portmanteau TestWhite(const std::vector<ResidualSeries>& series) {
   std::vector<std::vector<double>> white;
   for (const ResidualSeries& one : series)
-    white.push_back(Whitened(one.run->t_s, one.residual, one.correlation_time_s));
+    white.push_back(Whitened(one.run->t_s, one.residual, one.memory));
   const int count = white.size() > 1 ? static_cast<int>(white.size()) + 1 : 1;
   Portmanteau worst = TestWhiteness(white, count);
   for (std::size_t i = 0; count > 1 && i < white.size(); ++i) {
@@ -79,6 +101,11 @@ std::vector<double> Residual(const FittedRun& fitted) {
   std::vector<double> residual(run.t_s.size());
   for (std::size_t i = 0; i < residual.size(); ++i)
     residual[i] = run.pressure_pa[i] - fitted.model_pa[i];
+  const double margin_pa = kClipSigmas * fitted.noise.sigma_pa;
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    if (fitted.model_pa[i] > fitted.noise.clip_high_pa - margin_pa ||
+        fitted.model_pa[i] < fitted.noise.clip_low_pa + margin_pa)
+      residual[i] = std::numeric_limits<double>::quiet_NaN();
   for (const auto* dropped : {&fitted.noise.clipped, &fitted.noise.outliers})
     for (const std::size_t i : *dropped) residual[i] = std::numeric_limits<double>::quiet_NaN();
   return residual;
@@ -122,31 +149,42 @@ ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_nu
                                std::vector<InputCorrelation>* by_input) {
   ResidualReport report;
   std::vector<ResidualSeries> series;
-  for (const FittedRun& fitted : runs) {
-    series.push_back({fitted.run, InNoise(fitted), fitted.model_pa, 0.0});
+  double low_pa = -std::numeric_limits<double>::infinity(), high_pa = -low_pa;
+  for (const FittedRun& fitted :
+       runs) {  // one sensor: what one run shows of its range holds in all
+    low_pa = std::max(low_pa, fitted.noise.clip_low_pa);
+    high_pa = std::min(high_pa, fitted.noise.clip_high_pa);
+  }
+  for (FittedRun fitted : runs) {
+    fitted.noise.clip_low_pa = low_pa;
+    fitted.noise.clip_high_pa = high_pa;
+    series.push_back({fitted.run, InNoise(fitted), fitted.model_pa, {}});
     for (PhaseResidual& phase : ResidualByPhase(*fitted.run, Residual(fitted)))
       report.phases.push_back(std::move(phase));
   }
-  bool first = true;
-  for (const double errors : kCorrelationErrors) {
-    for (std::size_t i = 0; i < runs.size(); ++i)
-      series[i].correlation_time_s = CorrelationTime(runs[i].noise, errors);
-    const Portmanteau white = TestWhite(series);
-    if (first || white.statistic / white.limit < report.portmanteau / report.portmanteau_limit) {
-      report.portmanteau = white.statistic;
-      report.portmanteau_limit = white.limit;
-    }
-    Independence independence = TestIndependence(series);
-    if (first || independence.statistic < report.cross) {
-      report.cross = independence.statistic;
-      report.cross_limit = independence.limit;
-      if (by_input) *by_input = std::move(independence.inputs);
-    }
-    first = false;
-  }
-  report.white = report.portmanteau <= report.portmanteau_limit;
-  report.independent_of_inputs = report.cross <= report.cross_limit;
   TestLackOfFit(runs, fitted_numbers, report);
+  report.portmanteau = report.cross = std::numeric_limits<double>::infinity();
+  report.portmanteau_limit = report.cross_limit = 1.0;
+  for (const double errors : kCorrelationErrors) {
+    for (const double rho : kRhos) {
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        series[i].memory = MemoryOf(runs[i].noise, errors, rho);
+      const Portmanteau white = TestWhite(series);
+      if (white.statistic / white.limit < report.portmanteau / report.portmanteau_limit) {
+        report.portmanteau = white.statistic;
+        report.portmanteau_limit = white.limit;
+      }
+      Independence independence = TestIndependence(series);
+      if (independence.statistic < report.cross) {
+        report.cross = independence.statistic;
+        report.cross_limit = independence.limit;
+        if (by_input) *by_input = std::move(independence.inputs);
+      }
+      report.white = report.portmanteau <= report.portmanteau_limit;
+      report.independent_of_inputs = report.cross <= report.cross_limit;
+      if (report.white && report.independent_of_inputs) return report;
+    }
+  }
   return report;
 }
 

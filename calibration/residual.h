@@ -31,7 +31,9 @@ struct FittedRun {
   Noise noise;
 };
 
-// measured − model; NaN where the reading is missing, clipped or wild.
+// measured − model; NaN where the reading is missing, clipped or wild, and where the model is
+// within three standard deviations of an end of the sensor's range or beyond, because noise is cut
+// there.
 std::vector<double> Residual(const FittedRun& fitted);
 
 // Mean, RMS and least-squares slope over each phase of the run.

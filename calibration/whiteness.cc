@@ -8,6 +8,7 @@
 namespace plenum::calibration {
 namespace {
 
+constexpr double kLeastVariance = 1e-6;  // of an innovation: the same instant again
 constexpr int kLags = 20;
 constexpr int kValuesPerLag = 4;
 constexpr int kValuesMin = 100;  // left after taking means
@@ -71,17 +72,23 @@ std::vector<double> Means(const std::vector<double>& e, std::size_t width) {
 }  // namespace
 
 std::vector<double> Whitened(std::span<const double> t_s, std::span<const double> e,
-                             double theta_s) {
+                             const NoiseMemory& memory) {
   std::vector<double> white(e.begin(), e.end());
+  const auto& [theta_s, share] = memory;
   if (!(theta_s > 0.0)) return white;
-  std::size_t last = e.size();  // no finite value yet
+  double remembered = 0.0, variance = share;  // û and P; before any reading
+  double last_s = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < e.size(); ++i) {
     if (!std::isfinite(e[i])) continue;
-    if (last < e.size() && t_s[i] > t_s[last]) {
-      const double rho = std::exp((t_s[last] - t_s[i]) / theta_s);
-      white[i] = (e[i] - rho * e[last]) / std::sqrt(1.0 - rho * rho);
-    }
-    last = i;
+    const double rho = std::exp((last_s - t_s[i]) / theta_s);
+    const double expected = rho * remembered;
+    const double before = rho * rho * variance + share * (1.0 - rho * rho);
+    const double total = before + 1.0 - share;
+    last_s = t_s[i];
+    if (total < kLeastVariance) continue;
+    white[i] = (e[i] - expected) / std::sqrt(total);
+    remembered = expected + before / total * (e[i] - expected);
+    variance = before * (1.0 - before / total);
   }
   return white;
 }

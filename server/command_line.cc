@@ -17,6 +17,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddVerifyCommand(app, status);
     AddSimulateCommand(app, status);
     AddMapCommand(app, status);
+    AddDiagnoseCommand(app, status);
     AddCatalogCommand(app, status);
     AddServeCommand(app, status);
     app.parse(argc, argv);

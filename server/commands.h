@@ -13,6 +13,7 @@ void AddDesignCommand(CLI::App& app, int& status);
 void AddVerifyCommand(CLI::App& app, int& status);
 void AddSimulateCommand(CLI::App& app, int& status);
 void AddMapCommand(CLI::App& app, int& status);
+void AddDiagnoseCommand(CLI::App& app, int& status);
 void AddCatalogCommand(CLI::App& app, int& status);
 void AddServeCommand(CLI::App& app, int& status);
 

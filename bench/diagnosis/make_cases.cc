@@ -1,6 +1,7 @@
 // Writes measured data sets with known truth.
 //   make_cases SERIES COUNT FOLDER
-// FOLDER/cases/NNNN.json are measurements, FOLDER/truth/NNNN.json what is true of them.
+// FOLDER/cases/NNNN.json are measurements, FOLDER/truth/NNNN.json what is true of them; what is
+// there already is kept.
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
     for (int i = next++; i < count; i = next++) {
       char name[32];
       std::snprintf(name, sizeof name, "%04d.json", i);
+      if (std::filesystem::exists(folder / "truth" / name)) continue;
       try {
         const plenum::test::BenchCase bench = plenum::test::CaseOfSeries(series, i);
         Write(folder / "cases" / name, MeasurementJson(bench));

@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
 #include "api/effects.h"
 #include "api/services.h"
 #include "api/verify.h"
@@ -74,12 +78,17 @@ TEST(ModelRevision, ARankingNamesOne) {
 }
 
 TEST(ModelRevision, TheAnswerComparesWithTheNominalOne) {
-  Json request = With(Requirements(), "/model", "bench");
-  request["ranking"] = {{"count", 3}, {"time_limit_s", 60}};
-  request["supply"]["configurations"] = {"cylinder"};
-  const auto parsed =
-      std::get<DesignRequest>(ParseRequirements(request, SmallCatalogue(), {Saved()}));
-  const Json answer = AnswerRequest(parsed, {}, SmallCatalogue());
+  const std::filesystem::path root = PLENUM_SOURCE_DIR;
+  const auto parts = catalog::Store(root / "catalog.db", catalog::Access::kRead).List();
+  std::ifstream file(root / "examples/gripper.json");
+  Json request = Parse(std::string(std::istreambuf_iterator<char>(file), {}));
+  request["model"] = "bench";
+  request["ranking"] = {{"count", 2}, {"time_limit_s", 60}};
+  request["supply"]["configurations"] = Json::array({"mains"});
+  // A valve that closes late passes the operating pressure.
+  for (Json& group : request["actuators"]) group["pressure_kpa_gauge_max"] = 500.0;
+  const auto parsed = std::get<DesignRequest>(ParseRequirements(request, parts, {Saved()}));
+  const Json answer = AnswerRequest(parsed, {}, parts);
   EXPECT_EQ(answer["model"]["name"], "bench");
   EXPECT_EQ(answer["model"]["version"], 2);
   EXPECT_TRUE(answer["model"]["proved"]);

@@ -73,6 +73,8 @@ double StepOf(const std::vector<TrueEffect>& effects) {
   double step_s = 2e-3;
   for (const TrueEffect& e : effects) {
     if (e.id == "line_dynamics") step_s = std::min(step_s, 2e-4);
+    if (e.id == "sensor_lag") step_s = std::min(step_s, 0.3 * e["time_constant_s"]);
+    if (e.id == "heat_transfer") step_s = std::min(step_s, 0.1 * e["time_constant_s"]);
     if (e.id == "inertia") step_s = std::min(step_s, 0.05 / e["natural_frequency_rad_per_s"]);
     if (e.id == "snap_through" || e.id == "second_chamber") step_s = std::min(step_s, 5e-4);
   }

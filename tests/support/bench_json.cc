@@ -62,7 +62,8 @@ Json UncertaintyJson(const Numbers& sd) {
   Json json = Json::object();
   for (std::size_t n = 0; n < sd.size(); ++n) {
     if (sd[n] == 0.0) continue;
-    json[std::string(kNumberNames[n])] = std::isinf(sd[n]) ? Json("unknown") : Json(sd[n]);
+    json[std::string(kNumberNames[n])] =
+        std::isinf(sd[n]) ? Json("unknown") : Json(api::Rounded(sd[n]));
   }
   return json;
 }
@@ -188,9 +189,9 @@ Json TruthJson(const BenchCase& bench) {
   return json;
 }
 
-BenchRun RunFromJson(const Json& json) {
+BenchRun ExperimentFromJson(const BenchCase& bench, const Json& json) {
   BenchRun run;
-  run.id = json.value("id", "next");
+  run.id = "next";
   run.blocked = json.value("blocked", false);
   run.source_gauge_pa = json.value("source_pressure_kpa_gauge", 0.0) / kPerKpa;
   if (json.contains("initial")) {
@@ -202,8 +203,13 @@ BenchRun RunFromJson(const Json& json) {
                                                : state == "deflate" ? -1
                                                                     : 0});
   }
-  for (const Json& t_s : json.at("t_s")) run.t_s.push_back(t_s);
-  run.end_s = run.t_s.back();
+  run.end_s = json.at("t_end_s");
+  const double hz = json.at("sample_hz");
+  for (int i = 1; i / hz <= run.end_s; ++i) run.t_s.push_back(i / hz);
+  if (bench.declared.supply == BenchSupply::kMeasured) {
+    const double level_pa = bench.declared.ambient_pa + run.source_gauge_pa;
+    run.source_course = [level_pa](double) { return level_pa; };
+  }
   return run;
 }
 

@@ -17,8 +17,9 @@ api::Json MeasurementJson(const BenchCase& bench);
 // neither missing, clipped nor outliers.
 api::Json TruthJson(const BenchCase& bench);
 
-// A run as the contract writes it (of a proposed experiment), without readings.
-BenchRun RunFromJson(const api::Json& run);
+// A proposed experiment ("next_experiment" of a diagnosis): schedule, source, "t_end_s" and
+// "sample_hz". A supply that is measured keeps to the level asked for.
+BenchRun ExperimentFromJson(const BenchCase& bench, const api::Json& experiment);
 
 }  // namespace plenum::test
 

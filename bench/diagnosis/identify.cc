@@ -1,0 +1,231 @@
+// Which cases can be told apart at all: refits every rival set of effects to the readings without
+// noise and compares at the case's noise.
+//   identify FOLDER [THREADS]
+// For each FOLDER/truth/NNNN.json (see make_cases) writes FOLDER/identify/NNNN.json with the rival
+// that comes nearest and its distance in BIC. A case is identifiable if that is above 10. Clean
+// cases, which every set contains, and those outside the list are left out.
+//
+// Rivals: no effect, every single one, pairs of the best singles; of a pair also either of its
+// effects with every other one. Never a set that contains the true one. Every start of an effect is
+// tried. Runs are thinned to kSamples each with the noise scaled so that they say as much.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "calibration/fit.h"
+#include "tests/support/bench_dataset.h"
+#include "tests/support/bench_json.h"
+
+namespace plenum::bench {
+namespace {
+
+using api::Json;
+using calibration::Dataset;
+using calibration::ForwardModel;
+using calibration::ModelState;
+using Effects = std::vector<model::Effect>;
+using Ids = std::set<std::string>;
+
+constexpr std::size_t kSamples = 200;
+constexpr double kApart = 10.0;
+constexpr std::size_t kBestSingles = 3;
+constexpr double kNoiseShare = 0.1;
+constexpr int kIterations = 25;
+constexpr std::chrono::seconds kFitLimit{4};
+
+Ids IdsOf(const Effects& effects) {
+  Ids ids;
+  for (const model::Effect& effect : effects) ids.insert(std::string(effect.spec->id));
+  return ids;
+}
+
+bool Contains(const Ids& all, const Ids& some) {
+  return std::includes(all.begin(), all.end(), some.begin(), some.end());
+}
+
+// Noise that remembers says less than white noise of its size: as much as white noise of its
+// spectral density at low frequencies.
+double EffectiveNoise(const test::Sensor& sensor) {
+  const double grown = (1.0 + sensor.correlation) / (1.0 - sensor.correlation);
+  return sensor.NoiseFloor() *
+         std::sqrt(1.0 - sensor.correlated_share + sensor.correlated_share * grown);
+}
+
+class Judge {
+ public:
+  explicit Judge(const test::BenchCase& bench)
+      : dataset_(test::NoiseFree(bench)), truth_(IdsOf(test::ListedOf(bench))) {
+    Thin(EffectiveNoise(bench.sensor));
+    forward_.emplace(dataset_);
+    data_.forward = &*forward_;
+    data_.observed = &observed_;
+    for (std::size_t r = 0; r + 1 < dataset_.runs.size(); ++r) data_.runs.push_back(r);
+    data_.sizes = calibration::SizesOf(dataset_);
+    true_ = forward_->Declared();
+    true_.effects = test::ListedOf(bench);
+    std::copy(bench.factors.begin(), bench.factors.end(), true_.factor.begin());
+    true_bic_ = Bic(true_).bic;
+  }
+
+  Json Nearest() {
+    Consider({});
+    for (const model::EffectSpec* spec : model::Effects()) ConsiderFrom({}, *spec);
+    std::sort(singles_.begin(), singles_.end(),
+              [](const Tried& a, const Tried& b) { return a.bic < b.bic; });
+    for (std::size_t i = 0; i < std::min(kBestSingles, singles_.size()); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        Effects pair = singles_[i].effects;
+        pair.push_back(singles_[j].effects[0]);
+        if (IdsOf(pair).size() == 2) Consider(pair);
+      }
+    }
+    if (true_.effects.size() == 2) {
+      for (const model::Effect& kept : true_.effects) {
+        for (const model::EffectSpec* spec : model::Effects()) ConsiderFrom({kept}, *spec);
+      }
+    }
+    const double distance = nearest_.bic - true_bic_;
+    return {{"identifiable", std::isfinite(true_bic_) && distance > kApart},
+            {"distance_bic", std::isfinite(distance) ? Json(distance) : Json(nullptr)},
+            {"rival", IdsOf(nearest_.effects)},
+            {"fits", fits_},
+            {"unusable", unusable_}};
+  }
+
+ private:
+  struct Tried {
+    Effects effects;
+    double bic = INFINITY;
+  };
+
+  // A measured source drives the model and stays whole.
+  void Thin(double noise_pa) {
+    for (calibration::Run& run : dataset_.runs) {
+      const bool whole = run.supply == calibration::Supply::kMeasured;
+      const std::size_t every = whole ? 1 : std::max<std::size_t>(1, run.t_s.size() / kSamples);
+      if (&run != &dataset_.runs.back()) rows_ += run.t_s.size();
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < run.t_s.size(); i += every, ++kept) {
+        run.t_s[kept] = run.t_s[i];
+        run.pressure_pa[kept] = run.pressure_pa[i];
+      }
+      run.t_s.resize(kept);
+      run.pressure_pa.resize(kept);
+      calibration::ObservedSignal signal;
+      for (std::size_t i = 0; i < kept; ++i) signal.samples.push_back(i);
+      signal.carry.assign(kept, 0.0);
+      signal.sigma = noise_pa / std::sqrt(static_cast<double>(every));
+      calibration::ObservedRun observed;
+      observed.signals.push_back(signal);
+      observed_.push_back(observed);
+    }
+  }
+
+  struct Score {
+    double bic = INFINITY;
+    Effects effects;
+  };
+
+  // χ² with priors, and the penalty of every reading that was thinned out.
+  Score Bic(const ModelState& start) {
+    const auto begun = std::chrono::steady_clock::now();
+    calibration::FitOptions options;
+    options.noise_share = kNoiseShare;
+    options.iterations_max = kIterations;
+    options.cancelled = [&] { return std::chrono::steady_clock::now() - begun > kFitLimit; };
+    const calibration::Fit fit = calibration::FitModel(data_, start, options);
+    ++fits_;
+    if (!fit.Usable()) {
+      ++unusable_;
+      return {};
+    }
+    const auto k = static_cast<double>(fit.coordinates.size());
+    return {fit.chi2_data + fit.chi2_prior + k * std::log(static_cast<double>(rows_)),
+            fit.state.effects};
+  }
+
+  void Consider(const Effects& effects) {
+    if (Contains(IdsOf(effects), truth_)) return;
+    ModelState start = forward_->Declared();
+    start.effects = effects;
+    const Score score = Bic(start);
+    if (score.bic == INFINITY) return;
+    if (effects.size() == 1) singles_.push_back({score.effects, score.bic});
+    if (score.bic < nearest_.bic) nearest_ = {score.effects, score.bic};
+  }
+
+  void ConsiderFrom(const Effects& kept, const model::EffectSpec& spec) {
+    for (const model::Effect& start : calibration::EffectStarts(spec, data_.sizes)) {
+      Effects effects = kept;
+      effects.push_back(start);
+      if (IdsOf(effects).size() == effects.size()) Consider(effects);
+    }
+  }
+
+  Dataset dataset_;
+  Ids truth_;
+  std::optional<ForwardModel> forward_;
+  std::vector<calibration::ObservedRun> observed_;
+  calibration::FitData data_;
+  ModelState true_;
+  std::size_t rows_ = 0;
+  double true_bic_ = INFINITY;
+  std::vector<Tried> singles_;
+  Tried nearest_;
+  int fits_ = 0, unusable_ = 0;
+};
+
+void Identify(const std::filesystem::path& truth, const std::filesystem::path& answer) {
+  std::ifstream file(truth);
+  const Json json = Json::parse(file);
+  if (json["kind"] == "clean" || json["kind"] == "outside") return;
+  const test::BenchCase bench = test::CaseOfSeries(json["series"], json["index"]);
+  std::ofstream(answer) << Judge(bench).Nearest().dump() << '\n';
+}
+
+}  // namespace
+}  // namespace plenum::bench
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: identify FOLDER [THREADS]\n");
+    return 2;
+  }
+  const std::filesystem::path folder = argv[1];
+  const int threads = argc > 2 ? std::atoi(argv[2]) : 2;
+  std::filesystem::create_directories(folder / "identify");
+  std::vector<std::filesystem::path> truths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "truth")) {
+    if (!std::filesystem::exists(folder / "identify" / entry.path().filename())) {
+      truths.push_back(entry.path());
+    }
+  }
+  std::sort(truths.begin(), truths.end());
+  std::atomic<std::size_t> next = 0;
+  std::atomic<int> failed = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < truths.size(); i = next++) {
+      try {
+        plenum::bench::Identify(truths[i], folder / "identify" / truths[i].filename());
+      } catch (const std::exception& e) {
+        std::fprintf(stderr, "%s: %s\n", truths[i].c_str(), e.what());
+        ++failed;
+      }
+    }
+  };
+  std::vector<std::thread> pool;
+  for (int k = 0; k < threads; ++k) pool.emplace_back(work);
+  for (std::thread& thread : pool) thread.join();
+  return failed > 0 ? 3 : 0;
+}

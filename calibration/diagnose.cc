@@ -1,0 +1,360 @@
+#include "calibration/diagnose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "calibration/experiment.h"
+#include "calibration/identifiability.h"
+#include "calibration/phases.h"
+#include "calibration/residual.h"
+#include "calibration/thresholds.h"
+#include "calibration/verdict.h"
+
+namespace plenum::calibration {
+namespace {
+
+constexpr std::size_t kCandidatesShown = 30;
+constexpr std::size_t kFinalists = 5;  // whose held-out error is found by leaving out each run
+
+// Sum of squares and worst of many residuals.
+struct Squares {
+  double sum = 0.0, peak = 0.0;
+  std::size_t count = 0;
+  void Add(double residual) {
+    if (!std::isfinite(residual)) return;
+    sum += residual * residual;
+    peak = std::max(peak, std::abs(residual));
+    ++count;
+  }
+  void Add(const Squares& other) {
+    sum += other.sum;
+    peak = std::max(peak, other.peak);
+    count += other.count;
+  }
+  double Rms() const { return count == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(count)); }
+};
+
+std::string TitleOf(const model::EffectSpec& spec) {
+  return spec.law.empty() ? std::string(spec.id)
+                          : std::string(spec.id) + ":" + std::string(spec.law);
+}
+
+class Diagnosing {
+ public:
+  Diagnosing(const Dataset& dataset, const DiagnoseOptions& options)
+      : dataset_(dataset), options_(options), forward_(dataset), observed_(Observe(dataset)) {
+    data_.forward = &forward_;
+    data_.observed = &observed_;
+    data_.sizes = SizesOf(dataset);
+    for (std::size_t i = 0; i < dataset.runs.size(); ++i)
+      (HeldOut(i) ? held_out_ : data_.runs).push_back(i);
+    tight_.noise_share = 1e-3;
+    tight_.threads = options.threads;
+    tight_.cancelled = options.cancelled;
+  }
+
+  Diagnosis Take() {
+    const auto enough = [this](const Fit& fit) { return IsNoise(LeftoverOf(fit, false)); };
+    search_ = SearchEffects(data_, options_, enough);
+    data_ = search_.data;
+    base_ = &search_.contenders[search_.base];
+    Assess();
+    return std::move(diagnosis_);
+  }
+
+ private:
+  bool HeldOut(std::size_t run) const {
+    const std::string& id = dataset_.runs[run].id;
+    return std::find(dataset_.holdout.begin(), dataset_.holdout.end(), id) !=
+           dataset_.holdout.end();
+  }
+
+  Squares ErrorsOf(std::size_t run, const ModelState& state) const {
+    const Reading reading = Predicted(data_, state, run, tight_);
+    Squares squares;
+    if (reading.pressure_pa.empty()) {
+      squares.Add(std::numeric_limits<double>::max());
+      return squares;
+    }
+    for (const double r : PressureResidual(dataset_.runs[run], observed_[run], reading))
+      squares.Add(r);
+    return squares;
+  }
+
+  ErrorReport ErrorOf(const ModelState& state) const {
+    ErrorReport report;
+    Squares fitted, held_out;
+    for (std::size_t i = 0; i < dataset_.runs.size(); ++i) {
+      const Squares squares = ErrorsOf(i, state);
+      report.run_rms_pa.emplace_back(dataset_.runs[i].id, squares.Rms());
+      (HeldOut(i) ? held_out : fitted).Add(squares);
+    }
+    const model::Chamber& chamber = dataset_.runs.front().chamber;
+    report.rms_pa = fitted.Rms();
+    report.peak_pa = fitted.peak;
+    report.rms_share =
+        report.rms_pa / (chamber.operating_pressure_pa - chamber.ambient_pressure_pa);
+    if (held_out.count > 0) report.holdout_rms_pa = held_out.Rms();
+    return report;
+  }
+
+  // Of the usable samples of these runs.
+  double NoiseOf(const std::vector<std::size_t>& runs) const {
+    double sum = 0.0, count = 0.0;
+    for (const std::size_t i : runs) {
+      const ObservedSignal& pressure = observed_[i].signals.front();
+      const double samples = static_cast<double>(pressure.samples.size());
+      sum += samples * pressure.sigma * pressure.sigma;
+      count += samples;
+    }
+    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+  }
+
+  // The error on runs left out one by one, each predicted by a fit to the others.
+  std::optional<double> LeaveOneOut(const Fit& fit) const {
+    if (data_.runs.size() < 2) return std::nullopt;
+    Squares squares;
+    for (const std::size_t left_out : data_.runs) {
+      FitData data = data_;
+      std::erase(data.runs, left_out);
+      FitOptions options = tight_;
+      options.noise_share = 1e-2;
+      ModelState start = fit.state;
+      const ModelState declared = forward_.Declared();
+      start.initial_pressure_pa[left_out] = declared.initial_pressure_pa[left_out];
+      start.clock_s[left_out] = 0.0;
+      const Fit without = FitModel(data, start, options);
+      if (!without.Usable()) return std::nullopt;
+      squares.Add(ErrorsOf(left_out, without.state));
+    }
+    return squares.Rms();
+  }
+
+  Leftover LeftoverOf(const Fit& fit, bool with_holdout) const {
+    Leftover leftover;
+    if (!fit.Usable()) return leftover;
+    std::vector<FittedRun> runs;
+    Squares squares;
+    for (const std::size_t i : data_.runs) {
+      const Reading reading = Predicted(data_, fit.state, i, tight_);
+      if (reading.pressure_pa.empty()) return leftover;
+      runs.push_back({&dataset_.runs[i], reading.pressure_pa, observed_[i].noise});
+      for (const double r : PressureResidual(dataset_.runs[i], observed_[i], reading))
+        squares.Add(r);
+    }
+    leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()));
+    leftover.rms_pa = squares.Rms();
+    leftover.noise_pa = NoiseOf(data_.runs);
+    if (!with_holdout) return leftover;
+    if (held_out_.empty()) {
+      leftover.holdout_rms_pa = LeaveOneOut(fit);
+      leftover.holdout_noise_pa = leftover.noise_pa;
+    } else {
+      Squares held_out;
+      for (const std::size_t i : held_out_) held_out.Add(ErrorsOf(i, fit.state));
+      leftover.holdout_rms_pa = held_out.Rms();
+      leftover.holdout_noise_pa = NoiseOf(held_out_);
+    }
+    return leftover;
+  }
+
+  void Assess() {
+    const Contender& chosen = search_.contenders[search_.chosen];
+    Evidence evidence;
+    evidence.complete = search_.complete && base_->fit.Usable() && chosen.fit.Usable();
+    evidence.accepted = &chosen != base_;
+    diagnosis_.noise_pa = NoiseOf(data_.runs);
+    diagnosis_.declared = ErrorOf(forward_.Declared());
+    if (!base_->fit.Usable()) {
+      diagnosis_.sentence = "The base model could not be fitted: " + base_->fit.detail + ".";
+      return;
+    }
+    evidence.before = LeftoverOf(base_->fit, true);
+    evidence.after = evidence.accepted ? LeftoverOf(chosen.fit, true) : evidence.before;
+    const std::vector<const Contender*> tied = Tied(chosen);
+    evidence.tied = static_cast<int>(tied.size()) - 1;
+    diagnosis_.verdict = Judge(evidence);
+    diagnosis_.before = ErrorOf(base_->fit.state);
+    diagnosis_.after = evidence.accepted ? ErrorOf(chosen.fit.state) : diagnosis_.before;
+    diagnosis_.before.holdout_rms_pa = evidence.before.holdout_rms_pa;
+    diagnosis_.after.holdout_rms_pa = evidence.after.holdout_rms_pa;
+    diagnosis_.residual = evidence.after.residual;
+    diagnosis_.unexplained_fraction = UnexplainedFraction(evidence.before, evidence.after);
+    AddEstimates(chosen);
+    AddCandidates();
+    if (diagnosis_.verdict == Verdict::kTie) {
+      diagnosis_.effects.clear();
+      std::vector<TiedFit> fits;
+      for (const Contender* contender : tied) {
+        diagnosis_.tied.push_back(IdsOf(*contender));
+        fits.push_back({IdsOf(*contender), &contender->fit});
+      }
+      diagnosis_.next_experiment = DesignExperiment(data_, fits, tight_);
+    }
+    AddSeries(chosen.fit.state);
+    AddWarnings();
+    if (const auto found = Identify(data_, chosen.fit, tight_))
+      for (std::string& sentence : Sentences(*found))
+        diagnosis_.warnings.push_back(std::move(sentence));
+    diagnosis_.sentence = Sentence();
+  }
+
+  // The chosen set and those of its size that do as well, the best first, each set of ids once.
+  std::vector<const Contender*> Tied(const Contender& chosen) const {
+    std::vector<const Contender*> tied = {&chosen};
+    for (const Contender& contender : search_.contenders) {
+      if (contender.effects.size() != chosen.effects.size() || !contender.fit.Usable()) continue;
+      if (contender.fit.bic > chosen.fit.bic + kTie) continue;
+      const bool known = std::any_of(tied.begin(), tied.end(), [&](const Contender* other) {
+        return SameEffects(contender, *other);
+      });
+      if (!known) tied.push_back(&contender);
+    }
+    return tied;
+  }
+
+  static std::vector<std::string> IdsOf(const Contender& contender) {
+    std::vector<std::string> ids;
+    for (const model::EffectSpec* spec : contender.effects) ids.emplace_back(spec->id);
+    return ids;
+  }
+
+  void AddEstimates(const Contender& chosen) {
+    const std::vector<Estimate> estimates = Intervals(data_, chosen.fit, tight_);
+    for (const model::Effect& effect : chosen.fit.state.effects)
+      diagnosis_.effects.push_back({effect, std::vector<Estimate>(effect.parameters.size())});
+    for (std::size_t j = 0; j < estimates.size(); ++j) {
+      const Parameter& parameter = chosen.fit.coordinates[j].parameter;
+      if (parameter.kind == Parameter::Kind::kEffect)
+        diagnosis_.effects[parameter.effect].parameters[parameter.number] = estimates[j];
+      if (parameter.kind == Parameter::Kind::kDeclared)
+        diagnosis_.fitted.emplace_back(parameter.declared, estimates[j]);
+    }
+  }
+
+  void AddCandidates() {
+    const double best = search_.contenders.front().fit.bic;
+    for (std::size_t i = 0; i < search_.contenders.size(); ++i) {
+      const Contender& contender = search_.contenders[i];
+      if (i >= kCandidatesShown && &contender != base_) continue;
+      Candidate candidate;
+      for (const model::EffectSpec* spec : contender.effects)
+        candidate.effects.push_back(TitleOf(*spec));
+      candidate.bic = contender.fit.bic;
+      candidate.delta_bic = contender.fit.bic - best;
+      candidate.converged = contender.fit.status == FitStatus::kConverged;
+      candidate.starts = contender.starts;
+      candidate.found_again = contender.found_again;
+      candidate.parameters = static_cast<int>(contender.fit.coordinates.size());
+      if (contender.fit.Usable()) {
+        Squares fitted, held_out;
+        for (const std::size_t run : data_.runs) fitted.Add(ErrorsOf(run, contender.fit.state));
+        for (const std::size_t run : held_out_) held_out.Add(ErrorsOf(run, contender.fit.state));
+        candidate.rms_pa = fitted.Rms();
+        if (held_out.count > 0)
+          candidate.holdout_rms_pa = held_out.Rms();
+        else if (i < kFinalists)
+          candidate.holdout_rms_pa = LeaveOneOut(contender.fit);
+      }
+      diagnosis_.candidates.push_back(std::move(candidate));
+    }
+  }
+
+  void AddSeries(const ModelState& after) {
+    const ModelState declared = forward_.Declared();
+    for (std::size_t i = 0; i < dataset_.runs.size(); ++i) {
+      const Run& run = dataset_.runs[i];
+      Series series;
+      series.run = run.id;
+      series.held_out = HeldOut(i);
+      series.t_s = run.t_s;
+      series.measured_pa = run.pressure_pa;
+      const std::vector<PhaseSpan> phases = PhasesOf(run);
+      for (const double t_s : run.t_s) series.phase.push_back(phases[PhaseAt(phases, t_s)].phase);
+      const auto predict = [&](const ModelState& state) {
+        std::vector<double> pressure_pa = Predicted(data_, state, i, tight_).pressure_pa;
+        pressure_pa.resize(run.t_s.size(), std::numeric_limits<double>::quiet_NaN());
+        return pressure_pa;
+      };
+      series.declared_pa = predict(declared);
+      series.before_pa = predict(base_->fit.state);
+      series.after_pa = predict(after);
+      diagnosis_.series.push_back(std::move(series));
+    }
+  }
+
+  void AddWarnings() {
+    std::size_t outliers = 0, clipped = 0, staircases = 0;
+    for (const ObservedRun& run : observed_) {
+      outliers += run.noise.outliers.size();
+      clipped += run.noise.clipped.size();
+      staircases += run.noise.staircase;
+    }
+    std::vector<std::string>& warnings = diagnosis_.warnings;
+    if (outliers > 0) warnings.push_back(std::to_string(outliers) + " wild readings were left out");
+    if (clipped > 0)
+      warnings.push_back(std::to_string(clipped) +
+                         " readings at an end of the sensor's range were left out");
+    if (staircases > 0)
+      warnings.push_back("the readings' steps are coarser than their noise in " +
+                         std::to_string(staircases) + " runs");
+    if (data_.clocks)
+      warnings.push_back(
+          "the clocks of readings and valve are off by a part of a sample; each run's was fitted");
+    for (const FittedEffect& effect : diagnosis_.effects) {
+      if (effect.effect.spec->id == "dead_volume")
+        warnings.push_back(
+            "dead_volume differs from a larger rest_volume only by the declared uncertainties");
+    }
+  }
+
+  std::string Sentence() const {
+    const auto list = [](const std::vector<std::string>& ids) {
+      std::string text;
+      for (const std::string& id : ids) text += (text.empty() ? "" : " + ") + id;
+      return text;
+    };
+    switch (diagnosis_.verdict) {
+      case Verdict::kAdequate:
+        return "The model is good enough: after its uncertain numbers were fitted, only noise is "
+               "left.";
+      case Verdict::kExplained:
+        return "The model lacks " + list(IdsOf(search_.contenders[search_.chosen])) +
+               "; with it, only noise is left.";
+      case Verdict::kTie: {
+        std::string text;
+        for (const auto& ids : diagnosis_.tied) text += (text.empty() ? "" : " or ") + list(ids);
+        return "The data cannot tell which is missing: " + text + ".";
+      }
+      case Verdict::kUnexplained:
+        return diagnosis_.effects.empty()
+                   ? "Structure is left that no known effect accounts for."
+                   : "The model lacks " + list(IdsOf(search_.contenders[search_.chosen])) +
+                         ", but structure is left that no known effect accounts for.";
+      case Verdict::kUndecided:
+        break;
+    }
+    return "Undecided: the search was cut short or a fit failed.";
+  }
+
+  const Dataset& dataset_;
+  const DiagnoseOptions& options_;
+  ForwardModel forward_;
+  std::vector<ObservedRun> observed_;
+  FitData data_;
+  std::vector<std::size_t> held_out_;
+  FitOptions tight_;
+  SearchResult search_;
+  const Contender* base_ = nullptr;
+  Diagnosis diagnosis_;
+};
+
+}  // namespace
+
+Diagnosis Diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
+  return Diagnosing(dataset, options).Take();
+}
+
+}  // namespace plenum::calibration

@@ -1,0 +1,385 @@
+#include "calibration/effect_search.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <thread>
+
+#include "calibration/thresholds.h"
+
+namespace plenum::calibration {
+namespace {
+
+using Spec = const model::EffectSpec*;
+using Set = std::vector<Spec>;
+
+constexpr double kSameOptimum = 1.0;  // χ² apart
+// Fits that only have to be compared end where χ² falls by less than this share, at most after so
+// many steps; those near the best are then taken further.
+constexpr double kScreening = 1e-4;
+constexpr int kScreeningIterations = 15;
+constexpr double kNear = 20.0;   // of BIC
+constexpr int kTriplesFrom = 2;  // best pairs
+
+std::size_t Place(Spec spec) {
+  const auto all = model::Effects();
+  return static_cast<std::size_t>(std::find(all.begin(), all.end(), spec) - all.begin());
+}
+
+Set Ordered(Set set) {
+  std::sort(set.begin(), set.end(), [](Spec a, Spec b) { return Place(a) < Place(b); });
+  return set;
+}
+
+bool HoldsId(const Set& set, std::string_view id) {
+  return std::any_of(set.begin(), set.end(), [&](Spec spec) { return spec->id == id; });
+}
+
+// Runs work(i) for all i below count on several threads.
+void ForAll(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  const auto run = [&] {
+    for (std::size_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::thread> pool;
+  for (int k = 1; k < threads; ++k) pool.emplace_back(run);
+  run();
+  for (std::thread& thread : pool) thread.join();
+}
+
+class Search {
+ public:
+  Search(const FitData& data, const SearchOptions& options,
+         const std::function<bool(const Fit&)>& enough)
+      : options_(options), enough_(enough) {
+    result_.data = data;
+    fit_options_.cancelled = options.cancelled;
+    fit_options_.function_tolerance = kScreening;
+    fit_options_.iterations_max = kScreeningIterations;
+  }
+
+  SearchResult Run() {
+    FitBase();
+    FitSingles();
+    if (!result_.data.clocks && ClocksAreOff(Base(), BestOfSize(1))) {
+      result_.data.clocks = true;
+      result_.contenders.clear();
+      FitBase();
+      FitSingles();
+    }
+    std::size_t chosen = Best(0);
+    for (int size = 1; size <= kEffectsMax && !Cancelled(); ++size) {
+      if (size > 1) {
+        if (enough_(Of(chosen).fit)) break;
+        ExtendSets(Seeds(size - 1), size);
+      }
+      const Contender* best = BestOfSize(size);
+      if (!best || !(best->fit.bic < Of(chosen).fit.bic - kAccept)) break;
+      chosen = IndexOf(*best);
+      if (size > 1) {
+        Exchange(Of(chosen).effects);
+        chosen = IndexOf(*BestOfSize(size));
+      }
+    }
+    Finish(Of(chosen).effects);
+    return std::move(result_);
+  }
+
+ private:
+  struct Job {
+    Set set;
+    ModelState start;
+    Fit fit;
+  };
+
+  const Contender& Of(std::size_t i) const { return result_.contenders[i]; }
+  const Contender& Base() const { return result_.contenders.front(); }
+  std::size_t IndexOf(const Contender& contender) const {
+    return static_cast<std::size_t>(&contender - result_.contenders.data());
+  }
+  bool Cancelled() const { return options_.cancelled && options_.cancelled(); }
+
+  // Of a set with so many effects beside those given.
+  std::size_t SizeOf(int added) const {
+    return options_.given.size() + static_cast<std::size_t>(added);
+  }
+
+  void Report(double share, const std::string& what) const {
+    if (options_.progress) options_.progress(share, what);
+  }
+
+  // Of the contenders with that many effects; null if none could be fitted.
+  const Contender* BestOfSize(int size) const {
+    const Contender* best = nullptr;
+    for (const Contender& contender : result_.contenders) {
+      if (contender.effects.size() != SizeOf(size) || !contender.fit.Usable()) continue;
+      if (!best || contender.fit.bic < best->fit.bic) best = &contender;
+    }
+    return best;
+  }
+  std::size_t Best(int size) const {
+    const Contender* best = BestOfSize(size);
+    return best ? IndexOf(*best) : 0;
+  }
+
+  Contender* Find(const Set& set) {
+    for (Contender& contender : result_.contenders)
+      if (contender.effects == set) return &contender;
+    return nullptr;
+  }
+
+  void FitBase() {
+    Report(0.02, "base model");
+    Contender base;
+    FitOptions options = fit_options_;
+    options.threads = options_.threads;
+    ModelState start = result_.data.forward->Declared();
+    start.effects = options_.given;
+    std::sort(start.effects.begin(), start.effects.end(),
+              [](const auto& a, const auto& b) { return Place(a.spec) < Place(b.spec); });
+    for (const model::Effect& effect : start.effects) base.effects.push_back(effect.spec);
+    base.fit = FitModel(result_.data, start, options);
+    base.starts = base.found_again = 1;
+    result_.contenders.push_back(std::move(base));
+  }
+
+  void FitSingles() {
+    std::vector<Job> jobs;
+    for (const Spec spec : model::Effects()) AddJobs(Base(), spec, jobs);
+    RunJobs(jobs, 0.05, 0.4, "single effects");
+  }
+
+  // The set of `from` with one more effect, from each of its starts; none if it has been fitted.
+  void AddJobs(const Contender& from, Spec added, std::vector<Job>& jobs) {
+    if (HoldsId(from.effects, added->id)) return;
+    Set set = from.effects;
+    set.push_back(added);
+    set = Ordered(set);
+    const auto planned = [&](const Job& job) { return job.set == set; };
+    if (Find(set) || std::any_of(jobs.begin(), jobs.end(), planned)) return;
+    for (const model::Effect& start : EffectStarts(*added, result_.data.sizes)) {
+      Job job{set, from.fit.state, {}};
+      job.start.effects.push_back(start);
+      std::sort(job.start.effects.begin(), job.start.effects.end(),
+                [](const auto& a, const auto& b) { return Place(a.spec) < Place(b.spec); });
+      jobs.push_back(std::move(job));
+    }
+  }
+
+  void RunJobs(std::vector<Job>& jobs, double from_share, double to_share,
+               const std::string& what) {
+    std::atomic<std::size_t> done = 0;
+    std::mutex reporting;
+    ForAll(jobs.size(), options_.threads, [&](std::size_t i) {
+      if (Cancelled()) return;
+      jobs[i].fit = FitModel(result_.data, jobs[i].start, fit_options_);
+      const double share = static_cast<double>(++done) / static_cast<double>(jobs.size());
+      const std::lock_guard lock(reporting);
+      Report(from_share + share * (to_share - from_share), what);
+    });
+    if (jobs.empty()) return;
+    const std::size_t size = jobs.front().set.size();
+    for (Job& job : jobs) Take(std::move(job));
+    Refine(size);
+  }
+
+  // Takes the fits of sets of a size that come near the best one further.
+  void Refine(std::size_t size) {
+    const Contender* best = BestOfSize(static_cast<int>(size - options_.given.size()));
+    if (!best) return;
+    std::vector<Contender*> near;
+    for (Contender& contender : result_.contenders)
+      if (contender.effects.size() == size && contender.fit.Usable() &&
+          contender.fit.bic < best->fit.bic + kNear)
+        near.push_back(&contender);
+    FitOptions further = fit_options_;
+    further.function_tolerance = 0.01 * kScreening;
+    further.iterations_max = 3 * kScreeningIterations;
+    ForAll(near.size(), options_.threads, [&](std::size_t i) {
+      Fit fit = FitModel(result_.data, near[i]->fit.state, further);
+      if (fit.Usable() && fit.bic < near[i]->fit.bic) near[i]->fit = std::move(fit);
+    });
+  }
+
+  void Take(Job job) {
+    Contender* contender = Find(job.set);
+    if (!contender) {
+      result_.contenders.push_back({job.set, {}, 0, 0});
+      contender = &result_.contenders.back();
+    }
+    ++contender->starts;
+    if (!job.fit.Usable()) {
+      if (contender->starts == 1) contender->fit = std::move(job.fit);
+      return;
+    }
+    const auto chi2 = [](const Fit& fit) { return fit.chi2_data + fit.chi2_prior; };
+    if (!contender->fit.Usable() || chi2(job.fit) < chi2(contender->fit) - kSameOptimum) {
+      contender->fit = std::move(job.fit);
+      contender->found_again = 1;
+    } else if (chi2(job.fit) < chi2(contender->fit) + kSameOptimum) {
+      ++contender->found_again;
+      if (chi2(job.fit) < chi2(contender->fit)) contender->fit = std::move(job.fit);
+    }
+  }
+
+  // The best sets of a size, of each id the best law alone.
+  std::vector<Set> Seeds(int size) const {
+    std::vector<const Contender*> sorted;
+    for (const Contender& contender : result_.contenders)
+      if (contender.effects.size() == SizeOf(size) && contender.fit.Usable())
+        sorted.push_back(&contender);
+    std::sort(sorted.begin(), sorted.end(),
+              [](const auto* a, const auto* b) { return a->fit.bic < b->fit.bic; });
+    std::vector<const Contender*> kept;
+    for (const Contender* contender : sorted) {
+      const bool known = std::any_of(kept.begin(), kept.end(), [&](const Contender* other) {
+        return SameEffects(*contender, *other);
+      });
+      if (!known) kept.push_back(contender);
+      if (static_cast<int>(kept.size()) == (size == 1 ? kSeeds : kTriplesFrom)) break;
+    }
+    std::vector<Set> seeds;
+    for (const Contender* contender : kept) seeds.push_back(contender->effects);
+    return seeds;
+  }
+
+  Set WithGiven(Spec spec) const {
+    Set set = {spec};
+    for (const model::Effect& effect : options_.given) set.push_back(effect.spec);
+    return Ordered(set);
+  }
+
+  // Of an id with several laws the one whose single fit is best.
+  std::vector<Spec> BestLaws() {
+    std::vector<Spec> best;
+    for (const Spec spec : model::Effects()) {
+      const Contender* single = Find(WithGiven(spec));
+      if (!single || !single->fit.Usable()) continue;
+      const auto same =
+          std::find_if(best.begin(), best.end(), [&](Spec other) { return other->id == spec->id; });
+      if (same == best.end())
+        best.push_back(spec);
+      else if (single->fit.bic < Find(WithGiven(*same))->fit.bic)
+        *same = spec;
+    }
+    return best;
+  }
+
+  void ExtendSets(const std::vector<Set>& seeds, int size) {
+    std::vector<Job> jobs;
+    for (const Set& seed : seeds)
+      for (const Spec spec : BestLaws()) AddJobs(*Find(seed), spec, jobs);
+    const double from = size == 2 ? 0.4 : 0.7;
+    RunJobs(jobs, from, from + 0.2, size == 2 ? "pairs of effects" : "triples of effects");
+  }
+
+  // Every set that differs from this one in one member.
+  void Exchange(const Set& set) {
+    std::vector<Job> jobs;
+    for (const Spec out : set) {
+      const bool given = std::any_of(options_.given.begin(), options_.given.end(),
+                                     [&](const model::Effect& e) { return e.spec == out; });
+      if (given) continue;
+      Set rest;
+      std::copy_if(set.begin(), set.end(), std::back_inserter(rest),
+                   [&](Spec spec) { return spec != out; });
+      Contender* from = Find(rest);
+      if (!from) {
+        std::vector<Job> smaller = {{rest, StateOf(*Find(set), rest), {}}};
+        RunJobs(smaller, 0.85, 0.87, "smaller sets");
+        from = Find(rest);
+      }
+      if (!from->fit.Usable()) continue;
+      const Contender seed = *from;
+      for (const Spec spec : BestLaws()) AddJobs(seed, spec, jobs);
+    }
+    RunJobs(jobs, 0.87, 0.92, "sets alike");
+  }
+
+  // The fitted state with only the effects of `rest`.
+  static ModelState StateOf(const Contender& contender, const Set& rest) {
+    ModelState state = contender.fit.state;
+    std::erase_if(state.effects, [&](const model::Effect& effect) {
+      return std::find(rest.begin(), rest.end(), effect.spec) == rest.end();
+    });
+    return state;
+  }
+
+  // Whether clocks that are off explain more than what a common delay or any single effect does.
+  bool ClocksAreOff(const Contender& base, const Contender* single) {
+    if (Cancelled() || !base.fit.Usable()) return false;
+    FitData data = result_.data;
+    data.clocks = true;
+    FitOptions options = fit_options_;
+    options.threads = options_.threads;
+    const auto gain = [&](const Contender& contender) {
+      const Fit with = FitModel(data, contender.fit.state, options);
+      const double cost = std::log(static_cast<double>(with.rows));
+      const auto clocks = std::count_if(
+          with.coordinates.begin(), with.coordinates.end(), [](const Coordinate& coordinate) {
+            return coordinate.parameter.kind == Parameter::Kind::kClock;
+          });
+      return with.Usable() ? contender.fit.bic - with.bic - static_cast<double>(clocks) * cost
+                           : -1.0;
+    };
+    // Beside the best single effect: what a delay explains is not the clocks' doing.
+    const bool accepted = single && single->fit.bic < base.fit.bic - kAccept;
+    return gain(accepted ? *single : base) > kClock;
+  }
+
+  // Fits of the chosen set and its rivals to the last digit, then all in the order of BIC.
+  void Finish(const Set& chosen) {
+    Report(0.92, "final fits");
+    FitOptions tight = fit_options_;
+    tight.noise_share = 1e-3;
+    tight.function_tolerance = 1e-9;
+    tight.iterations_max = 100;
+    tight.threads = options_.threads;
+    const double best = Find(chosen)->fit.bic;
+    for (Contender& contender : result_.contenders) {
+      const bool rival = contender.effects.size() == chosen.size() && contender.fit.Usable() &&
+                         contender.fit.bic < best + 2.0 * kTie;
+      if (!rival && contender.effects.size() != options_.given.size()) continue;
+      Fit fit = FitModel(result_.data, contender.fit.state, tight);
+      if (fit.Usable() && fit.bic < contender.fit.bic + kSameOptimum)
+        contender.fit = std::move(fit);
+    }
+    std::stable_sort(result_.contenders.begin(), result_.contenders.end(),
+                     [](const Contender& a, const Contender& b) {
+                       if (a.fit.Usable() != b.fit.Usable()) return a.fit.Usable();
+                       return a.fit.bic < b.fit.bic;
+                     });
+    result_.complete = !Cancelled();
+    for (std::size_t i = 0; i < result_.contenders.size(); ++i)
+      if (result_.contenders[i].effects.size() == options_.given.size()) result_.base = i;
+    result_.chosen = 0;
+    for (std::size_t i = result_.contenders.size(); i-- > 0;) {
+      const Contender& contender = result_.contenders[i];
+      if (contender.effects.size() == chosen.size() && contender.fit.Usable()) result_.chosen = i;
+    }
+  }
+
+  const SearchOptions& options_;
+  const std::function<bool(const Fit&)>& enough_;
+  FitOptions fit_options_;
+  SearchResult result_;
+};
+
+}  // namespace
+
+bool Contains(const Contender& outer, const Contender& inner) {
+  return std::all_of(inner.effects.begin(), inner.effects.end(),
+                     [&](Spec spec) { return HoldsId(outer.effects, spec->id); });
+}
+
+bool SameEffects(const Contender& a, const Contender& b) {
+  return a.effects.size() == b.effects.size() && Contains(a, b);
+}
+
+SearchResult SearchEffects(const FitData& data, const SearchOptions& options,
+                           const std::function<bool(const Fit&)>& enough) {
+  return Search(data, options, enough).Run();
+}
+
+}  // namespace plenum::calibration

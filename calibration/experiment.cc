@@ -1,0 +1,269 @@
+#include "calibration/experiment.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <thread>
+#include <utility>
+
+#include "calibration/proposals.h"
+
+namespace plenum::calibration {
+namespace {
+
+constexpr double kSpread = 0.5;  // a shorter run may be worth this share of the best
+constexpr int kRehearsals = 3;
+constexpr double kRates[] = {1.0, 4.0};  // of sampling, against that of the data
+constexpr const char* kPressure = "pressure_kpa_gauge";
+constexpr int kProbeSamples = 400;
+constexpr double kProbeShortest = 1e-3, kProbeLongest = 100.0;  // in strokes of typical size
+
+struct Rated {
+  Proposal proposal;
+  RunWorth worth;
+};
+
+std::string Joined(const std::vector<std::string>& effects) {
+  if (effects.empty()) return "no effect";
+  std::string text;
+  for (const std::string& effect : effects) text += (text.empty() ? "" : " + ") + effect;
+  return text;
+}
+
+std::string Fixed(double value, const char* format) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+// The time at which a course first passes a level, straight between the samples.
+double Crossing(const std::vector<double>& t_s, const std::vector<double>& pressure_pa,
+                double start_pa, double level_pa) {
+  const bool rising = level_pa > start_pa;
+  double before_s = 0.0, before_pa = start_pa;
+  for (std::size_t i = 0; i < pressure_pa.size(); ++i) {
+    if ((pressure_pa[i] >= level_pa) == rising)
+      return before_s + (level_pa - before_pa) / (pressure_pa[i] - before_pa) * (t_s[i] - before_s);
+    before_s = t_s[i];
+    before_pa = pressure_pa[i];
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+class Designer {
+ public:
+  Designer(const FitData& data, const std::vector<TiedFit>& tied, const FitOptions& options)
+      : data_(data), tied_(tied), options_(options) {}
+
+  std::optional<Experiment> Design() {
+    for (const TiedFit& one : tied_) {
+      std::optional<Eigen::MatrixXd> curvature = Curvature(data_, *one.fit, options_);
+      if (!curvature) return {};
+      curvatures_.push_back(std::move(*curvature));
+      rows_ = static_cast<double>(one.fit->rows);
+      noise_scale_ = std::min(noise_scale_, std::max(1.0, one.fit->chi2_data / rows_));
+    }
+    std::vector<std::vector<Rated>> rated;  // by rate
+    std::optional<Experiment> best;
+    const auto keep = [&](std::optional<Experiment> found) {
+      if (found && (!best || found->expected_delta_bic > best->expected_delta_bic))
+        best = std::move(found);
+      return Cancelled() || (best && best->expected_delta_bic >= kDecisiveDeltaBic);
+    };
+    for (const double rate : kRates) {
+      rated.push_back(RateAll(rate));
+      if (keep(Choose(rated.back(), kPressure, rate))) return best;
+    }
+    for (std::size_t i = 0; i < rated.size(); ++i)
+      if (keep(Choose(rated[i], BestChannel(rated[i]), kRates[i]))) return best;
+    return best;
+  }
+
+ private:
+  bool Cancelled() const { return options_.cancelled && options_.cancelled(); }
+  const Dataset& dataset() const { return data_.forward->dataset(); }
+
+  // The earliest of the models' crossings.
+  double TimeOfStroke(Run probe, double level_pa) const {
+    const double longest_s = kProbeLongest * data_.sizes.stroke_s;
+    for (int i = 1; i <= kProbeSamples; ++i)
+      probe.t_s.push_back(longest_s * std::pow(kProbeShortest / kProbeLongest,
+                                               1.0 - static_cast<double>(i) / kProbeSamples));
+    const ExtendedData extended(dataset(), probe, false);
+    const ForwardModel forward(extended.dataset);
+    double earliest_s = std::numeric_limits<double>::infinity();
+    for (const TiedFit& one : tied_) {
+      const Prediction prediction = forward.Predict(extended.run(), extended.With(one.fit->state),
+                                                    {}, {.cancelled = options_.cancelled});
+      earliest_s = std::min(earliest_s, Crossing(probe.t_s, prediction.reading.pressure_pa,
+                                                 *probe.initial_pressure_pa, level_pa));
+    }
+    return earliest_s;
+  }
+
+  std::vector<Rated> RateAll(double rate) const {
+    const std::vector<Proposal> proposals =
+        ProposeRuns(dataset(), data_.runs, rate,
+                    [&](const Run& stroke, double level) { return TimeOfStroke(stroke, level); });
+    std::vector<std::optional<RunWorth>> worths(proposals.size());
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+      for (std::size_t i = next++; i < proposals.size() && !Cancelled(); i = next++)
+        worths[i] = WorthOf(data_, tied_, curvatures_, proposals[i].run, options_);
+    };
+    std::vector<std::jthread> threads;
+    for (int i = 1; i < options_.threads; ++i) threads.emplace_back(work);
+    work();
+    threads.clear();
+    std::vector<Rated> rated;
+    for (std::size_t i = 0; i < proposals.size(); ++i)
+      if (worths[i]) rated.push_back({proposals[i], std::move(*worths[i])});
+    return rated;
+  }
+
+  // By which the rival's BIC would grow with that much more χ², in noise that may be larger than
+  // was read from the data.
+  double DeltaBic(double chi2, const Run& run) const {
+    const double n = rows_ + static_cast<double>(run.t_s.size());
+    return n * std::log1p(chi2 / noise_scale_ / n);
+  }
+
+  // With a signal beside the pressure and what the data have; 0 where the run does not give it.
+  double WorthWith(const Rated& rated, const std::string& signal) const {
+    const std::vector<std::string>& names = rated.worth.names;
+    const auto found = std::find(names.begin(), names.end(), signal);
+    if (found == names.end()) return 0.0;
+    const auto index = static_cast<std::size_t>(found - names.begin());
+    return DeltaBic(rated.worth.delta_chi2[index], rated.proposal.run);
+  }
+
+  double Best(const std::vector<Rated>& rated, const std::string& signal) const {
+    double best = 0.0;
+    for (const Rated& one : rated) best = std::max(best, WorthWith(one, signal));
+    return best;
+  }
+
+  std::string BestChannel(const std::vector<Rated>& rated) const {
+    std::string signal = kPressure;
+    for (const NamedChannel& channel : NamedChannels())
+      if (Best(rated, channel.name) > Best(rated, signal)) signal = channel.name;
+    return signal;
+  }
+
+  std::optional<Experiment> Choose(const std::vector<Rated>& rated, const std::string& signal,
+                                   double rate) const {
+    return Rehearse(ShortestNear(rated, signal, Best(rated, signal)), signal, rate);
+  }
+
+  // Those worth at least kSpread of the best, short before long, a few.
+  std::vector<const Rated*> ShortestNear(const std::vector<Rated>& rated, const std::string& signal,
+                                         double best) const {
+    std::vector<const Rated*> near;
+    for (const Rated& one : rated)
+      if (WorthWith(one, signal) >= kSpread * best && best > 0.0) near.push_back(&one);
+    std::stable_sort(near.begin(), near.end(), [](const Rated* a, const Rated* b) {
+      return a->proposal.run.t_s.back() < b->proposal.run.t_s.back();
+    });
+    if (near.size() > kRehearsals) near.resize(kRehearsals);
+    return near;
+  }
+
+  // Fits the rival in full to one after the other, until one decides; the best otherwise.
+  std::optional<Experiment> Rehearse(const std::vector<const Rated*>& order,
+                                     const std::string& signal, double rate) const {
+    std::optional<Experiment> best;
+    for (const Rated* one : order) {
+      if (Cancelled()) break;
+      std::optional<Experiment> experiment = Refitted(*one, signal, rate);
+      if (experiment && (!best || experiment->expected_delta_bic > best->expected_delta_bic))
+        best = std::move(experiment);
+      if (best && best->expected_delta_bic >= kDecisiveDeltaBic) break;
+    }
+    return best;
+  }
+
+  std::optional<Experiment> Refitted(const Rated& rated, const std::string& signal,
+                                     double rate) const {
+    const std::vector<std::string>& names = rated.worth.names;
+    const auto chosen =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), signal) - names.begin());
+    const auto [truth, rival] = rated.worth.least_pair[chosen];
+    ExtendedData extended(dataset(), rated.proposal.run, true);
+    Run& run = extended.dataset.runs.back();
+    std::vector<Prediction> shown;
+    {
+      const ForwardModel forward(extended.dataset);
+      shown.push_back(forward.Predict(extended.run(), extended.With(tied_[truth].fit->state), {},
+                                      {.cancelled = options_.cancelled}));
+      if (shown.front().status != model::SimulateStatus::kDone) return {};
+    }
+    std::vector<std::string> seen;
+    ObservedRun would = WouldObserve((*data_.observed)[data_.runs.front()], run, shown, seen);
+    Experiment experiment;
+    for (std::size_t s = would.signals.size(); s-- > 1;) {
+      if (seen[s] == signal || InData(data_, seen[s]))
+        experiment.measure.insert(experiment.measure.begin(), seen[s]);
+      else
+        would.signals.erase(would.signals.begin() + static_cast<std::ptrdiff_t>(s));
+    }
+    run.pressure_pa = shown.front().reading.pressure_pa;
+    run.channels = shown.front().reading.channels;
+    std::vector<ObservedRun> observed = *data_.observed;
+    observed.push_back(std::move(would));
+
+    const ForwardModel forward(extended.dataset);
+    FitData data = data_;
+    data.forward = &forward;
+    data.observed = &observed;
+    data.runs.push_back(extended.run());
+    const Fit& before = *tied_[rival].fit;
+    const Fit refit = FitModel(data, extended.With(before.state), options_);
+    if (!refit.Usable()) return {};
+    const Reading answer = Predicted(data, refit.state, extended.run(), options_);
+    if (answer.pressure_pa.size() != run.pressure_pa.size()) return {};
+    double squares = 0.0;
+    for (std::size_t i = 0; i < run.pressure_pa.size(); ++i)
+      squares += std::pow(run.pressure_pa[i] - answer.pressure_pa[i], 2);
+    const double left = refit.chi2_data + refit.chi2_prior - before.chi2_data - before.chi2_prior;
+    experiment.run = rated.proposal.run;
+    experiment.expected_delta_bic = DeltaBic(std::max(0.0, left), run);
+    experiment.expected_difference_pa =
+        std::sqrt(squares / static_cast<double>(run.pressure_pa.size()));
+    experiment.why = Why(rated.proposal, experiment, truth, rival, rate);
+    return experiment;
+  }
+
+  std::string Why(const Proposal& proposal, const Experiment& experiment, std::size_t truth,
+                  std::size_t rival, double rate) const {
+    const double noise_pa = (*data_.observed)[data_.runs.front()].signals.front().sigma;
+    std::string why = proposal.what;
+    if (rate > 1.0) why += ", sampled " + Fixed(rate, "%.0f") + " times as fast";
+    why += ": after " + Joined(tied_[rival].effects) + " is fitted again to all data, it and " +
+           Joined(tied_[truth].effects) + " still differ by " +
+           Fixed(experiment.expected_difference_pa / 1e3, "%.2g") + " kPa (RMS, " +
+           Fixed(experiment.expected_difference_pa / noise_pa, "%.2g") + " times the noise)";
+    if (experiment.expected_delta_bic < kDecisiveDeltaBic)
+      why += "; no run within the range of these data is expected to decide";
+    why[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(why[0])));
+    return why + ".";
+  }
+
+  const FitData& data_;
+  const std::vector<TiedFit>& tied_;
+  const FitOptions& options_;
+  std::vector<Eigen::MatrixXd> curvatures_;
+  double rows_ = 0.0;
+  double noise_scale_ = std::numeric_limits<double>::infinity();  // χ²/n of the best, at least 1
+};
+
+}  // namespace
+
+std::optional<Experiment> DesignExperiment(const FitData& data, const std::vector<TiedFit>& tied,
+                                           const FitOptions& options) {
+  if (tied.size() < 2 || data.runs.empty()) return {};
+  return Designer(data, tied, options).Design();
+}
+
+}  // namespace plenum::calibration

@@ -1,0 +1,34 @@
+// The numbers by which a diagnosis decides, in one place.
+#ifndef PLENUM_CALIBRATION_THRESHOLDS_H_
+#define PLENUM_CALIBRATION_THRESHOLDS_H_
+
+namespace plenum::calibration {
+
+// A further effect is accepted where it lowers BIC by more than this. Differences above 10 count as
+// very strong evidence (Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773). With n samples the χ²
+// of one parameter must fall by 10 + ln n, above 16: by chance one in 20,000, among some twenty
+// effects one in a thousand.
+inline constexpr double kAccept = 10.0;
+
+// Sets of effects of one size whose BIC is within this of the best are not told apart: below 6 the
+// evidence is positive, not strong (same source).
+inline constexpr double kTie = 6.0;
+
+// The runs' clocks are taken to be off where that lowers BIC by this much more than the best that a
+// delay common to all does; each run's clock counts as a parameter.
+inline constexpr double kClock = 10.0;
+
+// Held-out error over that of the noise up to which an explanation holds.
+inline constexpr double kHoldout = 1.3;
+
+// Structure that is significant but small does not unmake an explanation: the part of the
+// residual's variance above the noise, over that of the base model's, and its size over the noise.
+inline constexpr double kLeftOver = 0.02;
+inline constexpr double kNegligible = 0.25;
+
+inline constexpr int kEffectsMax = 3;
+inline constexpr int kSeeds = 4;  // best single effects that pairs are built on
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_THRESHOLDS_H_

@@ -1,0 +1,41 @@
+// The verdict on a search, from what its fits left over.
+#ifndef PLENUM_CALIBRATION_VERDICT_H_
+#define PLENUM_CALIBRATION_VERDICT_H_
+
+#include <optional>
+
+#include "calibration/diagnosis.h"
+
+namespace plenum::calibration {
+
+// What a fitted model leaves over.
+struct Leftover {
+  ResidualReport residual;
+  double rms_pa = 0.0;    // of the fitted runs
+  double noise_pa = 0.0;  // of the same samples
+  std::optional<double> holdout_rms_pa;
+  std::optional<double> holdout_noise_pa;
+};
+
+// Nothing but noise: white and independent of the inputs, and no more of it than the readings show.
+bool IsNoise(const Leftover& leftover);
+
+// Share of the variance above the noise that is left of what the base model left.
+double UnexplainedFraction(const Leftover& before, const Leftover& after);
+
+struct Evidence {
+  bool complete = false;   // every fit that matters came to its end
+  bool accepted = false;   // the chosen set has effects (which BIC accepted)
+  int tied = 0;            // other sets of its size as good as it
+  Leftover before, after;  // of the base model and the chosen set
+};
+
+// In this order: kUndecided if not complete. Without an accepted effect kAdequate if the base model
+// leaves noise alone, else kUnexplained. With one, kUnexplained where structure is left that is
+// neither noise nor small (kLeftOver, kNegligible), or where runs that the fit did not see are off
+// by more than kHoldout; then kTie if others are as good; else kExplained.
+Verdict Judge(const Evidence& evidence);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_VERDICT_H_

@@ -1,0 +1,26 @@
+// A case as the program's own values: the declared rig and the readings, and the true model.
+#ifndef PLENUM_TESTS_SUPPORT_BENCH_DATASET_H_
+#define PLENUM_TESTS_SUPPORT_BENCH_DATASET_H_
+
+#include <vector>
+
+#include "calibration/dataset.h"
+#include "model/effects/effect.h"
+#include "tests/support/bench_case.h"
+
+namespace plenum::test {
+
+// One run of the case with a record of it.
+calibration::Run ToRun(const BenchCase& bench, const BenchRun& run, const Record& record);
+
+calibration::Dataset ToDataset(const BenchCase& bench);
+
+// The same without the sensor's faults: clean readings at their true times.
+calibration::Dataset NoiseFree(const BenchCase& bench);
+
+// The case's listed effects as the model has them.
+std::vector<model::Effect> ListedOf(const BenchCase& bench);
+
+}  // namespace plenum::test
+
+#endif  // PLENUM_TESTS_SUPPORT_BENCH_DATASET_H_
