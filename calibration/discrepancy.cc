@@ -14,7 +14,10 @@ namespace {
 constexpr double kGain = 10.0;         // of a finer term over a coarser one, and of any over none
 constexpr std::size_t kFinalists = 3;  // families that compete on runs left out
 constexpr std::size_t kFolds = 4;      // runs left out, at most
-constexpr int kIterations = 25;        // of a fit; terms are compared, not polished
+// Fits are compared, not polished.
+constexpr int kIterations = 25;
+constexpr double kFunctionTolerance = 1e-5;
+constexpr double kNoiseShare = 1e-2;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 // One kind of term: laws from coarse to fine.
@@ -78,14 +81,12 @@ Fit FitTerm(const FitData& data, const std::vector<std::size_t>& runs, const Mod
             const std::vector<model::Effect>& starts, const FitOptions& options) {
   FitData on_runs = data;
   on_runs.runs = runs;
-  FitOptions few = options;
-  few.iterations_max = std::min(options.iterations_max, kIterations);
   Fit best;
   double least = kNone;
   for (const model::Effect& start : starts) {
     ModelState state = base;
     state.effects.push_back(start);
-    Fit fit = FitModel(on_runs, state, few);
+    Fit fit = FitModel(on_runs, state, options);
     if (!fit.Usable() || !(Score(fit) < least)) continue;
     least = Score(fit);
     best = std::move(fit);
@@ -142,7 +143,9 @@ double LeftOut(const FitData& data, const FitOn& fit_on, const FitOptions& optio
     const Fit fit = fit_on(others);
     if (!fit.Usable()) return kNone;
     ModelState state = fit.state;
-    state.initial_pressure_pa[left_out] = data.forward->Declared().initial_pressure_pa[left_out];
+    const ModelState declared = data.forward->Declared();
+    state.initial_pressure_pa[left_out] = declared.initial_pressure_pa[left_out];
+    state.clock_s[left_out] = declared.clock_s[left_out];
     sum += SquaresOf(data, state, {left_out}, options);
   }
   return sum;
@@ -227,14 +230,18 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
     discrepancy.holdout_before_pa = PressureRms(data, established.state, holdout, options);
     discrepancy.holdout_after_pa = discrepancy.holdout_before_pa;
   }
+  FitOptions quick = options;
+  quick.iterations_max = std::min(options.iterations_max, kIterations);
+  quick.function_tolerance = std::max(options.function_tolerance, kFunctionTolerance);
+  quick.noise_share = std::max(options.noise_share, kNoiseShare);
   std::vector<Attempt> attempts;
   for (const Family& family : Families()) {
     if (Holds(established.state, family.id)) continue;
-    Attempt attempt = FitFamily(data, family, established.state, options);
+    Attempt attempt = FitFamily(data, family, established.state, quick);
     if (attempt.fit.Usable()) attempts.push_back(std::move(attempt));
     if (options.cancelled && options.cancelled()) return learned;
   }
-  const Attempt* best = Choose(data, established, attempts, options);
+  const Attempt* best = Choose(data, established, attempts, quick);
   if (!best) return learned;
   learned.fit = best->fit;
   discrepancy.equation = best->fit.state.effects.back().spec->place;
