@@ -110,10 +110,6 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
   setup.source_pressure_pa = source_initial_pa_;
   setup.flow_factor = factor;
   setup.heat_capacity_ratio = HeatCapacityRatio(rig_.gas);
-  setup.fill_before_inlet = rig.inlet_after;
-  if (!rig.exhaust.empty()) setup.exhaust_before_inlet = rig.exhaust.size() - rig.inlet_after;
-  setup.line_volume_m3 = setup.dead_volume_m3;
-  setup.linear_ratio = linear_ratio;
   setup.fill = Lifted<T>(rig.fill, factor, lift);
   setup.exhaust = Lifted<T>(rig.exhaust, factor, lift);
   group.units = MakeUnits<T>(rig.effects, lift);
@@ -140,6 +136,8 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
     if (!cracks) group.with_regulator.emplace(both, linear_ratio);
   }
 
+  group.fill_before_inlet = rig.inlet_after;
+  if (!rig.exhaust.empty()) group.exhaust_before_inlet = rig.exhaust.size() - rig.inlet_after;
   group.lines = {Line<T>(setup.fill, linear_ratio), Line<T>(setup.exhaust, linear_ratio),
                  Line<T>(setup.feed, linear_ratio)};
   return group;
@@ -481,10 +479,10 @@ T System<T>::InletPressure(std::size_t i, const T& t) const {
   const GroupSetup<T>& setup = group.setup;
   const Moment<T>& m = group.moment;
   if (m.line_in_m3_per_s > 0.0) {
-    return PressureBehind(setup.fill, setup.fill_before_inlet, T(1.0), 0, m.head_pa, m.tail_pa);
+    return PressureBehind(setup.fill, group.fill_before_inlet, T(1.0), 0, m.head_pa, m.tail_pa);
   }
   if (m.line_out_m3_per_s > 0.0) {
-    return PressureBehind(setup.exhaust, setup.exhaust_before_inlet,
+    return PressureBehind(setup.exhaust, group.exhaust_before_inlet,
                           m.line_factor * group.venting.At(t), setup.exhaust_fixed, m.tail_pa,
                           ambient_pa_);
   }

@@ -153,8 +153,9 @@ class System {
     bool settled = false;
     bool settles = true;
     bool measured = false, heated = false;
-    std::size_t at = 0;        // of the pressure
-    std::size_t accounts = 0;  // of the first account
+    std::size_t fill_before_inlet = 0, exhaust_before_inlet = 0;  // elements
+    std::size_t at = 0;                                           // of the pressure
+    std::size_t accounts = 0;                                     // of the first account
     Moment<T> moment;
   };
   enum LineIndex : std::size_t { kFill, kExhaust, kFeed };

@@ -21,7 +21,6 @@
 #include "model/effects/learned_sensor.h"
 #include "model/effects/learned_volume.h"
 #include "model/effects/line_dynamics.h"
-#include "model/effects/line_storage.h"
 #include "model/effects/nonlinear_compliance.h"
 #include "model/effects/sensor_gain.h"
 #include "model/effects/sensor_lag.h"
@@ -93,7 +92,6 @@ constexpr auto kRegistry = std::to_array<Entry>({
     MakeEntry<WallHeat>(),
     MakeEntry<SupplyDroop>(),
     MakeEntry<LineDynamics>(),
-    MakeEntry<LineStorage>(),
     MakeEntry<Learned<3>::ConductanceByPressure>(),
     MakeEntry<Learned<5>::ConductanceByPressure>(),
     MakeEntry<Learned<9>::ConductanceByPressure>(),
@@ -125,7 +123,7 @@ constexpr auto kSpecs = [] {
 
 // What stands for the same part of the rig.
 constexpr std::pair<std::string_view, std::string_view> kInstead[] = {
-    {"heat_transfer", "wall_heat"}, {"line_dynamics", "line_storage"}};
+    {"heat_transfer", "wall_heat"}};
 
 bool Exclude(std::string_view a, std::string_view b) {
   return std::any_of(std::begin(kInstead), std::end(kInstead), [&](const auto& pair) {

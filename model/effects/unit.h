@@ -37,11 +37,6 @@ struct GroupSetup {
   double heat_capacity_ratio = 1.4;
   std::vector<LineElement<T>> fill, exhaust;  // in the order crossed, flow_factor included
   std::size_t exhaust_fixed = 0;  // elements at the end of the exhaust that the valve does not turn
-  // Elements of fill in front of the inlet sensor and of exhaust in front of it on the way out, and
-  // the volume that the line adds to the actuator.
-  std::size_t fill_before_inlet = 0, exhaust_before_inlet = 0;
-  T line_volume_m3 = T(0.0);
-  double linear_ratio = kLinearRatio;
   std::vector<LineElement<T>> feed;  // between source and Moment::head_pa; empty: none
   T valve_delay_s = T(0.0), valve_ramp_s = T(0.0);
 
