@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "calibration/discrepancy.h"
 #include "calibration/experiment.h"
 #include "calibration/identifiability.h"
 #include "calibration/phases.h"
@@ -65,6 +66,10 @@ class Diagnosing {
   }
 
  private:
+  void Progress(double share, const std::string& what) const {
+    if (options_.progress) options_.progress(share, what);
+  }
+
   bool HeldOut(std::size_t run) const {
     const std::string& id = dataset_.runs[run].id;
     return std::find(dataset_.holdout.begin(), dataset_.holdout.end(), id) !=
@@ -87,7 +92,7 @@ class Diagnosing {
     ErrorReport report;
     Squares fitted, held_out;
     for (std::size_t i = 0; i < dataset_.runs.size(); ++i) {
-      const Squares squares = ErrorsOf(i, state);
+      const Squares squares = HeldOut(i) ? ErrorsUnseen(i, state) : ErrorsOf(i, state);
       report.run_rms_pa.emplace_back(dataset_.runs[i].id, squares.Rms());
       (HeldOut(i) ? held_out : fitted).Add(squares);
     }
@@ -98,6 +103,18 @@ class Diagnosing {
         report.rms_pa / (chamber.operating_pressure_pa - chamber.ambient_pressure_pa);
     if (held_out.count > 0) report.holdout_rms_pa = held_out.Rms();
     return report;
+  }
+
+  // Errors on a run that the fit did not see. Its clock and its initial pressure, where unknown,
+  // are its own: nothing that was learned from other runs can tell them, so that they alone are
+  // fitted.
+  Squares ErrorsUnseen(std::size_t run, const ModelState& state) const {
+    FitData data = data_;
+    data.runs = {run};
+    FitOptions options = tight_;
+    options.nuisance_only = true;
+    const Fit aligned = FitModel(data, state, options);
+    return ErrorsOf(run, aligned.Usable() ? aligned.state : state);
   }
 
   // Of the usable samples of these runs.
@@ -127,7 +144,7 @@ class Diagnosing {
       start.clock_s[left_out] = 0.0;
       const Fit without = FitModel(data, start, options);
       if (!without.Usable()) return std::nullopt;
-      squares.Add(ErrorsOf(left_out, without.state));
+      squares.Add(ErrorsUnseen(left_out, without.state));
     }
     return squares.Rms();
   }
@@ -153,7 +170,7 @@ class Diagnosing {
       leftover.holdout_noise_pa = leftover.noise_pa;
     } else {
       Squares held_out;
-      for (const std::size_t i : held_out_) held_out.Add(ErrorsOf(i, fit.state));
+      for (const std::size_t i : held_out_) held_out.Add(ErrorsUnseen(i, fit.state));
       leftover.holdout_rms_pa = held_out.Rms();
       leftover.holdout_noise_pa = NoiseOf(held_out_);
     }
@@ -193,6 +210,11 @@ class Diagnosing {
       }
       diagnosis_.next_experiment = DesignExperiment(data_, fits, tight_);
     }
+    if (diagnosis_.verdict == Verdict::kUnexplained) {
+      Progress(0.95, "what is left unexplained");
+      diagnosis_.discrepancy = LearnDiscrepancy(data_, chosen.fit, held_out_, tight_).discrepancy;
+    }
+    Progress(0.99, "report");
     AddSeries(chosen.fit.state);
     AddWarnings();
     if (const auto found = Identify(data_, chosen.fit, tight_))
@@ -251,7 +273,8 @@ class Diagnosing {
       if (contender.fit.Usable()) {
         Squares fitted, held_out;
         for (const std::size_t run : data_.runs) fitted.Add(ErrorsOf(run, contender.fit.state));
-        for (const std::size_t run : held_out_) held_out.Add(ErrorsOf(run, contender.fit.state));
+        for (const std::size_t run : held_out_)
+          held_out.Add(ErrorsUnseen(run, contender.fit.state));
         candidate.rms_pa = fitted.Rms();
         if (held_out.count > 0)
           candidate.holdout_rms_pa = held_out.Rms();

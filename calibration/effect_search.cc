@@ -18,9 +18,9 @@ constexpr double kSameOptimum = 1.0;  // χ² apart
 // Fits that only have to be compared end where χ² falls by less than this share, at most after so
 // many steps; those near the best are then taken further.
 constexpr double kScreening = 1e-4;
-constexpr int kScreeningIterations = 15;
+constexpr int kScreeningIterations = 12;
 constexpr double kNear = 20.0;   // of BIC
-constexpr int kTriplesFrom = 2;  // best pairs
+constexpr int kTriplesFrom = 1;  // best pairs
 
 std::size_t Place(Spec spec) {
   const auto all = model::Effects();
@@ -30,6 +30,14 @@ std::size_t Place(Spec spec) {
 Set Ordered(Set set) {
   std::sort(set.begin(), set.end(), [](Spec a, Spec b) { return Place(a) < Place(b); });
   return set;
+}
+
+// The effects that have a name; learned terms stand for what has none (discrepancy.h).
+std::vector<Spec> NamedEffects() {
+  std::vector<Spec> named;
+  for (const Spec spec : model::Effects())
+    if (!spec->id.starts_with("learned")) named.push_back(spec);
+  return named;
 }
 
 bool HoldsId(const Set& set, std::string_view id) {
@@ -61,6 +69,11 @@ class Search {
 
   SearchResult Run() {
     FitBase();
+    if (ClocksAreAll()) {
+      result_.data.clocks = true;
+      result_.contenders.clear();
+      FitBase();
+    }
     FitSingles();
     if (!result_.data.clocks && ClocksAreOff(Base(), BestOfSize(1))) {
       result_.data.clocks = true;
@@ -77,10 +90,11 @@ class Search {
       const Contender* best = BestOfSize(size);
       if (!best || !(best->fit.bic < Of(chosen).fit.bic - kAccept)) break;
       chosen = IndexOf(*best);
-      if (size > 1) {
-        Exchange(Of(chosen).effects);
-        chosen = IndexOf(*BestOfSize(size));
-      }
+    }
+    if (Of(chosen).effects.size() > SizeOf(1) && !Cancelled()) {
+      const int size = static_cast<int>(Of(chosen).effects.size() - options_.given.size());
+      Exchange(Of(chosen).effects);
+      chosen = Best(size);
     }
     Finish(Of(chosen).effects);
     return std::move(result_);
@@ -146,7 +160,7 @@ class Search {
 
   void FitSingles() {
     std::vector<Job> jobs;
-    for (const Spec spec : model::Effects()) AddJobs(Base(), spec, jobs);
+    for (const Spec spec : NamedEffects()) AddJobs(Base(), spec, jobs);
     RunJobs(jobs, 0.05, 0.4, "single effects");
   }
 
@@ -253,7 +267,7 @@ class Search {
   // Of an id with several laws the one whose single fit is best.
   std::vector<Spec> BestLaws() {
     std::vector<Spec> best;
-    for (const Spec spec : model::Effects()) {
+    for (const Spec spec : NamedEffects()) {
       const Contender* single = Find(WithGiven(spec));
       if (!single || !single->fit.Usable()) continue;
       const auto same =
@@ -304,6 +318,19 @@ class Search {
       return std::find(rest.begin(), rest.end(), effect.spec) == rest.end();
     });
     return state;
+  }
+
+  // Whether clocks that are off leave nothing else to explain, and not for a common delay.
+  bool ClocksAreAll() {
+    if (!ClocksAreOff(Base(), nullptr)) return false;
+    FitData data = result_.data;
+    data.clocks = true;
+    if (!enough_(FitModel(data, Base().fit.state, fit_options_))) return false;
+    Contender delayed = Base();
+    delayed.fit.state.effects.push_back(
+        EffectStarts(*model::FindEffect("valve_delay"), data.sizes).front());
+    delayed.fit = FitModel(result_.data, delayed.fit.state, fit_options_);
+    return ClocksAreOff(delayed, nullptr);
   }
 
   // Whether clocks that are off explain more than what a common delay or any single effect does.

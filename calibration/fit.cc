@@ -127,8 +127,15 @@ bool HasPrior(const std::vector<Coordinate>& coordinates) {
                      [](const Coordinate& coordinate) { return coordinate.prior; });
 }
 
-std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& start) {
+std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& start,
+                                      const FitOptions& options) {
   std::vector<Coordinate> coordinates = BaseCoordinates(*data.forward, data.runs, data.clocks);
+  if (options.nuisance_only) {
+    std::erase_if(coordinates, [](const Coordinate& coordinate) {
+      return coordinate.parameter.kind == Parameter::Kind::kDeclared;
+    });
+    return coordinates;
+  }
   for (std::size_t i = 0; i < start.effects.size(); ++i)
     for (const Coordinate& coordinate : EffectCoordinates(*start.effects[i].spec, i, data.sizes))
       coordinates.push_back(coordinate);
@@ -208,7 +215,7 @@ Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& opt
   FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres says is in the status
   Fit fit;
   fit.state = start;
-  fit.coordinates = CoordinatesOf(data, start);
+  fit.coordinates = CoordinatesOf(data, start, options);
   fit.rows = RowsOf(data);
   const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
   fit.u.resize(size);

@@ -27,8 +27,8 @@ struct FitData {
   const ForwardModel* forward = nullptr;
   const std::vector<ObservedRun>* observed = nullptr;
   std::vector<std::size_t> runs;  // that the fit may see
-  bool clocks = false;            // the runs' clocks may be off by a part of a sample
-  TypicalSizes sizes;
+  TypicalSizes sizes = {};
+  bool clocks = false;  // the runs' clocks may be off by a part of a sample
 };
 
 struct FitOptions {
@@ -36,6 +36,7 @@ struct FitOptions {
   double function_tolerance = 1e-6;  // relative change of χ² that ends the search
   int iterations_max = 40;
   std::size_t steps_max = 3'000;  // of one run's integration; beyond, a step is not taken
+  bool nuisance_only = false;     // only initial pressures and clocks move
   int threads = 1;
   std::function<bool()> cancelled;  // may be empty
 };

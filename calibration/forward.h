@@ -58,8 +58,8 @@ struct Prediction {
 
 struct PredictOptions {
   double relative_tolerance = 1e-6;
+  std::function<bool()> cancelled = {};
   std::size_t steps_max = 200'000;
-  std::function<bool()> cancelled;
 };
 
 // Holds what the runs of a data set need again and again: measured source pressures condensed to a

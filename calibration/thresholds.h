@@ -27,7 +27,7 @@ inline constexpr double kLeftOver = 0.02;
 inline constexpr double kNegligible = 0.25;
 
 inline constexpr int kEffectsMax = 3;
-inline constexpr int kSeeds = 4;  // best single effects that pairs are built on
+inline constexpr int kSeeds = 3;  // best single effects that pairs are built on
 
 }  // namespace plenum::calibration
 

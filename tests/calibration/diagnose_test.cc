@@ -1,0 +1,73 @@
+// Verdicts on data of the independent simulator.
+#include "calibration/diagnose.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "tests/calibration/bench.h"
+
+namespace plenum::calibration {
+namespace {
+
+using test::Change;
+using test::EffectRig;
+using test::MeasuredBench;
+
+Diagnosis Of(const Change& change, std::uint64_t seed) {
+  return Diagnose(MeasuredBench(change, seed), {});
+}
+
+TEST(Diagnose, ACleanBenchIsAdequate) {
+  const Diagnosis d = Of(
+      [](EffectRig& rig) {
+        rig.rest_volume_m3 *= 1.02;
+        rig.fill[0].conductance *= 0.98, rig.exhaust[0].conductance *= 0.98;
+      },
+      21);
+  EXPECT_EQ(d.verdict, Verdict::kAdequate) << d.sentence;
+  EXPECT_TRUE(d.effects.empty());
+  EXPECT_EQ(d.after.rms_pa, d.before.rms_pa);
+  EXPECT_GT(d.declared.rms_pa, d.before.rms_pa);
+  EXPECT_NEAR(d.noise_pa, test::kBenchNoisePa, 0.1 * test::kBenchNoisePa);
+}
+
+TEST(Diagnose, ALeakIsNamedWithItsSizeAndHoldsOnTheRunNotSeen) {
+  const Diagnosis d = Of([](EffectRig& rig) { rig.leak = test::OrificeLeak{6e-12, 0.3}; }, 22);
+  ASSERT_EQ(d.verdict, Verdict::kExplained) << d.sentence;
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects[0].effect.spec->id, "leak");
+  ASSERT_TRUE(d.after.holdout_rms_pa && d.before.holdout_rms_pa);
+  EXPECT_LT(*d.after.holdout_rms_pa, 1.1 * test::kBenchNoisePa);
+  EXPECT_GT(*d.before.holdout_rms_pa, 1.5 * test::kBenchNoisePa);
+  EXPECT_EQ(d.series.size(), 4u);
+  EXPECT_EQ(d.unexplained_fraction, 0.0);
+}
+
+#ifndef PLENUM_SANITIZED
+TEST(Diagnose, InertiaIsNamedBesideABlockedRun) {
+  const Diagnosis d = Of([](EffectRig& rig) { rig.inertia = {12.0, 0.2}; }, 23);
+  ASSERT_EQ(d.verdict, Verdict::kExplained) << d.sentence;
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects[0].effect.spec->id, "inertia");
+  EXPECT_LE(d.effects[0].parameters[0].low, 12.0);
+  EXPECT_GE(d.effects[0].parameters[0].high, 12.0);
+}
+
+TEST(Diagnose, AKinkingTubeIsNoKnownEffect) {
+  const Diagnosis d =
+      Of([](EffectRig& rig) { rig.unlisted.kinking_line = test::KinkingLine{0.6}; }, 24);
+  EXPECT_EQ(d.verdict, Verdict::kUnexplained) << d.sentence;
+  EXPECT_GT(d.unexplained_fraction, 0.0);
+}
+#endif
+
+TEST(Diagnose, CancelledIsUndecided) {
+  DiagnoseOptions options;
+  std::atomic<int> asked = 0;
+  options.cancelled = [&] { return ++asked > 40; };
+  EXPECT_EQ(Diagnose(MeasuredBench({}, 25), options).verdict, Verdict::kUndecided);
+}
+
+}  // namespace
+}  // namespace plenum::calibration

@@ -1,0 +1,124 @@
+#include "calibration/fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/calibration/bench.h"
+
+namespace plenum::calibration {
+namespace {
+
+using test::EffectRig;
+using test::MeasuredBench;
+
+#ifdef PLENUM_SANITIZED
+constexpr int kSeeds = 3;
+#else
+constexpr int kSeeds = 40;
+#endif
+
+struct Bench {
+  explicit Bench(Dataset measured) : dataset(std::move(measured)), forward(dataset) {
+    observed = Observe(dataset);
+    data.forward = &forward;
+    data.observed = &observed;
+    data.runs = {0, 1, 2};
+    data.sizes = SizesOf(dataset);
+  }
+  Bench(const Bench&) = delete;
+  Dataset dataset;
+  ForwardModel forward;
+  std::vector<ObservedRun> observed;
+  FitData data;
+};
+
+ModelState StartOf(const Bench& bench, const char* id) {
+  ModelState state = bench.forward.Declared();
+  state.effects = {EffectStarts(*model::FindEffect(id), bench.data.sizes).front()};
+  return state;
+}
+
+TEST(Fit, FindsTheTrueEffectAndLeavesTheNoise) {
+  const Bench bench(MeasuredBench([](EffectRig& rig) { rig.leak = test::LaminarLeak{4e-12}; }, 3));
+  ModelState start = bench.forward.Declared();
+  start.effects = EffectStarts(*model::FindEffect("leak", "laminar"), bench.data.sizes);
+  const Fit fit = FitModel(bench.data, start, {});
+  ASSERT_EQ(fit.status, FitStatus::kConverged) << fit.detail;
+  EXPECT_NEAR(fit.chi2_data / static_cast<double>(fit.rows), 1.0, 0.15);
+  EXPECT_NEAR(fit.state.effects[0].parameters[0], 4e-12, 2e-13);
+}
+
+// What the bench does not have goes to its bound at zero, or as near as noise lets it.
+TEST(Fit, AnAbsentEffectVanishes) {
+  const Bench bench(MeasuredBench({}, 4));
+  const Fit fit = FitModel(bench.data, StartOf(bench, "valve_delay"), {});
+  ASSERT_EQ(fit.status, FitStatus::kConverged) << fit.detail;
+  EXPECT_LT(fit.state.effects[0].parameters[0], 1e-3);
+  EXPECT_GE(fit.state.effects[0].parameters[0], 0.0);
+}
+
+// Intervals of 95 % hold the truth about as often: of 3·40 between 88 and 100 % (binomial, 1e-3).
+TEST(Fit, IntervalsHoldTheTruth) {
+  int held = 0, asked = 0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const double volume = 1.0 + 0.02 * test::WhiteNoise(500 + seed, 1, 1.0)[0];
+    const double conductance = 1.0 + 0.03 * test::WhiteNoise(700 + seed, 1, 1.0)[0];
+    const Bench bench(MeasuredBench(
+        [&](EffectRig& rig) {
+          rig.rest_volume_m3 *= volume;
+          rig.fill[0].conductance *= conductance, rig.exhaust[0].conductance *= conductance;
+          rig.valve_delay_s = 0.03;
+        },
+        seed));
+    const Fit fit = FitModel(bench.data, StartOf(bench, "valve_delay"), {});
+    ASSERT_EQ(fit.status, FitStatus::kConverged) << fit.detail;
+    const std::vector<Estimate> estimates = Intervals(bench.data, fit, {});
+    for (std::size_t j = 0; j < estimates.size(); ++j) {
+      const Parameter& parameter = fit.coordinates[j].parameter;
+      const double truth = parameter.kind == Parameter::Kind::kEffect    ? 0.03
+                           : parameter.declared == Declared::kRestVolume ? volume
+                                                                         : conductance;
+      held += truth >= estimates[j].low && truth <= estimates[j].high;
+      ++asked;
+    }
+  }
+  EXPECT_EQ(asked, 3 * kSeeds);
+  EXPECT_GE(held, static_cast<int>(0.88 * asked));
+  if (kSeeds >= 40) {
+    EXPECT_LT(held, asked);
+  }
+}
+
+// Volume and conductance of one chamber cannot be told apart: unknown both, neither is fixed.
+TEST(Fit, AnAliasIsNotIdentified) {
+  Dataset dataset = MeasuredBench({}, 5);
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kRestVolume)] = kUnknown;
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kSonicConductance)] = kUnknown;
+  const Bench bench(std::move(dataset));
+  const Fit fit = FitModel(bench.data, bench.forward.Declared(), {});
+  ASSERT_TRUE(fit.Usable()) << fit.detail;
+  for (const Estimate& estimate : Intervals(bench.data, fit, {})) EXPECT_FALSE(estimate.identified);
+}
+
+TEST(Fit, ClocksThatAreOffAreFound) {
+  Dataset dataset = MeasuredBench({}, 6);
+  const double late_s[] = {4e-3, -3e-3, 2e-3};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (double& t_s : dataset.runs[i].t_s) t_s += late_s[i];
+  Bench bench(std::move(dataset));
+  bench.data.clocks = true;
+  const Fit fit = FitModel(bench.data, bench.forward.Declared(), {});
+  ASSERT_EQ(fit.status, FitStatus::kConverged) << fit.detail;
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(fit.state.clock_s[i], late_s[i], 1e-3) << i;
+}
+
+TEST(Fit, CancelledSaysSo) {
+  const Bench bench(MeasuredBench({}, 7));
+  FitOptions options;
+  options.cancelled = [] { return true; };
+  EXPECT_EQ(FitModel(bench.data, bench.forward.Declared(), options).status, FitStatus::kCancelled);
+}
+
+}  // namespace
+}  // namespace plenum::calibration

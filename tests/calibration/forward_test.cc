@@ -1,0 +1,120 @@
+#include "calibration/forward.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/tube.h"
+#include "tests/calibration/bench.h"
+
+namespace plenum::calibration {
+namespace {
+
+using test::EffectRig;
+using test::MeasuredBench;
+
+PredictOptions Tight() { return {.relative_tolerance = 1e-10}; }
+
+ModelState With(const ForwardModel& forward, const char* id, std::vector<double> parameters) {
+  ModelState state = forward.Declared();
+  state.effects = {{model::FindEffect(id), std::move(parameters)}};
+  return state;
+}
+
+TEST(Forward, DeclaredModelReadsWhatAnIndependentSimulatorReads) {
+  const Dataset dataset = MeasuredBench({}, 1, 0.0);
+  const ForwardModel forward(dataset);
+  for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
+    const Prediction p = forward.Predict(i, forward.Declared(), {}, Tight());
+    ASSERT_EQ(p.status, model::SimulateStatus::kDone) << p.detail;
+    for (std::size_t k = 0; k < p.reading.pressure_pa.size(); ++k)
+      ASSERT_NEAR(p.reading.pressure_pa[k], dataset.runs[i].pressure_pa[k], 2.0) << i << " " << k;
+  }
+}
+
+TEST(Forward, EffectsAndFactorsReadAsOnABenchThatHasThem) {
+  const Dataset dataset = MeasuredBench(
+      [](EffectRig& rig) {
+        rig.rest_volume_m3 *= 1.03;
+        rig.fill[0].conductance *= 0.9, rig.exhaust[0].conductance *= 0.9;
+        rig.creep = {0.1, 0.6};
+        rig.sensor_offset_pa = 700.0;
+      },
+      1, 0.0);
+  const ForwardModel forward(dataset);
+  ModelState state = With(forward, "creep", {0.1, 0.6});
+  state.effects.push_back({model::FindEffect("sensor_offset"), {700.0}});
+  state.factor[static_cast<std::size_t>(Declared::kRestVolume)] = 1.03;
+  state.factor[static_cast<std::size_t>(Declared::kSonicConductance)] = 0.9;
+  for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
+    const Prediction p = forward.Predict(i, state, {}, Tight());
+    ASSERT_EQ(p.status, model::SimulateStatus::kDone) << p.detail;
+    for (std::size_t k = 0; k < p.reading.pressure_pa.size(); ++k)
+      ASSERT_NEAR(p.reading.pressure_pa[k], dataset.runs[i].pressure_pa[k], 3.0) << i << " " << k;
+  }
+}
+
+// Every kind of parameter against central differences.
+TEST(Forward, DerivativesAgreeWithDifferences) {
+  Dataset dataset = MeasuredBench({}, 1, 0.0);
+  for (auto& run : dataset.runs) run.line.push_back({{}, {}, LinePiece::Tube{2e-3, 0.8}});
+  const ForwardModel forward(dataset);
+  const ModelState state = With(forward, "supply_droop", {4e-4, 2e-10, 0.3});
+  std::vector<Parameter> parameters;
+  for (const Declared number :
+       {Declared::kRestVolume, Declared::kExpansionRatio, Declared::kOperatingPressure,
+        Declared::kSourcePressure, Declared::kSonicConductance, Declared::kCriticalRatio,
+        Declared::kTubeInnerDiameter})
+    parameters.push_back({.kind = Parameter::Kind::kDeclared, .declared = number});
+  for (const std::size_t number : {0, 1, 2})
+    parameters.push_back({.kind = Parameter::Kind::kEffect, .number = number});
+  parameters.push_back({.kind = Parameter::Kind::kInitialPressure, .run = 1});
+  parameters.push_back({.kind = Parameter::Kind::kClock, .run = 1});
+  const Prediction p = forward.Predict(1, state, parameters, Tight());
+  ASSERT_EQ(p.status, model::SimulateStatus::kDone) << p.detail;
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const bool clock = parameters[j].kind == Parameter::Kind::kClock;
+    const double step = clock ? 1e-5 : 1e-4 * NumberOf(state, parameters[j]);
+    ModelState above = state, below = state;
+    NumberOf(above, parameters[j]) += step;
+    NumberOf(below, parameters[j]) -= step;
+    const auto up = forward.Predict(1, above, {}, Tight()).reading.pressure_pa;
+    const auto down = forward.Predict(1, below, {}, Tight()).reading.pressure_pa;
+    double largest = 0.0, off = 0.0;
+    for (std::size_t k = 0; k < up.size(); ++k) {
+      // Samples at the instant of a command see one side of it.
+      if (std::abs(std::remainder(dataset.runs[1].t_s[k] - 0.2, 0.9)) < 1e-3) continue;
+      const double slope = (up[k] - down[k]) / (2.0 * step);
+      largest = std::max(largest, std::abs(slope));
+      off = std::max(off, std::abs(slope - p.derivatives[j].pressure_pa[k]));
+    }
+    EXPECT_GT(largest, 0.0) << j;
+    EXPECT_LT(off, 2e-3 * largest) << "parameter " << j;
+  }
+}
+
+TEST(Forward, AMeasuredSourceOfOneLevelIsARegulatedOne) {
+  Dataset dataset = MeasuredBench({}, 1, 0.0);
+  for (auto& run : dataset.runs) {
+    run.supply = Supply::kMeasured;
+    run.channels.source_pressure_pa.assign(run.t_s.size(), run.source_pressure_pa);
+  }
+  const ForwardModel forward(dataset);
+  const Prediction p = forward.Predict(0, forward.Declared(), {}, Tight());
+  ASSERT_EQ(p.status, model::SimulateStatus::kDone) << p.detail;
+  for (std::size_t k = 0; k < p.reading.pressure_pa.size(); ++k)
+    ASSERT_NEAR(p.reading.pressure_pa[k], dataset.runs[0].pressure_pa[k], 2.0) << k;
+}
+
+TEST(Forward, TemperatureIsTheAmbientsWithoutHeatTransfer) {
+  const Dataset dataset = MeasuredBench({}, 1, 0.0);
+  const ForwardModel forward(dataset);
+  const Prediction base = forward.Predict(0, forward.Declared(), {}, Tight());
+  EXPECT_EQ(base.reading.channels.temperature_k.at(20), dataset.runs[0].ambient.temperature_k);
+  const Prediction warm = forward.Predict(0, With(forward, "heat_transfer", {0.5}), {}, Tight());
+  EXPECT_GT(warm.reading.channels.temperature_k.at(20),
+            dataset.runs[0].ambient.temperature_k + 1.0);
+}
+
+}  // namespace
+}  // namespace plenum::calibration
