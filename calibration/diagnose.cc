@@ -212,7 +212,11 @@ class Diagnosing {
     }
     if (diagnosis_.verdict == Verdict::kUnexplained) {
       Progress(0.95, "what is left unexplained");
-      diagnosis_.discrepancy = LearnDiscrepancy(data_, chosen.fit, held_out_, tight_).discrepancy;
+      const bool established = diagnosis_.unexplained_fraction <= kEstablished;
+      if (!established) diagnosis_.effects.clear();
+      diagnosis_.discrepancy =
+          LearnDiscrepancy(data_, established ? chosen.fit : base_->fit, held_out_, tight_)
+              .discrepancy;
     }
     Progress(0.99, "report");
     AddSeries(chosen.fit.state);

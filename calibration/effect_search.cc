@@ -85,13 +85,15 @@ class Search {
     for (int size = 1; size <= kEffectsMax && !Cancelled(); ++size) {
       if (size > 1) {
         if (enough_(Of(chosen).fit)) break;
+        if (size > 2 && LeftShare(Of(chosen)) > kEstablished) break;
         ExtendSets(Seeds(size - 1), size);
       }
       const Contender* best = BestOfSize(size);
       if (!best || !(best->fit.bic < Of(chosen).fit.bic - kAccept)) break;
       chosen = IndexOf(*best);
     }
-    if (Of(chosen).effects.size() > SizeOf(1) && !Cancelled()) {
+    if (Of(chosen).effects.size() > SizeOf(1) && LeftShare(Of(chosen)) < kEstablished &&
+        !Cancelled()) {
       const int size = static_cast<int>(Of(chosen).effects.size() - options_.given.size());
       Exchange(Of(chosen).effects);
       chosen = Best(size);
@@ -111,6 +113,13 @@ class Search {
   const Contender& Base() const { return result_.contenders.front(); }
   std::size_t IndexOf(const Contender& contender) const {
     return static_cast<std::size_t>(&contender - result_.contenders.data());
+  }
+  // Variance above the noise over that of the base model.
+  double LeftShare(const Contender& contender) const {
+    const auto above = [](const Fit& fit) {
+      return std::max(0.0, fit.chi2_data / static_cast<double>(fit.rows) - 1.0);
+    };
+    return above(contender.fit) / std::max(above(Base().fit), 1e-300);
   }
   bool Cancelled() const { return options_.cancelled && options_.cancelled(); }
 

@@ -26,6 +26,10 @@ inline constexpr double kHoldout = 1.3;
 inline constexpr double kLeftOver = 0.02;
 inline constexpr double kNegligible = 0.25;
 
+// Effects that leave more than this share of the base model's variance above the noise are not
+// established, and no third effect is sought beside a pair that does.
+inline constexpr double kEstablished = 0.2;
+
 inline constexpr int kEffectsMax = 3;
 inline constexpr int kSeeds = 3;  // best single effects that pairs are built on
 
