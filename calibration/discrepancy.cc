@@ -130,6 +130,17 @@ double SquaresOf(const FitData& data, const ModelState& state, const std::vector
   return sum;
 }
 
+// The state with the run's own initial pressure and clock, where they are unknown: nothing learned
+// from other runs can tell them.
+ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run,
+                   FitOptions options) {
+  FitData alone = data;
+  alone.runs = {run};
+  options.nuisance_only = true;
+  const Fit aligned = FitModel(alone, state, options);
+  return aligned.Usable() ? aligned.state : state;
+}
+
 // Each of at most kFolds runs left out in turn; `fit_on` fits the others.
 template <class FitOn>
 double LeftOut(const FitData& data, const FitOn& fit_on, const FitOptions& options) {
@@ -146,7 +157,7 @@ double LeftOut(const FitData& data, const FitOn& fit_on, const FitOptions& optio
     const ModelState declared = data.forward->Declared();
     state.initial_pressure_pa[left_out] = declared.initial_pressure_pa[left_out];
     state.clock_s[left_out] = declared.clock_s[left_out];
-    sum += SquaresOf(data, state, {left_out}, options);
+    sum += SquaresOf(data, Aligned(data, state, left_out, options), {left_out}, options);
   }
   return sum;
 }
@@ -219,6 +230,13 @@ double PressureRms(const FitData& data, const ModelState& state,
   return std::sqrt(squares / static_cast<double>(count));
 }
 
+double UnseenRms(const FitData& data, const ModelState& state, const std::vector<std::size_t>& runs,
+                 const FitOptions& options) {
+  ModelState aligned = state;
+  for (const std::size_t run : runs) aligned = Aligned(data, aligned, run, options);
+  return PressureRms(data, aligned, runs, options);
+}
+
 LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
                               const std::vector<std::size_t>& holdout, const FitOptions& options) {
   LearnedModel learned{{}, established};
@@ -227,7 +245,7 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
   discrepancy.rms_before_pa = PressureRms(data, established.state, data.runs, options);
   discrepancy.rms_after_pa = discrepancy.rms_before_pa;
   if (!holdout.empty()) {
-    discrepancy.holdout_before_pa = PressureRms(data, established.state, holdout, options);
+    discrepancy.holdout_before_pa = UnseenRms(data, established.state, holdout, options);
     discrepancy.holdout_after_pa = discrepancy.holdout_before_pa;
   }
   FitOptions quick = options;
@@ -249,7 +267,7 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
   discrepancy.learned = LearnedOf(data, best->fit, options);
   discrepancy.rms_after_pa = PressureRms(data, best->fit.state, data.runs, options);
   if (!holdout.empty()) {
-    discrepancy.holdout_after_pa = PressureRms(data, best->fit.state, holdout, options);
+    discrepancy.holdout_after_pa = UnseenRms(data, best->fit.state, holdout, options);
   }
   return learned;
 }

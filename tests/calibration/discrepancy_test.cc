@@ -60,11 +60,14 @@ TEST(Discrepancy, ASeamThatGapesIsLearnedAsALeakThatOpens) {
     EXPECT_FALSE(place.where.empty()) << place.axis;
   }
   // The term is part of the model: predicting with it gives the error that is reported.
-  EXPECT_NEAR(PressureRms(learning.data, learned.fit.state, learning.holdout, learning.options),
+  EXPECT_NEAR(UnseenRms(learning.data, learned.fit.state, learning.holdout, learning.options),
               *d.holdout_after_pa, 1e-9);
 }
 
 TEST(Discrepancy, ASnapOfTheWallIsLearnedInTheVolumeLaw) {
+#ifdef PLENUM_SANITIZED
+  GTEST_SKIP() << "takes minutes; the test above goes the same way";
+#endif
   const LearnedModel learned = Of("snap_through").Learn();
   ASSERT_TRUE(learned.discrepancy.learned);
   EXPECT_EQ(learned.discrepancy.learned->effect.spec->id, "learned_volume");
