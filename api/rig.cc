@@ -87,9 +87,25 @@ model::ReservoirSource ReadCompressor(Reader& source, const model::Ambient& ambi
   reservoir.compressor = ReadPumpCurve(source, ambient);
   reservoir.duty = source.Number("duty", {0, 1}, 1.0);
   reservoir.volume_m3 = M3FromMl(source.Number("reservoir_volume_ml", {1, 1e6}));
+  reservoir.compressor_count = source.Integer("count", 1, kCountMax, 1);
   reservoir.initial_pressure_pa =
       PaFromKpaGauge(source.Number("initial_pressure_kpa_gauge", {0, kGaugeMaxKpa}, 0.0), ambient);
+  if (const auto stop = source.OptionalNumber("stop_pressure_kpa_gauge", {0, kGaugeMaxKpa}))
+    reservoir.stop_pressure_pa = PaFromKpaGauge(*stop, ambient);
   return reservoir;
+}
+
+model::RegulatedSource ReadRegulated(Reader& source, const model::Ambient& ambient) {
+  model::RegulatedSource regulated;
+  regulated.pressure_pa =
+      PaFromKpaGauge(source.Number("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}), ambient);
+  if (auto regulator = source.OptionalObject("regulator")) {
+    regulated.regulator = ReadPair(*regulator);
+    regulator->Finish();
+  }
+  if (const auto flow = source.OptionalNumber("flow_l_per_min_anr_max", Above(0, 1e6)))
+    regulated.flow_max_m3_per_s = M3PerSFromLPerMin(*flow);
+  return regulated;
 }
 
 model::ValveState ReadState(Reader& command) {
@@ -127,11 +143,7 @@ model::Source ReadSource(Reader& request, const model::Ambient& ambient) {
   Reader source = request.Object("source");
   const std::string kind = source.Choice("kind", {"regulated", "compressor", "none"});
   model::Source result = model::NoSource{};
-  if (kind == "regulated")
-    result = model::RegulatedSource{
-        .pressure_pa =
-            PaFromKpaGauge(source.Number("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}), ambient),
-        .regulator = {}};
+  if (kind == "regulated") result = ReadRegulated(source, ambient);
   if (kind == "compressor") result = ReadCompressor(source, ambient);
   if (!kind.empty()) source.Finish();
   return result;

@@ -53,6 +53,9 @@ Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>
 Parsed<Json> RunMap(const Json& request);
 
 // ── parts ──
+// { "families": [{ "name", "numbers": [{ "name", "min", "max", "required", "meaning" }], "texts":
+// [{ "name", "allowed": texts, none for any, "required", "meaning" }], "has_curve" }] }.
+Json RenderFamilies();
 Json RenderPart(const catalog::Part& part);
 // `request` is what RenderPart gives, or a part of a user's own; what the server sets (origin) is
 // accepted and ignored.

@@ -61,6 +61,7 @@ model::GroupRig ReadGroup(const Element& element, std::size_t index, const Simul
   else
     group.schedule = (own ? own : shared)->commands;
   group.blocked = reader.Bool("blocked", false);
+  group.close_at_operating = reader.Bool("close_at_operating_pressure", false);
   group.effects = ReadEffects(reader, shared_effects);
   group.effects.insert(group.effects.end(), shared_effects.begin(), shared_effects.end());
   duration_s = std::max(duration_s, own ? own->duration_s.value_or(0.0) : 0.0);

@@ -174,22 +174,57 @@ Json Refused(const std::string& check, const std::string& detail) {
   return {{"check", check}, {"ok", false}, {"detail", detail}};
 }
 
+Json RenderCounts(const optimizer::BruteForceCounts& counts) {
+  return {{"cancelled", counts.cancelled},
+          {"combinations", counts.combinations.str()},
+          {"incompatible", counts.incompatible.str()},
+          {"unpriced", counts.unpriced.str()},
+          {"beyond_the_list", counts.beyond.str()},
+          {"infeasible", counts.infeasible.str()},
+          {"feasible", counts.feasible.str()},
+          {"undecided", counts.undecided.str()}};
+}
+
+// Adds checks, what they left open and counts to the document.
+void AddVerification(const Problem& problem, const optimizer::Answer& answer,
+                     const std::optional<BruteForce>& brute_force, Json& document) {
+  optimizer::BruteForceOptions options;
+  if (brute_force) {
+    const double all = optimizer::CombinationsOf(problem).convert_to<double>();
+    options.cancelled = brute_force->cancelled;
+    if (brute_force->progress)
+      options.progress = [&brute_force, all](const BigCount& looked) {
+        brute_force->progress(looked.convert_to<double>() / all);
+      };
+  }
+  const optimizer::Verification verification =
+      optimizer::Verify(problem, answer, brute_force ? &options : nullptr);
+  for (const optimizer::Check& check : verification.checks)
+    document["checks"].push_back(
+        {{"check", check.name}, {"ok", check.ok}, {"detail", check.detail}});
+  for (const optimizer::NotRechecked& open : verification.not_rechecked)
+    document["not_rechecked"].push_back(
+        {{"what", open.what}, {"combinations", open.combinations.str()}});
+  if (verification.brute_force) document["brute_force"] = RenderCounts(*verification.brute_force);
+}
+
 }  // namespace
 
 Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& parts,
-                          const catalog::Revision& revision) {
+                          const catalog::Revision& revision,
+                          const std::optional<BruteForce>& brute_force) {
   Errors errors;
   Reader reader(result, "", errors);
   reader.Schema("designs/1");
   Json document = {{"schema", "verification/1"}, {"accepted", false}};
-  Json checks = Json::array({CheckCatalogue(reader, revision)});
+  document["checks"] = Json::array({CheckCatalogue(reader, revision)});
+  document["not_rechecked"] = Json::array();
   const Json* request = reader.Raw("requirements");
   if (request == nullptr) reader.Fail("requirements", "is required, the request as it was given");
   for (const char* other : {"front", "robust"})
     if (reader.Has(other)) reader.Fail(other, "only a list by one objective can be verified");
   if (!errors.empty()) return errors;
-  Json not_rechecked = Json::array();
-  if (checks[0]["ok"].get<bool>()) {
+  if (document["checks"][0]["ok"].get<bool>()) {
     if (request->is_object() && request->value("model", Json("nominal")) != "nominal")
       return Errors{{"/requirements/model", "only answers of the nominal model can be verified"}};
     auto parsed = ParseRequirements(*request, parts);
@@ -198,23 +233,22 @@ Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& 
       return *wrong;
     }
     const Problem& problem = std::get<DesignRequest>(parsed).problem;
+    const BigCount combinations = optimizer::CombinationsOf(problem);
+    if (brute_force && combinations > brute_force->combinations_max)
+      return Errors{{"/proof/combinations", "brute force would look at " + combinations.str() +
+                                                " combinations, the limit is " +
+                                                std::to_string(brute_force->combinations_max) +
+                                                " (--combinations-max raises it)"}};
     const optimizer::Answer answer = ReadAnswer(reader, problem);
-    if (errors.empty()) {
-      const optimizer::Verification verification = optimizer::Verify(problem, answer);
-      for (const optimizer::Check& check : verification.checks)
-        checks.push_back({{"check", check.name}, {"ok", check.ok}, {"detail", check.detail}});
-      for (const optimizer::NotRechecked& open : verification.not_rechecked)
-        not_rechecked.push_back({{"what", open.what}, {"combinations", open.combinations.str()}});
-    } else {
+    if (errors.empty())
+      AddVerification(problem, answer, brute_force, document);
+    else
       for (const Error& error : errors)
-        checks.push_back(Refused("form", error.pointer + ": " + error.detail));
-    }
+        document["checks"].push_back(Refused("form", error.pointer + ": " + error.detail));
   }
-  bool accepted = true;
-  for (const Json& check : checks) accepted = accepted && check["ok"].get<bool>();
+  bool accepted = !document.value("/brute_force/cancelled"_json_pointer, false);
+  for (const Json& check : document["checks"]) accepted = accepted && check["ok"].get<bool>();
   document["accepted"] = accepted;
-  document["checks"] = std::move(checks);
-  document["not_rechecked"] = std::move(not_rechecked);
   return document;
 }
 

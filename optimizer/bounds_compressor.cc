@@ -122,8 +122,11 @@ void Bounds::DivideVolumes(Box& box) {
     box.volumes.erase(lowest);
     const double middle_m3 = std::sqrt(volume.need.low_m3 * volume.need.high_m3);
     const auto look = [&](double low_m3, double high_m3) {
+      ReservoirNeed known = volume.need;
+      known.low_m3 = low_m3;
+      known.high_m3 = high_m3;
       const std::optional<ReservoirNeed> need =
-          LeastReservoirNeed(problem_, pump, load, limits, box.window, low_m3, high_m3, tolerance);
+          LeastReservoirNeed(problem_, pump, load, limits, box.window, known, tolerance);
       if (!need) return;
       const double objective =
           custom ? ObjectiveOf(problem_.objective, CustomReservoir(problem_, low_m3))

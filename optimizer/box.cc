@@ -37,12 +37,12 @@ bool Bounds::CoreIsSingle(const Box& box) const {
 }
 
 int Bounds::WidestSlot(const Box& box) const {
-  // What a pump adds to battery and reservoir is not in its own share.
-  constexpr double kPumpWeight = 10.0;
+  // What a pump or a reservoir adds to the others of its source is not in its own share.
+  constexpr double kSourceWeight = 10.0;
   const auto spread = [&](int s) {
     const BoxNode& node = Node(box, s);
     return (node.objective_high - node.objective_low) *
-           (s == plan_.compressor_slot || s == plan_.regulator_slot ? kPumpWeight : 1.0);
+           (DecidesSource(s) && plan_.slots[s].group < 0 ? kSourceWeight : 1.0);
   };
   const auto wider = [&](int a, int b) {
     return spread(a) != spread(b) ? spread(a) > spread(b)
@@ -79,7 +79,7 @@ Constraint Bounds::RemakeLine(Box& box, int group) {
         MakeLine(problem_, group, gas_,
                  {CornerAt(trees.tubes, box, first), CornerAt(trees.fittings, box, first + 1),
                   CornerAt(trees.valves, box, first + 2)},
-                 exact, line);
+                 exact, exact || plan_.configuration == Configuration::kCompressor, line);
     if (exact) {
       line.tubing = OptionOf(box, first).index;
       line.fitting = OptionOf(box, first + 1).index;

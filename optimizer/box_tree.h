@@ -50,7 +50,6 @@ class Builder {
 
   BoxTree<Corner> Build() {
     if (items_.empty()) return {};
-    scale_ = Spread(0, static_cast<int>(order_.size()));
     Grow(0, static_cast<int>(order_.size()));
     for (int i : order_) tree_.options.push_back(items_[i].option);
     return std::move(tree_);
@@ -94,8 +93,8 @@ class Builder {
     std::size_t widest = 0;
     double width = -1.0;
     for (std::size_t k = 0; k < spread.size(); ++k)
-      if (const double w = scale_[k] > 0.0 ? spread[k] / scale_[k] : 0.0; w > width) {
-        width = w;
+      if (spread[k] > width) {
+        width = spread[k];
         widest = k;
       }
     const int middle = first + (last - first) / 2;
@@ -134,7 +133,6 @@ class Builder {
   const std::vector<Item<Corner>>& items_;
   std::vector<int> order_;
   std::vector<Keys> keys_;
-  Keys scale_{};
   BoxTree<Corner> tree_;
 };
 

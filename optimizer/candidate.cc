@@ -204,6 +204,7 @@ Evaluation Evaluate(const Problem& problem, const Candidate& candidate, const Op
   const Strokes strokes = EvaluateStrokes(problem, candidate, point);
   if (!strokes.works) return evaluation;
   evaluation.works = true;
+  evaluation.from_full = strokes.from_full;
 
   const bool revised = HasEffects(problem);
   evaluation.air_per_cycle_m3 = revised ? strokes.air_m3 : 0.0;

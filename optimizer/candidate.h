@@ -57,6 +57,7 @@ struct Evaluation {
   double battery_current_a = 0.0;
   double compressor_duty = 0.0;
   double frequency_sustained_hz = 0.0;
+  bool from_full = false;  // no two groups meet, and each finds the reservoir full
 };
 
 struct EvaluateOptions {

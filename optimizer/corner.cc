@@ -102,46 +102,47 @@ void Widen(ReservoirCorner& a, const ReservoirCorner& b) {
 }
 
 std::array<double, 3> SplitKeys(const TubeCorner& c) {
-  return {Log(c.objective), Log(c.inner_high_m), Log(c.pressure_max_pa)};
+  return {Log(c.objective), 2.5 * Log(c.inner_high_m), 0.5 * Log(c.pressure_max_pa)};
 }
 
 std::array<double, 4> SplitKeys(const FittingCorner& c) {
   return {Log(c.objective), Log(c.flow.sonic_conductance_m3_per_s_pa), c.flow.critical_ratio,
-          Log(c.pressure_max_pa)};
+          0.5 * Log(c.pressure_max_pa)};
 }
 
 std::array<double, 7> SplitKeys(const ValveCorner& c) {
   return {Log(c.objective),
           Log(c.fill.sonic_conductance_m3_per_s_pa),
           c.fill.critical_ratio,
-          Log(c.exhaust.sonic_conductance_m3_per_s_pa),
-          Log(c.coil_power_w + 1e-3),
-          Log(c.pressure_max_pa),
-          Log(c.pressure_min_pa + 1e5)};
+          0.5 * Log(c.exhaust.sonic_conductance_m3_per_s_pa),
+          0.2 * Log(c.coil_power_w + 1e-3),
+          0.5 * Log(c.pressure_max_pa),
+          0.5 * Log(c.pressure_min_pa)};
 }
 
 std::array<double, 6> SplitKeys(const RegulatorCorner& c) {
-  return {Log(c.objective),     Log(c.flow.sonic_conductance_m3_per_s_pa),
-          Log(c.inlet_min_pa),  Log(c.inlet_max_pa),
-          Log(c.outlet_max_pa), Log(c.electrical_power_w + 1e-2)};
+  return {Log(c.objective),           Log(c.flow.sonic_conductance_m3_per_s_pa),
+          0.5 * Log(c.inlet_min_pa),  0.5 * Log(c.inlet_max_pa),
+          0.5 * Log(c.outlet_max_pa), 0.2 * Log(c.electrical_power_w + 1e-2)};
 }
 
 std::array<double, 4> SplitKeys(const BottleCorner& c) {
-  return {Log(c.objective), Log(c.gas_to_low_m3), Log(c.fill_pressure_pa),
-          Log(c.flow_sustained_m3_per_s)};
+  return {Log(c.objective), Log(c.gas_to_low_m3), 0.5 * Log(c.fill_pressure_pa),
+          0.5 * Log(c.flow_sustained_m3_per_s)};
 }
 
 std::array<double, 5> SplitKeys(const CompressorCorner& c) {
   return {Log(c.objective), Log(1.0 / c.pump.seconds_per_m3[kCoarseCells / 4]),
-          Log(c.pump.energy_j_per_m3[kCoarseCells / 4]), c.duty_max, Log(c.pressure_max_pa)};
+          0.5 * Log(c.pump.energy_j_per_m3[kCoarseCells / 4]), Log(c.duty_max),
+          0.5 * Log(c.pressure_max_pa)};
 }
 
 std::array<double, 3> SplitKeys(const BatteryCorner& c) {
-  return {Log(c.objective), Log(c.energy_j), Log(c.current_max_a)};
+  return {Log(c.objective), Log(c.energy_j), 0.3 * Log(c.current_max_a)};
 }
 
 std::array<double, 3> SplitKeys(const ReservoirCorner& c) {
-  return {Log(c.objective), Log(c.low_m3), Log(c.pressure_max_pa)};
+  return {Log(c.objective), Log(c.low_m3), 0.3 * Log(c.pressure_max_pa)};
 }
 
 }  // namespace plenum::optimizer

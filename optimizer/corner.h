@@ -100,7 +100,9 @@ void Widen(CompressorCorner& a, const CompressorCorner& b);
 void Widen(BatteryCorner& a, const BatteryCorner& b);
 void Widen(ReservoirCorner& a, const ReservoirCorner& b);
 
-// Attributes by which trees divide boxes, the objective first; any numbers would be right.
+// Attributes by which trees divide boxes, the objective first, each as a logarithm times its rough
+// effect on a design's objective: trees divide where choices differ most in what matters. Any
+// numbers would be right.
 std::array<double, 3> SplitKeys(const TubeCorner& c);
 std::array<double, 4> SplitKeys(const FittingCorner& c);
 std::array<double, 7> SplitKeys(const ValveCorner& c);

@@ -49,6 +49,16 @@ void TakeHighest(const model::Response& response, double from_s, Strokes& stroke
         strokes.highest_pa[g] = std::max(strokes.highest_pa[g], response.groups[g].pressure_pa[i]);
 }
 
+// The commands of one period, `cycles` times.
+void Repeat(model::Rig& rig, double period_s, int cycles) {
+  for (model::GroupRig& group : rig.groups) {
+    const std::vector<model::ValveCommand> once = group.schedule;
+    for (int cycle = 1; cycle < cycles; ++cycle)
+      for (const model::ValveCommand& command : once)
+        group.schedule.push_back({command.time_s + cycle * period_s, command.state});
+  }
+}
+
 bool AllFinite(const std::vector<double>& times) {
   return std::all_of(times.begin(), times.end(), [](double s) { return std::isfinite(s); });
 }
@@ -73,7 +83,7 @@ Strokes SimulateWithEffects(const Problem& problem, const Candidate& candidate,
                             const OperatingPoint& point) {
   const std::size_t groups = problem.groups.size();
   const double period_s = 1.0 / problem.frequency_hz;
-  const std::vector<double> rest(groups, problem.ambient.pressure_pa);
+  model::Rig rig = MakeRig(problem, candidate, point);
   model::SimulateOptions options;
   options.rise_fraction = problem.rise_fraction;
   options.fall_fraction = problem.fall_fraction;
@@ -82,8 +92,7 @@ Strokes SimulateWithEffects(const Problem& problem, const Candidate& candidate,
 
   Strokes strokes = NoStrokes(groups);
   const model::PeriodicState periodic = model::FindPeriodicState(
-      MakeRig(problem, candidate, point, point.source_pa, rest, 1), period_s, options,
-      {.tolerance = kPeriodicTolerance, .cycles_max = kSearchedCycles});
+      rig, period_s, options, {.tolerance = kPeriodicTolerance, .cycles_max = kSearchedCycles});
   if (periodic.status == model::PeriodicStatus::kConverged) {
     TakeWorst(periodic.response, 0.0, period_s, strokes);
     TakeHighest(periodic.response, 0.0, strokes);
@@ -92,8 +101,8 @@ Strokes SimulateWithEffects(const Problem& problem, const Candidate& candidate,
     strokes.air_m3 = periodic.air_drawn_m3;
   } else {
     options.end_s = (kPlainCycles + 1) * period_s;  // one more, so that the last strokes can end
-    const model::Response response = model::Simulate(
-        MakeRig(problem, candidate, point, point.source_pa, rest, kPlainCycles + 1), options);
+    Repeat(rig, period_s, kPlainCycles + 1);
+    const model::Response response = model::Simulate(rig, options);
     if (response.status != model::SimulateStatus::kDone) return strokes;
     const double cycles = kPlainCycles + 1.0;
     TakeWorst(response, 0.5 * kPlainCycles * period_s, kPlainCycles * period_s, strokes);

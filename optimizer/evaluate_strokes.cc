@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/periodic.h"
 #include "model/reservoir_stroke.h"
 #include "model/stroke.h"
 #include "optimizer/effect_strokes.h"
-#include "optimizer/pump_bounds.h"
-#include "optimizer/pump_march.h"
 
 namespace plenum::optimizer {
 namespace {
 
-// The reservoir repeats from cycle to cycle when its pressure agrees to this.
 constexpr double kPeriodicTolerance = 1e-7;
-constexpr int kCyclesMax = 300;
 // Closer to equal pressures than the simulator's default, so that a source at the operating
 // pressure fills up to it, as the closed forms say.
 constexpr double kLinearRatio = 1.0 - 1e-5;
@@ -71,28 +68,6 @@ double RiseLimit(const Problem& problem, int g) {
   return std::min(problem.groups[g].rise_time_max_s, HalfPeriod(problem));
 }
 
-// Rise time out of a closed reservoir that holds from the start all that the pumps could add within
-// the limit, `delivery_m3_per_s(pressure)` at most: no more than the real one if that is within the
-// limit, since the real reservoir is then at every instant no fuller.
-template <typename Delivery>
-double RiseWithHeadStart(const Problem& problem, int g, const Line& line,
-                         const OperatingPoint& point, Delivery&& delivery_m3_per_s) {
-  const int count = problem.groups[g].count;
-  const double ambient_pa = problem.ambient.pressure_pa;
-  const double target_pa = RiseTarget(problem, problem.groups[g]);
-  const double temperature_k = problem.ambient.temperature_k;
-  const double content_per_volume =
-      model::kReferencePressurePa * temperature_k / model::kReferenceTemperatureK;
-  const double pumped_m3 = MostPumped(
-      problem, point.source_pa, point.reservoir_rising_m3,
-      [&](double p) { return MostDrawn(problem, g, line, p, target_pa); }, delivery_m3_per_s,
-      RiseLimit(problem, g));
-  const double head_start_pa = content_per_volume * pumped_m3 / point.reservoir_rising_m3;
-  return model::FillTimeFromReservoir(line.fill_series, line.chamber, count, point.reservoir_m3,
-                                      point.source_pa + head_start_pa, ambient_pa, target_pa,
-                                      temperature_k);
-}
-
 enum class Alone { kYes, kNo, kTooSlow };
 
 // Delivery just below the pressure at which a pump stops.
@@ -123,12 +98,6 @@ void AddHeldAir(const Problem& problem, const Candidate& candidate, double stop_
 Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
                       const OperatingPoint& point, int g, double time_s, Strokes& strokes) {
   const model::ReservoirStrokeInput input = MakeStrokeInput(problem, candidate, point, g);
-  const double limit_s = RiseLimit(problem, g);
-  const auto delivery = [&](double pressure_pa) {
-    return input.compressors * model::FreeAirDelivery(*input.compressor, pressure_pa);
-  };
-  if (RiseWithHeadStart(problem, g, *candidate.lines[g], point, delivery) > limit_s)
-    return Alone::kTooSlow;
   const model::ReservoirStroke stroke = model::FillFromReservoir(input);
   if (!stroke.reached) return Alone::kTooSlow;
   strokes.rise_s[g] = stroke.rise_s;
@@ -147,15 +116,6 @@ Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
   return Alone::kYes;
 }
 
-// Where three pressures at the starts of successive cycles lead, if they approach it geometrically
-// (Aitken); the last of them where that makes no sense.
-double Extrapolate(double first_pa, double second_pa, double third_pa, double stop_pa) {
-  const double bend = third_pa - 2.0 * second_pa + first_pa;
-  if (bend == 0.0) return third_pa;
-  const double limit_pa = first_pa - (second_pa - first_pa) * (second_pa - first_pa) / bend;
-  return limit_pa > 0.5 * third_pa && limit_pa <= stop_pa ? limit_pa : third_pa;
-}
-
 Strokes EmptyStrokes(const Problem& problem) {
   Strokes strokes;
   strokes.rise_s.assign(problem.groups.size(), model::kNever);
@@ -167,22 +127,6 @@ Strokes EmptyStrokes(const Problem& problem) {
 
 model::Gas GasOf(Configuration configuration) {
   return configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
-}
-
-double AloneExcess(const Problem& problem, int g, const Line& line, const PumpFacts& pumps,
-                   const OperatingPoint& point) {
-  const auto delivery = [&](double pressure_pa) {
-    return 1.0 / pumps.seconds_per_m3.At(pressure_pa);
-  };
-  return RiseWithHeadStart(problem, g, line, point, delivery) / RiseLimit(problem, g) - 1.0;
-}
-
-double AloneExcess(const Problem& problem, const std::vector<const Line*>& lines,
-                   const PumpFacts& pumps, const OperatingPoint& point) {
-  double excess = -kUnlimited;
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
-    excess = std::max(excess, AloneExcess(problem, g, *lines[g], pumps, point));
-  return excess;
 }
 
 double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
@@ -217,13 +161,14 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
       if (outcome == Alone::kNo) return SimulateStrokes(problem, candidate, point);
     }
   }
+  strokes.from_full = true;
   strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
                               [](double s) { return std::isfinite(s); });
   return strokes;
 }
 
-model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
-                   double reservoir_pa, const std::vector<double>& pressures_pa, int cycles) {
+model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
+                   const OperatingPoint& point) {
   model::Rig rig;
   rig.ambient = problem.ambient;
   rig.gas = GasOf(candidate.configuration);
@@ -235,7 +180,7 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
     model::ReservoirSource source;
     source.volume_m3 = point.reservoir_m3;
     source.volume_rising_m3 = point.reservoir_rising_m3;
-    source.initial_pressure_pa = reservoir_pa;
+    source.initial_pressure_pa = point.source_pa;
     source.compressor = problem.parts.compressors[candidate.compressor.index].curve;
     source.compressor_count = candidate.compressor.quantity;
     source.stop_pressure_pa = point.source_pa;
@@ -252,69 +197,60 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
     group.fill = line.fill;
     group.exhaust = line.exhaust;
     group.close_at_operating = line.holds;
-    group.initial_pressure_pa = pressures_pa[g];
     group.effects = ActingEffects(problem.groups[g], candidate.configuration);
-    const double phase = problem.simultaneous ? 0.0 : static_cast<double>(g) / groups;
-    // A staggered stroke that began before this cycle is still held at its start.
-    if (phase >= 0.5) {
-      group.schedule.push_back(
-          {0.0, line.holds ? model::ValveState::kHold : model::ValveState::kInflate});
-      group.schedule.push_back({(phase - 0.5) * period_s, model::ValveState::kDeflate});
-    }
-    for (int cycle = 0; cycle < cycles; ++cycle) {
-      group.schedule.push_back({(cycle + phase) * period_s, model::ValveState::kInflate});
-      group.schedule.push_back({(cycle + phase + 0.5) * period_s, model::ValveState::kDeflate});
-    }
+    group.initial_pressure_pa = problem.ambient.pressure_pa;
+    const double inflate_s = problem.simultaneous ? 0.0 : period_s * g / groups;
+    const double deflate_s = std::fmod(inflate_s + 0.5 * period_s, period_s);
+    group.schedule = {{inflate_s, model::ValveState::kInflate},
+                      {deflate_s, model::ValveState::kDeflate}};
+    if (deflate_s < inflate_s) std::swap(group.schedule[0], group.schedule[1]);
     rig.groups.push_back(std::move(group));
   }
   return rig;
 }
 
+namespace {
+
+// Every stroke begins at ambient, as its rise time is defined, also where the fall only just meets
+// its target within half of the period. How fast a chamber empties is nothing to the source.
+void EmptyInTime(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                 model::Rig& rig) {
+  constexpr double kWithin = 0.9;  // of half of the period
+  const double factor = FlowFactor(problem, GasOf(candidate.configuration));
+  for (std::size_t g = 0; g < rig.groups.size(); ++g) {
+    const Line& line = *candidate.lines[g];
+    const double from_pa = line.holds ? line.chamber.operating_pressure_pa : point.source_pa;
+    const double empty_s =
+        model::EmptyTime(model::MakeSeries(line.exhaust, factor), line.chamber, from_pa,
+                         problem.ambient.pressure_pa, problem.ambient.temperature_k);
+    const double wider = std::max(1.0, empty_s / (kWithin * HalfPeriod(problem)));
+    for (model::FlowElement& element : rig.groups[g].exhaust)
+      element.sonic_conductance_m3_per_s_pa *= wider;
+  }
+}
+
+}  // namespace
+
 Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
   if (HasEffects(problem)) return SimulateWithEffects(problem, candidate, point);
   Strokes strokes = EmptyStrokes(problem);
-  const double period_s = 1.0 / problem.frequency_hz;
-  const std::size_t groups = problem.groups.size();
-  std::vector<double> pressures(groups, problem.ambient.pressure_pa);
-  double reservoir_pa = point.source_pa;
+  model::Rig rig = MakeRig(problem, candidate, point);
+  EmptyInTime(problem, candidate, point, rig);
   model::SimulateOptions options;
   options.rise_fraction = problem.rise_fraction;
   options.fall_fraction = problem.fall_fraction;
   options.linear_ratio = kLinearRatio;
-
-  // Warm up cycle by cycle until the reservoir repeats; a regulated source has no memory.
-  if (!Regulated(candidate.configuration)) {
-    options.end_s = period_s;
-    std::vector<double> starts;  // of the last cycles, since the last extrapolation
-    for (int cycle = 0;; ++cycle) {
-      const model::Response response =
-          model::Simulate(MakeRig(problem, candidate, point, reservoir_pa, pressures, 1), options);
-      if (response.status != model::SimulateStatus::kDone || cycle == kCyclesMax) return strokes;
-      starts.push_back(reservoir_pa);
-      reservoir_pa = response.source_final_pressure_pa;
-      for (std::size_t g = 0; g < groups; ++g) pressures[g] = response.groups[g].final_pressure_pa;
-      if (cycle > 0 && std::abs(reservoir_pa - starts.back()) <= kPeriodicTolerance * reservoir_pa)
-        break;
-      if (starts.size() == 3) {
-        reservoir_pa = Extrapolate(starts[1], starts[2], reservoir_pa, point.source_pa);
-        starts.clear();
-      }
-    }
-  }
-  // Two cycles, so that a stroke that starts late in the first can end in the second.
-  options.end_s = 2.0 * period_s;
-  const model::Response response =
-      model::Simulate(MakeRig(problem, candidate, point, reservoir_pa, pressures, 2), options);
-  if (response.status != model::SimulateStatus::kDone) return strokes;
-  for (const model::Stroke& stroke : response.strokes) {
-    if (stroke.state != model::ValveState::kInflate || stroke.command_s >= period_s) continue;
-    if (stroke.command_s == 0.0 && !problem.simultaneous && stroke.group > 0) continue;
+  const model::PeriodicState state = model::FindPeriodicState(
+      rig, 1.0 / problem.frequency_hz, options, {.tolerance = kPeriodicTolerance});
+  if (state.status != model::PeriodicStatus::kConverged) return strokes;
+  for (const model::Stroke& stroke : state.response.strokes) {
+    if (stroke.state != model::ValveState::kInflate) continue;
     strokes.rise_s[stroke.group] = stroke.to_target_s;
     strokes.inflate_s[stroke.group] = stroke.to_operating_s;
   }
-  strokes.pump_on_s = 0.5 * response.compressor_on_s;
-  strokes.pump_energy_j = 0.5 * response.compressor_energy_j;
+  strokes.pump_on_s = state.response.compressor_on_s;
+  strokes.pump_energy_j = state.response.compressor_energy_j;
   strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
                               [](double s) { return std::isfinite(s); });
   return strokes;

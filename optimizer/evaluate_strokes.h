@@ -9,13 +9,12 @@
 
 namespace plenum::optimizer {
 
-struct PumpFacts;
-
 struct Strokes {
   bool works = false;
   std::vector<double> rise_s, inflate_s;  // per group, worst of the cycle
   double pump_on_s = 0.0;                 // per cycle
   double pump_energy_j = 0.0;             // per cycle, all pumps
+  bool from_full = false;                 // no two groups meet, and each finds the reservoir full
   // With effects only; without them the line knows.
   std::vector<double> fall_s, highest_pa;  // per group
   double air_m3 = 0.0;                     // ANR, per cycle, all actuators
@@ -30,27 +29,19 @@ model::Gas GasOf(Configuration configuration);
 Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point);
 
-// Bound from below on the relative excess of the strokes over their limits on a compressor's
-// reservoir: each group as if it were alone and found the reservoir full. −∞ where nothing is
-// known.
-double AloneExcess(const Problem& problem, int group, const Line& line, const PumpFacts& pumps,
-                   const OperatingPoint& point);
-double AloneExcess(const Problem& problem, const std::vector<const Line*>& lines,
-                   const PumpFacts& pumps, const OperatingPoint& point);
-
-// The same by one integration a group, with the pumps as they are; about ten times the effort.
+// Largest relative excess of the strokes over their limits on a compressor's reservoir, each group
+// as if it were alone and found the reservoir full: a bound from below, by one integration a group.
 double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
                          const OperatingPoint& point);
 
-// The strokes by the simulator alone, from the first cycle until the source's state repeats; with
-// effects by SimulateWithEffects (effect_strokes.h).
+// The strokes by the simulator alone, in the periodic state; with effects by SimulateWithEffects
+// (effect_strokes.h).
 Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point);
 
-// The candidate as a rig for the simulator, at the start of a cycle: `reservoir_pa` is what the
-// reservoir holds then, pressures[g] what the actuators of group g hold, `cycles` how many follow.
-model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
-                   double reservoir_pa, const std::vector<double>& pressures_pa, int cycles);
+// The candidate as a rig for the simulator, with one cycle of commands: actuators at rest and a
+// full reservoir.
+model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
 
 }  // namespace plenum::optimizer
 

@@ -48,7 +48,7 @@ Line Assemble(const Problem& problem, const ActuatorGroup& group, const LineCorn
 }  // namespace
 
 Constraint MakeLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
-                    bool exact, Line& line) {
+                    bool exact, bool with_table, Line& line) {
   const ActuatorGroup& group = problem.groups[g];
   if (!(corners.tube.diameters & corners.fitting.diameters) ||
       !(corners.fitting.threads & corners.valve.threads))
@@ -88,7 +88,7 @@ Constraint MakeLine(const Problem& problem, int g, model::Gas gas, const LineCor
   line.source_min_pa = std::max(switches_pa, exact ? least.high : least.low);
   // A lone 3/2 is energised for half of the period whatever the stroke.
   if (line.all_hold) line.inflate_time_least_s = fill_time(line.source_max_pa, operating_pa);
-  if (exact) line.fill_table = model::FlowTable(line.fill_series);
+  if (with_table) line.fill_table = model::FlowTable(line.fill_series);
   return Constraint::kNone;
 }
 

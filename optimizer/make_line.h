@@ -16,10 +16,10 @@ struct LineCorners {
 };
 
 // kNone, or why no source makes the line meet its group's limits: rise and fall time, half of the
-// period, pressure ratings. For a box the least source pressure is bounded from below only, and the
-// flow table is missing.
+// period, pressure ratings. For a box the least source pressure is bounded from below only.
+// `with_table`: whether the flow table is made too.
 Constraint MakeLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
-                    bool exact, Line& line);
+                    bool exact, bool with_table, Line& line);
 
 }  // namespace plenum::optimizer
 

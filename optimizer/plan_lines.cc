@@ -29,7 +29,7 @@ void Planter::PlantGroup(int g) {
     entry.item.corner = CornerOf<TubeCorner>(problem_, entry.item.option.amounts);
     entry.item.corner.diameters = kinds->second;
     entry.item.corner.inner_low_m = entry.item.corner.inner_high_m = part.inner_diameter_m;
-    entry.item.corner.pressure_max_pa = part.pressure_max_pa;
+    entry.item.corner.pressure_max_pa = std::min(part.pressure_max_pa, useful_max_pa_);
     entry.id = part.per_metre.id;
     entry.mates = Bytes({needs_fittings ? outer_m : 0.0, part.inner_diameter_m});
     entry.losses = {-part.pressure_max_pa};
@@ -56,7 +56,7 @@ void Planter::PlantGroup(int g) {
     entry.item.corner.diameters = diameters.Bit(part.tube_outer_diameter_m);
     entry.item.corner.threads = threads.Bit(part.thread);
     entry.item.corner.flow = part.flow;
-    entry.item.corner.pressure_max_pa = part.pressure_max_pa;
+    entry.item.corner.pressure_max_pa = std::min(part.pressure_max_pa, useful_max_pa_);
     entry.id = part.basics.id;
     entry.mates = Bytes({part.tube_outer_diameter_m}) + part.thread;
     entry.losses = {-part.pressure_max_pa};
@@ -83,8 +83,8 @@ void Planter::PlantGroup(int g) {
     corner.fill = part.fill;
     corner.exhaust = part.exhaust;
     corner.coil_power_w = part.coil_power_w * group.count;
-    corner.pressure_min_pa = part.pressure_min_pa;
-    corner.pressure_max_pa = part.pressure_max_pa;
+    corner.pressure_min_pa = std::max(part.pressure_min_pa, group.chamber.operating_pressure_pa);
+    corner.pressure_max_pa = std::min(part.pressure_max_pa, useful_max_pa_);
     corner.objective +=
         EnergyWeight(problem_) * problem_.actuations * corner.coil_power_w * HalfPeriod(problem_);
     entry.id = part.basics.id;

@@ -14,6 +14,7 @@
 #include "optimizer/dominance.h"
 #include "optimizer/line.h"
 #include "optimizer/plan.h"
+#include "optimizer/pump_slope.h"
 
 namespace plenum::optimizer {
 
@@ -80,6 +81,7 @@ class Planter {
     plan_->bottle_range = FindBottleRange();
     plan_->highest_pump_pa = HighestPumpPressure(problem);
     plan_->tie = LargestTie();
+    useful_max_pa_ = HighestUseful();
   }
 
   std::unique_ptr<Plan> Plant() {
@@ -116,6 +118,17 @@ class Planter {
                           return EnergyPerAirRises(c.curve, problem_.ambient.pressure_pa,
                                                    model::HighestPressure(c.curve));
                         });
+  }
+
+  // No source gives more: ratings beyond it are all the same.
+  double HighestUseful() const {
+    double highest_pa = plan_->highest_pump_pa;
+    if (plan_->configuration != Configuration::kCompressor) {
+      highest_pa = 0.0;
+      for (const model::Regulator& regulator : problem_.parts.regulators)
+        highest_pa = std::max(highest_pa, regulator.outlet_pressure_max_pa);
+    }
+    return std::min(problem_.source_pressure_max_pa, highest_pa);
   }
 
   BottleRange FindBottleRange() const {
@@ -273,6 +286,7 @@ class Planter {
 
   const Problem& problem_;
   std::unique_ptr<Plan> plan_;
+  double useful_max_pa_ = kUnlimited;
   KindsOf<double> voltages_;  // of compressors
   BigCount total_, priced_, kept_;
   mutable double gas_kg_ = 0.0;

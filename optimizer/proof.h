@@ -46,8 +46,8 @@
 // the smallest dead volume, from the highest source pressure that any of the choices stands; the
 // least air, coil power and amounts; and for bottles, batteries and reservoirs the least objective
 // of those in the box that bear this need. In a compressor's box each group counts as if it were
-// alone on the reservoir, which starts full and holds from the start all that the pumps could add
-// during the rise (the largest delivery of the box at each pressure).
+// alone on the reservoir, with the largest delivery of the box at each pressure; of two groups that
+// take turns each leaves enough for the other.
 #ifndef PLENUM_OPTIMIZER_PROOF_H_
 #define PLENUM_OPTIMIZER_PROOF_H_
 

@@ -6,6 +6,7 @@
 #include "optimizer/evaluate_strokes.h"
 #include "optimizer/pump_march.h"
 #include "optimizer/root.h"
+#include "optimizer/stroke_bound.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -101,43 +102,6 @@ double Minorant::Integral(double pressure_pa) const {
 double Minorant::Mean(double low_pa, double high_pa) const {
   if (!(high_pa > low_pa)) return At(high_pa);
   return (Integral(high_pa) - Integral(low_pa)) / (high_pa - low_pa);
-}
-
-// Between the points of a table the interpolation is monotone, so that they and the end decide.
-bool PowerRises(const model::CompressorCurve& curve, double low_pa, double high_pa) {
-  double before_w = model::ElectricalPower(curve, low_pa);
-  const auto rises = [&](double pressure_pa) {
-    const double power_w = model::ElectricalPower(curve, pressure_pa);
-    const bool ok = power_w >= before_w * (1.0 - 1e-12);
-    before_w = power_w;
-    return ok;
-  };
-  for (double knot : curve.current_a.x())
-    if (knot > low_pa && knot < high_pa && !rises(knot)) return false;
-  return rises(high_pa);
-}
-
-// Where power rises so does its share per air, since delivery falls; elsewhere both are cubic
-// between the points of their tables, and their quotient is looked at closely.
-bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa) {
-  constexpr int kLooks = 32;  // between two points
-  if (PowerRises(curve, low_pa, high_pa)) return true;
-  std::vector<double> knots{low_pa, high_pa};
-  for (const model::MonotoneCurve* table : {&curve.free_air_m3_per_s, &curve.current_a})
-    for (double knot : table->x())
-      if (knot > low_pa && knot < high_pa) knots.push_back(knot);
-  std::sort(knots.begin(), knots.end());
-  double before = 0.0;
-  for (std::size_t i = 0; i + 1 < knots.size(); ++i)
-    for (int look = 0; look < kLooks; ++look) {
-      const double pressure_pa = knots[i] + (knots[i + 1] - knots[i]) * look / kLooks;
-      const double delivery = model::FreeAirDelivery(curve, pressure_pa);
-      const double per_air =
-          delivery > 0.0 ? model::ElectricalPower(curve, pressure_pa) / delivery : kNoDelivery;
-      if (per_air < before * (1.0 - 1e-12)) return false;
-      before = per_air;
-    }
-  return true;
 }
 
 PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps) {
@@ -292,57 +256,53 @@ PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& li
 
 std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const PumpFacts& facts,
                                                 const PumpLoad& load, const PumpLimits& limits,
-                                                const Window& window, double low_m3, double high_m3,
+                                                const Window& window, ReservoirNeed need,
                                                 double tolerance) {
-  const auto excess = [&](double start_pa) {
-    return AloneExcess(problem, load.lines, facts, {start_pa, high_m3, low_m3});
-  };
+  const int groups = static_cast<int>(problem.groups.size());
   // Groups that take turns may find less than the stop pressure.
-  const bool turns = !problem.simultaneous && problem.groups.size() > 1;
+  const bool turns = !problem.simultaneous && groups > 1;
   std::vector<double> start_pa(1, 0.0);
   // Sets what stopping at need.source_pa at least takes; false if that is too much.
-  const auto bearable = [&](ReservoirNeed& need) {
-    if (!turns) start_pa.front() = need.source_pa;
-    const std::optional<PumpNeed> pump = LeastPumpNeed(problem, facts, load, start_pa, need.low_m3);
+  const auto bearable = [&](ReservoirNeed& at) {
+    if (!turns) start_pa.front() = at.source_pa;
+    const std::optional<PumpNeed> pump = LeastPumpNeed(problem, facts, load, start_pa, at.low_m3);
     if (!pump) return false;
-    need.energy_j = LeastFirstFill(problem, facts, need.source_pa, need.low_m3) +
-                    problem.actuations * (pump->energy_j + load.coil_j);
+    at.energy_j = LeastFirstFill(problem, facts, at.source_pa, at.low_m3) +
+                  problem.actuations * (pump->energy_j + load.coil_j);
     return pump->on_s * problem.frequency_hz <= limits.duty_max &&
-           need.energy_j <= limits.energy_max_j;
+           at.energy_j <= limits.energy_max_j;
   };
-  ReservoirNeed need{low_m3, high_m3};
-  need.source_max_pa = window.high_pa;
+  need.source_max_pa = std::min(need.source_max_pa, window.high_pa);
   // Cheap first: the mass balance (2) at the largest volume.
   need.source_pa =
-      std::max(window.low_pa, LeastStopPressure(problem, facts, load.air_to_target_m3, high_m3));
-  if (!(need.source_pa <= window.high_pa)) return std::nullopt;
-  if (turns) {
-    if (excess(window.high_pa) > 0.0) return std::nullopt;
-    start_pa.clear();
-    for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
-      start_pa.push_back(
-          FeasibleBracket(
-              [&](double p) {
-                return AloneExcess(problem, g, *load.lines[g], facts, {p, high_m3, low_m3});
-              },
-              problem.ambient.pressure_pa, window.high_pa, tolerance)
-              .low);
-    const double most_pa = *std::max_element(start_pa.begin(), start_pa.end());
-    // Of two groups each finds what the other has left: its own operating pressure at least, since
-    // air only flows downhill.
-    if (problem.groups.size() == 2)
-      for (int g : {0, 1})
-        start_pa[g] = std::max(start_pa[g], problem.groups[1 - g].chamber.operating_pressure_pa);
-    // Of more than two groups some may draw at the same time.
-    if (problem.groups.size() > 2) start_pa = {most_pa};
-    need.source_pa = std::max(need.source_pa, most_pa);
+      std::max({need.source_pa, window.low_pa,
+                LeastStopPressure(problem, facts, load.air_to_target_m3, need.high_m3)});
+  if (!(need.source_pa <= need.source_max_pa)) return std::nullopt;
+  const auto excess = [&](double p) {
+    return LeastStrokeExcess(problem, load.lines, facts,
+                             {p, turns ? need.source_max_pa : p, need.low_m3, need.high_m3});
+  };
+  if (!turns) {
     if (!bearable(need)) return std::nullopt;
-    return need;
+    need.source_max_pa = MostBearable(need, need.source_max_pa, tolerance, bearable);
+    const std::optional<double> least_pa =
+        RaisedFloor(excess, need.source_pa, need.source_max_pa, tolerance);
+    if (!least_pa) return std::nullopt;
+    need.source_pa = *least_pa;
+  } else if (groups == 2) {
+    if (!RaiseStarts(problem, load.lines, facts, need.source_max_pa, need.low_m3, need.high_m3,
+                     tolerance, need.start_pa))
+      return std::nullopt;
+    start_pa.assign(need.start_pa.begin(), need.start_pa.end());
+    need.source_pa = std::max({need.source_pa, need.start_pa[0], need.start_pa[1]});
+  } else {  // some may draw at the same time: no phases to tell apart
+    const std::optional<double> least_pa =
+        RaisedFloor(excess, std::max(problem.ambient.pressure_pa, need.start_pa[0]),
+                    need.source_max_pa, tolerance);
+    if (!least_pa) return std::nullopt;
+    need.start_pa[0] = start_pa.front() = *least_pa;
+    need.source_pa = std::max(need.source_pa, *least_pa);
   }
-  if (!bearable(need)) return std::nullopt;
-  need.source_max_pa = MostBearable(need, window.high_pa, tolerance, bearable);
-  if (excess(need.source_max_pa) > 0.0) return std::nullopt;
-  need.source_pa = FeasibleBracket(excess, need.source_pa, need.source_max_pa, tolerance).low;
   if (!bearable(need)) return std::nullopt;
   return need;
 }
@@ -360,7 +320,8 @@ std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFact
     const double next_m3 = std::min(low_m3 * kIntervalRatio, high_m3);
     last = next_m3 >= high_m3;
     const std::optional<ReservoirNeed> need =
-        LeastReservoirNeed(problem, facts, load, limits, window, low_m3, next_m3, kNeedTolerance);
+        LeastReservoirNeed(problem, facts, load, limits, window,
+                           {.low_m3 = low_m3, .high_m3 = next_m3}, kNeedTolerance);
     if (need && AloneStrokeExcess(problem, candidate,
                                   {need->source_max_pa, need->high_m3, need->low_m3}) <= 0.0)
       needs.push_back(*need);

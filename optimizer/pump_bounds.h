@@ -9,8 +9,8 @@
 //  (2) Where all strokes begin at once: within the rise times the pumps deliver at most `early`, so
 //      the reservoir gives at least A_t − early and still ends at or above p_t:
 //      p_s ≥ p_t + κ·(A_t − early)/V.
-//  (3) p_1 is at least what a group would need that is alone on a closed reservoir which holds from
-//      the start all that the pumps could add during the rise.
+//  (3) p_1 is at least what a group needs that is alone on the reservoir (stroke_bound.h), and of
+//      two groups that take turns each must leave what the other needs.
 // Energy per air, made non-falling in pressure from below, and time per air, which does not fall
 // with pressure, then bound energy and running time.
 #ifndef PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
@@ -43,10 +43,6 @@ class Minorant {
   double low_pa_ = 0.0, cells_per_pa_ = 0.0, last_ = 0.0;
   std::vector<double> value_, integral_;
 };
-
-// Whether electrical power, and power over delivery, do not fall with pressure in between.
-bool PowerRises(const model::CompressorCurve& curve, double low_pa, double high_pa);
-bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa);
 
 // What the bounds need of the pumps of a choice, all that run in parallel together. From a single
 // choice, or from the coarse tables of many: then each number holds for the best of them.
@@ -101,19 +97,21 @@ std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& f
 // What a reservoir at least takes whose volume is in [low, high].
 struct ReservoirNeed {
   double low_m3 = 0.0, high_m3 = 0.0;
-  double source_pa = 0.0;      // least stop pressure
-  double source_max_pa = 0.0;  // most that duty and energy bear
-  double energy_j = 0.0;       // whole mission: first fill, pumps, coils
+  double source_pa = 0.0;             // least stop pressure
+  double source_max_pa = kUnlimited;  // most that duty and energy bear
+  std::array<double, 2> start_pa{};   // least when each of two groups that take turns begins
+  double energy_j = 0.0;              // whole mission: first fill, pumps, coils
 };
 struct PumpLimits {
   double duty_max = 1.0;
   double energy_max_j = kUnlimited;
 };
-// None where no volume in it will do. `tolerance`: of the source pressures, relative; they stay on
-// the safe side.
+// Tightens what is known of an interval of volumes, be it only from a larger one or from a larger
+// box; none where no volume in it will do. `tolerance`: of the source pressures, relative; they
+// stay on the safe side.
 std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const PumpFacts& facts,
                                                 const PumpLoad& load, const PumpLimits& limits,
-                                                const Window& window, double low_m3, double high_m3,
+                                                const Window& window, ReservoirNeed known,
                                                 double tolerance);
 
 // The same for a candidate whose compressor and lines are chosen, by intervals of volumes that

@@ -42,21 +42,6 @@ void MarchPump(const Problem& problem, double start_pa, double reservoir_m3, con
   step(start_pa, kUnlimited);
 }
 
-// The most that is pumped within `seconds`, m³ ANR; `delivery(p)` in m³/s must not rise with p.
-template <typename Drawn, typename Delivery>
-double MostPumped(const Problem& problem, double start_pa, double reservoir_m3, const Drawn& drawn,
-                  const Delivery& delivery, double seconds) {
-  double sum_m3 = 0.0;
-  MarchPump(problem, start_pa, reservoir_m3, drawn, [&](double p, double air_m3) {
-    const double rate = delivery(p);
-    const double bit_m3 = std::min(air_m3, seconds * rate);
-    sum_m3 += bit_m3;
-    if (rate > 0.0) seconds -= bit_m3 / rate;
-    return seconds > 0.0 && rate > 0.0;
-  });
-  return sum_m3;
-}
-
 }  // namespace plenum::optimizer
 
 #endif  // PLENUM_OPTIMIZER_PUMP_MARCH_H_

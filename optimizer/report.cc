@@ -106,9 +106,7 @@ Design::Trace TraceCycle(const Problem& problem, const Candidate& candidate,
   options.sample_hz = kSamplesPerCycle * problem.frequency_hz;
   options.rise_fraction = problem.rise_fraction;
   options.fall_fraction = problem.fall_fraction;
-  const std::vector<double> rest(problem.groups.size(), problem.ambient.pressure_pa);
-  model::Response response =
-      model::Simulate(MakeRig(problem, candidate, point, point.source_pa, rest, 1), options);
+  model::Response response = model::Simulate(MakeRig(problem, candidate, point), options);
   Design::Trace trace;
   if (response.status != model::SimulateStatus::kDone) return trace;
   trace.t_s = std::move(response.t_s);

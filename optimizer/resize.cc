@@ -79,7 +79,7 @@ bool SetLine(const Problem& problem, const Design& design, int g, Line& line) {
   const model::Gas gas =
       design.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
   const Constraint missed =
-      MakeLine(problem, g, gas, {tube_corner, fitting_corner, valve_corner}, true, line);
+      MakeLine(problem, g, gas, {tube_corner, fitting_corner, valve_corner}, true, true, line);
   line.tubing = static_cast<int>(tube - problem.parts.tubing.data());
   line.fitting =
       fitting == nullptr ? -1 : static_cast<int>(fitting - problem.parts.fittings.data());

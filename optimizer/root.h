@@ -2,7 +2,9 @@
 #ifndef PLENUM_OPTIMIZER_ROOT_H_
 #define PLENUM_OPTIMIZER_ROOT_H_
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace plenum::optimizer {
 
@@ -10,13 +12,12 @@ struct Bracket {
   double low, high;  // excess(low) > 0 unless both are equal; excess(high) ≤ 0
 };
 
-// Where an excess that does not rise with x and is ≤ 0 at `high` becomes ≤ 0: a bracket no wider
-// than tolerance·high. Illinois steps where both ends are finite, bisection elsewhere.
+// Narrows a bracket of where an excess that does not rise with x becomes ≤ 0, from its values
+// f_low > 0 ≥ f_high at the ends, down to tolerance·high. Illinois steps where both ends are
+// finite, bisection elsewhere.
 template <typename Excess>
-Bracket FeasibleBracket(Excess&& excess, double low, double high, double tolerance) {
-  double f_low = excess(low);
-  if (f_low <= 0.0) return {low, low};
-  double f_high = excess(high);
+Bracket NarrowBracket(Excess&& excess, double low, double f_low, double high, double f_high,
+                      double tolerance) {
   int side = 0;
   for (int i = 0; i < 200 && high - low > tolerance * high; ++i) {
     double mid = 0.5 * (low + high);
@@ -42,6 +43,26 @@ Bracket FeasibleBracket(Excess&& excess, double low, double high, double toleran
     }
   }
   return {low, high};
+}
+
+// The same for an excess that is ≤ 0 at `high`; both ends are `low` where it already is there.
+template <typename Excess>
+Bracket FeasibleBracket(Excess&& excess, double low, double high, double tolerance) {
+  const double f_low = excess(low);
+  if (f_low <= 0.0) return {low, low};
+  return NarrowBracket(excess, low, f_low, high, excess(high), tolerance);
+}
+
+// Raises a floor below which the excess is known to be > 0 as far as it is, to the tolerance; none
+// where it still is at `high`. Cheap where the floor is already close.
+template <typename Excess>
+std::optional<double> RaisedFloor(Excess&& excess, double floor, double high, double tolerance) {
+  const double low = std::min(floor + tolerance * high, high);
+  const double f_low = excess(low);
+  if (f_low <= 0.0) return floor;
+  const double f_high = low < high ? excess(high) : f_low;
+  if (f_high > 0.0) return std::nullopt;
+  return NarrowBracket(excess, low, f_low, high, f_high, tolerance).low;
 }
 
 // Smallest x in [low, high] at which the excess was seen to be ≤ 0, to the tolerance.

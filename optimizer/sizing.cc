@@ -7,39 +7,60 @@
 #include "model/storage.h"
 #include "optimizer/evaluate_strokes.h"
 #include "optimizer/nlp.h"
+#include "optimizer/pump_slope.h"
 #include "optimizer/root.h"
+#include "optimizer/stroke_bound.h"
 
 namespace plenum::optimizer {
 namespace {
 
 constexpr double kPressureTolerance = 1e-8;
 constexpr double kBoundTolerance = 1e-4;
-constexpr int kEvaluationsMax = 4000;
-constexpr double kObjectiveTolerance = 2e-7;
+constexpr int kEvaluationsMax = 20000;
+constexpr double kObjectiveTolerance = 4e-7;
 constexpr double kVolumeTolerance = 1e-7;  // of the objective
 constexpr int kStepsPerRefine = 8;
 constexpr int kStepsMax = 400;
 constexpr double kEnergySlack = 1e-2;  // per relative width of an interval of volumes
 
-// What an interval of source pressures at least takes: everything but the coils grows with the
-// pressure and is least at its left end, the coils fall with it.
-Evaluation LeastBetween(const Problem& problem, Evaluation left, const Evaluation& right) {
-  const double coils_j = std::min(0.0, right.energy_coils_j - left.energy_coils_j);
-  left.energy_coils_j += coils_j;
-  left.energy_total_j += coils_j;
-  left.energy_per_cycle_j += coils_j / problem.actuations;
-  return left;
+// Coils of all cycles at any source pressure, at least.
+double LeastCoilEnergy(const Problem& problem, const Candidate& candidate) {
+  double energy_j = 0.0;
+  for (const Line* line : candidate.lines)
+    energy_j += problem.actuations * CoilEnergyPerCycle(problem, *line, line->inflate_time_least_s);
+  return energy_j;
 }
 
-// Source pressures at a fixed volume, by branch and bound over intervals: what is not known of an
-// interval is the objective of the pumps at its left end with that of the coils at its right one.
+// Whether no two groups draw at the same time, at the pressure of the evaluation and above.
+bool OneAtATime(const Problem& problem, const Candidate& candidate, const Evaluation& evaluation) {
+  const std::size_t groups = problem.groups.size();
+  if (groups <= 2) return true;
+  for (std::size_t g = 0; g < groups; ++g)
+    if (!candidate.lines[g]->holds ||
+        evaluation.groups[g].inflate_time_s * problem.frequency_hz * static_cast<double>(groups) >
+            1.0)
+      return false;
+  return true;
+}
+
+SteepestFall PumpFall(const Problem& problem, const Candidate& candidate) {
+  if (candidate.compressor.index == kNone) return {};
+  return {problem.parts.compressors[candidate.compressor.index].curve, problem.ambient.pressure_pa,
+          SourceWindow(problem, candidate).high_pa};
+}
+
+// Source pressures at a fixed volume, by branch and bound over intervals: an interval takes at
+// least what its left end does, less what coils and pumps may save towards its right end
+// (pump_slope.h).
 class PressureSearch {
  public:
   PressureSearch(const Problem& problem, const Candidate& candidate, double reservoir_m3)
       : problem_(problem),
         candidate_(candidate),
         reservoir_m3_(reservoir_m3),
-        bounded_(PumpEnergyRises(problem, candidate)),
+        rises_(PumpEnergyRises(problem, candidate)),
+        pump_fall_(PumpFall(problem, candidate)),
+        least_coils_j_(LeastCoilEnergy(problem, candidate)),
         parts_objective_(
             ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3))) {}
 
@@ -88,14 +109,40 @@ class PressureSearch {
 
   void Open(double low_pa, const Evaluation& low, double high_pa, const Evaluation& high) {
     double bound = parts_objective_;
-    if (bounded_ && low.works && high.works) {
-      const Evaluation least = LeastBetween(problem_, low, high);
+    const double fall_j = low.works ? EnergyFall(low_pa, low, high_pa, high) : kUnlimited;
+    if (std::isfinite(fall_j)) {
+      const Evaluation least = LeastBetween(low, high, fall_j);
       if (SupplyMargin(problem_, candidate_, At(low_pa), least) < 0.0) return;
       bound = ObjectiveValue(problem_, candidate_, At(low_pa), least);
     }
     const double near = std::min(ObjectiveValue(problem_, candidate_, At(low_pa), low),
                                  ObjectiveValue(problem_, candidate_, At(high_pa), high));
     open_.push({low_pa, high_pa, bound, near, low, high});
+  }
+
+  // Most of it grows with the pressure and is least at the left end. Coils fall with it, and pumps
+  // may by `fall_j` a cycle.
+  Evaluation LeastBetween(Evaluation low, const Evaluation& high, double fall_j) const {
+    const double coils_j = high.works ? high.energy_coils_j : least_coils_j_;
+    const double change_j =
+        std::min(0.0, coils_j - low.energy_coils_j) - problem_.actuations * fall_j;
+    low.energy_total_j += change_j;
+    low.energy_per_cycle_j += change_j / problem_.actuations;
+    return low;
+  }
+
+  // Most that the pumps save in a cycle by stopping higher than at `low_pa`, J.
+  double EnergyFall(double low_pa, const Evaluation& low, double high_pa,
+                    const Evaluation& high) const {
+    if (rises_) return 0.0;
+    double fall_j_per_pa = low.air_per_cycle_m3 * pump_fall_.EnergyPerAir(high_pa);
+    // Where groups take turns and the reservoir does not always become full.
+    if (!problem_.simultaneous && problem_.groups.size() > 1 && !high.from_full) {
+      if (!OneAtATime(problem_, candidate_, low)) return kUnlimited;
+      fall_j_per_pa +=
+          candidate_.compressor.quantity * pump_fall_.Power(high_pa) / problem_.frequency_hz;
+    }
+    return fall_j_per_pa * (high_pa - low_pa);
   }
 
   Leaf Done() {
@@ -112,7 +159,9 @@ class PressureSearch {
   const Problem& problem_;
   const Candidate& candidate_;
   double reservoir_m3_;
-  bool bounded_;
+  bool rises_;  // so do duty and energy of the pumps
+  SteepestFall pump_fall_;
+  double least_coils_j_;
   double parts_objective_;
   std::priority_queue<Interval> open_;
   Leaf leaf_;
@@ -165,8 +214,9 @@ std::optional<double> NeededSourcePressure(const Problem& problem, const Candida
         MakePumpFacts(problem, problem.parts.compressors[candidate.compressor.index].curve,
                       candidate.compressor.quantity);
     const auto alone = [&](double source_pa) {
-      point.source_pa = source_pa;
-      return AloneExcess(problem, candidate.lines, pumps, point);
+      return LeastStrokeExcess(
+          problem, candidate.lines, pumps,
+          {source_pa, source_pa, point.reservoir_rising_m3, point.reservoir_m3});
     };
     low_pa = FeasibleBracket(alone, low_pa, window.high_pa, kBoundTolerance).low;
   }

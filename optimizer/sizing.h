@@ -37,14 +37,8 @@ std::vector<double> SolverMargins(const Problem& problem, const Candidate& candi
 double SmallestMargin(const Problem& problem, const Candidate& candidate,
                       const OperatingPoint& point, const Evaluation& evaluation);
 
-// Whether duty and energy of the pumps grow with the stop pressure. True without a compressor.
-//
-// Let m be the air pumped since the reservoir was full. In m the pressures of reservoir and
-// chambers keep order (dp_g/dm = q_g/Q and dp_s/dm ∝ 1 − Σq_g/Q, each non-falling in the other
-// pressures), so with a higher stop pressure every bit of air is pumped at no lower a pressure: it
-// takes no less time, since Q falls with pressure, and no less energy where P/Q does not fall.
-// Groups that take turns start by the clock and not by m: there the power P itself must not fall,
-// since the reservoir is at every instant no lower and is full no sooner.
+// Whether duty and energy of the pumps grow with the stop pressure (pump_slope.h). True without a
+// compressor.
 bool PumpEnergyRises(const Problem& problem, const Candidate& candidate);
 
 // Lowest source pressure in the candidate's window at which the strokes meet their limits; none

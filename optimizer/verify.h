@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,12 +38,33 @@ struct NotRechecked {
   BigCount combinations;
 };
 
+struct BruteForceOptions {
+  std::function<bool()> cancelled;                       // may be empty
+  std::function<void(const BigCount& looked)> progress;  // now and then; may be empty
+};
+
+struct BruteForceCounts {
+  bool cancelled = false;  // then the rest counts what was looked at
+  BigCount combinations;   // those below together
+  BigCount incompatible;   // parts that do not fit together
+  BigCount unpriced;       // without a price where cost matters
+  BigCount beyond;         // compatible, but they come to more than the last design whatever else
+  BigCount infeasible;     // of the rest, sized one by one: no setting meets the requirements
+  BigCount feasible;
+  BigCount undecided;  // within 1e-6 of a requirement, or not sized
+};
+
 struct Verification {
   std::vector<Check> checks;
   std::vector<NotRechecked> not_rechecked;
+  std::optional<BruteForceCounts> brute_force;
 };
 
-Verification Verify(const Problem& problem, const Answer& answer);
+// With `brute_force` every combination is looked at, too, CombinationsOf(problem) of them.
+inline constexpr long long kBruteForceMax = 100'000'000;  // what is reasonable to ask for
+BigCount CombinationsOf(const Problem& problem);
+Verification Verify(const Problem& problem, const Answer& answer,
+                    const BruteForceOptions* brute_force = nullptr);
 
 // Tolerances, relative. Sums of printed numbers (12 digits); times and duties of the simulator
 // against those of the answer.

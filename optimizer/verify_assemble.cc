@@ -95,6 +95,19 @@ Expected Times(double quantity, const model::PartBasics& basics, double gas_kg =
   return expected;
 }
 
+Expected Made(const Problem& problem, double reservoir_m3) {
+  const double rating_pa = std::min(problem.source_pressure_max_pa - problem.ambient.pressure_pa,
+                                    model::kMadeReservoirPressureMaxGaugePa);
+  const model::MadeReservoir made = model::MakeReservoir(reservoir_m3, rating_pa);
+  return {made.mass_kg, made.body_volume_m3, {}};
+}
+
+Expected Filled(const Problem& problem, int quantity, const model::Cylinder& cylinder) {
+  return Times(quantity, cylinder.basics,
+               model::CylinderCharge(cylinder.water_volume_m3, cylinder.fill_pressure_pa,
+                                     problem.ambient.temperature_k));
+}
+
 Expected ExpectedRow(const Problem& problem, const Design& design, const Assembly& a,
                      const Choice& choice) {
   const double n = choice.quantity;
@@ -108,9 +121,7 @@ Expected ExpectedRow(const Problem& problem, const Design& design, const Assembl
     case Family::kRegulator:
       return Times(n, a.regulator->basics);
     case Family::kCylinder:
-      return Times(n, a.cylinder->basics,
-                   model::CylinderCharge(a.cylinder->water_volume_m3, a.cylinder->fill_pressure_pa,
-                                         problem.ambient.temperature_k));
+      return Filled(problem, a.bottles, *a.cylinder);
     case Family::kCo2:
       return Times(n, a.co2->basics, a.co2->co2_mass_kg);
     case Family::kCompressor:
@@ -121,11 +132,7 @@ Expected ExpectedRow(const Problem& problem, const Design& design, const Assembl
       break;
   }
   if (a.reservoir) return Times(n, a.reservoir->basics);
-  const double rating_pa = std::min(problem.source_pressure_max_pa - problem.ambient.pressure_pa,
-                                    model::kMadeReservoirPressureMaxGaugePa);
-  const model::MadeReservoir made =
-      model::MakeReservoir(design.settings.reservoir_volume_m3.value_or(0.0), rating_pa);
-  return {made.mass_kg, made.body_volume_m3, {}};
+  return Made(problem, design.settings.reservoir_volume_m3.value_or(0.0));
 }
 
 bool SameCost(const std::optional<double>& a, const std::optional<double>& b) {
@@ -133,6 +140,44 @@ bool SameCost(const std::optional<double>& a, const std::optional<double>& b) {
 }
 
 }  // namespace
+
+double ObjectiveOf(const Problem& problem, const Totals& totals) {
+  const Objective& weight = problem.objective;
+  return weight.mass_kg * totals.mass_kg + weight.volume_l * totals.volume_m3 * 1e3 +
+         weight.cost_eur * totals.cost_eur.value_or(0.0) +
+         weight.energy_wh * totals.energy_j / 3600.0;
+}
+
+Totals TotalsOf(const Problem& problem, const Assembly& a, double reservoir_m3) {
+  Totals totals;
+  totals.cost_eur = 0.0;
+  const auto add = [&](const Expected& part) {
+    totals.mass_kg += part.mass_kg;
+    totals.volume_m3 += part.volume_m3;
+    if (totals.cost_eur && part.cost_eur)
+      *totals.cost_eur += *part.cost_eur;
+    else
+      totals.cost_eur.reset();
+  };
+  for (std::size_t g = 0; g < a.lines.size(); ++g) {
+    const ActuatorGroup& group = problem.groups[g];
+    const LineParts& line = a.lines[g];
+    add(Times(group.count * group.tube_length_m, line.tube->per_metre));
+    if (line.fitting) add(Times(group.count * group.fittings_per_line, line.fitting->basics));
+    add(Times(std::ceil(static_cast<double>(group.count) / line.valve->channels),
+              line.valve->basics));
+  }
+  if (a.regulator) add(Times(1, a.regulator->basics));
+  if (a.cylinder) add(Filled(problem, a.bottles, *a.cylinder));
+  if (a.co2) add(Times(a.bottles, a.co2->basics, a.co2->co2_mass_kg));
+  if (a.compressor) add(Times(a.compressors, a.compressor->basics));
+  if (a.battery) add(Times(a.batteries, a.battery->basics));
+  if (a.reservoir)
+    add(Times(a.reservoirs, a.reservoir->basics));
+  else if (a.compressor)
+    add(Made(problem, reservoir_m3));
+  return totals;
+}
 
 bool Fit(const model::Tubing& tube, const model::Fitting& fitting) {
   return std::abs(tube.outer_diameter_m - fitting.tube_outer_diameter_m) <= 0.05e-3;
@@ -212,13 +257,10 @@ void CheckAmounts(const Problem& problem, const Design& design, const Assembly& 
       !Near(totals.volume_m3, sum.volume_m3, kSumTolerance) ||
       !SameCost(totals.cost_eur, sum.cost_eur))
     findings.push_back({"amounts", "totals are not the sums of the parts"});
-  const Objective& weight = problem.objective;
-  const double objective =
-      weight.mass_kg * totals.mass_kg + weight.volume_l * totals.volume_m3 * 1e3 +
-      weight.cost_eur * totals.cost_eur.value_or(0.0) + weight.energy_wh * totals.energy_j / 3600.0;
+  const double objective = ObjectiveOf(problem, totals);
   if (!Near(design.objective, objective, kSumTolerance))
     findings.push_back({"amounts", "the objective is not that of the totals"});
-  if ((weight.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur)) && !totals.cost_eur)
+  if ((problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur)) && !totals.cost_eur)
     findings.push_back({"amounts", "a part without a price where cost matters"});
 }
 

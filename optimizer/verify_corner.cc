@@ -1,20 +1,13 @@
 #include "optimizer/verify_corner.h"
 
-#include "model/series.h"
 #include "model/storage.h"
 #include "model/stroke.h"
-#include "model/tube.h"
 #include "optimizer/verify_design.h"
-#include "optimizer/verify_dominance.h"
 
 namespace plenum::optimizer {
 namespace {
 
-int SlotOf(const ProofPlan& plan, Family family, int group) {
-  for (std::size_t s = 0; s < plan.slots.size(); ++s)
-    if (plan.slots[s].family == family && plan.slots[s].group == group) return static_cast<int>(s);
-  return -1;
-}
+constexpr double kSlack = 1.0 + kSumTolerance;
 
 // Calls `visit(item)` for the choices of a slot in the box until one gives true.
 template <typename Visit>
@@ -24,192 +17,17 @@ bool Any(const ProofPlan& plan, const Ranges& ranges, int slot, const Visit& vis
   return false;
 }
 
-bool LineMates(const Problem& problem, const ProofPlan& plan, const Ranges& ranges, int g) {
-  if (problem.groups[g].fittings_per_line == 0) return true;
-  const model::Parts& parts = problem.parts;
-  const int tubes = SlotOf(plan, Family::kTubing, g), valves = SlotOf(plan, Family::kValve, g);
-  return Any(plan, ranges, SlotOf(plan, Family::kFitting, g), [&](const ProofItem& f) {
-    const model::Fitting& fitting = parts.fittings[f.part];
-    return Any(plan, ranges, tubes,
-               [&](const ProofItem& t) { return Fit(parts.tubing[t.part], fitting); }) &&
-           Any(plan, ranges, valves,
-               [&](const ProofItem& v) { return Fit(fitting, parts.valves[v.part]); });
-  });
-}
-
-bool SourceMates(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
-  const model::Parts& parts = problem.parts;
-  Assembly source;
-  source.configuration = plan.configuration;
-  if (plan.configuration == Configuration::kCompressor)
-    return Any(plan, ranges, SlotOf(plan, Family::kCompressor, -1), [&](const ProofItem& pump) {
-      return Any(plan, ranges, SlotOf(plan, Family::kBattery, -1), [&](const ProofItem& pack) {
-        source.compressor = &parts.compressors[pump.part];
-        source.battery = &parts.batteries[pack.part];
-        return Fit(problem, source);
-      });
-    });
-  return Any(plan, ranges, SlotOf(plan, Family::kRegulator, -1), [&](const ProofItem& item) {
-    source.regulator = &parts.regulators[item.part];
-    if (plan.configuration == Configuration::kCylinder)
-      return Any(plan, ranges, SlotOf(plan, Family::kCylinder, -1), [&](const ProofItem& bottle) {
-        source.cylinder = &parts.cylinders[bottle.part];
-        return Fit(problem, source);
-      });
-    if (plan.configuration == Configuration::kCo2) source.co2 = &parts.co2.front();
-    return Fit(problem, source);
-  });
-}
-
-// The best of every number of a group's choices.
-struct BestLine {
-  model::FlowElement fill{0, 0, 1}, exhaust{0, 0, 1}, fitting{0, 0, 1};
-  double narrowest_m = kUnlimited, widest_m = 0.0;
-  double source_pa = kUnlimited;  // the highest that it stands
-  double switches_pa = kUnlimited, coil_w = kUnlimited;
-  bool some_hold = false;
-};
-
-void Raise(const model::FlowElement& flow, model::FlowElement& best) {
-  best.sonic_conductance_m3_per_s_pa =
-      std::max(best.sonic_conductance_m3_per_s_pa, flow.sonic_conductance_m3_per_s_pa);
-  best.critical_ratio = std::max(best.critical_ratio, flow.critical_ratio);
-  best.subsonic_index = std::min(best.subsonic_index, flow.subsonic_index);
-}
-
-BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ranges, int g) {
-  const model::Parts& parts = problem.parts;
-  BestLine best;
-  double tube_pa = 0.0, fitting_pa = 0.0, valve_pa = 0.0;
-  Any(plan, ranges, SlotOf(plan, Family::kTubing, g), [&](const ProofItem& item) {
-    const model::Tubing& tube = parts.tubing[item.part];
-    best.narrowest_m = std::min(best.narrowest_m, tube.inner_diameter_m);
-    best.widest_m = std::max(best.widest_m, tube.inner_diameter_m);
-    tube_pa = std::max(tube_pa, tube.pressure_max_pa);
-    return false;
-  });
-  Any(plan, ranges, SlotOf(plan, Family::kFitting, g), [&](const ProofItem& item) {
-    if (item.part < 0) {
-      fitting_pa = kUnlimited;
-      return false;
-    }
-    Raise(parts.fittings[item.part].flow, best.fitting);
-    fitting_pa = std::max(fitting_pa, parts.fittings[item.part].pressure_max_pa);
-    return false;
-  });
-  Any(plan, ranges, SlotOf(plan, Family::kValve, g), [&](const ProofItem& item) {
-    const model::Valve& valve = parts.valves[item.part];
-    Raise(valve.fill, best.fill);
-    Raise(valve.exhaust, best.exhaust);
-    valve_pa = std::max(valve_pa, valve.pressure_max_pa);
-    best.switches_pa = std::min(best.switches_pa, valve.pressure_min_pa);
-    best.coil_w = std::min(best.coil_w, valve.coil_power_w * problem.groups[g].count);
-    best.some_hold |= model::Holds(valve.kind);
-    return false;
-  });
-  best.source_pa = std::min({tube_pa, fitting_pa, valve_pa, problem.source_pressure_max_pa});
-  if (!best.some_hold) best.source_pa = std::min(best.source_pa, problem.groups[g].pressure_max_pa);
-  return best;
-}
-
-// The highest source pressure of any choice of source in the box.
-double HighestSource(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
-  const model::Parts& parts = problem.parts;
-  double highest_pa = 0.0;
-  const auto raise = [&](double pa) {
-    highest_pa = std::max(highest_pa, pa);
-    return false;
-  };
-  if (plan.configuration == Configuration::kCompressor)
-    Any(plan, ranges, SlotOf(plan, Family::kCompressor, -1), [&](const ProofItem& item) {
-      return raise(model::HighestPressure(parts.compressors[item.part].curve));
-    });
-  else
-    Any(plan, ranges, SlotOf(plan, Family::kRegulator, -1), [&](const ProofItem& item) {
-      return raise(parts.regulators[item.part].outlet_pressure_max_pa);
-    });
-  if (plan.configuration == Configuration::kMains)
-    highest_pa = std::min(highest_pa, problem.mains_pressure_pa);
-  return highest_pa;
-}
-
-// One line alone on an unlimited source at its highest pressure: no source is faster.
-bool TooSlow(const Problem& problem, const ProofPlan& plan, int g, const BestLine& line,
-             double source_pa) {
-  const ActuatorGroup& group = problem.groups[g];
-  const double ambient_pa = problem.ambient.pressure_pa;
-  const double temperature_k = problem.ambient.temperature_k;
-  const double operating_pa = group.chamber.operating_pressure_pa;
-  if (source_pa < std::max(operating_pa, line.switches_pa)) return true;
-  std::vector<model::FlowElement> fill{line.fill};
-  const int near_valve = (group.fittings_per_line + 1) / 2;
-  fill.insert(fill.end(), near_valve, line.fitting);
-  fill.push_back(model::TubeElement(line.widest_m, group.tube_length_m));
-  fill.insert(fill.end(), group.fittings_per_line - near_valve, line.fitting);
-  std::vector<model::FlowElement> exhaust(fill.rbegin(), fill.rend());
-  exhaust.back() = line.exhaust;
-  model::Chamber chamber = group.chamber;
-  chamber.dead_volume_m3 += model::BoreVolume(line.narrowest_m, group.tube_length_m);
-  const model::Gas gas =
-      plan.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
-  const double factor =
-      model::FlowFactor(gas) * std::sqrt(model::kReferenceTemperatureK / temperature_k);
-  const double half_s = 0.5 / problem.frequency_hz;
-  const auto target = [&](double fraction) {
-    return ambient_pa + fraction * (operating_pa - ambient_pa);
-  };
-  const model::Series in = model::MakeSeries(fill, factor),
-                      out = model::MakeSeries(exhaust, factor);
-  return model::EmptyTime(out, chamber, operating_pa, target(problem.fall_fraction),
-                          temperature_k) > std::min(group.fall_time_max_s, half_s) ||
-         model::FillTime(in, chamber, source_pa, ambient_pa, operating_pa, temperature_k) >
-             half_s ||
-         model::FillTime(in, chamber, source_pa, ambient_pa, target(problem.rise_fraction),
-                         temperature_k) > group.rise_time_max_s;
-}
-
-bool TooMuch(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
-  ItemAmounts sum;
-  for (std::size_t s = 0; s < plan.slots.size(); ++s) {
-    ItemAmounts least{kUnlimited, kUnlimited, kUnlimited, 0.0};
-    Any(plan, ranges, static_cast<int>(s), [&](const ProofItem& item) {
-      const ItemAmounts amounts = AmountsOf(problem, plan.slots[s], item);
-      least.mass_kg = std::min(least.mass_kg, amounts.mass_kg);
-      least.volume_m3 = std::min(least.volume_m3, amounts.volume_m3);
-      least.cost_eur = std::min(least.cost_eur, amounts.cost_eur);
-      return false;
-    });
-    sum.mass_kg += least.mass_kg;
-    sum.volume_m3 += least.volume_m3;
-    sum.cost_eur += least.cost_eur;
+SlotAmounts AmountsOfAll(const Problem& problem, const ProofPlan& plan) {
+  SlotAmounts all;
+  for (const ProofSlot& slot : plan.slots) {
+    all.emplace_back();
+    for (const ProofItem& item : slot.choices) all.back().push_back(AmountsOf(problem, slot, item));
   }
-  return sum.mass_kg > problem.mass_max_kg * (1.0 + kSumTolerance) ||
-         sum.volume_m3 * 1e3 > problem.volume_max_l * (1.0 + kSumTolerance) ||
-         sum.cost_eur > problem.cost_max_eur * (1.0 + kSumTolerance);
+  return all;
 }
 
-// Air of all cycles into the narrowest tubes, and coils for half of each period.
-struct Need {
-  double air_m3 = 0.0, energy_j = 0.0;
-};
-
-Need LeastNeed(const Problem& problem, const std::vector<BestLine>& lines) {
-  Need need;
-  for (std::size_t g = 0; g < lines.size(); ++g) {
-    const ActuatorGroup& group = problem.groups[g];
-    model::Chamber chamber = group.chamber;
-    chamber.dead_volume_m3 += model::BoreVolume(lines[g].narrowest_m, group.tube_length_m);
-    const double content = model::Content(chamber, chamber.operating_pressure_pa) -
-                           model::Content(chamber, problem.ambient.pressure_pa);
-    need.air_m3 += problem.actuations * group.count *
-                   model::StandardVolume(content, problem.ambient.temperature_k);
-    need.energy_j += problem.actuations * lines[g].coil_w * 0.5 / problem.frequency_hz;
-  }
-  return need;
-}
-
-// Gas that a bottle gives down to the operating pressure, at most.
-double MostGas(const Problem& problem, Family family, const ProofItem& item, double inlet_pa) {
+// Gas that a bottle gives down to an inlet pressure.
+double GasOf(const Problem& problem, Family family, const ProofItem& item, double inlet_pa) {
   const double temperature_k = problem.ambient.temperature_k;
   if (family == Family::kCylinder) {
     const model::Cylinder& bottle = problem.parts.cylinders[item.part];
@@ -222,94 +40,209 @@ double MostGas(const Problem& problem, Family family, const ProofItem& item, dou
                                                 inlet_pa, temperature_k);
 }
 
-// Energy of the pump and its coils at least: every litre drawn is pumped at the pressure at which
-// that takes least.
-double LeastPumpEnergy(const Problem& problem, const ProofPlan& plan, const Ranges& ranges,
-                       double air_m3) {
-  double least_j_per_m3 = kUnlimited;
-  const double ambient_pa = problem.ambient.pressure_pa;
-  double operating_pa = ambient_pa;
-  for (const ActuatorGroup& group : problem.groups)
-    operating_pa = std::max(operating_pa, group.chamber.operating_pressure_pa);
-  Any(plan, ranges, SlotOf(plan, Family::kCompressor, -1), [&](const ProofItem& item) {
-    const model::CompressorCurve& curve = problem.parts.compressors[item.part].curve;
-    constexpr int kSteps = 64;
-    for (int i = 0; i <= kSteps; ++i) {
-      // Between two pressures at least the power of the cheaper end over the flow of the lower.
-      const auto at = [&](int k) {
-        return ambient_pa + (model::HighestPressure(curve) - ambient_pa) * k / kSteps;
-      };
-      const double low_pa = at(i), high_pa = at(std::min(i + 1, kSteps));
-      const double power_w =
-          std::min(model::ElectricalPower(curve, low_pa), model::ElectricalPower(curve, high_pa));
-      const double flow = model::FreeAirDelivery(curve, low_pa);
-      if (flow > 0.0) least_j_per_m3 = std::min(least_j_per_m3, power_w / flow);
-    }
+// The best of every number of the regulators in a box.
+model::Regulator BestRegulator(const Problem& problem, const ProofPlan& plan,
+                               const Ranges& ranges) {
+  model::Regulator best;
+  best.flow = {0.0, 0.0, 1.0};
+  best.inlet_pressure_min_pa = best.outlet_pressure_min_pa = best.electrical_power_w = kUnlimited;
+  Any(plan, ranges, SlotOf(plan, Family::kRegulator, -1), [&](const ProofItem& item) {
+    const model::Regulator& one = problem.parts.regulators[item.part];
+    model::FlowElement& flow = best.flow;
+    flow.sonic_conductance_m3_per_s_pa =
+        std::max(flow.sonic_conductance_m3_per_s_pa, one.flow.sonic_conductance_m3_per_s_pa);
+    flow.critical_ratio = std::max(flow.critical_ratio, one.flow.critical_ratio);
+    flow.subsonic_index = std::min(flow.subsonic_index, one.flow.subsonic_index);
+    best.flow_max_m3_per_s = std::max(best.flow_max_m3_per_s, one.flow_max_m3_per_s);
+    best.inlet_pressure_min_pa = std::min(best.inlet_pressure_min_pa, one.inlet_pressure_min_pa);
+    best.inlet_pressure_max_pa = std::max(best.inlet_pressure_max_pa, one.inlet_pressure_max_pa);
+    best.outlet_pressure_min_pa = std::min(best.outlet_pressure_min_pa, one.outlet_pressure_min_pa);
+    best.outlet_pressure_max_pa = std::max(best.outlet_pressure_max_pa, one.outlet_pressure_max_pa);
+    best.electrical_power_w = std::min(best.electrical_power_w, one.electrical_power_w);
     return false;
   });
-  return air_m3 * least_j_per_m3;
-}
-
-// What a choice must bear: gas for a bottle, energy for a battery.
-struct Needs {
-  double air_m3, energy_j, inlet_pa;
-};
-
-Needs NeedsOf(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
-  std::vector<BestLine> lines;
-  double inlet_pa = 0.0;
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    lines.push_back(BestOf(problem, plan, ranges, g));
-    inlet_pa = std::max(inlet_pa, problem.groups[g].chamber.operating_pressure_pa);
-  }
-  const Need need = LeastNeed(problem, lines);
-  Needs needs{need.air_m3, need.energy_j, inlet_pa};
-  if (plan.configuration == Configuration::kCompressor)
-    needs.energy_j += LeastPumpEnergy(problem, plan, ranges, need.air_m3);
-  return needs;
-}
-
-bool Bears(const Problem& problem, const ProofSlot& slot, const ProofItem& item,
-           const Needs& needs) {
-  if (slot.family == Family::kCylinder || slot.family == Family::kCo2)
-    return MostGas(problem, slot.family, item, needs.inlet_pa) >= needs.air_m3;
-  if (slot.family != Family::kBattery) return true;
-  const model::Battery& pack = problem.parts.batteries[item.part];
-  return item.quantity * model::UsableEnergy(pack.capacity_ah, pack.nominal_voltage_v) >=
-         needs.energy_j;
+  return best;
 }
 
 }  // namespace
 
-double LeastObjective(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
-  const Needs needs = NeedsOf(problem, plan, ranges);
-  double sum = 0.0;
-  for (std::size_t s = 0; s < plan.slots.size(); ++s) {
-    double least = kUnlimited;
-    Any(plan, ranges, static_cast<int>(s), [&](const ProofItem& item) {
-      if (Bears(problem, plan.slots[s], item, needs))
-        least = std::min(least, AmountsOf(problem, plan.slots[s], item).objective);
-      return false;
+Corners::Corners(const Problem& problem, const ProofPlan& plan)
+    : problem_(problem), plan_(plan), amounts_(AmountsOfAll(problem, plan)) {
+  if (plan.configuration == Configuration::kCompressor) pumps_.emplace(problem, plan, amounts_);
+}
+
+const LeastAmounts& Corners::Least(const Ranges& ranges, int slot) {
+  const auto [first, last] = ranges[slot];
+  const auto [entry, fresh] = least_.try_emplace({slot, first, last});
+  LeastAmounts& found = entry->second;
+  if (!fresh) return found;
+  ItemAmounts& least = found.least;
+  for (int i = first; i < last; ++i) {
+    const ItemAmounts& amounts = amounts_[slot][i];
+    least.mass_kg = std::min(least.mass_kg, amounts.mass_kg);
+    least.volume_m3 = std::min(least.volume_m3, amounts.volume_m3);
+    least.cost_eur = std::min(least.cost_eur, amounts.cost_eur);
+    least.objective = std::min(least.objective, amounts.objective);
+    found.objective_most = std::max(found.objective_most, amounts.objective);
+  }
+  return found;
+}
+
+const BestLine& Corners::Line(const Ranges& ranges, int g) {
+  const auto& tubes = ranges[SlotOf(plan_, Family::kTubing, g)];
+  const auto& fittings = ranges[SlotOf(plan_, Family::kFitting, g)];
+  const auto& valves = ranges[SlotOf(plan_, Family::kValve, g)];
+  const auto [entry, fresh] = lines_.try_emplace(
+      {g, tubes.first, tubes.second, fittings.first, fittings.second, valves.first, valves.second});
+  if (fresh) entry->second = BestOf(problem_, plan_, ranges, g);
+  return entry->second;
+}
+
+bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
+  const model::Parts& parts = problem_.parts;
+  Assembly source;
+  source.configuration = plan_.configuration;
+  if (plan_.configuration == Configuration::kCompressor) {
+    source.compressor = &parts.compressors[item.part];
+    return Any(plan_, ranges, SlotOf(plan_, Family::kBattery, -1), [&](const ProofItem& pack) {
+      source.battery = &parts.batteries[pack.part];
+      return Fit(problem_, source);
     });
+  }
+  source.regulator = &parts.regulators[item.part];
+  if (plan_.configuration == Configuration::kCylinder)
+    return Any(plan_, ranges, SlotOf(plan_, Family::kCylinder, -1), [&](const ProofItem& bottle) {
+      source.cylinder = &parts.cylinders[bottle.part];
+      return Fit(problem_, source);
+    });
+  if (plan_.configuration == Configuration::kCo2) source.co2 = &parts.co2.front();
+  return Fit(problem_, source);
+}
+
+bool Corners::SourceMates(const Ranges& ranges) const {
+  const bool pump = plan_.configuration == Configuration::kCompressor;
+  const int slot = SlotOf(plan_, pump ? Family::kCompressor : Family::kRegulator, -1);
+  return Any(plan_, ranges, slot, [&](const ProofItem& item) { return SourceMates(ranges, item); });
+}
+
+bool Corners::CannotMate(const Ranges& ranges) {
+  for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
+    if (!Line(ranges, g).mates) return true;
+  return !SourceMates(ranges);
+}
+
+bool Corners::TooMuch(const Ranges& ranges) {
+  ItemAmounts sum;
+  for (int s = 0; s < static_cast<int>(plan_.slots.size()); ++s) {
+    const ItemAmounts& least = Least(ranges, s).least;
+    sum.mass_kg += least.mass_kg;
+    sum.volume_m3 += least.volume_m3;
+    sum.cost_eur += least.cost_eur;
+  }
+  return sum.mass_kg > problem_.mass_max_kg * kSlack ||
+         sum.volume_m3 * 1e3 > problem_.volume_max_l * kSlack ||
+         sum.cost_eur > problem_.cost_max_eur * kSlack;
+}
+
+// Each group alone on the best regulator, then the least bottle and battery that bear the needs.
+double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
+  model::Regulator regulator = BestRegulator(problem_, plan_, ranges);
+  double low_pa = std::max(problem_.ambient.pressure_pa, regulator.outlet_pressure_min_pa);
+  double high_pa = std::min(problem_.source_pressure_max_pa, regulator.outlet_pressure_max_pa);
+  double flow_max = regulator.flow_max_m3_per_s;
+  if (plan_.configuration == Configuration::kMains) {
+    high_pa = std::min(high_pa, problem_.mains_pressure_pa);
+    flow_max = std::min(flow_max, problem_.mains_flow_max_m3_per_s);
+  }
+  const int groups = static_cast<int>(problem_.groups.size());
+  for (int g = 0; g < groups; ++g) {
+    low_pa = std::max(low_pa, Line(ranges, g).source_low_pa);
+    high_pa = std::min(high_pa, Line(ranges, g).source_high_pa);
+  }
+  if (!(low_pa <= high_pa)) return kUnlimited;
+
+  const double temperature_k = problem_.ambient.temperature_k;
+  const model::Gas gas =
+      plan_.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
+  const double factor =
+      model::FlowFactor(gas) * std::sqrt(model::kReferenceTemperatureK / temperature_k);
+  const double half_s = 0.5 / problem_.frequency_hz;
+  double air_m3 = 0.0, coil_j = 0.0, inflating_j = 0.0;  // per cycle
+  for (int g = 0; g < groups; ++g) {
+    const BestLine& line = Line(ranges, g);
+    const ActuatorGroup& group = problem_.groups[g];
+    std::vector<model::FlowElement> elements{regulator.flow};
+    elements.front().sonic_conductance_m3_per_s_pa /= group.count;
+    elements.insert(elements.end(), line.fill.begin(), line.fill.end());
+    const model::Series fill = model::MakeSeries(elements, factor);
+    const auto seconds = [&](double to_pa) {
+      return model::FillTime(fill, line.chamber, high_pa, problem_.ambient.pressure_pa, to_pa,
+                             temperature_k, flow_max / group.count);
+    };
+    const double inflate_s = seconds(group.chamber.operating_pressure_pa);
+    if (inflate_s > half_s * kSlack) return kUnlimited;
+    if (inflate_s > group.rise_time_max_s &&
+        seconds(PressureAt(problem_, g, problem_.rise_fraction)) > group.rise_time_max_s * kSlack)
+      return kUnlimited;
+    const double full_pa = line.some_hold ? group.chamber.operating_pressure_pa : low_pa;
+    air_m3 += model::StandardVolume(Drawn(problem_, g, line.chamber, full_pa), temperature_k);
+    coil_j += line.coil_w * half_s;
+    if (line.all_hold) inflating_j += line.coil_w * inflate_s;
+  }
+  const double beyond_j = problem_.actuations * inflating_j;
+  double sum = chosen + problem_.objective.energy_wh * beyond_j / 3600.0;
+  if (plan_.configuration == Configuration::kMains) return sum;
+
+  const double energy_j =
+      beyond_j + problem_.actuations * coil_j +
+      regulator.electrical_power_w * problem_.actuations / problem_.frequency_hz;
+  const double inlet_pa = std::max(low_pa, regulator.inlet_pressure_min_pa);
+  const bool cylinder = plan_.configuration == Configuration::kCylinder;
+  const Family family = cylinder ? Family::kCylinder : Family::kCo2;
+  const auto least = [&](int slot, const auto& bears) {
+    double objective = kUnlimited;
+    for (int i = ranges[slot].first; i < ranges[slot].second; ++i)
+      if (amounts_[slot][i].objective < objective && bears(plan_.slots[slot].choices[i]))
+        objective = amounts_[slot][i].objective;
+    return objective;
+  };
+  sum += least(SlotOf(plan_, family, -1), [&](const ProofItem& item) {
+    const model::Parts& parts = problem_.parts;
+    const bool fits =
+        cylinder ? parts.cylinders[item.part].fill_pressure_pa <= regulator.inlet_pressure_max_pa
+                 : item.quantity * parts.co2[item.part].flow_sustained_m3_per_s * kSlack >=
+                       air_m3 * problem_.frequency_hz;
+    return fits && GasOf(problem_, family, item, inlet_pa) * kSlack >= problem_.actuations * air_m3;
+  });
+  return sum + least(SlotOf(plan_, Family::kBattery, -1), [&](const ProofItem& item) {
+           const model::Battery& pack = problem_.parts.batteries[item.part];
+           return item.quantity * model::UsableEnergy(pack.capacity_ah, pack.nominal_voltage_v) *
+                      kSlack >=
+                  energy_j;
+         });
+}
+
+double Corners::LeastObjective(const Ranges& ranges, double enough) {
+  double sum = 0.0, chosen = 0.0;
+  for (int s = 0; s < static_cast<int>(plan_.slots.size()); ++s) {
+    const double least = Least(ranges, s).least.objective;
+    const Family family = plan_.slots[s].family;
     sum += least;
+    // The others are found by what they must bear.
+    if (family != Family::kCylinder && family != Family::kCo2 && family != Family::kBattery &&
+        family != Family::kReservoir)
+      chosen += least;
   }
-  return sum;
-}
-
-bool CannotMate(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
-    if (!LineMates(problem, plan, ranges, g)) return true;
-  return !SourceMates(problem, plan, ranges);
-}
-
-bool CannotWork(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
-  if (TooMuch(problem, plan, ranges)) return true;
-  const double source_pa = HighestSource(problem, plan, ranges);
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    const BestLine line = BestOf(problem, plan, ranges, g);
-    if (TooSlow(problem, plan, g, line, std::min(line.source_pa, source_pa))) return true;
+  if (sum > enough) return sum;
+  if (TooMuch(ranges)) return kUnlimited;
+  std::vector<const BestLine*> lines;
+  for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
+    lines.push_back(&Line(ranges, g));
+    if (!lines.back()->works) return kUnlimited;
   }
-  return std::isinf(LeastObjective(problem, plan, ranges));  // nothing bears the needs
+  if (!SourceMates(ranges)) return kUnlimited;
+  return pumps_ ? pumps_->Least(ranges, lines, chosen, sum, enough)
+                : LeastRegulated(ranges, chosen);
 }
 
 }  // namespace plenum::optimizer

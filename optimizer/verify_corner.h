@@ -1,20 +1,54 @@
-// What this side can say of a closed box from the raw parts alone. Internal to verify*.cc.
+// What this side can say of a box from the raw parts alone. Internal to verify*.cc.
 #ifndef PLENUM_OPTIMIZER_VERIFY_CORNER_H_
 #define PLENUM_OPTIMIZER_VERIFY_CORNER_H_
 
-#include "optimizer/verify_tree.h"
+#include <array>
+#include <map>
+
+#include "optimizer/verify_dominance.h"
+#include "optimizer/verify_line.h"
+#include "optimizer/verify_pump.h"
 
 namespace plenum::optimizer {
 
-// Sum of the least objectives of the choices: every design in the box has at least this.
-double LeastObjective(const Problem& problem, const ProofPlan& plan, const Ranges& ranges);
+// The least amounts of a slot's choices in a range, the objective's share and its spread.
+struct LeastAmounts {
+  ItemAmounts least{kUnlimited, kUnlimited, kUnlimited, kUnlimited};
+  double objective_most = -kUnlimited;
+};
 
-// No choices in the box fit together.
-bool CannotMate(const Problem& problem, const ProofPlan& plan, const Ranges& ranges);
+// Keeps what it found: boxes of one tree share most of their ranges.
+class Corners {
+ public:
+  Corners(const Problem& problem, const ProofPlan& plan);
+  Corners(const Corners&) = delete;  // its pumps look at its amounts
 
-// The best corner of the box misses a requirement: pressures, the exact march of a line alone on an
-// unlimited source (rise and fall), least amounts, gas, coil energy.
-bool CannotWork(const Problem& problem, const ProofPlan& plan, const Ranges& ranges);
+  // No choices in the box fit together.
+  bool CannotMate(const Ranges& ranges);
+
+  // Every design in the box has at least this objective; +∞ where no combination works. It is
+  // looked at closely only as long as it is not above `enough`.
+  double LeastObjective(const Ranges& ranges, double enough);
+
+  const LeastAmounts& Least(const Ranges& ranges, int slot);
+
+ private:
+  using SlotRange = std::array<int, 3>;  // slot, first, last
+  using LineRange = std::array<int, 7>;  // group, ranges of its slots
+
+  const BestLine& Line(const Ranges& ranges, int group);
+  bool SourceMates(const Ranges& ranges) const;
+  bool SourceMates(const Ranges& ranges, const ProofItem& pump_or_regulator) const;
+  bool TooMuch(const Ranges& ranges);
+  double LeastRegulated(const Ranges& ranges, double chosen);
+
+  const Problem& problem_;
+  const ProofPlan& plan_;
+  std::vector<std::vector<ItemAmounts>> amounts_;  // per slot and choice
+  std::map<SlotRange, LeastAmounts> least_;
+  std::map<LineRange, BestLine> lines_;
+  std::optional<Pumps> pumps_;
+};
 
 }  // namespace plenum::optimizer
 

@@ -39,6 +39,10 @@ void CheckAmounts(const Problem& problem, const Design& design, const Assembly& 
 bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& assembly,
                       Findings& findings);
 
+// Sums over all pieces, without energy; a made-to-measure reservoir has the given volume.
+Totals TotalsOf(const Problem& problem, const Assembly& assembly, double reservoir_m3);
+double ObjectiveOf(const Problem& problem, const Totals& totals);
+
 // Which parts fit together.
 bool Fit(const model::Tubing& tube, const model::Fitting& fitting);
 bool Fit(const model::Fitting& fitting, const model::Valve& valve);

@@ -10,21 +10,6 @@ namespace {
 
 std::string In(const ProofPlan& plan) { return std::string(" (") + Name(plan.configuration) + ")"; }
 
-// What a slot can be filled with: every part in every number, priced ones alone where cost matters.
-std::vector<ProofItem> Entries(const Problem& problem, const ProofSlot& slot) {
-  if (slot.family == Family::kFitting && problem.groups[slot.group].fittings_per_line == 0)
-    return {{-1, 0}};
-  const bool cost = problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur);
-  std::vector<ProofItem> entries;
-  for (int part = 0; part < FamilySize(problem, slot.family); ++part)
-    for (int quantity = 1; quantity <= QuantityMax(problem, slot.family); ++quantity)
-      if (!cost || BasicsOf(problem, slot.family, part)->cost_eur)
-        entries.push_back({part, quantity});
-  if (slot.family == Family::kReservoir && MadeReservoirAllowed(problem) && !cost)
-    entries.push_back({-2, 1});
-  return entries;
-}
-
 using Key = std::pair<int, int>;
 Key KeyOf(const ProofItem& item) { return {item.part, item.part == -1 ? 0 : item.quantity}; }
 
@@ -98,6 +83,20 @@ class Walk {
 };
 
 }  // namespace
+
+std::vector<ProofItem> EntriesOf(const Problem& problem, const ProofSlot& slot) {
+  if (slot.family == Family::kFitting && problem.groups[slot.group].fittings_per_line == 0)
+    return {{-1, 0}};
+  const bool cost = problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur);
+  std::vector<ProofItem> entries;
+  for (int part = 0; part < FamilySize(problem, slot.family); ++part)
+    for (int quantity = 1; quantity <= QuantityMax(problem, slot.family); ++quantity)
+      if (!cost || BasicsOf(problem, slot.family, part)->cost_eur)
+        entries.push_back({part, quantity});
+  if (slot.family == Family::kReservoir && MadeReservoirAllowed(problem) && !cost)
+    entries.push_back({-2, 1});
+  return entries;
+}
 
 BigCount CountOf(const Ranges& ranges) {
   BigCount count = 1;
@@ -209,7 +208,7 @@ void CheckSlots(const Problem& problem, const ProofPlan& plan, Pruned& counts, F
   }
   BigCount priced = 1, kept = 1;
   for (const ProofSlot& slot : plan.slots) {
-    const std::vector<ProofItem> entries = Entries(problem, slot);
+    const std::vector<ProofItem> entries = EntriesOf(problem, slot);
     CheckSlot(problem, plan, slot, entries, findings);
     priced *= entries.size();
     kept *= slot.choices.size();

@@ -29,6 +29,9 @@ std::vector<Family> SourceFamilies(Configuration configuration);
 bool MadeReservoirAllowed(const Problem& problem);
 const model::PartBasics* BasicsOf(const Problem& problem, Family family, int part);
 
+// What a slot can be filled with: every part in every number, priced ones alone where cost matters.
+std::vector<ProofItem> EntriesOf(const Problem& problem, const ProofSlot& slot);
+
 // By the contract: of one configuration, from the catalogue alone.
 BigCount Combinations(const Problem& problem, Configuration configuration);
 

@@ -95,6 +95,9 @@ std::string Event(const char* name, const api::Json& data) {
 }  // namespace
 
 Reply PostDesign(SharedCatalog& catalog, Jobs& jobs, const Call& call) {
+  auto query_errors = CheckQuery(call, {"validate_only"});
+  const bool validate_only = ReadFlag(call, "validate_only", query_errors);
+  if (!query_errors.empty()) return ProblemReply(422, query_errors);
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
   CatalogView view = catalog.View();
@@ -102,6 +105,7 @@ Reply PostDesign(SharedCatalog& catalog, Jobs& jobs, const Call& call) {
       std::get<api::Json>(json), *view.parts,
       catalog.With([](const catalog::Store& store) { return store.Models(); }));
   if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
+  if (validate_only) return JsonReply(200, {{"valid", true}});
   auto& request = std::get<api::DesignRequest>(parsed);
 
   const std::string name = request.name;

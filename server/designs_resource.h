@@ -8,9 +8,10 @@
 
 namespace plenum::server {
 
-// 202 with { id, status, links }, or with "Prefer: wait=N" 200 with the result when it comes within
-// N seconds. At most a quarter of the request threads wait at a time; beyond that it is 202 at
-// once.
+// With "validate_only=true" in the query nothing is started: 200 with { "valid": true }, or the 422
+// that the request would get. Otherwise 202 with { id, status, links }, or with "Prefer: wait=N"
+// 200 with the result when it comes within N seconds. At most a quarter of the request threads wait
+// at a time; beyond that it is 202 at once.
 Reply PostDesign(SharedCatalog& catalog, Jobs& jobs, const Call& call);
 Reply ListDesigns(const Jobs& jobs);
 // { id, name, status, progress, result, links }.

@@ -85,14 +85,6 @@ void CheckFamily(const std::optional<std::string>& family, api::Errors& errors) 
   }
 }
 
-// "true" or "false"; false where it is missing.
-bool ReadFlag(const Call& call, const std::string& name, api::Errors& errors) {
-  const std::string text = QueryValue(call, name).value_or("false");
-  if (text != "true" && text != "false")
-    errors.push_back({"/" + name, "must be true or false, not \"" + text + "\""});
-  return text == "true";
-}
-
 // Evaluated on the part as it is stored; writes its tag to `etag`.
 catalog::Precondition IfMatch(const std::string& condition, std::string& etag) {
   return [&condition, &etag](const catalog::Part& stored) {

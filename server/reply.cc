@@ -52,4 +52,11 @@ std::optional<std::string> QueryValue(const Call& call, const std::string& name)
   return it->second;
 }
 
+bool ReadFlag(const Call& call, const std::string& name, api::Errors& errors) {
+  const std::string text = QueryValue(call, name).value_or("false");
+  if (text != "true" && text != "false")
+    errors.push_back({"/" + name, "must be true or false, not \"" + text + "\""});
+  return text == "true";
+}
+
 }  // namespace plenum::server

@@ -43,6 +43,8 @@ Reply ProblemReply(int status, const std::string& detail);
 // Errors on query parameters that are not among `known` or given twice.
 api::Errors CheckQuery(const Call& call, const std::vector<std::string_view>& known);
 std::optional<std::string> QueryValue(const Call& call, const std::string& name);
+// "true" or "false", anything else is an error; false where it is missing.
+bool ReadFlag(const Call& call, const std::string& name, api::Errors& errors);
 
 }  // namespace plenum::server
 

@@ -4,6 +4,7 @@
 #include "server/designs_resource.h"
 #include "server/history_resource.h"
 #include "server/models_resource.h"
+#include "server/page_resource.h"
 #include "server/parts_resource.h"
 
 namespace plenum::server {
@@ -20,19 +21,12 @@ Reply AnswerAtOnce(const Call& call, F&& run) {
   return JsonReply(200, std::get<api::Json>(answer));
 }
 
-Reply StartPage(const std::vector<Route>& routes) {
-  std::string rows;
+api::Json RouteTable(const std::vector<Route>& routes) {
+  api::Json table = api::Json::array();
   for (const auto& route : routes) {
-    rows += "<tr><td>" + route.method + "<td><code>" + route.path + "</code><td>" + route.summary;
+    table.push_back({{"method", route.method}, {"path", route.path}, {"summary", route.summary}});
   }
-  return {200,
-          "text/html; charset=utf-8",
-          "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>plenum</title>"
-          "<h1>plenum</h1><p>Chooses the parts of a pneumatic supply for soft robots from a "
-          "catalogue, and proves that nothing in it is better.<table>" +
-              rows + "</table></html>\n",
-          {},
-          {}};
+  return {{"routes", std::move(table)}};
 }
 
 }  // namespace
@@ -42,7 +36,8 @@ std::vector<Route> Routes(SharedCatalog& catalog, Jobs& jobs) {
     return [&catalog, answer](const Call& call) { return answer(catalog, call); };
   };
   std::vector<Route> routes = {
-      {"POST", "/v1/designs", "requirements/1 in, a job that ranks designs out",
+      {"POST", "/v1/designs",
+       "requirements/1 in, a job that ranks designs out; query validate_only",
        [&](const Call& call) { return PostDesign(catalog, jobs, call); }},
       {"GET", "/v1/designs", "the jobs, newest first",
        [&](const Call&) { return ListDesigns(jobs); }},
@@ -71,6 +66,8 @@ std::vector<Route> Routes(SharedCatalog& catalog, Jobs& jobs) {
       {"PUT", "/v1/parts/{id}", "replaces the part that If-Match names", parts(ReplacePart)},
       {"DELETE", "/v1/parts/{id}", "removes the part that If-Match names", parts(RemovePart)},
       {"GET", "/v1/parts/{id}/history", "changes of a part, newest first", parts(PartHistory)},
+      {"GET", "/v1/families", "families of parts: fields, ranges, what they mean",
+       [](const Call&) { return JsonReply(200, api::RenderFamilies()); }},
       {"GET", "/v1/revisions", "writes to the catalogue, newest first", parts(ListRevisions)},
       {"GET", "/v1/revisions/{id}", "one write with its changes", parts(GetRevision)},
       {"GET", "/v1/models", "saved model revisions, the newest of each name", parts(ListModels)},
@@ -81,8 +78,12 @@ std::vector<Route> Routes(SharedCatalog& catalog, Jobs& jobs) {
          return JsonReply(200, {{"status", "ok"}});
        }},
   };
-  Reply page = StartPage(routes);
-  routes.push_back({"GET", "/", "this page", [page](const Call&) { return page; }});
+  routes.push_back({"GET", "/", "the web page", GetPage});
+  routes.push_back({"GET", "/assets/{id}", "a file of the web page", GetAsset});
+  routes.push_back({"GET", "/v1", "this table", {}});
+  routes.back().answer = [table = RouteTable(routes)](const Call&) {
+    return JsonReply(200, table);
+  };
   return routes;
 }
 

@@ -1,5 +1,5 @@
 // What the service answers: one table of routes, from which requests are dispatched, 405 is decided
-// and the start page is written.
+// and the table itself is served.
 #ifndef PLENUM_SERVER_ROUTES_H_
 #define PLENUM_SERVER_ROUTES_H_
 

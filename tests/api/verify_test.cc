@@ -78,12 +78,79 @@ Json& BoxOf(Json& answer, int kind) {
   throw std::out_of_range("no such box");
 }
 
+// Takes the first design off the list and closes its box in another way, with everything that is
+// counted put right.
+void Withhold(Json& answer, const Json& end) {
+  answer["designs"].erase(0);
+  for (std::size_t i = 0; i < answer["designs"].size(); ++i) answer["designs"][i]["rank"] = i + 1;
+  answer["requirements"]["ranking"]["count"] = answer["designs"].size();
+  answer["proof"]["record"]["count"] = answer["designs"].size();
+  for (Json& plan : answer["proof"]["record"]["plans"])
+    for (Json& box : plan["boxes"])
+      if (box[0] == 4) {
+        if (box[1] == 0)
+          box = end;
+        else
+          box[1] = box[1].get<int>() - 1;
+      }
+  if (end[0] == 6) return;
+  Json& proof = answer["proof"];
+  Json& count = proof["pruned"][end[0] == 1 ? "infeasible" : "bound"];
+  count = optimizer::BigCount(optimizer::BigCount(count.get<std::string>()) + 1).str();
+  proof["evaluated"] = proof["evaluated"].get<int>() - 1;
+}
+
 TEST(Verify, AcceptsTheAnswersOfTheSearch) {
   EXPECT_EQ(Refusals(Exosuit()), "");
   const Json verified = Verified(Exosuit());
   EXPECT_EQ(verified["schema"], "verification/1");
   EXPECT_EQ(verified["accepted"], true);
-  EXPECT_EQ(Refusals(Answered("gripper", 3)), "");
+  EXPECT_EQ(verified["not_rechecked"], Json::array());
+  const Json gripper = Answered("gripper", 3);
+  EXPECT_EQ(Refusals(gripper), "");
+  EXPECT_EQ(Verified(gripper)["not_rechecked"], Json::array());
+}
+
+TEST(Verify, EnumeratesEveryCombinationWhereThatEnds) {
+  const Json gripper = Answered("gripper", 5);
+  double shown = 0.0;
+  const BruteForce all{optimizer::kBruteForceMax, {}, [&](double share) { shown = share; }};
+  const Json verified =
+      std::get<Json>(VerifyAnswer(gripper, Project().parts, Project().revision, all));
+  EXPECT_EQ(verified["accepted"], true);
+  EXPECT_EQ(verified["brute_force"]["combinations"], gripper["proof"]["combinations"]);
+  EXPECT_EQ(verified["brute_force"]["undecided"], "0");
+  EXPECT_GT(shown, 0.0);
+
+  Json withheld = gripper;
+  withheld["proof"].erase("record");
+  withheld["designs"].erase(1);
+  for (std::size_t i = 0; i < 4; ++i) withheld["designs"][i]["rank"] = i + 1;
+  withheld["requirements"]["ranking"]["count"] = 4;
+  const Json refused =
+      std::get<Json>(VerifyAnswer(withheld, Project().parts, Project().revision, all));
+  EXPECT_EQ(refused["accepted"], false);
+  for (const Json& check : refused["checks"])
+    EXPECT_TRUE(check["check"] != "brute_force" || !check["ok"].get<bool>());
+
+  const BruteForce stopped{optimizer::kBruteForceMax, [] { return true; }, {}};
+  const Json cancelled =
+      std::get<Json>(VerifyAnswer(gripper, Project().parts, Project().revision, stopped));
+  EXPECT_EQ(cancelled["brute_force"]["cancelled"], true);
+  EXPECT_EQ(cancelled["accepted"], false);
+}
+
+TEST(Verify, RefusesToEnumerateMoreThanTheLimit) {
+  const auto errors = [](const Json& answer, long long most) {
+    return ErrorsOf(
+        VerifyAnswer(answer, Project().parts, Project().revision, BruteForce{most, {}, {}}));
+  };
+  const std::string detail =
+      DetailAt(errors(Exosuit(), optimizer::kBruteForceMax), "/proof/combinations");
+  EXPECT_NE(detail.find(Exosuit()["proof"]["combinations"].get<std::string>()), std::string::npos);
+  EXPECT_NE(detail.find("--combinations-max"), std::string::npos);
+  const Json gripper = Answered("gripper", 3);
+  EXPECT_NE(DetailAt(errors(gripper, 1000), "/proof/combinations"), "");
 }
 
 TEST(Verify, SaysWhatItDidNotRecheckWithoutARecord) {
@@ -162,6 +229,16 @@ TEST(Verify, RefusesTampering) {
       {"incompatible box that is not", "infeasible",
        [](Json& a) {
          BoxOf(a, 2) = Json::array({1, 1});
+       }},
+      // Only looking at the boxes again shows these three.
+      {"design withheld", "rechecked",
+       [](Json& a) {
+         Withhold(a, Json::array({1, 7}));
+       }},
+      {"design refuted", "rechecked", [](Json& a) { Withhold(a, Json::array({6})); }},
+      {"design said to be heavier", "rechecked",
+       [](Json& a) {
+         Withhold(a, {2, a["designs"].back()["objective"]});
        }},
       {"kind of a count", "counts",
        [](Json& a) {

@@ -91,6 +91,45 @@ TEST(SizeAtVolumeTest, VerdictAgreesWithADenseScan) {
   EXPECT_LT(undecided, (feasible + infeasible) / 10);
 }
 
+// Least energy where it may have several local minima over the stop pressure.
+TEST(SizeAtVolumeTest, FindsTheLeastEnergyOfPumpsWhosePowerFalls) {
+  int compared = 0, above_least = 0;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    Random random(seed);
+    Draw draw;
+    draw.seed = 7100 + seed;
+    draw.configurations = {Configuration::kCompressor};
+    draw.groups = seed % 8 == 0 ? 2 : 1;
+    draw.simultaneous = false;
+    draw.severity = 0.05 * static_cast<double>(seed % 6);
+    draw.size = {1, 1, 2, 0, 0, 0, 2, 2, 2};
+    Problem problem = RandomProblem(draw);
+    problem.objective = {0.0, 0.0, 0.0, 1.0};
+    for (model::Compressor& pump : problem.parts.compressors) MakePowerFall(random, pump.curve);
+    int here = 0;
+    ForEachCombination(problem, [&](const Candidate& candidate) {
+      if (candidate.reservoir.index == optimizer::kCustom || here >= draw.groups % 2 + 1 ||
+          !Chance(random, 0.3))
+        return;
+      const double volume_m3 = StockVolume(problem, candidate);
+      const Leaf leaf = optimizer::SizeAtVolume(problem, candidate, volume_m3);
+      const Scan scan = ScanPressures(problem, candidate, volume_m3, 300);
+      EXPECT_NE(leaf.status, LeafStatus::kUndecided) << "seed " << seed;
+      EXPECT_TRUE(leaf.status == LeafStatus::kFeasible || !scan.feasible) << "seed " << seed;
+      if (leaf.status != LeafStatus::kFeasible) return;
+      EXPECT_LE(leaf.objective, scan.objective * (1.0 + 5e-7)) << "seed " << seed;
+      EXPECT_GE(leaf.lower_bound, leaf.objective * (1.0 - 5e-7)) << "seed " << seed;
+      const std::optional<double> needed =
+          optimizer::NeededSourcePressure(problem, candidate, {0.0, volume_m3, volume_m3});
+      above_least += leaf.point.source_pa > 1.001 * *needed;
+      ++here;
+      ++compared;
+    });
+  }
+  EXPECT_GT(compared, 20);
+  EXPECT_GT(above_least, 5);
+}
+
 TEST(CustomSizingTest, NoSmallerVolumeIsFeasible) {
   int found = 0, rising = 0;
   for (std::uint64_t seed = 1; seed <= 12 && found < 9; ++seed) {

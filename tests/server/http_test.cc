@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <map>
 #include <memory>
 #include <thread>
 
@@ -92,9 +93,12 @@ class Http : public testing::Test {
 
 TEST_F(Http, SaysThatItRunsAndWhatItIs) {
   EXPECT_EQ(Body(client_->Get("/healthz"))["status"], "ok");
-  const auto page = client_->Get("/");
-  EXPECT_THAT(page->get_header_value("Content-Type"), StartsWith("text/html"));
-  EXPECT_THAT(page->body, HasSubstr("/v1/designs/{id}/events"));
+  std::string paths;
+  const Json table = Body(client_->Get("/v1"));
+  for (const Json& route : table["routes"])
+    paths += route["method"].get<std::string>() + " " + route["path"].get<std::string>() + "\n";
+  EXPECT_THAT(paths, HasSubstr("GET /v1/designs/{id}/events\n"));
+  EXPECT_THAT(paths, HasSubstr("GET /v1\n"));
 }
 
 TEST_F(Http, RefusesUnknownPathsAndMethods) {
@@ -279,6 +283,44 @@ TEST_F(Http, DesignThatIsWaitedForGivesTheResult) {
   const auto job = Body(client_->Get(result->get_header_value("Location")));
   EXPECT_EQ(job["status"], "done");
   EXPECT_EQ(job["result"], Body(result));
+}
+
+TEST_F(Http, RequirementsCanBeCheckedWithoutAJob) {
+  const std::string path = "/v1/designs?validate_only=";
+  const auto valid = client_->Post(path + "true", Exosuit(1.0).dump(), kJson);
+  EXPECT_EQ(valid->status, 200);
+  EXPECT_EQ(Body(valid), (Json{{"valid", true}}));
+  Json wrong = Exosuit(1.0);
+  wrong["actuators"][0]["rest_volume_ml"] = -1;
+  ExpectProblem(client_->Post(path + "true", wrong.dump(), kJson), 422,
+                "/actuators/0/rest_volume_ml");
+  ExpectProblem(client_->Post(path + "true", "{", kJson), 400);
+  EXPECT_TRUE(Body(client_->Get("/v1/designs"))["jobs"].empty());
+  ExpectProblem(client_->Post(path + "yes", Exosuit(1.0).dump(), kJson), 422, "/validate_only");
+  ExpectProblem(client_->Post("/v1/designs?dry=true", Exosuit(1.0).dump(), kJson), 422, "/dry");
+  EXPECT_EQ(client_->Post(path + "false", Exosuit(1.0).dump(), kJson)->status, 202);
+}
+
+TEST_F(Http, FamiliesNameTheirFields) {
+  const Json families = Body(client_->Get("/v1/families"))["families"];
+  EXPECT_EQ(families.size(), 9u);
+  for (const Json& family : families) {
+    const auto page =
+        Body(client_->Get("/v1/parts?limit=1&family=" + family["name"].get<std::string>()));
+    std::map<std::string, Json> fields;
+    for (const char* kind : {"numbers", "texts"})
+      for (const Json& field : family[kind]) fields[field["name"]] = field;
+    for (const auto& [name, origin] : page["parts"][0]["provenance"].items())
+      EXPECT_TRUE(fields.contains(name) ||
+                  (family["has_curve"] && page["parts"][0].contains("curve")))
+          << family["name"] << " " << name;
+    for (const auto& [name, field] : fields) {
+      EXPECT_FALSE(field["meaning"].get<std::string>().empty()) << name;
+      if (field["required"].get<bool>()) {
+        EXPECT_TRUE(page["parts"][0].contains(name)) << name;
+      }
+    }
+  }
 }
 
 TEST_F(Http, APostedPartChangesTheRankingUntilItIsDeleted) {

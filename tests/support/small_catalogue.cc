@@ -236,6 +236,17 @@ model::Parts RandomParts(Random& random, const CatalogueSize& size) {
   return parts;
 }
 
+void MakePowerFall(Random& random, model::CompressorCurve& curve) {
+  const std::vector<double> pressure(curve.current_a.x().begin(), curve.current_a.x().end());
+  const double drop = Uniform(random, 0.3, 0.8), bend = Uniform(random, 0.4, 1.5);
+  std::vector<double> current;
+  for (double p : pressure) {
+    const double share = (p - pressure.front()) / (pressure.back() - pressure.front());
+    current.push_back(curve.current_a.y()[0] * (1.0 - drop * std::pow(share, bend)));
+  }
+  curve.current_a = model::MonotoneCurve(pressure, current);
+}
+
 Problem RandomProblem(const Draw& draw) {
   Random random(draw.seed * 0x9e3779b97f4a7c15ULL + 1);
   Problem problem;

@@ -38,6 +38,9 @@ struct Draw {
 
 model::Parts RandomParts(Random& random, const CatalogueSize& size);
 
+// Makes a pump draw less the higher the pressure, so that energy per air may fall with it.
+void MakePowerFall(Random& random, model::CompressorCurve& curve);
+
 // Parts, actuators, duty, limits and a mass objective. Same draw, same problem.
 optimizer::Problem RandomProblem(const Draw& draw);
 

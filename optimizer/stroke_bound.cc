@@ -1,0 +1,202 @@
+#include "optimizer/stroke_bound.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "optimizer/pump_bounds.h"
+#include "optimizer/root.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr int kPanels = 20;     // up to the rise target
+constexpr int kLastPanels = 4;  // from there to the operating pressure
+constexpr int kSteps = 12;      // while the reservoir is pumped up again
+constexpr int kNodes = kPanels + kLastPanels + 1;
+
+// Pressures that divide a stroke, and what all chambers together have drawn there, as content.
+struct Nodes {
+  std::array<double, kNodes> pressure_pa, drawn;
+  std::array<double, kNodes - 1> middle_pa, middle_drawn;
+};
+
+Nodes MakeNodes(const Problem& problem, int g, const model::Chamber& chamber) {
+  const ActuatorGroup& group = problem.groups[g];
+  const double ambient_pa = problem.ambient.pressure_pa;
+  const double target_pa = RiseTarget(problem, group);
+  const double empty = model::Content(chamber, ambient_pa);
+  const auto drawn = [&](double pressure_pa) {
+    return group.count * (model::Content(chamber, pressure_pa) - empty);
+  };
+  Nodes nodes;
+  // Closer to each other towards the ends, where the flow drops fastest.
+  const auto place = [&](int first, int panels, double from_pa, double to_pa) {
+    for (int i = 0; i <= panels; ++i) {
+      const double rest = 1.0 - static_cast<double>(i) / panels;
+      nodes.pressure_pa[first + i] = to_pa - (to_pa - from_pa) * rest * std::sqrt(rest);
+    }
+  };
+  place(0, kPanels, ambient_pa, target_pa);
+  place(kPanels, kLastPanels, target_pa, group.chamber.operating_pressure_pa);
+  for (int i = 0; i < kNodes; ++i) nodes.drawn[i] = drawn(nodes.pressure_pa[i]);
+  for (int i = 0; i + 1 < kNodes; ++i) {
+    nodes.middle_pa[i] = 0.5 * (nodes.pressure_pa[i] + nodes.pressure_pa[i + 1]);
+    nodes.middle_drawn[i] = drawn(nodes.middle_pa[i]);
+  }
+  return nodes;
+}
+
+// A stroke panel by panel.
+class Stroke {
+ public:
+  Stroke(const Problem& problem, int g, const Line& line, const PumpFacts& pumps,
+         const StrokeStart& start)
+      : line_(line),
+        pumps_(pumps),
+        start_(start),
+        nodes_(MakeNodes(problem, g, line.chamber)),
+        count_(problem.groups[g].count),
+        kappa_(model::kReferencePressurePa * problem.ambient.temperature_k /
+               model::kReferenceTemperatureK) {}
+
+  // To a node; false if that takes until after `limit_s`.
+  bool Reach(int node, double limit_s) {
+    while (at_ < node)
+      if (!Advance(limit_s)) return false;
+    return true;
+  }
+
+  // The reservoir at a later time if nothing more is drawn, at most. The pumps are slower the
+  // fuller it is, so that each step at the rate of its start gives too much.
+  double PumpUp(double until_s) {
+    const double step_s = (until_s - time_s_) / kSteps;
+    const double drawn = nodes_.drawn[at_];
+    const double most = drawn + start_.high_m3 * (start_.stop_pa - start_.start_pa);
+    for (int i = 0; i < kSteps && pumped_ < most; ++i)
+      pumped_ += step_s * kappa_ / pumps_.seconds_per_m3.At(Reservoir(pumped_ - drawn, true));
+    return std::min(Reservoir(pumped_ - drawn, false), start_.stop_pa);
+  }
+
+  double time_s() const { return time_s_; }
+  double Share(int node) const { return nodes_.drawn[at_] / nodes_.drawn[node]; }
+
+ private:
+  bool Advance(double limit_s) {
+    const double after = nodes_.drawn[at_ + 1];
+    while (floor_ < at_ &&
+           nodes_.drawn[floor_ + 1] <= pumped_ - Taken(nodes_.pressure_pa[at_], true))
+      ++floor_;
+    const double lowest_pa = std::max(nodes_.pressure_pa[floor_], Reservoir(pumped_ - after, true));
+    const double delivery = kappa_ / pumps_.seconds_per_m3.At(lowest_pa);
+    // At the end the reservoir is no lower than the chambers.
+    const double least_s = (after + Taken(nodes_.pressure_pa[at_ + 1], false) - pumped_) / delivery;
+    const double left_s = limit_s - time_s_;
+    if (!(least_s <= left_s)) return false;
+    // The more is pumped the shorter the panel: from too long a one comes too short a one.
+    const double long_s = std::min(std::max(least_s, FlowTime(pumped_)), left_s);
+    const double seconds = std::max({0.0, least_s, FlowTime(pumped_ + long_s * delivery)});
+    if (!(seconds <= left_s)) return false;
+    time_s_ += seconds;
+    pumped_ = std::min(pumped_ + seconds * delivery,
+                       after + start_.high_m3 * (start_.stop_pa - start_.start_pa));
+    ++at_;
+    return true;
+  }
+
+  // ∫ W/q dp over the panel is at least W's mean over q in the middle, since W grows with p and 1/q
+  // is convex: q is concave in s and p together, and s in p. Where that is not so, q is taken where
+  // the panel begins.
+  double FlowTime(double pumped) const {
+    const double before = nodes_.drawn[at_], after = nodes_.drawn[at_ + 1];
+    double p = nodes_.pressure_pa[at_], drawn = before;
+    if (line_.chamber.volume_curve.empty()) {
+      p = nodes_.middle_pa[at_];
+      if (pumped < before || pumped > after || start_.low_m3 == start_.high_m3)
+        drawn = nodes_.middle_drawn[at_];
+    }
+    const double source_pa = std::min(Reservoir(pumped - drawn, false), start_.stop_pa);
+    const double flow = source_pa * line_.fill_table(p / source_pa);
+    return (after - before) / (count_ * kappa_ * flow);
+  }
+
+  // Over the interval of volumes: the pressure of the reservoir with so much more content, and the
+  // content that brings it to a pressure.
+  double Reservoir(double more, bool least) const {
+    return start_.start_pa + more / ((more < 0.0) == least ? start_.low_m3 : start_.high_m3);
+  }
+  double Taken(double pressure_pa, bool most) const {
+    const double rise_pa = pressure_pa - start_.start_pa;
+    return rise_pa * ((rise_pa > 0.0) == most ? start_.high_m3 : start_.low_m3);
+  }
+
+  const Line& line_;
+  const PumpFacts& pumps_;
+  const StrokeStart& start_;
+  const Nodes nodes_;
+  int count_;
+  double kappa_;
+  int at_ = 0;     // node
+  int floor_ = 0;  // node that the reservoir does not fall below
+  double pumped_ = 0.0, time_s_ = 0.0;
+};
+
+// A guess for a stroke that has drawn a share of its air when time is up.
+double Late(double share) { return 1.0 / (share + 1e-3) - 1.0; }
+
+// Excess of a stroke; `left_pa`, if asked for, is what it at most leaves when half of the period is
+// over, and is not set where the stroke is too slow.
+double StrokeExcessBound(const Problem& problem, int g, const Line& line, const PumpFacts& pumps,
+                         const StrokeStart& start, double* left_pa) {
+  const double half_s = HalfPeriod(problem);
+  const double rise_max_s = std::min(problem.groups[g].rise_time_max_s, half_s);
+  Stroke stroke(problem, g, line, pumps, start);
+  if (!stroke.Reach(kPanels, rise_max_s)) return Late(stroke.Share(kPanels));
+  const double rise_s = stroke.time_s();
+  if (!stroke.Reach(kNodes - 1, half_s)) return Late(stroke.Share(kNodes - 1));
+  const double excess = std::max(rise_s / rise_max_s, stroke.time_s() / half_s) - 1.0;
+  if (left_pa != nullptr) *left_pa = stroke.PumpUp(half_s);
+  return excess;
+}
+
+}  // namespace
+
+double LeastStrokeExcess(const Problem& problem, int g, const Line& line, const PumpFacts& pumps,
+                         const StrokeStart& start) {
+  return StrokeExcessBound(problem, g, line, pumps, start, nullptr);
+}
+
+double LeastStrokeExcess(const Problem& problem, const std::vector<const Line*>& lines,
+                         const PumpFacts& pumps, const StrokeStart& start) {
+  double excess = -kUnlimited;
+  for (int g = 0; g < static_cast<int>(lines.size()); ++g)
+    excess = std::max(excess, LeastStrokeExcess(problem, g, *lines[g], pumps, start));
+  return excess;
+}
+
+bool RaiseStarts(const Problem& problem, const std::vector<const Line*>& lines,
+                 const PumpFacts& pumps, double stop_pa, double low_m3, double high_m3,
+                 double tolerance, std::array<double, 2>& start_pa) {
+  // Air only flows downhill: the other group has left its own operating pressure at least.
+  for (int g : {0, 1})
+    start_pa[g] = std::max(start_pa[g], problem.groups[1 - g].chamber.operating_pressure_pa);
+  for (bool raised = true; raised;) {
+    raised = false;
+    for (int g : {0, 1}) {
+      const auto excess = [&](double p) {
+        double left_pa = 0.0;
+        const double own = StrokeExcessBound(problem, g, *lines[g], pumps,
+                                             {p, stop_pa, low_m3, high_m3}, &left_pa);
+        return own > 0.0 ? own : std::max(own, 1.0 - left_pa / start_pa[1 - g]);
+      };
+      if (start_pa[g] > stop_pa) return false;
+      const std::optional<double> floor_pa = RaisedFloor(excess, start_pa[g], stop_pa, tolerance);
+      if (!floor_pa) return false;
+      raised = raised || *floor_pa > start_pa[g];
+      start_pa[g] = *floor_pa;
+    }
+  }
+  return true;
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,58 @@
+// Closed boxes, looked at again. Internal to verify*.cc.
+#ifndef PLENUM_OPTIMIZER_VERIFY_BOX_H_
+#define PLENUM_OPTIMIZER_VERIFY_BOX_H_
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "optimizer/verify_corner.h"
+#include "optimizer/verify_design.h"
+
+namespace plenum::optimizer {
+
+// Ids in the order of a parts list, with pieces where parts of the source stand in parallel.
+using Ids = std::vector<std::pair<std::string, int>>;
+Ids IdsOf(const Design& design);
+std::string Text(const Ids& ids);
+
+// What an answer says of every combination that is not listed: its objective is `least` or more,
+// and past `tie_end` unless its ids come after `last`.
+struct Claim {
+  double least = 0.0, tie_end = -kUnlimited;
+  Ids last;
+};
+Claim ClaimOf(const Problem& problem, const Answer& answer);
+
+// Of each slot the choice with the first id: no combination in the box comes before these.
+Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ranges);
+
+// The parts at one place of each slot.
+Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges& single);
+
+class BoxCheck {
+ public:
+  BoxCheck(const Problem& problem, const ProofPlan& plan, const Claim& claim);
+
+  bool CannotMate(const Ranges& ranges) { return corners_.CannotMate(ranges); }
+
+  // Divides the box until each part of it is refuted, bounded, or a single combination, which is
+  // sized. How many combinations that leaves open; one that contradicts the claim is a finding.
+  BigCount Recheck(const Ranges& ranges, Findings& findings);
+
+ private:
+  bool Holds(double objective, const Ranges& single) const;
+  bool IsBeyond(const Ranges& ranges);
+  int SlotToDivide(const Ranges& ranges);
+  bool IsSettled(const Ranges& single, Findings& findings);
+
+  const Problem& problem_;
+  const ProofPlan& plan_;
+  const Claim& claim_;
+  Corners corners_;
+  long long looks_ = 0;
+};
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_VERIFY_BOX_H_

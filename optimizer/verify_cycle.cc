@@ -1,0 +1,290 @@
+// The strokes of a design in its periodic state, by the simulator or by what it comes to where one
+// group is alone on the source.
+#include "optimizer/verify_cycle.h"
+
+#include "model/reservoir_stroke.h"
+#include "model/simulate.h"
+#include "model/stroke.h"
+#include "model/tube.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr int kCyclesMax = 2000;
+constexpr double kPeriodic = 1e-8;  // relative change of the source from cycle to cycle
+// A source at the operating pressure fills up to it: closer to equal pressures than by default.
+constexpr double kLinear = 1.0 - 1e-5;
+
+model::Chamber ChamberOf(const ActuatorGroup& group, const LineParts& line) {
+  model::Chamber chamber = group.chamber;
+  chamber.dead_volume_m3 += model::BoreVolume(line.tube->inner_diameter_m, group.tube_length_m);
+  return chamber;
+}
+
+model::GroupRig MakeGroup(const Problem& problem, const Assembly& assembly, int g,
+                          double pressure_pa, int cycles) {
+  const ActuatorGroup& group = problem.groups[g];
+  const LineParts& line = assembly.lines[g];
+  model::GroupRig rig;
+  rig.name = group.name;
+  rig.count = group.count;
+  rig.chamber = ChamberOf(group, line);
+  std::vector<model::FlowElement> between;  // from valve to actuator
+  const model::FlowElement tube =
+      model::TubeElement(line.tube->inner_diameter_m, group.tube_length_m);
+  for (int i = 0; i < group.fittings_per_line; ++i) {
+    if (i == (group.fittings_per_line + 1) / 2) between.push_back(tube);
+    between.push_back(line.fitting->flow);
+  }
+  if (group.fittings_per_line < 2) between.push_back(tube);
+  rig.fill = between;
+  rig.fill.insert(rig.fill.begin(), line.valve->fill);
+  rig.exhaust.assign(between.rbegin(), between.rend());
+  rig.exhaust.push_back(line.valve->exhaust);
+  rig.close_at_operating = model::Holds(line.valve->kind);
+  rig.initial_pressure_pa = pressure_pa;
+  const double period_s = 1.0 / problem.frequency_hz;
+  const double start_s =
+      problem.simultaneous ? 0.0 : period_s * g / static_cast<double>(problem.groups.size());
+  if (start_s >= 0.5 * period_s) {  // the half period of the cycle before reaches into this one
+    rig.schedule.push_back(
+        {0.0, rig.close_at_operating ? model::ValveState::kHold : model::ValveState::kInflate});
+    rig.schedule.push_back({start_s - 0.5 * period_s, model::ValveState::kDeflate});
+  }
+  for (int i = 0; i < cycles; ++i) {
+    rig.schedule.push_back({start_s + i * period_s, model::ValveState::kInflate});
+    rig.schedule.push_back({start_s + (i + 0.5) * period_s, model::ValveState::kDeflate});
+  }
+  return rig;
+}
+
+struct State {
+  double source_pa = 0.0;
+  std::vector<double> group_pa;
+};
+
+model::Rig MakeRig(const Problem& problem, const Settings& settings, const Assembly& assembly,
+                   const State& state, int cycles, double rising_m3) {
+  model::Rig rig;
+  rig.ambient = problem.ambient;
+  if (assembly.co2) rig.gas = model::Gas::kCo2;
+  if (assembly.compressor) {
+    model::ReservoirSource source;
+    source.volume_m3 = settings.reservoir_volume_m3.value_or(0.0);
+    source.volume_rising_m3 = rising_m3;
+    source.initial_pressure_pa = state.source_pa;
+    source.compressor = assembly.compressor->curve;
+    source.compressor_count = assembly.compressors;
+    source.stop_pressure_pa = settings.source_pressure_pa;
+    rig.source = source;
+  } else {
+    double flow_max = assembly.regulator->flow_max_m3_per_s;
+    if (assembly.configuration == Configuration::kMains)
+      flow_max = std::min(flow_max, problem.mains_flow_max_m3_per_s);
+    rig.source =
+        model::RegulatedSource{settings.source_pressure_pa, assembly.regulator->flow, flow_max};
+  }
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    rig.groups.push_back(MakeGroup(problem, assembly, g, state.group_pa[g], cycles));
+  return rig;
+}
+
+model::SimulateOptions OptionsOf(const Problem& problem, double end_s) {
+  model::SimulateOptions options;
+  options.end_s = end_s;
+  options.rise_fraction = problem.rise_fraction;
+  options.fall_fraction = problem.fall_fraction;
+  options.linear_ratio = kLinear;
+  return options;
+}
+
+// The state at the start of a cycle that repeats; none where the simulator does not get there.
+std::optional<State> Repeating(const Problem& problem, const Settings& settings,
+                               const Assembly& assembly, double rising_m3) {
+  State state{settings.source_pressure_pa,
+              std::vector<double>(problem.groups.size(), problem.ambient.pressure_pa)};
+  const model::SimulateOptions options = OptionsOf(problem, 1.0 / problem.frequency_hz);
+  for (int cycle = 0; cycle < kCyclesMax; ++cycle) {
+    const model::Response response =
+        model::Simulate(MakeRig(problem, settings, assembly, state, 1, rising_m3), options);
+    if (response.status != model::SimulateStatus::kDone) return std::nullopt;
+    State next = state;
+    bool same = cycle > 0;
+    if (assembly.compressor) next.source_pa = response.source_final_pressure_pa;
+    same = same && Near(next.source_pa, state.source_pa, kPeriodic);
+    for (std::size_t g = 0; g < next.group_pa.size(); ++g) {
+      next.group_pa[g] = response.groups[g].final_pressure_pa;
+      same = same && Near(next.group_pa[g], state.group_pa[g], kPeriodic);
+    }
+    state = std::move(next);
+    if (same) return state;
+  }
+  return std::nullopt;
+}
+
+// What is the same for every way to the strokes: air, coils and regulator.
+void AddNeeds(const Problem& problem, const Settings& settings, const Assembly& assembly,
+              Cycle& cycle) {
+  const double period_s = 1.0 / problem.frequency_hz;
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    const model::Valve& valve = *assembly.lines[g].valve;
+    const model::Chamber chamber = ChamberOf(problem.groups[g], assembly.lines[g]);
+    const bool holds = model::Holds(valve.kind);
+    const double full_pa = holds ? chamber.operating_pressure_pa : settings.source_pressure_pa;
+    cycle.air_m3 += problem.groups[g].count *
+                    model::StandardVolume(model::Content(chamber, full_pa) -
+                                              model::Content(chamber, problem.ambient.pressure_pa),
+                                          problem.ambient.temperature_k);
+    const double coil_w = problem.groups[g].count * valve.coil_power_w;
+    cycle.coil_w += coil_w;
+    cycle.steady_j += coil_w * 0.5 * period_s;
+    if (holds) cycle.inflating_j += coil_w * cycle.inflate_s[g];
+  }
+  if (assembly.regulator) {
+    cycle.coil_w += assembly.regulator->electrical_power_w;
+    cycle.steady_j += assembly.regulator->electrical_power_w * period_s;
+  }
+}
+
+std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
+                               const Assembly& assembly, double rising_m3) {
+  const std::optional<State> state = Repeating(problem, settings, assembly, rising_m3);
+  if (!state) return std::nullopt;
+  const double period_s = 1.0 / problem.frequency_hz;
+  const model::Rig rig = MakeRig(problem, settings, assembly, *state, 2, rising_m3);
+  const model::Response response = model::Simulate(rig, OptionsOf(problem, 2.0 * period_s));
+  if (response.status != model::SimulateStatus::kDone) return std::nullopt;
+  const std::size_t groups = problem.groups.size();
+  Cycle cycle;
+  cycle.rise_s.assign(groups, model::kNever);
+  cycle.inflate_s.assign(groups, model::kNever);
+  for (const model::Stroke& stroke : response.strokes) {
+    const bool carried_over = stroke.command_s == 0.0 && !problem.simultaneous && stroke.group > 0;
+    if (stroke.state != model::ValveState::kInflate || stroke.command_s >= period_s || carried_over)
+      continue;
+    cycle.rise_s[stroke.group] = stroke.to_target_s;
+    cycle.inflate_s[stroke.group] = stroke.to_operating_s;
+    const double ambient_pa = problem.ambient.pressure_pa;
+    const double operating_pa = problem.groups[stroke.group].chamber.operating_pressure_pa;
+    cycle.left_over = std::max(
+        cycle.left_over, (stroke.start_pressure_pa - ambient_pa) / (operating_pa - ambient_pa));
+  }
+  for (const model::FullStroke& stroke : model::FullStrokes(rig, OptionsOf(problem, period_s)))
+    cycle.fall_s.push_back(stroke.fall_time_s);
+  cycle.pump_on_s = 0.5 * response.compressor_on_s;
+  cycle.pump_j = 0.5 * response.compressor_energy_j;
+  AddNeeds(problem, settings, assembly, cycle);
+  return cycle;
+}
+
+double Target(const Problem& problem, const ActuatorGroup& group, double fraction) {
+  const double ambient_pa = problem.ambient.pressure_pa;
+  return ambient_pa + fraction * (group.chamber.operating_pressure_pa - ambient_pa);
+}
+
+}  // namespace
+
+std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& settings,
+                                   const Assembly& assembly) {
+  return Simulated(problem, settings, assembly, settings.reservoir_volume_m3.value_or(0.0));
+}
+
+QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly)
+    : problem_(problem), assembly_(assembly) {
+  const double temperature_k = problem.ambient.temperature_k;
+  const double factor = model::FlowFactor(assembly.co2 ? model::Gas::kCo2 : model::Gas::kAir) *
+                        std::sqrt(model::kReferenceTemperatureK / temperature_k);
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    const model::GroupRig rig = MakeGroup(problem, assembly, g, 0.0, 0);
+    std::vector<model::FlowElement> elements = rig.fill;
+    if (assembly.regulator) {  // each of equal lines has an equal share of it
+      elements.insert(elements.begin(), assembly.regulator->flow);
+      elements.front().sonic_conductance_m3_per_s_pa /= rig.count;
+    }
+    fills_.push_back(model::MakeSeries(elements, factor));
+    fall_s_.push_back(model::EmptyTime(
+        model::MakeSeries(rig.exhaust, factor), rig.chamber, rig.chamber.operating_pressure_pa,
+        Target(problem, problem.groups[g], problem.fall_fraction), temperature_k));
+    rigs_.push_back(rig);
+  }
+  if (assembly.compressor && rigs_.size() == 1) fill_table_ = model::FlowTable(fills_.front());
+}
+
+void QuickCycles::FillFromRegulator(const Settings& settings, int g, Cycle& cycle) const {
+  const model::GroupRig& rig = rigs_[g];
+  double flow_max = assembly_.regulator->flow_max_m3_per_s;
+  if (assembly_.configuration == Configuration::kMains)
+    flow_max = std::min(flow_max, problem_.mains_flow_max_m3_per_s);
+  const auto seconds = [&](double to_pa) {
+    return model::FillTime(fills_[g], rig.chamber, settings.source_pressure_pa,
+                           problem_.ambient.pressure_pa, to_pa, problem_.ambient.temperature_k,
+                           flow_max / rig.count);
+  };
+  cycle.rise_s[g] = seconds(Target(problem_, problem_.groups[g], problem_.rise_fraction));
+  cycle.inflate_s[g] = seconds(rig.chamber.operating_pressure_pa);
+}
+
+// The only group, out of a reservoir that was full when its stroke began. Where the pumps cannot
+// fill it up again within a period the running time passes the period, which no duty allows.
+void QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3,
+                                    Cycle& cycle) const {
+  const model::GroupRig& rig = rigs_.front();
+  const model::CompressorCurve& curve = assembly_.compressor->curve;
+  const double temperature_k = problem_.ambient.temperature_k;
+  const double source_pa = settings.source_pressure_pa;
+  model::ReservoirStrokeInput input;
+  input.fill = &fill_table_;
+  input.chamber = &rig.chamber;
+  input.count = rig.count;
+  input.compressor = &curve;
+  input.compressors = assembly_.compressors;
+  input.stop_pa = source_pa;
+  input.volume_falling_m3 = settings.reservoir_volume_m3.value_or(0.0);
+  input.volume_rising_m3 = rising_m3;
+  input.from_pa = problem_.ambient.pressure_pa;
+  input.target_pa = Target(problem_, problem_.groups[0], problem_.rise_fraction);
+  input.operating_pa = rig.chamber.operating_pressure_pa;
+  input.temperature_k = temperature_k;
+  const model::ReservoirStroke stroke = model::FillFromReservoir(input);
+  if (!stroke.reached) return;
+  cycle.rise_s[0] = stroke.rise_s;
+  cycle.inflate_s[0] = stroke.inflate_s;
+  cycle.pump_on_s =
+      stroke.pump_on_s + model::PumpUpTime(curve, input.compressors, rising_m3,
+                                           stroke.reservoir_end_pa, source_pa, temperature_k);
+  cycle.pump_j =
+      stroke.pump_energy_j +
+      model::EnergyToFill(curve, rising_m3, stroke.reservoir_end_pa, source_pa, temperature_k);
+  if (rig.close_at_operating) return;
+  const double content = model::Content(rig.chamber, source_pa) -
+                         model::Content(rig.chamber, rig.chamber.operating_pressure_pa);
+  if (!(content > 0.0)) return;
+  const double last_pa = std::min(source_pa, model::HighestPressure(curve));
+  const double seconds = rig.count * model::StandardVolume(content, temperature_k) /
+                         (input.compressors * std::max(0.0, curve.free_air_m3_per_s(last_pa)));
+  cycle.pump_on_s += seconds;
+  cycle.pump_j += seconds * input.compressors * model::ElectricalPower(curve, source_pa);
+}
+
+std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3) const {
+  const std::size_t groups = problem_.groups.size();
+  if (groups > 1 && (problem_.simultaneous || assembly_.compressor))
+    return Simulated(problem_, settings, assembly_, rising_m3);
+  const double turn_s = 1.0 / problem_.frequency_hz / static_cast<double>(groups);
+  Cycle cycle;
+  cycle.rise_s.assign(groups, model::kNever);
+  cycle.inflate_s.assign(groups, model::kNever);
+  cycle.fall_s = fall_s_;
+  for (int g = 0; g < static_cast<int>(groups); ++g) {
+    if (assembly_.compressor)
+      FillFromReservoir(settings, rising_m3, cycle);
+    else
+      FillFromRegulator(settings, g, cycle);
+    if (groups > 1 && !(cycle.inflate_s[g] <= turn_s))
+      return Simulated(problem_, settings, assembly_, rising_m3);
+  }
+  AddNeeds(problem_, settings, assembly_, cycle);
+  return cycle;
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,16 @@
+// The record of a search against the answer. Internal to verify*.cc.
+#ifndef PLENUM_OPTIMIZER_VERIFY_RECORD_H_
+#define PLENUM_OPTIMIZER_VERIFY_RECORD_H_
+
+#include "optimizer/verify.h"
+
+namespace plenum::optimizer {
+
+// Replays the boxes of an answer that has a record, recounts them, looks at each closed one again,
+// and finds the box of each listed design.
+void CheckRecord(const Problem& problem, const Answer& answer, Findings& findings,
+                 std::vector<NotRechecked>& open);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_VERIFY_RECORD_H_

@@ -1,0 +1,34 @@
+// The best settings of one combination of parts. Internal to verify*.cc.
+//
+// Strokes get no slower with a higher source pressure, and all that the source must bear grows with
+// it but for the coils, which strokes shorten. So an interval of source pressures is closed by the
+// strokes at its upper end, and by air, pumps and current at its lower end with the coils of its
+// upper end. For the pumps' energy that holds where their energy per air rises with pressure (where
+// groups take turns: their power); elsewhere every litre counts at the pressure where it takes
+// least. Volumes of made-to-measure reservoirs are divided in the same way.
+#ifndef PLENUM_OPTIMIZER_VERIFY_SIZE_H_
+#define PLENUM_OPTIMIZER_VERIFY_SIZE_H_
+
+#include "optimizer/verify_design.h"
+
+namespace plenum::optimizer {
+
+enum class Sized { kFeasible, kInfeasible, kUnknown };
+
+struct Sizing {
+  Sized status = Sized::kUnknown;
+  double objective = kUnlimited;  // the least found
+  double lower_bound = 0.0;       // over all settings
+};
+
+// Every requirement may be missed by `slack`, relative; negative: met with that to spare. Ends as
+// soon as the lower bound passes `enough`, with status kUnknown where nothing was found till then.
+Sizing Size(const Problem& problem, const Assembly& assembly, double slack, double enough);
+
+// Whether the pump's energy per air (or its power alone) rises with pressure, on a fine grid.
+bool EnergyPerAirRises(const model::CompressorCurve& curve, double ambient_pa);
+bool PowerRises(const model::CompressorCurve& curve, double ambient_pa);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_VERIFY_SIZE_H_

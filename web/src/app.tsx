@@ -1,0 +1,101 @@
+// The frame: where one is, the units, light or dark.
+import { useEffect } from 'preact/hooks';
+
+import { refreshModels } from './lib/models';
+import { previousJob } from './lib/jobs';
+import { link, route, view } from './lib/route';
+import { theme } from './lib/theme';
+import { pressureUnit, pressureUnits, reference, references, volumeUnit, volumeUnits } from './lib/units';
+import { Segmented } from './ui/controls';
+import { Tooltip } from './ui/tooltip';
+import { CatalogueView } from './views/catalogue';
+import { DesignsView, JobsView } from './views/designs';
+import { MeasuredView } from './views/measured';
+import { RequirementsView } from './views/requirements';
+
+const views = [
+  { name: 'requirements', label: 'Requirements', key: '1' },
+  { name: 'designs', label: 'Designs', key: '2' },
+  { name: 'catalogue', label: 'Catalogue', key: '3' },
+  { name: 'measured', label: 'Measured data', key: '4' },
+  { name: 'jobs', label: 'Searches', key: '5' },
+];
+
+function View() {
+  switch (view.value) {
+    case 'designs':
+      return <DesignsView />;
+    case 'catalogue':
+      return <CatalogueView />;
+    case 'measured':
+      return <MeasuredView />;
+    case 'jobs':
+      return <JobsView />;
+    default:
+      return <RequirementsView />;
+  }
+}
+
+// Alt and a digit go to a view.
+function useShortcuts() {
+  useEffect(() => {
+    const press = (event: KeyboardEvent) => {
+      const found = event.altKey && views.find((v) => v.key === event.key);
+      if (!found) return;
+      event.preventDefault();
+      location.hash = addressOf(found.name);
+      document.querySelector<HTMLElement>('main')?.focus();
+    };
+    addEventListener('keydown', press);
+    return () => removeEventListener('keydown', press);
+  }, []);
+}
+
+const addressOf = (name: string): string =>
+  link(name === 'designs' && previousJob.value ? [name, previousJob.value] : [name]);
+
+const sameAs = (name: string) => (view.value === name ? 'page' : undefined);
+
+export function App() {
+  useShortcuts();
+  useEffect(() => void refreshModels(), []);
+  useEffect(() => {
+    document.title = `${views.find((v) => v.name === view.value)?.label ?? 'Requirements'} – plenum`;
+  }, [view.value]);
+  void route.value;
+  return (
+    <>
+      <header class="top">
+        <a class="skip" href={location.hash} onClick={(event) => { event.preventDefault(); document.querySelector<HTMLElement>('main')?.focus(); }}>
+          Skip to the content
+        </a>
+        <a class="brand" href={link(['requirements'])} aria-label="plenum, to the requirements">
+          <svg viewBox="0 0 32 32" width="20" height="20" aria-hidden="true">
+            <path d="M3 21h6l4-12 6 15 4-8h6" fill="none" stroke="currentColor" stroke-width="3" stroke-linejoin="round" stroke-linecap="round" />
+          </svg>
+          plenum
+        </a>
+        <nav aria-label="Views">
+          {views.map((v) => (
+            <a key={v.name} href={addressOf(v.name)} aria-current={sameAs(v.name)} data-tip={`Alt+${v.key}`}>
+              {v.label}
+            </a>
+          ))}
+        </nav>
+        <div class="units">
+          <Segmented hideLabel label="Unit of pressure" options={pressureUnits} value={pressureUnit.value} onChange={(v) => (pressureUnit.value = v)} />
+          <Segmented hideLabel label="Pressure above ambient or absolute" options={references} value={reference.value} onChange={(v) => (reference.value = v)} />
+          <Segmented hideLabel label="Unit of volume" options={volumeUnits} value={volumeUnit.value} onChange={(v) => (volumeUnit.value = v)} />
+          <Segmented
+            hideLabel label="Colours" value={theme.value} onChange={(v) => (theme.value = v)}
+            options={[{ value: 'system', label: 'auto' }, { value: 'light', label: 'light' }, { value: 'dark', label: 'dark' }]}
+          />
+        </div>
+      </header>
+      <main tabIndex={-1}>
+        <View />
+      </main>
+      <Tooltip />
+    </>
+  );
+}

@@ -1,0 +1,98 @@
+// What designs are compared by: the axes of plots and the columns of tables.
+import { short, shown } from './format';
+import type { Design } from './types';
+import { type Kind, unitOf } from './units';
+
+export interface Axis {
+  id: string;
+  label: string;
+  kind: Kind;
+  unit: string;
+  better: 'low' | 'high';
+  of: (design: Design) => number | null;
+}
+
+const worst = (values: number[]): number => Math.max(...values);
+
+export const leastMargin = (design: Design): number =>
+  Math.min(...design.margins.map((margin) => margin.relative_margin));
+
+const plain = (
+  id: string, label: string, unit: string, of: Axis['of'], better: Axis['better'] = 'low', kind: Kind = 'plain',
+): Axis => ({ id, label, unit, of, better, kind });
+
+export const axes: Axis[] = [
+  plain('mass', 'mass', 'kg', (d) => d.totals.mass_kg),
+  plain('volume', 'volume', '', (d) => d.totals.volume_l, 'low', 'volume_l'),
+  plain('cost', 'cost', '€', (d) => d.totals.cost_eur),
+  plain('energy', 'energy', 'Wh', (d) => d.totals.energy_wh),
+  plain('rise', 'rise', 's', (d) => worst(d.performance.groups.map((g) => g.rise_time_s))),
+  plain('fall', 'fall', 's', (d) => worst(d.performance.groups.map((g) => g.fall_time_s))),
+  plain('margin', 'least margin', '%', (d) => Math.round(1e5 * leastMargin(d)) / 1e3, 'high'),
+  plain('source', 'source', '', (d) => d.settings.source_pressure_kpa_gauge, 'low', 'pressure'),
+  plain('reservoir', 'reservoir', '', (d) => d.settings.reservoir_volume_ml, 'low', 'volume_ml'),
+  plain('sustained', 'sustained', 'Hz', (d) => d.performance.frequency_hz_sustained, 'high'),
+  plain('duty', 'pump duty', '%', (d) => (d.settings.compressor_duty === null ? null : 100 * d.settings.compressor_duty)),
+  plain('estimated', 'estimated mass', '%', (d) => 100 * d.data_quality.mass_share_estimated),
+  plain('probability', 'probability', '%', (d) => (d.robustness ? 100 * d.robustness.probability : null), 'high'),
+];
+
+export const axisOf = (id: string | null | undefined): Axis | undefined => axes.find((axis) => axis.id === id);
+export const axisUnit = (axis: Axis): string => unitOf(axis.kind, axis.unit);
+
+// A requirement's pointer in words, as the groups are named.
+export function requirementName(pointer: string, groups: { name: string }[]): string {
+  const group = /^\/actuators\/(\d+)\/(.+)$/.exec(pointer);
+  const names: Record<string, string> = {
+    rise_time_s_max: 'rise time',
+    fall_time_s_max: 'fall time',
+    pressure_kpa_gauge_max: 'highest pressure',
+    '/duty/frequency_hz': 'frequency',
+    '/duty/actuations': 'actuations',
+    '/supply/source_pressure_kpa_gauge_max': 'source pressure',
+    '/supply/mass_kg_max': 'mass',
+    '/supply/volume_l_max': 'volume',
+    '/supply/cost_eur_max': 'cost',
+    '/supply/mains/flow_l_per_min_anr_max': 'wall flow',
+  };
+  if (!group) return names[pointer] ?? pointer;
+  const what = names[group[2]!] ?? group[2]!;
+  return groups.length > 1 ? `${what} of ${groups[Number(group[1])]?.name ?? group[1]}` : what;
+}
+
+export function requirementUnit(pointer: string): string {
+  if (pointer.includes('pressure')) return unitOf('pressure');
+  if (pointer.endsWith('_time_s_max')) return 's';
+  if (pointer.endsWith('frequency_hz')) return 'Hz';
+  if (pointer.endsWith('mass_kg_max')) return 'kg';
+  if (pointer.endsWith('volume_l_max')) return unitOf('volume_l');
+  if (pointer.endsWith('cost_eur_max')) return '€';
+  return pointer.endsWith('_anr_max') ? 'L/min' : '';
+}
+
+// A requirement's number in the units chosen.
+export function requirementNumber(pointer: string, value: number | null): string {
+  if (pointer.includes('pressure')) return shown('pressure', value);
+  if (pointer.endsWith('volume_l_max')) return shown('volume_l', value);
+  return value === null ? '–' : short(value, pointer.endsWith('actuations') ? 9 : 3);
+}
+
+// Which designs no other beats in both amounts.
+export function paretoFront(points: { x: number; y: number }[], x: Axis, y: Axis): boolean[] {
+  const sx = x.better === 'low' ? 1 : -1;
+  const sy = y.better === 'low' ? 1 : -1;
+  const order = points
+    .map((p, i) => ({ x: sx * p.x, y: sy * p.y, i }))
+    .sort((a, b) => a.x - b.x || a.y - b.y);
+  const front = points.map(() => false);
+  let lowest = Infinity;
+  let last = { x: NaN, y: NaN };
+  for (const p of order) {
+    if (p.y < lowest || (p.x === last.x && p.y === last.y)) {
+      front[p.i] = true;
+      lowest = Math.min(lowest, p.y);
+      last = p;
+    }
+  }
+  return front;
+}

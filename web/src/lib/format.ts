@@ -1,0 +1,101 @@
+// Numbers as a person reads them: three significant digits, thin spaces between thousands.
+import type { Kind } from './units';
+import { toShown } from './units';
+
+const thin = '\u202f';
+
+const group = (digits: string): string => digits.replace(/\B(?=(\d{3})+(?!\d))/g, thin);
+
+export function significant(value: number | null | undefined, digits = 3): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) return '–';
+  if (value === 0) return '0';
+  const magnitude = Math.floor(Math.log10(Math.abs(value)));
+  if (magnitude >= 9 || magnitude < -5) return value.toExponential(digits - 1).replace('e+', 'e');
+  const places = Math.max(0, digits - 1 - magnitude);
+  const [whole = '', part] = Math.abs(value).toFixed(places).split('.');
+  return `${value < 0 ? '−' : ''}${group(whole)}${part ? `.${part}` : ''}`;
+}
+
+// Without zeros at the end: bounds and ticks.
+export const short = (value: number, digits = 6): string => {
+  const text = significant(value, digits);
+  return text.includes('.') && !text.includes('e') ? text.replace(/\.?0+$/, '') : text;
+};
+
+export const isSame = (a: number, b: number): boolean => Math.abs(a - b) <= 1e-5 * Math.max(Math.abs(a), Math.abs(b));
+
+// Enough digits to tell two numbers apart.
+export function digitsApart(a: number, b: number): number {
+  if (isSame(a, b) || !Number.isFinite(a - b)) return 3;
+  const size = Math.max(Math.abs(a), Math.abs(b));
+  return Math.min(7, Math.max(3, Math.ceil(Math.log10(size / Math.abs(a - b))) + 2));
+}
+
+export const shown = (kind: Kind, value: number | null | undefined, digits = 3): string =>
+  value === null || value === undefined ? '–' : significant(toShown(kind, value), digits);
+
+export const percent = (share: number | null | undefined, digits = 1): string =>
+  share === null || share === undefined ? '–' : `${(100 * share).toFixed(digits).replace('-', '−')} %`;
+
+export function signed(value: number, digits = 3): string {
+  if (Math.abs(value) < 1e-12) return '±0';
+  return `${value > 0 ? '+' : '−'}${significant(Math.abs(value), digits)}`;
+}
+
+// A relative change, "±0 %" below what a person would call one.
+export const change = (share: number): string => (Math.abs(share) < 5e-5 ? '±0 %' : `${signed(100 * share, 2)} %`);
+
+// A count that may pass 2⁵³, as digits.
+export const count = (value: number | string | undefined): string => group(String(value ?? '–'));
+
+export const scientific = (value: string): string =>
+  value.length > 7 ? `${value[0]}.${value[1]} × 10${superscript(value.length - 1)}` : group(value);
+
+const superscript = (n: number): string => [...String(n)].map((d) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(d)]).join('');
+
+export function duration(seconds: number): string {
+  if (seconds < 60) return `${significant(seconds, 2)} s`;
+  if (seconds < 3600) return `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`;
+  return `${Math.floor(seconds / 3600)} h ${Math.round((seconds % 3600) / 60)} min`;
+}
+
+// Names of fields, as the contract writes them, in words: "mass_kg" → "mass", unit "kg".
+const units: [RegExp, string][] = [
+  [/_dm3_per_s_bar$/, 'dm³/(s·bar)'],
+  [/_l_per_min_anr(_max)?$/, 'L/min ANR'],
+  [/_l_per_min$/, 'L/min'],
+  [/_kg_per_m$/, 'kg/m'],
+  [/_eur_per_m$/, '€/m'],
+  [/_kpa_gauge$/, 'kPa gauge'],
+  [/_kg$/, 'kg'],
+  [/_ml$/, 'mL'],
+  [/_mm$/, 'mm'],
+  [/_ms$/, 'ms'],
+  [/_eur$/, '€'],
+  [/_ah$/, 'Ah'],
+  [/_wh$/, 'Wh'],
+  [/_hz$/, 'Hz'],
+  [/_l$/, 'L'],
+  [/_w$/, 'W'],
+  [/_v$/, 'V'],
+  [/_m$/, 'm'],
+  [/_s$/, 's'],
+  [/_k$/, 'K'],
+];
+
+// The same, short enough for the head of a column: C and b as in ISO 6358.
+export function columnName(field: string): { label: string; unit: string } {
+  const { label, unit } = fieldName(field);
+  return {
+    label: label.replace('sonic conductance', 'C').replace('critical ratio', 'b').replace('pressure', 'p').replace(' diameter', ' ⌀'),
+    unit: unit === 'kPa gauge' ? 'kPa' : unit,
+  };
+}
+
+export function fieldName(field: string): { label: string; unit: string } {
+  if (field === 'current_max_a') return { label: 'current max', unit: 'A' };
+  for (const [suffix, unit] of units) {
+    if (suffix.test(field)) return { label: field.replace(suffix, '').replaceAll('_', ' '), unit };
+  }
+  return { label: field.replaceAll('_', ' '), unit: '' };
+}

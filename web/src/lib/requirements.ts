@@ -1,0 +1,106 @@
+// The requirements being written: one document, kept in the address, checked as it changes.
+import { batch, effect, signal } from '@preact/signals';
+
+import crawler from '../../../examples/crawler.json';
+import exosuit from '../../../examples/exosuit.json';
+import gripper from '../../../examples/gripper.json';
+import { asProblem, type FieldError, post } from './api';
+import { route, setQuery } from './route';
+import type { Requirements } from './types';
+import { ambientKpa } from './units';
+
+export const presets: Record<string, Requirements> = {
+  exosuit: exosuit as Requirements,
+  gripper: gripper as Requirements,
+  crawler: crawler as Requirements,
+};
+
+const bytesOf = (text: string): string =>
+  String.fromCharCode(...new TextEncoder().encode(text));
+
+export function encode(document: Requirements): string {
+  return btoa(bytesOf(JSON.stringify(document))).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
+}
+
+export function decode(text: string): Requirements | null {
+  try {
+    const bytes = atob(text.replaceAll('-', '+').replaceAll('_', '/'));
+    const json = new TextDecoder().decode(Uint8Array.from(bytes, (c) => c.charCodeAt(0)));
+    const document = JSON.parse(json);
+    return Array.isArray(document?.actuators) && document.duty ? document : null;
+  } catch {
+    return null;
+  }
+}
+
+const start = route.value.query.get('r');
+export const requirements = signal<Requirements>((start && decode(start)) || presets.exosuit!);
+export const fieldErrors = signal<FieldError[]>([]);
+export type Validity = 'checking' | 'valid' | 'invalid' | 'unknown';
+export const validity = signal<Validity>('checking');
+
+// Sets the value at a path such as ['duty', 'frequency_hz'] in a copy; undefined removes it.
+export function edit(path: (string | number)[], value: unknown): void {
+  const next = structuredClone(requirements.peek()) as unknown as Record<string | number, unknown>;
+  let at = next;
+  for (const step of path.slice(0, -1)) at = (at[step] ??= {}) as Record<string | number, unknown>;
+  const last = path[path.length - 1]!;
+  if (value === undefined) delete at[last];
+  else at[last] = value;
+  requirements.value = next as unknown as Requirements;
+}
+
+export function load(document: Requirements): void {
+  batch(() => {
+    requirements.value = structuredClone(document);
+    validity.value = 'checking';
+  });
+}
+
+export const errorAt = (pointer: string): string | undefined =>
+  fieldErrors.value.find((error) => error.pointer === pointer)?.detail;
+
+let asked: AbortController | undefined;
+let timer = 0;
+
+async function validate(document: Requirements): Promise<void> {
+  asked?.abort();
+  const mine = (asked = new AbortController());
+  try {
+    await post('/v1/designs?validate_only=true', document, mine.signal);
+    batch(() => {
+      fieldErrors.value = [];
+      validity.value = 'valid';
+    });
+  } catch (error) {
+    if (mine.signal.aborted) return;
+    const problem = asProblem(error);
+    batch(() => {
+      fieldErrors.value = problem.errors;
+      validity.value = problem.status === 422 || problem.status === 400 ? 'invalid' : 'unknown';
+    });
+  }
+}
+
+effect(() => {
+  const document = requirements.value;
+  ambientKpa.value = document.ambient?.pressure_kpa_abs ?? 100;
+  validity.value = 'checking';
+  clearTimeout(timer);
+  timer = window.setTimeout(() => {
+    void validate(document);
+    if ((route.peek().path[0] ?? 'requirements') === 'requirements') {
+      const same = JSON.stringify(document) === JSON.stringify(presets.exosuit);
+      setQuery({ r: same ? undefined : encode(document) });
+    }
+  }, 150);
+});
+
+// An address with other requirements was opened.
+effect(() => {
+  const { path, query } = route.value;
+  const text = query.get('r');
+  if ((path[0] ?? 'requirements') !== 'requirements' || !text) return;
+  const document = decode(text);
+  if (document && JSON.stringify(document) !== JSON.stringify(requirements.peek())) load(document);
+});

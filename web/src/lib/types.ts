@@ -1,0 +1,215 @@
+// The service's documents, as far as the page reads them. Units are in the names.
+
+export interface Group {
+  name: string;
+  count: number;
+  rest_volume_ml?: number;
+  expansion_ratio?: number;
+  pressure_volume?: { pressure_kpa_gauge: number; volume_ml: number }[];
+  operating_pressure_kpa_gauge: number;
+  tube_length_m: number;
+  fittings_per_line?: number;
+  rise_time_s_max?: number | null;
+  fall_time_s_max?: number | null;
+  pressure_kpa_gauge_max?: number | null;
+}
+
+export type Configuration = 'cylinder' | 'co2' | 'compressor' | 'mains';
+export type Amount = 'mass_kg' | 'volume_l' | 'cost_eur' | 'energy_wh';
+
+export interface Requirements {
+  schema: 'requirements/1';
+  name?: string;
+  actuators: Group[];
+  duty: { frequency_hz: number; actuations: number; simultaneous?: boolean };
+  rise?: { to_fraction: number };
+  fall?: { to_fraction: number };
+  supply?: {
+    configurations?: Configuration[];
+    mains?: { pressure_kpa_gauge: number; flow_l_per_min_anr_max?: number };
+    source_pressure_kpa_gauge_max?: number | null;
+    mass_kg_max?: number | null;
+    volume_l_max?: number | null;
+    cost_eur_max?: number | null;
+  };
+  ambient?: { pressure_kpa_abs: number; temperature_k: number };
+  objective?: { minimize?: Amount | Partial<Record<Amount, number>>; pareto?: Amount[] };
+  ranking?: { count?: number; time_limit_s?: number; probability_min?: number };
+  limits?: Record<string, number>;
+  require?: Record<string, string[]>;
+  exclude?: string[];
+  robust?: Record<string, unknown>;
+  explain?: { prices?: boolean; ranks?: number };
+  model?: string;
+}
+
+export interface PartRow {
+  family: string;
+  id: string;
+  manufacturer: string;
+  part_number: string;
+  group: string | null;
+  quantity: number;
+  unit: 'm' | 'piece';
+  mass_kg: number;
+  volume_l: number;
+  cost_eur: number | null;
+}
+
+export interface Margin {
+  requirement: string;
+  required: number;
+  achieved: number;
+  relative_margin: number;
+  binding: boolean;
+}
+
+export interface Trace {
+  t_s: number[];
+  groups: { name: string; pressure_kpa_gauge: (number | null)[] }[];
+  source_pressure_kpa_gauge: (number | null)[];
+}
+
+export interface Design {
+  rank: number;
+  configuration: Configuration;
+  objective: number;
+  parts: PartRow[];
+  settings: {
+    source_pressure_kpa_gauge: number;
+    valve_duty: number | null;
+    valve_duty_groups?: number[];
+    compressor_duty: number | null;
+    reservoir_volume_ml: number | null;
+  };
+  totals: { mass_kg: number; volume_l: number; cost_eur: number | null; energy_wh: number };
+  performance: {
+    groups: {
+      name: string;
+      rise_time_s: number;
+      fall_time_s: number;
+      inflate_time_s?: number;
+      frequency_hz_max: number;
+    }[];
+    frequency_hz_sustained: number;
+    air_per_actuation_l_anr: number;
+    air_total_l_anr: number;
+    run_time_s: number;
+  };
+  margins: Margin[];
+  data_quality: { mass_share_estimated: number; estimated: string[]; flow_estimated: boolean };
+  response: Trace;
+  robustness?: { probability: number; interval95?: number[]; share_rank_1: number };
+}
+
+export interface Proof {
+  combinations: string;
+  complete: boolean;
+  lower_bound: number | null;
+  gap: number | null;
+  evaluated: number | string;
+  simulated: number;
+  undecided: number;
+  pruned: Record<string, string>;
+}
+
+export interface Answer {
+  schema: 'designs/1';
+  name?: string;
+  status: 'optimal' | 'feasible' | 'infeasible' | 'cancelled';
+  designs: Design[];
+  best_on_measured_flow: number | null;
+  proof: Proof;
+  front?: { objectives: Partial<Record<Amount, number>>; rank: number }[];
+  conflict?: {
+    requirement: string;
+    required: number;
+    best: number | null;
+    relaxation: number | null;
+    proved: boolean;
+  }[];
+  prices?: { requirement: string; saving: number | null; status: string }[];
+  seconds: number;
+  requirements: Requirements;
+  catalogue_revision?: { number: number; hash: string };
+}
+
+export interface Progress {
+  seconds: number;
+  evaluated: number;
+  open: number;
+  best: number | null;
+  lower_bound: number | null;
+}
+
+export type JobStatus = 'queued' | 'running' | 'done' | 'cancelled' | 'failed';
+
+export interface Job<Result = Answer> {
+  id: string;
+  name: string;
+  status: JobStatus;
+  progress: Progress | null;
+  result?: Result | null;
+  detail?: string;
+  links: { self: string; events: string };
+}
+
+export interface CurvePoint {
+  pressure_kpa_gauge: number;
+  free_air_l_per_min: number;
+  current_a?: number;
+}
+
+export interface Provenance {
+  kind: 'datasheet' | 'third_party' | 'derived' | 'estimated';
+  source: string;
+}
+
+export interface Part {
+  id: string;
+  family: string;
+  manufacturer: string;
+  part_number: string;
+  origin: string;
+  notes: string;
+  curve?: CurvePoint[];
+  provenance: Record<string, Provenance>;
+  [field: string]: unknown;
+}
+
+export interface NumberField {
+  name: string;
+  min: number;
+  max: number;
+  required: boolean;
+  meaning: string;
+}
+export interface TextField {
+  name: string;
+  allowed: string[];
+  required: boolean;
+  meaning: string;
+}
+export interface Family {
+  name: string;
+  numbers: NumberField[];
+  texts: TextField[];
+  has_curve: boolean;
+}
+
+export interface Response {
+  schema: 'response/1';
+  status: string;
+  detail?: string;
+  t_s: number[];
+  groups: { name: string; pressure_kpa_gauge: (number | null)[]; volume_ml: number[] }[];
+  source_pressure_kpa_gauge: (number | null)[];
+  performance: {
+    groups: {
+      name: string;
+      rise_time_s: number | null;
+      fall_time_s: number | null;
+      frequency_hz_max: number | null;
+    }[];
+  };
+}

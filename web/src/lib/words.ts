@@ -1,0 +1,34 @@
+// What was proved, in words.
+import { count, duration, percent, scientific } from './format';
+import type { Answer } from './types';
+
+export function proofInWords(answer: Answer): string {
+  const { proof, status, designs } = answer;
+  const total = scientific(proof.combinations);
+  const listed = designs.length;
+  const rest = proof.complete ? ', the rest ruled out by bounds' : '';
+  const did = `${total} combinations in ${duration(answer.seconds)}: ${count(proof.evaluated)} evaluated, ${count(proof.simulated)} simulated${rest}.`;
+  switch (status) {
+    case 'optimal':
+      return answer.front
+        ? `Proved: these ${listed} designs are the whole front. ${did}`
+        : listed === 0
+          ? `Proved: nothing can be listed. ${did}`
+          : `Proved: no other combination of catalogue parts beats ${listed === 1 ? 'this design' : `the last of these ${listed} designs`}. ${did}`;
+    case 'feasible':
+      return proof.gap === null
+        ? `Best found so far; nothing was proved. ${did}`
+        : `Best found, not proved: a design that is not listed could be up to ${percent(proof.gap)} better. ${did}`;
+    case 'infeasible':
+      return `Proved: no combination of catalogue parts meets all requirements together. ${did}`;
+    case 'cancelled':
+      return `Cancelled before the proof was complete; these are the best found. ${did}`;
+  }
+}
+
+export const statusWord: Record<Answer['status'], { text: string; kind: string }> = {
+  optimal: { text: 'proved', kind: 'good' },
+  feasible: { text: 'best found', kind: 'warn' },
+  infeasible: { text: 'infeasible', kind: 'bad' },
+  cancelled: { text: 'cancelled', kind: 'warn' },
+};

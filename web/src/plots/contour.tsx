@@ -1,0 +1,94 @@
+// A map of normalised times over two ratios, with the design's place on it.
+import { contours } from 'd3-contour';
+import { scaleLinear } from 'd3-scale';
+
+import { short } from '../lib/format';
+import { useWidth } from './width';
+
+const height = 270;
+const space = { left: 44, right: 12, top: 8, bottom: 36 };
+
+export interface MapData {
+  x: number[];
+  y: number[];
+  values: (number | null)[]; // row by row of y
+}
+
+// Stands for a time that is never reached.
+const never = 100;
+
+export function ContourMap(props: {
+  title: string;
+  data: MapData;
+  levels: number[];
+  xLabel: string;
+  yLabel: string;
+  at: { x: number; y: number; label: string };
+  // Above this line the target is never reached.
+  border?: (x: number) => number;
+}) {
+  const { ref, width } = useWidth();
+  const { x, y, values } = props.data;
+  const [x0, x1] = [x[0]!, x[x.length - 1]!];
+  const [y0, y1] = [y[0]!, y[y.length - 1]!];
+  const sx = scaleLinear([x0, x1], [space.left, Math.max(width, 200) - space.right]);
+  const sy = scaleLinear([y0, y1], [height - space.bottom, space.top]);
+  // The contour's grid has its samples in the middle of cells.
+  const gx = scaleLinear([0.5, x.length - 0.5], sx.range());
+  const gy = scaleLinear([0.5, y.length - 0.5], sy.range());
+  const shapes = contours()
+    .size([x.length, y.length])
+    .thresholds([-1, ...props.levels])(values.map((v) => v ?? never));
+  const shades = props.levels.length + 1;
+  const path = (rings: number[][][][]) =>
+    rings.map((polygon) => polygon.map((ring) => `M${ring.map(([a, b]) => `${gx(a!).toFixed(1)} ${gy(b!).toFixed(1)}`).join('L')}Z`).join('')).join('');
+  return (
+    <figure class="plot contour" aria-label={`${props.title}: ${props.at.label}`}>
+      <figcaption>
+        <strong>{props.title}</strong>
+        <span class="legend">
+          {[`< ${short(props.levels[0]!)}`, ...props.levels.map((level, i) => (props.levels[i + 1] ? `${short(level)}–${short(props.levels[i + 1]!)}` : `> ${short(level)}`))].map((text, i) => (
+            <span key={text} class="legend-item"><i class="swatch" style={{ '--shade': i / (shades - 1) }} />{text}</span>
+          ))}
+          {props.border && <span class="legend-item"><i class="swatch never" />never</span>}
+        </span>
+      </figcaption>
+      <div ref={ref} style={{ height: `${height}px` }}>
+        {width > 0 && (
+          <svg width={width} height={height}>
+            <clipPath id={`clip-${props.title}`}>
+              <rect x={space.left} y={space.top} width={width - space.left - space.right} height={height - space.top - space.bottom} />
+            </clipPath>
+            <g clip-path={`url("#clip-${props.title}")`}>
+              {shapes.map((shape, i) => (
+                <path key={i} d={path(shape.coordinates)} class="level" style={{ '--shade': i / (shades - 1) }} />
+              ))}
+              {props.border && (
+                <path class="never" d={`M${x.map((v) => `${sx(v).toFixed(1)} ${sy(props.border!(v)).toFixed(1)}`).join('L')}L${sx(x0)} ${sy(y1) - 999}Z`} />
+              )}
+            </g>
+            {sx.ticks(6).map((tick) => (
+              <g key={tick}>
+                <line class="mark" x1={sx(tick)} x2={sx(tick)} y1={height - space.bottom} y2={height - space.bottom + 4} />
+                <text x={sx(tick)} y={height - space.bottom + 15} text-anchor="middle">{short(tick)}</text>
+              </g>
+            ))}
+            {sy.ticks(6).map((tick) => (
+              <g key={tick}>
+                <line class="mark" x1={space.left - 4} x2={space.left} y1={sy(tick)} y2={sy(tick)} />
+                <text x={space.left - 7} y={sy(tick) + 3.5} text-anchor="end">{short(tick)}</text>
+              </g>
+            ))}
+            <text class="axis" x={(space.left + width - space.right) / 2} y={height - 4} text-anchor="middle">{props.xLabel}</text>
+            <text class="axis" transform={`translate(11 ${(space.top + height - space.bottom) / 2}) rotate(-90)`} text-anchor="middle">{props.yLabel}</text>
+            <g class="here" transform={`translate(${sx(props.at.x)} ${sy(props.at.y)})`}>
+              <circle r="6" />
+              <path d="M-11 0 H11 M0 -11 V11" />
+            </g>
+          </svg>
+        )}
+      </div>
+      <p class="hint">{props.at.label}</p>
+    </figure>
+  );
+}

@@ -1,0 +1,187 @@
+// Lines over a common axis with uPlot: title, units, legend with the values under the cursor.
+import 'uplot/dist/uPlot.min.css';
+
+import { useSignal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import uPlot from 'uplot';
+
+import { short, significant } from '../lib/format';
+import { colour, palette } from '../lib/theme';
+
+export interface Line {
+  label: string;
+  values: (number | null)[];
+  colour: string; // custom property
+  dash?: number[];
+  width?: number;
+  points?: boolean;
+}
+
+export interface Guide {
+  value: number;
+  label: string;
+}
+
+export interface Band {
+  from: number;
+  to: number;
+  colour: string;
+}
+
+const font = '11px -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif';
+
+function drawGuides(plot: uPlot, guides: Guide[], ink: string) {
+  const { ctx, bbox } = plot;
+  ctx.save();
+  ctx.strokeStyle = ink;
+  ctx.fillStyle = ink;
+  ctx.font = font.replace('11px', `${10 * devicePixelRatio}px`);
+  ctx.setLineDash([3 * devicePixelRatio, 3 * devicePixelRatio]);
+  for (const guide of guides) {
+    const y = plot.valToPos(guide.value, 'y', true);
+    if (y < bbox.top || y > bbox.top + bbox.height) continue;
+    ctx.beginPath();
+    ctx.moveTo(bbox.left, y);
+    ctx.lineTo(bbox.left + bbox.width, y);
+    ctx.stroke();
+    ctx.textAlign = 'right';
+    ctx.textBaseline = y - bbox.top < 14 * devicePixelRatio ? 'top' : 'bottom';
+    ctx.fillText(guide.label, bbox.left + bbox.width - 3, ctx.textBaseline === 'top' ? y + 2 : y - 2);
+  }
+  ctx.restore();
+}
+
+function drawBands(plot: uPlot, bands: Band[]) {
+  const { ctx, bbox } = plot;
+  ctx.save();
+  for (const band of bands) {
+    const left = Math.max(bbox.left, plot.valToPos(band.from, 'x', true));
+    const right = Math.min(bbox.left + bbox.width, plot.valToPos(band.to, 'x', true));
+    if (right <= left) continue;
+    ctx.fillStyle = colour(band.colour);
+    ctx.fillRect(left, bbox.top, right - left, bbox.height);
+  }
+  ctx.restore();
+}
+
+export function Lines(props: {
+  title: string;
+  x: number[];
+  xLabel: string;
+  yLabel: string;
+  lines: Line[];
+  height?: number;
+  guides?: Guide[];
+  bands?: Band[];
+  yFromZero?: boolean;
+  xUnit?: string;
+  sync?: string;
+}) {
+  const box = useRef<HTMLDivElement>(null);
+  const plot = useRef<uPlot | null>(null);
+  const at = useSignal<number | null>(null);
+  const height = props.height ?? 220;
+  const paint = palette.value;
+  // What the plot is made of but its values; a change makes a new one.
+  const shape = JSON.stringify([
+    props.title, props.xLabel, props.yLabel, height, props.guides, props.bands, props.yFromZero, paint,
+    props.lines.map((line) => [line.label, line.colour, line.dash, line.width, line.points]),
+  ]);
+  const data = [props.x, ...props.lines.map((line) => line.values)] as uPlot.AlignedData;
+
+  useEffect(() => {
+    const holder = box.current;
+    if (!holder) return;
+    const ink = colour('--muted');
+    const grid = { stroke: colour('--grid'), width: 1 };
+    const axis = { stroke: ink, font, labelFont: font, grid, ticks: { ...grid, size: 4 } };
+    const made = new uPlot(
+      {
+        width: holder.clientWidth,
+        height,
+        legend: { show: false },
+        cursor: {
+          y: false,
+          points: { size: 6 },
+          drag: { x: true, y: false },
+          ...(props.sync ? { sync: { key: props.sync } } : {}),
+        },
+        scales: {
+          x: { time: false },
+          y: props.yFromZero ? { range: (_, low, high) => [Math.min(0, low), high + 0.06 * (high - Math.min(0, low)) || 1] } : {},
+        },
+        axes: [
+          { ...axis, label: props.xLabel, labelSize: 16, size: 30, labelGap: 0 },
+          {
+            ...axis,
+            label: props.yLabel,
+            labelSize: 16,
+            size: 46,
+            labelGap: 0,
+            values: (_, ticks) => ticks.map((tick) => (tick === null ? '' : short(tick))),
+          },
+        ],
+        series: [
+          {},
+          ...props.lines.map((line) => ({
+            label: line.label,
+            stroke: colour(line.colour),
+            width: line.width ?? 1.6,
+            dash: line.dash,
+            points: line.points ? { show: true, size: 3, fill: colour(line.colour) } : { show: false },
+          })),
+        ],
+        hooks: {
+          drawClear: [(u) => drawBands(u, props.bands ?? [])],
+          draw: [(u) => drawGuides(u, props.guides ?? [], ink)],
+          setCursor: [(u) => (at.value = u.cursor.idx ?? null)],
+        },
+      },
+      data,
+      holder,
+    );
+    plot.current = made;
+    const observer = new ResizeObserver(() => made.setSize({ width: holder.clientWidth, height }));
+    observer.observe(holder);
+    return () => {
+      observer.disconnect();
+      made.destroy();
+      plot.current = null;
+    };
+  }, [shape]);
+
+  useEffect(() => {
+    plot.current?.setData(data);
+  }, [props.x, ...props.lines.map((line) => line.values)]);
+
+  const index = at.value;
+  return (
+    <figure class="plot" aria-label={`${props.title}: ${props.yLabel} over ${props.xLabel}`}>
+      <figcaption>
+        <strong>{props.title}</strong>
+        <span class="legend">
+          {props.lines.map((line) => (
+            <span key={line.label} class="legend-item">
+              <svg width="18" height="8" aria-hidden="true">
+                <line
+                  x1="0" y1="4" x2="18" y2="4" stroke={`var(${line.colour})`} stroke-width="2"
+                  stroke-dasharray={line.dash?.join(' ')}
+                />
+              </svg>
+              {line.label}
+              {index !== null && (
+                <span class="legend-value">{significant(line.values[index] ?? null, 4)}</span>
+              )}
+            </span>
+          ))}
+          {index !== null && (
+            <span class="legend-item legend-at">
+              at {significant(props.x[index] ?? null, 4)} {props.xUnit ?? 's'}
+            </span>
+          )}
+        </span>
+      </figcaption>
+      <div ref={box} style={{ height: `${height}px` }} />
+    </figure>
+  );
+}

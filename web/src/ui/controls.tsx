@@ -1,0 +1,245 @@
+// Small controls that the views share.
+import { useSignal } from '@preact/signals';
+import type { ComponentChildren } from 'preact';
+import { useEffect, useId, useLayoutEffect, useRef } from 'preact/hooks';
+
+import { short } from '../lib/format';
+import { fromShown, type Kind, toShown, unitOf } from '../lib/units';
+
+export function Panel(props: {
+  title?: ComponentChildren;
+  aside?: ComponentChildren;
+  class?: string;
+  children: ComponentChildren;
+  first?: boolean; // heads the view
+}) {
+  const Heading = props.first ? 'h1' : 'h2';
+  return (
+    <section class={`panel ${props.class ?? ''}`}>
+      {props.title !== undefined && (
+        <header class="panel-head">
+          <Heading>{props.title}</Heading>
+          {props.aside !== undefined && <div class="aside">{props.aside}</div>}
+        </header>
+      )}
+      {props.children}
+    </section>
+  );
+}
+
+export function Segmented<T extends string>(props: {
+  label: string;
+  options: readonly (T | { value: T; label: string })[];
+  value: T;
+  onChange: (value: T) => void;
+  hideLabel?: boolean;
+}) {
+  return (
+    <div class="segmented" role="group" aria-label={props.label}>
+      {!props.hideLabel && <span class="segmented-label">{props.label}</span>}
+      <span class="segments">
+        {props.options.map((option) => {
+          const value = typeof option === 'string' ? option : option.value;
+          const text = typeof option === 'string' ? option : option.label;
+          return (
+            <button type="button" key={value} aria-pressed={props.value === value} onClick={() => props.onChange(value)}>
+              {text}
+            </button>
+          );
+        })}
+      </span>
+    </div>
+  );
+}
+
+export function Select<T extends string>(props: {
+  label: string;
+  value: T;
+  options: readonly { value: T; label: string }[];
+  onChange: (value: T) => void;
+  hideLabel?: boolean;
+}) {
+  const id = useId();
+  return (
+    <span class="select">
+      <label for={id} class={props.hideLabel ? 'only-heard' : ''}>
+        {props.label}
+      </label>
+      <select id={id} value={props.value} onChange={(event) => props.onChange(event.currentTarget.value as T)}>
+        {props.options.map((option) => (
+          <option key={option.value} value={option.value}>
+            {option.label}
+          </option>
+        ))}
+      </select>
+    </span>
+  );
+}
+
+export function Check(props: { label: ComponentChildren; checked: boolean; onChange: (on: boolean) => void }) {
+  return (
+    <label class="check">
+      <input
+        type="checkbox"
+        checked={props.checked}
+        onChange={(event) => props.onChange(event.currentTarget.checked)}
+      />
+      <span>{props.label}</span>
+    </label>
+  );
+}
+
+const asText = (kind: Kind, value: number | null | undefined): string =>
+  value === null || value === undefined ? '' : String(Number(toShown(kind, value).toPrecision(7)));
+
+export interface NumberFieldProps {
+  label: string;
+  value: number | null | undefined;
+  onChange: (value: number | null) => void;
+  kind?: Kind;
+  unit?: string;
+  range?: [number, number];
+  hint?: string;
+  error?: string;
+  optional?: boolean;
+  pointer?: string;
+}
+
+// A number in the unit chosen for its kind. What is no number is said here; everything else is the
+// service's to judge.
+export function NumberField(props: NumberFieldProps) {
+  const kind = props.kind ?? 'plain';
+  const id = useId();
+  const unit = unitOf(kind, props.unit);
+  const text = useSignal(asText(kind, props.value));
+  const broken = useSignal(false);
+  const sent = useRef<number | null | undefined>(props.value);
+  const shownUnit = useRef(unit);
+
+  useLayoutEffect(() => {
+    if (props.value === sent.current && unit === shownUnit.current) return;
+    text.value = asText(kind, props.value);
+    broken.value = false;
+    sent.current = props.value;
+    shownUnit.current = unit;
+  });
+
+  const take = (input: string) => {
+    text.value = input;
+    const trimmed = input.trim().replace(',', '.');
+    if (trimmed === '') {
+      broken.value = !props.optional;
+      sent.current = null;
+      props.onChange(null);
+      return;
+    }
+    const number = Number(trimmed);
+    broken.value = !Number.isFinite(number);
+    if (broken.value) return;
+    sent.current = fromShown(kind, number);
+    props.onChange(sent.current);
+  };
+
+  const range = props.range
+    ? `${short(toShown(kind, props.range[0]), 3)} … ${short(toShown(kind, props.range[1]), 3)}`
+    : '';
+  const error = broken.value ? 'a number is needed here' : props.error;
+  const hint = [props.hint, range].filter(Boolean).join(' · ');
+  return (
+    <div class={`field ${error ? 'wrong' : ''}`}>
+      <label for={id}>{props.label}</label>
+      <span class="input">
+        <input
+          id={id}
+          type="text"
+          inputMode="decimal"
+          autocomplete="off"
+          value={text.value}
+          placeholder={props.optional ? 'no limit' : ''}
+          data-pointer={props.pointer}
+          aria-invalid={error ? true : undefined}
+          aria-describedby={`${id}-hint`}
+          onInput={(event) => take(event.currentTarget.value)}
+        />
+        {unit && <span class="unit">{unit}</span>}
+      </span>
+      <span class={error ? 'error' : 'hint'} id={`${id}-hint`} role={error ? 'alert' : undefined}>
+        {error ?? hint}
+      </span>
+    </div>
+  );
+}
+
+export function TextField(props: {
+  label: string;
+  value: string;
+  onChange: (value: string) => void;
+  error?: string;
+  hint?: string;
+  options?: string[];
+  pointer?: string;
+}) {
+  const id = useId();
+  return (
+    <div class={`field ${props.error ? 'wrong' : ''}`}>
+      <label for={id}>{props.label}</label>
+      <span class="input">
+        <input
+          id={id}
+          type="text"
+          autocomplete="off"
+          list={props.options ? `${id}-list` : undefined}
+          value={props.value}
+          data-pointer={props.pointer}
+          aria-invalid={props.error ? true : undefined}
+          aria-describedby={`${id}-hint`}
+          onInput={(event) => props.onChange(event.currentTarget.value)}
+        />
+      </span>
+      {props.options && (
+        <datalist id={`${id}-list`}>
+          {props.options.map((option) => (
+            <option key={option} value={option} />
+          ))}
+        </datalist>
+      )}
+      <span class={props.error ? 'error' : 'hint'} id={`${id}-hint`}>
+        {props.error ?? props.hint ?? ''}
+      </span>
+    </div>
+  );
+}
+
+export function Notice(props: { kind: 'info' | 'warn' | 'bad' | 'good'; children: ComponentChildren }) {
+  return (
+    <div class={`notice ${props.kind}`} role={props.kind === 'bad' ? 'alert' : 'status'}>
+      {props.children}
+    </div>
+  );
+}
+
+export const Chip = (props: { kind?: string; children: ComponentChildren; tip?: string }) => (
+  <span class={`chip ${props.kind ?? ''}`} data-tip={props.tip}>
+    {props.children}
+  </span>
+);
+
+// A modal window; Escape closes it.
+export function Dialog(props: { title: string; onClose: () => void; children: ComponentChildren; wide?: boolean }) {
+  const ref = useRef<HTMLDialogElement>(null);
+  const id = useId();
+  useEffect(() => {
+    ref.current?.showModal();
+  }, []);
+  return (
+    <dialog ref={ref} class={props.wide ? 'wide' : ''} aria-labelledby={id} onClose={props.onClose}>
+      <header class="panel-head">
+        <h2 id={id}>{props.title}</h2>
+        <button type="button" class="quiet" aria-label="Close" onClick={() => ref.current?.close()}>
+          ✕
+        </button>
+      </header>
+      <div class="dialog-body">{props.children}</div>
+    </dialog>
+  );
+}

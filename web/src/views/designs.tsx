@@ -1,0 +1,207 @@
+// The answer of one job: while it runs its progress, then the ranked list.
+import { useEffect } from 'preact/hooks';
+
+import { requirementName, requirementNumber, requirementUnit } from '../lib/amounts';
+import { duration, percent, significant } from '../lib/format';
+import { ended, follow, jobList, previousJob, refreshJobs, start, watched } from '../lib/jobs';
+import { load } from '../lib/requirements';
+import { go, link, route } from '../lib/route';
+import type { Answer } from '../lib/types';
+import { proofInWords, statusWord } from '../lib/words';
+import { Chip, Notice, Panel } from '../ui/controls';
+import { saveFile } from '../ui/files';
+import { ComparePanel } from './compare';
+import { DesignPage } from './design';
+import { ProgressPanel } from './progress';
+import { Ranked } from './ranked';
+
+export const pathOf = (id: string): string => `/v1/designs/${id}`;
+
+// Loads the job of the address and keeps following it.
+export function useJob(id: string | undefined) {
+  useEffect(() => {
+    if (id) void follow(pathOf(id));
+  }, [id]);
+  return id ? watched.value[pathOf(id)] : undefined;
+}
+
+function useNewestJob(id: string | undefined) {
+  useEffect(() => {
+    if (id) {
+      previousJob.value = id;
+      return;
+    }
+    void refreshJobs().then(
+      () => {
+        const newest = previousJob.value ?? jobList.value?.[0]?.id;
+        if (newest && route.value.path[0] === 'designs' && !route.value.path[1]) go(['designs', newest]);
+      },
+      () => undefined,
+    );
+  }, [id]);
+}
+
+export function DesignsView() {
+  const [, id, rank] = route.value.path;
+  useNewestJob(id);
+  const now = useJob(id);
+  if (!id) {
+    return (
+      <Panel first title="Designs">
+        <p>
+          No search yet. <a href={link(['requirements'])}>Write the requirements</a> and start one.
+        </p>
+      </Panel>
+    );
+  }
+  if (!now?.job) {
+    return now?.problem ? (
+      <Panel first title="Designs">
+        <Notice kind="bad">{now.problem.message}</Notice>
+        <p><a href={link(['jobs'])}>All searches</a></p>
+      </Panel>
+    ) : (
+      <p class="loading" role="status">Loading…</p>
+    );
+  }
+  if (!ended(now.job.status)) {
+    return (
+      <>
+        <h1 class="lone">{now.job.name || 'Designs'}</h1>
+        <ProgressPanel watched={now} self={pathOf(id)} />
+      </>
+    );
+  }
+  const answer = now.job.result;
+  if (!answer) {
+    return (
+      <Panel first title={now.job.name || 'Designs'}>
+        <Notice kind={now.job.status === 'failed' ? 'bad' : 'warn'}>
+          {now.job.detail ?? 'The search was cancelled before it began.'}
+        </Notice>
+      </Panel>
+    );
+  }
+  if (rank === 'compare') return <ComparePanel answer={answer} id={id} />;
+  if (rank) return <DesignPage answer={answer} id={id} rank={Number(rank)} key={`${id}/${rank}`} />;
+  return (
+    <>
+      <Headline answer={answer} id={id} />
+      {answer.conflict && <Conflict answer={answer} />}
+      {answer.designs.length > 0 && <Ranked answer={answer} id={id} key={id} />}
+      {answer.prices && answer.prices.length > 0 && <Prices answer={answer} />}
+    </>
+  );
+}
+
+function Headline({ answer, id }: { answer: Answer; id: string }) {
+  const word = statusWord[answer.status];
+  const again = async () => go(['designs', await start(answer.requirements)]);
+  const measured = answer.best_on_measured_flow;
+  return (
+    <div class="headline">
+      <div class="toolbar">
+        <h1>{answer.name || 'Designs'}</h1>
+        <Chip kind={word.kind}>{word.text}</Chip>
+        {answer.requirements.model && answer.requirements.model !== 'nominal' && <Chip>model {answer.requirements.model}</Chip>}
+        <span class="toolbar-group">
+          <button type="button" onClick={() => { load(answer.requirements); go(['requirements']); }}>Requirements</button>
+          <button type="button" onClick={() => void again()}>Rank again</button>
+          <button type="button" onClick={() => saveFile(`${answer.name || id}-designs.json`, `${JSON.stringify(answer, null, 2)}\n`)}>Save JSON</button>
+        </span>
+      </div>
+      <p class="proof">
+        {proofInWords(answer)}{' '}
+        {answer.catalogue_revision && <span class="muted">Catalogue revision {answer.catalogue_revision.number}.</span>}{' '}
+        {measured !== null && measured > 1 && (
+          <span>Best on measured flow data: <a href={link(['designs', id, String(measured)])}>#{measured}</a>.</span>
+        )}
+        {measured === null && answer.designs.length > 0 && (
+          <span class="muted">Every design listed has a flow number that is an estimate.</span>
+        )}
+      </p>
+    </div>
+  );
+}
+
+function Conflict({ answer }: { answer: Answer }) {
+  return (
+    <Panel title="These requirements cannot be met together">
+      <div class="scroll" tabIndex={0} role="region" aria-label="Conflicting requirements">
+        <table>
+          <thead>
+            <tr><th scope="col">requirement</th><th scope="col" class="num">asked</th><th scope="col" class="num">best while the others hold</th><th scope="col" class="num">would have to give</th></tr>
+          </thead>
+          <tbody>
+            {answer.conflict!.map((row) => (
+              <tr key={row.requirement}>
+                <td>{requirementName(row.requirement, answer.requirements.actuators)} <small class="muted">{requirementUnit(row.requirement)}</small></td>
+                <td class="num">{requirementNumber(row.requirement, row.required)}</td>
+                <td class="num">{requirementNumber(row.requirement, row.best)}</td>
+                <td class="num">{percent(row.relaxation)}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </div>
+    </Panel>
+  );
+}
+
+function Prices({ answer }: { answer: Answer }) {
+  return (
+    <Panel title="What each requirement costs" aside={<span class="muted">saved if it were a tenth looser</span>}>
+      <div class="scroll" tabIndex={0} role="region" aria-label="Prices of requirements">
+        <table>
+          <thead>
+            <tr><th scope="col">requirement</th><th scope="col" class="num">saving</th><th scope="col">of that</th></tr>
+          </thead>
+          <tbody>
+            {answer.prices!.map((row) => (
+              <tr key={row.requirement}>
+                <td>{requirementName(row.requirement, answer.requirements.actuators)}</td>
+                <td class="num">{significant(row.saving)}</td>
+                <td>{row.status === 'optimal' ? 'proved' : row.status}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </div>
+    </Panel>
+  );
+}
+
+export function JobsView() {
+  useEffect(() => {
+    void refreshJobs().catch(() => undefined);
+    const timer = setInterval(() => void refreshJobs().catch(() => undefined), 2000);
+    return () => clearInterval(timer);
+  }, []);
+  const jobs = jobList.value;
+  return (
+    <Panel first title="Searches since the service started">
+      {jobs === null && <p role="status">Loading…</p>}
+      {jobs?.length === 0 && <p>None yet. <a href={link(['requirements'])}>Write the requirements</a> and start one.</p>}
+      {jobs !== null && jobs.length > 0 && (
+        <div class="scroll" tabIndex={0} role="region" aria-label="Searches">
+          <table>
+            <thead>
+              <tr><th scope="col">search</th><th scope="col">status</th><th scope="col" class="num">best</th><th scope="col" class="num">searched</th><th scope="col">id</th></tr>
+            </thead>
+            <tbody>
+              {jobs.map((job) => (
+                <tr key={job.id}>
+                  <th scope="row"><a href={link(['designs', job.id])}>{job.name || 'unnamed'}</a></th>
+                  <td><Chip kind={job.status === 'done' ? 'good' : job.status === 'failed' ? 'bad' : 'warn'}>{job.status}</Chip></td>
+                  <td class="num">{significant(job.progress?.best ?? null, 4)}</td>
+                  <td class="num">{job.progress ? duration(job.progress.seconds) : '–'}</td>
+                  <td><code>{job.id}</code></td>
+                </tr>
+              ))}
+            </tbody>
+          </table>
+        </div>
+      )}
+    </Panel>
+  );
+}

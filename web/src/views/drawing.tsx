@@ -1,0 +1,135 @@
+// The system as a small drawing that follows the requirements: sources, bus, one line per group.
+import { short } from '../lib/format';
+import type { Configuration, Group, Requirements } from '../lib/types';
+import { toShown, unitOf } from '../lib/units';
+
+const names: Record<Configuration, string> = {
+  compressor: 'compressor',
+  cylinder: 'cylinder',
+  co2: 'CO₂',
+  mains: 'wall',
+};
+
+// Signs in the manner of ISO 1219, 30 × 30 around the middle.
+function SourceSign({ kind }: { kind: Configuration }) {
+  switch (kind) {
+    case 'compressor':
+      return (
+        <>
+          <circle r="13" />
+          <path d="M-13 0 L11 -7 M-13 0 L11 7" />
+        </>
+      );
+    case 'cylinder':
+      return <path d="M-13 -8 H6 Q13 -8 13 0 Q13 8 6 8 H-13 Z" />;
+    case 'co2':
+      return (
+        <>
+          <path d="M-13 -8 H6 Q13 -8 13 0 Q13 8 6 8 H-13 Z" />
+          <path d="M-13 2 H12" stroke-dasharray="2 2" />
+        </>
+      );
+    case 'mains':
+      return (
+        <>
+          <path d="M-9 -13 V13" />
+          <path d="M-9 0 L6 -8 V8 Z" />
+        </>
+      );
+  }
+}
+
+const Regulator = () => (
+  <>
+    <rect x="-10" y="-10" width="20" height="20" />
+    <path d="M-6 4 H6 M3 1 L6 4 L3 7" />
+  </>
+);
+
+const Reservoir = () => <rect x="-16" y="-9" width="32" height="18" rx="9" />;
+
+const Valve = () => (
+  <>
+    <rect x="-18" y="-9" width="36" height="18" />
+    <path d="M0 -9 V9 M-14 5 L-4 -5 M-4 -5 h-4 M-4 -5 v4 M5 0 H13 M5 -4 V4 M13 -4 V4" />
+  </>
+);
+
+// Also of a form that is half written.
+const volumeOf = (group: Group): number => Math.max(group.rest_volume_ml ?? group.pressure_volume?.[0]?.volume_ml ?? 0, 1e-3);
+
+function Actuator({ group, largest }: { group: Group; largest: number }) {
+  const rest = 5 + 10 * Math.cbrt(volumeOf(group) / largest);
+  const grown = rest * Math.cbrt(Math.min(Math.max(group.expansion_ratio ?? 1, 1), 8));
+  return (
+    <>
+      <ellipse rx={grown * 1.15} ry={grown} class="grown" />
+      <ellipse rx={rest * 1.15} ry={rest} />
+    </>
+  );
+}
+
+const clip = (name: string): string => (name.length > 14 ? `${name.slice(0, 13)}…` : name);
+
+const place = (x: number, y: number) => `translate(${x} ${y})`;
+
+export function Drawing({ requirements }: { requirements: Requirements }) {
+  const kinds = requirements.supply?.configurations ?? ['cylinder', 'co2', 'compressor'];
+  const groups = requirements.actuators;
+  const rows = Math.max(kinds.length, groups.length, 1);
+  const step = 92;
+  const height = rows * step + 10;
+  const width = 430;
+  const yOf = (i: number, n: number) => height / 2 + (i - (n - 1) / 2) * step;
+  const bus = 160;
+  const largest = Math.max(...groups.map(volumeOf));
+  const ends = [...kinds.map((_, i) => yOf(i, kinds.length)), ...groups.map((_, i) => yOf(i, groups.length))];
+  return (
+    <svg class="drawing" viewBox={`0 0 ${width} ${height}`} role="img" aria-label={describe(kinds, groups)}>
+      {ends.length > 0 && <path class="pipe" d={`M${bus} ${Math.min(...ends)} V${Math.max(...ends)}`} />}
+      {kinds.map((kind, i) => {
+        const y = yOf(i, kinds.length);
+        return (
+          <g key={kind}>
+            <path class="pipe" d={`M38 ${y} H${bus}`} />
+            <g transform={place(38, y)} class="sign source">
+              <SourceSign kind={kind} />
+            </g>
+            <g transform={place(112, y)} class="sign">
+              {kind === 'compressor' ? <Reservoir /> : <Regulator />}
+            </g>
+            <text x="38" y={y + 27}>{names[kind]}</text>
+            <text x="112" y={y + 27}>{kind === 'compressor' ? 'reservoir' : 'regulator'}</text>
+          </g>
+        );
+      })}
+      {groups.map((group, i) => {
+        const y = yOf(i, groups.length);
+        const rise = group.rise_time_s_max;
+        const fall = group.fall_time_s_max;
+        return (
+          <g key={i}>
+            <path class="pipe" d={`M${bus} ${y} H370`} />
+            <g transform={place(200, y)} class="sign"><Valve /></g>
+            <path class="tube" d={`M232 ${y} q8 -12 16 0 t16 0 t16 0 t16 0`} />
+            <g transform={place(366, y)} class="sign actuator"><Actuator group={group} largest={largest} /></g>
+            <text x="200" y={y + 27}>valve</text>
+            <text x="266" y={y + 27}>{short(group.tube_length_m)} m</text>
+            <text x="266" y={y - 16}>
+              {short(toShown('pressure', group.operating_pressure_kpa_gauge), 4)} {unitOf('pressure')}
+            </text>
+            <text x="366" y={y + 38} class="name">{group.count} × {clip(group.name)}</text>
+            <text x="366" y={y + 51}>
+              {[rise && `↑ ${short(rise)} s`, fall && `↓ ${short(fall)} s`].filter(Boolean).join('  ')}
+            </text>
+          </g>
+        );
+      })}
+    </svg>
+  );
+}
+
+const describe = (kinds: Configuration[], groups: Group[]): string =>
+  `Supply from ${kinds.map((k) => names[k]).join(' or ') || 'nothing'} to ${groups
+    .map((g) => `${g.count} ${g.name} through valve and ${short(g.tube_length_m)} m of tube`)
+    .join(', and to ')}`;

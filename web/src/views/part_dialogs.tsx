@@ -1,0 +1,195 @@
+// One part with its sources and history, and the history of the catalogue.
+import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+
+import { ask, asProblem, get, post } from '../lib/api';
+import { loadPart, numberOf, partPath, provenanceWord } from '../lib/catalogue';
+import { fieldName, short } from '../lib/format';
+import { edit, requirements } from '../lib/requirements';
+import type { Family, Part } from '../lib/types';
+import { Lines } from '../plots/lines';
+import { Chip, Dialog, Notice } from '../ui/controls';
+import { PartForm } from './part_form';
+
+interface Revision {
+  number: number;
+  at: string;
+  who: string;
+  what: string;
+}
+
+const when = (at: string): string => at.replace('T', ' ').slice(0, 16);
+
+export function PartDialog(props: {
+  id: string; meta: Family; known: Part[]; onClose: (changed: boolean) => void; onCopied: (id: string) => void;
+}) {
+  const { id, meta } = props;
+  const loaded = useSignal<{ part: Part; etag: string } | null>(null);
+  const problem = useSignal('');
+  const mode = useSignal<'show' | 'edit' | 'copy'>('show');
+  const load = () => loadPart(id).then((answer) => (loaded.value = answer), (error) => (problem.value = asProblem(error).message));
+  useEffect(() => void load(), [id]);
+  const now = loaded.value;
+  if (now && mode.value !== 'show') {
+    return (
+      <PartForm
+        meta={meta} known={props.known} part={now.part} etag={mode.value === 'edit' ? now.etag : undefined}
+        onClose={(saved) => props.onClose(saved)}
+      />
+    );
+  }
+  const remove = async () => {
+    if (!confirm(`Remove ${now!.part.manufacturer} ${now!.part.part_number} from the catalogue?`)) return;
+    try {
+      await ask('DELETE', partPath(id), { headers: { 'If-Match': now!.etag } });
+      props.onClose(true);
+    } catch (error) {
+      problem.value = asProblem(error).message;
+      void load();
+    }
+  };
+  return (
+    <Dialog wide title={now ? `${now.part.manufacturer} ${now.part.part_number}` : id} onClose={() => props.onClose(false)}>
+      {problem.value && <Notice kind="bad">{problem.value}</Notice>}
+      {now && (
+        <>
+          <div class="toolbar">
+            <Chip>{now.part.family}</Chip>
+            <Chip kind={now.part.origin === 'seed' ? '' : 'good'}>{now.part.origin === 'seed' ? 'supplied' : 'own'}</Chip>
+            <code>{id}</code>
+            <span class="toolbar-group">
+              <Wish part={now.part} />
+              <button type="button" onClick={() => (mode.value = 'edit')}>Edit</button>
+              <button type="button" onClick={() => (mode.value = 'copy')}>Copy</button>
+              <button type="button" class="bad" onClick={() => void remove()}>Remove</button>
+            </span>
+          </div>
+          {now.part.notes && <p class="notes">{now.part.notes}</p>}
+          <FieldTable part={now.part} meta={meta} />
+          {now.part.curve && <Curve part={now.part} />}
+          <PartHistory id={id} />
+        </>
+      )}
+    </Dialog>
+  );
+}
+
+// Leaves the part out of the requirements, or asks for it.
+function Wish({ part }: { part: Part }) {
+  const { exclude = [], require = {} } = requirements.value;
+  const isOut = exclude.includes(part.id);
+  const isAsked = require[part.family]?.includes(part.id) ?? false;
+  const without = (ids: string[]) => ids.filter((id) => id !== part.id);
+  const orNone = (ids: string[]) => (ids.length ? ids : undefined);
+  const asked = require[part.family] ?? [];
+  return (
+    <>
+      <button type="button" aria-pressed={isOut} onClick={() => edit(['exclude'], orNone(isOut ? without(exclude) : [...exclude, part.id]))}>Leave out</button>
+      <button type="button" aria-pressed={isAsked} onClick={() => edit(['require', part.family], orNone(isAsked ? without(asked) : [...asked, part.id]))}>Require</button>
+    </>
+  );
+}
+
+function FieldTable({ part, meta }: { part: Part; meta: Family }) {
+  const fields = [...meta.texts, ...meta.numbers].filter((field) => part[field.name] !== undefined);
+  const rows = fields.map((field) => ({ ...fieldName(field.name), name: field.name, meaning: field.meaning }));
+  return (
+    <div class="scroll" tabIndex={0} role="region" aria-label="Numbers and sources">
+      <table class="sources">
+        <thead><tr><th scope="col">what</th><th scope="col" class="num">value</th><th scope="col">from</th><th scope="col">source</th></tr></thead>
+        <tbody>
+          {rows.map((row) => {
+            const value = numberOf(part, row.name);
+            const from = part.provenance[row.name];
+            return (
+              <tr key={row.name}>
+                <th scope="row" data-tip={row.meaning}>{row.label}</th>
+                <td class="num">{value === null ? String(part[row.name]) : `${short(value, 6)} ${row.unit}`}</td>
+                <td><span class={`from ${from?.kind ?? ''}`}>{from ? provenanceWord[from.kind] : '–'}</span></td>
+                <td class="source">{from?.source ?? '–'}</td>
+              </tr>
+            );
+          })}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+function Curve({ part }: { part: Part }) {
+  const curve = part.curve!;
+  const from = part.provenance.free_air;
+  return (
+    <Lines
+      title={`Delivery${from ? `, ${provenanceWord[from.kind]}` : ''}`} x={curve.map((p) => p.pressure_kpa_gauge)} xUnit="kPa gauge"
+      xLabel="outlet pressure, kPa gauge" yLabel="free air, L/min" height={180} yFromZero
+      lines={[{ label: 'free air', values: curve.map((p) => p.free_air_l_per_min), colour: '--c1', points: true }]}
+    />
+  );
+}
+
+function PartHistory({ id }: { id: string }) {
+  const entries = useSignal<{ revision: Revision; before: Part | null; after: Part | null }[] | null>(null);
+  const load = () => get<{ history: never[] }>(`${partPath(id)}/history`).then((answer) => (entries.value = answer.history), () => (entries.value = []));
+  return (
+    <details onToggle={(event) => event.currentTarget.open && entries.value === null && void load()}>
+      <summary>History</summary>
+      {entries.value?.length === 0 && <p>No changes are recorded.</p>}
+      <ul class="history">
+        {entries.value?.map(({ revision, before, after }) => (
+          <li key={revision.number}>
+            <b>revision {revision.number}</b> <span class="muted">{when(revision.at)} {revision.who}</span>{' '}
+            {before === null ? 'added' : after === null ? 'removed' : changes(before, after)}
+          </li>
+        ))}
+      </ul>
+    </details>
+  );
+}
+
+function changes(before: Part, after: Part): string {
+  const names = [...new Set([...Object.keys(before), ...Object.keys(after)])].filter((name) => name !== 'provenance');
+  const different = names.filter((name) => JSON.stringify(before[name]) !== JSON.stringify(after[name]));
+  const text = (value: unknown) => (typeof value === 'object' ? '…' : String(value ?? '–'));
+  return different.map((name) => `${fieldName(name).label} ${text(before[name])} → ${text(after[name])}`).join(', ') || 'sources changed';
+}
+
+export function RevisionsDialog({ onClose }: { onClose: (changed: boolean) => void }) {
+  const list = useSignal<Revision[] | null>(null);
+  const problem = useSignal('');
+  const changed = useSignal(false);
+  const load = () => get<{ revisions: Revision[] }>('/v1/revisions').then((answer) => (list.value = answer.revisions), (error) => (problem.value = asProblem(error).message));
+  useEffect(() => void load(), []);
+  const undo = async (number: number) => {
+    try {
+      await post(`/v1/revisions/${number}/undo`, {});
+      changed.value = true;
+      problem.value = '';
+      await load();
+    } catch (error) {
+      const refused = asProblem(error);
+      problem.value = [refused.message, ...refused.errors.map((e) => `${e.pointer} ${e.detail}`)].join(' ');
+    }
+  };
+  return (
+    <Dialog title="History of the catalogue" onClose={() => onClose(changed.value)}>
+      {problem.value && <Notice kind="bad">{problem.value}</Notice>}
+      <div class="scroll" tabIndex={0} role="region" aria-label="Revisions">
+        <table>
+          <thead><tr><th scope="col" class="num">revision</th><th scope="col">when</th><th scope="col">who</th><th scope="col">what</th><th scope="col"><span class="only-heard">undo</span></th></tr></thead>
+          <tbody>
+            {list.value?.map((r) => (
+              <tr key={r.number}>
+                <td class="num">{r.number}</td>
+                <td class="nowrap">{when(r.at)}</td>
+                <td>{r.who}</td>
+                <td>{r.what}</td>
+                <td>{r.number > 1 && <button type="button" class="small" aria-label={`Undo revision ${r.number}`} onClick={() => void undo(r.number)}>Undo</button>}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </div>
+    </Dialog>
+  );
+}

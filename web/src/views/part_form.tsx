@@ -1,0 +1,130 @@
+// A part to add, copy or change. The service checks it; a change is refused when the part is no
+// longer the one that was opened (If-Match).
+import { useSignal } from '@preact/signals';
+
+import { ask, asProblem, type FieldError } from '../lib/api';
+import { partPath, provenanceWord } from '../lib/catalogue';
+import { fieldName } from '../lib/format';
+import type { CurvePoint, Family, Part, Provenance } from '../lib/types';
+import { Dialog, Notice, NumberField, Select, TextField } from '../ui/controls';
+
+type Draft = Record<string, unknown>;
+
+const curveText = (curve: CurvePoint[] | undefined): string =>
+  (curve ?? []).map((p) => [p.pressure_kpa_gauge, p.free_air_l_per_min, p.current_a].filter((v) => v !== undefined).join(' ')).join('\n');
+
+// Lines of "pressure flow [current]"; null where something is no number.
+function readCurve(text: string): CurvePoint[] | null {
+  const rows = text.split('\n').map((line) => line.trim()).filter(Boolean).map((line) => line.split(/[\s;,]+/).map(Number));
+  if (rows.some((row) => row.length < 2 || row.length > 3 || row.some((v) => !Number.isFinite(v)))) return null;
+  return rows.map(([pressure_kpa_gauge, free_air_l_per_min, current_a]) => ({
+    pressure_kpa_gauge: pressure_kpa_gauge!, free_air_l_per_min: free_air_l_per_min!, ...(current_a !== undefined && { current_a }),
+  }));
+}
+
+export function PartForm(props: {
+  meta: Family; known: Part[]; part?: Part; etag?: string; onClose: (saved: boolean) => void;
+}) {
+  const { meta, part, etag } = props;
+  const draft = useSignal<Draft>(part ? { ...part, ...(etag ? {} : { id: undefined, part_number: `${part.part_number} copy` }) } : { family: meta.name });
+  const curve = useSignal(curveText(part?.curve));
+  const kind = useSignal<Provenance['kind']>('datasheet');
+  const source = useSignal('');
+  const errors = useSignal<FieldError[]>([]);
+  const problem = useSignal('');
+  const busy = useSignal(false);
+  const now = draft.value;
+  const set = (name: string, value: unknown) => (draft.value = { ...draft.value, [name]: value === '' || value === null ? undefined : value });
+  // An id that is made from other fields is only wrong where they are.
+  const errorAt = (name: string) => name === 'id' && now.id === undefined && errors.value.length > 1 ? undefined : errors.value.find((e) => e.pointer === `/${name}`)?.detail;
+  const elsewhere = errors.value.filter((e) => !/^\/[a-z_0-9]+$/.test(e.pointer) || e.pointer === '/curve');
+
+  // Changed numbers get the source named here, the others keep theirs.
+  const documentOf = (): Draft | null => {
+    const points = meta.has_curve ? readCurve(curve.value) : undefined;
+    if (points === null) {
+      errors.value = [{ pointer: '/curve', detail: 'each line needs two or three numbers: kPa gauge, L/min, A' }];
+      return null;
+    }
+    const provenance: Record<string, Provenance> = {};
+    const fields = [...meta.numbers, ...meta.texts].map((f) => f.name).filter((f) => now[f] !== undefined);
+    const mine: Provenance = { kind: kind.value, source: source.value.trim() || 'user' };
+    for (const field of fields) provenance[field] = part && now[field] === part[field] && part.provenance[field] ? part.provenance[field]! : mine;
+    if (points && points.length > 0) {
+      const same = curveText(part?.curve) === curve.value && part;
+      provenance.free_air = (same && part.provenance.free_air) || mine;
+      if (points.some((p) => p.current_a !== undefined)) provenance.current = (same && part.provenance.current) || mine;
+    }
+    const { origin: _, ...rest } = now;
+    return { ...rest, family: meta.name, ...(points && points.length > 0 && { curve: points }), provenance };
+  };
+
+  const save = async () => {
+    errors.value = [];
+    problem.value = '';
+    const document = documentOf();
+    if (!document) return;
+    busy.value = true;
+    try {
+      if (etag) await ask('PUT', partPath(part!.id), { body: document, headers: { 'If-Match': etag } });
+      else await ask('POST', '/v1/parts', { body: document });
+      props.onClose(true);
+    } catch (error) {
+      const refused = asProblem(error);
+      errors.value = refused.errors;
+      problem.value = refused.status === 412
+        ? 'Someone changed this part meanwhile. Close this window and open the part again; nothing was saved.'
+        : refused.errors.length > 0 ? 'Not saved; see the fields marked.' : refused.message;
+    } finally {
+      busy.value = false;
+    }
+  };
+
+  const text = (name: string, label: string, options?: string[], hint?: string) => (
+    <TextField
+      key={name} label={label} value={String(now[name] ?? '')} error={errorAt(name)} options={options} hint={hint}
+      pointer={`/${name}`} onChange={(v) => set(name, v)}
+    />
+  );
+  const usual = (field: string) => [...new Set(props.known.map((p) => p[field]).filter((v): v is string => typeof v === 'string'))].sort();
+  return (
+    <Dialog wide title={etag ? `Edit ${part!.part_number}` : `Add a part: ${meta.name}`} onClose={() => props.onClose(false)}>
+      <form noValidate onSubmit={(event) => { event.preventDefault(); void save(); }}>
+        {problem.value && <Notice kind="bad">{problem.value}</Notice>}
+        {elsewhere.map((e) => <p key={e.pointer} class="error"><code>{e.pointer}</code> {e.detail}</p>)}
+        <div class="fields">
+          {text('manufacturer', 'Maker', usual('manufacturer'))}
+          {text('part_number', 'Part number')}
+          {!etag && text('id', 'Id', undefined, 'made from maker and number if empty')}
+          {meta.texts.map((field) => text(field.name, `${field.name.replaceAll('_', ' ')}${field.required ? '' : ' (optional)'}`, field.allowed.length ? field.allowed : usual(field.name), field.meaning))}
+          {meta.numbers.map((field) => {
+            const { label, unit } = fieldName(field.name);
+            return (
+              <NumberField
+                key={field.name} label={`${label}${field.required ? '' : ' (optional)'}`} unit={unit} value={now[field.name] as number | undefined}
+                range={[field.min, field.max]} error={errorAt(field.name)} pointer={`/${field.name}`} onChange={(v) => set(field.name, v)}
+              />
+            );
+          })}
+        </div>
+        {meta.has_curve && (
+          <label class="curve">
+            Curve: kPa gauge, free air L/min, current A; one point a line
+            <textarea rows={6} value={curve.value} onInput={(e) => (curve.value = e.currentTarget.value)} />
+          </label>
+        )}
+        <div class="fields">
+          <Select
+            label={part ? 'Changed numbers are from' : 'These numbers are from'} value={kind.value} onChange={(v) => (kind.value = v)}
+            options={(Object.keys(provenanceWord) as Provenance['kind'][]).map((k) => ({ value: k, label: provenanceWord[k] }))}
+          />
+          <TextField label="Source" value={source.value} onChange={(v) => (source.value = v)} hint="page, file or measurement" />
+          {text('notes', 'Notes')}
+        </div>
+        <div class="toolbar end">
+          <button type="submit" class="primary" disabled={busy.value}>{etag ? 'Save the change' : 'Add the part'}</button>
+        </div>
+      </form>
+    </Dialog>
+  );
+}

@@ -1,0 +1,329 @@
+// What the supply has to do: the form, its check, and the start of a search.
+import { useSignal } from '@preact/signals';
+
+import { asProblem, type Problem } from '../lib/api';
+import { previousJob, start } from '../lib/jobs';
+import { models } from '../lib/models';
+import { edit, errorAt, fieldErrors, load, presets, requirements, validity } from '../lib/requirements';
+import { go } from '../lib/route';
+import type { Amount, Configuration, Requirements } from '../lib/types';
+import { Check, NumberField, Notice, Panel, Segmented, Select, TextField } from '../ui/controls';
+import { FilePicker, saveFile } from '../ui/files';
+import { Drawing } from './drawing';
+import { Groups } from './groups';
+
+const configurations: { value: Configuration; label: string }[] = [
+  { value: 'compressor', label: 'Compressor and reservoir' },
+  { value: 'cylinder', label: 'Compressed air cylinder' },
+  { value: 'co2', label: 'Liquid CO₂' },
+  { value: 'mains', label: 'Wall supply' },
+];
+
+const amounts: { value: Amount; label: string }[] = [
+  { value: 'mass_kg', label: 'mass' },
+  { value: 'volume_l', label: 'volume' },
+  { value: 'cost_eur', label: 'cost' },
+  { value: 'energy_wh', label: 'energy' },
+];
+
+function Supply() {
+  const supply = requirements.value.supply ?? {};
+  const chosen = supply.configurations ?? ['cylinder', 'co2', 'compressor'];
+  const toggle = (name: Configuration, on: boolean) => {
+    const next = configurations.map((c) => c.value).filter((c) => (c === name ? on : chosen.includes(c)));
+    edit(['supply', 'configurations'], next);
+    if (name === 'mains') edit(['supply', 'mains'], on ? { pressure_kpa_gauge: 600, flow_l_per_min_anr_max: 200 } : undefined);
+  };
+  const limit = (name: string, value: number | null) => edit(['supply', name], value ?? undefined);
+  const mains = supply.mains;
+  const wrong = errorAt('/supply/configurations') ?? errorAt('/supply/mains');
+  return (
+    <Panel title="Supply">
+      <div class="checks" role="group" aria-label="Kinds of supply to consider">
+        {configurations.map((c) => (
+          <Check key={c.value} label={c.label} checked={chosen.includes(c.value)} onChange={(on) => toggle(c.value, on)} />
+        ))}
+      </div>
+      {wrong && <p class="error">{wrong}</p>}
+      <div class="fields">
+        {mains && (
+          <>
+            <NumberField
+              label="Wall pressure" kind="pressure" value={mains.pressure_kpa_gauge} range={[1, 10000]}
+              pointer="/supply/mains/pressure_kpa_gauge" error={errorAt('/supply/mains/pressure_kpa_gauge')}
+              onChange={(v) => edit(['supply', 'mains', 'pressure_kpa_gauge'], v)}
+            />
+            <NumberField
+              label="Wall flow, at most" unit="L/min ANR" optional value={mains.flow_l_per_min_anr_max}
+              pointer="/supply/mains/flow_l_per_min_anr_max" error={errorAt('/supply/mains/flow_l_per_min_anr_max')}
+              onChange={(v) => edit(['supply', 'mains', 'flow_l_per_min_anr_max'], v ?? undefined)}
+            />
+          </>
+        )}
+        <NumberField
+          label="Source pressure, at most" kind="pressure" optional value={supply.source_pressure_kpa_gauge_max}
+          pointer="/supply/source_pressure_kpa_gauge_max" error={errorAt('/supply/source_pressure_kpa_gauge_max')}
+          onChange={(v) => limit('source_pressure_kpa_gauge_max', v)}
+        />
+        <NumberField
+          label="Mass, at most" unit="kg" optional value={supply.mass_kg_max} error={errorAt('/supply/mass_kg_max')}
+          pointer="/supply/mass_kg_max" onChange={(v) => limit('mass_kg_max', v)}
+        />
+        <NumberField
+          label="Volume, at most" kind="volume_l" optional value={supply.volume_l_max}
+          error={errorAt('/supply/volume_l_max')} pointer="/supply/volume_l_max"
+          onChange={(v) => limit('volume_l_max', v)}
+        />
+        <NumberField
+          label="Cost, at most" unit="€" optional value={supply.cost_eur_max} error={errorAt('/supply/cost_eur_max')}
+          pointer="/supply/cost_eur_max" hint="parts without a price drop out" onChange={(v) => limit('cost_eur_max', v)}
+        />
+      </div>
+    </Panel>
+  );
+}
+
+function Duty() {
+  const { duty, rise, fall } = requirements.value;
+  return (
+    <Panel title="Duty">
+      <div class="fields">
+        <NumberField
+          label="Frequency" unit="Hz" value={duty.frequency_hz} range={[1e-4, 100]} pointer="/duty/frequency_hz"
+          error={errorAt('/duty/frequency_hz')} onChange={(v) => edit(['duty', 'frequency_hz'], v)}
+        />
+        <NumberField
+          label="Actuations" value={duty.actuations} hint="without refill or recharge" pointer="/duty/actuations"
+          error={errorAt('/duty/actuations')} onChange={(v) => edit(['duty', 'actuations'], v)}
+        />
+        <NumberField
+          label="Rise counts to" unit="of operating" value={rise?.to_fraction ?? 0.95} range={[0, 1]}
+          error={errorAt('/rise/to_fraction')} onChange={(v) => edit(['rise'], { to_fraction: v })}
+        />
+        <NumberField
+          label="Fall counts to" unit="of operating" value={fall?.to_fraction ?? 0.05} range={[0, 1]}
+          error={errorAt('/fall/to_fraction')} onChange={(v) => edit(['fall'], { to_fraction: v })}
+        />
+      </div>
+      <Segmented
+        label="Groups act" options={[{ value: 'together', label: 'together' }, { value: 'staggered', label: 'evenly staggered' }]}
+        value={duty.simultaneous === false ? 'staggered' : 'together'}
+        onChange={(v) => edit(['duty', 'simultaneous'], v === 'together')}
+      />
+    </Panel>
+  );
+}
+
+function Objective() {
+  const { objective, ranking, robust, explain, model } = requirements.value;
+  const pareto = objective?.pareto;
+  const minimize = typeof objective?.minimize === 'string' ? objective.minimize : 'mass_kg';
+  const weights = typeof objective?.minimize === 'object' ? objective.minimize : undefined;
+  const mode = pareto ? 'front' : weights ? 'weighted' : 'least';
+  const setMode = (next: 'least' | 'weighted' | 'front') =>
+    edit(['objective'], next === 'front' ? { pareto: ['mass_kg', 'volume_l'] }
+      : next === 'weighted' ? { minimize: { mass_kg: 1, volume_l: 0.3 } } : { minimize: 'mass_kg' });
+  const setPareto = (amount: Amount, on: boolean) =>
+    edit(['objective'], { pareto: amounts.map((a) => a.value).filter((a) => (a === amount ? on : pareto?.includes(a))) });
+  return (
+    <Panel title="Objective and ranking">
+      <Segmented
+        label="Rank by" value={mode} onChange={setMode}
+        options={[{ value: 'least', label: 'least' }, { value: 'weighted', label: 'weighted sum' }, { value: 'front', label: 'Pareto front' }]}
+      />
+      {mode === 'least' && (
+        <Segmented label="of" options={amounts} value={minimize} onChange={(v) => edit(['objective'], { minimize: v })} />
+      )}
+      {mode === 'front' && (
+        <div class="checks" role="group" aria-label="Amounts of the front">
+          {amounts.map((a) => (
+            <Check key={a.value} label={a.label} checked={pareto?.includes(a.value) ?? false} onChange={(on) => setPareto(a.value, on)} />
+          ))}
+        </div>
+      )}
+      {errorAt('/objective/pareto') && <p class="error">{errorAt('/objective/pareto')}</p>}
+      <div class="fields">
+        {mode === 'weighted' &&
+          amounts.map((a) => (
+            <NumberField
+              key={a.value} label={`Weight of ${a.label}`} value={weights?.[a.value] ?? 0}
+              error={errorAt(`/objective/minimize/${a.value}`)} onChange={(v) => edit(['objective', 'minimize', a.value], v ?? 0)}
+            />
+          ))}
+        <NumberField
+          label="Designs to list" value={ranking?.count ?? 20} range={[1, 500]} pointer="/ranking/count"
+          error={errorAt('/ranking/count')} onChange={(v) => edit(['ranking', 'count'], v)}
+        />
+        <NumberField
+          label="Time limit" unit="s" value={ranking?.time_limit_s ?? 30} range={[0.01, 3600]}
+          error={errorAt('/ranking/time_limit_s')} onChange={(v) => edit(['ranking', 'time_limit_s'], v)}
+        />
+      </div>
+      <div class="checks">
+        <Check
+          label="Probability of meeting everything within the parts' tolerances" checked={robust !== undefined}
+          onChange={(on) => edit(['robust'], on ? {} : undefined)}
+        />
+        {mode !== 'front' && (
+          <Check
+            label="What each requirement costs" checked={explain !== undefined}
+            onChange={(on) => edit(['explain'], on ? { prices: true, ranks: 0 } : undefined)}
+          />
+        )}
+      </div>
+      {models.value.length > 0 && (
+        <Select
+          label="Model" value={model ?? 'nominal'}
+          options={[{ value: 'nominal', label: 'nominal' }, ...models.value.map((m) => ({ value: m.name, label: m.name }))]}
+          onChange={(v) => edit(['model'], v === 'nominal' ? undefined : v)}
+        />
+      )}
+      {errorAt('/model') && <p class="error">{errorAt('/model')}</p>}
+    </Panel>
+  );
+}
+
+function Conditions() {
+  const { ambient, limits, exclude, require } = requirements.value;
+  const most = [['compressors_max', 'Compressors', 2], ['batteries_max', 'Batteries', 4], ['cylinders_max', 'Cylinders', 4],
+    ['co2_max', 'CO₂ cartridges', 4], ['reservoirs_max', 'Reservoirs', 2]] as const;
+  const conditions = ambient ?? { pressure_kpa_abs: 100, temperature_k: 293.15 };
+  return (
+    <details class="panel">
+      <summary>Ambient, numbers of parts, left out parts</summary>
+      <div class="fields">
+        <NumberField
+          label="Ambient pressure" unit="kPa abs" value={conditions.pressure_kpa_abs} range={[20, 200]}
+          error={errorAt('/ambient/pressure_kpa_abs')}
+          onChange={(v) => edit(['ambient'], { ...conditions, pressure_kpa_abs: v })}
+        />
+        <NumberField
+          label="Ambient temperature" unit="K" value={conditions.temperature_k} range={[200, 350]}
+          error={errorAt('/ambient/temperature_k')}
+          onChange={(v) => edit(['ambient'], { ...conditions, temperature_k: v })}
+        />
+        {most.map(([name, label, usual]) => (
+          <NumberField
+            key={name} label={`${label}, at most`} value={limits?.[name] ?? usual} range={[1, 16]}
+            error={errorAt(`/limits/${name}`)} onChange={(v) => edit(['limits', name], v)}
+          />
+        ))}
+      </div>
+      <IdList label="Left out parts" ids={exclude ?? []} onChange={(ids) => edit(['exclude'], ids.length ? ids : undefined)} />
+      {Object.entries(require ?? {}).map(([family, ids]) => (
+        <IdList
+          key={family} label={`Only these of ${family}`} ids={ids}
+          onChange={(next) => edit(['require', family], next.length ? next : undefined)}
+        />
+      ))}
+      <p class="hint">Parts are left out or required on their page in the catalogue.</p>
+    </details>
+  );
+}
+
+const IdList = (props: { label: string; ids: string[]; onChange: (ids: string[]) => void }) =>
+  props.ids.length === 0 ? null : (
+    <p class="id-list">
+      {props.label}:
+      {props.ids.map((id) => (
+        <button key={id} type="button" class="chip" aria-label={`Remove ${id}`} onClick={() => props.onChange(props.ids.filter((other) => other !== id))}>
+          {id} ✕
+        </button>
+      ))}
+    </p>
+  );
+
+export function RequirementsView() {
+  const problem = useSignal<Problem | null>(null);
+  const busy = useSignal(false);
+  const document = requirements.value;
+  const run = async () => {
+    busy.value = true;
+    problem.value = null;
+    try {
+      const id = await start(document);
+      if (previousJob.value !== id) go(['designs', id]);
+    } catch (error) {
+      problem.value = asProblem(error);
+    } finally {
+      busy.value = false;
+    }
+  };
+  const open = async (file: File) => {
+    try {
+      const given = JSON.parse(await file.text()) as Requirements;
+      if (!Array.isArray(given.actuators) || !given.duty) throw new Error('it has no "actuators" and "duty"');
+      load(given);
+      problem.value = null;
+    } catch (error) {
+      problem.value = asProblem(new Error(`${file.name} is no requirements file: ${(error as Error).message}`));
+    }
+  };
+  return (
+    <form class="split" noValidate onSubmit={(event) => { event.preventDefault(); void run(); }}>
+      <div class="column">
+        <div class="toolbar">
+          <h1>Requirements</h1>
+          <span class="toolbar-group" role="group" aria-label="Examples">
+            {Object.entries(presets).map(([name, preset]) => (
+              <button key={name} type="button" aria-pressed={document.name === name} onClick={() => load(preset)}>
+                {name}
+              </button>
+            ))}
+          </span>
+          <span class="toolbar-group">
+            <FilePicker label="Open…" accept=".json,application/json" onFile={open} />
+            <button type="button" onClick={() => saveFile(`${document.name || 'requirements'}.json`, `${JSON.stringify(document, null, 2)}\n`)}>
+              Save
+            </button>
+          </span>
+        </div>
+        <Panel title="Actuators" aside={<TextField label="Name" value={document.name ?? ''} onChange={(v) => edit(['name'], v || undefined)} />}>
+          <Groups />
+        </Panel>
+        <Duty />
+        <Supply />
+        <Objective />
+        <Conditions />
+      </div>
+      <div class="column side">
+        <Panel title="The system">
+          <Drawing requirements={document} />
+          <Verdict />
+          {problem.value && (
+            <Notice kind="bad">
+              {problem.value.message}
+              {problem.value.errors.length > 0 && <ErrorList />}
+            </Notice>
+          )}
+          <button type="submit" class="primary" disabled={busy.value || validity.value === 'invalid'}>
+            {busy.value ? 'Starting…' : 'Find the best designs'}
+          </button>
+        </Panel>
+      </div>
+    </form>
+  );
+}
+
+function Verdict() {
+  if (validity.value === 'valid') return <p class="verdict good" role="status">These requirements can be searched.</p>;
+  if (validity.value === 'checking') return <p class="verdict" role="status">Checking…</p>;
+  if (validity.value === 'unknown') return <p class="verdict bad" role="status">The service does not answer; nothing was checked.</p>;
+  const n = fieldErrors.value.length;
+  return (
+    <div class="verdict bad" role="status">
+      {n === 1 ? 'One thing has to change:' : `${n} things have to change:`}
+      <ErrorList />
+    </div>
+  );
+}
+
+const ErrorList = () => (
+  <ul>
+    {fieldErrors.value.map((error) => (
+      <li key={error.pointer + error.detail}>
+        <code>{error.pointer || 'the request'}</code> {error.detail}
+      </li>
+    ))}
+  </ul>
+);

@@ -1,0 +1,154 @@
+// What goes wrong is said where it went wrong, and nothing is lost.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+
+import { example, openPage, rank, startBrowser, startService } from './support.mjs';
+
+let service, browser;
+before(async () => {
+  [service, browser] = await Promise.all([startService(), startBrowser()]);
+});
+after(async () => {
+  await browser?.close();
+  await service?.stop();
+});
+
+const file = (name, text) => ({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+
+test('a bad number is marked at its field while it is typed', async () => {
+  const { page, close } = await openPage(browser, service.base);
+  const field = page.getByLabel('Volume at rest');
+  await field.fill('-5');
+  await page.getByText('One thing has to change').waitFor();
+  assert.equal(await field.getAttribute('aria-invalid'), 'true');
+  assert.ok(await page.getByRole('button', { name: 'Find the best designs' }).isDisabled());
+  await field.fill('many');
+  await page.getByText('a number is needed here').waitFor();
+  await field.fill('50');
+  await page.getByText('These requirements can be searched.').waitFor();
+  await close([422]);
+});
+
+test('units change what is shown and never what is asked', async () => {
+  const { page, close } = await openPage(browser, service.base);
+  const posted = [];
+  page.on('request', (request) => request.url().includes('validate_only') && posted.push(request.postDataJSON()));
+  const field = page.getByLabel('Operating pressure');
+  await page.getByRole('button', { name: 'bar' }).click();
+  assert.equal(await field.inputValue(), '1');
+  await page.getByRole('button', { name: 'abs' }).click();
+  assert.equal(await field.inputValue(), '2');
+  await page.getByRole('button', { name: 'psi' }).click();
+  assert.equal(await field.inputValue(), '29.00755');
+  await page.getByRole('button', { name: 'bar' }).click();
+  await field.fill('2.05');
+  await page.waitForTimeout(400);
+  assert.equal(posted.at(-1).actuators[0].operating_pressure_kpa_gauge, 105);
+  await page.getByRole('button', { name: 'L', exact: true }).click();
+  assert.equal(await page.getByLabel('Volume at rest').inputValue(), '0.05');
+  await close();
+});
+
+test('requirements are saved, loaded and shared by address', async () => {
+  const { page, close } = await openPage(browser, service.base);
+  await page.getByLabel('Frequency').fill('0.2');
+  await page.waitForFunction(() => location.hash.includes('r='));
+  const address = page.url();
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save' }).click();
+  const saved = JSON.parse(await (await (await download).createReadStream()).toArray().then((parts) => Buffer.concat(parts).toString()));
+  assert.deepEqual(saved, { ...example('exosuit'), duty: { ...example('exosuit').duty, frequency_hz: 0.2 } });
+  await page.locator('input[type=file]').setInputFiles(file('mine.json', JSON.stringify({ ...saved, name: 'mine' })));
+  await page.waitForFunction(() => document.querySelector('input[type=text]').value === 'mine');
+  await page.locator('input[type=file]').setInputFiles(file('broken.json', '{'));
+  await page.getByText('broken.json is no requirements file').waitFor();
+  await close();
+  const again = await openPage(browser, service.base, address.slice(service.base.length + 1));
+  assert.equal(await again.page.getByLabel('Frequency').inputValue(), '0.2');
+  await again.close();
+});
+
+test('an infeasible problem says what conflicts', async () => {
+  const impossible = example('exosuit');
+  impossible.supply.mass_kg_max = 0.2;
+  impossible.ranking.time_limit_s = 3;
+  const id = await rank(service, impossible);
+  const { page, close } = await openPage(browser, service.base, `#/designs/${id}`);
+  await page.getByText('infeasible', { exact: true }).waitFor();
+  await page.getByRole('region', { name: 'Conflicting requirements' }).getByText('mass').waitFor();
+  await close();
+});
+
+test('a job or design that is not there says so', async () => {
+  const { page, close } = await openPage(browser, service.base, '#/designs/none');
+  await page.getByText('no design job has the id none').waitFor();
+  await close([404]);
+  const id = await rank(service, { ...example('gripper'), ranking: { count: 2, time_limit_s: 10 } });
+  const other = await openPage(browser, service.base, `#/designs/${id}/9`);
+  await other.page.getByText('lists no design 9').waitFor();
+  await other.close();
+});
+
+test('a bad part is refused at its fields, and a stale one is not overwritten', async () => {
+  const { page, close } = await openPage(browser, service.base, '#/catalogue/battery');
+  await page.getByRole('button', { name: 'Add a part' }).click();
+  await page.getByLabel('mass', { exact: true }).fill('-1');
+  await page.getByRole('button', { name: 'Add the part' }).click();
+  await page.getByText('Not saved; see the fields marked.').waitFor();
+  assert.equal(await page.getByLabel('Maker').getAttribute('aria-invalid'), 'true');
+  await page.keyboard.press('Escape');
+
+  const [part] = (await service.get('/v1/parts?family=battery&limit=1')).parts;
+  await page.goto(`${service.base}/#/catalogue/battery?part=${part.id}`);
+  await page.getByRole('button', { name: 'Edit' }).click();
+  await page.getByLabel('mass', { exact: true }).waitFor();
+  const changed = await fetch(`${service.base}/v1/parts/${part.id}`, {
+    method: 'PUT', headers: { 'If-Match': '*', 'Content-Type': 'application/json' }, body: JSON.stringify({ ...part, notes: 'changed elsewhere' }),
+  });
+  assert.equal(changed.status, 200);
+  await page.getByLabel('mass', { exact: true }).fill('0.5');
+  await page.getByRole('button', { name: 'Save the change' }).click();
+  await page.getByText('Someone changed this part meanwhile').waitFor();
+  assert.equal((await service.get(`/v1/parts/${part.id}`)).mass_kg, part.mass_kg);
+  await close([412, 422]);
+});
+
+test('an import is previewed, its errors named, then written', async () => {
+  const csv = await (await fetch(`${service.base}/v1/parts/export?family=tubing`)).text();
+  const [head, row] = csv.split('\n');
+  const { page, close } = await openPage(browser, service.base, '#/catalogue/tubing');
+  await page.getByRole('button', { name: 'Import CSV' }).click();
+  const box = page.getByLabel('or paste it here');
+  await box.fill(`${head}\nonly-an-id\n`);
+  await page.getByText(/errors; nothing can be imported/).waitFor();
+  await box.fill(`${head}\n${row.replace(/^[^,]*/, 'bench-tube')}\n`);
+  await page.getByText('1 to add:').waitFor();
+  await page.getByRole('button', { name: 'Import 1 parts' }).click();
+  await page.getByRole('link', { name: /tubing/ }).waitFor();
+  await page.waitForFunction(() => document.body.innerText.includes('own'));
+  assert.equal((await service.get('/v1/parts/bench-tube')).origin, 'user');
+  await close([422]);
+});
+
+test('a measurement that cannot be read says which line', async () => {
+  const { page, close } = await openPage(browser, service.base, '#/measured');
+  const input = page.locator('input[type=file]');
+  await input.setInputFiles(file('bad.csv', 'run,t_s,valve,pressure_kpa_gauge\na,0,open,1\n'));
+  await page.getByText('line 2: valve is "open"').waitFor();
+  await input.setInputFiles(file('bad.json', '{"schema":"other/1"}'));
+  await page.getByText('not "measurement/1"').waitFor();
+  await close();
+});
+
+test('the service going away is said', async () => {
+  const { page, close } = await openPage(browser, service.base);
+  await page.getByText('These requirements can be searched.').waitFor();
+  await page.route('**/v1/**', (route) => route.abort());
+  await page.getByLabel('Frequency').fill('0.3');
+  await page.getByText('The service does not answer; nothing was checked.').waitFor();
+  await page.unroute('**/v1/**');
+  await page.getByLabel('Frequency').fill('0.2');
+  await page.getByText('These requirements can be searched.').waitFor();
+  await page.context().close();
+  void close;
+});

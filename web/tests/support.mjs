@@ -1,0 +1,86 @@
+// The real service on a copy of the catalogue, and Chromium that notes every error and every
+// request to elsewhere.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { copyFileSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+import { chromium } from 'playwright-core';
+
+export const top = fileURLToPath(new URL('../..', import.meta.url));
+const binary = process.env.PLENUM ?? join(top, 'build/release/plenum');
+
+export async function startService() {
+  const folder = mkdtempSync(join(tmpdir(), 'plenum-page-'));
+  const catalog = join(folder, 'catalog.db');
+  copyFileSync(join(top, 'catalog.db'), catalog);
+  const child = spawn(binary, ['serve', '--port', '0', '--catalog', catalog], { stdio: ['ignore', 'ignore', 'pipe'] });
+  const base = await new Promise((resolve, reject) => {
+    let said = '';
+    child.stderr.on('data', (data) => {
+      said += data;
+      const found = /listens at (http:\S+)\//.exec(said);
+      if (found) resolve(found[1]);
+    });
+    child.on('exit', () => reject(new Error(`the service ended: ${said}`)));
+  });
+  return {
+    base,
+    get: async (path) => (await fetch(base + path)).json(),
+    post: async (path, body, headers = {}) =>
+      (await fetch(base + path, { method: 'POST', headers: { 'Content-Type': 'application/json', ...headers }, body: JSON.stringify(body) })).json(),
+    async stop() {
+      child.removeAllListeners('exit');
+      const gone = new Promise((resolve) => child.on('exit', resolve));
+      child.kill('SIGTERM');
+      await gone;
+      rmSync(folder, { recursive: true });
+    },
+  };
+}
+
+export const startBrowser = () =>
+  chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
+  });
+
+// A page of its own. `close` fails the test on console errors and on requests to elsewhere; a test
+// of an error path names the answers it expects, as Chromium writes each refusal to the console.
+export async function openPage(browser, base, hash = '', options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+  const page = await context.newPage();
+  const errors = [];
+  const outside = [];
+  page.on('console', (message) => ['error', 'warning'].includes(message.type()) && errors.push(message.text()));
+  page.on('pageerror', (error) => errors.push(String(error)));
+  page.on('request', (request) => {
+    if (!request.url().startsWith(base) && !/^(data|blob):/.test(request.url())) outside.push(request.url());
+  });
+  await options.before?.(page);
+  await page.goto(`${base}/${hash}`);
+  return {
+    page,
+    async close(expectedStatuses = []) {
+      const unexpected = errors.filter((text) => !expectedStatuses.some((status) => text.includes(`status of ${status} `)));
+      assert.deepEqual(unexpected, [], 'console errors');
+      assert.deepEqual(outside, [], 'requests to elsewhere');
+      await context.close();
+    },
+  };
+}
+
+export const example = (name) => JSON.parse(readFileSync(join(top, 'examples', `${name}.json`), 'utf8'));
+
+// Ranks an example and gives the job's id.
+export async function rank(service, requirements) {
+  const { id } = await service.post('/v1/designs', requirements);
+  for (;;) {
+    const job = await service.get(`/v1/designs/${id}`);
+    if (job.status === 'done') return id;
+    assert.ok(['queued', 'running'].includes(job.status), `the job is ${job.status}`);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}

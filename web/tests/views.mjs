@@ -1,0 +1,47 @@
+// Every view, as tests and screenshots open it.
+import { makeMeasurement, standIn } from './fixture.mjs';
+import { example, rank } from './support.mjs';
+
+const json = (name, body) => ({ name, mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(body)) });
+
+export async function makeViews(service) {
+  const exosuit = await rank(service, example('exosuit'));
+  const crawler = await rank(service, { ...example('crawler'), ranking: { count: 20, time_limit_s: 4 } });
+  const impossible = example('exosuit');
+  impossible.supply.mass_kg_max = 0.2;
+  impossible.ranking.time_limit_s = 2;
+  const conflict = await rank(service, impossible);
+  const measurement = await makeMeasurement(service);
+  const open = async (page) => page.locator('input[type=file]').setInputFiles(json('pneunet bench.json', measurement));
+  const diagnose = async (page) => {
+    await open(page);
+    await page.getByRole('button', { name: 'Find what the model lacks' }).click();
+    await page.getByText('Residual: measured less model').waitFor();
+  };
+  const designReady = async (page) => {
+    await page.getByText('Fall time × C·P₀/V₀').waitFor();
+    await page.locator('table.tornado').waitFor();
+  };
+  return [
+    { name: 'requirements', hash: '#/requirements', ready: (p) => p.getByText('can be searched').waitFor() },
+    { name: 'designs', hash: `#/designs/${exosuit}`, ready: (p) => p.locator('.ranked tbody tr').first().waitFor() },
+    { name: 'designs-two-groups', hash: `#/designs/${crawler}`, ready: (p) => p.locator('.ranked tbody tr').first().waitFor() },
+    { name: 'conflict', hash: `#/designs/${conflict}`, ready: (p) => p.getByText('cannot be met together').waitFor() },
+    { name: 'design', hash: `#/designs/${exosuit}/1`, ready: designReady },
+    { name: 'design-two-groups', hash: `#/designs/${crawler}/2`, ready: designReady },
+    { name: 'compare', hash: `#/designs/${exosuit}/compare?ranks=1,9,13,14`, ready: (p) => p.getByText('Pressure of spa_pack').waitFor() },
+    { name: 'catalogue', hash: '#/catalogue/valve', ready: (p) => p.locator('.parts tbody tr').first().waitFor() },
+    { name: 'part', hash: '#/catalogue/compressor?part=jsg-bd-07-12v-hf', ready: (p) => p.getByText('Delivery').first().waitFor() },
+    {
+      name: 'part-form', hash: '#/catalogue/compressor',
+      ready: async (p) => { await p.getByRole('button', { name: 'Add a part' }).click(); await p.getByRole('button', { name: 'Add the part' }).waitFor(); },
+    },
+    { name: 'measured', hash: '#/measured', before: (p) => standIn(p, service), ready: open },
+    { name: 'diagnosis', hash: '#/measured', before: (p) => standIn(p, service), ready: diagnose },
+    { name: 'tie', hash: '#/measured', before: (p) => standIn(p, service, 'tie'), ready: diagnose },
+    { name: 'searches', hash: '#/jobs', ready: (p) => p.getByRole('region', { name: 'Searches' }).waitFor() },
+  ];
+}
+
+export const widths = [360, 1280, 1920];
+export const schemes = ['light', 'dark'];
