@@ -75,8 +75,8 @@ const std::vector<Search>& Searches() {
       {"leak", "sonic_conductance_m3_per_s_pa", kLinear, Size::kLeak, 0.0, {0.03}},
       {"leak", "conductance_m3_per_s_pa", kLinear, Size::kLeak, 0.0, {0.03}},
       {"leak", "critical_ratio", kLinear, Size::kOne, 0.0, {0.3}},
-      {"leak", "viscous_pa2_s_per_kg", kLog, Size::kViscous, 0.0, {30.0, 1.0, 0.02}},
-      {"leak", "inertial_pa2_s2_per_kg2", kLog, Size::kInertial, 0.0, {1000.0, 1.0, 1e-3}},
+      {"leak", "viscous_pa2_s_per_kg", kLog, Size::kViscous, 0.0, {30.0, 30.0, 0.3}},
+      {"leak", "inertial_pa2_s2_per_kg2", kLog, Size::kInertial, 0.0, {1000.0, 10.0, 0.1}},
       {"sensor_lag", "time_constant_s", kLinear, Size::kStroke, 0.0, {0.02}},
       {"sensor_gain", "gain", kLinear, Size::kOne, 1.0, {0.01}},
       {"sensor_offset", "offset_pa", kLinear, Size::kPressure, 0.0, {0.005}},
@@ -105,7 +105,8 @@ Search SearchOf(const model::EffectSpec& effect, const model::ParameterSpec& spe
 
 double InUnit(Size size, const TypicalSizes& sizes) {
   // A leak that empties the chamber in the time of a run, and the mass flow that goes with it.
-  const double leak_m3_per_s = sizes.volume_m3 / sizes.duration_s;
+  const double leak_m3_per_s =
+      sizes.volume_m3 * sizes.gauge_pa / model::kReferencePressurePa / sizes.duration_s;
   const double leak_kg_per_s = leak_m3_per_s * model::kReferenceDensityKgPerM3;
   const double high_pa = sizes.gauge_pa + model::kReferencePressurePa;
   const double squares = high_pa * high_pa - std::pow(model::kReferencePressurePa, 2);
@@ -167,9 +168,10 @@ Coordinate CoordinateOf(const model::EffectSpec& effect, const model::ParameterS
   coordinate.low = std::max(coordinate.low, coordinate.At(least));
   coordinate.high = std::min(coordinate.high, coordinate.At(most));
   if (search.kind == kLog) {
-    const double middle = std::log(search.starts.front());
-    coordinate.low = std::max(coordinate.low, middle - kUnknownSpan);
-    coordinate.high = std::min(coordinate.high, middle + kUnknownSpan);
+    const auto [smallest, largest] =
+        std::minmax_element(search.starts.begin(), search.starts.end());
+    coordinate.low = std::max(coordinate.low, std::log(*smallest) - kUnknownSpan);
+    coordinate.high = std::min(coordinate.high, std::log(*largest) + kUnknownSpan);
   }
   return coordinate;
 }

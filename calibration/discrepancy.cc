@@ -11,9 +11,13 @@
 namespace plenum::calibration {
 namespace {
 
-constexpr double kBicGain = 10.0;      // of a finer term over a coarser one, and of any over none
+constexpr double kGain = 10.0;         // of a finer term over a coarser one, and of any over none
 constexpr std::size_t kFinalists = 3;  // families that compete on runs left out
 constexpr std::size_t kFolds = 4;      // runs left out, at most
+// Fits are compared, not polished.
+constexpr int kIterations = 25;
+constexpr double kFunctionTolerance = 1e-5;
+constexpr double kNoiseShare = 1e-2;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 // One kind of term: laws from coarse to fine.
@@ -39,6 +43,16 @@ const std::vector<Family>& Families() {
   return kFamilies;
 }
 
+// n·ln((χ² + χ²_prior)/n) + k·ln n. A model that lacks something has a χ² far above n; the priors
+// then weigh in the selection what they weigh in its fit.
+double Score(const Fit& fit) {
+  const double n = static_cast<double>(fit.rows);
+  const auto free = std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
+                                  [](const Coordinate& coordinate) { return !coordinate.prior; });
+  return n * std::log((fit.chi2_data + fit.chi2_prior) / n) +
+         static_cast<double>(free) * std::log(n);
+}
+
 bool Holds(const ModelState& state, std::string_view id) {
   return std::any_of(state.effects.begin(), state.effects.end(),
                      [&](const model::Effect& effect) { return effect.spec->id == id; });
@@ -56,9 +70,7 @@ std::vector<model::Effect> Starts(const model::EffectSpec& spec, const TypicalSi
     return {{&spec, {0.02, 0.3, 0.05}}, {&spec, {0.02, 0.5, 0.05}}, {&spec, {0.02, 0.7, 0.05}}};
   }
   if (spec.law == "store") {
-    const double c = sizes.conductance_m3_per_s_pa;
-    return {{&spec, {0.2 * sizes.volume_m3, 0.03 * c, 0.3}},
-            {&spec, {0.05 * sizes.volume_m3, 0.3 * c, 0.3}}};
+    return {{&spec, {0.2 * sizes.volume_m3, 0.03 * sizes.conductance_m3_per_s_pa, 0.3}}};
   }
   if (spec.law == "drift") return {{&spec, {0.0, 0.2 * sizes.duration_s, 0.0}}};
   return {{&spec, std::vector<double>(spec.parameters.size(), 0.0)}};
@@ -70,12 +82,14 @@ Fit FitTerm(const FitData& data, const std::vector<std::size_t>& runs, const Mod
   FitData on_runs = data;
   on_runs.runs = runs;
   Fit best;
-  best.bic = kNone;
+  double least = kNone;
   for (const model::Effect& start : starts) {
     ModelState state = base;
     state.effects.push_back(start);
     Fit fit = FitModel(on_runs, state, options);
-    if (fit.Usable() && fit.bic < best.bic) best = std::move(fit);
+    if (!fit.Usable() || !(Score(fit) < least)) continue;
+    least = Score(fit);
+    best = std::move(fit);
   }
   return best;
 }
@@ -83,19 +97,20 @@ Fit FitTerm(const FitData& data, const std::vector<std::size_t>& runs, const Mod
 struct Attempt {
   const Family* family = nullptr;
   Fit fit;
+  double score = kNone;
   double left_out = kNone;  // whitened squares of the runs left out
 };
 
 Attempt FitFamily(const FitData& data, const Family& family, const ModelState& base,
                   const FitOptions& options) {
   Attempt attempt{&family, {}};
-  attempt.fit.bic = kNone;
-  double bound = kNone;
   for (const char* law : family.laws) {
     const model::EffectSpec* spec = model::FindEffect(family.id, law);
     Fit fit = FitTerm(data, data.runs, base, Starts(*spec, data.sizes), options);
-    if (!fit.Usable() || !(fit.bic < bound)) continue;
-    bound = fit.bic - kBicGain;
+    if (!fit.Usable() || !(Score(fit) < attempt.score - (attempt.fit.Usable() ? kGain : 0.0))) {
+      continue;
+    }
+    attempt.score = Score(fit);
     attempt.fit = std::move(fit);
   }
   return attempt;
@@ -115,6 +130,17 @@ double SquaresOf(const FitData& data, const ModelState& state, const std::vector
   return sum;
 }
 
+// The state with the run's own initial pressure and clock, where they are unknown: nothing learned
+// from other runs can tell them.
+ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run,
+                   FitOptions options) {
+  FitData alone = data;
+  alone.runs = {run};
+  options.nuisance_only = true;
+  const Fit aligned = FitModel(alone, state, options);
+  return aligned.Usable() ? aligned.state : state;
+}
+
 // Each of at most kFolds runs left out in turn; `fit_on` fits the others.
 template <class FitOn>
 double LeftOut(const FitData& data, const FitOn& fit_on, const FitOptions& options) {
@@ -128,8 +154,10 @@ double LeftOut(const FitData& data, const FitOn& fit_on, const FitOptions& optio
     const Fit fit = fit_on(others);
     if (!fit.Usable()) return kNone;
     ModelState state = fit.state;
-    state.initial_pressure_pa[left_out] = data.forward->Declared().initial_pressure_pa[left_out];
-    sum += SquaresOf(data, state, {left_out}, options);
+    const ModelState declared = data.forward->Declared();
+    state.initial_pressure_pa[left_out] = declared.initial_pressure_pa[left_out];
+    state.clock_s[left_out] = declared.clock_s[left_out];
+    sum += SquaresOf(data, Aligned(data, state, left_out, options), {left_out}, options);
   }
   return sum;
 }
@@ -149,9 +177,9 @@ double LeftOutWithout(const FitData& data, const ModelState& base, const FitOpti
 const Attempt* Choose(const FitData& data, const Fit& established, std::vector<Attempt>& attempts,
                       const FitOptions& options) {
   std::stable_sort(attempts.begin(), attempts.end(),
-                   [](const Attempt& a, const Attempt& b) { return a.fit.bic < b.fit.bic; });
+                   [](const Attempt& a, const Attempt& b) { return a.score < b.score; });
   const auto gains = [&](const Attempt& attempt) {
-    return attempt.fit.bic < established.bic - kBicGain;
+    return attempt.score < Score(established) - kGain;
   };
   if (attempts.empty() || !gains(attempts.front())) return nullptr;
   if (data.runs.size() < 2) return &attempts.front();
@@ -202,6 +230,13 @@ double PressureRms(const FitData& data, const ModelState& state,
   return std::sqrt(squares / static_cast<double>(count));
 }
 
+double UnseenRms(const FitData& data, const ModelState& state, const std::vector<std::size_t>& runs,
+                 const FitOptions& options) {
+  ModelState aligned = state;
+  for (const std::size_t run : runs) aligned = Aligned(data, aligned, run, options);
+  return PressureRms(data, aligned, runs, options);
+}
+
 LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
                               const std::vector<std::size_t>& holdout, const FitOptions& options) {
   LearnedModel learned{{}, established};
@@ -210,17 +245,21 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
   discrepancy.rms_before_pa = PressureRms(data, established.state, data.runs, options);
   discrepancy.rms_after_pa = discrepancy.rms_before_pa;
   if (!holdout.empty()) {
-    discrepancy.holdout_before_pa = PressureRms(data, established.state, holdout, options);
+    discrepancy.holdout_before_pa = UnseenRms(data, established.state, holdout, options);
     discrepancy.holdout_after_pa = discrepancy.holdout_before_pa;
   }
+  FitOptions quick = options;
+  quick.iterations_max = std::min(options.iterations_max, kIterations);
+  quick.function_tolerance = std::max(options.function_tolerance, kFunctionTolerance);
+  quick.noise_share = std::max(options.noise_share, kNoiseShare);
   std::vector<Attempt> attempts;
   for (const Family& family : Families()) {
     if (Holds(established.state, family.id)) continue;
-    Attempt attempt = FitFamily(data, family, established.state, options);
+    Attempt attempt = FitFamily(data, family, established.state, quick);
     if (attempt.fit.Usable()) attempts.push_back(std::move(attempt));
     if (options.cancelled && options.cancelled()) return learned;
   }
-  const Attempt* best = Choose(data, established, attempts, options);
+  const Attempt* best = Choose(data, established, attempts, quick);
   if (!best) return learned;
   learned.fit = best->fit;
   discrepancy.equation = best->fit.state.effects.back().spec->place;
@@ -228,7 +267,7 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
   discrepancy.learned = LearnedOf(data, best->fit, options);
   discrepancy.rms_after_pa = PressureRms(data, best->fit.state, data.runs, options);
   if (!holdout.empty()) {
-    discrepancy.holdout_after_pa = PressureRms(data, best->fit.state, holdout, options);
+    discrepancy.holdout_after_pa = UnseenRms(data, best->fit.state, holdout, options);
   }
   return learned;
 }

@@ -35,6 +35,10 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
 double PressureRms(const FitData& data, const ModelState& state,
                    const std::vector<std::size_t>& runs, const FitOptions& options);
 
+// The same of runs that no fit saw, after their own initial pressures and clocks are fitted.
+double UnseenRms(const FitData& data, const ModelState& state, const std::vector<std::size_t>& runs,
+                 const FitOptions& options);
+
 // The shares of the residual's energy above the noise by phase, pressure, rate, time and cycle: for
 // each the part that holds most of it, where that is more than its part of the readings.
 std::vector<Discrepancy::Place> PlacesOf(const FitData& data, const ModelState& state,

@@ -135,6 +135,7 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
     });
     if (!cracks) group.with_regulator.emplace(both, linear_ratio);
   }
+
   group.fill_before_inlet = rig.inlet_after;
   if (!rig.exhaust.empty()) group.exhaust_before_inlet = rig.exhaust.size() - rig.inlet_after;
   group.lines = {Line<T>(setup.fill, linear_ratio), Line<T>(setup.exhaust, linear_ratio),

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 #include "model/effects/cracking_pressure.h"
 #include "model/effects/creep.h"
@@ -26,6 +28,7 @@
 #include "model/effects/supply_droop.h"
 #include "model/effects/valve_delay.h"
 #include "model/effects/valve_ramp.h"
+#include "model/effects/wall_heat.h"
 
 namespace plenum::model {
 namespace {
@@ -86,6 +89,7 @@ constexpr auto kRegistry = std::to_array<Entry>({
     MakeEntry<Creep>(),
     MakeEntry<Inertia>(),
     MakeEntry<HeatTransfer>(),
+    MakeEntry<WallHeat>(),
     MakeEntry<SupplyDroop>(),
     MakeEntry<LineDynamics>(),
     MakeEntry<Learned<3>::ConductanceByPressure>(),
@@ -117,6 +121,16 @@ constexpr auto kSpecs = [] {
   return specs;
 }();
 
+// What stands for the same part of the rig.
+constexpr std::pair<std::string_view, std::string_view> kInstead[] = {
+    {"heat_transfer", "wall_heat"}};
+
+bool Exclude(std::string_view a, std::string_view b) {
+  return std::any_of(std::begin(kInstead), std::end(kInstead), [&](const auto& pair) {
+    return pair == std::pair(a, b) || pair == std::pair(b, a);
+  });
+}
+
 std::string Title(const EffectSpec& spec) {
   std::string title(spec.id);
   if (!spec.law.empty()) title += " (" + std::string(spec.law) + ")";
@@ -144,6 +158,10 @@ std::string WhyInvalid(std::span<const Effect> effects) {
     for (std::size_t j = 0; j < i; ++j) {
       if (effects[j].spec->id == effect.spec->id) {
         return field + ": " + Title(*effect.spec) + " stands there twice";
+      }
+      if (Exclude(effects[j].spec->id, effect.spec->id)) {
+        return field + ": " + Title(*effect.spec) + " cannot stand beside " +
+               Title(*effects[j].spec);
       }
     }
     const auto specs = effect.spec->parameters;

@@ -173,7 +173,7 @@ TEST(SimulationEffects, RenderAndReadBackEveryEffect) {
         EXPECT_DOUBLE_EQ(read[0].parameters[i], effect.parameters[i]) << spec->id;
     }
   }
-  // As the contract spells them, with those of the two effects that it does not list.
+  // As the contract spells them, with those of the three effects that it does not list.
   EXPECT_EQ(names, (std::set<std::string>{"law",
                                           "sonic_conductance_dm3_per_s_bar",
                                           "critical_ratio",
@@ -194,6 +194,8 @@ TEST(SimulationEffects, RenderAndReadBackEveryEffect) {
                                           "gain",
                                           "pressure_kpa",
                                           "fill_factor",
+                                          "capacity_ratio",
+                                          "start_share",
                                           "length_m",
                                           "inner_diameter_mm"}));
 }

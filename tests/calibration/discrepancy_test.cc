@@ -1,0 +1,86 @@
+// Terms learned from data of the independent simulator, whose truth no effect describes.
+#include "calibration/discrepancy.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/support/bench_case.h"
+#include "tests/support/bench_dataset.h"
+
+namespace plenum::calibration {
+namespace {
+
+struct Learning {
+  explicit Learning(Dataset data_set)
+      : dataset(std::move(data_set)), forward(dataset), observed(Observe(dataset)) {
+    data.forward = &forward;
+    data.observed = &observed;
+    data.sizes = SizesOf(dataset);
+    for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
+      const bool held =
+          std::count(dataset.holdout.begin(), dataset.holdout.end(), dataset.runs[i].id) > 0;
+      (held ? holdout : data.runs).push_back(i);
+    }
+    established = FitModel(data, forward.Declared(), options);
+  }
+  LearnedModel Learn() const { return LearnDiscrepancy(data, established, holdout, options); }
+
+  Dataset dataset;
+  ForwardModel forward;
+  std::vector<ObservedRun> observed;
+  FitData data;
+  std::vector<std::size_t> holdout;
+  FitOptions options;
+  Fit established;
+};
+
+// A regulated supply and few samples: quick to fit.
+Learning Of(const std::string& effect) {
+  return Learning(test::ToDataset(test::DrawCase(2, test::CaseKind::kOutside, effect)));
+}
+
+TEST(Discrepancy, ASeamThatGapesIsLearnedAsALeakThatOpens) {
+  const Learning learning = Of("gaping_seam");
+  const LearnedModel learned = learning.Learn();
+  const Discrepancy& d = learned.discrepancy;
+  ASSERT_TRUE(d.learned);
+  EXPECT_EQ(d.learned->effect.spec->id, "learned_leak");
+  EXPECT_EQ(d.equation, model::EffectPlace::kChamber);
+  EXPECT_EQ(d.learned->parameters.size(), d.learned->effect.parameters.size());
+  ASSERT_TRUE(d.holdout_before_pa && d.holdout_after_pa);
+  EXPECT_LT(*d.holdout_after_pa, 0.5 * *d.holdout_before_pa);
+  EXPECT_LT(d.rms_after_pa, 1.3 * learning.observed[0].noise.sigma_pa);
+  ASSERT_FALSE(d.places.empty());
+  for (const Discrepancy::Place& place : d.places) {
+    EXPECT_GT(place.share, 0.0) << place.axis;
+    EXPECT_LE(place.share, 1.0) << place.axis;
+    EXPECT_FALSE(place.where.empty()) << place.axis;
+  }
+  // The term is part of the model: predicting with it gives the error that is reported.
+  EXPECT_NEAR(UnseenRms(learning.data, learned.fit.state, learning.holdout, learning.options),
+              *d.holdout_after_pa, 1e-9);
+}
+
+TEST(Discrepancy, ASnapOfTheWallIsLearnedInTheVolumeLaw) {
+#ifdef PLENUM_SANITIZED
+  GTEST_SKIP() << "takes minutes; the test above goes the same way";
+#endif
+  const LearnedModel learned = Of("snap_through").Learn();
+  ASSERT_TRUE(learned.discrepancy.learned);
+  EXPECT_EQ(learned.discrepancy.learned->effect.spec->id, "learned_volume");
+  EXPECT_LT(*learned.discrepancy.holdout_after_pa, 0.5 * *learned.discrepancy.holdout_before_pa);
+}
+
+TEST(Discrepancy, NothingIsLearnedFromNoise) {
+  const Learning learning(test::ToDataset(test::DrawCase(2, test::CaseKind::kClean)));
+  const LearnedModel learned = learning.Learn();
+  EXPECT_FALSE(learned.discrepancy.learned);
+  EXPECT_EQ(learned.fit.state.effects.size(), 0u);
+  EXPECT_EQ(*learned.discrepancy.holdout_after_pa, *learned.discrepancy.holdout_before_pa);
+}
+
+}  // namespace
+}  // namespace plenum::calibration
