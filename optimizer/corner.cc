@@ -102,12 +102,12 @@ void Widen(ReservoirCorner& a, const ReservoirCorner& b) {
 }
 
 std::array<double, 3> SplitKeys(const TubeCorner& c) {
-  return {Log(c.objective), 2.5 * Log(c.inner_high_m), 0.5 * Log(c.pressure_max_pa)};
+  return {Log(c.objective), 2.5 * Log(c.inner_high_m), Log(c.pressure_max_pa)};
 }
 
 std::array<double, 4> SplitKeys(const FittingCorner& c) {
   return {Log(c.objective), Log(c.flow.sonic_conductance_m3_per_s_pa), c.flow.critical_ratio,
-          0.5 * Log(c.pressure_max_pa)};
+          Log(c.pressure_max_pa)};
 }
 
 std::array<double, 7> SplitKeys(const ValveCorner& c) {
@@ -116,8 +116,8 @@ std::array<double, 7> SplitKeys(const ValveCorner& c) {
           c.fill.critical_ratio,
           0.5 * Log(c.exhaust.sonic_conductance_m3_per_s_pa),
           0.2 * Log(c.coil_power_w + 1e-3),
-          0.5 * Log(c.pressure_max_pa),
-          0.5 * Log(c.pressure_min_pa)};
+          Log(c.pressure_max_pa),
+          Log(c.pressure_min_pa)};
 }
 
 std::array<double, 6> SplitKeys(const RegulatorCorner& c) {
@@ -134,7 +134,7 @@ std::array<double, 4> SplitKeys(const BottleCorner& c) {
 std::array<double, 5> SplitKeys(const CompressorCorner& c) {
   return {Log(c.objective), Log(1.0 / c.pump.seconds_per_m3[kCoarseCells / 4]),
           0.5 * Log(c.pump.energy_j_per_m3[kCoarseCells / 4]), Log(c.duty_max),
-          0.5 * Log(c.pressure_max_pa)};
+          Log(c.pressure_max_pa)};
 }
 
 std::array<double, 3> SplitKeys(const BatteryCorner& c) {
