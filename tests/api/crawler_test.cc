@@ -1,0 +1,29 @@
+// Two groups in turns on one compressor: proved, not merely found.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "api/services.h"
+#include "tests/api/support.h"
+
+namespace plenum::api {
+namespace {
+
+TEST(Crawler, IsProvedOptimal) {
+  const std::filesystem::path root = PLENUM_SOURCE_DIR;
+  const auto parts = catalog::Store(root / "catalog.db", catalog::Access::kRead).List();
+  std::ifstream file(root / "examples/crawler.json");
+  Json request = Parse(std::string(std::istreambuf_iterator<char>(file), {}));
+  request["ranking"] = {{"count", 3}, {"time_limit_s", 200}};
+  const auto parsed = std::get<DesignRequest>(ParseRequirements(request, parts));
+  const Json answer = AnswerRequest(parsed, {}, parts);
+  EXPECT_EQ(answer["status"], "optimal");
+  EXPECT_EQ(answer["proof"]["undecided"], 0);
+  ASSERT_EQ(answer["designs"].size(), 3u);
+  EXPECT_EQ(answer["designs"][0]["performance"]["groups"].size(), 2u);
+}
+
+}  // namespace
+}  // namespace plenum::api
