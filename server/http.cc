@@ -111,7 +111,10 @@ bool IsLoopback(const std::string& host) {
 
 struct HttpService::Impl {
   explicit Impl(const HttpOptions& options)
-      : catalog(options.catalog), jobs(options.jobs), routes(Routes(catalog, jobs)) {
+      : catalog(options.catalog),
+        designs(options.jobs),
+        diagnoses(options.jobs),
+        routes(Routes(catalog, designs, diagnoses)) {
     SetLimits();
     SetHandlers();
     const bool any = options.port == 0;
@@ -239,7 +242,7 @@ struct HttpService::Impl {
   }
 
   SharedCatalog catalog;
-  Jobs jobs;
+  Jobs designs, diagnoses;
   const std::vector<Route> routes;
   httplib::Server server;
   int port = 0;
@@ -253,7 +256,8 @@ int HttpService::port() const { return impl_->port; }
 void HttpService::Run() { impl_->server.listen_after_bind(); }
 
 void HttpService::Stop() {
-  impl_->jobs.Stop();
+  impl_->designs.Stop();
+  impl_->diagnoses.Stop();
   // A stop before the listening has begun would be lost.
   while (!impl_->server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   impl_->server.stop();

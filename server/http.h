@@ -15,7 +15,7 @@ struct HttpOptions {
   std::filesystem::path catalog = "catalog.db";
   std::string host = "127.0.0.1";
   int port = 8080;  // 0: any free one
-  JobOptions jobs;
+  JobOptions jobs;  // of designs, and as many of diagnoses
 };
 
 // Whether only this machine can reach `host`: localhost, ::1 or 127.a.b.c. The HTTP library stops

@@ -2,6 +2,7 @@
 
 #include "api/services.h"
 #include "server/designs_resource.h"
+#include "server/diagnoses_resource.h"
 #include "server/history_resource.h"
 #include "server/models_resource.h"
 #include "server/page_resource.h"
@@ -29,24 +30,37 @@ api::Json RouteTable(const std::vector<Route>& routes) {
   return {{"routes", std::move(table)}};
 }
 
+void AddJobRoutes(const JobsResource& jobs, std::vector<Route>& routes) {
+  const std::string one = jobs.path + "/{id}";
+  routes.push_back({"GET", jobs.path, "the " + jobs.noun + " jobs, newest first",
+                    [jobs](const Call&) { return ListJobs(jobs); }});
+  routes.push_back({"GET", one, "one " + jobs.noun + " job: status, progress, result",
+                    [jobs](const Call& call) { return GetJob(jobs, call); }});
+  routes.push_back({"DELETE", one, "cancels the job",
+                    [jobs](const Call& call) { return CancelJob(jobs, call); }});
+  routes.push_back({"GET", one + "/events", "progress as server-sent events",
+                    [jobs](const Call& call) { return JobEvents(jobs, call); }});
+}
+
 }  // namespace
 
-std::vector<Route> Routes(SharedCatalog& catalog, Jobs& jobs) {
+std::vector<Route> Routes(SharedCatalog& catalog, Jobs& designs, Jobs& diagnoses) {
   const auto parts = [&](Reply (*answer)(SharedCatalog&, const Call&)) {
     return [&catalog, answer](const Call& call) { return answer(catalog, call); };
   };
+  const JobsResource design_jobs{&designs, "/v1/designs", "design"};
+  const JobsResource diagnosis_jobs{&diagnoses, "/v1/diagnoses", "diagnosis"};
   std::vector<Route> routes = {
-      {"POST", "/v1/designs",
+      {"POST", design_jobs.path,
        "requirements/1 in, a job that ranks designs out; query validate_only",
-       [&](const Call& call) { return PostDesign(catalog, jobs, call); }},
-      {"GET", "/v1/designs", "the jobs, newest first",
-       [&](const Call&) { return ListDesigns(jobs); }},
-      {"GET", "/v1/designs/{id}", "one job: status, progress, result",
-       [&](const Call& call) { return GetDesign(jobs, call); }},
-      {"DELETE", "/v1/designs/{id}", "cancels the job",
-       [&](const Call& call) { return CancelDesign(jobs, call); }},
-      {"GET", "/v1/designs/{id}/events", "progress as server-sent events",
-       [&](const Call& call) { return DesignEvents(jobs, call); }},
+       [&catalog, design_jobs](const Call& call) {
+         return PostDesign(catalog, design_jobs, call);
+       }},
+      {"POST", diagnosis_jobs.path,
+       "measurement/1 in, a job that finds what the model lacks out; fields model, save",
+       [&catalog, diagnosis_jobs](const Call& call) {
+         return PostDiagnosis(catalog, diagnosis_jobs, call);
+       }},
       {"POST", "/v1/simulations", "simulation/1 in, response/1 out",
        [&](const Call& call) {
          return AnswerAtOnce(call, [&](const api::Json& request) {
@@ -79,6 +93,8 @@ std::vector<Route> Routes(SharedCatalog& catalog, Jobs& jobs) {
          return JsonReply(200, {{"status", "ok"}});
        }},
   };
+  AddJobRoutes(design_jobs, routes);
+  AddJobRoutes(diagnosis_jobs, routes);
   routes.push_back({"GET", "/", "the web page", GetPage});
   routes.push_back({"GET", "/assets/{id}", "a file of the web page", GetAsset});
   routes.push_back({"GET", "/v1", "this table", {}});

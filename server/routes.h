@@ -22,7 +22,7 @@ struct Route {
 };
 
 // `catalog` and `jobs` must outlive the routes.
-std::vector<Route> Routes(SharedCatalog& catalog, Jobs& jobs);
+std::vector<Route> Routes(SharedCatalog& catalog, Jobs& designs, Jobs& diagnoses);
 
 // Whether `path` has the form of `route.path`; the segment at {id} goes to `argument`.
 bool Matches(const Route& route, std::string_view path, std::string& argument);

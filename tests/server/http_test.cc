@@ -118,7 +118,8 @@ TEST_F(Http, RefusesPagesOfOtherSites) {
 }
 
 TEST_F(Http, TellsNotJsonFromInvalid) {
-  for (const char* path : {"/v1/designs", "/v1/simulations", "/v1/maps", "/v1/parts"}) {
+  for (const char* path :
+       {"/v1/designs", "/v1/diagnoses", "/v1/simulations", "/v1/maps", "/v1/parts"}) {
     ExpectProblem(client_->Post(path, "", kJson), 400);
     ExpectProblem(client_->Post(path, "{\"a\": 1,}", kJson), 400);
     ExpectProblem(client_->Post(path, std::string("{}\0{}", 5), kJson), 400);

@@ -140,9 +140,7 @@ test('a part is added and the ranking changes', async () => {
 test('a measurement is diagnosed and the revision ranks', async () => {
   const measurement = await makeMeasurement(service);
   const before = await rank(service, example('gripper'));
-  const { page, close } = await openPage(browser, service.base, `#/designs/${before}`, {
-    before: (p) => standIn(p, service),
-  });
+  const { page, close } = await openPage(browser, service.base, `#/designs/${before}`);
   await rows(page).first().waitFor();
   await page.getByRole('button', { name: 'Requirements', exact: true }).click();
   await page.getByRole('link', { name: 'Measured data' }).click();
@@ -153,7 +151,7 @@ test('a measurement is diagnosed and the revision ranks', async () => {
   await page.getByRole('button', { name: 'r2' }).click();
   await page.getByRole('heading', { name: 'Run r2, blocked' }).waitFor();
   await page.getByRole('button', { name: 'Find what the model lacks' }).click();
-  await page.getByText(/The wall creeps/).waitFor();
+  await page.getByText('The model lacks creep').waitFor();
   await page.getByText('Measured against model').waitFor();
   await page.getByText('Residual: measured less model').waitFor();
   await page
@@ -168,7 +166,9 @@ test('a measurement is diagnosed and the revision ranks', async () => {
   const id = /designs\/([0-9a-f]+)/.exec(page.url())[1];
   const { result } = await service.get(`/v1/designs/${id}`);
   assert.equal(result.model.name, 'bench-creep');
-  assert.deepEqual(result.model.effects[0].parameters, { fraction: 0.149, time_constant_s: 2.03 });
+  const { fraction, time_constant_s } = result.model.effects[0].parameters;
+  assert.ok(Math.abs(fraction - 0.15) < 0.005, `${fraction}`);
+  assert.ok(Math.abs(time_constant_s - 2) < 0.1, `${time_constant_s}`);
   await close();
 });
 

@@ -1,0 +1,17 @@
+// POST /v1/diagnoses: a diagnosis as a job.
+#ifndef PLENUM_SERVER_DIAGNOSES_RESOURCE_H_
+#define PLENUM_SERVER_DIAGNOSES_RESOURCE_H_
+
+#include "server/jobs_resource.h"
+#include "server/shared_catalog.h"
+
+namespace plenum::server {
+
+// The body is measurement/1, in which "model" may name the saved model to start from and "save" the
+// name under which the revised model is kept, signed like every write. With "save" the result has
+// "saved": { name, version, at, who, hash }, null where the diagnosis settled on no model.
+Reply PostDiagnosis(SharedCatalog& catalog, const JobsResource& diagnoses, const Call& call);
+
+}  // namespace plenum::server
+
+#endif  // PLENUM_SERVER_DIAGNOSES_RESOURCE_H_

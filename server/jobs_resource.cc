@@ -1,0 +1,149 @@
+#include "server/jobs_resource.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <regex>
+#include <utility>
+
+#include "server/limits.h"
+
+namespace plenum::server {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr int kWaitMaxS = 300;
+constexpr milliseconds kHeartbeat{1000};
+
+std::string SelfOf(const JobsResource& resource, const std::string& id) {
+  return resource.path + "/" + id;
+}
+
+api::Json Links(const JobsResource& resource, const std::string& id) {
+  const std::string self = SelfOf(resource, id);
+  return {{"self", self}, {"events", self + "/events"}};
+}
+
+api::Json Short(const JobsResource& resource, const Job& job) {
+  return {{"id", job.id}, {"status", Name(job.status)}, {"links", Links(resource, job.id)}};
+}
+
+api::Json Full(const JobsResource& resource, const Job& job) {
+  api::Json json = {{"id", job.id},
+                    {"name", job.name},
+                    {"status", Name(job.status)},
+                    {"progress", job.progress},
+                    {"result", job.result},
+                    {"links", Links(resource, job.id)}};
+  // What went wrong inside is for the log.
+  if (job.status == JobStatus::kFailed)
+    json["detail"] = "the " + resource.noun + " failed: a fault of the program";
+  return json;
+}
+
+// Seconds of "Prefer: wait=N"; 0 without one. Preferences that are not understood are ignored
+// (RFC 7240).
+int WaitSeconds(const Call& call) {
+  const auto prefer = call.header("Prefer");
+  if (!prefer || prefer->size() > 200) return 0;
+  static const std::regex kWait(R"re((^|[,;\s])wait\s*=\s*"?(\d{1,6})"?)re", std::regex::icase);
+  std::smatch match;
+  if (!std::regex_search(*prefer, match, kWait)) return 0;
+  return std::min(std::stoi(match[2]), kWaitMaxS);
+}
+
+// What a client that waited gets: the result, or nothing when it takes longer.
+std::optional<Reply> WaitForResult(const JobsResource& resource, const std::string& id,
+                                   int seconds) {
+  static Turnstile turnstile(kWaitingMax);
+  const auto turn = seconds > 0 ? turnstile.Enter() : nullptr;
+  if (!turn) return std::nullopt;
+  const auto job = resource.jobs->WaitForEnd(id, std::chrono::seconds(seconds));
+  if (!job || !Ended(job->status)) return std::nullopt;
+  if (job->status == JobStatus::kFailed)
+    return ProblemReply(500, "the " + resource.noun + " failed");
+  if (job->result.is_null()) return ProblemReply(409, "the job was cancelled before it began");
+  auto reply = JsonReply(200, job->result);
+  reply.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(seconds));
+  return reply;
+}
+
+Reply NoJob(const JobsResource& resource, const std::string& id) {
+  return ProblemReply(404, "no " + resource.noun + " job has the id " + id +
+                               "; jobs end with the service, and only the newest are kept");
+}
+
+std::string Event(const char* name, const api::Json& data) {
+  return std::string("event: ") + name + "\ndata: " + Dump(data) + "\n\n";
+}
+
+}  // namespace
+
+Reply StartJob(const JobsResource& resource, const Call& call, const std::string& name, Work work) {
+  const auto id = resource.jobs->Submit(name, std::move(work));
+  if (!id) {
+    auto reply =
+        ProblemReply(429, "the queue of " + resource.noun + " jobs is full; try again later");
+    reply.headers.emplace_back("Retry-After", "10");
+    return reply;
+  }
+  auto reply = WaitForResult(resource, *id, WaitSeconds(call));
+  if (!reply) {
+    const auto job = resource.jobs->Get(*id);
+    reply = JsonReply(
+        202, job ? Short(resource, *job) : api::Json{{"id", *id}, {"links", Links(resource, *id)}});
+  }
+  reply->headers.emplace_back("Location", SelfOf(resource, *id));
+  return *reply;
+}
+
+Reply ListJobs(const JobsResource& resource) {
+  api::Json list = api::Json::array();
+  for (const auto& job : resource.jobs->List()) {
+    list.push_back({{"id", job.id},
+                    {"name", job.name},
+                    {"status", Name(job.status)},
+                    {"progress", job.progress},
+                    {"links", Links(resource, job.id)}});
+  }
+  return JsonReply(200, {{"jobs", std::move(list)}});
+}
+
+Reply GetJob(const JobsResource& resource, const Call& call) {
+  const auto job = resource.jobs->Get(call.argument);
+  return job ? JsonReply(200, Full(resource, *job)) : NoJob(resource, call.argument);
+}
+
+Reply CancelJob(const JobsResource& resource, const Call& call) {
+  if (!resource.jobs->Cancel(call.argument)) return NoJob(resource, call.argument);
+  const auto job = resource.jobs->Get(call.argument);
+  return job ? JsonReply(200, Short(resource, *job)) : NoJob(resource, call.argument);
+}
+
+Reply JobEvents(const JobsResource& resource, const Call& call) {
+  static Turnstile turnstile(kStreamsMax);
+  if (!resource.jobs->Get(call.argument)) return NoJob(resource, call.argument);
+  auto turn = turnstile.Enter();
+  if (!turn) {
+    auto reply = ProblemReply(429, "too many event streams are open; poll the job instead");
+    reply.headers.emplace_back("Retry-After", "5");
+    return reply;
+  }
+  Reply reply{200, "text/event-stream", "", {{"Cache-Control", "no-store"}}, {}};
+  reply.stream = [resource, id = call.argument, turn = std::move(turn),
+                  revision = -1LL](const Write& write) mutable {
+    const auto job = resource.jobs->WaitForChange(id, revision, kHeartbeat);
+    if (!job || resource.jobs->Stopping()) return false;
+    if (Ended(job->status)) {
+      write(Event("end", Short(resource, *job)));
+      return false;
+    }
+    if (job->revision == revision) return write(": still there\n\n");
+    revision = job->revision;
+    return write(Event("progress", {{"status", Name(job->status)}, {"progress", job->progress}}));
+  };
+  return reply;
+}
+
+}  // namespace plenum::server

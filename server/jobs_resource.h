@@ -1,0 +1,32 @@
+// Long work over HTTP: one kind of job, its path and what people call it.
+#ifndef PLENUM_SERVER_JOBS_RESOURCE_H_
+#define PLENUM_SERVER_JOBS_RESOURCE_H_
+
+#include <string>
+
+#include "server/jobs.h"
+#include "server/reply.h"
+
+namespace plenum::server {
+
+struct JobsResource {
+  Jobs* jobs;
+  std::string path;  // "/v1/designs"
+  std::string noun;  // "design"
+};
+
+// 202 with { id, status, links }, or with "Prefer: wait=N" 200 with the result when it comes within
+// N seconds. At most a quarter of the request threads wait at a time; beyond that it is 202 at
+// once. 429 when the queue is full.
+Reply StartJob(const JobsResource& resource, const Call& call, const std::string& name, Work work);
+Reply ListJobs(const JobsResource& resource);
+// { id, name, status, progress, result, links }.
+Reply GetJob(const JobsResource& resource, const Call& call);
+Reply CancelJob(const JobsResource& resource, const Call& call);
+// Server-sent events: `progress` at every change, `end` when the job has ended. 429 when too many
+// streams are open.
+Reply JobEvents(const JobsResource& resource, const Call& call);
+
+}  // namespace plenum::server
+
+#endif  // PLENUM_SERVER_JOBS_RESOURCE_H_

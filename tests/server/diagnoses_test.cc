@@ -1,0 +1,186 @@
+// Diagnoses as jobs of the real service. The data are a rigid chamber that leaks through a laminar
+// resistance, whose pressure is known in closed form.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <httplib.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <string>
+#include <thread>
+
+#include "server/http.h"
+#include "workbench.h"
+
+namespace plenum::server {
+namespace {
+
+using api::Json;
+using testing::HasSubstr;
+
+constexpr char kJson[] = "application/json";
+constexpr char kPath[] = "/v1/diagnoses";
+constexpr double kLeakLPerMinBar = 0.5;
+
+// V·dp/dt = −G·(p² − p_a²)/2, so (p − p_a)/(p + p_a) decays at the rate G·p_a/V.
+double LeakingKpa(double initial_kpa, double t_s) {
+  const double ambient_kpa = 100.0, volume_l = 0.05;
+  const double rate_per_s = kLeakLPerMinBar / 60.0 / volume_l;
+  const double e = initial_kpa / (initial_kpa + 2 * ambient_kpa) * std::exp(-rate_per_s * t_s);
+  return 2 * ambient_kpa * e / (1 - e);
+}
+
+Json LeakingChamber(int runs = 2) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise_kpa(0.0, 0.1);
+  Json document = {{"schema", "measurement/1"},
+                   {"name", "closed chamber"},
+                   {"rig",
+                    {{"actuator",
+                      {{"rest_volume_ml", 50.0},
+                       {"expansion_ratio", 1.0},
+                       {"operating_pressure_kpa_gauge", 100.0}}},
+                     {"supply", {{"kind", "none"}}}}}};
+  for (int r = 0; r < runs; ++r) {
+    Json run = {{"id", "r" + std::to_string(r)}, {"blocked", true}};
+    run["valve"] = Json::array({{{"t_s", 0.0}, {"state", "hold"}}});
+    for (int i = 0; i < 120; ++i) {
+      const double t_s = 0.25 * i;
+      run["t_s"].push_back(t_s);
+      run["pressure_kpa_gauge"].push_back(LeakingKpa(r % 2 == 0 ? 100.0 : 60.0, t_s) +
+                                          noise_kpa(random));
+    }
+    document["runs"].push_back(std::move(run));
+  }
+  return document;
+}
+
+class Diagnoses : public testing::Test {
+ protected:
+  Diagnoses() {
+    HttpOptions options;
+    options.catalog = bench_.catalog();
+    options.port = 0;
+    options.jobs.workers = 1;
+    options.jobs.queued_max = 1;
+    service_ = std::make_unique<HttpService>(options);
+    thread_ = std::thread([this] { service_->Run(); });
+    client_ = std::make_unique<httplib::Client>("127.0.0.1", service_->port());
+    client_->set_read_timeout(120);
+  }
+  ~Diagnoses() override {
+    client_.reset();
+    service_->Stop();
+    thread_.join();
+  }
+
+  static Json Body(const httplib::Result& result) { return Json::parse(result->body); }
+  httplib::Result Post(const Json& document, const httplib::Headers& headers = {}) {
+    return client_->Post(kPath, headers, document.dump(), kJson);
+  }
+  httplib::Result PostAndWait(const Json& document) {
+    return Post(document, {{"Prefer", "wait=100"}, {"From", "bench"}});
+  }
+  // The events of a job until it has ended.
+  std::string Events(const std::string& job) {
+    std::string events;
+    client_->Get(job + "/events", [&](const char* data, std::size_t size) {
+      events.append(data, size);
+      return true;
+    });
+    return events;
+  }
+  void ExpectInvalid(const Json& document, const std::string& pointer) {
+    const auto refused = Post(document);
+    EXPECT_EQ(refused->status, 422) << refused->body;
+    EXPECT_THAT(refused->body, HasSubstr("\"pointer\":\"" + pointer + "\""));
+  }
+
+  const Workbench bench_;
+  std::unique_ptr<HttpService> service_;
+  std::thread thread_;
+  std::unique_ptr<httplib::Client> client_;
+};
+
+TEST_F(Diagnoses, FindsTheLeakSavesItAndStartsFromIt) {
+  Json document = LeakingChamber();
+  document["save"] = "leaky";
+  const auto found = PostAndWait(document);
+  ASSERT_EQ(found->status, 200) << found->body;
+  EXPECT_EQ(found->get_header_value("Preference-Applied"), "wait=100");
+  const Json result = Body(found);
+  EXPECT_EQ(result["schema"], "diagnosis/1");
+  EXPECT_EQ(result["verdict"], "explained");
+  ASSERT_EQ(result["effects"].size(), 1u);
+  EXPECT_EQ(result["effects"][0]["id"], "leak");
+  const Json& leak = result["effects"][0]["parameters"]["conductance_l_per_min_bar"];
+  EXPECT_NEAR(leak["value"].get<double>(), kLeakLPerMinBar, 0.01 * kLeakLPerMinBar);
+  EXPECT_EQ(result["saved"]["name"], "leaky");
+  EXPECT_EQ(result["saved"]["who"], "bench");
+  EXPECT_EQ(Body(client_->Get("/v1/models/leaky"))["versions"].size(), 1u);
+
+  const Json job = Body(client_->Get(found->get_header_value("Location")));
+  EXPECT_EQ(job["status"], "done");
+  EXPECT_EQ(job["name"], "closed chamber");
+  EXPECT_EQ(job["result"], result);
+
+  document = LeakingChamber();
+  document["model"] = "leaky";
+  const Json again = Body(PostAndWait(document));
+  EXPECT_EQ(again["verdict"], "adequate") << again["sentence"];
+  EXPECT_FALSE(again.contains("saved"));
+}
+
+TEST_F(Diagnoses, CanBeFollowedAndPolled) {
+  const auto accepted = Post(LeakingChamber());
+  ASSERT_EQ(accepted->status, 202) << accepted->body;
+  const std::string id = Body(accepted)["id"], job = std::string(kPath) + "/" + id;
+  EXPECT_EQ(accepted->get_header_value("Location"), job);
+  EXPECT_EQ(Body(accepted)["links"]["self"], job);
+  EXPECT_EQ(Body(client_->Get(kPath))["jobs"][0]["id"], id);
+  EXPECT_TRUE(Body(client_->Get("/v1/designs"))["jobs"].empty());
+  EXPECT_EQ(client_->Get("/v1/designs/" + id)->status, 404);
+  EXPECT_THAT(Events(job), HasSubstr("event: end\n"));
+  const Json polled = Body(client_->Get(job));
+  EXPECT_EQ(polled["status"], "done");
+  EXPECT_GT(polled["progress"]["share"], 0.5);
+  EXPECT_LE(polled["progress"]["share"], 1.0);
+  EXPECT_FALSE(polled["progress"]["doing"].get<std::string>().empty());
+  EXPECT_EQ(polled["result"]["verdict"], "explained");
+}
+
+TEST_F(Diagnoses, CanBeCancelledRunningOrQueued) {
+  const Json slow = LeakingChamber(200);
+  const std::string running = Post(slow)->get_header_value("Location");
+  while (Body(client_->Get(running))["status"] == "queued") std::this_thread::yield();
+  const std::string queued = Post(slow)->get_header_value("Location");
+  const auto refused = Post(slow);
+  EXPECT_EQ(refused->status, 429);
+  EXPECT_FALSE(refused->get_header_value("Retry-After").empty());
+  EXPECT_EQ(Body(client_->Delete(queued))["status"], "cancelled");
+  EXPECT_TRUE(Body(client_->Get(queued))["result"].is_null());
+  EXPECT_EQ(client_->Delete(running)->status, 200);
+  EXPECT_THAT(Events(running), HasSubstr("event: end\n"));
+  EXPECT_EQ(Body(client_->Get(running))["status"], "cancelled");
+  EXPECT_EQ(client_->Delete(std::string(kPath) + "/none")->status, 404);
+}
+
+TEST_F(Diagnoses, NamesWhatIsWrong) {
+  EXPECT_EQ(client_->Post(kPath, "{\"schema\":", kJson)->status, 400);
+  EXPECT_EQ(client_->Post(kPath, "[]", kJson)->status, 422);
+  Json wrong = LeakingChamber();
+  wrong["rig"]["actuator"]["rest_volume_ml"] = -1;
+  ExpectInvalid(wrong, "/rig/actuator/rest_volume_ml");
+  Json names = LeakingChamber();
+  names["save"] = "Not A Name";
+  ExpectInvalid(names, "/save");
+  names["save"] = 7;
+  names["model"] = "unheard-of";
+  ExpectInvalid(names, "/save");
+  ExpectInvalid(names, "/model");
+  EXPECT_TRUE(Body(client_->Get(kPath))["jobs"].empty());
+}
+
+}  // namespace
+}  // namespace plenum::server
