@@ -8,13 +8,16 @@ namespace plenum::api {
 
 DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisProgress& progress) {
   calibration::DiagnoseOptions options;
-  options.given = request.given;
   options.cancelled = progress.cancelled;
   options.progress = progress.progress;
-  const calibration::Diagnosis diagnosis = calibration::Diagnose(request.dataset, options);
+  const calibration::Diagnosis diagnosis =
+      request.model
+          ? calibration::Predict(request.dataset, {request.model->effects, request.model->factors},
+                                 options)
+          : calibration::Diagnose(request.dataset, options);
   DiagnosisAnswer answer;
   answer.answer = RenderDiagnosis(diagnosis, request.dataset, request.provenance);
-  if (diagnosis.verdict != calibration::Verdict::kTie &&
+  if (!request.model && diagnosis.verdict != calibration::Verdict::kTie &&
       diagnosis.verdict != calibration::Verdict::kUndecided)
     answer.revision = RevisionOf(diagnosis, request.provenance);
   return answer;

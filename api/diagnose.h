@@ -16,7 +16,7 @@ namespace plenum::api {
 
 struct DiagnosisRequest {
   calibration::Dataset dataset;
-  std::vector<model::Effect> given;  // of a saved model; part of the base model
+  std::optional<SavedModel> model;  // predicts the runs; none: they are diagnosed
   Provenance provenance;
 };
 

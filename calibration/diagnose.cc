@@ -67,6 +67,35 @@ class Diagnosing {
     return std::move(diagnosis_);
   }
 
+  Diagnosis TakeOf(const KnownModel& known) {
+    ModelState state = forward_.Declared();
+    state.effects = known.effects;
+    for (const auto& [number, factor] : known.factors)
+      state.factor[static_cast<std::size_t>(number)] = factor;
+    data_.runs.insert(data_.runs.end(), held_out_.begin(), held_out_.end());
+    held_out_.clear();
+    FitOptions options = tight_;
+    options.nuisance_only = true;
+    const Fit aligned = FitModel(data_, state, options);
+    diagnosis_.noise_pa = NoiseOf(data_.runs);
+    diagnosis_.declared = ErrorOf(forward_.Declared());
+    if (!aligned.Usable()) {
+      diagnosis_.sentence = "The saved model cannot be run on these data: " + aligned.detail + ".";
+      return std::move(diagnosis_);
+    }
+    const Leftover left = LeftoverOf(aligned, false);
+    diagnosis_.before = diagnosis_.after = ErrorOf(aligned.state);
+    diagnosis_.residual = left.residual;
+    diagnosis_.verdict = IsNoise(left) ? Verdict::kAdequate : Verdict::kUnexplained;
+    diagnosis_.unexplained_fraction =
+        diagnosis_.verdict == Verdict::kAdequate ? 0.0 : UnexplainedFraction(left, left);
+    AddSeries(forward_.Declared(), aligned.state, aligned.state);
+    diagnosis_.sentence = diagnosis_.verdict == Verdict::kAdequate
+                              ? "The saved model predicts these runs to within their noise."
+                              : "The saved model leaves structure in these runs.";
+    return std::move(diagnosis_);
+  }
+
  private:
   void Progress(double share, const std::string& what) const {
     if (options_.progress) options_.progress(share, what);
@@ -221,7 +250,7 @@ class Diagnosing {
               .discrepancy;
     }
     Progress(0.99, "report");
-    AddSeries(chosen.fit.state);
+    AddSeries(forward_.Declared(), base_->fit.state, chosen.fit.state);
     AddWarnings();
     if (const auto found = Identify(data_, chosen.fit, tight_))
       for (std::string& sentence : Sentences(*found))
@@ -291,8 +320,7 @@ class Diagnosing {
     }
   }
 
-  void AddSeries(const ModelState& after) {
-    const ModelState declared = forward_.Declared();
+  void AddSeries(const ModelState& declared, const ModelState& before, const ModelState& after) {
     for (std::size_t i = 0; i < dataset_.runs.size(); ++i) {
       const Run& run = dataset_.runs[i];
       Series series;
@@ -308,7 +336,7 @@ class Diagnosing {
         return pressure_pa;
       };
       series.declared_pa = predict(declared);
-      series.before_pa = predict(base_->fit.state);
+      series.before_pa = predict(before);
       series.after_pa = predict(after);
       diagnosis_.series.push_back(std::move(series));
     }
@@ -384,6 +412,10 @@ class Diagnosing {
 
 Diagnosis Diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
   return Diagnosing(dataset, options).Take();
+}
+
+Diagnosis Predict(const Dataset& dataset, const KnownModel& known, const DiagnoseOptions& options) {
+  return Diagnosing(dataset, options).TakeOf(known);
 }
 
 }  // namespace plenum::calibration

@@ -3,6 +3,9 @@
 #ifndef PLENUM_CALIBRATION_DIAGNOSE_H_
 #define PLENUM_CALIBRATION_DIAGNOSE_H_
 
+#include <utility>
+#include <vector>
+
 #include "calibration/diagnosis.h"
 #include "calibration/effect_search.h"
 
@@ -13,6 +16,16 @@ using DiagnoseOptions = SearchOptions;
 // Cancelled or cut short: the best so far, with kUndecided. Without runs to hold out, the finalists
 // are fitted again without each run in turn and judged by the runs left out.
 Diagnosis Diagnose(const Dataset& dataset, const DiagnoseOptions& options);
+
+// What a known model makes of the runs: its effects and the factors on declared numbers stand; only
+// what no other run can tell, each run's clock and an initial pressure that was not declared, is
+// fitted. `before` and `after` are both its errors, `declared` those of the declared base model.
+// kAdequate where only noise is left, else kUnexplained.
+struct KnownModel {
+  std::vector<model::Effect> effects;
+  std::vector<std::pair<Declared, double>> factors;
+};
+Diagnosis Predict(const Dataset& dataset, const KnownModel& known, const DiagnoseOptions& options);
 
 }  // namespace plenum::calibration
 

@@ -67,10 +67,10 @@ std::vector<api::Json> ReadDocuments(const DiagnoseCommand& command, api::Proven
   return documents;
 }
 
-std::vector<model::Effect> GivenEffects(const DiagnoseCommand& command) {
-  if (command.model.empty() || command.model == "nominal") return {};
+std::optional<api::SavedModel> KnownModel(const DiagnoseCommand& command) {
+  if (command.model.empty() || command.model == "nominal") return std::nullopt;
   const auto models = OpenCatalog(command.catalog, catalog::Access::kRead).Models();
-  return ValueOrRefuse(api::FindModel(command.model, models, "--model")).effects;
+  return ValueOrRefuse(api::FindModel(command.model, models, "--model"));
 }
 
 api::DiagnosisRequest ReadRequest(const DiagnoseCommand& command) {
@@ -79,7 +79,7 @@ api::DiagnosisRequest ReadRequest(const DiagnoseCommand& command) {
       ValueOrRefuse(api::MergeMeasurements(ReadDocuments(command, request.provenance)));
   if (!command.holdout.empty() && document.is_object()) document["holdout"] = command.holdout;
   request.dataset = ValueOrRefuse(api::ParseMeasurement(document));
-  request.given = GivenEffects(command);
+  request.model = KnownModel(command);
   return request;
 }
 
@@ -134,7 +134,8 @@ void AddDiagnoseCommand(CLI::App& app, int& status) {
       ->type_name("");
   command->add_option("--rig", options->rig, "The rig of CSV files, as JSON")->type_name("FILE");
   command->add_option("--holdout", options->holdout, "Runs that no fit may see")->type_name("RUN");
-  command->add_option("--model", options->model, "Start from a saved model")->type_name("NAME");
+  command->add_option("--model", options->model, "Predict with a saved model, without fitting")
+      ->type_name("NAME");
   command->add_option("--save", options->save, "Keep the revised model for designs")
       ->type_name("NAME");
   command->add_option("--report", options->report, "Write an HTML report")->type_name("FILE");

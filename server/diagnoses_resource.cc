@@ -52,7 +52,7 @@ api::Parsed<Order> ReadOrder(SharedCatalog& catalog, api::Json document, const s
   order.save = names.save;
   if (!names.model.empty() && names.model != "nominal") {
     const auto models = catalog.With([](const catalog::Store& store) { return store.Models(); });
-    order.request.given = ValueOrAdd(api::FindModel(names.model, models, "/model"), errors).effects;
+    order.request.model = ValueOrAdd(api::FindModel(names.model, models, "/model"), errors);
   }
   if (document.is_object()) {
     document.erase(kModel);

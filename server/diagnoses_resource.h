@@ -7,7 +7,7 @@
 
 namespace plenum::server {
 
-// The body is measurement/1, in which "model" may name the saved model to start from and "save" the
+// The body is measurement/1, in which "model" may name the saved model that predicts and "save" the
 // name under which the revised model is kept, signed like every write. With "save" the result has
 // "saved": { name, version, at, who, hash }, null where the diagnosis settled on no model.
 Reply PostDiagnosis(SharedCatalog& catalog, const JobsResource& diagnoses, const Call& call);

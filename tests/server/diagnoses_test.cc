@@ -103,7 +103,7 @@ class Diagnoses : public testing::Test {
   std::unique_ptr<httplib::Client> client_;
 };
 
-TEST_F(Diagnoses, FindsTheLeakSavesItAndStartsFromIt) {
+TEST_F(Diagnoses, FindsTheLeakSavesItAndPredictsWithIt) {
   Json document = LeakingChamber();
   document["save"] = "leaky";
   const auto found = PostAndWait(document);
@@ -129,6 +129,7 @@ TEST_F(Diagnoses, FindsTheLeakSavesItAndStartsFromIt) {
   document["model"] = "leaky";
   const Json again = Body(PostAndWait(document));
   EXPECT_EQ(again["verdict"], "adequate") << again["sentence"];
+  EXPECT_TRUE(again["candidates"].empty());  // nothing was searched
   EXPECT_FALSE(again.contains("saved"));
 }
 
