@@ -12,9 +12,9 @@ namespace plenum::test {
 
 inline std::vector<double> WhiteNoise(std::uint64_t seed, std::size_t count, double sigma = 1.0) {
   std::mt19937_64 generator(seed);
-  std::normal_distribution<double> normal(0.0, sigma);
+  std::normal_distribution<double> normal;
   std::vector<double> values(count);
-  for (double& value : values) value = normal(generator);
+  for (double& value : values) value = sigma * normal(generator);
   return values;
 }
 

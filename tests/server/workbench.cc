@@ -91,7 +91,11 @@ api::Json Example(const std::string& name, double time_limit_s) {
 }
 
 api::Json Exosuit(double time_limit_s) { return Example("exosuit", time_limit_s); }
-api::Json SlowToProve(double time_limit_s) { return Example("crawler", time_limit_s); }
+api::Json SlowToProve(double time_limit_s) {
+  api::Json request = Example("exosuit", time_limit_s);
+  request["objective"] = {{"minimize", "volume_l"}};
+  return request;
+}
 
 api::Json NewFitting(const std::string& id) {
   return {{"id", id},
