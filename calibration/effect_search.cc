@@ -93,9 +93,8 @@ class Search {
       if (!best || !(best->fit.bic < Of(chosen).fit.bic - kAccept)) break;
       chosen = IndexOf(*best);
     }
-    if (Of(chosen).effects.size() > SizeOf(1) && LeftShare(Of(chosen)) < kEstablished &&
-        !Cancelled()) {
-      const int size = static_cast<int>(Of(chosen).effects.size() - options_.given.size());
+    if (Of(chosen).effects.size() > 1u && LeftShare(Of(chosen)) < kEstablished && !Cancelled()) {
+      const int size = static_cast<int>(Of(chosen).effects.size());
       Exchange(Of(chosen).effects);
       chosen = Best(size);
     }
@@ -124,11 +123,6 @@ class Search {
   }
   bool Cancelled() const { return options_.cancelled && options_.cancelled(); }
 
-  // Of a set with so many effects beside those given.
-  std::size_t SizeOf(int added) const {
-    return options_.given.size() + static_cast<std::size_t>(added);
-  }
-
   void Report(double share, const std::string& what) const {
     if (options_.progress) options_.progress(share, what);
   }
@@ -137,7 +131,8 @@ class Search {
   const Contender* BestOfSize(int size) const {
     const Contender* best = nullptr;
     for (const Contender& contender : result_.contenders) {
-      if (contender.effects.size() != SizeOf(size) || !contender.fit.Usable()) continue;
+      if (contender.effects.size() != static_cast<std::size_t>(size) || !contender.fit.Usable())
+        continue;
       if (!best || contender.fit.bic < best->fit.bic) best = &contender;
     }
     return best;
@@ -158,12 +153,7 @@ class Search {
     Contender base;
     FitOptions options = fit_options_;
     options.threads = options_.threads;
-    ModelState start = result_.data.forward->Declared();
-    start.effects = options_.given;
-    std::sort(start.effects.begin(), start.effects.end(),
-              [](const auto& a, const auto& b) { return Place(a.spec) < Place(b.spec); });
-    for (const model::Effect& effect : start.effects) base.effects.push_back(effect.spec);
-    base.fit = FitModel(result_.data, start, options);
+    base.fit = FitModel(result_.data, result_.data.forward->Declared(), options);
     base.starts = base.found_again = 1;
     result_.contenders.push_back(std::move(base));
   }
@@ -210,7 +200,7 @@ class Search {
 
   // Takes the fits of sets of a size that come near the best one further.
   void Refine(std::size_t size) {
-    const Contender* best = BestOfSize(static_cast<int>(size - options_.given.size()));
+    const Contender* best = BestOfSize(static_cast<int>(size));
     if (!best) return;
     std::vector<Contender*> near;
     for (Contender& contender : result_.contenders)
@@ -251,7 +241,7 @@ class Search {
   std::vector<Set> Seeds(int size) const {
     std::vector<const Contender*> sorted;
     for (const Contender& contender : result_.contenders)
-      if (contender.effects.size() == SizeOf(size) && contender.fit.Usable())
+      if (contender.effects.size() == static_cast<std::size_t>(size) && contender.fit.Usable())
         sorted.push_back(&contender);
     std::sort(sorted.begin(), sorted.end(),
               [](const auto* a, const auto* b) { return a->fit.bic < b->fit.bic; });
@@ -268,23 +258,17 @@ class Search {
     return seeds;
   }
 
-  Set WithGiven(Spec spec) const {
-    Set set = {spec};
-    for (const model::Effect& effect : options_.given) set.push_back(effect.spec);
-    return Ordered(set);
-  }
-
   // Of an id with several laws the one whose single fit is best.
   std::vector<Spec> BestLaws() {
     std::vector<Spec> best;
     for (const Spec spec : NamedEffects()) {
-      const Contender* single = Find(WithGiven(spec));
+      const Contender* single = Find({spec});
       if (!single || !single->fit.Usable()) continue;
       const auto same =
           std::find_if(best.begin(), best.end(), [&](Spec other) { return other->id == spec->id; });
       if (same == best.end())
         best.push_back(spec);
-      else if (single->fit.bic < Find(WithGiven(*same))->fit.bic)
+      else if (single->fit.bic < Find({*same})->fit.bic)
         *same = spec;
     }
     return best;
@@ -302,9 +286,6 @@ class Search {
   void Exchange(const Set& set) {
     std::vector<Job> jobs;
     for (const Spec out : set) {
-      const bool given = std::any_of(options_.given.begin(), options_.given.end(),
-                                     [&](const model::Effect& e) { return e.spec == out; });
-      if (given) continue;
       Set rest;
       std::copy_if(set.begin(), set.end(), std::back_inserter(rest),
                    [&](Spec spec) { return spec != out; });
@@ -378,7 +359,7 @@ class Search {
     for (Contender& contender : result_.contenders) {
       const bool rival = contender.effects.size() == chosen.size() && contender.fit.Usable() &&
                          contender.fit.bic < best + 2.0 * kTie;
-      if (!rival && contender.effects.size() != options_.given.size()) continue;
+      if (!rival && !contender.effects.empty()) continue;
       Fit fit = FitModel(result_.data, contender.fit.state, tight);
       if (fit.Usable() && fit.bic < contender.fit.bic + kSameOptimum)
         contender.fit = std::move(fit);
@@ -390,7 +371,7 @@ class Search {
                      });
     result_.complete = !Cancelled();
     for (std::size_t i = 0; i < result_.contenders.size(); ++i)
-      if (result_.contenders[i].effects.size() == options_.given.size()) result_.base = i;
+      if (result_.contenders[i].effects.empty()) result_.base = i;
     result_.chosen = 0;
     for (std::size_t i = result_.contenders.size(); i-- > 0;) {
       const Contender& contender = result_.contenders[i];

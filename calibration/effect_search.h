@@ -26,7 +26,6 @@ struct Contender {
 };
 
 struct SearchOptions {
-  std::vector<model::Effect> given;  // belong to the base model; their parameters are fitted too
   int threads = 2;
   std::function<bool()> cancelled;                           // may be empty
   std::function<void(double, const std::string&)> progress;  // share done, what is under way
