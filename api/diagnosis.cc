@@ -7,6 +7,7 @@
 
 #include "api/effects.h"
 #include "api/units.h"
+#include "calibration/phases.h"
 
 namespace plenum::api {
 namespace {
@@ -32,20 +33,6 @@ const char* Name(calibration::Verdict verdict) {
       break;
   }
   return "undecided";
-}
-
-const char* Name(Phase phase) {
-  switch (phase) {
-    case Phase::kRise:
-      return "rise";
-    case Phase::kHold:
-      return "hold";
-    case Phase::kFall:
-      return "fall";
-    case Phase::kRest:
-      break;
-  }
-  return "rest";
 }
 
 const char* Name(model::EffectPlace place) {

@@ -69,6 +69,14 @@ Fractions ReadFractions(Reader& request) {
   return fractions;
 }
 
+model::FlowElement ReadPair(Reader& reader) {
+  model::FlowElement element;
+  element.sonic_conductance_m3_per_s_pa =
+      ConductanceFromDm3PerSBar(reader.Number("sonic_conductance_dm3_per_s_bar", {1e-6, 1e4}));
+  element.critical_ratio = reader.Number("critical_ratio", {0, 0.95});
+  return element;
+}
+
 model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient) {
   model::Chamber chamber;
   chamber.ambient_pressure_pa = ambient.pressure_pa;

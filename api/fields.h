@@ -6,6 +6,7 @@
 #include "model/air.h"
 #include "model/chamber.h"
 #include "model/compressor.h"
+#include "model/iso6358.h"
 
 namespace plenum::api {
 
@@ -26,6 +27,9 @@ struct Fractions {
   double fall = 0.05;
 };
 Fractions ReadFractions(Reader& request);
+
+// "sonic_conductance_dm3_per_s_bar" and "critical_ratio" of one element.
+model::FlowElement ReadPair(Reader& reader);
 
 // "rest_volume_ml", "expansion_ratio" or "pressure_volume", "operating_pressure_kpa_gauge". With a
 // table the rest volume is that of the table at ambient pressure; a stated one must agree with it

@@ -50,14 +50,6 @@ struct RigPart {
   double reservoir_volume_m3 = 0.0;
 };
 
-model::FlowElement ReadPair(Reader& reader) {
-  model::FlowElement element;
-  element.sonic_conductance_m3_per_s_pa =
-      ConductanceFromDm3PerSBar(reader.Number("sonic_conductance_dm3_per_s_bar", {1e-6, 1e4}));
-  element.critical_ratio = reader.Number("critical_ratio", {0, 0.95});
-  return element;
-}
-
 LinePiece ReadPairs(Reader& reader) {
   LinePiece piece;
   piece.fill = piece.exhaust = ReadPair(reader);

@@ -36,8 +36,9 @@ Json PartIds(const optimizer::Design& design) {
 }
 
 // What the design misses most under the problem's effects, at its own settings.
-Json WhyDropped(const optimizer::Problem& problem, const optimizer::Design& design) {
-  const auto margins = optimizer::MarginsOf(problem, optimizer::Relaxed(problem), design);
+Json WhyDropped(const optimizer::Problem& problem, const optimizer::Problem& relaxed,
+                const optimizer::Design& design) {
+  const auto margins = optimizer::MarginsOf(problem, relaxed, design);
   if (!margins) return "a stroke is never completed";
   const auto worst = std::min_element(
       margins->begin(), margins->end(),
@@ -66,6 +67,7 @@ Json Compare(const optimizer::Problem& problem, const std::vector<optimizer::Des
     }
     designs.push_back(std::move(row));
   }
+  const optimizer::Problem relaxed = optimizer::Relaxed(problem);
   Json dropped = Json::array();
   for (std::size_t i = 0; i < nominal.designs.size(); ++i) {
     const optimizer::Design& design = nominal.designs[i];
@@ -73,7 +75,7 @@ Json Compare(const optimizer::Problem& problem, const std::vector<optimizer::Des
     dropped.push_back({{"nominal_rank", i + 1},
                        {"objective", Number(design.objective)},
                        {"parts", PartIds(design)},
-                       {"why", WhyDropped(problem, design)}});
+                       {"why", WhyDropped(problem, relaxed, design)}});
   }
   return {{"status", optimizer::Name(nominal.status)},
           {"designs", std::move(designs)},
@@ -85,12 +87,11 @@ Json Compare(const optimizer::Problem& problem, const std::vector<optimizer::Des
 Json AnswerRevised(const DesignRequest& request, const optimizer::SearchOptions& options,
                    const std::vector<catalog::Part>& parts) {
   const auto start = std::chrono::steady_clock::now();
-  optimizer::Problem nominal_problem = request.problem;
-  for (optimizer::ActuatorGroup& group : nominal_problem.groups) group.effects.clear();
   optimizer::SearchOptions nominal_options = options;
   nominal_options.progress = nullptr;
   nominal_options.time_limit_s *= kNominalShare;
-  const optimizer::Answer nominal = optimizer::Search(nominal_problem, nominal_options);
+  const optimizer::Answer nominal =
+      optimizer::Search(optimizer::WithoutEffects(request.problem), nominal_options);
   const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
 
   optimizer::SearchOptions rest = options;

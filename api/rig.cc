@@ -15,14 +15,6 @@ namespace {
 constexpr std::size_t kCommandsMax = 100'000;
 constexpr double kTimeMaxS = 1e6;
 
-model::FlowElement ReadPair(Reader& reader) {
-  model::FlowElement element;
-  element.sonic_conductance_m3_per_s_pa =
-      ConductanceFromDm3PerSBar(reader.Number("sonic_conductance_dm3_per_s_bar", {1e-6, 1e4}));
-  element.critical_ratio = reader.Number("critical_ratio", {0, 0.95});
-  return element;
-}
-
 // A line under construction: elements are added from source to actuator.
 class LineBuilder {
  public:

@@ -21,20 +21,6 @@ struct Part {
 };
 using Parts = std::map<std::string, Part>;
 
-const char* NameOf(Phase phase) {
-  switch (phase) {
-    case Phase::kRest:
-      return "rest";
-    case Phase::kRise:
-      return "rise";
-    case Phase::kHold:
-      return "hold";
-    case Phase::kFall:
-      break;
-  }
-  return "fall";
-}
-
 std::string Range(double low, double high, const char* unit) {
   std::array<char, 64> text;
   std::snprintf(text.data(), text.size(), "%.3g to %.3g %s", low, high, unit);
@@ -87,7 +73,7 @@ std::vector<Discrepancy::Place> PlacesOf(const FitData& data, const ModelState& 
         ++part.readings;
       };
       add("run", run.id);
-      add("phase", NameOf(phase.phase));
+      add("phase", Name(phase.phase));
       add("cycle", phase.cycle == 0 ? "first" : "later");
       add("pressure", pressure.BinOf(gauge_pa, kPressureBins, 1e3, "kPa"));
       add("time", time.BinOf(run.t_s[k] - StartOf(run), kTimeBins, 1.0, "s"));

@@ -69,20 +69,6 @@ std::vector<double> Rates(const std::vector<double>& t_s, const std::vector<doub
   return rates;
 }
 
-const char* Name(Phase phase) {
-  switch (phase) {
-    case Phase::kRise:
-      return "rise";
-    case Phase::kHold:
-      return "hold";
-    case Phase::kFall:
-      return "fall";
-    case Phase::kRest:
-      break;
-  }
-  return "rest";
-}
-
 std::vector<Function> FunctionsOf(const Run& run, const std::vector<double>& model_pa) {
   const std::vector<PhaseSpan> phases = PhasesOf(run);
   const std::size_t count = run.t_s.size();

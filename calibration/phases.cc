@@ -26,6 +26,20 @@ Phase ClosedPhase(const std::vector<PhaseSpan>& before, bool pressurised) {
 
 }  // namespace
 
+const char* Name(Phase phase) {
+  switch (phase) {
+    case Phase::kRise:
+      return "rise";
+    case Phase::kHold:
+      return "hold";
+    case Phase::kFall:
+      return "fall";
+    case Phase::kRest:
+      break;
+  }
+  return "rest";
+}
+
 std::vector<PhaseSpan> PhasesOf(const Run& run) {
   if (run.t_s.empty()) return {};
   const double operating = run.chamber.operating_pressure_pa - run.ambient.pressure_pa;

@@ -9,6 +9,8 @@
 
 namespace plenum::calibration {
 
+const char* Name(Phase phase);  // "rest", "rise", "hold", "fall"
+
 struct PhaseSpan {
   Phase phase = Phase::kRest;
   int cycle = 0;  // inflations begun before or with this phase, less one; 0 before the first

@@ -9,7 +9,7 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kPressureTolerance = 1e-5;  // the simulated cycles are good to 1e-6
+constexpr double kPressureTolerance = 1e-5;  // no finer than the simulated cycles
 constexpr double kVolumeTolerance = 1e-4;
 constexpr double kVolumeStep = 1.25;
 
@@ -24,7 +24,7 @@ class EffectSizing {
 
   Leaf AtVolume(double reservoir_m3) {
     const Trial trial = Try(reservoir_m3);
-    return Conclude(trial.excess <= 0.0 ? std::optional(trial.point) : std::nullopt);
+    return Conclude(trial.excess <= 0.0 ? std::optional(trial) : std::nullopt);
   }
 
   // Grows or shrinks from a volume until it is bracketed.
@@ -39,10 +39,10 @@ class EffectSizing {
       }
       if (trial.excess > 0.0 || stopped_) return Conclude(std::nullopt);
     }
-    std::optional<OperatingPoint> best = trial.point;
+    std::optional<Trial> best = trial;
     const auto excess = [&](double volume_m3) {
       const Trial tried = Try(volume_m3);
-      if (!stopped_ && tried.excess <= 0.0) best = tried.point;
+      if (!stopped_ && tried.excess <= 0.0) best = tried;
       return stopped_ ? 0.0 : tried.excess;
     };
     while (low_m3 == high_m3 && low_m3 > model::kMadeReservoirSmallestM3 && !stopped_) {
@@ -57,6 +57,7 @@ class EffectSizing {
   struct Trial {
     OperatingPoint point;
     double excess = kUnlimited;  // −1 times the smallest margin
+    double objective = kUnlimited;
   };
 
   // At the lowest pressure that drives the strokes.
@@ -71,21 +72,21 @@ class EffectSizing {
     if (window_.empty() || excess(window_.high_pa) > 0.0) return trial;
     trial.point.source_pa =
         SmallestFeasible(excess, window_.low_pa, window_.high_pa, kPressureTolerance);
-    if (!stopped_)
-      trial.excess = -SmallestMargin(problem_, candidate_, trial.point,
-                                     Evaluate(problem_, candidate_, trial.point));
+    if (stopped_) return trial;
+    const Evaluation evaluation = Evaluate(problem_, candidate_, trial.point);
+    trial.excess = -SmallestMargin(problem_, candidate_, trial.point, evaluation);
+    trial.objective = ObjectiveValue(problem_, candidate_, trial.point, evaluation);
     return trial;
   }
 
-  Leaf Conclude(const std::optional<OperatingPoint>& point) const {
+  Leaf Conclude(const std::optional<Trial>& best) const {
     Leaf leaf;
-    leaf.status = point      ? LeafStatus::kFeasible
+    leaf.status = best       ? LeafStatus::kFeasible
                   : stopped_ ? LeafStatus::kUndecided
                              : LeafStatus::kInfeasible;
-    if (!point) return leaf;
-    leaf.point = *point;
-    leaf.objective =
-        ObjectiveValue(problem_, candidate_, *point, Evaluate(problem_, candidate_, *point));
+    if (!best) return leaf;
+    leaf.point = best->point;
+    leaf.objective = best->objective;
     return leaf;
   }
 

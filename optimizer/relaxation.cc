@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace plenum::optimizer {
 namespace {
@@ -40,8 +41,13 @@ const Margin* Find(const std::vector<Margin>& margins, const std::string& requir
 
 }  // namespace
 
+Problem WithoutEffects(Problem problem) {
+  for (ActuatorGroup& group : problem.groups) group.effects.clear();
+  return problem;
+}
+
 Problem Guide(const Problem& problem, const Design& nominal, const std::vector<Margin>& revised) {
-  Problem guide = problem;
+  Problem guide = WithoutEffects(problem);
   // What the requirement's quantity becomes for one of the base model; 1 where it is not limited.
   const auto ratio = [&](const std::string& requirement) {
     const Margin* before = Find(nominal.margins, requirement);
@@ -53,7 +59,6 @@ Problem Guide(const Problem& problem, const Design& nominal, const std::vector<M
     const std::string pointer = "/actuators/" + std::to_string(g);
     group.rise_time_max_s *= kGuideRoom / ratio(pointer + "/rise_time_s_max");
     group.fall_time_max_s *= kGuideRoom / ratio(pointer + "/fall_time_s_max");
-    group.effects.clear();
   }
   guide.actuations /= kGuideRoom * ratio("/duty/actuations");
   return guide;
@@ -76,9 +81,8 @@ Problem Relaxed(const Problem& problem) {
         group.fall_time_max_s = Less(group.fall_time_max_s, effect.parameters.front());
       }
     }
-    group.effects.clear();
   }
-  return relaxed;
+  return WithoutEffects(std::move(relaxed));
 }
 
 bool RelaxationIsProved(const Problem& problem) {

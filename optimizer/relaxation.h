@@ -26,6 +26,9 @@ Problem Relaxed(const Problem& problem);
 // problem are likely to be good ones. It bounds nothing.
 Problem Guide(const Problem& problem, const Design& nominal, const std::vector<Margin>& revised);
 
+// The problem of the base model.
+Problem WithoutEffects(Problem problem);
+
 // Whether every effect is of the kinds for which that is proved.
 bool RelaxationIsProved(const Problem& problem);
 

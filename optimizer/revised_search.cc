@@ -73,10 +73,9 @@ class Revision {
   // The nominal list comes first: its designs may still do. How the best of them fares says where
   // good designs are.
   std::optional<Problem> TryNominal() {
-    Problem nominal = problem_;
-    for (ActuatorGroup& group : nominal.groups) group.effects.clear();
     const double until_s = Seconds() + kNominalShare * Left();
-    const Answer list = Enumerate(nominal, problem_.count, 0.5 * (until_s - Seconds()));
+    const Answer list =
+        Enumerate(WithoutEffects(problem_), problem_.count, 0.5 * (until_s - Seconds()));
     if (list.designs.empty()) return std::nullopt;
     Assess(list, until_s);
     const auto margins = MarginsOf(problem_, relaxed_, list.designs.front());
