@@ -282,8 +282,9 @@ class Search {
     RunJobs(jobs, from, from + 0.2, size == 2 ? "pairs of effects" : "triples of effects");
   }
 
-  // Every set that differs from this one in one member.
-  void Exchange(const Set& set) {
+  // Every set that differs from this one in one member. By value, here and in Finish: the
+  // contenders that it comes from move.
+  void Exchange(Set set) {
     std::vector<Job> jobs;
     for (const Spec out : set) {
       Set rest;
@@ -347,7 +348,7 @@ class Search {
   }
 
   // Fits of the chosen set and its rivals to the last digit, then all in the order of BIC.
-  void Finish(const Set& chosen) {
+  void Finish(Set chosen) {
     Report(0.92, "final fits");
     FitOptions tight = fit_options_;
     tight.noise_share = 1e-3;
