@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "calibration/thresholds.h"
@@ -45,6 +46,13 @@ bool HoldsId(const Set& set, std::string_view id) {
   return std::any_of(set.begin(), set.end(), [&](Spec spec) { return spec->id == id; });
 }
 
+// Effects that shift strokes in time, as a clock does.
+bool ActsInTime(const model::EffectSpec& spec) {
+  for (const std::string_view id : {"valve_delay", "valve_ramp", "sensor_lag", "line_dynamics"})
+    if (spec.id == id) return true;
+  return false;
+}
+
 // Runs work(i) for all i below count on several threads.
 void ForAll(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;
@@ -69,36 +77,18 @@ class Search {
   }
 
   SearchResult Run() {
-    FitBase();
-    if (ClocksAreAll()) {
+    std::optional<std::size_t> chosen = Grow();
+    if (!chosen) {  // again, with each run's clock fitted
       result_.data.clocks = true;
       result_.contenders.clear();
-      FitBase();
+      chosen = Grow();
     }
-    FitSingles();
-    if (!result_.data.clocks && ClocksAreOff(Base(), BestOfSize(1))) {
-      result_.data.clocks = true;
-      result_.contenders.clear();
-      FitBase();
-      FitSingles();
-    }
-    std::size_t chosen = Best(0);
-    for (int size = 1; size <= kEffectsMax && !Cancelled(); ++size) {
-      if (size > 1) {
-        if (enough_(Of(chosen).fit)) break;
-        if (size > 2 && LeftShare(Of(chosen)) > kEstablished) break;
-        ExtendSets(Seeds(size - 1), size);
-      }
-      const Contender* best = BestOfSize(size);
-      if (!best || !(best->fit.bic < Of(chosen).fit.bic - kAccept)) break;
-      chosen = IndexOf(*best);
-    }
-    if (Of(chosen).effects.size() > 1u && LeftShare(Of(chosen)) < kEstablished && !Cancelled()) {
-      const int size = static_cast<int>(Of(chosen).effects.size());
-      Exchange(Of(chosen).effects);
+    if (Of(*chosen).effects.size() > 1u && LeftShare(Of(*chosen)) < kEstablished && !Cancelled()) {
+      const int size = static_cast<int>(Of(*chosen).effects.size());
+      Exchange(Of(*chosen).effects);
       chosen = Best(size);
     }
-    Finish(Of(chosen).effects);
+    Finish(static_cast<int>(Of(*chosen).effects.size()));
     return std::move(result_);
   }
 
@@ -108,6 +98,26 @@ class Search {
     ModelState start;
     Fit fit;
   };
+
+  // Sets forwards from the base model, and the best of them; none where the clocks are found off.
+  std::optional<std::size_t> Grow() {
+    FitBase();
+    if (ClocksExplain(0)) return {};
+    FitSingles();
+    std::size_t chosen = 0;
+    for (int size = 1; size <= kEffectsMax && !Cancelled(); ++size) {
+      if (size > 1) {
+        if (enough_(Of(chosen).fit)) break;
+        if (ClocksExplain(chosen)) return {};
+        if (size > 2 && LeftShare(Of(chosen)) > kEstablished) break;
+        ExtendSets(Seeds(size - 1), size);
+      }
+      const Contender* best = BestOfSize(size);
+      if (!best || !(best->fit.bic < Of(chosen).fit.bic - kAccept)) break;
+      chosen = IndexOf(*best);
+    }
+    return chosen;
+  }
 
   const Contender& Of(std::size_t i) const { return result_.contenders[i]; }
   const Contender& Base() const { return result_.contenders.front(); }
@@ -312,43 +322,39 @@ class Search {
     return state;
   }
 
-  // Whether clocks that are off leave nothing else to explain, and not for a common delay.
-  bool ClocksAreAll() {
-    if (!ClocksAreOff(Base(), nullptr)) return false;
-    FitData data = result_.data;
-    data.clocks = true;
-    if (!enough_(FitModel(data, Base().fit.state, fit_options_))) return false;
-    Contender delayed = Base();
-    delayed.fit.state.effects.push_back(
-        EffectStarts(*model::FindEffect("valve_delay"), data.sizes).front());
-    delayed.fit = FitModel(result_.data, delayed.fit.state, fit_options_);
-    return ClocksAreOff(delayed, nullptr);
-  }
-
-  // Whether clocks that are off explain more than what a common delay or any single effect does.
-  bool ClocksAreOff(const Contender& base, const Contender* single) {
-    if (Cancelled() || !base.fit.Usable()) return false;
+  // Whether clocks that are off explain what a set leaves better than one effect more that acts in
+  // time does. Beside no effects they must leave nothing else: effects of many kinds shift a rise.
+  bool ClocksExplain(std::size_t set) {
+    if (result_.data.clocks || Cancelled() || !Of(set).fit.Usable()) return false;
     FitData data = result_.data;
     data.clocks = true;
     FitOptions options = fit_options_;
     options.threads = options_.threads;
-    const auto gain = [&](const Contender& contender) {
-      const Fit with = FitModel(data, contender.fit.state, options);
-      const double cost = std::log(static_cast<double>(with.rows));
-      const auto clocks = std::count_if(
-          with.coordinates.begin(), with.coordinates.end(), [](const Coordinate& coordinate) {
-            return coordinate.parameter.kind == Parameter::Kind::kClock;
-          });
-      return with.Usable() ? contender.fit.bic - with.bic - static_cast<double>(clocks) * cost
-                           : -1.0;
-    };
-    // Beside the best single effect: what a delay explains is not the clocks' doing.
-    const bool accepted = single && single->fit.bic < base.fit.bic - kAccept;
-    return gain(accepted ? *single : base) > kClock;
+    const Fit with = FitModel(data, Of(set).fit.state, options);
+    if (!with.Usable()) return false;
+    const auto clocks = std::count_if(with.coordinates.begin(), with.coordinates.end(),
+                                      [](const Coordinate& coordinate) {
+                                        return coordinate.parameter.kind == Parameter::Kind::kClock;
+                                      });
+    const double bic =
+        with.bic + static_cast<double>(clocks) * std::log(static_cast<double>(with.rows));
+    if (!(bic < Of(set).fit.bic - kClock)) return false;
+    if (set == 0 && !enough_(with)) return false;
+    std::vector<Job> jobs;
+    const Contender from = Of(set);
+    for (const Spec spec : NamedEffects())
+      if (ActsInTime(*spec)) AddJobs(from, spec, jobs);
+    RunJobs(jobs, 0.05, 0.1, "clocks");
+    return std::none_of(
+        result_.contenders.begin(), result_.contenders.end(), [&](const Contender& other) {
+          return other.effects.size() == from.effects.size() + 1 && other.fit.Usable() &&
+                 Contains(other, from) && other.fit.bic < bic + kClock;
+        });
   }
 
-  // Fits of the chosen set and its rivals to the last digit, then all in the order of BIC.
-  void Finish(Set chosen) {
+  // The best sets of each size up to the one that the search came to are fitted to the last digit;
+  // then the choice is made again, because a fit cut short may have made a larger set look needed.
+  void Finish(int size_max) {
     Report(0.92, "final fits");
     FitOptions tight = fit_options_;
     tight.noise_share = 1e-3;
@@ -356,14 +362,16 @@ class Search {
     tight.function_tolerance = 1e-9;
     tight.iterations_max = 100;
     tight.threads = options_.threads;
-    const double best = Find(chosen)->fit.bic;
-    for (Contender& contender : result_.contenders) {
-      const bool rival = contender.effects.size() == chosen.size() && contender.fit.Usable() &&
-                         contender.fit.bic < best + 2.0 * kTie;
-      if (!rival && !contender.effects.empty()) continue;
-      Fit fit = FitModel(result_.data, contender.fit.state, tight);
-      if (fit.Usable() && fit.bic < contender.fit.bic + kSameOptimum)
-        contender.fit = std::move(fit);
+    for (int size = 0; size <= size_max; ++size) {
+      const double best = Of(Best(size)).fit.bic;
+      const double reach = size == size_max ? 2.0 * kTie : kSameOptimum;
+      for (Contender& contender : result_.contenders) {
+        if (contender.effects.size() != static_cast<std::size_t>(size)) continue;
+        if (!contender.fit.Usable() || contender.fit.bic > best + reach) continue;
+        Fit fit = FitModel(result_.data, contender.fit.state, tight);
+        if (fit.Usable() && fit.bic < contender.fit.bic + kSameOptimum)
+          contender.fit = std::move(fit);
+      }
     }
     std::stable_sort(result_.contenders.begin(), result_.contenders.end(),
                      [](const Contender& a, const Contender& b) {
@@ -373,10 +381,11 @@ class Search {
     result_.complete = !Cancelled();
     for (std::size_t i = 0; i < result_.contenders.size(); ++i)
       if (result_.contenders[i].effects.empty()) result_.base = i;
-    result_.chosen = 0;
-    for (std::size_t i = result_.contenders.size(); i-- > 0;) {
-      const Contender& contender = result_.contenders[i];
-      if (contender.effects.size() == chosen.size() && contender.fit.Usable()) result_.chosen = i;
+    result_.chosen = result_.base;
+    for (int size = 1; size <= size_max; ++size) {
+      const Contender* best = BestOfSize(size);
+      if (best && best->fit.bic < Of(result_.chosen).fit.bic - kAccept)
+        result_.chosen = IndexOf(*best);
     }
   }
 

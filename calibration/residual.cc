@@ -17,7 +17,7 @@ namespace {
 // The noise's memory is an estimate, and third differences cannot tell all of it being short from a
 // part of it being longer. A residual passes a test of structure if it does for any memory of at
 // most kRhoLongest that agrees with the growth of the differences within three standard errors.
-constexpr std::array kCorrelationErrors = {0.0, 1.5, -1.5, 3.0, -3.0};
+constexpr std::array kCorrelationErrors = {0.0, 0.75, -0.75, 1.5, -1.5, 2.25, -2.25, 3.0, -3.0};
 constexpr std::array kRhos = {0.0, 0.3, 0.45, 0.6,
                               0.75};  // of the part that remembers; 0: all of it
 constexpr double kCorrelationMax = 0.98;
@@ -106,7 +106,8 @@ std::vector<double> Residual(const FittedRun& fitted) {
     if (fitted.model_pa[i] > fitted.noise.clip_high_pa - margin_pa ||
         fitted.model_pa[i] < fitted.noise.clip_low_pa + margin_pa)
       residual[i] = std::numeric_limits<double>::quiet_NaN();
-  for (const auto* dropped : {&fitted.noise.clipped, &fitted.noise.outliers})
+  for (const auto* dropped :
+       {&fitted.noise.near_end, &fitted.noise.clipped, &fitted.noise.outliers})
     for (const std::size_t i : *dropped) residual[i] = std::numeric_limits<double>::quiet_NaN();
   return residual;
 }
@@ -149,15 +150,7 @@ ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_nu
                                std::vector<InputCorrelation>* by_input) {
   ResidualReport report;
   std::vector<ResidualSeries> series;
-  double low_pa = -std::numeric_limits<double>::infinity(), high_pa = -low_pa;
-  for (const FittedRun& fitted :
-       runs) {  // one sensor: what one run shows of its range holds in all
-    low_pa = std::max(low_pa, fitted.noise.clip_low_pa);
-    high_pa = std::min(high_pa, fitted.noise.clip_high_pa);
-  }
-  for (FittedRun fitted : runs) {
-    fitted.noise.clip_low_pa = low_pa;
-    fitted.noise.clip_high_pa = high_pa;
+  for (const FittedRun& fitted : runs) {
     series.push_back({fitted.run, InNoise(fitted), fitted.model_pa, {}});
     for (PhaseResidual& phase : ResidualByPhase(*fitted.run, Residual(fitted)))
       report.phases.push_back(std::move(phase));
