@@ -322,8 +322,8 @@ class Search {
     return state;
   }
 
-  // Whether clocks that are off explain what a set leaves better than one effect more that acts in
-  // time does. Beside no effects they must leave nothing else: effects of many kinds shift a rise.
+  // Whether clocks that are off explain all that a set leaves, and better than one effect more that
+  // acts in time does. All, because effects of many kinds shift a rise.
   bool ClocksExplain(std::size_t set) {
     if (result_.data.clocks || Cancelled() || !Of(set).fit.Usable()) return false;
     FitData data = result_.data;
@@ -338,8 +338,7 @@ class Search {
                                       });
     const double bic =
         with.bic + static_cast<double>(clocks) * std::log(static_cast<double>(with.rows));
-    if (!(bic < Of(set).fit.bic - kClock)) return false;
-    if (set == 0 && !enough_(with)) return false;
+    if (!(bic < Of(set).fit.bic - kClock) || !enough_(with)) return false;
     std::vector<Job> jobs;
     const Contender from = Of(set);
     for (const Spec spec : NamedEffects())

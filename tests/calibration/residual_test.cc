@@ -157,6 +157,22 @@ TEST(Residual, RoundingToACoarseGridIsNoStructure) {
   }
 }
 
+// Rounding hides that the noise remembers: in the readings, not in what a right model leaves.
+TEST(Residual, NoiseThatRemembersBelowACoarseGridIsNoStructure) {
+  Alarms alarms;
+  const std::vector<double> t_s = EvenTimes(1600, 0.005);
+  constexpr int kDraws = kSeeds / 20;
+  for (int seed = 0; seed < kDraws; ++seed) {
+    Case made = MakeCase(t_s, CorrelatedNoise(seed, t_s, -0.005 / std::log(0.7), 300.0));
+    for (double& y : made.run.pressure_pa) y = RoundTo(y + 10.0 * seed, 1000.0) - 10.0 * seed;
+    made.fitted.noise = EstimateNoise(ReadingsOf(made.run));
+    EXPECT_TRUE(made.fitted.noise.staircase);
+    alarms.Count(Assess(made));
+  }
+  EXPECT_LE(alarms.white, 1 + kDraws / 50);
+  EXPECT_LE(alarms.inputs, 1 + kDraws / 50);
+}
+
 // What a model may lack, at about half the noise's size.
 struct Lack {
   std::string name;
