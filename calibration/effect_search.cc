@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -21,7 +22,8 @@ constexpr double kSameOptimum = 1.0;  // χ² apart
 // many steps; those near the best are then taken further.
 constexpr double kScreening = 1e-4;
 constexpr int kScreeningIterations = 12;
-constexpr double kNear = 20.0;   // of BIC
+constexpr double kNear = 20.0;  // of BIC
+constexpr double kNever = std::numeric_limits<double>::infinity(), kClocksAreAll = -kNever;
 constexpr int kTriplesFrom = 1;  // best pairs
 
 std::size_t Place(Spec spec) {
@@ -102,17 +104,19 @@ class Search {
   // Sets forwards from the base model, and the best of them; none where the clocks are found off.
   std::optional<std::size_t> Grow() {
     FitBase();
-    if (ClocksExplain(0)) return {};
-    FitSingles();
     std::size_t chosen = 0;
     for (int size = 1; size <= kEffectsMax && !Cancelled(); ++size) {
-      if (size > 1) {
-        if (enough_(Of(chosen).fit)) break;
-        if (ClocksExplain(chosen)) return {};
-        if (size > 2 && LeftShare(Of(chosen)) > kEstablished) break;
+      if (size > 1 && enough_(Of(chosen).fit)) break;
+      const double clocks_bic = WithClocks(chosen);
+      if (clocks_bic == kClocksAreAll) return {};
+      if (size > 2 && LeftShare(Of(chosen)) > kEstablished) break;
+      if (size == 1)
+        FitSingles();
+      else
         ExtendSets(Seeds(size - 1), size);
-      }
       const Contender* best = BestOfSize(size);
+      if (clocks_bic < std::min(best ? best->fit.bic : kNever, Of(chosen).fit.bic) - kClock)
+        return {};
       if (!best || !(best->fit.bic < Of(chosen).fit.bic - kAccept)) break;
       chosen = IndexOf(*best);
     }
@@ -322,33 +326,34 @@ class Search {
     return state;
   }
 
-  // Whether clocks that are off explain all that a set leaves, and better than one effect more that
-  // acts in time does. All, because effects of many kinds shift a rise.
-  bool ClocksExplain(std::size_t set) {
-    if (result_.data.clocks || Cancelled() || !Of(set).fit.Usable()) return false;
+  // BIC of a set with the runs' clocks fitted. kClocksAreAll where that leaves nothing, and one
+  // effect more that acts in time does not do as well: there is no need to try all effects.
+  double WithClocks(std::size_t set) {
+    if (result_.data.clocks || Cancelled() || !Of(set).fit.Usable()) return kNever;
     FitData data = result_.data;
     data.clocks = true;
     FitOptions options = fit_options_;
     options.threads = options_.threads;
     const Fit with = FitModel(data, Of(set).fit.state, options);
-    if (!with.Usable()) return false;
+    if (!with.Usable()) return kNever;
     const auto clocks = std::count_if(with.coordinates.begin(), with.coordinates.end(),
                                       [](const Coordinate& coordinate) {
                                         return coordinate.parameter.kind == Parameter::Kind::kClock;
                                       });
     const double bic =
         with.bic + static_cast<double>(clocks) * std::log(static_cast<double>(with.rows));
-    if (!(bic < Of(set).fit.bic - kClock) || !enough_(with)) return false;
+    if (!(bic < Of(set).fit.bic - kClock) || !enough_(with)) return bic;
     std::vector<Job> jobs;
     const Contender from = Of(set);
     for (const Spec spec : NamedEffects())
       if (ActsInTime(*spec)) AddJobs(from, spec, jobs);
     RunJobs(jobs, 0.05, 0.1, "clocks");
-    return std::none_of(
+    const bool rivalled = std::any_of(
         result_.contenders.begin(), result_.contenders.end(), [&](const Contender& other) {
           return other.effects.size() == from.effects.size() + 1 && other.fit.Usable() &&
                  Contains(other, from) && other.fit.bic < bic + kClock;
         });
+    return rivalled ? bic : kClocksAreAll;
   }
 
   // The best sets of each size up to the one that the search came to are fitted to the last digit;
