@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "api/limits.h"
 #include "api/text.h"
 #include "api/units.h"
 
@@ -95,7 +96,7 @@ model::Effect ReadParameters(Reader parameters, const std::string& id) {
 
 std::vector<model::Effect> ReadEffects(Reader& owner, std::span<const model::Effect> others) {
   std::vector<model::Effect> effects;
-  for (const Element& element : owner.List("effects", 0, 100)) {
+  for (const Element& element : owner.List("effects", 0, kEffectsMax)) {
     const std::size_t errors_before = owner.errors().size();
     Reader reader(element, owner.errors());
     const std::string id = ReadId(reader);

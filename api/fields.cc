@@ -25,7 +25,7 @@ Table ReadTable(Reader& owner, std::string_view list, std::size_t least, std::st
   Table table;
   Errors& errors = owner.errors();
   const std::size_t errors_before = errors.size();
-  for (const Element& element : owner.List(list, least, 1000)) {
+  for (const Element& element : owner.List(list, least, kTablePointsMax)) {
     Reader point(element, errors);
     const double x = point.Number(x_name, x_range);
     const double y = point.Number(y_name, y_range);

@@ -2,6 +2,7 @@
 #ifndef PLENUM_API_FIELDS_H_
 #define PLENUM_API_FIELDS_H_
 
+#include "api/limits.h"
 #include "api/reader.h"
 #include "model/air.h"
 #include "model/chamber.h"
@@ -10,7 +11,6 @@
 
 namespace plenum::api {
 
-inline constexpr std::size_t kGroupsMax = 16;
 inline constexpr int kCountMax = 64;
 inline constexpr double kGaugeMaxKpa = 5e4;           // sources, parts
 inline constexpr double kOperatingGaugeMaxKpa = 1e4;  // actuators

@@ -7,12 +7,14 @@
 #include <set>
 #include <utility>
 
+#include "api/limits.h"
 #include "api/text.h"
 
 namespace plenum::api {
 namespace {
 
-constexpr std::size_t kDepthMax = 64;
+// A name in an object and in the set of names that finds duplicates: two texts and a node of a tree.
+constexpr std::size_t kKeyBytes = 2 * sizeof(std::string) + 40;
 
 // Builds the document from the parser's events. Works by events rather than through the library's
 // own tree so that depth, duplicate keys and the digits of a number are seen as they are read.
@@ -29,11 +31,15 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     if (!std::isfinite(value)) return Fail("number " + Clip(digits) + " is not finite");
     return Put(value);
   }
-  bool string(string_t& value) override { return Put(std::move(value)); }
+  bool string(string_t& value) override {
+    bytes_ += sizeof(string_t) + value.size();
+    return Put(std::move(value));
+  }
   bool binary(binary_t&) override { return Fail("binary data is not JSON"); }
 
   bool start_object(std::size_t) override { return Open(Json::object()); }
   bool key(string_t& name) override {
+    bytes_ += kKeyBytes + 2 * name.size();  // of the member and of the set of names
     levels_.back().key = name;
     if (levels_.back().keys.insert(name).second) return true;
     return Fail("field " + Quoted(name) + " appears twice");
@@ -61,6 +67,10 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   };
 
   bool Put(Json value) {
+    bytes_ += sizeof(Json);
+    if (bytes_ > kJsonBytesMax)
+      return Fail("the document takes more than " + std::to_string(kJsonBytesMax) +
+                  " bytes of memory (json_memory_bytes_max)");
     if (levels_.empty()) {
       root_ = std::move(value);
     } else if (Level& level = levels_.back(); level.value.is_array()) {
@@ -72,8 +82,9 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     return true;
   }
   bool Open(Json value) {
-    if (levels_.size() >= kDepthMax)
-      return Fail("nested deeper than " + std::to_string(kDepthMax) + " levels");
+    if (levels_.size() >= kJsonDepthMax)
+      return Fail("nested deeper than " + std::to_string(kJsonDepthMax) + " levels (json_depth_max)");
+    bytes_ += sizeof(Json) + sizeof(std::vector<Json>);  // and what the heap adds
     levels_.push_back({std::move(value), {}, {}});
     return true;
   }
@@ -112,6 +123,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   std::vector<Level> levels_;
   std::optional<Error> error_;
   std::optional<std::size_t> position_;
+  std::size_t bytes_ = 0;
 };
 
 std::string Place(std::string_view text, std::size_t position) {

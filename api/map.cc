@@ -12,10 +12,7 @@
 namespace plenum::api {
 namespace {
 
-constexpr std::size_t kAxisMax = 1000;
-constexpr double kPointsMax = 100'000;
-constexpr double kPointsMaxCompressor = 2'000;  // each is simulated
-constexpr auto kTimeLimit = std::chrono::seconds(60);
+constexpr auto kTimeLimit = std::chrono::seconds(kMapSecondsMax);
 
 using Deadline = std::chrono::steady_clock::time_point;
 bool IsPast(Deadline deadline) { return std::chrono::steady_clock::now() > deadline; }
@@ -104,11 +101,11 @@ void ReadCompressorAxes(Reader& reader, Grid& grid) {
                   "reservoir_volume_normalised too");
     return;
   }
-  grid.compressor_flow = reader.Numbers("compressor_flow_normalised", kAxisMax, {0, 1e4});
-  grid.reservoir_volume = reader.Numbers("reservoir_volume_normalised", kAxisMax, {0.01, 1e6});
+  grid.compressor_flow = reader.Numbers("compressor_flow_normalised", kMapAxisMax, {0, 1e4});
+  grid.reservoir_volume = reader.Numbers("reservoir_volume_normalised", kMapAxisMax, {0.01, 1e6});
   grid.count = {1.0};
   if (!reader.Has("actuator_count")) return;
-  grid.count = reader.Numbers("actuator_count", kAxisMax, {1, kCountMax});
+  grid.count = reader.Numbers("actuator_count", kMapAxisMax, {1, kCountMax});
   for (const double count : grid.count)
     if (count != std::floor(count))
       reader.Fail("actuator_count", "must be whole numbers, not " + Decimal(count));
@@ -120,10 +117,10 @@ Parsed<Grid> ParseGrid(const Json& request) {
   Reader reader(request, "", errors);
   reader.Schema("map/1");
   reader.Text("name", "");
-  grid.source = reader.Numbers("source_pressure_ratio", kAxisMax, {1, 1000});
-  grid.operating = reader.Numbers("operating_pressure_ratio", kAxisMax, Above(1, 100));
-  grid.expansion = reader.Numbers("expansion_ratio", kAxisMax, {1, 50});
-  grid.critical = reader.Numbers("critical_ratio", kAxisMax, {0, 0.95});
+  grid.source = reader.Numbers("source_pressure_ratio", kMapAxisMax, {1, 1000});
+  grid.operating = reader.Numbers("operating_pressure_ratio", kMapAxisMax, Above(1, 100));
+  grid.expansion = reader.Numbers("expansion_ratio", kMapAxisMax, {1, 50});
+  grid.critical = reader.Numbers("critical_ratio", kMapAxisMax, {0, 0.95});
   ReadCompressorAxes(reader, grid);
   grid.fractions = ReadFractions(reader);
   reader.Finish();
@@ -134,7 +131,7 @@ Parsed<Grid> ParseGrid(const Json& request) {
   const bool has_compressor = !grid.count.empty();
   for (const auto* axis : {&grid.compressor_flow, &grid.reservoir_volume, &grid.count})
     if (has_compressor) points *= static_cast<double>(axis->size());
-  const double most = has_compressor ? kPointsMaxCompressor : kPointsMax;
+  const double most = has_compressor ? kMapPointsCompressorMax : kMapPointsMax;
   if (points > most)
     reader.FailHere("the grid must have at most " + Decimal(most) + " points" +
                     (has_compressor ? " with a compressor" : "") + ", not " + Decimal(points));

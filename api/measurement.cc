@@ -22,8 +22,6 @@ using calibration::LinePiece;
 using calibration::Run;
 using calibration::Supply;
 
-constexpr std::size_t kRunsMax = 1000;
-constexpr std::size_t kSamplesMax = 200'000;  // of a run
 constexpr std::size_t kElementsMax = 16;
 constexpr std::size_t kReadingsMin = 8;
 constexpr double kTimeMaxS = 1e6;
@@ -176,7 +174,7 @@ std::vector<double> ReadSeries(Reader& owner, const std::string& name, Range ran
                                std::size_t least) {
   std::vector<double> series;
   SeriesErrors errors(owner, name);
-  for (const Element& element : owner.List(name, least, kSamplesMax)) {
+  for (const Element& element : owner.List(name, least, kRunSamplesMax)) {
     const Json& value = *element.value;
     double number = kNaN;
     if (value.is_number()) {

@@ -6,14 +6,13 @@
 #include <set>
 #include <variant>
 
+#include "api/limits.h"
 #include "api/services.h"
 #include "api/text.h"
 #include "catalog/fields.h"
 
 namespace plenum::api {
 namespace {
-
-constexpr int kLimitMax = 1000;
 
 // Texts that every part has, beside its id.
 const char* const kCommonTexts[] = {"family", "manufacturer", "part_number", "origin"};
@@ -127,11 +126,11 @@ class QueryReader {
 
   void TakeLimit(const std::string& value) {
     const auto limit = Whole<int>(value);
-    if (limit && *limit >= 1 && *limit <= kLimitMax)
+    if (limit && *limit >= 1 && *limit <= kPageMax)
       result_.limit = *limit;
     else
       Fail("limit",
-           "must be an integer ≥ 1 and ≤ " + std::to_string(kLimitMax) + ", not " + Quoted(value));
+           "must be an integer ≥ 1 and ≤ " + std::to_string(kPageMax) + ", not " + Quoted(value));
   }
 
   void TakeCursor(const std::string& value) {

@@ -2,6 +2,7 @@
 #include <cctype>
 #include <string>
 
+#include "api/limits.h"
 #include "api/reader.h"
 #include "api/services.h"
 #include "api/text.h"
@@ -72,7 +73,7 @@ void ReadCurve(Reader& reader, catalog::Part& part) {
   if (!reader.Has("curve")) return;
   catalog::Curve curve;
   curve.free_air_source = curve.current_source = "user";
-  for (const Element& element : reader.List("curve", 1, 1000)) {
+  for (const Element& element : reader.List("curve", 1, kTablePointsMax)) {
     Reader point(element, reader.errors());
     curve.points.push_back({point.Number("pressure_kpa_gauge", {0, 5e4}),
                             point.Number("free_air_l_per_min", {0, 1e6}),

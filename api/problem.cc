@@ -2,25 +2,33 @@
 
 #include <algorithm>
 
+#include "api/limits.h"
+
 namespace plenum::api {
 namespace {
-
-constexpr std::size_t kErrorsMax = 100;
 
 const char* Title(int status) {
   switch (status) {
     case 400:
       return "Bad Request";
+    case 401:
+      return "Unauthorized";
+    case 403:
+      return "Forbidden";
     case 404:
       return "Not Found";
     case 405:
       return "Method Not Allowed";
+    case 408:
+      return "Request Timeout";
     case 409:
       return "Conflict";
     case 412:
       return "Precondition Failed";
     case 413:
       return "Content Too Large";
+    case 414:
+      return "URI Too Long";
     case 415:
       return "Unsupported Media Type";
     case 422:
@@ -29,6 +37,8 @@ const char* Title(int status) {
       return "Precondition Required";
     case 429:
       return "Too Many Requests";
+    case 431:
+      return "Request Header Fields Too Large";
     case 500:
       return "Internal Server Error";
     case 503:
@@ -50,11 +60,11 @@ Json ProblemDocument(int status, const Errors& errors) {
   Json document = Document(status);
   if (errors.empty()) return document;
   Json& list = document["errors"] = Json::array();
-  for (std::size_t i = 0; i < std::min(errors.size(), kErrorsMax); ++i)
+  for (std::size_t i = 0; i < std::min(errors.size(), kErrorsReportedMax); ++i)
     list.push_back({{"pointer", errors[i].pointer}, {"detail", errors[i].detail}});
-  if (errors.size() > kErrorsMax)
+  if (errors.size() > kErrorsReportedMax)
     list.push_back(
-        {{"pointer", ""}, {"detail", std::to_string(errors.size() - kErrorsMax) + " more errors"}});
+        {{"pointer", ""}, {"detail", std::to_string(errors.size() - kErrorsReportedMax) + " more errors"}});
   return document;
 }
 

@@ -6,13 +6,13 @@
 #include <set>
 #include <utility>
 
+#include "api/limits.h"
 #include "api/text.h"
 
 namespace plenum::api {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kTextMax = 200;
 
 std::string SizeText(std::size_t least, std::size_t most) {
   return "must be a list of " + std::to_string(least) + " to " + std::to_string(most) + " elements";
@@ -77,12 +77,12 @@ const Json* Reader::Required(std::string_view name) {
 
 double Reader::ReadNumber(const Json& value, const std::string& pointer, Range range) {
   if (!value.is_number()) {
-    errors_->push_back({pointer, "must be a number " + range.Text() + ", not " + KindOf(value)});
+    Report(pointer, "must be a number " + range.Text() + ", not " + KindOf(value));
     return kNaN;
   }
   const double number = value.get<double>();
   if (range.Contains(number)) return number;
-  errors_->push_back({pointer, "must be " + range.Text() + ", not " + Decimal(number)});
+  Report(pointer, "must be " + range.Text() + ", not " + Decimal(number));
   return kNaN;
 }
 
@@ -129,9 +129,9 @@ std::string Reader::Text(std::string_view name, std::optional<std::string> fallb
   }
   const std::string& text = value->get_ref<const std::string&>();
   const std::size_t length = CountCharacters(text);
-  if (length >= 1 && length <= kTextMax) return text;
+  if (length >= 1 && length <= kTextCharactersMax) return text;
   Fail(name,
-       "must have 1 to " + std::to_string(kTextMax) + " characters, not " + std::to_string(length));
+       "must have 1 to " + std::to_string(kTextCharactersMax) + " characters, not " + std::to_string(length));
   return "";
 }
 
@@ -184,9 +184,9 @@ std::vector<std::string> Reader::Texts(std::string_view name, std::size_t least,
   for (const Element& element : List(name, least, most)) {
     std::string text;
     if (!element.value->is_string())
-      errors_->push_back({element.pointer, "must be a text, not " + KindOf(*element.value)});
+      Report(element.pointer, "must be a text, not " + KindOf(*element.value));
     else if (text = element.value->get<std::string>(); !seen.insert(text).second)
-      errors_->push_back({element.pointer, Quoted(text) + " is listed twice"});
+      Report(element.pointer, Quoted(text) + " is listed twice");
     texts.push_back(std::move(text));  // keeps its place, so that an index is a pointer
   }
   return texts;
@@ -213,21 +213,28 @@ std::string Reader::Pointer(std::string_view name) const {
 }
 
 void Reader::Fail(std::string_view name, std::string detail) {
-  errors_->push_back({Pointer(name), std::move(detail)});
+  Report(Pointer(name), std::move(detail));
 }
 
 void Reader::FailAt(std::string_view path, std::string detail) {
-  errors_->push_back({pointer_ + "/" + std::string(path), std::move(detail)});
+  Report(pointer_ + "/" + std::string(path), std::move(detail));
 }
 
-void Reader::FailHere(std::string detail) { errors_->push_back({pointer_, std::move(detail)}); }
+bool Reader::Full() const { return errors_->size() >= kErrorsCollectedMax; }
+
+void Reader::Report(std::string pointer, std::string detail) {
+  if (!Full()) errors_->push_back({std::move(pointer), std::move(detail)});
+}
+
+void Reader::FailHere(std::string detail) { Report(pointer_, std::move(detail)); }
 
 void Reader::Finish() {
   for (const std::string& name : Names()) {
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+    if (Full()) return;
     const std::string nearest = Nearest(name, known_);
-    errors_->push_back({pointer_ + "/" + EscapePointer(Clip(name, 200)),
-                        "unknown field" + (nearest.empty() ? "" : "; nearest known: " + nearest)});
+    Report(pointer_ + "/" + EscapePointer(Clip(name, 200)),
+           "unknown field" + (nearest.empty() ? "" : "; nearest known: " + nearest));
   }
 }
 

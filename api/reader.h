@@ -83,6 +83,8 @@ class Reader {
   void Fail(std::string_view name, std::string detail);    // an error at the field
   void FailAt(std::string_view path, std::string detail);  // deeper: a path of plain steps
   void FailHere(std::string detail);                       // an error at the object itself
+  // Whether so many errors were found that no more are collected: time to stop looking.
+  bool Full() const;
 
   void Finish();
 
@@ -91,6 +93,7 @@ class Reader {
 
   // The field, or null after recording that it is missing.
   const Json* Required(std::string_view name);
+  void Report(std::string pointer, std::string detail);
   double ReadNumber(const Json& value, const std::string& pointer, Range range);
 
   const Json* object_ = nullptr;  // null: not an object, which has been reported

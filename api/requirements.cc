@@ -203,8 +203,8 @@ void ReadObjective(Reader& request, DesignRequest& parsed) {
 std::optional<double> ReadRanking(Reader& request, DesignRequest& parsed) {
   auto ranking = request.OptionalObject("ranking");
   if (!ranking) return std::nullopt;
-  parsed.problem.count = ranking->Integer("count", 1, 500, 20);
-  parsed.time_limit_s = ranking->Number("time_limit_s", {0.01, 3600}, 30.0);
+  parsed.problem.count = ranking->Integer("count", 1, kDesignsMax, 20);
+  parsed.time_limit_s = ranking->Number("time_limit_s", {0.01, kDesignSecondsMax}, 30.0);
   const auto probability_min = ranking->OptionalNumber("probability_min", {0, 1});
   parsed.proof = ranking->Bool("proof", false);
   ranking->Finish();

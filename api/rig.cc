@@ -12,7 +12,6 @@
 namespace plenum::api {
 namespace {
 
-constexpr std::size_t kCommandsMax = 100'000;
 constexpr double kTimeMaxS = 1e6;
 
 // A line under construction: elements are added from source to actuator.

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "api/limits.h"
 #include "api/text.h"
 
 namespace plenum::api {
@@ -76,8 +77,8 @@ void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
     for (const Family family : kFamilies) {
       const std::string name = optimizer::Name(family);
       if (!require->Has(name)) continue;
-      const std::vector<std::string> wanted = require->Texts(name, 1, 100'000);
-      for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const std::vector<std::string> wanted = require->Texts(name, 1, kExcludedMax);
+      for (std::size_t i = 0; i < wanted.size() && !require->Full(); ++i) {
         const std::string& id = wanted[i];
         const std::string place = name + "/" + std::to_string(i);
         if (id.empty() || (family == Family::kReservoir && id == kCustomReservoir)) continue;
@@ -93,8 +94,8 @@ void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
   }
 
   if (!request.Has("exclude")) return;
-  const std::vector<std::string> unwanted = request.Texts("exclude", 0, 100'000);
-  for (std::size_t i = 0; i < unwanted.size(); ++i)
+  const std::vector<std::string> unwanted = request.Texts("exclude", 0, kExcludedMax);
+  for (std::size_t i = 0; i < unwanted.size() && !request.Full(); ++i)
     if (const std::string& id = unwanted[i];
         !id.empty() && id != kCustomReservoir && !family_of.contains(id))
       request.FailAt("exclude/" + std::to_string(i), unknown(id));

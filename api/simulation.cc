@@ -14,10 +14,10 @@
 namespace plenum::api {
 namespace {
 
-constexpr double kSamplesMax = 200'000;
+constexpr double kSamplesMax = kSimulationSamplesMax;
 constexpr double kSampleHzDefault = 100;
 constexpr double kEndMaxS = 1e6;
-constexpr auto kTimeLimit = std::chrono::seconds(60);
+constexpr auto kTimeLimit = std::chrono::seconds(kSimulationSecondsMax);
 
 struct Simulation {
   model::Rig rig;

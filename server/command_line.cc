@@ -20,6 +20,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddDiagnoseCommand(app, status);
     AddCatalogCommand(app, status);
     AddServeCommand(app, status);
+    AddTokenCommand(app, status);
     app.parse(argc, argv);
     return status;
   } catch (const CLI::ParseError& error) {

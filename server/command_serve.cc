@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "server/command_options.h"
 #include "server/commands.h"
@@ -11,6 +13,8 @@
 #include "server/http.h"
 #include "server/input.h"
 #include "server/interrupt.h"
+#include "server/protection.h"
+#include "server/tokens.h"
 
 namespace plenum::server {
 namespace {
@@ -19,18 +23,21 @@ struct ServeOptions {
   std::string catalog = "catalog.db";
   std::string host = "127.0.0.1";
   int port = 8080;
+  std::vector<std::string> allow_hosts;
+  bool log = true;
 };
 
 std::unique_ptr<HttpService> Listen(const ServeOptions& options) {
-  if (!IsLoopback(options.host)) {
-    throw BadInput("--host: must be a loopback address (127.0.0.1, ::1, localhost), not \"" +
-                   options.host + "\"; for other machines put a reverse proxy in front");
-  }
   OpenCatalog(options.catalog, catalog::Access::kRead);  // says what is wrong with the file
   HttpOptions http;
   http.catalog = options.catalog;
   http.host = options.host;
   http.port = options.port;
+  http.allow_hosts = options.allow_hosts;
+  http.log = options.log;
+  if (NeedsToken(http) && ReadTokens(TokenFile(options.catalog)).empty())
+    throw BadInput("other machines can reach this service, so it needs tokens: make one with "
+                   "plenum token create");
   try {
     return std::make_unique<HttpService>(http);
   } catch (const ListenError& error) {
@@ -57,10 +64,13 @@ void Serve(const ServeOptions& options) {
 void AddServeCommand(CLI::App& app, int&) {
   auto options = std::make_shared<ServeOptions>();
   auto* command = app.add_subcommand("serve", "The HTTP service");
-  command->add_option("--host", options->host, "Loopback address")->capture_default_str();
+  command->add_option("--host", options->host, "Address; any but a loopback one needs tokens")->capture_default_str();
   command->add_option("--port", options->port, "0 takes any free one")
       ->capture_default_str()
       ->check(CLI::Range(0, 65535));
+  command->add_option("--allow-host", options->allow_hosts,
+                      "Name by which a proxy makes the service known; needs tokens");
+  command->add_flag("!--no-log", options->log, "No line a request on standard error");
   AddCatalogOption(*command, options->catalog);
   command->callback([options] { Serve(*options); });
 }

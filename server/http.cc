@@ -1,79 +1,101 @@
 #include "server/http.h"
 
-#include <arpa/inet.h>
 #include <httplib.h>
+#include <malloc.h>
+#include <sys/socket.h>
 
-#include <cstdio>
+#include <atomic>
+#include <chrono>
 #include <thread>
 
+#include "api/problem.h"
+#include "server/connections.h"
 #include "server/limits.h"
+#include "server/request_log.h"
 #include "server/routes.h"
 
 namespace plenum::server {
 namespace {
 
-// httplib decides from the request's headers how it reads a body and compresses an answer, and
-// gives handlers a const view of a request that is not const.
-httplib::Headers& MutableHeaders(const httplib::Request& request) {
-  return const_cast<httplib::Request&>(request).headers;
-}
+using Clock = std::chrono::steady_clock;
 
-// The name in an Origin such as "http://localhost:8080".
-std::string HostOf(const std::string& origin) {
-  auto start = origin.find("://");
-  start = start == std::string::npos ? 0 : start + 3;
-  if (origin.compare(start, 1, "[") == 0) {
-    return origin.substr(start + 1, origin.find(']', start) - start - 1);
+constexpr int kListenBacklog = 1024;
+
+
+// One request's bytes to read from and its connection to write to.
+class RequestStream : public httplib::Stream {
+ public:
+  RequestStream(const Incoming& request, Outgoing& out) : request_(request), out_(out) {}
+
+  bool is_readable() const override { return read_ < request_.head.size(); }
+  bool is_writable() const override { return out_.Flush(); }
+  ssize_t read(char* to, std::size_t size) override {
+    const std::size_t n = request_.head.copy(to, size, read_);
+    read_ += n;
+    return static_cast<ssize_t>(n);
   }
-  return origin.substr(start, origin.find(':', start) - start);
-}
+  ssize_t write(const char* from, std::size_t size) override {
+    out_.Write({from, size});
+    return static_cast<ssize_t>(size);
+  }
+  void get_remote_ip_and_port(std::string& ip, int& port) const override {
+    ip = request_.peer;
+    port = 0;
+  }
+  void get_local_ip_and_port(std::string& ip, int& port) const override {
+    ip.clear();
+    port = 0;
+  }
+  socket_t socket() const override { return 0; }  // there is nothing to select on
 
-enum class BodyStatus { kRead, kTooLarge, kEncoded, kBroken };
-struct Body {
-  BodyStatus status = BodyStatus::kRead;
-  std::string text;
-  bool at_end = true;  // nothing of the body is left in the connection
+ private:
+  const Incoming& request_;
+  Outgoing& out_;
+  std::size_t read_ = 0;
 };
 
-Body ReadBody(const httplib::Request& request, const httplib::ContentReader* reader) {
-  Body body;
-  const bool has_body =
-      request.has_header("Transfer-Encoding") ||
-      (request.has_header("Content-Length") && request.get_header_value("Content-Length") != "0");
-  if (!reader || !has_body) return body;
-  // Read as it comes: never inflated, never taken apart as a form.
-  if (request.has_header("Content-Encoding") || request.is_multipart_form_data()) {
-    body.status = BodyStatus::kEncoded;
-    MutableHeaders(request).erase("Content-Encoding");
-    MutableHeaders(request).erase("Content-Type");
+// httplib reads heads and writes answers; connections and bodies never reach it.
+class Protocol : public httplib::Server {
+ public:
+  std::function<void(int socket)> admit;
+
+  // Answers one request; false when its connection is to be closed.
+  bool Answer(Incoming request, Outgoing& out) {
+    RequestStream stream(request, out);
+    bool closed = request.is_last;
+    const auto set_body = [&](httplib::Request& parsed) {
+      parsed.body = std::move(request.body);
+      // "100 Continue" was said when the body was missing.
+      parsed.headers.erase("Expect");
+      parsed.headers.erase("Accept-Encoding");
+      parsed.headers.erase("Range");
+    };
+    return process_request(stream, request.is_last, closed, set_body) && !closed;
   }
-  std::size_t size = 0;
-  body.at_end = (*reader)([&](const char* data, std::size_t length) {
-    size += length;
-    if (body.status == BodyStatus::kRead && size > kBodyBytesMax) {
-      body.status = BodyStatus::kTooLarge;
-      body.text = {};
-    }
-    if (body.status == BodyStatus::kRead) body.text.append(data, length);
-    return size <= kBodyBytesRead;
-  });
-  if (!body.at_end && body.status == BodyStatus::kRead) body.status = BodyStatus::kBroken;
-  return body;
+
+  // Beyond httplib's five connections that may wait to be accepted.
+  void WidenBacklog() { ::listen(svr_sock_, kListenBacklog); }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override {
+    admit(socket);
+    return true;
+  }
+};
+
+// Runs what it is given at once: accepting a connection only hands it over.
+class AtOnce : public httplib::TaskQueue {
+ public:
+  void enqueue(std::function<void()> task) override { task(); }
+  void shutdown() override {}
+};
+
+std::string StatusLine(int status) {
+  return "HTTP/1.1 " + std::to_string(status) + " " +
+         api::ProblemDocument(status, "")["title"].get<std::string>() + "\r\n";
 }
 
-// Sends the reply and then closes the connection: a provider that fails after its last byte is the
-// way to tell httplib so. Needed where unread bytes would be taken for the next request.
-void SendAndClose(const Reply& reply, httplib::Response& response) {
-  response.set_header("Connection", "close");
-  response.set_content_provider(
-      reply.body.size(), reply.content_type,
-      [text = reply.body](std::size_t, std::size_t, httplib::DataSink& sink) {
-        sink.write(text.data(), text.size());
-        return false;
-      });
-}
-
-void Send(const Reply& reply, httplib::Response& response, bool close) {
+void Send(const Reply& reply, httplib::Response& response) {
   response.status = reply.status;
   for (const auto& [name, value] : reply.headers) response.set_header(name.c_str(), value);
   if (reply.stream) {
@@ -85,155 +107,163 @@ void Send(const Reply& reply, httplib::Response& response, bool close) {
           if (!stream(write)) sink.done();
           return sink.is_writable();
         });
-  } else if (close) {
-    SendAndClose(reply, response);
   } else if (!reply.content_type.empty() && !reply.body.empty()) {
     response.set_content(reply.body, reply.content_type);
   }
 }
 
-Call ToCall(const httplib::Request& request, std::string argument, std::string body) {
-  return {std::move(argument), request.params,
-          [&request](const char* name) -> std::optional<std::string> {
-            if (!request.has_header(name)) return std::nullopt;
-            return request.get_header_value(name);
-          },
-          std::move(body), request.path};
+Header HeadersOf(const httplib::Request& request) {
+  return [&request](const char* name) -> std::optional<std::string> {
+    if (!request.has_header(name)) return std::nullopt;
+    return request.get_header_value(name);
+  };
+}
+
+// The log gets all of it, the client what it can act on.
+Reply FaultReply(const httplib::Request& request, const std::exception_ptr& fault) {
+  std::string what = "unknown";
+  auto store_fault = catalog::StoreFault::kOther;
+  try {
+    std::rethrow_exception(fault);
+  } catch (const catalog::StoreError& error) {
+    what = error.what();
+    store_fault = error.fault();
+  } catch (const std::exception& error) {
+    what = error.what();
+  } catch (...) {
+  }
+  Log({{"level", "error"}, {"method", request.method}, {"path", request.path}, {"fault", what}});
+  if (store_fault == catalog::StoreFault::kStorage)
+    return ProblemReply(507,
+                        "the catalogue cannot be written or read: its disk is full or fails; "
+                        "nothing was changed");
+  if (store_fault == catalog::StoreFault::kOther)
+    return ProblemReply(500, "a fault of the program; its log says more");
+  auto reply = ProblemReply(503, "another process holds the catalogue; nothing was changed");
+  reply.headers.emplace_back("Retry-After", "5");
+  return reply;
+}
+
+// What a refusal by RequestFrame is worth in numbers.
+api::Json ValueOf(const std::string& limit, const JobOptions& jobs) {
+  return RenderLimits(jobs).value(limit, api::Json());
 }
 
 }  // namespace
 
-bool IsLoopback(const std::string& host) {
-  if (host == "localhost" || host == "::1") return true;
-  in_addr address{};
-  return inet_pton(AF_INET, host.c_str(), &address) == 1 && ntohl(address.s_addr) >> 24 == 127;
+bool NeedsToken(const HttpOptions& options) {
+  return !IsLoopback(options.host) || !options.allow_hosts.empty();
 }
 
 struct HttpService::Impl {
-  explicit Impl(const HttpOptions& options)
-      : catalog(options.catalog),
-        designs(options.jobs),
-        diagnoses(options.jobs),
-        routes(Routes(catalog, designs, diagnoses)) {
-    SetLimits();
-    SetHandlers();
+  explicit Impl(const HttpOptions& given)
+      : options(given),
+        tokens(TokenFile(given.catalog)),
+        catalog(given.catalog),
+        designs(given.jobs),
+        diagnoses(given.jobs),
+        routes(Routes({catalog, designs, diagnoses, metrics, given.jobs,
+                       given.catalog,
+                       [this] { MeasureConnections(); }})),
+        connections(
+            [this](Incoming request, Outgoing& out) {
+              return protocol.Answer(std::move(request), out);
+            },
+            [this](const Refusal& refusal, const std::string& peer) {
+              return RefusalText(refusal, peer);
+            }) {
+    // Large blocks go back to the system when they are freed.
+    mallopt(M_MMAP_THRESHOLD, 256 << 10);
+    mallopt(M_ARENA_MAX, 4);
+    if (options.host != "localhost" && !IsLoopback(options.host))
+      options.allow_hosts.push_back(options.host);
+    SetUp();
     const bool any = options.port == 0;
-    const int bound = any ? server.bind_to_any_port(options.host)
-                      : server.bind_to_port(options.host, options.port) ? options.port
-                                                                        : -1;
-    if (bound <= 0) {
+    port = any ? protocol.bind_to_any_port(options.host)
+               : protocol.bind_to_port(options.host, options.port) ? options.port
+                                                                   : -1;
+    if (port <= 0) {
       throw ListenError("cannot listen at " + options.host + " port " +
                         std::to_string(options.port) + ": is it taken by another program?");
     }
-    port = bound;
+    protocol.WidenBacklog();
   }
 
-  void SetLimits() {
-    server.set_tcp_nodelay(true);
-    server.new_task_queue = [] { return new httplib::ThreadPool(kRequestThreads); };
-    server.set_keep_alive_max_count(1000);
+  void SetUp() {
+    protocol.admit = [this](int socket) { connections.Admit(socket); };
+    protocol.new_task_queue = [] { return new AtOnce; };
+    protocol.set_keep_alive_timeout(kIdleSecondsMax);
+    protocol.set_tcp_nodelay(true);
     // The default shares a port with whoever listens there already.
-    server.set_socket_options([](socket_t socket) {
+    protocol.set_socket_options([](socket_t socket) {
       const int on = 1;
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     });
-  }
-
-  void SetHandlers() {
-    server.set_pre_routing_handler([](const auto& request, auto& response) {
-      MutableHeaders(request).erase("Accept-Encoding");
-      MutableHeaders(request).erase("Range");
-      if (request.path.size() > kPathBytesMax) {
-        Send(ProblemReply(414, "the path must be ≤ 1024 bytes"), response, true);
-        return httplib::Server::HandlerResponse::Handled;
-      }
-      return httplib::Server::HandlerResponse::Unhandled;
-    });
-    server.set_exception_handler([](const auto& request, auto& response, std::exception_ptr fault) {
-      Send(FaultReply(request, fault), response, true);
+    protocol.set_pre_routing_handler([this](const auto& request, auto& response) {
+      Answer(request, response);
+      return httplib::Server::HandlerResponse::Handled;
     });
     // What httplib itself refuses has no body yet.
-    server.set_error_handler([](const auto&, auto& response) {
+    protocol.set_error_handler([](const auto&, auto& response) {
       if (!response.body.empty() || response.content_provider_) return;
-      Send(ProblemReply(response.status, "the request could not be read"), response, false);
+      Send(ProblemReply(response.status, "the request could not be read"), response);
     });
-    const std::string all = R"([\s\S]*)";
-    const auto without_body = [this](const auto& request, auto& response) {
-      Answer(request, response, nullptr);
-    };
-    const auto with_body = [this](const auto& request, auto& response, const auto& reader) {
-      Answer(request, response, &reader);
-    };
-    server.Get(all, without_body);
-    server.Options(all, without_body);
-    server.Post(all, httplib::Server::HandlerWithContentReader(with_body));
-    server.Put(all, httplib::Server::HandlerWithContentReader(with_body));
-    server.Patch(all, httplib::Server::HandlerWithContentReader(with_body));
-    server.Delete(all, httplib::Server::HandlerWithContentReader(with_body));
   }
 
-  // The log gets all of it, the client what it can act on.
-  static Reply FaultReply(const httplib::Request& request, const std::exception_ptr& fault) {
-    std::string what = "unknown";
-    auto store_fault = catalog::StoreFault::kOther;
+  void Answer(const httplib::Request& request, httplib::Response& response) {
+    const auto start = Clock::now();
+    const std::size_t bytes_in = request.body.size();
+    std::string route = "none", user;
+    Reply reply;
     try {
-      std::rethrow_exception(fault);
-    } catch (const catalog::StoreError& error) {
-      what = error.what();
-      store_fault = error.fault();
-    } catch (const std::exception& error) {
-      what = error.what();
+      reply = Respond(request, route, user);
     } catch (...) {
+      reply = FaultReply(request, std::current_exception());
     }
-    std::fprintf(stderr, "%s %s: %s\n", request.method.c_str(), request.path.c_str(), what.c_str());
-    if (store_fault == catalog::StoreFault::kStorage)
-      return ProblemReply(507,
-                          "the catalogue cannot be written or read: its disk is full or fails; "
-                          "nothing was changed");
-    if (store_fault == catalog::StoreFault::kOther)
-      return ProblemReply(500, "a fault of the program; its log says more");
-    auto reply = ProblemReply(503, "another process holds the catalogue; nothing was changed");
-    reply.headers.emplace_back("Retry-After", "5");
-    return reply;
+    Send(reply, response);
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    metrics.Count(request.method, route, reply.status, seconds, bytes_in, reply.body.size());
+    if (bytes_in > kLargeBodyBytes) malloc_trim(0);
+    if (!options.log) return;
+    Log({{"level", "info"},
+         {"peer", request.remote_addr},
+         {"user", user},
+         {"method", request.method},
+         {"path", request.path.substr(0, kPathBytesMax)},
+         {"route", route},
+         {"status", reply.status},
+         {"bytes_in", bytes_in},
+         {"bytes_out", reply.body.size()},
+         {"seconds", api::Number(seconds)}});
   }
 
-  void Answer(const httplib::Request& request, httplib::Response& response,
-              const httplib::ContentReader* reader) {
-    Body body = ReadBody(request, reader);
-    response.status = -1;  // set by httplib when the reader stopped
-    const Reply reply = Respond(request, body);
-    Send(reply, response, !body.at_end);
-  }
+  // Sets the pattern of the route that answers, and whose token was shown.
+  Reply Respond(const httplib::Request& request, std::string& route, std::string& user) {
+    const Header header = HeadersOf(request);
+    if (auto refused = RefuseForeign(header, options.allow_hosts)) return *std::move(refused);
+    if (request.path.size() > kPathBytesMax)
+      return LimitReply(414, "path_bytes_max", kPathBytesMax, "the path is too long");
+    if (request.has_header("Content-Encoding") || request.is_multipart_form_data())
+      return ProblemReply(415, "send the body itself: no Content-Encoding, no form");
 
-  Reply Respond(const httplib::Request& request, Body& body) {
-    switch (body.status) {
-      case BodyStatus::kTooLarge:
-        return ProblemReply(413, "the body must be ≤ 8 MiB");
-      case BodyStatus::kEncoded:
-        return ProblemReply(415, "send the body itself: no Content-Encoding, no form");
-      case BodyStatus::kBroken:
-        return ProblemReply(400, "the body ended early or is not well-formed");
-      case BodyStatus::kRead:
-        break;
-    }
-    // A page of another site may not act on the service through its user's browser.
-    const std::string origin = request.get_header_value("Origin");
-    if (!origin.empty() && !IsLoopback(HostOf(origin))) {
-      return ProblemReply(403, "requests from pages of another site are refused");
-    }
-    return Dispatch(request, std::move(body.text));
-  }
-
-  Reply Dispatch(const httplib::Request& request, std::string body) {
     const std::string method = request.method == "HEAD" ? "GET" : request.method;
     std::string allowed;
-    for (const auto& route : routes) {
+    for (const Route& candidate : routes) {
       std::string argument;
-      if (!Matches(route, request.path, argument)) continue;
-      if (route.method == method) {
-        return route.answer(ToCall(request, std::move(argument), std::move(body)));
+      if (!Matches(candidate, request.path, argument)) continue;
+      route = candidate.path;
+      if (candidate.method != method) {
+        allowed += (allowed.empty() ? "" : ", ") + candidate.method;
+        continue;
       }
-      allowed += (allowed.empty() ? "" : ", ") + route.method;
+      if (NeedsToken(options) && candidate.access != Access::kOpen) {
+        auto token = Authorize(header, candidate.access, tokens);
+        if (auto* refused = std::get_if<Reply>(&token)) return *std::move(refused);
+        user = std::get<Token>(token).name;
+      }
+      return Run(candidate, {std::move(argument), request.params, header,
+                             std::move(const_cast<httplib::Request&>(request).body), request.path,
+                             user});
     }
     if (allowed.empty()) return ProblemReply(404, "there is no " + request.path);
     auto reply = ProblemReply(405, request.path + " takes " + allowed);
@@ -241,10 +271,50 @@ struct HttpService::Impl {
     return reply;
   }
 
+  // Of large bodies few are taken apart at a time.
+  Reply Run(const Route& route, const Call& call) {
+    const bool large = call.body.size() > kLargeBodyBytes;
+    const auto turn = large ? large_bodies.Enter() : nullptr;
+    if (large && !turn)
+      return BusyReply("large_bodies_max", kLargeBodiesMax,
+                       "other large requests are being worked on", 1);
+    return route.answer(call);
+  }
+
+  // A whole answer without httplib, for what never became a request.
+  std::string RefusalText(const Refusal& refusal, const std::string& peer) {
+    const Reply reply = refusal.limit.empty()
+                            ? ProblemReply(refusal.status, refusal.detail)
+                            : LimitReply(refusal.status, refusal.limit,
+                                         ValueOf(refusal.limit, options.jobs), refusal.detail);
+    metrics.Count("none", "none", refusal.status, 0.0, 0, reply.body.size());
+    if (options.log)
+      Log({{"level", "info"}, {"peer", peer}, {"status", refusal.status},
+           {"detail", refusal.detail}});
+    return StatusLine(refusal.status) + "Content-Type: " + reply.content_type +
+           "\r\nContent-Length: " + std::to_string(reply.body.size()) +
+           "\r\nConnection: close\r\n\r\n" + reply.body;
+  }
+
+  void MeasureConnections() {
+    metrics.Set("plenum_connections", "Open connections.", double(connections.open()));
+    metrics.Set("plenum_buffered_bytes", "Of requests and answers on their way.",
+                double(connections.buffered_bytes()));
+    metrics.Set("plenum_connections_closed_early", "Closed for being slow or to make room.",
+                double(connections.closed_early()));
+    metrics.Set("plenum_log_lines_dropped", "Where the log was not read fast enough.",
+                double(DroppedLogLines()));
+  }
+
+  HttpOptions options;
+  TokenKeeper tokens;
+  Metrics metrics;
   SharedCatalog catalog;
   Jobs designs, diagnoses;
   const std::vector<Route> routes;
-  httplib::Server server;
+  Turnstile large_bodies{kLargeBodiesMax};
+  Protocol protocol;
+  Connections connections;
   int port = 0;
 };
 
@@ -253,14 +323,18 @@ HttpService::~HttpService() = default;
 
 int HttpService::port() const { return impl_->port; }
 
-void HttpService::Run() { impl_->server.listen_after_bind(); }
+void HttpService::Run() {
+  impl_->connections.Start(kRequestThreads);
+  impl_->protocol.listen_after_bind();
+  impl_->connections.Stop();
+}
 
 void HttpService::Stop() {
   impl_->designs.Stop();
   impl_->diagnoses.Stop();
   // A stop before the listening has begun would be lost.
-  while (!impl_->server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  impl_->server.stop();
+  while (!impl_->protocol.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  impl_->protocol.stop();
 }
 
 }  // namespace plenum::server

@@ -1,4 +1,4 @@
-// The HTTP service on a loopback address.
+// The HTTP service.
 #ifndef PLENUM_SERVER_HTTP_H_
 #define PLENUM_SERVER_HTTP_H_
 
@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "server/jobs.h"
 
@@ -15,12 +16,14 @@ struct HttpOptions {
   std::filesystem::path catalog = "catalog.db";
   std::string host = "127.0.0.1";
   int port = 8080;  // 0: any free one
+  // Names beside those of the loopback by which the service is reached, as behind a proxy.
+  std::vector<std::string> allow_hosts;
   JobOptions jobs;  // of designs, and as many of diagnoses
+  bool log = true;
 };
 
-// Whether only this machine can reach `host`: localhost, ::1 or 127.a.b.c. The HTTP library stops
-// neither floods of headers nor endless ones, so no other address is served.
-bool IsLoopback(const std::string& host);
+// Whether every request needs a token: wherever others than this machine can send one.
+bool NeedsToken(const HttpOptions& options);
 
 // Thrown by the constructor when it cannot listen at the address.
 class ListenError : public std::runtime_error {
@@ -35,7 +38,7 @@ class HttpService {
   ~HttpService();
 
   int port() const;
-  // Serves until Stop, which any thread may call: it cancels the jobs and lets answers under way
+  // Serves until Stop, which any thread may call: it stops the jobs and lets answers under way
   // end.
   void Run();
   void Stop();

@@ -71,6 +71,7 @@ class Jobs {
   // Cancels everything, releases who waits, joins the workers.
   void Stop();
   bool Stopping() const;
+  const JobOptions& options() const { return options_; }
 
  private:
   struct Entry {

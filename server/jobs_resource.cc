@@ -13,7 +13,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int kWaitMaxS = 300;
 constexpr milliseconds kHeartbeat{1000};
 
 std::string SelfOf(const JobsResource& resource, const std::string& id) {
@@ -50,7 +49,7 @@ int WaitSeconds(const Call& call) {
   static const std::regex kWait(R"re((^|[,;\s])wait\s*=\s*"?(\d{1,6})"?)re", std::regex::icase);
   std::smatch match;
   if (!std::regex_search(*prefer, match, kWait)) return 0;
-  return std::min(std::stoi(match[2]), kWaitMaxS);
+  return std::min(std::stoi(match[2]), kWaitSecondsMax);
 }
 
 // What a client that waited gets: the result, or nothing when it takes longer.
@@ -83,10 +82,8 @@ std::string Event(const char* name, const api::Json& data) {
 Reply StartJob(const JobsResource& resource, const Call& call, const std::string& name, Work work) {
   const auto id = resource.jobs->Submit(name, std::move(work));
   if (!id) {
-    auto reply =
-        ProblemReply(429, "the queue of " + resource.noun + " jobs is full; try again later");
-    reply.headers.emplace_back("Retry-After", "10");
-    return reply;
+    return BusyReply("jobs_queued_max", resource.jobs->options().queued_max,
+                     "the queue of " + resource.noun + " jobs is full; try again later", 10);
   }
   auto reply = WaitForResult(resource, *id, WaitSeconds(call));
   if (!reply) {
@@ -126,9 +123,8 @@ Reply JobEvents(const JobsResource& resource, const Call& call) {
   if (!resource.jobs->Get(call.argument)) return NoJob(resource, call.argument);
   auto turn = turnstile.Enter();
   if (!turn) {
-    auto reply = ProblemReply(429, "too many event streams are open; poll the job instead");
-    reply.headers.emplace_back("Retry-After", "5");
-    return reply;
+    return BusyReply("event_streams_max", kStreamsMax,
+                     "too many event streams are open; poll the job instead", 5);
   }
   Reply reply{200, "text/event-stream", "", {{"Cache-Control", "no-store"}}, {}};
   reply.stream = [resource, id = call.argument, turn = std::move(turn),

@@ -121,6 +121,25 @@ Reply ListParts(SharedCatalog& catalog, const Call& call) {
   return UnlessKnown(call, etag, std::move(reply));
 }
 
+namespace {
+
+Reply GetNewest(SharedCatalog& catalog, const Call& call) {
+  auto shown = catalog.replies().Find(catalog.Head(), call.argument);
+  if (!shown) {
+    catalog.With([&](catalog::Store& store) {
+      const auto revision = store.Head();
+      const auto part = store.GetAt(call.argument, revision.number);
+      if (!part) return;
+      shown = std::make_shared<const Reply>(PartReply(200, *part, revision));
+      catalog.replies().Keep(revision, call.argument, *shown);
+    });
+  }
+  if (!shown) return NoPart(call.argument);
+  return UnlessKnown(call, shown->headers.front().second, *shown);
+}
+
+}  // namespace
+
 Reply GetPart(SharedCatalog& catalog, const Call& call) {
   const auto errors = CheckQuery(call, {"revision"});
   if (!errors.empty()) return ProblemReply(422, errors);
@@ -128,8 +147,9 @@ Reply GetPart(SharedCatalog& catalog, const Call& call) {
   const auto parsed = api::ParsePartQuery(call.query);
   if (const auto* wrong = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *wrong);
   const auto number = std::get<api::PartQuery>(parsed).revision;
+  if (!number) return GetNewest(catalog, call);
   return catalog.With([&](catalog::Store& store) {
-    const auto revision = number ? store.FindRevision(*number) : store.Head();
+    const auto revision = store.FindRevision(*number);
     if (!revision) {
       return ProblemReply(404, "the catalogue has no revision " + std::to_string(*number));
     }

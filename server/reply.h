@@ -20,6 +20,7 @@ struct Call {
   std::function<std::optional<std::string>(const char*)> header;
   std::string body;
   std::string path;
+  std::string user = {};  // the name of the caller's token; empty where none was needed
 };
 
 using Write = std::function<bool(std::string_view)>;  // false: the client is gone

@@ -4,7 +4,9 @@
 #include "server/designs_resource.h"
 #include "server/diagnoses_resource.h"
 #include "server/history_resource.h"
+#include "server/limits.h"
 #include "server/models_resource.h"
+#include "server/operation_resource.h"
 #include "server/page_resource.h"
 #include "server/parts_resource.h"
 
@@ -13,8 +15,16 @@ namespace {
 
 constexpr std::string_view kVariable = "{id}";
 
+Turnstile& Computing() {
+  static Turnstile turnstile(kComputingMax);
+  return turnstile;
+}
+
 template <typename F>
 Reply AnswerAtOnce(const Call& call, F&& run) {
+  const auto turn = Computing().Enter();
+  if (!turn)
+    return BusyReply("computing_max", kComputingMax, "other simulations and maps are under way", 1);
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
   auto answer = run(std::get<api::Json>(json));
@@ -32,72 +42,85 @@ api::Json RouteTable(const std::vector<Route>& routes) {
 
 void AddJobRoutes(const JobsResource& jobs, std::vector<Route>& routes) {
   const std::string one = jobs.path + "/{id}";
-  routes.push_back({"GET", jobs.path, "the " + jobs.noun + " jobs, newest first",
+  routes.push_back({"GET", jobs.path, "the " + jobs.noun + " jobs, newest first", Access::kRead,
                     [jobs](const Call&) { return ListJobs(jobs); }});
-  routes.push_back({"GET", one, "one " + jobs.noun + " job: status, progress, result",
+  routes.push_back({"GET", one, "one " + jobs.noun + " job: status, progress, result", Access::kRead,
                     [jobs](const Call& call) { return GetJob(jobs, call); }});
-  routes.push_back({"DELETE", one, "cancels the job",
+  routes.push_back({"DELETE", one, "cancels the job", Access::kWrite,
                     [jobs](const Call& call) { return CancelJob(jobs, call); }});
-  routes.push_back({"GET", one + "/events", "progress as server-sent events",
+  routes.push_back({"GET", one + "/events", "progress as server-sent events", Access::kRead,
                     [jobs](const Call& call) { return JobEvents(jobs, call); }});
 }
 
 }  // namespace
 
-std::vector<Route> Routes(SharedCatalog& catalog, Jobs& designs, Jobs& diagnoses) {
+std::vector<Route> Routes(const Services& services) {
+  SharedCatalog& catalog = services.catalog;
   const auto parts = [&](Reply (*answer)(SharedCatalog&, const Call&)) {
     return [&catalog, answer](const Call& call) { return answer(catalog, call); };
   };
-  const JobsResource design_jobs{&designs, "/v1/designs", "design"};
-  const JobsResource diagnosis_jobs{&diagnoses, "/v1/diagnoses", "diagnosis"};
+  const JobsResource design_jobs{&services.designs, "/v1/designs", "design"};
+  const JobsResource diagnosis_jobs{&services.diagnoses, "/v1/diagnoses", "diagnosis"};
   std::vector<Route> routes = {
       {"POST", design_jobs.path,
        "requirements/1 in, a job that ranks designs out; query validate_only",
+       Access::kWrite,
        [&catalog, design_jobs](const Call& call) {
          return PostDesign(catalog, design_jobs, call);
        }},
       {"POST", diagnosis_jobs.path,
        "measurement/1 in, a job that finds what the model lacks out; fields model, save",
+       Access::kWrite,
        [&catalog, diagnosis_jobs](const Call& call) {
          return PostDiagnosis(catalog, diagnosis_jobs, call);
        }},
-      {"POST", "/v1/simulations", "simulation/1 in, response/1 out",
+      {"POST", "/v1/simulations", "simulation/1 in, response/1 out", Access::kRead,
        [&](const Call& call) {
          return AnswerAtOnce(call, [&](const api::Json& request) {
            return api::RunSimulation(request, *catalog.Snapshot());
          });
        }},
       {"POST", "/v1/maps", "map/1 in, rise time, fall time and frequency over the grid out",
+       Access::kRead,
        [](const Call& call) { return AnswerAtOnce(call, api::RunMap); }},
       {"GET", "/v1/parts",
-       "parts; query family, field_min, field_max, sort, facets, limit, cursor, revision",
+       "parts; query family, field_min, field_max, sort, facets, limit, cursor, revision", Access::kRead,
        parts(ListParts)},
-      {"POST", "/v1/parts", "adds a part", parts(AddPart)},
-      {"GET", "/v1/parts/export", "parts of a family as CSV; query family", parts(ExportParts)},
-      {"POST", "/v1/parts/import", "parts of a family from CSV; query family, dry_run",
+      {"POST", "/v1/parts", "adds a part", Access::kWrite, parts(AddPart)},
+      {"GET", "/v1/parts/export", "parts of a family as CSV; query family", Access::kRead, parts(ExportParts)},
+      {"POST", "/v1/parts/import", "parts of a family from CSV; query family, dry_run", Access::kWrite,
        parts(ImportParts)},
-      {"GET", "/v1/parts/{id}", "one part, with ETag", parts(GetPart)},
-      {"PUT", "/v1/parts/{id}", "replaces the part that If-Match names", parts(ReplacePart)},
-      {"DELETE", "/v1/parts/{id}", "removes the part that If-Match names", parts(RemovePart)},
-      {"GET", "/v1/parts/{id}/history", "changes of a part, newest first", parts(PartHistory)},
+      {"GET", "/v1/parts/{id}", "one part, with ETag", Access::kRead, parts(GetPart)},
+      {"PUT", "/v1/parts/{id}", "replaces the part that If-Match names", Access::kWrite, parts(ReplacePart)},
+      {"DELETE", "/v1/parts/{id}", "removes the part that If-Match names", Access::kWrite, parts(RemovePart)},
+      {"GET", "/v1/parts/{id}/history", "changes of a part, newest first", Access::kRead, parts(PartHistory)},
       {"GET", "/v1/families", "families of parts: fields, ranges, what they mean",
+       Access::kRead,
        [](const Call&) { return JsonReply(200, api::RenderFamilies()); }},
-      {"GET", "/v1/revisions", "writes to the catalogue, newest first", parts(ListRevisions)},
-      {"GET", "/v1/revisions/{id}", "one write with its changes", parts(GetRevision)},
-      {"GET", "/v1/models", "saved model revisions, the newest of each name", parts(ListModels)},
-      {"POST", "/v1/models", "saves a model revision: its name and model/1", parts(SaveModel)},
-      {"GET", "/v1/models/{id}", "all versions of a saved model revision", parts(GetModel)},
-      {"POST", "/v1/revisions/{id}/undo", "takes the changes of a write back", parts(UndoRevision)},
-      {"GET", "/healthz", "whether the service runs",
+      {"GET", "/v1/revisions", "writes to the catalogue, newest first", Access::kRead, parts(ListRevisions)},
+      {"GET", "/v1/revisions/{id}", "one write with its changes", Access::kRead, parts(GetRevision)},
+      {"GET", "/v1/models", "saved model revisions, the newest of each name", Access::kRead, parts(ListModels)},
+      {"POST", "/v1/models", "saves a model revision: its name and model/1", Access::kWrite, parts(SaveModel)},
+      {"GET", "/v1/models/{id}", "all versions of a saved model revision", Access::kRead, parts(GetModel)},
+      {"POST", "/v1/revisions/{id}/undo", "takes the changes of a write back", Access::kWrite, parts(UndoRevision)},
+      {"GET", "/healthz", "whether the service runs", Access::kOpen,
        [](const Call&) {
          return JsonReply(200, {{"status", "ok"}});
+       }},
+      {"GET", "/readyz", "whether it can take work", Access::kOpen,
+       [services](const Call& call) { return GetReadiness(services, call); }},
+      {"GET", "/metrics", "what it did and holds, for Prometheus", Access::kRead,
+       [services](const Call& call) { return GetMetrics(services, call); }},
+      {"GET", "/v1/limits", "how much a request may ask for", Access::kRead,
+       [limits = RenderLimits(services.job_options)](const Call&) {
+         return JsonReply(200, {{"limits", limits}});
        }},
   };
   AddJobRoutes(design_jobs, routes);
   AddJobRoutes(diagnosis_jobs, routes);
-  routes.push_back({"GET", "/", "the web page", GetPage});
-  routes.push_back({"GET", "/assets/{id}", "a file of the web page", GetAsset});
-  routes.push_back({"GET", "/v1", "this table", {}});
+  routes.push_back({"GET", "/", "the web page", Access::kOpen, GetPage});
+  routes.push_back({"GET", "/assets/{id}", "a file of the web page", Access::kOpen, GetAsset});
+  routes.push_back({"GET", "/v1", "this table", Access::kRead, {}});
   routes.back().answer = [table = RouteTable(routes)](const Call&) {
     return JsonReply(200, table);
   };

@@ -23,6 +23,9 @@ std::string DigestOf(const Call& call) {
 std::variant<catalog::Signature, Reply> SignatureOf(const Call& call) {
   catalog::Signature signature;
   signature.who = call.header("From").value_or("http");
+  // A token says whose it is; From then only adds to it.
+  if (!call.user.empty())
+    signature.who = call.header("From") ? call.user + " (" + signature.who + ")" : call.user;
   if (signature.who.size() > kWriterLongest || !IsVisibleAscii(signature.who))
     return ProblemReply(400, "From must be at most 200 characters of visible ASCII");
   const auto key = call.header("Idempotency-Key");

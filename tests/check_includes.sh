@@ -58,6 +58,7 @@ check() {
   stays_in Ipopt 'coin/|Ip[A-Z]' optimizer
   stays_in NLopt 'nlopt' optimizer
   stays_in CLI11 'CLI/' server
+  stays_in prometheus-cpp 'prometheus/' server
   stays_in fmt 'fmt/' server
   stays_in Boost 'boost/' model optimizer calibration
   stays_in SUNDIALS 'cvode|nvector/|sun(dials|linsol|matrix)' model

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "catalog/store.h"
+#include "server/protection.h"
 #include "workbench.h"
 
 namespace plenum::server {
@@ -163,16 +164,16 @@ TEST_F(Http, RefusesEncodedAndFormBodies) {
 TEST_F(Http, ClosesTheConnectionWhenABodyBreaksOff) {
   // What follows the broken chunk must not be taken for a request of its own.
   const auto answer =
-      Raw("POST /v1/maps HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n"
-          "DELETE /v1/parts/none HTTP/1.1\r\nHost: a\r\n\r\n");
+      Raw("POST /v1/maps HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n"
+          "DELETE /v1/parts/none HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_THAT(answer, StartsWith("HTTP/1.1 400"));
   EXPECT_EQ(answer.find("HTTP/1.1", 1), std::string::npos) << answer;
 }
 
 TEST_F(Http, AnswersPostsAndDeletesWithoutABody) {
-  EXPECT_THAT(Raw("POST /v1/maps HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n"),
+  EXPECT_THAT(Raw("POST /v1/maps HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"),
               StartsWith("HTTP/1.1 400"));
-  EXPECT_THAT(Raw("DELETE /v1/parts/none HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n"),
+  EXPECT_THAT(Raw("DELETE /v1/parts/none HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"),
               StartsWith("HTTP/1.1 404"));
 }
 
