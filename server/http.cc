@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <thread>
 
+#include "server/designs_resource.h"
+#include "server/diagnoses_resource.h"
 #include "server/limits.h"
 #include "server/routes.h"
 
@@ -110,13 +112,19 @@ bool IsLoopback(const std::string& host) {
 }
 
 struct HttpService::Impl {
+  // The port first: without it no job is begun.
   explicit Impl(const HttpOptions& options)
-      : catalog(options.catalog),
-        designs(options.jobs),
-        diagnoses(options.jobs),
+      : port(Bind(options)),
+        catalog(options.catalog),
+        jobs(options.catalog.string() + "-jobs", options.kept),
+        designs(jobs, "design", DesignWork(catalog), options.jobs),
+        diagnoses(jobs, "diagnosis", DiagnosisWork(catalog), options.jobs),
         routes(Routes(catalog, designs, diagnoses)) {
-    SetLimits();
     SetHandlers();
+  }
+
+  int Bind(const HttpOptions& options) {
+    SetLimits();
     const bool any = options.port == 0;
     const int bound = any ? server.bind_to_any_port(options.host)
                       : server.bind_to_port(options.host, options.port) ? options.port
@@ -125,7 +133,7 @@ struct HttpService::Impl {
       throw ListenError("cannot listen at " + options.host + " port " +
                         std::to_string(options.port) + ": is it taken by another program?");
     }
-    port = bound;
+    return bound;
   }
 
   void SetLimits() {
@@ -241,11 +249,12 @@ struct HttpService::Impl {
     return reply;
   }
 
+  httplib::Server server;
+  const int port;
   SharedCatalog catalog;
+  catalog::JobStore jobs;
   Jobs designs, diagnoses;
   const std::vector<Route> routes;
-  httplib::Server server;
-  int port = 0;
 };
 
 HttpService::HttpService(const HttpOptions& options) : impl_(std::make_unique<Impl>(options)) {}

@@ -12,10 +12,11 @@
 namespace plenum::server {
 
 struct HttpOptions {
-  std::filesystem::path catalog = "catalog.db";
+  std::filesystem::path catalog = "catalog.db";  // the jobs are kept in <catalog>-jobs
   std::string host = "127.0.0.1";
-  int port = 8080;  // 0: any free one
-  JobOptions jobs;  // of designs, and as many of diagnoses
+  int port = 8080;         // 0: any free one
+  JobOptions jobs;         // of designs, and as many of diagnoses
+  catalog::JobsKept kept;  // of each
 };
 
 // Whether only this machine can reach `host`: localhost, ::1 or 127.a.b.c. The HTTP library stops
@@ -30,13 +31,14 @@ class ListenError : public std::runtime_error {
 
 class HttpService {
  public:
-  // Opens the catalogue (StoreError) and binds the port (ListenError). Connections wait until Run.
+  // Opens the catalogue and the jobs (StoreError), goes on with those that did not end and binds
+  // the port (ListenError). Connections wait until Run.
   explicit HttpService(const HttpOptions& options);
   ~HttpService();
 
   int port() const;
-  // Serves until Stop, which any thread may call: it cancels the jobs and lets answers under way
-  // end.
+  // Serves until Stop, which any thread may call: it lets answers under way end and leaves jobs
+  // that did not end to the next service.
   void Run();
   void Stop();
 
