@@ -28,9 +28,7 @@ constexpr std::size_t kDrainBytesMax = 64 << 20;
 constexpr auto kSweepPeriod = std::chrono::milliseconds(500);
 
 // Time to move so many bytes.
-seconds TimeFor(std::size_t bytes) {
-  return seconds(kHeadSecondsMax + bytes / kBytesPerSecondMin);
-}
+seconds TimeFor(std::size_t bytes) { return seconds(kHeadSecondsMax + bytes / kBytesPerSecondMin); }
 
 std::string PeerOf(int socket) {
   sockaddr_storage address{};
@@ -48,7 +46,8 @@ std::string PeerOf(int socket) {
 void RaiseFileLimit() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
-  limit.rlim_cur = std::max(limit.rlim_cur, std::min<rlim_t>(limit.rlim_max, kConnectionsMax + 256));
+  limit.rlim_cur =
+      std::max(limit.rlim_cur, std::min<rlim_t>(limit.rlim_max, kConnectionsMax + 256));
   setrlimit(RLIMIT_NOFILE, &limit);
 }
 
@@ -96,8 +95,8 @@ struct Connections::Connection final : Outgoing {
   std::size_t sent = 0;  // of out
   RequestFrame frame;
   bool broken = false;
-  bool closing = false;      // after what is in `out`
-  std::size_t drained = 0;   // bytes thrown away after the last answer
+  bool closing = false;     // after what is in `out`
+  std::size_t drained = 0;  // bytes thrown away after the last answer
   bool draining = false;
   std::atomic<std::size_t> accounted = 0;
   std::atomic<Clock::rep> since = 0, deadline = 0;
@@ -277,7 +276,7 @@ void Connections::SweepLoop() {
       if (!connection->expired.exchange(true)) ++closed_early_;
       // Reading then ends at once, which a thread sees and answers; writing is given up later.
       shutdown(socket, now - connection->deadline > Clock::duration(seconds(1)).count() ? SHUT_RDWR
-                                                                                         : SHUT_RD);
+                                                                                        : SHUT_RD);
     }
   }
 }

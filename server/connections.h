@@ -24,7 +24,7 @@ namespace plenum::server {
 struct Incoming {
   std::string head;  // request line and headers, with the empty line
   std::string body;
-  std::string peer;     // the client's address
+  std::string peer;      // the client's address
   bool is_last = false;  // the connection closes after it
 };
 

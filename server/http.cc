@@ -10,6 +10,8 @@
 
 #include "api/problem.h"
 #include "server/connections.h"
+#include "server/designs_resource.h"
+#include "server/diagnoses_resource.h"
 #include "server/limits.h"
 #include "server/request_log.h"
 #include "server/routes.h"
@@ -20,7 +22,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kListenBacklog = 1024;
-
 
 // One request's bytes to read from and its connection to write to.
 class RequestStream : public httplib::Stream {
@@ -156,41 +157,45 @@ bool NeedsToken(const HttpOptions& options) {
 }
 
 struct HttpService::Impl {
+  // The port first: without it no job is begun.
   explicit Impl(const HttpOptions& given)
       : options(given),
+        port(Bind(given)),
         tokens(TokenFile(given.catalog)),
         catalog(given.catalog),
-        designs(given.jobs),
-        diagnoses(given.jobs),
-        routes(Routes({catalog, designs, diagnoses, metrics, given.jobs,
-                       given.catalog,
+        jobs(given.catalog.string() + "-jobs", given.kept),
+        designs(jobs, "design", DesignWork(catalog), given.jobs),
+        diagnoses(jobs, "diagnosis", DiagnosisWork(catalog), given.jobs),
+        routes(Routes({catalog, designs, diagnoses, metrics, given.jobs, given.catalog,
                        [this] { MeasureConnections(); }})),
-        connections(
-            [this](Incoming request, Outgoing& out) {
-              return protocol.Answer(std::move(request), out);
-            },
-            [this](const Refusal& refusal, const std::string& peer) {
-              return RefusalText(refusal, peer);
-            }) {
+        connections([this](Incoming request,
+                           Outgoing& out) { return protocol.Answer(std::move(request), out); },
+                    [this](const Refusal& refusal, const std::string& peer) {
+                      return RefusalText(refusal, peer);
+                    }) {
     // Large blocks go back to the system when they are freed.
     mallopt(M_MMAP_THRESHOLD, 256 << 10);
     mallopt(M_ARENA_MAX, 4);
     if (options.host != "localhost" && !IsLoopback(options.host))
       options.allow_hosts.push_back(options.host);
-    SetUp();
-    const bool any = options.port == 0;
-    port = any ? protocol.bind_to_any_port(options.host)
-               : protocol.bind_to_port(options.host, options.port) ? options.port
-                                                                   : -1;
-    if (port <= 0) {
-      throw ListenError("cannot listen at " + options.host + " port " +
-                        std::to_string(options.port) + ": is it taken by another program?");
-    }
-    protocol.WidenBacklog();
+    SetHandlers();
   }
 
-  void SetUp() {
-    protocol.admit = [this](int socket) { connections.Admit(socket); };
+  int Bind(const HttpOptions& given) {
+    SetSockets();
+    const bool any = given.port == 0;
+    const int bound = any ? protocol.bind_to_any_port(given.host)
+                      : protocol.bind_to_port(given.host, given.port) ? given.port
+                                                                      : -1;
+    if (bound <= 0) {
+      throw ListenError("cannot listen at " + given.host + " port " + std::to_string(given.port) +
+                        ": is it taken by another program?");
+    }
+    protocol.WidenBacklog();
+    return bound;
+  }
+
+  void SetSockets() {
     protocol.new_task_queue = [] { return new AtOnce; };
     protocol.set_keep_alive_timeout(kIdleSecondsMax);
     protocol.set_tcp_nodelay(true);
@@ -199,6 +204,10 @@ struct HttpService::Impl {
       const int on = 1;
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     });
+  }
+
+  void SetHandlers() {
+    protocol.admit = [this](int socket) { connections.Admit(socket); };
     protocol.set_pre_routing_handler([this](const auto& request, auto& response) {
       Answer(request, response);
       return httplib::Server::HandlerResponse::Handled;
@@ -261,9 +270,9 @@ struct HttpService::Impl {
         if (auto* refused = std::get_if<Reply>(&token)) return *std::move(refused);
         user = std::get<Token>(token).name;
       }
-      return Run(candidate, {std::move(argument), request.params, header,
-                             std::move(const_cast<httplib::Request&>(request).body), request.path,
-                             user});
+      return Run(candidate,
+                 {std::move(argument), request.params, header,
+                  std::move(const_cast<httplib::Request&>(request).body), request.path, user});
     }
     if (allowed.empty()) return ProblemReply(404, "there is no " + request.path);
     auto reply = ProblemReply(405, request.path + " takes " + allowed);
@@ -289,7 +298,9 @@ struct HttpService::Impl {
                                          ValueOf(refusal.limit, options.jobs), refusal.detail);
     metrics.Count("none", "none", refusal.status, 0.0, 0, reply.body.size());
     if (options.log)
-      Log({{"level", "info"}, {"peer", peer}, {"status", refusal.status},
+      Log({{"level", "info"},
+           {"peer", peer},
+           {"status", refusal.status},
            {"detail", refusal.detail}});
     return StatusLine(refusal.status) + "Content-Type: " + reply.content_type +
            "\r\nContent-Length: " + std::to_string(reply.body.size()) +
@@ -307,15 +318,16 @@ struct HttpService::Impl {
   }
 
   HttpOptions options;
+  Protocol protocol;
+  const int port;
   TokenKeeper tokens;
   Metrics metrics;
   SharedCatalog catalog;
+  catalog::JobStore jobs;
   Jobs designs, diagnoses;
   const std::vector<Route> routes;
   Turnstile large_bodies{kLargeBodiesMax};
-  Protocol protocol;
   Connections connections;
-  int port = 0;
 };
 
 HttpService::HttpService(const HttpOptions& options) : impl_(std::make_unique<Impl>(options)) {}
