@@ -158,16 +158,14 @@ Json RenderDesign(const optimizer::Design& design, int rank, const Quality& qual
   Json parts = Json::array();
   for (const optimizer::Choice& choice : design.parts)
     parts.push_back(RenderChoice(choice, problem, rows));
-  return {{"rank", rank},
-          {"configuration", optimizer::Name(design.configuration)},
-          {"objective", Number(design.objective)},
-          {"parts", parts},
-          {"settings", RenderSettings(design.settings, problem.ambient)},
-          {"totals", RenderTotals(design.totals)},
-          {"performance", RenderPerformance(design.performance, problem)},
-          {"margins", RenderMargins(design.margins)},
-          {"data_quality", RenderQuality(quality, design.totals.mass_kg)},
-          {"response", RenderResponse(design.response, problem)}};
+  Json json = {{"rank", rank},
+               {"configuration", optimizer::Name(design.configuration)},
+               {"objective", Number(design.objective)},
+               {"parts", parts}};
+  json.update(RenderFigures(design, problem));
+  json["data_quality"] = RenderQuality(quality, design.totals.mass_kg);
+  json["response"] = RenderResponse(design.response, problem);
+  return json;
 }
 
 // A count that is a number in the contract: a decimal string only past 2⁵³.
@@ -208,6 +206,13 @@ Json RenderConflict(const std::vector<optimizer::Conflict>& conflicts) {
 }
 
 }  // namespace
+
+Json RenderFigures(const optimizer::Design& design, const optimizer::Problem& problem) {
+  return {{"settings", RenderSettings(design.settings, problem.ambient)},
+          {"totals", RenderTotals(design.totals)},
+          {"performance", RenderPerformance(design.performance, problem)},
+          {"margins", RenderMargins(design.margins)}};
+}
 
 Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
                   const std::vector<catalog::Part>& parts) {

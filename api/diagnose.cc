@@ -20,6 +20,7 @@ DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisPro
   if (!request.model && diagnosis.verdict != calibration::Verdict::kTie &&
       diagnosis.verdict != calibration::Verdict::kUndecided)
     answer.revision = RevisionOf(diagnosis, request.provenance);
+  answer.answer["revision"] = answer.revision ? RenderModel(*answer.revision) : Json(nullptr);
   return answer;
 }
 

@@ -46,6 +46,15 @@ Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions option
 // The answer as JSON. `parts` are the rows the problem was made of: makers, provenance.
 Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
                   const std::vector<catalog::Part>& parts);
+// Settings, totals, performance and margins of a design.
+Json RenderFigures(const optimizer::Design& design, const optimizer::Problem& problem);
+
+// ── evaluation/1 → evaluation_answer/1 ──
+// How given parts do at given settings against requirements, met or not: no search. `works` is
+// false, and there are no figures, where the parts do not stand the source pressure (its range is
+// given, null where a part is missing) or where a stroke takes longer than half of the period.
+Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>& parts,
+                           const std::vector<catalog::ModelRevision>& models);
 
 // ── simulation/1 → response/1, map/1 → map_answer/1 ──
 // At most 200,000 samples and 60 s of work; what stops early says so in `status` and `detail`.

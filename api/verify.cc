@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "api/design_reader.h"
 #include "api/proof_record.h"
 #include "api/text.h"
 #include "api/units.h"
@@ -12,23 +13,11 @@ namespace {
 
 using optimizer::BigCount;
 using optimizer::Choice;
-using optimizer::Configuration;
 using optimizer::Design;
-using optimizer::Family;
 using optimizer::Problem;
 
 const Range kAnyNumber{-1e300, 1e300};
-constexpr std::size_t kDesignsMax = 500, kRowsMax = 1000;
-
-template <typename Enum>
-Enum ReadEnum(Reader& reader, const char* field, const std::vector<Enum>& values) {
-  std::vector<std::string> names;
-  for (const Enum value : values) names.emplace_back(optimizer::Name(value));
-  const std::string chosen = reader.Choice(field, names);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i] == chosen) return values[i];
-  return values.front();
-}
+constexpr std::size_t kDesignsMax = 500;
 
 // A decimal string, or a number up to 2⁵³.
 BigCount ReadCount(Reader& reader, const char* field) {
@@ -45,24 +34,8 @@ BigCount ReadCount(Reader& reader, const char* field) {
   return 0;
 }
 
-int GroupNamed(const Problem& problem, const std::string& name) {
-  for (std::size_t g = 0; g < problem.groups.size(); ++g)
-    if (problem.groups[g].name == name) return static_cast<int>(g);
-  return -1;
-}
-
 Choice ReadRow(Reader row, const Problem& problem) {
-  Choice choice;
-  choice.family = ReadEnum<Family>(
-      row, "family",
-      {Family::kTubing, Family::kFitting, Family::kValve, Family::kCompressor, Family::kCylinder,
-       Family::kCo2, Family::kBattery, Family::kRegulator, Family::kReservoir});
-  choice.id = row.Text("id");
-  if (row.Has("group")) {
-    choice.group = GroupNamed(problem, row.Text("group"));
-    if (choice.group < 0) row.Fail("group", "is no group of the request");
-  }
-  choice.quantity = row.Number("quantity", Above(0, 1e6));
+  Choice choice = ReadChoice(row, problem);
   choice.mass_kg = row.Number("mass_kg", kAnyNumber);
   choice.volume_m3 = M3FromL(row.Number("volume_l", kAnyNumber));
   choice.cost_eur = row.OptionalNumber("cost_eur", kAnyNumber);
@@ -89,20 +62,14 @@ Design ReadDesign(const Element& element, int rank, const Problem& problem, Erro
   Design design;
   if (reader.Integer("rank", 1, 1'000'000) != rank)
     reader.Fail("rank", "must be " + std::to_string(rank) + ", the place in the list");
-  design.configuration =
-      ReadEnum<Configuration>(reader, "configuration",
-                              {Configuration::kCylinder, Configuration::kCo2,
-                               Configuration::kCompressor, Configuration::kMains});
+  design.configuration = ReadConfiguration(reader);
   design.objective = reader.Number("objective", kAnyNumber);
-  for (const Element& row : reader.List("parts", 1, kRowsMax))
+  for (const Element& row : reader.List("parts", 1, kDesignRowsMax))
     design.parts.push_back(ReadRow(Reader(row, errors), problem));
   Reader settings = reader.Object("settings");
-  design.settings.source_pressure_pa =
-      PaFromKpaGauge(settings.Number("source_pressure_kpa_gauge", kAnyNumber), problem.ambient);
+  design.settings = ReadPoint(settings, problem);
   design.settings.compressor_duty = settings.OptionalNumber("compressor_duty", kAnyNumber);
-  if (const auto ml = settings.OptionalNumber("reservoir_volume_ml", kAnyNumber))
-    design.settings.reservoir_volume_m3 = M3FromMl(*ml);
-  design.settings.valve_duty = settings.Numbers("valve_duty_groups", kRowsMax, kAnyNumber);
+  design.settings.valve_duty = settings.Numbers("valve_duty_groups", kDesignRowsMax, kAnyNumber);
   if (design.settings.valve_duty.size() != problem.groups.size())
     settings.Fail("valve_duty_groups", "must have one number for each group");
   Reader totals = reader.Object("totals");
@@ -111,7 +78,7 @@ Design ReadDesign(const Element& element, int rank, const Problem& problem, Erro
   design.totals.cost_eur = totals.OptionalNumber("cost_eur", kAnyNumber);
   design.totals.energy_j = totals.Number("energy_wh", kAnyNumber) * kJPerWh;
   ReadPerformance(reader.Object("performance"), problem, design);
-  for (const Element& row : reader.List("margins", 0, kRowsMax)) {
+  for (const Element& row : reader.List("margins", 0, kDesignRowsMax)) {
     Reader margin(row, errors);
     design.margins.push_back({margin.Text("requirement"), margin.Number("required", kAnyNumber),
                               margin.Number("achieved", kAnyNumber),

@@ -146,6 +146,13 @@ std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candid
     evaluation = Evaluate(problem, candidate, point);
     if (!Confirm(problem, candidate, point, evaluation)) return std::nullopt;
   }
+  Design design = Describe(problem, candidate, point, evaluation);
+  design.response = TraceCycle(problem, candidate, point);
+  return design;
+}
+
+Design Describe(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                const Evaluation& evaluation) {
   Design design;
   design.configuration = candidate.configuration;
   AddParts(problem, candidate, point, design);
@@ -160,7 +167,6 @@ std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candid
   design.performance = MakePerformance(problem, evaluation);
   design.margins = Margins(problem, candidate, point, evaluation);
   design.objective = ObjectiveValue(problem, candidate, point, evaluation);
-  design.response = TraceCycle(problem, candidate, point);
   return design;
 }
 

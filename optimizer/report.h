@@ -14,6 +14,10 @@ namespace plenum::optimizer {
 std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
                                  const Leaf& leaf, bool settle = true);
 
+// The candidate at a point as it was evaluated there, whatever it meets, without a trace.
+Design Describe(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                const Evaluation& evaluation);
+
 }  // namespace plenum::optimizer
 
 #endif  // PLENUM_OPTIMIZER_REPORT_H_

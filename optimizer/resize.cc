@@ -6,6 +6,7 @@
 #include "model/storage.h"
 #include "optimizer/effect_sizing.h"
 #include "optimizer/make_line.h"
+#include "optimizer/relaxation.h"
 #include "optimizer/report.h"
 
 namespace plenum::optimizer {
@@ -150,6 +151,18 @@ bool Rebuild(const Problem& problem, const Problem& relaxed, const Design& desig
   return SetOptions(problem, design, rebuilt.candidate);
 }
 
+OperatingPoint PointOf(const Design& design) {
+  const double reservoir_m3 = design.settings.reservoir_volume_m3.value_or(0.0);
+  return {design.settings.source_pressure_pa, reservoir_m3, reservoir_m3};
+}
+
+// Strokes as slow as the period allows are looked at, too.
+Problem WithoutStrokeLimits(Problem problem) {
+  for (ActuatorGroup& group : problem.groups)
+    group.rise_time_max_s = group.fall_time_max_s = kUnlimited;
+  return problem;
+}
+
 }  // namespace
 
 Problem WithPartsOf(const Problem& problem, const Design& design) {
@@ -203,13 +216,23 @@ std::optional<std::vector<Margin>> MarginsOf(const Problem& problem, const Probl
                                              const Design& design) {
   Rebuilt rebuilt;
   if (!Rebuild(problem, relaxed, design, rebuilt)) return std::nullopt;
-  OperatingPoint point;
-  point.source_pa = design.settings.source_pressure_pa;
-  point.reservoir_m3 = point.reservoir_rising_m3 =
-      design.settings.reservoir_volume_m3.value_or(0.0);
+  const OperatingPoint point = PointOf(design);
   const Evaluation evaluation = Evaluate(problem, rebuilt.candidate, point);
   if (!evaluation.works) return std::nullopt;
   return Margins(problem, rebuilt.candidate, point, evaluation);
+}
+
+AtSettings EvaluateAtSettings(const Problem& problem, const Design& design) {
+  const Problem free = WithoutStrokeLimits(problem);
+  AtSettings found;
+  Rebuilt rebuilt;
+  if (!Rebuild(free, Relaxed(free), design, rebuilt)) return found;
+  found.source = SourceWindow(free, rebuilt.candidate);
+  const OperatingPoint point = PointOf(design);
+  if (point.source_pa < found.source.low_pa || point.source_pa > found.source.high_pa) return found;
+  const Evaluation evaluation = Evaluate(free, rebuilt.candidate, point);
+  if (evaluation.works) found.design = Describe(problem, rebuilt.candidate, point, evaluation);
+  return found;
 }
 
 }  // namespace plenum::optimizer

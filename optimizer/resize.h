@@ -35,6 +35,16 @@ Remade Remake(const Problem& problem, const Problem& relaxed, const Design& desi
 std::optional<std::vector<Margin>> MarginsOf(const Problem& problem, const Problem& relaxed,
                                              const Design& design);
 
+// The design's parts at its own settings, whatever they meet: totals, performance and margins,
+// negative where a requirement is missed. No design where a part is missing, where the parts do not
+// stand the source pressure, or where a stroke takes longer than half of the period.
+struct AtSettings {
+  Window source{kUnlimited,
+                -kUnlimited};  // pressures that the parts stand; empty: a part is missing
+  std::optional<Design> design;
+};
+AtSettings EvaluateAtSettings(const Problem& problem, const Design& design);
+
 }  // namespace plenum::optimizer
 
 #endif  // PLENUM_OPTIMIZER_RESIZE_H_

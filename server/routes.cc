@@ -79,6 +79,13 @@ std::vector<Route> Routes(const Services& services) {
            return api::RunSimulation(request, *catalog.Snapshot());
          });
        }},
+      {"POST", "/v1/evaluations", "evaluation/1 in: parts at settings against requirements",
+       [&](const Call& call) {
+         return AnswerAtOnce(call, [&](const api::Json& request) {
+           const auto models = catalog.With([](const auto& store) { return store.Models(); });
+           return api::RunEvaluation(request, *catalog.Snapshot(), models);
+         });
+       }},
       {"POST", "/v1/maps", "map/1 in, rise time, fall time and frequency over the grid out",
        Access::kRead, [](const Call& call) { return AnswerAtOnce(call, api::RunMap); }},
       {"GET", "/v1/parts",

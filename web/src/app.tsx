@@ -16,7 +16,8 @@ import {
 import { Segmented } from './ui/controls';
 import { Tooltip } from './ui/tooltip';
 import { CatalogueView } from './views/catalogue';
-import { DesignsView, JobsView } from './views/designs';
+import { DesignsView } from './views/designs';
+import { JobsView } from './views/jobs';
 import { MeasuredView } from './views/measured';
 import { RequirementsView } from './views/requirements';
 
@@ -25,7 +26,7 @@ const views = [
   { name: 'designs', label: 'Designs', key: '2' },
   { name: 'catalogue', label: 'Catalogue', key: '3' },
   { name: 'measured', label: 'Measured data', key: '4' },
-  { name: 'jobs', label: 'Searches', key: '5' },
+  { name: 'jobs', label: 'Jobs', key: '5' },
 ];
 
 function View() {

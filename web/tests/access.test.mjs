@@ -28,7 +28,6 @@ for (const colorScheme of schemes) {
         const { page, close } = await openPage(browser, service.base, view.hash, {
           colorScheme,
           viewport: { width, height: 900 },
-          before: view.before,
         });
         await view.ready(page);
         await page.evaluate(axe);

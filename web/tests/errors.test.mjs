@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
-import { example, openPage, rank, startBrowser, startService } from './support.mjs';
+import { example, openPage, rank, startBrowser, startService, textOf } from './support.mjs';
 
 let service, browser;
 before(async () => {
@@ -59,13 +59,7 @@ test('requirements are saved, loaded and shared by address', async () => {
   const address = page.url();
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Save' }).click();
-  const saved = JSON.parse(
-    await (
-      await (await download).createReadStream()
-    )
-      .toArray()
-      .then((parts) => Buffer.concat(parts).toString()),
-  );
+  const saved = JSON.parse(await textOf(await download));
   assert.deepEqual(saved, {
     ...example('exosuit'),
     duty: { ...example('exosuit').duty, frequency_hz: 0.2 },
@@ -159,15 +153,70 @@ test('a measurement that cannot be read says which line', async () => {
   await close();
 });
 
-test('the service going away is said', async () => {
-  const { page, close } = await openPage(browser, service.base);
+test('what is too large, and a run the rig cannot have, are refused with their reason', async () => {
+  const { page, close } = await openPage(browser, service.base, '#/measured');
+  const input = page.locator('input[type=file]').last();
+  const rows = Array.from(
+    { length: 400_000 },
+    (_, i) => `r${i >> 17},${i * 1e-3},hold,0.123456789`,
+  );
+  const csv = `run,t_s,valve,pressure_kpa_gauge\n${rows.join('\n')}\n`;
+  await input.setInputFiles(file('huge.csv', csv));
+  await page.getByRole('button', { name: 'Find what the model lacks' }).click();
+  await page
+    .getByText(/at most 8|too large|8 MiB|8388608/)
+    .first()
+    .waitFor();
+  const few = rows.slice(0, 20).map((row) => row.replace('hold', 'inflate'));
+  await input.setInputFiles(
+    file('few.csv', `run,t_s,valve,pressure_kpa_gauge\n${few.join('\n')}\n`),
+  );
+  await page.getByLabel('Expansion').fill('0.5');
+  await page.getByRole('button', { name: 'Find what the model lacks' }).click();
+  await page.getByText('/rig/actuator/expansion_ratio').waitFor();
+  assert.equal(await page.getByLabel('Expansion').getAttribute('aria-invalid'), 'true');
+  await close([413, 422]);
+});
+
+test('a part whose id is taken is refused at the id', async () => {
+  const [part] = (await service.get('/v1/parts?family=battery&limit=1')).parts;
+  const { page, close } = await openPage(
+    browser,
+    service.base,
+    `#/catalogue/battery?part=${part.id}`,
+  );
+  await page.getByRole('button', { name: 'Copy', exact: true }).click();
+  await page.getByLabel('Id', { exact: true }).fill(part.id);
+  await page.getByRole('button', { name: 'Add the part' }).click();
+  await page
+    .getByText(/is taken|already/)
+    .first()
+    .waitFor();
+  await close([409]);
+});
+
+test('the service going away is said, and the page goes on when it is back', async () => {
+  const own = await startService();
+  const { page } = await openPage(browser, own.base);
   await page.getByText('These requirements can be searched.').waitFor();
   await page.route('**/v1/**', (route) => route.abort());
   await page.getByLabel('Frequency').fill('0.3');
   await page.getByText('The service does not answer; nothing was checked.').waitFor();
   await page.unroute('**/v1/**');
-  await page.getByLabel('Frequency').fill('0.2');
+  await page.getByLabel('Frequency').fill('0.1');
   await page.getByText('These requirements can be searched.').waitFor();
+
+  // In the middle of a search.
+  const slow = { ...example('exosuit'), objective: { minimize: 'volume_l' } };
+  const { id } = await own.post('/v1/designs', {
+    ...slow,
+    ranking: { count: 3, time_limit_s: 60 },
+  });
+  await page.goto(`${own.base}/#/designs/${id}`);
+  await page.getByText('The proof closing').waitFor();
+  await own.stop('SIGKILL');
+  await page.getByText('the service does not answer').waitFor();
+  await page.getByRole('link', { name: 'Catalogue' }).click();
+  await page.getByText('the service does not answer').waitFor();
   await page.context().close();
-  void close;
 });

@@ -15,7 +15,6 @@ for (const view of await makeViews(service)) {
       const { page, close } = await openPage(browser, service.base, view.hash, {
         colorScheme,
         viewport: { width, height: width === 1920 ? 1080 : 900 },
-        before: view.before,
       });
       await view.ready(page);
       await page.waitForTimeout(400);

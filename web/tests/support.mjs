@@ -39,10 +39,11 @@ export async function startService() {
           body: JSON.stringify(body),
         })
       ).json(),
-    async stop() {
+    // 'SIGKILL': as in a crash.
+    async stop(how = 'SIGTERM') {
       child.removeAllListeners('exit');
       const gone = new Promise((resolve) => child.on('exit', resolve));
-      child.kill('SIGTERM');
+      child.kill(how);
       await gone;
       rmSync(folder, { recursive: true });
     },
@@ -94,16 +95,26 @@ export async function openPage(browser, base, hash = '', options = {}) {
   };
 }
 
+// What was downloaded, as text.
+export const textOf = async (download) =>
+  Buffer.concat(await (await download.createReadStream()).toArray()).toString();
+
 export const example = (name) =>
   JSON.parse(readFileSync(join(top, 'examples', `${name}.json`), 'utf8'));
+
+// A job that has ended by itself.
+export async function ended(service, self) {
+  for (;;) {
+    const job = await service.get(self);
+    if (job.status === 'done') return job;
+    assert.ok(['queued', 'running'].includes(job.status), `the job is ${job.status}`);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
 
 // Ranks an example and gives the job's id.
 export async function rank(service, requirements) {
   const { id } = await service.post('/v1/designs', requirements);
-  for (;;) {
-    const job = await service.get(`/v1/designs/${id}`);
-    if (job.status === 'done') return id;
-    assert.ok(['queued', 'running'].includes(job.status), `the job is ${job.status}`);
-    await new Promise((resolve) => setTimeout(resolve, 50));
-  }
+  await ended(service, `/v1/designs/${id}`);
+  return id;
 }

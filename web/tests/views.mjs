@@ -1,6 +1,6 @@
 // Every view, as tests and screenshots open it.
-import { makeMeasurement, standIn } from './fixture.mjs';
-import { example, rank } from './support.mjs';
+import { makeMeasurement } from './fixture.mjs';
+import { ended, example, rank } from './support.mjs';
 
 const json = (name, body) => ({
   name,
@@ -20,15 +20,18 @@ export async function makeViews(service) {
   const conflict = await rank(service, impossible);
   const measurement = await makeMeasurement(service);
   const open = async (page) =>
-    page.locator('input[type=file]').setInputFiles(json('pneunet bench.json', measurement));
-  const diagnose = async (page) => {
-    await open(page);
-    await page.getByRole('button', { name: 'Find what the model lacks' }).click();
-    await page.getByText('Residual: measured less model').waitFor();
+    page.locator('input[type=file]').first().setInputFiles(json('pneunet bench.json', measurement));
+  const diagnosed = async (truth) => {
+    const { id } = await service.post('/v1/diagnoses', await makeMeasurement(service, truth));
+    await ended(service, `/v1/diagnoses/${id}`);
+    return {
+      hash: `#/measured?job=${id}`,
+      ready: (page) => page.getByText('Residual: measured less model').waitFor(),
+    };
   };
   const designReady = async (page) => {
     await page.getByText('Fall time × C·P₀/V₀').waitFor();
-    await page.locator('table.tornado').waitFor();
+    await page.getByRole('rowheader', { name: 'actuations' }).last().waitFor();
   };
   return [
     {
@@ -76,9 +79,10 @@ export async function makeViews(service) {
         await p.getByRole('button', { name: 'Add the part' }).waitFor();
       },
     },
-    { name: 'measured', hash: '#/measured', before: (p) => standIn(p, service), ready: open },
-    { name: 'diagnosis', hash: '#/measured', before: (p) => standIn(p, service), ready: diagnose },
-    { name: 'tie', hash: '#/measured', before: (p) => standIn(p, service, 'tie'), ready: diagnose },
+    { name: 'measured', hash: '#/measured', ready: open },
+    { name: 'diagnosis', ...(await diagnosed('creep')) },
+    { name: 'tie', ...(await diagnosed('tie')) },
+    { name: 'unexplained', ...(await diagnosed('seam')) },
     {
       name: 'searches',
       hash: '#/jobs',
@@ -87,5 +91,5 @@ export async function makeViews(service) {
   ];
 }
 
-export const widths = [360, 1280, 1920];
+export const widths = [360, 1024, 1920];
 export const schemes = ['light', 'dark'];

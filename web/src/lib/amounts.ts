@@ -84,6 +84,13 @@ export function requirementUnit(pointer: string): string {
   return pointer.endsWith('_anr_max') ? 'L/min' : '';
 }
 
+// What a search minimises, in words.
+export function objectiveName({ objective }: Requirements): string {
+  const minimize = objective?.minimize ?? 'mass_kg';
+  const words = { mass_kg: 'mass', volume_l: 'volume', cost_eur: 'cost', energy_wh: 'energy' };
+  return typeof minimize === 'string' ? words[minimize] : 'weighted sum';
+}
+
 // Of what a search minimises; none for a weighted sum.
 export function objectiveUnit(requirements: Requirements): string {
   const { minimize, pareto } = requirements.objective ?? {};

@@ -66,12 +66,20 @@ export function duration(seconds: number): string {
 
 // Names of fields, as the contract writes them, in words: "mass_kg" → "mass", unit "kg".
 const units: [RegExp, string][] = [
+  [/_l_per_min_bar$/, 'L/(min·bar)'],
+  [/_rad_per_s$/, 'rad/s'],
+  [/_kpa_per_s$/, 'kPa/s'],
+  [/_pa_per_s$/, 'Pa/s'],
+  [/_pa2_s_per_kg$/, 'Pa²·s/kg'],
+  [/_pa2_s2_per_kg2$/, 'Pa²·s²/kg²'],
+  [/_per_s$/, '1/s'],
   [/_dm3_per_s_bar$/, 'dm³/(s·bar)'],
   [/_l_per_min_anr(_max)?$/, 'L/min ANR'],
   [/_l_per_min$/, 'L/min'],
   [/_kg_per_m$/, 'kg/m'],
   [/_eur_per_m$/, '€/m'],
   [/_kpa_gauge$/, 'kPa gauge'],
+  [/_kpa$/, 'kPa'],
   [/_kg$/, 'kg'],
   [/_ml$/, 'mL'],
   [/_mm$/, 'mm'],

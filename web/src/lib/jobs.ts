@@ -1,49 +1,52 @@
-// Design jobs: started, followed, cancelled, and their answers once fetched.
+// Jobs, designs and diagnoses: started, followed, cancelled, and their answers once fetched.
 import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
 import { ask, asProblem, get, post, type Problem } from './api';
-import type { Answer, Job, JobStatus, Progress, Requirements } from './types';
+import type { Diagnosis } from './measurement';
+import type { Answer, Doing, Job, JobStatus, Progress, Requirements } from './types';
 
-export interface Watched<Result = Answer> {
-  job: Job<Result> | null;
-  trace: Progress[]; // reports so far
+export interface Watched<Result = Answer, Report = Progress> {
+  job: Job<Result, Report> | null;
+  trace: Report[]; // reports so far
   problem: Problem | null;
 }
 
 export const ended = (status: JobStatus): boolean => status !== 'queued' && status !== 'running';
 
 // By the job's address, "/v1/designs/ID".
-export const watched = signal<Record<string, Watched>>({});
+const watched = signal<Record<string, Watched<unknown, unknown>>>({});
 
-function put(self: string, patch: Partial<Watched>): void {
+function put(self: string, patch: Partial<Watched<unknown, unknown>>): void {
   const old = watched.peek()[self] ?? { job: null, trace: [], problem: null };
   watched.value = { ...watched.peek(), [self]: { ...old, ...patch } };
 }
 
 const following = new Set<string>();
+const retryMs = 2000;
+const later = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 
-async function fetchJob(self: string): Promise<void> {
-  const job = await get<Job>(self);
-  put(self, { job, problem: null });
-}
-
-// Loads a job and follows it to its end.
-export async function follow(self: string): Promise<void> {
+// Loads a job and follows it to its end, also over times when the service does not answer, as long
+// as the address names it.
+async function follow(self: string): Promise<void> {
   const known = watched.peek()[self]?.job;
   if (following.has(self) || (known && ended(known.status))) return;
   following.add(self);
-  try {
-    await fetchJob(self);
-    while (!ended(watched.peek()[self]!.job!.status)) {
-      await untilNews(self);
-      await fetchJob(self);
+  const id = self.split('/').pop()!;
+  do {
+    try {
+      for (;;) {
+        const job = await get<Job<unknown, unknown>>(self);
+        put(self, { job, problem: null });
+        if (ended(job.status)) break;
+        await untilNews(self);
+      }
+    } catch (error) {
+      put(self, { problem: asProblem(error) });
+      await later(retryMs);
     }
-  } catch (error) {
-    put(self, { problem: asProblem(error) });
-  } finally {
-    following.delete(self);
-  }
+  } while (watched.peek()[self]!.problem?.status === 0 && location.hash.includes(id));
+  following.delete(self);
 }
 
 // The event stream to its end; where there is none, a second.
@@ -83,15 +86,25 @@ export async function refreshJobs(): Promise<void> {
   jobList.value = (await get<{ jobs: Job[] }>('/v1/designs')).jobs;
 }
 
+export type Diagnosing = Job<Diagnosis, Doing>;
+export const diagnosisList = signal<Diagnosing[] | null>(null);
+
+export async function refreshDiagnoses(): Promise<void> {
+  diagnosisList.value = (await get<{ jobs: Diagnosing[] }>('/v1/diagnoses')).jobs;
+}
+
 // Jobs of this visit that were looked at, newest first; what the page compares with.
 export const previousJob = signal<string | null>(null);
 
 export const pathOf = (id: string): string => `/v1/designs/${id}`;
+export const diagnosisPath = (id: string): string => `/v1/diagnoses/${id}`;
 
-// Loads the job of the address and keeps following it.
-export function useJob(id: string | undefined) {
+// The job at an address, loaded and followed.
+export function useJob<Result = Answer, Report = Progress>(
+  self: string | null,
+): Watched<Result, Report> | undefined {
   useEffect(() => {
-    if (id) void follow(pathOf(id));
-  }, [id]);
-  return id ? watched.value[pathOf(id)] : undefined;
+    if (self) void follow(self);
+  }, [self]);
+  return self ? (watched.value[self] as Watched<Result, Report> | undefined) : undefined;
 }

@@ -14,6 +14,7 @@ export interface Run {
   t_s: number[];
   pressure_kpa_gauge: (number | null)[];
   channels?: Record<string, (number | null)[]>;
+  rig?: Partial<Rig>;
 }
 
 export interface Rig {
@@ -50,32 +51,54 @@ export interface ErrorReport {
   runs?: Record<string, number>;
 }
 
+export interface FittedEffect {
+  id: string;
+  parameters: Record<string, Estimate | string>;
+}
+
+export interface Experiment extends Partial<Run> {
+  id: string;
+  t_end_s?: number;
+  sample_hz?: number;
+  measure?: string[];
+  expected_difference_kpa?: number;
+  expected_delta_bic?: number;
+  why?: string;
+}
+
+export interface Discrepancy {
+  equation: string;
+  features: string[];
+  learned: FittedEffect | null;
+  rms_before_kpa: number;
+  rms_after_kpa: number | null;
+  holdout_before_kpa: number | null;
+  holdout_after_kpa: number | null;
+  places: { axis: string; where: string; share: number }[];
+}
+
 export interface Diagnosis {
   schema: 'diagnosis/1';
+  name?: string;
   verdict: 'adequate' | 'explained' | 'tie' | 'unexplained' | 'undecided';
-  sentence?: string;
+  sentence: string;
   noise_kpa: number;
-  declared?: ErrorReport;
+  declared: ErrorReport;
   before: ErrorReport;
   after: ErrorReport;
-  effects: { id: string; parameters: Record<string, Estimate | string> }[];
+  effects: FittedEffect[];
   candidates: {
     effects: string[];
+    laws: Record<string, string>;
     bic: number;
     delta_bic: number;
     rms_kpa: number;
-    holdout_rms_kpa?: number | null;
+    holdout_rms_kpa: number | null;
+    converged: boolean;
   }[];
   tied: string[][];
-  next_experiment: {
-    blocked?: boolean;
-    source_pressure_kpa_gauge?: number;
-    valve?: { t_s: number; state: ValveState }[];
-    t_end_s?: number;
-    measure?: string[];
-    expected_difference_kpa?: number;
-    why?: string;
-  } | null;
+  tied_laws: Record<string, string>[];
+  next_experiment: Experiment | null;
   residual: {
     white: boolean;
     independent_of_inputs: boolean;
@@ -84,23 +107,34 @@ export interface Diagnosis {
       phase: string;
       mean_kpa: number;
       trend_kpa_per_s: number;
-      rms_kpa?: number;
-      start_s?: number;
-      end_s?: number;
+      rms_kpa: number;
+      start_s: number;
+      end_s: number;
     }[];
   };
-  fitted: Record<string, Estimate>;
-  discrepancy?: { places?: { axis: string; where: string; share: number }[] } | null;
+  fitted: Record<string, Estimate & { declared: number; unit: string }>;
+  discrepancy: Discrepancy | null;
   unexplained_fraction: number;
-  warnings?: string[];
-  series?: {
+  warnings: string[];
+  series: {
     run: string;
+    held_out: boolean;
     phase: string[];
     t_s: number[];
     measured_kpa: (number | null)[];
+    declared_kpa: (number | null)[];
     before_kpa: (number | null)[];
     after_kpa: (number | null)[];
   }[];
+  provenance: { files: { name: string; sha256: string }[] };
+  revision: SavedModel | null; // what saving keeps
+}
+
+export interface SavedModel {
+  effects: { id: string; parameters: Record<string, number | string> }[];
+  factors: Record<string, number>;
+  covariance: { parameters: string[]; matrix: number[][] };
+  data: { name: string; sha256: string }[];
 }
 
 const channelNames = [
@@ -162,20 +196,48 @@ export const plainRig = (): Rig => ({
   supply: { kind: 'regulated' },
 });
 
-// `name` is the file's; a CSV gets a rig to be filled in.
-export function readMeasurement(name: string, text: string): Measurement {
-  const title = name.replace(/\.[^.]*$/, '');
-  if (!text.trimStart().startsWith('{'))
-    return { schema: 'measurement/1', name: title, rig: plainRig(), runs: readCsv(text) };
-  const given = JSON.parse(text) as Measurement;
+// What a file holds: a measurement, runs of a CSV, or the rig that a CSV was measured on.
+export type Content =
+  | { kind: 'measurement'; document: Measurement; text: string }
+  | { kind: 'runs'; runs: Run[] }
+  | { kind: 'rig'; document: Pick<Measurement, 'rig'> & Partial<Measurement> };
+
+export function readFile(text: string): Content {
+  if (!text.trimStart().startsWith('{')) return { kind: 'runs', runs: readCsv(text) };
+  const given = JSON.parse(text);
+  const runs = given.runs as Run[] | undefined;
+  const hasSamples = Array.isArray(runs) && runs.some((run) => Array.isArray(run.t_s));
+  if (!hasSamples && (given.actuator || given.rig)) {
+    return { kind: 'rig', document: given.rig ? given : { rig: given } };
+  }
   if (given.schema !== 'measurement/1')
     throw new Error(`its schema is ${JSON.stringify(given.schema)}, not "measurement/1"`);
-  if (!Array.isArray(given.runs) || given.runs.length === 0) throw new Error('it has no runs');
-  const broken = given.runs.find(
+  if (!hasSamples) throw new Error('it has no runs');
+  const broken = runs.find(
     (run) => !Array.isArray(run.t_s) || run.t_s.length !== run.pressure_kpa_gauge?.length,
   );
   if (broken) throw new Error(`run ${broken.id} has not as many pressures as times`);
-  return { ...given, name: given.name ?? title };
+  return { kind: 'measurement', document: given, text };
+}
+
+// A CSV's runs with the document beside it, which holds the rig and what it says of each run.
+export const withRig = (runs: Run[], beside: Pick<Measurement, 'rig'> & Partial<Measurement>) => ({
+  ...beside,
+  schema: 'measurement/1' as const,
+  runs: runs.map((run) => ({ ...beside.runs?.find((other) => other.id === run.id), ...run })),
+});
+
+// More runs for a measurement; ids that recur get a number. Runs of another rig carry it.
+export function withRuns(data: Measurement, more: Run[], rig?: Rig): Measurement {
+  const ids = new Set(data.runs.map((run) => run.id));
+  const runs = more.map((run) => {
+    let id = run.id;
+    for (let n = 2; ids.has(id); ++n) id = `${run.id}-${n}`;
+    ids.add(id);
+    const isOther = rig && JSON.stringify(rig) !== JSON.stringify(data.rig);
+    return { ...run, id, ...(isOther && { rig: { ...rig, ...run.rig } }) };
+  });
+  return { ...data, runs: [...data.runs, ...runs] };
 }
 
 const phaseOf: Record<ValveState, string> = {
@@ -184,35 +246,19 @@ const phaseOf: Record<ValveState, string> = {
   deflate: '--phase-deflate',
 };
 
+export interface Shade {
+  from: number;
+  to: number;
+  colour: string;
+}
+
 // Shades behind a plot: what the valve was told.
-export function bandsOf(
-  run: Run | undefined,
-  end: number,
-): { from: number; to: number; colour: string }[] {
-  return (run?.valve ?? []).map((command, i, all) => ({
+export const shadesOf = (valve: Run['valve'] | undefined, end: number): Shade[] =>
+  (valve ?? []).map((command, i, all) => ({
     from: command.t_s,
     to: all[i + 1]?.t_s ?? end,
     colour: phaseOf[command.state],
   }));
-}
-
-// What a diagnosis established as model/1, which rankings can name.
-export function revisionOf(d: Diagnosis): unknown {
-  const effects = d.effects.map(({ id, parameters }) => ({
-    id,
-    parameters: Object.fromEntries(
-      Object.entries(parameters).map(([name, v]) => [name, typeof v === 'string' ? v : v.value]),
-    ),
-  }));
-  return {
-    schema: 'model/1',
-    effects,
-    noise_kpa: d.noise_kpa,
-    before_rms_kpa: d.before.rms_kpa,
-    after_rms_kpa: d.after.rms_kpa,
-    holdout_rms_kpa: d.after.holdout_rms_kpa ?? null,
-  };
-}
 
 const effectWords: Record<string, string> = {
   leak: 'a leak',
@@ -232,28 +278,21 @@ const effectWords: Record<string, string> = {
   cracking_pressure: 'a cracking pressure',
   line_dynamics: 'dynamics of the line',
   directional_conductance: 'a line that conducts better one way',
+  wall_heat: 'heat kept in the wall',
+  learned_leak: 'a learned leak',
+  learned_conductance: 'a learned conductance of the line',
+  learned_volume: 'a learned volume law',
+  learned_sensor: 'a learned error of the sensor',
 };
 
-export const effectName = (id: string): string => effectWords[id] ?? id.replaceAll('_', ' ');
+export const effectName = (id: string, law?: string): string =>
+  `${effectWords[id] ?? id.replaceAll('_', ' ')}${law ? ` (${law})` : ''}`;
 
-// The verdict in one sentence, where the service gives none.
-export function verdictSentence(d: Diagnosis): string {
-  if (d.sentence) return d.sentence;
-  const names = d.effects.map((effect) => effectName(effect.id)).join(' and ');
-  switch (d.verdict) {
-    case 'adequate':
-      return 'The model describes the measurement within its noise; nothing is missing.';
-    case 'explained':
-      return `The model lacks ${names}.`;
-    case 'tie':
-      return `${d.tied.map((set) => set.map(effectName).join(' and ')).join(', or ')} explain it equally well; one more experiment would tell.`;
-    case 'unexplained':
-      return 'Something is left that no known effect accounts for.';
-    case 'undecided':
-      return 'It could not be decided.';
-  }
-}
+export const effectNames = (ids: string[], laws: Record<string, string> = {}): string =>
+  ids.map((id) => effectName(id, laws[id])).join(' + ') || 'base model';
 
-// What the page has open, and what the service finds wrong with it.
+// What the page has open, the file's own text while it is as it was, and what the service finds
+// wrong with it.
 export const measurement = signal<Measurement | null>(null);
+export const originalText = signal<string | null>(null);
 export const measurementErrors = signal<FieldError[]>([]);

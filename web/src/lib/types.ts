@@ -39,7 +39,7 @@ export interface Requirements {
   require?: Record<string, string[]>;
   exclude?: string[];
   robust?: Record<string, unknown>;
-  explain?: { prices?: boolean; ranks?: number };
+  explain?: { prices?: boolean; ranks?: number; time_limit_s?: number };
   model?: string;
 }
 
@@ -99,7 +99,19 @@ export interface Design {
   margins: Margin[];
   data_quality: { mass_share_estimated: number; estimated: string[]; flow_estimated: boolean };
   response: Trace;
-  robustness?: { probability: number; interval95?: number[]; share_rank_1: number };
+  robustness?: { probability: number; probability_ci95: [number, number]; share_rank_1: number };
+  // What would have to change for it to be first.
+  to_be_first?: {
+    objective_gap: number;
+    parts: { family: string; id: string; reduction_share: number; confirmed: boolean }[];
+    requirements: {
+      requirement: string;
+      required: number;
+      tightened: number;
+      confirmed: boolean;
+    }[];
+    complete: boolean;
+  };
 }
 
 export interface Proof {
@@ -134,13 +146,27 @@ export interface Answer {
     relaxation: number | null;
     proved: boolean;
   }[];
-  prices?: { requirement: string; saving: number | null; status: string }[];
+  prices?: {
+    requirement: string;
+    required: number;
+    loosened: number;
+    saving: number | null;
+    saving_share: number | null;
+    status: string;
+  }[];
+  robust?: { draws: number; left_out?: number; seconds?: number };
   seconds: number;
   model?: { name: string; version: number; proved: boolean; effects: Effect[] };
   against_nominal?: {
     status: string;
     designs: { rank: number; nominal_rank: number | null }[];
-    dropped: { nominal_rank: number; objective: number; parts: PartRow[]; why: string | null }[];
+    dropped: {
+      nominal_rank: number;
+      objective: number;
+      parts: string[];
+      // Missed at its own settings, a sentence, or nothing: others are better now.
+      why: { requirement: string; required: number; achieved: number } | string | null;
+    }[];
   };
   requirements: Requirements;
   catalogue_revision?: { number: number; hash: string };
@@ -156,11 +182,18 @@ export interface Progress {
 
 export type JobStatus = 'queued' | 'running' | 'done' | 'cancelled' | 'failed';
 
-export interface Job<Result = Answer> {
+// What a diagnosis is at.
+export interface Doing {
+  seconds: number;
+  share: number;
+  doing: string;
+}
+
+export interface Job<Result = Answer, Report = Progress> {
   id: string;
   name: string;
   status: JobStatus;
-  progress: Progress | null;
+  progress: Report | null;
   result?: Result | null;
   detail?: string;
   links: { self: string; events: string };

@@ -2,6 +2,8 @@
 import { contours } from 'd3-contour';
 import { scaleLinear } from 'd3-scale';
 
+import { useId } from 'preact/hooks';
+
 import { short } from '../lib/format';
 import { useWidth } from './width';
 
@@ -19,15 +21,19 @@ const never = 100;
 
 export function ContourMap(props: {
   title: string;
+  subtitle: string;
   data: MapData;
   levels: number[];
   xLabel: string;
   yLabel: string;
-  at: { x: number; y: number; label: string };
+  at: { x: number; y: number };
+  note: string;
   // Above this line the target is never reached.
   border?: (x: number) => number;
+  hasNever?: boolean; // some points of the grid are never reached
 }) {
   const { ref, width } = useWidth();
+  const clip = useId();
   const { x, y, values } = props.data;
   const [x0, x1] = [x[0]!, x[x.length - 1]!];
   const [y0, y1] = [y[0]!, y[y.length - 1]!];
@@ -38,7 +44,9 @@ export function ContourMap(props: {
   const gy = scaleLinear([0.5, y.length - 0.5], sy.range());
   const shapes = contours()
     .size([x.length, y.length])
-    .thresholds([-1, ...props.levels])(values.map((v) => v ?? never));
+    .thresholds([-1, ...props.levels, ...(props.hasNever ? [never / 2] : [])])(
+    values.map((v) => v ?? never),
+  );
   const shades = props.levels.length + 1;
   const path = (rings: number[][][][]) =>
     rings
@@ -52,9 +60,9 @@ export function ContourMap(props: {
       )
       .join('');
   return (
-    <figure class="plot contour" aria-label={`${props.title}: ${props.at.label}`}>
+    <figure class="plot contour" aria-label={`${props.title}, ${props.subtitle}: ${props.note}`}>
       <figcaption>
-        <strong>{props.title}</strong>
+        <strong>{props.title}</strong> <span class="muted">{props.subtitle}</span>
         <span class="legend">
           {[
             `< ${short(props.levels[0]!)}`,
@@ -69,7 +77,7 @@ export function ContourMap(props: {
               {text}
             </span>
           ))}
-          {props.border && (
+          {(props.border || props.hasNever) && (
             <span class="legend-item">
               <i class="swatch never" />
               never
@@ -80,7 +88,7 @@ export function ContourMap(props: {
       <div ref={ref} style={{ height: `${height}px` }}>
         {width > 0 && (
           <svg width={width} height={height}>
-            <clipPath id={`clip-${props.title}`}>
+            <clipPath id={clip}>
               <rect
                 x={space.left}
                 y={space.top}
@@ -88,12 +96,12 @@ export function ContourMap(props: {
                 height={height - space.top - space.bottom}
               />
             </clipPath>
-            <g clip-path={`url("#clip-${props.title}")`}>
+            <g clip-path={`url("#${clip}")`}>
               {shapes.map((shape, i) => (
                 <path
                   key={i}
                   d={path(shape.coordinates)}
-                  class="level"
+                  class={i < shades ? 'level' : 'never'}
                   style={{ '--shade': i / (shades - 1) }}
                 />
               ))}
@@ -154,7 +162,7 @@ export function ContourMap(props: {
           </svg>
         )}
       </div>
-      <p class="hint">{props.at.label}</p>
+      <p class="hint">{props.note}</p>
     </figure>
   );
 }

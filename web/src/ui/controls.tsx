@@ -115,6 +115,7 @@ export interface NumberFieldProps {
   hint?: string;
   error?: string;
   optional?: boolean;
+  placeholder?: string; // of an optional one
   pointer?: string;
 }
 
@@ -168,7 +169,7 @@ export function NumberField(props: NumberFieldProps) {
           inputMode="decimal"
           autocomplete="off"
           value={text.value}
-          placeholder={props.optional ? 'no limit' : ''}
+          placeholder={props.placeholder ?? (props.optional ? 'no limit' : '')}
           data-pointer={props.pointer}
           aria-invalid={error ? true : undefined}
           aria-describedby={`${id}-hint`}

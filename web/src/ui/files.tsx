@@ -1,10 +1,13 @@
 // Files in and out.
 import { useRef } from 'preact/hooks';
 
+import type { FieldError } from '../lib/api';
+
 export function FilePicker(props: {
   label: string;
   accept: string;
-  onFile: (file: File) => void;
+  onFiles: (files: File[]) => void;
+  multiple?: boolean;
   primary?: boolean;
 }) {
   const input = useRef<HTMLInputElement>(null);
@@ -24,9 +27,10 @@ export function FilePicker(props: {
         tabIndex={-1}
         aria-label={props.label}
         accept={props.accept}
+        multiple={props.multiple}
         onChange={(event) => {
-          const file = event.currentTarget.files?.[0];
-          if (file) props.onFile(file);
+          const files = [...(event.currentTarget.files ?? [])];
+          if (files.length) props.onFiles(files);
           event.currentTarget.value = '';
         }}
       />
@@ -50,3 +54,15 @@ export const csvCell = (value: unknown): string => {
 
 export const csv = (rows: unknown[][]): string =>
   `${rows.map((row) => row.map(csvCell).join(',')).join('\n')}\n`;
+
+// What the service finds wrong, each with its place in the document.
+export const ErrorList = ({ errors }: { errors: FieldError[] }) =>
+  errors.length === 0 ? null : (
+    <ul>
+      {errors.map((error) => (
+        <li key={error.pointer + error.detail}>
+          <code>{error.pointer || 'the request'}</code> {error.detail}
+        </li>
+      ))}
+    </ul>
+  );

@@ -83,16 +83,9 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
           effects={answer.model?.effects}
         />
       )}
-      <div class="plots three">
+      <Sensitivities design={design} requirements={answer.requirements} />
+      <div class={`plots ${design.configuration === 'compressor' ? 'three' : 'even'}`}>
         <Maps design={design} requirements={answer.requirements} parts={parts.value} />
-        {parts.value && (
-          <Sensitivities
-            design={design}
-            requirements={answer.requirements}
-            parts={parts.value}
-            effects={answer.model?.effects}
-          />
-        )}
       </div>
       <Estimates design={design} />
     </div>

@@ -1,8 +1,8 @@
 // The answer of one job: while it runs its progress, then the ranked list.
 import { useEffect } from 'preact/hooks';
 
-import { objectiveUnit, requirementName, requirementNumber, requirementUnit } from '../lib/amounts';
-import { duration, percent, significant } from '../lib/format';
+import { requirementName, requirementNumber, requirementUnit } from '../lib/amounts';
+import { percent } from '../lib/format';
 import { ended, pathOf, useJob, jobList, previousJob, refreshJobs, start } from '../lib/jobs';
 import { load } from '../lib/requirements';
 import { go, link, route } from '../lib/route';
@@ -14,6 +14,7 @@ import { ComparePanel } from './compare';
 import { DesignPage } from './design';
 import { ProgressPanel } from './progress';
 import { AgainstNominal, Ranked } from './ranked';
+import { Why } from './why';
 
 function useNewestJob(id: string | undefined) {
   useEffect(() => {
@@ -35,7 +36,7 @@ function useNewestJob(id: string | undefined) {
 export function DesignsView() {
   const [, id, rank] = route.value.path;
   useNewestJob(id);
-  const now = useJob(id);
+  const now = useJob(id ? pathOf(id) : null);
   if (!id) {
     return (
       <Panel first title="Designs">
@@ -83,13 +84,17 @@ export function DesignsView() {
     <>
       <Headline answer={answer} id={id} />
       {answer.conflict && <Conflict answer={answer} />}
-      {answer.designs.length > 0 && <Ranked answer={answer} id={id} key={id} />}
+      {answer.designs.length > 0 && (
+        <>
+          <Why answer={answer} id={id} />
+          <Ranked answer={answer} id={id} key={id} />
+        </>
+      )}
       {answer.designs.length === 0 && answer.against_nominal && (
         <Panel title="What the model changes">
           <AgainstNominal answer={answer} />
         </Panel>
       )}
-      {answer.prices && answer.prices.length > 0 && <Prices answer={answer} />}
     </>
   );
 }
@@ -182,99 +187,6 @@ function Conflict({ answer }: { answer: Answer }) {
           </tbody>
         </table>
       </div>
-    </Panel>
-  );
-}
-
-function Prices({ answer }: { answer: Answer }) {
-  return (
-    <Panel
-      title="What each requirement costs"
-      aside={<span class="muted">saved if it were a tenth looser</span>}
-    >
-      <div class="scroll" tabIndex={0} role="region" aria-label="Prices of requirements">
-        <table>
-          <thead>
-            <tr>
-              <th scope="col">requirement</th>
-              <th scope="col" class="num">
-                saving <small>{objectiveUnit(answer.requirements)}</small>
-              </th>
-              <th scope="col">status</th>
-            </tr>
-          </thead>
-          <tbody>
-            {answer.prices!.map((row) => (
-              <tr key={row.requirement}>
-                <td>{requirementName(row.requirement, answer.requirements.actuators)}</td>
-                <td class="num">{significant(row.saving)}</td>
-                <td>{row.status === 'optimal' ? 'proved' : row.status}</td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </div>
-    </Panel>
-  );
-}
-
-export function JobsView() {
-  useEffect(() => {
-    void refreshJobs().catch(() => undefined);
-    const timer = setInterval(() => void refreshJobs().catch(() => undefined), 2000);
-    return () => clearInterval(timer);
-  }, []);
-  const jobs = jobList.value;
-  return (
-    <Panel first title="Searches since the service started">
-      {jobs === null && <p role="status">Loading…</p>}
-      {jobs?.length === 0 && (
-        <p>
-          None yet. <a href={link(['requirements'])}>Write the requirements</a> and start one.
-        </p>
-      )}
-      {jobs !== null && jobs.length > 0 && (
-        <div class="scroll" tabIndex={0} role="region" aria-label="Searches">
-          <table>
-            <thead>
-              <tr>
-                <th scope="col">search</th>
-                <th scope="col">status</th>
-                <th scope="col" class="num">
-                  best
-                </th>
-                <th scope="col" class="num">
-                  searched
-                </th>
-                <th scope="col">id</th>
-              </tr>
-            </thead>
-            <tbody>
-              {jobs.map((job) => (
-                <tr key={job.id}>
-                  <th scope="row">
-                    <a href={link(['designs', job.id])}>{job.name || 'unnamed'}</a>
-                  </th>
-                  <td>
-                    <Chip
-                      kind={
-                        job.status === 'done' ? 'good' : job.status === 'failed' ? 'bad' : 'warn'
-                      }
-                    >
-                      {job.status}
-                    </Chip>
-                  </td>
-                  <td class="num">{significant(job.progress?.best ?? null, 4)}</td>
-                  <td class="num">{job.progress ? duration(job.progress.seconds) : '–'}</td>
-                  <td>
-                    <code>{job.id}</code>
-                  </td>
-                </tr>
-              ))}
-            </tbody>
-          </table>
-        </div>
-      )}
     </Panel>
   );
 }

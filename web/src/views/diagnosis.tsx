@@ -1,26 +1,16 @@
-// What a diagnosis found: the verdict, measured against model before and after, residuals, the
-// candidates, the next experiment; and the revised model, saved and used.
-import { useSignal } from '@preact/signals';
-
-import { asProblem, post } from '../lib/api';
+// What a diagnosis found: the verdict, measured against model before and after, residuals, what is
+// left, the candidates, the next experiment; and the revised model, saved and used.
 import { significant } from '../lib/format';
-import { start } from '../lib/jobs';
-import {
-  bandsOf,
-  type Diagnosis,
-  type Measurement,
-  revisionOf,
-  verdictSentence,
-} from '../lib/measurement';
-import { models, refreshModels, serves } from '../lib/models';
-import { load, requirements } from '../lib/requirements';
-import { go } from '../lib/route';
+import { type Diagnosis, effectName, type Measurement, type Shade } from '../lib/measurement';
 import { toShown, unitOf } from '../lib/units';
 import { Lines } from '../plots/lines';
-import { Chip, Notice, Panel, TextField } from '../ui/controls';
+import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';
+import { Effects, EstimateTable } from './diagnosis_effects';
+import { Candidates, Errors, Phases } from './diagnosis_tables';
+import { NextExperiment } from './next_experiment';
 import { PhaseKey, pickRun, RunPicker } from './runs';
-import { Candidates, Effects, Errors, NextExperiment, Phases } from './diagnosis_tables';
+import { SaveModel } from './save_model';
 
 const kinds: Record<Diagnosis['verdict'], { text: string; kind: string }> = {
   adequate: { text: 'adequate', kind: 'good' },
@@ -45,153 +35,140 @@ export function DiagnosisView({
       <Panel
         title={
           <>
-            <Chip kind={word.kind}>{word.text}</Chip> {verdictSentence(d)}
+            <Chip kind={word.kind}>{word.text}</Chip> {d.sentence}
           </>
         }
         aside={
           <button
             type="button"
             onClick={() =>
-              saveFile(`${data?.name ?? id}-diagnosis.json`, `${JSON.stringify(d, null, 2)}\n`)
+              saveFile(`${d.name || id}-diagnosis.json`, `${JSON.stringify(d, null, 2)}\n`)
             }
           >
-            JSON
+            Save JSON
           </button>
         }
       >
         <Errors d={d} />
-        {d.warnings?.map((warning) => (
+        {d.warnings.map((warning) => (
           <Notice key={warning} kind="warn">
             {warning}
           </Notice>
         ))}
       </Panel>
-      {d.series && d.series.length > 0 && <Curves d={d} data={data} />}
+      {d.series.length > 0 && <Curves d={d} />}
+      {d.next_experiment && <NextExperiment d={d} data={data} />}
       <div class="plots even">
         <Effects d={d} />
         <Phases d={d} />
       </div>
-      {d.next_experiment && <NextExperiment d={d} />}
-      {d.discrepancy?.places && d.discrepancy.places.length > 0 && (
-        <Panel title="Where the unexplained part lives">
-          <ul class="history">
-            {d.discrepancy.places.map((p) => (
-              <li key={p.axis + p.where}>
-                {p.axis}: {p.where} ({significant(100 * p.share, 2)} % of its energy)
-              </li>
-            ))}
-          </ul>
-        </Panel>
-      )}
+      {d.discrepancy && <Learned d={d} />}
       <Candidates d={d} />
-      {d.effects.length > 0 && <SaveModel diagnosis={d} />}
+      {d.revision && <SaveModel diagnosis={d} model={d.revision} />}
     </>
   );
 }
 
-function Curves({ d, data }: { d: Diagnosis; data: Measurement | null }) {
-  const ids = d.series!.map((series) => series.run);
-  const series = d.series!.find((s) => s.run === pickRun(ids))!;
-  const run = data?.runs.find((r) => r.id === series.run);
-  const bands = bandsOf(run, series.t_s[series.t_s.length - 1] ?? 0);
+const phaseColours: Record<string, string> = { rise: 'inflate', fall: 'deflate' };
+
+// Shades behind a run: the phases that the diagnosis saw.
+function shadesOfSeries({ t_s, phase }: Diagnosis['series'][number]): Shade[] {
+  const shades: Shade[] = [];
+  phase.forEach((name, i) => {
+    const colour = `--phase-${phaseColours[name] ?? 'hold'}`;
+    const last = shades[shades.length - 1];
+    if (last?.colour === colour) last.to = t_s[i]!;
+    else {
+      if (last) last.to = t_s[i]!;
+      shades.push({ from: t_s[i]!, to: t_s[i]!, colour });
+    }
+  });
+  return shades;
+}
+
+function Curves({ d }: { d: Diagnosis }) {
+  const ids = d.series.map((series) => series.run);
+  const series = d.series.find((s) => s.run === pickRun(ids))!;
+  const bands = shadesOfSeries(series);
   const show = (values: (number | null)[]) =>
     values.map((v) => (v === null ? null : toShown('pressure', v)));
   const rest = (model: (number | null)[]) =>
     series.measured_kpa.map((v, i) => (v === null || model[i] == null ? null : v - model[i]!));
+  const plot = { x: series.t_s, xLabel: 'time, s', bands, sync: 'diagnosis' };
   return (
     <Panel title="Measured against model" aside={<RunPicker ids={ids} value={series.run} />}>
       <Lines
-        title={`Run ${series.run}`}
-        x={series.t_s}
-        xLabel="time, s"
+        {...plot}
+        title={`Run ${series.run}${series.held_out ? ', held out of all fits' : ''}`}
         yLabel={`pressure, ${unitOf('pressure')}`}
         height={280}
-        bands={bands}
-        sync="diagnosis"
         lines={[
-          { label: 'measured', values: show(series.measured_kpa), colour: '--c6', width: 2.4 },
+          { label: 'measured', values: show(series.measured_kpa), colour: '--c6', width: 3.2 },
           { label: 'model before', values: show(series.before_kpa), colour: '--c2', dash: [6, 3] },
           { label: 'model after', values: show(series.after_kpa), colour: '--c1' },
         ]}
       />
       <Lines
+        {...plot}
         title="Residual: measured less model"
-        x={series.t_s}
-        xLabel="time, s"
         yLabel="residual, kPa"
         height={180}
-        bands={bands}
-        sync="diagnosis"
         lines={[
           { label: 'before', values: rest(series.before_kpa), colour: '--c2', width: 1 },
           { label: 'after', values: rest(series.after_kpa), colour: '--c1', width: 1 },
         ]}
       />
-      {run && <PhaseKey />}
+      <PhaseKey />
     </Panel>
   );
 }
 
-// Saves the revision and ranks the requirements of the other view with it.
-function SaveModel({ diagnosis }: { diagnosis: Diagnosis }) {
-  const name = useSignal('');
-  const problem = useSignal('');
-  const saved = useSignal('');
-  const canSave = serves('POST /v1/models');
-  const save = async () => {
-    try {
-      await post('/v1/models', { name: name.value, model: revisionOf(diagnosis) });
-      saved.value = name.value;
-      problem.value = '';
-      await refreshModels();
-    } catch (error) {
-      const refused = asProblem(error);
-      problem.value = [refused.message, ...refused.errors.map((e) => e.detail)].join(' ');
-    }
-  };
-  const rank = async () => {
-    const revised = { ...requirements.value, model: saved.value };
-    try {
-      const job = await start(revised);
-      load(revised);
-      go(['designs', job]);
-    } catch (error) {
-      const refused = asProblem(error);
-      problem.value = [refused.message, ...refused.errors.map((e) => e.detail)].join(' ');
-    }
-  };
+const equations: Record<string, string> = {
+  chamber: 'gas leaving or entering the actuator',
+  line: 'flow through the line',
+  volume: 'volume over pressure',
+  sensor: 'what the sensor shows',
+};
+
+// What no known effect accounts for: where it lives, and the term learned in its place.
+function Learned({ d }: { d: Diagnosis }) {
+  const { equation, features, learned, places } = d.discrepancy!;
   return (
-    <Panel title="Save as a model revision and rank again">
-      {problem.value && <Notice kind="bad">{problem.value}</Notice>}
-      {!canSave && (
-        <Notice kind="warn">This service does not save model revisions over HTTP yet.</Notice>
-      )}
-      <div class="toolbar">
-        <TextField
-          label="Name"
-          value={name.value}
-          onChange={(v) => (name.value = v)}
-          hint={
-            models.value.some((m) => m.name === name.value)
-              ? 'becomes its next version'
-              : 'a-z, 0-9, -'
-          }
-        />
-        <button
-          type="button"
-          disabled={!canSave || name.value.trim() === ''}
-          onClick={() => void save()}
-        >
-          Save the revision
-        </button>
-        <button
-          type="button"
-          class="primary"
-          disabled={saved.value === ''}
-          onClick={() => void rank()}
-        >
-          Rank {requirements.value.name || 'the requirements'} with {saved.value || 'it'}
-        </button>
+    <Panel
+      title="What no known effect accounts for"
+      aside={<Chip kind="warn">learned, not known physics</Chip>}
+    >
+      <div class="plots even">
+        <div>
+          <h3>Where it lives</h3>
+          <p>
+            In the equation of the {equation}
+            {equations[equation] && ` (${equations[equation]})`}, over {features.join(' and ')}.
+          </p>
+          <ul class="history">
+            {places.map((p) => (
+              <li key={p.axis + p.where}>
+                {p.axis}: {p.where}, {significant(100 * p.share, 2)} % of it
+              </li>
+            ))}
+          </ul>
+        </div>
+        <div>
+          {learned ? (
+            <>
+              <h3>
+                {effectName(learned.id, String(learned.parameters.law ?? ''))}{' '}
+                <code>{learned.id}</code>
+              </h3>
+              <EstimateTable
+                of="parameter"
+                rows={Object.entries(learned.parameters).filter(([name]) => name !== 'law')}
+              />
+            </>
+          ) : (
+            <p>No term was learned: none made other runs come out better.</p>
+          )}
+        </div>
       </div>
     </Panel>
   );

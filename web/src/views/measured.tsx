@@ -1,24 +1,28 @@
-// Measured data: drop a file, see it, ask what the model lacks.
+// Measured data: drop files, see them, ask what the model lacks.
 import { signal, useSignal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
 
-import { asProblem, post } from '../lib/api';
+import { ask, asProblem } from '../lib/api';
 import { significant } from '../lib/format';
-import { ended, follow, watched } from '../lib/jobs';
+import { cancel, diagnosisPath, ended, useJob } from '../lib/jobs';
 import {
-  bandsOf,
   type Diagnosis,
   type Measurement,
   measurement,
   measurementErrors,
-  readMeasurement,
+  originalText,
+  plainRig,
+  readFile,
+  type Run,
+  shadesOf,
+  withRig,
+  withRuns,
 } from '../lib/measurement';
-import { routes, serves } from '../lib/models';
 import { route, setQuery } from '../lib/route';
+import type { Doing, Job } from '../lib/types';
 import { toShown, unitOf } from '../lib/units';
 import { Lines } from '../plots/lines';
 import { Notice, Panel } from '../ui/controls';
-import { FilePicker } from '../ui/files';
+import { ErrorList, FilePicker } from '../ui/files';
 import { DiagnosisView } from './diagnosis';
 import { RigForm } from './rig_form';
 import { PhaseKey, pickRun, RunPicker } from './runs';
@@ -26,15 +30,43 @@ import { PhaseKey, pickRun, RunPicker } from './runs';
 const fromCsv = signal(false);
 const problem = signal('');
 
-async function take(file: File): Promise<void> {
-  try {
-    const text = await file.text();
-    measurement.value = readMeasurement(file.name, text);
-    fromCsv.value = !text.trimStart().startsWith('{');
-    problem.value = '';
-  } catch (error) {
-    problem.value = `${file.name} cannot be read: ${(error as Error).message}`;
+// Files together are one measurement: the rig of a CSV may be one of them. `added` keeps what is open.
+async function take(files: File[], added: boolean): Promise<void> {
+  let data = added ? measurement.value : null;
+  const more: Run[] = [];
+  let text: string | null = null;
+  let isCsv = added && fromCsv.value;
+  let beside: Parameters<typeof withRig>[1] | null = null;
+  for (const file of files) {
+    try {
+      const content = readFile(await file.text());
+      if (content.kind === 'rig') beside = content.document;
+      else if (content.kind === 'runs') {
+        isCsv ||= data === null;
+        more.push(...content.runs);
+      } else if (data) data = withRuns(data, content.document.runs, content.document.rig);
+      else {
+        data = content.document;
+        text = content.text;
+      }
+    } catch (error) {
+      problem.value = `${file.name} cannot be read: ${(error as Error).message}`;
+      return;
+    }
   }
+  const name = files[0]!.name.replace(/\.[^.]*$/, '');
+  data ??= more.length
+    ? { schema: 'measurement/1', name, rig: plainRig(), runs: [] }
+    : measurement.value;
+  if (!data) {
+    problem.value = 'A rig alone is no measurement: drop the CSV, too.';
+    return;
+  }
+  data = more.length ? withRuns(data, more) : data;
+  measurement.value = beside ? { ...data, ...withRig(data.runs, beside) } : data;
+  originalText.value = files.length === 1 && !added ? text : null;
+  fromCsv.value = isCsv && !beside;
+  problem.value = '';
   measurementErrors.value = [];
   setQuery({ job: undefined, run: undefined });
 }
@@ -43,25 +75,23 @@ export function MeasuredView() {
   const over = useSignal(false);
   const busy = useSignal(false);
   const job = route.value.query.get('job');
-  const self = job ? `/v1/diagnoses/${job}` : null;
-  useEffect(() => {
-    if (self) void follow(self);
-  }, [self]);
-  const now = self ? watched.value[self] : undefined;
-  const result = now?.job?.result as unknown as Diagnosis | undefined;
+  const now = useJob<Diagnosis, Doing>(job ? diagnosisPath(job) : null);
+  const result = now?.job?.result ?? undefined;
+  const isRunning = now?.job ? !ended(now.job.status) : false;
   const data = measurement.value;
-  const canDiagnose = serves('POST /v1/diagnoses');
   const diagnose = async () => {
     busy.value = true;
     measurementErrors.value = [];
     problem.value = '';
     try {
-      const accepted = await post<{ id: string }>('/v1/diagnoses', data);
-      setQuery({ job: accepted.id });
+      const { body } = await ask<{ id: string }>('POST', '/v1/diagnoses', {
+        text: originalText.value ?? JSON.stringify(data),
+        headers: { 'Content-Type': 'application/json' },
+      });
+      setQuery({ job: body.id });
     } catch (error) {
       const refused = asProblem(error);
-      problem.value =
-        refused.status === 404 ? 'This service cannot diagnose measurements.' : refused.message;
+      problem.value = refused.message;
       measurementErrors.value = refused.errors;
     } finally {
       busy.value = false;
@@ -70,9 +100,10 @@ export function MeasuredView() {
   const drop = (event: DragEvent) => {
     event.preventDefault();
     over.value = false;
-    const file = event.dataTransfer?.files[0];
-    if (file) void take(file);
+    const files = [...(event.dataTransfer?.files ?? [])];
+    if (files.length) void take(files, false);
   };
+  const accept = '.json,.csv,application/json,text/csv';
   return (
     <div
       class="measured"
@@ -87,77 +118,105 @@ export function MeasuredView() {
         <h1>Measured data</h1>
         {data && (
           <span class="muted">
-            {data.name}: {data.runs.length} runs,{' '}
+            {data.name}: {data.runs.length} {data.runs.length === 1 ? 'run' : 'runs'},{' '}
             {data.runs.reduce((n, run) => n + run.t_s.length, 0)} samples
           </span>
         )}
+        {!data && result && <span class="muted">{result.name}</span>}
         <span class="toolbar-group">
+          {data && (
+            <FilePicker label="Add runs…" accept={accept} multiple onFiles={(f) => take(f, true)} />
+          )}
           <FilePicker
-            label={data ? 'Another file…' : 'Open a file…'}
-            accept=".json,.csv,application/json,text/csv"
-            onFile={(file) => void take(file)}
-            primary={!data}
+            label={data ? 'Another file…' : 'Open files…'}
+            accept={accept}
+            multiple
+            onFiles={(files) => take(files, false)}
+            primary={!data && !result}
           />
         </span>
       </div>
       {problem.value && (
         <Notice kind="bad">
           {problem.value}
-          {measurementErrors.value.length > 0 && (
-            <ul>
-              {measurementErrors.value.map((e) => (
-                <li key={e.pointer}>
-                  <code>{e.pointer}</code> {e.detail}
-                </li>
-              ))}
-            </ul>
-          )}
+          <ErrorList errors={measurementErrors.value} />
         </Notice>
       )}
-      {routes.value && !canDiagnose && (
-        <Notice kind="warn">
-          This service does not diagnose measurements yet; files can be looked at only.
-        </Notice>
-      )}
-      {!data && !self && (
-        <div class={`drop ${over.value ? 'over' : ''}`}>
-          <p>
-            <b>Drop a measurement here</b>, as JSON (measurement/1) or CSV with the columns{' '}
-            <code>run, t_s, valve, pressure_kpa_gauge</code>.
-          </p>
-          <p class="muted">
-            The valve is hold, inflate or deflate. A CSV may also hold source_pressure_kpa_gauge,
-            inlet_pressure_kpa_gauge, temperature_k, volume_ml and flow_l_per_min_anr.
-          </p>
-        </div>
-      )}
+      {!data && !job && <Welcome over={over.value} />}
       {data && fromCsv.value && !result && <RigForm />}
       {data && !result && <Preview data={data} />}
-      {data && !result && (
+      {data && !result && !isRunning && (
         <div class="toolbar end">
           <button
             type="button"
             class="primary"
-            disabled={!canDiagnose || busy.value || (now?.job ? !ended(now.job.status) : false)}
+            disabled={busy.value}
             onClick={() => void diagnose()}
           >
             Find what the model lacks
           </button>
         </div>
       )}
-      {now && !now.job && now.problem && <Notice kind="bad">{now.problem.message}</Notice>}
-      {now?.job && !ended(now.job.status) && (
-        <p class="loading" role="status">
-          Fitting and comparing models…{' '}
-          {now.job.progress?.seconds !== undefined &&
-            `${significant(now.job.progress.seconds, 2)} s`}
-        </p>
-      )}
-      {now?.job && ended(now.job.status) && !result && (
-        <Notice kind="bad">{now.job.detail ?? `The diagnosis was ${now.job.status}.`}</Notice>
+      {now?.problem && <Notice kind="bad">{now.problem.message}</Notice>}
+      {now?.job && isRunning && <Running job={now.job} />}
+      {now?.job && !isRunning && !result && (
+        <Notice kind={now.job.status === 'failed' ? 'bad' : 'warn'}>
+          {now.job.detail ?? `The diagnosis was ${now.job.status}.`}
+        </Notice>
       )}
       {result && <DiagnosisView diagnosis={result} id={job!} data={data} />}
     </div>
+  );
+}
+
+const Welcome = ({ over }: { over: boolean }) => (
+  <div class={`drop ${over ? 'over' : ''}`}>
+    <p>
+      <b>Drop a measurement here</b> and see what the model lacks: JSON (measurement/1), or CSV with
+      the columns <code>run, t_s, valve, pressure_kpa_gauge</code>.
+    </p>
+    <p class="muted">
+      The valve is hold, inflate or deflate. A CSV may also hold source_pressure_kpa_gauge,
+      inlet_pressure_kpa_gauge, temperature_k, volume_ml and flow_l_per_min_anr. Its rig is asked
+      for, or dropped beside it as JSON. Several files are read as one measurement.
+    </p>
+  </div>
+);
+
+function Running({ job }: { job: Job<Diagnosis, Doing> }) {
+  const stopping = useSignal(false);
+  const progress = job.progress;
+  const share = Math.round(100 * (progress?.share ?? 0));
+  return (
+    <Panel
+      title={job.status === 'queued' ? 'Waiting for its turn' : 'Fitting and comparing models'}
+      aside={
+        <button
+          type="button"
+          disabled={stopping.value}
+          onClick={() => {
+            stopping.value = true;
+            void cancel(job.links.self);
+          }}
+        >
+          {stopping.value ? 'Stopping…' : 'Cancel'}
+        </button>
+      }
+    >
+      <div
+        class="gap-bar"
+        role="progressbar"
+        aria-label="How much of the diagnosis is done"
+        aria-valuemin={0}
+        aria-valuemax={100}
+        aria-valuenow={share}
+      >
+        <span style={{ width: `${share}%` }} />
+      </div>
+      <p role="status">
+        {progress ? `${progress.doing}, ${significant(progress.seconds, 2)} s` : 'Starting…'}
+      </p>
+    </Panel>
   );
 }
 
@@ -178,7 +237,7 @@ function Preview({ data }: { data: Measurement }) {
         xLabel="time, s"
         yLabel={`pressure, ${unitOf('pressure')}`}
         height={300}
-        bands={bandsOf(run, run.t_s[run.t_s.length - 1] ?? 0)}
+        bands={shadesOf(run.valve, run.t_s[run.t_s.length - 1] ?? 0)}
         lines={[
           { label: 'actuator', values: show(run.pressure_kpa_gauge), colour: '--c1' },
           ...(source ? [{ label: 'source', values: show(source), colour: '--c6' }] : []),

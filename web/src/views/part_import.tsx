@@ -71,7 +71,7 @@ export function ImportDialog({
         <FilePicker
           label="Choose a file…"
           accept=".csv,text/csv"
-          onFile={(file) => void file.text().then(preview)}
+          onFiles={([file]) => void file!.text().then(preview)}
         />
         <a
           class="button like"

@@ -2,9 +2,17 @@
 import { computed, useComputed } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
-import { axes, axisOf, leastMargin, requirementName } from '../lib/amounts';
-import { percent, significant } from '../lib/format';
-import { jobList, refreshJobs, useJob } from '../lib/jobs';
+import {
+  axes,
+  axisOf,
+  leastMargin,
+  objectiveUnit,
+  requirementName,
+  requirementNumber,
+  requirementUnit,
+} from '../lib/amounts';
+import { change, significant } from '../lib/format';
+import { jobList, pathOf, refreshJobs, useJob } from '../lib/jobs';
 import { go, route, setQuery } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
 import { type Brushes, Parallel } from '../plots/parallel';
@@ -33,7 +41,7 @@ function brushesOf(text: string | null): Brushes {
 export function Ranked({ answer, id }: { answer: Answer; id: string }) {
   const q = query.value;
   const brushes = useComputed(() => brushesOf(query.value.get('brush'))).value;
-  const other = useJob(q.get('with') ?? undefined)?.job?.result;
+  const other = useJob(q.get('with') ? pathOf(q.get('with')!) : null)?.job?.result;
   useEffect(() => {
     void refreshJobs().catch(() => undefined);
     picked.value = (query.peek().get('pick') ?? '').split(',').map(Number).filter(Boolean);
@@ -183,6 +191,16 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
   );
 }
 
+type Why = NonNullable<Answer['against_nominal']>['dropped'][number]['why'];
+
+function whyDropped(why: Why, groups: { name: string }[]): string {
+  if (why === null) return 'others are better now';
+  if (typeof why === 'string') return why;
+  const { requirement, required, achieved } = why;
+  const unit = requirementUnit(requirement);
+  return `misses ${requirementName(requirement, groups)}: ${requirementNumber(requirement, achieved)} instead of ${requirementNumber(requirement, required)} ${unit}`;
+}
+
 // What the revised model changes in the ranking.
 export function AgainstNominal({ answer }: { answer: Answer }) {
   const { designs, dropped } = answer.against_nominal!;
@@ -200,7 +218,7 @@ export function AgainstNominal({ answer }: { answer: Answer }) {
             {dropped.map((d) => (
               <li key={d.nominal_rank}>
                 nominal #{d.nominal_rank}, objective {significant(d.objective, 4)}:{' '}
-                {d.why ? `misses ${requirementName(d.why, groups)}` : 'no longer among the best'}
+                {whyDropped(d.why, groups)}
               </li>
             ))}
           </ul>
@@ -230,7 +248,7 @@ function Changes({
         : `${fresh.length} new, ${gone.length} no longer listed. `}
       {first &&
         was &&
-        `Best mass ${significant(was.totals.mass_kg, 4)} → ${significant(first.totals.mass_kg, 4)} kg (${percent(first.totals.mass_kg / was.totals.mass_kg - 1)}).`}
+        `Best ${significant(was.objective, 4)} → ${significant(first.objective, 4)} ${objectiveUnit(answer.requirements)} (${change(first.objective / was.objective - 1)}).`}
     </p>
   );
 }

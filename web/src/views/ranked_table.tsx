@@ -47,7 +47,7 @@ export const isAlike = (axis: Axis, designs: Design[]): boolean =>
   designs.every((design) => axis.of(design) !== null) && isSame(...extentOf(axis, designs));
 
 // What of a design's parts is other than in the baseline; of the baseline the source.
-function partsInShort(design: Design, base: Design | undefined): string {
+export function partsInShort(design: Design, base: Design | undefined): string {
   const key = (p: Design['parts'][number]) => `${p.id} ${p.group} ${p.quantity}`;
   const known = new Set(design === base ? [] : base?.parts.map(key));
   const rows = design.parts.filter(

@@ -236,6 +236,17 @@ export function Objective() {
           error={errorAt('/ranking/count')}
           onChange={(v) => edit(['ranking', 'count'], v)}
         />
+        {robust && mode !== 'front' && (
+          <NumberField
+            label="Probability, at least"
+            optional
+            placeholder="any"
+            value={ranking?.probability_min}
+            range={[0, 1]}
+            error={errorAt('/ranking/probability_min')}
+            onChange={(v) => edit(['ranking', 'probability_min'], v ?? undefined)}
+          />
+        )}
         <NumberField
           label="Time limit"
           unit="s"
@@ -255,7 +266,7 @@ export function Objective() {
           <Check
             label="What each requirement costs"
             checked={explain !== undefined}
-            onChange={(on) => edit(['explain'], on ? { prices: true, ranks: 0 } : undefined)}
+            onChange={(on) => edit(['explain'], on ? { prices: true, ranks: 4 } : undefined)}
           />
         )}
       </div>

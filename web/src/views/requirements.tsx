@@ -7,7 +7,7 @@ import { edit, fieldErrors, load, presets, requirements, validity } from '../lib
 import { go } from '../lib/route';
 import type { Requirements } from '../lib/types';
 import { Notice, Panel, TextField } from '../ui/controls';
-import { FilePicker, saveFile } from '../ui/files';
+import { ErrorList, FilePicker, saveFile } from '../ui/files';
 import { Drawing } from './drawing';
 import { Groups } from './groups';
 import { Conditions, Duty, Objective, Supply } from './requirement_panels';
@@ -66,7 +66,11 @@ export function RequirementsView() {
             ))}
           </span>
           <span class="toolbar-group">
-            <FilePicker label="Open…" accept=".json,application/json" onFile={open} />
+            <FilePicker
+              label="Open…"
+              accept=".json,application/json"
+              onFiles={([file]) => void open(file!)}
+            />
             <button
               type="button"
               onClick={() =>
@@ -104,7 +108,7 @@ export function RequirementsView() {
           {problem.value && (
             <Notice kind="bad">
               {problem.value.message}
-              {problem.value.errors.length > 0 && <ErrorList />}
+              <ErrorList errors={problem.value.errors} />
             </Notice>
           )}
           <button
@@ -143,17 +147,7 @@ function Verdict() {
   return (
     <div class="verdict bad" role="status">
       {n === 1 ? 'One thing has to change:' : `${n} things have to change:`}
-      <ErrorList />
+      <ErrorList errors={fieldErrors.value} />
     </div>
   );
 }
-
-const ErrorList = () => (
-  <ul>
-    {fieldErrors.value.map((error) => (
-      <li key={error.pointer + error.detail}>
-        <code>{error.pointer || 'the request'}</code> {error.detail}
-      </li>
-    ))}
-  </ul>
-);

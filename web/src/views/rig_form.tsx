@@ -62,7 +62,7 @@ export function RigForm() {
           unit="1 σ, share"
           value={typeof sigma.sonic_conductance === 'number' ? sigma.sonic_conductance : null}
           optional
-          hint="exact if empty"
+          placeholder="exact"
           onChange={setSigma('sonic_conductance')}
         />
         <NumberField
@@ -70,7 +70,7 @@ export function RigForm() {
           unit="1 σ, share"
           value={typeof sigma.rest_volume === 'number' ? sigma.rest_volume : null}
           optional
-          hint="exact if empty"
+          placeholder="exact"
           onChange={setSigma('rest_volume')}
         />
         {supply.kind === 'regulated' && (

@@ -1,145 +1,163 @@
-// What a tenth more of each number does to the full strokes.
+// What a tenth more or less of each number does to the design as it stands.
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
-import { asProblem, post } from '../lib/api';
+import { requirementName } from '../lib/amounts';
+import { asProblem } from '../lib/api';
+import { asDesigned, type Change, evaluate, type Evaluation } from '../lib/evaluation';
 import { change as changeOf } from '../lib/format';
-import {
-  asDesigned,
-  type Change,
-  missingPart,
-  type Parts,
-  simulationOf,
-  strokesOf,
-  type StrokeTimes,
-} from '../lib/rig';
-import type { Design, Effect, Requirements, Response } from '../lib/types';
-import { Notice, Panel } from '../ui/controls';
+import type { Design, Requirements } from '../lib/types';
+import { Notice, Panel, Segmented } from '../ui/controls';
+import { Swing } from '../ui/swing';
 
-const step = 0.1;
-const cycles = 2;
+type By = '-10' | '10';
 
-interface Row {
+const fullBar = 0.2; // the change that fills a bar
+
+interface Effect {
   label: string;
-  rise: number | null;
-  fall: number | null;
+  of: (e: Evaluation) => number | null;
+  better: 'low' | 'high';
 }
 
-const worst = (strokes: StrokeTimes[], name: keyof StrokeTimes): number | null => {
-  const values = strokes.map((stroke) => stroke[name]);
-  return values.some((v) => v === null) ? null : Math.max(...(values as number[]));
-};
+const slowest = (e: Evaluation, time: 'rise_time_s' | 'fall_time_s') =>
+  Math.max(...e.performance!.groups.map((g) => g[time]));
+const achieved = (e: Evaluation, requirement: string) =>
+  e.margins!.find((m) => m.requirement === requirement)?.achieved ?? null;
+
+const effects: Effect[] = [
+  { label: 'rise time', of: (e) => slowest(e, 'rise_time_s'), better: 'low' },
+  { label: 'fall time', of: (e) => slowest(e, 'fall_time_s'), better: 'low' },
+  { label: 'sustained', of: (e) => e.performance!.frequency_hz_sustained, better: 'high' },
+  { label: 'can actuate', of: (e) => achieved(e, '/duty/actuations'), better: 'high' },
+  { label: 'energy', of: (e) => e.totals!.energy_wh, better: 'low' },
+  { label: 'mass', of: (e) => e.totals!.mass_kg, better: 'low' },
+];
+
+const causes = (start: Change, factor: number): [string, Partial<Change>][] => [
+  ['source pressure', { source_kpa: start.source_kpa * factor }],
+  ...(start.reservoir_ml === null
+    ? []
+    : [['reservoir', { reservoir_ml: start.reservoir_ml * factor }] as [string, Partial<Change>]]),
+  ['tube length', { tube: factor }],
+  ['actuator volume', { rest_volume: factor }],
+  ['expansion', { expansion: factor }],
+  ['operating pressure', { operating: factor }],
+  ['frequency', { frequency: factor }],
+  ['actuations', { actuations: factor }],
+];
 
 export function Sensitivities({
   design,
   requirements,
-  parts,
-  effects,
 }: {
   design: Design;
   requirements: Requirements;
-  parts: Parts;
-  effects?: Effect[];
 }) {
-  const rows = useSignal<Row[] | null>(null);
+  const by = useSignal<By>('10');
+  const base = useSignal<Evaluation | null>(null);
+  const rows = useSignal<{ label: string; found: Evaluation | null }[]>([]);
   const problem = useSignal('');
   useEffect(() => {
-    if (missingPart(design, parts)) return;
-    const start = asDesigned(design, effects);
-    const more: [string, Partial<Change>][] = [
-      ['source pressure', { source_kpa: start.source_kpa * (1 + step) }],
-      ['tube length', { tube: 1 + step }],
-      ['actuator volume', { rest_volume: 1 + step }],
-      ['operating pressure', { operating: 1 + step }],
-    ];
-    if (start.reservoir_ml !== null)
-      more.splice(1, 0, ['reservoir', { reservoir_ml: start.reservoir_ml * (1 + step) }]);
-    const run = async (change: Change) => {
-      // The target moves with a changed operating pressure.
-      const asked = {
-        ...requirements,
-        actuators: requirements.actuators.map((g) => ({
-          ...g,
-          operating_pressure_kpa_gauge: g.operating_pressure_kpa_gauge * change.operating,
-        })),
-      };
-      return strokesOf(
-        await post<Response>(
-          '/v1/simulations',
-          simulationOf(design, requirements, parts, change, cycles, 6000),
-        ),
-        asked,
-        cycles,
-      );
-    };
+    const start = asDesigned(design);
     const load = async () => {
-      const base = await run(start);
-      const share = (now: number | null, was: number | null) =>
-        now === null || was === null ? null : now / was - 1;
-      const found: Row[] = [];
-      for (const [label, patch] of more) {
-        const response = await run({ ...start, ...patch });
-        found.push({
+      base.value = await evaluate(design, requirements, start);
+      rows.value = await Promise.all(
+        causes(start, 1 + Number(by.value) / 100).map(async ([label, patch]) => ({
           label,
-          rise: share(worst(response, 'rise_s'), worst(base, 'rise_s')),
-          fall: share(worst(response, 'fall_s'), worst(base, 'fall_s')),
-        });
-      }
-      rows.value = found;
+          // Some changes cannot be asked for: an operating pressure above what its limit allows.
+          found: await evaluate(design, requirements, { ...start, ...patch }).catch(() => null),
+        })),
+      );
+      problem.value = '';
     };
     load().catch((error) => (problem.value = asProblem(error).message));
-  }, [design, parts]);
-  const most = Math.max(
-    0.01,
-    ...(rows.value ?? []).flatMap((r) => [Math.abs(r.rise ?? 0), Math.abs(r.fall ?? 0)]),
-  );
+  }, [design, by.value]);
+  const was = base.value?.works ? base.value : null;
+  const share = (effect: Effect, found: Evaluation): number | null => {
+    const [before, after] = [effect.of(was!), effect.of(found)];
+    return before === null || after === null || before === 0 ? null : after / before - 1;
+  };
+  const used = was ? effects.filter((effect) => effect.of(was) !== null) : [];
   return (
-    <Panel title="Sensitivities" aside={<span class="muted">for 10 % more</span>}>
+    <Panel
+      title="Sensitivities"
+      aside={
+        <Segmented
+          label="each number by"
+          value={by.value}
+          onChange={(v) => (by.value = v)}
+          options={[
+            { value: '-10', label: '−10 %' },
+            { value: '10', label: '+10 %' },
+          ]}
+        />
+      }
+    >
       {problem.value && <Notice kind="bad">{problem.value}</Notice>}
-      {rows.value && (
-        <table class="tornado">
-          <thead>
-            <tr>
-              <th scope="col">of</th>
-              <th scope="col">rise time</th>
-              <th scope="col">fall time</th>
-            </tr>
-          </thead>
-          <tbody>
-            {rows.value.map((row) => (
-              <tr key={row.label}>
-                <th scope="row">{row.label}</th>
-                <td>
-                  <Swing share={row.rise} most={most} />
-                </td>
-                <td>
-                  <Swing share={row.fall} most={most} />
-                </td>
+      {was && (
+        <div class="scroll" tabIndex={0} role="region" aria-label="Sensitivities">
+          <table class="tornado">
+            <thead>
+              <tr>
+                <th scope="col">of</th>
+                {used.map((effect) => (
+                  <th key={effect.label} scope="col">
+                    {effect.label}
+                  </th>
+                ))}
+                <th scope="col">then</th>
               </tr>
-            ))}
-          </tbody>
-        </table>
+            </thead>
+            <tbody>
+              {rows.value.map(({ label, found }) => (
+                <tr key={label}>
+                  <th scope="row">{label}</th>
+                  {found?.works ? (
+                    used.map((effect) => {
+                      const value = share(effect, found);
+                      return (
+                        <td key={effect.label}>
+                          {value === null ? '–' : <Cell share={value} effect={effect} />}
+                        </td>
+                      );
+                    })
+                  ) : (
+                    <td colSpan={used.length} class="muted">
+                      {found
+                        ? 'the parts do not stand it, or a stroke does not end'
+                        : 'not possible'}
+                    </td>
+                  )}
+                  <td>{found?.works && <Then found={found} requirements={requirements} />}</td>
+                </tr>
+              ))}
+            </tbody>
+          </table>
+        </div>
       )}
       <p class="hint">
-        The slowest stroke of two cycles from the full source, simulated again with each number 10 %
-        greater.
+        Parts and all other settings stay; the periodic state is worked out again for each. Bars:
+        blue is better, orange worse, full at 20 %.
       </p>
     </Panel>
   );
 }
 
-function Swing({ share, most }: { share: number | null; most: number }) {
-  if (share === null) return <span>never reached</span>;
-  const size = (Math.abs(share) / most) * 50;
+const Cell = ({ share, effect }: { share: number; effect: Effect }) => (
+  <span class="swing">
+    <Swing share={share / fullBar} isGood={share < 0 === (effect.better === 'low')} />
+    <span class="num">{changeOf(share)}</span>
+  </span>
+);
+
+// Whether everything asked is still met.
+function Then({ found, requirements }: { found: Evaluation; requirements: Requirements }) {
+  const missed = found.margins!.filter((m) => m.relative_margin < -1e-9);
+  if (missed.length === 0) return <span class="delta better">all met</span>;
   return (
-    <span class="swing">
-      <span class="swing-track">
-        <i
-          class={share > 0 ? 'slower' : 'faster'}
-          style={{ width: `${size}%`, left: share > 0 ? '50%' : `${50 - size}%` }}
-        />
-      </span>
-      <span class="num">{changeOf(share)}</span>
+    <span class="over">
+      misses {missed.map((m) => requirementName(m.requirement, requirements.actuators)).join(', ')}
     </span>
   );
 }

@@ -3,13 +3,19 @@ import { useComputed, useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 
 import { asProblem, post, type Problem } from '../lib/api';
-import { asDesigned, type Change, missingPart, type Parts, simulationOf } from '../lib/rig';
+import { asDesigned, type Change, evaluate, type Evaluation } from '../lib/evaluation';
+import { missingPart, type Parts, simulationOf } from '../lib/rig';
 import { route, setQuery } from '../lib/route';
 import type { Design, Effect, Requirements, Response } from '../lib/types';
 import { Notice, Panel, Segmented } from '../ui/controls';
-import { ResponsePlot, Slider, Times } from './what_if_views';
+import { Met, ResponsePlot, Slider } from './what_if_views';
 
 type Cycles = '1' | '3' | '10';
+
+interface Tried {
+  response: Response;
+  evaluation: Evaluation;
+}
 
 // What is tried, in the address: source, reservoir, tube and volume.
 const toText = (c: Change): string =>
@@ -40,31 +46,36 @@ export function WhatIf({
   parts: Parts;
   effects?: Effect[];
 }) {
-  const start = asDesigned(design, effects);
+  const start = asDesigned(design);
   const asked = route.peek().query;
   const change = useSignal<Change>(fromText(start, asked.get('try')));
   const cycles = useSignal<Cycles>(
     asked.get('cycles') === '1' ? '1' : asked.get('cycles') === '10' ? '10' : '3',
   );
-  const base = useSignal<Response | null>(null);
-  const tried = useSignal<Response | null>(null);
+  const base = useSignal<Tried | null>(null);
+  const tried = useSignal<Tried | null>(null);
   const took = useSignal<number | null>(null);
   const problem = useSignal<Problem | null>(null);
   const running = useRef(false);
   const waiting = useRef<Change | null>(null);
   const missing = missingPart(design, parts);
   const isChanged = useComputed(() => JSON.stringify(change.value) !== JSON.stringify(start));
-  const run = (what: Change) =>
-    post<Response>(
-      '/v1/simulations',
-      simulationOf(design, requirements, parts, what, Number(cycles.peek())),
-    );
+  const run = async (what: Change): Promise<Tried> => {
+    const [response, evaluation] = await Promise.all([
+      post<Response>(
+        '/v1/simulations',
+        simulationOf(design, requirements, parts, what, Number(cycles.peek()), effects),
+      ),
+      evaluate(design, requirements, what),
+    ]);
+    return { response, evaluation };
+  };
 
   useEffect(() => {
     if (missing) return;
     problem.value = null;
     run(start).then(
-      (response) => (base.value = response),
+      (found) => (base.value = found),
       (error) => (problem.value = asProblem(error)),
     );
     if (isChanged.peek()) void attempt(change.peek());
@@ -102,12 +113,7 @@ export function WhatIf({
     took.value = null;
   };
 
-  const lowest =
-    1.02 * Math.max(...requirements.actuators.map((g) => g.operating_pressure_kpa_gauge));
-  const highest = Math.max(
-    requirements.supply?.source_pressure_kpa_gauge_max ?? 0,
-    1.5 * start.source_kpa,
-  );
+  const [lowest, highest] = base.value?.evaluation.source_pressure_range_kpa_gauge ?? [null, null];
   const trial = isChanged.value ? tried.value : null;
   return (
     <Panel
@@ -134,7 +140,11 @@ export function WhatIf({
       <div class="what-if">
         <div>
           {base.value && (
-            <ResponsePlot base={base.value} trial={trial} requirements={requirements} />
+            <ResponsePlot
+              base={base.value.response}
+              trial={trial?.response ?? null}
+              requirements={requirements}
+            />
           )}
         </div>
         <div class="sliders">
@@ -142,8 +152,8 @@ export function WhatIf({
             label="Source pressure"
             kind="pressure"
             value={change.value.source_kpa}
-            low={Math.min(lowest, start.source_kpa)}
-            high={highest}
+            low={Math.min(lowest ?? start.source_kpa, start.source_kpa)}
+            high={Math.min(highest ?? Infinity, Math.max(3 * start.source_kpa, 300))}
             onInput={(v) => set({ source_kpa: v })}
           />
           <Slider
@@ -173,15 +183,9 @@ export function WhatIf({
             high={4}
             onInput={(v) => set({ rest_volume: v })}
           />
-          <Times
-            base={base.value}
-            trial={trial}
-            requirements={requirements}
-            cycles={Number(cycles.value)}
-          />
           <p class="hint" role="status">
             {took.value === null
-              ? 'From the full source on. Move a slider to try.'
+              ? 'The plot begins with a full source. Move a slider to try.'
               : `Simulated in ${Math.round(took.value)} ms.`}{' '}
             {isChanged.value && (
               <button type="button" class="quiet small" onClick={reset}>
@@ -190,6 +194,9 @@ export function WhatIf({
             )}
           </p>
         </div>
+        {base.value && trial && (
+          <Met base={base.value.evaluation} trial={trial.evaluation} requirements={requirements} />
+        )}
       </div>
     </Panel>
   );

@@ -1,12 +1,14 @@
 // What the trial of a design shows: its sliders, curves and times.
 import { useId } from 'preact/hooks';
 
-import { change as changeOf, short, significant } from '../lib/format';
-import { strokesOf } from '../lib/rig';
+import { requirementName, requirementNumber, requirementUnit } from '../lib/amounts';
+import type { Evaluation } from '../lib/evaluation';
+import { change as changeOf, shown, significant } from '../lib/format';
 import { seriesColours } from '../lib/theme';
 import type { Requirements, Response } from '../lib/types';
 import { type Kind, toShown, unitOf } from '../lib/units';
 import { type Line, Lines } from '../plots/lines';
+import { Notice } from '../ui/controls';
 
 export function Slider(props: {
   label: string;
@@ -93,71 +95,93 @@ export function ResponsePlot({
   );
 }
 
-export function Times({
+// Every requirement in the periodic state, as designed and as tried.
+export function Met({
   base,
   trial,
   requirements,
-  cycles,
 }: {
-  base: Response | null;
-  trial: Response | null;
+  base: Evaluation;
+  trial: Evaluation;
   requirements: Requirements;
-  cycles: number;
 }) {
-  if (!base) return null;
-  const was = strokesOf(base, requirements, cycles);
-  const now = trial && strokesOf(trial, requirements, cycles);
-  const cell = (before: number | null, after: number | null | undefined, limit?: number | null) => (
-    <td class="num">
-      <span
-        class={
-          limit && ((after === undefined ? before : after) ?? Infinity) > limit * 1.0005
-            ? 'over'
-            : ''
-        }
-      >
-        {significant(after === undefined ? before : after)}
-      </span>
-      {after !== undefined && before !== null && after !== null && (
-        <small class="muted"> {changeOf(after / before - 1)}</small>
-      )}
-    </td>
-  );
+  const rows = [
+    ...(base.margins ?? []).map((margin) => {
+      const then = trial.margins?.find((m) => m.requirement === margin.requirement);
+      const { requirement, required, achieved } = margin;
+      return {
+        name: requirementName(requirement, requirements.actuators),
+        unit: requirementUnit(requirement),
+        asked: `${requirement.startsWith('/duty') ? '≥' : '≤'} ${requirementNumber(requirement, required)}`,
+        was: requirementNumber(requirement, achieved),
+        is: then ? requirementNumber(requirement, then.achieved) : '–',
+        share: then && achieved !== 0 ? then.achieved / achieved - 1 : null,
+        isMissed: then !== undefined && then.relative_margin < -1e-9,
+      };
+    }),
+    ...(
+      [
+        ['energy', 'Wh', base.totals?.energy_wh, trial.totals?.energy_wh],
+        ['mass', 'kg', base.totals?.mass_kg, trial.totals?.mass_kg],
+      ] as const
+    )
+      .filter(([name]) => !base.margins?.some((m) => m.requirement === `/supply/${name}_kg_max`))
+      .map(([name, unit, was, is]) => ({
+        name,
+        unit,
+        asked: '',
+        was: significant(was, 4),
+        is: significant(is, 4),
+        share: is === undefined || !was ? null : is / was - 1,
+        isMissed: false,
+      })),
+  ];
+  const [low, high] = trial.source_pressure_range_kpa_gauge ?? [];
   return (
-    <table class="times">
-      <thead>
-        <tr>
-          <th scope="col">slowest stroke</th>
-          <th scope="col" class="num">
-            rise <small>s</small>
-          </th>
-          <th scope="col" class="num">
-            fall <small>s</small>
-          </th>
-        </tr>
-      </thead>
-      <tbody>
-        {requirements.actuators.map((group, i) => (
-          <tr key={group.name}>
-            <th scope="row">{group.name}</th>
-            {cell(was[i]!.rise_s, now?.[i]!.rise_s, group.rise_time_s_max)}
-            {cell(was[i]!.fall_s, now?.[i]!.fall_s, group.fall_time_s_max)}
+    <div class="scroll met" tabIndex={0} role="region" aria-label="Requirements with the change">
+      {!trial.works && (
+        <Notice kind="warn">
+          {low === undefined
+            ? 'A part is no longer in the catalogue.'
+            : `It does not work: a stroke takes longer than half of the period, or the source is outside ${shown('pressure', low)} to ${shown('pressure', high)} ${unitOf('pressure')}.`}
+        </Notice>
+      )}
+      <table class="times">
+        <thead>
+          <tr>
+            <th scope="col">in the periodic state</th>
+            <th scope="col" class="num">
+              asked
+            </th>
+            <th scope="col" class="num">
+              as designed
+            </th>
+            <th scope="col" class="num">
+              what if
+            </th>
+            <th scope="col" class="num">
+              change
+            </th>
           </tr>
-        ))}
-        <tr class="muted">
-          <td>asked</td>
-          <td class="num">
-            {requirements.actuators
-              .map((g) => (g.rise_time_s_max ? `≤ ${short(g.rise_time_s_max)}` : '–'))
-              .join(', ')}
-          </td>
-          <td class="num">
-            {requirements.actuators
-              .map((g) => (g.fall_time_s_max ? `≤ ${short(g.fall_time_s_max)}` : '–'))
-              .join(', ')}
-          </td>
-        </tr>
-      </tbody>
-    </table>
+        </thead>
+        <tbody>
+          {rows.map((row) => (
+            <tr key={row.name}>
+              <th scope="row">
+                {row.name} <small class="muted">{row.unit}</small>
+              </th>
+              <td class="num muted">{row.asked}</td>
+              <td class="num">{row.was}</td>
+              <td class="num">
+                <span class={row.isMissed ? 'over' : ''}>
+                  {row.is} {row.isMissed && 'missed'}
+                </span>
+              </td>
+              <td class="num muted">{row.share !== null && changeOf(row.share)}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
   );
 }

@@ -1,0 +1,54 @@
+#include "api/design_reader.h"
+#include "api/services.h"
+#include "api/units.h"
+#include "optimizer/resize.h"
+
+namespace plenum::api {
+namespace {
+
+optimizer::Design ReadGiven(Reader reader, const optimizer::Problem& problem) {
+  optimizer::Design design;
+  design.configuration = ReadConfiguration(reader);
+  for (const Element& element : reader.List("parts", 1, kDesignRowsMax)) {
+    Reader row(element, reader.errors());
+    design.parts.push_back(ReadChoice(row, problem));
+    row.Finish();
+  }
+  Reader settings = reader.Object("settings");
+  design.settings = ReadPoint(settings, problem);
+  settings.Finish();
+  reader.Finish();
+  return design;
+}
+
+}  // namespace
+
+Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>& parts,
+                           const std::vector<catalog::ModelRevision>& models) {
+  Errors errors;
+  Reader reader(request, "", errors);
+  reader.Schema("evaluation/1");
+  const Json* requirements = reader.Raw("requirements");
+  if (requirements == nullptr)
+    reader.Fail("requirements", "is required: a document requirements/1");
+  if (!errors.empty()) return errors;
+  auto parsed = ParseRequirements(*requirements, parts, models);
+  if (auto* wrong = std::get_if<Errors>(&parsed)) {
+    for (Error& error : *wrong) error.pointer.insert(0, "/requirements");
+    return *wrong;
+  }
+  const optimizer::Problem& problem = std::get<DesignRequest>(parsed).problem;
+  const optimizer::Design given = ReadGiven(reader.Object("design"), problem);
+  reader.Finish();
+  if (!errors.empty()) return errors;
+  const auto [source, design] =
+      optimizer::EvaluateAtSettings(optimizer::WithPartsOf(problem, given), given);
+  Json answer = {{"schema", "evaluation_answer/1"}, {"works", design.has_value()}};
+  const auto gauge = [&](double pa) { return Number(KpaGaugeFromPa(pa, problem.ambient)); };
+  answer["source_pressure_range_kpa_gauge"] =
+      source.empty() ? Json(nullptr) : Json{gauge(source.low_pa), gauge(source.high_pa)};
+  if (design) answer.update(RenderFigures(*design, problem));
+  return answer;
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,89 @@
+// How a design's parts do at settings and requirements of one's own, as the service evaluates it.
+import { post } from './api';
+import type { Design, Margin, Requirements } from './types';
+
+export interface Evaluation {
+  works: boolean;
+  source_pressure_range_kpa_gauge: [number, number | null] | null;
+  totals?: Design['totals'];
+  performance?: Design['performance'];
+  margins?: Margin[];
+}
+
+// What may be tried on a design; 1 or the design's own value changes nothing.
+export interface Change {
+  source_kpa: number;
+  reservoir_ml: number | null;
+  tube: number; // factors
+  rest_volume: number;
+  expansion: number;
+  operating: number;
+  frequency: number;
+  actuations: number;
+}
+
+export const asDesigned = (design: Design): Change => ({
+  source_kpa: design.settings.source_pressure_kpa_gauge,
+  reservoir_ml: design.settings.reservoir_volume_ml,
+  tube: 1,
+  rest_volume: 1,
+  expansion: 1,
+  operating: 1,
+  frequency: 1,
+  actuations: 1,
+});
+
+// The requirements as they are with the change. Limits on a pressure move with the pressure.
+export function changed(requirements: Requirements, change: Change): Requirements {
+  return {
+    ...requirements,
+    actuators: requirements.actuators.map((group) => ({
+      ...group,
+      tube_length_m: Math.min(100, Math.max(0.01, group.tube_length_m * change.tube)),
+      ...(group.rest_volume_ml !== undefined && {
+        rest_volume_ml: group.rest_volume_ml * change.rest_volume,
+      }),
+      ...(group.expansion_ratio !== undefined && {
+        expansion_ratio: Math.max(1, group.expansion_ratio * change.expansion),
+      }),
+      ...(group.pressure_volume && {
+        pressure_volume: group.pressure_volume.map((p) => ({
+          ...p,
+          volume_ml: p.volume_ml * change.rest_volume,
+        })),
+      }),
+      operating_pressure_kpa_gauge: group.operating_pressure_kpa_gauge * change.operating,
+      ...(group.pressure_kpa_gauge_max && {
+        pressure_kpa_gauge_max: group.pressure_kpa_gauge_max * change.operating,
+      }),
+    })),
+    duty: {
+      ...requirements.duty,
+      frequency_hz: requirements.duty.frequency_hz * change.frequency,
+      actuations: Math.max(1, Math.round(requirements.duty.actuations * change.actuations)),
+    },
+  };
+}
+
+export const evaluate = (
+  design: Design,
+  requirements: Requirements,
+  change: Change,
+): Promise<Evaluation> =>
+  post<Evaluation>('/v1/evaluations', {
+    schema: 'evaluation/1',
+    requirements: changed(requirements, change),
+    design: {
+      configuration: design.configuration,
+      parts: design.parts.map(({ family, id, group, quantity }) => ({
+        family,
+        id,
+        ...(group !== null && { group }),
+        quantity,
+      })),
+      settings: {
+        source_pressure_kpa_gauge: change.source_kpa,
+        reservoir_volume_ml: change.reservoir_ml,
+      },
+    },
+  });

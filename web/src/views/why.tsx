@@ -1,0 +1,232 @@
+// Why the first design is first: what it is made of, what holds it back, how far the next ones are,
+// what each requirement costs, and how sure it is.
+import { useSignal } from '@preact/signals';
+
+import {
+  leastMargin,
+  objectiveName,
+  objectiveUnit,
+  requirementName,
+  requirementNumber,
+  requirementUnit,
+} from '../lib/amounts';
+import { asProblem } from '../lib/api';
+import { change, percent, significant } from '../lib/format';
+import { start } from '../lib/jobs';
+import { go, link } from '../lib/route';
+import type { Answer, Design } from '../lib/types';
+import { Notice, Panel } from '../ui/controls';
+import { partsInShort } from './ranked_table';
+
+const supplies = { compressor: 'compressor', cylinder: 'cylinder', co2: 'CO₂', mains: 'wall' };
+
+export function Why({ answer, id }: { answer: Answer; id: string }) {
+  const first = answer.designs[0]!;
+  const next = answer.designs[1];
+  const isFront = answer.front !== undefined;
+  return (
+    <Panel
+      title={isFront ? 'How sure this is' : `Why #1 is first`}
+      aside={<Explain answer={answer} />}
+    >
+      <div class={answer.prices ? 'plots even' : ''}>
+        {!isFront && (
+          <ul class="reasons">
+            <li>
+              It has the least {objectiveName(answer.requirements)} of all combinations
+              {answer.status === 'optimal' ? '' : ' found'}:{' '}
+              <b>
+                {significant(first.objective, 4)} {objectiveUnit(answer.requirements)}
+              </b>
+              {sharesOf(first)}
+            </li>
+            <li>{tightest(first, answer)}</li>
+            {next && (
+              <li>
+                <a href={link(['designs', id, '2'])}>#2</a> {distance(next, first)}: other parts are{' '}
+                {partsInShort(next, first) || 'none, but their number'}. {toBeFirst(next, answer)}
+              </li>
+            )}
+            <li>{otherSupplies(answer, id)}</li>
+            {first.robustness && (
+              <li>
+                Within the tolerances of its parts it meets everything in{' '}
+                <b>{percent(first.robustness.probability, 0)}</b> of {answer.robust?.draws} draws
+                and is the best of the list in {percent(first.robustness.share_rank_1, 0)}
+                {surest(answer, id)}.
+              </li>
+            )}
+          </ul>
+        )}
+        {isFront && (
+          <p>
+            {first.robustness
+              ? `Each design was drawn ${answer.robust?.draws} times within the tolerances of its parts; see the column probability.`
+              : 'Each design of the front is the best for some trade between the amounts.'}
+          </p>
+        )}
+        {answer.prices && answer.prices.length > 0 && <Prices answer={answer} />}
+      </div>
+    </Panel>
+  );
+}
+
+function sharesOf(design: Design): string {
+  const byFamily = new Map<string, number>();
+  for (const { family, mass_kg } of design.parts)
+    byFamily.set(family, (byFamily.get(family) ?? 0) + mass_kg);
+  const most = [...byFamily].sort((a, b) => b[1] - a[1]).slice(0, 3);
+  return `. Of its mass, ${most.map(([family, kg]) => `${family} ${percent(kg / design.totals.mass_kg, 0)}`).join(', ')}.`;
+}
+
+function tightest(design: Design, answer: Answer) {
+  const least = leastMargin(design);
+  const margin = design.margins.find((m) => m.relative_margin === least)!;
+  const name = requirementName(margin.requirement, answer.requirements.actuators);
+  return (
+    <>
+      {margin.binding ? 'It is held back by ' : 'No requirement binds; the tightest is '}
+      <b>{name}</b>, {percent(least)} to spare.
+    </>
+  );
+}
+
+function distance(design: Design, first: Design): string {
+  const share = design.objective / first.objective - 1;
+  return Math.abs(share) < 1e-6 ? 'is equal to it' : `comes ${change(share)} behind`;
+}
+
+function toBeFirst(design: Design, answer: Answer): string {
+  const flip = design.to_be_first;
+  if (!flip) return '';
+  const part = [...flip.parts].sort((a, b) => a.reduction_share - b.reduction_share)[0];
+  const requirement = flip.requirements[0];
+  const ways = [
+    part && `its ${part.family} had to be ${percent(part.reduction_share)} less`,
+    requirement &&
+      `${requirementName(requirement.requirement, answer.requirements.actuators)} tightened to ${requirementNumber(requirement.requirement, requirement.tightened)} ${requirementUnit(requirement.requirement)}`,
+  ].filter(Boolean);
+  return ways.length ? `To be first, ${ways.join(', or ')}.` : '';
+}
+
+// The first design of each other kind of supply that was asked for.
+function otherSupplies(answer: Answer, id: string) {
+  const first = answer.designs[0]!;
+  const asked = answer.requirements.supply?.configurations ?? ['cylinder', 'co2', 'compressor'];
+  const others = asked.filter((kind) => kind !== first.configuration);
+  const found = others.flatMap(
+    (kind) => answer.designs.find((d) => d.configuration === kind) ?? [],
+  );
+  const none = others.filter((kind) => !found.some((d) => d.configuration === kind));
+  return (
+    <>
+      {others.length === 0 && 'No other kind of supply was asked for.'}
+      {found.map((d) => (
+        <span key={d.rank}>
+          Best {supplies[d.configuration]}:{' '}
+          <a href={link(['designs', id, String(d.rank)])}>#{d.rank}</a>,{' '}
+          {change(d.objective / first.objective - 1)}.{' '}
+        </span>
+      ))}
+      {none.length > 0 &&
+        `No ${none.map((kind) => supplies[kind]).join(' and no ')} supply is among the best ${answer.designs.length}.`}
+    </>
+  );
+}
+
+function surest(answer: Answer, id: string) {
+  const first = answer.designs[0]!;
+  const best = answer.designs.reduce((a, b) =>
+    (b.robustness?.probability ?? 0) > (a.robustness?.probability ?? 0) ? b : a,
+  );
+  if (best === first) return '; no design listed is surer';
+  return (
+    <>
+      ; the surest listed is <a href={link(['designs', id, String(best.rank)])}>#{best.rank}</a>{' '}
+      with {percent(best.robustness!.probability, 0)}
+    </>
+  );
+}
+
+// Asks for what the answer does not say: prices, what #2 to #4 lack, draws within tolerances.
+function Explain({ answer }: { answer: Answer }) {
+  const problem = useSignal('');
+  const busy = useSignal(false);
+  const { requirements } = answer;
+  if (answer.robust && (answer.prices || answer.front)) return null;
+  const run = async () => {
+    busy.value = true;
+    try {
+      const job = await start({
+        ...requirements,
+        robust: requirements.robust ?? {},
+        ...(!answer.front && { explain: { prices: true, ranks: 4 } }),
+      });
+      go(['designs', job]);
+    } catch (error) {
+      problem.value = asProblem(error).message;
+    }
+    busy.value = false;
+  };
+  return (
+    <>
+      {problem.value && <Notice kind="bad">{problem.value}</Notice>}
+      <button type="button" disabled={busy.value} onClick={() => void run()}>
+        {answer.front ? 'How sure is it?' : 'What do requirements cost, how sure is it?'}
+      </button>
+    </>
+  );
+}
+
+function Prices({ answer }: { answer: Answer }) {
+  const most = Math.max(1e-9, ...answer.prices!.map((row) => row.saving_share ?? 0));
+  const rows = [...answer.prices!].sort((a, b) => (b.saving ?? 0) - (a.saving ?? 0));
+  return (
+    <div class="scroll" tabIndex={0} role="region" aria-label="Prices of requirements">
+      <table class="prices">
+        <thead>
+          <tr>
+            <th scope="col">a tenth looser</th>
+            <th scope="col" class="num">
+              asked
+            </th>
+            <th scope="col" class="num">
+              then
+            </th>
+            <th scope="col" class="num">
+              saves <small>{objectiveUnit(answer.requirements)}</small>
+            </th>
+            <th scope="col">of the best</th>
+          </tr>
+        </thead>
+        <tbody>
+          {rows.map((row) => (
+            <tr key={row.requirement}>
+              <th scope="row">
+                {requirementName(row.requirement, answer.requirements.actuators)}{' '}
+                <small class="muted">{requirementUnit(row.requirement)}</small>
+              </th>
+              <td class="num">{requirementNumber(row.requirement, row.required)}</td>
+              <td class="num">{requirementNumber(row.requirement, row.loosened)}</td>
+              <td class="num">{isNothing(row.saving) ? '0' : significant(row.saving)}</td>
+              <td>
+                <span class="margin-bar">
+                  <span class="track">
+                    <span
+                      class="least"
+                      style={{ width: `${(100 * Math.max(0, row.saving_share ?? 0)) / most}%` }}
+                    />
+                  </span>
+                  {isNothing(row.saving) ? 'nothing' : percent(row.saving_share)}
+                  {row.status !== 'optimal' && <small class="muted"> not proved</small>}
+                </span>
+              </td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+const isNothing = (saving: number | null): boolean => saving !== null && Math.abs(saving) < 1e-9;
