@@ -146,8 +146,8 @@ Reply FaultReply(const httplib::Request& request, const std::exception_ptr& faul
 }
 
 // What a refusal by RequestFrame is worth in numbers.
-api::Json ValueOf(const std::string& limit, const JobOptions& jobs) {
-  return RenderLimits(jobs).value(limit, api::Json());
+api::Json ValueOf(const std::string& limit, const HttpOptions& options) {
+  return RenderLimits(options.jobs, options.kept).value(limit, api::Json());
 }
 
 }  // namespace
@@ -166,7 +166,7 @@ struct HttpService::Impl {
         jobs(given.catalog.string() + "-jobs", given.kept),
         designs(jobs, "design", DesignWork(catalog), given.jobs),
         diagnoses(jobs, "diagnosis", DiagnosisWork(catalog), given.jobs),
-        routes(Routes({catalog, designs, diagnoses, metrics, given.jobs, given.catalog,
+        routes(Routes({catalog, designs, diagnoses, metrics, given.jobs, given.kept, given.catalog,
                        [this] { MeasureConnections(); }})),
         connections([this](Incoming request,
                            Outgoing& out) { return protocol.Answer(std::move(request), out); },
@@ -295,7 +295,7 @@ struct HttpService::Impl {
     const Reply reply = refusal.limit.empty()
                             ? ProblemReply(refusal.status, refusal.detail)
                             : LimitReply(refusal.status, refusal.limit,
-                                         ValueOf(refusal.limit, options.jobs), refusal.detail);
+                                         ValueOf(refusal.limit, options), refusal.detail);
     metrics.Count("none", "none", refusal.status, 0.0, 0, reply.body.size());
     if (options.log)
       Log({{"level", "info"},

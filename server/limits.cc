@@ -5,7 +5,7 @@
 
 namespace plenum::server {
 
-api::Json RenderLimits(const JobOptions& jobs) {
+api::Json RenderLimits(const JobOptions& jobs, const catalog::JobsKept& kept) {
   api::Json limits = {{"head_bytes_max", kHeadBytesMax},
                       {"headers_max", kHeadersMax},
                       {"path_bytes_max", kPathBytesMax},
@@ -24,7 +24,8 @@ api::Json RenderLimits(const JobOptions& jobs) {
                       {"event_streams_max", kStreamsMax},
                       {"jobs_running_max", jobs.workers},
                       {"jobs_queued_max", jobs.queued_max},
-                      {"jobs_kept_max", jobs.ended_kept}};
+                      {"jobs_kept_max", kept.jobs},
+                      {"jobs_kept_bytes_max", kept.bytes}};
   limits.update(api::RenderRequestLimits());
   return limits;
 }

@@ -33,7 +33,7 @@ inline constexpr int kWaitSecondsMax = 300;
 inline constexpr int kStreamsMax = 8;  // open event streams
 
 // Everything that limits a request, by name: { "body_bytes_max": 8388608, … }.
-api::Json RenderLimits(const JobOptions& jobs);
+api::Json RenderLimits(const JobOptions& jobs, const catalog::JobsKept& kept);
 
 // A refusal that names its limit: a problem document with "limit": { "name", "value" }.
 Reply LimitReply(int status, const std::string& name, const api::Json& value,

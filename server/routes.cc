@@ -80,6 +80,7 @@ std::vector<Route> Routes(const Services& services) {
          });
        }},
       {"POST", "/v1/evaluations", "evaluation/1 in: parts at settings against requirements",
+       Access::kRead,
        [&](const Call& call) {
          return AnswerAtOnce(call, [&](const api::Json& request) {
            const auto models = catalog.With([](const auto& store) { return store.Models(); });
@@ -126,7 +127,7 @@ std::vector<Route> Routes(const Services& services) {
       {"GET", "/metrics", "what it did and holds, for Prometheus", Access::kRead,
        [services](const Call& call) { return GetMetrics(services, call); }},
       {"GET", "/v1/limits", "how much a request may ask for", Access::kRead,
-       [limits = RenderLimits(services.job_options)](const Call&) {
+       [limits = RenderLimits(services.job_options, services.jobs_kept)](const Call&) {
          return JsonReply(200, {{"limits", limits}});
        }},
   };

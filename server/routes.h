@@ -32,6 +32,7 @@ struct Services {
   Jobs& diagnoses;
   Metrics& metrics;
   JobOptions job_options;
+  catalog::JobsKept jobs_kept;
   std::filesystem::path file;                 // the catalogue
   std::function<void()> measure_connections;  // sets their metrics
 };
