@@ -125,7 +125,7 @@ bool CustomSizing::Judge(Region& region, double tolerance) {
       failed_ = failed_ || bounds.least.failed;
       const OperatingPoint judged{part.low_pa, part.low_m3, part.low_m3};
       objective = ObjectiveValue(problem_, candidate_, judged, bounds.least);
-      region.by_pressure = bounds.pressure_gap_j > bounds.volume_gap_j;
+      region.coils_differ = bounds.coil_gap_j > bounds.pump_gap_j;
       return std::min(SupplyMargin(problem_, candidate_, judged, bounds.least) + kRounding,
                       1.0 - objective / leaf_.objective);
     };
@@ -148,13 +148,14 @@ bool CustomSizing::Judge(Region& region, double tolerance) {
 
 void CustomSizing::Divide(const Region& region) {
   const SettingsBox& box = region.box;
-  const bool pressures = Width(box.low_pa, box.high_pa) > kFinest;
-  const bool volumes = Width(box.low_m3, box.high_m3) > kFinest;
+  const double pressures = Width(box.low_pa, box.high_pa);
+  const double volumes = Width(box.low_m3, box.high_m3);
   Region lower = region, upper = region;
   lower.examined = upper.examined = false;
-  if (pressures && (region.by_pressure || !volumes)) {
+  if (pressures > kFinest &&
+      ((region.coils_differ && pressures > kPressureShare * volumes) || !(volumes > kFinest))) {
     lower.box.high_pa = upper.box.low_pa = 0.5 * (box.low_pa + box.high_pa);
-  } else if (volumes) {
+  } else if (volumes > kFinest) {
     lower.box.high_m3 = upper.box.low_m3 = std::sqrt(box.low_m3 * box.high_m3);
   } else {
     failed_ = true;  // too small to tell

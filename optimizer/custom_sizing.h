@@ -36,7 +36,7 @@ class CustomSizing {
     SettingsBox box;
     double bound = 0.0;  // of the objective
     bool examined = false;
-    bool by_pressure = false;                                                  // how to divide it
+    bool coils_differ = false;  // more than the pumps
     bool operator<(const Region& other) const { return bound > other.bound; }  // lowest on top
   };
   bool Decided() const;

@@ -112,9 +112,9 @@ LeastEvaluation LeastOver(const Problem& problem, const Candidate& candidate,
   least.failed = low.failed;
   if (low.works) {
     BoundPumps(problem, candidate, trend, box, low, least);
-    result.pressure_gap_j =
+    result.coil_gap_j =
         CoilEnergy(problem, candidate, low) - CoilEnergy(problem, candidate, fastest);
-    result.volume_gap_j = problem.actuations * (low.pump_energy_j - least.pump_energy_j);
+    result.pump_gap_j = problem.actuations * (low.pump_energy_j - least.pump_energy_j);
   }
   const OperatingPoint judged{box.low_pa, box.low_m3, box.low_m3};
   result.least = EvaluateWith(least, problem, candidate, judged);

@@ -51,9 +51,8 @@ struct LeastEvaluation {
   // Each number at its best: to be judged at p1 and V1. Energy counts no pumps where no bound on
   // them is known.
   Evaluation least;
-  // About how much lower the energy of the mission is than that of a pair of settings for the sake
-  // of the pressures' and of the volumes' width, J.
-  double pressure_gap_j = 0.0, volume_gap_j = 0.0;
+  // About how much less energy of the mission is counted than a pair of settings takes, J.
+  double coil_gap_j = 0.0, pump_gap_j = 0.0;
 };
 // `fastest`: FastestStrokes, that work, of the box or of one that holds it. Without effects.
 LeastEvaluation LeastOver(const Problem& problem, const Candidate& candidate,
