@@ -16,7 +16,8 @@ namespace {
 constexpr double kEqual = 1e-7;
 constexpr double kNearlyEqual = 2e-5;
 
-using State = std::array<double, 4>;  // time, reservoir pressure, pump time, pump energy
+// Time, reservoir pressure, pump time, pump energy, pumped air.
+using State = std::array<double, 5>;
 
 // FreeAirDelivery up to and including the highest pressure, which a pump still reaches.
 double Delivery(const CompressorCurve& curve, double pressure_pa) {
@@ -44,13 +45,15 @@ class Stroke {
   void operator()(const State& y, State& dy, double p) const {
     const double source_pa = y[1];
     const double flow = Flow(source_pa, p);
-    const double net = in_.compressors * Delivery(*in_.compressor, source_pa) - in_.count * flow;
+    const double delivery = in_.compressors * Delivery(*in_.compressor, source_pa);
+    const double net = delivery - in_.count * flow;
     const double volume = net < 0.0 ? in_.volume_falling_m3 : in_.volume_rising_m3;
     const double seconds = ContentSlope(*in_.chamber, p) / (content_per_volume_ * flow);
     dy[0] = seconds;
     dy[1] = content_per_volume_ / volume * net * seconds;
     dy[2] = seconds;
     dy[3] = seconds * in_.compressors * ElectricalPower(*in_.compressor, source_pa);
+    dy[4] = seconds * delivery;
   }
 
  private:
@@ -108,6 +111,9 @@ bool FillTogether(const ReservoirStrokeInput& in, State& y, double from, double 
   y[2] += seconds;
   y[3] += Integral([&](double p) { return seconds_per_pa(p) * power(p); }, from, to) +
           rest_s * power(middle_pa);
+  y[4] += (in.volume_rising_m3 * (to - from + rest_pa) +
+           in.count * (Content(*in.chamber, to) - Content(*in.chamber, from))) /
+          content_per_volume;
   return std::isfinite(seconds);
 }
 
@@ -129,6 +135,7 @@ bool FillFromFull(const ReservoirStrokeInput& in, State& y, double from, double 
   const double on_s = air_m3 / (in.compressors * Delivery(*in.compressor, in.stop_pa));
   y[2] += on_s;
   y[3] += on_s * in.compressors * ElectricalPower(*in.compressor, in.stop_pa);
+  y[4] += air_m3;
   return true;
 }
 
@@ -170,7 +177,7 @@ bool Advance(const ReservoirStrokeInput& in, State& y, double p, double end) {
 
 ReservoirStroke FillFromReservoir(const ReservoirStrokeInput& input) {
   ReservoirStroke result;
-  State y{0.0, input.stop_pa, 0.0, 0.0};
+  State y{0.0, input.stop_pa, 0.0, 0.0, 0.0};
   if (!Advance(input, y, input.from_pa, input.target_pa)) return result;
   result.rise_s = y[0];
   if (!Advance(input, y, input.target_pa, input.operating_pa)) return result;
@@ -178,6 +185,7 @@ ReservoirStroke FillFromReservoir(const ReservoirStrokeInput& input) {
   result.reservoir_end_pa = y[1];
   result.pump_on_s = y[2];
   result.pump_energy_j = y[3];
+  result.pump_air_m3 = y[4];
   result.reached = true;
   return result;
 }

@@ -28,8 +28,8 @@ struct ReservoirStrokeInput {
   double stop_pa = 0.0;
   // The volume that counts while the reservoir falls and while it rises. Equal for a simulation; an
   // interval of volumes [V1, V2] with V2 falling and V1 rising gives a time below that of each
-  // volume between (the right-hand side is larger everywhere, and the system keeps order). So is
-  // the pumps' running time up to the full reservoir; their energy only to 5e-4 for V2 = 1.3·V1.
+  // volume between (the right-hand side is larger everywhere, and the system keeps order), and one
+  // with V1 falling and V2 rising a reservoir below that of each (optimizer/settings_bounds.h).
   double volume_falling_m3 = 0.0;
   double volume_rising_m3 = 0.0;
   double from_pa = 0.0;
@@ -45,6 +45,7 @@ struct ReservoirStroke {
   double reservoir_end_pa = 0.0;
   double pump_on_s = 0.0;      // while inflating
   double pump_energy_j = 0.0;  // while inflating, all pumps
+  double pump_air_m3 = 0.0;    // the same, m³ ANR
 };
 
 // To 1e-6 of the times and the energy (against the simulator on random rigs).

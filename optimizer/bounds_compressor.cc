@@ -92,7 +92,14 @@ double Bounds::RestAt(const Box& box, const VolumeNeed& volume) {
     beyond_j -= problem_.actuations * HalfPeriod(problem_) * box.coil_power_w;
     current_a = PumpOf(box).current_a.At(std::max(box.window.low_pa, volume.need.source_pa));
   }
-  return volume.objective + LeastBattery(box, volume.need.energy_j, current_a) +
+  Amounts others = LeastBesidesBattery(box);
+  const ReservoirCorner& reservoir = CornerAt(plan_.reservoirs, box, plan_.reservoir_slot);
+  if (reservoir.custom && Node(box, plan_.reservoir_slot).single()) {  // not just the smallest
+    const Amounts made = CustomReservoir(problem_, volume.need.low_m3);
+    others.mass_kg += made.mass_kg - reservoir.amounts.mass_kg;
+    others.volume_m3 += made.volume_m3 - reservoir.amounts.volume_m3;
+  }
+  return volume.objective + LeastBattery(box, volume.need.energy_j, current_a, others) +
          EnergyShare(std::max(0.0, beyond_j));
 }
 

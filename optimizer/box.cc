@@ -15,6 +15,13 @@ constexpr std::size_t kLinesKept = 50000;
 
 }  // namespace
 
+std::vector<ReservoirNeed> NeedsOf(const Box& box) {
+  std::vector<ReservoirNeed> needs;
+  for (const VolumeNeed& volume : box.volumes)
+    if (std::isfinite(volume.rest)) needs.push_back(volume.need);
+  return needs;
+}
+
 Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench)
     : problem_(problem), plan_(plan), bench_(bench), gas_(GasOf(plan.configuration)) {}
 
@@ -161,14 +168,22 @@ Constraint Bounds::Assess(Box& box, int changed) {
   for (int g = 0; g < groups; ++g)
     if (changed < 0 || changed / kSlotsPerGroup == g)
       if (const Constraint missed = RemakeLine(box, g); missed != Constraint::kNone) return missed;
-  if (!WithinAmounts(box)) return Constraint::kAmounts;
+  if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
   const bool source_changed = changed < 0 || DecidesSource(changed);
   return plan_.configuration == Configuration::kCompressor
              ? AssessCompressor(box, source_changed, changed < 0 || changed == plan_.reservoir_slot)
              : AssessRegulated(box, source_changed);
 }
 
-bool Bounds::WithinAmounts(const Box& box) const {
+bool Bounds::WithinLimits(Amounts amounts, const Amounts& more) const {
+  constexpr double kRounding = 1.0 + 1e-12;  // sums in another order
+  amounts += more;
+  return amounts.mass_kg <= problem_.mass_max_kg * kRounding &&
+         amounts.volume_m3 * 1e3 <= problem_.volume_max_l * kRounding &&
+         amounts.cost_eur <= problem_.cost_max_eur * kRounding;
+}
+
+Amounts Bounds::LeastBesidesBattery(const Box& box) const {
   Amounts least;
   for (const std::shared_ptr<const Line>& line : box.lines) least += line->amounts;
   const auto add = [&](const auto& tree, int slot) {
@@ -178,11 +193,13 @@ bool Bounds::WithinAmounts(const Box& box) const {
   add(plan_.bottles, plan_.bottle_slot);
   add(plan_.compressors, plan_.compressor_slot);
   add(plan_.reservoirs, plan_.reservoir_slot);
-  add(plan_.batteries, plan_.battery_slot);
-  constexpr double kRounding = 1.0 + 1e-12;  // sums in another order
-  return least.mass_kg <= problem_.mass_max_kg * kRounding &&
-         least.volume_m3 * 1e3 <= problem_.volume_max_l * kRounding &&
-         least.cost_eur <= problem_.cost_max_eur * kRounding;
+  return least;
+}
+
+Amounts Bounds::LeastOfAll(const Box& box) const {
+  Amounts least = LeastBesidesBattery(box);
+  if (plan_.battery_slot >= 0) least += CornerAt(plan_.batteries, box, plan_.battery_slot).amounts;
+  return least;
 }
 
 void Bounds::AddLines(Box& box) const {
@@ -200,16 +217,18 @@ double Bounds::EnergyShare(double energy_j) const {
   return problem_.objective.energy_wh * energy_j / 3600.0;
 }
 
-double Bounds::LeastBattery(const Box& box, double energy_j, double pump_current_a) const {
+double Bounds::LeastBattery(const Box& box, double energy_j, double pump_current_a,
+                            const Amounts& others) const {
   if (plan_.battery_slot < 0) return 0.0;
   const Kinds pump = plan_.compressor_slot < 0
                          ? ~Kinds{0}
                          : CornerAt(plan_.compressors, box, plan_.compressor_slot).voltages;
-  return LeastObjective(plan_.batteries, box.nodes[plan_.battery_slot],
-                        [&](const BatteryCorner& c) {
-                          return (c.voltages & pump) && energy_j <= c.energy_j &&
-                                 pump_current_a + box.coil_power_w / c.voltage_v <= c.current_max_a;
-                        });
+  return LeastObjective(
+      plan_.batteries, box.nodes[plan_.battery_slot], [&](const BatteryCorner& c) {
+        return (c.voltages & pump) && energy_j <= c.energy_j &&
+               pump_current_a + box.coil_power_w / c.voltage_v <= c.current_max_a &&
+               WithinLimits(others, c.amounts);
+      });
 }
 
 Candidate Bounds::CandidateOf(const Box& box) const {

@@ -41,6 +41,8 @@ struct Box {
   bool source_known = false;        // the least source pressure is that of the real parts
 };
 
+std::vector<ReservoirNeed> NeedsOf(const Box& box);
+
 class Bounds {
  public:
   // `bench`: handed to the candidates; may be null.
@@ -107,8 +109,10 @@ class Bounds {
   KnownLine& KnowLine(const LineKey& key);
   Constraint FindLeastObjective(const LineKey& key, Line& line);
   Constraint RemakeLine(Box& box, int group);
-  bool WithinAmounts(const Box& box) const;
-  void AddLines(Box& box) const;  // window, coils
+  bool WithinLimits(Amounts amounts, const Amounts& more = {}) const;
+  Amounts LeastOfAll(const Box& box) const;           // sums of the least of each slot
+  Amounts LeastBesidesBattery(const Box& box) const;  // and of each but the battery
+  void AddLines(Box& box) const;                      // window, coils
 
   Constraint AssessRegulated(Box& box, bool source_changed);
   Constraint NeedOfRegulated(Box& box);
@@ -123,7 +127,10 @@ class Bounds {
   Constraint FindStockSource(Box& box);
   Constraint RefineVolumes(Box& box);
 
-  double LeastBattery(const Box& box, double energy_j, double pump_current_a) const;
+  // The least share of the objective of a battery that bears so much; `others`: what the rest of
+  // the design at least amounts to.
+  double LeastBattery(const Box& box, double energy_j, double pump_current_a,
+                      const Amounts& others) const;
   double EnergyShare(double energy_j) const;
 
   const Problem& problem_;

@@ -200,8 +200,13 @@ double ObjectiveValue(const Problem& problem, const Candidate& candidate,
 
 Evaluation Evaluate(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
                     const EvaluateOptions& options) {
+  return EvaluateWith(EvaluateStrokes(problem, candidate, point), problem, candidate, point,
+                      options);
+}
+
+Evaluation EvaluateWith(const Strokes& strokes, const Problem& problem, const Candidate& candidate,
+                        const OperatingPoint& point, const EvaluateOptions& options) {
   Evaluation evaluation;
-  const Strokes strokes = EvaluateStrokes(problem, candidate, point);
   evaluation.failed = strokes.failed;
   if (!strokes.works) return evaluation;
   evaluation.works = true;

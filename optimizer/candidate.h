@@ -52,6 +52,8 @@ struct OperatingPoint {
   double reservoir_rising_m3 = 0.0;
 };
 
+enum class LeafStatus { kFeasible, kInfeasible, kUndecided };
+
 struct Evaluation {
   // False: a pressure is never reached, or surely too late, or the solver failed; nothing below is
   // valid then.
@@ -80,6 +82,10 @@ struct EvaluateOptions {
 
 Evaluation Evaluate(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
                     const EvaluateOptions& options = {});
+// The same of strokes that are known (evaluate_strokes.h).
+struct Strokes;
+Evaluation EvaluateWith(const Strokes& strokes, const Problem& problem, const Candidate& candidate,
+                        const OperatingPoint& point, const EvaluateOptions& options = {});
 
 // Range of source pressures that the parts stand and that can drive the strokes at all; empty
 // (low > high) if there is none.

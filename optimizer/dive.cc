@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "optimizer/custom_sizing.h"
+
 namespace plenum::optimizer {
 namespace {
 
@@ -56,7 +58,7 @@ class Diver {
     const Candidate candidate = bounds_.CandidateOf(box);
     Leaf leaf;
     if (candidate.reservoir.index == kCustom) {
-      CustomSizing sizing(problem_, candidate);
+      CustomSizing sizing(problem_, candidate, NeedsOf(box));
       while (!stop_() && !sizing.Refine()) {
       }
       leaf = sizing.leaf();

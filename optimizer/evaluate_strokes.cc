@@ -89,6 +89,7 @@ void AddHeldAir(const Problem& problem, const Candidate& candidate, double stop_
   strokes.pump_on_s += seconds;
   strokes.pump_energy_j +=
       seconds * candidate.compressor.quantity * model::ElectricalPower(curve, stop_pa);
+  strokes.pump_air_m3 += air_m3;
 }
 
 // Stroke of one group alone on the full reservoir, if that is the whole story: the reservoir is
@@ -112,6 +113,10 @@ Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
       stroke.pump_energy_j + model::EnergyToFill(*input.compressor, point.reservoir_rising_m3,
                                                  stroke.reservoir_end_pa, point.source_pa,
                                                  input.temperature_k);
+  strokes.pump_air_m3 +=
+      stroke.pump_air_m3 +
+      model::StandardVolume(point.reservoir_rising_m3 * (point.source_pa - stroke.reservoir_end_pa),
+                            input.temperature_k);
   if (!candidate.lines[g]->holds) AddHeldAir(problem, candidate, point.source_pa, g, strokes);
   return Alone::kYes;
 }
@@ -255,6 +260,7 @@ Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
   }
   strokes.pump_on_s = state.response.compressor_on_s;
   strokes.pump_energy_j = state.response.compressor_energy_j;
+  strokes.pump_air_m3 = state.response.compressor_air_m3;
   strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
                               [](double s) { return std::isfinite(s); });
   return strokes;

@@ -15,6 +15,7 @@ struct Strokes {
   std::vector<double> rise_s, inflate_s;  // per group, worst of the cycle
   double pump_on_s = 0.0;                 // per cycle
   double pump_energy_j = 0.0;             // per cycle, all pumps
+  double pump_air_m3 = 0.0;               // the same, ANR; not known with effects
   bool from_full = false;                 // no two groups meet, and each finds the reservoir full
   // With effects only; without them the line knows.
   std::vector<double> fall_s, highest_pa;  // per group

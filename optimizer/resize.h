@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "optimizer/sizing.h"
+#include "optimizer/custom_sizing.h"
 
 namespace plenum::optimizer {
 

@@ -12,6 +12,7 @@
 #include <queue>
 
 #include "optimizer/conflict.h"
+#include "optimizer/custom_sizing.h"
 #include "optimizer/dive.h"
 #include "optimizer/effect_strokes.h"
 #include "optimizer/problem.h"
@@ -19,7 +20,6 @@
 #include "optimizer/recorder.h"
 #include "optimizer/report.h"
 #include "optimizer/revised_search.h"
-#include "optimizer/sizing.h"
 #include "optimizer/tree_search.h"
 
 namespace plenum::optimizer {
@@ -237,7 +237,8 @@ class BoxSearch {
     Leaf leaf;
     if (candidate.reservoir.index == kCustom) {
       // A few steps at a time: as its bound rises the box goes back into the queue.
-      if (!node->sizing) node->sizing = std::make_unique<CustomSizing>(problem_, candidate);
+      if (!node->sizing)
+        node->sizing = std::make_unique<CustomSizing>(problem_, candidate, NeedsOf(node->box));
       if (!node->sizing->Refine()) {
         node->box.bound = std::max(node->box.bound, node->sizing->leaf().lower_bound);
         Push(std::move(node));

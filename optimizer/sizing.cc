@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <queue>
 
-#include "model/storage.h"
 #include "optimizer/evaluate_strokes.h"
-#include "optimizer/nlp.h"
+#include "optimizer/pump_bounds.h"
 #include "optimizer/pump_slope.h"
 #include "optimizer/root.h"
 #include "optimizer/stroke_bound.h"
@@ -14,14 +13,10 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kPressureTolerance = 1e-8;
+constexpr double kPressureTolerance = 1e-9;
 constexpr double kBoundTolerance = 1e-4;
 constexpr int kEvaluationsMax = 20000;
 constexpr double kObjectiveTolerance = 4e-7;
-constexpr double kVolumeTolerance = 1e-7;  // of the objective
-constexpr int kStepsPerRefine = 8;
-constexpr int kStepsMax = 400;
-constexpr double kEnergySlack = 1e-2;  // per relative width of an interval of volumes
 
 // Coils of all cycles at any source pressure, at least.
 double LeastCoilEnergy(const Problem& problem, const Candidate& candidate) {
@@ -242,154 +237,6 @@ Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double res
   leaf.status = needed.status;
   leaf.lower_bound = ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3));
   return leaf;
-}
-
-CustomSizing::CustomSizing(const Problem& problem, Candidate candidate)
-    : problem_(problem),
-      candidate_(std::move(candidate)),
-      facts_(MakePumpFacts(problem, problem.parts.compressors[candidate_.compressor.index].curve,
-                           candidate_.compressor.quantity)) {
-  leaf_.objective = kUnlimited;
-  Open(model::kMadeReservoirSmallestM3, model::kMadeReservoirLargestM3, 0.0);
-  leaf_.lower_bound = open_.empty() ? 0.0 : open_.top().bound;
-}
-
-std::vector<ReservoirNeed> CustomSizing::CheapBounds(double low_m3, double high_m3) const {
-  const model::Battery& battery = problem_.parts.batteries[candidate_.battery.index];
-  return ReservoirNeeds(problem_, facts_, candidate_,
-                        candidate_.battery.quantity *
-                            model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v),
-                        low_m3, high_m3);
-}
-
-// Queues what the cheap bounds leave of an interval.
-void CustomSizing::Open(double low_m3, double high_m3, double bound) {
-  for (const ReservoirNeed& need : CheapBounds(low_m3, high_m3)) {
-    Evaluation least;
-    least.energy_total_j = need.energy_j;
-    const double objective =
-        ObjectiveValue(problem_, candidate_, {need.source_pa, need.low_m3, need.low_m3}, least);
-    open_.push({need.low_m3, need.high_m3, std::max(bound, objective), need.source_pa,
-                need.source_max_pa, false});
-  }
-}
-
-bool CustomSizing::Refine() {
-  for (int step = 0; step < kStepsPerRefine && !candidate_.stopped(); ++step) {
-    const double good_enough = leaf_.objective - kVolumeTolerance * std::abs(leaf_.objective);
-    if (open_.empty() || open_.top().bound >= good_enough) {
-      const bool found = std::isfinite(leaf_.objective);
-      leaf_.status = found ? LeafStatus::kFeasible : LeafStatus::kInfeasible;
-      leaf_.lower_bound =
-          open_.empty() ? leaf_.objective : std::min(leaf_.objective, open_.top().bound);
-      return true;
-    }
-    Interval interval = open_.top();
-    open_.pop();
-    if (!interval.examined) {
-      if (Examine(interval)) open_.push(interval);
-    } else {
-      Split(interval);
-    }
-    if (candidate_.stopped()) break;
-    if (failed_ || ++steps_ >= kStepsMax) {
-      // The bound stands, the leaf is as good as the incumbent, and the gap is reported.
-      leaf_.status =
-          std::isfinite(leaf_.objective) ? LeafStatus::kFeasible : LeafStatus::kUndecided;
-      leaf_.lower_bound =
-          open_.empty() ? leaf_.lower_bound : std::min(leaf_.objective, open_.top().bound);
-      return true;
-    }
-  }
-  leaf_.lower_bound = open_.empty() ? leaf_.objective : open_.top().bound;
-  return false;
-}
-
-bool CustomSizing::Examine(Interval& interval) {
-  interval.examined = true;
-  Candidate candidate = candidate_;
-  candidate.source_floor_pa = interval.source_floor_pa;
-  candidate.source_cap_pa = interval.source_cap_pa;
-  OperatingPoint point{0.0, interval.high_m3, interval.low_m3};
-  const NeededPressure needed = NeededSourcePressure(problem_, candidate, point);
-  if (needed.status == LeafStatus::kInfeasible) return false;
-  failed_ = failed_ || needed.status == LeafStatus::kUndecided;
-  if (failed_) return true;
-  if (PumpEnergyRises(problem_, candidate)) {
-    point.source_pa = needed.source_pa;
-    Evaluation best = Evaluate(problem_, candidate, point, {.least_coil_energy = true});
-    // Times over an interval of volumes are bounds; energy may pass that of a volume inside by a
-    // few 1e-4 where the pump nearly refills within the stroke (model/reservoir_stroke.h).
-    const double slack = kEnergySlack * (interval.high_m3 / interval.low_m3 - 1.0);
-    best.energy_total_j *= 1.0 - slack;
-    best.energy_per_cycle_j *= 1.0 - slack;
-    const OperatingPoint smallest{needed.source_pa, interval.low_m3, interval.low_m3};
-    if (best.failed) {
-      failed_ = true;
-      return true;
-    }
-    if (SupplyMargin(problem_, candidate, smallest, best) < 0.0) return false;
-    interval.bound = std::max(interval.bound, ObjectiveValue(problem_, candidate, smallest, best));
-  }
-  Offer(interval.high_m3);
-  return interval.bound < leaf_.objective;
-}
-
-void CustomSizing::Split(const Interval& interval) {
-  const double middle_m3 = std::sqrt(interval.low_m3 * interval.high_m3);
-  Offer(middle_m3);
-  Open(interval.low_m3, middle_m3, interval.bound);
-  Open(middle_m3, interval.high_m3, interval.bound);
-}
-
-void CustomSizing::Offer(double volume_m3) {
-  if (ObjectiveOf(problem_.objective, TotalAmounts(problem_, candidate_, volume_m3)) >=
-      leaf_.objective)
-    return;
-  const std::vector<ReservoirNeed> needs = CheapBounds(volume_m3, volume_m3);
-  if (needs.empty()) return;
-  Candidate candidate = candidate_;
-  candidate.source_floor_pa = needs.front().source_pa;
-  candidate.source_cap_pa = needs.front().source_max_pa;
-  const Leaf leaf = SizeAtVolume(problem_, candidate, volume_m3);
-  if (leaf.status != LeafStatus::kFeasible || leaf.objective >= leaf_.objective) return;
-  leaf_.point = leaf.point;
-  leaf_.objective = leaf.objective;
-  if (!polished_) Polish();
-}
-
-// From the first feasible volume Ipopt finds the best pair of pressure and volume near it.
-void CustomSizing::Polish() {
-  polished_ = true;
-  const Window window = SourceWindow(problem_, candidate_);
-  const double volume_m3 = leaf_.point.reservoir_m3;
-  const double scale = std::abs(leaf_.objective);
-  const auto point_at = [&](const std::vector<double>& x) {
-    const double volume = x[1] * volume_m3;
-    return OperatingPoint{window.low_pa + x[0] * (window.high_pa - window.low_pa), volume, volume};
-  };
-  Nlp nlp;
-  nlp.low = {0.0, std::max(0.3, model::kMadeReservoirSmallestM3 / volume_m3)};
-  nlp.high = {1.0, 1.0};
-  if (!(window.high_pa > window.low_pa) || !(nlp.low[1] < 1.0)) return;
-  nlp.start = {(leaf_.point.source_pa - window.low_pa) / (window.high_pa - window.low_pa), 1.0};
-  nlp.constraints = static_cast<int>(
-      SolverMargins(problem_, candidate_, leaf_.point, Evaluate(problem_, candidate_, leaf_.point))
-          .size());
-  nlp.evaluate = [&](const std::vector<double>& x, NlpValues& values) {
-    const OperatingPoint point = point_at(x);
-    const Evaluation evaluation = Evaluate(problem_, candidate_, point);
-    if (!evaluation.works) return false;
-    values.objective = ObjectiveValue(problem_, candidate_, point, evaluation) / scale;
-    values.constraints = SolverMargins(problem_, candidate_, point, evaluation);
-    return true;
-  };
-  nlp.stop = [&] { return candidate_.stopped(); };
-  const NlpResult result = SolveWithIpopt(nlp);
-  if (result.status == NlpStatus::kSolved) {
-    // The solver stops within its tolerance of the limits; a hair more volume is surely inside.
-    Offer(point_at(result.x).reservoir_m3 * (1.0 + 1e-7));
-  }
 }
 
 }  // namespace plenum::optimizer

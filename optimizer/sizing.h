@@ -7,16 +7,11 @@
 #ifndef PLENUM_OPTIMIZER_SIZING_H_
 #define PLENUM_OPTIMIZER_SIZING_H_
 
-#include <functional>
-#include <queue>
 #include <vector>
 
 #include "optimizer/candidate.h"
-#include "optimizer/pump_bounds.h"
 
 namespace plenum::optimizer {
-
-enum class LeafStatus { kFeasible, kInfeasible, kUndecided };
 
 struct Leaf {
   LeafStatus status = LeafStatus::kUndecided;
@@ -48,45 +43,6 @@ struct NeededPressure {
 };
 NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& candidate,
                                     OperatingPoint point);
-
-// The best volume of a made-to-measure reservoir, by branch and bound over intervals of volumes. An
-// interval is closed when no volume in it can meet the limits: first by the cheap bounds of
-// pump_bounds.h, then by one evaluation with the volume's upper end while the reservoir falls and
-// its lower end while it rises.
-class CustomSizing {
- public:
-  CustomSizing(const Problem& problem, Candidate candidate);
-
-  // A few intervals more. True when done: leaf() is feasible with lower_bound within 1e-7 of the
-  // objective, or infeasible; or undecided, or feasible with a lower bound that holds, where a
-  // solver failed. Not done where it was stopped.
-  bool Refine();
-  const Leaf& leaf() const { return leaf_; }
-
- private:
-  struct Interval {
-    double low_m3, high_m3, bound;
-    double source_floor_pa, source_cap_pa;  // outside the cheap bounds already fail
-    bool examined;
-    bool operator<(const Interval& other) const { return bound > other.bound; }  // lowest on top
-  };
-  bool Examine(Interval& interval);  // false: closed
-  void Split(const Interval& interval);
-  void Offer(double volume_m3);
-  void Polish();
-
-  void Open(double low_m3, double high_m3, double bound);
-  std::vector<ReservoirNeed> CheapBounds(double low_m3, double high_m3) const;
-
-  const Problem& problem_;
-  Candidate candidate_;
-  PumpFacts facts_;
-  std::priority_queue<Interval> open_;
-  Leaf leaf_;
-  bool polished_ = false;
-  int steps_ = 0;
-  bool failed_ = false;
-};
 
 // The settings that a listed design gets, from a feasible leaf. Where the objective leaves them
 // free they make the smallest relative margin that they move as large as it can be; the point is

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "optimizer/sizing.h"
+#include "optimizer/custom_sizing.h"
 
 namespace plenum::test {
 

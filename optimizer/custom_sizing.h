@@ -1,0 +1,69 @@
+// Continuous settings of a leaf with a made-to-measure reservoir: its volume and the stop pressure
+// together, by branch and bound over rectangles of both.
+//
+// A rectangle is closed where the bounds that hold for all of it (settings_bounds.h) break a
+// requirement or lie above the best point found. Points come from the sizing at one volume, once a
+// rectangle that is still open is narrow, and from there by Ipopt: a leaf that its bounds rule out
+// is never handed to a solver.
+#ifndef PLENUM_OPTIMIZER_CUSTOM_SIZING_H_
+#define PLENUM_OPTIMIZER_CUSTOM_SIZING_H_
+
+#include <queue>
+#include <vector>
+
+#include "optimizer/pump_bounds.h"
+#include "optimizer/settings_bounds.h"
+#include "optimizer/sizing.h"
+
+namespace plenum::optimizer {
+
+class CustomSizing {
+ public:
+  // `needs`: intervals of volumes outside which nothing will do, with what is known of each.
+  CustomSizing(const Problem& problem, Candidate candidate,
+               const std::vector<ReservoirNeed>& needs);
+  // All volumes that can be made.
+  CustomSizing(const Problem& problem, Candidate candidate);
+
+  // A few rectangles more. True when done: leaf() is feasible with lower_bound within 1e-7 of the
+  // objective (4e-7 where energy counts), or infeasible; or undecided, or feasible with a lower
+  // bound that holds, where a solver failed. Not done where it was stopped.
+  bool Refine();
+  const Leaf& leaf() const { return leaf_; }
+
+ private:
+  struct Region {
+    SettingsBox box;
+    double bound = 0.0;  // of the objective
+    bool examined = false;
+    bool coils_differ = false;  // more than the pumps
+    bool operator<(const Region& other) const { return bound > other.bound; }  // lowest on top
+  };
+  bool Decided() const;
+  bool WithinLimits(double volume_m3) const;
+  void Examine(Region region);
+  bool Judge(Region& region, double tolerance);
+  void Divide(const Region& region);
+  void OfferIfNarrow(const Region& region);
+  double ALittleMore(double volume_m3) const;
+  bool Offer(double volume_m3);
+  void Polish();
+  bool Conclude(LeafStatus without_point);
+
+  const Problem& problem_;
+  Candidate candidate_;
+  PumpTrend trend_;
+  double tolerance_;
+  std::priority_queue<Region> open_;
+  Leaf leaf_;
+  double narrow_;  // relative width of volumes at which a point is sought next
+  int steps_ = 0;
+  bool failed_ = false;
+};
+
+// Intervals of volumes of a candidate that may do, by the cheap bounds of pump_bounds.h.
+std::vector<ReservoirNeed> NeedsOfCandidate(const Problem& problem, const Candidate& candidate);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_CUSTOM_SIZING_H_
