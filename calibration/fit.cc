@@ -260,7 +260,7 @@ Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& opt
   return fit;
 }
 
-std::vector<Estimate> Intervals(const FitData& data, const Fit& fit, const FitOptions& options) {
+Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options) {
   const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
   Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(size, size);
   for (const std::size_t run : data.runs) {
@@ -293,11 +293,16 @@ std::vector<Estimate> Intervals(const FitData& data, const Fit& fit, const FitOp
       scale.cwiseInverse().asDiagonal() * curvature * scale.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   const Eigen::VectorXd spread = eigen.eigenvalues().cwiseMax(kLeastCurvature).cwiseInverse();
+  const Eigen::VectorXd unit = scale.cwiseInverse();
+  return unit.asDiagonal() * eigen.eigenvectors() * spread.asDiagonal() *
+         eigen.eigenvectors().transpose() * unit.asDiagonal();
+}
+
+std::vector<Estimate> Intervals(const Fit& fit, const Eigen::MatrixXd& covariance) {
   std::vector<Estimate> estimates;
-  for (Eigen::Index j = 0; j < size; ++j) {
+  for (Eigen::Index j = 0; j < fit.u.size(); ++j) {
     const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
-    const double variance =
-        eigen.eigenvectors().row(j).cwiseAbs2().dot(spread.transpose()) / (scale[j] * scale[j]);
+    const double variance = covariance(j, j);
     const double half = kTwoSided95 * std::sqrt(variance);
     const double one = Edge(coordinate, fit.u[j] - half), other = Edge(coordinate, fit.u[j] + half);
     const double range = coordinate.kind == Coordinate::Kind::kLinear && !coordinate.prior
