@@ -1,6 +1,7 @@
 #include "calibration/diagnose.h"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -12,6 +13,7 @@
 #include "calibration/residual.h"
 #include "calibration/thresholds.h"
 #include "calibration/verdict.h"
+#include "calibration/whiteness.h"
 
 namespace plenum::calibration {
 namespace {
@@ -43,6 +45,16 @@ std::string TitleOf(const model::EffectSpec& spec) {
                           : std::string(spec.id) + ":" + std::string(spec.law);
 }
 
+// Whether the declared numbers are where their uncertainties let them be: what is missing may hide
+// in them and leave nothing but noise.
+bool PriorsHold(const Fit& fit) {
+  const auto count = std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
+                                   [](const Coordinate& coordinate) { return coordinate.prior; });
+  if (count == 0) return true;
+  const boost::math::chi_squared law(static_cast<double>(count));
+  return fit.chi2_prior <= boost::math::quantile(boost::math::complement(law, kFalseAlarm));
+}
+
 class Diagnosing {
  public:
   Diagnosing(const Dataset& dataset, const DiagnoseOptions& options)
@@ -59,7 +71,9 @@ class Diagnosing {
   }
 
   Diagnosis Take() {
-    const auto enough = [this](const Fit& fit) { return IsNoise(LeftoverOf(fit, false)); };
+    const auto enough = [this](const Fit& fit) {
+      return PriorsHold(fit) && IsNoise(LeftoverOf(fit, false));
+    };
     search_ = SearchEffects(data_, options_, enough);
     data_ = search_.data;
     base_ = &search_.contenders[search_.base];

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "calibration/thresholds.h"
@@ -20,7 +22,8 @@ constexpr double kSameOptimum = 1.0;  // χ² apart
 // many steps; those near the best are then taken further.
 constexpr double kScreening = 1e-4;
 constexpr int kScreeningIterations = 12;
-constexpr double kNear = 20.0;   // of BIC
+constexpr double kNear = 20.0;  // of BIC
+constexpr double kNever = std::numeric_limits<double>::infinity(), kClocksAreAll = -kNever;
 constexpr int kTriplesFrom = 1;  // best pairs
 
 std::size_t Place(Spec spec) {
@@ -43,6 +46,13 @@ std::vector<Spec> NamedEffects() {
 
 bool HoldsId(const Set& set, std::string_view id) {
   return std::any_of(set.begin(), set.end(), [&](Spec spec) { return spec->id == id; });
+}
+
+// Effects that shift strokes in time, as a clock does.
+bool ActsInTime(const model::EffectSpec& spec) {
+  for (const std::string_view id : {"valve_delay", "valve_ramp", "sensor_lag", "line_dynamics"})
+    if (spec.id == id) return true;
+  return false;
 }
 
 // Runs work(i) for all i below count on several threads.
@@ -69,36 +79,18 @@ class Search {
   }
 
   SearchResult Run() {
-    FitBase();
-    if (ClocksAreAll()) {
+    std::optional<std::size_t> chosen = Grow();
+    if (!chosen) {  // again, with each run's clock fitted
       result_.data.clocks = true;
       result_.contenders.clear();
-      FitBase();
+      chosen = Grow();
     }
-    FitSingles();
-    if (!result_.data.clocks && ClocksAreOff(Base(), BestOfSize(1))) {
-      result_.data.clocks = true;
-      result_.contenders.clear();
-      FitBase();
-      FitSingles();
-    }
-    std::size_t chosen = Best(0);
-    for (int size = 1; size <= kEffectsMax && !Cancelled(); ++size) {
-      if (size > 1) {
-        if (enough_(Of(chosen).fit)) break;
-        if (size > 2 && LeftShare(Of(chosen)) > kEstablished) break;
-        ExtendSets(Seeds(size - 1), size);
-      }
-      const Contender* best = BestOfSize(size);
-      if (!best || !(best->fit.bic < Of(chosen).fit.bic - kAccept)) break;
-      chosen = IndexOf(*best);
-    }
-    if (Of(chosen).effects.size() > 1u && LeftShare(Of(chosen)) < kEstablished && !Cancelled()) {
-      const int size = static_cast<int>(Of(chosen).effects.size());
-      Exchange(Of(chosen).effects);
+    if (Of(*chosen).effects.size() > 1u && LeftShare(Of(*chosen)) < kEstablished && !Cancelled()) {
+      const int size = static_cast<int>(Of(*chosen).effects.size());
+      Exchange(Of(*chosen).effects);
       chosen = Best(size);
     }
-    Finish(Of(chosen).effects);
+    Finish(static_cast<int>(Of(*chosen).effects.size()));
     return std::move(result_);
   }
 
@@ -108,6 +100,28 @@ class Search {
     ModelState start;
     Fit fit;
   };
+
+  // Sets forwards from the base model, and the best of them; none where the clocks are found off.
+  std::optional<std::size_t> Grow() {
+    FitBase();
+    std::size_t chosen = 0;
+    for (int size = 1; size <= kEffectsMax && !Cancelled(); ++size) {
+      if (size > 1 && enough_(Of(chosen).fit)) break;
+      const double clocks_bic = WithClocks(chosen);
+      if (clocks_bic == kClocksAreAll) return {};
+      if (size > 2 && LeftShare(Of(chosen)) > kEstablished) break;
+      if (size == 1)
+        FitSingles();
+      else
+        ExtendSets(Seeds(size - 1), size);
+      const Contender* best = BestOfSize(size);
+      if (clocks_bic < std::min(best ? best->fit.bic : kNever, Of(chosen).fit.bic) - kClock)
+        return {};
+      if (!best || !(best->fit.bic < Of(chosen).fit.bic - kAccept)) break;
+      chosen = IndexOf(*best);
+    }
+    return chosen;
+  }
 
   const Contender& Of(std::size_t i) const { return result_.contenders[i]; }
   const Contender& Base() const { return result_.contenders.front(); }
@@ -282,8 +296,9 @@ class Search {
     RunJobs(jobs, from, from + 0.2, size == 2 ? "pairs of effects" : "triples of effects");
   }
 
-  // Every set that differs from this one in one member.
-  void Exchange(const Set& set) {
+  // Every set that differs from this one in one member. By value, here and in Finish: the
+  // contenders that it comes from move.
+  void Exchange(Set set) {
     std::vector<Job> jobs;
     for (const Spec out : set) {
       Set rest;
@@ -311,43 +326,39 @@ class Search {
     return state;
   }
 
-  // Whether clocks that are off leave nothing else to explain, and not for a common delay.
-  bool ClocksAreAll() {
-    if (!ClocksAreOff(Base(), nullptr)) return false;
-    FitData data = result_.data;
-    data.clocks = true;
-    if (!enough_(FitModel(data, Base().fit.state, fit_options_))) return false;
-    Contender delayed = Base();
-    delayed.fit.state.effects.push_back(
-        EffectStarts(*model::FindEffect("valve_delay"), data.sizes).front());
-    delayed.fit = FitModel(result_.data, delayed.fit.state, fit_options_);
-    return ClocksAreOff(delayed, nullptr);
-  }
-
-  // Whether clocks that are off explain more than what a common delay or any single effect does.
-  bool ClocksAreOff(const Contender& base, const Contender* single) {
-    if (Cancelled() || !base.fit.Usable()) return false;
+  // BIC of a set with the runs' clocks fitted. kClocksAreAll where that leaves nothing, and one
+  // effect more that acts in time does not do as well: there is no need to try all effects.
+  double WithClocks(std::size_t set) {
+    if (result_.data.clocks || Cancelled() || !Of(set).fit.Usable()) return kNever;
     FitData data = result_.data;
     data.clocks = true;
     FitOptions options = fit_options_;
     options.threads = options_.threads;
-    const auto gain = [&](const Contender& contender) {
-      const Fit with = FitModel(data, contender.fit.state, options);
-      const double cost = std::log(static_cast<double>(with.rows));
-      const auto clocks = std::count_if(
-          with.coordinates.begin(), with.coordinates.end(), [](const Coordinate& coordinate) {
-            return coordinate.parameter.kind == Parameter::Kind::kClock;
-          });
-      return with.Usable() ? contender.fit.bic - with.bic - static_cast<double>(clocks) * cost
-                           : -1.0;
-    };
-    // Beside the best single effect: what a delay explains is not the clocks' doing.
-    const bool accepted = single && single->fit.bic < base.fit.bic - kAccept;
-    return gain(accepted ? *single : base) > kClock;
+    const Fit with = FitModel(data, Of(set).fit.state, options);
+    if (!with.Usable()) return kNever;
+    const auto clocks = std::count_if(with.coordinates.begin(), with.coordinates.end(),
+                                      [](const Coordinate& coordinate) {
+                                        return coordinate.parameter.kind == Parameter::Kind::kClock;
+                                      });
+    const double bic =
+        with.bic + static_cast<double>(clocks) * std::log(static_cast<double>(with.rows));
+    if (!(bic < Of(set).fit.bic - kClock) || !enough_(with)) return bic;
+    std::vector<Job> jobs;
+    const Contender from = Of(set);
+    for (const Spec spec : NamedEffects())
+      if (ActsInTime(*spec)) AddJobs(from, spec, jobs);
+    RunJobs(jobs, 0.05, 0.1, "clocks");
+    const bool rivalled = std::any_of(
+        result_.contenders.begin(), result_.contenders.end(), [&](const Contender& other) {
+          return other.effects.size() == from.effects.size() + 1 && other.fit.Usable() &&
+                 Contains(other, from) && other.fit.bic < bic + kClock;
+        });
+    return rivalled ? bic : kClocksAreAll;
   }
 
-  // Fits of the chosen set and its rivals to the last digit, then all in the order of BIC.
-  void Finish(const Set& chosen) {
+  // The best sets of each size up to the one that the search came to are fitted to the last digit;
+  // then the choice is made again, because a fit cut short may have made a larger set look needed.
+  void Finish(int size_max) {
     Report(0.92, "final fits");
     FitOptions tight = fit_options_;
     tight.noise_share = 1e-3;
@@ -355,14 +366,16 @@ class Search {
     tight.function_tolerance = 1e-9;
     tight.iterations_max = 100;
     tight.threads = options_.threads;
-    const double best = Find(chosen)->fit.bic;
-    for (Contender& contender : result_.contenders) {
-      const bool rival = contender.effects.size() == chosen.size() && contender.fit.Usable() &&
-                         contender.fit.bic < best + 2.0 * kTie;
-      if (!rival && !contender.effects.empty()) continue;
-      Fit fit = FitModel(result_.data, contender.fit.state, tight);
-      if (fit.Usable() && fit.bic < contender.fit.bic + kSameOptimum)
-        contender.fit = std::move(fit);
+    for (int size = 0; size <= size_max; ++size) {
+      const double best = Of(Best(size)).fit.bic;
+      const double reach = size == size_max ? 2.0 * kTie : kSameOptimum;
+      for (Contender& contender : result_.contenders) {
+        if (contender.effects.size() != static_cast<std::size_t>(size)) continue;
+        if (!contender.fit.Usable() || contender.fit.bic > best + reach) continue;
+        Fit fit = FitModel(result_.data, contender.fit.state, tight);
+        if (fit.Usable() && fit.bic < contender.fit.bic + kSameOptimum)
+          contender.fit = std::move(fit);
+      }
     }
     std::stable_sort(result_.contenders.begin(), result_.contenders.end(),
                      [](const Contender& a, const Contender& b) {
@@ -372,10 +385,11 @@ class Search {
     result_.complete = !Cancelled();
     for (std::size_t i = 0; i < result_.contenders.size(); ++i)
       if (result_.contenders[i].effects.empty()) result_.base = i;
-    result_.chosen = 0;
-    for (std::size_t i = result_.contenders.size(); i-- > 0;) {
-      const Contender& contender = result_.contenders[i];
-      if (contender.effects.size() == chosen.size() && contender.fit.Usable()) result_.chosen = i;
+    result_.chosen = result_.base;
+    for (int size = 1; size <= size_max; ++size) {
+      const Contender* best = BestOfSize(size);
+      if (best && best->fit.bic < Of(result_.chosen).fit.bic - kAccept)
+        result_.chosen = IndexOf(*best);
     }
   }
 

@@ -223,7 +223,8 @@ ForwardModel::ForwardModel(const Dataset& dataset)
     const Run& run = dataset.runs[i];
     if (run.supply != Supply::kMeasured) continue;
     const std::vector<double>& record = run.channels.source_pressure_pa;
-    measured_[i] = CondenseRecord(run.t_s, record, EstimateNoise(run.t_s, record, {}, {}).sigma_pa);
+    measured_[i] =
+        CondenseRecord(run.t_s, record, EstimateNoise({run.t_s, record, {}, {}}).sigma_pa);
     for (double& time_s : measured_[i].time_s) time_s -= StartOf(run);
   }
 }

@@ -19,8 +19,10 @@ constexpr double kNoiseless = 1e-4;     // of the range: wild values smaller tha
 constexpr double kSigmaError = 1.07;    // standard error of σ over σ is this over √windows
 // A signal that settles reads (q/2)² off at worst, three times the mean over levels, q²/12.
 constexpr double kRoundingError = 0.4;
-constexpr int kRepeatsMin = 8;   // degrees of freedom
-constexpr int kWindowsMin = 30;  // else look further than the quiet spans
+constexpr double kClipSigmas = 4.0;
+constexpr double kSameEnd = 1e-6;  // of the range of the readings
+constexpr int kRepeatsMin = 8;     // degrees of freedom
+constexpr int kWindowsMin = 30;    // else look further than the quiet spans
 constexpr int kCorrelationWindowsMin = 100;
 constexpr std::size_t kCorrelationWindows = 2000;  // thinned to about these
 constexpr int kStridesMax = 6;                     // 1, 2, … 32
@@ -140,17 +142,39 @@ Agreement Agree(const std::vector<std::vector<Window>>& strides, double theta_s)
   return result;
 }
 
+// What a run gives to the estimate: the samples without the wild ones, where to look, and the
+// windows of stride 1 with their RMS.
+struct Record {
+  Samples samples;
+  std::vector<TimeSpan> places;
+  double spacing_s = 0.0, floor = 0.0;
+  std::vector<Window> windows;
+  double rms = 0.0;
+};
+
+// The windows of all records at a stride, in units of each one's RMS at stride 1.
+std::vector<Window> WindowsOfAll(const std::vector<const Record*>& records, std::size_t stride) {
+  std::vector<Window> all;
+  for (const Record* record : records) {
+    std::vector<Window> windows =
+        stride == 1 ? record->windows
+                    : Windows(record->samples, record->places, stride, record->spacing_s);
+    if (stride > 1) Trim(windows, record->floor);
+    for (Window& window : windows) {
+      window.z /= record->rms;
+      all.push_back(window);
+    }
+  }
+  return all;
+}
+
 // Windows of stride 1, 2, 4, … as far as the differences keep growing as correlated noise makes
 // them grow; stride 1 alone where they do not.
-std::vector<std::vector<Window>> GrowingStrides(const Samples& samples,
-                                                std::span<const TimeSpan> spans,
-                                                std::vector<Window> first, double spacing_s,
-                                                double floor) {
-  std::vector<std::vector<Window>> strides = {std::move(first)};
+std::vector<std::vector<Window>> GrowingStrides(const std::vector<const Record*>& records) {
+  std::vector<std::vector<Window>> strides = {WindowsOfAll(records, 1)};
   for (bool growing = true; growing && static_cast<int>(strides.size()) < kStridesMax;) {
     const std::size_t stride = std::size_t{1} << strides.size();
-    std::vector<Window> next = Windows(samples, spans, stride, spacing_s);
-    Trim(next, floor);
+    std::vector<Window> next = WindowsOfAll(records, stride);
     if (static_cast<int>(next.size()) < kCorrelationWindowsMin) break;
     const double growth = std::log(MeanSquare(next) / MeanSquare(strides.back()));
     const double independent = static_cast<double>(next.size()) / static_cast<double>(stride / 2);
@@ -251,64 +275,28 @@ Samples Without(const Samples& samples, const std::vector<std::size_t>& dropped)
   return kept;
 }
 
-Samples Usable(std::span<const double> t_s, std::span<const double> y,
-               const std::vector<std::size_t>& clipped) {
+// The readings that count towards the noise: finite, and not so near an end of the sensor's range
+// that noise is cut off there.
+Samples Usable(const Readings& readings, const std::vector<std::size_t>& dropped) {
   Samples samples;
-  for (std::size_t i = 0; i < t_s.size(); ++i) {
-    if (!std::isfinite(y[i]) || std::binary_search(clipped.begin(), clipped.end(), i)) continue;
-    samples.t_s.push_back(t_s[i]);
-    samples.y.push_back(y[i]);
+  for (std::size_t i = 0; i < readings.t_s.size(); ++i) {
+    if (!std::isfinite(readings.y[i]) || std::binary_search(dropped.begin(), dropped.end(), i))
+      continue;
+    samples.t_s.push_back(readings.t_s[i]);
+    samples.y.push_back(readings.y[i]);
     samples.index.push_back(i);
   }
   return samples;
 }
 
-// σ, θ and what follows from them, from the windows of the places.
-void FromDifferences(const Samples& samples, std::span<const TimeSpan> places, double spacing_s,
-                     double floor, Noise& noise) {
-  std::vector<Window> windows = Windows(samples, places, 1, spacing_s);
-  Trim(windows, floor);
-  noise.windows = static_cast<int>(windows.size());
-  if (windows.empty()) return;
-  const double root = std::sqrt(static_cast<double>(noise.windows));
-  noise.relative_error = kSigmaError / root;
-  noise.sigma_pa = std::sqrt(MeanSquare(windows));
-  noise.lag1_error = std::min(kLagError / root, 1.0);
-  if (noise.sigma_pa < 0.5 * noise.quantum_pa) {  // a staircase: rounding depends on the level
-    noise.relative_error = std::max(noise.relative_error, kRoundingError);
-    return;
-  }
-  const auto strides = GrowingStrides(samples, places, std::move(windows), spacing_s, floor);
-  if (strides.size() > 1) {
-    noise.correlation_time_s = CorrelationTime(strides, spacing_s);
-    noise.sigma_pa = std::exp(0.5 * Agree(strides, noise.correlation_time_s).log_variance);
-    noise.lag1 = std::exp(-spacing_s / noise.correlation_time_s);
-    noise.relative_error =
-        std::max(kSigmaError,
-                 CorrelatedSigmaError(std::min(noise.lag1 + noise.lag1_error, kLagMax))) /
-        root;
-  }
-}
-
-}  // namespace
-
-Noise EstimateNoise(std::span<const double> t_s, std::span<const double> y,
-                    std::span<const TimeSpan> quiet, std::span<const TimeSpan> strokes) {
-  Noise noise;
-  noise.quantum_pa = Quantum(y);
-  noise.clipped = Clipped(y);
-  Samples samples = Usable(t_s, y, noise.clipped);
-  if (!noise.clipped.empty()) {
-    const double highest = *std::max_element(y.begin(), y.end(), [](double a, double b) {
-      return std::isnan(b) ? false : std::isnan(a) || a < b;
-    });
-    for (const std::size_t i : noise.clipped)
-      (y[i] == highest ? noise.clip_high_pa : noise.clip_low_pa) = y[i];
-  }
-  const double usable = static_cast<double>(samples.y.size());
-  noise.effective_samples = usable;
-  if (samples.y.size() < 4) return noise;
-
+// Fills in what a run tells by itself: repeats, wild readings, white noise from its windows.
+Record RecordOf(const Readings& readings, Noise& noise) {
+  Record record;
+  Samples samples = Usable(readings, noise.near_end);
+  noise.effective_samples = static_cast<double>(samples.y.size());
+  noise.outliers.clear();
+  noise.repeat_freedom = noise.windows = 0;
+  if (samples.y.size() < 4) return record;
   const double rounding_pa = noise.quantum_pa / std::sqrt(12.0);
   const std::vector<double> deviations = TakeRepeats(samples, noise.repeat_freedom);
   if (noise.repeat_freedom > 0) {
@@ -316,38 +304,137 @@ Noise EstimateNoise(std::span<const double> t_s, std::span<const double> y,
     for (const double deviation : deviations) sum += deviation * deviation;
     noise.repeat_sigma_pa = std::sqrt(sum / static_cast<double>(deviations.size()));
   }
+  if (samples.t_s.size() > 1) noise.spacing_s = MedianSpacing(samples.t_s);
   if (samples.y.size() >= 4) {
-    const double spacing_s = MedianSpacing(samples.t_s);
+    record.spacing_s = noise.spacing_s;
+    record.floor = rounding_pa;
     const auto [low, high] = std::minmax_element(samples.y.begin(), samples.y.end());
-    auto places = Places(samples, quiet, strokes, spacing_s, noise.source);
-    std::vector<Window> windows = Windows(samples, places, 1, spacing_s);
+    record.places =
+        Places(samples, readings.quiet, readings.strokes, record.spacing_s, noise.source);
+    std::vector<Window> windows = Windows(samples, record.places, 1, record.spacing_s);
     Trim(windows, rounding_pa);
     const double local_pa = windows.empty() ? 0.0 : std::sqrt(MeanSquare(windows));
     const double floor_pa = std::max({local_pa, rounding_pa, kNoiseless * (*high - *low)});
     const std::vector<std::size_t> wild = Outliers(samples.t_s, samples.y, floor_pa);
     for (const std::size_t i : wild) noise.outliers.push_back(samples.index[i]);
-    FromDifferences(Without(samples, wild), places, spacing_s, rounding_pa, noise);
+    record.samples = Without(samples, wild);
+    record.windows = Windows(record.samples, record.places, 1, record.spacing_s);
+    Trim(record.windows, rounding_pa);
+    noise.windows = static_cast<int>(record.windows.size());
+  }
+  if (noise.windows > 0) {
+    record.rms = std::sqrt(MeanSquare(record.windows));
+    noise.sigma_pa = record.rms;
+    noise.relative_error = kSigmaError / std::sqrt(noise.windows);
   }
   if (noise.repeat_freedom > std::max(noise.windows, kRepeatsMin)) {
     noise.source = NoiseSource::kRepeats;
     noise.sigma_pa = TrimmedRms(deviations, rounding_pa);
     noise.relative_error = 1.0 / std::sqrt(2.0 * noise.repeat_freedom);
-    noise.correlation_time_s = noise.lag1 = noise.lag1_error = 0.0;
   }
-  if (samples.t_s.size() > 1) noise.spacing_s = MedianSpacing(samples.t_s);
   noise.staircase = noise.sigma_pa < 0.5 * noise.quantum_pa;
-  noise.sigma_pa = std::max(noise.sigma_pa, rounding_pa);
-  noise.effective_samples = usable * (1.0 - noise.lag1) / (1.0 + noise.lag1);
-  return noise;
+  if (noise.staircase && noise.source != NoiseSource::kRepeats)  // rounding depends on the level
+    noise.relative_error = std::max(noise.relative_error, kRoundingError);
+  return record;
 }
 
-Noise EstimateNoise(const Run& run) {
-  std::vector<TimeSpan> quiet, strokes;
+// θ of all runs, from those whose differences tell it, and what follows for each run's σ.
+void TakeMemory(const std::vector<Record>& records, std::vector<Noise>& noises) {
+  std::vector<const Record*> telling;
+  double spacing_s = std::numeric_limits<double>::infinity();
+  int windows = 0;
+  for (std::size_t j = 0; j < records.size(); ++j) {
+    if (noises[j].staircase || noises[j].source == NoiseSource::kRepeats || !(records[j].rms > 0.0))
+      continue;
+    telling.push_back(&records[j]);
+    spacing_s = std::min(spacing_s, records[j].spacing_s);
+    windows += noises[j].windows;
+  }
+  if (telling.empty()) return;
+  const auto strides = GrowingStrides(telling);
+  const double theta_s = strides.size() > 1 ? CorrelationTime(strides, spacing_s) : 0.0;
+  const double level =  // of σ² over the windows' mean square
+      theta_s > 0.0 ? std::exp(Agree(strides, theta_s).log_variance) : 1.0;
+  for (std::size_t j = 0; j < records.size(); ++j) {
+    Noise& noise = noises[j];
+    if (std::find(telling.begin(), telling.end(), &records[j]) == telling.end()) continue;
+    noise.lag1_error = std::min(kLagError / std::sqrt(windows), 1.0);
+    if (theta_s == 0.0) continue;
+    noise.correlation_time_s = theta_s;
+    noise.lag1 = std::exp(-noise.spacing_s / theta_s);
+    noise.sigma_pa *= std::sqrt(level);
+    noise.relative_error =
+        std::max(kSigmaError,
+                 CorrelatedSigmaError(std::min(noise.lag1 + noise.lag1_error, kLagMax))) /
+        std::sqrt(noise.windows);
+  }
+}
+
+// The ends of the sensor's range. One sensor: what one run shows of it holds in all, unless another
+// reads beyond.
+void FindEnds(std::span<const Readings> all, std::vector<Noise>& noises) {
+  double low = -std::numeric_limits<double>::infinity(), high = -low;
+  double lowest = high, highest = low;
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const double y : all[j].y)
+      if (std::isfinite(y)) least = std::min(least, y), most = std::max(most, y);
+    lowest = std::min(lowest, least), highest = std::max(highest, most);
+    noises[j].clipped = Clipped(all[j].y);
+    for (const std::size_t i : noises[j].clipped) {
+      const bool upper = all[j].y[i] > 0.5 * (least + most);
+      if (upper)
+        high = std::min(high, most);
+      else
+        low = std::max(low, least);
+    }
+  }
+  const double same = kSameEnd * (highest - lowest);
+  if (high < highest - same) high = std::numeric_limits<double>::infinity();
+  if (low > lowest + same) low = -std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    noises[j].clip_low_pa = low;
+    noises[j].clip_high_pa = high;
+    std::erase_if(noises[j].clipped, [&](std::size_t i) {
+      const double y = all[j].y[i];
+      return y < high - same && y > low + same;
+    });
+    noises[j].near_end = noises[j].clipped;
+  }
+}
+
+}  // namespace
+
+std::vector<Noise> EstimateNoise(std::span<const Readings> all) {
+  std::vector<Noise> noises(all.size());
+  for (std::size_t j = 0; j < all.size(); ++j) noises[j].quantum_pa = Quantum(all[j].y);
+  FindEnds(all, noises);
+  std::vector<Record> records;
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    Noise& noise = noises[j];
+    records.push_back(RecordOf(all[j], noise));
+    if (noise.staircase || !(noise.sigma_pa > 0.0)) continue;
+    noise.near_end =
+        NearEnds(all[j].y, noise.clip_low_pa, noise.clip_high_pa, kClipSigmas * noise.sigma_pa);
+    if (noise.near_end.size() > noise.clipped.size()) records.back() = RecordOf(all[j], noise);
+  }
+  TakeMemory(records, noises);
+  for (Noise& noise : noises) {
+    noise.sigma_pa = std::max(noise.sigma_pa, noise.quantum_pa / std::sqrt(12.0));
+    noise.effective_samples *= (1.0 - noise.lag1) / (1.0 + noise.lag1);
+  }
+  return noises;
+}
+
+Noise EstimateNoise(const Readings& readings) { return EstimateNoise({&readings, 1}).front(); }
+
+Readings ReadingsOf(const Run& run) {
+  Readings readings{run.t_s, run.pressure_pa, {}, {}};
   for (const PhaseSpan& span : PhasesOf(run)) {
     const bool closed = span.phase == Phase::kRest || span.phase == Phase::kHold;
-    (closed ? quiet : strokes).push_back({span.start_s, span.end_s});
+    (closed ? readings.quiet : readings.strokes).push_back({span.start_s, span.end_s});
   }
-  return EstimateNoise(run.t_s, run.pressure_pa, quiet, strokes);
+  return readings;
 }
 
 }  // namespace plenum::calibration

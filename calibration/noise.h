@@ -45,22 +45,33 @@ struct Noise {
   int windows = 0;
   std::vector<std::size_t> outliers;  // single readings off both neighbours' trends by more than
                                       // 6 σ; left out of σ
-  std::vector<std::size_t> clipped;   // at an end of the sensor's range; left out of σ
+  std::vector<std::size_t> clipped;   // at an end of the sensor's range
+  // These and all whose neighbours' median comes within 4 σ of that end: noise is cut off there,
+  // and what is left is biased. Left out of σ.
+  std::vector<std::size_t> near_end;
   // The ends of the range, as far as clipped readings show them.
   double clip_low_pa = -std::numeric_limits<double>::infinity();
   double clip_high_pa = std::numeric_limits<double>::infinity();
 };
 
-// Of readings y at times t (rising, NaN where missing); `quiet` are the spans to look at first and
-// `strokes` the others, both as pairs of start and end.
+// Readings y at times t (rising, NaN where missing); `quiet` are the spans to look at first and
+// `strokes` the others.
 struct TimeSpan {
   double start_s = 0.0, end_s = 0.0;
 };
-Noise EstimateNoise(std::span<const double> t_s, std::span<const double> y,
-                    std::span<const TimeSpan> quiet, std::span<const TimeSpan> strokes);
+struct Readings {
+  std::span<const double> t_s, y;
+  std::vector<TimeSpan> quiet, strokes;
+};
+Noise EstimateNoise(const Readings& readings);
 
-// Of a run's pressure readings: quiet is a closed valve.
-Noise EstimateNoise(const Run& run);
+// Of runs recorded with one sensor: σ of each, the ends of its range and the noise's memory from
+// all of them together. Their differences are pooled, because what is left of a slight correlation
+// in one run is lost in its scatter.
+std::vector<Noise> EstimateNoise(std::span<const Readings> all);
+
+// A run's pressure readings: quiet is a closed valve. The run must outlive them.
+Readings ReadingsOf(const Run& run);
 
 }  // namespace plenum::calibration
 

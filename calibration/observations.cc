@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace plenum::calibration {
 namespace {
@@ -16,8 +15,6 @@ constexpr double kOwnShare = 0.3;
 // the model's integration than any sensor does.
 constexpr double kLeastNoise = 1e-5;
 constexpr double kCarryMax = 0.95;
-constexpr double kClipSigmas = 4.0;
-constexpr std::size_t kClipNeighbours = 5;
 
 constexpr std::vector<double> Channels::*kSupporting[] = {
     &Channels::inlet_pressure_pa, &Channels::temperature_k, &Channels::volume_m3,
@@ -39,7 +36,7 @@ ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
   const std::vector<double>& measured = Measured(run, signal);
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const bool dropped = std::binary_search(noise.outliers.begin(), noise.outliers.end(), i) ||
-                         std::binary_search(noise.clipped.begin(), noise.clipped.end(), i);
+                         std::binary_search(noise.near_end.begin(), noise.near_end.end(), i);
     if (std::isfinite(measured[i]) && !dropped) signal.samples.push_back(i);
   }
   for (std::size_t k = 0; k < signal.samples.size(); ++k) {
@@ -49,31 +46,6 @@ ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
         carries ? std::min(kCarryMax, std::exp(-gap_s / noise.correlation_time_s)) : 0.0);
   }
   return signal;
-}
-
-// // At an end of the sensor's range the readings that noise would have carried beyond it are cut
-// off, and those left over are biased: all samples count as clipped whose neighbours' median comes
-// within kClipSigmas of that end.
-void WidenClipped(const Run& run, Noise& noise) {
-  if (noise.clipped.empty() || noise.staircase) return;
-  std::set<double> ends;
-  for (const std::size_t i : noise.clipped) ends.insert(run.pressure_pa[i]);
-  const std::size_t size = run.pressure_pa.size();
-  for (std::size_t i = 0; i < size; ++i) {
-    std::vector<double> around;
-    const std::size_t first = i < kClipNeighbours ? 0 : i - kClipNeighbours;
-    for (std::size_t k = first; k < std::min(size, i + kClipNeighbours + 1); ++k)
-      if (!std::isnan(run.pressure_pa[k])) around.push_back(run.pressure_pa[k]);
-    if (around.empty()) continue;
-    const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-    std::nth_element(around.begin(), middle, around.end());
-    const auto near = [&](double end) {
-      return std::abs(*middle - end) < kClipSigmas * noise.sigma_pa;
-    };
-    if (std::any_of(ends.begin(), ends.end(), near)) noise.clipped.push_back(i);
-  }
-  std::sort(noise.clipped.begin(), noise.clipped.end());
-  noise.clipped.erase(std::unique(noise.clipped.begin(), noise.clipped.end()), noise.clipped.end());
 }
 
 // Root of the mean variance over the runs, by their windows.
@@ -88,24 +60,13 @@ double CommonSigma(const std::vector<Noise>& noises) {
   return weight > 0.0 ? std::sqrt(sum / weight) : 0.0;
 }
 
-// Noise of one sensor remembers alike in all runs: the median where most runs show it.
-double CommonCorrelationTime(const std::vector<Noise>& noises) {
-  std::vector<double> times_s;
-  for (const Noise& noise : noises) times_s.push_back(noise.correlation_time_s);
-  std::sort(times_s.begin(), times_s.end());
-  return times_s.empty() ? 0.0 : times_s[times_s.size() / 2];
-}
-
 void ShareAmongRuns(const Dataset& dataset, std::vector<Noise>& noises) {
   const double common_pa = CommonSigma(noises);
-  const double theta_s = CommonCorrelationTime(noises);
   for (std::size_t i = 0; i < noises.size(); ++i) {
     Noise& noise = noises[i];
     const double apart = std::abs(noise.sigma_pa / common_pa - 1.0);
     const bool own = apart > std::max(kOwnShare, kOwnErrors * noise.relative_error);
     if (!own) noise.sigma_pa = common_pa;
-    noise.correlation_time_s = theta_s;
-    noise.lag1 = theta_s > 0.0 ? std::exp(-noise.spacing_s / theta_s) : 0.0;
     const Run& run = dataset.runs[i];
     const double span_pa = run.chamber.operating_pressure_pa - run.ambient.pressure_pa;
     noise.sigma_pa = std::max(noise.sigma_pa, kLeastNoise * span_pa);
@@ -114,7 +75,7 @@ void ShareAmongRuns(const Dataset& dataset, std::vector<Noise>& noises) {
 
 // Of a channel, σ at its sensor's assumed accuracy at least.
 Noise NoiseOfChannel(const Run& run, const std::vector<double>& measured) {
-  Noise noise = EstimateNoise(run.t_s, measured, {}, {});
+  Noise noise = EstimateNoise({run.t_s, measured, {}, {}});
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const double value : measured) {
     if (!std::isfinite(value)) continue;
@@ -145,10 +106,10 @@ std::size_t ObservedRun::rows() const {
 }
 
 std::vector<ObservedRun> Observe(const Dataset& dataset) {
-  std::vector<Noise> noises;
-  for (const Run& run : dataset.runs) noises.push_back(EstimateNoise(run));
+  std::vector<Readings> readings;
+  for (const Run& run : dataset.runs) readings.push_back(ReadingsOf(run));
+  std::vector<Noise> noises = EstimateNoise(readings);
   ShareAmongRuns(dataset, noises);
-  for (std::size_t i = 0; i < noises.size(); ++i) WidenClipped(dataset.runs[i], noises[i]);
   std::vector<ObservedRun> observed;
   for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
     const Run& run = dataset.runs[i];

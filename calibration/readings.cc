@@ -15,6 +15,7 @@ constexpr std::size_t kClipLengthMin = 4;
 constexpr double kClipChance = 1e-3;
 constexpr double kStillShareMax = 0.5;      // more: a staircase that stands by itself
 constexpr double kReversalShareMin = 0.02;  // less: a smooth signal that may well stand still
+constexpr std::size_t kNeighbours = 5;
 constexpr double kOutlierSigmas = 6.0;
 
 std::vector<double> Finite(std::span<const double> y) {
@@ -118,6 +119,23 @@ double Extrapolate(std::span<const double> t_s, std::span<const double> y, doubl
   }
   if (gain2) *gain2 = squares;
   return value;
+}
+
+std::vector<std::size_t> NearEnds(std::span<const double> y, double low, double high,
+                                  double margin) {
+  std::vector<std::size_t> near;
+  if (std::isinf(low) && std::isinf(high)) return near;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const std::size_t first = i < kNeighbours ? 0 : i - kNeighbours;
+    const std::size_t last = std::min(y.size(), i + kNeighbours + 1);
+    std::vector<double> around = Finite(y.subspan(first, last - first));
+    if (around.empty()) continue;
+    const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
+    std::nth_element(around.begin(), middle, around.end());
+    const bool at_end = y[i] <= low || y[i] >= high;
+    if (at_end || *middle < low + margin || *middle > high - margin) near.push_back(i);
+  }
+  return near;
 }
 
 std::vector<std::size_t> Outliers(std::span<const double> t_s, std::span<const double> y,

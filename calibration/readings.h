@@ -19,6 +19,11 @@ double Quantum(std::span<const double> y);
 // told: p above one half (a coarse grid) or a signal without visible noise.
 std::vector<std::size_t> Clipped(std::span<const double> y);
 
+// Indices of readings whose median with five neighbours on either side comes within `margin` of an
+// end of the range, low or high (infinite where there is none).
+std::vector<std::size_t> NearEnds(std::span<const double> y, double low, double high,
+                                  double margin);
+
 // Indices i of single readings that are off by more than 6 standard deviations from the cubic
 // through two neighbours on either side, and off by at least half as much, the same way, from the
 // parabolas through the three before and the three after: a kink or a step of the signal agrees

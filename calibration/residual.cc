@@ -17,7 +17,7 @@ namespace {
 // The noise's memory is an estimate, and third differences cannot tell all of it being short from a
 // part of it being longer. A residual passes a test of structure if it does for any memory of at
 // most kRhoLongest that agrees with the growth of the differences within three standard errors.
-constexpr std::array kCorrelationErrors = {0.0, 1.5, -1.5, 3.0, -3.0};
+constexpr std::array kCorrelationErrors = {0.0, 0.75, -0.75, 1.5, -1.5, 2.25, -2.25, 3.0, -3.0};
 constexpr std::array kRhos = {0.0, 0.3, 0.45, 0.6,
                               0.75};  // of the part that remembers; 0: all of it
 constexpr double kCorrelationMax = 0.98;
@@ -32,6 +32,26 @@ std::vector<double> InNoise(const FittedRun& fitted) {
   }
   for (double& value : residual) value /= fitted.noise.sigma_pa;
   return residual;
+}
+
+// The memory of noise that a coarse grid hides in the readings: that of the residuals which
+// rounding leaves, as their differences show it where the valve is closed.
+void ReadMemories(const std::vector<ResidualSeries>& series, std::vector<Noise>& noises) {
+  std::vector<Readings> readings;
+  std::vector<std::size_t> hidden;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    if (!noises[i].staircase) continue;
+    readings.push_back(ReadingsOf(*series[i].run));
+    readings.back().y = series[i].residual;
+    hidden.push_back(i);
+  }
+  const std::vector<Noise> shown = EstimateNoise(readings);
+  for (std::size_t k = 0; k < hidden.size(); ++k) {
+    Noise& noise = noises[hidden[k]];
+    noise.correlation_time_s = shown[k].correlation_time_s;
+    noise.lag1 = shown[k].lag1;
+    noise.lag1_error = shown[k].lag1_error;
+  }
 }
 
 void TestLackOfFit(const std::vector<FittedRun>& runs, int fitted_numbers, ResidualReport& report) {
@@ -94,6 +114,35 @@ Portmanteau TestWhite(const std::vector<ResidualSeries>& series) {
   return worst;
 }
 
+// Both tests of structure, until each is passed with a memory that the noise may have.
+void TestStructure(const std::vector<Noise>& noises, std::vector<ResidualSeries>& series,
+                   ResidualReport& report, std::vector<InputCorrelation>* by_input) {
+  for (const double errors : kCorrelationErrors) {
+    for (const double rho : kRhos) {
+      if (report.white && report.independent_of_inputs) return;
+      for (std::size_t i = 0; i < series.size(); ++i)
+        series[i].memory = MemoryOf(noises[i], errors, rho);
+      if (!report.white) {
+        const Portmanteau white = TestWhite(series);
+        if (white.statistic / white.limit < report.portmanteau / report.portmanteau_limit) {
+          report.portmanteau = white.statistic;
+          report.portmanteau_limit = white.limit;
+        }
+        report.white = report.portmanteau <= report.portmanteau_limit;
+      }
+      if (!report.independent_of_inputs) {
+        Independence independence = TestIndependence(series);
+        if (independence.statistic < report.cross) {
+          report.cross = independence.statistic;
+          report.cross_limit = independence.limit;
+          if (by_input) *by_input = std::move(independence.inputs);
+        }
+        report.independent_of_inputs = report.cross <= report.cross_limit;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<double> Residual(const FittedRun& fitted) {
@@ -106,7 +155,8 @@ std::vector<double> Residual(const FittedRun& fitted) {
     if (fitted.model_pa[i] > fitted.noise.clip_high_pa - margin_pa ||
         fitted.model_pa[i] < fitted.noise.clip_low_pa + margin_pa)
       residual[i] = std::numeric_limits<double>::quiet_NaN();
-  for (const auto* dropped : {&fitted.noise.clipped, &fitted.noise.outliers})
+  for (const auto* dropped :
+       {&fitted.noise.near_end, &fitted.noise.clipped, &fitted.noise.outliers})
     for (const std::size_t i : *dropped) residual[i] = std::numeric_limits<double>::quiet_NaN();
   return residual;
 }
@@ -148,42 +198,22 @@ std::vector<PhaseResidual> ResidualByPhase(const Run& run, std::span<const doubl
 ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_numbers,
                                std::vector<InputCorrelation>* by_input) {
   ResidualReport report;
+  report.portmanteau = report.cross = std::numeric_limits<double>::infinity();
+  report.portmanteau_limit = report.cross_limit = 1.0;
   std::vector<ResidualSeries> series;
-  double low_pa = -std::numeric_limits<double>::infinity(), high_pa = -low_pa;
-  for (const FittedRun& fitted :
-       runs) {  // one sensor: what one run shows of its range holds in all
-    low_pa = std::max(low_pa, fitted.noise.clip_low_pa);
-    high_pa = std::min(high_pa, fitted.noise.clip_high_pa);
-  }
-  for (FittedRun fitted : runs) {
-    fitted.noise.clip_low_pa = low_pa;
-    fitted.noise.clip_high_pa = high_pa;
+  std::vector<Noise> noises;
+  for (const FittedRun& fitted : runs) {
     series.push_back({fitted.run, InNoise(fitted), fitted.model_pa, {}});
+    noises.push_back(fitted.noise);
     for (PhaseResidual& phase : ResidualByPhase(*fitted.run, Residual(fitted)))
       report.phases.push_back(std::move(phase));
   }
   TestLackOfFit(runs, fitted_numbers, report);
-  report.portmanteau = report.cross = std::numeric_limits<double>::infinity();
-  report.portmanteau_limit = report.cross_limit = 1.0;
-  for (const double errors : kCorrelationErrors) {
-    for (const double rho : kRhos) {
-      for (std::size_t i = 0; i < runs.size(); ++i)
-        series[i].memory = MemoryOf(runs[i].noise, errors, rho);
-      const Portmanteau white = TestWhite(series);
-      if (white.statistic / white.limit < report.portmanteau / report.portmanteau_limit) {
-        report.portmanteau = white.statistic;
-        report.portmanteau_limit = white.limit;
-      }
-      Independence independence = TestIndependence(series);
-      if (independence.statistic < report.cross) {
-        report.cross = independence.statistic;
-        report.cross_limit = independence.limit;
-        if (by_input) *by_input = std::move(independence.inputs);
-      }
-      report.white = report.portmanteau <= report.portmanteau_limit;
-      report.independent_of_inputs = report.cross <= report.cross_limit;
-      if (report.white && report.independent_of_inputs) return report;
-    }
+  TestStructure(noises, series, report, by_input);
+  const auto hides = [](const Noise& noise) { return noise.staircase; };
+  if (std::any_of(noises.begin(), noises.end(), hides)) {
+    ReadMemories(series, noises);
+    TestStructure(noises, series, report, by_input);
   }
   return report;
 }

@@ -14,8 +14,8 @@ inline constexpr double kAccept = 10.0;
 // evidence is positive, not strong (same source).
 inline constexpr double kTie = 6.0;
 
-// The runs' clocks are taken to be off where that lowers BIC by this much more than the best that a
-// delay common to all does; each run's clock counts as a parameter.
+// The runs' clocks are taken to be off where that lowers BIC by this much more than any effect in
+// their place does; each run's clock counts as a parameter.
 inline constexpr double kClock = 10.0;
 
 // Held-out error over that of the noise up to which an explanation holds.

@@ -37,7 +37,7 @@ std::vector<double> Creeping(const std::vector<double>& t_s, const std::vector<d
 
 Noise OfHold(const std::vector<double>& t_s, const std::vector<double>& y) {
   const std::vector<TimeSpan> hold = {{t_s.front(), t_s.back()}};
-  return EstimateNoise(t_s, y, hold, {});
+  return EstimateNoise({t_s, y, hold, {}});
 }
 
 struct Spread {
@@ -176,7 +176,7 @@ TEST(Noise, AKinkAStepAndAFastRiseAreNoWildReadings) {
       if (t > 3.0) y[i] -= 2e4 * (t - 3.0);                            // a kink
     }
     const std::vector<TimeSpan> quiet = {{0.0, 0.5}, {1.0, 3.99}}, stroke = {{0.5, 1.0}};
-    const Noise noise = EstimateNoise(t_s, y, quiet, stroke);
+    const Noise noise = EstimateNoise({t_s, y, quiet, stroke});
     EXPECT_TRUE(noise.outliers.empty()) << seed;
     EXPECT_NEAR(noise.sigma_pa, 20.0, 6.0);
   }
@@ -214,7 +214,7 @@ TEST(Noise, OverlaidSamplesGiveTheScatterOfRepeats) {
       t_s.push_back(instant + 1e-7 * static_cast<double>(i % 7));
       y.push_back(4e5 * (1.0 - std::exp(-instant / 0.1)) + noise[i]);  // 12 points on a curve
     }
-    const Noise found = EstimateNoise(t_s, y, {}, std::vector<TimeSpan>{{0.0, t_s.back()}});
+    const Noise found = EstimateNoise({t_s, y, {}, {{0.0, t_s.back()}}});
     EXPECT_EQ(found.source, NoiseSource::kRepeats);
     EXPECT_EQ(found.repeat_freedom, 12 * 6);
     EXPECT_NEAR(found.repeat_sigma_pa, found.sigma_pa, 0.2 * found.sigma_pa);
@@ -246,7 +246,7 @@ TEST(Noise, WithoutAClosedValveTheSettledTailCounts) {
     run.pressure_pa[i] +=
         t < 2.0 ? 1e5 + 1e5 * (1.0 - std::exp(-t / 0.05)) : 1e5 + 1e5 * std::exp(-(t - 2.0) / 0.05);
   }
-  const Noise noise = EstimateNoise(run);
+  const Noise noise = EstimateNoise(ReadingsOf(run));
   EXPECT_EQ(noise.source, NoiseSource::kTail);
   EXPECT_NEAR(noise.sigma_pa, kSigmaPa, 0.2 * kSigmaPa);
 }

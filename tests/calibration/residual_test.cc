@@ -128,7 +128,7 @@ TEST(Residual, EstimatedNoiseKeepsTheAlarmsRare) {
     const double theta_s = rho > 0.0 ? -0.01 / std::log(rho) : 1e-9;
     for (int seed = 0; seed < kSeeds / 4; ++seed) {
       Case made = MakeCase(t_s, CorrelatedNoise(seed, t_s, theta_s, kSigmaPa));
-      made.fitted.noise = EstimateNoise(made.run);
+      made.fitted.noise = EstimateNoise(ReadingsOf(made.run));
       alarms.Count(Assess(made));
     }
     const int draws = kSeeds / 4;
@@ -148,13 +148,29 @@ TEST(Residual, RoundingToACoarseGridIsNoStructure) {
     for (int seed = 0; seed < kDraws; ++seed) {
       Case made = MakeCase(t_s, WhiteNoise(seed, t_s.size(), 1000.0 * noise));
       for (double& y : made.run.pressure_pa) y = RoundTo(y + 10.0 * seed, 1000.0) - 10.0 * seed;
-      made.fitted.noise = EstimateNoise(made.run);
+      made.fitted.noise = EstimateNoise(ReadingsOf(made.run));
       alarms.Count(Assess(made));
     }
     EXPECT_LE(alarms.white, 1 + kDraws / 50) << noise;
     EXPECT_LE(alarms.inputs, 1 + kDraws / 50) << noise;
     EXPECT_LE(alarms.fit, 1 + kDraws / 50) << noise;
   }
+}
+
+// Rounding hides that the noise remembers: in the readings, not in what a right model leaves.
+TEST(Residual, NoiseThatRemembersBelowACoarseGridIsNoStructure) {
+  Alarms alarms;
+  const std::vector<double> t_s = EvenTimes(1600, 0.005);
+  constexpr int kDraws = kSeeds / 20;
+  for (int seed = 0; seed < kDraws; ++seed) {
+    Case made = MakeCase(t_s, CorrelatedNoise(seed, t_s, -0.005 / std::log(0.7), 300.0));
+    for (double& y : made.run.pressure_pa) y = RoundTo(y + 10.0 * seed, 1000.0) - 10.0 * seed;
+    made.fitted.noise = EstimateNoise(ReadingsOf(made.run));
+    EXPECT_TRUE(made.fitted.noise.staircase);
+    alarms.Count(Assess(made));
+  }
+  EXPECT_LE(alarms.white, 1 + kDraws / 50);
+  EXPECT_LE(alarms.inputs, 1 + kDraws / 50);
 }
 
 // What a model may lack, at about half the noise's size.
@@ -205,7 +221,7 @@ TEST(Residual, StructureIsSeenWithEstimatedNoiseToo) {
     constexpr int kDraws = kSeeds / 50;
     for (int seed = 0; seed < kDraws; ++seed) {
       Case made = MakeCase(t_s, WhiteNoise(seed, t_s.size(), kSigmaPa), 0.0, error);
-      made.fitted.noise = EstimateNoise(made.run);
+      made.fitted.noise = EstimateNoise(ReadingsOf(made.run));
       const ResidualReport report = Assess(made);
       seen += !report.white && !report.independent_of_inputs;
     }
@@ -224,7 +240,7 @@ TEST(Residual, NoiseThatRemembersInPartIsNoStructure) {
         CorrelatedNoise(seed + 5000, t_s, -0.005 / std::log(0.5), kSigmaPa * std::sqrt(0.5));
     for (std::size_t i = 0; i < noise.size(); ++i) noise[i] += slow[i];
     Case made = MakeCase(t_s, noise);
-    made.fitted.noise = EstimateNoise(made.run);
+    made.fitted.noise = EstimateNoise(ReadingsOf(made.run));
     alarms.Count(Assess(made));
   }
   EXPECT_TRUE(AtMostRate(alarms.white, kDraws, 0.03)) << alarms.white;
@@ -240,7 +256,7 @@ TEST(Residual, TheEndOfTheSensorsRangeIsNoStructure) {
   for (int seed = 0; seed < kDraws; ++seed) {
     Case made = MakeCase(t_s, WhiteNoise(seed, t_s.size(), kSigmaPa));
     for (double& y : made.run.pressure_pa) y = std::min(y, 1.98e5);
-    made.fitted.noise = EstimateNoise(made.run);
+    made.fitted.noise = EstimateNoise(ReadingsOf(made.run));
     EXPECT_EQ(made.fitted.noise.clip_high_pa, 1.98e5);
     alarms.Count(Assess(made));
   }

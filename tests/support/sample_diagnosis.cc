@@ -110,7 +110,8 @@ SampleDiagnosis MakeSampleDiagnosis(int samples) {
   }
   for (std::size_t i = 0; i < sample.dataset.runs.size(); ++i) {
     const Run& run = sample.dataset.runs[i];
-    fitted.push_back({&run, diagnosis.series[i].after_pa, calibration::EstimateNoise(run)});
+    fitted.push_back({&run, diagnosis.series[i].after_pa,
+                      calibration::EstimateNoise(calibration::ReadingsOf(run))});
   }
   diagnosis.verdict = calibration::Verdict::kExplained;
   diagnosis.sentence =
