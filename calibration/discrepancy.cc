@@ -202,7 +202,7 @@ const Attempt* Choose(const FitData& data, const Fit& established, std::vector<A
 
 FittedEffect LearnedOf(const FitData& data, const Fit& fit, const FitOptions& options) {
   FittedEffect learned{fit.state.effects.back(), {}};
-  const std::vector<Estimate> estimates = Intervals(data, fit, options);
+  const std::vector<Estimate> estimates = Intervals(fit, Covariance(data, fit, options));
   for (std::size_t j = 0; j < fit.coordinates.size(); ++j) {
     const Parameter& parameter = fit.coordinates[j].parameter;
     if (parameter.kind == Parameter::Kind::kEffect &&

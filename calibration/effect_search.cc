@@ -22,6 +22,11 @@ constexpr double kSameOptimum = 1.0;  // χ² apart
 // many steps; those near the best are then taken further.
 constexpr double kScreening = 1e-4;
 constexpr int kScreeningIterations = 12;
+// After so many steps only those go on that explain at least this share of what the best one does
+// beyond the smaller set, and the very best.
+constexpr int kFirstLook = 5;
+constexpr double kHopeful = 0.5;
+constexpr std::size_t kAlwaysOn = 6;
 constexpr double kNear = 20.0;  // of BIC
 constexpr double kNever = std::numeric_limits<double>::infinity(), kClocksAreAll = -kNever;
 constexpr int kTriplesFrom = 1;  // best pairs
@@ -98,7 +103,8 @@ class Search {
   struct Job {
     Set set;
     ModelState start;
-    Fit fit;
+    double bic_before = 0.0;  // of the smaller set
+    Fit fit = {};
   };
 
   // Sets forwards from the base model, and the best of them; none where the clocks are found off.
@@ -187,7 +193,7 @@ class Search {
     const auto planned = [&](const Job& job) { return job.set == set; };
     if (Find(set) || std::any_of(jobs.begin(), jobs.end(), planned)) return;
     for (const model::Effect& start : EffectStarts(*added, result_.data.sizes)) {
-      Job job{set, from.fit.state, {}};
+      Job job{set, from.fit.state, from.fit.bic};
       job.start.effects.push_back(start);
       std::sort(job.start.effects.begin(), job.start.effects.end(),
                 [](const auto& a, const auto& b) { return Place(a.spec) < Place(b.spec); });
@@ -195,21 +201,54 @@ class Search {
     }
   }
 
+  // Fits all from their starts: a few steps each at first, and to the end what may matter.
   void RunJobs(std::vector<Job>& jobs, double from_share, double to_share,
                const std::string& what) {
+    if (jobs.empty()) return;
+    std::vector<Job*> all;
+    for (Job& job : jobs) all.push_back(&job);
+    const double middle = 0.5 * (from_share + to_share);
+    FitOptions first = fit_options_;
+    first.iterations_max = kFirstLook;
+    Continue(all, first, from_share, middle, what);
+    FitOptions rest = fit_options_;
+    rest.iterations_max -= kFirstLook;
+    Continue(Hopeful(all), rest, middle, to_share, what);
+    const std::size_t size = jobs.front().set.size();
+    for (Job& job : jobs) Take(std::move(job));
+    Refine(size);
+  }
+
+  void Continue(const std::vector<Job*>& jobs, const FitOptions& options, double from_share,
+                double to_share, const std::string& what) {
     std::atomic<std::size_t> done = 0;
     std::mutex reporting;
     ForAll(jobs.size(), options_.threads, [&](std::size_t i) {
       if (Cancelled()) return;
-      jobs[i].fit = FitModel(result_.data, jobs[i].start, fit_options_);
+      Fit fit = FitModel(result_.data, jobs[i]->start, options);
+      if (fit.Usable()) jobs[i]->start = fit.state;
+      if (fit.Usable() || !jobs[i]->fit.Usable()) jobs[i]->fit = std::move(fit);
       const double share = static_cast<double>(++done) / static_cast<double>(jobs.size());
       const std::lock_guard lock(reporting);
       Report(from_share + share * (to_share - from_share), what);
     });
-    if (jobs.empty()) return;
-    const std::size_t size = jobs.front().set.size();
-    for (Job& job : jobs) Take(std::move(job));
-    Refine(size);
+  }
+
+  // Those that have not converged but may still matter.
+  std::vector<Job*> Hopeful(std::vector<Job*> jobs) const {
+    std::erase_if(jobs, [](const Job* job) { return !job->fit.Usable(); });
+    if (jobs.empty()) return jobs;
+    std::stable_sort(jobs.begin(), jobs.end(),
+                     [](const Job* a, const Job* b) { return a->fit.bic < b->fit.bic; });
+    const double best = jobs.front()->fit.bic;
+    const double gain = std::max(0.0, jobs.front()->bic_before - best);
+    std::vector<Job*> hopeful;
+    for (std::size_t k = 0; k < jobs.size(); ++k) {
+      const bool may_matter = k < kAlwaysOn || jobs[k]->fit.bic < best + kNear + kHopeful * gain;
+      if (may_matter && jobs[k]->fit.status == FitStatus::kIterationsSpent)
+        hopeful.push_back(jobs[k]);
+    }
+    return hopeful;
   }
 
   // Takes the fits of sets of a size that come near the best one further.
@@ -306,7 +345,7 @@ class Search {
                    [&](Spec spec) { return spec != out; });
       Contender* from = Find(rest);
       if (!from) {
-        std::vector<Job> smaller = {{rest, StateOf(*Find(set), rest), {}}};
+        std::vector<Job> smaller = {{rest, StateOf(*Find(set), rest)}};
         RunJobs(smaller, 0.85, 0.87, "smaller sets");
         from = Find(rest);
       }

@@ -25,6 +25,7 @@ PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions&
                                           kToleranceTightest, kToleranceLoosest);
   predict.steps_max = options.steps_max;
   predict.cancelled = options.cancelled;
+  predict.recorded_alone = true;
   return predict;
 }
 
@@ -43,7 +44,8 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
   return state;
 }
 
-// Residuals of one run over all coordinates as one block.
+// Residuals of one run over all coordinates as one block. A step is asked for thrice at one point —
+// by the search along it, for its cost, and for the derivatives there — and simulated once.
 class RunCost : public ceres::CostFunction {
  public:
   RunCost(const FitData& data, std::size_t run, const ModelState& start,
@@ -55,30 +57,50 @@ class RunCost : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
-    const double* u = blocks[0];
-    const ModelState state = StateAt(start_, coordinates_, u);
+    const Eigen::Map<const Eigen::VectorXd> u(blocks[0], size());
     const bool derive = jacobians && jacobians[0];
+    if (known_.u.size() != size() || known_.u != u) {
+      if (!derive) return Evaluate(u.data(), residuals, nullptr);
+      known_.u.resize(0);
+      known_.residuals.resize(num_residuals());
+      known_.jacobian.resize(num_residuals(), size());
+      if (!Evaluate(u.data(), known_.residuals.data(), &known_.jacobian)) return false;
+      known_.u = u;
+    }
+    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = known_.residuals;
+    if (derive) Eigen::Map<Matrix>(jacobians[0], num_residuals(), size()) = known_.jacobian;
+    return true;
+  }
+
+ private:
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(coordinates_.size()); }
+  const ObservedRun& Observed() const { return (*data_.observed)[run_]; }
+
+  bool Evaluate(const double* u, double* residuals, Matrix* jacobian) const {
+    const ModelState state = StateAt(start_, coordinates_, u);
     const Prediction prediction = data_.forward->Predict(
         run_, state,
-        derive ? std::span<const Parameter>(parameters_) : std::span<const Parameter>(), options_);
+        jacobian ? std::span<const Parameter>(parameters_) : std::span<const Parameter>(),
+        options_);
     if (prediction.status != model::SimulateStatus::kDone) return false;
     const std::size_t rows = Observed().rows();
     Residuals(data_.forward->dataset().runs[run_], Observed(), prediction.reading,
               {residuals, rows});
-    if (!derive) return true;
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(
-        jacobians[0], static_cast<Eigen::Index>(rows),
-        static_cast<Eigen::Index>(coordinates_.size()));
+    if (!jacobian) return true;
     Eigen::VectorXd column(static_cast<Eigen::Index>(rows));
     for (std::size_t j = 0; j < coordinates_.size(); ++j) {
       Whitened(Observed(), prediction.derivatives[j], {column.data(), rows});
-      jacobian.col(static_cast<Eigen::Index>(j)) = coordinates_[j].Slope(u[j]) * column;
+      jacobian->col(static_cast<Eigen::Index>(j)) = coordinates_[j].Slope(u[j]) * column;
     }
-    return jacobian.allFinite();
+    return jacobian->allFinite();
   }
 
- private:
-  const ObservedRun& Observed() const { return (*data_.observed)[run_]; }
+  struct Known {
+    Eigen::VectorXd u, residuals;
+    Matrix jacobian;
+  };
 
   const FitData& data_;
   std::size_t run_;
@@ -86,6 +108,7 @@ class RunCost : public ceres::CostFunction {
   const std::vector<Coordinate>& coordinates_;
   std::vector<Parameter> parameters_;
   PredictOptions options_;
+  mutable Known known_;  // the last point with derivatives
 };
 
 // u of every coordinate that has a prior.
@@ -260,7 +283,7 @@ Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& opt
   return fit;
 }
 
-std::vector<Estimate> Intervals(const FitData& data, const Fit& fit, const FitOptions& options) {
+Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options) {
   const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
   Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(size, size);
   for (const std::size_t run : data.runs) {
@@ -293,11 +316,16 @@ std::vector<Estimate> Intervals(const FitData& data, const Fit& fit, const FitOp
       scale.cwiseInverse().asDiagonal() * curvature * scale.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   const Eigen::VectorXd spread = eigen.eigenvalues().cwiseMax(kLeastCurvature).cwiseInverse();
+  const Eigen::VectorXd unit = scale.cwiseInverse();
+  return unit.asDiagonal() * eigen.eigenvectors() * spread.asDiagonal() *
+         eigen.eigenvectors().transpose() * unit.asDiagonal();
+}
+
+std::vector<Estimate> Intervals(const Fit& fit, const Eigen::MatrixXd& covariance) {
   std::vector<Estimate> estimates;
-  for (Eigen::Index j = 0; j < size; ++j) {
+  for (Eigen::Index j = 0; j < fit.u.size(); ++j) {
     const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
-    const double variance =
-        eigen.eigenvectors().row(j).cwiseAbs2().dot(spread.transpose()) / (scale[j] * scale[j]);
+    const double variance = covariance(j, j);
     const double half = kTwoSided95 * std::sqrt(variance);
     const double one = Edge(coordinate, fit.u[j] - half), other = Edge(coordinate, fit.u[j] + half);
     const double range = coordinate.kind == Coordinate::Kind::kLinear && !coordinate.prior

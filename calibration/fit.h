@@ -62,8 +62,11 @@ Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& opt
 
 inline constexpr double kUnidentified = 0.9;
 
-// Per coordinate. Costs one evaluation.
-std::vector<Estimate> Intervals(const FitData& data, const Fit& fit, const FitOptions& options);
+// Of the coordinates u. Costs one evaluation.
+Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options);
+
+// Per coordinate, from their covariance.
+std::vector<Estimate> Intervals(const Fit& fit, const Eigen::MatrixXd& covariance);
 
 // Readings of a run that the fitted model predicts. Empty where the simulation failed.
 Reading Predicted(const FitData& data, const ModelState& state, std::size_t run,

@@ -161,6 +161,12 @@ Reading ReadingOf(const model::Response& response) {
   return reading;
 }
 
+bool RecordsMoreThanPressures(const Run& run) {
+  const Channels& channels = run.channels;
+  return !channels.inlet_pressure_pa.empty() || !channels.temperature_k.empty() ||
+         !channels.volume_m3.empty() || !channels.flow_m3_per_s.empty();
+}
+
 // Without heat_transfer the gas has the ambient's temperature.
 void FillTemperature(const Run& run, Reading& reading) {
   if (reading.channels.temperature_k.empty())
@@ -299,6 +305,9 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
   simulate.absolute_tolerance_pa = 1e4 * options.relative_tolerance;
   simulate.steps_max = options.steps_max;
   simulate.cancelled = options.cancelled;
+  simulate.record = options.recorded_alone && !RecordsMoreThanPressures(run)
+                        ? model::Record::kPressures
+                        : model::Record::kSamples;
   for (const double t_s : run.t_s) simulate.sample_times_s.push_back(t_s - StartOf(run));
   simulate.end_s = simulate.sample_times_s.back();
 

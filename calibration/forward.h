@@ -60,6 +60,7 @@ struct PredictOptions {
   double relative_tolerance = 1e-6;
   std::function<bool()> cancelled = {};
   std::size_t steps_max = 200'000;
+  bool recorded_alone = false;  // of the channels only those that the run itself has
 };
 
 // Holds what the runs of a data set need again and again: measured source pressures condensed to a

@@ -63,6 +63,7 @@ Rig StrokeRig(Rig rig, ValveState state) {
 SimulateOptions StrokeOptions(SimulateOptions options) {
   options.end_s = kFullStrokeHorizonS;
   options.sample_hz = 0.0;
+  options.record = Record::kAll;
   return options;
 }
 

@@ -101,6 +101,10 @@ struct Rig {
 // kAutomatic: Dormand–Prince, and CVODE where that turns out stiff.
 enum class Integrator { kAutomatic, kDormandPrince, kCvode };
 
+// What a run keeps beside its samples: strokes and the accounts of gas and energy (kAll), or
+// nothing (kSamples); kPressures samples only what pressure sensors read: actuator and source.
+enum class Record { kAll, kSamples, kPressures };
+
 struct SimulateOptions {
   double end_s = 0.0;
   double sample_hz = 0.0;              // 0: no samples, only strokes and balances
@@ -113,6 +117,7 @@ struct SimulateOptions {
   double linear_ratio = kLinearRatio;
   std::size_t steps_max = 2'000'000;
   std::function<bool()> cancelled;  // asked now and then; may be empty
+  Record record = Record::kAll;
 };
 
 // One inflating or deflating command and what came of it. Times are from the command; +∞ where not

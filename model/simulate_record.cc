@@ -14,6 +14,7 @@ constexpr double kThetaTolerance = 1e-14;
 
 template <class T, class Stepper>
 void Run<T, Stepper>::RecordSourceLowest() {
+  if (options_.record != Record::kAll) return;
   const auto lower = [&](std::size_t s, T& lowest_pa) {
     if (stepper_.state()[s] < lowest_pa) lowest_pa = stepper_.state()[s];
     const auto slope = [&](double theta) { return stepper_.Slope(theta, s); };
@@ -69,13 +70,15 @@ void Run<T, Stepper>::SampleTo(double time_s, SampleFrom from) {
 template <class T, class Stepper>
 void Run<T, Stepper>::TakeSample(double time_s, std::span<const T> y) {
   response_.t_s.push_back(time_s);
-  system_.Look(T(time_s), y);
+  const bool pressures_only = options_.record == Record::kPressures;
+  if (!pressures_only) system_.Look(T(time_s), y);
   for (std::size_t i = 0; i < system_.groups(); ++i) {
     GroupResponseOf<T>& group = response_.groups[i];
-    const Moment<T>& moment = system_.moment(i);
     group.pressure_pa.push_back(y[system_.pressure(i)]);
-    group.volume_m3.push_back(moment.volume_m3 - system_.setup(i).dead_volume_m3);
     if (system_.measured(i)) group.reading_pa.push_back(system_.Reading(i, y));
+    if (pressures_only) continue;
+    const Moment<T>& moment = system_.moment(i);
+    group.volume_m3.push_back(moment.volume_m3 - system_.setup(i).dead_volume_m3);
     if (system_.heated(i)) group.temperature_k.push_back(moment.temperature_k);
     group.flow_m3_per_s.push_back(moment.line_in_m3_per_s);
     if (rig_.groups[i].inlet_after > 0) {

@@ -27,7 +27,8 @@ Run<T, Stepper>::Run(const Rig& rig, const SimulateOptions& options, RunUntil un
       options_(options),
       until_(until),
       lift_(lift),
-      system_(rig, options.linear_ratio, lift, until == RunUntil::kEnd),
+      system_(rig, options.linear_ratio, lift,
+              until == RunUntil::kEnd && options.record == Record::kAll),
       stepper_(system_, options.relative_tolerance, options.absolute_tolerance_pa),
       y_(system_.InitialState()),
       sample_(system_.size()),
@@ -148,7 +149,7 @@ void Run<T, Stepper>::Command(std::size_t group, const ValveCommand& command) {
   valve.state = command.state;
   valve.stroke = -1;
   valve.target_pending = valve.operating_pending = false;
-  if (command.state == ValveState::kHold || command.time_s < 0.0) return;
+  if (command.state == ValveState::kHold || command.time_s < 0.0 || !FollowsStrokes(group)) return;
 
   const T source_pa = system_.has_source() ? system_.HeadPressure(group, t_s_, y_)
                                            : T(std::numeric_limits<double>::quiet_NaN());

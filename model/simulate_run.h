@@ -66,6 +66,10 @@ class Run {
   template <class Change>
   void SwitchAt(std::size_t group, const T& at_s, const Change& change);
   void Command(std::size_t group, const ValveCommand& command);
+  // Strokes are kept, or close the valve at their end.
+  bool FollowsStrokes(std::size_t group) const {
+    return options_.record == Record::kAll || rig_.groups[group].close_at_operating;
+  }
   void Move(std::size_t group, ValveState state, const T& at_s);
   T NextBoundary() const;
   bool IntegrateTo(const T& boundary_s);

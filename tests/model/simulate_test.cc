@@ -213,5 +213,37 @@ TEST(Simulate, FullStrokesIgnoreTheSchedule) {
   EXPECT_EQ(FullStrokes(RigOf(Regulated(3e5), {group}), {})[0].rise_time_s, plain);
 }
 
+// Without strokes the same pressures: the steps differ, since no level is met and no account
+// counts.
+TEST(Simulate, RecordsPressuresAlone) {
+  GroupRig group = OneActuator(2e5, 2.0, {5e-10, 0.3});
+  group.schedule = {{0.1, kInflate}, {2.0, kDeflate}};
+  group.close_at_operating = true;
+  group.effects = {{FindEffect("sensor_gain"), {1.02}}, {FindEffect("heat_transfer"), {0.3}}};
+  const Rig rig = RigOf(ReservoirSource{.volume_m3 = 1e-3, .initial_pressure_pa = 4e5}, {group});
+  SimulateOptions options = Until(4.0, 50.0);
+  options.relative_tolerance = 1e-10;
+  const Response all = Simulate(rig, options);
+  options.record = Record::kSamples;
+  const Response samples = Simulate(rig, options);
+  options.record = Record::kPressures;
+  const Response pressures = Simulate(rig, options);
+  ASSERT_EQ(pressures.status, SimulateStatus::kDone) << pressures.detail;
+  ASSERT_EQ(pressures.t_s, all.t_s);
+  for (std::size_t i = 0; i < all.t_s.size(); ++i) {
+    for (const Response* r : {&samples, &pressures}) {
+      EXPECT_NEAR(r->groups[0].pressure_pa[i], all.groups[0].pressure_pa[i], 0.01);
+      EXPECT_NEAR(r->groups[0].reading_pa[i], all.groups[0].reading_pa[i], 0.01);
+      EXPECT_NEAR(r->source_pressure_pa[i], all.source_pressure_pa[i], 0.01);
+    }
+    EXPECT_NEAR(samples.groups[0].temperature_k[i], all.groups[0].temperature_k[i], 1e-4);
+  }
+  EXPECT_EQ(samples.groups[0].flow_m3_per_s.size(), all.t_s.size());
+  EXPECT_GT(all.groups[0].air_drawn_m3, 0.0);
+  EXPECT_EQ(samples.groups[0].air_drawn_m3, 0.0);
+  EXPECT_TRUE(pressures.groups[0].volume_m3.empty());
+  EXPECT_TRUE(pressures.groups[0].flow_m3_per_s.empty());
+}
+
 }  // namespace
 }  // namespace plenum::model
