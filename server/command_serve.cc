@@ -36,8 +36,9 @@ std::unique_ptr<HttpService> Listen(const ServeOptions& options) {
   http.allow_hosts = options.allow_hosts;
   http.log = options.log;
   if (NeedsToken(http) && ReadTokens(TokenFile(options.catalog)).empty())
-    throw BadInput("other machines can reach this service, so it needs tokens: make one with "
-                   "plenum token create");
+    throw BadInput(
+        "other machines can reach this service, so it needs tokens: make one with "
+        "plenum token create");
   try {
     return std::make_unique<HttpService>(http);
   } catch (const ListenError& error) {
@@ -64,7 +65,8 @@ void Serve(const ServeOptions& options) {
 void AddServeCommand(CLI::App& app, int&) {
   auto options = std::make_shared<ServeOptions>();
   auto* command = app.add_subcommand("serve", "The HTTP service");
-  command->add_option("--host", options->host, "Address; any but a loopback one needs tokens")->capture_default_str();
+  command->add_option("--host", options->host, "Address; any but a loopback one needs tokens")
+      ->capture_default_str();
   command->add_option("--port", options->port, "0 takes any free one")
       ->capture_default_str()
       ->check(CLI::Range(0, 65535));

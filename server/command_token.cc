@@ -39,8 +39,8 @@ void List(const TokenOptions& options) {
                     {"name", token.name},
                     {"scope", Name(token.scope)},
                     {"created", token.created}});
-    lines += token.id + "  " + token.created + "  " + (token.scope == Scope::kWrite ? "write" : "read ") +
-             "  " + token.name + "\n";
+    lines += token.id + "  " + token.created + "  " +
+             (token.scope == Scope::kWrite ? "write" : "read ") + "  " + token.name + "\n";
   }
   Print(options.json ? Dump({{"tokens", list}}) + "\n" : lines);
 }

@@ -28,9 +28,7 @@ constexpr std::size_t kDrainBytesMax = 64 << 20;
 constexpr auto kSweepPeriod = std::chrono::milliseconds(500);
 
 // Time to move so many bytes.
-seconds TimeFor(std::size_t bytes) {
-  return seconds(kHeadSecondsMax + bytes / kBytesPerSecondMin);
-}
+seconds TimeFor(std::size_t bytes) { return seconds(kHeadSecondsMax + bytes / kBytesPerSecondMin); }
 
 std::string PeerOf(int socket) {
   sockaddr_storage address{};
@@ -48,7 +46,8 @@ std::string PeerOf(int socket) {
 void RaiseFileLimit() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
-  limit.rlim_cur = std::max(limit.rlim_cur, std::min<rlim_t>(limit.rlim_max, kConnectionsMax + 256));
+  limit.rlim_cur =
+      std::max(limit.rlim_cur, std::min<rlim_t>(limit.rlim_max, kConnectionsMax + 256));
   setrlimit(RLIMIT_NOFILE, &limit);
 }
 
@@ -96,8 +95,8 @@ struct Connections::Connection final : Outgoing {
   std::size_t sent = 0;  // of out
   RequestFrame frame;
   bool broken = false;
-  bool closing = false;      // after what is in `out`
-  std::size_t drained = 0;   // bytes thrown away after the last answer
+  bool closing = false;     // after what is in `out`
+  std::size_t drained = 0;  // bytes thrown away after the last answer
   bool draining = false;
   std::atomic<std::size_t> accounted = 0;
   std::atomic<Clock::rep> since = 0, deadline = 0;
@@ -128,7 +127,11 @@ void Connections::Start(int threads) {
 }
 
 void Connections::Stop() {
-  stopping_ = true;
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  stop_sweeping_.notify_all();
   eventfd_write(wake_, 1);  // stays readable: every thread sees it
   for (auto& worker : workers_) worker.join();
   workers_.clear();
@@ -268,16 +271,15 @@ Connections::Next Connections::AfterSending(Connection& connection) {
 }
 
 void Connections::SweepLoop() {
-  while (!stopping_) {
-    std::this_thread::sleep_for(kSweepPeriod);
-    const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
+  while (!stop_sweeping_.wait_for(lock, kSweepPeriod, [this] { return stopping_.load(); })) {
     const auto now = Clock::now().time_since_epoch().count();
     for (const auto& [socket, connection] : connections_) {
       if (connection->busy || connection->deadline > now) continue;
       if (!connection->expired.exchange(true)) ++closed_early_;
       // Reading then ends at once, which a thread sees and answers; writing is given up later.
       shutdown(socket, now - connection->deadline > Clock::duration(seconds(1)).count() ? SHUT_RDWR
-                                                                                         : SHUT_RD);
+                                                                                        : SHUT_RD);
     }
   }
 }

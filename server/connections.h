@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -24,7 +25,7 @@ namespace plenum::server {
 struct Incoming {
   std::string head;  // request line and headers, with the empty line
   std::string body;
-  std::string peer;     // the client's address
+  std::string peer;      // the client's address
   bool is_last = false;  // the connection closes after it
 };
 
@@ -86,6 +87,7 @@ class Connections {
   std::atomic<long long> closed_early_ = 0;
   std::vector<std::thread> workers_;
   std::thread sweeper_;
+  std::condition_variable stop_sweeping_;
 };
 
 }  // namespace plenum::server

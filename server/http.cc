@@ -21,7 +21,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kListenBacklog = 1024;
 
-
 // One request's bytes to read from and its connection to write to.
 class RequestStream : public httplib::Stream {
  public:
@@ -162,16 +161,13 @@ struct HttpService::Impl {
         catalog(given.catalog),
         designs(given.jobs),
         diagnoses(given.jobs),
-        routes(Routes({catalog, designs, diagnoses, metrics, given.jobs,
-                       given.catalog,
+        routes(Routes({catalog, designs, diagnoses, metrics, given.jobs, given.catalog,
                        [this] { MeasureConnections(); }})),
-        connections(
-            [this](Incoming request, Outgoing& out) {
-              return protocol.Answer(std::move(request), out);
-            },
-            [this](const Refusal& refusal, const std::string& peer) {
-              return RefusalText(refusal, peer);
-            }) {
+        connections([this](Incoming request,
+                           Outgoing& out) { return protocol.Answer(std::move(request), out); },
+                    [this](const Refusal& refusal, const std::string& peer) {
+                      return RefusalText(refusal, peer);
+                    }) {
     // Large blocks go back to the system when they are freed.
     mallopt(M_MMAP_THRESHOLD, 256 << 10);
     mallopt(M_ARENA_MAX, 4);
@@ -180,8 +176,8 @@ struct HttpService::Impl {
     SetUp();
     const bool any = options.port == 0;
     port = any ? protocol.bind_to_any_port(options.host)
-               : protocol.bind_to_port(options.host, options.port) ? options.port
-                                                                   : -1;
+           : protocol.bind_to_port(options.host, options.port) ? options.port
+                                                               : -1;
     if (port <= 0) {
       throw ListenError("cannot listen at " + options.host + " port " +
                         std::to_string(options.port) + ": is it taken by another program?");
@@ -261,9 +257,9 @@ struct HttpService::Impl {
         if (auto* refused = std::get_if<Reply>(&token)) return *std::move(refused);
         user = std::get<Token>(token).name;
       }
-      return Run(candidate, {std::move(argument), request.params, header,
-                             std::move(const_cast<httplib::Request&>(request).body), request.path,
-                             user});
+      return Run(candidate,
+                 {std::move(argument), request.params, header,
+                  std::move(const_cast<httplib::Request&>(request).body), request.path, user});
     }
     if (allowed.empty()) return ProblemReply(404, "there is no " + request.path);
     auto reply = ProblemReply(405, request.path + " takes " + allowed);
@@ -289,7 +285,9 @@ struct HttpService::Impl {
                                          ValueOf(refusal.limit, options.jobs), refusal.detail);
     metrics.Count("none", "none", refusal.status, 0.0, 0, reply.body.size());
     if (options.log)
-      Log({{"level", "info"}, {"peer", peer}, {"status", refusal.status},
+      Log({{"level", "info"},
+           {"peer", peer},
+           {"status", refusal.status},
            {"detail", refusal.detail}});
     return StatusLine(refusal.status) + "Content-Type: " + reply.content_type +
            "\r\nContent-Length: " + std::to_string(reply.body.size()) +

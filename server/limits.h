@@ -14,11 +14,11 @@
 namespace plenum::server {
 
 inline constexpr int kRequestThreads = 32;
-inline constexpr int kConnectionsMax = 2048;            // beyond it the longest waiting one goes
-inline constexpr int kHeadSecondsMax = 10;              // for a request's line and headers to arrive
-inline constexpr int kIdleSecondsMax = 30;              // between two requests of a connection
+inline constexpr int kConnectionsMax = 2048;  // beyond it the longest waiting one goes
+inline constexpr int kHeadSecondsMax = 10;    // for a request's line and headers to arrive
+inline constexpr int kIdleSecondsMax = 30;    // between two requests of a connection
 inline constexpr std::size_t kBytesPerSecondMin = 256 << 10;  // of bodies and answers, after 10 s
-inline constexpr std::size_t kHeadBytesMax = 16 << 10;  // request line and headers
+inline constexpr std::size_t kHeadBytesMax = 16 << 10;        // request line and headers
 inline constexpr int kHeadersMax = 100;
 inline constexpr std::size_t kPathBytesMax = 1024;
 inline constexpr std::size_t kBodyBytesMax = 8 << 20;

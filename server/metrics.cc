@@ -12,11 +12,10 @@ namespace plenum::server {
 
 struct Metrics::Impl {
   prometheus::Registry registry;
-  prometheus::Family<prometheus::Counter>& requests =
-      prometheus::BuildCounter()
-          .Name("plenum_http_requests_total")
-          .Help("Requests answered.")
-          .Register(registry);
+  prometheus::Family<prometheus::Counter>& requests = prometheus::BuildCounter()
+                                                          .Name("plenum_http_requests_total")
+                                                          .Help("Requests answered.")
+                                                          .Register(registry);
   prometheus::Family<prometheus::Histogram>& seconds =
       prometheus::BuildHistogram()
           .Name("plenum_http_request_seconds")
@@ -39,11 +38,9 @@ Metrics::~Metrics() = default;
 
 void Metrics::Count(const std::string& method, const std::string& route, int status, double seconds,
                     std::size_t bytes_in, std::size_t bytes_out) {
-  static const prometheus::Histogram::BucketBoundaries kBuckets = {0.0005, 0.001, 0.0025, 0.005,
-                                                                   0.01,   0.025, 0.05,   0.1,
-                                                                   0.25,   1,     2.5,    10};
-  impl_->requests
-      .Add({{"method", method}, {"route", route}, {"status", std::to_string(status)}})
+  static const prometheus::Histogram::BucketBoundaries kBuckets = {
+      0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 1, 2.5, 10};
+  impl_->requests.Add({{"method", method}, {"route", route}, {"status", std::to_string(status)}})
       .Increment();
   impl_->seconds.Add({{"route", route}}, kBuckets).Observe(seconds);
   impl_->bytes_in.Increment(static_cast<double>(bytes_in));

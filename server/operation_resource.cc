@@ -15,8 +15,8 @@ constexpr std::uintmax_t kFreeBytesMin = 16 << 20;
 
 std::size_t Count(const Jobs& jobs, JobStatus status) {
   const auto list = jobs.List();
-  return static_cast<std::size_t>(
-      std::count_if(list.begin(), list.end(), [&](const Job& job) { return job.status == status; }));
+  return static_cast<std::size_t>(std::count_if(
+      list.begin(), list.end(), [&](const Job& job) { return job.status == status; }));
 }
 
 // SQLite writes the file and makes its journal beside it.
@@ -64,7 +64,9 @@ Reply GetReadiness(const Services& services, const Call&) {
   check("diagnosis_queue_has_room", has_room(services.diagnoses));
   const api::Json document = {{"status", ready ? "ready" : "not ready"}, {"checks", checks}};
   if (ready) return JsonReply(200, document);
-  api::Json problem = {{"type", "about:blank"}, {"title", "Service Unavailable"}, {"status", 503},
+  api::Json problem = {{"type", "about:blank"},
+                       {"title", "Service Unavailable"},
+                       {"status", 503},
                        {"detail", "the service cannot take work"}};
   problem["checks"] = checks;
   return {503, "application/problem+json", Dump(problem) + "\n", {{"Retry-After", "5"}}, {}};
@@ -72,8 +74,8 @@ Reply GetReadiness(const Services& services, const Call&) {
 
 Reply GetMetrics(const Services& services, const Call&) {
   Metrics& metrics = services.metrics;
-  for (const auto& [kind, jobs] : {std::pair{"design", &services.designs},
-                                   std::pair{"diagnosis", &services.diagnoses}}) {
+  for (const auto& [kind, jobs] :
+       {std::pair{"design", &services.designs}, std::pair{"diagnosis", &services.diagnoses}}) {
     const std::string name = std::string("plenum_") + kind + "_jobs_";
     metrics.Set(name + "queued", "Jobs that wait.", double(Count(*jobs, JobStatus::kQueued)));
     metrics.Set(name + "running", "Jobs at work.", double(Count(*jobs, JobStatus::kRunning)));

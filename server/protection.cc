@@ -10,8 +10,7 @@ namespace {
 
 // The name in "localhost:8080" or "[::1]:8080".
 std::string NameIn(std::string_view authority) {
-  if (authority.starts_with('['))
-    return std::string(authority.substr(1, authority.find(']') - 1));
+  if (authority.starts_with('[')) return std::string(authority.substr(1, authority.find(']') - 1));
   return std::string(authority.substr(0, authority.find(':')));
 }
 

@@ -100,8 +100,8 @@ RequestFrame::State RequestFrame::ReadHead(std::string_view head) {
 bool RequestFrame::ReadField(std::string_view name, std::string_view value) {
   if (EqualsIgnoringCase(name, "Content-Length")) {
     std::size_t length = 0;
-    const bool digits = std::all_of(value.begin(), value.end(),
-                                    [](char c) { return c >= '0' && c <= '9'; });
+    const bool digits =
+        std::all_of(value.begin(), value.end(), [](char c) { return c >= '0' && c <= '9'; });
     if (has_length_ || !digits || value.size() > 15 || !ReadWhole(value, 10, length))
       return Refuse(400, "", "Content-Length must be one whole number"), false;
     has_length_ = true;
@@ -128,8 +128,9 @@ RequestFrame::State RequestFrame::LookAtChunks(std::string_view bytes) {
     const std::size_t next = data + length + kLineEnd.size();
     if (bytes.size() < next) return state_;
     if (bytes.substr(data + length, kLineEnd.size()) != kLineEnd)
-      return Refuse(400, "", length == 0 ? "fields after the last chunk are not understood"
-                                         : "a chunk of the body does not end where it should");
+      return Refuse(400, "",
+                    length == 0 ? "fields after the last chunk are not understood"
+                                : "a chunk of the body does not end where it should");
     end_ = next;
     body_size_ += length;
     if (length == 0) return state_ = State::kComplete;

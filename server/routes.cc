@@ -6,6 +6,7 @@
 #include "server/history_resource.h"
 #include "server/limits.h"
 #include "server/models_resource.h"
+#include "server/openapi.h"
 #include "server/operation_resource.h"
 #include "server/page_resource.h"
 #include "server/parts_resource.h"
@@ -44,8 +45,8 @@ void AddJobRoutes(const JobsResource& jobs, std::vector<Route>& routes) {
   const std::string one = jobs.path + "/{id}";
   routes.push_back({"GET", jobs.path, "the " + jobs.noun + " jobs, newest first", Access::kRead,
                     [jobs](const Call&) { return ListJobs(jobs); }});
-  routes.push_back({"GET", one, "one " + jobs.noun + " job: status, progress, result", Access::kRead,
-                    [jobs](const Call& call) { return GetJob(jobs, call); }});
+  routes.push_back({"GET", one, "one " + jobs.noun + " job: status, progress, result",
+                    Access::kRead, [jobs](const Call& call) { return GetJob(jobs, call); }});
   routes.push_back({"DELETE", one, "cancels the job", Access::kWrite,
                     [jobs](const Call& call) { return CancelJob(jobs, call); }});
   routes.push_back({"GET", one + "/events", "progress as server-sent events", Access::kRead,
@@ -63,8 +64,7 @@ std::vector<Route> Routes(const Services& services) {
   const JobsResource diagnosis_jobs{&services.diagnoses, "/v1/diagnoses", "diagnosis"};
   std::vector<Route> routes = {
       {"POST", design_jobs.path,
-       "requirements/1 in, a job that ranks designs out; query validate_only",
-       Access::kWrite,
+       "requirements/1 in, a job that ranks designs out; query validate_only", Access::kWrite,
        [&catalog, design_jobs](const Call& call) {
          return PostDesign(catalog, design_jobs, call);
        }},
@@ -81,28 +81,36 @@ std::vector<Route> Routes(const Services& services) {
          });
        }},
       {"POST", "/v1/maps", "map/1 in, rise time, fall time and frequency over the grid out",
-       Access::kRead,
-       [](const Call& call) { return AnswerAtOnce(call, api::RunMap); }},
+       Access::kRead, [](const Call& call) { return AnswerAtOnce(call, api::RunMap); }},
       {"GET", "/v1/parts",
-       "parts; query family, field_min, field_max, sort, facets, limit, cursor, revision", Access::kRead,
-       parts(ListParts)},
+       "parts; query family, field_min, field_max, sort, facets, limit, cursor, revision",
+       Access::kRead, parts(ListParts)},
       {"POST", "/v1/parts", "adds a part", Access::kWrite, parts(AddPart)},
-      {"GET", "/v1/parts/export", "parts of a family as CSV; query family", Access::kRead, parts(ExportParts)},
-      {"POST", "/v1/parts/import", "parts of a family from CSV; query family, dry_run", Access::kWrite,
-       parts(ImportParts)},
+      {"GET", "/v1/parts/export", "parts of a family as CSV; query family", Access::kRead,
+       parts(ExportParts)},
+      {"POST", "/v1/parts/import", "parts of a family from CSV; query family, dry_run",
+       Access::kWrite, parts(ImportParts)},
       {"GET", "/v1/parts/{id}", "one part, with ETag", Access::kRead, parts(GetPart)},
-      {"PUT", "/v1/parts/{id}", "replaces the part that If-Match names", Access::kWrite, parts(ReplacePart)},
-      {"DELETE", "/v1/parts/{id}", "removes the part that If-Match names", Access::kWrite, parts(RemovePart)},
-      {"GET", "/v1/parts/{id}/history", "changes of a part, newest first", Access::kRead, parts(PartHistory)},
-      {"GET", "/v1/families", "families of parts: fields, ranges, what they mean",
-       Access::kRead,
+      {"PUT", "/v1/parts/{id}", "replaces the part that If-Match names", Access::kWrite,
+       parts(ReplacePart)},
+      {"DELETE", "/v1/parts/{id}", "removes the part that If-Match names", Access::kWrite,
+       parts(RemovePart)},
+      {"GET", "/v1/parts/{id}/history", "changes of a part, newest first", Access::kRead,
+       parts(PartHistory)},
+      {"GET", "/v1/families", "families of parts: fields, ranges, what they mean", Access::kRead,
        [](const Call&) { return JsonReply(200, api::RenderFamilies()); }},
-      {"GET", "/v1/revisions", "writes to the catalogue, newest first", Access::kRead, parts(ListRevisions)},
-      {"GET", "/v1/revisions/{id}", "one write with its changes", Access::kRead, parts(GetRevision)},
-      {"GET", "/v1/models", "saved model revisions, the newest of each name", Access::kRead, parts(ListModels)},
-      {"POST", "/v1/models", "saves a model revision: its name and model/1", Access::kWrite, parts(SaveModel)},
-      {"GET", "/v1/models/{id}", "all versions of a saved model revision", Access::kRead, parts(GetModel)},
-      {"POST", "/v1/revisions/{id}/undo", "takes the changes of a write back", Access::kWrite, parts(UndoRevision)},
+      {"GET", "/v1/revisions", "writes to the catalogue, newest first", Access::kRead,
+       parts(ListRevisions)},
+      {"GET", "/v1/revisions/{id}", "one write with its changes", Access::kRead,
+       parts(GetRevision)},
+      {"GET", "/v1/models", "saved model revisions, the newest of each name", Access::kRead,
+       parts(ListModels)},
+      {"POST", "/v1/models", "saves a model revision: its name and model/1", Access::kWrite,
+       parts(SaveModel)},
+      {"GET", "/v1/models/{id}", "all versions of a saved model revision", Access::kRead,
+       parts(GetModel)},
+      {"POST", "/v1/revisions/{id}/undo", "takes the changes of a write back", Access::kWrite,
+       parts(UndoRevision)},
       {"GET", "/healthz", "whether the service runs", Access::kOpen,
        [](const Call&) {
          return JsonReply(200, {{"status", "ok"}});
@@ -120,9 +128,14 @@ std::vector<Route> Routes(const Services& services) {
   AddJobRoutes(diagnosis_jobs, routes);
   routes.push_back({"GET", "/", "the web page", Access::kOpen, GetPage});
   routes.push_back({"GET", "/assets/{id}", "a file of the web page", Access::kOpen, GetAsset});
+  routes.push_back({"GET", "/docs", "this description, for reading", Access::kOpen, GetDocs});
+  routes.push_back({"GET", "/openapi.json", "this description, OpenAPI 3.1", Access::kOpen, {}});
   routes.push_back({"GET", "/v1", "this table", Access::kRead, {}});
-  routes.back().answer = [table = RouteTable(routes)](const Call&) {
-    return JsonReply(200, table);
+  routes.back().answer = [reply = JsonReply(200, RouteTable(routes))](const Call&) {
+    return reply;
+  };
+  (routes.end() - 2)->answer = [reply = JsonReply(200, OpenApi(routes))](const Call&) {
+    return reply;
   };
   return routes;
 }

@@ -32,7 +32,7 @@ struct Services {
   Jobs& diagnoses;
   Metrics& metrics;
   JobOptions job_options;
-  std::filesystem::path file;  // the catalogue
+  std::filesystem::path file;                 // the catalogue
   std::function<void()> measure_connections;  // sets their metrics
 };
 std::vector<Route> Routes(const Services& services);

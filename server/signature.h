@@ -9,8 +9,9 @@
 
 namespace plenum::server {
 
-// The writer is the name of the token and the header From (RFC 9110), "http" without either; the key is Idempotency-Key, any
-// visible ASCII text of 1 to 255 characters. The reply if one of them cannot be used.
+// The writer is the name of the token and the header From (RFC 9110), "http" without either; the
+// key is Idempotency-Key, any visible ASCII text of 1 to 255 characters. The reply if one of them
+// cannot be used.
 std::variant<catalog::Signature, Reply> SignatureOf(const Call& call);
 
 // 422: the key stands for another request.

@@ -41,8 +41,9 @@ std::string Today() {
 }
 
 Token FromJson(const api::Json& json) {
-  return {json.at("id"), json.at("name"), json.at("scope") == "write" ? Scope::kWrite : Scope::kRead,
-          json.at("sha256"), json.at("created")};
+  return {json.at("id"), json.at("name"),
+          json.at("scope") == "write" ? Scope::kWrite : Scope::kRead, json.at("sha256"),
+          json.at("created")};
 }
 
 api::Json ToJson(const Token& token) {
@@ -74,8 +75,8 @@ void WriteTokens(const fs::path& file, const std::vector<Token>& tokens) {
   const std::string text = Dump({{"schema", "tokens/1"}, {"tokens", list}}, 2) + "\n";
   const fs::path fresh = file.string() + ".new";
   const int fd = open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  const bool written = fd >= 0 && write(fd, text.data(), text.size()) == ssize_t(text.size()) &&
-                       fsync(fd) == 0;
+  const bool written =
+      fd >= 0 && write(fd, text.data(), text.size()) == ssize_t(text.size()) && fsync(fd) == 0;
   if (fd >= 0) close(fd);
   if (!written || std::rename(fresh.c_str(), file.c_str()) != 0)
     throw std::runtime_error(file.string() + ": cannot be written");

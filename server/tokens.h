@@ -1,5 +1,5 @@
-// Bearer tokens (RFC 6750): who may use the service from elsewhere. Only hashes are kept: a token is
-// 256 random bits, so its plain SHA-256 can neither be turned back nor guessed.
+// Bearer tokens (RFC 6750): who may use the service from elsewhere. Only hashes are kept: a token
+// is 256 random bits, so its plain SHA-256 can neither be turned back nor guessed.
 #ifndef PLENUM_SERVER_TOKENS_H_
 #define PLENUM_SERVER_TOKENS_H_
 
