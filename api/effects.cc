@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "api/limits.h"
+#include "api/schema_recorder.h"
 #include "api/text.h"
 #include "api/units.h"
 
@@ -94,7 +95,31 @@ model::Effect ReadParameters(Reader parameters, const std::string& id) {
 
 }  // namespace
 
+Json EffectsForm() {
+  Json forms = Json::array();
+  for (const model::EffectSpec* spec : model::Effects()) {
+    Json parameters = {{"type", "object"}, {"properties", Json::object()}};
+    Json required = Json::array();
+    if (!spec->law.empty()) parameters["properties"]["law"] = {{"const", spec->law}};
+    // The first law of an effect is the one that need not be named.
+    if (!spec->law.empty() && spec->law != LawsOf(spec->id).front()) required.push_back("law");
+    for (const model::ParameterSpec& number : spec->parameters) {
+      const Parameter parameter = ParameterOf(number);
+      parameters["properties"][parameter.name] = NumberForm(parameter.range);
+      required.push_back(parameter.name);
+    }
+    parameters["required"] = std::move(required);
+    parameters["additionalProperties"] = false;
+    forms.push_back({{"type", "object"},
+                     {"properties", {{"id", {{"const", spec->id}}}, {"parameters", parameters}}},
+                     {"required", {"id", "parameters"}},
+                     {"additionalProperties", false}});
+  }
+  return {{"type", "array"}, {"maxItems", kEffectsMax}, {"items", {{"anyOf", forms}}}};
+}
+
 std::vector<model::Effect> ReadEffects(Reader& owner, std::span<const model::Effect> others) {
+  if (SchemaRecorder::Current()) owner.Describe("effects", EffectsForm());
   std::vector<model::Effect> effects;
   for (const Element& element : owner.List("effects", 0, kEffectsMax)) {
     const std::size_t errors_before = owner.errors().size();

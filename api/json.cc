@@ -13,7 +13,8 @@
 namespace plenum::api {
 namespace {
 
-// A name in an object and in the set of names that finds duplicates: two texts and a node of a tree.
+// A name in an object and in the set of names that finds duplicates: two texts and a node of a
+// tree.
 constexpr std::size_t kKeyBytes = 2 * sizeof(std::string) + 40;
 
 // Builds the document from the parser's events. Works by events rather than through the library's
@@ -83,7 +84,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   }
   bool Open(Json value) {
     if (levels_.size() >= kJsonDepthMax)
-      return Fail("nested deeper than " + std::to_string(kJsonDepthMax) + " levels (json_depth_max)");
+      return Fail("nested deeper than " + std::to_string(kJsonDepthMax) +
+                  " levels (json_depth_max)");
     bytes_ += sizeof(Json) + sizeof(std::vector<Json>);  // and what the heap adds
     levels_.push_back({std::move(value), {}, {}});
     return true;

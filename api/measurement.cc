@@ -9,6 +9,7 @@
 #include "api/fields.h"
 #include "api/reader.h"
 #include "api/rig.h"
+#include "api/schema_recorder.h"
 #include "api/text.h"
 #include "api/units.h"
 
@@ -172,6 +173,12 @@ class SeriesErrors {
 // Samples; null is NaN where `gaps` are allowed.
 std::vector<double> ReadSeries(Reader& owner, const std::string& name, Range range, bool gaps,
                                std::size_t least) {
+  Json item = NumberForm(range);
+  if (gaps) item = {{"anyOf", {item, {{"type", "null"}}}}};
+  owner.Describe(name, {{"type", "array"},
+                        {"minItems", least},
+                        {"maxItems", kRunSamplesMax},
+                        {"items", std::move(item)}});
   std::vector<double> series;
   SeriesErrors errors(owner, name);
   for (const Element& element : owner.List(name, least, kRunSamplesMax)) {
@@ -342,6 +349,7 @@ void ReadUncertainty(Reader& document, Dataset& dataset) {
   for (int k = 0; k < calibration::kDeclaredCount; ++k) {
     const auto name = calibration::Name(static_cast<Declared>(k));
     double& uncertainty = dataset.relative_uncertainty[static_cast<std::size_t>(k)];
+    reader->Describe(name, {{"anyOf", {NumberForm({0, 10}), {{"const", "unknown"}}}}});
     if (!reader->Has(name)) continue;
     const Json& value = *reader->Raw(name);
     if (value.is_string() && value.get_ref<const std::string&>() == "unknown")

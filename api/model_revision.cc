@@ -38,6 +38,9 @@ void ReadFactors(Reader& reader, SavedModel& model) {
 void ReadCovariance(Reader& reader, SavedModel::Covariance& covariance) {
   auto object = reader.OptionalObject("covariance");
   if (!object) return;
+  object->Describe("parameters", {{"type", "array"}, {"items", {{"type", "string"}}}});
+  object->Describe("matrix", {{"type", "array"},
+                              {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}});
   for (const Element& name : object->List("parameters", 0, kParametersMax)) {
     if (name.value->is_string())
       covariance.parameters.push_back(name.value->get<std::string>());

@@ -64,7 +64,8 @@ Json ProblemDocument(int status, const Errors& errors) {
     list.push_back({{"pointer", errors[i].pointer}, {"detail", errors[i].detail}});
   if (errors.size() > kErrorsReportedMax)
     list.push_back(
-        {{"pointer", ""}, {"detail", std::to_string(errors.size() - kErrorsReportedMax) + " more errors"}});
+        {{"pointer", ""},
+         {"detail", std::to_string(errors.size() - kErrorsReportedMax) + " more errors"}});
   return document;
 }
 

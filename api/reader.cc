@@ -7,12 +7,20 @@
 #include <utility>
 
 #include "api/limits.h"
+#include "api/schema_recorder.h"
 #include "api/text.h"
 
 namespace plenum::api {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+const Json kNullForm = {{"type", "null"}};
+const Json kTextForm = {{"type", "string"}, {"minLength", 1}, {"maxLength", kTextCharactersMax}};
+
+Json ListForm(std::size_t least, std::size_t most) {
+  return {{"type", "array"}, {"minItems", least}, {"maxItems", most}};
+}
 
 std::string SizeText(std::size_t least, std::size_t most) {
   return "must be a list of " + std::to_string(least) + " to " + std::to_string(most) + " elements";
@@ -48,6 +56,7 @@ std::string KindOf(const Json& value) {
 
 Reader::Reader(const Json& value, std::string pointer, Errors& errors)
     : pointer_(std::move(pointer)), errors_(&errors) {
+  if (auto* recorder = SchemaRecorder::Current()) recorder->Object(pointer_);
   if (value.is_object())
     object_ = &value;
   else
@@ -57,8 +66,18 @@ Reader::Reader(const Json& value, std::string pointer, Errors& errors)
 Reader::Reader(const Element& element, Errors& errors)
     : Reader(*element.value, element.pointer, errors) {}
 
+template <typename MakeForm>
+void Reader::Note(std::string_view name, bool required, MakeForm&& form) {
+  if (auto* recorder = SchemaRecorder::Current()) recorder->Field(pointer_, name, form(), required);
+}
+
+void Reader::Describe(std::string_view name, const Json& schema) {
+  if (auto* recorder = SchemaRecorder::Current()) recorder->Fix(pointer_, name, schema);
+}
+
 const Json* Reader::Raw(std::string_view name) {
   if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.emplace_back(name);
+  Note(name, false, [] { return Json(); });
   if (object_ == nullptr) return nullptr;
   const auto found = object_->find(std::string(name));
   return found == object_->end() ? nullptr : &*found;
@@ -70,6 +89,7 @@ bool Reader::Has(std::string_view name) {
 }
 
 const Json* Reader::Required(std::string_view name) {
+  Note(name, true, [] { return Json(); });
   const Json* value = Raw(name);
   if (value == nullptr && object_ != nullptr) Fail(name, "is required");
   return value;
@@ -87,6 +107,7 @@ double Reader::ReadNumber(const Json& value, const std::string& pointer, Range r
 }
 
 double Reader::Number(std::string_view name, Range range) {
+  Note(name, true, [&] { return NumberForm(range); });
   const Json* value = Raw(name);
   if (value != nullptr) return ReadNumber(*value, Pointer(name), range);
   if (object_ != nullptr) Fail(name, "is required, a number " + range.Text());
@@ -94,17 +115,25 @@ double Reader::Number(std::string_view name, Range range) {
 }
 
 double Reader::Number(std::string_view name, Range range, double fallback) {
+  Note(name, false, [&] { return NumberForm(range); });
   const Json* value = Raw(name);
   return value == nullptr ? fallback : ReadNumber(*value, Pointer(name), range);
 }
 
 std::optional<double> Reader::OptionalNumber(std::string_view name, Range range) {
+  Note(name, false, [&] { return NumberForm(range); });
+  Note(name, false, [] { return kNullForm; });
   if (!Has(name)) return std::nullopt;
   return ReadNumber(*Raw(name), Pointer(name), range);
 }
 
 int Reader::Integer(std::string_view name, int low, int high, std::optional<int> fallback) {
   const Range range{double(low), double(high)};
+  Note(name, false, [&] {
+    Json form = NumberForm(range);
+    form["type"] = "integer";
+    return form;
+  });
   const double number = fallback ? Number(name, range, *fallback) : Number(name, range);
   if (std::isnan(number)) return low;
   if (number == std::floor(number)) return static_cast<int>(number);
@@ -113,6 +142,7 @@ int Reader::Integer(std::string_view name, int low, int high, std::optional<int>
 }
 
 bool Reader::Bool(std::string_view name, bool fallback) {
+  Note(name, false, [] { return Json{{"type", "boolean"}}; });
   const Json* value = Raw(name);
   if (value == nullptr) return fallback;
   if (value->is_boolean()) return value->get<bool>();
@@ -121,6 +151,7 @@ bool Reader::Bool(std::string_view name, bool fallback) {
 }
 
 std::string Reader::Text(std::string_view name, std::optional<std::string> fallback) {
+  Note(name, !fallback, [] { return kTextForm; });
   const Json* value = fallback ? Raw(name) : Required(name);
   if (value == nullptr) return fallback.value_or("");
   if (!value->is_string()) {
@@ -130,13 +161,14 @@ std::string Reader::Text(std::string_view name, std::optional<std::string> fallb
   const std::string& text = value->get_ref<const std::string&>();
   const std::size_t length = CountCharacters(text);
   if (length >= 1 && length <= kTextCharactersMax) return text;
-  Fail(name,
-       "must have 1 to " + std::to_string(kTextCharactersMax) + " characters, not " + std::to_string(length));
+  Fail(name, "must have 1 to " + std::to_string(kTextCharactersMax) + " characters, not " +
+                 std::to_string(length));
   return "";
 }
 
 std::string Reader::Choice(std::string_view name, const std::vector<std::string>& allowed,
                            std::optional<std::string> fallback) {
+  Note(name, !fallback, [&] { return Json{{"type", "string"}, {"enum", allowed}}; });
   const Json* value = Raw(name);
   if (value == nullptr) {
     if (!fallback && object_ != nullptr) Fail(name, "is required, " + OneOf(allowed));
@@ -157,11 +189,13 @@ Reader Reader::Object(std::string_view name) {
 }
 
 std::optional<Reader> Reader::OptionalObject(std::string_view name) {
+  Note(name, false, [] { return kNullForm; });
   if (!Has(name)) return std::nullopt;
   return Reader(*Raw(name), Pointer(name), *errors_);
 }
 
 std::vector<Element> Reader::List(std::string_view name, std::size_t least, std::size_t most) {
+  Note(name, least > 0, [&] { return ListForm(least, most); });
   const Json* value = least == 0 ? Raw(name) : Required(name);
   if (value == nullptr) return {};
   if (!value->is_array()) {
@@ -179,6 +213,12 @@ std::vector<Element> Reader::List(std::string_view name, std::size_t least, std:
 }
 
 std::vector<std::string> Reader::Texts(std::string_view name, std::size_t least, std::size_t most) {
+  Note(name, least > 0, [&] {
+    Json form = ListForm(least, most);
+    form["items"] = {{"type", "string"}};
+    form["uniqueItems"] = true;
+    return form;
+  });
   std::vector<std::string> texts;
   std::set<std::string> seen;
   for (const Element& element : List(name, least, most)) {
@@ -193,6 +233,12 @@ std::vector<std::string> Reader::Texts(std::string_view name, std::size_t least,
 }
 
 std::vector<double> Reader::Numbers(std::string_view name, std::size_t most, Range range) {
+  Note(name, true, [&] { return NumberForm(range); });
+  Note(name, true, [&] {
+    Json form = ListForm(1, most);
+    form["items"] = NumberForm(range);
+    return form;
+  });
   if (const Json* value = Raw(name); value != nullptr && value->is_number())
     return {ReadNumber(*value, Pointer(name), range)};
   std::vector<double> numbers;

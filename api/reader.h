@@ -88,11 +88,18 @@ class Reader {
 
   void Finish();
 
+  // Tells a SchemaRecorder all that may stand in a field, where its values are not read by the
+  // methods above.
+  void Describe(std::string_view name, const Json& schema);
+
  private:
   Reader(std::string pointer, Errors& errors) : pointer_(std::move(pointer)), errors_(&errors) {}
 
   // The field, or null after recording that it is missing.
   const Json* Required(std::string_view name);
+  // Tells a SchemaRecorder, if one listens, of a field. `form` is made only then.
+  template <typename MakeForm>
+  void Note(std::string_view name, bool required, MakeForm&& form);
   void Report(std::string pointer, std::string detail);
   double ReadNumber(const Json& value, const std::string& pointer, Range range);
 

@@ -127,7 +127,11 @@ void Connections::Start(int threads) {
 }
 
 void Connections::Stop() {
-  stopping_ = true;
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  stop_sweeping_.notify_all();
   eventfd_write(wake_, 1);  // stays readable: every thread sees it
   for (auto& worker : workers_) worker.join();
   workers_.clear();
@@ -267,9 +271,8 @@ Connections::Next Connections::AfterSending(Connection& connection) {
 }
 
 void Connections::SweepLoop() {
-  while (!stopping_) {
-    std::this_thread::sleep_for(kSweepPeriod);
-    const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
+  while (!stop_sweeping_.wait_for(lock, kSweepPeriod, [this] { return stopping_.load(); })) {
     const auto now = Clock::now().time_since_epoch().count();
     for (const auto& [socket, connection] : connections_) {
       if (connection->busy || connection->deadline > now) continue;

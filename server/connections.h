@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -86,6 +87,7 @@ class Connections {
   std::atomic<long long> closed_early_ = 0;
   std::vector<std::thread> workers_;
   std::thread sweeper_;
+  std::condition_variable stop_sweeping_;
 };
 
 }  // namespace plenum::server

@@ -6,6 +6,7 @@
 #include "server/history_resource.h"
 #include "server/limits.h"
 #include "server/models_resource.h"
+#include "server/openapi.h"
 #include "server/operation_resource.h"
 #include "server/page_resource.h"
 #include "server/parts_resource.h"
@@ -135,9 +136,14 @@ std::vector<Route> Routes(const Services& services) {
   AddJobRoutes(diagnosis_jobs, routes);
   routes.push_back({"GET", "/", "the web page", Access::kOpen, GetPage});
   routes.push_back({"GET", "/assets/{id}", "a file of the web page", Access::kOpen, GetAsset});
+  routes.push_back({"GET", "/docs", "this description, for reading", Access::kOpen, GetDocs});
+  routes.push_back({"GET", "/openapi.json", "this description, OpenAPI 3.1", Access::kOpen, {}});
   routes.push_back({"GET", "/v1", "this table", Access::kRead, {}});
-  routes.back().answer = [table = RouteTable(routes)](const Call&) {
-    return JsonReply(200, table);
+  routes.back().answer = [reply = JsonReply(200, RouteTable(routes))](const Call&) {
+    return reply;
+  };
+  (routes.end() - 2)->answer = [reply = JsonReply(200, OpenApi(routes))](const Call&) {
+    return reply;
   };
   return routes;
 }

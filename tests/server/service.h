@@ -1,0 +1,47 @@
+// The real service on a free loopback port, in this process.
+#ifndef PLENUM_TESTS_SERVER_SERVICE_H_
+#define PLENUM_TESTS_SERVER_SERVICE_H_
+
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "server/http.h"
+#include "workbench.h"
+
+namespace plenum::server {
+
+class Service {
+ public:
+  explicit Service(HttpOptions options = {}) {
+    if (options.catalog == "catalog.db") options.catalog = bench_.catalog();
+    options.port = 0;
+    options.log = false;
+    service_ = std::make_unique<HttpService>(options);
+    thread_ = std::thread([this] { service_->Run(); });
+  }
+  ~Service() {
+    service_->Stop();
+    thread_.join();
+  }
+  Service(const Service&) = delete;
+  Service& operator=(const Service&) = delete;
+
+  int port() const { return service_->port(); }
+  const Workbench& bench() const { return bench_; }
+
+ private:
+  const Workbench bench_;
+  std::unique_ptr<HttpService> service_;
+  std::thread thread_;
+};
+
+// The JSON of a text; null where it is none.
+inline api::Json JsonOf(const std::string& text) {
+  auto parsed = api::ParseJson(text);
+  return std::holds_alternative<api::Json>(parsed) ? std::get<api::Json>(parsed) : api::Json();
+}
+
+}  // namespace plenum::server
+
+#endif  // PLENUM_TESTS_SERVER_SERVICE_H_
