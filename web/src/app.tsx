@@ -1,6 +1,7 @@
 // The frame: where one is, the units, light or dark.
 import { useEffect } from 'preact/hooks';
 
+import { wantsToken } from './lib/api';
 import { refreshModels } from './lib/models';
 import { previousJob } from './lib/jobs';
 import { link, route, view } from './lib/route';
@@ -20,6 +21,7 @@ import { DesignsView } from './views/designs';
 import { JobsView } from './views/jobs';
 import { MeasuredView } from './views/measured';
 import { RequirementsView } from './views/requirements';
+import { TokenView } from './views/token';
 
 const views = [
   { name: 'requirements', label: 'Requirements', key: '1' },
@@ -30,6 +32,7 @@ const views = [
 ];
 
 function View() {
+  if (wantsToken.value) return <TokenView />;
   switch (view.value) {
     case 'designs':
       return <DesignsView />;

@@ -136,7 +136,7 @@ test('an import is previewed, its errors named, then written', async () => {
   await page.getByText(/errors; nothing can be imported/).waitFor();
   await box.fill(`${head}\n${row.replace(/^[^,]*/, 'bench-tube')}\n`);
   await page.getByText('1 to add:').waitFor();
-  await page.getByRole('button', { name: 'Import 1 parts' }).click();
+  await page.getByRole('button', { name: 'Import the part' }).click();
   await page.getByRole('link', { name: /tubing/ }).waitFor();
   await page.waitForFunction(() => document.body.innerText.includes('own'));
   assert.equal((await service.get('/v1/parts/bench-tube')).origin, 'user');
@@ -193,6 +193,34 @@ test('a part whose id is taken is refused at the id', async () => {
     .first()
     .waitFor();
   await close([409]);
+});
+
+test('a service that wants a token is asked with one', async () => {
+  const { page, close } = await openPage(browser, service.base, '#/catalogue/battery', {
+    before: (p) =>
+      p.route('**/v1/**', (route) =>
+        route.request().headers().authorization === 'Bearer right'
+          ? route.continue()
+          : route.fulfill({
+              status: 401,
+              contentType: 'application/problem+json',
+              body: '{"title":"a token is needed"}',
+            }),
+      ),
+  });
+  await page.getByLabel('Token').fill('wrong');
+  await page.getByRole('button', { name: 'Use it' }).click();
+  await page.getByText('The token given is not known').waitFor();
+  await page.getByLabel('Token').fill('right');
+  await page.getByRole('button', { name: 'Use it' }).click();
+  await page.getByRole('heading', { name: /battery: \d+ parts/ }).waitFor();
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Export CSV' }).click();
+  assert.match(await textOf(await download), /^id,manufacturer/);
+  const { id } = await service.post('/v1/designs', example('gripper'));
+  await page.goto(`${service.base}/#/designs/${id}`);
+  await page.getByText('Proved: no other combination').waitFor();
+  await close([401]);
 });
 
 test('the service going away is said, and the page goes on when it is back', async () => {

@@ -87,7 +87,9 @@ async function scrollAndFilter(page) {
 test('500 designs scroll and filter without a pause above 50 ms', async (t) => {
   const many = { ...example('exosuit'), ranking: { count: 500, time_limit_s: 60 } };
   const id = await rank(service, many);
-  const { page, close } = await openPage(browser, service.base, `#/designs/${id}`);
+  const { page, close } = await openPage(browser, service.base, `#/designs/${id}`, {
+    viewport: { width: 1280, height: 1400 }, // list and axes at once
+  });
   await page.getByRole('heading', { name: '500 designs' }).waitFor();
   await page.waitForTimeout(500);
   const tasks = await tasksDuring(page, () => scrollAndFilter(page));

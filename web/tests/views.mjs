@@ -1,5 +1,5 @@
 // Every view, as tests and screenshots open it.
-import { makeMeasurement } from './fixture.mjs';
+import { makeMeasurement, toCsv } from './fixture.mjs';
 import { ended, example, rank } from './support.mjs';
 
 const json = (name, body) => ({
@@ -13,6 +13,12 @@ export async function makeViews(service) {
   const crawler = await rank(service, {
     ...example('crawler'),
     ranking: { count: 20, time_limit_s: 4 },
+  });
+  const explained = await rank(service, {
+    ...example('exosuit'),
+    ranking: { count: 8, time_limit_s: 30 },
+    explain: { prices: true, ranks: 4 },
+    robust: { draws: 100 },
   });
   const impossible = example('exosuit');
   impossible.supply.mass_kg_max = 0.2;
@@ -54,6 +60,11 @@ export async function makeViews(service) {
       hash: `#/designs/${conflict}`,
       ready: (p) => p.getByText('cannot be met together').waitFor(),
     },
+    {
+      name: 'explained',
+      hash: `#/designs/${explained}`,
+      ready: (p) => p.getByRole('region', { name: 'Prices of requirements' }).waitFor(),
+    },
     { name: 'design', hash: `#/designs/${exosuit}/1`, ready: designReady },
     { name: 'design-two-groups', hash: `#/designs/${crawler}/2`, ready: designReady },
     {
@@ -80,11 +91,24 @@ export async function makeViews(service) {
       },
     },
     { name: 'measured', hash: '#/measured', ready: open },
+    {
+      name: 'measured-csv',
+      hash: '#/measured',
+      ready: async (p) => {
+        const csv = {
+          name: 'b.csv',
+          mimeType: 'text/csv',
+          buffer: Buffer.from(toCsv(measurement)),
+        };
+        await p.locator('input[type=file]').first().setInputFiles(csv);
+        await p.getByRole('heading', { name: 'The rig it was measured on' }).waitFor();
+      },
+    },
     { name: 'diagnosis', ...(await diagnosed('creep')) },
     { name: 'tie', ...(await diagnosed('tie')) },
     { name: 'unexplained', ...(await diagnosed('seam')) },
     {
-      name: 'searches',
+      name: 'jobs',
       hash: '#/jobs',
       ready: (p) => p.getByRole('region', { name: 'Searches' }).waitFor(),
     },

@@ -1,4 +1,5 @@
 // Talks to the service. What it refuses is thrown as a Problem.
+import { signal } from '@preact/signals';
 
 export interface FieldError {
   pointer: string;
@@ -13,6 +14,21 @@ export class Problem extends Error {
   ) {
     super(message);
   }
+}
+
+// A service that others can reach asks for a token; it is kept as long as the window is open.
+const kept = 'plenum-token';
+export const wantsToken = signal(false);
+export const hasToken = (): boolean => sessionStorage.getItem(kept) !== null;
+
+export function takeToken(token: string): void {
+  sessionStorage.setItem(kept, token);
+  location.reload();
+}
+
+function withToken(headers: Record<string, string>): Record<string, string> {
+  const token = sessionStorage.getItem(kept);
+  return token ? { ...headers, Authorization: `Bearer ${token}` } : headers;
 }
 
 export interface Answered<T> {
@@ -42,7 +58,7 @@ export async function ask<T>(
     signal?: AbortSignal;
   } = {},
 ): Promise<Answered<T>> {
-  const headers: Record<string, string> = { ...options.headers };
+  const headers = withToken({ ...options.headers });
   let body: string | undefined = options.text;
   if (options.body !== undefined) {
     headers['Content-Type'] = 'application/json';
@@ -55,6 +71,7 @@ export async function ask<T>(
     if (options.signal?.aborted) throw error;
     throw new Problem(0, 'the service does not answer; is plenum serve still running?');
   }
+  if (response.status === 401) wantsToken.value = true;
   if (!response.ok) throw await problemOf(response);
   const text = response.status === 204 ? '' : await response.text();
   const isJson = (response.headers.get('Content-Type') ?? '').includes('json');
@@ -68,6 +85,30 @@ export async function ask<T>(
 export const get = async <T>(path: string): Promise<T> => (await ask<T>('GET', path)).body;
 export const post = async <T>(path: string, body: unknown, signal?: AbortSignal): Promise<T> =>
   (await ask<T>('POST', path, { body, signal })).body;
+
+// The server-sent events at an address, until `take` says that it has enough or they end.
+export async function events(
+  path: string,
+  take: (event: string, data: string) => boolean,
+): Promise<void> {
+  const response = await fetch(path, { headers: withToken({ Accept: 'text/event-stream' }) });
+  if (!response.ok || !response.body) throw await problemOf(response);
+  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+  let text = '';
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) return;
+    const blocks = (text + value).split('\n\n');
+    text = blocks.pop()!;
+    for (const block of blocks) {
+      const field = (name: string) => new RegExp(`^${name}: (.*)$`, 'm').exec(block)?.[1];
+      const event = field('event');
+      if (!event || take(event, field('data') ?? '')) continue;
+      void reader.cancel();
+      return;
+    }
+  }
+}
 
 export function asProblem(error: unknown): Problem {
   if (error instanceof Problem) return error;

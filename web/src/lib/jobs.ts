@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
-import { ask, asProblem, get, post, type Problem } from './api';
+import { ask, asProblem, events, get, post, type Problem } from './api';
 import type { Diagnosis } from './measurement';
 import type { Answer, Doing, Job, JobStatus, Progress, Requirements } from './types';
 
@@ -49,26 +49,22 @@ async function follow(self: string): Promise<void> {
   following.delete(self);
 }
 
-// The event stream to its end; where there is none, a second.
-function untilNews(self: string): Promise<void> {
-  return new Promise((resolve) => {
-    const events = new EventSource(`${self}/events`);
-    const done = () => {
-      events.close();
-      resolve();
-    };
-    events.addEventListener('progress', (event) => {
-      const { status, progress } = JSON.parse((event as MessageEvent).data);
+// The event stream to its end; where there is none, a while.
+async function untilNews(self: string): Promise<void> {
+  try {
+    await events(`${self}/events`, (event, data) => {
       const now = watched.peek()[self];
-      if (!now?.job) return;
+      if (event !== 'progress' || !now?.job) return event !== 'end';
+      const { status, progress } = JSON.parse(data);
       put(self, {
         job: { ...now.job, status, progress: progress ?? now.job.progress },
         trace: progress ? [...now.trace, progress] : now.trace,
       });
+      return true;
     });
-    events.addEventListener('end', done);
-    events.addEventListener('error', () => setTimeout(done, 1000));
-  });
+  } catch {
+    await later(retryMs / 2);
+  }
 }
 
 export async function start(requirements: Requirements): Promise<string> {

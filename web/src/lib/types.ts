@@ -159,7 +159,11 @@ export interface Answer {
   model?: { name: string; version: number; proved: boolean; effects: Effect[] };
   against_nominal?: {
     status: string;
-    designs: { rank: number; nominal_rank: number | null }[];
+    designs: {
+      rank: number;
+      nominal_rank: number | null;
+      nominal: { objective: number } | null;
+    }[];
     dropped: {
       nominal_rank: number;
       objective: number;

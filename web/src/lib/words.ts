@@ -23,7 +23,7 @@ export function proofInWords(answer: Answer): string {
     case 'feasible':
       if (listed === 0)
         return `Nothing was found in the time given, and nothing was proved: there may be designs. ${did}`;
-      return proof.gap === null
+      return proof.gap === null || proof.gap > 0.99
         ? `Best found so far; nothing was proved. ${did}`
         : `Best found, not proved: a design that is not listed could be up to ${percent(proof.gap)} better. ${did}`;
     case 'infeasible':

@@ -1,7 +1,7 @@
 // Files in and out.
 import { useRef } from 'preact/hooks';
 
-import type { FieldError } from '../lib/api';
+import { ask, type FieldError } from '../lib/api';
 
 export function FilePicker(props: {
   label: string;
@@ -47,7 +47,20 @@ export function saveFile(name: string, text: string, type = 'application/json'):
   setTimeout(() => URL.revokeObjectURL(url), 1000);
 }
 
-export const csvCell = (value: unknown): string => {
+// The parts of a family, as the service exports them.
+export function ExportButton({ family, label }: { family: string; label: string }) {
+  const save = async () => {
+    const { body } = await ask<string>('GET', `/v1/parts/export?family=${family}`);
+    saveFile(`${family}.csv`, body, 'text/csv');
+  };
+  return (
+    <button type="button" onClick={() => void save().catch(() => undefined)}>
+      {label}
+    </button>
+  );
+}
+
+const csvCell = (value: unknown): string => {
   const text = value === null || value === undefined ? '' : String(value);
   return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 };

@@ -1,20 +1,14 @@
 // The catalogue: families, filters with counts, a table that shows where each number comes from.
-import { computed, signal, useSignal } from '@preact/signals';
+import { signal, useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
 import { asProblem } from '../lib/api';
-import {
-  families,
-  familyCounts,
-  loadFamilies,
-  loadFamily,
-  numberOf,
-  revision,
-} from '../lib/catalogue';
-import { fieldName, short } from '../lib/format';
+import { families, familyCounts, loadFamilies, loadFamily, revision } from '../lib/catalogue';
 import { go, link, route, setQuery } from '../lib/route';
-import type { Family, Part } from '../lib/types';
+import type { Part } from '../lib/types';
 import { Notice, Panel } from '../ui/controls';
+import { ExportButton } from '../ui/files';
+import { Facets, filters, passes } from './facets';
 import { ImportDialog } from './part_import';
 import { PartDialog, RevisionsDialog } from './part_dialogs';
 import { PartForm } from './part_form';
@@ -32,53 +26,6 @@ export async function reload(family: string): Promise<void> {
   } catch (error) {
     problem.value = asProblem(error).message;
   }
-}
-
-// Filters in the address: "n=mass_kg:0:1~…" ranges, "t=port:M5~…" values.
-interface Filters {
-  numbers: Record<string, [number, number]>;
-  texts: Record<string, string[]>;
-}
-
-const filters = computed<Filters>(() => {
-  const query = route.value.query;
-  const found: Filters = { numbers: {}, texts: {} };
-  for (const item of (query.get('n') ?? '').split('~').filter(Boolean)) {
-    const [field = '', low, high] = item.split(':');
-    found.numbers[field] = [low ? Number(low) : -Infinity, high ? Number(high) : Infinity];
-  }
-  for (const item of (query.get('t') ?? '').split('~').filter(Boolean)) {
-    const cut = item.indexOf(':');
-    (found.texts[item.slice(0, cut)] ??= []).push(item.slice(cut + 1));
-  }
-  return found;
-});
-
-const bound = (value: number): string => (Number.isFinite(value) ? String(value) : '');
-
-function setFilters(next: Filters): void {
-  const numbers = Object.entries(next.numbers).filter(
-    ([, [a, b]]) => Number.isFinite(a) || Number.isFinite(b),
-  );
-  setQuery({
-    n: numbers.map(([field, [a, b]]) => `${field}:${bound(a)}:${bound(b)}`).join('~'),
-    t: Object.entries(next.texts)
-      .flatMap(([field, values]) => values.map((v) => `${field}:${v}`))
-      .join('~'),
-  });
-}
-
-// Whether a part passes all filters but that of one field, which is being counted.
-function passes(part: Part, chosen: Filters, but = ''): boolean {
-  for (const [field, [low, high]] of Object.entries(chosen.numbers)) {
-    const value = numberOf(part, field);
-    if (field !== but && (value === null || value < low || value > high)) return false;
-  }
-  for (const [field, values] of Object.entries(chosen.texts)) {
-    if (field !== but && values.length > 0 && !values.includes(String(part[field] ?? '')))
-      return false;
-  }
-  return true;
 }
 
 export function CatalogueView() {
@@ -123,13 +70,7 @@ export function CatalogueView() {
             <button type="button" onClick={() => (dialog.value = 'import')}>
               Import CSV
             </button>
-            <a
-              class="button like"
-              href={`/v1/parts/export?family=${family}`}
-              download={`${family}.csv`}
-            >
-              Export CSV
-            </a>
+            <ExportButton family={family} label="Export CSV" />
             <button type="button" onClick={() => (dialog.value = 'history')}>
               History
             </button>
@@ -189,99 +130,5 @@ export function CatalogueView() {
         />
       )}
     </div>
-  );
-}
-
-function Facets({ meta, list }: { meta: Family; list: Part[] }) {
-  const chosen = filters.value;
-  const texts = ['manufacturer', ...meta.texts.map((t) => t.name), 'origin'];
-  const numbers = meta.numbers.filter((field) =>
-    list.some((part) => numberOf(part, field.name) !== null),
-  );
-  const toggle = (field: string, value: string, on: boolean) => {
-    const now = chosen.texts[field] ?? [];
-    setFilters({
-      ...chosen,
-      texts: { ...chosen.texts, [field]: on ? [...now, value] : now.filter((v) => v !== value) },
-    });
-  };
-  const setBound = (field: string, end: 0 | 1, text: string) => {
-    const range: [number, number] = [...(chosen.numbers[field] ?? [-Infinity, Infinity])];
-    const number = Number(text.replace(',', '.'));
-    range[end] =
-      text.trim() === '' || !Number.isFinite(number) ? (end ? Infinity : -Infinity) : number;
-    setFilters({ ...chosen, numbers: { ...chosen.numbers, [field]: range } });
-  };
-  const any =
-    Object.values(chosen.texts).some((v) => v.length) || Object.keys(chosen.numbers).length > 0;
-  return (
-    <details class="facets" open={innerWidth > 1000}>
-      <summary>Filters</summary>
-      {any && (
-        <button type="button" class="small" onClick={() => setFilters({ numbers: {}, texts: {} })}>
-          Clear all
-        </button>
-      )}
-      {numbers.map((field) => {
-        const { label, unit } = fieldName(field.name);
-        const values = list
-          .map((p) => numberOf(p, field.name))
-          .filter((v): v is number => v !== null);
-        const range = chosen.numbers[field.name];
-        return (
-          <div key={field.name} class="facet" role="group" aria-label={`${label} ${unit}`}>
-            <p class="facet-name" data-tip={field.meaning}>
-              {label} <small>{unit}</small>
-            </p>
-            <span class="range">
-              <input
-                type="text"
-                inputMode="decimal"
-                aria-label={`${label}, at least`}
-                value={range ? bound(range[0]) : ''}
-                placeholder={short(Math.min(...values), 3)}
-                onChange={(e) => setBound(field.name, 0, e.currentTarget.value)}
-              />
-              …
-              <input
-                type="text"
-                inputMode="decimal"
-                aria-label={`${label}, at most`}
-                value={range ? bound(range[1]) : ''}
-                placeholder={short(Math.max(...values), 3)}
-                onChange={(e) => setBound(field.name, 1, e.currentTarget.value)}
-              />
-            </span>
-          </div>
-        );
-      })}
-      {texts.map((field) => {
-        const counts = new Map<string, number>();
-        for (const part of list) {
-          const value = String(part[field] ?? '');
-          if (value)
-            counts.set(value, (counts.get(value) ?? 0) + (passes(part, chosen, field) ? 1 : 0));
-        }
-        if (counts.size < 2 && !chosen.texts[field]?.length) return null;
-        return (
-          <div key={field} class="facet" role="group" aria-label={field}>
-            <p class="facet-name">{field.replaceAll('_', ' ')}</p>
-            {[...counts]
-              .sort((a, b) => b[1] - a[1] || a[0].localeCompare(b[0]))
-              .map(([value, count]) => (
-                <label key={value} class="check">
-                  <input
-                    type="checkbox"
-                    checked={chosen.texts[field]?.includes(value) ?? false}
-                    onChange={(e) => toggle(field, value, e.currentTarget.checked)}
-                  />
-                  <span>{value}</span>
-                  <span class="muted">{count}</span>
-                </label>
-              ))}
-          </div>
-        );
-      })}
-    </details>
   );
 }

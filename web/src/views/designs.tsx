@@ -4,7 +4,7 @@ import { useEffect } from 'preact/hooks';
 import { requirementName, requirementNumber, requirementUnit } from '../lib/amounts';
 import { percent } from '../lib/format';
 import { ended, pathOf, useJob, jobList, previousJob, refreshJobs, start } from '../lib/jobs';
-import { load } from '../lib/requirements';
+import { edit, load } from '../lib/requirements';
 import { go, link, route } from '../lib/route';
 import type { Answer } from '../lib/types';
 import { proofInWords, statusWord } from '../lib/words';
@@ -153,9 +153,24 @@ function Headline({ answer, id }: { answer: Answer; id: string }) {
   );
 }
 
+// The requirements with one number as far as the catalogue reaches, rounded to the easy side.
+function askFor(answer: Answer, pointer: string, best: number): void {
+  const size = 10 ** (Math.floor(Math.log10(Math.abs(best))) - 3);
+  const isLeast = pointer.startsWith('/duty/');
+  const easy = (isLeast ? Math.floor(best / size) : Math.ceil(best / size)) * size;
+  load(answer.requirements);
+  const path = pointer.slice(1).split('/');
+  edit(
+    path.map((step) => (/^\d+$/.test(step) ? Number(step) : step)),
+    Number(easy.toPrecision(4)),
+  );
+  go(['requirements']);
+}
+
 function Conflict({ answer }: { answer: Answer }) {
   return (
     <Panel title="These requirements cannot be met together">
+      <p>One of them has to give; each row says how far while the others stay.</p>
       <div class="scroll" tabIndex={0} role="region" aria-label="Conflicting requirements">
         <table>
           <thead>
@@ -170,6 +185,9 @@ function Conflict({ answer }: { answer: Answer }) {
               <th scope="col" class="num">
                 would have to give
               </th>
+              <th scope="col">
+                <span class="only-heard">change</span>
+              </th>
             </tr>
           </thead>
           <tbody>
@@ -181,7 +199,20 @@ function Conflict({ answer }: { answer: Answer }) {
                 </td>
                 <td class="num">{requirementNumber(row.requirement, row.required)}</td>
                 <td class="num">{requirementNumber(row.requirement, row.best)}</td>
-                <td class="num">{percent(row.relaxation)}</td>
+                <td class="num">
+                  {percent(row.relaxation)}
+                  {!row.proved && <small class="muted"> at most</small>}
+                </td>
+                <td class="num">
+                  {row.best !== null && (
+                    <button
+                      type="button"
+                      onClick={() => askFor(answer, row.requirement, row.best!)}
+                    >
+                      Ask for that
+                    </button>
+                  )}
+                </td>
               </tr>
             ))}
           </tbody>

@@ -161,6 +161,7 @@ function Learned({ d }: { d: Diagnosis }) {
                 <code>{learned.id}</code>
               </h3>
               <EstimateTable
+                name={learned.id}
                 of="parameter"
                 rows={Object.entries(learned.parameters).filter(([name]) => name !== 'law')}
               />

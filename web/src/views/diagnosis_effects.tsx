@@ -29,8 +29,12 @@ function Row({ name, value }: { name: string; value: Estimate | string }) {
   );
 }
 
-export const EstimateTable = (props: { of: string; rows: [string, Estimate | string][] }) => (
-  <div class="scroll" tabIndex={0} role="region" aria-label={`Fitted: ${props.of}`}>
+export const EstimateTable = (props: {
+  name: string;
+  of: string;
+  rows: [string, Estimate | string][];
+}) => (
+  <div class="scroll" tabIndex={0} role="region" aria-label={`Fitted: ${props.name}`}>
     <table>
       <thead>
         <tr>
@@ -73,13 +77,13 @@ export function Effects({ d }: { d: Diagnosis }) {
           <h3>
             {effectName(effect.id)} <code>{effect.id}</code>
           </h3>
-          <EstimateTable of="parameter" rows={Object.entries(effect.parameters)} />
+          <EstimateTable name={effect.id} of="parameter" rows={Object.entries(effect.parameters)} />
         </div>
       ))}
       {fitted.length > 0 && (
         <>
           <h3>Declared numbers, re-fitted</h3>
-          <EstimateTable of="declared number" rows={fitted} />
+          <EstimateTable name="declared numbers" of="declared number" rows={fitted} />
         </>
       )}
     </Panel>

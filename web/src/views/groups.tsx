@@ -101,10 +101,10 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
         />
         <NumberField
           label="Pressure, at most"
+          placeholder="1.05 × operating"
           kind="pressure"
           optional
           {...field('pressure_kpa_gauge_max')}
-          hint="1.05 × operating if empty"
         />
         <NumberField label="Rise time, at most" unit="s" optional {...field('rise_time_s_max')} />
         <NumberField label="Fall time, at most" unit="s" optional {...field('fall_time_s_max')} />

@@ -39,7 +39,7 @@ export function JobsView() {
       <Panel first title="Searches">
         <Jobs
           label="Searches"
-          heads={['best', 'searched']}
+          heads={['best', 'took']}
           rows={jobList.value?.map((job) => ({
             ...job,
             href: link(['designs', job.id]),
@@ -55,14 +55,11 @@ export function JobsView() {
       <Panel title="Diagnoses">
         <Jobs
           label="Diagnoses"
-          heads={['done', 'took']}
+          heads={['took']}
           rows={diagnosisList.value?.map((job) => ({
             ...job,
             href: link(['measured'], { job: job.id }),
-            more: [
-              job.progress ? `${Math.round(100 * job.progress.share)} %` : '–',
-              job.progress ? duration(job.progress.seconds) : '–',
-            ],
+            more: [job.progress ? duration(job.progress.seconds) : '–'],
           }))}
         >
           None yet. <a href={link(['measured'])}>Drop a measurement</a> to start one.

@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 
 import { ask, asProblem, type FieldError } from '../lib/api';
 import { Dialog, Notice } from '../ui/controls';
-import { FilePicker } from '../ui/files';
+import { ExportButton, FilePicker } from '../ui/files';
 
 interface Plan {
   added: string[];
@@ -73,13 +73,7 @@ export function ImportDialog({
           accept=".csv,text/csv"
           onFiles={([file]) => void file!.text().then(preview)}
         />
-        <a
-          class="button like"
-          href={`/v1/parts/export?family=${family}`}
-          download={`${family}.csv`}
-        >
-          Export as a pattern
-        </a>
+        <ExportButton family={family} label="Export as a pattern" />
       </div>
       <label class="curve">
         or paste it here
@@ -108,7 +102,7 @@ export function ImportDialog({
       )}
       <div class="toolbar end">
         <button type="button" class="primary" disabled={n === 0} onClick={() => void write()}>
-          Import {n} parts
+          Import {n === 1 ? 'the part' : `${n} parts`}
         </button>
       </div>
     </Dialog>

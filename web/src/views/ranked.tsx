@@ -205,11 +205,17 @@ function whyDropped(why: Why, groups: { name: string }[]): string {
 export function AgainstNominal({ answer }: { answer: Answer }) {
   const { designs, dropped } = answer.against_nominal!;
   const fresh = designs.filter((d) => d.nominal_rank === null).length;
+  const was =
+    dropped.find((d) => d.nominal_rank === 1)?.objective ??
+    designs.find((d) => d.nominal_rank === 1)?.nominal?.objective;
   const groups = answer.requirements.actuators;
   return (
     <div class="changes" role="status">
       <p>
-        Against the nominal model: {fresh} new, {dropped.length} no longer listed.
+        Against the nominal model: {fresh} new, {dropped.length} no longer listed.{' '}
+        {was !== undefined &&
+          answer.designs[0] &&
+          `Best ${significant(was, 4)} → ${significant(answer.designs[0].objective, 4)} ${objectiveUnit(answer.requirements)} (${change(answer.designs[0].objective / was - 1)}).`}
       </p>
       {dropped.length > 0 && (
         <details>

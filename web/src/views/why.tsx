@@ -25,10 +25,7 @@ export function Why({ answer, id }: { answer: Answer; id: string }) {
   const next = answer.designs[1];
   const isFront = answer.front !== undefined;
   return (
-    <Panel
-      title={isFront ? 'How sure this is' : `Why #1 is first`}
-      aside={<Explain answer={answer} />}
-    >
+    <Panel title={isFront ? 'The front' : `Why #1 is first`} aside={<Explain answer={answer} />}>
       <div class={answer.prices ? 'plots even' : ''}>
         {!isFront && (
           <ul class="reasons">
@@ -102,9 +99,11 @@ function toBeFirst(design: Design, answer: Answer): string {
   const part = [...flip.parts].sort((a, b) => a.reduction_share - b.reduction_share)[0];
   const requirement = flip.requirements[0];
   const ways = [
-    part && `its ${part.family} had to be ${percent(part.reduction_share)} less`,
+    part &&
+      part.reduction_share > 5e-4 &&
+      `its ${part.family} would have to be ${percent(part.reduction_share)} less`,
     requirement &&
-      `${requirementName(requirement.requirement, answer.requirements.actuators)} tightened to ${requirementNumber(requirement.requirement, requirement.tightened)} ${requirementUnit(requirement.requirement)}`,
+      `${requirementName(requirement.requirement, answer.requirements.actuators)} would have to be ${requirementNumber(requirement.requirement, requirement.tightened)} ${requirementUnit(requirement.requirement)}`,
   ].filter(Boolean);
   return ways.length ? `To be first, ${ways.join(', or ')}.` : '';
 }
