@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/design_reader.h"
 #include "api/limits.h"
 #include "api/measurement.h"
 #include "api/model_revision.h"
@@ -207,6 +208,13 @@ Json DescribeModel() {
   return Heard({ExampleModel()}, [](const Json& document) { ParseModel(document); });
 }
 
+Json DescribeGivenDesign() {
+  return Heard({ExampleEvaluation().at("design")}, [](const Json& document) {
+    Errors errors;
+    ReadGivenDesign(Reader(document, "", errors), {});
+  });
+}
+
 Json DescribePart() {
   Json forms = Json::array();
   for (const catalog::Family& family : catalog::Families()) forms.push_back(PartOf(family));
@@ -289,6 +297,24 @@ Json ExampleMap() {
   return Document(R"({ "schema": "map/1", "name": "coarse", "source_pressure_ratio": [2.5, 3],
     "operating_pressure_ratio": 2.0, "expansion_ratio": [1, 2], "critical_ratio": 0.3,
     "rise": { "to_fraction": 0.95 }, "fall": { "to_fraction": 0.05 } })");
+}
+
+Json ExampleEvaluation() {
+  Json evaluation = Document(R"({
+    "schema": "evaluation/1",
+    "design": {
+      "configuration": "compressor",
+      "parts": [
+        { "family": "valve", "id": "smc-vq110u-5m-m5", "quantity": 3, "group": "finger" },
+        { "family": "fitting", "id": "generic-push-in-2mm-m5", "quantity": 6, "group": "finger" },
+        { "family": "tubing", "id": "generic-polyurethane-2x1.2", "quantity": 1.2,
+          "group": "finger" },
+        { "family": "compressor", "id": "generic-diaphragm-12v-2lpm-150kpa", "quantity": 1 },
+        { "family": "battery", "id": "generic-lipo-3s-450mah", "quantity": 1 },
+        { "family": "reservoir", "id": "generic-pet-1500ml", "quantity": 1 } ],
+      "settings": { "source_pressure_kpa_gauge": 83, "reservoir_volume_ml": 1500 } } })");
+  evaluation["requirements"] = ExampleRequirements();
+  return evaluation;
 }
 
 Json ExampleModel() {

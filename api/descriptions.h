@@ -12,6 +12,7 @@ Json DescribeMeasurement();   // measurement/1, with the service's own fields "m
 Json DescribeSimulation();    // simulation/1
 Json DescribeMap();           // map/1
 Json DescribeModel();         // model/1
+Json DescribeGivenDesign();   // "design" of evaluation/1
 Json DescribePart();
 // Of a query for parts: [{ "name", "in": "query", "schema", "description" }] of every filter.
 Json DescribePartFilters();
@@ -21,6 +22,7 @@ Json ExampleRequirements();
 Json ExampleMeasurement();
 Json ExampleSimulation();
 Json ExampleMap();
+Json ExampleEvaluation();
 Json ExampleModel();
 Json ExamplePart();
 

@@ -49,4 +49,19 @@ optimizer::Settings ReadPoint(Reader& reader, const Problem& problem) {
   return settings;
 }
 
+optimizer::Design ReadGivenDesign(Reader reader, const Problem& problem) {
+  optimizer::Design design;
+  design.configuration = ReadConfiguration(reader);
+  for (const Element& element : reader.List("parts", 1, kDesignRowsMax)) {
+    Reader row(element, reader.errors());
+    design.parts.push_back(ReadChoice(row, problem));
+    row.Finish();
+  }
+  Reader settings = reader.Object("settings");
+  design.settings = ReadPoint(settings, problem);
+  settings.Finish();
+  reader.Finish();
+  return design;
+}
+
 }  // namespace plenum::api

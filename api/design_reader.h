@@ -31,6 +31,9 @@ optimizer::Choice ReadChoice(Reader& row, const optimizer::Problem& problem);
 // "source_pressure_kpa_gauge" and "reservoir_volume_ml" of "settings".
 optimizer::Settings ReadPoint(Reader& settings, const optimizer::Problem& problem);
 
+// The three together: a design that is to be evaluated.
+optimizer::Design ReadGivenDesign(Reader design, const optimizer::Problem& problem);
+
 }  // namespace plenum::api
 
 #endif  // PLENUM_API_DESIGN_READER_H_

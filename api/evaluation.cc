@@ -4,24 +4,6 @@
 #include "optimizer/resize.h"
 
 namespace plenum::api {
-namespace {
-
-optimizer::Design ReadGiven(Reader reader, const optimizer::Problem& problem) {
-  optimizer::Design design;
-  design.configuration = ReadConfiguration(reader);
-  for (const Element& element : reader.List("parts", 1, kDesignRowsMax)) {
-    Reader row(element, reader.errors());
-    design.parts.push_back(ReadChoice(row, problem));
-    row.Finish();
-  }
-  Reader settings = reader.Object("settings");
-  design.settings = ReadPoint(settings, problem);
-  settings.Finish();
-  reader.Finish();
-  return design;
-}
-
-}  // namespace
 
 Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>& parts,
                            const std::vector<catalog::ModelRevision>& models) {
@@ -38,7 +20,7 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
     return *wrong;
   }
   const optimizer::Problem& problem = std::get<DesignRequest>(parsed).problem;
-  const optimizer::Design given = ReadGiven(reader.Object("design"), problem);
+  const optimizer::Design given = ReadGivenDesign(reader.Object("design"), problem);
   reader.Finish();
   if (!errors.empty()) return errors;
   const auto [source, design] =

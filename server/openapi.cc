@@ -45,6 +45,7 @@ const std::map<std::string, Operation>& Operations() {
         {{200, "Diagnosis"}, {202, "JobAccepted"}},
         {400, 422, 429}}},
       {"POST /v1/simulations", {{}, "Simulation", {{200, "Response"}}, {400, 422, 429}}},
+      {"POST /v1/evaluations", {{}, "Evaluation", {{200, "EvaluationAnswer"}}, {400, 422, 429}}},
       {"POST /v1/maps", {{}, "Map", {{200, "MapAnswer"}}, {400, 422, 429}}},
       {"GET /v1/parts", {{"If-None-Match"}, "", {{200, "PartsPage"}, {304, ""}}, {404, 422}}},
       {"POST /v1/parts", {kWrite, "Part", {{201, "StoredPart"}}, {400, 409, 422}}},
@@ -191,6 +192,7 @@ Json AnswerSchemas() {
       {"Diagnosis", versioned("diagnosis/1")},
       {"Response", versioned("response/1")},
       {"MapAnswer", versioned("map_answer/1")},
+      {"EvaluationAnswer", versioned("evaluation_answer/1")},
       {"StoredPart",
        {{"allOf", {Ref("schemas", "Part"), {{"type", "object"}, {"required", {"id", "origin"}}}}}}},
       {"PartsPage", Object({{"parts", ListOf(Ref("schemas", "StoredPart"))},
@@ -229,6 +231,10 @@ Json Schemas() {
                   {"Map", api::DescribeMap()},
                   {"Model", api::DescribeModel()},
                   {"Part", api::DescribePart()}};
+  schemas["Evaluation"] = Object({{"schema", {{"const", "evaluation/1"}}},
+                                  {"requirements", Ref("schemas", "Requirements")},
+                                  {"design", api::DescribeGivenDesign()}});
+  schemas["Evaluation"]["additionalProperties"] = false;
   schemas["NamedModel"] = Object(
       {{"name", {{"type", "string"}, {"maxLength", 200}}}, {"model", Ref("schemas", "Model")}});
   schemas["NamedModel"]["additionalProperties"] = false;
@@ -241,6 +247,7 @@ Json ExampleOf(const std::string& schema) {
   if (schema == "Measurement") return api::ExampleMeasurement();
   if (schema == "Simulation") return api::ExampleSimulation();
   if (schema == "Map") return api::ExampleMap();
+  if (schema == "Evaluation") return api::ExampleEvaluation();
   if (schema == "Part") return api::ExamplePart();
   return {{"name", "bench"}, {"model", api::ExampleModel()}};
 }

@@ -197,6 +197,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   // At once.
   for (const auto& [path, example] :
        {std::pair{std::string("/v1/simulations"), api::ExampleSimulation()},
+        std::pair{std::string("/v1/evaluations"), api::ExampleEvaluation()},
         std::pair{std::string("/v1/maps"), api::ExampleMap()}}) {
     Post(path, example.dump(), 200);
     Post(path, "[", 400);
