@@ -121,6 +121,8 @@ class Bounds {
   Constraint RestOfCompressor(Box& box);
   const PumpFacts& PumpOf(const Box& box);
   Constraint FindStockSource(Box& box);
+  double LeastEnergy(const Candidate& candidate, OperatingPoint point,
+                     const Evaluation& least) const;
   Constraint RefineVolumes(Box& box);
 
   double LeastBattery(const Box& box, double energy_j, double pump_current_a) const;

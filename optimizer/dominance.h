@@ -31,8 +31,7 @@ struct Skyband {
   std::vector<ProofDominated> left_out;
 };
 
-// `tie`: objectives closer than this may tie. Only the first few thousand of each class that stay
-// are tried as dominators: that leaves out less, never too much.
+// `tie`: objectives closer than this may tie.
 Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie);
 
 }  // namespace plenum::optimizer
