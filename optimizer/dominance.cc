@@ -117,7 +117,9 @@ class LossTree {
 
 }  // namespace
 
-Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie) {
+Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie,
+                 const std::function<bool()>& stop) {
+  constexpr int kBetweenLooks = 256;
   std::vector<int> order(contenders.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) {
@@ -136,6 +138,7 @@ Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie) {
   for (const std::vector<int>& members : classes) {
     LossTree kept(contenders, members);
     for (int member = 0; member < static_cast<int>(members.size()); ++member) {
+      if (stop && member % kBetweenLooks == 0 && stop()) return {};
       const Contender& contender = contenders[members[member]];
       dominators.clear();
       kept.NoWorse(contender.losses, [&](int other) {

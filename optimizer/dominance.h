@@ -10,6 +10,7 @@
 #ifndef PLENUM_OPTIMIZER_DOMINANCE_H_
 #define PLENUM_OPTIMIZER_DOMINANCE_H_
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,9 @@ struct Skyband {
 };
 
 // `tie`: objectives closer than this may tie.
-Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie);
+// Told to stop, it gives nothing that can be used.
+Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie,
+                 const std::function<bool()>& stop = {});
 
 }  // namespace plenum::optimizer
 
