@@ -21,6 +21,7 @@ constexpr double kFinestRatio = 1.004;
 // Of the least source pressure, whose lower end is used.
 constexpr double kBoxTolerance = 1e-2;
 constexpr double kSingleTolerance = 1e-3;
+constexpr double kFoundTolerance = 5e-7;
 
 }  // namespace
 
@@ -177,6 +178,26 @@ Constraint Bounds::RefineVolumes(Box& box) {
   return RestOfCompressor(box);
 }
 
+// Energy of the mission at any source pressure from that of the point on, at least: of each
+// interval of pressures the lower end counts for the pumps, whose energy rises, and the upper end
+// for the coils, which strokes shorten.
+double Bounds::LeastEnergy(const Candidate& candidate, OperatingPoint point,
+                           const Evaluation& least) const {
+  constexpr double kRatios[] = {1.01, 1.03, 1.08, 1.2};
+  const double floor_pa = point.source_pa;
+  double least_j = kUnlimited, pumps_j = least.energy_total_j - least.energy_coils_j;
+  for (double ratio : kRatios) {
+    point.source_pa = floor_pa * ratio;
+    if (point.source_pa >= candidate.source_cap_pa || pumps_j + least.energy_coils_j >= least_j)
+      break;
+    const Evaluation at = Evaluate(problem_, candidate, point);
+    if (at.failed || !at.works) break;
+    least_j = std::min(least_j, pumps_j + at.energy_coils_j);
+    pumps_j = at.energy_total_j - at.energy_coils_j;
+  }
+  return std::min(least_j, pumps_j + least.energy_coils_j);
+}
+
 // No battery changes the strokes. The need at the lowest useful source pressure is the least there
 // is where the pump takes no less energy per air at higher pressure.
 Constraint Bounds::FindStockSource(Box& box) {
@@ -187,16 +208,17 @@ Constraint Bounds::FindStockSource(Box& box) {
   candidate.source_floor_pa = volume.need.source_pa;
   candidate.source_cap_pa = volume.need.source_max_pa;
   OperatingPoint point{0.0, volume_m3, volume_m3};
-  const NeededPressure needed = NeededSourcePressure(problem_, candidate, point);
+  const NeededPressure needed = NeededSourcePressure(problem_, candidate, point, kFoundTolerance);
   if (needed.status == LeafStatus::kInfeasible) return Constraint::kRise;
   if (needed.status == LeafStatus::kUndecided) return Constraint::kNone;
-  volume.need.source_pa = box.source_floor_pa = point.source_pa = needed.source_pa;
+  volume.need.source_pa = box.source_floor_pa = point.source_pa = needed.floor_pa;
   box.source_cap_pa = volume.need.source_max_pa;
   if (PumpEnergyRises(problem_, candidate)) {
     const Evaluation least = Evaluate(problem_, candidate, point, {.least_coil_energy = true});
     if (least.failed) return Constraint::kNone;
-    volume.need.energy_j = std::max(volume.need.energy_j, least.energy_total_j);
-    if (!(least.frequency_sustained_hz >= problem_.frequency_hz)) return Constraint::kPump;
+    const double duty_max = problem_.parts.compressors[candidate.compressor.index].duty_max;
+    if (!(least.compressor_duty <= duty_max)) return Constraint::kPump;
+    volume.need.energy_j = std::max(volume.need.energy_j, LeastEnergy(candidate, point, least));
   }
   volume.rest = RestAt(box, volume);
   return RestOfCompressor(box);

@@ -67,9 +67,16 @@ int Bounds::WidestSlot(const Box& box) const {
 }
 
 BigCount Bounds::Count(const Box& box) const {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
   BigCount count = 1;
-  for (std::size_t s = 0; s < box.nodes.size(); ++s) count *= Node(box, static_cast<int>(s)).size();
-  return count;
+  std::uint64_t part = 1;
+  for (std::size_t s = 0; s < box.nodes.size(); ++s) {
+    part *= static_cast<std::uint64_t>(Node(box, static_cast<int>(s)).size());
+    if (part < kMost) continue;
+    count *= part;
+    part = 1;
+  }
+  return count *= part;
 }
 
 Bounds::KnownLine& Bounds::KnowLine(const LineKey& key) {

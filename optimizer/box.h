@@ -125,6 +125,8 @@ class Bounds {
   Constraint RestOfCompressor(Box& box);
   const PumpFacts& PumpOf(const Box& box);
   Constraint FindStockSource(Box& box);
+  double LeastEnergy(const Candidate& candidate, OperatingPoint point,
+                     const Evaluation& least) const;
   Constraint RefineVolumes(Box& box);
 
   // The least share of the objective of a battery that bears so much; `others`: what the rest of

@@ -10,6 +10,7 @@
 #ifndef PLENUM_OPTIMIZER_DOMINANCE_H_
 #define PLENUM_OPTIMIZER_DOMINANCE_H_
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,9 +32,10 @@ struct Skyband {
   std::vector<ProofDominated> left_out;
 };
 
-// `tie`: objectives closer than this may tie. Only the first few thousand of each class that stay
-// are tried as dominators: that leaves out less, never too much.
-Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie);
+// `tie`: objectives closer than this may tie.
+// Told to stop, it gives nothing that can be used.
+Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie,
+                 const std::function<bool()>& stop = {});
 
 }  // namespace plenum::optimizer
 

@@ -13,8 +13,9 @@ double GasLeft(const Problem& problem, Configuration configuration, double inlet
   return model::StandardVolume(inlet_pa / compressibility, problem.ambient.temperature_k);
 }
 
-std::unique_ptr<Plan> MakePlan(const Problem& problem, Configuration configuration) {
-  return Planter(problem, configuration).Plant();
+std::unique_ptr<Plan> MakePlan(const Problem& problem, Configuration configuration,
+                               const std::function<bool()>& stop) {
+  return Planter(problem, configuration, stop).Plant();
 }
 
 }  // namespace plenum::optimizer

@@ -6,6 +6,7 @@
 #ifndef PLENUM_OPTIMIZER_PLAN_H_
 #define PLENUM_OPTIMIZER_PLAN_H_
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -61,7 +62,9 @@ struct Plan {
   bool empty() const;                          // some slot has no choice
 };
 
-std::unique_ptr<Plan> MakePlan(const Problem& problem, Configuration configuration);
+// Null where `stop` said so.
+std::unique_ptr<Plan> MakePlan(const Problem& problem, Configuration configuration,
+                               const std::function<bool()>& stop = {});
 
 // Gas left in 1 m³ of a bottle at an inlet pressure, m³ ANR.
 double GasLeft(const Problem& problem, Configuration configuration, double inlet_pa);

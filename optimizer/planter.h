@@ -74,8 +74,8 @@ inline std::string Bytes(std::span<const double> values) {
 
 class Planter {
  public:
-  Planter(const Problem& problem, Configuration configuration)
-      : problem_(problem), plan_(std::make_unique<Plan>()) {
+  Planter(const Problem& problem, Configuration configuration, const std::function<bool()>& stop)
+      : problem_(problem), stop_(stop), plan_(std::make_unique<Plan>()) {
     plan_->configuration = configuration;
     plan_->equal_flow = EqualFlow();
     plan_->bottle_range = FindBottleRange();
@@ -89,7 +89,8 @@ class Planter {
     plan_->groups.resize(groups);
     plan_->slots.reserve(kSlotsPerGroup * groups + 3);
     total_ = priced_ = kept_ = 1;
-    for (int g = 0; g < static_cast<int>(groups); ++g) PlantGroup(g);
+    for (int g = 0; g < static_cast<int>(groups) && !stopped(); ++g) PlantGroup(g);
+    if (stopped()) return nullptr;
     if (plan_->configuration == Configuration::kCompressor) {
       plan_->compressor_slot = PlantCompressors();
       plan_->reservoir_slot = PlantReservoirs();
@@ -99,6 +100,7 @@ class Planter {
       if (plan_->configuration == Configuration::kCo2) plan_->bottle_slot = PlantCo2();
     }
     if (plan_->configuration != Configuration::kMains) plan_->battery_slot = PlantBatteries();
+    if (stopped()) return nullptr;
     plan_->combinations = total_;
     plan_->unpriced = total_ - priced_;
     plan_->dominated = priced_ - kept_;
@@ -106,6 +108,8 @@ class Planter {
   }
 
  private:
+  bool stopped() const { return stop_ && stop_(); }
+
   // A faster line is only sure to be no worse for the other groups where no two strokes take air at
   // the same time, and for a pump only where more pressure costs more energy per air.
   bool EqualFlow() const {
@@ -200,6 +204,7 @@ class Planter {
   template <typename Corner>
   int PlantSlot(Family family, int group, long long total, std::vector<Entry<Corner>> entries,
                 BoxTree<Corner>& tree) {
+    if (stopped()) return -1;
     std::vector<Contender> contenders;
     for (Entry<Corner>& entry : entries) {
       Contender contender;
@@ -214,7 +219,8 @@ class Planter {
       if (std::isfinite(problem_.cost_max_eur)) contender.losses.push_back(amounts.cost_eur);
       contenders.push_back(std::move(contender));
     }
-    Skyband skyband = KeepBest(contenders, problem_.count, plan_->tie);
+    Skyband skyband = KeepBest(contenders, problem_.count, plan_->tie, stop_);
+    if (stopped()) return -1;
     std::sort(skyband.kept.begin(), skyband.kept.end(), [&](int a, int b) {
       const Contender &x = contenders[a], &y = contenders[b];
       return x.id != y.id ? x.id < y.id : x.item.quantity < y.item.quantity;
@@ -256,8 +262,10 @@ class Planter {
   template <typename Corner, typename Part, typename Make>
   std::vector<Entry<Corner>> InParallel(const std::vector<Part>& parts, int quantity_max,
                                         const Make& make) const {
+    constexpr int kBetweenLooks = 256;
     std::vector<Entry<Corner>> entries;
     for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
+      if (i % kBetweenLooks == 0 && stopped()) break;
       if (!Priced(parts[i].basics)) continue;
       for (int quantity = 1; quantity <= quantity_max; ++quantity) {
         Entry<Corner> entry;
@@ -285,6 +293,7 @@ class Planter {
   int PlantBatteries();
 
   const Problem& problem_;
+  const std::function<bool()>& stop_;
   std::unique_ptr<Plan> plan_;
   double useful_max_pa_ = kUnlimited;
   KindsOf<double> voltages_;  // of compressors

@@ -152,14 +152,15 @@ std::optional<PartFlip> FlipPart(const Problem& problem, const std::vector<Desig
   return flip;
 }
 
-// Whether the designs before `rank` fail, or come after it, where the requirement has this value;
-// none where it fails itself.
+// Means nothing once the budget is out. Whether the designs before `rank` fail, or come after it,
+// where the requirement has this value; none where it fails itself.
 std::optional<bool> ComesFirst(const std::vector<Problem>& own, const std::vector<Design>& designs,
-                               std::size_t rank, const Requirement& requirement, double value) {
+                               std::size_t rank, const Requirement& requirement, double value,
+                               const Budget& budget) {
   const auto objective = [&](std::size_t i) {
     Problem trial = own[i];
     requirement.set(trial, value);
-    const Leaf leaf = Resize(trial, designs[i]);
+    const Leaf leaf = Resize(trial, designs[i], [&] { return budget.Out(); });
     return leaf.status == LeafStatus::kFeasible ? leaf.objective : kUnlimited;
   };
   const double mine = objective(rank);
@@ -178,20 +179,23 @@ std::optional<RequirementFlip> FlipRequirement(const Problem& problem,
     return requirement.required *
            std::pow(kTightestFactor, less_is_harder ? -tightening : tightening);
   };
+  const auto comes_first = [&](double tightening) {
+    return ComesFirst(own, designs, rank, requirement, at(tightening), budget);
+  };
   // The tightest value that the design bears, then the least at which it is first.
   double bears = 0.0, fails = 1.0;
-  if (ComesFirst(own, designs, rank, requirement, at(1.0)).has_value()) bears = 1.0;
+  if (comes_first(1.0).has_value()) bears = 1.0;
   while (bears < 1.0 && fails - bears > kTightenTolerance && !budget.Out()) {
     const double middle = 0.5 * (bears + fails);
-    (ComesFirst(own, designs, rank, requirement, at(middle)).has_value() ? bears : fails) = middle;
+    (comes_first(middle).has_value() ? bears : fails) = middle;
   }
-  if (!ComesFirst(own, designs, rank, requirement, at(bears)).value_or(false)) return std::nullopt;
+  if (!comes_first(bears).value_or(false)) return std::nullopt;
   double behind = 0.0, first = bears;
   while (first - behind > kTightenTolerance && !budget.Out()) {
     const double middle = 0.5 * (behind + first);
-    const bool is_first = ComesFirst(own, designs, rank, requirement, at(middle)).value_or(false);
-    (is_first ? first : behind) = middle;
+    (comes_first(middle).value_or(false) ? first : behind) = middle;
   }
+  if (budget.Out()) return std::nullopt;
   RequirementFlip flip{requirement.pointer, requirement.required, at(first), false};
   Problem tightened = problem;
   requirement.set(tightened, flip.tightened);

@@ -11,7 +11,7 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr int kCells = 256;
+constexpr int kCells = 1024;
 constexpr double kNoDelivery = 1e12;
 constexpr double kIntervalRatio = 1.25;
 constexpr double kNeedTolerance = 3e-3;  // of the source pressure; its lower end is used
@@ -100,22 +100,25 @@ double Minorant::Integral(double pressure_pa) const {
 }
 
 double Minorant::Mean(double low_pa, double high_pa) const {
-  if (!(high_pa > low_pa)) return At(high_pa);
+  constexpr double kNarrow = 1e-6;  // where the difference of integrals would lose digits
+  if (!(high_pa - low_pa > kNarrow * high_pa)) return At(low_pa);
   return (Integral(high_pa) - Integral(low_pa)) / (high_pa - low_pa);
 }
 
 PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps) {
   const double ambient_pa = problem.ambient.pressure_pa;
   const double highest_pa = std::max(model::HighestPressure(curve), 1.01 * ambient_pa);
-  return MakeFacts(problem, highest_pa,
-                   MakeTables(curve, pumps, EvenCells(ambient_pa, highest_pa, kCells)));
+  PumpFacts facts = MakeFacts(problem, highest_pa,
+                              MakeTables(curve, pumps, EvenCells(ambient_pa, highest_pa, kCells)));
+  facts.exact = true;
+  return facts;
 }
 
 double HighestPumpPressure(const Problem& problem) {
   double highest_pa = problem.ambient.pressure_pa * 1.01;
   for (const model::Compressor& compressor : problem.parts.compressors)
     highest_pa = std::max(highest_pa, model::HighestPressure(compressor.curve));
-  return highest_pa;
+  return std::clamp(problem.source_pressure_max_pa, 1.01 * problem.ambient.pressure_pa, highest_pa);
 }
 
 CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,
@@ -149,50 +152,136 @@ double MostDrawn(const Problem& problem, int group, const Line& line, double pre
 
 namespace {
 
-// Air that the pumps deliver at a pressure or above.
+// Air that the pumps deliver at pressures in between or above, the more of it the higher.
 struct PumpedAir {
-  double pressure_pa, air_m3;
+  double from_pa, to_pa, air_m3;
+
+  // No more than `air_m3` of it, the first.
+  PumpedAir First(double most_m3) const {
+    if (!(most_m3 < air_m3)) return *this;
+    return {from_pa, from_pa + (to_pa - from_pa) * most_m3 / air_m3, most_m3};
+  }
+  double On(const Minorant& per_m3) const { return air_m3 * per_m3.Mean(from_pa, to_pa); }
 };
+
+// What the first bits take that make up the air of a cycle.
+class NeedOfBits {
+ public:
+  NeedOfBits(const PumpFacts& facts, double air_m3)
+      : facts_(facts), enough_m3_(1e-9 * air_m3), left_m3_(air_m3) {}
+
+  bool enough() const { return left_m3_ <= enough_m3_; }
+  const PumpNeed& need() const { return need_; }
+
+  void Add(const PumpedAir& bit) {
+    const PumpedAir first = bit.First(left_m3_);
+    need_.on_s += first.On(facts_.seconds_per_m3);
+    need_.energy_j += first.On(facts_.energy_j_per_m3);
+    left_m3_ -= first.air_m3;
+  }
+
+ private:
+  const PumpFacts& facts_;
+  double enough_m3_, left_m3_;
+  PumpNeed need_;
+};
+
+// Air that is pumped while a group's chambers fill, at least, handed to step(from, to, m³ ANR) as
+// by MarchPump. With m pumped and D drawn, as content,
+//   dD/dm = n·q(s, p(D))/Q(s),  s = p_1 − (D − m)/V ≤ p_1,
+// does not fall with m nor rise with D, so that a curve D(m) that everywhere is at least as steep
+// as that lies above the true one: panel by panel of D the slope is taken where the panel begins in
+// D and ends in m. More flow, a wider tube and a larger volume only make it steeper. The reservoir
+// then is no lower than with that D and the smallest volume.
+template <typename Step>
+double MarchDraw(const Problem& problem, int g, const Line& line, const PumpFacts& facts,
+                 double start_pa, double low_m3, double high_m3, const Step& step) {
+  constexpr int kPanels = 16;
+  const ActuatorGroup& group = problem.groups[g];
+  const double ambient_pa = problem.ambient.pressure_pa;
+  const double operating_pa = group.chamber.operating_pressure_pa;
+  const double content_per_m3 = ContentPerVolume(problem);
+  double p = ambient_pa, drawn = 0.0, pumped = 0.0;
+  for (int i = 1; i <= kPanels; ++i) {
+    // Closer to each other towards the end, where the flow drops fastest.
+    const double rest = 1.0 - static_cast<double>(i) / kPanels;
+    const double next_pa = operating_pa - (operating_pa - ambient_pa) * rest * std::sqrt(rest);
+    const double next = MostDrawn(problem, g, line, next_pa, operating_pa);
+    const auto pumped_by = [&](double most) {
+      const double s = std::min(start_pa, start_pa - (drawn - most) / high_m3);
+      const double flow = group.count * s * line.fill_table(p / s);
+      return flow > 0.0 ? pumped + (next - drawn) / (flow * facts.seconds_per_m3.AtMost(s)) : most;
+    };
+    const double reached = std::min(pumped_by(std::min(pumped_by(pumped), next)), next);
+    if (reached > pumped) {
+      const auto reservoir_pa = [&](double m) {
+        return std::max(ambient_pa, start_pa - (next - m) / low_m3);
+      };
+      step(reservoir_pa(pumped), reservoir_pa(reached), (reached - pumped) / content_per_m3);
+      pumped = reached;
+    }
+    drawn = next;
+    p = next_pa;
+  }
+  return pumped / content_per_m3;
+}
 
 }  // namespace
 
 std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& facts,
                                       const PumpLoad& load, const std::vector<double>& start_pa,
-                                      double reservoir_m3) {
-  std::vector<PumpedAir> bits;
+                                      double low_m3, double high_m3) {
+  const bool apart = start_pa.size() == problem.groups.size();  // one group in each phase
   const double phase_s = 1.0 / problem.frequency_hz / static_cast<double>(start_pa.size());
-  for (int phase = 0; phase < static_cast<int>(start_pa.size()); ++phase) {
-    const bool apart = start_pa.size() == problem.groups.size();  // one group in each phase
+  const double drawn_at_once = load.air_m3 * ContentPerVolume(problem);
+  // Calls take(bit) for what a phase gives, until it returns false.
+  const auto march = [&](int phase, const auto& take) {
     const Line& line = *load.lines[phase];
-    const double full_pa =
-        line.all_hold ? problem.groups[phase].chamber.operating_pressure_pa : kUnlimited;
+    const double full_pa = !apart          ? problem.ambient.pressure_pa
+                           : line.all_hold ? problem.groups[phase].chamber.operating_pressure_pa
+                                           : kUnlimited;
     const auto drawn = [&](double p) {
-      return apart ? MostDrawn(problem, phase, line, p, full_pa)
-                   : load.air_m3 * ContentPerVolume(problem);
+      return apart ? MostDrawn(problem, phase, line, p, full_pa) : drawn_at_once;
     };
+    // A volume that follows a table may take more air at the lower pressures of a bit.
+    const bool even = line.chamber.volume_curve.empty();
     double left_s = phase_s;
-    MarchPump(problem, start_pa[phase], reservoir_m3, drawn, [&](double p, double air_m3) {
-      const double slowness = facts.seconds_per_m3.At(p);
-      const double bit_m3 = std::min(air_m3, left_s / slowness);
-      bits.push_back({p, bit_m3});
-      left_s -= bit_m3 * slowness;
-      return left_s > 0.0;
+    const auto add = [&](double from_pa, double to_pa, double air_m3) {
+      if (!(left_s > 0.0)) return false;
+      const PumpedAir bit{from_pa, to_pa, air_m3};
+      // At the speed of its begin, which is the highest, the time may be enough for more.
+      const PumpedAir first = bit.First(left_s / facts.seconds_per_m3.At(from_pa));
+      left_s -= first.On(facts.seconds_per_m3);
+      return take(first) && first.air_m3 == air_m3;
+    };
+    double begun_m3 = 0.0;
+    if (apart && facts.exact)
+      begun_m3 = MarchDraw(problem, phase, line, facts, start_pa[phase], low_m3, high_m3, add);
+    MarchPump(problem, start_pa[phase], low_m3, full_pa, begun_m3, drawn,
+              [&](double from_pa, double to_pa, double air_m3) {
+                return add(from_pa, even || from_pa >= full_pa ? to_pa : from_pa, air_m3);
+              });
+  };
+
+  NeedOfBits sum(facts, load.air_m3);
+  if (start_pa.size() == 1) {
+    march(0, [&](const PumpedAir& bit) {
+      sum.Add(bit);
+      return !sum.enough();
     });
+  } else {
+    std::vector<PumpedAir> bits;
+    for (int phase = 0; phase < static_cast<int>(start_pa.size()); ++phase)
+      march(phase, [&](const PumpedAir& bit) {
+        bits.push_back(bit);
+        return true;
+      });
+    std::stable_sort(bits.begin(), bits.end(),
+                     [](const PumpedAir& a, const PumpedAir& b) { return a.from_pa < b.from_pa; });
+    for (const PumpedAir& bit : bits) sum.Add(bit);
   }
-  if (start_pa.size() > 1)
-    std::stable_sort(bits.begin(), bits.end(), [](const PumpedAir& a, const PumpedAir& b) {
-      return a.pressure_pa < b.pressure_pa;
-    });
-  PumpNeed need;
-  double left_m3 = load.air_m3;
-  for (const PumpedAir& bit : bits) {
-    const double air_m3 = std::min(bit.air_m3, left_m3);
-    need.on_s += air_m3 * facts.seconds_per_m3.At(bit.pressure_pa);
-    need.energy_j += air_m3 * facts.energy_j_per_m3.At(bit.pressure_pa);
-    left_m3 -= air_m3;
-  }
-  if (left_m3 > 1e-9 * load.air_m3) return std::nullopt;
-  return need;
+  if (!sum.enough()) return std::nullopt;
+  return sum.need();
 }
 
 double LeastFirstFill(const Problem& problem, const PumpFacts& facts, double source_pa,
@@ -254,6 +343,49 @@ PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& li
   return load;
 }
 
+namespace {
+
+// Energy of the mission at any stop pressure in between, at least, where all strokes begin at once.
+// The pumps take no less at a higher one while coils that are energised only for the strokes take
+// no more: of each interval of pressures the lower end counts for the pumps and the upper end for
+// the coils.
+double LeastEnergy(const Problem& problem, const PumpFacts& facts, const PumpLoad& load,
+                   const ReservoirNeed& need) {
+  constexpr double kRatios[] = {1.02, 1.06, 1.15, 1.35};
+  const auto pumps_j = [&](double source_pa) {
+    const std::optional<PumpNeed> pump =
+        LeastPumpNeed(problem, facts, load, {source_pa}, need.low_m3, need.high_m3);
+    return pump ? LeastFirstFill(problem, facts, source_pa, need.low_m3) +
+                      problem.actuations * pump->energy_j
+                : kUnlimited;
+  };
+  const auto coils_j = [&](double source_pa) {
+    double energy_j = 0.0;
+    for (int g = 0; g < static_cast<int>(load.lines.size()); ++g) {
+      const Line& line = *load.lines[g];
+      const double inflate_s =
+          line.all_hold
+              ? std::max(line.inflate_time_least_s,
+                         LeastInflateTime(problem, g, line, facts,
+                                          {source_pa, source_pa, need.low_m3, need.high_m3}))
+              : 0.0;
+      energy_j += CoilEnergyPerCycle(problem, line, inflate_s);
+    }
+    return problem.actuations * energy_j;
+  };
+  const double least_coils_j = problem.actuations * load.coil_j;
+  double least_j = kUnlimited, pump_j = pumps_j(need.source_pa);
+  for (double ratio : kRatios) {
+    const double next_pa = need.source_pa * ratio;
+    if (next_pa >= need.source_max_pa || pump_j + least_coils_j >= least_j) break;
+    least_j = std::min(least_j, pump_j + coils_j(next_pa));
+    pump_j = pumps_j(next_pa);
+  }
+  return std::min(least_j, pump_j + least_coils_j);
+}
+
+}  // namespace
+
 std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const PumpFacts& facts,
                                                 const PumpLoad& load, const PumpLimits& limits,
                                                 const Window& window, ReservoirNeed need,
@@ -265,7 +397,8 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
   // Sets what stopping at need.source_pa at least takes; false if that is too much.
   const auto bearable = [&](ReservoirNeed& at) {
     if (!turns) start_pa.front() = at.source_pa;
-    const std::optional<PumpNeed> pump = LeastPumpNeed(problem, facts, load, start_pa, at.low_m3);
+    const std::optional<PumpNeed> pump =
+        LeastPumpNeed(problem, facts, load, start_pa, at.low_m3, at.high_m3);
     if (!pump) return false;
     at.energy_j = LeastFirstFill(problem, facts, at.source_pa, at.low_m3) +
                   problem.actuations * (pump->energy_j + load.coil_j);
@@ -284,7 +417,8 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
   };
   if (!turns) {
     if (!bearable(need)) return std::nullopt;
-    need.source_max_pa = MostBearable(need, need.source_max_pa, tolerance, bearable);
+    if (limits.find_most)
+      need.source_max_pa = MostBearable(need, need.source_max_pa, tolerance, bearable);
     const std::optional<double> least_pa =
         RaisedFloor(excess, need.source_pa, need.source_max_pa, tolerance);
     if (!least_pa) return std::nullopt;
@@ -304,6 +438,8 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
     need.source_pa = std::max(need.source_pa, *least_pa);
   }
   if (!bearable(need)) return std::nullopt;
+  if (!turns) need.energy_j = std::max(need.energy_j, LeastEnergy(problem, facts, load, need));
+  if (!(need.energy_j <= limits.energy_max_j)) return std::nullopt;
   return need;
 }
 
@@ -314,7 +450,7 @@ std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFact
   const Window window = SourceWindow(problem, candidate);
   if (window.empty()) return needs;
   const PumpLimits limits{problem.parts.compressors[candidate.compressor.index].duty_max,
-                          energy_max_j};
+                          energy_max_j, true};
   const PumpLoad load = MakePumpLoad(problem, candidate.lines, window.low_pa);
   for (bool last = false; !last;) {
     const double next_m3 = std::min(low_m3 * kIntervalRatio, high_m3);

@@ -31,7 +31,12 @@ class Minorant {
   Minorant() = default;
   Minorant(double low_pa, double high_pa, std::vector<double> value);
   double At(double pressure_pa) const { return value_[Cell(pressure_pa)]; }
-  double Mean(double low_pa, double high_pa) const;  // At(high) where low ≥ high
+  // Of a function that does not fall, tabulated by its values where cells begin: no less than it.
+  double AtMost(double pressure_pa) const {
+    const std::size_t cell = Cell(pressure_pa);
+    return cell + 1 < value_.size() ? value_[cell + 1] : kUnlimited;
+  }
+  double Mean(double low_pa, double high_pa) const;  // At(low) where low ≥ high
 
  private:
   std::size_t Cell(double pressure_pa) const {
@@ -52,12 +57,13 @@ struct PumpFacts {
   Minorant energy_j_per_m3;  // P/Q
   Minorant seconds_per_m3;   // 1/Q
   Minorant current_a;        // largest on the way to a pressure
+  bool exact = false;        // of a single choice
 };
 PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps);
 
 // The same tables over an even division of the pressures from ambient to the highest that any
-// compressor of the problem reaches, small enough to be kept for every box.
-inline constexpr int kCoarseCells = 24;
+// compressor of the problem may reach, small enough to be kept for every box.
+inline constexpr int kCoarseCells = 32;
 struct CoarsePump {
   std::array<double, kCoarseCells> energy_j_per_m3{}, seconds_per_m3{}, current_a{};
 };
@@ -87,12 +93,12 @@ struct PumpLoad {
 PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines,
                       double source_min_pa);
 
-// What the pumps at least take in a cycle, with a reservoir of `reservoir_m3` or more that holds
+// What the pumps at least take in a cycle, with a reservoir of low_m3 to high_m3 that holds
 // start_pa[i] or more when phase i of the cycle begins: one phase, or one per group where two take
 // turns. None where they cannot deliver the air of a cycle within it.
 std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& facts,
                                       const PumpLoad& load, const std::vector<double>& start_pa,
-                                      double reservoir_m3);
+                                      double low_m3, double high_m3);
 
 // What a reservoir at least takes whose volume is in [low, high].
 struct ReservoirNeed {
@@ -105,6 +111,7 @@ struct ReservoirNeed {
 struct PumpLimits {
   double duty_max = 1.0;
   double energy_max_j = kUnlimited;
+  bool find_most = false;  // ReservoirNeed::source_max_pa is wanted; else a box closes all the same
 };
 // Tightens what is known of an interval of volumes, be it only from a larger one or from a larger
 // box; none where no volume in it will do. `tolerance`: of the source pressures, relative; they

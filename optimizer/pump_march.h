@@ -19,27 +19,46 @@ namespace plenum::optimizer {
 double MostDrawn(const Problem& problem, int group, const Line& line, double pressure_pa,
                  double full_pa);
 
-// Calls step(p, m³ ANR) for bits of air in the order in which they are pumped, each at p or above,
-// until it returns false; the last bit has no end.
+// Calls step(from, to, m³ ANR) for bits of air in the order in which they are pumped, each at the
+// pressures in between or above, until it returns false; the last bit has no end. Within a bit the
+// air per pressure does not fall, if it does not in `drawn`, which is constant from `full_pa` on.
+// `begun_m3` is pumped already.
 template <typename Drawn, typename Step>
-void MarchPump(const Problem& problem, double start_pa, double reservoir_m3, const Drawn& drawn,
-               const Step& step) {
-  constexpr int kSteps = 20;
-  const double ambient_pa = problem.ambient.pressure_pa;
+void MarchPump(const Problem& problem, double start_pa, double reservoir_m3, double full_pa,
+               double begun_m3, const Drawn& drawn, const Step& step) {
+  constexpr int kSteps = 8, kBisections = 16;
   const double content_per_m3 =
       model::kReferencePressurePa * problem.ambient.temperature_k / model::kReferenceTemperatureK;
   const auto pumped_m3 = [&](double p) {
-    return std::max(0.0, (drawn(p) - reservoir_m3 * (start_pa - p)) / content_per_m3);
+    return (drawn(p) - reservoir_m3 * (start_pa - p)) / content_per_m3 - begun_m3;
   };
-  double from_pa = ambient_pa, from_m3 = pumped_m3(ambient_pa);
-  for (int i = 1; i <= kSteps; ++i) {
-    const double to_pa = ambient_pa + (start_pa - ambient_pa) * i / kSteps;
-    const double to_m3 = pumped_m3(to_pa);
-    if (to_m3 > from_m3 && !step(from_pa, to_m3 - from_m3)) return;
-    from_pa = to_pa;
-    from_m3 = to_m3;
+  double from_pa = problem.ambient.pressure_pa;
+  double from_m3 = std::max(0.0, pumped_m3(from_pa));
+  if (from_m3 > 0.0) {
+    if (!step(from_pa, from_pa, from_m3)) return;
+  } else if (full_pa < start_pa && pumped_m3(full_pa) <= 0.0) {
+    from_pa = start_pa - (drawn(start_pa) - begun_m3 * content_per_m3) / reservoir_m3;
+  } else {
+    double high_pa = std::min(full_pa, start_pa);
+    for (int i = 0; i < kBisections; ++i) {
+      const double middle_pa = 0.5 * (from_pa + high_pa);
+      (pumped_m3(middle_pa) <= 0.0 ? from_pa : high_pa) = middle_pa;
+    }
   }
-  step(start_pa, kUnlimited);
+  const auto march = [&](double end_pa, int steps) {
+    const double begin_pa = from_pa;
+    for (int i = 1; i <= steps; ++i) {
+      const double to_pa = begin_pa + (end_pa - begin_pa) * i / steps;
+      const double to_m3 = pumped_m3(to_pa);
+      if (to_m3 > from_m3 && !step(from_pa, to_pa, to_m3 - from_m3)) return false;
+      from_pa = to_pa;
+      from_m3 = std::max(from_m3, to_m3);
+    }
+    return true;
+  };
+  if (from_pa < full_pa && !march(std::min(full_pa, start_pa), kSteps)) return;
+  if (full_pa < start_pa && !march(start_pa, 1)) return;
+  step(start_pa, start_pa, kUnlimited);
 }
 
 }  // namespace plenum::optimizer

@@ -64,6 +64,7 @@ class Queue {
   bool empty() const { return nodes_.empty(); }
   std::size_t size() const { return nodes_.size(); }
   const NodePtr& top() const { return nodes_.front(); }
+  const std::vector<NodePtr>& nodes() const { return nodes_; }
   void Push(NodePtr node) {
     nodes_.push_back(std::move(node));
     std::push_heap(nodes_.begin(), nodes_.end(), First());
@@ -126,8 +127,9 @@ class BoxSearch {
   // The root box of every configuration. False if stopped on the way.
   bool Plant() {
     for (Configuration configuration : problem_.configurations) {
-      if (Stopped()) return false;
-      plans_.push_back(MakePlan(problem_, configuration));
+      std::unique_ptr<Plan> plan = MakePlan(problem_, configuration, [this] { return Stopped(); });
+      if (!plan) return false;
+      plans_.push_back(std::move(plan));
       bounds_.push_back(std::make_unique<Bounds>(problem_, *plans_.back(), &bench_));
     }
     planted_ = true;
@@ -334,8 +336,7 @@ class BoxSearch {
   // Boxes that are still open are closed by their bound; the least of these, or +∞.
   double CloseRest() {
     double least = kUnlimited;
-    while (!open_.empty()) {
-      const NodePtr node = open_.Pop();
+    for (const NodePtr& node : open_.nodes()) {
       const double bound = node->box.bound;
       const bool over = bound > objective_limit_;
       (over ? proof_.pruned.infeasible : proof_.pruned.bound) += node->bounds->Count(node->box);

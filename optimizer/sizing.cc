@@ -13,8 +13,7 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kPressureTolerance = 1e-9;
-constexpr double kBoundTolerance = 1e-4;
+constexpr double kFirstStep = 1e-3, kStepGrowth = 8.0;  // of the source pressure
 constexpr int kEvaluationsMax = 20000;
 constexpr double kObjectiveTolerance = 4e-7;
 
@@ -196,7 +195,7 @@ bool PumpEnergyRises(const Problem& problem, const Candidate& candidate) {
 }
 
 NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& candidate,
-                                    OperatingPoint point) {
+                                    OperatingPoint point, double tolerance) {
   const Window window = SourceWindow(problem, candidate);
   if (window.empty()) return {LeafStatus::kInfeasible};
   bool failed = false;
@@ -206,25 +205,24 @@ NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& can
     failed = failed || evaluation.failed;
     return StrokeExcess(problem, evaluation);
   };
-  if (!(excess(window.high_pa) <= 0.0))
-    return {failed ? LeafStatus::kUndecided : LeafStatus::kInfeasible};
-  double low_pa = window.low_pa;
-  if (candidate.compressor.index != kNone) {
-    // A cheap bound from below brings the costly search close to its end.
-    const PumpFacts pumps =
-        MakePumpFacts(problem, problem.parts.compressors[candidate.compressor.index].curve,
-                      candidate.compressor.quantity);
-    const auto alone = [&](double source_pa) {
-      return LeastStrokeExcess(
-          problem, candidate.lines, pumps,
-          {source_pa, source_pa, point.reservoir_rising_m3, point.reservoir_m3});
-    };
-    low_pa = FeasibleBracket(alone, low_pa, window.high_pa, kBoundTolerance).low;
-  }
+  double low_pa = window.low_pa, high_pa = window.high_pa;
+  double f_low = excess(low_pa);
+  if (f_low <= 0.0) return {LeafStatus::kFeasible, low_pa, low_pa};
+  const double f_top = failed ? 0.0 : excess(high_pa);
+  if (failed || f_top > 0.0) return {failed ? LeafStatus::kUndecided : LeafStatus::kInfeasible};
+  double f_high = f_top;
   const auto unless_failed = [&](double source_pa) { return failed ? 0.0 : excess(source_pa); };
-  const double source_pa =
-      SmallestFeasible(unless_failed, low_pa, window.high_pa, kPressureTolerance);
-  return {failed ? LeafStatus::kUndecided : LeafStatus::kFeasible, source_pa};
+  // A window often begins a little below what is needed.
+  for (double step = kFirstStep; window.low_pa * (1.0 + step) < window.high_pa;
+       step *= kStepGrowth) {
+    const double next_pa = window.low_pa * (1.0 + step);
+    const double f = unless_failed(next_pa);
+    (f > 0.0 ? low_pa : high_pa) = next_pa;
+    (f > 0.0 ? f_low : f_high) = f;
+    if (f <= 0.0) break;
+  }
+  const Bracket needed = NarrowBracket(unless_failed, low_pa, f_low, high_pa, f_high, tolerance);
+  return {failed ? LeafStatus::kUndecided : LeafStatus::kFeasible, needed.high, needed.low};
 }
 
 Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3) {

@@ -36,13 +36,16 @@ double SmallestMargin(const Problem& problem, const Candidate& candidate,
 bool PumpEnergyRises(const Problem& problem, const Candidate& candidate);
 
 // Lowest source pressure in the candidate's window at which the strokes meet their limits;
-// kInfeasible where even the highest is too slow. `point` gives the reservoir.
+// kInfeasible where even the highest is too slow. `point` gives the reservoir; below `floor_pa`,
+// which is within the tolerance of it, they do not.
+inline constexpr double kPressureTolerance = 1e-8;
 struct NeededPressure {
   LeafStatus status = LeafStatus::kUndecided;
   double source_pa = 0.0;
+  double floor_pa = 0.0;
 };
 NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& candidate,
-                                    OperatingPoint point);
+                                    OperatingPoint point, double tolerance = kPressureTolerance);
 
 // The settings that a listed design gets, from a feasible leaf. Where the objective leaves them
 // free they make the smallest relative margin that they move as large as it can be; the point is

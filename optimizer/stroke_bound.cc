@@ -174,6 +174,13 @@ double LeastStrokeExcess(const Problem& problem, const std::vector<const Line*>&
   return excess;
 }
 
+double LeastInflateTime(const Problem& problem, int g, const Line& line, const PumpFacts& pumps,
+                        const StrokeStart& start) {
+  const double half_s = HalfPeriod(problem);
+  Stroke stroke(problem, g, line, pumps, start);
+  return stroke.Reach(kNodes - 1, half_s) ? stroke.time_s() : half_s;
+}
+
 bool RaiseStarts(const Problem& problem, const std::vector<const Line*>& lines,
                  const PumpFacts& pumps, double stop_pa, double low_m3, double high_m3,
                  double tolerance, std::array<double, 2>& start_pa) {

@@ -37,6 +37,10 @@ double LeastStrokeExcess(const Problem& problem, int group, const Line& line,
 double LeastStrokeExcess(const Problem& problem, const std::vector<const Line*>& lines,
                          const PumpFacts& pumps, const StrokeStart& start);
 
+// Time to inflate to the operating pressure, at least; no more than half of the period.
+double LeastInflateTime(const Problem& problem, int group, const Line& line, const PumpFacts& pumps,
+                        const StrokeStart& start);
+
 // Two groups that take turns each find what the other leaves when half of the period is over.
 // Raises what the reservoir at least holds when each begins: enough for its own stroke and to leave
 // enough for the other. False where the stop pressure is not enough. `tolerance`: relative; the

@@ -1,5 +1,5 @@
 // Processor time to the proof on synthetic catalogues; a search is one thread.
-//   search_bench [parts per family]… [--requirements N] [--time-limit S]
+//   search_bench [parts per family]… [--first I] [--requirements N] [--time-limit S] [--each]
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ double PeakGigabytes() {
   return static_cast<double>(usage.ru_maxrss) / (1024.0 * 1024.0);
 }
 
-void Run(int size, int requirements, double time_limit_s) {
+void Run(int size, int first, int requirements, double time_limit_s, bool each) {
   const auto start = std::chrono::steady_clock::now();
   const model::Parts parts = SyntheticParts(1, size);
   const double made_s =
@@ -36,7 +36,7 @@ void Run(int size, int requirements, double time_limit_s) {
   std::vector<double> seconds, boxes;
   int proved = 0, infeasible = 0, worst = 0;
   long long undecided = 0;
-  for (int i = 0; i < requirements; ++i) {
+  for (int i = first; i < first + requirements; ++i) {
     optimizer::Problem problem = SyntheticRequirements(static_cast<std::uint64_t>(i));
     problem.parts = parts;
     optimizer::SearchOptions options;
@@ -50,6 +50,14 @@ void Run(int size, int requirements, double time_limit_s) {
     if (seconds.empty() || used_s > *std::max_element(seconds.begin(), seconds.end())) worst = i;
     seconds.push_back(used_s);
     boxes.push_back(static_cast<double>(answer.proof.boxes));
+    if (each) {
+      std::printf("  %3d: %.4f s, %lld boxes, %s, %zu designs", i, used_s, answer.proof.boxes,
+                  optimizer::Name(answer.status), answer.designs.size());
+      if (!answer.designs.empty())
+        std::printf(", %s, %.6g to %.6g", optimizer::Name(answer.designs.front().configuration),
+                    answer.designs.front().objective, answer.designs.back().objective);
+      std::printf("\n");
+    }
   }
   std::printf(
       "%7d parts per family (made in %.1f s), %d requirements: median %.4f s, p90 %.4f, p99 %.4f, "
@@ -66,16 +74,21 @@ void Run(int size, int requirements, double time_limit_s) {
 
 int main(int argc, char** argv) {
   std::vector<int> sizes;
-  int requirements = 50;
+  int first = 0, requirements = 50;
+  bool each = false;
   double time_limit_s = 60.0;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--requirements") == 0 && i + 1 < argc)
       requirements = std::stoi(argv[++i]);
+    else if (std::strcmp(argv[i], "--first") == 0 && i + 1 < argc)
+      first = std::stoi(argv[++i]);
+    else if (std::strcmp(argv[i], "--each") == 0)
+      each = true;
     else if (std::strcmp(argv[i], "--time-limit") == 0 && i + 1 < argc)
       time_limit_s = std::stod(argv[++i]);
     else
       sizes.push_back(std::stoi(argv[i]));
   }
   if (sizes.empty()) sizes = {1000, 10000, 100000};
-  for (int size : sizes) plenum::bench::Run(size, requirements, time_limit_s);
+  for (int size : sizes) plenum::bench::Run(size, first, requirements, time_limit_s, each);
 }

@@ -9,6 +9,7 @@
 #include "optimizer/evaluate_strokes.h"
 #include "optimizer/make_line.h"
 #include "optimizer/sizing.h"
+#include "optimizer/stroke_bound.h"
 #include "tests/optimizer/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
@@ -90,20 +91,32 @@ Box Descend(Random& random, const Plan& plan, Bounds& bounds, const std::vector<
   return box;
 }
 
-// The pump bound at the design's own operating point against what the pumps did.
+// The pump bounds against what the pumps did at the design's own operating point: there, from a
+// lower stop pressure, and for an interval of volumes.
 void ExpectPumpNeedHolds(const Problem& problem, const Candidate& candidate, const Leaf& leaf) {
   const optimizer::PumpFacts facts =
       optimizer::MakePumpFacts(problem, problem.parts.compressors[candidate.compressor.index].curve,
                                candidate.compressor.quantity);
-  const double source_pa = leaf.point.source_pa;
+  const double source_pa = leaf.point.source_pa, volume_m3 = leaf.point.reservoir_m3;
   const optimizer::PumpLoad load = optimizer::MakePumpLoad(problem, candidate.lines, source_pa);
-  const std::optional<optimizer::PumpNeed> need =
-      optimizer::LeastPumpNeed(problem, facts, load, {source_pa}, leaf.point.reservoir_m3);
   const optimizer::Strokes strokes = optimizer::SimulateStrokes(problem, candidate, leaf.point);
   ASSERT_TRUE(strokes.works);
-  ASSERT_TRUE(need.has_value());
-  EXPECT_LE(need->on_s, strokes.pump_on_s * (1.0 + 1e-4)) << candidate.lines[0]->holds;
-  EXPECT_LE(need->energy_j, strokes.pump_energy_j * (1.0 + 1e-4)) << candidate.lines[0]->holds;
+  const bool energy_rises = optimizer::PumpEnergyRises(problem, candidate);
+  for (const double lower : {1.0, 0.97})
+    for (const double wider : {1.0, 1.1, 2.0}) {
+      const std::optional<optimizer::PumpNeed> need = optimizer::LeastPumpNeed(
+          problem, facts, load, {lower * source_pa}, volume_m3 / wider, volume_m3 * wider);
+      ASSERT_TRUE(need.has_value());
+      EXPECT_LE(need->on_s, strokes.pump_on_s * (1.0 + 1e-4)) << candidate.lines[0]->holds;
+      if (lower == 1.0 || energy_rises) {
+        EXPECT_LE(need->energy_j, strokes.pump_energy_j * (1.0 + 1e-4))
+            << candidate.lines[0]->holds;
+      }
+      EXPECT_LE(
+          optimizer::LeastInflateTime(problem, 0, *candidate.lines[0], facts,
+                                      {source_pa, source_pa, volume_m3 / wider, volume_m3 * wider}),
+          strokes.inflate_s[0] * (1.0 + 1e-6));
+    }
 }
 
 void CheckAll(const Problem& problem, Random& random, double share, int& checked) {
