@@ -261,7 +261,7 @@ Problem DrawnAtRandom(std::uint64_t seed) {
   problem.objective = kObjectives[Pick(random, 0, 5)];
   problem.count = Pick(random, 1, 20);
   const bool made = draw.configurations.contains(Configuration::kCompressor) &&
-                    Chance(random, draw.groups == 1 ? 0.4 : 0.2);
+                    Chance(random, draw.groups == 1 ? 0.8 : 0.4);
   if (!made) {
     problem.exclude.insert("custom");
   } else {  // scans take long
