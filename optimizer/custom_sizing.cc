@@ -10,7 +10,9 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kTolerance = 1e-7, kEnergyTolerance = 4e-7;  // of the objective
+// Of the objective; all are less than what tells designs apart.
+constexpr double kTolerance = 1e-7, kEnergyTolerance = 4e-7, kLateTolerance = 8e-7;
+constexpr int kLateSteps = 1000;
 constexpr int kStepsPerRefine = 4;
 constexpr int kStepsMax = 40000;
 constexpr double kPressureShare = 0.1;  // of the width of the volumes, to which p1 is raised
@@ -42,8 +44,7 @@ CustomSizing::CustomSizing(const Problem& problem, Candidate candidate,
     : problem_(problem),
       candidate_(std::move(candidate)),
       trend_(MakePumpTrend(problem, candidate_)),
-      tolerance_(problem.objective.energy_wh > 0.0 ? kEnergyTolerance : kTolerance),
-      narrow_(kFirstNarrow) {
+      tolerance_(problem.objective.energy_wh > 0.0 ? kEnergyTolerance : kTolerance) {
   leaf_.objective = kUnlimited;
   const Window window = SourceWindow(problem_, candidate_);
   for (const ReservoirNeed& need : needs) {
@@ -70,7 +71,9 @@ bool CustomSizing::Refine() {
       OfferIfNarrow(region);
       Divide(region);
     }
-    failed_ = failed_ || ++steps_ >= kStepsMax;
+    ++steps_;
+    if (steps_ == kLateSteps) tolerance_ = std::max(tolerance_, kLateTolerance);
+    failed_ = failed_ || steps_ >= kStepsMax;
     if (failed_ && !candidate_.stopped()) return Conclude(LeafStatus::kUndecided);
   }
   if (Decided()) return Conclude(LeafStatus::kInfeasible);
@@ -168,8 +171,9 @@ void CustomSizing::Divide(const Region& region) {
 
 void CustomSizing::OfferIfNarrow(const Region& region) {
   const double width = Width(region.box.low_m3, region.box.high_m3);
-  if (width > narrow_) return;
+  if (width > kFirstNarrow || (width > narrow_ && steps_ < next_offer_)) return;
   narrow_ = kNarrower * width;
+  next_offer_ = 2 * steps_;
   if (Offer(ALittleMore(region.box.high_m3))) Polish();
 }
 

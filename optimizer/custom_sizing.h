@@ -26,8 +26,9 @@ class CustomSizing {
   CustomSizing(const Problem& problem, Candidate candidate);
 
   // A few rectangles more. True when done: leaf() is feasible with lower_bound within 1e-7 of the
-  // objective (4e-7 where energy counts), or infeasible; or undecided, or feasible with a lower
-  // bound that holds, where a solver failed. Not done where it was stopped.
+  // objective (4e-7 where energy counts, 8e-7 where it is hard to prove), or infeasible; or
+  // undecided, or feasible with a lower bound that holds, where a solver failed. Not done where it
+  // was stopped.
   bool Refine();
   const Leaf& leaf() const { return leaf_; }
 
@@ -56,7 +57,9 @@ class CustomSizing {
   double tolerance_;
   std::priority_queue<Region> open_;
   Leaf leaf_;
-  double narrow_;  // relative width of volumes at which a point is sought next
+  // The relative width of volumes, or else the number of steps, at which a point is sought next.
+  double narrow_ = kUnlimited;
+  int next_offer_ = 0;
   int steps_ = 0;
   bool failed_ = false;
 };

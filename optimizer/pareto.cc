@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 
+#include "optimizer/front_walk.h"
 #include "optimizer/line.h"
 #include "optimizer/tree_search.h"
 
@@ -44,12 +45,6 @@ std::size_t Minimised(const std::vector<Amount>& amounts) {
     if (found != amounts.end()) return static_cast<std::size_t>(found - amounts.begin());
   }
   return 0;
-}
-
-double& LimitOn(Amount amount, Problem& problem) {
-  return amount == Amount::kMass     ? problem.mass_max_kg
-         : amount == Amount::kVolume ? problem.volume_max_l
-                                     : problem.cost_max_eur;
 }
 
 bool MadeReservoirAllowed(const Problem& problem, const std::vector<Amount>& amounts) {
@@ -97,7 +92,11 @@ class FrontSearch {
     while (!regions_.empty()) {
       const Caps region = regions_.front();
       regions_.pop_front();
-      if (!Settled(region)) Explore(region);
+      if (Settled(region)) continue;
+      if (amounts_.size() == 2 && searches_ > 0)
+        Walk(region);
+      else
+        Explore(region);
     }
     return Conclude();
   }
@@ -204,6 +203,26 @@ class FrontSearch {
     found_.push_back(std::move(found));
   }
 
+  // All that is left of a front in two amounts.
+  void Walk(const Caps& region) {
+    const std::size_t limited = 1 - minimised_;
+    SearchOptions options = options_;
+    options.time_limit_s = options_.time_limit_s - Seconds();
+    FrontWalk walk = WalkFront(Limited(region), amounts_[limited], resolution_, options);
+    cancelled_ = cancelled_ || walk.cancelled;
+    proved_ += static_cast<int>(walk.designs.size()) + walk.open.empty();
+    searches_ += static_cast<int>(walk.designs.size()) + 1;
+    for (const FrontWalk::Open& open : walk.open) {
+      Caps caps = region;
+      caps[limited] = open.limit;
+      unexplored_.push_back({caps, amounts_[minimised_], open.least});
+    }
+    for (Design& design : walk.designs) {
+      Point point = PointOf(design);
+      found_.push_back({std::move(point), std::move(design)});
+    }
+  }
+
   Point PointOf(const Design& design) const {
     Point point;
     for (Amount amount : amounts_) point.push_back(Of(amount, design.totals));
@@ -293,6 +312,12 @@ class FrontSearch {
 };
 
 }  // namespace
+
+double& LimitOn(Amount amount, Problem& problem) {
+  return amount == Amount::kMass     ? problem.mass_max_kg
+         : amount == Amount::kVolume ? problem.volume_max_l
+                                     : problem.cost_max_eur;
+}
 
 const char* Name(Amount amount) {
   switch (amount) {

@@ -15,6 +15,9 @@ const char* Name(Amount amount);  // "mass_kg", "volume_l", "cost_eur", "energy_
 // In the unit of its name; NaN for the cost of parts without a price.
 double Of(Amount amount, const Totals& totals);
 
+// The problem's limit on an amount, in the same unit; energy has none.
+double& LimitOn(Amount amount, Problem& problem);
+
 // A region that may hide points of the front: designs within all `limits` (per amount of the front,
 // +∞ where none) whose amount `least_of` is at least `least`.
 struct Unexplored {
@@ -40,7 +43,8 @@ struct Front {
 // until every region is proved empty. A region's answer also serves any smaller region that holds
 // it. Points that a later search finds to be matched or beaten in every amount are dropped, so that
 // ties leave no weakly dominated point. (Kirlik and Sayın 2014, with overlapping regions in place
-// of their partition.)
+// of their partition.) With two amounts the regions are nested, and one search goes through all of
+// them (front_walk.h); each of its points counts as a search, and so does the end of the front.
 //
 // `optimal` only when every search was proved; a search that runs out of time leaves its region in
 // `unexplored`. Where the volume of a made-to-measure reservoir trades against energy the front is

@@ -232,6 +232,7 @@ class BoxSearch {
     if (Found* known = ranking_.Find(ids)) {  // by the dive
       proof_.evaluated += 1;
       known->record = node->record;
+      CountGap(known->leaf);
       recorder_.Close(node->record, {.kind = BoxKind::kNotListed, .bound = known->leaf.objective});
       return;
     }
@@ -262,6 +263,7 @@ class BoxSearch {
     if (leaf.status != LeafStatus::kFeasible) return;
     recorder_.Close(node->record, {.kind = BoxKind::kNotListed, .bound = leaf.objective});
     leaf.lower_bound = std::clamp(node->box.bound, leaf.lower_bound, leaf.objective);
+    CountGap(leaf);
     ranking_.Add({std::move(node->box), node->bounds, leaf, std::move(ids), node->record, nullptr});
   }
 
@@ -269,6 +271,11 @@ class BoxSearch {
     ++proof_.undecided;
     undecided_bound_ = std::min(undecided_bound_, bound);
     if (record >= 0) recorder_.Close(record, {.kind = BoxKind::kUndecided, .bound = bound});
+  }
+
+  // A leaf whose best settings are not proved may be better than the place that it gets.
+  void CountGap(const Leaf& leaf) {
+    if (leaf.lower_bound < leaf.objective * (1.0 - kTie)) Undecided(leaf.lower_bound, -1);
   }
 
   // A search that is slow to prove should not come home empty-handed: with a third of the time gone

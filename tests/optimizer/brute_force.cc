@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/storage.h"
+#include "tests/optimizer/scan_sizing.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
@@ -236,12 +237,29 @@ optimizer::Leaf SizeAlone(const Problem& problem, const Candidate& candidate) {
   return sizing.leaf();
 }
 
+namespace {
+
+optimizer::Leaf SizeByScan(const Problem& problem, const Candidate& candidate) {
+  const Scanned scanned = ScanMadeReservoir(problem, candidate);
+  optimizer::Leaf leaf;
+  leaf.status = scanned.feasible ? optimizer::LeafStatus::kFeasible
+                : scanned.failed ? optimizer::LeafStatus::kUndecided
+                                 : optimizer::LeafStatus::kInfeasible;
+  leaf.point = scanned.point;
+  leaf.objective = leaf.lower_bound = scanned.objective;
+  return leaf;
+}
+
+}  // namespace
+
 BruteForce Enumerate(const Problem& problem) {
   BruteForce result;
   for (Configuration configuration : problem.configurations)
     result.combinations += Combinations(problem, configuration);
   ForEachCombination(problem, [&](const Candidate& candidate) {
-    const optimizer::Leaf leaf = SizeAlone(problem, candidate);
+    const bool made = candidate.reservoir.index == optimizer::kCustom;
+    const optimizer::Leaf leaf =
+        made ? SizeByScan(problem, candidate) : SizeAlone(problem, candidate);
     ++result.sized;
     if (leaf.status == optimizer::LeafStatus::kUndecided) ++result.undecided;
     if (leaf.status == optimizer::LeafStatus::kFeasible)

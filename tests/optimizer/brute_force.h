@@ -1,5 +1,6 @@
-// Every combination of a small problem, one after the other: nothing of the tree search is used,
-// only the sizing of one given candidate (which sizing_test checks against dense scans).
+// Every combination of a small problem, one after the other: nothing of the tree search is used.
+// Made-to-measure reservoirs are sized by dense scans, all others by the sizing at a given volume,
+// which sizing_test checks against dense scans.
 #ifndef PLENUM_TESTS_OPTIMIZER_BRUTE_FORCE_H_
 #define PLENUM_TESTS_OPTIMIZER_BRUTE_FORCE_H_
 

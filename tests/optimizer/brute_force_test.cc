@@ -24,14 +24,15 @@ using optimizer::Status;
 // What the draws came to, over a whole test.
 struct Tally {
   int problems = 0, infeasible = 0, with_undecided = 0;
-  long long designs = 0, undecided = 0, evaluated = 0;
+  long long designs = 0, made = 0, undecided = 0, evaluated = 0;
   double search_s = 0.0, slowest_s = 0.0, enumerate_s = 0.0;
   ~Tally() {
     std::printf(
-        "%d problems, %d infeasible, %lld designs compared, %lld of %lld leaves undecided in %d "
+        "%d problems, %d infeasible, %lld designs compared (%lld with a "
+        "made-to-measure reservoir), %lld of %lld leaves undecided in %d "
         "problems; search %.2f s (slowest %.3f s), enumeration %.2f s\n",
-        problems, infeasible, designs, undecided, evaluated, with_undecided, search_s, slowest_s,
-        enumerate_s);
+        problems, infeasible, designs, made, undecided, evaluated, with_undecided, search_s,
+        slowest_s, enumerate_s);
   }
 };
 
@@ -105,6 +106,9 @@ void Compare(const Problem& problem, Tally& tally) {
   tally.undecided += answer.proof.undecided;
   tally.evaluated += static_cast<long long>(answer.proof.evaluated);
   tally.designs += static_cast<long long>(answer.designs.size());
+  for (const optimizer::Design& design : answer.designs)
+    tally.made += std::any_of(design.parts.begin(), design.parts.end(),
+                              [](const optimizer::Choice& part) { return part.id == "custom"; });
 
   ExpectCountsAddUp(answer.proof, truth.combinations);
   const std::size_t expected =
@@ -256,14 +260,22 @@ Problem DrawnAtRandom(std::uint64_t seed) {
   Problem problem = RandomProblem(draw);
   problem.objective = kObjectives[Pick(random, 0, 5)];
   problem.count = Pick(random, 1, 20);
-  const bool small = draw.groups == 1 && Chance(random, 0.1);
-  if (small) problem.parts.compressors.resize(1), problem.parts.batteries.resize(1);
-  if (!small || problem.objective.energy_wh > 0.0)
+  const bool made = draw.configurations.contains(Configuration::kCompressor) &&
+                    Chance(random, draw.groups == 1 ? 0.8 : 0.4);
+  if (!made) {
     problem.exclude.insert("custom");
-  else if (Chance(random, 0.5))
-    problem.require[optimizer::Family::kReservoir] = {"custom"};
-  if (small) problem.limits = {1, 1, 1, 1, 1};
-  if (draw.groups > 1) problem.limits = {1, 2, 2, 2, 1};
+  } else {  // scans take long
+    problem.parts.tubing.resize(1);
+    problem.parts.fittings.resize(1);
+    problem.parts.valves.resize(draw.groups == 1 ? 2 : 1);
+    problem.parts.compressors.resize(1);
+    problem.parts.batteries.resize(draw.groups == 1 ? 2 : 1);
+    if (Chance(random, 0.5)) problem.require[optimizer::Family::kReservoir] = {"custom"};
+  }
+  if (made)
+    problem.limits = {1, 1, 1, 1, 1};
+  else if (draw.groups > 1)
+    problem.limits = {1, 2, 2, 2, 1};
   if (Chance(random, 0.3))
     for (model::Compressor& pump : problem.parts.compressors) MakePowerFall(random, pump.curve);
   if (Chance(random, 0.2)) problem.mass_max_kg = Uniform(random, 0.5, 3.0);

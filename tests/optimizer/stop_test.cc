@@ -64,6 +64,32 @@ TEST(StopTest, SolverThatAlwaysFailsLeavesAllLeavesOpen) {
   }
 }
 
+// A made-to-measure reservoir whose simulations fail stays open and is counted.
+TEST(StopTest, SolverThatFailsLeavesMadeReservoirsOpen) {
+  Problem problem = TogetherProblem(5, Configuration::kCompressor);
+  problem.exclude.erase("custom");
+  problem.require[optimizer::Family::kReservoir] = {"custom"};
+  problem.parts.reservoirs.clear();
+  problem.parts.batteries.resize(1);
+  problem.parts.valves.resize(1);
+  problem.count = 1;
+  problem.parts.tubing.resize(1);
+  const Answer truth = optimizer::SearchTrees(problem, Within(60.0));
+  ASSERT_EQ(truth.status, Status::kOptimal);
+  ASSERT_FALSE(truth.designs.empty());
+  int calls = 0;
+  SearchOptions options = Within(60.0);
+  options.periodic = [&](auto&&... rest) {
+    return ++calls > 12 ? Failed(model::PeriodicStatus::kNotConverged)
+                        : model::FindPeriodicState(rest...);
+  };
+  const Answer answer = optimizer::SearchTrees(problem, options);
+  EXPECT_EQ(answer.status, Status::kFeasible);
+  EXPECT_TRUE(answer.designs.empty());
+  EXPECT_GT(answer.proof.undecided, 0);
+  EXPECT_LE(answer.proof.lower_bound, truth.designs.front().objective);
+}
+
 // What fails for some designs is not taken for infeasible: each design of the true list is listed,
 // or the bound leaves room for it.
 TEST(StopTest, SolverThatFailsNowAndThenLosesNoDesign) {

@@ -1,0 +1,64 @@
+// Processor time to whole fronts in two amounts on synthetic catalogues, one thread.
+//   front_bench [parts per family]… [--requirements N] [--time-limit S]
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "bench/search/synthetic.h"
+#include "optimizer/pareto.h"
+
+namespace plenum::bench {
+namespace {
+
+using optimizer::Amount;
+
+void Run(int size, int requirements, double time_limit_s, const std::vector<Amount>& amounts) {
+  const model::Parts parts = SyntheticParts(1, size);
+  std::vector<double> seconds;
+  std::size_t points = 0, largest = 0;
+  int whole = 0;
+  for (int i = 0; i < requirements; ++i) {
+    optimizer::Problem problem = SyntheticRequirements(static_cast<std::uint64_t>(i));
+    problem.parts = parts;
+    optimizer::SearchOptions options;
+    options.time_limit_s = time_limit_s;
+    const std::clock_t before = std::clock();
+    const optimizer::Front front = optimizer::ParetoFront(problem, amounts, options);
+    seconds.push_back(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
+    points += front.answer.designs.size();
+    largest = std::max(largest, front.answer.designs.size());
+    whole += front.answer.proof.complete;
+  }
+  std::sort(seconds.begin(), seconds.end());
+  std::printf(
+      "%7d parts per family, %s and %s: median %.3f s, max %.3f s; %d of %d whole; %zu points, "
+      "largest front %zu\n",
+      size, Name(amounts[0]), Name(amounts[1]), seconds[seconds.size() / 2], seconds.back(), whole,
+      requirements, points, largest);
+  std::fflush(stdout);
+}
+
+}  // namespace
+}  // namespace plenum::bench
+
+int main(int argc, char** argv) {
+  using plenum::optimizer::Amount;
+  std::vector<int> sizes;
+  int requirements = 10;
+  double time_limit_s = 60.0;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--requirements") == 0 && i + 1 < argc)
+      requirements = std::stoi(argv[++i]);
+    else if (std::strcmp(argv[i], "--time-limit") == 0 && i + 1 < argc)
+      time_limit_s = std::stod(argv[++i]);
+    else
+      sizes.push_back(std::stoi(argv[i]));
+  }
+  if (sizes.empty()) sizes = {1000, 10000};
+  for (int size : sizes)
+    for (Amount other : {Amount::kCost, Amount::kVolume})
+      plenum::bench::Run(size, requirements, time_limit_s, {Amount::kMass, other});
+}

@@ -1,0 +1,231 @@
+#include "optimizer/front_walk.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "optimizer/box.h"
+#include "optimizer/custom_sizing.h"
+#include "optimizer/report.h"
+
+namespace plenum::optimizer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kProgressIntervalS = 0.2;
+
+struct Node {
+  Box box;
+  Bounds* bounds = nullptr;
+  long long serial = 0;
+  int depth = 0;
+  double key = 0.0;                      // the box's bound, or the objective of its leaf
+  std::unique_ptr<CustomSizing> sizing;  // of a made-to-measure reservoir
+  std::optional<Leaf> leaf;              // sized within a limit that held then
+};
+using NodePtr = std::unique_ptr<Node>;
+
+struct LowestKey {
+  bool operator()(const NodePtr& a, const NodePtr& b) const {
+    if (a->key != b->key) return a->key > b->key;
+    if (a->depth != b->depth) return a->depth < b->depth;
+    return a->serial > b->serial;
+  }
+};
+
+class Walker {
+ public:
+  Walker(Problem problem, Amount limited, double resolution, const SearchOptions& options)
+      : problem_(std::move(problem)),
+        limited_(limited),
+        limit_(LimitOn(limited, problem_)),
+        resolution_(resolution),
+        options_(options),
+        bench_{[this] { return Stopped(); }, options.periodic} {}
+
+  FrontWalk Run() {
+    Plant();
+    while (!open_.empty() && !Stopped()) {
+      Report();
+      Step(Pop());
+    }
+    if (!planted_)
+      LeaveOpen(0.0);
+    else if (!open_.empty())
+      LeaveOpen(open_.front()->key);
+    walk_.cancelled = cancelled_;
+    return std::move(walk_);
+  }
+
+ private:
+  double Seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  bool Stopped() {
+    cancelled_ = cancelled_ || (options_.cancelled && options_.cancelled());
+    return cancelled_ || Seconds() > options_.time_limit_s;
+  }
+
+  void LeaveOpen(double least) { walk_.open.push_back({limit_, least}); }
+
+  void Plant() {
+    for (Configuration configuration : problem_.configurations) {
+      if (Stopped()) return;
+      plans_.push_back(MakePlan(problem_, configuration));
+      if (plans_.back()->empty()) continue;
+      bounds_.push_back(std::make_unique<Bounds>(problem_, *plans_.back(), &bench_));
+      auto node = std::make_unique<Node>();
+      node->bounds = bounds_.back().get();
+      node->box = node->bounds->Root();
+      const Constraint missed = node->bounds->Assess(node->box, -1);
+      Keep(std::move(node), missed);
+    }
+    planted_ = true;
+  }
+
+  void Push(NodePtr node, double key) {
+    node->key = key;
+    node->serial = serial_++;
+    open_.push_back(std::move(node));
+    std::push_heap(open_.begin(), open_.end(), LowestKey());
+  }
+
+  NodePtr Pop() {
+    std::pop_heap(open_.begin(), open_.end(), LowestKey());
+    NodePtr node = std::move(open_.back());
+    open_.pop_back();
+    return node;
+  }
+
+  void Keep(NodePtr node, Constraint missed) {
+    const double bound = node->box.bound;
+    if (missed == Constraint::kNone) Push(std::move(node), bound);
+  }
+
+  void Step(NodePtr node) {
+    Bounds& bounds = *node->bounds;
+    if (node->leaf) {
+      Take(std::move(node));
+    } else if (bounds.CanFindSource(node->box)) {
+      const Constraint missed = bounds.FindSource(node->box);
+      Keep(std::move(node), missed);
+    } else if (bounds.IsSingle(node->box)) {
+      Size(std::move(node));
+    } else {
+      Divide(*node);
+    }
+  }
+
+  void Divide(const Node& node) {
+    const int slot = node.bounds->WidestSlot(node.box);
+    const BoxNode& divided = (*node.bounds->plan().slots[slot].nodes)[node.box.nodes[slot]];
+    for (int child : {divided.left, divided.right}) {
+      auto part = std::make_unique<Node>();
+      part->bounds = node.bounds;
+      part->box = node.box;
+      part->box.nodes[slot] = child;
+      part->depth = node.depth + 1;
+      const Constraint missed = part->bounds->Assess(part->box, slot);
+      Keep(std::move(part), missed);
+    }
+  }
+
+  void Size(NodePtr node) {
+    const Candidate candidate = node->bounds->CandidateOf(node->box);
+    Leaf leaf;
+    if (candidate.reservoir.index == kCustom) {
+      if (!node->sizing)
+        node->sizing = std::make_unique<CustomSizing>(problem_, candidate, NeedsOf(node->box));
+      if (!node->sizing->Refine()) {
+        node->box.bound = std::max(node->box.bound, node->sizing->leaf().lower_bound);
+        const double bound = node->box.bound;
+        Push(std::move(node), bound);
+        return;
+      }
+      leaf = node->sizing->leaf();
+      node->sizing.reset();
+    } else {
+      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate));
+    }
+    const double bound = std::max(node->box.bound, leaf.lower_bound);
+    if (leaf.status == LeafStatus::kUndecided && Stopped()) {
+      Push(std::move(node), bound);
+      return;
+    }
+    if (leaf.status == LeafStatus::kUndecided || leaf.lower_bound < leaf.objective * (1.0 - kTie))
+      if (leaf.status != LeafStatus::kInfeasible) LeaveOpen(bound);
+    if (leaf.status != LeafStatus::kFeasible) return;
+    node->leaf = leaf;
+    Push(std::move(node), leaf.objective);
+  }
+
+  // A sized leaf that no other undercuts.
+  void Take(NodePtr node) {
+    Candidate candidate = node->bounds->CandidateOf(node->box);
+    const Leaf leaf = *node->leaf;
+    const bool made = candidate.reservoir.index == kCustom;
+    // Where energy counts another volume may do within a lower limit; else this is the least.
+    const bool again = made && problem_.objective.energy_wh > 0.0;
+    if (!Within(candidate, leaf.point.reservoir_m3)) {
+      node->leaf.reset();
+      if (made) Push(std::move(node), leaf.objective);
+      return;
+    }
+    std::optional<Design> design = MakeDesign(problem_, candidate, leaf);
+    if (!design) {
+      if (Stopped())
+        Push(std::move(node), leaf.objective);
+      else
+        LeaveOpen(leaf.objective);
+      return;
+    }
+    limit_ = Of(limited_, design->totals) * (1.0 - resolution_);
+    walk_.designs.push_back(std::move(*design));
+    if (!again) return;
+    node->leaf.reset();
+    Push(std::move(node), leaf.objective);
+  }
+
+  bool Within(const Candidate& candidate, double reservoir_m3) const {
+    const Amounts total = TotalAmounts(problem_, candidate, reservoir_m3);
+    return total.mass_kg <= problem_.mass_max_kg &&
+           total.volume_m3 * 1e3 <= problem_.volume_max_l &&
+           total.cost_eur <= problem_.cost_max_eur;
+  }
+
+  void Report() {
+    const double seconds = Seconds();
+    if (!options_.progress || seconds - reported_s_ < kProgressIntervalS) return;
+    reported_s_ = seconds;
+    Progress progress;
+    progress.seconds = seconds;
+    progress.open = static_cast<long long>(open_.size());
+    progress.lower_bound = open_.front()->key;
+    options_.progress(progress);
+  }
+
+  Problem problem_;
+  const Amount limited_;
+  double& limit_;  // in problem_
+  const double resolution_;
+  const SearchOptions& options_;
+  const Clock::time_point start_ = Clock::now();
+  Workbench bench_;
+  std::vector<std::unique_ptr<Plan>> plans_;
+  std::vector<std::unique_ptr<Bounds>> bounds_;
+  std::vector<NodePtr> open_;  // a heap
+  FrontWalk walk_;
+  long long serial_ = 0;
+  double reported_s_ = 0.0;
+  bool cancelled_ = false, planted_ = false;
+};
+
+}  // namespace
+
+FrontWalk WalkFront(Problem problem, Amount limited, double resolution,
+                    const SearchOptions& options) {
+  return Walker(std::move(problem), limited, resolution, options).Run();
+}
+
+}  // namespace plenum::optimizer
