@@ -260,7 +260,7 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
     if (options.cancelled && options.cancelled()) return learned;
   }
   const Attempt* best = Choose(data, established, attempts, quick);
-  if (!best) return learned;
+  if (!best || (options.cancelled && options.cancelled())) return learned;
   learned.fit = best->fit;
   discrepancy.equation = best->fit.state.effects.back().spec->place;
   discrepancy.features = best->family->features;

@@ -14,10 +14,12 @@ namespace {
 
 constexpr const char* kModel = "model";
 constexpr const char* kSave = "save";
+constexpr const char* kTimeLimit = "time_limit_s";
 
 // What the service takes beside the measurement.
 struct Names {
   std::string model, save;  // empty: none
+  double time_limit_s = api::kDiagnosisTimeS;
 };
 
 Names ReadNames(const api::Json& document, api::Errors& errors) {
@@ -26,6 +28,8 @@ Names ReadNames(const api::Json& document, api::Errors& errors) {
   api::Reader reader(document, "", errors);
   if (reader.Has(kModel)) names.model = reader.Text(kModel);
   if (reader.Has(kSave)) names.save = reader.Text(kSave);
+  names.time_limit_s =
+      reader.Number(kTimeLimit, {0.01, api::kDiagnosisTimeMaxS}, api::kDiagnosisTimeS);
   const std::string why = names.save.empty() ? "" : catalog::WhyInvalidModelName(names.save);
   if (!why.empty()) reader.Fail(kSave, why);
   return names;
@@ -50,6 +54,7 @@ api::Parsed<Order> ReadOrder(SharedCatalog& catalog, api::Json document, const s
   Order order;
   const Names names = ReadNames(document, errors);
   order.save = names.save;
+  order.request.time_limit_s = names.time_limit_s;
   if (!names.model.empty() && names.model != "nominal") {
     const auto models = catalog.With([](const catalog::Store& store) { return store.Models(); });
     order.request.model = ValueOrAdd(api::FindModel(names.model, models, "/model"), errors);
@@ -57,6 +62,7 @@ api::Parsed<Order> ReadOrder(SharedCatalog& catalog, api::Json document, const s
   if (document.is_object()) {
     document.erase(kModel);
     document.erase(kSave);
+    document.erase(kTimeLimit);
   }
   order.request.dataset = ValueOrAdd(api::ParseMeasurement(document), errors);
   if (!errors.empty()) return errors;
