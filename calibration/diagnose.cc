@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "calibration/criticism.h"
 #include "calibration/discrepancy.h"
 #include "calibration/experiment.h"
 #include "calibration/identifiability.h"
@@ -235,6 +236,7 @@ class Diagnosing {
     leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()));
     leftover.rms_pa = squares.Rms();
     leftover.noise_pa = NoiseOf(data_.runs);
+    if (IsNoise(leftover)) leftover.learnable_bic = LearnableGain(data_, fit, tight_);
     if (!with_holdout) return leftover;
     if (held_out_.empty()) {
       leftover.holdout_rms_pa = LeaveOneOut(fit);
