@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "api/design_reader.h"
+#include "api/diagnose.h"
 #include "api/limits.h"
 #include "api/measurement.h"
 #include "api/model_revision.h"
@@ -187,6 +188,7 @@ Json DescribeMeasurement() {
   properties["model"] = {{"type", "string"},
                          {"description", "a saved model that predicts the runs"}};
   properties["save"] = {{"type", "string"}, {"description", "the name to save the model under"}};
+  properties["time_limit_s"] = NumberForm({0.01, kDiagnosisTimeMaxS});
   return schema;
 }
 

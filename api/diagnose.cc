@@ -10,6 +10,7 @@ DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisPro
   calibration::DiagnoseOptions options;
   options.cancelled = progress.cancelled;
   options.progress = progress.progress;
+  options.time_limit_s = request.time_limit_s;
   const calibration::Diagnosis diagnosis =
       request.model
           ? calibration::Predict(request.dataset, {request.model->effects, request.model->factors},

@@ -14,10 +14,13 @@
 
 namespace plenum::api {
 
+inline constexpr double kDiagnosisTimeS = 60.0, kDiagnosisTimeMaxS = 3600.0;
+
 struct DiagnosisRequest {
   calibration::Dataset dataset;
   std::optional<SavedModel> model;  // predicts the runs; none: they are diagnosed
   Provenance provenance;
+  double time_limit_s = kDiagnosisTimeS;
 };
 
 struct DiagnosisProgress {

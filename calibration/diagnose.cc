@@ -1,11 +1,14 @@
 #include "calibration/diagnose.h"
 
 #include <algorithm>
+#include <atomic>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
 
+#include "calibration/criticism.h"
 #include "calibration/discrepancy.h"
 #include "calibration/experiment.h"
 #include "calibration/identifiability.h"
@@ -20,6 +23,7 @@ namespace {
 
 constexpr std::size_t kCandidatesShown = 30;
 constexpr std::size_t kFinalSteps = 200'000;
+constexpr std::size_t kReportSteps = 20'000;  // when there is no time left
 constexpr std::size_t kFinalists = 5;  // whose held-out error is found by leaving out each run
 
 // Sum of squares and worst of many residuals.
@@ -58,7 +62,12 @@ bool PriorsHold(const Fit& fit) {
 class Diagnosing {
  public:
   Diagnosing(const Dataset& dataset, const DiagnoseOptions& options)
-      : dataset_(dataset), options_(options), forward_(dataset), observed_(Observe(dataset)) {
+      : dataset_(dataset),
+        options_(options),
+        cancelled_(options.cancelled),
+        forward_(dataset),
+        observed_(Observe(dataset)) {
+    options_.cancelled = [this] { return Stopped(); };
     data_.forward = &forward_;
     data_.observed = &observed_;
     data_.sizes = SizesOf(dataset);
@@ -67,7 +76,7 @@ class Diagnosing {
     tight_.noise_share = 1e-3;
     tight_.steps_max = kFinalSteps;
     tight_.threads = options.threads;
-    tight_.cancelled = options.cancelled;
+    tight_.cancelled = options_.cancelled;
   }
 
   Diagnosis Take() {
@@ -111,6 +120,24 @@ class Diagnosing {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  // Once true, true for good: the caller's wish, or the end of the time.
+  bool Stopped() const {
+    if (stopped_) return true;
+    const std::chrono::duration<double> taken = Clock::now() - start_;
+    if ((cancelled_ && cancelled_()) || taken.count() > options_.time_limit_s) stopped_ = true;
+    return stopped_;
+  }
+
+  // Of what is known already: also when the time is over.
+  Reading Shown(const ModelState& state, std::size_t run) const {
+    FitOptions options = tight_;
+    options.cancelled = nullptr;
+    if (Stopped()) options.steps_max = kReportSteps;
+    return Predicted(data_, state, run, options);
+  }
+
   void Progress(double share, const std::string& what) const {
     if (options_.progress) options_.progress(share, what);
   }
@@ -122,7 +149,7 @@ class Diagnosing {
   }
 
   Squares ErrorsOf(std::size_t run, const ModelState& state) const {
-    const Reading reading = Predicted(data_, state, run, tight_);
+    const Reading reading = Shown(state, run);
     Squares squares;
     if (reading.pressure_pa.empty()) {
       squares.Add(std::numeric_limits<double>::max());
@@ -200,7 +227,7 @@ class Diagnosing {
     std::vector<FittedRun> runs;
     Squares squares;
     for (const std::size_t i : data_.runs) {
-      const Reading reading = Predicted(data_, fit.state, i, tight_);
+      const Reading reading = Shown(fit.state, i);
       if (reading.pressure_pa.empty()) return leftover;
       runs.push_back({&dataset_.runs[i], reading.pressure_pa, observed_[i].noise});
       for (const double r : PressureResidual(dataset_.runs[i], observed_[i], reading))
@@ -209,6 +236,7 @@ class Diagnosing {
     leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()));
     leftover.rms_pa = squares.Rms();
     leftover.noise_pa = NoiseOf(data_.runs);
+    if (IsNoise(leftover)) leftover.learnable_bic = LearnableGain(data_, fit, tight_);
     if (!with_holdout) return leftover;
     if (held_out_.empty()) {
       leftover.holdout_rms_pa = LeaveOneOut(fit);
@@ -229,12 +257,18 @@ class Diagnosing {
     evidence.accepted = &chosen != base_;
     diagnosis_.noise_pa = NoiseOf(data_.runs);
     diagnosis_.declared = ErrorOf(forward_.Declared());
+    if (!base_->fit.Usable() && Stopped()) {
+      diagnosis_.before = diagnosis_.after = diagnosis_.declared;
+      diagnosis_.sentence = Sentence();
+      return;
+    }
     if (!base_->fit.Usable()) {
       diagnosis_.sentence = "The base model could not be fitted: " + base_->fit.detail + ".";
       return;
     }
-    evidence.before = LeftoverOf(base_->fit, true);
-    evidence.after = evidence.accepted ? LeftoverOf(chosen.fit, true) : evidence.before;
+    evidence.before = LeftoverOf(base_->fit, !Stopped());
+    evidence.after = evidence.accepted ? LeftoverOf(chosen.fit, !Stopped()) : evidence.before;
+    if (Stopped()) evidence.complete = false;
     const std::vector<const Contender*> tied = Tied(chosen);
     evidence.tied = static_cast<int>(tied.size()) - 1;
     diagnosis_.verdict = Judge(evidence);
@@ -266,6 +300,7 @@ class Diagnosing {
     diagnosis_.residual = evidence.after.residual;
     diagnosis_.unexplained_fraction = UnexplainedFraction(evidence.before, evidence.after);
     AddCandidates();
+    if (diagnosis_.verdict == Verdict::kUndecided) diagnosis_.effects.clear();
     if (diagnosis_.verdict == Verdict::kTie) {
       diagnosis_.effects.clear();
       std::vector<TiedFit> fits;
@@ -278,9 +313,17 @@ class Diagnosing {
     Progress(0.99, "report");
     AddSeries(forward_.Declared(), base_->fit.state, shown->fit.state);
     AddWarnings();
-    if (const auto found = Identify(data_, shown->fit, tight_))
+    if (Stopped()) {
+      diagnosis_.warnings.push_back(
+          diagnosis_.verdict == Verdict::kUndecided
+              ? "stopped before all sets of effects were compared: what is listed is the best so "
+                "far"
+              : "stopped after the verdict: a learned term, the next experiment or held-out errors "
+                "may be lacking");
+    } else if (const auto found = Identify(data_, shown->fit, tight_)) {
       for (std::string& sentence : Sentences(*found))
         diagnosis_.warnings.push_back(std::move(sentence));
+    }
     diagnosis_.sentence = Sentence();
   }
 
@@ -305,7 +348,9 @@ class Diagnosing {
   }
 
   void AddEstimates(const Fit& fit) {
-    const Eigen::MatrixXd covariance = Covariance(data_, fit, tight_);
+    FitOptions options = tight_;
+    options.cancelled = nullptr;  // one evaluation
+    const Eigen::MatrixXd covariance = Covariance(data_, fit, options);
     const std::vector<Estimate> estimates = Intervals(fit, covariance);
     std::vector<std::size_t> effects, fitted;  // which coordinates
     for (const model::Effect& effect : fit.state.effects)
@@ -338,7 +383,8 @@ class Diagnosing {
     const double best = search_.contenders.front().fit.bic;
     for (std::size_t i = 0; i < search_.contenders.size(); ++i) {
       const Contender& contender = search_.contenders[i];
-      if (i >= kCandidatesShown && &contender != base_) continue;
+      const std::size_t shown = Stopped() ? kFinalists : kCandidatesShown;
+      if (i >= shown && &contender != base_) continue;
       Candidate candidate;
       for (const model::EffectSpec* spec : contender.effects)
         candidate.effects.push_back(TitleOf(*spec));
@@ -356,7 +402,7 @@ class Diagnosing {
         candidate.rms_pa = fitted.Rms();
         if (held_out.count > 0)
           candidate.holdout_rms_pa = held_out.Rms();
-        else if (i < kFinalists)
+        else if (i < kFinalists && !Stopped())
           candidate.holdout_rms_pa = LeaveOneOut(contender.fit);
       }
       diagnosis_.candidates.push_back(std::move(candidate));
@@ -374,7 +420,7 @@ class Diagnosing {
       const std::vector<PhaseSpan> phases = PhasesOf(run);
       for (const double t_s : run.t_s) series.phase.push_back(phases[PhaseAt(phases, t_s)].phase);
       const auto predict = [&](const ModelState& state) {
-        std::vector<double> pressure_pa = Predicted(data_, state, i, tight_).pressure_pa;
+        std::vector<double> pressure_pa = Shown(state, i).pressure_pa;
         pressure_pa.resize(run.t_s.size(), std::numeric_limits<double>::quiet_NaN());
         return pressure_pa;
       };
@@ -436,11 +482,15 @@ class Diagnosing {
       case Verdict::kUndecided:
         break;
     }
-    return "Undecided: the search was cut short or a fit failed.";
+    return Stopped() ? "Undecided: the search was stopped before its end."
+                     : "Undecided: a fit that matters failed.";
   }
 
   const Dataset& dataset_;
-  const DiagnoseOptions& options_;
+  DiagnoseOptions options_;  // asks Stopped
+  const std::function<bool()> cancelled_;
+  const Clock::time_point start_ = Clock::now();
+  mutable std::atomic<bool> stopped_ = false;
   ForwardModel forward_;
   std::vector<ObservedRun> observed_;
   FitData data_;

@@ -3,6 +3,7 @@
 #ifndef PLENUM_CALIBRATION_DIAGNOSE_H_
 #define PLENUM_CALIBRATION_DIAGNOSE_H_
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -11,10 +12,16 @@
 
 namespace plenum::calibration {
 
-using DiagnoseOptions = SearchOptions;
+// `cancelled` may be asked by several threads at once.
+struct DiagnoseOptions : SearchOptions {
+  double time_limit_s = std::numeric_limits<double>::infinity();
+};
 
-// Cancelled or cut short: the best so far, with kUndecided. Without runs to hold out, the finalists
-// are fitted again without each run in turn and judged by the runs left out.
+// Cancelled or out of time before the verdict: kUndecided, no effects, the errors and candidates so
+// far. Later, the verdict stands, and a warning names what was left undone (a learned term, the
+// next experiment, held-out errors of candidates). Either way within a fraction of a second.
+// Without runs to hold out, the finalists are fitted again without each run in turn and judged by
+// the runs left out.
 Diagnosis Diagnose(const Dataset& dataset, const DiagnoseOptions& options);
 
 // What a known model makes of the runs: its effects and the factors on declared numbers stand; only

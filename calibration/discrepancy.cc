@@ -18,6 +18,7 @@ constexpr std::size_t kFolds = 4;      // runs left out, at most
 constexpr int kIterations = 25;
 constexpr double kFunctionTolerance = 1e-5;
 constexpr double kNoiseShare = 1e-2;
+constexpr std::size_t kSteps = 5'000;  // of a run: a term on its way may be stiff
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 // One kind of term: laws from coarse to fine.
@@ -252,6 +253,7 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
   quick.iterations_max = std::min(options.iterations_max, kIterations);
   quick.function_tolerance = std::max(options.function_tolerance, kFunctionTolerance);
   quick.noise_share = std::max(options.noise_share, kNoiseShare);
+  quick.steps_max = std::min(options.steps_max, kSteps);
   std::vector<Attempt> attempts;
   for (const Family& family : Families()) {
     if (Holds(established.state, family.id)) continue;
@@ -260,7 +262,7 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
     if (options.cancelled && options.cancelled()) return learned;
   }
   const Attempt* best = Choose(data, established, attempts, quick);
-  if (!best) return learned;
+  if (!best || (options.cancelled && options.cancelled())) return learned;
   learned.fit = best->fit;
   discrepancy.equation = best->fit.state.effects.back().spec->place;
   discrepancy.features = best->family->features;

@@ -9,9 +9,10 @@
 #ifndef PLENUM_CALIBRATION_EFFECT_SEARCH_H_
 #define PLENUM_CALIBRATION_EFFECT_SEARCH_H_
 
-#include <chrono>
+#include <algorithm>
 #include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "calibration/fit.h"
@@ -26,7 +27,7 @@ struct Contender {
 };
 
 struct SearchOptions {
-  int threads = 2;
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   std::function<bool()> cancelled;                           // may be empty
   std::function<void(double, const std::string&)> progress;  // share done, what is under way
 };

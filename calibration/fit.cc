@@ -14,7 +14,6 @@ namespace {
 constexpr double kTwoSided95 = 1.96;
 constexpr double kToleranceTightest = 1e-9, kToleranceLoosest = 1e-5;
 constexpr double kParameterTolerance = 1e-7;
-constexpr double kAtBound = 1e-9;
 constexpr double kLeastCurvature = 1e-12;
 
 PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions& options) {
@@ -302,13 +301,6 @@ Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions
   for (Eigen::Index j = 0; j < size; ++j) {
     const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
     if (coordinate.prior) curvature(j, j) += 1.0;
-    const double room = std::min(fit.u[j] - coordinate.low, coordinate.high - fit.u[j]);
-    const bool at_bound = room <= kAtBound * std::max(1.0, std::abs(fit.u[j]));
-    if (at_bound) {  // held there by the data: others see it fixed
-      curvature.row(j).setZero();
-      curvature.col(j).setZero();
-      curvature(j, j) = 1.0 / kLeastCurvature;
-    }
   }
   // By eigenvalues of the scaled curvature: directions without any leave their parameters unknown.
   const Eigen::VectorXd scale = curvature.diagonal().cwiseMax(kLeastCurvature).cwiseSqrt();

@@ -6,8 +6,10 @@
 //
 // Intervals: the curvature of χ² at the optimum gives the covariance of the coordinates
 // (coordinates.h), inflated by χ²/(n − k) where that is above 1; ±1.96 standard deviations there,
-// carried to the numbers through the coordinate and cut at its bounds. A parameter whose standard
-// deviation is above kUnidentified (in e-folds, or of a declared number's prior) is not identified.
+// carried to the numbers through the coordinate and cut at its bounds. A number at its bound still
+// moves in the others' intervals: the data alone would have carried it further. A parameter whose
+// standard deviation is above kUnidentified (in e-folds, or of a declared number's prior) is not
+// identified.
 #ifndef PLENUM_CALIBRATION_FIT_H_
 #define PLENUM_CALIBRATION_FIT_H_
 

@@ -19,6 +19,7 @@ namespace {
 constexpr double kCorrelationErrors = 3.0;
 constexpr double kCorrelationMax = 0.98;
 constexpr double kClipSigmas = 3.0;
+constexpr double kMemoryless = 1e-3;  // θ over the spacing
 
 // Residual in units of the noise, without what a coarse grid does to it.
 std::vector<double> InNoise(const FittedRun& fitted) {
@@ -90,6 +91,21 @@ void GiveMemory(const std::vector<Noise>& noises, std::vector<ResidualSeries>& s
                       std::min(kCorrelationMax, shown->lag1 + reach));
   for (std::size_t i = 0; i < series.size(); ++i)
     if (noises[i].lag1_error > 0.0) series[i].memory = memory;
+}
+
+// By how much σ² was read too small if the noise has the memory that the residual shows: slow noise
+// passes the readings' differences by.
+double Underread(const std::vector<Noise>& noises, const std::vector<ResidualSeries>& series) {
+  double most = 1.0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    if (!(noises[i].lag1_error > 0.0)) continue;
+    const auto seen = [&](const NoiseMemory& memory) {
+      const double theta_s = std::max(memory.theta_s, kMemoryless * noises[i].spacing_s);
+      return ThirdDifference(std::exp(-noises[i].spacing_s / theta_s), memory.share, 1);
+    };
+    most = std::max(most, seen(noises[i].memory) / seen(series[i].memory));
+  }
+  return most;
 }
 
 // Of all runs together and of each, which share the false-alarm rate: the one furthest towards its
@@ -199,6 +215,7 @@ ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_nu
     ReadMemories(series, noises);
     TestStructure(noises, series, report, by_input);
   }
+  report.lack_of_fit_limit *= Underread(noises, series);
   return report;
 }
 

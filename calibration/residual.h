@@ -5,7 +5,8 @@
 //   F = Σ r²/σ_j² / (N − p),   standard error √(Σ 2·n_j·(1+2·s²·ρ_j²/(1−ρ_j²)) + Σ (2·n_j·δ_j)²)/N,
 // where δ_j is the relative error of σ_j, s the share of the noise that remembers (noise_memory.h)
 // and ρ_j its correlation at the run's spacing: the
-// limit allows for a noise that is itself an estimate. Limits are passed by pure noise with
+// limit allows for a noise that is itself an estimate, and for what its differences miss of σ² if
+// it has the memory that the residual shows. Limits are passed by pure noise with
 // kFalseAlarm each. Fitted numbers make residuals a little whiter, so that the other tests err to
 // the quiet side.
 //

@@ -38,7 +38,7 @@ bool PumpEnergyRises(const Problem& problem, const Candidate& candidate);
 // Lowest source pressure in the candidate's window at which the strokes meet their limits;
 // kInfeasible where even the highest is too slow. `point` gives the reservoir; below `floor_pa`,
 // which is within the tolerance of it, they do not.
-inline constexpr double kPressureTolerance = 1e-8;
+inline constexpr double kPressureTolerance = 1e-9;
 struct NeededPressure {
   LeafStatus status = LeafStatus::kUndecided;
   double source_pa = 0.0;

@@ -25,6 +25,7 @@ struct DiagnoseCommand {
   std::string rig, model, save, report;
   std::string catalog = "catalog.db";
   std::vector<std::string> holdout;
+  double time_limit_s = api::kDiagnosisTimeS;
   bool json = false;
 };
 
@@ -80,6 +81,7 @@ api::DiagnosisRequest ReadRequest(const DiagnoseCommand& command) {
   if (!command.holdout.empty() && document.is_object()) document["holdout"] = command.holdout;
   request.dataset = ValueOrRefuse(api::ParseMeasurement(document));
   request.model = KnownModel(command);
+  request.time_limit_s = command.time_limit_s;
   return request;
 }
 
@@ -139,6 +141,10 @@ void AddDiagnoseCommand(CLI::App& app, int& status) {
   command->add_option("--save", options->save, "Keep the revised model for designs")
       ->type_name("NAME");
   command->add_option("--report", options->report, "Write an HTML report")->type_name("FILE");
+  command->add_option("--time-limit", options->time_limit_s, "Seconds to search")
+      ->check(CLI::Range(0.01, api::kDiagnosisTimeMaxS))
+      ->capture_default_str()
+      ->type_name("S");
   AddJsonFlag(*command, options->json);
   AddCatalogOption(*command, options->catalog);
   command->callback([options, &status] { status = Diagnose(*options); });

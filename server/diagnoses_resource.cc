@@ -16,10 +16,12 @@ namespace {
 
 constexpr const char* kModel = "model";
 constexpr const char* kSave = "save";
+constexpr const char* kTimeLimit = "time_limit_s";
 
 // What the service takes beside the measurement.
 struct Names {
   std::string model, save;  // empty: none
+  double time_limit_s = api::kDiagnosisTimeS;
 };
 
 Names ReadNames(const api::Json& document, api::Errors& errors) {
@@ -28,6 +30,8 @@ Names ReadNames(const api::Json& document, api::Errors& errors) {
   api::Reader reader(document, "", errors);
   if (reader.Has(kModel)) names.model = reader.Text(kModel);
   if (reader.Has(kSave)) names.save = reader.Text(kSave);
+  names.time_limit_s =
+      reader.Number(kTimeLimit, {0.01, api::kDiagnosisTimeMaxS}, api::kDiagnosisTimeS);
   const std::string why = names.save.empty() ? "" : catalog::WhyInvalidModelName(names.save);
   if (!why.empty()) reader.Fail(kSave, why);
   return names;
@@ -56,6 +60,7 @@ api::Parsed<Request> ReadRequest(const std::string& body,
   Request request;
   const Names names = ReadNames(document, errors);
   request.save = names.save;
+  request.diagnosis.time_limit_s = names.time_limit_s;
   if (!names.model.empty() && names.model != "nominal") {
     request.diagnosis.model = ValueOrAdd(api::FindModel(names.model, models, "/model"), errors);
     for (const auto& model : models)
@@ -64,6 +69,7 @@ api::Parsed<Request> ReadRequest(const std::string& body,
   if (document.is_object()) {
     document.erase(kModel);
     document.erase(kSave);
+    document.erase(kTimeLimit);
   }
   request.diagnosis.dataset = ValueOrAdd(api::ParseMeasurement(document), errors);
   if (!errors.empty()) return errors;

@@ -1,9 +1,11 @@
 // Verdicts on data of the independent simulator.
 #include "calibration/diagnose.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 
 #include "tests/calibration/bench.h"
 
@@ -61,6 +63,35 @@ TEST(Diagnose, CancelledIsUndecided) {
   std::atomic<int> asked = 0;
   options.cancelled = [&] { return ++asked > 40; };
   EXPECT_EQ(Diagnose(MeasuredBench({}, 25), options).verdict, Verdict::kUndecided);
+}
+
+TEST(Diagnose, OutOfTimeNamesNothing) {
+  DiagnoseOptions options;
+  options.time_limit_s = 0.0;
+  const Diagnosis d = Diagnose(MeasuredBench({}, 25), options);
+  EXPECT_EQ(d.verdict, Verdict::kUndecided);
+  EXPECT_THAT(d.sentence, testing::HasSubstr("stopped"));
+  EXPECT_TRUE(d.effects.empty());
+  EXPECT_GT(d.declared.rms_pa, 0.0);
+  EXPECT_LT(d.declared.rms_pa, 1e5);
+}
+
+// Stopped at any instant: never an effect by name before the search is through, never a number that
+// is none.
+TEST(Diagnose, StoppedAnywhereIsHonest) {
+  const Dataset dataset = MeasuredBench({}, 25);
+  for (const int limit : {10, 100, 1'000, 10'000}) {
+    DiagnoseOptions options;
+    std::atomic<int> asked = 0;
+    options.cancelled = [&] { return ++asked > limit; };
+    const Diagnosis d = Diagnose(dataset, options);
+    for (const ErrorReport* error : {&d.declared, &d.before, &d.after}) {
+      EXPECT_TRUE(std::isfinite(error->rms_pa));
+      EXPECT_LT(error->rms_pa, 1e6);
+    }
+    EXPECT_TRUE(d.verdict != Verdict::kUndecided || d.effects.empty());
+    for (const Candidate& candidate : d.candidates) EXPECT_FALSE(std::isnan(candidate.rms_pa));
+  }
 }
 
 }  // namespace
