@@ -185,9 +185,12 @@ Json DescribeMeasurement() {
   Json& properties = schema["properties"];
   properties["rig"] = InParts(properties["rig"]);
   properties["runs"]["items"]["properties"]["rig"] = properties["rig"];
-  properties["model"] = {{"type", "string"},
+  properties["model"] = {{"type", {"string", "null"}},
+                         {"maxLength", kTextCharactersMax},
                          {"description", "a saved model that predicts the runs"}};
-  properties["save"] = {{"type", "string"}, {"description", "the name to save the model under"}};
+  properties["save"] = {{"type", {"string", "null"}},
+                        {"maxLength", kTextCharactersMax},
+                        {"description", "the name to save the model under"}};
   properties["time_limit_s"] = NumberForm({0.01, kDiagnosisTimeMaxS});
   return schema;
 }

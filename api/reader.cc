@@ -84,6 +84,7 @@ const Json* Reader::Raw(std::string_view name) {
 }
 
 bool Reader::Has(std::string_view name) {
+  if (auto* recorder = SchemaRecorder::Current()) recorder->MayBeMissing(pointer_, name);
   const Json* value = Raw(name);
   return value != nullptr && !value->is_null();
 }

@@ -96,6 +96,12 @@ void SchemaRecorder::Field(const std::string& pointer, std::string_view name, co
   ++field.required_in;
 }
 
+void SchemaRecorder::MayBeMissing(const std::string& pointer, std::string_view name) {
+  Node& field = FieldOf(At(pointer), name);
+  field.may_be_missing = true;
+  AddForm(field, {{"type", "null"}});
+}
+
 void SchemaRecorder::Fix(const std::string& pointer, std::string_view name, const Json& schema) {
   FieldOf(At(pointer), name).fixed = schema;
 }
@@ -106,7 +112,7 @@ Json SchemaRecorder::RenderObject(const Node& node) {
   for (const std::string& name : node.order) {
     const Node& field = *node.fields.at(name);
     schema["properties"][name] = Render(field);
-    if (field.required_in == node.visits) required.push_back(name);
+    if (field.required_in == node.visits && !field.may_be_missing) required.push_back(name);
   }
   if (!required.empty()) schema["required"] = std::move(required);
   schema["additionalProperties"] = false;
@@ -114,7 +120,8 @@ Json SchemaRecorder::RenderObject(const Node& node) {
 }
 
 Json SchemaRecorder::Render(const Node& node) {
-  if (!node.fixed.is_null()) return node.fixed;
+  if (!node.fixed.is_null() && !node.may_be_missing) return node.fixed;
+  if (!node.fixed.is_null()) return {{"anyOf", {node.fixed, {{"type", "null"}}}}};
   std::vector<Json> forms;
   for (const Json& form : node.forms) {
     const bool is_list = form.contains("type") && form["type"] == "array";

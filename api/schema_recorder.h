@@ -5,8 +5,9 @@
 //   for (const Json& example : examples) ParseMeasurement(example);   // together: every branch
 //   Json schema = recorder.Schema();                                  // JSON Schema 2020-12
 //
-// A field is required if every reading of its object required it; a field that was read in two ways
-// may have either form, and two ranges of a number become the range that holds both.
+// A field is required if every reading of its object required it without asking whether it is
+// there; a field that was read in two ways may have either form, and two ranges of a number become
+// the range that holds both.
 #ifndef PLENUM_API_SCHEMA_RECORDER_H_
 #define PLENUM_API_SCHEMA_RECORDER_H_
 
@@ -34,6 +35,8 @@ class SchemaRecorder {
   void Object(const std::string& pointer);
   // A field of it was asked for; `form` is null where nothing is known of its values.
   void Field(const std::string& pointer, std::string_view name, const Json& form, bool required);
+  // Whether the field is there was asked first: it may be missing or null, whatever is heard later.
+  void MayBeMissing(const std::string& pointer, std::string_view name);
   // The whole of what may stand in a field, whatever is heard of its inside.
   void Fix(const std::string& pointer, std::string_view name, const Json& schema);
 
@@ -44,6 +47,7 @@ class SchemaRecorder {
     int visits = 0;  // as an object
     std::vector<Json> forms;
     Json fixed;
+    bool may_be_missing = false;
     std::vector<std::string> order;  // of the fields, as they were first asked for
     std::map<std::string, std::unique_ptr<Node>, std::less<>> fields;
     std::unique_ptr<Node> items;

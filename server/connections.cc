@@ -57,7 +57,12 @@ void RaiseFileLimit() {
 // another thread may write is atomic.
 struct Connections::Connection final : Outgoing {
   explicit Connection(int fd) : socket(fd), peer(PeerOf(fd)) { Await(seconds(kHeadSecondsMax)); }
-  ~Connection() override { close(socket); }
+  ~Connection() override {
+    // A client that is cut off hears of it at once, also while it sends.
+    const linger at_once{1, 0};
+    if (evicted) setsockopt(socket, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
+    close(socket);
+  }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
@@ -100,7 +105,9 @@ struct Connections::Connection final : Outgoing {
   bool draining = false;
   std::atomic<std::size_t> accounted = 0;
   std::atomic<Clock::rep> since = 0, deadline = 0;
-  std::atomic<bool> busy = false, expired = false;
+  std::atomic<bool> busy = false;
+  std::atomic<bool> expired = false;  // waited too long, or
+  std::atomic<bool> evicted = false;  // had to make room
 };
 
 Connections::Connections(HandleRequest handle, RenderRefusal refuse)
@@ -294,7 +301,7 @@ void Connections::MakeRoom() {
     if (oldest == nullptr || connection->since < oldest->since) oldest = connection.get();
   }
   if (oldest == nullptr) return;
-  oldest->expired = true;
+  oldest->expired = oldest->evicted = true;
   buffered_ -= oldest->accounted.exchange(0);
   ++closed_early_;
   shutdown(oldest->socket, SHUT_RDWR);

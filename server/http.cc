@@ -145,6 +145,15 @@ Reply FaultReply(const httplib::Request& request, const std::exception_ptr& faul
   return reply;
 }
 
+// Whether the answer takes much memory to make.
+bool IsLarge(const Route& route, const Call& call) {
+  if (call.body.size() > kLargeBodyBytes || route.path == "/v1/parts/export") return true;
+  api::Errors ignored;
+  const bool facets = ReadFlag(call, "facets", ignored);
+  const std::string limit = QueryValue(call, "limit").value_or("");
+  return facets || limit.size() > 3 || std::atoi(limit.c_str()) > kLargePageParts;
+}
+
 // What a refusal by RequestFrame is worth in numbers.
 api::Json ValueOf(const std::string& limit, const HttpOptions& options) {
   return RenderLimits(options.jobs, options.kept).value(limit, api::Json());
@@ -280,13 +289,13 @@ struct HttpService::Impl {
     return reply;
   }
 
-  // Of large bodies few are taken apart at a time.
   Reply Run(const Route& route, const Call& call) {
-    const bool large = call.body.size() > kLargeBodyBytes;
-    const auto turn = large ? large_bodies.Enter() : nullptr;
+    const bool large = IsLarge(route, call);
+    const auto turn =
+        large ? large_requests.Enter(std::chrono::seconds(kLargeWaitSeconds)) : nullptr;
     if (large && !turn)
-      return BusyReply("large_bodies_max", kLargeBodiesMax,
-                       "other large requests are being worked on", 1);
+      return BusyReply("large_requests_max", kLargeMax, "other large requests are being worked on",
+                       1);
     return route.answer(call);
   }
 
@@ -326,7 +335,7 @@ struct HttpService::Impl {
   catalog::JobStore jobs;
   Jobs designs, diagnoses;
   const std::vector<Route> routes;
-  Turnstile large_bodies{kLargeBodiesMax};
+  Gate large_requests{kLargeMax, kLargeWaitingMax};
   Connections connections;
 };
 

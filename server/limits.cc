@@ -15,7 +15,12 @@ api::Json RenderLimits(const JobOptions& jobs, const catalog::JobsKept& kept) {
                       {"body_bytes_per_second_min", kBytesPerSecondMin},
                       {"buffered_bytes_max", kBufferedBytesMax},
                       {"large_body_bytes", kLargeBodyBytes},
-                      {"large_bodies_max", kLargeBodiesMax},
+                      {"large_page_parts", kLargePageParts},
+                      {"large_requests_max", kLargeMax},
+                      {"large_requests_waiting_max", kLargeWaitingMax},
+                      {"large_requests_wait_seconds", kLargeWaitSeconds},
+                      {"import_cells_max", kImportCellsMax},
+                      {"import_columns_max", kImportColumnsMax},
                       {"connections_max", kConnectionsMax},
                       {"requests_at_a_time_max", kRequestThreads},
                       {"computing_max", kComputingMax},
@@ -35,6 +40,27 @@ Reply LimitReply(int status, const std::string& name, const api::Json& value,
   api::Json document = api::ProblemDocument(status, detail);
   document["limit"] = {{"name", name}, {"value", value}};
   return {status, "application/problem+json", Dump(document) + "\n", {}, {}};
+}
+
+std::shared_ptr<void> Gate::Enter(std::chrono::seconds patience) {
+  std::unique_lock lock(mutex_);
+  if (free_ == 0) {
+    if (waiting_free_ == 0) return nullptr;
+    --waiting_free_;
+    const bool came = left_.wait_for(lock, patience, [this] { return free_ > 0; });
+    ++waiting_free_;
+    if (!came) return nullptr;
+  }
+  --free_;
+  return {this, [](Gate* gate) { gate->Leave(); }};
+}
+
+void Gate::Leave() {
+  {
+    const std::lock_guard lock(mutex_);
+    ++free_;
+  }
+  left_.notify_one();
 }
 
 Reply BusyReply(const std::string& name, const api::Json& value, const std::string& detail,

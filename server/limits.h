@@ -4,8 +4,11 @@
 #define PLENUM_SERVER_LIMITS_H_
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <memory>
+#include <mutex>
 
 #include "api/json.h"
 #include "server/jobs.h"
@@ -24,11 +27,17 @@ inline constexpr std::size_t kPathBytesMax = 1024;
 inline constexpr std::size_t kBodyBytesMax = 8 << 20;
 // Requests that have not arrived and answers that have not left, of all connections together;
 // beyond it the connection that has waited longest is closed.
-inline constexpr std::size_t kBufferedBytesMax = 24 << 20;
+inline constexpr std::size_t kBufferedBytesMax = 16 << 20;
+// What takes much memory, one at a time: a larger body, a page of more parts, a table of parts.
 inline constexpr std::size_t kLargeBodyBytes = 256 << 10;
-inline constexpr int kLargeBodiesMax = 2;  // requests with a larger body, worked on at a time
-inline constexpr int kComputingMax = 8;    // simulations and maps at a time
-inline constexpr int kWaitingMax = 8;      // requests that wait for their job
+inline constexpr int kLargePageParts = 200;
+inline constexpr int kLargeMax = 1;
+inline constexpr int kLargeWaitingMax = 8;
+inline constexpr int kLargeWaitSeconds = 10;
+inline constexpr std::size_t kImportCellsMax = 1'000'000;
+inline constexpr std::size_t kImportColumnsMax = 1'000;
+inline constexpr int kComputingMax = 8;  // simulations and maps at a time
+inline constexpr int kWaitingMax = 8;    // requests that wait for their job
 inline constexpr int kWaitSecondsMax = 300;
 inline constexpr int kStreamsMax = 8;  // open event streams
 
@@ -55,6 +64,21 @@ class Turnstile {
 
  private:
   std::atomic<int> free_;
+};
+
+// Lets `max` in at a time; others wait for their turn.
+class Gate {
+ public:
+  Gate(int max, int waiting_max) : free_(max), waiting_free_(waiting_max) {}
+  // Leaves when the last copy goes; nothing when too many wait or the turn does not come in time.
+  std::shared_ptr<void> Enter(std::chrono::seconds patience);
+
+ private:
+  void Leave();
+
+  std::mutex mutex_;
+  std::condition_variable left_;
+  int free_, waiting_free_;
 };
 
 }  // namespace plenum::server

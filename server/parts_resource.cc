@@ -5,6 +5,7 @@
 #include "api/part_query.h"
 #include "api/services.h"
 #include "server/import_parts.h"
+#include "server/limits.h"
 #include "server/signature.h"
 
 namespace plenum::server {
@@ -247,12 +248,32 @@ Reply ExportParts(SharedCatalog& catalog, const Call& call) {
           {}};
 }
 
+namespace {
+
+// A table of many cells takes many times its text.
+std::optional<Reply> RefuseTable(const std::string& text) {
+  const auto count = [&](auto end, char c) {
+    return static_cast<std::size_t>(std::count(text.begin(), end, c));
+  };
+  const auto columns = count(std::find(text.begin(), text.end(), '\n'), ',') + 1;
+  if (columns > kImportColumnsMax)
+    return LimitReply(413, "import_columns_max", kImportColumnsMax,
+                      "the table has too many columns");
+  if (count(text.end(), ',') + count(text.end(), '\n') > kImportCellsMax)
+    return LimitReply(413, "import_cells_max", kImportCellsMax,
+                      "the table has too many cells; send it in parts");
+  return std::nullopt;
+}
+
+}  // namespace
+
 Reply ImportParts(SharedCatalog& catalog, const Call& call) {
   auto errors = CheckQuery(call, {"family", "dry_run"});
   const auto family = QueryValue(call, "family");
   if (!family) errors.push_back({"/family", "is missing; one of " + FamilyNames()});
   const bool dry_run = ReadFlag(call, "dry_run", errors);
   if (!errors.empty()) return ProblemReply(422, errors);
+  if (auto refused = RefuseTable(call.body)) return *refused;
   const auto signature = SignatureOf(call);
   if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
   const auto result = catalog.With([&](auto& store) {

@@ -1,0 +1,79 @@
+#include "targets.h"
+
+#include <cstdlib>
+#include <map>
+#include <string>
+
+#include "api/measurement.h"
+#include "api/part_query.h"
+#include "api/services.h"
+#include "catalog/csv.h"
+#include "catalog/fields.h"
+#include "server/request_frame.h"
+
+namespace plenum::fuzz {
+namespace {
+
+// What must hold in a fuzzer, where no test library listens.
+void Require(bool holds) {
+  if (!holds) std::abort();
+}
+
+}  // namespace
+
+void Requirements(std::string_view text) {
+  const auto json = api::ParseJson(text);
+  if (const auto* document = std::get_if<api::Json>(&json)) {
+    document->dump(-1, ' ', false, api::Json::error_handler_t::replace);
+    const auto parsed = api::ParseRequirements(*document, {});
+    if (const auto* errors = std::get_if<api::Errors>(&parsed)) Require(!errors->empty());
+  }
+}
+
+void Measurement(std::string_view text) {
+  const auto json = api::ParseJson(text);
+  if (const auto* document = std::get_if<api::Json>(&json)) api::ParseMeasurement(*document);
+}
+
+void Csv(std::string_view text) {
+  if (text.empty()) return;
+  const auto families = catalog::Families();
+  const auto& family = families[static_cast<unsigned char>(text[0]) % families.size()];
+  const auto csv = catalog::ReadCsv(std::string(family.name), text.substr(1));
+  if (!csv.errors.empty()) return;
+  // What was read without an error is written and read again as it was.
+  const std::string written = catalog::WriteCsv(std::string(family.name), csv.parts);
+  const auto again = catalog::ReadCsv(std::string(family.name), written);
+  Require(again.errors.empty() && again.parts == csv.parts);
+}
+
+void Query(std::string_view text) {
+  std::multimap<std::string, std::string> query;
+  while (!text.empty()) {
+    const std::string_view pair = text.substr(0, text.find('&'));
+    text.remove_prefix(std::min(text.size(), pair.size() + 1));
+    const auto equals = std::min(pair.find('='), pair.size());
+    query.emplace(pair.substr(0, equals), pair.substr(std::min(pair.size(), equals + 1)));
+  }
+  const auto parsed = api::ParsePartQuery(query);
+  if (const auto* found = std::get_if<api::PartQuery>(&parsed)) api::RenderPage(*found, {}, {});
+}
+
+void Frame(std::string_view text) {
+  using server::RequestFrame;
+  // The same end is found however the bytes come.
+  RequestFrame whole, piecewise;
+  const auto state = whole.Look(text);
+  auto last = RequestFrame::State::kHead;
+  for (std::size_t size = 1; size <= text.size() && last < RequestFrame::State::kComplete; ++size)
+    last = piecewise.Look(text.substr(0, size));
+  if (state == RequestFrame::State::kComplete) {
+    Require(last == state && whole.size() == piecewise.size() && whole.size() <= text.size());
+    std::string bytes(text);
+    const std::size_t head = whole.TakeHead(bytes).size();
+    Require(whole.TakeBody(bytes).size() + head <= whole.size());
+    Require(bytes == text.substr(whole.size()));
+  }
+}
+
+}  // namespace plenum::fuzz

@@ -1,0 +1,30 @@
+// The fuzzers' corpora once more: what was interesting stays harmless (tests/fuzz/run.sh finds
+// more).
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "../fuzz/targets.h"
+#include "workbench.h"
+
+namespace plenum::fuzz {
+namespace {
+
+void Replay(const std::string& name, void (*target)(std::string_view)) {
+  const auto folder = std::filesystem::path(PLENUM_SOURCE_DIR) / "tests/fuzz/corpus" / name;
+  int files = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    target(server::ReadAll(file.path()));
+    ++files;
+  }
+  EXPECT_GT(files, 0) << folder;
+}
+
+TEST(Fuzz, Requirements) { Replay("requirements", Requirements); }
+TEST(Fuzz, Measurement) { Replay("measurement", Measurement); }
+TEST(Fuzz, Csv) { Replay("csv", Csv); }
+TEST(Fuzz, Query) { Replay("query", Query); }
+TEST(Fuzz, Frame) { Replay("frame", Frame); }
+
+}  // namespace
+}  // namespace plenum::fuzz
