@@ -14,7 +14,7 @@ namespace {
 constexpr double kTolerance = 1e-7, kEnergyTolerance = 4e-7, kLateTolerance = 8e-7;
 constexpr int kLateSteps = 1000;
 constexpr int kStepsPerRefine = 4;
-constexpr int kStepsMax = 40000;
+constexpr int kStepsMax = 40000, kEnergyStepsMax = 10000;
 constexpr double kPressureShare = 0.1;  // of the width of the volumes, to which p1 is raised
 constexpr double kFinest = 1e-10;       // relative width that is not divided any more
 constexpr double kRounding = 1e-12;     // of a margin
@@ -73,7 +73,8 @@ bool CustomSizing::Refine() {
     }
     ++steps_;
     if (steps_ == kLateSteps) tolerance_ = std::max(tolerance_, kLateTolerance);
-    failed_ = failed_ || steps_ >= kStepsMax;
+    const bool energy = problem_.objective.energy_wh > 0.0;
+    failed_ = failed_ || steps_ >= (energy ? kEnergyStepsMax : kStepsMax);
     if (failed_ && !candidate_.stopped()) return Conclude(LeafStatus::kUndecided);
   }
   if (Decided()) return Conclude(LeafStatus::kInfeasible);
