@@ -121,31 +121,30 @@ bool CustomSizing::Judge(Region& region, double tolerance) {
     const Strokes fastest = FastestStrokes(problem_, candidate_, box);
     failed_ = failed_ || fastest.failed;
     if (failed_) return true;
+    LeastEvaluation bounds;
     double objective = 0.0;
+    // How far the bounds from a pressure up are from closing the rectangle there.
     const auto room = [&](double low_pa) {
       SettingsBox part = box;
       part.low_pa = low_pa;
-      const LeastEvaluation bounds = LeastOver(problem_, candidate_, trend_, part, fastest);
+      bounds = LeastOver(problem_, candidate_, trend_, part, fastest);
       failed_ = failed_ || bounds.least.failed;
       const OperatingPoint judged{part.low_pa, part.low_m3, part.low_m3};
       objective = ObjectiveValue(problem_, candidate_, judged, bounds.least);
-      region.coils_differ = bounds.coil_gap_j > bounds.pump_gap_j;
       return std::min(SupplyMargin(problem_, candidate_, judged, bounds.least) + kRounding,
                       1.0 - objective / leaf_.objective);
     };
-    if (Width(box.low_pa, box.high_pa) > tolerance) {
-      const double room_high = room(box.high_pa);
-      const double room_low = room(box.low_pa);
-      if (room_low > 0.0 && room_high <= 0.0) {
-        const double before_pa = box.high_pa;
-        box.high_pa =
-            NarrowBracket(room, box.low_pa, room_low, box.high_pa, room_high, tolerance).high;
-        lowered = before_pa - box.high_pa > 0.5 * (before_pa - box.low_pa);
-      }
-    }
+    const double room_low = room(box.low_pa);
     if (failed_) return true;
-    if (!(room(box.low_pa) > 0.0)) return false;
+    if (!(room_low > 0.0)) return false;
     region.bound = std::max(region.bound, objective);
+    region.coils_differ = bounds.coil_gap_j > bounds.pump_gap_j;
+    if (!(Width(box.low_pa, box.high_pa) > tolerance)) return true;
+    const double room_high = room(box.high_pa);
+    if (room_high > 0.0 || failed_) return true;
+    const double before_pa = box.high_pa;
+    box.high_pa = NarrowBracket(room, box.low_pa, room_low, box.high_pa, room_high, tolerance).high;
+    lowered = before_pa - box.high_pa > 0.5 * (before_pa - box.low_pa);
   }
   return true;
 }
