@@ -14,7 +14,7 @@ namespace {
 constexpr double kTolerance = 1e-7, kEnergyTolerance = 4e-7, kLateTolerance = 8e-7;
 constexpr int kLateSteps = 1000;
 constexpr int kStepsPerRefine = 4;
-constexpr int kStepsMax = 40000;
+constexpr int kStepsMax = 40000, kEnergyStepsMax = 10000;
 constexpr double kPressureShare = 0.1;  // of the width of the volumes, to which p1 is raised
 constexpr double kFinest = 1e-10;       // relative width that is not divided any more
 constexpr double kRounding = 1e-12;     // of a margin
@@ -73,7 +73,8 @@ bool CustomSizing::Refine() {
     }
     ++steps_;
     if (steps_ == kLateSteps) tolerance_ = std::max(tolerance_, kLateTolerance);
-    failed_ = failed_ || steps_ >= kStepsMax;
+    const bool energy = problem_.objective.energy_wh > 0.0;
+    failed_ = failed_ || steps_ >= (energy ? kEnergyStepsMax : kStepsMax);
     if (failed_ && !candidate_.stopped()) return Conclude(LeafStatus::kUndecided);
   }
   if (Decided()) return Conclude(LeafStatus::kInfeasible);
@@ -120,31 +121,30 @@ bool CustomSizing::Judge(Region& region, double tolerance) {
     const Strokes fastest = FastestStrokes(problem_, candidate_, box);
     failed_ = failed_ || fastest.failed;
     if (failed_) return true;
+    LeastEvaluation bounds;
     double objective = 0.0;
+    // How far the bounds from a pressure up are from closing the rectangle there.
     const auto room = [&](double low_pa) {
       SettingsBox part = box;
       part.low_pa = low_pa;
-      const LeastEvaluation bounds = LeastOver(problem_, candidate_, trend_, part, fastest);
+      bounds = LeastOver(problem_, candidate_, trend_, part, fastest);
       failed_ = failed_ || bounds.least.failed;
       const OperatingPoint judged{part.low_pa, part.low_m3, part.low_m3};
       objective = ObjectiveValue(problem_, candidate_, judged, bounds.least);
-      region.coils_differ = bounds.coil_gap_j > bounds.pump_gap_j;
       return std::min(SupplyMargin(problem_, candidate_, judged, bounds.least) + kRounding,
                       1.0 - objective / leaf_.objective);
     };
-    if (Width(box.low_pa, box.high_pa) > tolerance) {
-      const double room_high = room(box.high_pa);
-      const double room_low = room(box.low_pa);
-      if (room_low > 0.0 && room_high <= 0.0) {
-        const double before_pa = box.high_pa;
-        box.high_pa =
-            NarrowBracket(room, box.low_pa, room_low, box.high_pa, room_high, tolerance).high;
-        lowered = before_pa - box.high_pa > 0.5 * (before_pa - box.low_pa);
-      }
-    }
+    const double room_low = room(box.low_pa);
     if (failed_) return true;
-    if (!(room(box.low_pa) > 0.0)) return false;
+    if (!(room_low > 0.0)) return false;
     region.bound = std::max(region.bound, objective);
+    region.coils_differ = bounds.coil_gap_j > bounds.pump_gap_j;
+    if (!(Width(box.low_pa, box.high_pa) > tolerance)) return true;
+    const double room_high = room(box.high_pa);
+    if (room_high > 0.0 || failed_) return true;
+    const double before_pa = box.high_pa;
+    box.high_pa = NarrowBracket(room, box.low_pa, room_low, box.high_pa, room_high, tolerance).high;
+    lowered = before_pa - box.high_pa > 0.5 * (before_pa - box.low_pa);
   }
   return true;
 }

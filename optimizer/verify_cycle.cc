@@ -173,6 +173,7 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
     cycle.fall_s.push_back(stroke.fall_time_s);
   cycle.pump_on_s = 0.5 * response.compressor_on_s;
   cycle.pump_j = 0.5 * response.compressor_energy_j;
+  cycle.pump_air_m3 = 0.5 * response.compressor_air_m3;
   AddNeeds(problem, settings, assembly, cycle);
   return cycle;
 }
@@ -255,15 +256,20 @@ void QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3,
   cycle.pump_j =
       stroke.pump_energy_j +
       model::EnergyToFill(curve, rising_m3, stroke.reservoir_end_pa, source_pa, temperature_k);
+  cycle.pump_air_m3 =
+      stroke.pump_air_m3 +
+      model::StandardVolume(rising_m3 * (source_pa - stroke.reservoir_end_pa), temperature_k);
   if (rig.close_at_operating) return;
   const double content = model::Content(rig.chamber, source_pa) -
                          model::Content(rig.chamber, rig.chamber.operating_pressure_pa);
   if (!(content > 0.0)) return;
   const double last_pa = std::min(source_pa, model::HighestPressure(curve));
-  const double seconds = rig.count * model::StandardVolume(content, temperature_k) /
-                         (input.compressors * std::max(0.0, curve.free_air_m3_per_s(last_pa)));
+  const double air_m3 = rig.count * model::StandardVolume(content, temperature_k);
+  const double seconds =
+      air_m3 / (input.compressors * std::max(0.0, curve.free_air_m3_per_s(last_pa)));
   cycle.pump_on_s += seconds;
   cycle.pump_j += seconds * input.compressors * model::ElectricalPower(curve, source_pa);
+  cycle.pump_air_m3 += air_m3;
 }
 
 std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3) const {

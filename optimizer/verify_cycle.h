@@ -17,7 +17,7 @@ struct Cycle {
   double left_over =
       0.0;              // share of the operating gauge pressure that a stroke at most begins with
   double air_m3 = 0.0;  // ANR, by the contents at rest and full
-  double pump_on_s = 0.0, pump_j = 0.0;
+  double pump_on_s = 0.0, pump_j = 0.0, pump_air_m3 = 0.0;
   double coil_w = 0.0;                       // all on at once, with the regulator
   double steady_j = 0.0, inflating_j = 0.0;  // coils and regulator; of it what strokes shorten
   double electric_j() const { return steady_j + inflating_j; }

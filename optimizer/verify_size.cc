@@ -1,5 +1,7 @@
 #include "optimizer/verify_size.h"
 
+#include <algorithm>
+#include <cmath>
 #include <queue>
 
 #include "model/storage.h"
@@ -14,9 +16,6 @@ constexpr double kBoundTolerance = 1e-4;     // for an interval of volumes
 constexpr double kGap = 2e-7;                // of the objective
 constexpr int kLooksMax = 2000, kVolumesMax = 2000;
 constexpr int kFirstVolumes = 48;
-// Energy of the pumps over an interval of volumes may pass that of a volume inside by a few 1e-4
-// where the pump nearly refills within the stroke (model/reservoir_stroke.h).
-constexpr double kEnergySlack = 1e-2;
 
 template <typename Value>
 bool Rises(const model::CompressorCurve& curve, double ambient_pa, const Value& value) {
@@ -44,6 +43,7 @@ struct Volumes {
 struct Look {
   double source_pa = 0.0;
   Cycle cycle;
+  double least_pump_j = 0.0;  // of any of the volumes at this or a higher pressure
 };
 
 class PressureSizing {
@@ -120,7 +120,30 @@ class PressureSizing {
     ++looks_;
     auto cycle = cycles_.At(SettingsAt(source_pa, volumes_.high_m3), volumes_.low_m3);
     if (!cycle) return std::nullopt;
-    return Look{source_pa, std::move(*cycle)};
+    const double pump_j = cycle->pump_j;
+    if (!(volumes_.high_m3 > volumes_.low_m3)) return Look{source_pa, std::move(*cycle), pump_j};
+    const auto low = cycles_.At(SettingsAt(source_pa, volumes_.low_m3), volumes_.high_m3);
+    if (!low) return std::nullopt;
+    return Look{source_pa, std::move(*cycle), LeastPumpEnergy(source_pa, *low)};
+  }
+
+  // With the smallest volume while the reservoir falls and the largest while it rises its pressure
+  // is at every time below that of each volume, and the pumps deliver no less. Where energy per air
+  // rises with pressure the air of a cycle thus takes at least what the cheapest bits of that run
+  // take; what it pumps beyond takes at most the greatest power at the least delivery.
+  double LeastPumpEnergy(double source_pa, const Cycle& low) const {
+    if (!rises_ || !std::isfinite(*std::max_element(low.inflate_s.begin(), low.inflate_s.end())))
+      return 0.0;
+    const model::CompressorCurve& curve = assembly_.compressor->curve;
+    const double beyond_m3 = problem_.groups.size() == 1
+                                 ? low.pump_air_m3 - low.air_m3
+                                 : (1.0 - volumes_.low_m3 / volumes_.high_m3) * low.pump_air_m3;
+    if (!(beyond_m3 > 0.0)) return low.pump_j;
+    const double delivery =
+        curve.free_air_m3_per_s(std::min(source_pa, model::HighestPressure(curve)));
+    const double power_w =
+        curve.voltage_v * model::LargestCurrent(curve, problem_.ambient.pressure_pa, source_pa);
+    return std::max(0.0, low.pump_j - beyond_m3 * power_w / delivery);
   }
 
   double StrokeExcess(const Cycle& cycle) const {
@@ -180,10 +203,7 @@ class PressureSizing {
     least.inflate_s = high.cycle.inflate_s;
     least.rise_s = high.cycle.rise_s;
     least.inflating_j = std::min(least.inflating_j, high.cycle.inflating_j);
-    if (!rises_) least.pump_j = std::min(least.pump_j, least.air_m3 * least_j_per_m3_);
-    least.pump_j *=
-        1.0 -
-        (volumes_.low_m3 > 0.0 ? kEnergySlack * (volumes_.high_m3 / volumes_.low_m3 - 1.0) : 0.0);
+    least.pump_j = rises_ ? low.least_pump_j : least.air_m3 * least_j_per_m3_;
     const auto [excess, objective] = Judge(low.source_pa, least);
     if (excess <= slack_) open_.push({low, high, objective});
   }
