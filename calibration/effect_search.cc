@@ -255,10 +255,12 @@ class Search {
   void Refine(std::size_t size) {
     const Contender* best = BestOfSize(static_cast<int>(size));
     if (!best) return;
+    const double reach =
+        std::max(kNear, kNearShare * std::max(0.0, Base().fit.bic - best->fit.bic));
     std::vector<Contender*> near;
     for (Contender& contender : result_.contenders)
       if (contender.effects.size() == size && contender.fit.Usable() &&
-          contender.fit.bic < best->fit.bic + kNear)
+          contender.fit.bic < best->fit.bic + reach)
         near.push_back(&contender);
     FitOptions further = fit_options_;
     further.function_tolerance = 0.01 * kScreening;
