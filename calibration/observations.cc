@@ -11,9 +11,9 @@ namespace {
 // errors and by more than kOwnShare.
 constexpr double kOwnErrors = 4.0;
 constexpr double kOwnShare = 0.3;
-// Less noise than this share of the operating gauge pressure is not believed: it would ask more of
-// the model's integration than any sensor does.
-constexpr double kLeastNoise = 1e-5;
+// Less noise than this share of the operating gauge pressure is not believed: still readings of a
+// filtered sensor say nothing of its linearity, and the model is no better either.
+constexpr double kLeastNoise = 1e-4;
 constexpr double kCarryMax = 0.95;
 
 constexpr std::vector<double> Channels::*kSupporting[] = {
