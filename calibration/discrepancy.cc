@@ -15,11 +15,11 @@ namespace {
 constexpr double kGain = 10.0;         // of a finer term over a coarser one, and of any over none
 constexpr std::size_t kFinalists = 3;  // families that compete on runs left out
 constexpr std::size_t kFolds = 4;      // runs left out, at most
-// Fits are compared, not polished.
-constexpr int kIterations = 25;
-constexpr double kFunctionTolerance = 1e-5;
+// Fits are compared, and only the answer is polished.
+constexpr int kIterations = 10, kPolish = 25;
+constexpr double kFunctionTolerance = 1e-4, kPolishTolerance = 1e-6;
 constexpr double kNoiseShare = 1e-2;
-constexpr std::size_t kStepsMax = 10'000;
+constexpr std::size_t kStepsMax = 5'000;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 // One kind of term: laws from coarse to fine.
@@ -267,13 +267,17 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
   quick.threads = options.threads;
   const Attempt* best = Choose(data, established, attempts, quick);
   if (!best || (options.cancelled && options.cancelled())) return learned;
-  learned.fit = best->fit;
-  discrepancy.equation = best->fit.state.effects.back().spec->place;
+  FitOptions polish = quick;
+  polish.iterations_max = kPolish;
+  polish.function_tolerance = kPolishTolerance;
+  const Fit polished = FitModel(data, best->fit.state, polish);
+  learned.fit = polished.Usable() && Score(polished) < best->score ? polished : best->fit;
+  discrepancy.equation = learned.fit.state.effects.back().spec->place;
   discrepancy.features = best->family->features;
-  discrepancy.learned = LearnedOf(data, best->fit, options);
-  discrepancy.rms_after_pa = PressureRms(data, best->fit.state, data.runs, options);
+  discrepancy.learned = LearnedOf(data, learned.fit, options);
+  discrepancy.rms_after_pa = PressureRms(data, learned.fit.state, data.runs, options);
   if (!holdout.empty()) {
-    discrepancy.holdout_after_pa = UnseenRms(data, best->fit.state, holdout, options);
+    discrepancy.holdout_after_pa = UnseenRms(data, learned.fit.state, holdout, options);
   }
   return learned;
 }
