@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "calibration/parallel.h"
 #include "calibration/thresholds.h"
 
 namespace plenum::calibration {
@@ -27,7 +28,8 @@ constexpr int kScreeningIterations = 12;
 constexpr int kFirstLook = 5;
 constexpr double kHopeful = 0.5;
 constexpr std::size_t kAlwaysOn = 6;
-constexpr double kNear = 20.0;  // of BIC
+constexpr double kNear = 20.0;       // of BIC
+constexpr double kNearShare = 0.02;  // of what the best set gains over the base model
 constexpr double kNever = std::numeric_limits<double>::infinity(), kClocksAreAll = -kNever;
 constexpr int kTriplesFrom = 1;  // best pairs
 
@@ -58,18 +60,6 @@ bool ActsInTime(const model::EffectSpec& spec) {
   for (const std::string_view id : {"valve_delay", "valve_ramp", "sensor_lag", "line_dynamics"})
     if (spec.id == id) return true;
   return false;
-}
-
-// Runs work(i) for all i below count on several threads.
-void ForAll(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next = 0;
-  const auto run = [&] {
-    for (std::size_t i = next++; i < count; i = next++) work(i);
-  };
-  std::vector<std::thread> pool;
-  for (int k = 1; k < threads; ++k) pool.emplace_back(run);
-  run();
-  for (std::thread& thread : pool) thread.join();
 }
 
 class Search {

@@ -152,6 +152,13 @@ bool HasPrior(const std::vector<Coordinate>& coordinates) {
 std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& start,
                                       const FitOptions& options) {
   std::vector<Coordinate> coordinates = BaseCoordinates(*data.forward, data.runs, data.clocks);
+  const bool heated =
+      std::any_of(start.effects.begin(), start.effects.end(), [](const model::Effect& effect) {
+        return effect.spec->place == model::EffectPlace::kEnergy;
+      });
+  if (heated)
+    for (const Coordinate& coordinate : TemperatureCoordinates(*data.forward, data.runs))
+      coordinates.push_back(coordinate);
   if (options.nuisance_only) {
     std::erase_if(coordinates, [](const Coordinate& coordinate) {
       return coordinate.parameter.kind == Parameter::Kind::kDeclared;
