@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -17,7 +16,6 @@
 #include "calibration/residual.h"
 #include "calibration/thresholds.h"
 #include "calibration/verdict.h"
-#include "calibration/whiteness.h"
 
 namespace plenum::calibration {
 namespace {
@@ -48,16 +46,6 @@ struct Squares {
 std::string TitleOf(const model::EffectSpec& spec) {
   return spec.law.empty() ? std::string(spec.id)
                           : std::string(spec.id) + ":" + std::string(spec.law);
-}
-
-// Whether the declared numbers are where their uncertainties let them be: what is missing may hide
-// in them and leave nothing but noise.
-bool PriorsHold(const Fit& fit) {
-  const auto count = std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
-                                   [](const Coordinate& coordinate) { return coordinate.prior; });
-  if (count == 0) return true;
-  const boost::math::chi_squared law(static_cast<double>(count));
-  return fit.chi2_prior <= boost::math::quantile(boost::math::complement(law, kFalseAlarm));
 }
 
 class Diagnosing {

@@ -184,6 +184,7 @@ class Search {
     if (Find(set) || std::any_of(jobs.begin(), jobs.end(), planned)) return;
     for (const model::Effect& start : EffectStarts(*added, result_.data.sizes)) {
       Job job{set, from.fit.state, from.fit.bic};
+      if (!PriorsHold(from.fit)) job.start.factor = result_.data.forward->Declared().factor;
       job.start.effects.push_back(start);
       std::sort(job.start.effects.begin(), job.start.effects.end(),
                 [](const auto& a, const auto& b) { return Place(a.spec) < Place(b.spec); });
@@ -241,17 +242,23 @@ class Search {
     return hopeful;
   }
 
-  // Takes the fits of sets of a size that come near the best one further.
+  // Takes the fits of sets of a size further that come near the best one, or are among the best and
+  // have not ended.
   void Refine(std::size_t size) {
     const Contender* best = BestOfSize(static_cast<int>(size));
     if (!best) return;
     const double reach =
         std::max(kNear, kNearShare * std::max(0.0, Base().fit.bic - best->fit.bic));
-    std::vector<Contender*> near;
+    std::vector<Contender*> sorted;
     for (Contender& contender : result_.contenders)
-      if (contender.effects.size() == size && contender.fit.Usable() &&
-          contender.fit.bic < best->fit.bic + reach)
-        near.push_back(&contender);
+      if (contender.effects.size() == size && contender.fit.Usable()) sorted.push_back(&contender);
+    std::sort(sorted.begin(), sorted.end(),
+              [](const auto* a, const auto* b) { return a->fit.bic < b->fit.bic; });
+    std::vector<Contender*> near;
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+      const bool unfinished = k < kAlwaysOn && sorted[k]->fit.status == FitStatus::kIterationsSpent;
+      if (unfinished || sorted[k]->fit.bic < best->fit.bic + reach) near.push_back(sorted[k]);
+    }
     FitOptions further = fit_options_;
     further.function_tolerance = 0.01 * kScreening;
     further.iterations_max = 3 * kScreeningIterations;
@@ -377,6 +384,8 @@ class Search {
     FitData data = result_.data;
     data.clocks = true;
     FitOptions options = fit_options_;
+    options.function_tolerance = 0.01 * kScreening;
+    options.iterations_max = 3 * kScreeningIterations;
     options.threads = options_.threads;
     const Fit with = FitModel(data, Of(set).fit.state, options);
     if (!with.Usable()) return kNever;
@@ -390,7 +399,7 @@ class Search {
     const bool rivalled = std::any_of(
         result_.contenders.begin(), result_.contenders.end(), [&](const Contender& other) {
           return other.effects.size() == from.effects.size() + 1 && other.fit.Usable() &&
-                 Contains(other, from) && other.fit.bic < bic + kClock;
+                 Contains(other, from) && other.fit.bic < bic;
         });
     return rivalled ? bic : kClocksAreAll;
   }
