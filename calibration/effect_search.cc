@@ -106,10 +106,12 @@ class Search {
       const double clocks_bic = WithClocks(chosen);
       if (clocks_bic == kClocksAreAll) return {};
       if (size > 2 && LeftShare(Of(chosen)) > kEstablished) break;
-      if (size == 1)
+      if (size == 1) {
         FitSingles();
-      else
+      } else {
         ExtendSets(Seeds(size - 1), size);
+        TryLaws(size);
+      }
       const Contender* best = BestOfSize(size);
       if (clocks_bic < std::min(best ? best->fit.bic : kNever, Of(chosen).fit.bic) - kClock)
         return {};
@@ -332,6 +334,22 @@ class Search {
       for (const Spec spec : BestLaws()) AddJobs(*Find(seed), spec, jobs);
     const double from = size == 2 ? 0.4 : 0.7;
     RunJobs(jobs, from, from + 0.2, size == 2 ? "pairs of effects" : "triples of effects");
+  }
+
+  // The other laws of each member of the best set of a size: which law stands shows only once the
+  // other effects are there.
+  void TryLaws(int size) {
+    if (!BestOfSize(size)) return;
+    const Contender best = *BestOfSize(size);
+    std::vector<Job> jobs;
+    for (const Spec member : best.effects) {
+      Contender rest = best;
+      std::erase(rest.effects, member);
+      rest.fit.state = StateOf(best, rest.effects);
+      for (const Spec spec : NamedEffects())
+        if (spec != member && spec->id == member->id) AddJobs(rest, spec, jobs);
+    }
+    RunJobs(jobs, 0.6, 0.7, "laws");
   }
 
   // Every set that differs from this one in one member. By value, here and in Finish: the
