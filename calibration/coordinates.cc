@@ -14,7 +14,8 @@ constexpr double kLeastFactor = 0.05, kMostFactor = 20.0;  // of a number known 
 constexpr double kUnknownSpan = 14.0;                      // e-folds either way
 constexpr double kSeriesLow = 1e-3, kSeriesHigh = 1e6;     // of u
 constexpr double kClockIntervals = 2.0;                    // most that a clock may be off
-constexpr double kPressureStepPa = 1e3;                    // scale of an initial pressure
+constexpr double kStroked = 0.05;        // gauge, of the operating pressure: a stroke came before
+constexpr double kPressureStepPa = 1e3;  // scale of an initial pressure
 
 enum class Size {
   kOne,
@@ -145,7 +146,7 @@ std::pair<double, double> Visible(const model::EffectSpec& effect, const model::
   if (effect.id == "heat_transfer") range.first = std::max(spec.low, 0.01 * sizes.stroke_s);
   if (effect.id == "supply_droop" && spec.name == "volume_m3")
     range.first = std::max(spec.low, 0.03 * sizes.volume_m3);
-  if (effect.id == "sensor_gain") range = {0.7, 1.4};  // beyond that a sensor is broken
+  if (effect.id == "sensor_gain") range = {0.9, 1.1};  // beyond that a sensor is broken
   if (spec.name.ends_with("_rad_per_s")) range.second = std::min(spec.high, 150.0 / sizes.stroke_s);
   return range;
 }
@@ -331,6 +332,28 @@ std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
     coordinate.scale = IntervalOf(dataset.runs[i]) / std::sqrt(12.0);
     coordinate.low = -kClockIntervals * std::sqrt(12.0);
     coordinate.high = kClockIntervals * std::sqrt(12.0);
+    coordinate.prior = true;
+    coordinates.push_back(coordinate);
+  }
+  return coordinates;
+}
+
+std::vector<Coordinate> TemperatureCoordinates(const ForwardModel& forward,
+                                               const std::vector<std::size_t>& runs) {
+  std::vector<Coordinate> coordinates;
+  const ModelState declared = forward.Declared();
+  for (const std::size_t i : runs) {
+    const Run& run = forward.dataset().runs[i];
+    const double gauge_pa = declared.initial_pressure_pa[i] - run.ambient.pressure_pa;
+    const double span_pa = run.chamber.operating_pressure_pa - run.ambient.pressure_pa;
+    const bool stroked = InitialIsRead(run) && std::abs(gauge_pa) > kStroked * span_pa;
+    if (run.initial_temperature_k || !stroked) continue;
+    Coordinate coordinate;
+    coordinate.parameter = {.kind = Parameter::Kind::kInitialTemperature, .run = i};
+    coordinate.origin = run.ambient.temperature_k;
+    coordinate.scale = kInitialTemperatureK;
+    coordinate.low = -0.5 * coordinate.origin / coordinate.scale;
+    coordinate.high = coordinate.origin / coordinate.scale;
     coordinate.prior = true;
     coordinates.push_back(coordinate);
   }

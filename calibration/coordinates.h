@@ -47,6 +47,13 @@ TypicalSizes SizesOf(const Dataset& dataset);
 std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
                                         const std::vector<std::size_t>& runs, bool clocks);
 
+// The initial temperatures, of those of the runs given whose gas may have come from a stroke just
+// before: it began off the ambient pressure by a reading, and no temperature is declared. The prior
+// is the ambient's within kInitialTemperatureK. They matter with an energy balance alone.
+inline constexpr double kInitialTemperatureK = 10.0;
+std::vector<Coordinate> TemperatureCoordinates(const ForwardModel& forward,
+                                               const std::vector<std::size_t>& runs);
+
 // All parameters of effect number `effect` of a state.
 std::vector<Coordinate> EffectCoordinates(const model::EffectSpec& spec, std::size_t effect,
                                           const TypicalSizes& sizes);

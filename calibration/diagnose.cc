@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -10,13 +9,13 @@
 
 #include "calibration/criticism.h"
 #include "calibration/discrepancy.h"
+#include "calibration/evidence.h"
 #include "calibration/experiment.h"
 #include "calibration/identifiability.h"
 #include "calibration/phases.h"
 #include "calibration/residual.h"
 #include "calibration/thresholds.h"
 #include "calibration/verdict.h"
-#include "calibration/whiteness.h"
 
 namespace plenum::calibration {
 namespace {
@@ -47,16 +46,6 @@ struct Squares {
 std::string TitleOf(const model::EffectSpec& spec) {
   return spec.law.empty() ? std::string(spec.id)
                           : std::string(spec.id) + ":" + std::string(spec.law);
-}
-
-// Whether the declared numbers are where their uncertainties let them be: what is missing may hide
-// in them and leave nothing but noise.
-bool PriorsHold(const Fit& fit) {
-  const auto count = std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
-                                   [](const Coordinate& coordinate) { return coordinate.prior; });
-  if (count == 0) return true;
-  const boost::math::chi_squared law(static_cast<double>(count));
-  return fit.chi2_prior <= boost::math::quantile(boost::math::complement(law, kFalseAlarm));
 }
 
 class Diagnosing {
@@ -213,6 +202,7 @@ class Diagnosing {
       ModelState start = fit.state;
       const ModelState declared = forward_.Declared();
       start.initial_pressure_pa[left_out] = declared.initial_pressure_pa[left_out];
+      start.initial_temperature_k[left_out] = declared.initial_temperature_k[left_out];
       start.clock_s[left_out] = 0.0;
       const Fit without = FitModel(data, start, options);
       if (!without.Usable()) return std::nullopt;
@@ -251,10 +241,8 @@ class Diagnosing {
   }
 
   void Assess() {
-    const Contender& chosen = search_.contenders[search_.chosen];
     Evidence evidence;
-    evidence.complete = search_.complete && base_->fit.Usable() && chosen.fit.Usable();
-    evidence.accepted = &chosen != base_;
+    evidence.complete = search_.complete && base_->fit.Usable() && Chosen().fit.Usable();
     diagnosis_.noise_pa = NoiseOf(data_.runs);
     diagnosis_.declared = ErrorOf(forward_.Declared());
     if (!base_->fit.Usable() && Stopped()) {
@@ -267,24 +255,33 @@ class Diagnosing {
       return;
     }
     evidence.before = LeftoverOf(base_->fit, !Stopped());
-    evidence.after = evidence.accepted ? LeftoverOf(chosen.fit, !Stopped()) : evidence.before;
-    if (Stopped()) evidence.complete = false;
-    const std::vector<const Contender*> tied = Tied(chosen);
-    evidence.tied = static_cast<int>(tied.size()) - 1;
+    Weigh(1.0, evidence);
     diagnosis_.verdict = Judge(evidence);
+    if (diagnosis_.verdict == Verdict::kUnexplained && evidence.accepted) {
+      const double memory = MemoryOf(WhitenedOf(Chosen().fit));
+      search_.chosen = Standing(search_.contenders, memory);
+      Weigh(memory, evidence);
+    }
+    const Contender& chosen = Chosen();
+    // Effects are established where they account for most of the residual and a term learned
+    // without them does not do as well; which of several they are may still be open.
+    bool established =
+        evidence.accepted && UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
+    const bool open =
+        diagnosis_.verdict == Verdict::kTie ||
+        (diagnosis_.verdict == Verdict::kUnexplained && established && tied_.size() > 1u);
     const Contender* shown = &chosen;
     if (diagnosis_.verdict == Verdict::kUnexplained) {
       Progress(0.95, "what is left unexplained");
-      LearnedModel learned = LearnDiscrepancy(data_, base_->fit, held_out_, tight_);
-      // Effects count as established where they account for most of the residual and a term learned
-      // without them does not do as well.
-      const bool most =
-          evidence.accepted && UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
-      bool established = false;
-      if (most && !IsNoise(LeftoverOf(learned.fit, false))) {
-        LearnedModel beside = LearnDiscrepancy(data_, chosen.fit, held_out_, tight_);
-        established = beside.fit.bic < learned.fit.bic - kAccept;
-        if (established) learned = std::move(beside);
+      LearnedModel learned =
+          LearnDiscrepancy(data_, open ? chosen.fit : base_->fit, held_out_, tight_);
+      if (established && !open) {
+        established = false;
+        if (!IsNoise(LeftoverOf(learned.fit, false))) {
+          LearnedModel beside = LearnDiscrepancy(data_, chosen.fit, held_out_, tight_);
+          established = beside.fit.bic < learned.fit.bic - kAccept;
+          if (established) learned = std::move(beside);
+        }
       }
       if (!established) shown = base_, evidence.after = evidence.before;
       diagnosis_.discrepancy = std::move(learned.discrepancy);
@@ -301,10 +298,10 @@ class Diagnosing {
     diagnosis_.unexplained_fraction = UnexplainedFraction(evidence.before, evidence.after);
     AddCandidates();
     if (diagnosis_.verdict == Verdict::kUndecided) diagnosis_.effects.clear();
-    if (diagnosis_.verdict == Verdict::kTie) {
+    if (open) {
       diagnosis_.effects.clear();
       std::vector<TiedFit> fits;
-      for (const Contender* contender : tied) {
+      for (const Contender* contender : tied_) {
         diagnosis_.tied.push_back(IdsOf(*contender));
         fits.push_back({IdsOf(*contender), &contender->fit});
       }
@@ -327,12 +324,35 @@ class Diagnosing {
     diagnosis_.sentence = Sentence();
   }
 
+  const Contender& Chosen() const { return search_.contenders[search_.chosen]; }
+
+  // What the chosen set leaves and what does as well, by residuals that are worth 1/memory of their
+  // number.
+  void Weigh(double memory, Evidence& evidence) {
+    evidence.accepted = &Chosen() != base_;
+    evidence.after = evidence.accepted ? LeftoverOf(Chosen().fit, !Stopped()) : evidence.before;
+    tied_ = Tied(Chosen(), memory);
+    evidence.tied = static_cast<int>(tied_.size()) - 1;
+    if (Stopped()) evidence.complete = false;
+  }
+
+  // Of the pressure, by run.
+  std::vector<std::vector<double>> WhitenedOf(const Fit& fit) const {
+    std::vector<std::vector<double>> series;
+    for (const std::size_t i : data_.runs) {
+      std::vector<double>& rows = series.emplace_back(observed_[i].rows());
+      Residuals(dataset_.runs[i], observed_[i], Shown(fit.state, i), rows);
+      rows.resize(observed_[i].signals.front().samples.size());
+    }
+    return series;
+  }
+
   // The chosen set and those of its size that do as well, the best first, each set of ids once.
-  std::vector<const Contender*> Tied(const Contender& chosen) const {
+  std::vector<const Contender*> Tied(const Contender& chosen, double memory) const {
     std::vector<const Contender*> tied = {&chosen};
     for (const Contender& contender : search_.contenders) {
       if (contender.effects.size() != chosen.effects.size() || !contender.fit.Usable()) continue;
-      if (contender.fit.bic > chosen.fit.bic + kTie) continue;
+      if (BicWith(contender.fit, memory) > BicWith(chosen.fit, memory) + kTie) continue;
       const bool known = std::any_of(tied.begin(), tied.end(), [&](const Contender* other) {
         return SameEffects(contender, *other);
       });
@@ -462,6 +482,8 @@ class Diagnosing {
       for (const std::string& id : ids) text += (text.empty() ? "" : " + ") + id;
       return text;
     };
+    std::string either;
+    for (const auto& ids : diagnosis_.tied) either += (either.empty() ? "" : " or ") + list(ids);
     switch (diagnosis_.verdict) {
       case Verdict::kAdequate:
         return "The model is good enough: after its uncertain numbers were fitted, only noise is "
@@ -469,12 +491,12 @@ class Diagnosing {
       case Verdict::kExplained:
         return "The model lacks " + list(IdsOf(search_.contenders[search_.chosen])) +
                "; with it, only noise is left.";
-      case Verdict::kTie: {
-        std::string text;
-        for (const auto& ids : diagnosis_.tied) text += (text.empty() ? "" : " or ") + list(ids);
-        return "The data cannot tell which is missing: " + text + ".";
-      }
+      case Verdict::kTie:
+        return "The data cannot tell which is missing: " + either + ".";
       case Verdict::kUnexplained:
+        if (!diagnosis_.tied.empty())
+          return "The data cannot tell which is missing: " + either +
+                 "; and structure is left that no known effect accounts for.";
         return diagnosis_.effects.empty()
                    ? "Structure is left that no known effect accounts for."
                    : "The model lacks " + list(IdsOf(search_.contenders[search_.chosen])) +
@@ -498,6 +520,7 @@ class Diagnosing {
   FitOptions tight_;
   SearchResult search_;
   const Contender* base_ = nullptr;
+  std::vector<const Contender*> tied_;  // the chosen set first
   Diagnosis diagnosis_;
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "calibration/parallel.h"
 #include "model/effects/learned.h"
 
 namespace plenum::calibration {
@@ -14,11 +15,11 @@ namespace {
 constexpr double kGain = 10.0;         // of a finer term over a coarser one, and of any over none
 constexpr std::size_t kFinalists = 3;  // families that compete on runs left out
 constexpr std::size_t kFolds = 4;      // runs left out, at most
-// Fits are compared, not polished.
-constexpr int kIterations = 25;
-constexpr double kFunctionTolerance = 1e-5;
+// Fits are compared, and only the answer is polished.
+constexpr int kIterations = 10, kPolish = 25;
+constexpr double kFunctionTolerance = 1e-4, kPolishTolerance = 1e-6;
 constexpr double kNoiseShare = 1e-2;
-constexpr std::size_t kSteps = 5'000;  // of a run: a term on its way may be stiff
+constexpr std::size_t kStepsMax = 5'000;  // of a run: a term on its way may be stiff
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 // One kind of term: laws from coarse to fine.
@@ -157,6 +158,7 @@ double LeftOut(const FitData& data, const FitOn& fit_on, const FitOptions& optio
     ModelState state = fit.state;
     const ModelState declared = data.forward->Declared();
     state.initial_pressure_pa[left_out] = declared.initial_pressure_pa[left_out];
+    state.initial_temperature_k[left_out] = declared.initial_temperature_k[left_out];
     state.clock_s[left_out] = declared.clock_s[left_out];
     sum += SquaresOf(data, Aligned(data, state, left_out, options), {left_out}, options);
   }
@@ -253,23 +255,29 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
   quick.iterations_max = std::min(options.iterations_max, kIterations);
   quick.function_tolerance = std::max(options.function_tolerance, kFunctionTolerance);
   quick.noise_share = std::max(options.noise_share, kNoiseShare);
-  quick.steps_max = std::min(options.steps_max, kSteps);
-  std::vector<Attempt> attempts;
-  for (const Family& family : Families()) {
-    if (Holds(established.state, family.id)) continue;
-    Attempt attempt = FitFamily(data, family, established.state, quick);
-    if (attempt.fit.Usable()) attempts.push_back(std::move(attempt));
-    if (options.cancelled && options.cancelled()) return learned;
-  }
+  quick.steps_max = std::min(options.steps_max, kStepsMax);
+  quick.threads = 1;
+  std::vector<Attempt> attempts(Families().size());
+  ForAll(attempts.size(), options.threads, [&](std::size_t i) {
+    if (!Holds(established.state, Families()[i].id))
+      attempts[i] = FitFamily(data, Families()[i], established.state, quick);
+  });
+  std::erase_if(attempts, [](const Attempt& attempt) { return !attempt.fit.Usable(); });
+  if (options.cancelled && options.cancelled()) return learned;
+  quick.threads = options.threads;
   const Attempt* best = Choose(data, established, attempts, quick);
   if (!best || (options.cancelled && options.cancelled())) return learned;
-  learned.fit = best->fit;
-  discrepancy.equation = best->fit.state.effects.back().spec->place;
+  FitOptions polish = quick;
+  polish.iterations_max = kPolish;
+  polish.function_tolerance = kPolishTolerance;
+  const Fit polished = FitModel(data, best->fit.state, polish);
+  learned.fit = polished.Usable() && Score(polished) < best->score ? polished : best->fit;
+  discrepancy.equation = learned.fit.state.effects.back().spec->place;
   discrepancy.features = best->family->features;
-  discrepancy.learned = LearnedOf(data, best->fit, options);
-  discrepancy.rms_after_pa = PressureRms(data, best->fit.state, data.runs, options);
+  discrepancy.learned = LearnedOf(data, learned.fit, options);
+  discrepancy.rms_after_pa = PressureRms(data, learned.fit.state, data.runs, options);
   if (!holdout.empty()) {
-    discrepancy.holdout_after_pa = UnseenRms(data, best->fit.state, holdout, options);
+    discrepancy.holdout_after_pa = UnseenRms(data, learned.fit.state, holdout, options);
   }
   return learned;
 }

@@ -57,6 +57,9 @@ class DirectionOf {
       case Parameter::Kind::kInitialPressure:
         if (parameter.run == run_index) Add(group_.initial_pressure_pa, 1.0);
         break;
+      case Parameter::Kind::kInitialTemperature:
+        if (parameter.run == run_index) Add(group_.initial_temperature_k, 1.0);
+        break;
       case Parameter::Kind::kClock:
         if (parameter.run != run_index) break;
         for (const model::ValveCommand& command : group_.schedule) Add(command.time_s, 1.0);
@@ -200,6 +203,8 @@ double& NumberOf(ModelState& state, const Parameter& parameter) {
       return state.effects[parameter.effect].parameters[parameter.number];
     case Parameter::Kind::kInitialPressure:
       return state.initial_pressure_pa[parameter.run];
+    case Parameter::Kind::kInitialTemperature:
+      return state.initial_temperature_k[parameter.run];
     case Parameter::Kind::kClock:
       return state.clock_s[parameter.run];
     case Parameter::Kind::kDeclared:
@@ -231,8 +236,11 @@ ForwardModel::ForwardModel(const Dataset& dataset)
 
 ModelState ForwardModel::Declared() const {
   ModelState state;
-  for (const Run& run : dataset_->runs)
+  for (const Run& run : dataset_->runs) {
     state.initial_pressure_pa.push_back(run.initial_pressure_pa.value_or(FirstReading(run)));
+    state.initial_temperature_k.push_back(
+        run.initial_temperature_k.value_or(run.ambient.temperature_k));
+  }
   state.clock_s.assign(dataset_->runs.size(), 0.0);
   return state;
 }
@@ -288,7 +296,7 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
   for (const model::ValveCommand& command : run.valve)
     group.schedule.push_back({command.time_s - StartOf(run) + state.clock_s[index], command.state});
   group.initial_pressure_pa = state.initial_pressure_pa[index];
-  group.initial_temperature_k = run.initial_temperature_k.value_or(0.0);
+  group.initial_temperature_k = state.initial_temperature_k[index];
   group.blocked = run.blocked;
   group.effects = state.effects;
   rig.groups = {std::move(group)};

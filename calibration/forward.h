@@ -1,11 +1,11 @@
 // From a run and a model to what the sensors should have read, with exact derivatives.
 //
 // A model is the declared rig with a factor on each declared number (gauge pressures keep the
-// ambient pressure as their zero), a list of effects, the pressures at which the runs began, and by
-// how much each run's clock lags behind the valve's: its commands act that much later than
-// recorded. Where a tube's bore moves, its pair (C, b) and its volume move with it (model/tube.h).
-// A factor on C or b acts on the declared pairs, not on those that follow from a tube's size; b
-// stays in [0, 0.95] and ε at 1 or above.
+// ambient pressure as their zero), a list of effects, the pressures and temperatures at which the
+// runs began, and by how much each run's clock lags behind the valve's: its commands act that much
+// later than recorded. Where a tube's bore moves, its pair (C, b) and its volume move with it
+// (model/tube.h). A factor on C or b acts on the declared pairs, not on those that follow from a
+// tube's size; b stays in [0, 0.95] and ε at 1 or above.
 #ifndef PLENUM_CALIBRATION_FORWARD_H_
 #define PLENUM_CALIBRATION_FORWARD_H_
 
@@ -26,17 +26,18 @@ struct ModelState {
 
   std::array<double, kDeclaredCount> factor;
   std::vector<model::Effect> effects;
-  std::vector<double> initial_pressure_pa;  // absolute, by run of the data set
-  std::vector<double> clock_s;              // by run
+  std::vector<double> initial_pressure_pa;    // absolute, by run of the data set
+  std::vector<double> initial_temperature_k;  // by run; matters with an energy balance alone
+  std::vector<double> clock_s;                // by run
 };
 
 // One number of a model state.
 struct Parameter {
-  enum class Kind { kDeclared, kEffect, kInitialPressure, kClock };
+  enum class Kind { kDeclared, kEffect, kInitialPressure, kInitialTemperature, kClock };
   Kind kind = Kind::kDeclared;
   Declared declared = Declared::kRestVolume;  // kDeclared
   std::size_t effect = 0, number = 0;         // kEffect: of the list, of its parameters
-  std::size_t run = 0;                        // kInitialPressure, kClock
+  std::size_t run = 0;                        // of one run's own number
   bool operator==(const Parameter&) const = default;
 };
 double& NumberOf(ModelState& state, const Parameter& parameter);
@@ -71,7 +72,8 @@ class ForwardModel {
 
   const Dataset& dataset() const { return *dataset_; }
 
-  // The declared model: no effects, declared initial pressures, else the first reading.
+  // The declared model: no effects, declared initial pressures, else the first reading; declared
+  // initial temperatures, else the ambient's.
   ModelState Declared() const;
 
   // The rig of a run as the model has it, on the run's own clock shifted to start at 0.

@@ -35,6 +35,8 @@ std::string NameOf(const Parameter& parameter, const ModelState& state, const Da
     }
     case Parameter::Kind::kInitialPressure:
       return "initial pressure of " + dataset.runs[parameter.run].id;
+    case Parameter::Kind::kInitialTemperature:
+      return "initial temperature of " + dataset.runs[parameter.run].id;
     case Parameter::Kind::kClock:
       return "clock of " + dataset.runs[parameter.run].id;
     case Parameter::Kind::kDeclared:

@@ -11,9 +11,9 @@ namespace {
 // errors and by more than kOwnShare.
 constexpr double kOwnErrors = 4.0;
 constexpr double kOwnShare = 0.3;
-// Less noise than this share of the operating gauge pressure is not believed: it would ask more of
-// the model's integration than any sensor does.
-constexpr double kLeastNoise = 1e-5;
+// Less noise than this share of the operating gauge pressure is not believed: still readings of a
+// filtered sensor say nothing of its linearity, and the model is no better either.
+constexpr double kLeastNoise = 1e-4;
 // A white part that every sensor has: without it two readings at nearly one instant would weigh
 // beyond measure.
 constexpr double kShareMax = 0.95;

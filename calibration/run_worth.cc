@@ -95,6 +95,8 @@ ModelState ExtendedData::With(ModelState state) const {
   const Run& added = dataset.runs.back();
   state.initial_pressure_pa.push_back(
       added.initial_pressure_pa.value_or(added.ambient.pressure_pa));
+  state.initial_temperature_k.push_back(
+      added.initial_temperature_k.value_or(added.ambient.temperature_k));
   state.clock_s.push_back(0.0);
   return state;
 }
