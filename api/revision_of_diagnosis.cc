@@ -1,51 +1,52 @@
 #include "api/revision_of_diagnosis.h"
 
-#include <cmath>
-
 #include "api/effects.h"
 
 namespace plenum::api {
 namespace {
 
-constexpr double kIntervalSigmas = 2.0 * 1.96;  // width of a 95 % interval
+// The name of an effect's parameter in the contract and how large 1 in SI is in its unit.
+struct Unit {
+  std::string name;
+  double size = 1.0;
+};
 
-void AddVariance(const std::string& name, double deviation, std::vector<double>& variances,
-                 SavedModel& model) {
-  model.covariance.parameters.push_back(name);
-  variances.push_back(deviation * deviation);
-}
-
-// The effect's deviations in the contract's units, which are proportional to the model's.
-Json Deviations(const calibration::FittedEffect& fitted) {
-  model::Effect deviations = fitted.effect;
-  for (std::size_t i = 0; i < deviations.parameters.size(); ++i)
-    deviations.parameters[i] =
-        (fitted.parameters[i].high - fitted.parameters[i].low) / kIntervalSigmas;
-  return RenderEffects({&deviations, 1})[0]["parameters"];
+Unit UnitOf(const model::Effect& effect, std::size_t parameter) {
+  model::Effect one = effect;
+  one.parameters.assign(effect.parameters.size(), 0.0);
+  one.parameters[parameter] = 1.0;
+  const Json rendered = RenderEffects({&one, 1})[0]["parameters"];
+  for (const auto& [name, value] : rendered.items())
+    if (value.is_number() && value.get<double>() != 0.0)
+      return {std::string(effect.spec->id) + "." + name, value.get<double>()};
+  return {std::string(effect.spec->id)};
 }
 
 }  // namespace
 
 SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance& provenance) {
   SavedModel model;
-  std::vector<double> variances;
-  for (const calibration::FittedEffect& fitted : diagnosis.effects) {
+  std::vector<double> sizes;
+  std::vector<calibration::FittedEffect> effects = diagnosis.effects;
+  if (diagnosis.discrepancy && diagnosis.discrepancy->learned)
+    effects.push_back(*diagnosis.discrepancy->learned);
+  for (const calibration::FittedEffect& fitted : effects) {
     model.effects.push_back(fitted.effect);
-    const Json deviations = Deviations(fitted);
-    for (const auto& [name, deviation] : deviations.items())
-      if (deviation.is_number())
-        AddVariance(std::string(fitted.effect.spec->id) + "." + name, deviation.get<double>(),
-                    variances, model);
+    for (std::size_t i = 0; i < fitted.parameters.size(); ++i) {
+      const Unit unit = UnitOf(fitted.effect, i);
+      model.covariance.parameters.push_back(unit.name);
+      sizes.push_back(unit.size);
+    }
   }
   for (const auto& [number, estimate] : diagnosis.fitted) {
     model.factors.emplace_back(number, estimate.value);
-    AddVariance(std::string(calibration::Name(number)),
-                (estimate.high - estimate.low) / kIntervalSigmas, variances, model);
+    model.covariance.parameters.emplace_back(calibration::Name(number));
+    sizes.push_back(1.0);
   }
-  for (std::size_t i = 0; i < variances.size(); ++i) {
-    model.covariance.rows.emplace_back(variances.size(), 0.0);
-    model.covariance.rows[i][i] = variances[i];
-  }
+  model.covariance.rows = diagnosis.covariance;
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    for (std::size_t j = 0; j < sizes.size(); ++j)
+      model.covariance.rows[i][j] *= sizes[i] * sizes[j];
   for (const Provenance::File& file : provenance.files)
     model.data.push_back({file.name, file.sha256});
   model.noise_pa = diagnosis.noise_pa;

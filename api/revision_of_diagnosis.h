@@ -7,8 +7,7 @@
 
 namespace plenum::api {
 
-// Effects and factors at their estimates, and of each its variance from the 95 % interval; what
-// varies together is not kept.
+// Effects, a learned term among them, and factors at their estimates, with their covariance.
 SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance& provenance);
 
 }  // namespace plenum::api

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "calibration/criticism.h"
 #include "calibration/discrepancy.h"
 #include "calibration/evidence.h"
 #include "calibration/experiment.h"
@@ -237,6 +238,7 @@ class Diagnosing {
     leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()));
     leftover.rms_pa = squares.Rms();
     leftover.noise_pa = NoiseOf(data_.runs);
+    if (IsNoise(leftover)) leftover.learnable_bic = LearnableGain(data_, fit, tight_);
     if (!with_holdout) return leftover;
     if (held_out_.empty()) {
       leftover.holdout_rms_pa = LeaveOneOut(fit);
@@ -274,13 +276,35 @@ class Diagnosing {
     }
     const Contender& chosen = Chosen();
     diagnosis_.before = ErrorOf(base_->fit.state);
-    diagnosis_.after = evidence.accepted ? ErrorOf(chosen.fit.state) : diagnosis_.before;
+    const ErrorReport after = evidence.accepted ? ErrorOf(chosen.fit.state) : diagnosis_.before;
+    AddCandidates();
+    const Contender* shown = &chosen;
+    if (diagnosis_.verdict == Verdict::kUnexplained) {
+      Progress(0.95, "what is left unexplained");
+      LearnedModel learned = LearnDiscrepancy(data_, base_->fit, held_out_, tight_);
+      // Effects count as established where they account for most of the residual and a term learned
+      // without them does not do as well.
+      const bool most =
+          evidence.accepted && UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
+      const bool compared = !Stopped();
+      bool established = false;
+      if (most && compared && !IsNoise(LeftoverOf(learned.fit, false))) {
+        LearnedModel beside = LearnDiscrepancy(data_, chosen.fit, held_out_, tight_);
+        established = beside.fit.bic < learned.fit.bic - kAccept;
+        if (established) learned = std::move(beside);
+      }
+      if (!established) shown = base_, evidence.after = evidence.before;
+      diagnosis_.discrepancy = std::move(learned.discrepancy);
+      AddEstimates(learned.fit);
+      if (diagnosis_.discrepancy->learned) diagnosis_.effects.pop_back();
+    } else {
+      AddEstimates(chosen.fit);
+    }
+    diagnosis_.after = shown == base_ ? diagnosis_.before : after;
     diagnosis_.before.holdout_rms_pa = evidence.before.holdout_rms_pa;
     diagnosis_.after.holdout_rms_pa = evidence.after.holdout_rms_pa;
     diagnosis_.residual = evidence.after.residual;
     diagnosis_.unexplained_fraction = UnexplainedFraction(evidence.before, evidence.after);
-    AddEstimates(chosen);
-    AddCandidates();
     if (diagnosis_.verdict == Verdict::kUndecided) diagnosis_.effects.clear();
     const bool established = diagnosis_.unexplained_fraction <= kEstablished;
     if (diagnosis_.verdict == Verdict::kTie ||
@@ -293,15 +317,8 @@ class Diagnosing {
       }
       diagnosis_.next_experiment = DesignExperiment(data_, fits, tight_);
     }
-    if (diagnosis_.verdict == Verdict::kUnexplained) {
-      Progress(0.95, "what is left unexplained");
-      if (!established) diagnosis_.effects.clear();
-      diagnosis_.discrepancy =
-          LearnDiscrepancy(data_, established ? chosen.fit : base_->fit, held_out_, tight_)
-              .discrepancy;
-    }
     Progress(0.99, "report");
-    AddSeries(forward_.Declared(), base_->fit.state, chosen.fit.state);
+    AddSeries(forward_.Declared(), base_->fit.state, shown->fit.state);
     AddWarnings();
     if (Stopped()) {
       diagnosis_.warnings.push_back(
@@ -310,7 +327,7 @@ class Diagnosing {
                 "far"
               : "stopped after the verdict: a learned term, the next experiment or held-out errors "
                 "may be lacking");
-    } else if (const auto found = Identify(data_, chosen.fit, tight_)) {
+    } else if (const auto found = Identify(data_, shown->fit, tight_)) {
       for (std::string& sentence : Sentences(*found))
         diagnosis_.warnings.push_back(std::move(sentence));
     }
@@ -360,16 +377,35 @@ class Diagnosing {
     return ids;
   }
 
-  void AddEstimates(const Contender& chosen) {
-    const std::vector<Estimate> estimates = Intervals(data_, chosen.fit, tight_);
-    for (const model::Effect& effect : chosen.fit.state.effects)
+  void AddEstimates(const Fit& fit) {
+    FitOptions options = tight_;
+    options.cancelled = nullptr;  // one evaluation
+    const Eigen::MatrixXd covariance = Covariance(data_, fit, options);
+    const std::vector<Estimate> estimates = Intervals(fit, covariance);
+    std::vector<std::size_t> effects, fitted;  // which coordinates
+    for (const model::Effect& effect : fit.state.effects)
       diagnosis_.effects.push_back({effect, std::vector<Estimate>(effect.parameters.size())});
     for (std::size_t j = 0; j < estimates.size(); ++j) {
-      const Parameter& parameter = chosen.fit.coordinates[j].parameter;
-      if (parameter.kind == Parameter::Kind::kEffect)
+      const Parameter& parameter = fit.coordinates[j].parameter;
+      if (parameter.kind == Parameter::Kind::kEffect) {
         diagnosis_.effects[parameter.effect].parameters[parameter.number] = estimates[j];
-      if (parameter.kind == Parameter::Kind::kDeclared)
+        effects.push_back(j);
+      }
+      if (parameter.kind == Parameter::Kind::kDeclared) {
         diagnosis_.fitted.emplace_back(parameter.declared, estimates[j]);
+        fitted.push_back(j);
+      }
+    }
+    std::vector<std::size_t> shown = effects;
+    shown.insert(shown.end(), fitted.begin(), fitted.end());
+    const auto slope = [&](std::size_t j) {
+      return fit.coordinates[j].Slope(fit.u[static_cast<Eigen::Index>(j)]);
+    };
+    for (const std::size_t i : shown) {
+      std::vector<double>& row = diagnosis_.covariance.emplace_back();
+      for (const std::size_t j : shown)
+        row.push_back(slope(i) * slope(j) *
+                      covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
     }
   }
 
@@ -392,12 +428,12 @@ class Diagnosing {
         Squares fitted, held_out;
         for (const std::size_t run : data_.runs) fitted.Add(ErrorsOf(run, contender.fit.state));
         for (const std::size_t run : held_out_)
-          held_out.Add(ErrorsUnseen(run, contender.fit.state));
+          if (!Stopped()) held_out.Add(ErrorsUnseen(run, contender.fit.state));
         candidate.rms_pa = fitted.Rms();
-        if (held_out.count > 0)
-          candidate.holdout_rms_pa = held_out.Rms();
-        else if (i < kFinalists && !Stopped())
+        if (held_out_.empty() && i < kFinalists && !Stopped())
           candidate.holdout_rms_pa = LeaveOneOut(contender.fit);
+        else if (held_out.count > 0 && !Stopped())
+          candidate.holdout_rms_pa = held_out.Rms();
       }
       diagnosis_.candidates.push_back(std::move(candidate));
     }

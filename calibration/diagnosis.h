@@ -110,6 +110,9 @@ struct Diagnosis {
   std::optional<Experiment> next_experiment;
   ResidualReport residual;
   std::vector<std::pair<Declared, Estimate>> fitted;  // factors times declared: see RenderDiagnosis
+  // Of the effects' parameters, in their order, then of the learned term's and of the fitted
+  // factors; SI. From the curvature of χ² at the optimum (calibration/fit.h).
+  std::vector<std::vector<double>> covariance;
   std::optional<Discrepancy> discrepancy;
   double unexplained_fraction = 0.0;  // of the residual's variance above the noise, 0 to 1
   std::vector<std::string> warnings;  // outliers, clipped readings, what the data do not identify

@@ -19,7 +19,7 @@ constexpr std::size_t kFolds = 4;      // runs left out, at most
 constexpr int kIterations = 10, kPolish = 25;
 constexpr double kFunctionTolerance = 1e-4, kPolishTolerance = 1e-6;
 constexpr double kNoiseShare = 1e-2;
-constexpr std::size_t kStepsMax = 5'000;
+constexpr std::size_t kStepsMax = 5'000;  // of a run: a term on its way may be stiff
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 // One kind of term: laws from coarse to fine.
@@ -205,7 +205,7 @@ const Attempt* Choose(const FitData& data, const Fit& established, std::vector<A
 
 FittedEffect LearnedOf(const FitData& data, const Fit& fit, const FitOptions& options) {
   FittedEffect learned{fit.state.effects.back(), {}};
-  const std::vector<Estimate> estimates = Intervals(data, fit, options);
+  const std::vector<Estimate> estimates = Intervals(fit, Covariance(data, fit, options));
   for (std::size_t j = 0; j < fit.coordinates.size(); ++j) {
     const Parameter& parameter = fit.coordinates[j].parameter;
     if (parameter.kind == Parameter::Kind::kEffect &&

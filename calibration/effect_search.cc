@@ -354,6 +354,19 @@ class Search {
     return state;
   }
 
+  // What the clocks cost in units of BIC: minus twice the logarithm of the share of their prior
+  // that the data leave, which is their term of the marginal likelihood (Laplace).
+  static double ClocksCost(const FitData& data, const Fit& fit, const FitOptions& options) {
+    const Eigen::MatrixXd covariance = Covariance(data, fit, options);
+    double cost = 0.0;
+    for (std::size_t j = 0; j < fit.coordinates.size(); ++j) {
+      const auto at = static_cast<Eigen::Index>(j);
+      if (fit.coordinates[j].parameter.kind == Parameter::Kind::kClock)
+        cost -= std::log(covariance(at, at));
+    }
+    return cost;
+  }
+
   // BIC of a set with the runs' clocks fitted. kClocksAreAll where that leaves nothing, and one
   // effect more that acts in time does not do as well: there is no need to try all effects.
   double WithClocks(std::size_t set) {
@@ -364,13 +377,8 @@ class Search {
     options.threads = options_.threads;
     const Fit with = FitModel(data, Of(set).fit.state, options);
     if (!with.Usable()) return kNever;
-    const auto clocks = std::count_if(with.coordinates.begin(), with.coordinates.end(),
-                                      [](const Coordinate& coordinate) {
-                                        return coordinate.parameter.kind == Parameter::Kind::kClock;
-                                      });
-    const double bic =
-        with.bic + static_cast<double>(clocks) * std::log(static_cast<double>(with.rows));
-    if (!(bic < Of(set).fit.bic - kClock) || !enough_(with)) return bic;
+    const double bic = with.bic + ClocksCost(data, with, options);
+    if (!(bic < Of(set).fit.bic) || !enough_(with)) return bic;
     std::vector<Job> jobs;
     const Contender from = Of(set);
     for (const Spec spec : NamedEffects())

@@ -14,7 +14,6 @@ namespace {
 constexpr double kTwoSided95 = 1.96;
 constexpr double kToleranceTightest = 1e-9, kToleranceLoosest = 1e-5;
 constexpr double kParameterTolerance = 1e-7;
-constexpr double kAtBound = 1e-9;
 constexpr double kLeastCurvature = 1e-12;
 
 PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions& options) {
@@ -290,7 +289,7 @@ Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& opt
   return fit;
 }
 
-std::vector<Estimate> Intervals(const FitData& data, const Fit& fit, const FitOptions& options) {
+Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options) {
   const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
   Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(size, size);
   for (const std::size_t run : data.runs) {
@@ -309,13 +308,6 @@ std::vector<Estimate> Intervals(const FitData& data, const Fit& fit, const FitOp
   for (Eigen::Index j = 0; j < size; ++j) {
     const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
     if (coordinate.prior) curvature(j, j) += 1.0;
-    const double room = std::min(fit.u[j] - coordinate.low, coordinate.high - fit.u[j]);
-    const bool at_bound = room <= kAtBound * std::max(1.0, std::abs(fit.u[j]));
-    if (at_bound) {  // held there by the data: others see it fixed
-      curvature.row(j).setZero();
-      curvature.col(j).setZero();
-      curvature(j, j) = 1.0 / kLeastCurvature;
-    }
   }
   // By eigenvalues of the scaled curvature: directions without any leave their parameters unknown.
   const Eigen::VectorXd scale = curvature.diagonal().cwiseMax(kLeastCurvature).cwiseSqrt();
@@ -323,11 +315,16 @@ std::vector<Estimate> Intervals(const FitData& data, const Fit& fit, const FitOp
       scale.cwiseInverse().asDiagonal() * curvature * scale.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   const Eigen::VectorXd spread = eigen.eigenvalues().cwiseMax(kLeastCurvature).cwiseInverse();
+  const Eigen::VectorXd unit = scale.cwiseInverse();
+  return unit.asDiagonal() * eigen.eigenvectors() * spread.asDiagonal() *
+         eigen.eigenvectors().transpose() * unit.asDiagonal();
+}
+
+std::vector<Estimate> Intervals(const Fit& fit, const Eigen::MatrixXd& covariance) {
   std::vector<Estimate> estimates;
-  for (Eigen::Index j = 0; j < size; ++j) {
+  for (Eigen::Index j = 0; j < fit.u.size(); ++j) {
     const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
-    const double variance =
-        eigen.eigenvectors().row(j).cwiseAbs2().dot(spread.transpose()) / (scale[j] * scale[j]);
+    const double variance = covariance(j, j);
     const double half = kTwoSided95 * std::sqrt(variance);
     const double one = Edge(coordinate, fit.u[j] - half), other = Edge(coordinate, fit.u[j] + half);
     const double range = coordinate.kind == Coordinate::Kind::kLinear && !coordinate.prior

@@ -6,8 +6,10 @@
 //
 // Intervals: the curvature of χ² at the optimum gives the covariance of the coordinates
 // (coordinates.h), inflated by χ²/(n − k) where that is above 1; ±1.96 standard deviations there,
-// carried to the numbers through the coordinate and cut at its bounds. A parameter whose standard
-// deviation is above kUnidentified (in e-folds, or of a declared number's prior) is not identified.
+// carried to the numbers through the coordinate and cut at its bounds. A number at its bound still
+// moves in the others' intervals: the data alone would have carried it further. A parameter whose
+// standard deviation is above kUnidentified (in e-folds, or of a declared number's prior) is not
+// identified.
 #ifndef PLENUM_CALIBRATION_FIT_H_
 #define PLENUM_CALIBRATION_FIT_H_
 
@@ -62,8 +64,11 @@ Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& opt
 
 inline constexpr double kUnidentified = 0.9;
 
-// Per coordinate. Costs one evaluation.
-std::vector<Estimate> Intervals(const FitData& data, const Fit& fit, const FitOptions& options);
+// Of the coordinates u. Costs one evaluation.
+Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options);
+
+// Per coordinate, from their covariance.
+std::vector<Estimate> Intervals(const Fit& fit, const Eigen::MatrixXd& covariance);
 
 // Readings of a run that the fitted model predicts. Empty where the simulation failed.
 Reading Predicted(const FitData& data, const ModelState& state, std::size_t run,

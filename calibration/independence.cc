@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "calibration/phases.h"
+#include "calibration/whiteness.h"
 
 namespace plenum::calibration {
 namespace {

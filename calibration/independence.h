@@ -3,7 +3,7 @@
 //
 // Each input u gives a few functions φ: normalised Legendre polynomials of its rank, or the
 // indicator of a phase. Residual and functions pass the filter that turns the run's noise white
-// (whiteness.h), and
+// (noise_memory.h), and
 //   S = Σ φ̃_i·ẽ_i / √(Σ φ̃_i²·Σ ẽ_i²/n)
 // is standard normal for a residual that is noise of that correlation, whatever the input looks
 // like. The statistic is the largest |S|, the limit the normal quantile with the false-alarm rate
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "calibration/dataset.h"
-#include "calibration/whiteness.h"
+#include "calibration/noise_memory.h"
 
 namespace plenum::calibration {
 

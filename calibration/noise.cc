@@ -34,6 +34,9 @@ constexpr double kGrowthMax = 2.0;  // of any θ; what grows faster is the signa
 // Standard errors of ρ and, where ρ > 0, of σ over σ, times √windows (by simulation, ρ ≤ 0.9).
 constexpr double kLagError = 2.0;
 constexpr double kLagMax = 0.95;
+constexpr double kThetaLeast = 0.1, kThetaStep = 1.1;  // of the spacing
+constexpr int kShares = 20;
+constexpr double kShareGain = 4.0;  // χ² by which a part must do better than the whole
 double CorrelatedSigmaError(double rho) { return 0.6 * (1.0 + rho) / (1.0 - rho); }
 
 struct Samples {
@@ -111,14 +114,13 @@ double MeanSquare(const std::vector<Window>& windows) {
   return sum / static_cast<double>(windows.size());
 }
 
-// E z² over σ² for noise of correlation time θ, mean over windows.
-double Expected(const std::vector<Window>& windows, double theta_s) {
+// E z² over σ² less 1, mean over windows, for noise all of which remembers with θ.
+double Excess(const std::vector<Window>& windows, double theta_s) {
   double sum = 0.0;
   std::size_t count = 0;
   const std::size_t step = std::max<std::size_t>(1, windows.size() / kCorrelationWindows);
   for (std::size_t w = 0; w < windows.size(); w += step, ++count) {
     const Window& window = windows[w];
-    sum += 1.0;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = i + 1; j < 4; ++j)
         sum += 2.0 * window.weight[i] * window.weight[j] *
@@ -127,16 +129,17 @@ double Expected(const std::vector<Window>& windows, double theta_s) {
   return sum / static_cast<double>(count);
 }
 
-// ln of σ² for a θ, and how badly the strides agree on it (sum of squares).
+// ln of σ² for a memory, and how badly the strides agree on it (sum of squares).
 struct Agreement {
   double log_variance = 0.0, misfit = 0.0;
 };
 
-Agreement Agree(const std::vector<std::vector<Window>>& strides, double theta_s) {
+Agreement Agree(const std::vector<double>& squares, const std::vector<double>& excess,
+                double share) {
   std::vector<double> logs;
   Agreement result;
-  for (const auto& windows : strides)
-    logs.push_back(std::log(MeanSquare(windows) / Expected(windows, theta_s)));
+  for (std::size_t k = 0; k < squares.size(); ++k)
+    logs.push_back(std::log(squares[k] / (1.0 + share * excess[k])));
   for (const double log : logs) result.log_variance += log / static_cast<double>(logs.size());
   for (const double log : logs) result.misfit += std::pow(log - result.log_variance, 2);
   return result;
@@ -186,26 +189,32 @@ std::vector<std::vector<Window>> GrowingStrides(const std::vector<const Record*>
   return strides;
 }
 
-// Golden section over ln θ from a tenth of the spacing to the longest stride's reach.
-double CorrelationTime(const std::vector<std::vector<Window>>& strides, double spacing_s) {
-  const double ratio = (std::sqrt(5.0) - 1.0) / 2.0;
-  double low = std::log(0.1 * spacing_s);
-  double high = std::log(spacing_s * std::pow(2.0, static_cast<double>(strides.size()) + 1.0));
-  const auto misfit = [&](double log_theta) { return Agree(strides, std::exp(log_theta)).misfit; };
-  double a = high - ratio * (high - low), b = low + ratio * (high - low);
-  double at_a = misfit(a), at_b = misfit(b);
-  while (high - low > 0.01) {
-    if (at_a < at_b) {
-      high = b;
-      b = std::exchange(a, high - ratio * (high - low));
-      at_b = std::exchange(at_a, misfit(a));
-    } else {
-      low = a;
-      a = std::exchange(b, low + ratio * (high - low));
-      at_a = std::exchange(at_b, misfit(b));
+// The memory on which the strides agree best. All of the noise remembers unless a part of it does
+// so more convincingly.
+struct FittedMemory {
+  NoiseMemory memory;
+  double log_variance = 0.0, misfit = std::numeric_limits<double>::infinity();
+};
+
+FittedMemory FitMemory(const std::vector<std::vector<Window>>& strides, double spacing_s) {
+  std::vector<double> squares;
+  for (const auto& windows : strides) squares.push_back(MeanSquare(windows));
+  const double allowed =
+      kShareGain * kGrowthError * kGrowthError / static_cast<double>(strides.front().size());
+  FittedMemory whole, part;
+  const double longest_s = spacing_s * std::pow(2.0, static_cast<double>(strides.size()) + 1.0);
+  for (double theta_s = kThetaLeast * spacing_s; theta_s < longest_s; theta_s *= kThetaStep) {
+    std::vector<double> excess;
+    for (const auto& windows : strides) excess.push_back(Excess(windows, theta_s));
+    for (int k = 1; k <= kShares; ++k) {
+      const double share = static_cast<double>(k) / kShares;
+      const Agreement agreement = Agree(squares, excess, share);
+      FittedMemory& best = k == kShares ? whole : part;
+      if (agreement.misfit < best.misfit)
+        best = {{theta_s, share}, agreement.log_variance, agreement.misfit};
     }
   }
-  return std::exp(0.5 * (low + high));
+  return strides.size() > 2 && part.misfit < whole.misfit - allowed ? part : whole;
 }
 
 // Deviations within the groups of samples that share an instant, scaled to the variance of one
@@ -338,7 +347,7 @@ Record RecordOf(const Readings& readings, Noise& noise) {
   return record;
 }
 
-// θ of all runs, from those whose differences tell it, and what follows for each run's σ.
+// The memory of all runs, from those whose differences tell it, and what follows for each run's σ.
 void TakeMemory(const std::vector<Record>& records, std::vector<Noise>& noises) {
   std::vector<const Record*> telling;
   double spacing_s = std::numeric_limits<double>::infinity();
@@ -352,21 +361,23 @@ void TakeMemory(const std::vector<Record>& records, std::vector<Noise>& noises) 
   }
   if (telling.empty()) return;
   const auto strides = GrowingStrides(telling);
-  const double theta_s = strides.size() > 1 ? CorrelationTime(strides, spacing_s) : 0.0;
-  const double level =  // of σ² over the windows' mean square
-      theta_s > 0.0 ? std::exp(Agree(strides, theta_s).log_variance) : 1.0;
+  FittedMemory fitted;
+  if (strides.size() > 1) fitted = FitMemory(strides, spacing_s);
+  const auto& [theta_s, share] = fitted.memory;
   for (std::size_t j = 0; j < records.size(); ++j) {
     Noise& noise = noises[j];
     if (std::find(telling.begin(), telling.end(), &records[j]) == telling.end()) continue;
     noise.lag1_error = std::min(kLagError / std::sqrt(windows), 1.0);
     if (theta_s == 0.0) continue;
-    noise.correlation_time_s = theta_s;
-    noise.lag1 = std::exp(-noise.spacing_s / theta_s);
-    noise.sigma_pa *= std::sqrt(level);
+    const double rho = std::exp(-noise.spacing_s / theta_s);
+    noise.memory = fitted.memory;
+    noise.lag1 = ApparentRho(rho, share);
+    noise.sigma_pa *= std::exp(0.5 * fitted.log_variance);
     noise.relative_error =
         std::max(kSigmaError,
-                 CorrelatedSigmaError(std::min(noise.lag1 + noise.lag1_error, kLagMax))) /
+                 CorrelatedSigmaError(std::min(share * rho + noise.lag1_error, kLagMax))) /
         std::sqrt(noise.windows);
+    noise.effective_samples /= 1.0 + 2.0 * share * rho / (1.0 - rho);
   }
 }
 
@@ -419,10 +430,8 @@ std::vector<Noise> EstimateNoise(std::span<const Readings> all) {
     if (noise.near_end.size() > noise.clipped.size()) records.back() = RecordOf(all[j], noise);
   }
   TakeMemory(records, noises);
-  for (Noise& noise : noises) {
+  for (Noise& noise : noises)
     noise.sigma_pa = std::max(noise.sigma_pa, noise.quantum_pa / std::sqrt(12.0));
-    noise.effective_samples *= (1.0 - noise.lag1) / (1.0 + noise.lag1);
-  }
   return noises;
 }
 

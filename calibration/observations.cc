@@ -14,7 +14,9 @@ constexpr double kOwnShare = 0.3;
 // Less noise than this share of the operating gauge pressure is not believed: still readings of a
 // filtered sensor say nothing of its linearity, and the model is no better either.
 constexpr double kLeastNoise = 1e-4;
-constexpr double kCarryMax = 0.95;
+// A white part that every sensor has: without it two readings at nearly one instant would weigh
+// beyond measure.
+constexpr double kShareMax = 0.95;
 
 constexpr std::vector<double> Channels::*kSupporting[] = {
     &Channels::inlet_pressure_pa, &Channels::temperature_k, &Channels::volume_m3,
@@ -39,12 +41,9 @@ ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
                          std::binary_search(noise.near_end.begin(), noise.near_end.end(), i);
     if (std::isfinite(measured[i]) && !dropped) signal.samples.push_back(i);
   }
-  for (std::size_t k = 0; k < signal.samples.size(); ++k) {
-    const double gap_s = k == 0 ? 0.0 : run.t_s[signal.samples[k]] - run.t_s[signal.samples[k - 1]];
-    const bool carries = k > 0 && noise.correlation_time_s > 0.0;
-    signal.carry.push_back(
-        carries ? std::min(kCarryMax, std::exp(-gap_s / noise.correlation_time_s)) : 0.0);
-  }
+  std::vector<double> t_s;
+  for (const std::size_t i : signal.samples) t_s.push_back(run.t_s[i]);
+  signal.steps = StepsOf(t_s, noise.memory);
   return signal;
 }
 
@@ -88,16 +87,25 @@ Noise NoiseOfChannel(const Run& run, const std::vector<double>& measured) {
 // The whitening map on a series given sample by sample.
 template <class At>
 void Whiten(const ObservedSignal& signal, const At& at, double*& row) {
-  double before = 0.0;
+  double remembered = 0.0;
   for (std::size_t k = 0; k < signal.samples.size(); ++k) {
-    const double value = at(signal.samples[k]);
-    const double carry = signal.carry[k];
-    *row++ = (value - carry * before) / (signal.sigma * std::sqrt(1.0 - carry * carry));
-    before = value;
+    const Innovation& step = signal.steps[k];
+    const double expected = step.carry * remembered;
+    const double off = at(signal.samples[k]) - expected;
+    *row++ = off * step.scale / signal.sigma;
+    remembered = expected + step.gain * off;
   }
 }
 
 }  // namespace
+
+std::vector<Innovation> StepsOf(std::span<const double> t_s, NoiseMemory memory) {
+  memory.share = std::min(memory.share, kShareMax);
+  InnovationSteps filter(memory);
+  std::vector<Innovation> steps;
+  for (const double t : t_s) steps.push_back(filter.Next(t));
+  return steps;
+}
 
 std::size_t ObservedRun::rows() const {
   std::size_t rows = 0;

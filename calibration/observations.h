@@ -1,11 +1,9 @@
 // What a fit compares with the model: the usable readings of each run, weighed by their noise.
 //
-// Sample i of a signal counts as r_i/σ, with r = model − measured. Noise that remembers, with
-// covariance σ²·exp(−Δt/θ), is whitened by the exact discrete form of its process,
-//   e_i = (r_i − φ_i·r_{i−1}) / (σ·√(1 − φ_i²)),  φ_i = exp(−(t_i − t_{i−1})/θ),
-// over the usable samples. Left out: missing, wild and clipped readings. A second channel supports
-// the pressure; its σ is at least kChannelAccuracy of its range, because its sensor and its place
-// are less certain than its noise. Source: Ornstein–Uhlenbeck process at sample times.
+// Sample i of a signal counts as r_i/σ, with r = model − measured. Noise that remembers is
+// whitened (noise_memory.h) over the usable samples. Left out: missing, wild and clipped readings.
+// A second channel supports the pressure; its σ is at least kChannelAccuracy of its range, because
+// its sensor and its place are less certain than its noise.
 #ifndef PLENUM_CALIBRATION_OBSERVATIONS_H_
 #define PLENUM_CALIBRATION_OBSERVATIONS_H_
 
@@ -23,7 +21,7 @@ inline constexpr double kChannelAccuracy = 0.01;
 struct ObservedSignal {
   std::vector<double> Channels::*channel = nullptr;  // null: the pressure
   std::vector<std::size_t> samples;                  // usable, by index into the run
-  std::vector<double> carry;  // φ of each usable sample on the one before; first 0
+  std::vector<Innovation> steps;                     // by usable sample
   double sigma = 1.0;
 };
 
@@ -32,6 +30,9 @@ struct ObservedRun {
   std::vector<ObservedSignal> signals;  // the pressure first
   std::size_t rows() const;
 };
+
+// The whitening of samples at these times.
+std::vector<Innovation> StepsOf(std::span<const double> t_s, NoiseMemory memory);
 
 // Of every run; the pressure's σ is shared by the runs (one sensor) unless they differ by more than
 // their errors allow.

@@ -1,7 +1,6 @@
 #include "calibration/residual.h"
 
 #include <algorithm>
-#include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
@@ -15,13 +14,12 @@ namespace plenum::calibration {
 namespace {
 
 // The noise's memory is an estimate, and third differences cannot tell all of it being short from a
-// part of it being longer. A residual passes a test of structure if it does for any memory of at
-// most kRhoLongest that agrees with the growth of the differences within three standard errors.
-constexpr std::array kCorrelationErrors = {0.0, 0.75, -0.75, 1.5, -1.5, 2.25, -2.25, 3.0, -3.0};
-constexpr std::array kRhos = {0.0, 0.3, 0.45, 0.6,
-                              0.75};  // of the part that remembers; 0: all of it
+// part of it being longer. A residual is judged with the likeliest memory that agrees with the
+// growth of the differences within so many standard errors.
+constexpr double kCorrelationErrors = 3.0;
 constexpr double kCorrelationMax = 0.98;
 constexpr double kClipSigmas = 3.0;
+constexpr double kMemoryless = 1e-3;  // θ over the spacing
 
 // Residual in units of the noise, without what a coarse grid does to it.
 std::vector<double> InNoise(const FittedRun& fitted) {
@@ -48,7 +46,7 @@ void ReadMemories(const std::vector<ResidualSeries>& series, std::vector<Noise>&
   const std::vector<Noise> shown = EstimateNoise(readings);
   for (std::size_t k = 0; k < hidden.size(); ++k) {
     Noise& noise = noises[hidden[k]];
-    noise.correlation_time_s = shown[k].correlation_time_s;
+    noise.memory = shown[k].memory;
     noise.lag1 = shown[k].lag1;
     noise.lag1_error = shown[k].lag1_error;
   }
@@ -63,8 +61,9 @@ void TestLackOfFit(const std::vector<FittedRun>& runs, int fitted_numbers, Resid
       squares += std::pow(value / fitted.noise.sigma_pa, 2);
       samples += 1.0;
     }
-    const double rho2 = fitted.noise.lag1 * fitted.noise.lag1;
-    variance += 2.0 * samples * (1.0 + rho2) / (1.0 - rho2) +
+    const auto& [theta_s, share] = fitted.noise.memory;
+    const double rho2 = theta_s > 0.0 ? std::exp(-2.0 * fitted.noise.spacing_s / theta_s) : 0.0;
+    variance += 2.0 * samples * (1.0 + 2.0 * share * share * rho2 / (1.0 - rho2)) +
                 std::pow(2.0 * samples * fitted.noise.relative_error, 2);
     count += samples;
   }
@@ -74,29 +73,39 @@ void TestLackOfFit(const std::vector<FittedRun>& runs, int fitted_numbers, Resid
   report.lack_of_fit_limit = 1.0 + alarm * std::sqrt(variance) / std::max(1.0, count);
 }
 
-// E z² of third differences over every `stride`-th sample, times 20.
-double Difference(double rho, double share, int stride) {
-  const double r = std::pow(rho, stride);
-  return 20.0 - share * (30.0 * r - 12.0 * r * r + 2.0 * r * r * r);
+// Gives the series the memory of their noise: where that is an estimate, the one that is likeliest
+// given what is left, among those that agree with the readings' differences.
+void GiveMemory(const std::vector<Noise>& noises, std::vector<ResidualSeries>& series) {
+  std::vector<NoiseSeries> estimated;
+  const Noise* shown = nullptr;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    series[i].memory = noises[i].memory;
+    if (!(noises[i].lag1_error > 0.0)) continue;
+    estimated.push_back({series[i].run->t_s, series[i].residual});
+    if (!shown || noises[i].spacing_s < shown->spacing_s) shown = &noises[i];
+  }
+  if (!shown) return;
+  const double reach = kCorrelationErrors * shown->lag1_error;
+  const NoiseMemory memory =
+      LikeliestMemory(estimated, shown->spacing_s, std::max(0.0, shown->lag1 - reach),
+                      std::min(kCorrelationMax, shown->lag1 + reach));
+  for (std::size_t i = 0; i < series.size(); ++i)
+    if (noises[i].lag1_error > 0.0) series[i].memory = memory;
 }
 
-// The memory with the noise's ρ moved by so many of its standard errors, all in one part; or, where
-// that is shorter than `rho`, a part that remembers with `rho` and is as large as lets the
-// differences grow alike.
-NoiseMemory MemoryOf(const Noise& noise, double errors, double rho) {
-  if (errors == 0.0 && rho == 0.0) return {noise.correlation_time_s};
-  const double whole = std::clamp(noise.lag1 + errors * noise.lag1_error, 0.0, kCorrelationMax);
-  if (whole == 0.0) return {};
-  if (whole >= rho) return {-noise.spacing_s / std::log(whole)};
-  const auto growth = [](double r, double share) {
-    return Difference(r, share, 2) / Difference(r, share, 1);
-  };
-  double low = 0.0, high = 1.0;
-  for (int i = 0; i < 30; ++i) {
-    const double share = 0.5 * (low + high);
-    (growth(rho, share) < growth(whole, 1.0) ? low : high) = share;
+// By how much σ² was read too small if the noise has the memory that the residual shows: slow noise
+// passes the readings' differences by.
+double Underread(const std::vector<Noise>& noises, const std::vector<ResidualSeries>& series) {
+  double most = 1.0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    if (!(noises[i].lag1_error > 0.0)) continue;
+    const auto seen = [&](const NoiseMemory& memory) {
+      const double theta_s = std::max(memory.theta_s, kMemoryless * noises[i].spacing_s);
+      return ThirdDifference(std::exp(-noises[i].spacing_s / theta_s), memory.share, 1);
+    };
+    most = std::max(most, seen(noises[i].memory) / seen(series[i].memory));
   }
-  return {-noise.spacing_s / std::log(rho), high};
+  return most;
 }
 
 // Of all runs together and of each, which share the false-alarm rate: the one furthest towards its
@@ -114,33 +123,23 @@ Portmanteau TestWhite(const std::vector<ResidualSeries>& series) {
   return worst;
 }
 
-// Both tests of structure, until each is passed with a memory that the noise may have.
+// Both tests of structure; where they were made before, with another memory, the milder one counts.
 void TestStructure(const std::vector<Noise>& noises, std::vector<ResidualSeries>& series,
                    ResidualReport& report, std::vector<InputCorrelation>* by_input) {
-  for (const double errors : kCorrelationErrors) {
-    for (const double rho : kRhos) {
-      if (report.white && report.independent_of_inputs) return;
-      for (std::size_t i = 0; i < series.size(); ++i)
-        series[i].memory = MemoryOf(noises[i], errors, rho);
-      if (!report.white) {
-        const Portmanteau white = TestWhite(series);
-        if (white.statistic / white.limit < report.portmanteau / report.portmanteau_limit) {
-          report.portmanteau = white.statistic;
-          report.portmanteau_limit = white.limit;
-        }
-        report.white = report.portmanteau <= report.portmanteau_limit;
-      }
-      if (!report.independent_of_inputs) {
-        Independence independence = TestIndependence(series);
-        if (independence.statistic < report.cross) {
-          report.cross = independence.statistic;
-          report.cross_limit = independence.limit;
-          if (by_input) *by_input = std::move(independence.inputs);
-        }
-        report.independent_of_inputs = report.cross <= report.cross_limit;
-      }
-    }
+  GiveMemory(noises, series);
+  const Portmanteau white = TestWhite(series);
+  if (white.statistic / white.limit < report.portmanteau / report.portmanteau_limit) {
+    report.portmanteau = white.statistic;
+    report.portmanteau_limit = white.limit;
   }
+  Independence independence = TestIndependence(series);
+  if (independence.statistic < report.cross) {
+    report.cross = independence.statistic;
+    report.cross_limit = independence.limit;
+    if (by_input) *by_input = std::move(independence.inputs);
+  }
+  report.white = report.portmanteau <= report.portmanteau_limit;
+  report.independent_of_inputs = report.cross <= report.cross_limit;
 }
 
 }  // namespace
@@ -211,10 +210,12 @@ ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_nu
   TestLackOfFit(runs, fitted_numbers, report);
   TestStructure(noises, series, report, by_input);
   const auto hides = [](const Noise& noise) { return noise.staircase; };
-  if (std::any_of(noises.begin(), noises.end(), hides)) {
+  const bool structure = !report.white || !report.independent_of_inputs;
+  if (structure && std::any_of(noises.begin(), noises.end(), hides)) {
     ReadMemories(series, noises);
     TestStructure(noises, series, report, by_input);
   }
+  report.lack_of_fit_limit *= Underread(noises, series);
   return report;
 }
 

@@ -2,9 +2,11 @@
 // (independence.h) and against the noise of the readings (noise.h).
 //
 // Lack of fit: with N readings in units of their runs' noise σ_j and p fitted numbers,
-//   F = Σ r²/σ_j² / (N − p),   standard error √(Σ 2·n_j·(1+ρ_j²)/(1−ρ_j²) + Σ (2·n_j·δ_j)²)/N,
-// where δ_j is the relative error of σ_j and ρ_j the noise's correlation at the run's spacing: the
-// limit allows for a noise that is itself an estimate. Limits are passed by pure noise with
+//   F = Σ r²/σ_j² / (N − p),   standard error √(Σ 2·n_j·(1+2·s²·ρ_j²/(1−ρ_j²)) + Σ (2·n_j·δ_j)²)/N,
+// where δ_j is the relative error of σ_j, s the share of the noise that remembers (noise_memory.h)
+// and ρ_j its correlation at the run's spacing: the
+// limit allows for a noise that is itself an estimate, and for what its differences miss of σ² if
+// it has the memory that the residual shows. Limits are passed by pure noise with
 // kFalseAlarm each. Fitted numbers make residuals a little whiter, so that the other tests err to
 // the quiet side.
 //
@@ -40,9 +42,9 @@ std::vector<double> Residual(const FittedRun& fitted);
 std::vector<PhaseResidual> ResidualByPhase(const Run& run, std::span<const double> residual_pa);
 
 // Of all runs together, and white only if each run by itself is: the portmanteau reported is the
-// one furthest towards its limit. The noise's correlation is an estimate, so both tests of
-// structure are passed if they are for any ρ within three standard errors. `by_input`, if asked,
-// gets the statistic of every input.
+// one furthest towards its limit. Where the noise's memory is an estimate, both tests of
+// structure take the likeliest one, given the residuals, that the readings' differences allow.
+// `by_input`, if asked, gets the statistic of every input.
 ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_numbers,
                                std::vector<InputCorrelation>* by_input = nullptr);
 

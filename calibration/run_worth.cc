@@ -107,12 +107,8 @@ ObservedRun WouldObserve(const ObservedRun& pattern, const Run& run,
   observed.noise = pattern.noise;
   ObservedSignal pressure;
   pressure.sigma = pattern.signals.front().sigma;
-  const double theta_s = pattern.noise.correlation_time_s;
-  for (std::size_t i = 0; i < run.t_s.size(); ++i) {
-    pressure.samples.push_back(i);
-    const bool carries = i > 0 && theta_s > 0.0;
-    pressure.carry.push_back(carries ? std::exp((run.t_s[i - 1] - run.t_s[i]) / theta_s) : 0.0);
-  }
+  for (std::size_t i = 0; i < run.t_s.size(); ++i) pressure.samples.push_back(i);
+  pressure.steps = StepsOf(run.t_s, pattern.noise.memory);
   observed.signals = {pressure};
   names = {"pressure_kpa_gauge"};
   for (const NamedChannel& channel : kChannels) {
@@ -126,7 +122,7 @@ ObservedRun WouldObserve(const ObservedRun& pattern, const Run& run,
     if (!given || !(range > 0.0)) continue;
     ObservedSignal signal = pressure;
     signal.channel = channel.values;
-    signal.carry.assign(run.t_s.size(), 0.0);
+    signal.steps.assign(run.t_s.size(), {});
     signal.sigma = kChannelAccuracy * range;
     if (channel.values == &Channels::temperature_k)
       signal.sigma = std::max(signal.sigma, kTemperatureErrorK);

@@ -15,7 +15,7 @@ inline constexpr double kAccept = 10.0;
 inline constexpr double kTie = 6.0;
 
 // The runs' clocks are taken to be off where that lowers BIC by this much more than any effect in
-// their place does; each run's clock counts as a parameter.
+// their place does; the clocks count by how much of their prior the data exclude.
 inline constexpr double kClock = 10.0;
 
 // Held-out error over that of the noise up to which an explanation holds.

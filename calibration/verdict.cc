@@ -28,7 +28,7 @@ bool HoldsOut(const Leftover& leftover) {
 bool IsNoise(const Leftover& leftover) {
   const ResidualReport& residual = leftover.residual;
   return residual.white && residual.independent_of_inputs &&
-         residual.lack_of_fit <= residual.lack_of_fit_limit;
+         residual.lack_of_fit <= residual.lack_of_fit_limit && leftover.learnable_bic <= kAccept;
 }
 
 double UnexplainedFraction(const Leftover& before, const Leftover& after) {

@@ -15,9 +15,11 @@ struct Leftover {
   double noise_pa = 0.0;  // of the same samples
   std::optional<double> holdout_rms_pa;
   std::optional<double> holdout_noise_pa;
+  double learnable_bic = 0.0;  // what a learned term would gain (criticism.h)
 };
 
-// Nothing but noise: white and independent of the inputs, and no more of it than the readings show.
+// Nothing but noise: white and independent of the inputs, no more of it than the readings show, and
+// nothing in it that a learned term could take up.
 bool IsNoise(const Leftover& leftover);
 
 // Share of the variance above the noise that is left of what the base model left.

@@ -8,7 +8,6 @@
 namespace plenum::calibration {
 namespace {
 
-constexpr double kLeastVariance = 1e-6;  // of an innovation: the same instant again
 constexpr int kLags = 20;
 constexpr int kValuesPerLag = 4;
 constexpr int kValuesMin = 100;  // left after taking means
@@ -70,28 +69,6 @@ std::vector<double> Means(const std::vector<double>& e, std::size_t width) {
 }
 
 }  // namespace
-
-std::vector<double> Whitened(std::span<const double> t_s, std::span<const double> e,
-                             const NoiseMemory& memory) {
-  std::vector<double> white(e.begin(), e.end());
-  const auto& [theta_s, share] = memory;
-  if (!(theta_s > 0.0)) return white;
-  double remembered = 0.0, variance = share;  // û and P; before any reading
-  double last_s = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < e.size(); ++i) {
-    if (!std::isfinite(e[i])) continue;
-    const double rho = std::exp((last_s - t_s[i]) / theta_s);
-    const double expected = rho * remembered;
-    const double before = rho * rho * variance + share * (1.0 - rho * rho);
-    const double total = before + 1.0 - share;
-    last_s = t_s[i];
-    if (total < kLeastVariance) continue;
-    white[i] = (e[i] - expected) / std::sqrt(total);
-    remembered = expected + before / total * (e[i] - expected);
-    variance = before * (1.0 - before / total);
-  }
-  return white;
-}
 
 Portmanteau TestWhiteness(std::span<const std::vector<double>> series, int tests) {
   const int count = CountFinite(series);

@@ -19,19 +19,6 @@ namespace plenum::calibration {
 // Chance that a test here raises an alarm on pure noise.
 inline constexpr double kFalseAlarm = 1e-3;
 
-// Noise of which a share s of the variance has the covariance exp(−|h|/θ) and the rest is white,
-// turned white: the innovations of its Kalman filter over their deviations,
-//   û⁻ = ρ·û,  P⁻ = ρ²·P + s·(1 − ρ²),  S = P⁻ + 1 − s,  ẽ = (e − û⁻)/√S,
-//   û = û⁻ + P⁻/S·(e − û⁻),  P = (1 − P⁻/S)·P⁻,  ρ = exp(−Δt/θ),
-// which for s = 1 is (e_i − ρ_i·e_{i−1})/√(1 − ρ_i²). NaN is passed over; θ = 0 changes nothing.
-// With s = 1 a second sample of one instant stays as it is.
-struct NoiseMemory {
-  double theta_s = 0.0;
-  double share = 1.0;
-};
-std::vector<double> Whitened(std::span<const double> t_s, std::span<const double> e,
-                             const NoiseMemory& memory);
-
 struct Portmanteau {
   double statistic = 0.0;  // of the width of mean that goes furthest towards its limit
   double limit = 0.0;      // exceeded by white noise with kFalseAlarm

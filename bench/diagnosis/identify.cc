@@ -133,7 +133,7 @@ class Judge {
       run.pressure_pa.resize(kept);
       calibration::ObservedSignal signal;
       for (std::size_t i = 0; i < kept; ++i) signal.samples.push_back(i);
-      signal.carry.assign(kept, 0.0);
+      signal.steps.assign(kept, {});
       signal.sigma = noise_pa / std::sqrt(static_cast<double>(every));
       calibration::ObservedRun observed;
       observed.signals.push_back(signal);

@@ -73,7 +73,7 @@ TEST(Fit, IntervalsHoldTheTruth) {
         seed));
     const Fit fit = FitModel(bench.data, StartOf(bench, "valve_delay"), {});
     ASSERT_EQ(fit.status, FitStatus::kConverged) << fit.detail;
-    const std::vector<Estimate> estimates = Intervals(bench.data, fit, {});
+    const std::vector<Estimate> estimates = Intervals(fit, Covariance(bench.data, fit, {}));
     for (std::size_t j = 0; j < estimates.size(); ++j) {
       const Parameter& parameter = fit.coordinates[j].parameter;
       const double truth = parameter.kind == Parameter::Kind::kEffect    ? 0.03
@@ -98,7 +98,8 @@ TEST(Fit, AnAliasIsNotIdentified) {
   const Bench bench(std::move(dataset));
   const Fit fit = FitModel(bench.data, bench.forward.Declared(), {});
   ASSERT_TRUE(fit.Usable()) << fit.detail;
-  for (const Estimate& estimate : Intervals(bench.data, fit, {})) EXPECT_FALSE(estimate.identified);
+  for (const Estimate& estimate : Intervals(fit, Covariance(bench.data, fit, {})))
+    EXPECT_FALSE(estimate.identified);
 }
 
 TEST(Fit, ClocksThatAreOffAreFound) {

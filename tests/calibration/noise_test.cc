@@ -58,7 +58,7 @@ TEST(Noise, WhiteNoiseOnACreepingHoldIsMeasuredAndItsStandardErrorIsAsStated) {
   int correlated = 0, wild = 0;
   for (int seed = 0; seed < kSeeds; ++seed) {
     const Noise noise = OfHold(t_s, Creeping(t_s, WhiteNoise(seed, t_s.size(), kSigmaPa)));
-    if (noise.correlation_time_s > 0.0) {
+    if (noise.memory.theta_s > 0.0) {
       ++correlated;
       continue;
     }
@@ -81,7 +81,7 @@ TEST(Noise, UnevenSamplingChangesNothing) {
     const std::vector<double> t_s = RandomTimes(1000 + seed, 400, 0.01);
     const Noise noise = OfHold(t_s, Creeping(t_s, WhiteNoise(seed, t_s.size(), kSigmaPa)));
     ratios.push_back(noise.sigma_pa / kSigmaPa);
-    correlated += noise.correlation_time_s > 0.0;
+    correlated += noise.memory.theta_s > 0.0;
   }
   EXPECT_NEAR(SpreadOf(ratios).mean, 1.0, 0.02);
   EXPECT_TRUE(AtMostRate(correlated, kSeeds, 0.045)) << correlated;
@@ -99,7 +99,9 @@ TEST_P(CorrelatedNoiseTest, CorrelationAndLevelAreRecovered) {
     const Noise found = OfHold(t_s, Creeping(t_s, noise));
     lags.push_back(found.lag1);
     ratios.push_back(found.sigma_pa / kSigmaPa);
-    EXPECT_NEAR(found.effective_samples, 2000.0 * (1.0 - found.lag1) / (1.0 + found.lag1), 1e-6);
+    const double rho_found = std::exp(-0.005 / found.memory.theta_s);
+    const double sum = 2.0 * found.memory.share * rho_found / (1.0 - rho_found);
+    EXPECT_NEAR(found.effective_samples, 2000.0 / (1.0 + sum), 1e-3);
   }
   EXPECT_NEAR(SpreadOf(lags).mean, rho, 0.04);
   EXPECT_NEAR(SpreadOf(ratios).mean, 1.0, 0.08);

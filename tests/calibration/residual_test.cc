@@ -62,7 +62,8 @@ Case MakeCase(const std::vector<double>& t_s, const std::vector<double>& noise,
   }
   made.fitted.noise.sigma_pa = kSigmaPa;
   made.fitted.noise.relative_error = 0.0;
-  made.fitted.noise.correlation_time_s = theta_s;
+  made.fitted.noise.memory.theta_s = theta_s;
+  made.fitted.noise.spacing_s = t_s[1] - t_s[0];
   made.fitted.noise.lag1 = theta_s > 0.0 ? std::exp(-(t_s[1] - t_s[0]) / theta_s) : 0.0;
   return made;
 }

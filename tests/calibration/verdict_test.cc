@@ -31,6 +31,14 @@ TEST(Verdict, OfWhatIsLeft) {
   EXPECT_EQ(Judge({true, true, 2, Structure(900), Structure(400)}), Verdict::kUnexplained);
 }
 
+TEST(Verdict, WhatATermCouldLearnIsNoNoise) {
+  Leftover learnable = Noise();
+  learnable.learnable_bic = 40.0;
+  EXPECT_EQ(Judge({true, false, 0, learnable, learnable}), Verdict::kUnexplained);
+  learnable.rms_pa = 110.0;  // of 900: not small beside the noise
+  EXPECT_EQ(Judge({true, true, 0, Structure(900), learnable}), Verdict::kUnexplained);
+}
+
 TEST(Verdict, RunsNotSeenMayNotBeOff) {
   Leftover after = Noise();
   after.holdout_rms_pa = 200.0;

@@ -1,0 +1,143 @@
+#include "calibration/criticism.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "model/effects/learned.h"
+
+namespace plenum::calibration {
+namespace {
+
+constexpr double kLeast = 1e-300;
+constexpr double kRidge = 1e-10;  // of a unit diagonal: numbers that nothing depends on
+constexpr double kOwn = 1e-4;     // of a unit square: what a direction must have beside the fit's
+
+// A term with all numbers that stand for its size at 0, and which those are.
+struct Term {
+  model::Effect absent;
+  std::vector<std::size_t> sizes;
+};
+
+std::vector<Term> Terms() {
+  std::vector<Term> terms;
+  const auto add = [&](const char* id, const char* law) {
+    const model::EffectSpec* spec = model::FindEffect(id, law);
+    Term term{{spec, std::vector<double>(spec->parameters.size(), 0.0)}, {}};
+    for (std::size_t i = 0; i < spec->parameters.size(); ++i) term.sizes.push_back(i);
+    terms.push_back(std::move(term));
+  };
+  add("learned_leak", "pressure_5");
+  add("learned_conductance", "pressure_5");
+  add("learned_conductance", "expansion_5");
+  add("learned_volume", "pressure_5");
+  add("learned_volume", "memory_1");
+  add("learned_sensor", "pressure_5");
+  for (const double place : {0.3, 0.55, 0.8}) {
+    terms.push_back({{model::FindEffect("learned_leak", "opening"), {0.0, place, 0.05}}, {0}});
+    terms.push_back({{model::FindEffect("learned_volume", "bend"), {0.0, place, 0.05}}, {0}});
+  }
+  return terms;
+}
+
+// JᵀJ, JᵀA, AᵀA, Jᵀe and Aᵀe over all runs.
+struct Sums {
+  Eigen::MatrixXd jj, ja, aa;
+  Eigen::VectorXd je, ae;  // with the priors' pull in je
+};
+
+PredictOptions OptionsOf(const FitOptions& options) {
+  PredictOptions predict;
+  predict.steps_max = options.steps_max;
+  predict.cancelled = options.cancelled;
+  return predict;
+}
+
+bool AddRun(const FitData& data, const Fit& fit, const Term& term, std::size_t run,
+            const FitOptions& options, Sums& sums) {
+  ModelState state = fit.state;
+  state.effects.push_back(term.absent);
+  std::vector<Parameter> parameters;
+  for (const Coordinate& coordinate : fit.coordinates) parameters.push_back(coordinate.parameter);
+  for (const std::size_t number : term.sizes)
+    parameters.push_back(
+        {.kind = Parameter::Kind::kEffect, .effect = state.effects.size() - 1, .number = number});
+  const Prediction prediction = data.forward->Predict(run, state, parameters, OptionsOf(options));
+  if (prediction.status != model::SimulateStatus::kDone) return false;
+  const ObservedRun& observed = (*data.observed)[run];
+  const auto rows = static_cast<Eigen::Index>(observed.rows());
+  const auto fitted = static_cast<Eigen::Index>(fit.coordinates.size());
+  Eigen::MatrixXd all(rows, static_cast<Eigen::Index>(parameters.size()));
+  for (Eigen::Index j = 0; j < all.cols(); ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    Whitened(observed, prediction.derivatives[k], {all.col(j).data(), observed.rows()});
+    if (j < fitted) all.col(j) *= fit.coordinates[k].Slope(fit.u[j]);
+  }
+  Eigen::VectorXd e(rows);
+  Residuals(data.forward->dataset().runs[run], observed, prediction.reading,
+            {e.data(), observed.rows()});
+  const auto j = all.leftCols(fitted), a = all.rightCols(all.cols() - fitted);
+  sums.jj += j.transpose() * j;
+  sums.ja += j.transpose() * a;
+  sums.aa += a.transpose() * a;
+  sums.je += j.transpose() * e;
+  sums.ae += a.transpose() * e;
+  return true;
+}
+
+// Δχ². Directions of the term that the fitted numbers all but span count as theirs.
+double Gain(const Sums& sums) {
+  Eigen::MatrixXd m = sums.aa;
+  Eigen::VectorXd g = sums.ae;
+  if (sums.jj.rows() > 0) {
+    const Eigen::VectorXd unit = sums.jj.diagonal().cwiseMax(kLeast).cwiseSqrt().cwiseInverse();
+    const Eigen::LDLT<Eigen::MatrixXd> scaled(
+        unit.asDiagonal() * sums.jj * unit.asDiagonal() +
+        kRidge * Eigen::MatrixXd::Identity(sums.jj.rows(), sums.jj.rows()));
+    const Eigen::MatrixXd taken = unit.asDiagonal() * scaled.solve(unit.asDiagonal() * sums.ja);
+    m -= sums.ja.transpose() * taken;
+    g -= taken.transpose() * sums.je;
+  }
+  const Eigen::VectorXd unit = sums.aa.diagonal().cwiseMax(kLeast).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit.asDiagonal() * m *
+                                                             unit.asDiagonal());
+  const Eigen::VectorXd along = eigen.eigenvectors().transpose() * (unit.asDiagonal() * g);
+  double gain = 0.0;
+  for (Eigen::Index k = 0; k < along.size(); ++k)
+    if (eigen.eigenvalues()[k] > kOwn) gain += along[k] * along[k] / eigen.eigenvalues()[k];
+  return gain;
+}
+
+}  // namespace
+
+double LearnableGain(const FitData& data, const Fit& fit, const FitOptions& options) {
+  const auto fitted = static_cast<Eigen::Index>(fit.coordinates.size());
+  const double n = static_cast<double>(fit.rows);
+  double most = 0.0;
+  for (const Term& term : Terms()) {
+    if (options.cancelled && options.cancelled()) break;
+    const auto numbers = static_cast<Eigen::Index>(term.sizes.size());
+    Sums sums{Eigen::MatrixXd::Zero(fitted, fitted), Eigen::MatrixXd::Zero(fitted, numbers),
+              Eigen::MatrixXd::Zero(numbers, numbers), Eigen::VectorXd::Zero(fitted),
+              Eigen::VectorXd::Zero(numbers)};
+    for (Eigen::Index j = 0; j < fitted; ++j) {
+      if (!fit.coordinates[static_cast<std::size_t>(j)].prior) continue;
+      sums.jj(j, j) = 1.0;
+      sums.je[j] = fit.u[j];
+    }
+    const bool done = std::all_of(data.runs.begin(), data.runs.end(), [&](std::size_t run) {
+      return AddRun(data, fit, term, run, options, sums);
+    });
+    if (!done) continue;
+    const double gain = std::min(Gain(sums), 0.5 * fit.chi2_data);
+    const double bic = n * std::log(fit.chi2_data / (fit.chi2_data - gain)) -
+                       static_cast<double>(numbers) * std::log(n);
+    most = std::max(most, bic);
+  }
+  return most;
+}
+
+}  // namespace plenum::calibration

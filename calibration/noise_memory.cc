@@ -1,0 +1,147 @@
+#include "calibration/noise_memory.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plenum::calibration {
+namespace {
+
+constexpr double kLeastVariance = 1e-6;  // of an innovation: the same instant again
+constexpr double kSameGap = 1e-3;        // of a gap: what a clock's digits make of even sampling
+constexpr double kRhoLeast = 0.1, kRhoMost = 0.8, kRhoStep = 0.1;
+constexpr int kHalvings = 30;
+constexpr int kSections = 9;
+
+// −2·ln L of the series, their variance at its likeliest.
+double Misfit(std::span<const NoiseSeries> series, const NoiseMemory& memory) {
+  double squares = 0.0, logs = 0.0, count = 0.0;
+  for (const NoiseSeries& one : series) {
+    InnovationSteps steps(memory);
+    double remembered = 0.0;
+    for (std::size_t i = 0; i < one.e.size(); ++i) {
+      if (!std::isfinite(one.e[i])) continue;
+      const Innovation step = steps.Next(one.t_s[i]);
+      const double expected = step.carry * remembered;
+      const double off = one.e[i] - expected;
+      remembered = expected + step.gain * off;
+      squares += off * off * step.scale * step.scale;
+      logs -= 2.0 * std::log(step.scale);
+      count += 1.0;
+    }
+  }
+  return count > 0.0 && squares > 0.0 ? count * std::log(squares / count) + logs : 0.0;
+}
+
+struct Least {
+  double at = 0.0, value = 0.0;
+};
+
+// Golden section.
+template <class Function>
+Least Minimise(const Function& function, double low, double high) {
+  const double ratio = (std::sqrt(5.0) - 1.0) / 2.0;
+  double a = high - ratio * (high - low), b = low + ratio * (high - low);
+  double at_a = function(a), at_b = function(b);
+  for (int i = 0; i < kSections; ++i) {
+    if (at_a < at_b) {
+      high = b, b = a, at_b = at_a;
+      a = high - ratio * (high - low), at_a = function(a);
+    } else {
+      low = a, a = b, at_a = at_b;
+      b = low + ratio * (high - low), at_b = function(b);
+    }
+  }
+  return at_a < at_b ? Least{a, at_a} : Least{b, at_b};
+}
+
+double Growth(double rho, double share) {
+  return ThirdDifference(rho, share, 2) / ThirdDifference(rho, share, 1);
+}
+
+// The share of a memory ρ with that apparent ρ; 1 where none suffices.
+double ShareOf(double rho, double apparent) {
+  const double growth = Growth(apparent, 1.0);
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double share = 0.5 * (low + high);
+    (Growth(rho, share) < growth ? low : high) = share;
+  }
+  return high;
+}
+
+}  // namespace
+
+Innovation InnovationSteps::Next(double t_s) {
+  const auto& [theta_s, share] = memory_;
+  if (!(theta_s > 0.0)) return {};
+  const double gap_s = t_s - last_s_;
+  last_s_ = t_s;
+  if (!(std::abs(gap_s - gap_s_) <= kSameGap * gap_s_)) {
+    carry_ = std::exp(-gap_s / theta_s);
+    gap_s_ = std::isfinite(gap_s) ? gap_s : 0.0;
+  }
+  const double before = carry_ * carry_ * variance_ + share * (1.0 - carry_ * carry_);
+  const double total = before + 1.0 - share;
+  if (total < kLeastVariance) {
+    variance_ = 0.0;
+    return {};
+  }
+  variance_ = before * (1.0 - before / total);
+  return {carry_, before / total, 1.0 / std::sqrt(total)};
+}
+
+std::vector<double> Whitened(std::span<const double> t_s, std::span<const double> e,
+                             const NoiseMemory& memory) {
+  std::vector<double> white(e.begin(), e.end());
+  InnovationSteps steps(memory);
+  double remembered = 0.0;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    if (!std::isfinite(e[i])) continue;
+    const Innovation step = steps.Next(t_s[i]);
+    const double expected = step.carry * remembered;
+    white[i] = (e[i] - expected) * step.scale;
+    remembered = expected + step.gain * (e[i] - expected);
+  }
+  return white;
+}
+
+double ThirdDifference(double rho, double share, int stride) {
+  const double r = std::pow(rho, stride);
+  return 1.0 - share * (1.5 - 0.6 * r + 0.1 * r * r) * r;
+}
+
+double ApparentRho(double rho, double share) {
+  const double growth = Growth(rho, share);
+  double low = 0.0, high = rho;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (Growth(middle, 1.0) < growth ? low : high) = middle;
+  }
+  return high;
+}
+
+NoiseMemory LikeliestMemory(std::span<const NoiseSeries> series, double spacing_s, double least,
+                            double most) {
+  if (!(most > 0.0)) return {};
+  const auto memory_of = [&](double rho, double share) {
+    return NoiseMemory{-spacing_s / std::log(rho), share};
+  };
+  const auto best_share = [&](double rho) {
+    return Minimise([&](double share) { return Misfit(series, memory_of(rho, share)); },
+                    ShareOf(rho, least), ShareOf(rho, most));
+  };
+  const double highest = std::max(kRhoMost, most);
+  const double lowest = std::max(kRhoLeast, least);
+  double centre = lowest, value = std::numeric_limits<double>::infinity();
+  for (double rho = lowest; rho <= highest; rho += kRhoStep) {
+    const double misfit = best_share(rho).value;
+    if (misfit < value) centre = rho, value = misfit;
+  }
+  const double rho =
+      Minimise([&](double at) { return best_share(at).value; }, std::max(lowest, centre - kRhoStep),
+               std::min(highest, centre + kRhoStep))
+          .at;
+  return memory_of(rho, best_share(rho).at);
+}
+
+}  // namespace plenum::calibration
