@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <variant>
 
@@ -16,8 +17,8 @@ namespace {
 
 // Texts that every part has, beside its id.
 const char* const kCommonTexts[] = {"family", "manufacturer", "part_number", "origin"};
-// Of these a facet counts the values; part numbers are all different.
-const char* const kFacetTexts[] = {"family", "manufacturer", "origin"};
+// Which no facet counts: part numbers are all different.
+constexpr std::string_view kUncounted = "part_number";
 
 // Field names of one family, or of all.
 struct Vocabulary {
@@ -174,67 +175,113 @@ class QueryReader {
   PartQuery result_;
 };
 
-const double* NumberOf(const catalog::Part& part, const std::string& field) {
-  const auto found = part.numbers.find(field);
-  return found == part.numbers.end() ? nullptr : &found->second.value;
+// Places of parts in the table.
+using Rows = std::vector<std::uint32_t>;
+
+template <typename Keep>
+void Filter(Rows& rows, const Keep& keep) {
+  std::erase_if(rows, [&](std::uint32_t row) { return !keep(row); });
 }
 
-const std::string* TextOf(const catalog::Part& part, const std::string& field) {
-  if (field == "id") return &part.id;
-  if (field == "family") return &part.family;
-  if (field == "manufacturer") return &part.manufacturer;
-  if (field == "part_number") return &part.part_number;
-  if (field == "origin") return &part.origin;
-  const auto found = part.texts.find(field);
-  return found == part.texts.end() ? nullptr : &found->second.value;
-}
-
-bool Matches(const PartQuery& query, const catalog::Part& part) {
+// In order of id.
+Rows Matching(const PartQuery& query, const PartTable& table) {
+  Rows rows(table.parts().size());
+  std::iota(rows.begin(), rows.end(), 0u);
   for (const auto& [field, wanted] : query.texts) {
-    const std::string* text = TextOf(part, field);
-    if (text == nullptr || *text != wanted) return false;
+    const TextColumn* column = table.Texts(field);
+    if (column == nullptr) return {};
+    const auto found = std::lower_bound(column->values.begin(), column->values.end(), wanted);
+    if (found == column->values.end() || *found != wanted) return {};
+    const auto place = static_cast<std::uint32_t>(found - column->values.begin());
+    Filter(rows, [&](std::uint32_t row) { return column->place[row] == place; });
   }
   for (const auto& [field, range] : query.numbers) {
-    const double* number = NumberOf(part, field);
-    if (number == nullptr || *number < range.min || *number > range.max) return false;
+    const std::vector<double>* column = table.Numbers(field);
+    if (column == nullptr) return {};
+    Filter(rows, [&](std::uint32_t row) {  // false for NaN
+      return (*column)[row] >= range.min && (*column)[row] <= range.max;
+    });
   }
-  return true;
+  return rows;
 }
 
-// Missing values last, in either order.
-template <typename Value>
-void SortBy(const PartQuery& query, std::vector<const catalog::Part*>& parts, const Value& value) {
-  std::stable_sort(parts.begin(), parts.end(), [&](const auto* a, const auto* b) {
-    const auto *x = value(*a, query.sort), *y = value(*b, query.sort);
-    if (x == nullptr || y == nullptr) return x != nullptr && y == nullptr;
-    return query.descending ? *y < *x : *x < *y;
-  });
-}
+// The order that the query asks for: by its field, missing values last in either order, equal ones
+// by id. No two parts are equal in it.
+class Order {
+ public:
+  Order(const PartQuery& query, const PartTable& table)
+      : descending_(query.descending),
+        by_id_(query.sort == "id"),
+        numbers_(table.Numbers(query.sort)),
+        texts_(table.Texts(query.sort)) {}
 
-Json Facets(const std::vector<const catalog::Part*>& parts) {
-  std::map<std::string, std::map<std::string, int>> texts;
-  struct Spread {
-    int count = 0;
-    NumberRange range{std::numeric_limits<double>::infinity(),
-                      -std::numeric_limits<double>::infinity()};
-  };
-  std::map<std::string, Spread> numbers;
-  for (const catalog::Part* part : parts) {
-    for (const char* field : kFacetTexts) ++texts[field][*TextOf(*part, field)];
-    for (const auto& [field, text] : part->texts) ++texts[field][text.value];
-    for (const auto& [field, number] : part->numbers) {
-      Spread& spread = numbers[field];
-      ++spread.count;
-      spread.range.min = std::min(spread.range.min, number.value);
-      spread.range.max = std::max(spread.range.max, number.value);
+  bool operator()(std::uint32_t a, std::uint32_t b) const {
+    if (by_id_) return descending_ ? b < a : a < b;
+    if (numbers_ != nullptr) {
+      const double x = (*numbers_)[a], y = (*numbers_)[b];
+      if (std::isnan(x) || std::isnan(y))
+        return std::isnan(x) == std::isnan(y) ? a < b : std::isnan(y);
+      return x == y ? a < b : (x < y) != descending_;
     }
+    if (texts_ == nullptr) return a < b;
+    const std::uint32_t x = texts_->place[a], y = texts_->place[b];
+    if (x == TextColumn::kNone || y == TextColumn::kNone)
+      return x == y ? a < b : y == TextColumn::kNone;
+    return x == y ? a < b : (x < y) != descending_;
   }
+
+ private:
+  bool descending_, by_id_;
+  const std::vector<double>* numbers_;
+  const TextColumn* texts_;
+};
+
+// The row of a cursor's part among those that match.
+std::optional<std::uint32_t> RowOf(const std::string& id, const Rows& matching,
+                                   const PartTable& table) {
+  const auto found = std::lower_bound(
+      matching.begin(), matching.end(), id,
+      [&](std::uint32_t row, const std::string& wanted) { return table.parts()[row].id < wanted; });
+  if (found == matching.end() || table.parts()[*found].id != id) return std::nullopt;
+  return *found;
+}
+
+Json CountsOf(const TextColumn& column, const Rows& rows) {
+  std::vector<int> counts(column.values.size());
+  for (const std::uint32_t row : rows)
+    if (column.place[row] != TextColumn::kNone) ++counts[column.place[row]];
+  Json json = Json::object();
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (counts[i] > 0) json[std::string(column.values[i])] = counts[i];
+  return json;
+}
+
+// Null where none of the parts has the number.
+Json SpreadOf(const std::vector<double>& column, const Rows& rows) {
+  int count = 0;
+  double least = 0.0, greatest = 0.0;
+  for (const std::uint32_t row : rows) {
+    const double value = column[row];
+    if (std::isnan(value)) continue;
+    least = count == 0 ? value : std::min(least, value);
+    greatest = count == 0 ? value : std::max(greatest, value);
+    ++count;
+  }
+  if (count == 0) return nullptr;
+  return {{"count", count}, {"min", least}, {"max", greatest}};
+}
+
+Json Facets(const Rows& rows, const PartTable& table) {
   Json facets = {{"texts", Json::object()}, {"numbers", Json::object()}};
-  for (const auto& [field, counts] : texts)
-    for (const auto& [value, count] : counts) facets["texts"][field][value] = count;
-  for (const auto& [field, spread] : numbers)
-    facets["numbers"][field] = {
-        {"count", spread.count}, {"min", spread.range.min}, {"max", spread.range.max}};
+  for (const auto& [field, column] : table.texts()) {
+    if (field == kUncounted) continue;
+    Json counts = CountsOf(column, rows);
+    if (!counts.empty()) facets["texts"][field] = std::move(counts);
+  }
+  for (const auto& [field, column] : table.numbers()) {
+    Json spread = SpreadOf(column, rows);
+    if (!spread.is_null()) facets["numbers"][field] = std::move(spread);
+  }
   return facets;
 }
 
@@ -247,34 +294,34 @@ Parsed<PartQuery> ParsePartQuery(const std::multimap<std::string, std::string>& 
   return result;
 }
 
-std::vector<const catalog::Part*> Select(const PartQuery& query,
-                                         const std::vector<catalog::Part>& parts) {
+std::vector<const catalog::Part*> Select(const PartQuery& query, const PartTable& table) {
+  Rows rows = Matching(query, table);
+  std::sort(rows.begin(), rows.end(), Order(query, table));
   std::vector<const catalog::Part*> selected;
-  for (const catalog::Part& part : parts)
-    if (Matches(query, part)) selected.push_back(&part);
-  // A field is either a number or a text; the other order leaves all parts where they are.
-  SortBy(query, selected, TextOf);
-  SortBy(query, selected, NumberOf);
+  for (const std::uint32_t row : rows) selected.push_back(&table.parts()[row]);
   return selected;
 }
 
 Parsed<Json> RenderPage(const PartQuery& query, const catalog::Revision& revision,
-                        const std::vector<catalog::Part>& parts) {
-  const std::vector<const catalog::Part*> selected = Select(query, parts);
-  auto begin = selected.begin();
+                        const PartTable& table) {
+  const Rows matching = Matching(query, table);
+  const Order order(query, table);
+  Rows rows = matching;
   if (query.cursor) {
-    begin = std::find_if(begin, selected.end(),
-                         [&](const auto* part) { return part->id == query.cursor->id; });
-    if (begin == selected.end())
+    const auto last = RowOf(query.cursor->id, matching, table);
+    if (!last)
       return Errors{{"/cursor", "is of another query: send the filters and the sort it came from"}};
-    ++begin;
+    Filter(rows, [&](std::uint32_t row) { return order(*last, row); });
   }
-  const auto end = selected.end() - begin > query.limit ? begin + query.limit : selected.end();
-  Json page = {{"parts", Json::array()}, {"next_cursor", nullptr}, {"total", selected.size()}};
-  for (auto part = begin; part != end; ++part) page["parts"].push_back(RenderPart(**part));
-  if (end != selected.end())
-    page["next_cursor"] = std::to_string(revision.number) + "." + (*(end - 1))->id;
-  if (query.facets) page["facets"] = Facets(selected);
+  const std::size_t shown = std::min<std::size_t>(rows.size(), query.limit);
+  std::partial_sort(rows.begin(), rows.begin() + shown, rows.end(), order);
+
+  Json page = {{"parts", Json::array()}, {"next_cursor", nullptr}, {"total", matching.size()}};
+  for (std::size_t i = 0; i < shown; ++i)
+    page["parts"].push_back(RenderPart(table.parts()[rows[i]]));
+  if (shown < rows.size())
+    page["next_cursor"] = std::to_string(revision.number) + "." + table.parts()[rows[shown - 1]].id;
+  if (query.facets) page["facets"] = Facets(matching, table);
   page["catalogue_revision"] = RenderRevisionName(revision);
   return page;
 }

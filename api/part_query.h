@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "api/json.h"
+#include "api/part_table.h"
 #include "catalog/part.h"
 #include "catalog/revision.h"
 
@@ -50,14 +51,13 @@ struct PartQuery {
 Parsed<PartQuery> ParsePartQuery(const std::multimap<std::string, std::string>& query);
 
 // The matching parts, in order.
-std::vector<const catalog::Part*> Select(const PartQuery& query,
-                                         const std::vector<catalog::Part>& parts);
+std::vector<const catalog::Part*> Select(const PartQuery& query, const PartTable& table);
 
 // { "parts", "next_cursor": text or null, "total": matching parts, "facets" if asked for,
-// "catalogue_revision" }. `parts` are those of `revision`. An error if the cursor is not of this
-// query.
+// "catalogue_revision" }. The table is of the parts of `revision`. An error if the cursor is not of
+// this query.
 Parsed<Json> RenderPage(const PartQuery& query, const catalog::Revision& revision,
-                        const std::vector<catalog::Part>& parts);
+                        const PartTable& table);
 
 }  // namespace plenum::api
 

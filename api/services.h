@@ -14,6 +14,7 @@
 #include "catalog/backup.h"
 #include "catalog/content_hash.h"
 #include "catalog/csv.h"
+#include "catalog/job_store.h"
 #include "catalog/plausibility.h"
 #include "catalog/store.h"
 #include "optimizer/pareto.h"

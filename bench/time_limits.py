@@ -39,9 +39,13 @@ def vary(request, draw):
     return request
 
 
+def requirements():
+    return [p for p in sorted(pathlib.Path("examples").glob("*.json"))
+            if json.loads(p.read_text()).get("schema") == "requirements/1"]
+
+
 def main():
-    examples = [p for p in sorted(pathlib.Path("examples").glob("*.json"))
-                if json.loads(p.read_text()).get("schema") == "requirements/1"]
+    examples = requirements()
     draw = random.Random(1)
     worst, statuses = 0.0, {}
     for run in range(RUNS):
@@ -65,4 +69,5 @@ def main():
     print(f"{RUNS} runs, worst {worst:+.3f} s; {statuses}")
 
 
-main()
+if __name__ == "__main__":
+    main()

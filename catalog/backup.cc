@@ -3,6 +3,7 @@
 #include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>
+#include <sqlite3.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -14,10 +15,6 @@ namespace plenum::catalog {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kBusyTimeoutMs = 10'000;
-constexpr int kSqliteDone = 101;  // SQLITE_DONE
-constexpr int kSqliteBusy = 5;    // SQLITE_BUSY
 
 // A file beside `place`, so that it can take its name; gone with the object unless it was moved.
 class Beside {
@@ -44,18 +41,20 @@ class Beside {
 
 // All pages in one step: one moment of `from`, one transaction of `to`.
 void CopyPages(SQLite::Database from, const fs::path& to) {
-  SQLite::Database target(to.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
-                          kBusyTimeoutMs);
+  SQLite::Database target(to.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  WaitForLocks(target);
   // Fails where the file to be replaced is too damaged to be read; then FULL, the default, must do.
   target.tryExec("PRAGMA synchronous = EXTRA");
   SQLite::Backup backup(target, from);
-  if (backup.executeStep(-1) != kSqliteDone)
-    throw SQLite::Exception("is held by another process", kSqliteBusy);
+  if (backup.executeStep(-1) != SQLITE_DONE)
+    throw SQLite::Exception("is held by another process", SQLITE_BUSY);
 }
 
 // Only looks, whatever the file is.
 SQLite::Database Peek(const fs::path& path) {
-  return {path.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs};
+  SQLite::Database db(path.string(), SQLite::OPEN_READONLY);
+  WaitForLocks(db);
+  return db;
 }
 
 // Throws with the first fault that Check finds.

@@ -1,16 +1,19 @@
 #include "catalog/connection.h"
 
+#include <sqlite3.h>
+
+#include <chrono>
+#include <thread>
+
 #include "catalog/history.h"
 #include "catalog/migrations.h"
 
 namespace plenum::catalog {
 namespace {
 
-constexpr int kBusyTimeoutMs = 10'000;
+constexpr std::chrono::seconds kLockedMost{10};
+constexpr std::chrono::milliseconds kAskEvery{1};
 constexpr int kApplicationId = 1886154349;  // "plnm", set by the first migration
-
-// SQLite's result codes; their values are fixed for good.
-constexpr int kBusy = 5, kReadOnly = 8, kIoError = 10, kFull = 13, kCannotOpen = 14;
 
 int Pragma(SQLite::Database& db, const std::string& name) {
   return db.execAndGet("PRAGMA " + name).getInt();
@@ -48,7 +51,8 @@ void Migrate(SQLite::Database& db) {
 }
 
 SQLite::Database ConnectForWriting(const std::string& path, int flags) {
-  SQLite::Database db(path, SQLite::OPEN_READWRITE | flags, kBusyTimeoutMs);
+  SQLite::Database db(path, SQLite::OPEN_READWRITE | flags);
+  WaitForLocks(db);
   db.exec("PRAGMA foreign_keys = ON");
   const int version = SchemaVersion(db);  // a foreign file is refused before anything changes
   ConfigureForWriting(db);
@@ -57,12 +61,25 @@ SQLite::Database ConnectForWriting(const std::string& path, int flags) {
 }
 
 SQLite::Database ConnectForReading(const std::string& path) {
-  SQLite::Database db(path, SQLite::OPEN_READONLY, kBusyTimeoutMs);
+  SQLite::Database db(path, SQLite::OPEN_READONLY);
+  WaitForLocks(db);
   db.exec("PRAGMA foreign_keys = ON");
   return db;
 }
 
+// Called by SQLite with how often it was called for this lock before; 0 gives up.
+int AskAgain(void*, int asked) {
+  using Clock = std::chrono::steady_clock;
+  thread_local Clock::time_point since;
+  if (asked == 0) since = Clock::now();
+  if (Clock::now() - since > kLockedMost) return 0;
+  std::this_thread::sleep_for(kAskEvery);
+  return 1;
+}
+
 }  // namespace
+
+void WaitForLocks(SQLite::Database& db) { sqlite3_busy_handler(db.getHandle(), AskAgain, nullptr); }
 
 int SchemaVersion(SQLite::Database& db) {
   const int version = Pragma(db, "user_version");
@@ -83,7 +100,7 @@ SQLite::Database Connect(const std::string& path, Access access) {
     if (version == Known()) return db;
     if (version == 0) throw StoreError("has an older schema: it is empty; open it for writing");
   } catch (const SQLite::Exception& error) {
-    if (error.getErrorCode() != kReadOnly) throw;
+    if (error.getErrorCode() != SQLITE_READONLY) throw;
     // A writer died in the middle of a transaction, which only a writer may roll back.
   }
   try {
@@ -111,12 +128,12 @@ std::vector<std::string> CheckFile(SQLite::Database& db) {
 StoreError ToStoreError(const std::string& where, const SQLite::Exception& error) {
   const std::string what = where + ": " + error.what();
   switch (error.getErrorCode()) {
-    case kBusy:
+    case SQLITE_BUSY:
       return StoreError(what, StoreFault::kBusy);
-    case kReadOnly:
-    case kIoError:
-    case kFull:
-    case kCannotOpen:
+    case SQLITE_READONLY:
+    case SQLITE_IOERR:
+    case SQLITE_FULL:
+    case SQLITE_CANTOPEN:
       return StoreError(what, StoreFault::kStorage);
     default:
       return StoreError(what, StoreFault::kOther);

@@ -25,8 +25,7 @@ std::optional<Part> ReadBefore(const SQLite::Column& column, const std::string& 
 }
 
 std::optional<Part> PartNow(SQLite::Database& db, const std::string& id) {
-  std::vector<Part> found = ReadParts(db, Filter{"id", id});
-  return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
+  return PartReader(db, "id").One(id);
 }
 
 SetHash HashOf(const std::vector<Part>& parts) {
@@ -38,9 +37,9 @@ SetHash HashOf(const std::vector<Part>& parts) {
 }  // namespace
 
 RevisionWriter::RevisionWriter(SQLite::Database& db)
-    : db_(db), head_(Head(db)), hash_(head_.hash), rows_(db) {}
+    : db_(db), head_(Head(db)), hash_(head_.hash), reader_(db, "id"), rows_(db) {}
 
-std::optional<Part> RevisionWriter::Get(const std::string& id) const { return PartNow(db_, id); }
+std::optional<Part> RevisionWriter::Get(const std::string& id) { return reader_.One(id); }
 
 void RevisionWriter::Change(const std::string& id, const std::optional<Part>& before,
                             const std::optional<Part>& after) {
@@ -108,7 +107,7 @@ std::vector<Revision> ReadRevisions(SQLite::Database& db, std::int64_t below, in
 
 std::vector<Part> PartsAt(SQLite::Database& db, std::int64_t number) {
   std::map<std::string, Part> parts;
-  for (Part& part : ReadParts(db, std::nullopt)) parts.emplace(part.id, part);
+  for (Part& part : ReadParts(db)) parts.emplace(part.id, part);
   // SQLite takes `before` from the row that holds the minimum.
   SQLite::Statement query(
       db, "SELECT part_id, before, min(revision) FROM change WHERE revision > ? GROUP BY part_id");
@@ -168,14 +167,14 @@ std::vector<Change> ChangesIn(SQLite::Database& db, const Revision& revision) {
 
 void SealHead(SQLite::Database& db) {
   SQLite::Statement seal(db, "UPDATE revision SET hash = ? WHERE hash IS NULL");
-  seal.bind(1, HashOf(ReadParts(db, std::nullopt)).Digits());
+  seal.bind(1, HashOf(ReadParts(db)).Digits());
   seal.exec();
 }
 
 // Walks from the parts as they are back to the first revision, undoing changes in the hash.
 std::vector<std::string> CheckHistory(SQLite::Database& db) {
   std::map<std::string, std::optional<std::string>> records;  // as of the revision walked to
-  for (const Part& part : ReadParts(db, std::nullopt)) records[part.id] = FormatRecord(part);
+  for (const Part& part : ReadParts(db)) records[part.id] = FormatRecord(part);
   SetHash hash;
   for (const auto& [id, record] : records) hash.Add(*record);
 

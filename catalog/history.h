@@ -21,7 +21,7 @@ class RevisionWriter {
  public:
   explicit RevisionWriter(SQLite::Database& db);
 
-  std::optional<Part> Get(const std::string& id) const;
+  std::optional<Part> Get(const std::string& id);
   // Makes the part with id `id` what `after` says. `before` is what Get gave. Each id at most once.
   void Change(const std::string& id, const std::optional<Part>& before,
               const std::optional<Part>& after);
@@ -33,6 +33,7 @@ class RevisionWriter {
   SQLite::Database& db_;
   Revision head_;
   SetHash hash_;
+  PartReader reader_;
   PartWriter rows_;
   std::vector<std::pair<std::string, std::optional<std::string>>> changes_;  // id, before
 };

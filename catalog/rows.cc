@@ -30,12 +30,7 @@ std::string Word(Provenance provenance) { return std::string(Name(provenance)); 
 // Hands each row of a table to its part. Rows and parts are both in order of id, so one walk along
 // both suffices.
 template <class Take>
-void Distribute(SQLite::Database& db, const std::string& select, const std::string& order,
-                const std::optional<Filter>& filter, std::vector<Part>& parts, const Take& take) {
-  const std::string where =
-      filter ? " WHERE part_id IN (SELECT id FROM part WHERE " + filter->column + " = ?)" : "";
-  SQLite::Statement query(db, select + where + " ORDER BY " + order);
-  if (filter) query.bind(1, filter->value);
+void Distribute(SQLite::Statement& query, std::vector<Part>& parts, const Take& take) {
   auto part = parts.begin();
   while (query.executeStep()) {
     const std::string id = query.getColumn(0).getString();
@@ -72,51 +67,70 @@ void PartWriter::Insert(const Part& part) {
 
 void PartWriter::Delete(const std::string& id) { Run(delete_, id); }
 
-std::vector<Part> ReadParts(SQLite::Database& db, const std::optional<Filter>& filter) {
-  std::vector<Part> parts;
-  SQLite::Statement query(
-      db, "SELECT id, family, manufacturer, part_number, origin, notes FROM part" +
-              (filter ? " WHERE " + filter->column + " = ?" : std::string()) + " ORDER BY id");
-  if (filter) query.bind(1, filter->value);
-  while (query.executeStep()) {
-    Part& part = parts.emplace_back();
-    part.id = query.getColumn(0).getString();
-    part.family = query.getColumn(1).getString();
-    part.manufacturer = query.getColumn(2).getString();
-    part.part_number = query.getColumn(3).getString();
-    part.origin = query.getColumn(4).getString();
-    part.notes = query.getColumn(5).getString();
+PartReader::PartReader(SQLite::Database& db, const std::optional<std::string>& column)
+    : filtered_(column),
+      part_(db, "SELECT id, family, manufacturer, part_number, origin, notes FROM part" +
+                    (column ? " WHERE " + *column + " = ?" : std::string()) + " ORDER BY id"),
+      number_(db, Select("field, value, provenance, source FROM number", "field", column)),
+      text_(db, Select("field, value, provenance, source FROM text", "field", column)),
+      curve_(db, Select("free_air_provenance, free_air_source, current_provenance, "
+                        "current_source FROM curve",
+                        "part_id", column)),
+      point_(db, Select("pressure_kpa_gauge, free_air_l_per_min, current_a FROM curve_point",
+                        "pressure_kpa_gauge", column)) {}
+
+std::string PartReader::Select(const std::string& what, const std::string& order,
+                               const std::optional<std::string>& column) {
+  return "SELECT part_id, " + what +
+         (column ? " WHERE part_id IN (SELECT id FROM part WHERE " + *column + " = ?)" : "") +
+         " ORDER BY part_id, " + order;
+}
+
+std::vector<Part> PartReader::Read(const std::string& value) {
+  for (SQLite::Statement* query : {&part_, &number_, &text_, &curve_, &point_}) {
+    query->reset();
+    if (filtered_) query->bind(1, value);
   }
-  Distribute(db, "SELECT part_id, field, value, provenance, source FROM number", "part_id, field",
-             filter, parts, [](SQLite::Statement& row, Part& part) {
-               part.numbers[row.getColumn(1).getString()] = {Real(row.getColumn(2)),
-                                                             ReadProvenance(row.getColumn(3)),
-                                                             row.getColumn(4).getString()};
-             });
-  Distribute(db, "SELECT part_id, field, value, provenance, source FROM text", "part_id, field",
-             filter, parts, [](SQLite::Statement& row, Part& part) {
-               part.texts[row.getColumn(1).getString()] = {row.getColumn(2).getString(),
-                                                           ReadProvenance(row.getColumn(3)),
-                                                           row.getColumn(4).getString()};
-             });
-  Distribute(db,
-             "SELECT part_id, free_air_provenance, free_air_source, current_provenance, "
-             "current_source FROM curve",
-             "part_id", filter, parts, [](SQLite::Statement& row, Part& part) {
-               Curve& curve = part.curve.emplace();
-               curve.free_air_provenance = ReadProvenance(row.getColumn(1));
-               curve.free_air_source = row.getColumn(2).getString();
-               curve.current_provenance = ReadProvenance(row.getColumn(3));
-               curve.current_source = row.getColumn(4).getString();
-             });
-  Distribute(db,
-             "SELECT part_id, pressure_kpa_gauge, free_air_l_per_min, current_a FROM curve_point",
-             "part_id, pressure_kpa_gauge", filter, parts, [](SQLite::Statement& row, Part& part) {
-               if (!part.curve) throw SQLite::Exception("a curve point belongs to no curve");
-               part.curve->points.push_back(
-                   {Real(row.getColumn(1)), Real(row.getColumn(2)), Real(row.getColumn(3))});
-             });
+  std::vector<Part> parts;
+  while (part_.executeStep()) {
+    Part& part = parts.emplace_back();
+    part.id = part_.getColumn(0).getString();
+    part.family = part_.getColumn(1).getString();
+    part.manufacturer = part_.getColumn(2).getString();
+    part.part_number = part_.getColumn(3).getString();
+    part.origin = part_.getColumn(4).getString();
+    part.notes = part_.getColumn(5).getString();
+  }
+  if (filtered_ && parts.empty()) return parts;
+  Distribute(number_, parts, [](SQLite::Statement& row, Part& part) {
+    part.numbers[row.getColumn(1).getString()] = {
+        Real(row.getColumn(2)), ReadProvenance(row.getColumn(3)), row.getColumn(4).getString()};
+  });
+  Distribute(text_, parts, [](SQLite::Statement& row, Part& part) {
+    part.texts[row.getColumn(1).getString()] = {row.getColumn(2).getString(),
+                                                ReadProvenance(row.getColumn(3)),
+                                                row.getColumn(4).getString()};
+  });
+  Distribute(curve_, parts, [](SQLite::Statement& row, Part& part) {
+    Curve& curve = part.curve.emplace();
+    curve.free_air_provenance = ReadProvenance(row.getColumn(1));
+    curve.free_air_source = row.getColumn(2).getString();
+    curve.current_provenance = ReadProvenance(row.getColumn(3));
+    curve.current_source = row.getColumn(4).getString();
+  });
+  Distribute(point_, parts, [](SQLite::Statement& row, Part& part) {
+    if (!part.curve) throw SQLite::Exception("a curve point belongs to no curve");
+    part.curve->points.push_back(
+        {Real(row.getColumn(1)), Real(row.getColumn(2)), Real(row.getColumn(3))});
+  });
   return parts;
 }
+
+std::optional<Part> PartReader::One(const std::string& value) {
+  std::vector<Part> found = Read(value);
+  return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
+}
+
+std::vector<Part> ReadParts(SQLite::Database& db) { return PartReader(db, std::nullopt).Read(); }
 
 }  // namespace plenum::catalog

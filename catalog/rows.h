@@ -23,14 +23,25 @@ class PartWriter {
   SQLite::Statement part_, number_, text_, curve_, point_, delete_;
 };
 
-// Which parts to read: all, or those whose `column` (id or family) equals `value`.
-struct Filter {
-  std::string column;
-  std::string value;
+// Reads parts through statements prepared once: all, or those whose `column` (id or family) equals
+// a value. Call inside a transaction, so that the tables are of one moment.
+class PartReader {
+ public:
+  PartReader(SQLite::Database& db, const std::optional<std::string>& column);
+  // In order of id.
+  std::vector<Part> Read(const std::string& value = "");
+  std::optional<Part> One(const std::string& value);
+
+ private:
+  static std::string Select(const std::string& what, const std::string& order,
+                            const std::optional<std::string>& column);
+
+  bool filtered_;
+  SQLite::Statement part_, number_, text_, curve_, point_;
 };
 
-// Parts in order of id. Call inside a transaction, so that the tables are of one moment.
-std::vector<Part> ReadParts(SQLite::Database& db, const std::optional<Filter>& filter);
+// All parts in order of id.
+std::vector<Part> ReadParts(SQLite::Database& db);
 
 }  // namespace plenum::catalog
 

@@ -20,19 +20,21 @@ bool SameContent(Part a, const Part& b) {
   return a == b;
 }
 
+// Enters the part in the plan beside what is stored under its id.
+void Enter(const Part& part, const std::optional<Part>& stored, ImportPlan& plan) {
+  if (!stored)
+    plan.added.push_back(part.id);
+  else if (stored->family != part.family)
+    plan.taken.push_back(part.id);
+  else
+    (SameContent(part, *stored) ? plan.unchanged : plan.replaced).push_back(part.id);
+}
+
 // `stored(id)` gives the part as it was when the import began.
 template <class Stored>
 ImportPlan Plan(const std::vector<Part>& parts, const Stored& stored) {
   ImportPlan plan;
-  for (const Part& part : parts) {
-    const std::optional<Part> old = stored(part.id);
-    if (!old)
-      plan.added.push_back(part.id);
-    else if (old->family != part.family)
-      plan.taken.push_back(part.id);
-    else
-      (SameContent(part, *old) ? plan.unchanged : plan.replaced).push_back(part.id);
-  }
+  for (const Part& part : parts) Enter(part, stored(part.id), plan);
   return plan;
 }
 
@@ -115,14 +117,13 @@ Store& Store::operator=(Store&&) noexcept = default;
 
 std::vector<Part> Store::List(const std::optional<std::string>& family) const {
   return impl_->Read([&](SQLite::Database& db) {
-    return ReadParts(db, family ? std::optional(Filter{"family", *family}) : std::nullopt);
+    return family ? PartReader(db, "family").Read(*family) : ReadParts(db);
   });
 }
 
 std::pair<Revision, std::vector<Part>> Store::ListWithHead() const {
-  return impl_->Read([](SQLite::Database& db) {
-    return std::pair(catalog::Head(db), ReadParts(db, std::nullopt));
-  });
+  return impl_->Read(
+      [](SQLite::Database& db) { return std::pair(catalog::Head(db), ReadParts(db)); });
 }
 
 std::optional<Part> Store::Get(const std::string& id) const { return GetAt(id, INT64_MAX); }
@@ -189,7 +190,8 @@ WriteResult Store::Remove(const std::string& id, const Signature& by, const Prec
 
 ImportPlan Store::PlanImport(const std::vector<Part>& parts) const {
   return impl_->Read([&](SQLite::Database& db) {
-    return Plan(parts, [&](const std::string& id) { return PartAt(db, id, INT64_MAX); });
+    PartReader reader(db, "id");
+    return Plan(parts, [&](const std::string& id) { return reader.One(id); });
   });
 }
 
@@ -200,12 +202,13 @@ ImportResult Store::Import(const std::vector<Part>& parts, const Signature& by) 
   if (!result.write.errors.empty()) return result;
   const std::string what = "import " + (parts.empty() ? "nothing" : parts.front().family);
   result.write = impl_->Write(by, what, [&](RevisionWriter& writer) -> WriteResult {
-    result.plan = Plan(parts, [&](const std::string& id) { return writer.Get(id); });
-    if (!result.plan.taken.empty()) return {WriteStatus::kExists, {}, {}};
     for (const Part& part : parts) {
       const auto old = writer.Get(part.id);
+      Enter(part, old, result.plan);
       if (!old || !SameContent(part, *old)) writer.Change(part.id, old, part);
     }
+    // Then nothing of it is committed.
+    if (!result.plan.taken.empty()) return {WriteStatus::kExists, {}, {}};
     return {};
   });
   if (result.write.status == WriteStatus::kRepeated)
@@ -294,7 +297,7 @@ std::vector<std::string> Store::Check() const {
   return impl_->Read([](SQLite::Database& db) {
     std::vector<std::string> faults = CheckFile(db);
     if (!faults.empty()) return faults;  // what is damaged cannot be read part by part
-    for (const Part& part : ReadParts(db, std::nullopt))
+    for (const Part& part : ReadParts(db))
       for (const FieldError& error : Validate(part))
         faults.push_back(part.id + ", " + error.field + ": " + error.detail);
     for (std::string& fault : CheckHistory(db)) faults.push_back(std::move(fault));

@@ -69,7 +69,7 @@ void List(const CatalogOptions& options) {
   const auto revision = RevisionOrHead(store, options.revision);
   const auto all = store.ListAt(revision.number);
   std::vector<catalog::Part> parts;
-  for (const auto* part : api::Select(query, all)) parts.push_back(*part);
+  for (const auto* part : api::Select(query, api::PartTable(all))) parts.push_back(*part);
   if (options.csv) return Print(catalog::WriteCsv(options.family, parts));
   if (!options.json) return Print(PartsText(parts));
   api::Json list = api::Json::array();

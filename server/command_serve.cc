@@ -43,6 +43,8 @@ std::unique_ptr<HttpService> Listen(const ServeOptions& options) {
     return std::make_unique<HttpService>(http);
   } catch (const ListenError& error) {
     throw BadInput(error.what());
+  } catch (const catalog::StoreError& error) {
+    throw BadInput(error.what());
   }
 }
 

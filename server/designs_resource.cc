@@ -1,6 +1,8 @@
 #include "server/designs_resource.h"
 
 #include "api/services.h"
+#include "server/job_inputs.h"
+#include "server/signature.h"
 
 namespace plenum::server {
 namespace {
@@ -13,20 +15,33 @@ api::Json ToJson(const optimizer::Progress& progress) {
           {"lower_bound", api::Number(progress.lower_bound)}};
 }
 
-Work DesignWork(api::DesignRequest request, CatalogView catalog) {
-  return [request = std::move(request), catalog = std::move(catalog)](const JobControl& control) {
+}  // namespace
+
+Work DesignWork(SharedCatalog& catalog) {
+  return [&catalog](const catalog::JobOrder& order,
+                    const JobControl& control) -> api::Parsed<api::Json> {
+    auto view = PartsOf(catalog, order);
+    if (auto* errors = std::get_if<api::Errors>(&view)) return *errors;
+    auto models = ModelsOf(catalog, order);
+    if (auto* errors = std::get_if<api::Errors>(&models)) return *errors;
+    auto json = api::ParseJson(order.request);
+    if (auto* errors = std::get_if<api::Errors>(&json)) return *errors;
+    const CatalogView& parts = std::get<CatalogView>(view);
+    auto request = api::ParseRequirements(std::get<api::Json>(json), *parts.parts,
+                                          std::get<std::vector<catalog::ModelRevision>>(models));
+    if (auto* errors = std::get_if<api::Errors>(&request)) return *errors;
+
     optimizer::SearchOptions options;
     options.cancelled = control.cancelled;
     options.progress = [&](const optimizer::Progress& progress) {
       control.report(ToJson(progress));
     };
-    api::Json answer = api::AnswerRequest(request, options, *catalog.parts);
-    answer["catalogue_revision"] = api::RenderRevisionName(catalog.revision);
+    api::Json answer =
+        api::AnswerRequest(std::get<api::DesignRequest>(request), options, *parts.parts);
+    answer["catalogue_revision"] = api::RenderRevisionName(parts.revision);
     return answer;
   };
 }
-
-}  // namespace
 
 Reply PostDesign(SharedCatalog& catalog, const JobsResource& designs, const Call& call) {
   auto query_errors = CheckQuery(call, {"validate_only"});
@@ -34,15 +49,18 @@ Reply PostDesign(SharedCatalog& catalog, const JobsResource& designs, const Call
   if (!query_errors.empty()) return ProblemReply(422, query_errors);
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
-  CatalogView view = catalog.View();
+  const CatalogView view = catalog.View();
   auto parsed = api::ParseRequirements(
       std::get<api::Json>(json), *view.parts,
       catalog.With([](const catalog::Store& store) { return store.Models(); }));
   if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
   if (validate_only) return JsonReply(200, {{"valid", true}});
-  auto& request = std::get<api::DesignRequest>(parsed);
-  const std::string name = request.name;
-  return StartJob(designs, call, name, DesignWork(std::move(request), std::move(view)));
+  const auto signature = SignatureOf(call);
+  if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
+  const auto& request = std::get<api::DesignRequest>(parsed);
+  return StartJob(designs, call,
+                  OrderOf(call, std::get<catalog::Signature>(signature), request.name,
+                          view.revision, request.model));
 }
 
 }  // namespace plenum::server

@@ -7,6 +7,9 @@
 
 namespace plenum::server {
 
+// Ranks the designs of an order.
+Work DesignWork(SharedCatalog& catalog);
+
 // With "validate_only=true" in the query nothing is started: 200 with { "valid": true }, or the 422
 // that the request would get.
 Reply PostDesign(SharedCatalog& catalog, const JobsResource& designs, const Call& call);

@@ -1,12 +1,14 @@
 #include "server/diagnoses_resource.h"
 
 #include <chrono>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "api/diagnose.h"
 #include "api/reader.h"
+#include "server/job_inputs.h"
 #include "server/signature.h"
 
 namespace plenum::server {
@@ -40,42 +42,72 @@ T ValueOrAdd(api::Parsed<T> parsed, api::Errors& errors) {
   return std::get<T>(std::move(parsed));
 }
 
-struct Order {
-  api::DiagnosisRequest request;
-  std::string save, who;
+struct Request {
+  api::DiagnosisRequest diagnosis;
+  std::string save;
+  std::optional<catalog::ModelRevision> model;  // of the diagnosis
 };
 
-api::Parsed<Order> ReadOrder(SharedCatalog& catalog, api::Json document, const std::string& body) {
+// `models` are the newest of each name that "model" may ask for.
+api::Parsed<Request> ReadRequest(const std::string& body,
+                                 const std::vector<catalog::ModelRevision>& models,
+                                 api::Json document) {
   api::Errors errors;
-  Order order;
+  Request request;
   const Names names = ReadNames(document, errors);
-  order.save = names.save;
+  request.save = names.save;
   if (!names.model.empty() && names.model != "nominal") {
-    const auto models = catalog.With([](const catalog::Store& store) { return store.Models(); });
-    order.request.model = ValueOrAdd(api::FindModel(names.model, models, "/model"), errors);
+    request.diagnosis.model = ValueOrAdd(api::FindModel(names.model, models, "/model"), errors);
+    for (const auto& model : models)
+      if (model.name == names.model) request.model = model;
   }
   if (document.is_object()) {
     document.erase(kModel);
     document.erase(kSave);
   }
-  order.request.dataset = ValueOrAdd(api::ParseMeasurement(document), errors);
+  request.diagnosis.dataset = ValueOrAdd(api::ParseMeasurement(document), errors);
   if (!errors.empty()) return errors;
-  order.request.provenance.files = {api::FileOf(order.request.dataset.name, body)};
-  return order;
+  request.diagnosis.provenance.files = {api::FileOf(request.diagnosis.dataset.name, body)};
+  return request;
 }
 
-api::Json Save(SharedCatalog& catalog, const Order& order,
-               const std::optional<api::SavedModel>& revision) {
-  if (!revision) return nullptr;
-  const std::string text = Dump(api::RenderModel(*revision));
-  return catalog.With([&](catalog::Store& store) {
-    return api::RenderModelRevision(store.SaveModel(order.save, text, order.who), false);
-  });
+// Puts the name under which the model was saved into the answer; where that fails the model itself,
+// to be saved later: the diagnosis is worth more than its place.
+void Save(SharedCatalog& catalog, const std::string& name, const std::string& who,
+          const std::optional<api::SavedModel>& revision, api::Json& answer) {
+  answer["saved"] = nullptr;
+  if (!revision) return;
+  const api::Json model = api::RenderModel(*revision);
+  try {
+    answer["saved"] = catalog.With([&](catalog::Store& store) {
+      return api::RenderModelRevision(store.SaveModel(name, Dump(model), who), false);
+    });
+  } catch (const catalog::StoreError& error) {
+    std::fprintf(stderr, "model %s was not saved: %s\n", name.c_str(), error.what());
+    answer["not_saved"] = {
+        {"detail", error.fault() == catalog::StoreFault::kBusy
+                       ? "another process holds the catalogue; POST name and model to /v1/models"
+                       : "the catalogue cannot be written; POST name and model to /v1/models"},
+        {"name", name},
+        {"model", model}};
+  }
 }
 
-Work DiagnosisWork(SharedCatalog& catalog, Order order) {
-  return [&catalog, order = std::move(order)](const JobControl& control) {
+}  // namespace
+
+Work DiagnosisWork(SharedCatalog& catalog) {
+  return [&catalog](const catalog::JobOrder& order,
+                    const JobControl& control) -> api::Parsed<api::Json> {
     using Clock = std::chrono::steady_clock;
+    auto models = ModelsOf(catalog, order);
+    if (auto* errors = std::get_if<api::Errors>(&models)) return *errors;
+    auto json = api::ParseJson(order.request);
+    if (auto* errors = std::get_if<api::Errors>(&json)) return *errors;
+    auto parsed = ReadRequest(order.request, std::get<std::vector<catalog::ModelRevision>>(models),
+                              std::get<api::Json>(std::move(json)));
+    if (auto* errors = std::get_if<api::Errors>(&parsed)) return *errors;
+    const auto& request = std::get<Request>(parsed);
+
     const auto start = Clock::now();
     const auto report = [&](double share, const std::string& doing) {
       const std::chrono::duration<double> elapsed = Clock::now() - start;
@@ -84,25 +116,26 @@ Work DiagnosisWork(SharedCatalog& catalog, Order order) {
                       {"doing", doing}});
     };
     auto diagnosis =
-        api::RunDiagnosis(order.request, {.cancelled = control.cancelled, .progress = report});
-    if (!order.save.empty()) diagnosis.answer["saved"] = Save(catalog, order, diagnosis.revision);
+        api::RunDiagnosis(request.diagnosis, {.cancelled = control.cancelled, .progress = report});
+    if (!request.save.empty())
+      Save(catalog, request.save, order.by.who, diagnosis.revision, diagnosis.answer);
     return std::move(diagnosis.answer);
   };
 }
 
-}  // namespace
-
 Reply PostDiagnosis(SharedCatalog& catalog, const JobsResource& diagnoses, const Call& call) {
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
-  auto parsed = ReadOrder(catalog, std::move(std::get<api::Json>(json)), call.body);
+  const auto models = catalog.With([](const catalog::Store& store) { return store.Models(); });
+  auto parsed = ReadRequest(call.body, models, std::move(std::get<api::Json>(json)));
   if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
-  auto& order = std::get<Order>(parsed);
   const auto signature = SignatureOf(call);
   if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
-  order.who = std::get<catalog::Signature>(signature).who;
-  const std::string name = order.request.dataset.name;
-  return StartJob(diagnoses, call, name, DiagnosisWork(catalog, std::move(order)));
+  const auto& request = std::get<Request>(parsed);
+  const auto head = catalog.With([](const catalog::Store& store) { return store.Head(); });
+  return StartJob(diagnoses, call,
+                  OrderOf(call, std::get<catalog::Signature>(signature),
+                          request.diagnosis.dataset.name, head, request.model));
 }
 
 }  // namespace plenum::server

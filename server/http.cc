@@ -10,6 +10,8 @@
 
 #include "api/problem.h"
 #include "server/connections.h"
+#include "server/designs_resource.h"
+#include "server/diagnoses_resource.h"
 #include "server/limits.h"
 #include "server/request_log.h"
 #include "server/routes.h"
@@ -164,12 +166,15 @@ bool NeedsToken(const HttpOptions& options) {
 }
 
 struct HttpService::Impl {
+  // The port first: without it no job is begun.
   explicit Impl(const HttpOptions& given)
       : options(given),
+        port(Bind()),
         tokens(TokenFile(given.catalog)),
         catalog(given.catalog),
-        designs(given.jobs),
-        diagnoses(given.jobs),
+        jobs(given.catalog.string() + "-jobs", given.kept),
+        designs(jobs, "design", DesignWork(catalog), given.jobs),
+        diagnoses(jobs, "diagnosis", DiagnosisWork(catalog), given.jobs),
         routes(Routes({catalog, designs, diagnoses, metrics, given.jobs, given.catalog,
                        [this] { MeasureConnections(); }})),
         connections([this](Incoming request,
@@ -182,28 +187,32 @@ struct HttpService::Impl {
     mallopt(M_ARENA_MAX, 4);
     if (options.host != "localhost" && !IsLoopback(options.host))
       options.allow_hosts.push_back(options.host);
-    SetUp();
-    const bool any = options.port == 0;
-    port = any ? protocol.bind_to_any_port(options.host)
-           : protocol.bind_to_port(options.host, options.port) ? options.port
-                                                               : -1;
-    if (port <= 0) {
-      throw ListenError("cannot listen at " + options.host + " port " +
-                        std::to_string(options.port) + ": is it taken by another program?");
-    }
-    protocol.WidenBacklog();
+    SetHandlers();
   }
 
-  void SetUp() {
-    protocol.admit = [this](int socket) { connections.Admit(socket); };
-    protocol.new_task_queue = [] { return new AtOnce; };
-    protocol.set_keep_alive_timeout(kIdleSecondsMax);
+  int Bind() {
     protocol.set_tcp_nodelay(true);
     // The default shares a port with whoever listens there already.
     protocol.set_socket_options([](socket_t socket) {
       const int on = 1;
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     });
+    const bool any = options.port == 0;
+    const int bound = any ? protocol.bind_to_any_port(options.host)
+                      : protocol.bind_to_port(options.host, options.port) ? options.port
+                                                                          : -1;
+    if (bound <= 0) {
+      throw ListenError("cannot listen at " + options.host + " port " +
+                        std::to_string(options.port) + ": is it taken by another program?");
+    }
+    protocol.WidenBacklog();
+    return bound;
+  }
+
+  void SetHandlers() {
+    protocol.admit = [this](int socket) { connections.Admit(socket); };
+    protocol.new_task_queue = [] { return new AtOnce; };
+    protocol.set_keep_alive_timeout(kIdleSecondsMax);
     protocol.set_pre_routing_handler([this](const auto& request, auto& response) {
       Answer(request, response);
       return httplib::Server::HandlerResponse::Handled;
@@ -314,15 +323,16 @@ struct HttpService::Impl {
   }
 
   HttpOptions options;
+  Protocol protocol;
+  const int port;
   TokenKeeper tokens;
   Metrics metrics;
   SharedCatalog catalog;
+  catalog::JobStore jobs;
   Jobs designs, diagnoses;
   const std::vector<Route> routes;
   Gate large_requests{kLargeMax, kLargeWaitingMax};
-  Protocol protocol;
   Connections connections;
-  int port = 0;
 };
 
 HttpService::HttpService(const HttpOptions& options) : impl_(std::make_unique<Impl>(options)) {}

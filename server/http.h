@@ -13,12 +13,13 @@
 namespace plenum::server {
 
 struct HttpOptions {
-  std::filesystem::path catalog = "catalog.db";
+  std::filesystem::path catalog = "catalog.db";  // the jobs are kept in <catalog>-jobs
   std::string host = "127.0.0.1";
   int port = 8080;  // 0: any free one
   // Names beside those of the loopback by which the service is reached, as behind a proxy.
   std::vector<std::string> allow_hosts;
-  JobOptions jobs;  // of designs, and as many of diagnoses
+  JobOptions jobs;         // of designs, and as many of diagnoses
+  catalog::JobsKept kept;  // of each
   bool log = true;
 };
 
@@ -33,13 +34,14 @@ class ListenError : public std::runtime_error {
 
 class HttpService {
  public:
-  // Opens the catalogue (StoreError) and binds the port (ListenError). Connections wait until Run.
+  // Opens the catalogue and the jobs (StoreError), goes on with those that did not end and binds
+  // the port (ListenError). Connections wait until Run.
   explicit HttpService(const HttpOptions& options);
   ~HttpService();
 
   int port() const;
-  // Serves until Stop, which any thread may call: it stops the jobs and lets answers under way
-  // end.
+  // Serves until Stop, which any thread may call: it lets answers under way end and leaves jobs
+  // that did not end to the next service.
   void Run();
   void Stop();
 

@@ -6,10 +6,12 @@
 #include <random>
 #include <utility>
 
+#include "server/reply.h"
+
 namespace plenum::server {
 namespace {
 
-// 64 random bits: ids of one run of the service mean nothing to the next.
+// 64 random bits.
 std::string RandomId() {
   std::random_device random;
   char text[17];
@@ -18,106 +20,176 @@ std::string RandomId() {
   return text;
 }
 
+std::string TextOf(const api::Json& json) { return json.is_null() ? "" : Dump(json); }
+
+api::Json FromText(const std::string& text) {
+  return text.empty() ? api::Json() : api::Json::parse(text);
+}
+
+Job ToJob(const catalog::JobRecord& record) {
+  Job job;
+  job.number = record.number;
+  job.id = record.id;
+  job.name = record.order.name;
+  job.status = record.status;
+  job.progress = FromText(record.progress);
+  job.result = FromText(record.result);
+  job.failure = record.failure;
+  job.submitted_at = record.submitted_at;
+  job.ended_at = record.ended_at;
+  job.catalogue_revision = record.order.revision;
+  job.catalogue_hash = record.order.hash;
+  return job;
+}
+
+// What the disk must hold for the next service only: this one goes on without.
+template <typename F>
+bool Try(const std::string& id, F&& write) {
+  try {
+    write();
+    return true;
+  } catch (const catalog::StoreError& error) {
+    std::fprintf(stderr, "job %s: %s\n", id.c_str(), error.what());
+    return false;
+  }
+}
+
+std::string ListOf(const api::Errors& errors) {
+  std::string list;
+  for (const api::Error& error : errors)
+    list += (list.empty() ? "" : "; ") + (error.pointer.empty() ? "" : error.pointer + ": ") +
+            error.detail;
+  return list;
+}
+
 }  // namespace
 
-const char* Name(JobStatus status) {
-  switch (status) {
-    case JobStatus::kQueued:
-      return "queued";
-    case JobStatus::kRunning:
-      return "running";
-    case JobStatus::kDone:
-      return "done";
-    case JobStatus::kCancelled:
-      return "cancelled";
-    case JobStatus::kFailed:
-      return "failed";
-  }
-  return "";
-}
-
-bool Ended(JobStatus status) {
-  return status != JobStatus::kQueued && status != JobStatus::kRunning;
-}
-
-Jobs::Jobs(const JobOptions& options) : options_(options) {
+Jobs::Jobs(catalog::JobStore& store, std::string kind, Work work, const JobOptions& options)
+    : store_(store), kind_(std::move(kind)), work_(std::move(work)), options_(options) {
+  for (const catalog::JobRecord& record : store_.Unfinished(kind_)) TakeUp(record);
   for (int i = 0; i < options_.workers; ++i) workers_.emplace_back([this] { WorkLoop(); });
 }
 
 Jobs::~Jobs() { Stop(); }
 
-std::optional<std::string> Jobs::Submit(std::string name, Work work) {
-  const std::lock_guard lock(mutex_);
-  if (stopping_ || queue_.size() >= options_.queued_max) return std::nullopt;
+void Jobs::TakeUp(const catalog::JobRecord& record) {
+  const EntryPtr entry = Enqueue(record);
+  if (record.cancel_asked) {
+    Cancel(record.id);
+  } else if (record.starts >= options_.starts_max) {
+    queue_.pop_back();
+    End(*entry, JobStatus::kFailed, nullptr,
+        "the service was killed " + std::to_string(record.starts) + " times while the job ran");
+  }
+}
+
+// With the lock held, or before there are workers.
+Jobs::EntryPtr Jobs::Enqueue(const catalog::JobRecord& record) {
   auto entry = std::make_shared<Entry>();
-  do {
-    entry->job.id = RandomId();
-  } while (entries_.count(entry->job.id) > 0);
-  entry->job.name = std::move(name);
-  entry->work = std::move(work);
-  entry->number = ++submitted_;
-  entries_[entry->job.id] = entry;
+  entry->job = ToJob(record);
+  entry->job.status = JobStatus::kQueued;
+  entries_[record.id] = entry;
   queue_.push_back(entry);
   work_ready_.notify_one();
-  return entry->job.id;
+  return entry;
+}
+
+Submitted Jobs::Submit(catalog::JobOrder order) {
+  const std::lock_guard submitting(submitting_);
+  order.kind = kind_;
+  if (!order.by.key.empty()) {
+    if (const auto known = store_.FindKey(kind_, order.by.key)) {
+      if (known->order.by.request != order.by.request) return {Submitted::kKeyReused, ""};
+      return {Submitted::kRepeated, known->id};
+    }
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_ || queue_.size() >= options_.queued_max) return {Submitted::kRefused, ""};
+  }
+  const catalog::JobRecord record = store_.Add(RandomId(), order);
+  const std::lock_guard lock(mutex_);
+  Enqueue(record);
+  return {Submitted::kAccepted, record.id};
+}
+
+Jobs::EntryPtr Jobs::Find(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  const auto it = entries_.find(id);
+  return it == entries_.end() ? nullptr : it->second;
 }
 
 std::optional<Job> Jobs::Get(const std::string& id) const {
-  const std::lock_guard lock(mutex_);
-  const auto it = entries_.find(id);
-  if (it == entries_.end()) return std::nullopt;
-  return it->second->job;
+  if (const EntryPtr entry = Find(id)) {
+    const std::lock_guard lock(mutex_);
+    return entry->job;
+  }
+  const auto record = store_.Find(kind_, id);
+  return record ? std::optional(ToJob(*record)) : std::nullopt;
 }
 
 std::vector<Job> Jobs::List() const {
-  const std::lock_guard lock(mutex_);
-  std::vector<const Entry*> entries;
-  for (const auto& [id, entry] : entries_) entries.push_back(entry.get());
-  std::sort(entries.begin(), entries.end(),
-            [](const Entry* a, const Entry* b) { return a->number > b->number; });
-  std::vector<Job> jobs;
-  for (const Entry* entry : entries) {
-    const Job& job = entry->job;
-    jobs.push_back({job.id, job.name, job.status, job.progress, {}, job.failure, job.revision});
+  std::map<std::int64_t, Job, std::greater<>> jobs;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [id, entry] : entries_) jobs[entry->job.number] = entry->job;
   }
-  return jobs;
+  // A job is on disk as ended before it leaves the memory, so none is missed.
+  for (const catalog::JobRecord& record : store_.Ended(kind_))
+    jobs.emplace(record.number, ToJob(record));
+  std::vector<Job> list;
+  for (auto& [number, job] : jobs) {
+    job.result = nullptr;
+    list.push_back(std::move(job));
+  }
+  return list;
 }
 
 bool Jobs::Cancel(const std::string& id) {
-  const std::lock_guard lock(mutex_);
-  const auto it = entries_.find(id);
-  if (it == entries_.end()) return false;
-  CancelLocked(*it->second);
+  const EntryPtr entry = Find(id);
+  if (!entry) return store_.Find(kind_, id).has_value();
+  bool was_queued = false;
+  {
+    const std::lock_guard lock(mutex_);
+    entry->cancelled = true;
+    was_queued = std::erase(queue_, entry) > 0;
+  }
+  if (was_queued)
+    End(*entry, JobStatus::kCancelled, nullptr, "");
+  else
+    Try(id, [&] { store_.AskToCancel(id); });
   return true;
 }
 
-void Jobs::CancelLocked(Entry& entry) {
-  entry.cancelled = true;
-  if (entry.job.status != JobStatus::kQueued) return;
-  std::erase_if(queue_, [&](const EntryPtr& queued) { return queued.get() == &entry; });
-  End(entry, JobStatus::kCancelled);
-}
-
-// With the lock held.
-void Jobs::End(Entry& entry, JobStatus status) {
-  entry.job.status = status;
-  ++entry.job.revision;
-  entry.work = nullptr;
-  ended_.push_back(entry.job.id);
-  changed_.notify_all();
-  while (ended_.size() > options_.ended_kept) {
-    entries_.erase(ended_.front());
-    ended_.pop_front();
+// On disk before anybody sees it. Where that fails the job stays in memory as it ended, and the
+// next service does it again.
+void Jobs::End(Entry& entry, JobStatus status, api::Json result, const std::string& failure) {
+  catalog::JobRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    record.id = entry.job.id;
+    record.progress = TextOf(entry.job.progress);
   }
+  record.order.kind = kind_;
+  record.status = status;
+  record.result = TextOf(result);
+  record.failure = failure;
+  const bool kept = Try(record.id, [&] { store_.End(record); });
+  const std::lock_guard lock(mutex_);
+  entry.job.status = status;
+  entry.job.result = std::move(result);
+  entry.job.failure = failure;
+  ++entry.job.revision;
+  if (kept) entries_.erase(record.id);
+  changed_.notify_all();
 }
 
 template <typename Predicate>
 std::optional<Job> Jobs::WaitUntil(const std::string& id, std::chrono::milliseconds timeout,
                                    Predicate done) const {
+  const EntryPtr entry = Find(id);
+  if (!entry) return Get(id);
   std::unique_lock lock(mutex_);
-  const auto it = entries_.find(id);
-  if (it == entries_.end()) return std::nullopt;
-  const EntryPtr entry = it->second;  // stays, also if the map forgets it meanwhile
   changed_.wait_for(lock, timeout, [&] { return stopping_ || done(entry->job); });
   return entry->job;
 }
@@ -138,8 +210,6 @@ void Jobs::Stop() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
-    for (const auto& entry : std::deque<EntryPtr>(queue_)) CancelLocked(*entry);
-    for (const auto& [id, entry] : entries_) entry->cancelled = true;
     work_ready_.notify_all();
     changed_.notify_all();
   }
@@ -148,10 +218,7 @@ void Jobs::Stop() {
   }
 }
 
-bool Jobs::Stopping() const {
-  const std::lock_guard lock(mutex_);
-  return stopping_;
-}
+bool Jobs::Stopping() const { return stopping_; }
 
 void Jobs::WorkLoop() {
   for (;;) {
@@ -171,27 +238,37 @@ void Jobs::WorkLoop() {
 }
 
 void Jobs::Run(Entry& entry) {
-  const JobControl control{[&entry] { return entry.cancelled.load(); },
+  const std::string id = entry.job.id;
+  Try(id, [&] { store_.Start(id); });
+  auto outcome = Outcome(entry);
+  if (entry.interrupted && !entry.cancelled) {
+    Try(id, [&] { store_.Requeue(id); });
+  } else if (const auto* errors = std::get_if<api::Errors>(&outcome)) {
+    End(entry, JobStatus::kFailed, nullptr, ListOf(*errors));
+  } else {
+    End(entry, entry.cancelled ? JobStatus::kCancelled : JobStatus::kDone,
+        std::get<api::Json>(std::move(outcome)), "");
+  }
+}
+
+api::Parsed<api::Json> Jobs::Outcome(Entry& entry) {
+  const JobControl control{[this, &entry] {
+                             const bool stopping = stopping_;
+                             if (stopping) entry.interrupted = true;
+                             return stopping || entry.cancelled;
+                           },
                            [this, &entry](api::Json progress) {
                              const std::lock_guard lock(mutex_);
                              entry.job.progress = std::move(progress);
                              ++entry.job.revision;
                              changed_.notify_all();
                            }};
-  api::Json result;
-  std::string failure;
   try {
-    result = entry.work(control);
+    return work_(store_.Find(kind_, entry.job.id).value().order, control);
   } catch (const std::exception& error) {
-    failure = std::string("fault: ") + error.what();
-    std::fprintf(stderr, "job %s: %s\n", entry.job.id.c_str(), failure.c_str());
+    std::fprintf(stderr, "job %s: fault: %s\n", entry.job.id.c_str(), error.what());
+    return api::Errors{{"", "a fault of the program; its log says more"}};
   }
-  const std::lock_guard lock(mutex_);
-  entry.job.result = std::move(result);
-  entry.job.failure = std::move(failure);
-  End(entry, !entry.job.failure.empty() ? JobStatus::kFailed
-             : entry.cancelled          ? JobStatus::kCancelled
-                                        : JobStatus::kDone);
 }
 
 }  // namespace plenum::server

@@ -1,5 +1,8 @@
 // Long work off the request threads: a bounded queue, a few workers, progress, cancel.
-// Jobs live in memory; of those that ended the newest are kept.
+//
+// A job is on disk from before its id is given out until it is old (catalog/job_store.h). One that
+// was queued or running when the service ended, in whatever way, is done again by the next; one
+// that ended stays readable. Only the progress of a running job is kept in memory alone.
 #ifndef PLENUM_SERVER_JOBS_H_
 #define PLENUM_SERVER_JOBS_H_
 
@@ -17,15 +20,15 @@
 #include <vector>
 
 #include "api/json.h"
+#include "api/services.h"
 
 namespace plenum::server {
 
-enum class JobStatus { kQueued, kRunning, kDone, kCancelled, kFailed };
-const char* Name(JobStatus status);
-bool Ended(JobStatus status);
+using catalog::JobStatus;
 
 // A job at one moment.
 struct Job {
+  std::int64_t number = 0;  // grows from job to job
   std::string id;
   std::string name;
   JobStatus status = JobStatus::kQueued;
@@ -33,6 +36,9 @@ struct Job {
   api::Json result;    // null until there is one; a cancelled job may have one
   std::string failure;
   long long revision = 0;  // grows with every change
+  std::string submitted_at, ended_at;
+  std::int64_t catalogue_revision = 0;
+  std::string catalogue_hash;
 };
 
 // What the work of a job sees of its job.
@@ -40,23 +46,34 @@ struct JobControl {
   std::function<bool()> cancelled;
   std::function<void(api::Json)> report;
 };
-using Work = std::function<api::Json(const JobControl&)>;
+// The result, from nothing but the order; or why there can be none.
+using Work =
+    std::function<api::Parsed<api::Json>(const catalog::JobOrder& order, const JobControl&)>;
 
 struct JobOptions {
   int workers = 2;
   std::size_t queued_max = 32;
-  std::size_t ended_kept = 256;
+  // A job that was running this often when the service was killed is not begun again: it may be
+  // why.
+  int starts_max = 5;
+};
+
+struct Submitted {
+  enum { kAccepted, kRepeated, kKeyReused, kRefused } status = kAccepted;
+  std::string id;  // kAccepted; kRepeated: of the job that has the key
 };
 
 class Jobs {
  public:
-  explicit Jobs(const JobOptions& options);
+  // Takes up what is unfinished of `kind` in the store.
+  Jobs(catalog::JobStore& store, std::string kind, Work work, const JobOptions& options);
   ~Jobs();
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
 
-  // The new job's id, or nothing when the queue is full or the service is stopping.
-  std::optional<std::string> Submit(std::string name, Work work);
+  // Refused when the queue is full or the service is stopping. Throws StoreError when the job
+  // cannot be written to disk. `order.kind` is set here.
+  Submitted Submit(catalog::JobOrder order);
   std::optional<Job> Get(const std::string& id) const;
   std::vector<Job> List() const;  // newest first, without results
   // Asks the job to stop; no effect on one that has ended. False if there is none.
@@ -68,7 +85,8 @@ class Jobs {
   // Waits until the job has ended, at most `timeout`.
   std::optional<Job> WaitForEnd(const std::string& id, std::chrono::milliseconds timeout) const;
 
-  // Cancels everything, releases who waits, joins the workers.
+  // Interrupts what runs, releases who waits, joins the workers. What has not ended is queued on
+  // disk.
   void Stop();
   bool Stopping() const;
   const JobOptions& options() const { return options_; }
@@ -76,29 +94,33 @@ class Jobs {
  private:
   struct Entry {
     Job job;
-    Work work;
-    long long number = 0;
-    std::atomic<bool> cancelled = false;
+    std::atomic<bool> cancelled = false;    // somebody asked
+    std::atomic<bool> interrupted = false;  // the work saw that the service stops
   };
   using EntryPtr = std::shared_ptr<Entry>;
 
+  void TakeUp(const catalog::JobRecord& record);
+  EntryPtr Enqueue(const catalog::JobRecord& record);
   void WorkLoop();
   void Run(Entry& entry);
-  void CancelLocked(Entry& entry);
-  void End(Entry& entry, JobStatus status);
+  api::Parsed<api::Json> Outcome(Entry& entry);
+  void End(Entry& entry, JobStatus status, api::Json result, const std::string& failure);
+  EntryPtr Find(const std::string& id) const;
   template <typename Predicate>
   std::optional<Job> WaitUntil(const std::string& id, std::chrono::milliseconds timeout,
                                Predicate done) const;
 
+  catalog::JobStore& store_;
+  const std::string kind_;
+  const Work work_;
   const JobOptions options_;
+  std::mutex submitting_;  // taken before mutex_
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   std::condition_variable work_ready_;
-  std::map<std::string, EntryPtr> entries_;
+  std::map<std::string, EntryPtr> entries_;  // unfinished, or not on disk as ended
   std::deque<EntryPtr> queue_;
-  std::deque<std::string> ended_;  // oldest first
-  long long submitted_ = 0;
-  bool stopping_ = false;
+  std::atomic<bool> stopping_ = false;
   std::vector<std::thread> workers_;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "server/limits.h"
+#include "server/signature.h"
 
 namespace plenum::server {
 namespace {
@@ -28,16 +29,27 @@ api::Json Short(const JobsResource& resource, const Job& job) {
   return {{"id", job.id}, {"status", Name(job.status)}, {"links", Links(resource, job.id)}};
 }
 
+std::string WhyFailed(const JobsResource& resource, const Job& job) {
+  return "the " + resource.noun + " failed: " + job.failure;
+}
+
+api::Json Long(const JobsResource& resource, const Job& job) {
+  api::Json json = {
+      {"id", job.id},
+      {"name", job.name},
+      {"status", Name(job.status)},
+      {"submitted_at", job.submitted_at},
+      {"ended_at", job.ended_at.empty() ? api::Json() : api::Json(job.ended_at)},
+      {"catalogue_revision", {{"number", job.catalogue_revision}, {"hash", job.catalogue_hash}}},
+      {"progress", job.progress}};
+  if (job.status == JobStatus::kFailed) json["detail"] = WhyFailed(resource, job);
+  return json;
+}
+
 api::Json Full(const JobsResource& resource, const Job& job) {
-  api::Json json = {{"id", job.id},
-                    {"name", job.name},
-                    {"status", Name(job.status)},
-                    {"progress", job.progress},
-                    {"result", job.result},
-                    {"links", Links(resource, job.id)}};
-  // What went wrong inside is for the log.
-  if (job.status == JobStatus::kFailed)
-    json["detail"] = "the " + resource.noun + " failed: a fault of the program";
+  api::Json json = Long(resource, job);
+  json["result"] = job.result;
+  json["links"] = Links(resource, job.id);
   return json;
 }
 
@@ -60,8 +72,7 @@ std::optional<Reply> WaitForResult(const JobsResource& resource, const std::stri
   if (!turn) return std::nullopt;
   const auto job = resource.jobs->WaitForEnd(id, std::chrono::seconds(seconds));
   if (!job || !Ended(job->status)) return std::nullopt;
-  if (job->status == JobStatus::kFailed)
-    return ProblemReply(500, "the " + resource.noun + " failed");
+  if (job->status == JobStatus::kFailed) return ProblemReply(500, WhyFailed(resource, *job));
   if (job->result.is_null()) return ProblemReply(409, "the job was cancelled before it began");
   auto reply = JsonReply(200, job->result);
   reply.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(seconds));
@@ -70,7 +81,7 @@ std::optional<Reply> WaitForResult(const JobsResource& resource, const std::stri
 
 Reply NoJob(const JobsResource& resource, const std::string& id) {
   return ProblemReply(404, "no " + resource.noun + " job has the id " + id +
-                               "; jobs end with the service, and only the newest are kept");
+                               "; of those that ended only the newest are kept");
 }
 
 std::string Event(const char* name, const api::Json& data) {
@@ -79,30 +90,28 @@ std::string Event(const char* name, const api::Json& data) {
 
 }  // namespace
 
-Reply StartJob(const JobsResource& resource, const Call& call, const std::string& name, Work work) {
-  const auto id = resource.jobs->Submit(name, std::move(work));
-  if (!id) {
+Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder order) {
+  const auto [status, id] = resource.jobs->Submit(std::move(order));
+  if (status == Submitted::kKeyReused) return KeyReused();
+  if (status == Submitted::kRefused) {
     return BusyReply("jobs_queued_max", resource.jobs->options().queued_max,
                      "the queue of " + resource.noun + " jobs is full; try again later", 10);
   }
-  auto reply = WaitForResult(resource, *id, WaitSeconds(call));
+  auto reply = WaitForResult(resource, id, WaitSeconds(call));
   if (!reply) {
-    const auto job = resource.jobs->Get(*id);
+    const auto job = resource.jobs->Get(id);
     reply = JsonReply(
-        202, job ? Short(resource, *job) : api::Json{{"id", *id}, {"links", Links(resource, *id)}});
+        202, job ? Short(resource, *job) : api::Json{{"id", id}, {"links", Links(resource, id)}});
   }
-  reply->headers.emplace_back("Location", SelfOf(resource, *id));
+  reply->headers.emplace_back("Location", SelfOf(resource, id));
   return *reply;
 }
 
 Reply ListJobs(const JobsResource& resource) {
   api::Json list = api::Json::array();
   for (const auto& job : resource.jobs->List()) {
-    list.push_back({{"id", job.id},
-                    {"name", job.name},
-                    {"status", Name(job.status)},
-                    {"progress", job.progress},
-                    {"links", Links(resource, job.id)}});
+    list.push_back(Long(resource, job));
+    list.back()["links"] = Links(resource, job.id);
   }
   return JsonReply(200, {{"jobs", std::move(list)}});
 }

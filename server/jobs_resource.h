@@ -15,12 +15,14 @@ struct JobsResource {
   std::string noun;  // "design"
 };
 
-// 202 with { id, status, links }, or with "Prefer: wait=N" 200 with the result when it comes within
-// N seconds. At most a quarter of the request threads wait at a time; beyond that it is 202 at
-// once. 429 when the queue is full.
-Reply StartJob(const JobsResource& resource, const Call& call, const std::string& name, Work work);
+// A new job, or the one that has the order's key. 202 with { id, status, links }, or with "Prefer:
+// wait=N" 200 with the result when it comes within N seconds. At most a quarter of the request
+// threads wait at a time; beyond that it is 202 at once. 429 when the queue is full, 422 when the
+// key stands for another request.
+Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder order);
 Reply ListJobs(const JobsResource& resource);
-// { id, name, status, progress, result, links }.
+// { id, name, status, submitted_at, ended_at, catalogue_revision, progress, result, links }, and
+// `detail` where it failed.
 Reply GetJob(const JobsResource& resource, const Call& call);
 Reply CancelJob(const JobsResource& resource, const Call& call);
 // Server-sent events: `progress` at every change, `end` when the job has ended. 429 when too many

@@ -28,8 +28,7 @@ api::Json RenderLimits(const JobOptions& jobs) {
                       {"wait_seconds_max", kWaitSecondsMax},
                       {"event_streams_max", kStreamsMax},
                       {"jobs_running_max", jobs.workers},
-                      {"jobs_queued_max", jobs.queued_max},
-                      {"jobs_kept_max", jobs.ended_kept}};
+                      {"jobs_queued_max", jobs.queued_max}};
   limits.update(api::RenderRequestLimits());
   return limits;
 }

@@ -114,7 +114,7 @@ Reply ListParts(SharedCatalog& catalog, const Call& call) {
   if (!number && query.cursor) number = query.cursor->revision;
   const auto view = number ? catalog.ViewAt(*number) : catalog.View();
   if (!view) return ProblemReply(404, "the catalogue has no revision " + std::to_string(*number));
-  const auto page = api::RenderPage(query, view->revision, *view->parts);
+  const auto page = api::RenderPage(query, view->revision, *view->table);
   if (const auto* errors = std::get_if<api::Errors>(&page)) return ProblemReply(422, *errors);
   auto reply = JsonReply(200, std::get<api::Json>(page));
   const std::string etag = ETag(reply.body);

@@ -20,6 +20,11 @@ std::int64_t NowNs() {
 
 }  // namespace
 
+CatalogView::CatalogView(catalog::Revision of, std::vector<catalog::Part> all)
+    : revision(std::move(of)),
+      parts(std::make_shared<const std::vector<catalog::Part>>(std::move(all))),
+      table(std::make_shared<const api::PartTable>(*parts)) {}
+
 SharedCatalog::SharedCatalog(const std::filesystem::path& path)
     : store_(path, catalog::Access::kWrite), path_(path) {}
 
@@ -50,8 +55,7 @@ CatalogView SharedCatalog::View() {
   // The whole revision counts: after a restore the same number may stand for other parts.
   if (!view_.parts || view_.revision != HeadLocked()) {
     auto [revision, parts] = store_.ListWithHead();
-    view_ = {std::move(revision),
-             std::make_shared<const std::vector<catalog::Part>>(std::move(parts))};
+    view_ = {std::move(revision), std::move(parts)};
   }
   return view_;
 }
@@ -61,8 +65,7 @@ std::optional<CatalogView> SharedCatalog::ViewAt(std::int64_t revision) {
   const std::lock_guard lock(mutex_);
   const auto found = store_.FindRevision(revision);
   if (!found) return std::nullopt;
-  return CatalogView{*found,
-                     std::make_shared<const std::vector<catalog::Part>>(store_.ListAt(revision))};
+  return CatalogView{*found, store_.ListAt(revision)};
 }
 
 }  // namespace plenum::server

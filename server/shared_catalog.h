@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "api/part_table.h"
 #include "api/services.h"
 #include "server/reply_cache.h"
 
@@ -18,8 +19,12 @@ using Parts = std::shared_ptr<const std::vector<catalog::Part>>;
 
 // All parts of one revision.
 struct CatalogView {
+  CatalogView() = default;
+  CatalogView(catalog::Revision of, std::vector<catalog::Part> all);
+
   catalog::Revision revision;
   Parts parts;
+  std::shared_ptr<const api::PartTable> table;  // of the parts
 };
 
 class SharedCatalog {

@@ -42,7 +42,7 @@ std::vector<std::string> Ids(const Query& query, const std::vector<catalog::Part
   for (const Error& error : ErrorsOf(parsed)) ADD_FAILURE() << error.pointer << error.detail;
   std::vector<std::string> ids;
   if (const auto* value = std::get_if<PartQuery>(&parsed))
-    for (const catalog::Part* part : Select(*value, parts)) ids.push_back(part->id);
+    for (const catalog::Part* part : Select(*value, PartTable(parts))) ids.push_back(part->id);
   return ids;
 }
 
@@ -111,7 +111,7 @@ TEST(PartQuery, FacetsCountWhatMatchesOnAllPages) {
   const auto shelf = Shelf();
   const auto query = std::get<PartQuery>(
       ParsePartQuery({{"facets", "true"}, {"mass_kg_min", "4"}, {"limit", "1"}}));
-  const Json page = std::get<Json>(RenderPage(query, {5, "abc", "", "", ""}, shelf));
+  const Json page = std::get<Json>(RenderPage(query, {5, "abc", "", "", ""}, PartTable(shelf)));
   EXPECT_EQ(page["parts"].size(), 1u);
   EXPECT_EQ(page["total"], 6);
   EXPECT_EQ(page["facets"]["texts"]["manufacturer"], Parse(R"({"Even": 3, "Odd": 3})"));
@@ -129,8 +129,8 @@ TEST(PartQuery, PagesCoverTheListOnceInEveryOrder) {
     std::vector<std::string> paged;
     Query query = {{"sort", sort}, {"limit", "2"}};
     for (int pages = 0; pages < 10; ++pages) {
-      const auto page =
-          RenderPage(std::get<PartQuery>(ParsePartQuery(query)), {7, "", "", "", ""}, shelf);
+      const auto page = RenderPage(std::get<PartQuery>(ParsePartQuery(query)), {7, "", "", "", ""},
+                                   PartTable(shelf));
       const Json& json = std::get<Json>(page);
       for (const Json& part : json["parts"]) paged.push_back(part["id"]);
       if (json["next_cursor"].is_null()) break;
@@ -142,7 +142,7 @@ TEST(PartQuery, PagesCoverTheListOnceInEveryOrder) {
   }
   const auto foreign =
       RenderPage(std::get<PartQuery>(ParsePartQuery({{"cursor", "7.r1"}, {"mass_kg_min", "2"}})),
-                 {7, "", "", "", ""}, shelf);
+                 {7, "", "", "", ""}, PartTable(shelf));
   EXPECT_THAT(DetailAt(ErrorsOf(foreign), "/cursor"), HasSubstr("another query"));
 }
 
@@ -217,7 +217,8 @@ TEST(PartQuery, MutatedQueriesAreReadOrRefused) {
       }
       continue;
     }
-    const auto page = RenderPage(std::get<PartQuery>(parsed), {7, "", "", "", ""}, shelf);
+    const auto page =
+        RenderPage(std::get<PartQuery>(parsed), {7, "", "", "", ""}, PartTable(shelf));
     if (const auto* json = std::get_if<Json>(&page)) {
       ++answered;
       ASSERT_LE((*json)["parts"].size(), (*json)["total"].get<std::size_t>());

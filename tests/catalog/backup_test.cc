@@ -53,11 +53,10 @@ TEST_F(Backups, ACopyHoldsPartsAndHistoryAndComesBack) {
 
 TEST_F(Backups, IsOfOneMomentWhileTheCatalogueIsWritten) {
   Write().Add(Reservoir("r"));
-  std::atomic<bool> stop = false;
   std::atomic<int> writes = 0;
-  std::thread writer([&] {
+  std::jthread writer([&](const std::stop_token& stop) {
     Store store = Write();
-    for (; !stop; ++writes)
+    for (; !stop.stop_requested(); ++writes)
       store.Import(
           {Reservoir("a" + std::to_string(writes)), Reservoir("b" + std::to_string(writes))}, {});
   });
@@ -68,7 +67,7 @@ TEST_F(Backups, IsOfOneMomentWhileTheCatalogueIsWritten) {
     EXPECT_THAT(store.Check(), IsEmpty());
     EXPECT_EQ(store.List().size() % 2, 1u);  // never half of an import
   }
-  stop = true;
+  writer.request_stop();
   writer.join();
   EXPECT_EQ(StrayFiles(), 0);
 }

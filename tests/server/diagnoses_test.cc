@@ -1,10 +1,12 @@
 // Diagnoses as jobs of the real service. The data are a rigid chamber that leaks through a laminar
 // resistance, whose pressure is known in closed form.
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
 
 #include <cmath>
+#include <csignal>
 #include <memory>
 #include <random>
 #include <string>
@@ -133,6 +135,26 @@ TEST_F(Diagnoses, FindsTheLeakSavesItAndPredictsWithIt) {
   EXPECT_FALSE(again.contains("saved"));
 }
 
+TEST_F(Diagnoses, AModelThatCannotBeSavedLosesNoDiagnosis) {
+  SQLite::Database(bench_.catalog(), SQLite::OPEN_READWRITE)
+      .exec("CREATE TRIGGER full BEFORE INSERT ON model BEGIN SELECT RAISE(ABORT, 'no room'); END");
+  Json document = LeakingChamber();
+  document["save"] = "leaky";
+  const auto found = PostAndWait(document);
+  ASSERT_EQ(found->status, 200) << found->body;
+  Json result = Body(found);
+  EXPECT_EQ(result["verdict"], "explained");
+  EXPECT_TRUE(result["saved"].is_null());
+  EXPECT_THAT(result["not_saved"]["detail"].get<std::string>(), HasSubstr("POST"));
+  EXPECT_EQ(client_->Get("/v1/models/leaky")->status, 404);
+  // What is in the answer is what can be posted when there is room again.
+  SQLite::Database(bench_.catalog(), SQLite::OPEN_READWRITE).exec("DROP TRIGGER full");
+  result["not_saved"].erase("detail");
+  const auto saved = client_->Post("/v1/models", result["not_saved"].dump(), kJson);
+  ASSERT_EQ(saved->status, 201) << saved->body;
+  EXPECT_EQ(Body(saved)["model"]["effects"][0]["id"], "leak");
+}
+
 TEST_F(Diagnoses, CanBeFollowedAndPolled) {
   const auto accepted = Post(LeakingChamber());
   ASSERT_EQ(accepted->status, 202) << accepted->body;
@@ -181,6 +203,30 @@ TEST_F(Diagnoses, NamesWhatIsWrong) {
   ExpectInvalid(names, "/save");
   ExpectInvalid(names, "/model");
   EXPECT_TRUE(Body(client_->Get(kPath))["jobs"].empty());
+}
+
+// Saving is part of the job, and done once however often the job is begun.
+TEST(DiagnosesOverARestart, EndAndSaveTheirModel) {
+  const Workbench bench;
+  Json document = LeakingChamber(8);
+  document["save"] = "leaky";
+  std::string job;
+  for (int starts = 0; starts < 3; ++starts) {
+    ServeProcess serve(bench.catalog());
+    httplib::Client client("127.0.0.1", serve.port());
+    if (starts == 0) job = client.Post(kPath, document.dump(), kJson)->get_header_value("Location");
+    Json seen;
+    do {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      seen = Json::parse(client.Get(job)->body);
+      ASSERT_TRUE(starts == 2 || seen["result"].is_null());
+    } while (starts < 2 ? seen["progress"].is_null() : seen["result"].is_null());
+    EXPECT_EQ(serve.End(SIGKILL), -SIGKILL);
+    if (starts < 2) continue;
+    EXPECT_EQ(seen["status"], "done");
+    EXPECT_EQ(seen["result"]["verdict"], "explained");
+    EXPECT_EQ(seen["result"]["saved"]["version"], 1);
+  }
 }
 
 }  // namespace

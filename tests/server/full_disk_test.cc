@@ -5,7 +5,10 @@
 #include <sys/mount.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
+#include <thread>
 
 #include "api/services.h"
 #include "workbench.h"
@@ -78,6 +81,37 @@ TEST(FullDisk, ALimitOnFilesIsAnsweredWith507AndLeavesThingsWhole) {
   EXPECT_EQ(client.Post("/v1/parts", part.dump(), "application/json")->status, 201);
   ExpectWhole(bench.catalog(), acknowledged);
   EXPECT_EQ(serve.End(SIGTERM), 0);
+}
+
+// The result is worth more than its place on disk, and the next service finds it again.
+TEST(FullDisk, AJobThatEndsThereIsReadableAndDoneAgainAfterARestart) {
+  const Workbench bench;
+  std::string job;
+  api::Json first;
+  const auto when_ended = [&](httplib::Client& client) {
+    for (;;) {
+      const auto body = api::Json::parse(client.Get(job)->body);
+      if (body["status"] != "queued" && body["status"] != "running") return body;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  };
+  {
+    ServeProcess serve(bench.catalog());
+    httplib::Client client("127.0.0.1", serve.port());
+    const std::string request = Example("crawler", 60.0).dump();
+    job = client.Post("/v1/designs", request, "application/json")->get_header_value("Location");
+    serve.LimitFiles(1);
+    first = when_ended(client);
+    EXPECT_EQ(first["status"], "done");
+    ExpectInsufficientStorage(client.Post("/v1/designs", request, "application/json"));
+    EXPECT_EQ(api::Json::parse(client.Get("/v1/designs")->body)["jobs"].size(), 1u);
+    EXPECT_EQ(serve.End(SIGTERM), 0);
+  }
+  ServeProcess serve(bench.catalog());
+  httplib::Client client("127.0.0.1", serve.port());
+  const auto again = when_ended(client);
+  EXPECT_EQ(again["status"], "done");
+  EXPECT_TRUE(again["result"]["designs"] == first["result"]["designs"]);
 }
 
 // A disk of 2.5 MB of its own.

@@ -1,8 +1,10 @@
-// The service is killed (SIGKILL) again and again while clients write: what was acknowledged is
-// there, what was not is done wholly or not at all, and the catalogue passes every check.
+// The service is killed (SIGKILL) again and again while clients write and post jobs: what was
+// acknowledged is there, what was not is done wholly or not at all, and both files pass every
+// check.
 //
 // PLENUM_KILLS and PLENUM_KILL_WRITES (acknowledged writes, over all rounds) make it longer:
 //   PLENUM_KILLS=500 PLENUM_KILL_WRITES=50000 build/release/server_tests --gtest_filter='Kill*'
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
 
@@ -155,6 +157,64 @@ class Client {
   int done_unseen_ = 0;
 };
 
+// One client that posts jobs and asks again for those that it got no answer to.
+class JobClient {
+ public:
+  void Run(int port) {
+    httplib::Client http("127.0.0.1", port);
+    http.set_tcp_nodelay(true);
+    for (;;) {
+      if (key_.empty()) key_ = "job " + std::to_string(++keys_);
+      const auto posted =
+          http.Post("/v1/designs", {{"Idempotency-Key", key_}}, request_, "application/json");
+      if (!posted) return;
+      ASSERT_TRUE(posted->status == 202 || posted->status == 429) << posted->body;
+      if (posted->status == 429)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      else
+        Acknowledge(posted->get_header_value("Location"));
+    }
+  }
+
+  // After a kill: the newest acknowledged jobs are there under their keys, and those that ended
+  // have the result that every one of them must have.
+  void Settle(const std::string& file) {
+    const catalog::JobStore store(file, {});
+    const std::size_t kept = 200;  // of 256; older ones may have been dropped
+    for (std::size_t i = acknowledged_.size() - std::min(kept, acknowledged_.size());
+         i < acknowledged_.size(); ++i) {
+      const auto& [key, id] = acknowledged_[i];
+      const auto job = store.FindKey("design", key);
+      ASSERT_TRUE(job) << key << " was acknowledged and is lost";
+      EXPECT_EQ(job->id, id);
+      if (!Ended(job->status)) continue;
+      EXPECT_EQ(job->status, catalog::JobStatus::kDone) << job->failure;
+      const auto designs = std::get<api::Json>(api::ParseJson(job->result))["designs"];
+      if (designs_.is_null()) designs_ = designs;
+      EXPECT_TRUE(designs == designs_);
+    }
+  }
+
+  std::size_t acknowledged() const { return acknowledged_.size(); }
+
+ private:
+  void Acknowledge(const std::string& location) {
+    acknowledged_.emplace_back(key_, location.substr(location.rfind('/') + 1));
+    key_.clear();
+  }
+
+  const std::string request_ = Example("gripper", 60.0).dump();
+  std::string key_;  // of a request that was sent and not answered
+  int keys_ = 0;
+  std::vector<std::pair<std::string, std::string>> acknowledged_;  // key, id
+  api::Json designs_;
+};
+
+std::string IntegrityOf(const std::string& file) {
+  SQLite::Database db(file, SQLite::OPEN_READWRITE);  // which rolls back or plays the log
+  return db.execAndGet("PRAGMA integrity_check").getString();
+}
+
 State Stored(const catalog::Store& store) {
   State state;
   for (const auto& part : store.List("fitting"))
@@ -168,6 +228,7 @@ TEST(Kill, LosesNothingAcknowledgedAndLeavesNothingHalfDone) {
   const Workbench bench;
   std::vector<Client> clients;
   for (int i = 0; i < kClients; ++i) clients.emplace_back(i, 1000 + i);
+  JobClient jobs;
   std::mt19937 random(4711);
   std::atomic<int> acknowledged = 0;
   int in_the_middle = 0;  // kills that left a transaction to be rolled back
@@ -176,6 +237,7 @@ TEST(Kill, LosesNothingAcknowledgedAndLeavesNothingHalfDone) {
     std::vector<std::thread> threads;
     for (Client& client : clients)
       threads.emplace_back([&] { client.Run(serve.port(), acknowledged); });
+    threads.emplace_back([&] { jobs.Run(serve.port()); });
     const int enough = acknowledged + writes_per_kill;
     while (acknowledged < enough && !HasFailure())
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -188,12 +250,17 @@ TEST(Kill, LosesNothingAcknowledgedAndLeavesNothingHalfDone) {
     EXPECT_EQ(store.Check(), std::vector<std::string>()) << "round " << round;
     const State stored = Stored(store);
     for (Client& client : clients) client.Settle(stored);
+    EXPECT_EQ(IntegrityOf(bench.catalog() + "-jobs"), "ok") << "round " << round;
+    jobs.Settle(bench.catalog() + "-jobs");
   }
   EXPECT_GE(acknowledged, kills * writes_per_kill);
   int unseen = 0;
   for (const Client& client : clients) unseen += client.done_unseen();
-  std::printf("%d kills, %d inside a transaction; %d acknowledged writes, %d done unacknowledged\n",
-              kills, in_the_middle, acknowledged.load(), unseen);
+  EXPECT_GT(jobs.acknowledged(), 0u);
+  std::printf(
+      "%d kills, %d inside a transaction; %d acknowledged writes, %d done unacknowledged; %zu "
+      "jobs\n",
+      kills, in_the_middle, acknowledged.load(), unseen, jobs.acknowledged());
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ class ServeProcess {
 };
 
 std::string ReadAll(const std::filesystem::path& path);
-// The exosuit example; `time_limit_s` of its search as given.
+// An example of the project, two designs asked for; `time_limit_s` of its search as given.
+api::Json Example(const std::string& name, double time_limit_s);
 api::Json Exosuit(double time_limit_s);
 // A problem that takes many seconds to prove.
 api::Json SlowToProve(double time_limit_s);

@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""How well design jobs keep their time limits over HTTP, and whether what they have then is valid.
+
+usage: bench/service/time_limits.py [JOBS] [PLENUM] [WORKERS]    (default 1000 build/release/plenum 2)
+
+As many clients as the service has workers post requests of bench/time_limits.py with limits of 0.1
+to 5 s and wait for the answer; a job takes from the POST to the answer. Every tenth answer is
+checked by `plenum verify`. Prints each job that is more than 0.25 s over, then the spread.
+"""
+import concurrent.futures
+import http.client
+import json
+import math
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import time_limits as examples  # noqa: E402
+
+JOBS = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
+PLENUM = os.path.abspath(sys.argv[2] if len(sys.argv) > 2 else "build/release/plenum")
+CLIENTS = int(sys.argv[3]) if len(sys.argv) > 3 else 2
+PARTS = ("ranking", "robust", "explain")
+
+
+def request(number):
+    draw = random.Random(number)
+    document = examples.vary(json.loads(draw.choice(examples.requirements()).read_text()), draw)
+    for part in PARTS:
+        if part in document:
+            document[part]["time_limit_s"] = round(math.exp(draw.uniform(math.log(0.1), math.log(5))), 2)
+    return document
+
+
+def verified(number, answer, folder):
+    result = folder / f"{number}.json"
+    result.write_text(json.dumps(answer))
+    done = subprocess.run([PLENUM, "verify", result], cwd=folder, capture_output=True, text=True)
+    result.unlink()
+    return "" if done.returncode == 0 else done.stderr.strip()[:300]
+
+
+def job(number, port, folder):
+    document = request(number)
+    limit = sum(document[part]["time_limit_s"] for part in PARTS if part in document)
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120)
+    start = time.monotonic()
+    connection.request("POST", "/v1/designs", json.dumps(document),
+                       {"Content-Type": "application/json", "Prefer": "wait=60"})
+    answer = connection.getresponse()
+    body = json.loads(answer.read())
+    over = time.monotonic() - start - limit
+    connection.close()
+    what = f"{document['name']} {document['objective']} {[p for p in PARTS if p in document]}"
+    if answer.status != 200:
+        return over, limit, what, f"{answer.status} {body}", ""
+    # What verify can judge: a list of one objective.
+    wrong = ""
+    if number % 10 == 0 and body.get("designs") and "pareto" not in document["objective"]:
+        wrong = verified(number, body, folder)
+    return over, limit, what, body["status"] + ("" if body.get("designs") else " without designs"), wrong
+
+
+def main():
+    print("load", *os.getloadavg(), flush=True)
+    folder = pathlib.Path(tempfile.mkdtemp())
+    shutil.copy("catalog.db", folder)
+    server = subprocess.Popen([PLENUM, "serve", "--port", "0"], cwd=folder, stderr=subprocess.PIPE,
+                              text=True)
+    port = int(server.stderr.readline().rsplit(":", 1)[1].rstrip("/\n"))
+    overs, statuses, late, wrong = [], {}, 0, 0
+    with concurrent.futures.ThreadPoolExecutor(CLIENTS) as pool:
+        for over, limit, what, status, fault in pool.map(lambda n: job(n, port, folder), range(JOBS)):
+            overs.append(over)
+            statuses[status] = statuses.get(status, 0) + 1
+            if over > 0.25:
+                late += 1
+                print(f"{over:+.3f} s over {limit:.2f} s: {what}, {status}; load {os.getloadavg()[0]:.1f}",
+                      flush=True)
+            if fault:
+                wrong += 1
+                print(f"refused by verify: {what}: {fault}", flush=True)
+    server.terminate()
+    server.wait()
+    shutil.rmtree(folder)
+    overs.sort()
+    print(f"{JOBS} jobs, {late} more than 0.25 s over; worst {overs[-1]:+.3f} s, "
+          f"99 % {overs[int(0.99 * len(overs))]:+.3f} s; {wrong} refused by verify; {statuses}")
+    print("load", *os.getloadavg())
+
+
+main()
