@@ -2,6 +2,7 @@
 #include <IpTNLP.hpp>
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "optimizer/nlp.h"
 
@@ -120,6 +121,10 @@ class IpoptProblem : public Ipopt::TNLP {
 }  // namespace
 
 NlpResult SolveWithIpopt(const Nlp& nlp) {
+  // The linear solver beneath Ipopt (MUMPS) keeps its state in globals: two threads in it at a time
+  // end the process.
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   NlpResult result;
   Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
   application->Options()->SetIntegerValue("print_level", 0);

@@ -169,7 +169,7 @@ struct HttpService::Impl {
   // The port first: without it no job is begun.
   explicit Impl(const HttpOptions& given)
       : options(given),
-        port(Bind(given)),
+        port(Bind()),
         tokens(TokenFile(given.catalog)),
         catalog(given.catalog),
         jobs(given.catalog.string() + "-jobs", given.kept),
@@ -190,33 +190,29 @@ struct HttpService::Impl {
     SetHandlers();
   }
 
-  int Bind(const HttpOptions& given) {
-    SetSockets();
-    const bool any = given.port == 0;
-    const int bound = any ? protocol.bind_to_any_port(given.host)
-                      : protocol.bind_to_port(given.host, given.port) ? given.port
-                                                                      : -1;
-    if (bound <= 0) {
-      throw ListenError("cannot listen at " + given.host + " port " + std::to_string(given.port) +
-                        ": is it taken by another program?");
-    }
-    protocol.WidenBacklog();
-    return bound;
-  }
-
-  void SetSockets() {
-    protocol.new_task_queue = [] { return new AtOnce; };
-    protocol.set_keep_alive_timeout(kIdleSecondsMax);
+  int Bind() {
     protocol.set_tcp_nodelay(true);
     // The default shares a port with whoever listens there already.
     protocol.set_socket_options([](socket_t socket) {
       const int on = 1;
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     });
+    const bool any = options.port == 0;
+    const int bound = any ? protocol.bind_to_any_port(options.host)
+                      : protocol.bind_to_port(options.host, options.port) ? options.port
+                                                                          : -1;
+    if (bound <= 0) {
+      throw ListenError("cannot listen at " + options.host + " port " +
+                        std::to_string(options.port) + ": is it taken by another program?");
+    }
+    protocol.WidenBacklog();
+    return bound;
   }
 
   void SetHandlers() {
     protocol.admit = [this](int socket) { connections.Admit(socket); };
+    protocol.new_task_queue = [] { return new AtOnce; };
+    protocol.set_keep_alive_timeout(kIdleSecondsMax);
     protocol.set_pre_routing_handler([this](const auto& request, auto& response) {
       Answer(request, response);
       return httplib::Server::HandlerResponse::Handled;

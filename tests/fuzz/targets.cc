@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "api/measurement.h"
 #include "api/part_query.h"
@@ -56,7 +57,9 @@ void Query(std::string_view text) {
     query.emplace(pair.substr(0, equals), pair.substr(std::min(pair.size(), equals + 1)));
   }
   const auto parsed = api::ParsePartQuery(query);
-  if (const auto* found = std::get_if<api::PartQuery>(&parsed)) api::RenderPage(*found, {}, {});
+  static const std::vector<catalog::Part> kNone;
+  static const api::PartTable kTable(kNone);
+  if (const auto* found = std::get_if<api::PartQuery>(&parsed)) api::RenderPage(*found, {}, kTable);
 }
 
 void Frame(std::string_view text) {
