@@ -128,6 +128,26 @@ test('the first design is explained: what requirements cost and how sure it is',
   await close();
 });
 
+test('back and forward go from view to view', async () => {
+  const id = await rank(service, { ...example('gripper'), ranking: { count: 4, time_limit_s: 9 } });
+  const { page, close } = await openPage(browser, service.base);
+  await page.getByText('These requirements can be searched.').waitFor();
+  await page.getByRole('link', { name: 'Designs' }).click();
+  await rows(page).first().waitFor();
+  await page.getByLabel('Across').selectOption('rise');
+  await rows(page).first().getByRole('link').click();
+  await page.getByRole('heading', { name: 'Response and what if' }).waitFor();
+  await page.goBack();
+  await rows(page).first().waitFor();
+  assert.equal(await page.getByLabel('Across').inputValue(), 'rise');
+  await page.goBack();
+  await page.getByRole('heading', { name: 'Requirements' }).waitFor();
+  await page.goForward();
+  await rows(page).first().waitFor();
+  assert.equal(idOf(page), id);
+  await close();
+});
+
 test('a part is added and the ranking changes', async () => {
   const first = await rank(service, example('exosuit'));
   const old = await service.get(`/v1/designs/${first}`);
