@@ -111,6 +111,7 @@ test('what if answers within 100 ms', async (t) => {
   for (let i = 0; i < 12; ++i) {
     await page.keyboard.press('ArrowRight');
     await page.waitForTimeout(120);
+    await page.getByText('Simulated in').waitFor();
     times.push(Number(/Simulated in (\d+) ms/.exec(await page.locator('.sliders').innerText())[1]));
   }
   t.diagnostic(`answers: ${times.join(', ')} ms`);

@@ -14,6 +14,10 @@ export class Problem extends Error {
   ) {
     super(message);
   }
+  // With what is wrong where.
+  get sentence(): string {
+    return [this.message, ...this.errors.map((e) => `${e.pointer} ${e.detail}`)].join('; ');
+  }
 }
 
 // A service that others can reach asks for a token; it is kept as long as the window is open.

@@ -32,6 +32,11 @@ export function go(path: string[], query: Record<string, string | undefined> = {
   location.hash = link(path, query);
 }
 
+// Goes on from an address that shows nothing of its own: "back" skips it.
+export function redirect(path: string[]): void {
+  location.replace(link(path));
+}
+
 // Browsers refuse many changes of the address in a row, as while something is dragged.
 const addressPeriodMs = 200;
 let written = 0;

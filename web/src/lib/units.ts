@@ -54,6 +54,9 @@ export function toShown(kind: Kind, value: number): number {
   }
 }
 
+export const pressuresShown = (values: (number | null)[]): (number | null)[] =>
+  values.map((value) => (value === null ? null : toShown('pressure', value)));
+
 export function fromShown(kind: Kind, shown: number): number {
   switch (kind) {
     case 'pressure':

@@ -5,6 +5,7 @@ import { scaleLinear } from 'd3-scale';
 import { useId } from 'preact/hooks';
 
 import { short } from '../lib/format';
+import { Axes } from './axes';
 import { useWidth } from './width';
 
 const height = 270;
@@ -112,49 +113,13 @@ export function ContourMap(props: {
                 />
               )}
             </g>
-            {sx.ticks(6).map((tick) => (
-              <g key={tick}>
-                <line
-                  class="mark"
-                  x1={sx(tick)}
-                  x2={sx(tick)}
-                  y1={height - space.bottom}
-                  y2={height - space.bottom + 4}
-                />
-                <text x={sx(tick)} y={height - space.bottom + 15} text-anchor="middle">
-                  {short(tick)}
-                </text>
-              </g>
-            ))}
-            {sy.ticks(6).map((tick) => (
-              <g key={tick}>
-                <line
-                  class="mark"
-                  x1={space.left - 4}
-                  x2={space.left}
-                  y1={sy(tick)}
-                  y2={sy(tick)}
-                />
-                <text x={space.left - 7} y={sy(tick) + 3.5} text-anchor="end">
-                  {short(tick)}
-                </text>
-              </g>
-            ))}
-            <text
-              class="axis"
-              x={(space.left + width - space.right) / 2}
-              y={height - 4}
-              text-anchor="middle"
-            >
-              {props.xLabel}
-            </text>
-            <text
-              class="axis"
-              transform={`translate(11 ${(space.top + height - space.bottom) / 2}) rotate(-90)`}
-              text-anchor="middle"
-            >
-              {props.yLabel}
-            </text>
+            <Axes
+              frame={{ width, height, ...space }}
+              x={sx}
+              y={sy}
+              xLabel={props.xLabel}
+              yLabel={props.yLabel}
+            />
             <g class="here" transform={`translate(${sx(props.at.x)} ${sy(props.at.y)})`}>
               <circle r="6" />
               <path d="M-11 0 H11 M0 -11 V11" />

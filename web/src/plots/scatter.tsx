@@ -3,10 +3,11 @@ import { scaleLinear } from 'd3-scale';
 import { useMemo } from 'preact/hooks';
 
 import { axes, type Axis, axisUnit, paretoFront } from '../lib/amounts';
-import { short, shown } from '../lib/format';
+import { shown } from '../lib/format';
 import type { Design } from '../lib/types';
 import { toShown } from '../lib/units';
 import { Select } from '../ui/controls';
+import { Axes } from './axes';
 import { useWidth } from './width';
 
 const height = 260;
@@ -97,37 +98,14 @@ export function Scatter(props: {
       <div ref={ref} style={{ height: `${height}px` }}>
         {width > 0 && points.length > 0 && (
           <svg width={width} height={height}>
-            {sx.ticks(Math.max(3, width / 90)).map((tick) => (
-              <g key={tick} class="tick">
-                <line x1={sx(tick)} x2={sx(tick)} y1={space.top} y2={height - space.bottom} />
-                <text x={sx(tick)} y={height - space.bottom + 14} text-anchor="middle">
-                  {short(tick, 7)}
-                </text>
-              </g>
-            ))}
-            {sy.ticks(5).map((tick) => (
-              <g key={tick} class="tick">
-                <line x1={space.left} x2={width - space.right} y1={sy(tick)} y2={sy(tick)} />
-                <text x={space.left - 6} y={sy(tick) + 3.5} text-anchor="end">
-                  {short(tick, 7)}
-                </text>
-              </g>
-            ))}
-            <text
-              class="axis"
-              x={(space.left + width - space.right) / 2}
-              y={height - 4}
-              text-anchor="middle"
-            >
-              {x.label}, {axisUnit(x)}
-            </text>
-            <text
-              class="axis"
-              transform={`translate(11 ${(space.top + height - space.bottom) / 2}) rotate(-90)`}
-              text-anchor="middle"
-            >
-              {y.label}, {axisUnit(y)}
-            </text>
+            <Axes
+              hasGrid
+              frame={{ width, height, ...space }}
+              x={sx}
+              y={sy}
+              xLabel={[x.label, axisUnit(x)].filter(Boolean).join(', ')}
+              yLabel={[y.label, axisUnit(y)].filter(Boolean).join(', ')}
+            />
             <path class="front-line" d={line} />
             {points.map((p, i) => (
               <circle

@@ -9,8 +9,9 @@ import type { Part } from '../lib/types';
 import { Notice, Panel } from '../ui/controls';
 import { ExportButton } from '../ui/files';
 import { Facets, filters, passes } from './facets';
+import { RevisionsDialog } from './history';
 import { ImportDialog } from './part_import';
-import { PartDialog, RevisionsDialog } from './part_dialogs';
+import { PartDialog } from './part_dialogs';
 import { PartForm } from './part_form';
 import { PartTable } from './part_table';
 

@@ -4,7 +4,7 @@ import { change, percent, short, significant } from '../lib/format';
 import { link, route, setQuery } from '../lib/route';
 import { seriesColours } from '../lib/theme';
 import type { Answer, Design } from '../lib/types';
-import { toShown, unitOf } from '../lib/units';
+import { pressuresShown, toShown, unitOf } from '../lib/units';
 import { type Line, Lines } from '../plots/lines';
 import { Chip, Notice, Panel, Segmented } from '../ui/controls';
 import { Margins } from './ranked_table';
@@ -188,10 +188,7 @@ function Responses({ designs, answer }: { designs: Design[]; answer: Answer }) {
       name === 'source'
         ? source_pressure_kpa_gauge
         : (groups.find((g) => g.name === name)?.pressure_kpa_gauge ?? []);
-    const shown =
-      t_s.length === x.length
-        ? values.map((v) => (v === null ? null : toShown('pressure', v)))
-        : x.map(() => null);
+    const shown = t_s.length === x.length ? pressuresShown(values) : x.map(() => null);
     return {
       label: `#${design.rank} ${design.configuration}`,
       values: shown,

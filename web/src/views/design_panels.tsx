@@ -11,6 +11,7 @@ import { link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
 import { toShown } from '../lib/units';
 import { Chip, Panel } from '../ui/controls';
+import { type Fact, FactList } from '../ui/facts';
 
 const familyColour: Record<string, string> = {
   compressor: '--c1',
@@ -25,23 +26,13 @@ const familyColour: Record<string, string> = {
 };
 
 export function Facts({ design }: { design: Design }) {
-  return (
-    <dl class="facts">
-      {axes.map((axis) => {
-        const value = axis.of(design);
-        if (value === null || axis.id === 'estimated') return null;
-        return (
-          <div key={axis.id}>
-            <dt>{axis.label}</dt>
-            <dd>
-              {significant(toShown(axis.kind, value), axis.id === 'mass' ? 4 : 3)}{' '}
-              <small>{axisUnit(axis)}</small>
-            </dd>
-          </div>
-        );
-      })}
-    </dl>
-  );
+  const facts = axes.flatMap((axis): Fact[] => {
+    const value = axis.of(design);
+    if (value === null || axis.id === 'estimated') return [];
+    const text = significant(toShown(axis.kind, value), axis.id === 'mass' ? 4 : 3);
+    return [[axis.label, text, axisUnit(axis)]];
+  });
+  return <FactList facts={facts} />;
 }
 
 export function PartsPanel({ design }: { design: Design }) {

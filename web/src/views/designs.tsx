@@ -5,7 +5,7 @@ import { requirementName, requirementNumber, requirementUnit } from '../lib/amou
 import { percent } from '../lib/format';
 import { ended, pathOf, useJob, jobList, previousJob, refreshJobs, start } from '../lib/jobs';
 import { edit, load } from '../lib/requirements';
-import { go, link, route } from '../lib/route';
+import { go, link, redirect, route } from '../lib/route';
 import type { Answer } from '../lib/types';
 import { proofInWords, statusWord } from '../lib/words';
 import { Chip, Notice, Panel } from '../ui/controls';
@@ -26,7 +26,7 @@ function useNewestJob(id: string | undefined) {
       () => {
         const newest = previousJob.value ?? jobList.value?.[0]?.id;
         if (newest && route.value.path[0] === 'designs' && !route.value.path[1])
-          go(['designs', newest]);
+          redirect(['designs', newest]);
       },
       () => undefined,
     );

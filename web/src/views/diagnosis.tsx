@@ -2,7 +2,7 @@
 // left, the candidates, the next experiment; and the revised model, saved and used.
 import { significant } from '../lib/format';
 import { type Diagnosis, effectName, type Measurement, type Shade } from '../lib/measurement';
-import { toShown, unitOf } from '../lib/units';
+import { pressuresShown, unitOf } from '../lib/units';
 import { Lines } from '../plots/lines';
 import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';
@@ -90,8 +90,6 @@ function Curves({ d }: { d: Diagnosis }) {
   const ids = d.series.map((series) => series.run);
   const series = d.series.find((s) => s.run === pickRun(ids))!;
   const bands = shadesOfSeries(series);
-  const show = (values: (number | null)[]) =>
-    values.map((v) => (v === null ? null : toShown('pressure', v)));
   const rest = (model: (number | null)[]) =>
     series.measured_kpa.map((v, i) => (v === null || model[i] == null ? null : v - model[i]!));
   const plot = { x: series.t_s, xLabel: 'time, s', bands, sync: 'diagnosis' };
@@ -103,9 +101,19 @@ function Curves({ d }: { d: Diagnosis }) {
         yLabel={`pressure, ${unitOf('pressure')}`}
         height={280}
         lines={[
-          { label: 'measured', values: show(series.measured_kpa), colour: '--c6', width: 3.2 },
-          { label: 'model before', values: show(series.before_kpa), colour: '--c2', dash: [6, 3] },
-          { label: 'model after', values: show(series.after_kpa), colour: '--c1' },
+          {
+            label: 'measured',
+            values: pressuresShown(series.measured_kpa),
+            colour: '--c6',
+            width: 3.2,
+          },
+          {
+            label: 'model before',
+            values: pressuresShown(series.before_kpa),
+            colour: '--c2',
+            dash: [6, 3],
+          },
+          { label: 'model after', values: pressuresShown(series.after_kpa), colour: '--c1' },
         ]}
       />
       <Lines

@@ -3,7 +3,7 @@ import { signal, useSignal } from '@preact/signals';
 
 import { ask, asProblem } from '../lib/api';
 import { significant } from '../lib/format';
-import { cancel, diagnosisPath, ended, useJob } from '../lib/jobs';
+import { diagnosisPath, ended, useJob } from '../lib/jobs';
 import {
   type Diagnosis,
   type Measurement,
@@ -19,10 +19,11 @@ import {
 } from '../lib/measurement';
 import { route, setQuery } from '../lib/route';
 import type { Doing, Job } from '../lib/types';
-import { toShown, unitOf } from '../lib/units';
+import { pressuresShown, unitOf } from '../lib/units';
 import { Lines } from '../plots/lines';
 import { Notice, Panel } from '../ui/controls';
 import { ErrorList, FilePicker } from '../ui/files';
+import { Bar, CancelButton } from '../ui/job';
 import { DiagnosisView } from './diagnosis';
 import { RigForm } from './rig_form';
 import { PhaseKey, pickRun, RunPicker } from './runs';
@@ -184,35 +185,13 @@ const Welcome = ({ over }: { over: boolean }) => (
 );
 
 function Running({ job }: { job: Job<Diagnosis, Doing> }) {
-  const stopping = useSignal(false);
   const progress = job.progress;
-  const share = Math.round(100 * (progress?.share ?? 0));
   return (
     <Panel
       title={job.status === 'queued' ? 'Waiting for its turn' : 'Fitting and comparing models'}
-      aside={
-        <button
-          type="button"
-          disabled={stopping.value}
-          onClick={() => {
-            stopping.value = true;
-            void cancel(job.links.self);
-          }}
-        >
-          {stopping.value ? 'Stopping…' : 'Cancel'}
-        </button>
-      }
+      aside={<CancelButton self={job.links.self} />}
     >
-      <div
-        class="gap-bar"
-        role="progressbar"
-        aria-label="How much of the diagnosis is done"
-        aria-valuemin={0}
-        aria-valuemax={100}
-        aria-valuenow={share}
-      >
-        <span style={{ width: `${share}%` }} />
-      </div>
+      <Bar label="How much of the diagnosis is done" share={progress?.share ?? 0} />
       <p role="status">
         {progress ? `${progress.doing}, ${significant(progress.seconds, 2)} s` : 'Starting…'}
       </p>
@@ -223,8 +202,6 @@ function Running({ job }: { job: Job<Diagnosis, Doing> }) {
 function Preview({ data }: { data: Measurement }) {
   const ids = data.runs.map((run) => run.id);
   const run = data.runs.find((r) => r.id === pickRun(ids))!;
-  const show = (values: (number | null)[]) =>
-    values.map((v) => (v === null ? null : toShown('pressure', v)));
   const source = run.channels?.source_pressure_kpa_gauge;
   return (
     <Panel
@@ -239,8 +216,8 @@ function Preview({ data }: { data: Measurement }) {
         height={300}
         bands={shadesOf(run.valve, run.t_s[run.t_s.length - 1] ?? 0)}
         lines={[
-          { label: 'actuator', values: show(run.pressure_kpa_gauge), colour: '--c1' },
-          ...(source ? [{ label: 'source', values: show(source), colour: '--c6' }] : []),
+          { label: 'actuator', values: pressuresShown(run.pressure_kpa_gauge), colour: '--c1' },
+          ...(source ? [{ label: 'source', values: pressuresShown(source), colour: '--c6' }] : []),
         ]}
       />
       <PhaseKey />

@@ -3,6 +3,7 @@ import { fieldName, significant } from '../lib/format';
 import { type Diagnosis, effectNames, type Measurement, shadesOf } from '../lib/measurement';
 import { toShown, unitOf } from '../lib/units';
 import { Panel } from '../ui/controls';
+import { type Fact, FactList } from '../ui/facts';
 import { saveFile } from '../ui/files';
 import { PhaseKey } from './runs';
 
@@ -22,7 +23,7 @@ export function NextExperiment({ d, data }: { d: Diagnosis; data: Measurement | 
     };
     saveFile(`${d.name ?? 'bench'}-${id}.json`, `${JSON.stringify(document, null, 2)}\n`);
   };
-  const facts: [string, string, string][] = [
+  const facts: Fact[] = [
     ['actuator', next.blocked ? 'blocked' : 'free', ''],
     ...(next.source_pressure_kpa_gauge === undefined
       ? []
@@ -31,7 +32,7 @@ export function NextExperiment({ d, data }: { d: Diagnosis; data: Measurement | 
             'source',
             significant(toShown('pressure', next.source_pressure_kpa_gauge)),
             unitOf('pressure'),
-          ] as [string, string, string],
+          ] as Fact,
         ]),
     ['for', significant(end), 's'],
     ['measure', (next.measure ?? []).map((name) => fieldName(name).label).join(', '), ''],
@@ -57,16 +58,7 @@ export function NextExperiment({ d, data }: { d: Diagnosis; data: Measurement | 
         ))}
         . {next.why}
       </p>
-      <dl class="facts">
-        {facts.map(([name, value, unit]) => (
-          <div key={name}>
-            <dt>{name}</dt>
-            <dd>
-              {value} <small>{unit}</small>
-            </dd>
-          </div>
-        ))}
-      </dl>
+      <FactList facts={facts} />
       <div
         class="schedule"
         role="img"

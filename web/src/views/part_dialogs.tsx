@@ -1,24 +1,16 @@
-// One part with its sources and history, and the history of the catalogue.
+// One part with its sources and history.
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
-import { ask, asProblem, get, post } from '../lib/api';
+import { ask, asProblem } from '../lib/api';
 import { loadPart, numberOf, partPath, provenanceWord } from '../lib/catalogue';
 import { fieldName, short } from '../lib/format';
 import { edit, requirements } from '../lib/requirements';
 import type { Family, Part } from '../lib/types';
 import { Lines } from '../plots/lines';
 import { Chip, Dialog, Notice } from '../ui/controls';
+import { PartHistory } from './history';
 import { PartForm } from './part_form';
-
-interface Revision {
-  number: number;
-  at: string;
-  who: string;
-  what: string;
-}
-
-const when = (at: string): string => at.replace('T', ' ').slice(0, 16);
 
 export function PartDialog(props: {
   id: string;
@@ -196,120 +188,5 @@ function Curve({ part }: { part: Part }) {
         },
       ]}
     />
-  );
-}
-
-function PartHistory({ id }: { id: string }) {
-  const entries = useSignal<
-    { revision: Revision; before: Part | null; after: Part | null }[] | null
-  >(null);
-  const load = () =>
-    get<{ history: never[] }>(`${partPath(id)}/history`).then(
-      (answer) => (entries.value = answer.history),
-      () => (entries.value = []),
-    );
-  return (
-    <details
-      onToggle={(event) => event.currentTarget.open && entries.value === null && void load()}
-    >
-      <summary>History</summary>
-      {entries.value?.length === 0 && <p>No changes are recorded.</p>}
-      <ul class="history">
-        {entries.value?.map(({ revision, before, after }) => (
-          <li key={revision.number}>
-            <b>revision {revision.number}</b>{' '}
-            <span class="muted">
-              {when(revision.at)} {revision.who}
-            </span>{' '}
-            {before === null ? 'added' : after === null ? 'removed' : changes(before, after)}
-          </li>
-        ))}
-      </ul>
-    </details>
-  );
-}
-
-function changes(before: Part, after: Part): string {
-  const names = [...new Set([...Object.keys(before), ...Object.keys(after)])].filter(
-    (name) => name !== 'provenance',
-  );
-  const different = names.filter(
-    (name) => JSON.stringify(before[name]) !== JSON.stringify(after[name]),
-  );
-  const text = (value: unknown) => (typeof value === 'object' ? '…' : String(value ?? '–'));
-  return (
-    different
-      .map((name) => `${fieldName(name).label} ${text(before[name])} → ${text(after[name])}`)
-      .join(', ') || 'sources changed'
-  );
-}
-
-export function RevisionsDialog({ onClose }: { onClose: (changed: boolean) => void }) {
-  const list = useSignal<Revision[] | null>(null);
-  const problem = useSignal('');
-  const changed = useSignal(false);
-  const load = () =>
-    get<{ revisions: Revision[] }>('/v1/revisions').then(
-      (answer) => (list.value = answer.revisions),
-      (error) => (problem.value = asProblem(error).message),
-    );
-  useEffect(() => void load(), []);
-  const undo = async (number: number) => {
-    try {
-      await post(`/v1/revisions/${number}/undo`, {});
-      changed.value = true;
-      problem.value = '';
-      await load();
-    } catch (error) {
-      const refused = asProblem(error);
-      problem.value = [
-        refused.message,
-        ...refused.errors.map((e) => `${e.pointer} ${e.detail}`),
-      ].join(' ');
-    }
-  };
-  return (
-    <Dialog title="History of the catalogue" onClose={() => onClose(changed.value)}>
-      {problem.value && <Notice kind="bad">{problem.value}</Notice>}
-      <div class="scroll" tabIndex={0} role="region" aria-label="Revisions">
-        <table>
-          <thead>
-            <tr>
-              <th scope="col" class="num">
-                revision
-              </th>
-              <th scope="col">when</th>
-              <th scope="col">who</th>
-              <th scope="col">what</th>
-              <th scope="col">
-                <span class="only-heard">undo</span>
-              </th>
-            </tr>
-          </thead>
-          <tbody>
-            {list.value?.map((r) => (
-              <tr key={r.number}>
-                <td class="num">{r.number}</td>
-                <td class="nowrap">{when(r.at)}</td>
-                <td>{r.who}</td>
-                <td>{r.what}</td>
-                <td>
-                  {r.number > 1 && (
-                    <button
-                      type="button"
-                      class="small"
-                      aria-label={`Undo revision ${r.number}`}
-                      onClick={() => void undo(r.number)}
-                    >
-                      Undo
-                    </button>
-                  )}
-                </td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </div>
-    </Dialog>
   );
 }

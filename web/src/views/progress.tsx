@@ -1,13 +1,12 @@
 // A search under way: best so far, the bound of the proof closing on it, cancel.
-import { useSignal } from '@preact/signals';
-
 import { count, duration, percent, significant } from '../lib/format';
-import { cancel, type Watched } from '../lib/jobs';
+import type { Watched } from '../lib/jobs';
 import { Lines } from '../plots/lines';
 import { Notice, Panel } from '../ui/controls';
+import { FactList } from '../ui/facts';
+import { Bar, CancelButton } from '../ui/job';
 
 export function ProgressPanel({ watched, self }: { watched: Watched; self: string }) {
-  const stopping = useSignal(false);
   const progress = watched.job?.progress;
   const trace = watched.trace;
   const best = progress?.best ?? null;
@@ -17,55 +16,20 @@ export function ProgressPanel({ watched, self }: { watched: Watched; self: strin
   return (
     <Panel
       title={queued ? 'Waiting for its turn' : 'Searching'}
-      aside={
-        <button
-          type="button"
-          disabled={stopping.value}
-          onClick={() => {
-            stopping.value = true;
-            void cancel(self);
-          }}
-        >
-          {stopping.value ? 'Stopping…' : 'Cancel'}
-        </button>
-      }
+      aside={<CancelButton self={self} />}
     >
-      <dl class="facts" aria-live="polite">
-        <div>
-          <dt>time</dt>
-          <dd>{progress ? duration(progress.seconds) : '–'}</dd>
-        </div>
-        <div>
-          <dt>best so far</dt>
-          <dd>{significant(best, 4)}</dd>
-        </div>
-        <div>
-          <dt>nothing better than</dt>
-          <dd>{significant(bound, 4)}</dd>
-        </div>
-        <div>
-          <dt>gap</dt>
-          <dd>{percent(gap)}</dd>
-        </div>
-        <div>
-          <dt>evaluated</dt>
-          <dd>{count(progress?.evaluated ?? 0)}</dd>
-        </div>
-        <div>
-          <dt>open boxes</dt>
-          <dd>{count(progress?.open ?? 0)}</dd>
-        </div>
-      </dl>
-      <div
-        class="gap-bar"
-        role="progressbar"
-        aria-label="How far the proof has closed"
-        aria-valuemin={0}
-        aria-valuemax={100}
-        aria-valuenow={gap === null ? 0 : Math.round(100 * (1 - gap))}
-      >
-        <span style={{ width: `${gap === null ? 0 : 100 * (1 - gap)}%` }} />
-      </div>
+      <FactList
+        isLive
+        facts={[
+          ['time', progress ? duration(progress.seconds) : '–'],
+          ['best so far', significant(best, 4)],
+          ['nothing better than', significant(bound, 4)],
+          ['gap', percent(gap)],
+          ['evaluated', count(progress?.evaluated ?? 0)],
+          ['open boxes', count(progress?.open ?? 0)],
+        ]}
+      />
+      <Bar label="How far the proof has closed" share={gap === null ? 0 : 1 - gap} />
       {trace.length > 1 && (
         <Lines
           title="The proof closing"

@@ -10,7 +10,8 @@ import { Notice, Panel, TextField } from '../ui/controls';
 import { ErrorList, FilePicker, saveFile } from '../ui/files';
 import { Drawing } from './drawing';
 import { Groups } from './groups';
-import { Conditions, Duty, Objective, Supply } from './requirement_panels';
+import { Objective } from './objective';
+import { Conditions, Duty, Supply } from './requirement_panels';
 
 export function RequirementsView() {
   const problem = useSignal<Problem | null>(null);

@@ -24,8 +24,7 @@ export function SaveModel({ diagnosis: d, model }: { diagnosis: Diagnosis; model
       problem.value = '';
       await act();
     } catch (error) {
-      const refused = asProblem(error);
-      problem.value = [refused.message, ...refused.errors.map((e) => e.detail)].join(' ');
+      problem.value = asProblem(error).sentence;
     }
   };
   const save = async () => {

@@ -131,12 +131,7 @@ export function WhatIf({
       }
     >
       {missing && <Notice kind="warn">It cannot be simulated: {missing}.</Notice>}
-      {problem.value && (
-        <Notice kind="bad">
-          {problem.value.message}{' '}
-          {problem.value.errors.map((e) => `${e.pointer} ${e.detail}`).join('; ')}
-        </Notice>
-      )}
+      {problem.value && <Notice kind="bad">{problem.value.sentence}</Notice>}
       <div class="what-if">
         <div>
           {base.value && (

@@ -6,7 +6,7 @@ import type { Evaluation } from '../lib/evaluation';
 import { change as changeOf, shown, significant } from '../lib/format';
 import { seriesColours } from '../lib/theme';
 import type { Requirements, Response } from '../lib/types';
-import { type Kind, toShown, unitOf } from '../lib/units';
+import { type Kind, pressuresShown, toShown, unitOf } from '../lib/units';
 import { type Line, Lines } from '../plots/lines';
 import { Notice } from '../ui/controls';
 
@@ -50,29 +50,31 @@ export function ResponsePlot({
   trial: Response | null;
   requirements: Requirements;
 }) {
-  const show = (values: (number | null)[]) =>
-    values.map((v) => (v === null ? null : toShown('pressure', v)));
   const lines: Line[] = [];
   base.groups.forEach((group, i) =>
     lines.push({
       label: group.name,
-      values: show(group.pressure_kpa_gauge),
+      values: pressuresShown(group.pressure_kpa_gauge),
       colour: seriesColours[i % 5]!,
     }),
   );
-  lines.push({ label: 'source', values: show(base.source_pressure_kpa_gauge), colour: '--c6' });
+  lines.push({
+    label: 'source',
+    values: pressuresShown(base.source_pressure_kpa_gauge),
+    colour: '--c6',
+  });
   if (trial && trial.t_s.length === base.t_s.length) {
     trial.groups.forEach((group, i) =>
       lines.push({
         label: `${group.name}, what if`,
-        values: show(group.pressure_kpa_gauge),
+        values: pressuresShown(group.pressure_kpa_gauge),
         colour: seriesColours[i % 5]!,
         dash: [5, 3],
       }),
     );
     lines.push({
       label: 'source, what if',
-      values: show(trial.source_pressure_kpa_gauge),
+      values: pressuresShown(trial.source_pressure_kpa_gauge),
       colour: '--c6',
       dash: [5, 3],
     });

@@ -1,0 +1,133 @@
+// What is best, how many designs, what else to find out, and the model that ranks.
+import { models } from '../lib/models';
+import { edit, errorAt, requirements } from '../lib/requirements';
+import type { Amount } from '../lib/types';
+import { Check, NumberField, Panel, Segmented, Select } from '../ui/controls';
+
+const amounts: { value: Amount; label: string }[] = [
+  { value: 'mass_kg', label: 'mass' },
+  { value: 'volume_l', label: 'volume' },
+  { value: 'cost_eur', label: 'cost' },
+  { value: 'energy_wh', label: 'energy' },
+];
+
+export function Objective() {
+  const { objective, ranking, robust, explain, model } = requirements.value;
+  const pareto = objective?.pareto;
+  const minimize = typeof objective?.minimize === 'string' ? objective.minimize : 'mass_kg';
+  const weights = typeof objective?.minimize === 'object' ? objective.minimize : undefined;
+  const mode = pareto ? 'front' : weights ? 'weighted' : 'least';
+  const setMode = (next: 'least' | 'weighted' | 'front') =>
+    edit(
+      ['objective'],
+      next === 'front'
+        ? { pareto: ['mass_kg', 'volume_l'] }
+        : next === 'weighted'
+          ? { minimize: { mass_kg: 1, volume_l: 0.3 } }
+          : { minimize: 'mass_kg' },
+    );
+  const setPareto = (amount: Amount, on: boolean) =>
+    edit(['objective'], {
+      pareto: amounts.map((a) => a.value).filter((a) => (a === amount ? on : pareto?.includes(a))),
+    });
+  return (
+    <Panel title="Objective and ranking">
+      <Segmented
+        label="Rank by"
+        value={mode}
+        onChange={setMode}
+        options={[
+          { value: 'least', label: 'least' },
+          { value: 'weighted', label: 'weighted sum' },
+          { value: 'front', label: 'Pareto front' },
+        ]}
+      />
+      {mode === 'least' && (
+        <Segmented
+          label="of"
+          options={amounts}
+          value={minimize}
+          onChange={(v) => edit(['objective'], { minimize: v })}
+        />
+      )}
+      {mode === 'front' && (
+        <div class="checks" role="group" aria-label="Amounts of the front">
+          {amounts.map((a) => (
+            <Check
+              key={a.value}
+              label={a.label}
+              checked={pareto?.includes(a.value) ?? false}
+              onChange={(on) => setPareto(a.value, on)}
+            />
+          ))}
+        </div>
+      )}
+      {errorAt('/objective/pareto') && <p class="error">{errorAt('/objective/pareto')}</p>}
+      <div class="fields">
+        {mode === 'weighted' &&
+          amounts.map((a) => (
+            <NumberField
+              key={a.value}
+              label={`Weight of ${a.label}`}
+              value={weights?.[a.value] ?? 0}
+              error={errorAt(`/objective/minimize/${a.value}`)}
+              onChange={(v) => edit(['objective', 'minimize', a.value], v ?? 0)}
+            />
+          ))}
+        <NumberField
+          label="Designs to list"
+          value={ranking?.count ?? 20}
+          range={[1, 500]}
+          pointer="/ranking/count"
+          error={errorAt('/ranking/count')}
+          onChange={(v) => edit(['ranking', 'count'], v)}
+        />
+        {robust && mode !== 'front' && (
+          <NumberField
+            label="Probability, at least"
+            optional
+            placeholder="any"
+            value={ranking?.probability_min}
+            range={[0, 1]}
+            error={errorAt('/ranking/probability_min')}
+            onChange={(v) => edit(['ranking', 'probability_min'], v ?? undefined)}
+          />
+        )}
+        <NumberField
+          label="Time limit"
+          unit="s"
+          value={ranking?.time_limit_s ?? 30}
+          range={[0.01, 3600]}
+          error={errorAt('/ranking/time_limit_s')}
+          onChange={(v) => edit(['ranking', 'time_limit_s'], v)}
+        />
+      </div>
+      <div class="checks">
+        <Check
+          label="Probability of meeting everything within the parts' tolerances"
+          checked={robust !== undefined}
+          onChange={(on) => edit(['robust'], on ? {} : undefined)}
+        />
+        {mode !== 'front' && (
+          <Check
+            label="What each requirement costs"
+            checked={explain !== undefined}
+            onChange={(on) => edit(['explain'], on ? { prices: true, ranks: 4 } : undefined)}
+          />
+        )}
+      </div>
+      {models.value.length > 0 && (
+        <Select
+          label="Model"
+          value={model ?? 'nominal'}
+          options={[
+            { value: 'nominal', label: 'nominal' },
+            ...models.value.map((m) => ({ value: m.name, label: m.name })),
+          ]}
+          onChange={(v) => edit(['model'], v === 'nominal' ? undefined : v)}
+        />
+      )}
+      {errorAt('/model') && <p class="error">{errorAt('/model')}</p>}
+    </Panel>
+  );
+}
