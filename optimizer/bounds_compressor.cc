@@ -218,7 +218,10 @@ Constraint Bounds::FindStockSource(Box& box) {
     if (least.failed) return Constraint::kNone;
     const double duty_max = problem_.parts.compressors[candidate.compressor.index].duty_max;
     if (!(least.compressor_duty <= duty_max)) return Constraint::kPump;
-    volume.need.energy_j = std::max(volume.need.energy_j, LeastEnergy(candidate, point, least));
+    // Of several groups each look at another pressure would be a simulation.
+    const bool cheap = problem_.groups.size() == 1;
+    volume.need.energy_j = std::max(
+        volume.need.energy_j, cheap ? LeastEnergy(candidate, point, least) : least.energy_total_j);
   }
   volume.rest = RestAt(box, volume);
   return RestOfCompressor(box);

@@ -12,7 +12,9 @@
 //  (3) p_1 is at least what a group needs that is alone on the reservoir (stroke_bound.h), and of
 //      two groups that take turns each must leave what the other needs.
 // Energy per air, made non-falling in pressure from below, and time per air, which does not fall
-// with pressure, then bound energy and running time.
+// with pressure, then bound energy and running time: bit by bit of air, each by its mean over the
+// pressures of the bit. For a single choice of pumps the line's flow bounds how fast air is drawn,
+// so that less of it is pumped at the lowest pressures than (1) alone allows.
 #ifndef PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 #define PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 
