@@ -190,6 +190,13 @@ bool Bounds::WithinLimits(Amounts amounts, const Amounts& more) const {
          amounts.cost_eur <= problem_.cost_max_eur * kRounding;
 }
 
+Constraint Bounds::Reassess(Box& box) {
+  if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
+  if (plan_.configuration != Configuration::kCompressor) return RestOfRegulated(box);
+  for (VolumeNeed& volume : box.volumes) volume.rest = RestAt(box, volume);
+  return RestOfCompressor(box);
+}
+
 Amounts Bounds::LeastBesidesBattery(const Box& box) const {
   Amounts least;
   for (const std::shared_ptr<const Line>& line : box.lines) least += line->amounts;

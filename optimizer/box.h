@@ -56,6 +56,9 @@ class Bounds {
   // the box that was assessed before, or −1 for all.
   Constraint Assess(Box& box, int changed);
 
+  // The same of an assessed box after the problem's limits on amounts have fallen.
+  Constraint Reassess(Box& box);
+
   // Once all but bottle and battery are single choices their source pressure can be found for good;
   // it costs a hundred times more than Assess(). With a made-to-measure reservoir the intervals of
   // volumes get finer instead, time after time.

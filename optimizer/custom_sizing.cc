@@ -14,7 +14,7 @@ namespace {
 constexpr double kTolerance = 1e-7, kEnergyTolerance = 4e-7, kLateTolerance = 8e-7;
 constexpr int kLateSteps = 1000;
 constexpr int kStepsPerRefine = 4;
-constexpr int kStepsMax = 40000, kEnergyStepsMax = 10000;
+constexpr int kStepsMax = 40000, kEnergyStepsMax = 2500;
 constexpr double kPressureShare = 0.1;  // of the width of the volumes, to which p1 is raised
 constexpr double kFinest = 1e-10;       // relative width that is not divided any more
 constexpr double kRounding = 1e-12;     // of a margin

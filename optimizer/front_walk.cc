@@ -24,6 +24,7 @@ struct Node {
   double key = 0.0;                      // the box's bound, or the objective of its leaf
   std::unique_ptr<CustomSizing> sizing;  // of a made-to-measure reservoir
   std::optional<Leaf> leaf;              // sized within a limit that held then
+  double limit = kUnlimited;             // when it was pushed
 };
 using NodePtr = std::unique_ptr<Node>;
 
@@ -86,6 +87,7 @@ class Walker {
 
   void Push(NodePtr node, double key) {
     node->key = key;
+    node->limit = limit_;
     node->serial = serial_++;
     open_.push_back(std::move(node));
     std::push_heap(open_.begin(), open_.end(), LowestKey());
@@ -107,6 +109,9 @@ class Walker {
     Bounds& bounds = *node->bounds;
     if (node->leaf) {
       Take(std::move(node));
+    } else if (node->limit > limit_ && !node->sizing) {  // does it still have anything to offer?
+      const Constraint missed = bounds.Reassess(node->box);
+      Keep(std::move(node), missed);
     } else if (bounds.CanFindSource(node->box)) {
       const Constraint missed = bounds.FindSource(node->box);
       Keep(std::move(node), missed);
