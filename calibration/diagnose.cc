@@ -331,7 +331,7 @@ class Diagnosing {
   void Weigh(double memory, Evidence& evidence) {
     evidence.accepted = &Chosen() != base_;
     evidence.after = evidence.accepted ? LeftoverOf(Chosen().fit, !Stopped()) : evidence.before;
-    tied_ = Tied(Chosen(), memory);
+    tied_ = Tied(Chosen(), memory, IsNoise(evidence.before) ? kTieInNoise : kTie);
     evidence.tied = static_cast<int>(tied_.size()) - 1;
     if (Stopped()) evidence.complete = false;
   }
@@ -348,11 +348,11 @@ class Diagnosing {
   }
 
   // The chosen set and those of its size that do as well, the best first, each set of ids once.
-  std::vector<const Contender*> Tied(const Contender& chosen, double memory) const {
+  std::vector<const Contender*> Tied(const Contender& chosen, double memory, double reach) const {
     std::vector<const Contender*> tied = {&chosen};
     for (const Contender& contender : search_.contenders) {
       if (contender.effects.size() != chosen.effects.size() || !contender.fit.Usable()) continue;
-      if (BicWith(contender.fit, memory) > BicWith(chosen.fit, memory) + kTie) continue;
+      if (BicWith(contender.fit, memory) > BicWith(chosen.fit, memory) + reach) continue;
       const bool known = std::any_of(tied.begin(), tied.end(), [&](const Contender* other) {
         return SameEffects(contender, *other);
       });
