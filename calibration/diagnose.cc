@@ -263,6 +263,9 @@ class Diagnosing {
       Weigh(memory, evidence);
     }
     const Contender& chosen = Chosen();
+    diagnosis_.before = ErrorOf(base_->fit.state);
+    const ErrorReport after = evidence.accepted ? ErrorOf(chosen.fit.state) : diagnosis_.before;
+    AddCandidates();
     // Effects are established where they account for most of the residual and a term learned
     // without them does not do as well; which of several they are may still be open.
     bool established =
@@ -277,7 +280,7 @@ class Diagnosing {
           LearnDiscrepancy(data_, open ? chosen.fit : base_->fit, held_out_, tight_);
       if (established && !open) {
         established = false;
-        if (!IsNoise(LeftoverOf(learned.fit, false))) {
+        if (!Stopped() && !IsNoise(LeftoverOf(learned.fit, false))) {
           LearnedModel beside = LearnDiscrepancy(data_, chosen.fit, held_out_, tight_);
           established = beside.fit.bic < learned.fit.bic - kAccept;
           if (established) learned = std::move(beside);
@@ -290,13 +293,11 @@ class Diagnosing {
     } else {
       AddEstimates(chosen.fit);
     }
-    diagnosis_.before = ErrorOf(base_->fit.state);
-    diagnosis_.after = shown == base_ ? diagnosis_.before : ErrorOf(shown->fit.state);
+    diagnosis_.after = shown == base_ ? diagnosis_.before : after;
     diagnosis_.before.holdout_rms_pa = evidence.before.holdout_rms_pa;
     diagnosis_.after.holdout_rms_pa = evidence.after.holdout_rms_pa;
     diagnosis_.residual = evidence.after.residual;
     diagnosis_.unexplained_fraction = UnexplainedFraction(evidence.before, evidence.after);
-    AddCandidates();
     if (diagnosis_.verdict == Verdict::kUndecided) diagnosis_.effects.clear();
     if (open) {
       diagnosis_.effects.clear();
@@ -418,12 +419,12 @@ class Diagnosing {
         Squares fitted, held_out;
         for (const std::size_t run : data_.runs) fitted.Add(ErrorsOf(run, contender.fit.state));
         for (const std::size_t run : held_out_)
-          held_out.Add(ErrorsUnseen(run, contender.fit.state));
+          if (!Stopped()) held_out.Add(ErrorsUnseen(run, contender.fit.state));
         candidate.rms_pa = fitted.Rms();
-        if (held_out.count > 0)
-          candidate.holdout_rms_pa = held_out.Rms();
-        else if (i < kFinalists && !Stopped())
+        if (held_out_.empty() && i < kFinalists && !Stopped())
           candidate.holdout_rms_pa = LeaveOneOut(contender.fit);
+        else if (held_out.count > 0 && !Stopped())
+          candidate.holdout_rms_pa = held_out.Rms();
       }
       diagnosis_.candidates.push_back(std::move(candidate));
     }
