@@ -18,7 +18,7 @@ DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisPro
           : calibration::Diagnose(request.dataset, options);
   DiagnosisAnswer answer;
   answer.answer = RenderDiagnosis(diagnosis, request.dataset, request.provenance);
-  if (!request.model && diagnosis.verdict != calibration::Verdict::kTie &&
+  if (!request.model && diagnosis.tied.empty() &&
       diagnosis.verdict != calibration::Verdict::kUndecided)
     answer.revision = RevisionOf(diagnosis, request.provenance);
   answer.answer["revision"] = answer.revision ? RenderModel(*answer.revision) : Json(nullptr);

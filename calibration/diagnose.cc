@@ -279,9 +279,8 @@ class Diagnosing {
       LearnedModel learned =
           LearnDiscrepancy(data_, open ? chosen.fit : base_->fit, held_out_, tight_);
       if (established && !open) {
-        const bool compared = !Stopped();
         established = false;
-        if (compared && !IsNoise(LeftoverOf(learned.fit, false))) {
+        if (!Stopped() && !IsNoise(LeftoverOf(learned.fit, false))) {
           LearnedModel beside = LearnDiscrepancy(data_, chosen.fit, held_out_, tight_);
           established = beside.fit.bic < learned.fit.bic - kAccept;
           if (established) learned = std::move(beside);
@@ -333,7 +332,7 @@ class Diagnosing {
   void Weigh(double memory, Evidence& evidence) {
     evidence.accepted = &Chosen() != base_;
     evidence.after = evidence.accepted ? LeftoverOf(Chosen().fit, !Stopped()) : evidence.before;
-    tied_ = Tied(Chosen(), memory);
+    tied_ = Tied(Chosen(), memory, IsNoise(evidence.before) ? kTieInNoise : kTie);
     evidence.tied = static_cast<int>(tied_.size()) - 1;
     if (Stopped()) evidence.complete = false;
   }
@@ -350,11 +349,11 @@ class Diagnosing {
   }
 
   // The chosen set and those of its size that do as well, the best first, each set of ids once.
-  std::vector<const Contender*> Tied(const Contender& chosen, double memory) const {
+  std::vector<const Contender*> Tied(const Contender& chosen, double memory, double reach) const {
     std::vector<const Contender*> tied = {&chosen};
     for (const Contender& contender : search_.contenders) {
       if (contender.effects.size() != chosen.effects.size() || !contender.fit.Usable()) continue;
-      if (BicWith(contender.fit, memory) > BicWith(chosen.fit, memory) + kTie) continue;
+      if (BicWith(contender.fit, memory) > BicWith(chosen.fit, memory) + reach) continue;
       const bool known = std::any_of(tied.begin(), tied.end(), [&](const Contender* other) {
         return SameEffects(contender, *other);
       });
