@@ -75,9 +75,11 @@ class Search {
   SearchResult Run() {
     std::optional<std::size_t> chosen = Grow();
     if (!chosen) {  // again, with each run's clock fitted
+      const SearchResult without = result_;
       result_.data.clocks = true;
       result_.contenders.clear();
       chosen = Grow();
+      if (Cancelled()) result_ = without, chosen = 0;
     }
     if (Of(*chosen).effects.size() > 1u && LeftShare(Of(*chosen)) < kEstablished && !Cancelled()) {
       const int size = static_cast<int>(Of(*chosen).effects.size());
@@ -320,8 +322,26 @@ class Search {
     std::vector<Job> jobs;
     for (const Set& seed : seeds)
       for (const Spec spec : BestLaws()) AddJobs(*Find(seed), spec, jobs);
-    const double from = size == 2 ? 0.4 : 0.7;
-    RunJobs(jobs, from, from + 0.2, size == 2 ? "pairs of effects" : "triples of effects");
+    const double from = size == 2 ? 0.4 : 0.7, to = from + 0.15;
+    RunJobs(jobs, from, to, size == 2 ? "pairs of effects" : "triples of effects");
+    TryOtherLaws(size, to);
+  }
+
+  // The best set of a size with the other laws of its members: alone, beside what they lack, the
+  // wrong law may have been the better one.
+  void TryOtherLaws(int size, double share) {
+    const Contender* found = BestOfSize(size);
+    if (!found) return;
+    const Contender best = *found;
+    std::vector<Job> jobs;
+    for (const Spec member : best.effects) {
+      Contender rest = best;
+      std::erase(rest.effects, member);
+      rest.fit.state = StateOf(best, rest.effects);
+      for (const Spec other : NamedEffects())
+        if (other->id == member->id && other != member) AddJobs(rest, other, jobs);
+    }
+    RunJobs(jobs, share, share + 0.05, "other laws");
   }
 
   // Every set that differs from this one in one member. By value, here and in Finish: the
