@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -17,7 +16,6 @@
 #include "calibration/residual.h"
 #include "calibration/thresholds.h"
 #include "calibration/verdict.h"
-#include "calibration/whiteness.h"
 
 namespace plenum::calibration {
 namespace {
@@ -48,16 +46,6 @@ struct Squares {
 std::string TitleOf(const model::EffectSpec& spec) {
   return spec.law.empty() ? std::string(spec.id)
                           : std::string(spec.id) + ":" + std::string(spec.law);
-}
-
-// Whether the declared numbers are where their uncertainties let them be: what is missing may hide
-// in them and leave nothing but noise.
-bool PriorsHold(const Fit& fit) {
-  const auto count = std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
-                                   [](const Coordinate& coordinate) { return coordinate.prior; });
-  if (count == 0) return true;
-  const boost::math::chi_squared law(static_cast<double>(count));
-  return fit.chi2_prior <= boost::math::quantile(boost::math::complement(law, kFalseAlarm));
 }
 
 class Diagnosing {
@@ -278,20 +266,25 @@ class Diagnosing {
     diagnosis_.before = ErrorOf(base_->fit.state);
     const ErrorReport after = evidence.accepted ? ErrorOf(chosen.fit.state) : diagnosis_.before;
     AddCandidates();
+    // Effects are established where they account for most of the residual and a term learned
+    // without them does not do as well; which of several they are may still be open.
+    bool established =
+        evidence.accepted && UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
+    const bool open =
+        diagnosis_.verdict == Verdict::kTie ||
+        (diagnosis_.verdict == Verdict::kUnexplained && established && tied_.size() > 1u);
     const Contender* shown = &chosen;
     if (diagnosis_.verdict == Verdict::kUnexplained) {
       Progress(0.95, "what is left unexplained");
-      LearnedModel learned = LearnDiscrepancy(data_, base_->fit, held_out_, tight_);
-      // Effects count as established where they account for most of the residual and a term learned
-      // without them does not do as well.
-      const bool most =
-          evidence.accepted && UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
-      const bool compared = !Stopped();
-      bool established = false;
-      if (most && compared && !IsNoise(LeftoverOf(learned.fit, false))) {
-        LearnedModel beside = LearnDiscrepancy(data_, chosen.fit, held_out_, tight_);
-        established = beside.fit.bic < learned.fit.bic - kAccept;
-        if (established) learned = std::move(beside);
+      LearnedModel learned =
+          LearnDiscrepancy(data_, open ? chosen.fit : base_->fit, held_out_, tight_);
+      if (established && !open) {
+        established = false;
+        if (!Stopped() && !IsNoise(LeftoverOf(learned.fit, false))) {
+          LearnedModel beside = LearnDiscrepancy(data_, chosen.fit, held_out_, tight_);
+          established = beside.fit.bic < learned.fit.bic - kAccept;
+          if (established) learned = std::move(beside);
+        }
       }
       if (!established) shown = base_, evidence.after = evidence.before;
       diagnosis_.discrepancy = std::move(learned.discrepancy);
@@ -306,9 +299,7 @@ class Diagnosing {
     diagnosis_.residual = evidence.after.residual;
     diagnosis_.unexplained_fraction = UnexplainedFraction(evidence.before, evidence.after);
     if (diagnosis_.verdict == Verdict::kUndecided) diagnosis_.effects.clear();
-    const bool established = diagnosis_.unexplained_fraction <= kEstablished;
-    if (diagnosis_.verdict == Verdict::kTie ||
-        (diagnosis_.verdict == Verdict::kUnexplained && established && tied_.size() > 1u)) {
+    if (open) {
       diagnosis_.effects.clear();
       std::vector<TiedFit> fits;
       for (const Contender* contender : tied_) {
@@ -341,7 +332,7 @@ class Diagnosing {
   void Weigh(double memory, Evidence& evidence) {
     evidence.accepted = &Chosen() != base_;
     evidence.after = evidence.accepted ? LeftoverOf(Chosen().fit, !Stopped()) : evidence.before;
-    tied_ = Tied(Chosen(), memory);
+    tied_ = Tied(Chosen(), memory, IsNoise(evidence.before) ? kTieInNoise : kTie);
     evidence.tied = static_cast<int>(tied_.size()) - 1;
     if (Stopped()) evidence.complete = false;
   }
@@ -358,11 +349,11 @@ class Diagnosing {
   }
 
   // The chosen set and those of its size that do as well, the best first, each set of ids once.
-  std::vector<const Contender*> Tied(const Contender& chosen, double memory) const {
+  std::vector<const Contender*> Tied(const Contender& chosen, double memory, double reach) const {
     std::vector<const Contender*> tied = {&chosen};
     for (const Contender& contender : search_.contenders) {
       if (contender.effects.size() != chosen.effects.size() || !contender.fit.Usable()) continue;
-      if (BicWith(contender.fit, memory) > BicWith(chosen.fit, memory) + kTie) continue;
+      if (BicWith(contender.fit, memory) > BicWith(chosen.fit, memory) + reach) continue;
       const bool known = std::any_of(tied.begin(), tied.end(), [&](const Contender* other) {
         return SameEffects(contender, *other);
       });

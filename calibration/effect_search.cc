@@ -28,7 +28,8 @@ constexpr int kScreeningIterations = 12;
 constexpr int kFirstLook = 5;
 constexpr double kHopeful = 0.5;
 constexpr std::size_t kAlwaysOn = 6;
-constexpr double kNear = 20.0;  // of BIC
+constexpr double kNear = 20.0;       // of BIC
+constexpr double kNearShare = 0.02;  // of what the best set gains over the base model
 constexpr double kNever = std::numeric_limits<double>::infinity(), kClocksAreAll = -kNever;
 constexpr int kTriplesFrom = 1;  // best pairs
 
@@ -107,10 +108,12 @@ class Search {
       const double clocks_bic = WithClocks(chosen);
       if (clocks_bic == kClocksAreAll) return {};
       if (size > 2 && LeftShare(Of(chosen)) > kEstablished) break;
-      if (size == 1)
+      if (size == 1) {
         FitSingles();
-      else
+      } else {
         ExtendSets(Seeds(size - 1), size);
+        TryLaws(size);
+      }
       const Contender* best = BestOfSize(size);
       if (clocks_bic < std::min(best ? best->fit.bic : kNever, Of(chosen).fit.bic) - kClock)
         return {};
@@ -185,6 +188,7 @@ class Search {
     if (Find(set) || std::any_of(jobs.begin(), jobs.end(), planned)) return;
     for (const model::Effect& start : EffectStarts(*added, result_.data.sizes)) {
       Job job{set, from.fit.state, from.fit.bic};
+      if (!PriorsHold(from.fit)) job.start.factor = result_.data.forward->Declared().factor;
       job.start.effects.push_back(start);
       std::sort(job.start.effects.begin(), job.start.effects.end(),
                 [](const auto& a, const auto& b) { return Place(a.spec) < Place(b.spec); });
@@ -242,15 +246,23 @@ class Search {
     return hopeful;
   }
 
-  // Takes the fits of sets of a size that come near the best one further.
+  // Takes the fits of sets of a size further that come near the best one, or are among the best and
+  // have not ended.
   void Refine(std::size_t size) {
     const Contender* best = BestOfSize(static_cast<int>(size));
     if (!best) return;
-    std::vector<Contender*> near;
+    const double reach =
+        std::max(kNear, kNearShare * std::max(0.0, Base().fit.bic - best->fit.bic));
+    std::vector<Contender*> sorted;
     for (Contender& contender : result_.contenders)
-      if (contender.effects.size() == size && contender.fit.Usable() &&
-          contender.fit.bic < best->fit.bic + kNear)
-        near.push_back(&contender);
+      if (contender.effects.size() == size && contender.fit.Usable()) sorted.push_back(&contender);
+    std::sort(sorted.begin(), sorted.end(),
+              [](const auto* a, const auto* b) { return a->fit.bic < b->fit.bic; });
+    std::vector<Contender*> near;
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+      const bool unfinished = k < kAlwaysOn && sorted[k]->fit.status == FitStatus::kIterationsSpent;
+      if (unfinished || sorted[k]->fit.bic < best->fit.bic + reach) near.push_back(sorted[k]);
+    }
     FitOptions further = fit_options_;
     further.function_tolerance = 0.01 * kScreening;
     further.iterations_max = 3 * kScreeningIterations;
@@ -322,26 +334,24 @@ class Search {
     std::vector<Job> jobs;
     for (const Set& seed : seeds)
       for (const Spec spec : BestLaws()) AddJobs(*Find(seed), spec, jobs);
-    const double from = size == 2 ? 0.4 : 0.7, to = from + 0.15;
-    RunJobs(jobs, from, to, size == 2 ? "pairs of effects" : "triples of effects");
-    TryOtherLaws(size, to);
+    const double from = size == 2 ? 0.4 : 0.7;
+    RunJobs(jobs, from, from + 0.2, size == 2 ? "pairs of effects" : "triples of effects");
   }
 
-  // The best set of a size with the other laws of its members: alone, beside what they lack, the
-  // wrong law may have been the better one.
-  void TryOtherLaws(int size, double share) {
-    const Contender* found = BestOfSize(size);
-    if (!found) return;
-    const Contender best = *found;
+  // The other laws of each member of the best set of a size: which law stands shows only once the
+  // other effects are there.
+  void TryLaws(int size) {
+    if (!BestOfSize(size)) return;
+    const Contender best = *BestOfSize(size);
     std::vector<Job> jobs;
     for (const Spec member : best.effects) {
       Contender rest = best;
       std::erase(rest.effects, member);
       rest.fit.state = StateOf(best, rest.effects);
-      for (const Spec other : NamedEffects())
-        if (other->id == member->id && other != member) AddJobs(rest, other, jobs);
+      for (const Spec spec : NamedEffects())
+        if (spec != member && spec->id == member->id) AddJobs(rest, spec, jobs);
     }
-    RunJobs(jobs, share, share + 0.05, "other laws");
+    RunJobs(jobs, 0.6, 0.7, "laws");
   }
 
   // Every set that differs from this one in one member. By value, here and in Finish: the
@@ -394,6 +404,8 @@ class Search {
     FitData data = result_.data;
     data.clocks = true;
     FitOptions options = fit_options_;
+    options.function_tolerance = 0.01 * kScreening;
+    options.iterations_max = 3 * kScreeningIterations;
     options.threads = options_.threads;
     const Fit with = FitModel(data, Of(set).fit.state, options);
     if (!with.Usable()) return kNever;
@@ -407,7 +419,7 @@ class Search {
     const bool rivalled = std::any_of(
         result_.contenders.begin(), result_.contenders.end(), [&](const Contender& other) {
           return other.effects.size() == from.effects.size() + 1 && other.fit.Usable() &&
-                 Contains(other, from) && other.fit.bic < bic + kClock;
+                 Contains(other, from) && other.fit.bic < bic;
         });
     return rivalled ? bic : kClocksAreAll;
   }

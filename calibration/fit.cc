@@ -6,7 +6,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+
+#include "calibration/whiteness.h"
 
 namespace plenum::calibration {
 namespace {
@@ -287,6 +290,14 @@ Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& opt
   fit.chi2_data = 2.0 * summary.final_cost - fit.chi2_prior;
   fit.bic = Bic(fit);
   return fit;
+}
+
+bool PriorsHold(const Fit& fit) {
+  const auto count = std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
+                                   [](const Coordinate& coordinate) { return coordinate.prior; });
+  if (count == 0) return true;
+  const boost::math::chi_squared law(static_cast<double>(count));
+  return fit.chi2_prior <= boost::math::quantile(boost::math::complement(law, kFalseAlarm));
 }
 
 Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options) {

@@ -62,6 +62,10 @@ struct Fit {
 // From the state: its effects and factors are the start.
 Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& options);
 
+// Whether the declared numbers are where their uncertainties let them be, but for a chance of
+// kFalseAlarm (whiteness.h): what is missing may hide in them and leave nothing but noise.
+bool PriorsHold(const Fit& fit);
+
 inline constexpr double kUnidentified = 0.9;
 
 // Of the coordinates u. Costs one evaluation.

@@ -14,6 +14,10 @@ inline constexpr double kAccept = 10.0;
 // evidence is positive, not strong (same source).
 inline constexpr double kTie = 6.0;
 
+// The same where the base model leaves noise alone: what is then named rests on how far the
+// declared numbers are from what was stated of them, and those statements are rough.
+inline constexpr double kTieInNoise = 10.0;
+
 // The runs' clocks are taken to be off where that lowers BIC by this much more than any effect in
 // their place does; the clocks count by how much of their prior the data exclude.
 inline constexpr double kClock = 10.0;

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <random>
 #include <string>
@@ -31,7 +34,9 @@ double LeakingKpa(double initial_kpa, double t_s) {
   return 2 * ambient_kpa * e / (1 - e);
 }
 
-Json LeakingChamber(int runs = 2) {
+// Closed chambers whose pressures follow `kpa_gauge`.
+Json ClosedChambers(int runs, double expansion_ratio, int samples, double interval_s,
+                    const std::function<double(int run, double t_s)>& kpa_gauge) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise_kpa(0.0, 0.1);
   Json document = {{"schema", "measurement/1"},
@@ -39,21 +44,25 @@ Json LeakingChamber(int runs = 2) {
                    {"rig",
                     {{"actuator",
                       {{"rest_volume_ml", 50.0},
-                       {"expansion_ratio", 1.0},
+                       {"expansion_ratio", expansion_ratio},
                        {"operating_pressure_kpa_gauge", 100.0}}},
                      {"supply", {{"kind", "none"}}}}}};
   for (int r = 0; r < runs; ++r) {
-    Json run = {{"id", "r" + std::to_string(r)}, {"blocked", true}};
+    Json run = {{"id", "r" + std::to_string(r)}, {"blocked", expansion_ratio == 1.0}};
     run["valve"] = Json::array({{{"t_s", 0.0}, {"state", "hold"}}});
-    for (int i = 0; i < 120; ++i) {
-      const double t_s = 0.25 * i;
-      run["t_s"].push_back(t_s);
-      run["pressure_kpa_gauge"].push_back(LeakingKpa(r % 2 == 0 ? 100.0 : 60.0, t_s) +
-                                          noise_kpa(random));
+    for (int i = 0; i < samples; ++i) {
+      run["t_s"].push_back(interval_s * i);
+      run["pressure_kpa_gauge"].push_back(kpa_gauge(r, interval_s * i) + noise_kpa(random));
     }
     document["runs"].push_back(std::move(run));
   }
   return document;
+}
+
+Json LeakingChamber(int runs = 2) {
+  return ClosedChambers(runs, 1.0, 120, 0.25, [](int run, double t_s) {
+    return LeakingKpa(run % 2 == 0 ? 100.0 : 60.0, t_s);
+  });
 }
 
 class Diagnoses : public testing::Test {
@@ -131,6 +140,52 @@ TEST_F(Diagnoses, FindsTheLeakSavesItAndPredictsWithIt) {
   EXPECT_EQ(again["verdict"], "adequate") << again["sentence"];
   EXPECT_TRUE(again["candidates"].empty());  // nothing was searched
   EXPECT_FALSE(again.contains("saved"));
+}
+
+// In a short hold a leak falls as creep does.
+TEST_F(Diagnoses, SaysWhatCannotBeToldApartAndWhichRunWouldTell) {
+  const Json document =
+      ClosedChambers(2, 2.0, 60, 0.05, [](int, double t_s) { return 100.0 - 0.45 * t_s; });
+  const Json result = Body(PostAndWait(document));
+  ASSERT_EQ(result["verdict"], "tie") << result["sentence"];
+  EXPECT_THAT(result["tied"], testing::Contains(Json::array({"leak"})));
+  EXPECT_GE(result["tied"].size(), 2u);
+  EXPECT_TRUE(result["effects"].empty());
+  EXPECT_FALSE(result["next_experiment"].is_null());
+}
+
+// A leak that opens above a pressure is none of the effects listed; the term that is learned is.
+TEST_F(Diagnoses, LearnsWhatNoEffectExplainsAndPredictsWithIt) {
+  const auto gaping = [](int run, double t_s) {
+    double kpa = std::array{100.0, 75.0, 50.0, 90.0}[static_cast<std::size_t>(run % 4)];
+    for (double t = 0.0; t < t_s; t += 0.01)
+      kpa -= 0.01 * 0.06 * kpa * std::clamp((kpa - 60.0) / 2.0, 0.0, 1.0);
+    return kpa;
+  };
+  Json document = ClosedChambers(4, 1.0, 80, 0.25, gaping);
+  document["save"] = "gaping";
+  const Json result = Body(PostAndWait(document));
+  ASSERT_EQ(result["verdict"], "unexplained") << result["sentence"];
+  EXPECT_TRUE(result["effects"].empty());
+  ASSERT_FALSE(result["discrepancy"]["learned"].is_null());
+  EXPECT_EQ(result["discrepancy"]["learned"]["id"], "learned_leak");
+  const double after_kpa = result["discrepancy"]["rms_after_kpa"];
+  EXPECT_LT(after_kpa, 0.3);
+  EXPECT_LT(after_kpa, 0.1 * result["discrepancy"]["rms_before_kpa"].get<double>());
+
+  document.erase("save");
+  document["model"] = "gaping";
+  const Json again = Body(PostAndWait(document));
+  EXPECT_NEAR(again["after"]["rms_kpa"].get<double>(), after_kpa, 0.05);
+}
+
+TEST_F(Diagnoses, OutOfTimeNamesNothing) {
+  Json document = LeakingChamber(200);
+  document["time_limit_s"] = 0.1;
+  const Json result = Body(PostAndWait(document));
+  EXPECT_EQ(result["verdict"], "undecided");
+  EXPECT_TRUE(result["effects"].empty());
+  EXPECT_TRUE(result["tied"].empty());
 }
 
 TEST_F(Diagnoses, CanBeFollowedAndPolled) {
