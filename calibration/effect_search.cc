@@ -76,9 +76,11 @@ class Search {
   SearchResult Run() {
     std::optional<std::size_t> chosen = Grow();
     if (!chosen) {  // again, with each run's clock fitted
+      const SearchResult without = result_;
       result_.data.clocks = true;
       result_.contenders.clear();
       chosen = Grow();
+      if (Cancelled()) result_ = without, chosen = 0;
     }
     if (Of(*chosen).effects.size() > 1u && LeftShare(Of(*chosen)) < kEstablished && !Cancelled()) {
       const int size = static_cast<int>(Of(*chosen).effects.size());
