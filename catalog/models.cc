@@ -50,6 +50,14 @@ std::optional<ModelRevision> ReadModel(SQLite::Database& db, const std::string& 
   return std::nullopt;
 }
 
+std::optional<ModelRevision> FindDocument(SQLite::Database& db, const std::string& name,
+                                          const std::string& document) {
+  const std::string hash = Sha256(document);
+  for (ModelRevision& model : ReadVersions(db, name))
+    if (model.hash == hash) return std::move(model);
+  return std::nullopt;
+}
+
 ModelRevision InsertModel(SQLite::Database& db, const std::string& name,
                           const std::string& document, const std::string& who) {
   const std::string hash = Sha256(document);

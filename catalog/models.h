@@ -22,6 +22,9 @@ std::optional<ModelRevision> ReadModel(SQLite::Database& db, const std::string& 
 // Adds the document as the next version of the name; the newest if it holds the same document.
 ModelRevision InsertModel(SQLite::Database& db, const std::string& name,
                           const std::string& document, const std::string& who);
+// The newest version of the name that holds the document.
+std::optional<ModelRevision> FindDocument(SQLite::Database& db, const std::string& name,
+                                          const std::string& document);
 // Faults in what is stored.
 std::vector<std::string> CheckModels(SQLite::Database& db);
 

@@ -258,9 +258,20 @@ std::optional<ModelRevision> Store::FindModel(const std::string& name,
 
 ModelRevision Store::SaveModel(const std::string& name, const std::string& document,
                                const std::string& who) {
-  return impl_->Do([&](SQLite::Database& db) {
+  return SaveModel(name, document, Signature{who, {}, {}}).value();
+}
+
+std::optional<ModelRevision> Store::SaveModel(const std::string& name, const std::string& document,
+                                              const Signature& by) {
+  return impl_->Do([&](SQLite::Database& db) -> std::optional<ModelRevision> {
     SQLite::Transaction transaction(db, SQLite::TransactionBehavior::IMMEDIATE);
-    ModelRevision saved = InsertModel(db, name, document, who);
+    if (const auto kept = by.key.empty() ? std::nullopt : FindKey(db, by.key))
+      return kept->request == by.request ? FindDocument(db, name, document) : std::nullopt;
+    ModelRevision saved = InsertModel(db, name, document, by.who);
+    if (!by.key.empty()) {
+      const std::int64_t head = catalog::Head(db).number;  // which models do not change
+      KeepKey(db, by, head, head);
+    }
     transaction.commit();
     return saved;
   });

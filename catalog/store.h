@@ -118,6 +118,10 @@ class Store {
                                          std::optional<std::int64_t> version = {}) const;
   ModelRevision SaveModel(const std::string& name, const std::string& document,
                           const std::string& who);
+  // Once for the signature's key: repeated, it gives the newest version that holds the document.
+  // None: the key stands for another request.
+  std::optional<ModelRevision> SaveModel(const std::string& name, const std::string& document,
+                                         const Signature& by);
 
   // Replaces all seed rows by `parts` (origin set to "seed"); rows of users stay. All or nothing.
   // A user's row with the id of a seed row keeps its place and the seed row is left out.

@@ -373,9 +373,10 @@ void CustomSizing::Polish() {
   nlp.high = {1.0, 1.0};
   if (!(window.high_pa > window.low_pa) || !(nlp.low[1] < 1.0)) return;
   nlp.start = {(leaf_.point.source_pa - window.low_pa) / (window.high_pa - window.low_pa), 1.0};
-  nlp.constraints = static_cast<int>(
-      SolverMargins(problem_, candidate_, leaf_.point, Evaluate(problem_, candidate_, leaf_.point))
-          .size());
+  const Evaluation start = Evaluate(problem_, candidate_, leaf_.point);
+  if (!start.works) return;  // the time is up: there are no margins to count
+  nlp.constraints =
+      static_cast<int>(SolverMargins(problem_, candidate_, leaf_.point, start).size());
   nlp.evaluate = [&](const std::vector<double>& x, NlpValues& values) {
     const OperatingPoint point = point_at(x);
     const Evaluation evaluation = Evaluate(problem_, candidate_, point);

@@ -52,8 +52,8 @@ Reply SaveModel(SharedCatalog& catalog, const Call& call) {
   if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
   const std::string text = Dump(api::RenderModel(std::get<api::SavedModel>(model)));
   return catalog.With([&](catalog::Store& store) {
-    const auto saved = store.SaveModel(name, text, std::get<catalog::Signature>(signature).who);
-    return JsonReply(201, api::RenderModelRevision(saved, true));
+    const auto saved = store.SaveModel(name, text, std::get<catalog::Signature>(signature));
+    return saved ? JsonReply(201, api::RenderModelRevision(*saved, true)) : KeyReused();
   });
 }
 

@@ -18,6 +18,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
@@ -57,14 +58,24 @@ def job(number, port, folder):
     body = json.loads(answer.read())
     over = time.monotonic() - start - limit
     connection.close()
-    what = f"{document['name']} {document['objective']} {[p for p in PARTS if p in document]}"
+    what = f"{number} {document['name']} {document['objective']} {[p for p in PARTS if p in document]}"
     if answer.status != 200:
         return over, limit, what, f"{answer.status} {body}", ""
-    # What verify can judge: a list of one objective.
+    # What verify can judge: a list by one objective.
     wrong = ""
-    if number % 10 == 0 and body.get("designs") and "pareto" not in document["objective"]:
+    if number % 10 == 0 and body.get("designs") and "pareto" not in document["objective"] \
+            and "robust" not in document:
         wrong = verified(number, body, folder)
     return over, limit, what, body["status"] + ("" if body.get("designs") else " without designs"), wrong
+
+
+def attempt(number, port, folder):
+    """What job gives, or nothing where the service is gone."""
+    try:
+        return job(number, port, folder)
+    except (http.client.RemoteDisconnected, OSError) as error:
+        print(f"no answer to {number}: {error}: {json.dumps(request(number))}", flush=True)
+        return None
 
 
 def main():
@@ -74,9 +85,14 @@ def main():
     server = subprocess.Popen([PLENUM, "serve", "--port", "0"], cwd=folder, stderr=subprocess.PIPE,
                               text=True)
     port = int(server.stderr.readline().rsplit(":", 1)[1].rstrip("/\n"))
+    log = []
+    threading.Thread(target=lambda: log.extend(server.stderr), daemon=True).start()
     overs, statuses, late, wrong = [], {}, 0, 0
     with concurrent.futures.ThreadPoolExecutor(CLIENTS) as pool:
-        for over, limit, what, status, fault in pool.map(lambda n: job(n, port, folder), range(JOBS)):
+        for answered in pool.map(lambda n: attempt(n, port, folder), range(JOBS)):
+            if answered is None:
+                sys.exit(f"the service ended with {server.wait()}: {''.join(log[-5:])}")
+            over, limit, what, status, fault = answered
             overs.append(over)
             statuses[status] = statuses.get(status, 0) + 1
             if over > 0.25:

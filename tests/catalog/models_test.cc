@@ -40,6 +40,19 @@ TEST_F(Models, SavingANameAgainAddsAVersion) {
   EXPECT_THAT(store.Check(), IsEmpty());
 }
 
+TEST_F(Models, AKeySavesOnce) {
+  Store store = Write();
+  const Signature once{"ann", "k", "digest"};
+  const auto first = store.SaveModel("bench", "{}", once);
+  EXPECT_EQ(first->who, "ann");
+  store.SaveModel("bench", "[]", "bob");
+  EXPECT_EQ(store.SaveModel("bench", "{}", once), first);  // not a step back to it
+  EXPECT_EQ(store.FindModel("bench")->document, "[]");
+  EXPECT_FALSE(store.SaveModel("bench", "{}", Signature{"ann", "k", "another"}));
+  EXPECT_EQ(store.ModelVersions("bench").size(), 2u);
+  EXPECT_EQ(store.Head().number, 0);
+}
+
 TEST_F(Models, TheSameDocumentIsNoNewVersion) {
   Store store = Write();
   const ModelRevision first = store.SaveModel("bench", "{}", "ann");

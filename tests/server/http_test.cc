@@ -445,7 +445,13 @@ TEST_F(Http, SavesAModelThatThenRanks) {
   EXPECT_EQ(Body(saved)["version"], 1);
   EXPECT_EQ(Body(saved)["model"]["effects"][0]["id"], "creep");
   EXPECT_EQ(Body(client_->Get("/v1/models"))["models"][0]["name"], "bench-creep");
-  // The same again is the same version.
+  // The same again is the same version, also with a key.
+  for (int i = 0; i < 2; ++i)
+    EXPECT_EQ(Body(client_->Post("/v1/models", {{"Idempotency-Key", "k"}}, request.dump(),
+                                 kJson))["version"],
+              1);
+  ExpectProblem(client_->Post("/v1/models", {{"Idempotency-Key", "k"}}, request.dump(1), kJson),
+                422);
   EXPECT_EQ(Body(client_->Post("/v1/models", request.dump(), kJson))["version"], 1);
 
   Json requirements = Exosuit(1.0);
