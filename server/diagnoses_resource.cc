@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "api/diagnose.h"
+#include "api/limits.h"
 #include "api/reader.h"
 #include "server/job_inputs.h"
 #include "server/signature.h"
@@ -121,8 +122,12 @@ Work DiagnosisWork(SharedCatalog& catalog) {
                       {"share", api::Number(share)},
                       {"doing", doing}});
     };
+    const auto cancelled = [&] {
+      return control.cancelled() ||
+             Clock::now() - start > std::chrono::seconds(api::kDiagnosisSecondsMax);
+    };
     auto diagnosis =
-        api::RunDiagnosis(request.diagnosis, {.cancelled = control.cancelled, .progress = report});
+        api::RunDiagnosis(request.diagnosis, {.cancelled = cancelled, .progress = report});
     if (!request.save.empty())
       Save(catalog, request.save, order.by.who, diagnosis.revision, diagnosis.answer);
     return std::move(diagnosis.answer);

@@ -1,5 +1,7 @@
 #include "server/jobs.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -10,6 +12,8 @@
 
 namespace plenum::server {
 namespace {
+
+constexpr int kNiceness = 10;
 
 // 64 random bits.
 std::string RandomId() {
@@ -221,6 +225,8 @@ void Jobs::Stop() {
 bool Jobs::Stopping() const { return stopping_; }
 
 void Jobs::WorkLoop() {
+  // Requests go first: on Linux the niceness is that of the thread.
+  setpriority(PRIO_PROCESS, 0, kNiceness);
   for (;;) {
     EntryPtr entry;
     {

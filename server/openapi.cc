@@ -64,7 +64,7 @@ const std::map<std::string, Operation>& Operations() {
       {"GET /v1/revisions/{id}", {{}, "", {{200, "RevisionWithChanges"}}, {404}}},
       {"POST /v1/revisions/{id}/undo", {kWrite, "", {{200, "Undone"}}, {404, 409, 422}}},
       {"GET /v1/models", {{}, "", {{200, "Models"}}, {}}},
-      {"POST /v1/models", {{"From"}, "NamedModel", {{201, "ModelRevision"}}, {400, 422}}},
+      {"POST /v1/models", {kWrite, "NamedModel", {{201, "ModelRevision"}}, {400, 422}}},
       {"GET /v1/models/{id}", {{}, "", {{200, "ModelVersions"}}, {404}}},
       {"GET /v1", {{}, "", {{200, "RouteTable"}}, {}}},
       {"GET /healthz", {{}, "", {{200, "Health"}}, {}}},
