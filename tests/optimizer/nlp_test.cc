@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <string>
+#include <thread>
 
 namespace plenum::optimizer {
 namespace {
@@ -84,6 +85,17 @@ void ExpectSolved(const NlpResult& result, const std::vector<double>& answer,
 TEST(NlpTest, IpoptSolvesTheZoo) {
   for (const Sample& sample : Zoo())
     ExpectSolved(SolveWithIpopt(sample.nlp), sample.answer, sample.name);
+}
+
+// As jobs of a service do.
+TEST(NlpTest, IpoptSolvesTheZooOnSeveralThreadsAtOnce) {
+  std::vector<std::jthread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([] {
+      for (int round = 0; round < 20; ++round)
+        for (const Sample& sample : Zoo())
+          ExpectSolved(SolveWithIpopt(sample.nlp), sample.answer, sample.name);
+    });
 }
 
 TEST(NlpTest, NloptSolvesTheZoo) {
