@@ -1,7 +1,6 @@
 #include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 
@@ -10,7 +9,6 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr std::chrono::milliseconds kAskEvery{2};  // whether to stop while another thread solves
 constexpr double kIpoptInfinity = 2e19;
 
 // Ipopt's view of an Nlp. Values and derivatives of one point are computed once each and shared by
@@ -123,13 +121,11 @@ class IpoptProblem : public Ipopt::TNLP {
 }  // namespace
 
 NlpResult SolveWithIpopt(const Nlp& nlp) {
+  // The linear solver beneath Ipopt (MUMPS) keeps its state in globals: two threads in it at a time
+  // end the process.
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   NlpResult result;
-  // MUMPS, which factorises Ipopt's matrices, keeps its state in variables of the whole process:
-  // two problems at once end it. So threads take turns, from making the solver to its destruction.
-  static std::timed_mutex one_at_a_time;
-  std::unique_lock turn(one_at_a_time, std::defer_lock);
-  while (!turn.try_lock_for(kAskEvery))
-    if (nlp.stop && nlp.stop()) return result;
   Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
   application->Options()->SetIntegerValue("print_level", 0);
   application->Options()->SetStringValue("sb", "yes");

@@ -87,15 +87,16 @@ TEST(NlpTest, IpoptSolvesTheZoo) {
     ExpectSolved(SolveWithIpopt(sample.nlp), sample.answer, sample.name);
 }
 
-// As jobs of a service do.
-TEST(NlpTest, IpoptSolvesTheZooOnSeveralThreadsAtOnce) {
-  std::vector<std::jthread> threads;
+// As when several jobs of a service size their reservoirs.
+TEST(NlpTest, IpoptSolvesTheZooInManyThreadsAtATime) {
+  std::vector<std::thread> threads;
   for (int i = 0; i < 4; ++i)
     threads.emplace_back([] {
       for (int round = 0; round < 20; ++round)
         for (const Sample& sample : Zoo())
           ExpectSolved(SolveWithIpopt(sample.nlp), sample.answer, sample.name);
     });
+  for (std::thread& thread : threads) thread.join();
 }
 
 TEST(NlpTest, NloptSolvesTheZoo) {
