@@ -56,7 +56,10 @@ async function tasksDuring(page, act) {
   await complete;
   const main = events.filter((e) => e.name === 'thread_name' && e.args.name === 'CrRendererMain');
   const tasks = events.filter(
-    (e) => e.name.endsWith('RunTask') && main.some((m) => m.pid === e.pid && m.tid === e.tid),
+    (e) =>
+      e.name.endsWith('RunTask') &&
+      e.dur !== undefined &&
+      main.some((m) => m.pid === e.pid && m.tid === e.tid),
   );
   assert.ok(tasks.length > 100, `${tasks.length} tasks`);
   return tasks.map(({ dur, tdur }) => ({ wall: dur / 1000, own: (tdur ?? dur) / 1000 }));
