@@ -1,0 +1,138 @@
+#include "calibration/errors.h"
+
+#include <limits>
+
+#include "calibration/criticism.h"
+#include "calibration/residual.h"
+
+namespace plenum::calibration {
+namespace {
+
+constexpr std::size_t kReportSteps = 20'000;  // when there is no time left
+
+}  // namespace
+
+bool Stopped(const Bench& bench) { return bench.tight.cancelled && bench.tight.cancelled(); }
+
+Reading Shown(const Bench& bench, const ModelState& state, std::size_t run) {
+  FitOptions options = bench.tight;
+  options.cancelled = nullptr;
+  if (Stopped(bench)) options.steps_max = kReportSteps;
+  return Predicted(bench.data, state, run, options);
+}
+
+bool HeldOut(const Bench& bench, std::size_t run) {
+  const std::string& id = bench.dataset.runs[run].id;
+  return std::find(bench.dataset.holdout.begin(), bench.dataset.holdout.end(), id) !=
+         bench.dataset.holdout.end();
+}
+
+Squares ErrorsOf(const Bench& bench, std::size_t run, const ModelState& state) {
+  const Reading reading = Shown(bench, state, run);
+  Squares squares;
+  if (reading.pressure_pa.empty()) {
+    squares.Add(std::numeric_limits<double>::max());
+    return squares;
+  }
+  for (const double r : PressureResidual(bench.dataset.runs[run], bench.observed[run], reading))
+    squares.Add(r);
+  return squares;
+}
+
+ErrorReport ErrorOf(const Bench& bench, const ModelState& state) {
+  ErrorReport report;
+  Squares fitted, held_out;
+  for (std::size_t i = 0; i < bench.dataset.runs.size(); ++i) {
+    const Squares squares =
+        HeldOut(bench, i) ? ErrorsUnseen(bench, i, state) : ErrorsOf(bench, i, state);
+    report.run_rms_pa.emplace_back(bench.dataset.runs[i].id, squares.Rms());
+    (HeldOut(bench, i) ? held_out : fitted).Add(squares);
+  }
+  const model::Chamber& chamber = bench.dataset.runs.front().chamber;
+  report.rms_pa = fitted.Rms();
+  report.peak_pa = fitted.peak;
+  report.rms_share = report.rms_pa / (chamber.operating_pressure_pa - chamber.ambient_pressure_pa);
+  if (held_out.count > 0) report.holdout_rms_pa = held_out.Rms();
+  return report;
+}
+
+Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& state) {
+  FitData data = bench.data;
+  data.runs = {run};
+  FitOptions options = bench.tight;
+  options.nuisance_only = true;
+  const Fit aligned = FitModel(data, state, options);
+  return ErrorsOf(bench, run, aligned.Usable() ? aligned.state : state);
+}
+
+double NoiseOf(const Bench& bench, const std::vector<std::size_t>& runs) {
+  double sum = 0.0, count = 0.0;
+  for (const std::size_t i : runs) {
+    const ObservedSignal& pressure = bench.observed[i].signals.front();
+    const double samples = static_cast<double>(pressure.samples.size());
+    sum += samples * pressure.sigma * pressure.sigma;
+    count += samples;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+std::optional<double> LeaveOneOut(const Bench& bench, const Fit& fit) {
+  if (bench.data.runs.size() < 2) return std::nullopt;
+  Squares squares;
+  for (const std::size_t left_out : bench.data.runs) {
+    FitData data = bench.data;
+    std::erase(data.runs, left_out);
+    FitOptions options = bench.tight;
+    options.noise_share = 1e-2;
+    ModelState start = fit.state;
+    const ModelState declared = bench.forward.Declared();
+    start.initial_pressure_pa[left_out] = declared.initial_pressure_pa[left_out];
+    start.initial_temperature_k[left_out] = declared.initial_temperature_k[left_out];
+    start.clock_s[left_out] = 0.0;
+    const Fit without = FitModel(data, start, options);
+    if (!without.Usable()) return std::nullopt;
+    squares.Add(ErrorsUnseen(bench, left_out, without.state));
+  }
+  return squares.Rms();
+}
+
+Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
+  Leftover leftover;
+  if (!fit.Usable()) return leftover;
+  std::vector<FittedRun> runs;
+  Squares squares;
+  for (const std::size_t i : bench.data.runs) {
+    const Reading reading = Shown(bench, fit.state, i);
+    if (reading.pressure_pa.empty()) return leftover;
+    runs.push_back({&bench.dataset.runs[i], reading.pressure_pa, bench.observed[i].noise});
+    for (const double r : PressureResidual(bench.dataset.runs[i], bench.observed[i], reading))
+      squares.Add(r);
+  }
+  leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()));
+  leftover.rms_pa = squares.Rms();
+  leftover.noise_pa = NoiseOf(bench, bench.data.runs);
+  if (IsNoise(leftover)) leftover.learnable_bic = LearnableGain(bench.data, fit, bench.tight);
+  if (!with_holdout) return leftover;
+  if (bench.held_out.empty()) {
+    leftover.holdout_rms_pa = LeaveOneOut(bench, fit);
+    leftover.holdout_noise_pa = leftover.noise_pa;
+  } else {
+    Squares held_out;
+    for (const std::size_t i : bench.held_out) held_out.Add(ErrorsUnseen(bench, i, fit.state));
+    leftover.holdout_rms_pa = held_out.Rms();
+    leftover.holdout_noise_pa = NoiseOf(bench, bench.held_out);
+  }
+  return leftover;
+}
+
+std::vector<std::vector<double>> WhitenedOf(const Bench& bench, const Fit& fit) {
+  std::vector<std::vector<double>> series;
+  for (const std::size_t i : bench.data.runs) {
+    std::vector<double>& rows = series.emplace_back(bench.observed[i].rows());
+    Residuals(bench.dataset.runs[i], bench.observed[i], Shown(bench, fit.state, i), rows);
+    rows.resize(bench.observed[i].signals.front().samples.size());
+  }
+  return series;
+}
+
+}  // namespace plenum::calibration

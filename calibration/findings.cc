@@ -1,0 +1,169 @@
+#include "calibration/findings.h"
+
+#include <limits>
+
+#include "calibration/phases.h"
+
+namespace plenum::calibration {
+namespace {
+
+constexpr std::size_t kCandidatesShown = 30;
+constexpr std::size_t kFinalists = 5;  // whose held-out error is found by leaving out each run
+
+std::string TitleOf(const model::EffectSpec& spec) {
+  return spec.law.empty() ? std::string(spec.id)
+                          : std::string(spec.id) + ":" + std::string(spec.law);
+}
+
+}  // namespace
+
+std::vector<std::string> IdsOf(const Contender& contender) {
+  std::vector<std::string> ids;
+  for (const model::EffectSpec* spec : contender.effects) ids.emplace_back(spec->id);
+  return ids;
+}
+
+void AddEstimates(const Bench& bench, const Fit& fit, Diagnosis& diagnosis) {
+  FitOptions options = bench.tight;
+  options.cancelled = nullptr;  // one evaluation
+  const Eigen::MatrixXd covariance = Covariance(bench.data, fit, options);
+  const std::vector<Estimate> estimates = Intervals(fit, covariance);
+  std::vector<std::size_t> effects, fitted;  // which coordinates
+  for (const model::Effect& effect : fit.state.effects)
+    diagnosis.effects.push_back({effect, std::vector<Estimate>(effect.parameters.size())});
+  for (std::size_t j = 0; j < estimates.size(); ++j) {
+    const Parameter& parameter = fit.coordinates[j].parameter;
+    if (parameter.kind == Parameter::Kind::kEffect) {
+      diagnosis.effects[parameter.effect].parameters[parameter.number] = estimates[j];
+      effects.push_back(j);
+    }
+    if (parameter.kind == Parameter::Kind::kDeclared) {
+      diagnosis.fitted.emplace_back(parameter.declared, estimates[j]);
+      fitted.push_back(j);
+    }
+  }
+  std::vector<std::size_t> shown = effects;
+  shown.insert(shown.end(), fitted.begin(), fitted.end());
+  const auto slope = [&](std::size_t j) {
+    return fit.coordinates[j].Slope(fit.u[static_cast<Eigen::Index>(j)]);
+  };
+  for (const std::size_t i : shown) {
+    std::vector<double>& row = diagnosis.covariance.emplace_back();
+    for (const std::size_t j : shown)
+      row.push_back(slope(i) * slope(j) *
+                    covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+  }
+}
+
+void AddCandidates(const Bench& bench, const SearchResult& search, Diagnosis& diagnosis) {
+  const double best = search.contenders.front().fit.bic;
+  for (std::size_t i = 0; i < search.contenders.size(); ++i) {
+    const Contender& contender = search.contenders[i];
+    const std::size_t shown = Stopped(bench) ? kFinalists : kCandidatesShown;
+    if (i >= shown && i != search.base) continue;
+    Candidate candidate;
+    for (const model::EffectSpec* spec : contender.effects)
+      candidate.effects.push_back(TitleOf(*spec));
+    candidate.bic = contender.fit.bic;
+    candidate.delta_bic = contender.fit.bic - best;
+    candidate.converged = contender.fit.status == FitStatus::kConverged;
+    candidate.starts = contender.starts;
+    candidate.found_again = contender.found_again;
+    candidate.parameters = static_cast<int>(contender.fit.coordinates.size());
+    if (contender.fit.Usable()) {
+      Squares fitted, held_out;
+      for (const std::size_t run : bench.data.runs)
+        fitted.Add(ErrorsOf(bench, run, contender.fit.state));
+      for (const std::size_t run : bench.held_out)
+        if (!Stopped(bench)) held_out.Add(ErrorsUnseen(bench, run, contender.fit.state));
+      candidate.rms_pa = fitted.Rms();
+      if (bench.held_out.empty() && i < kFinalists && !Stopped(bench))
+        candidate.holdout_rms_pa = LeaveOneOut(bench, contender.fit);
+      else if (held_out.count > 0 && !Stopped(bench))
+        candidate.holdout_rms_pa = held_out.Rms();
+    }
+    diagnosis.candidates.push_back(std::move(candidate));
+  }
+}
+
+void AddSeries(const Bench& bench, const ModelState& before, const ModelState& after,
+               Diagnosis& diagnosis) {
+  for (std::size_t i = 0; i < bench.dataset.runs.size(); ++i) {
+    const Run& run = bench.dataset.runs[i];
+    Series series;
+    series.run = run.id;
+    series.held_out = HeldOut(bench, i);
+    series.t_s = run.t_s;
+    series.measured_pa = run.pressure_pa;
+    const std::vector<PhaseSpan> phases = PhasesOf(run);
+    for (const double t_s : run.t_s) series.phase.push_back(phases[PhaseAt(phases, t_s)].phase);
+    const auto predict = [&](const ModelState& state) {
+      std::vector<double> pressure_pa = Shown(bench, state, i).pressure_pa;
+      pressure_pa.resize(run.t_s.size(), std::numeric_limits<double>::quiet_NaN());
+      return pressure_pa;
+    };
+    series.declared_pa = predict(bench.forward.Declared());
+    series.before_pa = predict(before);
+    series.after_pa = predict(after);
+    diagnosis.series.push_back(std::move(series));
+  }
+}
+
+void AddWarnings(const Bench& bench, Diagnosis& diagnosis) {
+  std::size_t outliers = 0, clipped = 0, staircases = 0;
+  for (const ObservedRun& run : bench.observed) {
+    outliers += run.noise.outliers.size();
+    clipped += run.noise.clipped.size();
+    staircases += run.noise.staircase;
+  }
+  std::vector<std::string>& warnings = diagnosis.warnings;
+  if (outliers > 0) warnings.push_back(std::to_string(outliers) + " wild readings were left out");
+  if (clipped > 0)
+    warnings.push_back(std::to_string(clipped) +
+                       " readings at an end of the sensor's range were left out");
+  if (staircases > 0)
+    warnings.push_back("the readings' steps are coarser than their noise in " +
+                       std::to_string(staircases) + " runs");
+  if (bench.data.clocks)
+    warnings.push_back(
+        "the clocks of readings and valve are off by a part of a sample; each run's was fitted");
+  for (const FittedEffect& effect : diagnosis.effects) {
+    if (effect.effect.spec->id == "dead_volume")
+      warnings.push_back(
+          "dead_volume differs from a larger rest_volume only by the declared uncertainties");
+  }
+}
+
+std::string Sentence(const Bench& bench, const SearchResult& search, const Diagnosis& diagnosis) {
+  const auto list = [](const std::vector<std::string>& ids) {
+    std::string text;
+    for (const std::string& id : ids) text += (text.empty() ? "" : " + ") + id;
+    return text;
+  };
+  std::string either;
+  for (const auto& ids : diagnosis.tied) either += (either.empty() ? "" : " or ") + list(ids);
+  switch (diagnosis.verdict) {
+    case Verdict::kAdequate:
+      return "The model is good enough: after its uncertain numbers were fitted, only noise is "
+             "left.";
+    case Verdict::kExplained:
+      return "The model lacks " + list(IdsOf(search.contenders[search.chosen])) +
+             "; with it, only noise is left.";
+    case Verdict::kTie:
+      return "The data cannot tell which is missing: " + either + ".";
+    case Verdict::kUnexplained:
+      if (!diagnosis.tied.empty())
+        return "The data cannot tell which is missing: " + either +
+               "; and structure is left that no known effect accounts for.";
+      return diagnosis.effects.empty()
+                 ? "Structure is left that no known effect accounts for."
+                 : "The model lacks " + list(IdsOf(search.contenders[search.chosen])) +
+                       ", but structure is left that no known effect accounts for.";
+    case Verdict::kUndecided:
+      break;
+  }
+  return Stopped(bench) ? "Undecided: the search was stopped before its end."
+                        : "Undecided: a fit that matters failed.";
+}
+
+}  // namespace plenum::calibration
