@@ -132,8 +132,8 @@ std::array<double, 4> SplitKeys(const BottleCorner& c) {
 }
 
 std::array<double, 5> SplitKeys(const CompressorCorner& c) {
-  return {Log(c.objective), Log(1.0 / c.pump.seconds_per_m3[kCoarseCells / 4]),
-          0.5 * Log(c.pump.energy_j_per_m3[kCoarseCells / 4]), Log(c.duty_max),
+  return {Log(c.objective), Log(1.0 / c.pump.seconds_per_m3[kCoarseCells / 2]),
+          0.5 * Log(c.pump.energy_j_per_m3[kCoarseCells / 2]), Log(c.duty_max),
           Log(c.pressure_max_pa)};
 }
 
