@@ -54,7 +54,7 @@ const truths = {
   },
   tie: {
     effects: [
-      { id: 'leak', parameters: { sonic_conductance_dm3_per_s_bar: 0.0008, critical_ratio: 0.3 } },
+      { id: 'leak', parameters: { sonic_conductance_dm3_per_s_bar: 0.001, critical_ratio: 0.3 } },
     ],
     relative_uncertainty: { critical_ratio: 0.03 },
     runs: [
