@@ -7,6 +7,7 @@
 
 #include "optimizer/box.h"
 #include "optimizer/custom_sizing.h"
+#include "optimizer/queue.h"
 #include "optimizer/report.h"
 
 namespace plenum::optimizer {
@@ -50,12 +51,12 @@ class Walker {
     Plant();
     while (!open_.empty() && !Stopped()) {
       Report();
-      Step(Pop());
+      Step(open_.Pop());
     }
     if (!planted_)
       LeaveOpen(0.0);
     else if (!open_.empty())
-      LeaveOpen(open_.front()->key);
+      LeaveOpen(open_.top()->key);
     walk_.cancelled = cancelled_;
     return std::move(walk_);
   }
@@ -89,15 +90,7 @@ class Walker {
     node->key = key;
     node->limit = limit_;
     node->serial = serial_++;
-    open_.push_back(std::move(node));
-    std::push_heap(open_.begin(), open_.end(), LowestKey());
-  }
-
-  NodePtr Pop() {
-    std::pop_heap(open_.begin(), open_.end(), LowestKey());
-    NodePtr node = std::move(open_.back());
-    open_.pop_back();
-    return node;
+    open_.Push(std::move(node));
   }
 
   void Keep(NodePtr node, Constraint missed) {
@@ -206,7 +199,7 @@ class Walker {
     Progress progress;
     progress.seconds = seconds;
     progress.open = static_cast<long long>(open_.size());
-    progress.lower_bound = open_.front()->key;
+    progress.lower_bound = open_.top()->key;
     options_.progress(progress);
   }
 
@@ -219,7 +212,7 @@ class Walker {
   Workbench bench_;
   std::vector<std::unique_ptr<Plan>> plans_;
   std::vector<std::unique_ptr<Bounds>> bounds_;
-  std::vector<NodePtr> open_;  // a heap
+  Queue<NodePtr, LowestKey> open_;
   FrontWalk walk_;
   long long serial_ = 0;
   double reported_s_ = 0.0;

@@ -16,6 +16,7 @@
 #include "optimizer/dive.h"
 #include "optimizer/effect_strokes.h"
 #include "optimizer/problem.h"
+#include "optimizer/queue.h"
 #include "optimizer/ranking.h"
 #include "optimizer/recorder.h"
 #include "optimizer/report.h"
@@ -55,29 +56,6 @@ struct EarliestIdsFirst {
   bool operator()(const NodePtr& a, const NodePtr& b) const {
     return a->earliest != b->earliest ? a->earliest > b->earliest : a->serial < b->serial;
   }
-};
-
-// A heap whose top can be taken out.
-template <typename First>
-class Queue {
- public:
-  bool empty() const { return nodes_.empty(); }
-  std::size_t size() const { return nodes_.size(); }
-  const NodePtr& top() const { return nodes_.front(); }
-  const std::vector<NodePtr>& nodes() const { return nodes_; }
-  void Push(NodePtr node) {
-    nodes_.push_back(std::move(node));
-    std::push_heap(nodes_.begin(), nodes_.end(), First());
-  }
-  NodePtr Pop() {
-    std::pop_heap(nodes_.begin(), nodes_.end(), First());
-    NodePtr node = std::move(nodes_.back());
-    nodes_.pop_back();
-    return node;
-  }
-
- private:
-  std::vector<NodePtr> nodes_;
 };
 
 // Where the objective is one of the limited amounts alone, its limit bounds the objective.
@@ -343,7 +321,7 @@ class BoxSearch {
   // Boxes that are still open are closed by their bound; the least of these, or +∞.
   double CloseRest() {
     double least = kUnlimited;
-    for (const NodePtr& node : open_.nodes()) {
+    for (const NodePtr& node : open_.items()) {
       const double bound = node->box.bound;
       const bool over = bound > objective_limit_;
       (over ? proof_.pruned.infeasible : proof_.pruned.bound) += node->bounds->Count(node->box);
@@ -399,8 +377,8 @@ class BoxSearch {
   double objective_limit_;  // a bound above it breaks a limit
   std::vector<std::unique_ptr<Plan>> plans_;
   std::vector<std::unique_ptr<Bounds>> bounds_;
-  Queue<LowestBound> open_;
-  Queue<EarliestIdsFirst> ties_;
+  Queue<NodePtr, LowestBound> open_;
+  Queue<NodePtr, EarliestIdsFirst> ties_;
   bool ordering_ties_ = false;
   Ranking ranking_;
   Recorder recorder_;
