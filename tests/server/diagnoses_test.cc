@@ -43,6 +43,7 @@ Json ClosedChambers(int runs, double expansion_ratio, int samples, double interv
   std::normal_distribution<double> noise_kpa(0.0, 0.1);
   Json document = {{"schema", "measurement/1"},
                    {"name", "closed chamber"},
+                   {"time_limit_s", 600},  // sanitizers are slow
                    {"rig",
                     {{"actuator",
                       {{"rest_volume_ml", 50.0},
@@ -78,7 +79,7 @@ class Diagnoses : public testing::Test {
     service_ = std::make_unique<HttpService>(options);
     thread_ = std::thread([this] { service_->Run(); });
     client_ = std::make_unique<httplib::Client>("127.0.0.1", service_->port());
-    client_->set_read_timeout(120);
+    client_->set_read_timeout(320);
   }
   ~Diagnoses() override {
     client_.reset();
@@ -91,7 +92,7 @@ class Diagnoses : public testing::Test {
     return client_->Post(kPath, headers, document.dump(), kJson);
   }
   httplib::Result PostAndWait(const Json& document) {
-    return Post(document, {{"Prefer", "wait=100"}, {"From", "bench"}});
+    return Post(document, {{"Prefer", "wait=300"}, {"From", "bench"}});
   }
   // The events of a job until it has ended.
   std::string Events(const std::string& job) {
@@ -119,7 +120,7 @@ TEST_F(Diagnoses, FindsTheLeakSavesItAndPredictsWithIt) {
   document["save"] = "leaky";
   const auto found = PostAndWait(document);
   ASSERT_EQ(found->status, 200) << found->body;
-  EXPECT_EQ(found->get_header_value("Preference-Applied"), "wait=100");
+  EXPECT_EQ(found->get_header_value("Preference-Applied"), "wait=300");
   const Json result = Body(found);
   EXPECT_EQ(result["schema"], "diagnosis/1");
   EXPECT_EQ(result["verdict"], "explained");

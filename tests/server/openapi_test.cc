@@ -181,7 +181,7 @@ TEST_F(Described, TheCataloguesPartsFit) {
 }
 
 TEST_F(Described, EveryStatusOfEveryRoute) {
-  const std::string wait = "wait=60";
+  const std::string wait = "wait=300";
   // Jobs.
   for (const auto& [path, example] :
        {std::pair{std::string("/v1/designs"), api::ExampleRequirements()},
@@ -287,7 +287,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   {
     Service open;
     httplib::Client client("127.0.0.1", open.port());
-    client.set_read_timeout(60);
+    client.set_read_timeout(320);
     Check(client.Get("/readyz"), "get", "/readyz", 200);
     for (const auto& [path, example] :
          {std::pair{std::string("/v1/designs"), api::ExampleRequirements()},
