@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "server/http.h"
+#include "service.h"
 #include "workbench.h"
 
 namespace plenum::server {
@@ -70,22 +71,7 @@ Json LeakingChamber(int runs = 2) {
 
 class Diagnoses : public testing::Test {
  protected:
-  Diagnoses() {
-    HttpOptions options;
-    options.catalog = bench_.catalog();
-    options.port = 0;
-    options.jobs.workers = 1;
-    options.jobs.queued_max = 1;
-    service_ = std::make_unique<HttpService>(options);
-    thread_ = std::thread([this] { service_->Run(); });
-    client_ = std::make_unique<httplib::Client>("127.0.0.1", service_->port());
-    client_->set_read_timeout(320);
-  }
-  ~Diagnoses() override {
-    client_.reset();
-    service_->Stop();
-    thread_.join();
-  }
+  Diagnoses() { client_->set_read_timeout(320); }
 
   static Json Body(const httplib::Result& result) { return Json::parse(result->body); }
   httplib::Result Post(const Json& document, const httplib::Headers& headers = {}) {
@@ -109,10 +95,10 @@ class Diagnoses : public testing::Test {
     EXPECT_THAT(refused->body, HasSubstr("\"pointer\":\"" + pointer + "\""));
   }
 
-  const Workbench bench_;
-  std::unique_ptr<HttpService> service_;
-  std::thread thread_;
-  std::unique_ptr<httplib::Client> client_;
+  const Service service_{OneJobAtATime()};
+  const Workbench& bench_ = service_.bench();
+  const std::unique_ptr<httplib::Client> client_ =
+      std::make_unique<httplib::Client>("127.0.0.1", service_.port());
 };
 
 TEST_F(Diagnoses, FindsTheLeakSavesItAndPredictsWithIt) {

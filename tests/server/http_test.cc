@@ -16,6 +16,7 @@
 
 #include "catalog/store.h"
 #include "server/protection.h"
+#include "service.h"
 #include "workbench.h"
 
 namespace plenum::server {
@@ -30,22 +31,7 @@ constexpr char kProblem[] = "application/problem+json";
 
 class Http : public testing::Test {
  protected:
-  Http() {
-    HttpOptions options;
-    options.catalog = bench_.catalog();
-    options.port = 0;
-    options.jobs.workers = 1;
-    options.jobs.queued_max = 1;
-    service_ = std::make_unique<HttpService>(options);
-    thread_ = std::thread([this] { service_->Run(); });
-    client_ = std::make_unique<httplib::Client>("127.0.0.1", service_->port());
-    client_->set_read_timeout(60);
-  }
-  ~Http() override {
-    client_.reset();
-    service_->Stop();
-    thread_.join();
-  }
+  Http() { client_->set_read_timeout(60); }
 
   static Json Body(const httplib::Result& result) {
     auto parsed = api::ParseJson(result ? result->body : "");
@@ -71,7 +57,7 @@ class Http : public testing::Test {
     const int fd = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(service_->port()));
+    address.sin_port = htons(static_cast<std::uint16_t>(service_.port()));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     const timeval patience{20, 0};
     setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
@@ -86,10 +72,10 @@ class Http : public testing::Test {
     return answer;
   }
 
-  const Workbench bench_;
-  std::unique_ptr<HttpService> service_;
-  std::thread thread_;
-  std::unique_ptr<httplib::Client> client_;
+  const Service service_{OneJobAtATime()};
+  const Workbench& bench_ = service_.bench();
+  const std::unique_ptr<httplib::Client> client_ =
+      std::make_unique<httplib::Client>("127.0.0.1", service_.port());
 };
 
 TEST_F(Http, SaysThatItRunsAndWhatItIs) {
@@ -359,7 +345,7 @@ TEST_F(Http, DesignJobsCanBeFollowedAndCancelled) {
 
   std::string events;
   std::thread listener([&] {
-    httplib::Client other("127.0.0.1", service_->port());
+    httplib::Client other("127.0.0.1", service_.port());
     other.set_read_timeout(60);
     other.Get(path + "/events", [&](const char* data, std::size_t size) {
       events.append(data, size);
@@ -381,7 +367,7 @@ TEST_F(Http, ServesWhileConnectionsIdle) {
   // A client may hold some connections without others being starved.
   std::vector<std::unique_ptr<httplib::Client>> clients;
   for (int i = 0; i < 12; ++i) {
-    clients.push_back(std::make_unique<httplib::Client>("127.0.0.1", service_->port()));
+    clients.push_back(std::make_unique<httplib::Client>("127.0.0.1", service_.port()));
     clients.back()->set_keep_alive(true);
     ASSERT_EQ(clients.back()->Get("/healthz")->status, 200);
   }

@@ -36,6 +36,14 @@ class Service {
   std::thread thread_;
 };
 
+// One job at a time and one that waits.
+inline HttpOptions OneJobAtATime() {
+  HttpOptions options;
+  options.jobs.workers = 1;
+  options.jobs.queued_max = 1;
+  return options;
+}
+
 // The JSON of a text; null where it is none.
 inline api::Json JsonOf(const std::string& text) {
   auto parsed = api::ParseJson(text);
