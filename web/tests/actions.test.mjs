@@ -169,7 +169,7 @@ test('a part is added and the ranking changes', async () => {
   await page.getByRole('link', { name: 'Designs' }).click();
   await page.getByRole('button', { name: 'Rank again' }).click();
   await page.getByText('Catalogue revision 2.').waitFor();
-  await page.getByLabel('Before').selectOption(first);
+  await page.getByLabel('Changes since').selectOption(first);
   await page.getByText(/\d+ new, \d+ no longer listed/).waitFor();
   const now = await service.get(`/v1/designs/${idOf(page)}`);
   assert.ok(now.result.designs[0].totals.mass_kg < old.result.designs[0].totals.mass_kg);
@@ -283,7 +283,7 @@ test('a tie names the experiment that would tell, and its run decides', async ()
   );
   await page.getByText('bench: 3 runs').waitFor();
   await diagnose(page);
-  await page.getByText(/The model lacks leak; with it/).waitFor();
+  await page.getByText(/The model lacks a leak; with it/).waitFor();
   assert.equal(await verdict(page).innerText(), 'explained');
   await close();
 });

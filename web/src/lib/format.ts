@@ -1,6 +1,5 @@
 // Numbers as a person reads them: three significant digits, thin spaces between thousands.
-import type { Kind } from './units';
-import { toShown } from './units';
+import { type Kind, toShown, unitOf } from './units';
 
 const thin = '\u202f';
 
@@ -64,6 +63,15 @@ export function duration(seconds: number): string {
   return `${Math.floor(seconds / 3600)} h ${Math.round((seconds % 3600) / 60)} min`;
 }
 
+// A time of the service (RFC 3339) in the reader's own clock; the day unless it is today's.
+export const moment = (at: string): string => {
+  const time = new Date(at);
+  const two = (n: number) => String(n).padStart(2, '0');
+  const day = `${time.getFullYear()}-${two(time.getMonth() + 1)}-${two(time.getDate())} `;
+  const isToday = time.toDateString() === new Date().toDateString();
+  return `${isToday ? '' : day}${two(time.getHours())}:${two(time.getMinutes())}`;
+};
+
 // Names of fields, as the contract writes them, in words: "mass_kg" → "mass", unit "kg".
 const units: [RegExp, string][] = [
   [/_l_per_min_bar$/, 'L/(min·bar)'],
@@ -96,6 +104,27 @@ const units: [RegExp, string][] = [
   [/_k$/, 'K'],
 ];
 
+export const fieldKind = (field: string): Kind =>
+  field.endsWith('_kpa_gauge')
+    ? 'pressure'
+    : field.endsWith('_kpa')
+      ? 'difference'
+      : field.endsWith('_ml')
+        ? 'volume_ml'
+        : 'plain';
+
+export function fieldName(field: string): { label: string; unit: string } {
+  if (field === 'current_max_a') return { label: 'current max', unit: 'A' };
+  for (const [suffix, unit] of units) {
+    if (suffix.test(field))
+      return {
+        label: field.replace(suffix, '').replaceAll('_', ' '),
+        unit: unitOf(fieldKind(field), unit),
+      };
+  }
+  return { label: field.replaceAll('_', ' '), unit: '' };
+}
+
 // The same, short enough for the head of a column: C and b as in ISO 6358.
 export function columnName(field: string): { label: string; unit: string } {
   const { label, unit } = fieldName(field);
@@ -105,14 +134,6 @@ export function columnName(field: string): { label: string; unit: string } {
       .replace('critical ratio', 'b')
       .replace('pressure', 'p')
       .replace(' diameter', ' ⌀'),
-    unit: unit === 'kPa gauge' ? 'kPa' : unit,
+    unit: unit.replace(' gauge', ''),
   };
-}
-
-export function fieldName(field: string): { label: string; unit: string } {
-  if (field === 'current_max_a') return { label: 'current max', unit: 'A' };
-  for (const [suffix, unit] of units) {
-    if (suffix.test(field)) return { label: field.replace(suffix, '').replaceAll('_', ' '), unit };
-  }
-  return { label: field.replaceAll('_', ' '), unit: '' };
 }

@@ -41,8 +41,16 @@ export const fieldErrors = signal<FieldError[]>([]);
 export type Validity = 'checking' | 'valid' | 'invalid' | 'unknown';
 export const validity = signal<Validity>('checking');
 
+type Path = (string | number)[];
+
+export const valueAt = (document: unknown, path: Path): unknown =>
+  path.reduce<unknown>(
+    (at, step) => (at as Record<string | number, unknown> | undefined)?.[step],
+    document,
+  );
+
 // Sets the value at a path such as ['duty', 'frequency_hz'] in a copy; undefined removes it.
-export function edit(path: (string | number)[], value: unknown): void {
+export function edit(path: Path, value: unknown): void {
   const next = structuredClone(requirements.peek()) as unknown as Record<string | number, unknown>;
   let at = next;
   for (const step of path.slice(0, -1)) at = (at[step] ??= {}) as Record<string | number, unknown>;

@@ -4,9 +4,12 @@ import { useEffect, useRef } from 'preact/hooks';
 
 import { type Axis, axisUnit } from '../lib/amounts';
 import { digitsApart, isSame, short, significant } from '../lib/format';
+import { pageScale } from '../lib/page_scale';
 import { colour, palette } from '../lib/theme';
 import type { Design } from '../lib/types';
 import { toShown } from '../lib/units';
+import { Scroll } from '../ui/scroll';
+import { Picture } from './picture';
 import { useWidth } from './width';
 
 export type Brushes = Record<string, [number, number]>;
@@ -34,18 +37,17 @@ export function Parallel(props: {
     const pad = !single ? 0 : Math.abs(high) * 0.05 || 1;
     return { axis, single, scale: scaleLinear([low - pad, high + pad], [height - bottom, top]) };
   });
-  const inner = Math.max(width, shown.length * 70);
-  const xOf = (i: number) => inset + (i * (inner - 2 * inset)) / Math.max(1, shown.length - 1);
+  const xOf = (i: number) => inset + (i * (width - 2 * inset)) / Math.max(1, shown.length - 1);
 
   useEffect(() => {
     const element = canvas.current;
     const ctx = element?.getContext('2d');
     if (!element || !ctx || width === 0) return;
-    const ratio = devicePixelRatio;
-    element.width = inner * ratio;
+    const ratio = devicePixelRatio * pageScale.value;
+    element.width = width * ratio;
     element.height = height * ratio;
     ctx.scale(ratio, ratio);
-    ctx.clearRect(0, 0, inner, height);
+    ctx.clearRect(0, 0, width, height);
     const trace = (design: Design) => {
       let pen = false;
       shown.forEach(({ axis, scale }, i) => {
@@ -109,34 +111,36 @@ export function Parallel(props: {
           <span class="legend-item">drag along an axis to filter</span>
         </span>
       </figcaption>
-      <div
-        ref={ref}
-        class="parallel-box"
-        style={{ height: `${height + (inner > width ? 14 : 0)}px` }}
-      >
-        {width > 0 && (
-          <>
-            <canvas
-              ref={canvas}
-              style={{ width: `${inner}px`, height: `${height}px` }}
-              aria-hidden="true"
-            />
-            <svg width={inner} height={height}>
-              {shown.map(({ axis, scale, single }, i) => (
-                <BrushAxis
-                  key={axis.id}
-                  axis={axis}
-                  x={xOf(i)}
-                  scale={scale}
-                  range={props.brushes[axis.id]}
-                  single={single}
-                  onBrush={(range) => props.onBrush(axis.id, range)}
-                />
-              ))}
-            </svg>
-          </>
-        )}
-      </div>
+      <Scroll label="Axes">
+        <div
+          ref={ref}
+          class="parallel-box"
+          style={{ height: `${height / 10}rem`, minWidth: `${shown.length * 7}rem` }}
+        >
+          {width > 0 && (
+            <>
+              <canvas
+                ref={canvas}
+                style={{ width: `${width / 10}rem`, height: `${height / 10}rem` }}
+                aria-hidden="true"
+              />
+              <Picture width={width} height={height}>
+                {shown.map(({ axis, scale, single }, i) => (
+                  <BrushAxis
+                    key={axis.id}
+                    axis={axis}
+                    x={xOf(i)}
+                    scale={scale}
+                    range={props.brushes[axis.id]}
+                    single={single}
+                    onBrush={(range) => props.onBrush(axis.id, range)}
+                  />
+                ))}
+              </Picture>
+            </>
+          )}
+        </div>
+      </Scroll>
     </figure>
   );
 }
@@ -156,7 +160,7 @@ function BrushAxis(props: {
     const box = (event.currentTarget as Element).ownerDocument
       .querySelector('.parallel-box')!
       .getBoundingClientRect();
-    const y = Math.min(Math.max(event.clientY - box.top, top), height - bottom);
+    const y = Math.min(Math.max((event.clientY - box.top) / pageScale.value, top), height - bottom);
     return scale.invert(y);
   };
   const frame = useRef(0);

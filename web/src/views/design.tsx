@@ -2,6 +2,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
+import { supplyWord } from '../lib/amounts';
 import { type Parts, partsOf } from '../lib/rig';
 import { link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
@@ -34,7 +35,7 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
           <h1>
             <a href={link(['designs', id])}>{answer.name || 'Designs'}</a> › design {rank}
           </h1>
-          <Chip>{design.configuration}</Chip>
+          <Chip>{supplyWord(design)}</Chip>
           <span class="toolbar-group">
             {rank > 1 && (
               <a class="button" href={link(['designs', id, String(rank - 1)])}>

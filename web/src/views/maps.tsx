@@ -12,11 +12,10 @@ import { Notice, Segmented } from '../ui/controls';
 
 const levels = [0.2, 0.5, 1, 2, 5, 10];
 
-// "1.4 here: 0.29 s".
 const here = (place: Place, without = ''): string =>
   place.normalised === null
-    ? 'Never reached here'
-    : `${significant(place.normalised)} here${place.seconds === null ? '' : `, ${significant(place.seconds)} s${without}`}`;
+    ? 'Never reached by this design'
+    : `This design: ${significant(place.normalised)}${place.seconds === null ? '' : `, which is ${significant(place.seconds)} s${without}`}`;
 
 export function Maps({
   design,
@@ -65,7 +64,7 @@ export function Maps({
             yLabel="operating pressure / ambient"
             border={(source) => 1 + (source - 1) / toFraction}
             at={now.rise.at}
-            note={`${here(now.rise, design.configuration === 'compressor' ? '' : ' without the regulator')}. Expansion ${significant(now.expansion)}, b ${significant(now.critical)} (valve), C ${significant(now.conductance)} dm³/(s·bar) of the whole line.`}
+            note={`${here(now.rise, design.configuration === 'compressor' ? '' : ' without the regulator')}. C ${significant(now.conductance)} dm³/(s·bar) and b ${significant(now.critical)} of the line, V₀ volume at rest, P₀ 100 kPa, expansion ${significant(now.expansion)}.`}
           />
         )}
       </div>
@@ -94,7 +93,7 @@ export function Maps({
             xLabel="operating pressure / ambient"
             yLabel="expansion ratio"
             at={now.fall.at}
-            note={`${here(now.fall)}. b ${significant(now.critical)} (valve).`}
+            note={`${here(now.fall)}. b ${significant(now.criticalOut)} of the way out.`}
           />
         )}
       </div>

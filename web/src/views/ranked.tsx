@@ -146,11 +146,11 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
             />
             {!nominal && jobs.length > 0 && (
               <Select
-                label="Before"
+                label="Changes since"
                 value={q.get('with') ?? ''}
                 onChange={(v) => setQuery({ with: v })}
                 options={[
-                  { value: '', label: 'no other search' },
+                  { value: '', label: 'no search chosen' },
                   ...jobs.map((job) => ({
                     value: job.id,
                     label: `${job.name || 'unnamed'} ${job.id.slice(0, 6)}`,

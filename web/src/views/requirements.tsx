@@ -105,6 +105,8 @@ export function RequirementsView() {
       <div class="column side">
         <Panel title="The system">
           <Drawing requirements={document} />
+        </Panel>
+        <div class="go">
           <Verdict />
           {problem.value && (
             <Notice kind="bad">
@@ -119,7 +121,7 @@ export function RequirementsView() {
           >
             {busy.value ? 'Starting…' : 'Find the best designs'}
           </button>
-        </Panel>
+        </div>
       </div>
     </form>
   );

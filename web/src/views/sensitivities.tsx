@@ -9,6 +9,7 @@ import { change as changeOf } from '../lib/format';
 import type { Design, Requirements } from '../lib/types';
 import { Notice, Panel, Segmented } from '../ui/controls';
 import { Swing } from '../ui/swing';
+import { Table } from '../ui/table';
 
 type By = '-10' | '10';
 
@@ -96,45 +97,32 @@ export function Sensitivities({
     >
       {problem.value && <Notice kind="bad">{problem.value}</Notice>}
       {was && (
-        <div class="scroll" tabIndex={0} role="region" aria-label="Sensitivities">
-          <table class="tornado">
-            <thead>
-              <tr>
-                <th scope="col">of</th>
-                {used.map((effect) => (
-                  <th key={effect.label} scope="col">
-                    {effect.label}
-                  </th>
-                ))}
-                <th scope="col">then</th>
-              </tr>
-            </thead>
-            <tbody>
-              {rows.value.map(({ label, found }) => (
-                <tr key={label}>
-                  <th scope="row">{label}</th>
-                  {found?.works ? (
-                    used.map((effect) => {
-                      const value = share(effect, found);
-                      return (
-                        <td key={effect.label}>
-                          {value === null ? '–' : <Cell share={value} effect={effect} />}
-                        </td>
-                      );
-                    })
-                  ) : (
-                    <td colSpan={used.length} class="muted">
-                      {found
-                        ? 'the parts do not stand it, or a stroke does not end'
-                        : 'not possible'}
+        <Table
+          label="Sensitivities"
+          class="tornado"
+          heads={['of', ...used.map((effect) => effect.label), 'then']}
+        >
+          {rows.value.map(({ label, found }) => (
+            <tr key={label}>
+              <th scope="row">{label}</th>
+              {found?.works ? (
+                used.map((effect) => {
+                  const value = share(effect, found);
+                  return (
+                    <td key={effect.label}>
+                      {value === null ? '–' : <Cell share={value} effect={effect} />}
                     </td>
-                  )}
-                  <td>{found?.works && <Then found={found} requirements={requirements} />}</td>
-                </tr>
-              ))}
-            </tbody>
-          </table>
-        </div>
+                  );
+                })
+              ) : (
+                <td colSpan={used.length} class="muted">
+                  {found ? 'the parts do not stand it, or a stroke does not end' : 'not possible'}
+                </td>
+              )}
+              <td>{found?.works && <Then found={found} requirements={requirements} />}</td>
+            </tr>
+          ))}
+        </Table>
       )}
       <p class="hint">
         Parts and all other settings stay; the periodic state is worked out again for each. Bars:

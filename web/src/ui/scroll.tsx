@@ -1,0 +1,47 @@
+// A box that scrolls where a table does not fit: its first column stays, and a shade at an edge says
+// that there is more beyond it. The keyboard reaches it only then.
+import { useSignal } from '@preact/signals';
+import type { ComponentChildren } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
+
+export function Scroll(props: {
+  label: string;
+  class?: string;
+  onScroll?: (event: Event) => void;
+  children: ComponentChildren;
+}) {
+  const box = useRef<HTMLDivElement>(null);
+  const beyond = useSignal('');
+  const scrolls = useSignal(false);
+  const left = useRef(0);
+  const look = () => {
+    const { scrollLeft, scrollWidth, clientWidth, scrollHeight, clientHeight } = box.current!;
+    left.current = scrollLeft;
+    const right = scrollWidth - clientWidth - scrollLeft;
+    beyond.value = `${scrollLeft > 1 ? 'left' : ''} ${right > 1 ? 'right' : ''}`;
+    scrolls.value = scrollWidth > clientWidth + 1 || scrollHeight > clientHeight + 1;
+  };
+  useEffect(() => {
+    const observer = new ResizeObserver(look);
+    observer.observe(box.current!);
+    for (const child of box.current!.children) observer.observe(child);
+    return () => observer.disconnect();
+  }, []);
+  return (
+    <div class="scroll-frame" data-beyond={beyond.value}>
+      <div
+        ref={box}
+        class={`scroll ${props.class ?? ''}`}
+        role="region"
+        aria-label={props.label}
+        tabIndex={scrolls.value ? 0 : undefined}
+        onScroll={(event) => {
+          if (event.currentTarget.scrollLeft !== left.current) look();
+          props.onScroll?.(event);
+        }}
+      >
+        {props.children}
+      </div>
+    </div>
+  );
+}
