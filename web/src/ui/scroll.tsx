@@ -14,17 +14,18 @@ export function Scroll(props: {
   const beyond = useSignal('');
   const scrolls = useSignal(false);
   const left = useRef(0);
-  const look = () => {
-    const { scrollLeft, scrollWidth, clientWidth, scrollHeight, clientHeight } = box.current!;
+  const look = (at: Element) => {
+    const { scrollLeft, scrollWidth, clientWidth, scrollHeight, clientHeight } = at;
     left.current = scrollLeft;
     const right = scrollWidth - clientWidth - scrollLeft;
     beyond.value = `${scrollLeft > 1 ? 'left' : ''} ${right > 1 ? 'right' : ''}`;
     scrolls.value = scrollWidth > clientWidth + 1 || scrollHeight > clientHeight + 1;
   };
   useEffect(() => {
-    const observer = new ResizeObserver(look);
-    observer.observe(box.current!);
-    for (const child of box.current!.children) observer.observe(child);
+    const at = box.current!;
+    const observer = new ResizeObserver(() => look(at));
+    observer.observe(at);
+    for (const child of at.children) observer.observe(child);
     return () => observer.disconnect();
   }, []);
   return (
@@ -36,7 +37,7 @@ export function Scroll(props: {
         aria-label={props.label}
         tabIndex={scrolls.value ? 0 : undefined}
         onScroll={(event) => {
-          if (event.currentTarget.scrollLeft !== left.current) look();
+          if (event.currentTarget.scrollLeft !== left.current) look(event.currentTarget);
           props.onScroll?.(event);
         }}
       >

@@ -48,7 +48,6 @@ export function JobsView() {
         <Jobs
           label="Diagnoses"
           jobs={diagnosisList.value}
-          found="done"
           words={verdictWord}
           href={(id) => link(['measured'], { job: id })}
           none={
@@ -56,9 +55,7 @@ export function JobsView() {
               None yet. <a href={link(['measured'])}>Drop a measurement</a> to start one.
             </>
           }
-        >
-          {({ progress }) => (progress ? `${Math.round(100 * progress.share)} %` : '–')}
-        </Jobs>
+        />
       </Panel>
     </>
   );
@@ -75,11 +72,11 @@ const statusWords: Record<string, Word> = {
 function Jobs<Report extends { seconds: number; outcome?: string }>(props: {
   label: string;
   jobs: Job<unknown, Report>[] | null;
-  found: string; // what the children say of a job
+  found?: string; // what the children say of a job
   words: Record<string, Word>; // of what it found in the end
   href: (id: string) => string;
   none: ComponentChildren;
-  children: (job: Job<unknown, Report>) => ComponentChildren;
+  children?: (job: Job<unknown, Report>) => ComponentChildren;
 }) {
   if (!props.jobs) return <p role="status">Loading…</p>;
   if (props.jobs.length === 0) return <p>{props.none}</p>;
@@ -89,7 +86,7 @@ function Jobs<Report extends { seconds: number; outcome?: string }>(props: {
       heads={[
         'name',
         'result',
-        number(props.found),
+        ...(props.found ? [number(props.found)] : []),
         number('took'),
         'started',
         extra({ text: 'id' }),
@@ -106,7 +103,7 @@ function Jobs<Report extends { seconds: number; outcome?: string }>(props: {
             <td>
               <Chip kind={word.kind}>{word.text}</Chip>
             </td>
-            <td class="num">{props.children(job)}</td>
+            {props.children && <td class="num">{props.children(job)}</td>}
             <td class="num">{job.progress ? duration(job.progress.seconds) : '–'}</td>
             <td class="nowrap">{moment(job.submitted_at)}</td>
             <td class="extra">

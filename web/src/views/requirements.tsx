@@ -106,7 +106,7 @@ export function RequirementsView() {
         <Panel title="The system">
           <Drawing requirements={document} />
         </Panel>
-        <div class="go">
+        <div class="panel go">
           <Verdict />
           {problem.value && (
             <Notice kind="bad">
