@@ -195,32 +195,50 @@ test('a part whose id is taken is refused at the id', async () => {
   await close([409]);
 });
 
-test('a service that wants a token is asked with one', async () => {
-  const { page, close } = await openPage(browser, service.base, '#/catalogue/battery', {
-    before: (p) =>
-      p.route('**/v1/**', (route) =>
-        route.request().headers().authorization === 'Bearer right'
-          ? route.continue()
-          : route.fulfill({
-              status: 401,
-              contentType: 'application/problem+json',
-              body: '{"title":"a token is needed"}',
-            }),
-      ),
-  });
-  await page.getByLabel('Token').fill('wrong');
-  await page.getByRole('button', { name: 'Use it' }).click();
+test('a service that others can reach asks for a token; one to read may not search', async (t) => {
+  const guarded = await startService({ scopes: ['read', 'write'] });
+  t.after(() => guarded.stop());
+  const { page, close } = await openPage(browser, guarded.base, '#/catalogue/battery');
+  const use = async (token) => {
+    await page.getByLabel('Token', { exact: true }).fill(token);
+    await page.getByRole('button', { name: 'Use it' }).click();
+  };
+  await page.getByText('This service asks for a token').waitFor();
+  await use('wrong');
   await page.getByText('The token given is not known').waitFor();
-  await page.getByLabel('Token').fill('right');
-  await page.getByRole('button', { name: 'Use it' }).click();
+  await use(guarded.tokens.read);
   await page.getByRole('heading', { name: /battery: \d+ parts/ }).waitFor();
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Export CSV' }).click();
   assert.match(await textOf(await download), /^id,manufacturer/);
-  const { id } = await service.post('/v1/designs', example('gripper'));
-  await page.goto(`${service.base}/#/designs/${id}`);
+  await page.getByRole('link', { name: 'Requirements', exact: true }).click();
+  await page.getByText('Not checked: this token may read, not write').waitFor();
+  await page.getByRole('button', { name: 'Find the best designs' }).click();
+  await page.getByRole('alert').getByText('this token may read, not write').waitFor();
+
+  // With one to write the search runs, and its events are let through, too.
+  await page.getByRole('button', { name: 'Token…' }).click();
+  await use(guarded.tokens.write);
+  await page.getByText('can be searched').waitFor();
+  await page.getByRole('button', { name: 'Find the best designs' }).click();
   await page.getByText('Proved: no other combination').waitFor();
-  await close([401]);
+  await page.getByRole('link', { name: 'Jobs' }).click();
+  await page.getByRole('row', { name: /exosuit proved 1\.690 kg/ }).waitFor();
+  await close([401, 403]);
+});
+
+test('a fault of the service is said where it happened', async () => {
+  const { page, close } = await openPage(browser, service.base, '#/catalogue/battery');
+  await page.getByRole('heading', { name: /battery: \d+ parts/ }).waitFor();
+  await page.route('**/v1/parts', (route) =>
+    route.fulfill({ status: 500, contentType: 'text/plain', body: 'a fault' }),
+  );
+  await page.getByRole('button', { name: 'Add a part' }).click();
+  await page.getByLabel('Maker').fill('bench');
+  await page.getByRole('button', { name: 'Add the part' }).click();
+  await page.getByText('the service answered 500').waitFor();
+  assert.equal(await page.getByLabel('Maker').inputValue(), 'bench');
+  await close([500]);
 });
 
 test('the service going away is said, and the page goes on when it is back', async () => {

@@ -9,16 +9,28 @@ export function significant(value: number | null | undefined, digits = 3): strin
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
   if (value === 0) return '0';
   const magnitude = Math.floor(Math.log10(Math.abs(value)));
-  if (magnitude >= 9 || magnitude < -5) return value.toExponential(digits - 1).replace('e+', 'e');
+  if (magnitude >= 9 || magnitude < -5) {
+    const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
+    return `${mantissa!.replace('-', '−')}×10${superscript(Number(exponent))}`;
+  }
   const places = Math.max(0, digits - 1 - magnitude);
   const [whole = '', part] = Math.abs(value).toFixed(places).split('.');
   return `${value < 0 ? '−' : ''}${group(whole)}${part ? `.${part}` : ''}`;
 }
 
+// To the digits that matter beside `scale`: thousandths of it.
+export function beside(scale: number, value: number): string {
+  const places = Math.max(0, 2 - Math.floor(Math.log10(Math.max(scale, 1e-9))));
+  return value
+    .toFixed(Math.min(places, 9))
+    .replace(/^-(?=0\.?0*$)/, '')
+    .replace('-', '−');
+}
+
 // Without zeros at the end: bounds and ticks.
 export const short = (value: number, digits = 6): string => {
   const text = significant(value, digits);
-  return text.includes('.') && !text.includes('e') ? text.replace(/\.?0+$/, '') : text;
+  return text.includes('.') && !text.includes('×') ? text.replace(/\.?0+$/, '') : text;
 };
 
 export const isSame = (a: number, b: number): boolean =>
@@ -55,7 +67,7 @@ export const scientific = (value: string): string =>
   value.length > 7 ? `${value[0]}.${value[1]} × 10${superscript(value.length - 1)}` : group(value);
 
 const superscript = (n: number): string =>
-  [...String(n)].map((d) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(d)]).join('');
+  [...String(n)].map((d) => (d === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(d)])).join('');
 
 export function duration(seconds: number): string {
   if (seconds < 60) return `${significant(seconds, 2)} s`;

@@ -286,16 +286,19 @@ const effectWords: Record<string, string> = {
   learned_sensor: 'a learned error of the sensor',
 };
 
+// A learned law says how many knots it has: "pressure_5".
+const lawWord = (law: string): string => law.replace(/_(\d+)$/, ', $1 knots').replaceAll('_', ' ');
+
 export const effectName = (id: string, law?: string): string =>
-  `${effectWords[id] ?? id.replaceAll('_', ' ')}${law ? ` (${law})` : ''}`;
+  `${effectWords[id] ?? id.replaceAll('_', ' ')}${law ? ` (${lawWord(law)})` : ''}`;
 
 export const effectNames = (ids: string[], laws: Record<string, string> = {}): string =>
   ids.map((id) => effectName(id, laws[id])).join(' + ') || 'base model';
 
 // A sentence of the service with names for a person in place of ids; what is left of ids are names
 // of numbers, as in "leak.critical_ratio".
-export const inWords = (sentence: string): string =>
-  sentence
+export const inWords = (sentence: string): string => {
+  const text = sentence
     .replace(/\b([a-z_]+)\.([a-z_]+)\b/g, (whole, id, parameter) =>
       effectWords[id] ? `${parameter} of ${id}` : whole,
     )
@@ -303,6 +306,8 @@ export const inWords = (sentence: string): string =>
       /\b(?:an? )?([a-z_]+)\b/g,
       (whole, id) => effectWords[id] ?? whole.replaceAll('_', ' '),
     );
+  return text.charAt(0).toUpperCase() + text.slice(1);
+};
 
 export const verdictWord: Record<Diagnosis['verdict'], Word> = {
   adequate: { text: 'adequate', kind: 'good' },

@@ -40,6 +40,7 @@ export const requirements = signal<Requirements>((start && decode(start)) || pre
 export const fieldErrors = signal<FieldError[]>([]);
 export type Validity = 'checking' | 'valid' | 'invalid' | 'unknown';
 export const validity = signal<Validity>('checking');
+export const whyUnknown = signal('');
 
 type Path = (string | number)[];
 
@@ -88,6 +89,10 @@ async function validate(document: Requirements): Promise<void> {
     batch(() => {
       fieldErrors.value = problem.errors;
       validity.value = problem.status === 422 || problem.status === 400 ? 'invalid' : 'unknown';
+      whyUnknown.value =
+        problem.status === 0
+          ? 'The service does not answer; nothing was checked.'
+          : `Not checked: ${problem.message}.`;
     });
   }
 }

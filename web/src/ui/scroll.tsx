@@ -4,6 +4,8 @@ import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 
+const edges = ['left', 'right', 'below'] as const;
+
 export function Scroll(props: {
   label: string;
   class?: string;
@@ -13,12 +15,14 @@ export function Scroll(props: {
   const box = useRef<HTMLDivElement>(null);
   const beyond = useSignal('');
   const scrolls = useSignal(false);
-  const left = useRef(0);
   const look = (at: Element) => {
-    const { scrollLeft, scrollWidth, clientWidth, scrollHeight, clientHeight } = at;
-    left.current = scrollLeft;
-    const right = scrollWidth - clientWidth - scrollLeft;
-    beyond.value = `${scrollLeft > 1 ? 'left' : ''} ${right > 1 ? 'right' : ''}`;
+    const { scrollLeft, scrollWidth, clientWidth, scrollTop, scrollHeight, clientHeight } = at;
+    const more = {
+      left: scrollLeft,
+      right: scrollWidth - clientWidth - scrollLeft,
+      below: scrollHeight - clientHeight - scrollTop,
+    };
+    beyond.value = edges.filter((edge) => more[edge] > 1).join(' ');
     scrolls.value = scrollWidth > clientWidth + 1 || scrollHeight > clientHeight + 1;
   };
   useEffect(() => {
@@ -37,12 +41,15 @@ export function Scroll(props: {
         aria-label={props.label}
         tabIndex={scrolls.value ? 0 : undefined}
         onScroll={(event) => {
-          if (event.currentTarget.scrollLeft !== left.current) look(event.currentTarget);
+          look(event.currentTarget);
           props.onScroll?.(event);
         }}
       >
         {props.children}
       </div>
+      {edges.map((edge) => (
+        <i key={edge} class={`edge ${edge}`} />
+      ))}
     </div>
   );
 }

@@ -1,7 +1,7 @@
 // The tables of a diagnosis: errors, residuals by phase, candidates.
-import { shown, significant } from '../lib/format';
+import { beside, shown, significant } from '../lib/format';
 import { type Diagnosis, effectNames } from '../lib/measurement';
-import { unitOf } from '../lib/units';
+import { toShown, unitOf } from '../lib/units';
 import { Chip, Panel } from '../ui/controls';
 import { Swing } from '../ui/swing';
 import { extra, heard, number, Table } from '../ui/table';
@@ -10,9 +10,11 @@ export function Errors({ d }: { d: Diagnosis }) {
   const rows: [string, Partial<Diagnosis['after']>][] = [
     ['as declared', d.declared],
     ['re-fitted, no effects', d.before],
-    ...(d.verdict === 'adequate'
-      ? []
-      : [['with effects', d.after] as [string, Diagnosis['after']]]),
+    ...(d.effects.length > 0
+      ? [['with effects', d.after] as [string, Diagnosis['after']]]
+      : d.tied.length > 0
+        ? [['with the best of those tied', d.after] as [string, Diagnosis['after']]]
+        : []),
   ];
   if (d.discrepancy?.learned)
     rows.push([
@@ -66,7 +68,10 @@ export function Phases({ d }: { d: Diagnosis }) {
         {d.unexplained_fraction > 0 && (
           <span>
             {' '}
-            {significant(100 * d.unexplained_fraction, 2)} % of its variance is more than noise.
+            {d.unexplained_fraction < 1e-3
+              ? 'Less than 0.1'
+              : significant(100 * d.unexplained_fraction, 2)}{' '}
+            % of its variance is more than noise.
           </span>
         )}
       </p>
@@ -85,7 +90,9 @@ export function Phases({ d }: { d: Diagnosis }) {
           <tr key={i}>
             <td>{p.run}</td>
             <td>{p.phase}</td>
-            <td class="num">{shown('difference', p.mean_kpa, 2)}</td>
+            <td class="num">
+              {beside(toShown('difference', d.noise_kpa), toShown('difference', p.mean_kpa))}
+            </td>
             <td>
               <Swing share={p.mean_kpa / most} isGood={p.mean_kpa < 0} />
             </td>
@@ -97,12 +104,25 @@ export function Phases({ d }: { d: Diagnosis }) {
   );
 }
 
+// Whether it is the set of effects that the verdict takes.
+function isChosen(d: Diagnosis, c: Diagnosis['candidates'][number]): boolean {
+  const key = (id: string, law: unknown) => `${id} ${law ?? ''}`;
+  const taken = d.effects.map((effect) => key(effect.id, effect.parameters.law)).sort();
+  const own = c.effects.map((id) => key(id, c.laws[id])).sort();
+  return d.verdict !== 'undecided' && d.tied.length === 0 && taken.join() === own.join();
+}
+
 export function Candidates({ d }: { d: Diagnosis }) {
   const tied = new Set(d.tied.map((set) => set.join()));
   return (
     <Panel
       title="Candidates"
-      aside={<span class="muted">less BIC is better; below 10 is close</span>}
+      aside={
+        <span class="muted">
+          ΔBIC: how far behind the best of these, fit against number of parameters; below 10 is
+          close
+        </span>
+      }
     >
       <Table
         label="Candidate models"
@@ -115,9 +135,9 @@ export function Candidates({ d }: { d: Diagnosis }) {
         ]}
       >
         {d.candidates.map((c, i) => (
-          <tr key={i} class={i === 0 ? 'baseline' : ''}>
+          <tr key={i} class={isChosen(d, c) ? 'baseline' : ''}>
             <th scope="row">
-              {effectNames(c.effects, c.laws)}{' '}
+              {effectNames(c.effects, c.laws)} {isChosen(d, c) && <Chip kind="good">taken</Chip>}
               {tied.has(c.effects.join()) && <Chip kind="warn">tied</Chip>}
               {!c.converged && <Chip>did not converge</Chip>}
             </th>

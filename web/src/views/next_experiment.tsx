@@ -15,7 +15,7 @@ import { PhaseKey } from './runs';
 
 export function NextExperiment({ d, data }: { d: Diagnosis; data: Measurement | null }) {
   const next = d.next_experiment!;
-  const valve = next.valve ?? [];
+  const valve = (next.valve ?? []).filter((v, i, all) => v.state !== all[i - 1]?.state);
   const end = next.t_end_s ?? valve[valve.length - 1]?.t_s ?? 1;
   const save = () => {
     const { id, blocked, source_pressure_kpa_gauge, initial, t_s } = next;
@@ -31,7 +31,7 @@ export function NextExperiment({ d, data }: { d: Diagnosis; data: Measurement | 
   };
   const facts: Fact[] = [
     ['actuator', next.blocked ? 'blocked' : 'free', ''],
-    ...(next.source_pressure_kpa_gauge === undefined
+    ...(next.source_pressure_kpa_gauge === undefined || !valve.some((v) => v.state === 'inflate')
       ? []
       : [
           [

@@ -3,7 +3,15 @@ import { useSignal } from '@preact/signals';
 
 import { asProblem, type Problem } from '../lib/api';
 import { previousJob, start } from '../lib/jobs';
-import { edit, fieldErrors, load, presets, requirements, validity } from '../lib/requirements';
+import {
+  edit,
+  fieldErrors,
+  load,
+  presets,
+  requirements,
+  validity,
+  whyUnknown,
+} from '../lib/requirements';
 import { go } from '../lib/route';
 import type { Requirements } from '../lib/types';
 import { Notice, Panel, TextField } from '../ui/controls';
@@ -143,7 +151,7 @@ function Verdict() {
   if (validity.value === 'unknown')
     return (
       <p class="verdict bad" role="status">
-        The service does not answer; nothing was checked.
+        {whyUnknown.value}
       </p>
     );
   const n = fieldErrors.value.length;
