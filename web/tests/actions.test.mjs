@@ -195,7 +195,7 @@ test('a measurement is diagnosed and the revision ranks', async () => {
   const before = await rank(service, few);
   const { page, close } = await openPage(browser, service.base, `#/designs/${before}`);
   await rows(page).first().waitFor();
-  await page.getByRole('button', { name: 'Requirements', exact: true }).click();
+  await page.getByRole('button', { name: 'Edit requirements' }).click();
   await page.getByRole('link', { name: 'Measured data' }).click();
   await openFiles(page, 'Open files…', file('bench.json', text));
   await page.getByText('Measured pressure').waitFor();

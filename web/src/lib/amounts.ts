@@ -1,6 +1,6 @@
 // What designs are compared by: the axes of plots and the columns of tables.
-import { short, shown, significant } from './format';
-import type { Design, PartRow, Requirements } from './types';
+import { fieldName, short, shown, significant } from './format';
+import type { Amount, Design, PartRow, Requirements } from './types';
 import { type Kind, unitOf } from './units';
 
 export interface Axis {
@@ -120,6 +120,21 @@ export const supplyWord = ({ configuration }: Pick<Design, 'configuration'>): st
 export const quantityOf = (part: PartRow): string =>
   part.unit === 'm' ? `${significant(part.quantity)} m` : `${part.quantity} ×`;
 
+const axisOfAmount: Record<Amount, string> = {
+  mass_kg: 'mass',
+  volume_l: 'volume',
+  cost_eur: 'cost',
+  energy_wh: 'energy',
+};
+
+// What a plot shows of an answer at first: what was minimised, across and upwards.
+export function usualAxes({ objective }: Pick<Requirements, 'objective'>): [string, string] {
+  const { minimize, pareto } = objective ?? {};
+  if (pareto) return [axisOfAmount[pareto[0]!], axisOfAmount[pareto[1]!]];
+  const first = typeof minimize === 'string' ? axisOfAmount[minimize] : 'mass';
+  return [first, first === 'volume' ? 'mass' : 'volume'];
+}
+
 export const axisOf = (id: string | null | undefined): Axis | undefined =>
   axes.find((axis) => axis.id === id);
 export const axisUnit = (axis: Axis): string => unitOf(axis.kind, axis.unit);
@@ -152,6 +167,14 @@ export function requirementUnit(pointer: string): string {
   if (pointer.endsWith('volume_l_max')) return unitOf('volume_l');
   if (pointer.endsWith('cost_eur_max')) return '€';
   return pointer.endsWith('_anr_max') ? 'L/min' : '';
+}
+
+// Where in the requirements something is, in the words of the form.
+export function placeInWords(pointer: string, groups: { name: string }[]): string {
+  const [, index, rest] = /^\/actuators\/(\d+)\/(.+)$/.exec(pointer) ?? [];
+  const field = (rest ?? pointer).split('/').pop()!;
+  const name = fieldName(field.replace(/_max$/, '')).label || 'the requirements';
+  return rest ? `${name} of ${groups[Number(index)]?.name ?? index}` : name;
 }
 
 // Whether a requirement is a least or a most.

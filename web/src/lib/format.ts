@@ -34,7 +34,7 @@ export const short = (value: number, digits = 6): string => {
 };
 
 export const isSame = (a: number, b: number): boolean =>
-  Math.abs(a - b) <= 1e-5 * Math.max(Math.abs(a), Math.abs(b));
+  Math.abs(a - b) <= 1e-4 * Math.max(Math.abs(a), Math.abs(b));
 
 // Enough digits to tell two numbers apart.
 export function digitsApart(a: number, b: number): number {
@@ -123,7 +123,18 @@ export const fieldKind = (field: string): Kind =>
       ? 'difference'
       : field.endsWith('_ml')
         ? 'volume_ml'
-        : 'plain';
+        : field.endsWith('_l')
+          ? 'volume_l'
+          : 'plain';
+
+// The service speaks in the document's units: its limits in those shown.
+export const inUnit = (kind: Kind, error: string): string =>
+  kind === 'plain'
+    ? error
+    : error.replace(
+        /(≥|≤|>|<|not) (-?\d[\d.]*(?:e[+-]?\d+)?)/g,
+        (_, sign, number) => `${sign} ${short(toShown(kind, Number(number)))}`,
+      );
 
 export function fieldName(field: string): { label: string; unit: string } {
   if (field === 'current_max_a') return { label: 'current max', unit: 'A' };

@@ -14,8 +14,8 @@ import { useWidth } from './width';
 
 export type Brushes = Record<string, [number, number]>;
 
-const height = 260;
-const top = 34;
+const height = 268;
+const top = 42;
 const bottom = 18;
 const inset = 34;
 
@@ -187,7 +187,7 @@ function BrushAxis(props: {
     else return;
     event.preventDefault();
   };
-  const digits = digitsApart(toShown(axis.kind, low), toShown(axis.kind, high));
+  const digits = Math.max(3, digitsApart(toShown(axis.kind, low), toShown(axis.kind, high)) - 1);
   const text = (value: number) => significant(toShown(axis.kind, value), digits);
   const range = props.range;
   return (
@@ -239,7 +239,7 @@ function BrushAxis(props: {
       <text x={x} y={22} class="unit">
         {axisUnit(axis)}
       </text>
-      <text x={x} y={props.single ? (top + height - bottom) / 2 - 5 : top - 2} class="end">
+      <text x={x} y={props.single ? (top + height - bottom) / 2 - 5 : top - 5} class="end">
         {props.single ? short(toShown(axis.kind, (low + high) / 2), 4) : text(high)}
       </text>
       {!props.single && (

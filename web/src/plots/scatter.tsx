@@ -12,7 +12,7 @@ import { Picture } from './picture';
 import { useWidth } from './width';
 
 const height = 260;
-const space = { left: 52, right: 14, top: 10, bottom: 36 };
+const space = { left: 52, right: 26, top: 10, bottom: 36 };
 
 interface Point {
   design: Design;

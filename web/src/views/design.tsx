@@ -6,6 +6,7 @@ import { supplyWord } from '../lib/amounts';
 import { type Parts, partsOf } from '../lib/rig';
 import { link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
+import { proofInWords } from '../lib/words';
 import { Chip, Notice } from '../ui/controls';
 import { csv, saveFile } from '../ui/files';
 import { Maps } from './maps';
@@ -71,6 +72,9 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
           </span>
         </div>
         <Facts design={design} />
+        <p class="only-printed">
+          {proofInWords(answer)} Catalogue revision {answer.catalogue_revision?.number ?? '–'}.
+        </p>
       </div>
       <div class="plots wide-left">
         <PartsPanel design={design} />

@@ -10,7 +10,7 @@ import type { Answer } from '../lib/types';
 import { proofInWords, statusWord } from '../lib/words';
 import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';
-import { heard, number, Table } from '../ui/table';
+import { extra, heard, number, Table } from '../ui/table';
 import { ComparePanel } from './compare';
 import { DesignPage } from './design';
 import { ProgressPanel } from './progress';
@@ -120,9 +120,13 @@ function Headline({ answer, id }: { answer: Answer; id: string }) {
               go(['requirements']);
             }}
           >
-            Requirements
+            Edit requirements
           </button>
-          <button type="button" onClick={() => void again()}>
+          <button
+            type="button"
+            data-tip="The same requirements with the catalogue as it is now"
+            onClick={() => void again()}
+          >
             Rank again
           </button>
           <button
@@ -177,6 +181,8 @@ function Conflict({ answer }: { answer: Answer }) {
       <p>
         One of them has to give; each row says what was found to be enough while the others stay.
         {!isProved && ' Time ran out before it was clear that those in doubt take part.'}
+        {rows.some((row) => row.best === null) &&
+          ' Where there is no number, none was found in the time given; a longer limit may find one.'}
       </p>
       <Table
         label="Conflicting requirements"
@@ -184,7 +190,7 @@ function Conflict({ answer }: { answer: Answer }) {
           'requirement',
           number('asked'),
           number('best found'),
-          number('enough to give'),
+          extra(number('enough to give')),
           heard('change'),
         ]}
       >
@@ -199,7 +205,7 @@ function Conflict({ answer }: { answer: Answer }) {
               {sense(row.requirement)} {requirementNumber(row.requirement, row.required)}
             </td>
             <td class="num">{requirementNumber(row.requirement, row.best)}</td>
-            <td class="num">{give(row.relaxation)}</td>
+            <td class="num extra">{give(row.relaxation)}</td>
             <td class="num">
               {row.best !== null && (
                 <button type="button" onClick={() => askFor(answer, row.requirement, row.best!)}>

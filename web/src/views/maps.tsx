@@ -44,15 +44,17 @@ export function Maps({
   const toFraction = requirements.rise?.to_fraction ?? 0.95;
   return (
     <>
-      <div class="panel">
-        {requirements.actuators.length > 1 && (
+      {requirements.actuators.length > 1 && (
+        <div class="across">
           <Segmented
             label="group"
             value={String(index.value)}
             onChange={(v) => (index.value = Number(v))}
             options={requirements.actuators.map((g, i) => ({ value: String(i), label: g.name }))}
           />
-        )}
+        </div>
+      )}
+      <div class="panel">
         {problem.value && <Notice kind="bad">{problem.value}</Notice>}
         {now && (
           <ContourMap

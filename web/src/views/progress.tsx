@@ -30,13 +30,18 @@ export function ProgressPanel({ watched, self }: { watched: Watched; self: strin
             significant(best, 4),
             best === null ? '' : unit,
           ],
-          ['nothing better than', significant(bound, 4), bound === null ? '' : unit],
+          ['all others at least', significant(bound, 4), bound === null ? '' : unit],
           ['gap', percent(gap)],
           ['evaluated', count(progress?.evaluated ?? 0)],
           ['regions left', count(progress?.open ?? 0)],
         ]}
       />
       <Bar label="How far the proof has closed" share={gap === null ? 0 : 1 - gap} />
+      {gap === 0 && (
+        <p role="status">
+          Nothing beats the best so far; what else belongs on the list is still being proved.
+        </p>
+      )}
       {trace.length > 1 && (
         <Lines
           title="The proof closing"
@@ -47,7 +52,7 @@ export function ProgressPanel({ watched, self }: { watched: Watched; self: strin
           lines={[
             { label: 'best so far', values: trace.map((p) => p.best), colour: '--c1' },
             {
-              label: 'lower bound',
+              label: 'all others at least',
               values: trace.map((p) => p.lower_bound),
               colour: '--c2',
               dash: [5, 3],

@@ -46,7 +46,9 @@ function extentOf(axis: Axis, designs: Design[]): [number, number] {
 
 // Enough digits to tell the designs apart, within reason.
 const digitsOf = (axis: Axis, designs: Design[]): number =>
-  Math.min(axis.id === 'mass' ? 5 : 4, digitsApart(...extentOf(axis, designs)));
+  axis.id === 'mass'
+    ? Math.min(5, Math.max(4, digitsApart(...extentOf(axis, designs))))
+    : Math.min(4, digitsApart(...extentOf(axis, designs)));
 
 export const isAlike = (axis: Axis, designs: Design[]): boolean =>
   designs.every((design) => axis.of(design) !== null) && isSame(...extentOf(axis, designs));

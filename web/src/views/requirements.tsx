@@ -1,7 +1,9 @@
 // What the supply has to do: the form, its check, and the start of a search.
 import { useSignal } from '@preact/signals';
 
+import { placeInWords } from '../lib/amounts';
 import { asProblem, type Problem } from '../lib/api';
+import { fieldKind, inUnit } from '../lib/format';
 import { previousJob, start } from '../lib/jobs';
 import {
   edit,
@@ -158,7 +160,19 @@ function Verdict() {
   return (
     <div class="verdict bad" role="status">
       {n === 1 ? 'One thing has to change:' : `${n} things have to change:`}
-      <ErrorList errors={fieldErrors.value} />
+      <ul>
+        {fieldErrors.value.map((error) => (
+          <li key={error.pointer + error.detail}>
+            <button type="button" class="quiet small" onClick={() => focusOn(error.pointer)}>
+              {placeInWords(error.pointer, requirements.value.actuators)}
+            </button>{' '}
+            {inUnit(fieldKind(error.pointer.replace(/_max$/, '')), error.detail)}
+          </li>
+        ))}
+      </ul>
     </div>
   );
 }
+
+const focusOn = (pointer: string): void =>
+  document.querySelector<HTMLElement>(`[data-pointer="${pointer}"]`)?.focus();

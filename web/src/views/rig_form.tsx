@@ -29,6 +29,7 @@ export function RigForm() {
     unit: '1 σ, share',
     optional: true,
     placeholder: 'exact',
+    hint: 'such as 0.03 for 3 %',
   });
   return (
     <Panel title="The rig it was measured on">
@@ -61,6 +62,7 @@ export function RigForm() {
             label="Source pressure"
             kind="pressure"
             value={source}
+            hint="of the regulator"
             error={errorAt('/runs/0/source_pressure_kpa_gauge')}
             onChange={(v) =>
               (measurement.value = {

@@ -18,7 +18,7 @@ import { go, link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
 import { Notice, Panel } from '../ui/controls';
 import { ShareBar } from '../ui/share_bar';
-import { number, Table } from '../ui/table';
+import { extra, number, Table } from '../ui/table';
 import { partsInShort } from './ranked_table';
 
 export function Why({ answer, id }: { answer: Answer; id: string }) {
@@ -187,7 +187,7 @@ function Prices({ answer }: { answer: Answer }) {
       heads={[
         'a tenth looser',
         number('asked'),
-        number('then'),
+        extra(number('then')),
         number('saves', objectiveUnit(answer.requirements)),
         'of the best',
       ]}
@@ -199,7 +199,7 @@ function Prices({ answer }: { answer: Answer }) {
             <small class="muted">{requirementUnit(row.requirement)}</small>
           </th>
           <td class="num">{requirementNumber(row.requirement, row.required)}</td>
-          <td class="num">{requirementNumber(row.requirement, row.loosened)}</td>
+          <td class="num extra">{requirementNumber(row.requirement, row.loosened)}</td>
           <td class="num">{isNothing(row.saving) ? '0' : significant(row.saving)}</td>
           <td>
             <ShareBar share={(row.saving_share ?? 0) / most} mark="least">
