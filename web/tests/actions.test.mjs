@@ -92,6 +92,11 @@ test('a search is followed and cancelled', async () => {
   const { page, close } = await openPage(browser, service.base, `#/designs/${id}`);
   await page.getByText('best so far').first().waitFor();
   await page.getByText('The proof closing').waitFor();
+  await page.getByText('least volume so far').waitFor();
+  await page
+    .getByText(/^1\.7\d\d L$/)
+    .first()
+    .waitFor();
   await page.getByRole('progressbar', { name: 'How far the proof has closed' }).waitFor();
   await page.getByRole('button', { name: 'Cancel' }).click();
   await page.getByText('Cancelled before the proof was complete').waitFor();
@@ -208,7 +213,7 @@ test('a measurement is diagnosed and the revision ranks', async () => {
   await page.getByText('Residual: measured less model').waitFor();
   await page
     .getByRole('region', { name: 'Candidate models' })
-    .getByText('creep of the wall', { exact: true })
+    .getByRole('row', { name: /^creep of the wall taken/ })
     .waitFor();
   const phases = page.getByRole('region', { name: 'Residuals by phase' });
   assert.equal(await phases.getByRole('row', { name: /hold/ }).count(), 2);
@@ -303,6 +308,8 @@ test('what no effect describes is learned, and said to be so', async () => {
   // The address alone brings it back.
   await page.reload();
   await page.getByRole('heading', { name: 'What no known effect accounts for' }).waitFor();
+  await page.getByRole('link', { name: 'Jobs' }).click();
+  await page.getByRole('row', { name: /bench unexplained/ }).waitFor();
   await close();
 });
 

@@ -49,7 +49,15 @@ test('units change what is shown and never what is asked', async () => {
   assert.equal(posted.at(-1).actuators[0].operating_pressure_kpa_gauge, 105);
   await page.getByRole('button', { name: 'L', exact: true }).click();
   assert.equal(await page.getByLabel('Volume at rest').inputValue(), '0.05');
-  await close();
+  // So do the limits that the service names.
+  await page.getByLabel('Volume at rest').fill('2000');
+  await page.getByText('must be ≥ 0.00001 and ≤ 1\u202f000, not 2\u202f000').first().waitFor();
+  // And what the catalogue shows.
+  await page.getByRole('link', { name: 'Catalogue' }).click();
+  await page.getByRole('link', { name: /^reservoir/ }).click();
+  await page.getByRole('columnheader', { name: 'internal volume L' }).waitFor();
+  await page.getByRole('columnheader', { name: 'p max bar abs' }).waitFor();
+  await close([422]);
 });
 
 test('requirements are saved, loaded and shared by address', async () => {
@@ -83,7 +91,14 @@ test('an infeasible problem says what conflicts', async () => {
   const id = await rank(service, impossible);
   const { page, close } = await openPage(browser, service.base, `#/designs/${id}`);
   await page.getByText('infeasible', { exact: true }).waitFor();
-  await page.getByRole('region', { name: 'Conflicting requirements' }).getByText('mass').waitFor();
+  const conflicts = page.getByRole('region', { name: 'Conflicting requirements' });
+  await conflicts.getByRole('columnheader', { name: 'best found' }).waitFor();
+  await conflicts.getByRole('row', { name: /mass/ }).waitFor();
+  // What was found can be asked for, and is then met.
+  await conflicts.getByRole('button', { name: 'Ask for that' }).click();
+  await page.getByText('These requirements can be searched.').waitFor();
+  await page.getByRole('button', { name: 'Find the best designs' }).click();
+  await page.getByText('Proved: no other combination').waitFor();
   await close();
 });
 

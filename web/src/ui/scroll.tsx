@@ -22,7 +22,7 @@ export function Scroll(props: {
       right: scrollWidth - clientWidth - scrollLeft,
       below: scrollHeight - clientHeight - scrollTop,
     };
-    beyond.value = edges.filter((edge) => more[edge] > 1).join(' ');
+    beyond.value = edges.filter((edge) => more[edge] > 4).join(' ');
     scrolls.value = scrollWidth > clientWidth + 1 || scrollHeight > clientHeight + 1;
   };
   useEffect(() => {
