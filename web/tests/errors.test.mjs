@@ -29,6 +29,41 @@ test('a bad number is marked at its field while it is typed', async () => {
   await close([422]);
 });
 
+test('the ranges shown are those of the service', async () => {
+  const { components } = await service.get('/openapi.json');
+  // The numbers' schema at a pointer, without the choice to say nothing.
+  const schemaAt = (pointer) =>
+    pointer
+      .split('/')
+      .slice(1)
+      .reduce((at, step) => {
+        const inner = /^\d+$/.test(step) ? at.items : at.properties[step];
+        return inner.anyOf?.find((one) => one.type !== 'null') ?? inner;
+      }, components.schemas.Requirements);
+  const { page, close } = await openPage(browser, service.base);
+  await page.getByText('Wall supply').click();
+  await page.getByText('Ambient, numbers of parts').click();
+  const shown = await page
+    .locator('input[data-pointer]')
+    .evaluateAll((inputs) =>
+      inputs.map((input) => [
+        input.dataset.pointer,
+        document.getElementById(input.getAttribute('aria-describedby')).textContent,
+      ]),
+    );
+  let ranges = 0;
+  for (const [pointer, hint] of shown) {
+    const [, low, high] = /(\S+) … (\S+)$/.exec(hint.replaceAll('\u202f', '')) ?? [];
+    if (low === undefined) continue;
+    ++ranges;
+    const { minimum, exclusiveMinimum, maximum, exclusiveMaximum } = schemaAt(pointer);
+    const range = [minimum ?? exclusiveMinimum, maximum ?? exclusiveMaximum];
+    assert.deepEqual([Number(low), Number(high)], range, pointer);
+  }
+  assert.ok(ranges >= 18, `${ranges} ranges`);
+  await close();
+});
+
 test('units change what is shown and never what is asked', async () => {
   const { page, close } = await openPage(browser, service.base);
   const posted = [];

@@ -30,7 +30,8 @@ export function beside(scale: number, value: number): string {
 // Without zeros at the end: bounds and ticks.
 export const short = (value: number, digits = 6): string => {
   const text = significant(value, digits);
-  return text.includes('.') && !text.includes('×') ? text.replace(/\.?0+$/, '') : text;
+  if (text.includes('×')) return text.replace(/\.?0+×/, '×').replace(/^(−?)1×/, '$1');
+  return text.includes('.') ? text.replace(/\.?0+$/, '') : text;
 };
 
 export const isSame = (a: number, b: number): boolean =>

@@ -122,7 +122,7 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
           label="Fittings per line"
           path={path('fittings_per_line')}
           usual={2}
-          range={[0, 13]}
+          range={[0, 5]}
         />
       </div>
       {!alone && (

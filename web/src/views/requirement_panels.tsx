@@ -53,6 +53,7 @@ export function Supply() {
               unit="L/min ANR"
               optional
               path={['supply', 'mains', 'flow_l_per_min_anr_max']}
+              hint="at 100 kPa and 20 °C"
             />
           </>
         )}
@@ -61,7 +62,7 @@ export function Supply() {
           kind="pressure"
           optional
           path={['supply', 'source_pressure_kpa_gauge_max']}
-          range={[1, 10000]}
+          range={[1, 50000]}
         />
         <RequirementField
           label="Mass, at most"
@@ -104,14 +105,14 @@ export function Duty() {
           hint="without refill or recharge"
         />
         <RequirementField
-          label="Rise counts to"
+          label="Rise counts up to"
           unit="of operating"
           path={['rise', 'to_fraction']}
           usual={0.95}
           range={[0, 1]}
         />
         <RequirementField
-          label="Fall counts to"
+          label="Fall counts down to"
           unit="of operating"
           path={['fall', 'to_fraction']}
           usual={0.05}

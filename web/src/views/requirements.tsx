@@ -95,6 +95,10 @@ export function RequirementsView() {
             </button>
           </span>
         </div>
+        <p class="muted">
+          Say what the actuators need: plenum chooses the parts of their air supply from the
+          catalogue and proves that no other choice is better.
+        </p>
         <Panel
           title="Actuators"
           aside={
