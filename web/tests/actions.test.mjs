@@ -108,6 +108,49 @@ test('a search is followed and cancelled', async () => {
   await close();
 });
 
+test('a design is taken along as JSON, CSV and a data sheet', async () => {
+  const id = await rank(service, {
+    ...example('crawler'),
+    ranking: { count: 4, time_limit_s: 20 },
+  });
+  const { result } = await service.get(`/v1/designs/${id}`);
+  const { page, close } = await openPage(browser, service.base, `#/designs/${id}/2`);
+  await page.getByRole('heading', { name: 'Response and what if' }).waitFor();
+  const saved = async (name) => {
+    const download = page.waitForEvent('download');
+    await page.getByRole('button', { name, exact: true }).click();
+    return textOf(await download);
+  };
+  const design = result.designs[1];
+  assert.deepEqual(JSON.parse(await saved('JSON')), design);
+  const parts = (await saved('Parts CSV')).trim().split('\n');
+  assert.equal(parts.length, 1 + design.parts.length);
+  assert.match(parts[0], /^family,id,manufacturer,part_number,group,quantity,unit,mass_kg/);
+  const response = (await saved('Response CSV')).trim().split('\n');
+  assert.equal(
+    response[0],
+    't_s,leg_pressure_kpa_gauge,body_pressure_kpa_gauge,source_pressure_kpa_gauge',
+  );
+  assert.equal(response.length, 1 + design.response.t_s.length);
+  // Printed, controls are gone and what was proved is said.
+  await page.emulateMedia({ media: 'print' });
+  await page.getByText(/Proved: .* Catalogue revision 1\./).waitFor();
+  assert.equal(await page.getByRole('slider').first().isVisible(), false);
+  await page.emulateMedia({ media: 'screen' });
+  // The list, as it is filtered and sorted.
+  await page.goBack();
+  await page.goto(`${service.base}/#/designs/${id}?sort=-mass`);
+  await rows(page).first().waitFor();
+  const list = (await saved('CSV')).trim().split('\n');
+  assert.deepEqual(
+    list.slice(1).map((line) => Number(line.split(',')[0])),
+    result.designs
+      .toSorted((a, b) => b.totals.mass_kg - a.totals.mass_kg || b.rank - a.rank)
+      .map((d) => d.rank),
+  );
+  await close();
+});
+
 test('the first design is explained: what requirements cost and how sure it is', async () => {
   const id = await rank(service, {
     ...example('exosuit'),
@@ -316,7 +359,12 @@ test('what no effect describes is learned, and said to be so', async () => {
 test('a model that is good enough gets nothing, and a diagnosis can be cancelled', async () => {
   const { page, close } = await openPage(browser, service.base, '#/measured');
   const nothing = await makeMeasurement(service, 'nothing');
-  await openFiles(page, 'Open files…', file('nothing.json', JSON.stringify(nothing)));
+  const dropped = await page.evaluateHandle((text) => {
+    const data = new DataTransfer();
+    data.items.add(new File([text], 'nothing.json', { type: 'application/json' }));
+    return data;
+  }, JSON.stringify(nothing));
+  await page.locator('.drop').dispatchEvent('drop', { dataTransfer: dropped });
   await diagnose(page);
   await page.getByText('No effect: the base model is enough.').waitFor();
   assert.equal(await verdict(page).innerText(), 'adequate');

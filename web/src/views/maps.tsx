@@ -6,6 +6,7 @@ import { asProblem } from '../lib/api';
 import { significant } from '../lib/format';
 import { type GroupMaps, mapsOf, type Place } from '../lib/maps';
 import { missingPart, type Parts } from '../lib/rig';
+import { route, setQuery } from '../lib/route';
 import type { Design, Requirements } from '../lib/types';
 import { ContourMap } from '../plots/contour';
 import { Notice, Segmented } from '../ui/controls';
@@ -26,10 +27,11 @@ export function Maps({
   requirements: Requirements;
   parts: Parts | null;
 }) {
-  const index = useSignal(0);
+  const last = requirements.actuators.length - 1;
+  const index = Math.min(last, Math.max(0, Number(route.value.query.get('group')) || 0));
   const maps = useSignal<GroupMaps | null>(null);
   const problem = useSignal('');
-  const group = requirements.actuators[index.value]!;
+  const group = requirements.actuators[index]!;
   useEffect(() => {
     if (!parts || missingPart(design, parts)) return;
     mapsOf(design, requirements, parts, group).then(
@@ -48,8 +50,8 @@ export function Maps({
         <div class="across">
           <Segmented
             label="group"
-            value={String(index.value)}
-            onChange={(v) => (index.value = Number(v))}
+            value={String(index)}
+            onChange={(v) => setQuery({ group: v === '0' ? undefined : v })}
             options={requirements.actuators.map((g, i) => ({ value: String(i), label: g.name }))}
           />
         </div>

@@ -6,6 +6,7 @@ import { requirementName } from '../lib/amounts';
 import { asProblem } from '../lib/api';
 import { asDesigned, type Change, evaluate, type Evaluation } from '../lib/evaluation';
 import { change as changeOf } from '../lib/format';
+import { route, setQuery } from '../lib/route';
 import type { Design, Requirements } from '../lib/types';
 import { Notice, Panel, Segmented } from '../ui/controls';
 import { Swing } from '../ui/swing';
@@ -55,7 +56,7 @@ export function Sensitivities({
   design: Design;
   requirements: Requirements;
 }) {
-  const by = useSignal<By>('10');
+  const by: By = route.value.query.get('by') === '-10' ? '-10' : '10';
   const base = useSignal<Evaluation | null>(null);
   const rows = useSignal<{ label: string; found: Evaluation | null }[]>([]);
   const problem = useSignal('');
@@ -64,7 +65,7 @@ export function Sensitivities({
     const load = async () => {
       base.value = await evaluate(design, requirements, start);
       rows.value = await Promise.all(
-        causes(start, 1 + Number(by.value) / 100).map(async ([label, patch]) => ({
+        causes(start, 1 + Number(by) / 100).map(async ([label, patch]) => ({
           label,
           // Some changes cannot be asked for: an operating pressure above what its limit allows.
           found: await evaluate(design, requirements, { ...start, ...patch }).catch(() => null),
@@ -73,7 +74,7 @@ export function Sensitivities({
       problem.value = '';
     };
     load().catch((error) => (problem.value = asProblem(error).message));
-  }, [design, by.value]);
+  }, [design, by]);
   const was = base.value?.works ? base.value : null;
   const share = (effect: Effect, found: Evaluation): number | null => {
     const [before, after] = [effect.of(was!), effect.of(found)];
@@ -86,8 +87,8 @@ export function Sensitivities({
       aside={
         <Segmented
           label="each number by"
-          value={by.value}
-          onChange={(v) => (by.value = v)}
+          value={by}
+          onChange={(v) => setQuery({ by: v === '10' ? undefined : v })}
           options={[
             { value: '-10', label: '−10 %' },
             { value: '10', label: '+10 %' },
