@@ -314,5 +314,7 @@ test('the service going away is said, and the page goes on when it is back', asy
   await page.getByText('the service does not answer').waitFor();
   await page.getByRole('link', { name: 'Catalogue' }).click();
   await page.getByText('the service does not answer').waitFor();
+  await page.getByRole('link', { name: 'Jobs' }).click();
+  await page.getByText('the service does not answer').waitFor();
   await page.context().close();
 });

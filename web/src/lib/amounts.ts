@@ -137,6 +137,12 @@ export function usualAxes({ objective }: Pick<Requirements, 'objective'>): [stri
 
 export const axisOf = (id: string | null | undefined): Axis | undefined =>
   axes.find((axis) => axis.id === id);
+// An amount in the unit chosen; of shares tenths of a percent are enough.
+export function amountText(axis: Axis, value: number | null, digits = 3): string {
+  const isShare = axis.unit === '%' && value !== null && Math.abs(value) >= 1;
+  return isShare ? value.toFixed(1) : shown(axis.kind, value, digits);
+}
+
 export const axisUnit = (axis: Axis): string => unitOf(axis.kind, axis.unit);
 
 // A requirement's pointer in words, as the groups are named.

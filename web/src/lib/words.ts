@@ -1,5 +1,6 @@
-// What was proved, in words.
+// What was proved or found, in words.
 import { count, duration, percent, scientific } from './format';
+import type { Diagnosis } from './measurement';
 import type { Answer } from './types';
 
 export function proofInWords(answer: Answer): string {
@@ -43,4 +44,12 @@ export const statusWord: Record<Answer['status'], Word> = {
   feasible: { text: 'best found', kind: 'warn' },
   infeasible: { text: 'infeasible', kind: 'bad' },
   cancelled: { text: 'cancelled', kind: 'warn' },
+};
+
+export const verdictWord: Record<Diagnosis['verdict'], Word> = {
+  adequate: { text: 'adequate', kind: 'good' },
+  explained: { text: 'explained', kind: 'good' },
+  tie: { text: 'a tie', kind: 'warn' },
+  unexplained: { text: 'unexplained', kind: 'bad' },
+  undecided: { text: 'undecided', kind: 'warn' },
 };

@@ -1,4 +1,5 @@
-// One tooltip for everything that carries data-tip, on hover and on focus.
+// One tooltip for everything that carries data-tip, on hover and on focus; a popover, so that it is
+// above a modal window, too.
 import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
@@ -39,6 +40,10 @@ export function Tooltip() {
     <div
       class={`tooltip ${now.below ? 'below' : ''}`}
       role="tooltip"
+      popover="manual"
+      ref={(at: HTMLDivElement | null) => {
+        if (at && !at.matches(':popover-open')) at.showPopover();
+      }}
       style={{ left: `${x}px`, top: `${now.y}px` }}
     >
       {now.text}

@@ -1,6 +1,14 @@
 // Up to four designs side by side: deltas to the first, responses over each other.
-import { axes, type Axis, axisUnit, quantityOf, requirementName, supplyWord } from '../lib/amounts';
-import { change, percent, shown, signed } from '../lib/format';
+import {
+  amountText,
+  axes,
+  type Axis,
+  axisUnit,
+  quantityOf,
+  requirementName,
+  supplyWord,
+} from '../lib/amounts';
+import { change, percent, signed } from '../lib/format';
 import { link, route, setQuery } from '../lib/route';
 import { seriesColours } from '../lib/theme';
 import type { Answer, Design } from '../lib/types';
@@ -81,7 +89,7 @@ function Amounts({ designs, answer, id }: { designs: Design[]; answer: Answer; i
                   const value = axis.of(design);
                   return (
                     <td key={design.rank}>
-                      {shown(axis.kind, value, axis.id === 'mass' ? 4 : 3)}{' '}
+                      {amountText(axis, value, axis.id === 'mass' ? 4 : 3)}{' '}
                       {design !== first && <Delta axis={axis} value={value} base={base} />}
                     </td>
                   );

@@ -1,5 +1,6 @@
 // Facts, parts, margins and estimates of a design.
 import {
+  amountText,
   axes,
   axisUnit,
   requirementName,
@@ -10,7 +11,6 @@ import {
 import { fieldName, percent, significant } from '../lib/format';
 import { link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
-import { toShown } from '../lib/units';
 import { Chip, Panel } from '../ui/controls';
 import { type Fact, FactList } from '../ui/facts';
 import { ShareBar } from '../ui/share_bar';
@@ -34,8 +34,7 @@ export function Facts({ design }: { design: Design }) {
   const facts = axes.flatMap((axis): Fact[] => {
     const value = axis.of(design);
     if (value === null || axis.id === 'estimated') return [];
-    const text = significant(toShown(axis.kind, value), axis.id === 'mass' ? 4 : 3);
-    return [[axis.label, text, axisUnit(axis)]];
+    return [[axis.label, amountText(axis, value, axis.id === 'mass' ? 4 : 3), axisUnit(axis)]];
   });
   return <FactList facts={facts} />;
 }

@@ -1,15 +1,10 @@
 // What a diagnosis found: the verdict, measured against model before and after, residuals, what is
 // left, the candidates, the next experiment; and the revised model, saved and used.
 import { significant } from '../lib/format';
-import {
-  type Diagnosis,
-  effectName,
-  inWords,
-  type Measurement,
-  type Shade,
-  verdictWord,
-} from '../lib/measurement';
+import { effectName, inWords } from '../lib/effect_words';
+import { type Diagnosis, type Measurement, type Shade } from '../lib/measurement';
 import { pressuresShown, toShown, unitOf } from '../lib/units';
+import { verdictWord } from '../lib/words';
 import { Lines } from '../plots/lines';
 import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';

@@ -1,6 +1,7 @@
 // The effects that a diagnosis established, and the declared numbers as they were fitted.
 import { digitsApart, fieldKind, fieldName, significant } from '../lib/format';
-import { type Diagnosis, effectName, type Estimate } from '../lib/measurement';
+import { effectName } from '../lib/effect_words';
+import { type Diagnosis, type Estimate } from '../lib/measurement';
 import { type Kind, toShown } from '../lib/units';
 import { Panel } from '../ui/controls';
 import { number, Table } from '../ui/table';

@@ -1,6 +1,7 @@
 // The tables of a diagnosis: errors, residuals by phase, candidates.
 import { beside, shown, significant } from '../lib/format';
-import { type Diagnosis, effectNames } from '../lib/measurement';
+import { effectNames } from '../lib/effect_words';
+import { type Diagnosis } from '../lib/measurement';
 import { toShown, unitOf } from '../lib/units';
 import { Chip, Panel } from '../ui/controls';
 import { Swing } from '../ui/swing';

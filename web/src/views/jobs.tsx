@@ -1,29 +1,35 @@
 // Searches and diagnoses that the service knows, the newest first.
+import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect } from 'preact/hooks';
 
 import { objectiveUnit } from '../lib/amounts';
+import { asProblem } from '../lib/api';
 import { duration, moment, significant } from '../lib/format';
 import { diagnosisList, ended, jobList, refreshDiagnoses, refreshJobs } from '../lib/jobs';
-import { verdictWord } from '../lib/measurement';
 import { link } from '../lib/route';
 import type { Job } from '../lib/types';
-import { statusWord, type Word } from '../lib/words';
-import { Chip, Panel } from '../ui/controls';
+import { statusWord, type Word, verdictWord } from '../lib/words';
+import { Chip, Notice, Panel } from '../ui/controls';
 import { extra, number, Table } from '../ui/table';
 
 const periodMs = 2000;
 
 export function JobsView() {
+  const problem = useSignal('');
   useEffect(() => {
     const refresh = () =>
-      void Promise.all([refreshJobs(), refreshDiagnoses()]).catch(() => undefined);
+      void Promise.all([refreshJobs(), refreshDiagnoses()]).then(
+        () => (problem.value = ''),
+        (error) => (problem.value = asProblem(error).message),
+      );
     refresh();
     const timer = setInterval(refresh, periodMs);
     return () => clearInterval(timer);
   }, []);
   return (
     <>
+      {problem.value && <Notice kind="bad">{problem.value}</Notice>}
       <Panel first title="Searches">
         <Jobs
           label="Searches"

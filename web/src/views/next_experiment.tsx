@@ -1,12 +1,7 @@
 // The run that would decide a tie: what to do, what to expect, and a file to fill in.
 import { fieldName, shown, significant } from '../lib/format';
-import {
-  type Diagnosis,
-  effectNames,
-  inWords,
-  type Measurement,
-  shadesOf,
-} from '../lib/measurement';
+import { effectNames, inWords } from '../lib/effect_words';
+import { type Diagnosis, type Measurement, shadesOf } from '../lib/measurement';
 import { toShown, unitOf } from '../lib/units';
 import { Panel } from '../ui/controls';
 import { type Fact, FactList } from '../ui/facts';

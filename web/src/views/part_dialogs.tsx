@@ -105,6 +105,7 @@ function Wish({ part }: { part: Part }) {
       <button
         type="button"
         aria-pressed={isOut}
+        data-tip="The next searches do without this part"
         onClick={() => edit(['exclude'], orNone(isOut ? without(exclude) : [...exclude, part.id]))}
       >
         Leave out
@@ -112,6 +113,7 @@ function Wish({ part }: { part: Part }) {
       <button
         type="button"
         aria-pressed={isAsked}
+        data-tip={`The next searches take no other ${part.family} than those required`}
         onClick={() =>
           edit(['require', part.family], orNone(isAsked ? without(asked) : [...asked, part.id]))
         }

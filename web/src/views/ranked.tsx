@@ -165,7 +165,7 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
               disabled={picked.value.length < 2}
               onClick={() => go(['designs', id, 'compare'], { ranks: picked.value.join(',') })}
             >
-              Compare {picked.value.length || ''}
+              {picked.value.length < 2 ? 'Mark two to compare' : `Compare ${picked.value.length}`}
             </button>
             <button
               type="button"

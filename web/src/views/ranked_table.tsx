@@ -2,15 +2,17 @@
 import { signal } from '@preact/signals';
 
 import {
+  amountText,
   type Axis,
   axisOf,
   axisUnit,
   leastMargin,
+  objectiveName,
   quantityOf,
   requirementName,
   supplyWord,
 } from '../lib/amounts';
-import { change, digitsApart, isSame, percent, shown } from '../lib/format';
+import { change, digitsApart, isSame, percent } from '../lib/format';
 import { link, setQuery } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
 import { Chip } from '../ui/controls';
@@ -89,7 +91,7 @@ export function Table(props: {
   const same = [
     ...(designs.length > 1 && kinds.size === 1 ? [`supply ${supplyWord(designs[0]!)}`] : []),
     ...alike.map(
-      (axis) => `${axis.label} ${shown(axis.kind, axis.of(designs[0]!))} ${axisUnit(axis)}`,
+      (axis) => `${axis.label} ${amountText(axis, axis.of(designs[0]!))} ${axisUnit(axis)}`,
     ),
   ];
   const hasSupply = designs.length === 1 || kinds.size > 1;
@@ -140,7 +142,11 @@ export function Table(props: {
               number('estimated'),
               'How much of the mass rests on estimates; ~ where flow data are estimates, too',
             )}
-            <th scope="col" class="num">
+            <th
+              scope="col"
+              class="num"
+              data-tip={`Difference in ${objectiveName(answer.requirements)}, which is ranked by`}
+            >
               to #{baseline}
             </th>
             <th scope="col">other parts than #{baseline}</th>
@@ -177,7 +183,7 @@ export function Table(props: {
             {hasSupply && <td class="nowrap">{supplyWord(design)}</td>}
             {used.map(({ axis, digits }) => (
               <td key={axis.id} class="num">
-                {shown(axis.kind, axis.of(design), digits)}
+                {amountText(axis, axis.of(design), digits)}
               </td>
             ))}
             <td>

@@ -3,7 +3,8 @@ import { useSignal } from '@preact/signals';
 
 import { asProblem, post } from '../lib/api';
 import { start } from '../lib/jobs';
-import { type Diagnosis, effectNames, type SavedModel } from '../lib/measurement';
+import { effectNames } from '../lib/effect_words';
+import { type Diagnosis, type SavedModel } from '../lib/measurement';
 import { models, refreshModels } from '../lib/models';
 import { load, requirements } from '../lib/requirements';
 import { go } from '../lib/route';
