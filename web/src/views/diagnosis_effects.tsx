@@ -1,16 +1,17 @@
 // The effects that a diagnosis established, and the declared numbers as they were fitted.
-import { digitsApart, fieldKind, fieldName, significant } from '../lib/format';
+import { beside, fieldKind, fieldName, significant } from '../lib/format';
 import { effectName } from '../lib/effect_words';
 import { type Diagnosis, type Estimate } from '../lib/measurement';
 import { type Kind, toShown } from '../lib/units';
 import { Panel } from '../ui/controls';
 import { number, Table } from '../ui/table';
 
-// With digits enough to tell the ends apart.
+// To the digits that the width of the interval leaves.
 function inDigits(kind: Kind, e: Estimate): { value: string; interval: string } {
   const [low, high] = e.ci95?.map((end) => toShown(kind, end)) ?? [];
-  const digits = low === undefined ? 3 : Math.min(6, digitsApart(low, high!) - 1);
-  const text = (value: number) => significant(value, Math.max(3, digits));
+  const width = low === undefined ? 0 : Math.abs(high! - low);
+  const isPlain = width > 1e-7 && width < 1e7;
+  const text = (value: number) => (isPlain ? beside(10 * width, value) : significant(value));
   return {
     value: text(toShown(kind, e.value)),
     interval: low === undefined ? '–' : `${text(low)} … ${text(high!)}`,
