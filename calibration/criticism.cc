@@ -113,9 +113,10 @@ double Gain(const Sums& sums) {
 
 }  // namespace
 
-double LearnableGain(const FitData& data, const Fit& fit, const FitOptions& options) {
+double LearnableGain(const FitData& data, const Fit& fit, double memory,
+                     const FitOptions& options) {
   const auto fitted = static_cast<Eigen::Index>(fit.coordinates.size());
-  const double n = static_cast<double>(fit.rows);
+  const double worth = static_cast<double>(fit.rows) / memory;
   double most = 0.0;
   for (const Term& term : Terms()) {
     if (options.cancelled && options.cancelled()) break;
@@ -133,8 +134,8 @@ double LearnableGain(const FitData& data, const Fit& fit, const FitOptions& opti
     });
     if (!done) continue;
     const double gain = std::min(Gain(sums), 0.5 * fit.chi2_data);
-    const double bic = n * std::log(fit.chi2_data / (fit.chi2_data - gain)) -
-                       static_cast<double>(numbers) * std::log(n);
+    const double bic = worth * std::log(fit.chi2_data / (fit.chi2_data - gain)) -
+                       static_cast<double>(numbers) * std::log(std::max(1.0, worth));
     most = std::max(most, bic);
   }
   return most;

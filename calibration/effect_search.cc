@@ -84,6 +84,7 @@ class Search {
     }
     if (Of(*chosen).effects.size() > 1u && LeftShare(Of(*chosen)) < kEstablished && !Cancelled()) {
       const int size = static_cast<int>(Of(*chosen).effects.size());
+      Shrink(Of(*chosen).effects);
       Exchange(Of(*chosen).effects);
       chosen = Best(size);
     }
@@ -354,20 +355,29 @@ class Search {
     RunJobs(jobs, 0.6, 0.7, "laws");
   }
 
-  // Every set that differs from this one in one member. By value, here and in Finish: the
-  // contenders that it comes from move.
+  static Set Without(const Set& set, Spec out) {
+    Set rest = set;
+    std::erase(rest, out);
+    return rest;
+  }
+
+  // Backwards: the sets with one member less, from where the larger set came to. A smaller set that
+  // was cut short, or caught beside its optimum, must not make a member look needed. By value, here
+  // and in Exchange: the contenders that the set comes from move.
+  void Shrink(Set set) {
+    std::vector<Job> jobs;
+    for (const Spec out : set) {
+      const Set rest = Without(set, out);
+      jobs.push_back({rest, StateOf(*Find(set), rest), Base().fit.bic});
+    }
+    RunJobs(jobs, 0.85, 0.87, "smaller sets");
+  }
+
+  // Every set that differs from this one in one member.
   void Exchange(Set set) {
     std::vector<Job> jobs;
     for (const Spec out : set) {
-      Set rest;
-      std::copy_if(set.begin(), set.end(), std::back_inserter(rest),
-                   [&](Spec spec) { return spec != out; });
-      Contender* from = Find(rest);
-      if (!from) {
-        std::vector<Job> smaller = {{rest, StateOf(*Find(set), rest)}};
-        RunJobs(smaller, 0.85, 0.87, "smaller sets");
-        from = Find(rest);
-      }
+      const Contender* from = Find(Without(set, out));
       if (!from->fit.Usable()) continue;
       const Contender seed = *from;
       for (const Spec spec : BestLaws()) AddJobs(seed, spec, jobs);

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "calibration/criticism.h"
+#include "calibration/evidence.h"
 #include "calibration/residual.h"
 
 namespace plenum::calibration {
@@ -111,7 +112,9 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
   leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()));
   leftover.rms_pa = squares.Rms();
   leftover.noise_pa = NoiseOf(bench, bench.data.runs);
-  if (IsNoise(leftover)) leftover.learnable_bic = LearnableGain(bench.data, fit, bench.tight);
+  if (IsNoise(leftover))
+    leftover.learnable_bic =
+        LearnableGain(bench.data, fit, MemoryOf(WhitenedOf(bench, fit)), bench.tight);
   if (!with_holdout) return leftover;
   if (bench.held_out.empty()) {
     leftover.holdout_rms_pa = LeaveOneOut(bench, fit);
