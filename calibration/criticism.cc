@@ -71,9 +71,11 @@ bool AddRun(const FitData& data, const Fit& fit, const Term& term, std::size_t r
   const auto rows = static_cast<Eigen::Index>(observed.rows());
   const auto fitted = static_cast<Eigen::Index>(fit.coordinates.size());
   Eigen::MatrixXd all(rows, static_cast<Eigen::Index>(parameters.size()));
+  const std::vector<double> slopes =
+      GridSlopes(data.forward->dataset().runs[run], observed, prediction.reading);
   for (Eigen::Index j = 0; j < all.cols(); ++j) {
     const auto k = static_cast<std::size_t>(j);
-    Whitened(observed, prediction.derivatives[k], {all.col(j).data(), observed.rows()});
+    Whitened(observed, prediction.derivatives[k], slopes, {all.col(j).data(), observed.rows()});
     if (j < fitted) all.col(j) *= fit.coordinates[k].Slope(fit.u[j]);
   }
   Eigen::VectorXd e(rows);

@@ -18,8 +18,7 @@ namespace plenum::calibration {
 
 // The largest gain in BIC of any term, with residuals worth 1/memory of their number; 0 where none
 // gains or a run cannot be simulated.
-double LearnableGain(const FitData& data, const Fit& fit, double memory,
-                     const FitOptions& options);
+double LearnableGain(const FitData& data, const Fit& fit, double memory, const FitOptions& options);
 
 }  // namespace plenum::calibration
 

@@ -91,9 +91,11 @@ class RunCost : public ceres::CostFunction {
     Residuals(data_.forward->dataset().runs[run_], Observed(), prediction.reading,
               {residuals, rows});
     if (!jacobian) return true;
+    const std::vector<double> slopes =
+        GridSlopes(data_.forward->dataset().runs[run_], Observed(), prediction.reading);
     Eigen::VectorXd column(static_cast<Eigen::Index>(rows));
     for (std::size_t j = 0; j < coordinates_.size(); ++j) {
-      Whitened(Observed(), prediction.derivatives[j], {column.data(), rows});
+      Whitened(Observed(), prediction.derivatives[j], slopes, {column.data(), rows});
       jacobian->col(static_cast<Eigen::Index>(j)) = coordinates_[j].Slope(u[j]) * column;
     }
     return jacobian->allFinite();
