@@ -131,8 +131,12 @@ class Diagnosing {
     diagnosis_.verdict = Judge(evidence);
     if (diagnosis_.verdict == Verdict::kUnexplained && evidence.accepted) {
       const double memory = MemoryOf(WhitenedOf(bench_, Chosen().fit));
+      const Fit base = base_->fit;
+      Reweigh(bench_.data, bench_.tight, memory, search_.contenders);
       search_.chosen = Standing(search_.contenders, memory);
       Weigh(memory, evidence);
+      search_.contenders[search_.base].fit = base;  // what it leaves is told of its least squares
+      if (evidence.complete && IsTieBesideStructure(evidence)) diagnosis_.verdict = Verdict::kTie;
     }
     const Contender& chosen = Chosen();
     diagnosis_.before = ErrorOf(bench_, base_->fit.state);

@@ -62,6 +62,7 @@ Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& stat
   data.runs = {run};
   FitOptions options = bench.tight;
   options.nuisance_only = true;
+  options.own_pairs = HasOwnPairs(bench.data, run);
   const Fit aligned = FitModel(data, state, options);
   return ErrorsOf(bench, run, aligned.Usable() ? aligned.state : state);
 }

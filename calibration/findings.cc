@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "calibration/evidence.h"
 #include "calibration/phases.h"
 
 namespace plenum::calibration {
@@ -26,7 +27,8 @@ std::vector<std::string> IdsOf(const Contender& contender) {
 void AddEstimates(const Bench& bench, const Fit& fit, Diagnosis& diagnosis) {
   FitOptions options = bench.tight;
   options.cancelled = nullptr;  // one evaluation
-  const Eigen::MatrixXd covariance = Covariance(bench.data, fit, options);
+  const Eigen::MatrixXd covariance =
+      Covariance(bench.data, fit, options, MemoryOf(WhitenedOf(bench, fit)));
   const std::vector<Estimate> estimates = Intervals(fit, covariance);
   std::vector<std::size_t> effects, fitted;  // which coordinates
   for (const model::Effect& effect : fit.state.effects)
@@ -150,7 +152,8 @@ std::string Sentence(const Bench& bench, const SearchResult& search, const Diagn
       return "The model lacks " + list(IdsOf(search.contenders[search.chosen])) +
              "; with it, only noise is left.";
     case Verdict::kTie:
-      return "The data cannot tell which is missing: " + either + ".";
+      return "The data cannot tell which is missing: " + either +
+             (diagnosis.unexplained_fraction > 0.0 ? "; and some structure is left." : ".");
     case Verdict::kUnexplained:
       if (!diagnosis.tied.empty())
         return "The data cannot tell which is missing: " + either +
