@@ -43,11 +43,13 @@ class Diagnosing {
       return PriorsHold(fit) && IsNoise(LeftoverOf(bench_, fit, false));
     };
     const FitData data = bench_.data;
-    if (HidesNoise()) TakeHidden(FitModel(data, forward_.Declared(), bench_.tight));
+    const bool on_grid = std::any_of(observed_.begin(), observed_.end(),
+                                     [](const ObservedRun& run) { return run.noise.staircase; });
+    if (on_grid) LearnReadings(FitModel(data, forward_.Declared(), bench_.tight));
     do {
       search_ = SearchEffects(data, options_, enough);
       bench_.data = search_.data;
-    } while (TakeHidden(Chosen().fit) && !Stopped());
+    } while (LearnReadings(Chosen().fit) && !Stopped());
     base_ = &search_.contenders[search_.base];
     Assess();
     return std::move(diagnosis_);
@@ -97,19 +99,14 @@ class Diagnosing {
     if (options_.progress) options_.progress(share, what);
   }
 
-  // Whether some readings are on a grid that is coarser than their noise.
-  bool HidesNoise() const {
-    return std::any_of(observed_.begin(), observed_.end(),
-                       [](const ObservedRun& run) { return run.noise.staircase; });
-  }
-
-  // True where a fit leaves so much less behind the grid than was thought that fits are to be made
-  // again.
-  bool TakeHidden(const Fit& fit) {
-    if (!HidesNoise() || !fit.Usable()) return false;
+  // What a fit shows of the readings: wild ones, and how much noise is behind their grid. True
+  // where fits are to be made again.
+  bool LearnReadings(const Fit& fit) {
+    if (!fit.Usable()) return false;
     std::vector<Reading> predicted(observed_.size());
     for (const std::size_t run : bench_.data.runs) predicted[run] = Shown(bench_, fit.state, run);
-    return TakeHiddenNoise(bench_.dataset, bench_.data.runs, predicted, observed_);
+    const bool wild = LeaveOutWild(bench_.dataset, bench_.data.runs, predicted, observed_);
+    return TakeHiddenNoise(bench_.dataset, bench_.data.runs, predicted, observed_) || wild;
   }
 
   void Assess() {

@@ -112,7 +112,8 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
   }
   leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()));
   leftover.rms_pa = squares.Rms();
-  leftover.noise_pa = NoiseOf(bench, bench.data.runs);
+  const double underread = std::sqrt(leftover.residual.underread);
+  leftover.noise_pa = underread * NoiseOf(bench, bench.data.runs);
   if (IsNoise(leftover))
     leftover.learnable_bic =
         LearnableGain(bench.data, fit, MemoryOf(WhitenedOf(bench, fit)), bench.tight);
@@ -124,7 +125,7 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
     Squares held_out;
     for (const std::size_t i : bench.held_out) held_out.Add(ErrorsUnseen(bench, i, fit.state));
     leftover.holdout_rms_pa = held_out.Rms();
-    leftover.holdout_noise_pa = NoiseOf(bench, bench.held_out);
+    leftover.holdout_noise_pa = underread * NoiseOf(bench, bench.held_out);
   }
   return leftover;
 }

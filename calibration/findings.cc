@@ -4,6 +4,7 @@
 
 #include "calibration/evidence.h"
 #include "calibration/phases.h"
+#include "calibration/profile.h"
 
 namespace plenum::calibration {
 namespace {
@@ -27,9 +28,11 @@ std::vector<std::string> IdsOf(const Contender& contender) {
 void AddEstimates(const Bench& bench, const Fit& fit, Diagnosis& diagnosis) {
   FitOptions options = bench.tight;
   options.cancelled = nullptr;  // one evaluation
-  const Eigen::MatrixXd covariance =
-      Covariance(bench.data, fit, options, MemoryOf(WhitenedOf(bench, fit)));
-  const std::vector<Estimate> estimates = Intervals(fit, covariance);
+  const double memory = MemoryOf(WhitenedOf(bench, fit));
+  const Eigen::MatrixXd covariance = Covariance(bench.data, fit, options, memory);
+  std::vector<Estimate> estimates = Intervals(fit, covariance);
+  if (!Stopped(bench))
+    ProfileIntervals(bench.data, fit, covariance, Inflation(fit, memory), bench.tight, estimates);
   std::vector<std::size_t> effects, fitted;  // which coordinates
   for (const model::Effect& effect : fit.state.effects)
     diagnosis.effects.push_back({effect, std::vector<Estimate>(effect.parameters.size())});

@@ -185,6 +185,10 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
   for (std::size_t i = 0; i < start.effects.size(); ++i)
     for (const Coordinate& coordinate : EffectCoordinates(*start.effects[i].spec, i, data.sizes))
       coordinates.push_back(coordinate);
+  if (options.fixed)
+    std::erase_if(coordinates, [&](const Coordinate& coordinate) {
+      return coordinate.parameter == *options.fixed;
+    });
   return coordinates;
 }
 
@@ -330,6 +334,12 @@ bool PriorsHold(const Fit& fit) {
   return fit.chi2_prior <= boost::math::quantile(boost::math::complement(law, kFalseAlarm));
 }
 
+double Inflation(const Fit& fit, double memory) {
+  const double freedom =
+      static_cast<double>(fit.rows) - static_cast<double>(fit.coordinates.size());
+  return memory * std::max(1.0, fit.chi2_data / std::max(1.0, freedom));
+}
+
 Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options,
                            double memory) {
   const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
@@ -344,9 +354,7 @@ Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions
     if (cost.Evaluate(blocks, residuals.data(), jacobians))
       curvature += jacobian.transpose() * jacobian;
   }
-  const double freedom = static_cast<double>(fit.rows) - static_cast<double>(size);
-  const double inflation = std::max(1.0, fit.chi2_data / std::max(1.0, freedom));
-  curvature /= inflation * memory;
+  curvature /= Inflation(fit, memory);
   for (Eigen::Index j = 0; j < size; ++j) {
     const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
     if (coordinate.prior) curvature(j, j) += 1.0;

@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,10 +39,11 @@ struct FitOptions {
   double noise_share = 1e-2;         // integration error allowed, as a share of the noise
   double function_tolerance = 1e-6;  // relative change of χ² that ends the search
   int iterations_max = 40;
-  std::size_t steps_max = 3'000;  // of one run's integration; beyond, a step is not taken
-  bool nuisance_only = false;     // only initial pressures and clocks move
-  bool own_pairs = false;         // with nuisance_only: and the declared pairs (C, b)
-  double weight = 1.0;            // of Σ e² beside the priors, in the search for the optimum
+  std::size_t steps_max = 3'000;        // of one run's integration; beyond, a step is not taken
+  bool nuisance_only = false;           // only initial pressures and clocks move
+  bool own_pairs = false;               // with nuisance_only: and the declared pairs (C, b)
+  std::optional<Parameter> fixed = {};  // stays where it starts
+  double weight = 1.0;  // of Σ e² beside the priors, in the search for the optimum
   int threads = 1;
   std::function<bool()> cancelled;  // may be empty
 };
@@ -73,6 +75,10 @@ bool HasOwnPairs(const FitData& data, std::size_t run);
 bool PriorsHold(const Fit& fit);
 
 inline constexpr double kUnidentified = 0.9;
+
+// What χ² of the readings is divided by before it is weighed against priors: χ²/(n − k) where that
+// is above 1, times their memory.
+double Inflation(const Fit& fit, double memory);
 
 // Of the coordinates u, of readings that are worth 1/memory of their number. Costs one evaluation.
 Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options,

@@ -194,6 +194,36 @@ bool TakeHiddenNoise(const Dataset& dataset, const std::vector<std::size_t>& run
   return less;
 }
 
+bool LeaveOutWild(const Dataset& dataset, const std::vector<std::size_t>& runs,
+                  const std::vector<Reading>& predicted, std::vector<ObservedRun>& observed) {
+  bool any = false;
+  for (const std::size_t index : runs) {
+    if (predicted[index].pressure_pa.empty()) continue;
+    const Run& run = dataset.runs[index];
+    ObservedSignal& pressure = observed[index].signals.front();
+    Noise& noise = observed[index].noise;
+    const auto off = [&](std::size_t k) {
+      const std::size_t i = pressure.samples[k];
+      return std::abs(run.pressure_pa[i] - predicted[index].pressure_pa[i]);
+    };
+    std::vector<std::size_t> wild;
+    for (std::size_t k = 1; k + 1 < pressure.samples.size(); ++k)
+      if (off(k) > kWildSigmas * pressure.sigma && 4.0 * std::max(off(k - 1), off(k + 1)) < off(k))
+        wild.push_back(pressure.samples[k]);
+    const double most = kWildShare * static_cast<double>(pressure.samples.size());
+    if (wild.empty() || static_cast<double>(wild.size()) > most) continue;
+    any = true;
+    noise.outliers.insert(noise.outliers.end(), wild.begin(), wild.end());
+    std::sort(noise.outliers.begin(), noise.outliers.end());
+    std::erase_if(pressure.samples,
+                  [&](std::size_t i) { return std::binary_search(wild.begin(), wild.end(), i); });
+    std::vector<double> t_s;
+    for (const std::size_t i : pressure.samples) t_s.push_back(run.t_s[i]);
+    pressure.steps = StepsOf(t_s, noise.memory);
+  }
+  return any;
+}
+
 std::vector<double> PressureResidual(const Run& run, const ObservedRun& observed,
                                      const Reading& predicted) {
   std::vector<double> residual(run.t_s.size(), std::numeric_limits<double>::quiet_NaN());

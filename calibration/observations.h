@@ -60,6 +60,14 @@ inline constexpr double kHiddenLess = 0.8;
 bool TakeHiddenNoise(const Dataset& dataset, const std::vector<std::size_t>& runs,
                      const std::vector<Reading>& predicted, std::vector<ObservedRun>& observed);
 
+// Leaves out pressure readings that are off a fitted model's prediction by more than kWildSigmas of
+// the noise while their neighbours are off by less than a quarter of that: what the readings alone
+// did not show as wild, at gaps and where strokes begin. Structure has neighbours; where more than
+// kWildShare of a run's readings are off none is left out. True where any was.
+inline constexpr double kWildSigmas = 8.0, kWildShare = 0.01;
+bool LeaveOutWild(const Dataset& dataset, const std::vector<std::size_t>& runs,
+                  const std::vector<Reading>& predicted, std::vector<ObservedRun>& observed);
+
 // Measured − predicted pressure at every sample, NaN where not usable.
 std::vector<double> PressureResidual(const Run& run, const ObservedRun& observed,
                                      const Reading& predicted);
