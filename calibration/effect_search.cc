@@ -74,11 +74,30 @@ class Search {
   }
 
   SearchResult Run() {
+    Compare();
+    if (!ClocksAreOff()) return std::move(result_);
+    SearchResult without = result_;
+    UseClocks();
+    Compare();
+    if (!Cancelled()) return std::move(result_);
+    without.complete = false;
+    return without;
+  }
+
+ private:
+  struct Job {
+    Set set;
+    ModelState start;
+    double bic_before = 0.0;  // of the smaller set
+    Fit fit = {};
+  };
+
+  // All sets as deep as need be, and the choice among them.
+  void Compare() {
     std::optional<std::size_t> chosen = Grow();
     if (!chosen) {  // again, with each run's clock fitted
       const SearchResult without = result_;
-      result_.data.clocks = true;
-      result_.contenders.clear();
+      UseClocks();
       chosen = Grow();
       if (Cancelled()) result_ = without, chosen = 0;
     }
@@ -89,16 +108,23 @@ class Search {
       chosen = Best(size);
     }
     Finish(static_cast<int>(Of(*chosen).effects.size()));
-    return std::move(result_);
   }
 
- private:
-  struct Job {
-    Set set;
-    ModelState start;
-    double bic_before = 0.0;  // of the smaller set
-    Fit fit = {};
-  };
+  void UseClocks() {
+    result_.data.clocks = true;
+    result_.contenders.clear();
+  }
+
+  // Whether the chosen set, fitted to the end, gains by the runs' clocks what none of its own
+  // numbers can take up: small errors of the clocks hide beside an effect that leaves little.
+  bool ClocksAreOff() const {
+    const Fit& chosen = Of(result_.chosen).fit;
+    if (result_.data.clocks || Cancelled() || !chosen.Usable()) return false;
+    FitData data = result_.data;
+    data.clocks = true;
+    const Fit with = FitModel(data, chosen.state, Tight());
+    return with.Usable() && with.bic + ClocksCost(data, with, Tight()) < chosen.bic - kClock;
+  }
 
   // Sets forwards from the base model, and the best of them; none where the clocks are found off.
   std::optional<std::size_t> Grow() {
@@ -434,16 +460,21 @@ class Search {
     return rivalled ? bic : kClocksAreAll;
   }
 
-  // The best sets of each size up to the one that the search came to are fitted to the last digit;
-  // then the choice is made again, because a fit cut short may have made a larger set look needed.
-  void Finish(int size_max) {
-    Report(0.92, "final fits");
+  FitOptions Tight() const {
     FitOptions tight = fit_options_;
     tight.noise_share = 1e-3;
     tight.steps_max = kFinalSteps;
     tight.function_tolerance = 1e-9;
     tight.iterations_max = 100;
     tight.threads = options_.threads;
+    return tight;
+  }
+
+  // The best sets of each size up to the one that the search came to are fitted to the last digit;
+  // then the choice is made again, because a fit cut short may have made a larger set look needed.
+  void Finish(int size_max) {
+    Report(0.92, "final fits");
+    const FitOptions tight = Tight();
     for (int size = 0; size <= size_max; ++size) {
       const double best = Of(Best(size)).fit.bic;
       const double reach = size == size_max ? 2.0 * kTie : kSameOptimum;
