@@ -38,7 +38,7 @@ struct FitOptions {
   double function_tolerance = 1e-6;  // relative change of χ² that ends the search
   int iterations_max = 40;
   std::size_t steps_max = 3'000;  // of one run's integration; beyond, a step is not taken
-  bool nuisance_only = false;     // only initial pressures and clocks move
+  bool nuisance_only = false;     // only what each run has of its own moves
   int threads = 1;
   std::function<bool()> cancelled;  // may be empty
 };
@@ -59,8 +59,9 @@ struct Fit {
   }
 };
 
-// From the state: its effects and factors are the start.
-Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& options);
+// From the state: its effects and factors are the start. With nuisance_only the phases of what
+// swings are looked for all around.
+Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& options);
 
 // Whether the declared numbers are where their uncertainties let them be, but for a chance of
 // kFalseAlarm (whiteness.h): what is missing may hide in them and leave nothing but noise.
