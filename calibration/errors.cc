@@ -87,10 +87,7 @@ std::optional<double> LeaveOneOut(const Bench& bench, const Fit& fit) {
     FitOptions options = bench.tight;
     options.noise_share = 1e-2;
     ModelState start = fit.state;
-    const ModelState declared = bench.forward.Declared();
-    start.initial_pressure_pa[left_out] = declared.initial_pressure_pa[left_out];
-    start.initial_temperature_k[left_out] = declared.initial_temperature_k[left_out];
-    start.clock_s[left_out] = 0.0;
+    CopyRun(bench.forward.Declared(), left_out, start);
     const Fit without = FitModel(data, start, options);
     if (!without.Usable()) return std::nullopt;
     squares.Add(ErrorsUnseen(bench, left_out, without.state));

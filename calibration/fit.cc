@@ -8,8 +8,11 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "calibration/whiteness.h"
+#include "model/effects/learned.h"
 
 namespace plenum::calibration {
 namespace {
@@ -18,6 +21,7 @@ constexpr double kTwoSided95 = 1.96;
 constexpr double kToleranceTightest = 1e-9, kToleranceLoosest = 1e-5;
 constexpr double kParameterTolerance = 1e-7;
 constexpr double kLeastCurvature = 1e-12;
+constexpr int kPhases = 8;  // in a round
 
 PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions& options) {
   const ObservedSignal& pressure = (*data.observed)[run].signals.front();
@@ -172,6 +176,9 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
   if (heated)
     for (const Coordinate& coordinate : TemperatureCoordinates(*data.forward, data.runs))
       coordinates.push_back(coordinate);
+  for (const Coordinate& coordinate :
+       RunCoordinates(*data.forward, data.runs, start.effects, data.sizes))
+    coordinates.push_back(coordinate);
   if (options.nuisance_only) {
     std::erase_if(coordinates, [&](const Coordinate& coordinate) {
       const Declared number = coordinate.parameter.declared;
@@ -255,6 +262,64 @@ FitStatus StatusOf(const ceres::Solver::Summary& summary) {
   return FitStatus::kFailed;
 }
 
+bool Fits(const std::vector<Coordinate>& coordinates, Parameter::Kind kind) {
+  return std::any_of(coordinates.begin(), coordinates.end(), [&](const Coordinate& coordinate) {
+    return coordinate.parameter.kind == kind;
+  });
+}
+
+double* LatenessOf(ModelState& state) {
+  for (model::Effect& effect : state.effects)
+    for (std::size_t i = 0; i < effect.parameters.size(); ++i)
+      if (effect.spec->parameters[i].name == model::kLatenessName) return &effect.parameters[i];
+  return nullptr;
+}
+
+// Every command that may be late gets a lateness of its own.
+void SplitLateness(const FitData& data, const std::vector<Coordinate>& coordinates,
+                   ModelState& state) {
+  std::vector<std::size_t> split;
+  for (const std::size_t run : data.runs)
+    if (state.late_s[run].empty()) {
+      state.late_s[run].assign(data.forward->dataset().runs[run].valve.size(), 0.0);
+      split.push_back(run);
+    }
+  for (const Coordinate& coordinate : coordinates)
+    if (coordinate.parameter.kind == Parameter::Kind::kLateness &&
+        std::find(split.begin(), split.end(), coordinate.parameter.run) != split.end())
+      NumberOf(state, coordinate.parameter) = *LatenessOf(state);
+}
+
+// What is to be expected of a run that is not recorded yet.
+void MeanLateness(const std::vector<Coordinate>& coordinates, ModelState& state) {
+  double sum_s = 0.0, count = 0.0;
+  for (const Coordinate& coordinate : coordinates) {
+    if (coordinate.parameter.kind != Parameter::Kind::kLateness) continue;
+    sum_s += NumberOf(state, coordinate.parameter);
+    ++count;
+  }
+  *LatenessOf(state) = sum_s / count;
+}
+
+// χ² falls and rises as a phase turns: each run starts from the best of a round.
+void TurnPhases(const FitData& data, const FitOptions& options, ModelState& state) {
+  for (const std::size_t run : data.runs) {
+    double least = std::numeric_limits<double>::infinity(), best_rad = 0.0;
+    for (int k = 0; k < kPhases; ++k) {
+      state.phase_rad[run] = 2.0 * std::numbers::pi * k / kPhases;
+      Fit fit;
+      fit.state = state;
+      FitData alone = data;
+      alone.runs = {run};
+      EvaluateStart(alone, options, fit);
+      if (!fit.Usable() || !(fit.chi2_data < least)) continue;
+      least = fit.chi2_data;
+      best_rad = state.phase_rad[run];
+    }
+    state.phase_rad[run] = best_rad;
+  }
+}
+
 // The number at u, held within the bounds.
 double Edge(const Coordinate& coordinate, double u) {
   return coordinate.Number(std::clamp(u, coordinate.low, coordinate.high));
@@ -277,11 +342,16 @@ bool HasOwnPairs(const FitData& data, std::size_t run) {
   });
 }
 
-Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& options) {
+Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& options) {
   FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres says is in the status
   Fit fit;
-  fit.state = start;
-  fit.coordinates = CoordinatesOf(data, start, options);
+  fit.state = from;
+  fit.coordinates = CoordinatesOf(data, from, options);
+  const bool late = Fits(fit.coordinates, Parameter::Kind::kLateness);
+  if (late) SplitLateness(data, fit.coordinates, fit.state);
+  if (options.nuisance_only && Fits(fit.coordinates, Parameter::Kind::kPhase))
+    TurnPhases(data, options, fit.state);
+  const ModelState start = fit.state;
   fit.rows = RowsOf(data);
   const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
   fit.u.resize(size);
@@ -320,6 +390,7 @@ Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& opt
   fit.status = options.cancelled && options.cancelled() ? FitStatus::kCancelled : StatusOf(summary);
   if (fit.status == FitStatus::kFailed) fit.detail = summary.message;
   fit.state = StateAt(start, fit.coordinates, fit.u.data());
+  if (late && !options.nuisance_only) MeanLateness(fit.coordinates, fit.state);
   fit.chi2_prior = Chi2Prior(fit);
   fit.chi2_data = (2.0 * summary.final_cost - fit.chi2_prior) / options.weight;
   fit.bic = Bic(fit);

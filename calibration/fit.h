@@ -40,7 +40,7 @@ struct FitOptions {
   double function_tolerance = 1e-6;  // relative change of χ² that ends the search
   int iterations_max = 40;
   std::size_t steps_max = 3'000;        // of one run's integration; beyond, a step is not taken
-  bool nuisance_only = false;           // only initial pressures and clocks move
+  bool nuisance_only = false;           // only what each run has of its own moves
   bool own_pairs = false;               // with nuisance_only: and the declared pairs (C, b)
   std::optional<Parameter> fixed = {};  // stays where it starts
   double weight = 1.0;  // of Σ e² beside the priors, in the search for the optimum
@@ -64,8 +64,9 @@ struct Fit {
   }
 };
 
-// From the state: its effects and factors are the start.
-Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& options);
+// From the state: its effects and factors are the start. With nuisance_only the phases of what
+// swings are looked for all around.
+Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& options);
 
 // Whether the run's line has declared pairs (C, b) that no run of the data has.
 bool HasOwnPairs(const FitData& data, std::size_t run);

@@ -98,6 +98,8 @@ ModelState ExtendedData::With(ModelState state) const {
   state.initial_temperature_k.push_back(
       added.initial_temperature_k.value_or(added.ambient.temperature_k));
   state.clock_s.push_back(0.0);
+  state.phase_rad.push_back(0.0);
+  state.late_s.emplace_back();
   return state;
 }
 
