@@ -198,8 +198,8 @@ Rows Matching(const PartQuery& query, const PartTable& table) {
   for (const auto& [field, range] : query.numbers) {
     const std::vector<double>* column = table.Numbers(field);
     if (column == nullptr) return {};
-    Filter(rows, [&](std::uint32_t row) {  // false for NaN
-      return (*column)[row] >= range.min && (*column)[row] <= range.max;
+    Filter(rows, [column, wanted = range](std::uint32_t row) {  // false for NaN
+      return (*column)[row] >= wanted.min && (*column)[row] <= wanted.max;
     });
   }
   return rows;

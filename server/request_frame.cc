@@ -135,7 +135,7 @@ RequestFrame::State RequestFrame::LookAtChunks(std::string_view bytes) {
     body_size_ += length;
     if (length == 0) return state_ = State::kComplete;
   }
-  if (bytes.size() > end_ + kChunkLineMax)  // and no end of a line in it
+  if (bytes.size() >= end_ + kChunkLineMax + kLineEnd.size())  // and no end of a line in it
     return Refuse(400, "", "a chunk of the body does not begin with its length");
   return state_;
 }
