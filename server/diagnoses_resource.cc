@@ -54,7 +54,7 @@ struct Request {
 };
 
 // `models` are the newest of each name that "model" may ask for.
-api::Parsed<Request> ReadRequest(const std::string& body,
+api::Parsed<Request> ReadRequest(std::string_view body,
                                  const std::vector<catalog::ModelRevision>& models,
                                  api::Json document) {
   api::Errors errors;

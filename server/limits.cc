@@ -2,6 +2,7 @@
 
 #include "api/limits.h"
 #include "api/problem.h"
+#include "api/services.h"
 
 namespace plenum::server {
 
@@ -19,8 +20,11 @@ api::Json RenderLimits(const JobOptions& jobs, const catalog::JobsKept& kept) {
                       {"large_requests_max", kLargeMax},
                       {"large_requests_waiting_max", kLargeWaitingMax},
                       {"large_requests_wait_seconds", kLargeWaitSeconds},
-                      {"import_cells_max", kImportCellsMax},
-                      {"import_columns_max", kImportColumnsMax},
+                      {"import_bytes_max", kImportBytesMax},
+                      {"large_imports_max", kLargeImportsMax},
+                      {"import_rows_max", kImportRowsMax},
+                      {"import_columns_max", catalog::kCsvColumnsMax},
+                      {"import_cell_bytes_max", catalog::kCsvCellBytesMax},
                       {"connections_max", kConnectionsMax},
                       {"requests_at_a_time_max", kRequestThreads},
                       {"computing_max", kComputingMax},

@@ -34,8 +34,10 @@ inline constexpr int kLargePageParts = 200;
 inline constexpr int kLargeMax = 1;
 inline constexpr int kLargeWaitingMax = 8;
 inline constexpr int kLargeWaitSeconds = 10;
-inline constexpr std::size_t kImportCellsMax = 1'000'000;
-inline constexpr std::size_t kImportColumnsMax = 1'000;
+// A table of parts may be longer than other bodies, one such at a time.
+inline constexpr std::size_t kImportBytesMax = 32 << 20;
+inline constexpr int kLargeImportsMax = 1;
+inline constexpr std::size_t kImportRowsMax = 150'000;
 inline constexpr int kComputingMax = 8;  // simulations and maps at a time
 inline constexpr int kWaitingMax = 8;    // requests that wait for their job
 inline constexpr int kWaitSecondsMax = 300;
