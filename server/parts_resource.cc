@@ -116,7 +116,7 @@ Reply ListParts(SharedCatalog& catalog, const Call& call) {
   if (!view) return ProblemReply(404, "the catalogue has no revision " + std::to_string(*number));
   const auto page = api::RenderPage(query, view->revision, *view->table);
   if (const auto* errors = std::get_if<api::Errors>(&page)) return ProblemReply(422, *errors);
-  auto reply = JsonReply(200, std::get<api::Json>(page));
+  Reply reply{200, "application/json", std::get<std::string>(page) + "\n", {}, {}};
   const std::string etag = ETag(reply.body);
   reply.headers.emplace_back("ETag", etag);
   return UnlessKnown(call, etag, std::move(reply));
