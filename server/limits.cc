@@ -31,6 +31,8 @@ api::Json RenderLimits(const JobOptions& jobs, const catalog::JobsKept& kept) {
                       {"waiting_max", kWaitingMax},
                       {"wait_seconds_max", kWaitSecondsMax},
                       {"event_streams_max", kStreamsMax},
+                      {"large_diagnosis_samples", kLargeDiagnosisSamples},
+                      {"large_diagnoses_running_max", kLargeDiagnosesMax},
                       {"jobs_running_max", jobs.workers},
                       {"jobs_queued_max", jobs.queued_max},
                       {"jobs_kept_max", kept.jobs},
@@ -46,7 +48,7 @@ Reply LimitReply(int status, const std::string& name, const api::Json& value,
   return {status, "application/problem+json", Dump(document) + "\n", {}, {}};
 }
 
-std::shared_ptr<void> Gate::Enter(std::chrono::seconds patience) {
+std::shared_ptr<void> Gate::Enter(std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
   if (free_ == 0) {
     if (waiting_free_ == 0) return nullptr;
