@@ -1,14 +1,12 @@
 // Who may ask, and what happens to clients that take too much or too long.
 #include "server/protection.h"
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
+#include "raw.h"
 #include "server/limits.h"
 #include "server/request_frame.h"
 #include "service.h"
@@ -20,43 +18,6 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 constexpr char kJson[] = "application/json";
-
-// A connection of bytes.
-class Raw {
- public:
-  explicit Raw(int port) : fd_(socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const timeval patience{20, 0};
-    setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-    if (connect(fd_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
-      ADD_FAILURE() << "no connection";
-  }
-  ~Raw() { close(fd_); }
-  Raw(const Raw&) = delete;
-
-  void Send(std::string_view bytes) const {
-    while (!bytes.empty()) {
-      const ssize_t n = send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-      if (n <= 0) return;
-      bytes.remove_prefix(static_cast<std::size_t>(n));
-    }
-  }
-  // Until the service closes, or `end` has come.
-  std::string Receive(const std::string& end = "\n\n\n") const {
-    std::string answer;
-    char buffer[4096];
-    for (ssize_t n;
-         answer.find(end) == std::string::npos && (n = recv(fd_, buffer, sizeof buffer, 0)) > 0;)
-      answer.append(buffer, static_cast<std::size_t>(n));
-    return answer;
-  }
-
- private:
-  int fd_;
-};
 
 TEST(Protection, OnlyServedHostsAndOwnPages) {
   Service service;
