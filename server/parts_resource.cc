@@ -23,14 +23,18 @@ enum class Compare { kStrong, kWeak };
 // Whether a list of entity tags holds `etag`. If-Match compares strongly, where no weak tag
 // matches; If-None-Match weakly, where W/ does not count (RFC 9110, 8.8.3.2).
 bool Holds(const std::string& list, const std::string& etag, Compare compare) {
-  for (std::size_t start = 0; start <= list.size();) {
-    std::size_t end = std::min(list.find(',', start), list.size());
-    std::string item = list.substr(start, end - start);
-    item.erase(0, item.find_first_not_of(" \t"));
-    item.erase(item.find_last_not_of(" \t") + 1);
+  bool quoted = false;  // a tag may hold commas
+  std::string item;
+  for (std::size_t i = 0; i <= list.size(); ++i) {
+    if (i < list.size() && list[i] == '"') quoted = !quoted;
+    if (i < list.size() && (quoted || list[i] != ',')) {
+      if (quoted || (list[i] != ' ' && list[i] != '\t')) item += list[i];
+      continue;
+    }
     if (compare == Compare::kWeak && item.starts_with("W/")) item.erase(0, 2);
-    if (item == "*" || item == etag) return true;
-    start = end + 1;
+    if (item == etag) return true;
+    if (item == "*" && list.find_first_not_of("* \t") == std::string::npos) return true;
+    item.clear();
   }
   return false;
 }

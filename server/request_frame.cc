@@ -119,6 +119,9 @@ bool RequestFrame::ReadField(std::string_view name, std::string_view value) {
     if (chunked_ || !EqualsIgnoringCase(value, "chunked"))
       return Refuse(400, "", "the only Transfer-Encoding understood is chunked"), false;
     chunked_ = true;
+  } else if (EqualsIgnoringCase(name, "Host")) {
+    if (has_host_) return Refuse(400, "", "Host must be given once"), false;
+    has_host_ = true;
   } else if (EqualsIgnoringCase(name, "Expect")) {
     expects_continue_ = EqualsIgnoringCase(value, "100-continue");
   }

@@ -48,7 +48,7 @@ class RequestFrame {
   std::size_t head_size_ = 0;  // with the empty line
   std::size_t end_ = 0;        // of the request; of chunks, the place of the next one
   std::size_t body_size_ = 0;  // of the chunks so far
-  bool has_length_ = false, chunked_ = false, expects_continue_ = false;
+  bool has_length_ = false, has_host_ = false, chunked_ = false, expects_continue_ = false;
   Refusal refusal_;
 };
 

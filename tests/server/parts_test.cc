@@ -125,6 +125,8 @@ TEST_F(PartsOverHttp, ReplaceAndDeleteNeedTheTagOfWhatIsThere) {
   EXPECT_EQ(put({{"If-Match", "W/" + tag}}, 0.1)->status, 412);
   EXPECT_EQ(client_->Delete("/v1/parts/f")->status, 412);
   EXPECT_EQ(client_->Delete("/v1/parts/f", {{"If-Match", "\"0\""}})->status, 412);
+  EXPECT_EQ(put({{"If-Match", "\"0,*,0\""}}, 0.1)->status, 412);  // one tag, with commas
+  EXPECT_EQ(put({{"If-Match", "*, \"0\""}}, 0.1)->status, 412);   // * stands alone
   EXPECT_EQ(put({{"If-Match", "\"0\", " + tag}}, 0.1)->status, 200);
   EXPECT_EQ(put({{"If-Match", tag}}, 0.2)->status, 412);
   EXPECT_EQ(Get("/v1/parts/f")["mass_kg"], 0.1);

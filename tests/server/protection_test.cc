@@ -27,7 +27,14 @@ TEST(Protection, OnlyServedHostsAndOwnPages) {
   };
   EXPECT_EQ(status({{"Host", "localhost:1"}}), 200);
   EXPECT_EQ(status({{"Host", "[::1]:8080"}}), 200);
+  EXPECT_EQ(status({{"Host", "LOCALHOST"}}), 200);
   EXPECT_EQ(status({{"Host", "rebound.example"}}), 403);
+  // What begins like a name that is served and goes on.
+  for (const char* host : {"[::1].rebound.example", "[::1", "localhost:1@rebound.example",
+                           "localhost:", "127.0.0.1:8080:1", "localhost.rebound.example"})
+    EXPECT_EQ(status({{"Host", host}}), std::string(host) == "localhost:" ? 200 : 403) << host;
+  EXPECT_EQ(status({{"Origin", "http://[::1].rebound.example"}}), 403);
+  EXPECT_EQ(status({{"Origin", "http://localhost:1@rebound.example"}}), 403);
   EXPECT_EQ(status({{"Host", "127.0.0.1.example"}}), 403);
   EXPECT_EQ(status({{"Origin", "http://localhost:5173"}}), 200);
   EXPECT_EQ(status({{"Origin", "https://example.com"}}), 403);
@@ -157,6 +164,8 @@ TEST(Frame, RefusesWhatNeighboursMightReadAsAnother) {
   };
   EXPECT_EQ(status("Content-Length: 1\r\nContent-Length: 1\r\n"), 400);
   EXPECT_EQ(status("Content-Length: 1, 1\r\n"), 400);
+  EXPECT_EQ(status("Host: localhost\r\nHost: localhost\r\n"), 400);
+  EXPECT_EQ(status("Host: localhost\r\nhost: other\r\n"), 400);
   EXPECT_EQ(status("Content-Length: +1\r\n"), 400);
   EXPECT_EQ(status("Content-Length: 0x1\r\n"), 400);
   EXPECT_EQ(status("Content-Length: 99999999999999999999\r\n"), 400);
