@@ -262,32 +262,35 @@ QuietRecord QuietOf(const Record& record) {
   return quiet;
 }
 
-// The memory of all runs, from those whose differences tell it, and what follows for each run's σ.
+// The memory of all runs, from those that hold still for long enough, and what follows for each
+// run's σ.
 void TakeMemory(const std::vector<Record>& records, std::vector<Noise>& noises) {
   std::vector<QuietRecord> telling(records.size());
+  std::vector<bool> estimated(records.size());
   double spacing_s = std::numeric_limits<double>::infinity();
-  bool any = false;
   for (std::size_t j = 0; j < records.size(); ++j) {
     if (noises[j].staircase || noises[j].source == NoiseSource::kRepeats || !(records[j].rms > 0.0))
       continue;
-    telling[j] = QuietOf(records[j]);
+    if (noises[j].source == NoiseSource::kClosed) telling[j] = QuietOf(records[j]);
+    estimated[j] = true;
     spacing_s = std::min(spacing_s, records[j].spacing_s);
-    any = true;
   }
-  if (!any) return;
+  if (std::isinf(spacing_s)) return;
   const QuietMemory found = MemoryOfQuiet(telling, spacing_s);
   const auto& [theta_s, share] = found.memory;
   for (std::size_t j = 0; j < records.size(); ++j) {
     Noise& noise = noises[j];
-    if (telling[j].empty()) continue;
+    if (!estimated[j]) continue;
     noise.memories = found.allowed;
     if (theta_s == 0.0) continue;
     noise.memory = found.memory;
+    const double rho = std::exp(-noise.spacing_s / theta_s);
     if (std::isfinite(found.levels[j].sigma)) {
       noise.sigma_pa = found.levels[j].sigma;
       noise.relative_error = found.levels[j].relative_error;
+    } else {  // what its differences pass by
+      noise.sigma_pa /= std::sqrt(ThirdDifference(rho, share, 1));
     }
-    const double rho = std::exp(-noise.spacing_s / theta_s);
     noise.effective_samples /= 1.0 + 2.0 * share * rho / (1.0 - rho);
   }
 }

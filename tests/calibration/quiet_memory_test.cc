@@ -85,6 +85,17 @@ TEST(QuietMemory, WhatASwitchLeavesBehindIsNoMemory) {
   }
 }
 
+TEST(QuietMemory, AStrokeTellsNothingOfMemory) {
+  const std::vector<double> t_s = EvenTimes(150, kSpacingS);
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    std::vector<double> y = WhiteNoise(seed, t_s.size());
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] += 500.0 * (1.0 - std::exp(-2.0 * t_s[i]));
+    const Noise noise = EstimateNoise({t_s, y, {}, {{0.0, t_s.back()}}});
+    EXPECT_EQ(noise.memory.theta_s, 0.0);
+    EXPECT_NEAR(noise.sigma_pa, 1.0, 0.35);
+  }
+}
+
 TEST(QuietMemory, WithoutQuietReadingsAShortMemoryIsAllowed) {
   const QuietMemory none = MemoryOfQuiet({}, kSpacingS);
   EXPECT_EQ(none.memory.theta_s, 0.0);
