@@ -94,7 +94,8 @@ model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient) {
   const double lowest = -ambient.pressure_pa / kPaPerKpa;
   const Table table = ReadTable(group, "pressure_volume", 2, "pressure_kpa_gauge",
                                 Above(lowest, kGaugeMaxKpa), "volume_ml", kRestVolumeMl, +1);
-  if (!table.valid) return chamber;
+  // Reported where they are read.
+  if (!table.valid || std::isnan(chamber.operating_pressure_pa)) return chamber;
   if (table.x.front() > 0 || table.x.back() < operating) {
     group.Fail("pressure_volume", "must reach from 0 to the operating pressure of " +
                                       Decimal(operating) + " kPa gauge, not from " +
@@ -127,7 +128,7 @@ model::CompressorCurve ReadPumpCurve(Reader& source, const model::Ambient& ambie
   const Table table = ReadTable(source, "curve", 1, "pressure_kpa_gauge", {0, kGaugeMaxKpa},
                                 "free_air_l_per_min", {0, 1e6}, -1);
   model::CompressorCurve curve;
-  if (!table.valid) return curve;
+  if (!table.valid || std::isnan(ambient.pressure_pa)) return curve;
   std::vector<double> pressure_pa, flow_m3_per_s;
   for (const double kpa : table.x) pressure_pa.push_back(PaFromKpaGauge(kpa, ambient));
   for (const double flow : table.y) flow_m3_per_s.push_back(M3PerSFromLPerMin(flow));

@@ -61,7 +61,7 @@ LinePiece ReadPairs(Reader& reader) {
 
 LinePiece ReadTube(Reader tube) {
   LinePiece piece;
-  piece.tube.emplace();
+  piece.tube = LinePiece::Tube();
   piece.tube->inner_diameter_m = MFromMm(tube.Number("inner_diameter_mm", {0.3, 30}));
   piece.tube->length_m = tube.Number("length_m", TubeLengthRange());
   tube.Finish();

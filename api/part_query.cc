@@ -198,8 +198,8 @@ Rows Matching(const PartQuery& query, const PartTable& table) {
   for (const auto& [field, range] : query.numbers) {
     const std::vector<double>* column = table.Numbers(field);
     if (column == nullptr) return {};
-    Filter(rows, [&](std::uint32_t row) {  // false for NaN
-      return (*column)[row] >= range.min && (*column)[row] <= range.max;
+    Filter(rows, [column, wanted = range](std::uint32_t row) {  // false for NaN
+      return (*column)[row] >= wanted.min && (*column)[row] <= wanted.max;
     });
   }
   return rows;
@@ -244,6 +244,10 @@ std::optional<std::uint32_t> RowOf(const std::string& id, const Rows& matching,
       [&](std::uint32_t row, const std::string& wanted) { return table.parts()[row].id < wanted; });
   if (found == matching.end() || table.parts()[*found].id != id) return std::nullopt;
   return *found;
+}
+
+std::string TextOf(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 Json CountsOf(const TextColumn& column, const Rows& rows) {
@@ -302,8 +306,8 @@ std::vector<const catalog::Part*> Select(const PartQuery& query, const PartTable
   return selected;
 }
 
-Parsed<Json> RenderPage(const PartQuery& query, const catalog::Revision& revision,
-                        const PartTable& table) {
+Parsed<std::string> RenderPage(const PartQuery& query, const catalog::Revision& revision,
+                               const PartTable& table) {
   const Rows matching = Matching(query, table);
   const Order order(query, table);
   Rows rows = matching;
@@ -316,14 +320,15 @@ Parsed<Json> RenderPage(const PartQuery& query, const catalog::Revision& revisio
   const std::size_t shown = std::min<std::size_t>(rows.size(), query.limit);
   std::partial_sort(rows.begin(), rows.begin() + shown, rows.end(), order);
 
-  Json page = {{"parts", Json::array()}, {"next_cursor", nullptr}, {"total", matching.size()}};
+  std::string parts;
   for (std::size_t i = 0; i < shown; ++i)
-    page["parts"].push_back(RenderPart(table.parts()[rows[i]]));
+    parts += (i == 0 ? "" : ",") + TextOf(RenderPart(table.parts()[rows[i]]));
+  Json page = {{"next_cursor", nullptr}, {"total", matching.size()}};
   if (shown < rows.size())
     page["next_cursor"] = std::to_string(revision.number) + "." + table.parts()[rows[shown - 1]].id;
   if (query.facets) page["facets"] = Facets(matching, table);
   page["catalogue_revision"] = RenderRevisionName(revision);
-  return page;
+  return "{\"parts\":[" + parts + "]," + TextOf(page).substr(1);
 }
 
 }  // namespace plenum::api

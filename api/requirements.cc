@@ -189,9 +189,10 @@ void ReadObjective(Reader& request, DesignRequest& parsed) {
   if (!parsed.pareto.empty())
     for (const auto& [name, weight] : kWeights)
       if (objective.*weight > 0.0 &&
-          std::none_of(parsed.pareto.begin(), parsed.pareto.end(), [&](optimizer::Amount amount) {
-            return std::string_view(name) == optimizer::Name(amount);
-          }))
+          std::none_of(parsed.pareto.begin(), parsed.pareto.end(),
+                       [wanted = std::string_view(name)](optimizer::Amount amount) {
+                         return wanted == optimizer::Name(amount);
+                       }))
         reader->Fail("minimize",
                      std::string(name) +
                          " is not an amount of the front; it orders the front's designs "

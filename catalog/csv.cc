@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <unordered_map>
 #include <utility>
 
 #include "catalog/csv_table.h"
@@ -13,6 +14,7 @@
 namespace plenum::catalog {
 namespace {
 
+constexpr std::size_t kIdCompared = 200;
 constexpr std::string_view kProvenance = ".provenance";
 constexpr std::string_view kSource = ".source";
 // Names whose ends give the units of a curve point.
@@ -178,6 +180,10 @@ std::vector<CsvError> CheckHeader(const Family& family, const CsvRow& header) {
   return errors;
 }
 
+void Add(CsvError error, CsvErrors& errors) {
+  if (++errors.count <= kCsvErrorsMax) errors.errors.push_back(std::move(error));
+}
+
 std::string FormatCurve(const Curve& curve) {
   std::string text;
   for (const CurvePoint& point : curve.points)
@@ -214,36 +220,49 @@ CsvRow ToRow(const Family& family, const Part& part) {
 
 }  // namespace
 
-CsvParts ReadCsv(std::string_view family_name, std::string_view text) {
+CsvErrors ReadCsv(std::string_view family_name, std::string_view text, const TakePart& take) {
   const Family* family = FindFamily(family_name);
   if (family == nullptr)
-    return {{}, {}, {{1, "", "unknown family \"" + std::string(family_name) + "\""}}};
-  CsvTable table = ParseTable(text);
-  CsvParts result{{}, {}, std::move(table.errors)};
-  if (!result.errors.empty()) return result;
-  if (table.rows.empty()) return {{}, {}, {{1, "", "the header row is missing"}}};
-
-  const CsvRow& header = table.rows.front();
-  result.errors = CheckHeader(*family, header);
-  std::map<std::string, int> row_of_id;
-  for (std::size_t i = 1; i < table.rows.size(); ++i) {
-    const int row = static_cast<int>(i) + 1;
-    const CsvRow& cells = table.rows[i];
+    return {{{1, "", "unknown family \"" + std::string(family_name) + "\""}}, 1};
+  CsvRow header;
+  std::unordered_map<std::string, int> row_of_id;
+  CsvErrors of_table, of_rows;
+  const auto read_row = [&](CsvRow cells, int row) {
+    if (row == 1) {
+      header = std::move(cells);
+      for (CsvError& error : CheckHeader(*family, header)) Add(std::move(error), of_rows);
+      return;
+    }
+    if (of_table.count > 0) return;  // what its cells are is uncertain
     if (cells.size() != header.size()) {
-      result.errors.push_back({row, "",
-                               "has " + std::to_string(cells.size()) + " cells, the header has " +
-                                   std::to_string(header.size())});
-      continue;
+      Add({row, "",
+           "has " + std::to_string(cells.size()) + " cells, the header has " +
+               std::to_string(header.size())},
+          of_rows);
+      return;
     }
     RowReader reader(*family, header, cells, row);
-    result.parts.push_back(reader.Read());
-    result.rows.push_back(row);
-    for (CsvError& error : reader.TakeErrors()) result.errors.push_back(std::move(error));
-    const auto [first, is_new] = row_of_id.emplace(result.parts.back().id, row);
+    Part part = reader.Read();
+    for (CsvError& error : reader.TakeErrors()) Add(std::move(error), of_rows);
+    // Of one that is too long, an error already, the beginning is enough.
+    const auto [first, is_new] = row_of_id.emplace(part.id.substr(0, kIdCompared), row);
     if (!is_new)
-      result.errors.push_back(
-          {row, "id", "\"" + first->first + "\" is in row " + std::to_string(first->second)});
-  }
+      Add({row, "id", "\"" + first->first + "\" is in row " + std::to_string(first->second)},
+          of_rows);
+    take(std::move(part), row);
+  };
+  ForEachRow(text, read_row, [&](CsvError error) { Add(std::move(error), of_table); });
+  if (of_table.count > 0) return of_table;
+  if (header.empty()) return {{{1, "", "the header row is missing"}}, 1};
+  return of_rows;
+}
+
+CsvParts ReadCsv(std::string_view family, std::string_view text) {
+  CsvParts result;
+  result.errors = ReadCsv(family, text, [&](Part part, int row) {
+                    result.parts.push_back(std::move(part));
+                    result.rows.push_back(row);
+                  }).errors;
   return result;
 }
 

@@ -9,6 +9,8 @@
 #ifndef PLENUM_CATALOG_CSV_H_
 #define PLENUM_CATALOG_CSV_H_
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +19,10 @@
 
 namespace plenum::catalog {
 
+inline constexpr std::size_t kCsvColumnsMax = 1'000;
+inline constexpr std::size_t kCsvCellBytesMax = 64 << 10;
+inline constexpr std::size_t kCsvErrorsMax = 1'000;
+
 struct CsvError {
   int row = 0;  // counts records; 1 is the header
   std::string column;
@@ -24,13 +30,23 @@ struct CsvError {
   bool operator==(const CsvError&) const = default;
 };
 
-struct CsvParts {
-  std::vector<Part> parts;
-  std::vector<int> rows;         // of the parts
-  std::vector<CsvError> errors;  // not empty: nothing of the file may be used
+// Not empty: nothing of the file may be used.
+struct CsvErrors {
+  std::vector<CsvError> errors;  // the first of them, at most kCsvErrorsMax
+  std::size_t count = 0;         // of all
 };
 
-// Parses and validates; every error of the file is reported, not only the first.
+struct CsvParts {
+  std::vector<Part> parts;
+  std::vector<int> rows;  // of the parts
+  std::vector<CsvError> errors;
+};
+
+// Parses and validates; every error of the file is found, not only the first. The parts come one by
+// one, so that a file of any length takes little memory: after an error they are of no use.
+using TakePart = std::function<void(Part part, int row)>;
+CsvErrors ReadCsv(std::string_view family, std::string_view text, const TakePart& take);
+// The same at once.
 CsvParts ReadCsv(std::string_view family, std::string_view text);
 
 // `parts` are all of `family`.

@@ -2,6 +2,7 @@
 #ifndef PLENUM_CATALOG_CSV_TABLE_H_
 #define PLENUM_CATALOG_CSV_TABLE_H_
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +19,13 @@ struct CsvTable {
 };
 
 // Rows end in LF or CRLF; a byte-order mark and empty lines at the end are dropped. Text inside
-// quotes is kept as it is.
+// quotes is kept as it is. What is beyond the limits of csv.h is an error and left out.
 CsvTable ParseTable(std::string_view text);
+
+// The same row by row, 1 the first: takes no more memory than one row.
+using TakeRow = std::function<void(CsvRow cells, int row)>;
+using TakeError = std::function<void(CsvError error)>;
+void ForEachRow(std::string_view text, const TakeRow& take, const TakeError& fail);
 
 std::string FormatRow(const CsvRow& cells);
 

@@ -201,6 +201,17 @@ JobStore::JobStore(const std::filesystem::path& path, const JobsKept& kept) {
 
 JobStore::~JobStore() = default;
 
+std::vector<std::string> CheckJobs(const std::filesystem::path& path) {
+  try {
+    SQLite::Database db(path.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
+    if (db.execAndGet("PRAGMA application_id").getInt() != kApplicationId)
+      throw StoreError(path.string() + " is not a file of jobs");
+    return CheckFile(db);
+  } catch (const SQLite::Exception& error) {
+    throw ToStoreError(path.string(), error);
+  }
+}
+
 JobRecord JobStore::Add(const std::string& id, const JobOrder& order) {
   impl_->Do([&] {
     SQLite::Statement insert(

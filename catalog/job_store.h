@@ -56,6 +56,10 @@ struct JobsKept {
   std::int64_t bytes = 256 << 20;  // of requests and results; the newest is kept whatever its size
 };
 
+// SQLite's own integrity check of a file of jobs, which is only read; empty: all is well. Throws
+// StoreError, kBusy where a service holds the file.
+std::vector<std::string> CheckJobs(const std::filesystem::path& path);
+
 class JobStore {
  public:
   // Opens or creates `path`. Throws StoreError where it is held by another process (kBusy, after

@@ -32,18 +32,10 @@ void Enter(const Part& part, const std::optional<Part>& stored, ImportPlan& plan
 
 // `stored(id)` gives the part as it was when the import began.
 template <class Stored>
-ImportPlan Plan(const std::vector<Part>& parts, const Stored& stored) {
+ImportPlan Plan(const PartSource& parts, const Stored& stored) {
   ImportPlan plan;
-  for (const Part& part : parts) Enter(part, stored(part.id), plan);
+  parts([&](const Part& part) { Enter(part, stored(part.id), plan); });
   return plan;
-}
-
-std::vector<FieldError> ValidateAll(const std::vector<Part>& parts) {
-  std::vector<FieldError> errors;
-  for (const Part& part : parts)
-    for (const FieldError& error : Validate(part))
-      errors.push_back({error.field, part.id + ": " + error.detail});
-  return errors;
 }
 
 }  // namespace
@@ -188,28 +180,33 @@ WriteResult Store::Remove(const std::string& id, const Signature& by, const Prec
   });
 }
 
-ImportPlan Store::PlanImport(const std::vector<Part>& parts) const {
+ImportPlan Store::PlanImport(const PartSource& parts) const {
   return impl_->Read([&](SQLite::Database& db) {
     PartReader reader(db, "id");
     return Plan(parts, [&](const std::string& id) { return reader.One(id); });
   });
 }
 
-ImportResult Store::Import(const std::vector<Part>& parts, const Signature& by) {
+ImportResult Store::Import(const PartSource& parts, const Signature& by) {
   ImportResult result;
-  result.write.errors = ValidateAll(parts);
-  result.write.status = WriteStatus::kInvalid;
-  if (!result.write.errors.empty()) return result;
-  const std::string what = "import " + (parts.empty() ? "nothing" : parts.front().family);
+  std::string what = "import nothing";
   result.write = impl_->Write(by, what, [&](RevisionWriter& writer) -> WriteResult {
-    for (const Part& part : parts) {
+    WriteResult written;
+    parts([&](const Part& part) {
+      what = "import " + part.family;
+      for (const FieldError& error : Validate(part))
+        written.errors.push_back({error.field, part.id + ": " + error.detail});
+      if (!written.errors.empty()) return;
       const auto old = writer.Get(part.id);
       Enter(part, old, result.plan);
       if (!old || !SameContent(part, *old)) writer.Change(part.id, old, part);
-    }
+    });
     // Then nothing of it is committed.
-    if (!result.plan.taken.empty()) return {WriteStatus::kExists, {}, {}};
-    return {};
+    if (!written.errors.empty())
+      written.status = WriteStatus::kInvalid;
+    else if (!result.plan.taken.empty())
+      written.status = WriteStatus::kExists;
+    return written;
   });
   if (result.write.status == WriteStatus::kRepeated)
     result.plan = impl_->Read([&](SQLite::Database& db) {
@@ -217,6 +214,13 @@ ImportResult Store::Import(const std::vector<Part>& parts, const Signature& by) 
       return Plan(parts, [&](const std::string& id) { return PartAt(db, id, base); });
     });
   return result;
+}
+
+ImportResult Store::Import(const std::vector<Part>& parts, const Signature& by) {
+  return Import(PartSource([&](const TakeEach& take) {
+                  for (const Part& part : parts) take(part);
+                }),
+                by);
 }
 
 WriteResult Store::Undo(std::int64_t number, const Signature& by) {
@@ -279,10 +283,12 @@ std::optional<ModelRevision> Store::SaveModel(const std::string& name, const std
 
 void Store::ReplaceSeed(const std::vector<Part>& parts) {
   std::vector<Part> seed = parts;
-  for (Part& part : seed) part.origin = "seed";
-  if (const auto errors = ValidateAll(seed); !errors.empty())
-    throw StoreError(impl_->path + ": seed part " + errors.front().detail + " (" +
-                     errors.front().field + ")");
+  for (Part& part : seed) {
+    part.origin = "seed";
+    if (const auto errors = Validate(part); !errors.empty())
+      throw StoreError(impl_->path + ": seed part " + part.id + ": " + errors.front().detail +
+                       " (" + errors.front().field + ")");
+  }
   std::sort(seed.begin(), seed.end(), [](const Part& a, const Part& b) { return a.id < b.id; });
   for (std::size_t i = 1; i < seed.size(); ++i)
     if (seed[i].id == seed[i - 1].id)

@@ -66,6 +66,11 @@ struct ImportResult {
   WriteResult write;
 };
 
+// Calls `take` with each of a list of parts, the same ones whenever it is called; so a list need
+// not be in memory at once.
+using TakeEach = std::function<void(const Part&)>;
+using PartSource = std::function<void(const TakeEach& take)>;
+
 // Whether a write may go on, seen the part as it is stored; evaluated inside the transaction.
 using Precondition = std::function<bool(const Part&)>;
 
@@ -99,9 +104,10 @@ class Store {
   WriteResult Replace(const Part& part, const Signature& by = {}, const Precondition& may = {});
   WriteResult Remove(const std::string& id, const Signature& by = {}, const Precondition& may = {});
 
-  // Adds or replaces all of `parts`, which have different ids and passed Validate, or none. A part
-  // that is stored with the same content but its origin is left alone.
-  ImportPlan PlanImport(const std::vector<Part>& parts) const;
+  // Adds or replaces all of `parts`, which have different ids, or none. A part that is stored with
+  // the same content but its origin is left alone.
+  ImportPlan PlanImport(const PartSource& parts) const;
+  ImportResult Import(const PartSource& parts, const Signature& by);
   ImportResult Import(const std::vector<Part>& parts, const Signature& by);
 
   // Brings every part that revision `number` changed back to what it was before, as a revision of

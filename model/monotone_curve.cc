@@ -50,9 +50,10 @@ MonotoneCurve::MonotoneCurve(std::vector<double> x, std::vector<double> y)
   }
 }
 
+// The conditions are such that NaN finds no place inside the table.
 double MonotoneCurve::operator()(double x) const {
   assert(!empty());
-  if (x <= x_.front()) return y_.front() + slope_.front() * (x - x_.front());
+  if (!(x > x_.front())) return y_.front() + slope_.front() * (x - x_.front());
   if (x >= x_.back()) return y_.back() + slope_.back() * (x - x_.back());
   const auto i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
   const double h = x_[i] - x_[i - 1];
@@ -64,7 +65,7 @@ double MonotoneCurve::operator()(double x) const {
 
 double MonotoneCurve::Slope(double x) const {
   assert(!empty());
-  if (x <= x_.front()) return slope_.front();
+  if (!(x > x_.front())) return slope_.front();
   if (x >= x_.back()) return slope_.back();
   const auto i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
   const double h = x_[i] - x_[i - 1];
@@ -76,7 +77,7 @@ double MonotoneCurve::Slope(double x) const {
 
 double MonotoneCurve::Curvature(double x) const {
   assert(!empty());
-  if (x <= x_.front() || x >= x_.back()) return 0.0;
+  if (!(x > x_.front()) || x >= x_.back()) return 0.0;
   const auto i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
   const double h = x_[i] - x_[i - 1];
   const double t = (x - x_[i - 1]) / h;

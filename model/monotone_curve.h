@@ -14,7 +14,7 @@ class MonotoneCurve {
   MonotoneCurve(std::vector<double> x, std::vector<double> y);
 
   // Outside the table the curve goes straight on with the end slope; callers that must not
-  // extrapolate test the range first.
+  // extrapolate test the range first. At NaN the value is NaN.
   double operator()(double x) const;
   double Slope(double x) const;
   double Curvature(double x) const;  // second derivative; 0 outside the table

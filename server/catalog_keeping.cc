@@ -33,6 +33,21 @@ void CopyOrRefuse(void (*copy)(const std::filesystem::path&, const std::filesyst
   }
 }
 
+// What is wrong with the jobs beside the catalogue. A service that runs holds them for itself.
+std::vector<std::string> CheckJobsOf(const std::string& catalog) {
+  const std::string path = catalog + "-jobs";
+  if (!std::filesystem::exists(path)) return {};
+  try {
+    auto faults = catalog::CheckJobs(path);
+    for (auto& fault : faults) fault = path + ": " + fault;
+    return faults;
+  } catch (const catalog::StoreError& error) {
+    if (error.fault() != catalog::StoreFault::kBusy) return {error.what()};
+    std::fprintf(stderr, "%s: not checked, a service holds it\n", path.c_str());
+    return {};
+  }
+}
+
 }  // namespace
 
 void Print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
@@ -80,14 +95,16 @@ void RestoreCatalog(const CatalogOptions& options) {
 
 int CheckCatalog(const CatalogOptions& options) {
   const auto store = OpenCatalog(options.catalog, Access::kRead);
-  const auto faults = store.Check();
+  auto faults = store.Check();
+  const bool readable = faults.empty();
+  for (auto& fault : CheckJobsOf(options.catalog)) faults.push_back(std::move(fault));
   for (const auto& fault : faults) std::fprintf(stderr, "%s\n", fault.c_str());
   std::vector<catalog::Part> parts;
-  if (faults.empty()) parts = store.List();  // what is damaged cannot be read
+  if (readable) parts = store.List();  // what is damaged cannot be read
   const auto outliers = catalog::FindOutliers(parts);
   const auto gaps = catalog::FindGaps(parts);
   if (options.json) {
-    api::Json json = {{"parts", faults.empty() ? api::Json(parts.size()) : api::Json()},
+    api::Json json = {{"parts", readable ? api::Json(parts.size()) : api::Json()},
                       {"faults", faults}};
     json.update(api::RenderPlausibility(outliers, gaps));
     Print(Dump(json) + "\n");

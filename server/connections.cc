@@ -99,6 +99,7 @@ struct Connections::Connection final : Outgoing {
   std::string out;
   std::size_t sent = 0;  // of out
   RequestFrame frame;
+  std::shared_ptr<void> large_turn;  // while the body is a large table
   bool broken = false;
   bool closing = false;     // after what is in `out`
   std::size_t drained = 0;  // bytes thrown away after the last answer
@@ -199,7 +200,8 @@ void Connections::Close(Connection& connection) {
 }
 
 void Connections::Account(Connection& connection) {
-  std::size_t held = connection.in.size() + connection.out.size();
+  // A large table has a limit of its own.
+  std::size_t held = (connection.large_turn ? 0 : connection.in.size()) + connection.out.size();
   if (held <= kSmallBuffer) held = 0;
   buffered_ += held - connection.accounted.exchange(held);  // modulo 2^64
 }
@@ -234,6 +236,12 @@ Connections::Next Connections::ServeArrived(Connection& connection) {
     const State state = connection.frame.Look(connection.in);
     if (state == State::kRefused) return Refuse(connection, connection.frame.refusal());
     if (state == State::kHead) return Next::kRead;
+    if (connection.frame.is_large_import() && !connection.large_turn) {
+      connection.large_turn = large_imports_.Enter();
+      if (!connection.large_turn)
+        return Refuse(connection, {429, "large_imports_max", "another large table is under way"});
+      connection.in.reserve(connection.frame.size());
+    }
     if (state == State::kBody) {
       if (connection.frame.expects_continue() && connection.in.size() <= kHeadBytesMax) {
         connection.Write("HTTP/1.1 100 Continue\r\n\r\n");
@@ -246,6 +254,7 @@ Connections::Next Connections::ServeArrived(Connection& connection) {
                      connection.frame.TakeBody(connection.in), connection.peer, stopping_};
     connection.frame = {};
     connection.closing = !handle_(std::move(request), connection) || stopping_;
+    connection.large_turn.reset();
     connection.Await(TimeFor(connection.unsent()));
     const Next next = Send(connection);
     if (next != Next::kRead || connection.draining) return next;
@@ -255,6 +264,7 @@ Connections::Next Connections::ServeArrived(Connection& connection) {
 
 Connections::Next Connections::Refuse(Connection& connection, const Refusal& refusal) {
   connection.in = {};
+  connection.large_turn.reset();
   connection.closing = true;
   connection.Write(refuse_(refusal, connection.peer));
   connection.Await(TimeFor(connection.unsent()));

@@ -17,6 +17,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "server/limits.h"
 #include "server/request_frame.h"
 
 namespace plenum::server {
@@ -85,6 +86,7 @@ class Connections {
   std::unordered_map<int, std::unique_ptr<Connection>> connections_;  // by socket
   std::atomic<std::size_t> buffered_ = 0;
   std::atomic<long long> closed_early_ = 0;
+  Turnstile large_imports_{kLargeImportsMax};
   std::vector<std::thread> workers_;
   std::thread sweeper_;
   std::condition_variable stop_sweeping_;

@@ -10,6 +10,7 @@
 #include "api/limits.h"
 #include "api/reader.h"
 #include "server/job_inputs.h"
+#include "server/limits.h"
 #include "server/signature.h"
 
 namespace plenum::server {
@@ -54,7 +55,7 @@ struct Request {
 };
 
 // `models` are the newest of each name that "model" may ask for.
-api::Parsed<Request> ReadRequest(const std::string& body,
+api::Parsed<Request> ReadRequest(std::string_view body,
                                  const std::vector<catalog::ModelRevision>& models,
                                  api::Json document) {
   api::Errors errors;
@@ -76,6 +77,23 @@ api::Parsed<Request> ReadRequest(const std::string& body,
   if (!errors.empty()) return errors;
   request.diagnosis.provenance.files = {api::FileOf(request.diagnosis.dataset.name, body)};
   return request;
+}
+
+std::size_t SamplesOf(const calibration::Dataset& dataset) {
+  std::size_t samples = 0;
+  for (const auto& run : dataset.runs) samples += run.t_s.size();
+  return samples;
+}
+
+// The turn of a diagnosis that takes much memory, when it comes; none for one that takes little, or
+// when the job is cancelled while it waits.
+std::shared_ptr<void> AwaitTurn(const calibration::Dataset& dataset, const JobControl& control) {
+  static Gate large(kLargeDiagnosesMax, kLargeWaitingMax);
+  std::shared_ptr<void> turn;
+  if (SamplesOf(dataset) <= kLargeDiagnosisSamples) return turn;
+  control.report({{"seconds", 0}, {"share", 0}, {"doing", "waits for another large diagnosis"}});
+  while (!turn && !control.cancelled()) turn = large.Enter(std::chrono::milliseconds(100));
+  return turn;
 }
 
 // Puts the name under which the model was saved into the answer; where that fails the model itself,
@@ -115,6 +133,7 @@ Work DiagnosisWork(SharedCatalog& catalog) {
     if (auto* errors = std::get_if<api::Errors>(&parsed)) return *errors;
     const auto& request = std::get<Request>(parsed);
 
+    const auto turn = AwaitTurn(request.diagnosis.dataset, control);
     const auto start = Clock::now();
     const auto report_of = [&](double share, const std::string& doing) -> api::Json {
       const std::chrono::duration<double> elapsed = Clock::now() - start;

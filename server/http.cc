@@ -276,8 +276,7 @@ struct HttpService::Impl {
         user = std::get<Token>(token).name;
       }
       return Run(candidate,
-                 {std::move(argument), request.params, header,
-                  std::move(const_cast<httplib::Request&>(request).body), request.path, user});
+                 {std::move(argument), request.params, header, request.body, request.path, user});
     }
     if (allowed.empty()) return ProblemReply(404, "there is no " + request.path);
     auto reply = ProblemReply(405, request.path + " takes " + allowed);
@@ -297,17 +296,21 @@ struct HttpService::Impl {
 
   // A whole answer without httplib, for what never became a request.
   std::string RefusalText(const Refusal& refusal, const std::string& peer) {
-    const Reply reply = refusal.limit.empty()
-                            ? ProblemReply(refusal.status, refusal.detail)
-                            : LimitReply(refusal.status, refusal.limit,
-                                         ValueOf(refusal.limit, options), refusal.detail);
+    const Reply reply =
+        refusal.limit.empty() ? ProblemReply(refusal.status, refusal.detail)
+        : refusal.status == 429
+            ? BusyReply(refusal.limit, ValueOf(refusal.limit, options), refusal.detail, 10)
+            : LimitReply(refusal.status, refusal.limit, ValueOf(refusal.limit, options),
+                         refusal.detail);
+    std::string headers;
+    for (const auto& [name, value] : reply.headers) headers += name + ": " + value + "\r\n";
     metrics.Count("none", "none", refusal.status, 0.0, 0, reply.body.size());
     if (options.log)
       Log({{"level", "info"},
            {"peer", peer},
            {"status", refusal.status},
            {"detail", refusal.detail}});
-    return StatusLine(refusal.status) + "Content-Type: " + reply.content_type +
+    return StatusLine(refusal.status) + headers + "Content-Type: " + reply.content_type +
            "\r\nContent-Length: " + std::to_string(reply.body.size()) +
            "\r\nConnection: close\r\n\r\n" + reply.body;
   }

@@ -1,18 +1,42 @@
 #include "server/import_parts.h"
 
-#include <algorithm>
+#include <set>
+#include <utility>
 
 #include "api/services.h"
 
 namespace plenum::server {
 namespace {
 
-api::Errors ToErrors(const std::vector<catalog::CsvError>& csv_errors) {
+constexpr std::size_t kErrorsShown = 99;  // and one that counts the rest
+
+std::string PointerTo(int row, const std::string& column) {
+  return "/" + std::to_string(row) + "/" + column;
+}
+
+api::Errors ToErrors(const catalog::CsvErrors& found) {
   api::Errors errors;
-  for (const auto& error : csv_errors) {
-    errors.push_back({"/" + std::to_string(error.row) + "/" + error.column, error.detail});
+  for (const auto& error : found.errors) {
+    if (errors.size() == kErrorsShown) break;
+    errors.push_back({PointerTo(error.row, error.column), error.detail});
   }
+  if (found.count > errors.size())
+    errors.push_back({"", std::to_string(found.count - errors.size()) + " more errors"});
   return errors;
+}
+
+// Of the rows whose ids are those of parts of another family.
+api::Errors TakenErrors(const std::string& family, std::string_view text,
+                        const std::vector<std::string>& taken) {
+  const std::set<std::string> ids(taken.begin(), taken.end());
+  catalog::CsvErrors errors;
+  catalog::ReadCsv(family, text, [&](const catalog::Part& part, int row) {
+    if (!ids.contains(part.id)) return;
+    if (++errors.count <= catalog::kCsvErrorsMax)
+      errors.errors.push_back(
+          {row, "id", "\"" + part.id + "\" is taken by a part of another family"});
+  });
+  return ToErrors(errors);
 }
 
 }  // namespace
@@ -41,25 +65,23 @@ CsvImport ImportCsv(catalog::Store& store, const std::string& family, std::strin
         {"/family", "must be one of " + FamilyNames() + ", not \"" + family + "\""});
     return result;
   }
-  const auto csv = catalog::ReadCsv(family, text);
-  result.errors = ToErrors(csv.errors);
+  // Once for the errors, so that nothing is written before all of it is known to be right, then
+  // again as the parts are wanted: all at once would take many times the text.
+  result.errors = ToErrors(catalog::ReadCsv(family, text, [](const catalog::Part&, int) {}));
   if (!result.errors.empty()) return result;
-
+  const catalog::PartSource parts = [&](const catalog::TakeEach& take) {
+    catalog::ReadCsv(family, text, [&](const catalog::Part& part, int) { take(part); });
+  };
   if (dry_run) {
-    result.plan = store.PlanImport(csv.parts);
+    result.plan = store.PlanImport(parts);
     result.revision = store.Head();
   } else {
-    auto imported = store.Import(csv.parts, by);
+    auto imported = store.Import(parts, by);
     result.plan = std::move(imported.plan);
     result.status = imported.write.status;
     result.revision = std::move(imported.write.revision);
   }
-  for (std::size_t i = 0; i < csv.parts.size(); ++i) {
-    const std::string& id = csv.parts[i].id;
-    if (std::count(result.plan.taken.begin(), result.plan.taken.end(), id) == 0) continue;
-    result.errors.push_back({"/" + std::to_string(csv.rows[i]) + "/id",
-                             "\"" + id + "\" is taken by a part of another family"});
-  }
+  if (!result.plan.taken.empty()) result.errors = TakenErrors(family, text, result.plan.taken);
   return result;
 }
 

@@ -225,8 +225,8 @@ void Jobs::Stop() {
 bool Jobs::Stopping() const { return stopping_; }
 
 void Jobs::WorkLoop() {
-  // Requests go first: on Linux the niceness is that of the thread.
-  setpriority(PRIO_PROCESS, 0, kNiceness);
+  // Requests go first, however nice the service itself is: on Linux the niceness is the thread's.
+  setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNiceness);
   for (;;) {
     EntryPtr entry;
     {

@@ -2,6 +2,7 @@
 
 #include "api/limits.h"
 #include "api/problem.h"
+#include "api/services.h"
 
 namespace plenum::server {
 
@@ -19,14 +20,19 @@ api::Json RenderLimits(const JobOptions& jobs, const catalog::JobsKept& kept) {
                       {"large_requests_max", kLargeMax},
                       {"large_requests_waiting_max", kLargeWaitingMax},
                       {"large_requests_wait_seconds", kLargeWaitSeconds},
-                      {"import_cells_max", kImportCellsMax},
-                      {"import_columns_max", kImportColumnsMax},
+                      {"import_bytes_max", kImportBytesMax},
+                      {"large_imports_max", kLargeImportsMax},
+                      {"import_rows_max", kImportRowsMax},
+                      {"import_columns_max", catalog::kCsvColumnsMax},
+                      {"import_cell_bytes_max", catalog::kCsvCellBytesMax},
                       {"connections_max", kConnectionsMax},
                       {"requests_at_a_time_max", kRequestThreads},
                       {"computing_max", kComputingMax},
                       {"waiting_max", kWaitingMax},
                       {"wait_seconds_max", kWaitSecondsMax},
                       {"event_streams_max", kStreamsMax},
+                      {"large_diagnosis_samples", kLargeDiagnosisSamples},
+                      {"large_diagnoses_running_max", kLargeDiagnosesMax},
                       {"jobs_running_max", jobs.workers},
                       {"jobs_queued_max", jobs.queued_max},
                       {"jobs_kept_max", kept.jobs},
@@ -42,7 +48,7 @@ Reply LimitReply(int status, const std::string& name, const api::Json& value,
   return {status, "application/problem+json", Dump(document) + "\n", {}, {}};
 }
 
-std::shared_ptr<void> Gate::Enter(std::chrono::seconds patience) {
+std::shared_ptr<void> Gate::Enter(std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
   if (free_ == 0) {
     if (waiting_free_ == 0) return nullptr;

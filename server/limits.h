@@ -34,12 +34,17 @@ inline constexpr int kLargePageParts = 200;
 inline constexpr int kLargeMax = 1;
 inline constexpr int kLargeWaitingMax = 8;
 inline constexpr int kLargeWaitSeconds = 10;
-inline constexpr std::size_t kImportCellsMax = 1'000'000;
-inline constexpr std::size_t kImportColumnsMax = 1'000;
+// A table of parts may be longer than other bodies, one such at a time.
+inline constexpr std::size_t kImportBytesMax = 32 << 20;
+inline constexpr int kLargeImportsMax = 1;
+inline constexpr std::size_t kImportRowsMax = 150'000;
 inline constexpr int kComputingMax = 8;  // simulations and maps at a time
 inline constexpr int kWaitingMax = 8;    // requests that wait for their job
 inline constexpr int kWaitSecondsMax = 300;
 inline constexpr int kStreamsMax = 8;  // open event streams
+// A diagnosis takes about 1.2 kB a sample while it runs: of longer ones one at a time.
+inline constexpr std::size_t kLargeDiagnosisSamples = 50'000;
+inline constexpr int kLargeDiagnosesMax = 1;
 
 // Everything that limits a request, by name: { "body_bytes_max": 8388608, … }.
 api::Json RenderLimits(const JobOptions& jobs, const catalog::JobsKept& kept);
@@ -71,7 +76,7 @@ class Gate {
  public:
   Gate(int max, int waiting_max) : free_(max), waiting_free_(waiting_max) {}
   // Leaves when the last copy goes; nothing when too many wait or the turn does not come in time.
-  std::shared_ptr<void> Enter(std::chrono::seconds patience);
+  std::shared_ptr<void> Enter(std::chrono::milliseconds patience);
 
  private:
   void Leave();

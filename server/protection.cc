@@ -8,10 +8,26 @@
 namespace plenum::server {
 namespace {
 
-// The name in "localhost:8080" or "[::1]:8080".
+std::string LowerCase(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
+  return text;
+}
+
+// The name in "LocalHost:8080" or "[::1]:8080", in lower case; empty where it is none and a port.
 std::string NameIn(std::string_view authority) {
-  if (authority.starts_with('[')) return std::string(authority.substr(1, authority.find(']') - 1));
-  return std::string(authority.substr(0, authority.find(':')));
+  const bool bracketed = authority.starts_with('[');
+  const auto end = std::min(authority.find(bracketed ? ']' : ':'), authority.size());
+  if (bracketed && end == authority.size()) return "";
+  std::string_view port = authority.substr(end + (bracketed ? 1 : 0));
+  if (port.starts_with(':')) {
+    port.remove_prefix(1);
+    if (port.find_first_not_of("0123456789") != std::string_view::npos) return "";
+  } else if (!port.empty()) {
+    return "";
+  }
+  const std::size_t begin = bracketed ? 1 : 0;
+  return LowerCase(std::string(authority.substr(begin, end - begin)));
 }
 
 // The name in an Origin such as "http://localhost:8080"; empty for "null".
@@ -21,7 +37,9 @@ std::string NameOfOrigin(std::string_view origin) {
 }
 
 bool IsServed(const std::string& name, const std::vector<std::string>& hosts) {
-  return IsLoopback(name) || std::find(hosts.begin(), hosts.end(), name) != hosts.end();
+  return IsLoopback(name) || std::any_of(hosts.begin(), hosts.end(), [&](const std::string& host) {
+           return LowerCase(host) == name;
+         });
 }
 
 Reply Unauthorized(const std::string& detail) {

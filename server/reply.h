@@ -18,7 +18,7 @@ struct Call {
   std::string argument;  // the variable part of the path: an id
   std::multimap<std::string, std::string> query;
   std::function<std::optional<std::string>(const char*)> header;
-  std::string body;
+  std::string_view body;  // lives as long as the call is answered
   std::string path;
   std::string user = {};  // the name of the caller's token; empty where none was needed
 };

@@ -34,6 +34,12 @@ std::string_view Trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+// Of the request line.
+bool IsImport(std::string_view line) {
+  constexpr std::string_view kImport = "POST /v1/parts/import";
+  return line.starts_with(kImport) && line.substr(kImport.size()).find_first_of("? ") == 0;
+}
+
 bool ReadWhole(std::string_view text, int base, std::size_t& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
   return error == std::errc() && end == text.data() + text.size() && !text.empty();
@@ -92,7 +98,10 @@ RequestFrame::State RequestFrame::ReadHead(std::string_view head) {
   }
   if (chunked_ && has_length_)
     return Refuse(400, "", "Content-Length and Transfer-Encoding exclude each other");
-  if (!chunked_ && end_ - head_size_ > kBodyBytesMax)
+  const std::size_t length = end_ - head_size_;
+  if (IsImport(first) && length > kImportBytesMax)
+    return Refuse(413, "import_bytes_max", "the table is too large; send it in parts");
+  if (!IsImport(first) && length > kBodyBytesMax)
     return Refuse(413, "body_bytes_max", "the body is too large");
   return state_ = State::kBody;
 }
@@ -110,6 +119,9 @@ bool RequestFrame::ReadField(std::string_view name, std::string_view value) {
     if (chunked_ || !EqualsIgnoringCase(value, "chunked"))
       return Refuse(400, "", "the only Transfer-Encoding understood is chunked"), false;
     chunked_ = true;
+  } else if (EqualsIgnoringCase(name, "Host")) {
+    if (has_host_) return Refuse(400, "", "Host must be given once"), false;
+    has_host_ = true;
   } else if (EqualsIgnoringCase(name, "Expect")) {
     expects_continue_ = EqualsIgnoringCase(value, "100-continue");
   }
@@ -135,9 +147,13 @@ RequestFrame::State RequestFrame::LookAtChunks(std::string_view bytes) {
     body_size_ += length;
     if (length == 0) return state_ = State::kComplete;
   }
-  if (bytes.size() > end_ + kChunkLineMax)  // and no end of a line in it
+  if (bytes.size() >= end_ + kChunkLineMax + kLineEnd.size())  // and no end of a line in it
     return Refuse(400, "", "a chunk of the body does not begin with its length");
   return state_;
+}
+
+bool RequestFrame::is_large_import() const {
+  return state_ >= State::kBody && !chunked_ && end_ - head_size_ > kBodyBytesMax;
 }
 
 std::string RequestFrame::TakeHead(std::string& bytes) const {

@@ -27,6 +27,8 @@ class RequestFrame {
 
   // How many bytes of the request are known of: all of a complete one.
   std::size_t size() const { return end_; }
+  // Whether the body is larger than all but a table of parts may be: kBody or kComplete.
+  bool is_large_import() const;
   // Takes a complete request from the beginning of `bytes`: the line and headers with the empty
   // line, and the body with its chunks joined.
   std::string TakeHead(std::string& bytes) const;
@@ -46,7 +48,7 @@ class RequestFrame {
   std::size_t head_size_ = 0;  // with the empty line
   std::size_t end_ = 0;        // of the request; of chunks, the place of the next one
   std::size_t body_size_ = 0;  // of the chunks so far
-  bool has_length_ = false, chunked_ = false, expects_continue_ = false;
+  bool has_length_ = false, has_host_ = false, chunked_ = false, expects_continue_ = false;
   Refusal refusal_;
 };
 

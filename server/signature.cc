@@ -15,7 +15,7 @@ bool IsVisibleAscii(const std::string& text) {
 std::string DigestOf(const Call& call) {
   std::string request = call.path + "\n";
   for (const auto& [name, value] : call.query) request += name + "=" + value + "\n";
-  return catalog::Sha256(request + "\n" + call.body);
+  return catalog::Sha256(request + "\n" + catalog::Sha256(call.body));
 }
 
 }  // namespace

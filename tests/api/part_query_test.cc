@@ -107,11 +107,13 @@ TEST(PartQuery, EveryNumberFieldOfEveryFamilyFiltersAndSorts) {
   }
 }
 
+Json PageOf(const Parsed<std::string>& page) { return Json::parse(std::get<std::string>(page)); }
+
 TEST(PartQuery, FacetsCountWhatMatchesOnAllPages) {
   const auto shelf = Shelf();
   const auto query = std::get<PartQuery>(
       ParsePartQuery({{"facets", "true"}, {"mass_kg_min", "4"}, {"limit", "1"}}));
-  const Json page = std::get<Json>(RenderPage(query, {5, "abc", "", "", ""}, PartTable(shelf)));
+  const Json page = PageOf(RenderPage(query, {5, "abc", "", "", ""}, PartTable(shelf)));
   EXPECT_EQ(page["parts"].size(), 1u);
   EXPECT_EQ(page["total"], 6);
   EXPECT_EQ(page["facets"]["texts"]["manufacturer"], Parse(R"({"Even": 3, "Odd": 3})"));
@@ -131,7 +133,7 @@ TEST(PartQuery, PagesCoverTheListOnceInEveryOrder) {
     for (int pages = 0; pages < 10; ++pages) {
       const auto page = RenderPage(std::get<PartQuery>(ParsePartQuery(query)), {7, "", "", "", ""},
                                    PartTable(shelf));
-      const Json& json = std::get<Json>(page);
+      const Json json = PageOf(page);
       for (const Json& part : json["parts"]) paged.push_back(part["id"]);
       if (json["next_cursor"].is_null()) break;
       query.erase("cursor");
@@ -219,9 +221,10 @@ TEST(PartQuery, MutatedQueriesAreReadOrRefused) {
     }
     const auto page =
         RenderPage(std::get<PartQuery>(parsed), {7, "", "", "", ""}, PartTable(shelf));
-    if (const auto* json = std::get_if<Json>(&page)) {
+    if (std::holds_alternative<std::string>(page)) {
       ++answered;
-      ASSERT_LE((*json)["parts"].size(), (*json)["total"].get<std::size_t>());
+      const Json json = PageOf(page);
+      ASSERT_LE(json["parts"].size(), json["total"].get<std::size_t>());
     }
   }
   EXPECT_GT(answered, 1000);

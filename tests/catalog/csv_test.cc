@@ -126,6 +126,30 @@ TEST(Csv, RefusesBrokenCurves) {
         << curve;
 }
 
+TEST(Csv, CountsAllErrorsAndKeepsTheFirst) {
+  std::string text = "id,manufacturer\n";
+  for (int i = 0; i < 3'000; ++i) text += "Not An Id " + std::to_string(i) + ",m\n";
+  int parts = 0;
+  const CsvErrors found = ReadCsv("tubing", text, [&](const Part&, int) { ++parts; });
+  EXPECT_EQ(parts, 3'000);
+  EXPECT_EQ(found.errors.size(), kCsvErrorsMax);
+  EXPECT_GE(found.count, 3'000u);
+  EXPECT_EQ(found.errors.front().row, 2);
+}
+
+TEST(Csv, LimitsWhatOneRowTakes) {
+  const auto errors = [](const std::string& text) { return ReadCsv("tubing", text).errors; };
+  const auto wide = errors("id," + std::string(2'000'000, ',') + "\n");
+  ASSERT_FALSE(wide.empty());
+  EXPECT_NE(wide.front().detail.find("import_columns_max"), std::string::npos);
+  for (const std::string quote : {"", "\""}) {
+    const auto lengthy = errors("id\n" + quote + std::string(2'000'000, 'x') + quote + "\n");
+    ASSERT_FALSE(lengthy.empty());
+    EXPECT_EQ(lengthy.front().row, 2);
+    EXPECT_NE(lengthy.front().detail.find("import_cell_bytes_max"), std::string::npos);
+  }
+}
+
 TEST(Csv, RefusesBrokenQuotesAndBytes) {
   EXPECT_THAT(ReadCsv("reservoir", kHeader + "r,\"M\n").errors,
               ElementsAre(Error(2, "manufacturer", "never closed")));

@@ -1,8 +1,15 @@
 #!/usr/bin/env bash
-# Fuzzes each target for SECONDS and keeps what is interesting in tests/fuzz/corpus.
-# usage: tests/fuzz/run.sh [SECONDS=60] [TARGET…]     needs Debian's clang-14
+# Fuzzes each target for SECONDS, as many at a time as there are cores, and fails at the first crash,
+# leak, hang or more than 2 GB; what did it lies in build/fuzz then.
+# usage: tests/fuzz/run.sh [--keep] [SECONDS=60] [TARGET…]     needs Debian's clang-14
+# --keep: adds what is interesting to tests/fuzz/corpus, as the smallest set that covers as much.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+keep=
+if [ "${1:-}" = --keep ]; then
+  keep=1
+  shift
+fi
 seconds=${1:-60}
 shift || true
 targets=("$@")
@@ -10,15 +17,28 @@ targets=("$@")
 
 [ -f build/fuzz/build.ninja ] || cmake --preset fuzz >&2
 cmake --build --preset fuzz -j "$(nproc)" >&2
-for target in "${targets[@]}"; do
-  found=$(mktemp -d)
-  build/fuzz/fuzz_"$target" -max_total_time="$seconds" -max_len=20000 -timeout=10 \
+
+fuzz() {  # fuzz TARGET: what it finds goes to build/fuzz/found/TARGET
+  local target=$1 found=build/fuzz/found/$1
+  rm -rf "$found"
+  mkdir -p "$found"
+  if ! "build/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len=20000 -timeout=10 \
     -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="build/fuzz/$target-" \
-    "$found" tests/fuzz/corpus/"$target"
-  # Of what was found and what was there the smallest set that covers as much.
+    "$found" "tests/fuzz/corpus/$target" >"build/fuzz/$target.log" 2>&1; then
+    tail -n 60 "build/fuzz/$target.log"
+    echo "fuzz_$target failed"
+    return 1
+  fi
+  echo "fuzz_$target: $(grep -o 'Done [0-9]* runs' "build/fuzz/$target.log"), nothing found"
+}
+export -f fuzz
+export seconds
+printf '%s\n' "${targets[@]}" | xargs -P "$(nproc)" -I{} bash -c 'fuzz {}'
+
+[ -n "$keep" ] || exit 0
+for target in "${targets[@]}"; do
   kept=$(mktemp -d)
-  build/fuzz/fuzz_"$target" -merge=1 "$kept" tests/fuzz/corpus/"$target" "$found" 2>/dev/null
-  rm -f tests/fuzz/corpus/"$target"/*
-  find "$kept" -type f -size -4k -exec cp -t tests/fuzz/corpus/"$target" {} +
-  rm -r "$found" "$kept"
+  "build/fuzz/fuzz_$target" -merge=1 "$kept" "tests/fuzz/corpus/$target" "build/fuzz/found/$target" 2>/dev/null
+  find "$kept" -type f -size -4k -exec cp -n -t "tests/fuzz/corpus/$target" {} +
+  rm -r "$kept"
 done

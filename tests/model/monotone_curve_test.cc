@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -34,6 +35,14 @@ TEST(MonotoneCurve, MatchesPublishedPchipValues) {
   EXPECT_NEAR(curve(2.0), 5.0 + 2.0 * (1.5 - 5.25) / 8.0, 1e-14);
   EXPECT_NEAR(curve(5.0), 24.0, 1e-13);
   EXPECT_NEAR(curve(-1.0), 0.0, 1e-14);
+}
+
+TEST(MonotoneCurve, NotANumberStaysOne) {
+  const MonotoneCurve curve({0.0, 1.0, 3.0, 4.0}, {0.0, 1.0, 9.0, 16.0});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(curve(nan)));
+  EXPECT_GE(curve.Slope(nan), 0.0);  // of some piece, and read from none beyond the last
+  EXPECT_EQ(curve.Curvature(nan), 0.0);
 }
 
 TEST(MonotoneCurve, StaysMonotoneAndWithinTheData) {

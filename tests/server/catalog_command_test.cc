@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+
 #include "api/services.h"
 #include "workbench.h"
 
@@ -41,6 +44,34 @@ TEST(CatalogCommand, ShowsHistoryAndTakesChangesBack) {
   EXPECT_EQ(bench.Run("catalog undo 999").status, 2);
   const Json then = Document(bench.Run("catalog list fitting --json --revision " + added).out);
   EXPECT_EQ(then["catalogue_revision"]["hash"], writes[0]["hash"]);
+}
+
+TEST(CatalogCommand, ChecksTheJobsBesideTheCatalogue) {
+  const Workbench bench;
+  const std::string jobs = std::string(bench.catalog()) + "-jobs";
+  EXPECT_EQ(bench.Run("catalog check").status, 0);  // there are none
+  {
+    catalog::JobStore store(jobs, {});
+    catalog::JobOrder order;
+    order.kind = "design";
+    order.request = std::string(100'000, 'x');
+    order.hash = std::string(64, '0');
+    store.Add("a", order);
+    const auto held = bench.Run("catalog check");
+    EXPECT_EQ(held.status, 0);
+    EXPECT_THAT(held.err, HasSubstr("a service holds it"));
+  }
+  const auto sound = bench.Run("catalog check");
+  EXPECT_EQ(sound.status, 0) << sound.err;
+  EXPECT_EQ(sound.err, "");
+  // Pages of the tree that holds the request become noise.
+  std::string bytes = ReadAll(jobs);
+  ASSERT_GT(bytes.size(), 30'000u);
+  std::fill(bytes.begin() + 8192, bytes.begin() + 24'000, '\xA5');
+  std::ofstream(jobs, std::ios::binary).write(bytes.data(), std::ssize(bytes));
+  const auto damaged = bench.Run("catalog check");
+  EXPECT_EQ(damaged.status, 2);
+  EXPECT_THAT(damaged.err, HasSubstr("-jobs"));
 }
 
 TEST(CatalogCommand, ListsWhatIsAskedForInOrder) {

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <random>
 #include <set>
 #include <thread>
 
 #include "api/services.h"
+#include "raw.h"
 #include "workbench.h"
 
 namespace plenum::server {
@@ -39,6 +41,14 @@ class PartsOverHttp : public testing::Test {
   Json Get(const std::string& path) { return Body(client_->Get(path)); }
   httplib::Result Add(const Json& part, const httplib::Headers& headers = {}) {
     return client_->Post("/v1/parts", headers, part.dump(), kJson);
+  }
+  // Posts a table until its answer has a status that will do, at most 200 times; the last answer.
+  httplib::Result PostUntil(const std::string& path, const std::string& table,
+                            const std::function<bool(int status)>& will_do) {
+    auto result = client_->Post(path, table, "text/csv");
+    for (int i = 1; i < 200 && !(result && will_do(result->status)); ++i)
+      result = client_->Post(path, table, "text/csv");
+    return result;
   }
   static Json Fitting(const std::string& id, double mass_kg) {
     Json part = NewFitting(id);
@@ -115,6 +125,8 @@ TEST_F(PartsOverHttp, ReplaceAndDeleteNeedTheTagOfWhatIsThere) {
   EXPECT_EQ(put({{"If-Match", "W/" + tag}}, 0.1)->status, 412);
   EXPECT_EQ(client_->Delete("/v1/parts/f")->status, 412);
   EXPECT_EQ(client_->Delete("/v1/parts/f", {{"If-Match", "\"0\""}})->status, 412);
+  EXPECT_EQ(put({{"If-Match", "\"0,*,0\""}}, 0.1)->status, 412);  // one tag, with commas
+  EXPECT_EQ(put({{"If-Match", "*, \"0\""}}, 0.1)->status, 412);   // * stands alone
   EXPECT_EQ(put({{"If-Match", "\"0\", " + tag}}, 0.1)->status, 200);
   EXPECT_EQ(put({{"If-Match", tag}}, 0.2)->status, 412);
   EXPECT_EQ(Get("/v1/parts/f")["mass_kg"], 0.1);
@@ -238,6 +250,49 @@ TEST_F(PartsOverHttp, ImportNamesRowAndColumnAndWritesNothing) {
   }
   EXPECT_EQ(client_->Get("/v1/parts/ok")->status, 404);
   EXPECT_EQ(client_->Post(path + "&dry_run=maybe", csv, "text/csv")->status, 422);
+}
+
+TEST_F(PartsOverHttp, TablesMayBeLongerThanOtherBodiesAndHaveLimitsOfTheirOwn) {
+  const Json limits = Get("/v1/limits")["limits"];
+  const std::size_t body = limits["body_bytes_max"], import = limits["import_bytes_max"];
+  const std::string path = "/v1/parts/import?family=tubing";
+  // Rows that are long and wrong: what is wrong with them says that all of them arrived.
+  std::string table = "id,manufacturer,notes\n";
+  while (table.size() <= body) table += "No Id,m," + std::string(50'000, 'n') + "\n";
+  const auto read = client_->Post(path, table, "text/csv");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->status, 422);
+  const Json errors = Body(read)["errors"];
+  EXPECT_EQ(errors.size(), 100u);
+  EXPECT_EQ(errors[0]["pointer"], "/2/id");
+  EXPECT_THAT(std::string(errors[99]["detail"]), HasSubstr("more errors"));
+
+  const auto limit_of = [&](const httplib::Result& result, int status) {
+    EXPECT_TRUE(result);
+    if (!result) return std::string();
+    EXPECT_EQ(result->status, status) << result->body;
+    return Body(result)["limit"].value("name", "");
+  };
+  EXPECT_EQ(limit_of(client_->Post("/v1/parts", table, kJson), 413), "body_bytes_max");
+  EXPECT_EQ(limit_of(client_->Post("/v1/parts/imports", table, "text/csv"), 413), "body_bytes_max");
+  const std::string rows(limits["import_rows_max"].get<std::size_t>() + 1, '\n');
+  EXPECT_EQ(limit_of(client_->Post(path, rows, "text/csv"), 413), "import_rows_max");
+  const std::string whole(import + 1, 'x');
+  EXPECT_EQ(limit_of(client_->Post(path, whole, "text/csv"), 413), "import_bytes_max");
+
+  // One such table at a time; the next may come when the first is answered or given up.
+  const std::string head = "POST " + path + " HTTP/1.1\r\nHost: localhost\r\nContent-Length: " +
+                           std::to_string(table.size()) + "\r\n\r\n";
+  {
+    Raw first(serve_->port());
+    first.Send(head);
+    // Until the head of the first has been read.
+    const auto second = PostUntil(path, table, [](int status) { return status == 429; });
+    EXPECT_EQ(limit_of(second, 429), "large_imports_max");
+    EXPECT_EQ(client_->Get("/healthz")->status, 200);
+  }
+  const auto after = PostUntil(path, table, [](int status) { return status != 429; });
+  EXPECT_EQ(after->status, 422);
 }
 
 TEST_F(PartsOverHttp, HistoryTellsAndUndoTakesBack) {

@@ -1,14 +1,12 @@
 // Who may ask, and what happens to clients that take too much or too long.
 #include "server/protection.h"
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
+#include "raw.h"
 #include "server/limits.h"
 #include "server/request_frame.h"
 #include "service.h"
@@ -21,43 +19,6 @@ using testing::StartsWith;
 
 constexpr char kJson[] = "application/json";
 
-// A connection of bytes.
-class Raw {
- public:
-  explicit Raw(int port) : fd_(socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const timeval patience{20, 0};
-    setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-    if (connect(fd_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
-      ADD_FAILURE() << "no connection";
-  }
-  ~Raw() { close(fd_); }
-  Raw(const Raw&) = delete;
-
-  void Send(std::string_view bytes) const {
-    while (!bytes.empty()) {
-      const ssize_t n = send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-      if (n <= 0) return;
-      bytes.remove_prefix(static_cast<std::size_t>(n));
-    }
-  }
-  // Until the service closes, or `end` has come.
-  std::string Receive(const std::string& end = "\n\n\n") const {
-    std::string answer;
-    char buffer[4096];
-    for (ssize_t n;
-         answer.find(end) == std::string::npos && (n = recv(fd_, buffer, sizeof buffer, 0)) > 0;)
-      answer.append(buffer, static_cast<std::size_t>(n));
-    return answer;
-  }
-
- private:
-  int fd_;
-};
-
 TEST(Protection, OnlyServedHostsAndOwnPages) {
   Service service;
   httplib::Client client("127.0.0.1", service.port());
@@ -66,7 +27,14 @@ TEST(Protection, OnlyServedHostsAndOwnPages) {
   };
   EXPECT_EQ(status({{"Host", "localhost:1"}}), 200);
   EXPECT_EQ(status({{"Host", "[::1]:8080"}}), 200);
+  EXPECT_EQ(status({{"Host", "LOCALHOST"}}), 200);
   EXPECT_EQ(status({{"Host", "rebound.example"}}), 403);
+  // What begins like a name that is served and goes on.
+  for (const char* host : {"[::1].rebound.example", "[::1", "localhost:1@rebound.example",
+                           "localhost:", "127.0.0.1:8080:1", "localhost.rebound.example"})
+    EXPECT_EQ(status({{"Host", host}}), std::string(host) == "localhost:" ? 200 : 403) << host;
+  EXPECT_EQ(status({{"Origin", "http://[::1].rebound.example"}}), 403);
+  EXPECT_EQ(status({{"Origin", "http://localhost:1@rebound.example"}}), 403);
   EXPECT_EQ(status({{"Host", "127.0.0.1.example"}}), 403);
   EXPECT_EQ(status({{"Origin", "http://localhost:5173"}}), 200);
   EXPECT_EQ(status({{"Origin", "https://example.com"}}), 403);
@@ -196,6 +164,8 @@ TEST(Frame, RefusesWhatNeighboursMightReadAsAnother) {
   };
   EXPECT_EQ(status("Content-Length: 1\r\nContent-Length: 1\r\n"), 400);
   EXPECT_EQ(status("Content-Length: 1, 1\r\n"), 400);
+  EXPECT_EQ(status("Host: localhost\r\nHost: localhost\r\n"), 400);
+  EXPECT_EQ(status("Host: localhost\r\nhost: other\r\n"), 400);
   EXPECT_EQ(status("Content-Length: +1\r\n"), 400);
   EXPECT_EQ(status("Content-Length: 0x1\r\n"), 400);
   EXPECT_EQ(status("Content-Length: 99999999999999999999\r\n"), 400);
