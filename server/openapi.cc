@@ -304,8 +304,8 @@ Json OpenApi(const std::vector<Route>& routes) {
             {"description",
              "Chooses the parts of a pneumatic supply for soft robots. The unit of every number "
              "is the end of its name. Limits are at /v1/limits. Beyond the statuses of an "
-             "operation every one may answer 400, 401, 403, 408, 413, 414, 415, 431, 500, 503 "
-             "or 507, always with a problem document."}}},
+             "operation every one may answer 400, 401, 403, 408, 413, 414, 415, 429, 431, 500, "
+             "503 or 507, always with a problem document."}}},
           {"security", Json::array({Json::object(), Json{{"token", Json::array()}}})},
           {"paths", std::move(paths)},
           {"components",

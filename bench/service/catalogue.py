@@ -71,6 +71,36 @@ def get(connection, path):
     return body
 
 
+def post(port, path, body):
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120)
+    connection.request("POST", path, body, {"Content-Type": "text/csv"})
+    answer = connection.getresponse()
+    text = answer.read()
+    connection.close()
+    assert answer.status == 200, text
+
+
+def import_over_http(folder):
+    """The same table into a fresh catalogue; what it took of the service, which is no child yet."""
+    shutil.copy("catalog.db", folder)
+    process, port = serve(folder)
+
+    def used():
+        fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def peak_mb():
+        status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
+        return int(status.split("VmHWM:")[1].split()[0]) / 1024
+
+    before, base, start = used(), peak_mb(), time.monotonic()
+    post(port, "/v1/parts/import?family=valve", table(PARTS))
+    print(f"{'import over HTTP':42} {time.monotonic() - start:7.2f} s, CPU {used() - before:6.2f} s, "
+          f"{peak_mb() - base:.0f} MB above an idle service", flush=True)
+    process.terminate()
+    process.wait()
+
+
 def pages(port):
     connection = http.client.HTTPConnection("127.0.0.1", port)
     timed("first page (reads the catalogue)", lambda: get(connection, "/v1/parts?limit=1"))
@@ -90,6 +120,8 @@ def main():
     print("load", *os.getloadavg())
     folder = pathlib.Path(tempfile.mkdtemp())
     try:
+        shutil.copy("catalog.db", folder)
+        import_over_http(folder)
         shutil.copy("catalog.db", folder)
         (folder / "parts.csv").write_text(table(PARTS))
         timed("import --dry-run", lambda: command(folder, "import", "valve", "parts.csv", "--dry-run"))
