@@ -49,7 +49,7 @@ std::vector<Requirement> Requirements(const Problem& problem) {
   AddGroups(problem, list);
   AddAmounts(problem, list);
   list.push_back({"/duty/actuations", problem.actuations, 1.0,
-                  [](Problem& p, double value) { p.actuations = value; }, std::nullopt});
+                  [](Problem& p, double value) { p.actuations = value; }, std::nullopt, true});
   list.push_back({"/duty/frequency_hz", problem.frequency_hz,
                   LoosestFrequency(problem.frequency_hz),
                   [](Problem& p, double value) { p.frequency_hz = value; }, std::nullopt});

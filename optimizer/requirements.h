@@ -18,6 +18,7 @@ struct Requirement {
   std::function<void(Problem&, double)> set;  // to a value in those units
   // For mass, volume and cost: the objective that finds the best at once.
   std::optional<Objective> objective;
+  bool whole = false;  // a number of something of which at least so many are required
 };
 
 // Rise and fall times, limits on mass, volume and cost, actuations, frequency, source pressure:

@@ -99,7 +99,7 @@ Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges&
 }
 
 BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claim& claim)
-    : problem_(problem), plan_(plan), claim_(claim), corners_(problem, plan) {}
+    : problem_(problem), plan_(plan), claim_(claim), corners_(problem, plan), sizer_(problem) {}
 
 // Whether a combination with this objective, or more, bears out the claim.
 bool BoxCheck::Holds(double objective, const Ranges& single) const {
@@ -130,7 +130,7 @@ int BoxCheck::SlotToDivide(const Ranges& ranges) {
 bool BoxCheck::IsSettled(const Ranges& single, Findings& findings) {
   const Assembly assembly = AssemblyAt(problem_, plan_, single);
   const double enough = std::max(claim_.least, claim_.tie_end);
-  const Sizing sizing = Size(problem_, assembly, -kToSpare, enough);
+  const Sizing sizing = sizer_.Size(assembly, -kToSpare, enough);
   if (sizing.status == Sized::kInfeasible || Holds(sizing.lower_bound, single)) return true;
   if (sizing.status != Sized::kFeasible || Holds(sizing.objective, single)) return false;
   findings.push_back({"rechecked", "a " + std::string(Name(plan_.configuration)) +

@@ -8,6 +8,7 @@
 
 #include "optimizer/verify_corner.h"
 #include "optimizer/verify_design.h"
+#include "optimizer/verify_size.h"
 
 namespace plenum::optimizer {
 
@@ -50,6 +51,7 @@ class BoxCheck {
   const ProofPlan& plan_;
   const Claim& claim_;
   Corners corners_;
+  Sizer sizer_;
   long long looks_ = 0;
 };
 

@@ -145,7 +145,7 @@ class Enumeration {
     }
     if (++sized_ % 64 == 0) Report();
     const Assembly assembly = AssemblyAt(problem_, *plan_, single_);
-    const Sizing surely = Size(problem_, assembly, -kToSpare, enough_);
+    const Sizing surely = sizer_.Size(assembly, -kToSpare, enough_);
     if (surely.status == Sized::kUnknown && surely.lower_bound > enough_) {
       counts_.beyond += 1;
       return;
@@ -155,7 +155,7 @@ class Enumeration {
       Judge(assembly, surely.objective, true);
       return;
     }
-    const Sizing perhaps = Size(problem_, assembly, kToSpare, enough_);
+    const Sizing perhaps = sizer_.Size(assembly, kToSpare, enough_);
     (perhaps.status == Sized::kInfeasible ? counts_.infeasible : counts_.undecided) += 1;
     if (perhaps.status == Sized::kFeasible) Judge(assembly, perhaps.objective, false);
     if (perhaps.status == Sized::kUnknown) Judge(assembly, kUnlimited, false);
@@ -223,6 +223,7 @@ class Enumeration {
   const ProofPlan* plan_ = nullptr;
   Ranges single_;
   std::vector<std::vector<ItemAmounts>> amounts_;
+  Sizer sizer_{problem_};
   BruteForceCounts counts_;
   long long looked_ = 0, sized_ = 0;
 };

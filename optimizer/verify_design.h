@@ -13,6 +13,7 @@ struct LineParts {
   const model::Tubing* tube = nullptr;
   const model::Fitting* fitting = nullptr;  // null: the group needs none
   const model::Valve* valve = nullptr;
+  bool operator==(const LineParts&) const = default;
 };
 
 struct Assembly {

@@ -176,7 +176,8 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const P
 bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
                const ProofItem& better, const ProofItem& worse) {
   if (better.part < 0 || worse.part < 0 || better == worse) return false;
-  const ItemAmounts a = ChoiceAmounts(problem, slot, better), b = ChoiceAmounts(problem, slot, worse);
+  const ItemAmounts a = ChoiceAmounts(problem, slot, better),
+                    b = ChoiceAmounts(problem, slot, worse);
   if ((std::isfinite(problem.mass_max_kg) && !Least(a.mass_kg, b.mass_kg)) ||
       (std::isfinite(problem.volume_max_l) && !Least(a.volume_m3, b.volume_m3)) ||
       (std::isfinite(problem.cost_max_eur) && !Least(a.cost_eur, b.cost_eur)))

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "optimizer/verify_box.h"
-#include "optimizer/verify_size.h"
+#include "optimizer/verify_pump_curve.h"
 
 namespace plenum::optimizer {
 namespace {

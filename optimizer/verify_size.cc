@@ -5,34 +5,20 @@
 #include <queue>
 
 #include "model/storage.h"
+#include "optimizer/verify_pump_curve.h"
 #include "optimizer/verify_supply.h"
 
 namespace plenum::optimizer {
 namespace {
 
-constexpr int kGrid = 500;
 constexpr double kPressureTolerance = 1e-9;  // relative
-constexpr double kBoundTolerance = 1e-4;     // for an interval of volumes
-constexpr double kGap = 2e-7;                // of the objective
+// For an interval of volumes pressures are told apart as finely as this share of its width: beyond
+// that it is the volumes that want to be divided.
+constexpr double kPressureShare = 0.1, kFinest = 1e-9, kCoarsest = 1e-2;
+constexpr double kGap = 2e-7;  // of the objective
 constexpr int kLooksMax = 2000, kVolumesMax = 2000;
-constexpr int kFirstVolumes = 48;
-
-template <typename Value>
-bool Rises(const model::CompressorCurve& curve, double ambient_pa, const Value& value) {
-  double before = 0.0;
-  for (int i = 0; i < kGrid; ++i) {
-    const double pa = ambient_pa + (model::HighestPressure(curve) - ambient_pa) * i / kGrid;
-    if (!(model::FreeAirDelivery(curve, pa) > 0.0)) return true;
-    const double now = value(pa);
-    if (now < before * (1.0 - kSumTolerance)) return false;
-    before = now;
-  }
-  return true;
-}
-
-double EnergyPerAir(const model::CompressorCurve& curve, double pressure_pa) {
-  return model::ElectricalPower(curve, pressure_pa) / model::FreeAirDelivery(curve, pressure_pa);
-}
+constexpr double kFirstStep = 1e-4, kStepGrowth = 8.0;  // of the source pressure
+constexpr int kFirstVolumes = 12;
 
 // Volumes of the reservoir: the smallest counts while its pressure rises and for all that it takes,
 // the largest while it falls.
@@ -48,8 +34,9 @@ struct Look {
 
 class PressureSizing {
  public:
-  PressureSizing(const Problem& problem, const Assembly& assembly, const QuickCycles& cycles,
-                 Volumes volumes, double slack)
+  // Below `floor_pa` strokes are known to be too slow.
+  PressureSizing(const Problem& problem, const Assembly& assembly, KnownCycles& cycles,
+                 Volumes volumes, double slack, double floor_pa = 0.0)
       : problem_(problem),
         assembly_(assembly),
         cycles_(cycles),
@@ -57,34 +44,41 @@ class PressureSizing {
         slack_(slack),
         totals_(TotalsOf(problem, assembly, volumes.low_m3)),
         stood_(StoodPressures(problem, assembly)) {
+    stood_.low_pa = std::max(stood_.low_pa, floor_pa);
+    if (volumes.high_m3 > volumes.low_m3)
+      resolution_ =
+          std::clamp(kPressureShare * (volumes.high_m3 / volumes.low_m3 - 1.0), kFinest, kCoarsest);
     const double ambient_pa = problem.ambient.pressure_pa;
     if (!assembly.compressor) return;
     const model::CompressorCurve& curve = assembly.compressor->curve;
     const bool together = problem.simultaneous || problem.groups.size() == 1;
     rises_ = together ? EnergyPerAirRises(curve, ambient_pa) : PowerRises(curve, ambient_pa);
     if (rises_) return;
-    least_j_per_m3_ = kUnlimited;
-    for (int i = 0; i < kGrid; ++i) {
-      const double pa = ambient_pa + (model::HighestPressure(curve) - ambient_pa) * i / kGrid;
-      if (model::FreeAirDelivery(curve, pa) > 0.0)
-        least_j_per_m3_ = std::min(least_j_per_m3_, EnergyPerAir(curve, pa));
-    }
+    least_j_per_m3_ = LeastEnergyPerAir(curve, ambient_pa);
   }
+
+  // Known after Run: no lower source pressure is fast enough.
+  double floor_pa() const { return floor_pa_; }
 
   Sizing Run(double enough) {
     Sizing sizing;
     sizing.status = Sized::kInfeasible;
     sizing.lower_bound = kUnlimited;
     if (!(stood_.low_pa <= stood_.high_pa)) return sizing;
-    const auto highest = At(stood_.high_pa);
-    if (highest && StrokeExcess(highest->cycle) > slack_) return sizing;
-    const auto lowest = highest ? FastEnough(*highest) : std::nullopt;
-    if (!lowest) return {};
+    const auto fastest = cycles_.At(SettingsAt(stood_.high_pa, volumes_.high_m3), volumes_.low_m3);
+    if (!fastest) return {};
+    if (StrokeExcess(*fastest) > slack_) return sizing;
+    const std::optional<double> lowest_pa = FastEnough();
+    if (!lowest_pa) return {};
+    floor_pa_ = *lowest_pa;
+    const auto highest = At(stood_.high_pa), lowest = At(*lowest_pa);
+    if (!highest || !lowest) return {};
     Open(*lowest, *highest);
     Offer(*lowest, sizing);
     if (problem_.objective.energy_wh > 0.0) Offer(*highest, sizing);
     while (!open_.empty() && open_.top().bound < sizing.objective * (1.0 - kGap)) {
-      if (open_.top().bound > enough || looks_ > kLooksMax) {
+      const double width = open_.top().high.source_pa / open_.top().low.source_pa - 1.0;
+      if (open_.top().bound > enough || looks_ > kLooksMax || width < resolution_) {
         sizing.status = Sized::kUnknown;
         break;
       }
@@ -118,7 +112,8 @@ class PressureSizing {
 
   std::optional<Look> At(double source_pa) {
     ++looks_;
-    auto cycle = cycles_.At(SettingsAt(source_pa, volumes_.high_m3), volumes_.low_m3);
+    std::optional<Cycle> cycle =
+        cycles_.At(SettingsAt(source_pa, volumes_.high_m3), volumes_.low_m3);
     if (!cycle) return std::nullopt;
     const double pump_j = cycle->pump_j;
     if (!(volumes_.high_m3 > volumes_.low_m3)) return Look{source_pa, std::move(*cycle), pump_j};
@@ -158,21 +153,29 @@ class PressureSizing {
   }
 
   // The lowest source pressure at which strokes are fast enough; for an interval of volumes one a
-  // little below.
-  std::optional<Look> FastEnough(Look fast) {
-    auto slow = At(stood_.low_pa);
-    if (!slow || StrokeExcess(slow->cycle) <= slack_) return slow;
-    const bool bound = volumes_.high_m3 > volumes_.low_m3;
-    const double tolerance = bound ? kBoundTolerance : kPressureTolerance;
-    while (fast.source_pa - slow->source_pa > tolerance * fast.source_pa) {
-      auto middle = At(0.5 * (slow->source_pa + fast.source_pa));
-      if (!middle) return std::nullopt;
-      if (StrokeExcess(middle->cycle) <= slack_)
-        fast = std::move(*middle);
-      else
-        slow = std::move(middle);
+  // little below. It is often a little above the floor.
+  std::optional<double> FastEnough() {
+    bool known = true;
+    const auto too_slow = [&](double source_pa) {
+      ++looks_;
+      const auto cycle = cycles_.At(SettingsAt(source_pa, volumes_.high_m3), volumes_.low_m3);
+      known = known && cycle;
+      return !cycle || StrokeExcess(*cycle) > slack_;
+    };
+    double slow_pa = stood_.low_pa, fast_pa = stood_.high_pa;
+    if (!too_slow(slow_pa)) return slow_pa;
+    const double tolerance = resolution_ > 0.0 ? resolution_ : kPressureTolerance;
+    for (double step = kFirstStep; known && stood_.low_pa * (1.0 + step) < fast_pa;
+         step *= kStepGrowth) {
+      const double next_pa = stood_.low_pa * (1.0 + step);
+      (too_slow(next_pa) ? slow_pa : fast_pa) = next_pa;
     }
-    return bound ? *slow : fast;
+    while (known && fast_pa - slow_pa > tolerance * fast_pa) {
+      const double middle_pa = 0.5 * (slow_pa + fast_pa);
+      (too_slow(middle_pa) ? slow_pa : fast_pa) = middle_pa;
+    }
+    if (!known) return std::nullopt;
+    return resolution_ > 0.0 ? slow_pa : fast_pa;
   }
 
   // Largest share by which the cycle misses a requirement, and the objective.
@@ -210,11 +213,13 @@ class PressureSizing {
 
   const Problem& problem_;
   const Assembly& assembly_;
-  const QuickCycles& cycles_;
+  KnownCycles& cycles_;
   Volumes volumes_;
   double slack_;
   Totals totals_;
   Pressures stood_;
+  double floor_pa_ = 0.0;
+  double resolution_ = 0.0;  // of pressures, relative; 0 where there is one volume
   bool rises_ = true;
   double least_j_per_m3_ = 0.0;
   int looks_ = 0;
@@ -222,23 +227,24 @@ class PressureSizing {
 };
 
 // A made-to-measure reservoir: intervals of volumes, the one with the lowest bound first.
-Sizing SizeMade(const Problem& problem, const Assembly& assembly, double slack, double enough) {
+Sizing SizeMade(const Problem& problem, const Assembly& assembly, KnownCycles& cycles, double slack,
+                double enough) {
   struct Interval {
     Volumes volumes;
     double bound;
+    double floor_pa;
     bool looked_at;
     bool operator<(const Interval& other) const { return bound > other.bound; }
   };
-  const QuickCycles cycles(problem, assembly);
   std::priority_queue<Interval> open;
-  const auto add = [&](double low_m3, double high_m3, double bound) {
+  const auto add = [&](double low_m3, double high_m3, double bound, double floor_pa) {
     const double parts = ObjectiveOf(problem, TotalsOf(problem, assembly, low_m3));
-    open.push({{low_m3, high_m3}, std::max(bound, parts), false});
+    open.push({{low_m3, high_m3}, std::max(bound, parts), floor_pa, false});
   };
   const double ratio = std::pow(model::kMadeReservoirLargestM3 / model::kMadeReservoirSmallestM3,
                                 1.0 / kFirstVolumes);
   double low_m3 = model::kMadeReservoirSmallestM3;
-  for (int i = 0; i < kFirstVolumes; ++i, low_m3 *= ratio) add(low_m3, low_m3 * ratio, 0.0);
+  for (int i = 0; i < kFirstVolumes; ++i, low_m3 *= ratio) add(low_m3, low_m3 * ratio, 0.0, 0.0);
   Sizing best;
   for (int i = 0; !open.empty() && open.top().bound < best.objective * (1.0 - kGap); ++i) {
     if (open.top().bound > enough || i > kVolumesMax) break;
@@ -246,19 +252,24 @@ Sizing SizeMade(const Problem& problem, const Assembly& assembly, double slack, 
     open.pop();
     const Volumes& v = interval.volumes;
     if (!interval.looked_at) {
-      const Sizing all = PressureSizing(problem, assembly, cycles, v, slack).Run(enough);
+      PressureSizing pressures(problem, assembly, cycles, v, slack, interval.floor_pa);
+      const Sizing all = pressures.Run(enough);
       if (all.status == Sized::kInfeasible) continue;
       interval.bound = std::max(interval.bound, all.lower_bound);
+      interval.floor_pa = pressures.floor_pa();
       interval.looked_at = true;
       open.push(interval);
       continue;
     }
-    const Sizing largest = PressureSizing(problem, assembly, cycles, {v.high_m3, v.high_m3}, slack)
-                               .Run(best.objective);
-    best.objective = std::min(best.objective, largest.objective);
+    // A point that is no better than `enough` is of no use.
+    if (ObjectiveOf(problem, TotalsOf(problem, assembly, v.high_m3)) <= enough)
+      best.objective = std::min(
+          best.objective, PressureSizing(problem, assembly, cycles, {v.high_m3, v.high_m3}, slack)
+                              .Run(best.objective)
+                              .objective);
     const double middle_m3 = std::sqrt(v.low_m3 * v.high_m3);
-    add(v.low_m3, middle_m3, interval.bound);
-    add(middle_m3, v.high_m3, interval.bound);
+    add(v.low_m3, middle_m3, interval.bound, interval.floor_pa);
+    add(middle_m3, v.high_m3, interval.bound, interval.floor_pa);
   }
   best.lower_bound = open.empty() ? best.objective : std::min(best.objective, open.top().bound);
   best.status = std::isfinite(best.objective) ? Sized::kFeasible
@@ -269,20 +280,13 @@ Sizing SizeMade(const Problem& problem, const Assembly& assembly, double slack, 
 
 }  // namespace
 
-bool EnergyPerAirRises(const model::CompressorCurve& curve, double ambient_pa) {
-  return Rises(curve, ambient_pa, [&](double pa) { return EnergyPerAir(curve, pa); });
-}
-
-bool PowerRises(const model::CompressorCurve& curve, double ambient_pa) {
-  return Rises(curve, ambient_pa, [&](double pa) { return model::ElectricalPower(curve, pa); });
-}
-
-Sizing Size(const Problem& problem, const Assembly& assembly, double slack, double enough) {
-  if (assembly.compressor && !assembly.reservoir) return SizeMade(problem, assembly, slack, enough);
+Sizing Sizer::Size(const Assembly& assembly, double slack, double enough) {
+  if (!cycles_ || !cycles_->Serves(assembly)) cycles_.emplace(problem_, assembly);
+  if (assembly.compressor && !assembly.reservoir)
+    return SizeMade(problem_, assembly, *cycles_, slack, enough);
   const double volume_m3 =
       assembly.reservoir ? assembly.reservoirs * assembly.reservoir->volume_m3 : 0.0;
-  const QuickCycles cycles(problem, assembly);
-  return PressureSizing(problem, assembly, cycles, {volume_m3, volume_m3}, slack).Run(enough);
+  return PressureSizing(problem_, assembly, *cycles_, {volume_m3, volume_m3}, slack).Run(enough);
 }
 
 }  // namespace plenum::optimizer

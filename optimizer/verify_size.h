@@ -9,7 +9,7 @@
 #ifndef PLENUM_OPTIMIZER_VERIFY_SIZE_H_
 #define PLENUM_OPTIMIZER_VERIFY_SIZE_H_
 
-#include "optimizer/verify_design.h"
+#include "optimizer/verify_known_cycles.h"
 
 namespace plenum::optimizer {
 
@@ -21,13 +21,21 @@ struct Sizing {
   double lower_bound = 0.0;       // over all settings
 };
 
-// Every requirement may be missed by `slack`, relative; negative: met with that to spare. Ends as
-// soon as the lower bound passes `enough`, with status kUnknown where nothing was found till then.
-Sizing Size(const Problem& problem, const Assembly& assembly, double slack, double enough);
+// Sizes combinations one by one; those that come after each other and differ in battery, bottles or
+// reservoir alone share what is known of their strokes.
+class Sizer {
+ public:
+  explicit Sizer(const Problem& problem) : problem_(problem) {}
 
-// Whether the pump's energy per air (or its power alone) rises with pressure, on a fine grid.
-bool EnergyPerAirRises(const model::CompressorCurve& curve, double ambient_pa);
-bool PowerRises(const model::CompressorCurve& curve, double ambient_pa);
+  // Every requirement may be missed by `slack`, relative; negative: met with that to spare. Ends as
+  // soon as the lower bound passes `enough`, with status kUnknown where nothing was found till
+  // then.
+  Sizing Size(const Assembly& assembly, double slack, double enough);
+
+ private:
+  const Problem& problem_;
+  std::optional<KnownCycles> cycles_;
+};
 
 }  // namespace plenum::optimizer
 

@@ -20,7 +20,7 @@ using Bonmin::TMINLP;
 using Ipopt::Index;
 using Ipopt::Number;
 using Ipopt::TNLP;
-using Clock = std::chrono::steady_clock;
+using Clock = ProcessorClock;
 
 constexpr double kConductance = 1e-8;  // of 1 dm³/(s·bar)
 constexpr int kAttributes = 9;  // C and b of valve in, valve out, fitting, regulator; bore in mm

@@ -12,7 +12,7 @@
 namespace plenum::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = ProcessorClock;
 
 constexpr unsigned kPopulation = 100, kGenerations = 300;
 

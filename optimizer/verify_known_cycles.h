@@ -1,0 +1,42 @@
+// Cycles of parts that are asked for again and again. Internal to verify*.cc.
+#ifndef PLENUM_OPTIMIZER_VERIFY_KNOWN_CYCLES_H_
+#define PLENUM_OPTIMIZER_VERIFY_KNOWN_CYCLES_H_
+
+#include <array>
+#include <map>
+#include <optional>
+
+#include "optimizer/verify_cycle.h"
+
+namespace plenum::optimizer {
+
+// QuickCycles that remembers. Strokes are the same beside any battery and any number of bottles.
+class KnownCycles {
+ public:
+  KnownCycles(const Problem& problem, const Assembly& assembly)
+      : assembly_(assembly), quick_(problem, assembly_) {}
+  KnownCycles(const KnownCycles&) = delete;
+  KnownCycles& operator=(const KnownCycles&) = delete;
+
+  bool Serves(const Assembly& other) const {
+    return other.configuration == assembly_.configuration && other.lines == assembly_.lines &&
+           other.regulator == assembly_.regulator && other.co2 == assembly_.co2 &&
+           other.compressor == assembly_.compressor && other.compressors == assembly_.compressors;
+  }
+
+  const std::optional<Cycle>& At(const Settings& settings, double rising_m3) {
+    const auto [entry, fresh] = known_.try_emplace(
+        {settings.source_pressure_pa, settings.reservoir_volume_m3.value_or(0.0), rising_m3});
+    if (fresh) entry->second = quick_.At(settings, rising_m3);
+    return entry->second;
+  }
+
+ private:
+  const Assembly assembly_;
+  const QuickCycles quick_;
+  std::map<std::array<double, 3>, std::optional<Cycle>> known_;
+};
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_VERIFY_KNOWN_CYCLES_H_
