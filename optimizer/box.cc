@@ -37,10 +37,9 @@ bool Bounds::IsSingle(const Box& box) const {
   return true;
 }
 
-bool Bounds::CoreIsSingle(const Box& box) const {
-  for (std::size_t s = 0; s < box.nodes.size(); ++s)
-    if (DecidesSource(static_cast<int>(s)) && !Node(box, static_cast<int>(s)).single())
-      return false;
+bool Bounds::CoreIsSingle(const Box& box, int except) const {
+  for (int s = 0; s < static_cast<int>(box.nodes.size()); ++s)
+    if (s != except && DecidesSource(s) && !Node(box, s).single()) return false;
   return true;
 }
 
@@ -56,11 +55,13 @@ int Bounds::WidestSlot(const Box& box) const {
     return spread(a) != spread(b) ? spread(a) > spread(b)
                                   : Node(box, a).size() > Node(box, b).size();
   };
+  // Reservoirs are divided within the box (VolumeNeed) until all that decides the source with them
+  // is chosen; bottles and batteries are found by what they must bear.
+  const auto turn = [&](int s) { return s == plan_.reservoir_slot ? 1 : DecidesSource(s) ? 0 : 2; };
   int widest = -1;
-  for (const bool core : {true, false}) {
+  for (const int now : {0, 1, 2}) {
     for (int s = 0; s < static_cast<int>(box.nodes.size()); ++s)
-      if (DecidesSource(s) == core && !Node(box, s).single() && (widest < 0 || wider(s, widest)))
-        widest = s;
+      if (turn(s) == now && !Node(box, s).single() && (widest < 0 || wider(s, widest))) widest = s;
     if (widest >= 0) break;
   }
   return widest;
@@ -176,10 +177,9 @@ Constraint Bounds::Assess(Box& box, int changed) {
     if (changed < 0 || changed / kSlotsPerGroup == g)
       if (const Constraint missed = RemakeLine(box, g); missed != Constraint::kNone) return missed;
   if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
-  const bool source_changed = changed < 0 || DecidesSource(changed);
   return plan_.configuration == Configuration::kCompressor
-             ? AssessCompressor(box, source_changed, changed < 0 || changed == plan_.reservoir_slot)
-             : AssessRegulated(box, source_changed);
+             ? AssessCompressor(box, changed)
+             : AssessRegulated(box, changed < 0 || DecidesSource(changed));
 }
 
 bool Bounds::WithinLimits(Amounts amounts, const Amounts& more) const {
@@ -262,7 +262,5 @@ Candidate Bounds::CandidateOf(const Box& box) const {
   choose(plan_.battery_slot, candidate.battery);
   return candidate;
 }
-
-bool Bounds::CanFindSource(const Box& box) const { return !box.source_known && CoreIsSingle(box); }
 
 }  // namespace plenum::optimizer

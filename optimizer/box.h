@@ -18,8 +18,10 @@
 
 namespace plenum::optimizer {
 
-// An interval of volumes that a box's reservoir may have.
+// Some of the reservoirs that a box may have: a node of their tree, of a made-to-measure one an
+// interval of volumes.
 struct VolumeNeed {
+  int node = 0;
   ReservoirNeed need;
   double objective = 0.0;  // of a reservoir in it, at least
   double rest = 0.0;       // of reservoir, battery and energy, at least
@@ -59,9 +61,9 @@ class Bounds {
   // The same of an assessed box after the problem's limits on amounts have fallen.
   Constraint Reassess(Box& box);
 
-  // Once all but bottle and battery are single choices their source pressure can be found for good;
-  // it costs a hundred times more than Assess(). With a made-to-measure reservoir the intervals of
-  // volumes get finer instead, time after time.
+  // What raises the bound of a box without dividing it, step by step: a look at the reservoirs that
+  // its bound comes from; once all but bottle and battery are single choices their source pressure,
+  // found for good at a hundred times the cost, or finer intervals of made-to-measure volumes.
   bool CanFindSource(const Box& box) const;
   Constraint FindSource(Box& box);
 
@@ -101,7 +103,7 @@ class Bounds {
   bool DecidesSource(int slot) const {
     return slot != plan_.bottle_slot && slot != plan_.battery_slot;
   }
-  bool CoreIsSingle(const Box& box) const;
+  bool CoreIsSingle(const Box& box, int except = -1) const;
 
   // What is known of a box of lines, whatever the source.
   struct KnownLine {
@@ -121,9 +123,16 @@ class Bounds {
   Constraint NeedOfRegulated(Box& box);
   Constraint RestOfRegulated(Box& box);
 
-  Constraint AssessCompressor(Box& box, bool source_changed, bool reservoir_changed);
-  Constraint NeedOfCompressor(Box& box, bool reservoir_changed);
-  void DivideVolumes(Box& box);
+  Constraint AssessCompressor(Box& box, int changed);
+  Constraint NeedOfCompressor(Box& box) const;
+  void RestrictVolumes(Box& box) const;
+  bool IsWide(const Box& box, const VolumeNeed& volume) const;
+  bool IsSettled(const Box& box, const VolumeNeed& volume) const;
+  static std::size_t Lowest(const Box& box);
+  Constraint LookAtLowest(Box& box);
+  bool IsMade(const VolumeNeed& volume) const;
+  double Spread(const VolumeNeed& volume) const;
+  std::vector<VolumeNeed> Halves(const VolumeNeed& volume) const;
   double RestAt(const Box& box, const VolumeNeed& volume);
   Constraint RestOfCompressor(Box& box);
   const PumpFacts& PumpOf(const Box& box);
