@@ -91,13 +91,19 @@ double Bounds::RestAt(const Box& box, const VolumeNeed& volume) {
 
 bool Bounds::CanFindSource(const Box& box) const {
   if (plan_.configuration == Configuration::kCompressor &&
-      !IsSettled(box, box.volumes[Lowest(box)]))
+      !(box.lines_finished && IsSettled(box, box.volumes[Lowest(box)])))
     return true;
   return !box.source_known && CoreIsSingle(box);
 }
 
 Constraint Bounds::FindSource(Box& box) {
   if (plan_.configuration == Configuration::kCompressor) {
+    if (!box.lines_finished) {
+      if (const Constraint missed = FinishLines(box); missed != Constraint::kNone) return missed;
+      if (const Constraint missed = NeedOfCompressor(box); missed != Constraint::kNone)
+        return missed;
+      return RestOfCompressor(box);
+    }
     const VolumeNeed& lowest = box.volumes[Lowest(box)];
     if (!IsSettled(box, lowest)) return LookAtLowest(box);
     return IsMade(lowest) ? RefineVolumes(box) : FindStockSource(box);

@@ -16,7 +16,7 @@ namespace {
 // Reservoirs are halved down to this share of how much the other choices of the box differ in their
 // share of the objective, and those made to measure at least down to this ratio of volumes; where
 // compressor and lines are single choices down to ever smaller ones.
-constexpr double kVolumeShare = 0.2;
+constexpr double kVolumeShare = 0.1;
 constexpr double kBoxRatio = 2.0;
 constexpr double kRatioSteps[] = {1.25, 1.06, 1.015};
 constexpr double kFinestRatio = 1.004;

@@ -45,7 +45,7 @@ bool Bounds::CoreIsSingle(const Box& box, int except) const {
 
 int Bounds::WidestSlot(const Box& box) const {
   // What a pump or a reservoir adds to the others of its source is not in its own share.
-  constexpr double kSourceWeight = 10.0;
+  constexpr double kSourceWeight = 300.0;
   const auto spread = [&](int s) {
     const BoxNode& node = Node(box, s);
     return (node.objective_high - node.objective_low) *
@@ -151,23 +151,39 @@ Constraint Bounds::FindLeastObjective(const LineKey& key, Line& line) {
   return Constraint::kNone;
 }
 
+Bounds::LineKey Bounds::KeyOf(const Box& box, int group) {
+  const int first = kSlotsPerGroup * group;
+  return {group, {box.nodes[first], box.nodes[first + 1], box.nodes[first + 2]}};
+}
+
 Constraint Bounds::RemakeLine(Box& box, int group) {
   if (lines_.size() > kLinesKept) lines_.clear();
-  const int first = kSlotsPerGroup * group;
-  const LineKey key{group, {box.nodes[first], box.nodes[first + 1], box.nodes[first + 2]}};
-  KnownLine& known = KnowLine(key);
-  if (known.line && !known.finished) {
-    known.finished = true;
-    known.missed = FindLeastObjective(key, *known.line);
-    const LineParts parts = PartsOf(key);
-    if (known.missed == Constraint::kNone)
-      FinishLine(problem_, group, parts.corners.valve, parts.single(),
-                 parts.single() || plan_.configuration == Configuration::kCompressor, *known.line);
-    else
-      known.line = nullptr;
-  }
+  const KnownLine& known = KnowLine(KeyOf(box, group));
   box.lines[group] = known.line;
+  box.lines_finished = false;
   return known.missed;
+}
+
+Constraint Bounds::FinishLines(Box& box) {
+  box.lines_finished = true;
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
+    const LineKey key = KeyOf(box, g);
+    KnownLine& known = KnowLine(key);
+    if (known.line && !known.finished) {
+      known.finished = true;
+      known.missed = FindLeastObjective(key, *known.line);
+      const LineParts parts = PartsOf(key);
+      if (known.missed == Constraint::kNone)
+        FinishLine(problem_, g, parts.corners.valve, parts.single(),
+                   parts.single() || plan_.configuration == Configuration::kCompressor,
+                   *known.line);
+      else
+        known.line = nullptr;
+    }
+    box.lines[g] = known.line;
+    if (known.missed != Constraint::kNone) return known.missed;
+  }
+  return Constraint::kNone;
 }
 
 Constraint Bounds::Assess(Box& box, int changed) {
@@ -177,6 +193,8 @@ Constraint Bounds::Assess(Box& box, int changed) {
     if (changed < 0 || changed / kSlotsPerGroup == g)
       if (const Constraint missed = RemakeLine(box, g); missed != Constraint::kNone) return missed;
   if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
+  if (plan_.configuration != Configuration::kCompressor && !box.lines_finished)
+    if (const Constraint missed = FinishLines(box); missed != Constraint::kNone) return missed;
   return plan_.configuration == Configuration::kCompressor
              ? AssessCompressor(box, changed)
              : AssessRegulated(box, changed < 0 || DecidesSource(changed));

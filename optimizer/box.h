@@ -31,6 +31,7 @@ struct VolumeNeed {
 struct Box {
   std::vector<int> nodes;                          // per slot
   std::vector<std::shared_ptr<const Line>> lines;  // per group; empty before the first Assess()
+  bool lines_finished = false;                     // by FinishLine()
   double bound = 0.0;                              // of the objective
   Window window{0.0, 0.0};                         // source pressures
   double source_floor_pa = 0.0, source_cap_pa = kUnlimited;  // as in Candidate
@@ -113,7 +114,9 @@ class Bounds {
   };
   KnownLine& KnowLine(const LineKey& key);
   Constraint FindLeastObjective(const LineKey& key, Line& line);
+  static LineKey KeyOf(const Box& box, int group);
   Constraint RemakeLine(Box& box, int group);
+  Constraint FinishLines(Box& box);
   bool WithinLimits(Amounts amounts, const Amounts& more = {}) const;
   Amounts LeastOfAll(const Box& box) const;           // sums of the least of each slot
   Amounts LeastBesidesBattery(const Box& box) const;  // and of each but the battery

@@ -33,9 +33,10 @@ struct PumpTables {
   std::vector<double> energy_j_per_m3, seconds_per_m3, current_a;
 };
 
-double LeastPower(const model::CompressorCurve& curve, double low_pa, double high_pa) {
-  double least_w =
-      std::min(model::ElectricalPower(curve, low_pa), model::ElectricalPower(curve, high_pa));
+// `low_w`, `high_w`: power at the ends.
+double LeastPower(const model::CompressorCurve& curve, double low_pa, double low_w, double high_pa,
+                  double high_w) {
+  double least_w = std::min(low_w, high_w);
   for (double knot : curve.current_a.x())
     if (knot > low_pa && knot < high_pa)
       least_w = std::min(least_w, model::ElectricalPower(curve, knot));
@@ -49,9 +50,12 @@ void MakeNonFalling(std::vector<double>& values) {
 PumpTables MakeTables(const model::CompressorCurve& curve, int pumps,
                       const std::vector<double>& edges) {
   PumpTables tables;
+  double high_w = model::ElectricalPower(curve, edges.front());
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     const double delivery = model::FreeAirDelivery(curve, edges[i]);
-    const double power_w = LeastPower(curve, edges[i], edges[i + 1]);
+    const double low_w = high_w;
+    high_w = model::ElectricalPower(curve, edges[i + 1]);
+    const double power_w = LeastPower(curve, edges[i], low_w, edges[i + 1], high_w);
     // Past the last delivery nothing can be pumped; a large number keeps integrals finite.
     tables.energy_j_per_m3.push_back(delivery > 0.0 ? power_w / delivery : kNoDelivery);
     tables.seconds_per_m3.push_back(delivery > 0.0 ? 1.0 / (pumps * delivery) : kNoDelivery);
