@@ -26,21 +26,19 @@ Constraint Bounds::AssessCompressor(Box& box, int changed) {
           problem_.parts.compressors[OptionOf(box, plan_.compressor_slot).index].curve.voltage_v))
     return Constraint::kMating;
   if (all || changed == plan_.reservoir_slot) RestrictVolumes(box);
-  for (VolumeNeed& volume : box.volumes) {
-    if (changed == plan_.battery_slot)
-      volume.rest = RestAt(box, volume);
-    else if (changed != plan_.reservoir_slot)
-      volume.fresh = false;
-  }
+  if (changed == plan_.battery_slot)
+    for (VolumeNeed& volume : box.volumes.Own()) volume.rest = RestAt(box, volume);
+  else if (changed != plan_.reservoir_slot)
+    ++box.look;
   return RestOfCompressor(box);
 }
 
 Constraint Bounds::RestOfCompressor(Box& box) {
-  if (box.volumes.empty()) return Constraint::kPump;
+  if (box.volumes->empty()) return Constraint::kPump;
   double chosen = CornerAt(plan_.compressors, box, plan_.compressor_slot).objective;
   for (const std::shared_ptr<const Line>& line : box.lines) chosen += line->objective;
   double rest = kUnlimited;
-  for (const VolumeNeed& volume : box.volumes) rest = std::min(rest, volume.rest);
+  for (const VolumeNeed& volume : *box.volumes) rest = std::min(rest, volume.rest);
   if (std::isinf(rest)) return Constraint::kBattery;
   box.bound = std::max(box.bound, chosen + rest);
   return Constraint::kNone;
@@ -91,7 +89,7 @@ double Bounds::RestAt(const Box& box, const VolumeNeed& volume) {
 
 bool Bounds::CanFindSource(const Box& box) const {
   if (plan_.configuration == Configuration::kCompressor &&
-      !(box.lines_finished && IsSettled(box, box.volumes[Lowest(box)])))
+      !(box.lines_finished && IsSettled(box, (*box.volumes)[Lowest(box)])))
     return true;
   return !box.source_known && CoreIsSingle(box);
 }
@@ -104,7 +102,7 @@ Constraint Bounds::FindSource(Box& box) {
         return missed;
       return RestOfCompressor(box);
     }
-    const VolumeNeed& lowest = box.volumes[Lowest(box)];
+    const VolumeNeed& lowest = (*box.volumes)[Lowest(box)];
     if (!IsSettled(box, lowest)) return LookAtLowest(box);
     return IsMade(lowest) ? RefineVolumes(box) : FindStockSource(box);
   }
@@ -142,7 +140,7 @@ double Bounds::LeastEnergy(const Candidate& candidate, OperatingPoint point,
 // is where the pump takes no less energy per air at higher pressure.
 Constraint Bounds::FindStockSource(Box& box) {
   box.source_known = true;
-  VolumeNeed& volume = box.volumes.front();
+  VolumeNeed& volume = box.volumes.Own().front();
   const double volume_m3 = volume.need.low_m3;
   Candidate candidate = CandidateOf(box);
   candidate.source_floor_pa = volume.need.source_pa;

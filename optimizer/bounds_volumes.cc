@@ -37,19 +37,19 @@ void Bounds::RestrictVolumes(Box& box) const {
     volume.need.high_m3 = corner.high_m3;
     volume.objective = corner.objective;
     volume.rest = std::max(volume.rest, corner.objective);
-    volume.fresh = false;
+    volume.look = -1;
     return volume;
   };
-  if (box.volumes.empty()) box.volumes.push_back(cut({}));
+  if (box.volumes->empty()) box.volumes.Own().push_back(cut({}));
   std::vector<VolumeNeed> kept;
-  for (const VolumeNeed& volume : box.volumes) {
+  for (const VolumeNeed& volume : *box.volumes) {
     const BoxNode& node = plan_.reservoirs.nodes[volume.node];
     if (range.first <= node.first && node.last <= range.last)
       kept.push_back(volume);
     else if (node.first <= range.first && range.last <= node.last)
       kept.push_back(cut(volume));
   }
-  box.volumes = std::move(kept);
+  box.volumes.Own() = std::move(kept);
 }
 
 bool Bounds::IsMade(const VolumeNeed& volume) const {
@@ -104,15 +104,15 @@ bool Bounds::IsWide(const Box& box, const VolumeNeed& volume) const {
 
 // Looked at for this box, and no longer to be halved.
 bool Bounds::IsSettled(const Box& box, const VolumeNeed& volume) const {
-  return volume.fresh && !IsWide(box, volume);
+  return volume.look == box.look && !IsWide(box, volume);
 }
 
 // The reservoirs whose bound is that of the box.
 std::size_t Bounds::Lowest(const Box& box) {
   const auto lowest =
-      std::min_element(box.volumes.begin(), box.volumes.end(),
+      std::min_element(box.volumes->begin(), box.volumes->end(),
                        [](const VolumeNeed& a, const VolumeNeed& b) { return a.rest < b.rest; });
-  return static_cast<std::size_t>(lowest - box.volumes.begin());
+  return static_cast<std::size_t>(lowest - box.volumes->begin());
 }
 
 // Looks at the reservoirs with the lowest bound as this box has them, or at each half of them where
@@ -126,6 +126,7 @@ Constraint Bounds::LookAtLowest(Box& box) {
   const PumpLoad load = MakePumpLoad(problem_, lines, box.window.low_pa);
   const PumpLimits limits{CornerAt(plan_.compressors, box, plan_.compressor_slot).duty_max,
                           CornerAt(plan_.batteries, box, plan_.battery_slot).energy_j};
+  std::vector<VolumeNeed>& volumes = box.volumes.Own();
   const auto look = [&](VolumeNeed volume) {
     volume.need.source_max_pa =
         std::min(volume.need.source_max_pa, plan_.reservoirs.corners[volume.node].pressure_max_pa);
@@ -133,14 +134,14 @@ Constraint Bounds::LookAtLowest(Box& box) {
         LeastReservoirNeed(problem_, pump, load, limits, box.window, volume.need, tolerance);
     if (!need) return;
     volume.need = *need;
-    volume.fresh = true;
+    volume.look = box.look;
     volume.rest = std::max(volume.rest, RestAt(box, volume));
-    box.volumes.push_back(volume);
+    volumes.push_back(volume);
   };
   const std::size_t lowest = Lowest(box);
-  const VolumeNeed volume = box.volumes[lowest];
-  box.volumes.erase(box.volumes.begin() + static_cast<std::ptrdiff_t>(lowest));
-  if (volume.fresh) {
+  const VolumeNeed volume = volumes[lowest];
+  volumes.erase(volumes.begin() + static_cast<std::ptrdiff_t>(lowest));
+  if (volume.look == box.look) {
     for (const VolumeNeed& half : Halves(volume)) look(half);
   } else {
     look(volume);

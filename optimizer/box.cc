@@ -17,7 +17,7 @@ constexpr std::size_t kLinesKept = 50000;
 
 std::vector<ReservoirNeed> NeedsOf(const Box& box) {
   std::vector<ReservoirNeed> needs;
-  for (const VolumeNeed& volume : box.volumes)
+  for (const VolumeNeed& volume : *box.volumes)
     if (std::isfinite(volume.rest)) needs.push_back(volume.need);
   return needs;
 }
@@ -211,7 +211,7 @@ bool Bounds::WithinLimits(Amounts amounts, const Amounts& more) const {
 Constraint Bounds::Reassess(Box& box) {
   if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
   if (plan_.configuration != Configuration::kCompressor) return RestOfRegulated(box);
-  for (VolumeNeed& volume : box.volumes) volume.rest = RestAt(box, volume);
+  for (VolumeNeed& volume : box.volumes.Own()) volume.rest = RestAt(box, volume);
   return RestOfCompressor(box);
 }
 

@@ -15,6 +15,7 @@
 
 #include "optimizer/make_line.h"
 #include "optimizer/plan.h"
+#include "optimizer/shared.h"
 
 namespace plenum::optimizer {
 
@@ -25,7 +26,7 @@ struct VolumeNeed {
   ReservoirNeed need;
   double objective = 0.0;  // of a reservoir in it, at least
   double rest = 0.0;       // of reservoir, battery and energy, at least
-  bool fresh = false;      // false: from a larger box that this one is a part of; still a bound
+  int look = -1;           // Box::look when it was looked at; less: in a larger box, still a bound
 };
 
 struct Box {
@@ -37,11 +38,12 @@ struct Box {
   double source_floor_pa = 0.0, source_cap_pa = kUnlimited;  // as in Candidate
   double air_m3 = 0.0;                                       // per cycle
   double coil_power_w = 0.0;                                 // with the regulator's
-  double energy_j = 0.0;            // of the mission; regulated configurations
-  double energy_beyond_j = 0.0;     // what of it the shares of the choices do not count
-  std::vector<VolumeNeed> volumes;  // compressor
-  double volume_ratio_max = 0.0;    // of the ends of an interval of made-to-measure volumes
-  bool source_known = false;        // the least source pressure is that of the real parts
+  double energy_j = 0.0;                    // of the mission; regulated configurations
+  double energy_beyond_j = 0.0;             // what of it the shares of the choices do not count
+  Shared<std::vector<VolumeNeed>> volumes;  // compressor
+  int look = 0;                             // grows where the needs of volumes may have grown
+  double volume_ratio_max = 0.0;            // of the ends of an interval of made-to-measure volumes
+  bool source_known = false;                // the least source pressure is that of the real parts
 };
 
 std::vector<ReservoirNeed> NeedsOf(const Box& box);
