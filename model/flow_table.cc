@@ -37,10 +37,13 @@ FlowTable::FlowTable(const Series& series)
   value_[kCells] = 1.0;
   slope_[0] = -SlopeAtEqualPressures(series) / cells_per_ratio_;
   slope_[kCells] = -SlopeWhereChoked(series) / cells_per_ratio_;
+  double cosine = 1.0 - slope_[0];  // a guess, from the slope where the curve begins
   for (int i = 1; i < kCells; ++i) {
-    const double cosine = CosineAtRatio(series, 1.0 - i / cells_per_ratio_);
-    value_[i] = 1.0 - cosine;
-    slope_[i] = -Slope(series, cosine) / cells_per_ratio_;
+    const CosineAndSlope exact =
+        CosineNear(series, 1.0 - i / cells_per_ratio_, std::max(cosine, 0.5 / kCells));
+    value_[i] = 1.0 - exact.cosine;
+    slope_[i] = exact.slope / cells_per_ratio_;
+    cosine = exact.cosine - slope_[i];
   }
   // Fritsch and Carlson's condition: three times the secant at most keeps each piece monotone.
   for (int i = 0; i < kCells; ++i) {
@@ -48,18 +51,6 @@ FlowTable::FlowTable(const Series& series)
     slope_[i] = std::min(slope_[i], most);
     slope_[i + 1] = std::min(slope_[i + 1], most);
   }
-}
-
-double FlowTable::operator()(double ratio) const {
-  if (ratio <= choked_ratio_) return choked_flow_;
-  if (ratio >= 1.0) return 0.0;
-  const double position = (1.0 - ratio) * cells_per_ratio_;
-  const int cell = std::min(static_cast<int>(position), kCells - 1);
-  const double t = position - cell;
-  const double s = 1.0 - t;
-  const double u = s * s * ((1.0 + 2.0 * t) * value_[cell] + t * slope_[cell]) +
-                   t * t * ((1.0 + 2.0 * s) * value_[cell + 1] - s * slope_[cell + 1]);
-  return choked_flow_ * std::sqrt(u * (2.0 - u));
 }
 
 }  // namespace plenum::model

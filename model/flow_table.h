@@ -5,7 +5,9 @@
 #ifndef PLENUM_MODEL_FLOW_TABLE_H_
 #define PLENUM_MODEL_FLOW_TABLE_H_
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "model/series.h"
 
@@ -25,6 +27,18 @@ class FlowTable {
   // 1 − c from equal pressures to the choked ratio, and its slope per cell.
   std::array<double, kCells + 1> value_{}, slope_{};
 };
+
+inline double FlowTable::operator()(double ratio) const {
+  if (ratio <= choked_ratio_) return choked_flow_;
+  if (ratio >= 1.0) return 0.0;
+  const double position = (1.0 - ratio) * cells_per_ratio_;
+  const int cell = std::min(static_cast<int>(position), kCells - 1);
+  const double t = position - cell;
+  const double s = 1.0 - t;
+  const double u = s * s * ((1.0 + 2.0 * t) * value_[cell] + t * slope_[cell]) +
+                   t * t * ((1.0 + 2.0 * s) * value_[cell + 1] - s * slope_[cell + 1]);
+  return choked_flow_ * std::sqrt(u * (2.0 - u));
+}
 
 }  // namespace plenum::model
 

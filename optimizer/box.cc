@@ -17,7 +17,7 @@ constexpr std::size_t kLinesKept = 50000;
 
 std::vector<ReservoirNeed> NeedsOf(const Box& box) {
   std::vector<ReservoirNeed> needs;
-  for (const VolumeNeed& volume : box.volumes)
+  for (const VolumeNeed& volume : *box.volumes)
     if (std::isfinite(volume.rest)) needs.push_back(volume.need);
   return needs;
 }
@@ -37,16 +37,15 @@ bool Bounds::IsSingle(const Box& box) const {
   return true;
 }
 
-bool Bounds::CoreIsSingle(const Box& box) const {
-  for (std::size_t s = 0; s < box.nodes.size(); ++s)
-    if (DecidesSource(static_cast<int>(s)) && !Node(box, static_cast<int>(s)).single())
-      return false;
+bool Bounds::CoreIsSingle(const Box& box, int except) const {
+  for (int s = 0; s < static_cast<int>(box.nodes.size()); ++s)
+    if (s != except && DecidesSource(s) && !Node(box, s).single()) return false;
   return true;
 }
 
 int Bounds::WidestSlot(const Box& box) const {
   // What a pump or a reservoir adds to the others of its source is not in its own share.
-  constexpr double kSourceWeight = 10.0;
+  constexpr double kSourceWeight = 300.0;
   const auto spread = [&](int s) {
     const BoxNode& node = Node(box, s);
     return (node.objective_high - node.objective_low) *
@@ -56,11 +55,13 @@ int Bounds::WidestSlot(const Box& box) const {
     return spread(a) != spread(b) ? spread(a) > spread(b)
                                   : Node(box, a).size() > Node(box, b).size();
   };
+  // Reservoirs are divided within the box (VolumeNeed) until all that decides the source with them
+  // is chosen; bottles and batteries are found by what they must bear.
+  const auto turn = [&](int s) { return s == plan_.reservoir_slot ? 1 : DecidesSource(s) ? 0 : 2; };
   int widest = -1;
-  for (const bool core : {true, false}) {
+  for (const int now : {0, 1, 2}) {
     for (int s = 0; s < static_cast<int>(box.nodes.size()); ++s)
-      if (DecidesSource(s) == core && !Node(box, s).single() && (widest < 0 || wider(s, widest)))
-        widest = s;
+      if (turn(s) == now && !Node(box, s).single() && (widest < 0 || wider(s, widest))) widest = s;
     if (widest >= 0) break;
   }
   return widest;
@@ -150,23 +151,39 @@ Constraint Bounds::FindLeastObjective(const LineKey& key, Line& line) {
   return Constraint::kNone;
 }
 
+Bounds::LineKey Bounds::KeyOf(const Box& box, int group) {
+  const int first = kSlotsPerGroup * group;
+  return {group, {box.nodes[first], box.nodes[first + 1], box.nodes[first + 2]}};
+}
+
 Constraint Bounds::RemakeLine(Box& box, int group) {
   if (lines_.size() > kLinesKept) lines_.clear();
-  const int first = kSlotsPerGroup * group;
-  const LineKey key{group, {box.nodes[first], box.nodes[first + 1], box.nodes[first + 2]}};
-  KnownLine& known = KnowLine(key);
-  if (known.line && !known.finished) {
-    known.finished = true;
-    known.missed = FindLeastObjective(key, *known.line);
-    const LineParts parts = PartsOf(key);
-    if (known.missed == Constraint::kNone)
-      FinishLine(problem_, group, parts.corners.valve, parts.single(),
-                 parts.single() || plan_.configuration == Configuration::kCompressor, *known.line);
-    else
-      known.line = nullptr;
-  }
+  const KnownLine& known = KnowLine(KeyOf(box, group));
   box.lines[group] = known.line;
+  box.lines_finished = false;
   return known.missed;
+}
+
+Constraint Bounds::FinishLines(Box& box) {
+  box.lines_finished = true;
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
+    const LineKey key = KeyOf(box, g);
+    KnownLine& known = KnowLine(key);
+    if (known.line && !known.finished) {
+      known.finished = true;
+      known.missed = FindLeastObjective(key, *known.line);
+      const LineParts parts = PartsOf(key);
+      if (known.missed == Constraint::kNone)
+        FinishLine(problem_, g, parts.corners.valve, parts.single(),
+                   parts.single() || plan_.configuration == Configuration::kCompressor,
+                   *known.line);
+      else
+        known.line = nullptr;
+    }
+    box.lines[g] = known.line;
+    if (known.missed != Constraint::kNone) return known.missed;
+  }
+  return Constraint::kNone;
 }
 
 Constraint Bounds::Assess(Box& box, int changed) {
@@ -176,10 +193,11 @@ Constraint Bounds::Assess(Box& box, int changed) {
     if (changed < 0 || changed / kSlotsPerGroup == g)
       if (const Constraint missed = RemakeLine(box, g); missed != Constraint::kNone) return missed;
   if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
-  const bool source_changed = changed < 0 || DecidesSource(changed);
+  if (plan_.configuration != Configuration::kCompressor && !box.lines_finished)
+    if (const Constraint missed = FinishLines(box); missed != Constraint::kNone) return missed;
   return plan_.configuration == Configuration::kCompressor
-             ? AssessCompressor(box, source_changed, changed < 0 || changed == plan_.reservoir_slot)
-             : AssessRegulated(box, source_changed);
+             ? AssessCompressor(box, changed)
+             : AssessRegulated(box, changed < 0 || DecidesSource(changed));
 }
 
 bool Bounds::WithinLimits(Amounts amounts, const Amounts& more) const {
@@ -193,7 +211,7 @@ bool Bounds::WithinLimits(Amounts amounts, const Amounts& more) const {
 Constraint Bounds::Reassess(Box& box) {
   if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
   if (plan_.configuration != Configuration::kCompressor) return RestOfRegulated(box);
-  for (VolumeNeed& volume : box.volumes) volume.rest = RestAt(box, volume);
+  for (VolumeNeed& volume : box.volumes.Own()) volume.rest = RestAt(box, volume);
   return RestOfCompressor(box);
 }
 
@@ -262,7 +280,5 @@ Candidate Bounds::CandidateOf(const Box& box) const {
   choose(plan_.battery_slot, candidate.battery);
   return candidate;
 }
-
-bool Bounds::CanFindSource(const Box& box) const { return !box.source_known && CoreIsSingle(box); }
 
 }  // namespace plenum::optimizer

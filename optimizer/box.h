@@ -15,30 +15,35 @@
 
 #include "optimizer/make_line.h"
 #include "optimizer/plan.h"
+#include "optimizer/shared.h"
 
 namespace plenum::optimizer {
 
-// An interval of volumes that a box's reservoir may have.
+// Some of the reservoirs that a box may have: a node of their tree, of a made-to-measure one an
+// interval of volumes.
 struct VolumeNeed {
+  int node = 0;
   ReservoirNeed need;
   double objective = 0.0;  // of a reservoir in it, at least
   double rest = 0.0;       // of reservoir, battery and energy, at least
-  bool fresh = false;      // false: from a larger box that this one is a part of; still a bound
+  int look = -1;           // Box::look when it was looked at; less: in a larger box, still a bound
 };
 
 struct Box {
   std::vector<int> nodes;                          // per slot
   std::vector<std::shared_ptr<const Line>> lines;  // per group; empty before the first Assess()
+  bool lines_finished = false;                     // by FinishLine()
   double bound = 0.0;                              // of the objective
   Window window{0.0, 0.0};                         // source pressures
   double source_floor_pa = 0.0, source_cap_pa = kUnlimited;  // as in Candidate
   double air_m3 = 0.0;                                       // per cycle
   double coil_power_w = 0.0;                                 // with the regulator's
-  double energy_j = 0.0;            // of the mission; regulated configurations
-  double energy_beyond_j = 0.0;     // what of it the shares of the choices do not count
-  std::vector<VolumeNeed> volumes;  // compressor
-  double volume_ratio_max = 0.0;    // of the ends of an interval of made-to-measure volumes
-  bool source_known = false;        // the least source pressure is that of the real parts
+  double energy_j = 0.0;                    // of the mission; regulated configurations
+  double energy_beyond_j = 0.0;             // what of it the shares of the choices do not count
+  Shared<std::vector<VolumeNeed>> volumes;  // compressor
+  int look = 0;                             // grows where the needs of volumes may have grown
+  double volume_ratio_max = 0.0;            // of the ends of an interval of made-to-measure volumes
+  bool source_known = false;                // the least source pressure is that of the real parts
 };
 
 std::vector<ReservoirNeed> NeedsOf(const Box& box);
@@ -59,9 +64,9 @@ class Bounds {
   // The same of an assessed box after the problem's limits on amounts have fallen.
   Constraint Reassess(Box& box);
 
-  // Once all but bottle and battery are single choices their source pressure can be found for good;
-  // it costs a hundred times more than Assess(). With a made-to-measure reservoir the intervals of
-  // volumes get finer instead, time after time.
+  // What raises the bound of a box without dividing it, step by step: a look at the reservoirs that
+  // its bound comes from; once all but bottle and battery are single choices their source pressure,
+  // found for good at a hundred times the cost, or finer intervals of made-to-measure volumes.
   bool CanFindSource(const Box& box) const;
   Constraint FindSource(Box& box);
 
@@ -101,7 +106,7 @@ class Bounds {
   bool DecidesSource(int slot) const {
     return slot != plan_.bottle_slot && slot != plan_.battery_slot;
   }
-  bool CoreIsSingle(const Box& box) const;
+  bool CoreIsSingle(const Box& box, int except = -1) const;
 
   // What is known of a box of lines, whatever the source.
   struct KnownLine {
@@ -111,7 +116,9 @@ class Bounds {
   };
   KnownLine& KnowLine(const LineKey& key);
   Constraint FindLeastObjective(const LineKey& key, Line& line);
+  static LineKey KeyOf(const Box& box, int group);
   Constraint RemakeLine(Box& box, int group);
+  Constraint FinishLines(Box& box);
   bool WithinLimits(Amounts amounts, const Amounts& more = {}) const;
   Amounts LeastOfAll(const Box& box) const;           // sums of the least of each slot
   Amounts LeastBesidesBattery(const Box& box) const;  // and of each but the battery
@@ -121,9 +128,16 @@ class Bounds {
   Constraint NeedOfRegulated(Box& box);
   Constraint RestOfRegulated(Box& box);
 
-  Constraint AssessCompressor(Box& box, bool source_changed, bool reservoir_changed);
-  Constraint NeedOfCompressor(Box& box, bool reservoir_changed);
-  void DivideVolumes(Box& box);
+  Constraint AssessCompressor(Box& box, int changed);
+  Constraint NeedOfCompressor(Box& box) const;
+  void RestrictVolumes(Box& box) const;
+  bool IsWide(const Box& box, const VolumeNeed& volume) const;
+  bool IsSettled(const Box& box, const VolumeNeed& volume) const;
+  static std::size_t Lowest(const Box& box);
+  Constraint LookAtLowest(Box& box);
+  bool IsMade(const VolumeNeed& volume) const;
+  double Spread(const VolumeNeed& volume) const;
+  std::vector<VolumeNeed> Halves(const VolumeNeed& volume) const;
   double RestAt(const Box& box, const VolumeNeed& volume);
   Constraint RestOfCompressor(Box& box);
   const PumpFacts& PumpOf(const Box& box);

@@ -142,7 +142,7 @@ std::array<double, 3> SplitKeys(const BatteryCorner& c) {
 }
 
 std::array<double, 3> SplitKeys(const ReservoirCorner& c) {
-  return {Log(c.objective), Log(c.low_m3), 0.3 * Log(c.pressure_max_pa)};
+  return {Log(c.objective), 8.0 * Log(c.low_m3), 0.1 * Log(c.pressure_max_pa)};
 }
 
 }  // namespace plenum::optimizer

@@ -9,6 +9,7 @@
 #include "model/flow_table.h"
 #include "model/series.h"
 #include "optimizer/problem.h"
+#include "optimizer/stroke_panels.h"
 
 namespace plenum::optimizer {
 
@@ -46,6 +47,7 @@ struct Line {
   model::Series fill_series;                // with gas and temperature factor
   model::FlowTable fill_table;              // the same, tabulated
   model::Chamber chamber;                   // with the tube's bore as dead volume
+  StrokePanels panels;                      // of this chamber
   double fall_time_s = 0.0;
   // Pressure of an unlimited source at which the rise time is just met (no source does it with
   // less: droop, regulator and neighbours only slow the rise) and at which the valve switches, and

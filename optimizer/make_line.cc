@@ -113,7 +113,9 @@ void FinishLine(const Problem& problem, int g, const ValveCorner& valve, bool ex
   line.source_min_pa = std::max(valve.pressure_min_pa, exact ? least.high : least.low);
   // A lone 3/2 is energised for half of the period whatever the stroke.
   if (line.all_hold) line.inflate_time_least_s = late.FillTime(line.source_max_pa, operating_pa);
-  if (with_table) line.fill_table = model::FlowTable(line.fill_series);
+  if (!with_table) return;
+  line.fill_table = model::FlowTable(line.fill_series);
+  line.panels = MakeStrokePanels(problem, g, line.chamber);
 }
 
 Constraint MakeLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,

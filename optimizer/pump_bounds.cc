@@ -33,9 +33,10 @@ struct PumpTables {
   std::vector<double> energy_j_per_m3, seconds_per_m3, current_a;
 };
 
-double LeastPower(const model::CompressorCurve& curve, double low_pa, double high_pa) {
-  double least_w =
-      std::min(model::ElectricalPower(curve, low_pa), model::ElectricalPower(curve, high_pa));
+// `low_w`, `high_w`: power at the ends.
+double LeastPower(const model::CompressorCurve& curve, double low_pa, double low_w, double high_pa,
+                  double high_w) {
+  double least_w = std::min(low_w, high_w);
   for (double knot : curve.current_a.x())
     if (knot > low_pa && knot < high_pa)
       least_w = std::min(least_w, model::ElectricalPower(curve, knot));
@@ -49,9 +50,12 @@ void MakeNonFalling(std::vector<double>& values) {
 PumpTables MakeTables(const model::CompressorCurve& curve, int pumps,
                       const std::vector<double>& edges) {
   PumpTables tables;
+  double high_w = model::ElectricalPower(curve, edges.front());
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     const double delivery = model::FreeAirDelivery(curve, edges[i]);
-    const double power_w = LeastPower(curve, edges[i], edges[i + 1]);
+    const double low_w = high_w;
+    high_w = model::ElectricalPower(curve, edges[i + 1]);
+    const double power_w = LeastPower(curve, edges[i], low_w, edges[i + 1], high_w);
     // Past the last delivery nothing can be pumped; a large number keeps integrals finite.
     tables.energy_j_per_m3.push_back(delivery > 0.0 ? power_w / delivery : kNoDelivery);
     tables.seconds_per_m3.push_back(delivery > 0.0 ? 1.0 / (pumps * delivery) : kNoDelivery);
@@ -240,8 +244,15 @@ std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& f
     const double full_pa = !apart          ? problem.ambient.pressure_pa
                            : line.all_hold ? problem.groups[phase].chamber.operating_pressure_pa
                                            : kUnlimited;
-    const auto drawn = [&](double p) {
-      return apart ? MostDrawn(problem, phase, line, p, full_pa) : drawn_at_once;
+    const double ambient_pa = problem.ambient.pressure_pa;
+    const double empty = model::Content(line.chamber, ambient_pa);
+    const double spread_m3 = line.dead_volume_spread_m3;
+    const int count = problem.groups[phase].count;
+    const auto drawn = [&](double pressure_pa) {  // as MostDrawn
+      const double p = std::min(pressure_pa, full_pa);
+      return apart
+                 ? count * (model::Content(line.chamber, p) - empty + spread_m3 * (p - ambient_pa))
+                 : drawn_at_once;
     };
     // A volume that follows a table may take more air at the lower pressures of a bit.
     const bool even = line.chamber.volume_curve.empty();
@@ -345,13 +356,15 @@ PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& li
 
 namespace {
 
-// Energy of the mission at any stop pressure in between, at least, where all strokes begin at once.
-// The pumps take no less at a higher one while coils that are energised only for the strokes take
-// no more: of each interval of pressures the lower end counts for the pumps and the upper end for
-// the coils.
+// Energy of the mission at any stop pressure in between, at least, where all strokes begin at once;
+// `need`: with that of the lowest, coils at their least. The pumps take no less at a higher one
+// while coils that are energised only for the strokes take no more: of each interval of pressures
+// the lower end counts for the pumps and the upper end for the coils.
 double LeastEnergy(const Problem& problem, const PumpFacts& facts, const PumpLoad& load,
                    const ReservoirNeed& need) {
   constexpr double kRatios[] = {1.02, 1.06, 1.15, 1.35};
+  constexpr double kWorthwhile = 1e-3;  // of the energy
+  const double least_coils_j = problem.actuations * load.coil_j;
   const auto pumps_j = [&](double source_pa) {
     const std::optional<PumpNeed> pump =
         LeastPumpNeed(problem, facts, load, {source_pa}, need.low_m3, need.high_m3);
@@ -373,8 +386,9 @@ double LeastEnergy(const Problem& problem, const PumpFacts& facts, const PumpLoa
     }
     return problem.actuations * energy_j;
   };
-  const double least_coils_j = problem.actuations * load.coil_j;
-  double least_j = kUnlimited, pump_j = pumps_j(need.source_pa);
+  double least_j = kUnlimited, pump_j = need.energy_j - least_coils_j;
+  if (!(coils_j(need.source_pa) > least_coils_j + kWorthwhile * need.energy_j))
+    return need.energy_j;
   for (double ratio : kRatios) {
     const double next_pa = need.source_pa * ratio;
     if (next_pa >= need.source_max_pa || pump_j + least_coils_j >= least_j) break;
@@ -416,9 +430,10 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
                              {p, turns ? need.source_max_pa : p, need.low_m3, need.high_m3});
   };
   if (!turns) {
-    if (!bearable(need)) return std::nullopt;
-    if (limits.find_most)
+    if (limits.find_most) {
+      if (!bearable(need)) return std::nullopt;
       need.source_max_pa = MostBearable(need, need.source_max_pa, tolerance, bearable);
+    }
     const std::optional<double> least_pa =
         RaisedFloor(excess, need.source_pa, need.source_max_pa, tolerance);
     if (!least_pa) return std::nullopt;
@@ -438,7 +453,9 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
     need.source_pa = std::max(need.source_pa, *least_pa);
   }
   if (!bearable(need)) return std::nullopt;
-  if (!turns) need.energy_j = std::max(need.energy_j, LeastEnergy(problem, facts, load, need));
+  const bool coils_differ = std::any_of(load.lines.begin(), load.lines.end(),
+                                        [](const Line* line) { return line->all_hold; });
+  if (!turns && coils_differ) need.energy_j = LeastEnergy(problem, facts, load, need);
   if (!(need.energy_j <= limits.energy_max_j)) return std::nullopt;
   return need;
 }

@@ -8,7 +8,7 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kBalanceTolerance = 1e-6;
+constexpr double kBalanceTolerance = 1e-4;
 constexpr double kMoves = 1e-9;  // a margin that the pressure moves
 
 // Source pressures from that of a feasible leaf to the highest that the parts stand, as a share.

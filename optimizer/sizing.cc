@@ -196,19 +196,19 @@ NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& can
   double low_pa = window.low_pa, high_pa = window.high_pa;
   double f_low = excess(low_pa);
   if (f_low <= 0.0) return {LeafStatus::kFeasible, low_pa, low_pa};
-  const double f_top = failed ? 0.0 : excess(high_pa);
-  if (failed || f_top > 0.0) return {failed ? LeafStatus::kUndecided : LeafStatus::kInfeasible};
-  double f_high = f_top;
   const auto unless_failed = [&](double source_pa) { return failed ? 0.0 : excess(source_pa); };
   // A window often begins a little below what is needed.
-  for (double step = kFirstStep; window.low_pa * (1.0 + step) < window.high_pa;
-       step *= kStepGrowth) {
-    const double next_pa = window.low_pa * (1.0 + step);
-    const double f = unless_failed(next_pa);
-    (f > 0.0 ? low_pa : high_pa) = next_pa;
-    (f > 0.0 ? f_low : f_high) = f;
-    if (f <= 0.0) break;
+  double f_high = kUnlimited;
+  for (double step = kFirstStep; f_high > 0.0; step *= kStepGrowth) {
+    high_pa = std::min(window.low_pa * (1.0 + step), window.high_pa);
+    f_high = unless_failed(high_pa);
+    if (f_high > 0.0 && high_pa == window.high_pa) return {LeafStatus::kInfeasible};
+    if (f_high > 0.0) {
+      low_pa = high_pa;
+      f_low = f_high;
+    }
   }
+  if (failed) return {LeafStatus::kUndecided};
   const Bracket needed = NarrowBracket(unless_failed, low_pa, f_low, high_pa, f_high, tolerance);
   return {failed ? LeafStatus::kUndecided : LeafStatus::kFeasible, needed.high, needed.low};
 }

@@ -10,42 +10,7 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr int kPanels = 20;     // up to the rise target
-constexpr int kLastPanels = 4;  // from there to the operating pressure
-constexpr int kSteps = 12;      // while the reservoir is pumped up again
-constexpr int kNodes = kPanels + kLastPanels + 1;
-
-// Pressures that divide a stroke, and what all chambers together have drawn there, as content.
-struct Nodes {
-  std::array<double, kNodes> pressure_pa, drawn;
-  std::array<double, kNodes - 1> middle_pa, middle_drawn;
-};
-
-Nodes MakeNodes(const Problem& problem, int g, const model::Chamber& chamber) {
-  const ActuatorGroup& group = problem.groups[g];
-  const double ambient_pa = problem.ambient.pressure_pa;
-  const double target_pa = RiseTarget(problem, group);
-  const double empty = model::Content(chamber, ambient_pa);
-  const auto drawn = [&](double pressure_pa) {
-    return group.count * (model::Content(chamber, pressure_pa) - empty);
-  };
-  Nodes nodes;
-  // Closer to each other towards the ends, where the flow drops fastest.
-  const auto place = [&](int first, int panels, double from_pa, double to_pa) {
-    for (int i = 0; i <= panels; ++i) {
-      const double rest = 1.0 - static_cast<double>(i) / panels;
-      nodes.pressure_pa[first + i] = to_pa - (to_pa - from_pa) * rest * std::sqrt(rest);
-    }
-  };
-  place(0, kPanels, ambient_pa, target_pa);
-  place(kPanels, kLastPanels, target_pa, group.chamber.operating_pressure_pa);
-  for (int i = 0; i < kNodes; ++i) nodes.drawn[i] = drawn(nodes.pressure_pa[i]);
-  for (int i = 0; i + 1 < kNodes; ++i) {
-    nodes.middle_pa[i] = 0.5 * (nodes.pressure_pa[i] + nodes.pressure_pa[i + 1]);
-    nodes.middle_drawn[i] = drawn(nodes.middle_pa[i]);
-  }
-  return nodes;
-}
+constexpr int kSteps = 12;  // while the reservoir is pumped up again
 
 // A stroke panel by panel.
 class Stroke {
@@ -55,7 +20,7 @@ class Stroke {
       : line_(line),
         pumps_(pumps),
         start_(start),
-        nodes_(MakeNodes(problem, g, line.chamber)),
+        nodes_(line.panels),
         count_(problem.groups[g].count),
         kappa_(model::kReferencePressurePa * problem.ambient.temperature_k /
                model::kReferenceTemperatureK) {}
@@ -133,7 +98,7 @@ class Stroke {
   const Line& line_;
   const PumpFacts& pumps_;
   const StrokeStart& start_;
-  const Nodes nodes_;
+  const StrokePanels& nodes_;
   int count_;
   double kappa_;
   int at_ = 0;     // node
@@ -151,9 +116,9 @@ double StrokeExcessBound(const Problem& problem, int g, const Line& line, const 
   const double half_s = HalfPeriod(problem);
   const double rise_max_s = std::min(problem.groups[g].rise_time_max_s, half_s);
   Stroke stroke(problem, g, line, pumps, start);
-  if (!stroke.Reach(kPanels, rise_max_s)) return Late(stroke.Share(kPanels));
+  if (!stroke.Reach(kStrokePanels, rise_max_s)) return Late(stroke.Share(kStrokePanels));
   const double rise_s = stroke.time_s();
-  if (!stroke.Reach(kNodes - 1, half_s)) return Late(stroke.Share(kNodes - 1));
+  if (!stroke.Reach(kStrokeNodes - 1, half_s)) return Late(stroke.Share(kStrokeNodes - 1));
   const double excess = std::max(rise_s / rise_max_s, stroke.time_s() / half_s) - 1.0;
   if (left_pa != nullptr) *left_pa = stroke.PumpUp(half_s);
   return excess;
@@ -178,7 +143,7 @@ double LeastInflateTime(const Problem& problem, int g, const Line& line, const P
                         const StrokeStart& start) {
   const double half_s = HalfPeriod(problem);
   Stroke stroke(problem, g, line, pumps, start);
-  return stroke.Reach(kNodes - 1, half_s) ? stroke.time_s() : half_s;
+  return stroke.Reach(kStrokeNodes - 1, half_s) ? stroke.time_s() : half_s;
 }
 
 bool RaiseStarts(const Problem& problem, const std::vector<const Line*>& lines,

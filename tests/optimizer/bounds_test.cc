@@ -77,7 +77,8 @@ Box Descend(Random& random, const Plan& plan, Bounds& bounds, const std::vector<
     return missed == Constraint::kNone;
   };
   while (!bounds.IsSingle(box)) {
-    if (bounds.CanFindSource(box) && !check(bounds.FindSource(box))) return box;
+    while (bounds.CanFindSource(box))
+      if (!check(bounds.FindSource(box))) return box;
     int slot = bounds.WidestSlot(box);
     if (const int other = Pick(random, 0, static_cast<int>(plan.slots.size()) - 1);
         !(*plan.slots[other].nodes)[box.nodes[other]].single())
@@ -87,7 +88,8 @@ Box Descend(Random& random, const Plan& plan, Bounds& bounds, const std::vector<
     box.nodes[slot] = positions[slot] < tree[node.right].first ? node.left : node.right;
     if (!check(bounds.Assess(box, slot))) return box;
   }
-  if (bounds.CanFindSource(box)) check(bounds.FindSource(box));
+  while (bounds.CanFindSource(box))
+    if (!check(bounds.FindSource(box))) return box;
   return box;
 }
 

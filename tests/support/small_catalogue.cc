@@ -374,6 +374,7 @@ optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing
   const double factor = (gas == model::Gas::kCo2 ? 0.79 : 1.0) * std::sqrt(293.15 / temperature_k);
   line.fill_series = model::MakeSeries(line.fill, factor);
   line.fill_table = model::FlowTable(line.fill_series);
+  line.panels = optimizer::MakeStrokePanels(problem, group_index, line.chamber);
   const double ambient_pa = problem.ambient.pressure_pa;
   const double operating_pa = group.chamber.operating_pressure_pa;
   line.fall_time_s = model::EmptyTime(
