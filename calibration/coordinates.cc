@@ -81,7 +81,7 @@ const std::vector<Search>& Searches() {
       {"leak", "critical_ratio", kLinear, Size::kOne, 0.0, {0.3}},
       {"leak", "viscous_pa2_s_per_kg", kLog, Size::kViscous, 0.0, {30.0, 30.0, 0.3}},
       {"leak", "inertial_pa2_s2_per_kg2", kLog, Size::kInertial, 0.0, {1000.0, 10.0, 0.1}},
-      {"sensor_lag", "time_constant_s", kLinear, Size::kStroke, 0.0, {0.02}},
+      {"sensor_lag", "time_constant_s", kLinear, Size::kStroke, 0.0, {0.005}},
       {"sensor_gain", "gain", kLinear, Size::kOne, 1.0, {0.01}},
       {"sensor_offset", "offset_pa", kLinear, Size::kPressure, 0.0, {0.005}},
   };

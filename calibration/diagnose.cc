@@ -208,7 +208,11 @@ class Diagnosing {
     evidence.accepted = &Chosen() != base_;
     evidence.after =
         evidence.accepted ? LeftoverOf(bench_, Chosen().fit, !Stopped()) : evidence.before;
-    tied_ = Tied(Chosen(), memory, IsNoise(evidence.before) ? kTieInNoise : kTie);
+    const bool alone = bench_.data.runs.size() == 1u && bench_.held_out.empty();
+    tied_ = Tied(Chosen(), memory,
+                 alone                      ? kTieOneRun
+                 : IsNoise(evidence.before) ? kTieInNoise
+                                            : kTie);
     evidence.tied = static_cast<int>(tied_.size()) - 1;
     if (Stopped()) evidence.complete = false;
   }

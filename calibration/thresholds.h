@@ -18,6 +18,10 @@ inline constexpr double kTie = 6.0;
 // declared numbers are from what was stated of them, and those statements are rough.
 inline constexpr double kTieInNoise = 10.0;
 
+// The same of a single run: no other confirms that what tells two sets apart there is not its own,
+// such as a drift of the room or the slow part of the noise, which the same readings tell.
+inline constexpr double kTieOneRun = 20.0;
+
 // The runs' clocks are taken to be off where that lowers BIC by this much more than any effect in
 // their place does; the clocks count by how much of their prior the data exclude.
 inline constexpr double kClock = 10.0;
