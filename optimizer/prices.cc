@@ -176,8 +176,8 @@ std::optional<RequirementFlip> FlipRequirement(const Problem& problem,
                                                const Requirement& requirement, Budget& budget) {
   const bool less_is_harder = requirement.loosest > requirement.required;
   const auto at = [&](double tightening) {  // 0: as required, 1: the tightest
-    const double value = requirement.required *
-                         std::pow(kTightestFactor, less_is_harder ? -tightening : tightening);
+    const double value =
+        requirement.required * std::pow(kTightestFactor, less_is_harder ? -tightening : tightening);
     return requirement.whole ? std::ceil(value) : value;
   };
   const auto comes_first = [&](double tightening) {
