@@ -82,6 +82,15 @@ std::string ReadId(Reader& effect) {
 model::Effect ReadParameters(Reader parameters, const std::string& id) {
   const std::vector<std::string> laws = LawsOf(id);
   const std::string law = laws.empty() ? "" : parameters.Choice("law", laws, laws.front());
+  const auto missing = [&](const model::ParameterSpec& spec) {
+    return !parameters.Has(ParameterOf(spec).name);
+  };
+  if (laws.size() > 1 && !parameters.Has("law")) {
+    const auto specs = model::FindEffect(id, laws.front())->parameters;
+    if (std::any_of(specs.begin(), specs.end(), missing))
+      parameters.Fail(
+          "law", "must be named where the parameters are not those of \"" + laws.front() + "\"");
+  }
   if (law.empty() && !laws.empty()) return {};  // which parameters belong there is not known
   model::Effect effect{model::FindEffect(id, law), {}};
   for (const model::ParameterSpec& spec : effect.spec->parameters) {

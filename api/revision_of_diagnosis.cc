@@ -1,6 +1,7 @@
 #include "api/revision_of_diagnosis.h"
 
 #include "api/effects.h"
+#include "model/effects/learned.h"
 
 namespace plenum::api {
 namespace {
@@ -33,6 +34,7 @@ SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance&
   for (const calibration::FittedEffect& fitted : effects) {
     model.effects.push_back(fitted.effect);
     for (std::size_t i = 0; i < fitted.parameters.size(); ++i) {
+      if (model::OfEachRun(fitted.effect.spec->parameters[i])) continue;
       const Unit unit = UnitOf(fitted.effect, i);
       model.covariance.parameters.push_back(unit.name);
       sizes.push_back(unit.size);

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "model/effects/learned.h"
+
 namespace plenum::calibration {
 namespace {
 
@@ -15,6 +17,7 @@ constexpr double kUnknownSpan = 14.0;                      // e-folds either way
 constexpr double kSeriesLow = 1e-3, kSeriesHigh = 1e6;     // of u
 constexpr double kClockIntervals = 2.0;                    // most that a clock may be off
 constexpr double kStroked = 0.05;        // gauge, of the operating pressure: a stroke came before
+constexpr double kRoomOfStroke = 0.9;    // of the time to the next command
 constexpr double kPressureStepPa = 1e3;  // scale of an initial pressure
 
 enum class Size {
@@ -44,7 +47,7 @@ using enum Coordinate::Kind;
 const std::vector<Search>& Searches() {
   static const std::vector<Search> kSearches = {
       {"valve_delay", "delay_s", kLinear, Size::kStroke, 0.0, {0.02}},
-      {"valve_ramp", "duration_s", kLinear, Size::kStroke, 0.0, {0.05}},
+      {"valve_ramp", "duration_s", kLinear, Size::kStroke, 0.0, {0.01}},
       {"directional_conductance", "fill_factor", kLinear, Size::kOne, 1.0, {0.02}},
       {"cracking_pressure", "pressure_pa", kLinear, Size::kPressure, 0.0, {0.02}},
       {"exhaust_restriction",
@@ -90,6 +93,7 @@ Search SearchByUnit(std::string_view effect, const model::ParameterSpec& spec) {
   const auto ends = [&](std::string_view unit) { return spec.name.ends_with(unit); };
   const Size size = ends("conductance_m3_per_s_pa") ? Size::kConductance
                     : ends("_rad_per_s")            ? Size::kRate
+                    : ends("_hz")                   ? Size::kRate
                     : ends("_s")                    ? Size::kStroke
                     : ends("_pa")                   ? Size::kPressure
                     : ends("_m3")                   ? Size::kVolume
@@ -360,10 +364,43 @@ std::vector<Coordinate> TemperatureCoordinates(const ForwardModel& forward,
   return coordinates;
 }
 
+std::vector<Coordinate> RunCoordinates(const ForwardModel& forward,
+                                       const std::vector<std::size_t>& runs,
+                                       const std::vector<model::Effect>& effects,
+                                       const TypicalSizes& sizes) {
+  const auto any = [&](std::string_view name) {
+    return std::any_of(effects.begin(), effects.end(), [&](const model::Effect& effect) {
+      return std::any_of(effect.spec->parameters.begin(), effect.spec->parameters.end(),
+                         [&](const model::ParameterSpec& spec) { return spec.name == name; });
+    });
+  };
+  std::vector<Coordinate> coordinates;
+  const bool swings = any(model::kPhaseSpec.name), late = any(model::kLatenessName);
+  for (const std::size_t i : runs) {
+    if (swings)
+      coordinates.push_back({.parameter = {.kind = Parameter::Kind::kPhase, .run = i},
+                             .low = model::kPhaseSpec.low,
+                             .high = model::kPhaseSpec.high});
+    const Run& run = forward.dataset().runs[i];
+    for (std::size_t k = 0; late && k < run.valve.size(); ++k) {
+      const auto before = k > 0 ? run.valve[k - 1].state : model::ValveState::kHold;
+      const double next_s = k + 1 < run.valve.size() ? run.valve[k + 1].time_s : run.t_s.back();
+      const double room_s = kRoomOfStroke * (next_s - run.valve[k].time_s);
+      if (run.valve[k].state == before || !(room_s > 0.0)) continue;
+      coordinates.push_back(
+          {.parameter = {.kind = Parameter::Kind::kLateness, .number = k, .run = i},
+           .scale = sizes.stroke_s,
+           .high = room_s / sizes.stroke_s});
+    }
+  }
+  return coordinates;
+}
+
 std::vector<Coordinate> EffectCoordinates(const model::EffectSpec& spec, std::size_t effect,
                                           const TypicalSizes& sizes) {
   std::vector<Coordinate> coordinates;
   for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
+    if (model::OfEachRun(spec.parameters[i])) continue;
     coordinates.push_back(CoordinateOf(spec, spec.parameters[i], sizes));
     coordinates.back().parameter = {
         .kind = Parameter::Kind::kEffect, .effect = effect, .number = i};

@@ -54,7 +54,14 @@ inline constexpr double kInitialTemperatureK = 10.0;
 std::vector<Coordinate> TemperatureCoordinates(const ForwardModel& forward,
                                                const std::vector<std::size_t>& runs);
 
-// All parameters of effect number `effect` of a state.
+// What the effects leave to each of the runs given: the phase of what swings and the lateness of
+// strokes. A stroke comes late by less than the time to the next command.
+std::vector<Coordinate> RunCoordinates(const ForwardModel& forward,
+                                       const std::vector<std::size_t>& runs,
+                                       const std::vector<model::Effect>& effects,
+                                       const TypicalSizes& sizes);
+
+// The parameters of effect number `effect` of a state, without those that each run has of its own.
 std::vector<Coordinate> EffectCoordinates(const model::EffectSpec& spec, std::size_t effect,
                                           const TypicalSizes& sizes);
 

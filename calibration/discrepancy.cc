@@ -7,12 +7,14 @@
 #include <string>
 
 #include "calibration/parallel.h"
+#include "calibration/tones.h"
 #include "model/effects/learned.h"
 
 namespace plenum::calibration {
 namespace {
 
 constexpr double kGain = 10.0;         // of a finer term over a coarser one, and of any over none
+constexpr std::size_t kTones = 3;      // frequencies from which a swinging term starts
 constexpr std::size_t kFinalists = 3;  // families that compete on runs left out
 constexpr std::size_t kFolds = 4;      // runs left out, at most
 // Fits are compared, and only the answer is polished.
@@ -41,6 +43,9 @@ const std::vector<Family>& Families() {
       {"learned_volume", {"memory_1", "memory_3"}, {"pressure", "highest pressure so far"}},
       {"learned_sensor", {"pressure_3", "pressure_5"}, {"pressure"}},
       {"learned_sensor", {"drift"}, {"time"}},
+      {"learned_sensor", {"swing"}, {"time"}},
+      {"learned_supply", {"swing"}, {"time"}},
+      {"learned_valve", {"late"}, {"stroke"}},
   };
   return kFamilies;
 }
@@ -60,35 +65,64 @@ bool Holds(const ModelState& state, std::string_view id) {
                      [&](const model::Effect& effect) { return effect.spec->id == id; });
 }
 
-// Terms from which a fit starts. Most do nothing yet; one that has a place is tried at several.
-std::vector<model::Effect> Starts(const model::EffectSpec& spec, const TypicalSizes& sizes) {
-  if (spec.law == "opening") {
-    const double rate_per_s = 0.1 / sizes.duration_s;
-    return {{&spec, {rate_per_s, 0.3, 0.05}},
-            {&spec, {rate_per_s, 0.55, 0.05}},
-            {&spec, {rate_per_s, 0.8, 0.05}}};
-  }
-  if (spec.law == "bend") {
-    return {{&spec, {0.02, 0.3, 0.05}}, {&spec, {0.02, 0.5, 0.05}}, {&spec, {0.02, 0.7, 0.05}}};
-  }
-  if (spec.law == "store") {
-    return {{&spec, {0.2 * sizes.volume_m3, 0.03 * sizes.conductance_m3_per_s_pa, 0.3}}};
-  }
-  if (spec.law == "drift") return {{&spec, {0.0, 0.2 * sizes.duration_s, 0.0}}};
-  return {{&spec, std::vector<double>(spec.parameters.size(), 0.0)}};
+bool AnySupply(const FitData& data, std::initializer_list<Supply> supplies) {
+  return std::any_of(data.runs.begin(), data.runs.end(), [&](std::size_t run) {
+    const Supply supply = data.forward->dataset().runs[run].supply;
+    return std::find(supplies.begin(), supplies.end(), supply) != supplies.end();
+  });
 }
 
-// The best fit of the term on `runs`, with everything else as `base` has it to start from.
-Fit FitTerm(const FitData& data, const std::vector<std::size_t>& runs, const ModelState& base,
-            const std::vector<model::Effect>& starts, const FitOptions& options) {
+ModelState With(ModelState state, const model::EffectSpec& spec, std::vector<double> parameters) {
+  state.effects.push_back({&spec, std::move(parameters)});
+  return state;
+}
+
+// With the term swinging at the strongest frequencies of the residual that is established.
+std::vector<ModelState> SwingingStarts(const FitData& data, const model::EffectSpec& spec,
+                                       const ModelState& base, const ModelState& established,
+                                       const FitOptions& options) {
+  const bool supply = spec.place == model::EffectPlace::kSupply;
+  if (supply && !AnySupply(data, {Supply::kRegulated, Supply::kCompressor})) return {};
+  std::vector<ModelState> starts;
+  const Swinging what = supply ? Swinging::kSupply : Swinging::kSensor;
+  for (const Tone& tone : TonesOf(data, established, what, kTones, options)) {
+    const double amplitude = std::min(tone.amplitude, 0.5 * spec.parameters[0].high);
+    starts.push_back(With(base, spec, {amplitude, tone.frequency_hz, 0.0}));
+    starts.back().phase_rad = tone.phase_rad;
+  }
+  return starts;
+}
+
+// The base with the term as a fit starts from it. Most terms do nothing yet; one that has a place
+// is tried at several.
+std::vector<ModelState> Starts(const FitData& data, const model::EffectSpec& spec,
+                               const ModelState& base, const ModelState& established,
+                               const FitOptions& options) {
+  const TypicalSizes& sizes = data.sizes;
+  if (spec.law == "swing") return SwingingStarts(data, spec, base, established, options);
+  if (spec.law == "opening") {
+    const double rate_per_s = 0.1 / sizes.duration_s;
+    return {With(base, spec, {rate_per_s, 0.3, 0.05}), With(base, spec, {rate_per_s, 0.55, 0.05}),
+            With(base, spec, {rate_per_s, 0.8, 0.05})};
+  }
+  if (spec.law == "bend")
+    return {With(base, spec, {0.02, 0.3, 0.05}), With(base, spec, {0.02, 0.5, 0.05}),
+            With(base, spec, {0.02, 0.7, 0.05})};
+  if (spec.law == "store")
+    return {With(base, spec, {0.2 * sizes.volume_m3, 0.03 * sizes.conductance_m3_per_s_pa, 0.3})};
+  if (spec.law == "drift") return {With(base, spec, {0.0, 0.2 * sizes.duration_s, 0.0})};
+  return {With(base, spec, std::vector<double>(spec.parameters.size(), 0.0))};
+}
+
+// The best fit of the term on `runs`.
+Fit FitTerm(const FitData& data, const std::vector<std::size_t>& runs,
+            const std::vector<ModelState>& starts, const FitOptions& options) {
   FitData on_runs = data;
   on_runs.runs = runs;
   Fit best;
   double least = kNone;
-  for (const model::Effect& start : starts) {
-    ModelState state = base;
-    state.effects.push_back(start);
-    Fit fit = FitModel(on_runs, state, options);
+  for (const ModelState& start : starts) {
+    Fit fit = FitModel(on_runs, start, options);
     if (!fit.Usable() || !(Score(fit) < least)) continue;
     least = Score(fit);
     best = std::move(fit);
@@ -100,15 +134,15 @@ struct Attempt {
   const Family* family = nullptr;
   Fit fit;
   double score = kNone;
-  double left_out = kNone;  // whitened squares of the runs left out
+  double left_out = kNone;  // misfit of the runs left out
 };
 
 Attempt FitFamily(const FitData& data, const Family& family, const ModelState& base,
-                  const FitOptions& options) {
+                  const ModelState& established, const FitOptions& options) {
   Attempt attempt{&family, {}};
   for (const char* law : family.laws) {
     const model::EffectSpec* spec = model::FindEffect(family.id, law);
-    Fit fit = FitTerm(data, data.runs, base, Starts(*spec, data.sizes), options);
+    Fit fit = FitTerm(data, data.runs, Starts(data, *spec, base, established, options), options);
     if (!fit.Usable() || !(Score(fit) < attempt.score - (attempt.fit.Usable() ? kGain : 0.0))) {
       continue;
     }
@@ -139,11 +173,21 @@ ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run
   FitData alone = data;
   alone.runs = {run};
   options.nuisance_only = true;
+  options.own_pairs = HasOwnPairs(data, run);
   const Fit aligned = FitModel(alone, state, options);
   return aligned.Usable() ? aligned.state : state;
 }
 
-// Each of at most kFolds runs left out in turn; `fit_on` fits the others.
+// How many numbers the term leaves to a run. Its own readings tell them, at ln n each as in the
+// BIC.
+double OwnNumbers(const FitData& data, const Fit& fit, std::size_t run) {
+  return static_cast<double>(
+      RunCoordinates(*data.forward, {run}, fit.state.effects, data.sizes).size());
+}
+
+// Each of at most kFolds runs left out in turn; `fit_on` fits the others. Σ n·ln(χ²/n) over the
+// runs left out, n their readings, no χ² below n: a run that alone shows what the term describes is
+// off by much without it, and does not outweigh all others.
 template <class FitOn>
 double LeftOut(const FitData& data, const FitOn& fit_on, const FitOptions& options) {
   const std::size_t folds = std::min(kFolds, data.runs.size());
@@ -156,11 +200,11 @@ double LeftOut(const FitData& data, const FitOn& fit_on, const FitOptions& optio
     const Fit fit = fit_on(others);
     if (!fit.Usable()) return kNone;
     ModelState state = fit.state;
-    const ModelState declared = data.forward->Declared();
-    state.initial_pressure_pa[left_out] = declared.initial_pressure_pa[left_out];
-    state.initial_temperature_k[left_out] = declared.initial_temperature_k[left_out];
-    state.clock_s[left_out] = declared.clock_s[left_out];
-    sum += SquaresOf(data, Aligned(data, state, left_out, options), {left_out}, options);
+    CopyRun(data.forward->Declared(), left_out, state);
+    const double squares =
+        SquaresOf(data, Aligned(data, state, left_out, options), {left_out}, options);
+    const auto n = static_cast<double>((*data.observed)[left_out].rows());
+    sum += n * std::log(std::max(squares / n, 1.0)) + OwnNumbers(data, fit, left_out) * std::log(n);
   }
   return sum;
 }
@@ -176,41 +220,59 @@ double LeftOutWithout(const FitData& data, const ModelState& base, const FitOpti
       options);
 }
 
+void Polish(const FitData& data, const FitOptions& quick, Attempt& attempt) {
+  FitOptions options = quick;
+  options.iterations_max = kPolish;
+  options.function_tolerance = kPolishTolerance;
+  Fit fit = FitModel(data, attempt.fit.state, options);
+  if (!fit.Usable() || !(Score(fit) < attempt.score)) return;
+  attempt.score = Score(fit);
+  attempt.fit = std::move(fit);
+}
+
 // Candidates by BIC, the finalists among them judged on runs left out.
-const Attempt* Choose(const FitData& data, const Fit& established, std::vector<Attempt>& attempts,
-                      const FitOptions& options) {
+const Attempt* Choose(const FitData& data, const Fit& established, const ModelState& base,
+                      std::vector<Attempt>& attempts, const FitOptions& options) {
   std::stable_sort(attempts.begin(), attempts.end(),
                    [](const Attempt& a, const Attempt& b) { return a.score < b.score; });
   const auto gains = [&](const Attempt& attempt) {
     return attempt.score < Score(established) - kGain;
   };
   if (attempts.empty() || !gains(attempts.front())) return nullptr;
-  if (data.runs.size() < 2) return &attempts.front();
+  if (data.runs.size() < 2) {
+    Polish(data, options, attempts.front());
+    return &attempts.front();
+  }
   const Attempt* best = nullptr;
-  double least = LeftOutWithout(data, established.state, options);
+  double least = LeftOutWithout(data, base, options);
   for (std::size_t k = 0; k < std::min(kFinalists, attempts.size()); ++k) {
     Attempt& attempt = attempts[k];
     if (!gains(attempt)) break;
-    const std::vector<model::Effect> start = {attempt.fit.state.effects.back()};
+    Polish(data, options, attempt);
+    ModelState start = base;
+    start.effects.push_back(attempt.fit.state.effects.back());
+    start.phase_rad = attempt.fit.state.phase_rad;
+    start.late_s = attempt.fit.state.late_s;
     attempt.left_out = LeftOut(
         data,
-        [&](const std::vector<std::size_t>& runs) {
-          return FitTerm(data, runs, established.state, start, options);
-        },
+        [&](const std::vector<std::size_t>& runs) { return FitTerm(data, runs, {start}, options); },
         options);
-    if (attempt.left_out < least) least = attempt.left_out, best = &attempt;
+    // Of those that predict alike the first, which fits better.
+    if (attempt.left_out < least - (best ? kGain : 0.0)) least = attempt.left_out, best = &attempt;
   }
   return best;
 }
 
 FittedEffect LearnedOf(const FitData& data, const Fit& fit, const FitOptions& options) {
   FittedEffect learned{fit.state.effects.back(), {}};
+  for (const double number : learned.effect.parameters)
+    learned.parameters.push_back({number, number, number, false});
   const std::vector<Estimate> estimates = Intervals(fit, Covariance(data, fit, options));
   for (std::size_t j = 0; j < fit.coordinates.size(); ++j) {
     const Parameter& parameter = fit.coordinates[j].parameter;
     if (parameter.kind == Parameter::Kind::kEffect &&
         parameter.effect + 1 == fit.state.effects.size()) {
-      learned.parameters.push_back(estimates[j]);
+      learned.parameters[parameter.number] = estimates[j];
     }
   }
   return learned;
@@ -257,21 +319,20 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
   quick.noise_share = std::max(options.noise_share, kNoiseShare);
   quick.steps_max = std::min(options.steps_max, kStepsMax);
   quick.threads = 1;
+  // Numbers that were stretched in place of what is missing are in its way.
+  ModelState base = established.state;
+  if (!PriorsHold(established)) base.factor = data.forward->Declared().factor;
   std::vector<Attempt> attempts(Families().size());
   ForAll(attempts.size(), options.threads, [&](std::size_t i) {
     if (!Holds(established.state, Families()[i].id))
-      attempts[i] = FitFamily(data, Families()[i], established.state, quick);
+      attempts[i] = FitFamily(data, Families()[i], base, established.state, quick);
   });
   std::erase_if(attempts, [](const Attempt& attempt) { return !attempt.fit.Usable(); });
   if (options.cancelled && options.cancelled()) return learned;
   quick.threads = options.threads;
-  const Attempt* best = Choose(data, established, attempts, quick);
+  const Attempt* best = Choose(data, established, base, attempts, quick);
   if (!best || (options.cancelled && options.cancelled())) return learned;
-  FitOptions polish = quick;
-  polish.iterations_max = kPolish;
-  polish.function_tolerance = kPolishTolerance;
-  const Fit polished = FitModel(data, best->fit.state, polish);
-  learned.fit = polished.Usable() && Score(polished) < best->score ? polished : best->fit;
+  learned.fit = best->fit;
   discrepancy.equation = learned.fit.state.effects.back().spec->place;
   discrepancy.features = best->family->features;
   discrepancy.learned = LearnedOf(data, learned.fit, options);

@@ -2,15 +2,20 @@
 // is learned from it.
 //
 // The effects established stay, and are fitted again together with each learned term in turn
-// (model/effects/learned.h): leak, line conductance, volume law, sensor. Each family of terms is
-// tried from coarse to fine; the finer one stays if the BIC says so. The families with the best BIC
-// then compete on whole runs that the fit does not see: each run is left out once, the term is
-// learned from the others, and the family with the least squares on the runs left out is the
-// answer, if it beats the model without a term there. With one run only, the BIC decides.
-// A term stands for what is true of every run: a valve that sticks now and then leaves nothing that
-// can be learned, and none is then returned. Sources: discrepancies inside equations keep the
-// physics identifiable (Kennedy & O'Hagan 2001; Brynjarsdóttir & O'Hagan 2014); leave-one-out over
-// runs.
+// (model/effects/learned.h): leak, line conductance, volume law, supply, valve or sensor. Where the
+// established fit stretches the declared numbers beyond their uncertainties, these start as
+// declared. Each family of terms is tried from coarse to fine; the finer one stays if the BIC says
+// so. The families with the best BIC then compete on whole runs that the fit does not see: each run
+// is left out once, the term is learned from the others, and the family with the least
+//   Σ n·ln max(χ²/n, 1) + k·ln n   over the runs left out, n readings each,
+// is the answer, if it beats the model without a term there; of those within kGain the one that
+// fits better. With one run only, the BIC decides.
+// A run left out has its initial pressure, its clock, the phase of what swings and the times of
+// late strokes from its own readings: k counts the last two, which the term brings. The error that
+// is reported of held-out runs is got in the same way. What swings or sticks at random is predicted
+// only as far as these numbers of a run are known.
+// Sources: discrepancies inside equations keep the physics identifiable (Kennedy & O'Hagan 2001;
+// Brynjarsdóttir & O'Hagan 2014); leave-one-out over runs.
 #ifndef PLENUM_CALIBRATION_DISCREPANCY_H_
 #define PLENUM_CALIBRATION_DISCREPANCY_H_
 

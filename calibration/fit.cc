@@ -8,8 +8,11 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "calibration/whiteness.h"
+#include "model/effects/learned.h"
 
 namespace plenum::calibration {
 namespace {
@@ -18,6 +21,7 @@ constexpr double kTwoSided95 = 1.96;
 constexpr double kToleranceTightest = 1e-9, kToleranceLoosest = 1e-5;
 constexpr double kParameterTolerance = 1e-7;
 constexpr double kLeastCurvature = 1e-12;
+constexpr int kPhases = 8;  // in a round
 
 PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions& options) {
   const ObservedSignal& pressure = (*data.observed)[run].signals.front();
@@ -51,8 +55,14 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
 class RunCost : public ceres::CostFunction {
  public:
   RunCost(const FitData& data, std::size_t run, const ModelState& start,
-          const std::vector<Coordinate>& coordinates, const PredictOptions& options)
-      : data_(data), run_(run), start_(start), coordinates_(coordinates), options_(options) {
+          const std::vector<Coordinate>& coordinates, const PredictOptions& options,
+          double weight = 1.0)
+      : data_(data),
+        run_(run),
+        start_(start),
+        coordinates_(coordinates),
+        options_(options),
+        scale_(std::sqrt(weight)) {
     for (const Coordinate& coordinate : coordinates) parameters_.push_back(coordinate.parameter);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(coordinates.size()));
     set_num_residuals(static_cast<int>(Observed().rows()));
@@ -90,11 +100,14 @@ class RunCost : public ceres::CostFunction {
     const std::size_t rows = Observed().rows();
     Residuals(data_.forward->dataset().runs[run_], Observed(), prediction.reading,
               {residuals, rows});
+    Eigen::Map<Eigen::VectorXd>(residuals, static_cast<Eigen::Index>(rows)) *= scale_;
     if (!jacobian) return true;
+    const std::vector<double> slopes =
+        GridSlopes(data_.forward->dataset().runs[run_], Observed(), prediction.reading);
     Eigen::VectorXd column(static_cast<Eigen::Index>(rows));
     for (std::size_t j = 0; j < coordinates_.size(); ++j) {
-      Whitened(Observed(), prediction.derivatives[j], {column.data(), rows});
-      jacobian->col(static_cast<Eigen::Index>(j)) = coordinates_[j].Slope(u[j]) * column;
+      Whitened(Observed(), prediction.derivatives[j], slopes, {column.data(), rows});
+      jacobian->col(static_cast<Eigen::Index>(j)) = scale_ * coordinates_[j].Slope(u[j]) * column;
     }
     return jacobian->allFinite();
   }
@@ -110,6 +123,7 @@ class RunCost : public ceres::CostFunction {
   const std::vector<Coordinate>& coordinates_;
   std::vector<Parameter> parameters_;
   PredictOptions options_;
+  double scale_;         // of the residuals
   mutable Known known_;  // the last point with derivatives
 };
 
@@ -162,15 +176,26 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
   if (heated)
     for (const Coordinate& coordinate : TemperatureCoordinates(*data.forward, data.runs))
       coordinates.push_back(coordinate);
+  for (const Coordinate& coordinate :
+       RunCoordinates(*data.forward, data.runs, start.effects, data.sizes))
+    coordinates.push_back(coordinate);
   if (options.nuisance_only) {
-    std::erase_if(coordinates, [](const Coordinate& coordinate) {
-      return coordinate.parameter.kind == Parameter::Kind::kDeclared;
+    std::erase_if(coordinates, [&](const Coordinate& coordinate) {
+      const Declared number = coordinate.parameter.declared;
+      const bool of_line =
+          number == Declared::kSonicConductance || number == Declared::kCriticalRatio;
+      return coordinate.parameter.kind == Parameter::Kind::kDeclared &&
+             !(options.own_pairs && of_line);
     });
     return coordinates;
   }
   for (std::size_t i = 0; i < start.effects.size(); ++i)
     for (const Coordinate& coordinate : EffectCoordinates(*start.effects[i].spec, i, data.sizes))
       coordinates.push_back(coordinate);
+  if (options.fixed)
+    std::erase_if(coordinates, [&](const Coordinate& coordinate) {
+      return coordinate.parameter == *options.fixed;
+    });
   return coordinates;
 }
 
@@ -178,7 +203,8 @@ void AddCosts(const FitData& data, const ModelState& start, const FitOptions& op
               const std::vector<Coordinate>& coordinates, double* u, ceres::Problem& problem) {
   for (const std::size_t run : data.runs)
     problem.AddResidualBlock(
-        new RunCost(data, run, start, coordinates, OptionsOf(data, run, options)), nullptr, u);
+        new RunCost(data, run, start, coordinates, OptionsOf(data, run, options), options.weight),
+        nullptr, u);
   if (HasPrior(coordinates)) problem.AddResidualBlock(new PriorCost(coordinates), nullptr, u);
 }
 
@@ -236,18 +262,96 @@ FitStatus StatusOf(const ceres::Solver::Summary& summary) {
   return FitStatus::kFailed;
 }
 
+bool Fits(const std::vector<Coordinate>& coordinates, Parameter::Kind kind) {
+  return std::any_of(coordinates.begin(), coordinates.end(), [&](const Coordinate& coordinate) {
+    return coordinate.parameter.kind == kind;
+  });
+}
+
+double* LatenessOf(ModelState& state) {
+  for (model::Effect& effect : state.effects)
+    for (std::size_t i = 0; i < effect.parameters.size(); ++i)
+      if (effect.spec->parameters[i].name == model::kLatenessName) return &effect.parameters[i];
+  return nullptr;
+}
+
+// Every command that may be late gets a lateness of its own.
+void SplitLateness(const FitData& data, const std::vector<Coordinate>& coordinates,
+                   ModelState& state) {
+  std::vector<std::size_t> split;
+  for (const std::size_t run : data.runs)
+    if (state.late_s[run].empty()) {
+      state.late_s[run].assign(data.forward->dataset().runs[run].valve.size(), 0.0);
+      split.push_back(run);
+    }
+  for (const Coordinate& coordinate : coordinates)
+    if (coordinate.parameter.kind == Parameter::Kind::kLateness &&
+        std::find(split.begin(), split.end(), coordinate.parameter.run) != split.end())
+      NumberOf(state, coordinate.parameter) = *LatenessOf(state);
+}
+
+// What is to be expected of a run that is not recorded yet.
+void MeanLateness(const std::vector<Coordinate>& coordinates, ModelState& state) {
+  double sum_s = 0.0, count = 0.0;
+  for (const Coordinate& coordinate : coordinates) {
+    if (coordinate.parameter.kind != Parameter::Kind::kLateness) continue;
+    sum_s += NumberOf(state, coordinate.parameter);
+    ++count;
+  }
+  *LatenessOf(state) = sum_s / count;
+}
+
+// χ² falls and rises as a phase turns: each run starts from the best of a round.
+void TurnPhases(const FitData& data, const FitOptions& options, ModelState& state) {
+  for (const std::size_t run : data.runs) {
+    double least = std::numeric_limits<double>::infinity(), best_rad = 0.0;
+    for (int k = 0; k < kPhases; ++k) {
+      state.phase_rad[run] = 2.0 * std::numbers::pi * k / kPhases;
+      Fit fit;
+      fit.state = state;
+      FitData alone = data;
+      alone.runs = {run};
+      EvaluateStart(alone, options, fit);
+      if (!fit.Usable() || !(fit.chi2_data < least)) continue;
+      least = fit.chi2_data;
+      best_rad = state.phase_rad[run];
+    }
+    state.phase_rad[run] = best_rad;
+  }
+}
+
 // The number at u, held within the bounds.
 double Edge(const Coordinate& coordinate, double u) {
   return coordinate.Number(std::clamp(u, coordinate.low, coordinate.high));
 }
 
+// The declared pairs of a line: what a tube adds follows from its size.
+std::vector<model::FlowElement> PairsOf(const Run& run) {
+  std::vector<model::FlowElement> pairs;
+  for (const LinePiece& piece : run.line)
+    if (!piece.tube) pairs.insert(pairs.end(), {piece.fill, piece.exhaust});
+  return pairs;
+}
+
 }  // namespace
 
-Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& options) {
+bool HasOwnPairs(const FitData& data, std::size_t run) {
+  const std::vector<Run>& runs = data.forward->dataset().runs;
+  return std::none_of(data.runs.begin(), data.runs.end(), [&](std::size_t fitted) {
+    return PairsOf(runs[fitted]) == PairsOf(runs[run]);
+  });
+}
+
+Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& options) {
   FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres says is in the status
   Fit fit;
-  fit.state = start;
-  fit.coordinates = CoordinatesOf(data, start, options);
+  fit.state = from;
+  fit.coordinates = CoordinatesOf(data, from, options);
+  const bool late = Fits(fit.coordinates, Parameter::Kind::kLateness);
+  if (late) SplitLateness(data, fit.coordinates, fit.state);
+  if (options.nuisance_only && Fits(fit.coordinates, Parameter::Kind::kPhase))
+    TurnPhases(data, options, fit.state);
+  const ModelState start = fit.state;
   fit.rows = RowsOf(data);
   const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
   fit.u.resize(size);
@@ -286,8 +390,9 @@ Fit FitModel(const FitData& data, const ModelState& start, const FitOptions& opt
   fit.status = options.cancelled && options.cancelled() ? FitStatus::kCancelled : StatusOf(summary);
   if (fit.status == FitStatus::kFailed) fit.detail = summary.message;
   fit.state = StateAt(start, fit.coordinates, fit.u.data());
+  if (late && !options.nuisance_only) MeanLateness(fit.coordinates, fit.state);
   fit.chi2_prior = Chi2Prior(fit);
-  fit.chi2_data = 2.0 * summary.final_cost - fit.chi2_prior;
+  fit.chi2_data = (2.0 * summary.final_cost - fit.chi2_prior) / options.weight;
   fit.bic = Bic(fit);
   return fit;
 }
@@ -300,7 +405,14 @@ bool PriorsHold(const Fit& fit) {
   return fit.chi2_prior <= boost::math::quantile(boost::math::complement(law, kFalseAlarm));
 }
 
-Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options) {
+double Inflation(const Fit& fit, double memory) {
+  const double freedom =
+      static_cast<double>(fit.rows) - static_cast<double>(fit.coordinates.size());
+  return memory * std::max(1.0, fit.chi2_data / std::max(1.0, freedom));
+}
+
+Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options,
+                           double memory) {
   const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
   Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(size, size);
   for (const std::size_t run : data.runs) {
@@ -313,9 +425,7 @@ Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions
     if (cost.Evaluate(blocks, residuals.data(), jacobians))
       curvature += jacobian.transpose() * jacobian;
   }
-  const double freedom = static_cast<double>(fit.rows) - static_cast<double>(size);
-  const double inflation = std::max(1.0, fit.chi2_data / std::max(1.0, freedom));
-  curvature /= inflation;
+  curvature /= Inflation(fit, memory);
   for (Eigen::Index j = 0; j < size; ++j) {
     const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
     if (coordinate.prior) curvature(j, j) += 1.0;

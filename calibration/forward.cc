@@ -5,6 +5,7 @@
 
 #include "calibration/noise.h"
 #include "calibration/source_record.h"
+#include "model/effects/learned.h"
 #include "model/sensitivity.h"
 #include "model/tube.h"
 
@@ -39,6 +40,21 @@ std::size_t InletAfter(const Run& run) {
   return tube == run.line.end() ? 0 : static_cast<std::size_t>(tube - run.line.begin());
 }
 
+// By how much the declared compressor raises its reservoir's pressure when the run begins, Pa/s.
+double PumpingRate(const Run& run) {
+  if (run.supply != Supply::kCompressor) return 0.0;
+  const double kelvin_ratio = run.ambient.temperature_k / model::kReferenceTemperatureK;
+  return model::FreeAirDelivery(run.compressor, run.source_pressure_pa) *
+         model::kReferencePressurePa * kelvin_ratio / run.reservoir_volume_m3;
+}
+
+// Null where the effect has no such parameter.
+double* NumberNamed(model::Effect& effect, std::string_view name) {
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i)
+    if (effect.spec->parameters[i].name == name) return &effect.parameters[i];
+  return nullptr;
+}
+
 // The numbers of the rig that a parameter moves, and how much of each per unit of it.
 class DirectionOf {
  public:
@@ -63,6 +79,16 @@ class DirectionOf {
       case Parameter::Kind::kClock:
         if (parameter.run != run_index) break;
         for (const model::ValveCommand& command : group_.schedule) Add(command.time_s, 1.0);
+        if (auto* reservoir = std::get_if<model::ReservoirSource>(&rig_.source))
+          Add(reservoir->initial_pressure_pa, -PumpingRate(run_));
+        break;
+      case Parameter::Kind::kPhase:
+        if (parameter.run != run_index) break;
+        for (model::Effect& effect : group_.effects)
+          if (double* phase_rad = NumberNamed(effect, model::kPhaseSpec.name)) Add(*phase_rad, 1.0);
+        break;
+      case Parameter::Kind::kLateness:
+        if (parameter.run == run_index) Add(group_.schedule[parameter.number].time_s, 1.0);
         break;
     }
     return direction_;
@@ -207,6 +233,10 @@ double& NumberOf(ModelState& state, const Parameter& parameter) {
       return state.initial_temperature_k[parameter.run];
     case Parameter::Kind::kClock:
       return state.clock_s[parameter.run];
+    case Parameter::Kind::kPhase:
+      return state.phase_rad[parameter.run];
+    case Parameter::Kind::kLateness:
+      return state.late_s[parameter.run][parameter.number];
     case Parameter::Kind::kDeclared:
       break;
   }
@@ -215,6 +245,14 @@ double& NumberOf(ModelState& state, const Parameter& parameter) {
 
 double NumberOf(const ModelState& state, const Parameter& parameter) {
   return NumberOf(const_cast<ModelState&>(state), parameter);
+}
+
+void CopyRun(const ModelState& from, std::size_t run, ModelState& to) {
+  to.initial_pressure_pa[run] = from.initial_pressure_pa[run];
+  to.initial_temperature_k[run] = from.initial_temperature_k[run];
+  to.clock_s[run] = from.clock_s[run];
+  to.phase_rad[run] = from.phase_rad[run];
+  to.late_s[run] = from.late_s[run];
 }
 
 double StartOf(const Run& run) {
@@ -242,6 +280,8 @@ ModelState ForwardModel::Declared() const {
         run.initial_temperature_k.value_or(run.ambient.temperature_k));
   }
   state.clock_s.assign(dataset_->runs.size(), 0.0);
+  state.phase_rad.assign(dataset_->runs.size(), 0.0);
+  state.late_s.resize(dataset_->runs.size());
   return state;
 }
 
@@ -261,7 +301,7 @@ model::Source ForwardModel::SourceOf(std::size_t index, const ModelState& state)
     case Supply::kCompressor:
       return model::ReservoirSource{
           .volume_m3 = run.reservoir_volume_m3 * Factor(state, Declared::kReservoirVolume),
-          .initial_pressure_pa = pressure_pa,
+          .initial_pressure_pa = pressure_pa - state.clock_s[index] * PumpingRate(run),
           .compressor = run.compressor};
     case Supply::kNone:
       break;
@@ -299,6 +339,15 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
   group.initial_temperature_k = state.initial_temperature_k[index];
   group.blocked = run.blocked;
   group.effects = state.effects;
+  for (model::Effect& effect : group.effects) {
+    if (double* phase_rad = NumberNamed(effect, model::kPhaseSpec.name))
+      *phase_rad = state.phase_rad[index];
+    double* lateness_s = NumberNamed(effect, model::kLatenessName);
+    if (!lateness_s || state.late_s[index].empty()) continue;
+    *lateness_s = 0.0;
+    for (std::size_t k = 0; k < group.schedule.size(); ++k)
+      group.schedule[k].time_s += state.late_s[index][k];
+  }
   rig.groups = {std::move(group)};
   return rig;
 }

@@ -2,8 +2,10 @@
 //
 // A model is the declared rig with a factor on each declared number (gauge pressures keep the
 // ambient pressure as their zero), a list of effects, the pressures and temperatures at which the
-// runs began, and by how much each run's clock lags behind the valve's: its commands act that much
-// later than recorded. Where a tube's bore moves, its pair (C, b) and its volume move with it
+// runs began, by how much each run's clock lags behind the rig's — commands act that much later
+// than recorded, and a compressor began that much later to fill its reservoir —, and what a learned
+// term leaves to each run: the phase of what swings, and how late each stroke comes
+// (model/effects/learned.h). Where a tube's bore moves, its pair (C, b) and its volume move with it
 // (model/tube.h). A factor on C or b acts on the declared pairs, not on those that follow from a
 // tube's size; b stays in [0, 0.95] and ε at 1 or above.
 #ifndef PLENUM_CALIBRATION_FORWARD_H_
@@ -29,19 +31,34 @@ struct ModelState {
   std::vector<double> initial_pressure_pa;    // absolute, by run of the data set
   std::vector<double> initial_temperature_k;  // by run; matters with an energy balance alone
   std::vector<double> clock_s;                // by run
+  std::vector<double> phase_rad;              // by run
+  // By run and command; empty: none is late but by what the effect itself says.
+  std::vector<std::vector<double>> late_s;
 };
 
 // One number of a model state.
 struct Parameter {
-  enum class Kind { kDeclared, kEffect, kInitialPressure, kInitialTemperature, kClock };
+  enum class Kind {
+    kDeclared,
+    kEffect,
+    kInitialPressure,
+    kInitialTemperature,
+    kClock,
+    kPhase,
+    kLateness
+  };
   Kind kind = Kind::kDeclared;
   Declared declared = Declared::kRestVolume;  // kDeclared
-  std::size_t effect = 0, number = 0;         // kEffect: of the list, of its parameters
-  std::size_t run = 0;                        // of one run's own number
+  std::size_t effect = 0, number = 0;  // kEffect: of the list, of its parameters; kLateness: of the
+                                       // run's commands
+  std::size_t run = 0;                 // of one run's own number
   bool operator==(const Parameter&) const = default;
 };
 double& NumberOf(ModelState& state, const Parameter& parameter);
 double NumberOf(const ModelState& state, const Parameter& parameter);
+
+// Gives a state the numbers of one run's own as another has them.
+void CopyRun(const ModelState& from, std::size_t run, ModelState& to);
 
 // At the run's sample times. Channels that the model does not give are empty: the source without a
 // source, the inlet without a tube in the line.

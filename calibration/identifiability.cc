@@ -39,6 +39,11 @@ std::string NameOf(const Parameter& parameter, const ModelState& state, const Da
       return "initial temperature of " + dataset.runs[parameter.run].id;
     case Parameter::Kind::kClock:
       return "clock of " + dataset.runs[parameter.run].id;
+    case Parameter::Kind::kPhase:
+      return "phase of " + dataset.runs[parameter.run].id;
+    case Parameter::Kind::kLateness:
+      return "time of command " + std::to_string(parameter.number + 1) + " of " +
+             dataset.runs[parameter.run].id;
     case Parameter::Kind::kDeclared:
       break;
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "calibration/phases.h"
+#include "calibration/quiet_memory.h"
 #include "calibration/readings.h"
 
 namespace plenum::calibration {
@@ -23,21 +24,7 @@ constexpr double kClipSigmas = 4.0;
 constexpr double kSameEnd = 1e-6;  // of the range of the readings
 constexpr int kRepeatsMin = 8;     // degrees of freedom
 constexpr int kWindowsMin = 30;    // else look further than the quiet spans
-constexpr int kCorrelationWindowsMin = 100;
-constexpr std::size_t kCorrelationWindows = 2000;  // thinned to about these
-constexpr int kStridesMax = 6;                     // 1, 2, … 32
-// Standard error of ln(D_2k/D_k) of white noise is 2.2/√n (found by simulation); more than two of
-// them tell correlation.
-constexpr double kGrowthError = 2.2;
-constexpr double kGrowthSigmas = 2.0;
-constexpr double kGrowthMax = 2.0;  // of any θ; what grows faster is the signal's own bend
-// Standard errors of ρ and, where ρ > 0, of σ over σ, times √windows (by simulation, ρ ≤ 0.9).
-constexpr double kLagError = 2.0;
-constexpr double kLagMax = 0.95;
-constexpr double kThetaLeast = 0.1, kThetaStep = 1.1;  // of the spacing
-constexpr int kShares = 20;
-constexpr double kShareGain = 4.0;  // χ² by which a part must do better than the whole
-double CorrelatedSigmaError(double rho) { return 0.6 * (1.0 + rho) / (1.0 - rho); }
+constexpr double kUnsettled = 1.0 / 3.0;
 
 struct Samples {
   std::vector<double> t_s, y;
@@ -114,37 +101,6 @@ double MeanSquare(const std::vector<Window>& windows) {
   return sum / static_cast<double>(windows.size());
 }
 
-// E z² over σ² less 1, mean over windows, for noise all of which remembers with θ.
-double Excess(const std::vector<Window>& windows, double theta_s) {
-  double sum = 0.0;
-  std::size_t count = 0;
-  const std::size_t step = std::max<std::size_t>(1, windows.size() / kCorrelationWindows);
-  for (std::size_t w = 0; w < windows.size(); w += step, ++count) {
-    const Window& window = windows[w];
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = i + 1; j < 4; ++j)
-        sum += 2.0 * window.weight[i] * window.weight[j] *
-               std::exp((window.t_s[i] - window.t_s[j]) / theta_s);
-  }
-  return sum / static_cast<double>(count);
-}
-
-// ln of σ² for a memory, and how badly the strides agree on it (sum of squares).
-struct Agreement {
-  double log_variance = 0.0, misfit = 0.0;
-};
-
-Agreement Agree(const std::vector<double>& squares, const std::vector<double>& excess,
-                double share) {
-  std::vector<double> logs;
-  Agreement result;
-  for (std::size_t k = 0; k < squares.size(); ++k)
-    logs.push_back(std::log(squares[k] / (1.0 + share * excess[k])));
-  for (const double log : logs) result.log_variance += log / static_cast<double>(logs.size());
-  for (const double log : logs) result.misfit += std::pow(log - result.log_variance, 2);
-  return result;
-}
-
 // What a run gives to the estimate: the samples without the wild ones, where to look, and the
 // windows of stride 1 with their RMS.
 struct Record {
@@ -154,68 +110,6 @@ struct Record {
   std::vector<Window> windows;
   double rms = 0.0;
 };
-
-// The windows of all records at a stride, in units of each one's RMS at stride 1.
-std::vector<Window> WindowsOfAll(const std::vector<const Record*>& records, std::size_t stride) {
-  std::vector<Window> all;
-  for (const Record* record : records) {
-    std::vector<Window> windows =
-        stride == 1 ? record->windows
-                    : Windows(record->samples, record->places, stride, record->spacing_s);
-    if (stride > 1) Trim(windows, record->floor);
-    for (Window& window : windows) {
-      window.z /= record->rms;
-      all.push_back(window);
-    }
-  }
-  return all;
-}
-
-// Windows of stride 1, 2, 4, … as far as the differences keep growing as correlated noise makes
-// them grow; stride 1 alone where they do not.
-std::vector<std::vector<Window>> GrowingStrides(const std::vector<const Record*>& records) {
-  std::vector<std::vector<Window>> strides = {WindowsOfAll(records, 1)};
-  for (bool growing = true; growing && static_cast<int>(strides.size()) < kStridesMax;) {
-    const std::size_t stride = std::size_t{1} << strides.size();
-    std::vector<Window> next = WindowsOfAll(records, stride);
-    if (static_cast<int>(next.size()) < kCorrelationWindowsMin) break;
-    const double growth = std::log(MeanSquare(next) / MeanSquare(strides.back()));
-    const double independent = static_cast<double>(next.size()) / static_cast<double>(stride / 2);
-    const double margin = kGrowthSigmas * kGrowthError / std::sqrt(independent);
-    if (!(growth < std::log(kGrowthMax) + margin)) break;
-    growing = growth > margin;
-    if (growing || strides.size() > 1) strides.push_back(std::move(next));
-  }
-  return strides;
-}
-
-// The memory on which the strides agree best. All of the noise remembers unless a part of it does
-// so more convincingly.
-struct FittedMemory {
-  NoiseMemory memory;
-  double log_variance = 0.0, misfit = std::numeric_limits<double>::infinity();
-};
-
-FittedMemory FitMemory(const std::vector<std::vector<Window>>& strides, double spacing_s) {
-  std::vector<double> squares;
-  for (const auto& windows : strides) squares.push_back(MeanSquare(windows));
-  const double allowed =
-      kShareGain * kGrowthError * kGrowthError / static_cast<double>(strides.front().size());
-  FittedMemory whole, part;
-  const double longest_s = spacing_s * std::pow(2.0, static_cast<double>(strides.size()) + 1.0);
-  for (double theta_s = kThetaLeast * spacing_s; theta_s < longest_s; theta_s *= kThetaStep) {
-    std::vector<double> excess;
-    for (const auto& windows : strides) excess.push_back(Excess(windows, theta_s));
-    for (int k = 1; k <= kShares; ++k) {
-      const double share = static_cast<double>(k) / kShares;
-      const Agreement agreement = Agree(squares, excess, share);
-      FittedMemory& best = k == kShares ? whole : part;
-      if (agreement.misfit < best.misfit)
-        best = {{theta_s, share}, agreement.log_variance, agreement.misfit};
-    }
-  }
-  return strides.size() > 2 && part.misfit < whole.misfit - allowed ? part : whole;
-}
 
 // Deviations within the groups of samples that share an instant, scaled to the variance of one
 // reading; leaves the first of each group in `samples`.
@@ -347,36 +241,56 @@ Record RecordOf(const Readings& readings, Noise& noise) {
   return record;
 }
 
-// The memory of all runs, from those whose differences tell it, and what follows for each run's σ.
+// The readings of the places, cut where the sampling has a gap, without what a switch leaves
+// behind: the first third.
+QuietRecord QuietOf(const Record& record) {
+  QuietRecord quiet;
+  const auto& [t_s, y, index] = record.samples;
+  for (const TimeSpan& place : record.places) {
+    quiet.emplace_back();
+    const bool switched = place.start_s > t_s.front();
+    const double start_s =
+        place.start_s + (switched ? kUnsettled * (place.end_s - place.start_s) : 0.0);
+    for (std::size_t i = 0; i < t_s.size(); ++i) {
+      if (t_s[i] < start_s || t_s[i] > place.end_s) continue;
+      const bool gap = i > 0 && t_s[i] - t_s[i - 1] > kGapMax * record.spacing_s;
+      if (gap && !quiet.back().t_s.empty()) quiet.emplace_back();
+      quiet.back().t_s.push_back(t_s[i]);
+      quiet.back().y.push_back(y[i]);
+    }
+  }
+  return quiet;
+}
+
+// The memory of all runs, from those that hold still for long enough, and what follows for each
+// run's σ.
 void TakeMemory(const std::vector<Record>& records, std::vector<Noise>& noises) {
-  std::vector<const Record*> telling;
+  std::vector<QuietRecord> telling(records.size());
+  std::vector<bool> estimated(records.size());
   double spacing_s = std::numeric_limits<double>::infinity();
-  int windows = 0;
   for (std::size_t j = 0; j < records.size(); ++j) {
     if (noises[j].staircase || noises[j].source == NoiseSource::kRepeats || !(records[j].rms > 0.0))
       continue;
-    telling.push_back(&records[j]);
+    if (noises[j].source == NoiseSource::kClosed) telling[j] = QuietOf(records[j]);
+    estimated[j] = true;
     spacing_s = std::min(spacing_s, records[j].spacing_s);
-    windows += noises[j].windows;
   }
-  if (telling.empty()) return;
-  const auto strides = GrowingStrides(telling);
-  FittedMemory fitted;
-  if (strides.size() > 1) fitted = FitMemory(strides, spacing_s);
-  const auto& [theta_s, share] = fitted.memory;
+  if (std::isinf(spacing_s)) return;
+  const QuietMemory found = MemoryOfQuiet(telling, spacing_s);
+  const auto& [theta_s, share] = found.memory;
   for (std::size_t j = 0; j < records.size(); ++j) {
     Noise& noise = noises[j];
-    if (std::find(telling.begin(), telling.end(), &records[j]) == telling.end()) continue;
-    noise.lag1_error = std::min(kLagError / std::sqrt(windows), 1.0);
+    if (!estimated[j]) continue;
+    noise.memories = found.allowed;
     if (theta_s == 0.0) continue;
+    noise.memory = found.memory;
     const double rho = std::exp(-noise.spacing_s / theta_s);
-    noise.memory = fitted.memory;
-    noise.lag1 = ApparentRho(rho, share);
-    noise.sigma_pa *= std::exp(0.5 * fitted.log_variance);
-    noise.relative_error =
-        std::max(kSigmaError,
-                 CorrelatedSigmaError(std::min(share * rho + noise.lag1_error, kLagMax))) /
-        std::sqrt(noise.windows);
+    if (std::isfinite(found.levels[j].sigma)) {
+      noise.sigma_pa = found.levels[j].sigma;
+      noise.relative_error = found.levels[j].relative_error;
+    } else {  // what its differences pass by
+      noise.sigma_pa /= std::sqrt(ThirdDifference(rho, share, 1));
+    }
     noise.effective_samples /= 1.0 + 2.0 * share * rho / (1.0 - rho);
   }
 }

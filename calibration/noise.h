@@ -4,10 +4,9 @@
 // z = Σ c_i·y_i with c_i ∝ 1/Π_{j≠i}(t_i − t_j) and Σ c_i² = 1 cancels any parabola, so that on a
 // smooth signal E z² = Σ c_i·c_j·γ(|t_i − t_j|), which is σ² for white noise, at any spacing. The
 // windows are taken where the signal is quiet; samples of one instant enter as differences of
-// pairs. With noise of covariance γ(h) = σ²·s·exp(−h/θ) the same sums over every 2nd, 4th, … sample
-// grow with the stride until it passes θ: that fixes θ and s. Readings on a grid of step q carry
-// q²/12 of their own (Widrow); where the other noise is below about q/2 the differences of a
-// staircase tell nothing, and q²/12 is the least that is reported.
+// pairs. What the noise remembers is read by likelihood (quiet_memory.h), and σ with it. Readings
+// on a grid of step q carry q²/12 of their own (Widrow); where the other noise is below about q/2
+// the differences of a staircase tell nothing, and q²/12 is the least that is reported.
 //
 // The relative standard error of σ from n windows is 1.07/√n: 5 % needs 450. Noise that depends on
 // the pressure is seen at the quiet places alone. Sources: Gasser, Sroka & Jennen-Steinmetz,
@@ -32,12 +31,12 @@ enum class NoiseSource { kNone, kClosed, kTail, kWhole, kRepeats };
 struct Noise {
   double sigma_pa = std::numeric_limits<double>::quiet_NaN();  // of one reading, quantum included
   double relative_error = std::numeric_limits<double>::quiet_NaN();  // standard error of σ over σ
-  double quantum_pa = 0.0;         // step of the readings' grid; 0: none found
-  bool staircase = false;          // noise below half a quantum: errors are sawtooth, not random
-  NoiseMemory memory;              // θ = 0: not told from white noise
-  double spacing_s = 0.0;          // median Δt between instants
-  double lag1 = 0.0;               // apparent ρ (noise_memory.h) at that spacing
-  double lag1_error = 0.0;         // its standard error, also where it is 0
+  double quantum_pa = 0.0;  // step of the readings' grid; 0: none found
+  bool staircase = false;   // noise below half a quantum: errors are sawtooth, not random
+  NoiseMemory memory;       // θ = 0: not told from white noise
+  double spacing_s = 0.0;   // median Δt between instants
+  // What else the memory may be (quiet_memory.h); empty: it is known.
+  std::vector<NoiseMemory> memories;
   double effective_samples = 0.0;  // n/(1 + 2·s·ρ/(1−ρ)) of the n usable readings
   double repeat_sigma_pa = std::numeric_limits<double>::quiet_NaN();  // pooled over overlaid
                                                                       // samples, NaN without

@@ -8,8 +8,7 @@ namespace {
 
 constexpr double kLeastVariance = 1e-6;  // of an innovation: the same instant again
 constexpr double kSameGap = 1e-3;        // of a gap: what a clock's digits make of even sampling
-constexpr double kRhoLeast = 0.1, kRhoMost = 0.8, kRhoStep = 0.1;
-constexpr int kHalvings = 30;
+constexpr double kThetaAbout = 1.3, kShareAbout = 0.1;
 constexpr int kSections = 9;
 
 // −2·ln L of the series, their variance at its likeliest.
@@ -58,21 +57,6 @@ Least Minimise(const Function& function, double low, double high) {
   return at_a < at_b ? Least{a, at_a} : Least{b, at_b};
 }
 
-double Growth(double rho, double share) {
-  return ThirdDifference(rho, share, 2) / ThirdDifference(rho, share, 1);
-}
-
-// The share of a memory ρ with that apparent ρ; 1 where none suffices.
-double ShareOf(double rho, double apparent) {
-  const double growth = Growth(apparent, 1.0);
-  double low = 0.0, high = 1.0;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double share = 0.5 * (low + high);
-    (Growth(rho, share) < growth ? low : high) = share;
-  }
-  return high;
-}
-
 }  // namespace
 
 Innovation InnovationSteps::Next(double t_s) {
@@ -114,38 +98,28 @@ double ThirdDifference(double rho, double share, int stride) {
   return 1.0 - share * (1.5 - 0.6 * r + 0.1 * r * r) * r;
 }
 
-double ApparentRho(double rho, double share) {
-  const double growth = Growth(rho, share);
-  double low = 0.0, high = rho;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (Growth(middle, 1.0) < growth ? low : high) = middle;
+NoiseMemory LikeliestMemory(std::span<const NoiseSeries> series,
+                            std::span<const NoiseMemory> allowed) {
+  NoiseMemory best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const NoiseMemory& memory : allowed) {
+    const double misfit = Misfit(series, memory);
+    if (misfit < least) best = memory, least = misfit;
   }
-  return high;
-}
-
-NoiseMemory LikeliestMemory(std::span<const NoiseSeries> series, double spacing_s, double least,
-                            double most) {
-  if (!(most > 0.0)) return {};
-  const auto memory_of = [&](double rho, double share) {
-    return NoiseMemory{-spacing_s / std::log(rho), share};
+  if (best.theta_s == 0.0) return best;
+  const double lowest = std::max(0.0, best.share - kShareAbout);
+  const double highest = std::min(1.0, best.share + kShareAbout);
+  const auto best_share = [&](double theta_s) {
+    return Minimise(
+        [&](double share) {
+          return Misfit(series, {theta_s, share});
+        },
+        lowest, highest);
   };
-  const auto best_share = [&](double rho) {
-    return Minimise([&](double share) { return Misfit(series, memory_of(rho, share)); },
-                    ShareOf(rho, least), ShareOf(rho, most));
-  };
-  const double highest = std::max(kRhoMost, most);
-  const double lowest = std::max(kRhoLeast, least);
-  double centre = lowest, value = std::numeric_limits<double>::infinity();
-  for (double rho = lowest; rho <= highest; rho += kRhoStep) {
-    const double misfit = best_share(rho).value;
-    if (misfit < value) centre = rho, value = misfit;
-  }
-  const double rho =
-      Minimise([&](double at) { return best_share(at).value; }, std::max(lowest, centre - kRhoStep),
-               std::min(highest, centre + kRhoStep))
-          .at;
-  return memory_of(rho, best_share(rho).at);
+  const double theta_s = Minimise([&](double at) { return best_share(at).value; },
+                                  best.theta_s / kThetaAbout, best.theta_s * kThetaAbout)
+                             .at;
+  return {theta_s, best_share(theta_s).at};
 }
 
 }  // namespace plenum::calibration

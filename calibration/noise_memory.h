@@ -47,21 +47,16 @@ std::vector<double> Whitened(std::span<const double> t_s, std::span<const double
 // neighbours.
 double ThirdDifference(double rho, double share, int stride);
 
-// The ρ of a noise all of which remembers whose differences grow from neighbours to every second
-// sample as those of this one do: what they tell of a memory.
-double ApparentRho(double rho, double share);
-
 // A series in units of its noise, NaN where missing.
 struct NoiseSeries {
   std::span<const double> t_s;
   std::span<const double> e;
 };
 
-// The likeliest memory of series of one sensor, of an apparent ρ at `spacing_s` from `least` to
-// `most`; ρ itself is at most that or 0.8, because what remembers for longer is no noise to be told
-// from structure. θ = 0 where the range holds nothing else.
-NoiseMemory LikeliestMemory(std::span<const NoiseSeries> series, double spacing_s, double least,
-                            double most);
+// The likeliest memory of series of one sensor: of those allowed, and then about that one, within a
+// factor 1.3 of θ and 0.1 of the share. θ = 0 where none is allowed.
+NoiseMemory LikeliestMemory(std::span<const NoiseSeries> series,
+                            std::span<const NoiseMemory> allowed);
 
 }  // namespace plenum::calibration
 

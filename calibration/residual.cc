@@ -13,11 +13,6 @@
 namespace plenum::calibration {
 namespace {
 
-// The noise's memory is an estimate, and third differences cannot tell all of it being short from a
-// part of it being longer. A residual is judged with the likeliest memory that agrees with the
-// growth of the differences within so many standard errors.
-constexpr double kCorrelationErrors = 3.0;
-constexpr double kCorrelationMax = 0.98;
 constexpr double kClipSigmas = 3.0;
 constexpr double kMemoryless = 1e-3;  // θ over the spacing
 
@@ -47,8 +42,7 @@ void ReadMemories(const std::vector<ResidualSeries>& series, std::vector<Noise>&
   for (std::size_t k = 0; k < hidden.size(); ++k) {
     Noise& noise = noises[hidden[k]];
     noise.memory = shown[k].memory;
-    noise.lag1 = shown[k].lag1;
-    noise.lag1_error = shown[k].lag1_error;
+    noise.memories = shown[k].memories;
   }
 }
 
@@ -74,23 +68,20 @@ void TestLackOfFit(const std::vector<FittedRun>& runs, int fitted_numbers, Resid
 }
 
 // Gives the series the memory of their noise: where that is an estimate, the one that is likeliest
-// given what is left, among those that agree with the readings' differences.
+// given what is left, among those that agree with the quiet readings.
 void GiveMemory(const std::vector<Noise>& noises, std::vector<ResidualSeries>& series) {
   std::vector<NoiseSeries> estimated;
-  const Noise* shown = nullptr;
+  const std::vector<NoiseMemory>* allowed = nullptr;
   for (std::size_t i = 0; i < series.size(); ++i) {
     series[i].memory = noises[i].memory;
-    if (!(noises[i].lag1_error > 0.0)) continue;
+    if (noises[i].memories.empty()) continue;
     estimated.push_back({series[i].run->t_s, series[i].residual});
-    if (!shown || noises[i].spacing_s < shown->spacing_s) shown = &noises[i];
+    allowed = &noises[i].memories;
   }
-  if (!shown) return;
-  const double reach = kCorrelationErrors * shown->lag1_error;
-  const NoiseMemory memory =
-      LikeliestMemory(estimated, shown->spacing_s, std::max(0.0, shown->lag1 - reach),
-                      std::min(kCorrelationMax, shown->lag1 + reach));
+  if (!allowed) return;
+  const NoiseMemory memory = LikeliestMemory(estimated, *allowed);
   for (std::size_t i = 0; i < series.size(); ++i)
-    if (noises[i].lag1_error > 0.0) series[i].memory = memory;
+    if (!noises[i].memories.empty()) series[i].memory = memory;
 }
 
 // By how much σ² was read too small if the noise has the memory that the residual shows: slow noise
@@ -98,7 +89,7 @@ void GiveMemory(const std::vector<Noise>& noises, std::vector<ResidualSeries>& s
 double Underread(const std::vector<Noise>& noises, const std::vector<ResidualSeries>& series) {
   double most = 1.0;
   for (std::size_t i = 0; i < series.size(); ++i) {
-    if (!(noises[i].lag1_error > 0.0)) continue;
+    if (noises[i].memories.empty()) continue;
     const auto seen = [&](const NoiseMemory& memory) {
       const double theta_s = std::max(memory.theta_s, kMemoryless * noises[i].spacing_s);
       return ThirdDifference(std::exp(-noises[i].spacing_s / theta_s), memory.share, 1);
@@ -215,7 +206,8 @@ ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_nu
     ReadMemories(series, noises);
     TestStructure(noises, series, report, by_input);
   }
-  report.lack_of_fit_limit *= Underread(noises, series);
+  report.underread = Underread(noises, series);
+  report.lack_of_fit_limit *= report.underread;
   return report;
 }
 

@@ -139,6 +139,20 @@ bool FillFromFull(const ReservoirStrokeInput& in, State& y, double from, double 
   return true;
 }
 
+// Together until the reservoir is full, and from it alone over what lead it has then.
+bool FillTogetherUntilFull(const ReservoirStrokeInput& in, State& y, double from, double to) {
+  const auto short_of_full = [&](double p) { return in.stop_pa - p - Lead(in, p); };
+  if (to > in.stop_pa || short_of_full(to) >= 0.0) return FillTogether(in, y, from, to);
+  double low = from, high = to;
+  while (high - low > 1e-12 * to) {
+    const double middle = 0.5 * (low + high);
+    (short_of_full(middle) > 0.0 ? low : high) = middle;
+  }
+  if (!FillTogether(in, y, from, low)) return false;
+  y[1] = in.stop_pa;
+  return FillFromFull(in, y, low, to);
+}
+
 // Advances y from chamber pressure p to `end`; false if that is never reached.
 bool Advance(const ReservoirStrokeInput& in, State& y, double p, double end) {
   using boost::numeric::odeint::runge_kutta_dopri5;
@@ -148,7 +162,7 @@ bool Advance(const ReservoirStrokeInput& in, State& y, double p, double end) {
   double step = span / 8.0;
   while (end - p > 1e-12 * end) {
     if (y[1] >= in.stop_pa && stroke.Covered(p)) return FillFromFull(in, y, p, end);
-    if (Together(in, y[1], p) || step < 1e-9 * span) return FillTogether(in, y, p, end);
+    if (Together(in, y[1], p) || step < 1e-9 * span) return FillTogetherUntilFull(in, y, p, end);
     step = std::min(step, end - p);
     const State before = y;
     const double before_p = p;

@@ -170,7 +170,7 @@ struct ResponseOf {
   std::vector<GroupResponseOf<T>> groups;
   std::vector<T> source_pressure_pa;  // at t_s; empty without a source
   T source_final_pressure_pa = T(0.0);
-  T source_lowest_pressure_pa = T(0.0);  // of the run
+  T source_lowest_pressure_pa = T(0.0);  // of the run; of a swinging source at steps' ends
   // ∫ share of time that each pump runs: the duty while on; at the stop pressure the part of it
   // that covers the draw; 0 while off.
   T compressor_on_s = T(0.0);

@@ -56,7 +56,8 @@ System<T>::System(const Rig& rig, double linear_ratio, const Lift& lift, bool ac
   const T factor = FlowFactor(rig.gas) * sqrt(kReferenceTemperatureK / ambient_k_);
   source_initial_pa_ = ambient_pa_;
   if (regulated_) {
-    source_initial_pa_ = supply_.pressure_pa = lift.operator()<T>(regulated_->pressure_pa);
+    source_initial_pa_ = regulated_pa_ = lift.operator()<T>(regulated_->pressure_pa);
+    supply_.pressure_pa = regulated_pa_;
     supply_.flow_max_m3_per_s = regulated_->flow_max_m3_per_s;
     if (regulated_->regulator) {
       supply_.regulator.emplace(Lifted<T>({&*regulated_->regulator, 1}, factor, lift),
@@ -86,6 +87,8 @@ System<T>::System(const Rig& rig, double linear_ratio, const Lift& lift, bool ac
   groups_.reserve(rig.groups.size());
   for (const GroupRig& group : rig.groups) {
     groups_.push_back(MakeGroup(group, lift, factor, linear_ratio));
+    for (const auto& unit : groups_.back().units)
+      if (!source_unit_ && unit->acts_on_source()) source_unit_ = unit.get();
   }
   LayOut();
 }
@@ -194,7 +197,14 @@ std::vector<T> System<T>::InitialState() {
 
 template <class T>
 T System<T>::SourcePressure(const T& t, std::span<const T> y) const {
-  if (regulated_) return supply_.pressure_pa;
+  T pressure_pa = DeclaredSource(t, y);
+  if (source_unit_) source_unit_->Source(t, pressure_pa);
+  return pressure_pa;
+}
+
+template <class T>
+T System<T>::DeclaredSource(const T& t, std::span<const T> y) const {
+  if (regulated_) return regulated_pa_;
   if (driven_) {
     return ambient_pa_ + driven_factor_ * (Chain(t, driven_->RecordedPressure(ValueOf(t)),
                                                  driven_->RecordedSlope(ValueOf(t))) -
@@ -212,8 +222,8 @@ std::optional<std::size_t> System<T>::HeadState(std::size_t i) const {
 
 template <class T>
 T System<T>::HeadPressure(std::size_t i, const T& t, std::span<const T> y) const {
-  const std::optional<std::size_t> state = HeadState(i);
-  return state ? y[*state] : SourcePressure(t, y);
+  const Group& group = groups_[i];
+  return group.lines[kFeed].empty() ? SourcePressure(t, y) : y[group.unit_at[group.feeding_unit]];
 }
 
 template <class T>
@@ -320,6 +330,7 @@ template <class T>
 void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
   using std::sqrt;
   outlets_.clear();
+  if (regulated_ && source_unit_) supply_.pressure_pa = SourcePressure(t, y);
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
     FillMoment(group, t, y);

@@ -104,7 +104,7 @@ class System {
   // m³/s ANR that the lines take from the source, and what all pumps deliver while running.
   T Draw(const T& t, std::span<const T> y);
   T Delivery(const T& source_pa) const;
-  bool driven() const { return driven_ != nullptr; }
+  bool driven() const { return driven_ || source_unit_; }  // moves by itself
   bool source_may_rise(double source_pa) const;  // by running pumps, or because it is driven
 
   // Pressure that the group approaches through its open valve while the source stays as it is.
@@ -166,6 +166,7 @@ class System {
   void FillMoment(Group& group, const T& t, std::span<const T> y) const;
   void UpdateFlows(const T& t, std::span<const T> y);
   void Balance(Group& group, std::span<const T> y, std::span<T> dydt) const;
+  T DeclaredSource(const T& t, std::span<const T> y) const;  // without what effects do to it
   void SourceRates(const T& draw, std::span<const T> y, std::span<T> dydt) const;
   bool TakeFlowInSeries(const NodeOutlet<T>& outlet, T& flow) const;
   T PressureBehind(std::vector<LineElement<T>> elements, std::size_t count, const T& opening,
@@ -183,9 +184,11 @@ class System {
   const RegulatedSource* regulated_ = nullptr;
   const ReservoirSource* reservoir_ = nullptr;
   const DrivenSource* driven_ = nullptr;
+  const EffectUnit<T>* source_unit_ = nullptr;  // that acts on the source
   double linear_ratio_;
   NodeSupply<T> supply_;
-  T reservoir_volume_m3_, reservoir_rising_m3_, duty_, driven_factor_, source_initial_pa_;
+  T reservoir_volume_m3_, reservoir_rising_m3_, duty_, driven_factor_, source_initial_pa_,
+      regulated_pa_;
   bool node_at_supply_ = true;
   T pump_limit_pa_;
   PumpState pump_ = PumpState::kAbsent;

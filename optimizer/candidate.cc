@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/scalar.h"
 #include "model/storage.h"
 #include "optimizer/effect_strokes.h"
 #include "optimizer/evaluate_strokes.h"
 
 namespace plenum::optimizer {
 namespace {
-
-constexpr double kPaPerKpa = 1e3;
 
 const model::Regulator& RegulatorOf(const Problem& problem, const Candidate& candidate) {
   return problem.parts.regulators[candidate.regulator.index];
@@ -44,8 +43,9 @@ double AirAvailable(const Problem& problem, const Candidate& candidate, double s
 }
 
 // Highest frequency that the source sustains, by thermal duty or by evaporation.
-double SourceFrequency(const Problem& problem, const Candidate& candidate,
-                       const Evaluation& evaluation) {
+template <class T>
+T SourceFrequency(const Problem& problem, const Candidate& candidate,
+                  const EvaluationOf<T>& evaluation) {
   if (candidate.configuration == Configuration::kCompressor)
     return problem.frequency_hz * CompressorOf(problem, candidate).duty_max /
            evaluation.compressor_duty;
@@ -53,26 +53,54 @@ double SourceFrequency(const Problem& problem, const Candidate& candidate,
     return candidate.bottle.quantity *
            problem.parts.co2[candidate.bottle.index].flow_sustained_m3_per_s /
            evaluation.air_per_cycle_m3;
-  return kUnlimited;
+  return T(kUnlimited);
 }
 
-void AddPump(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
-             const Strokes& strokes, Evaluation& evaluation) {
+// Energy to fill the reservoir the first time: ∫ P/Q grows by its integrand with the upper end.
+template <class T>
+T FirstFill(const Problem& problem, const model::CompressorCurve& curve,
+            const OperatingPointOf<T>& point) {
+  const double source_pa = model::ValueOf(point.source_pa);
+  const double temperature_k = problem.ambient.temperature_k;
+  const double unit_j =
+      model::EnergyToFill(curve, 1.0, problem.ambient.pressure_pa, source_pa, temperature_k);
+  if constexpr (model::kIsDual<T>) {
+    const double slope = model::ElectricalPower(curve, source_pa) /
+                         curve.free_air_m3_per_s(source_pa) *
+                         model::StandardVolume(1.0, temperature_k);
+    return point.reservoir_rising_m3 * model::Chain(point.source_pa, unit_j, slope);
+  }
+  return point.reservoir_rising_m3 * unit_j;
+}
+
+// Over the pressures up to a stop pressure; moves with it where the largest is at the end.
+template <class T>
+T LargestCurrent(const model::CompressorCurve& curve, double low_pa, const T& stop_pa) {
+  const double value_pa = model::ValueOf(stop_pa);
+  const double largest_a = model::LargestCurrent(curve, low_pa, value_pa);
+  const model::MonotoneCurve& current = curve.current_a;
+  const bool at_end = !current.empty() && value_pa > current.front() && value_pa < current.back() &&
+                      largest_a <= current(value_pa);
+  return model::Chain(stop_pa, largest_a, at_end ? current.Slope(value_pa) : 0.0);
+}
+
+template <class T>
+void AddPump(const Problem& problem, const Candidate& candidate, const OperatingPointOf<T>& point,
+             const StrokesOf<T>& strokes, EvaluationOf<T>& evaluation) {
   const model::CompressorCurve& curve = CompressorOf(problem, candidate).curve;
   const double ambient_pa = problem.ambient.pressure_pa;
-  const double temperature_k = problem.ambient.temperature_k;
   evaluation.compressor_duty = strokes.pump_on_s * problem.frequency_hz;
   evaluation.energy_per_cycle_j += strokes.pump_energy_j;
-  evaluation.energy_first_fill_j = model::EnergyToFill(curve, point.reservoir_rising_m3, ambient_pa,
-                                                       point.source_pa, temperature_k);
-  evaluation.air_total_m3 += model::StandardVolume(
-      point.reservoir_rising_m3 * (point.source_pa - ambient_pa), temperature_k);
-  evaluation.battery_current_a +=
-      candidate.compressor.quantity * model::LargestCurrent(curve, ambient_pa, point.source_pa);
+  evaluation.energy_first_fill_j = FirstFill(problem, curve, point);
+  evaluation.air_total_m3 += point.reservoir_rising_m3 * (point.source_pa - ambient_pa) *
+                             model::StandardVolume(1.0, problem.ambient.temperature_k);
+  evaluation.battery_current_a += static_cast<double>(candidate.compressor.quantity) *
+                                  LargestCurrent(curve, ambient_pa, point.source_pa);
 }
 
+template <class T>
 void AddBattery(const Problem& problem, const Candidate& candidate, double coil_power_w,
-                Evaluation& evaluation) {
+                EvaluationOf<T>& evaluation) {
   evaluation.energy_available_j = kUnlimited;
   if (candidate.battery.index == kNone) return;
   const model::Battery& battery = problem.parts.batteries[candidate.battery.index];
@@ -80,59 +108,6 @@ void AddBattery(const Problem& problem, const Candidate& candidate, double coil_
       candidate.battery.quantity *
       model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v);
   evaluation.battery_current_a += coil_power_w / battery.nominal_voltage_v;
-}
-
-std::string Pointer(int group, const char* field) {
-  return "/actuators/" + std::to_string(group) + "/" + field;
-}
-
-Margin AtMost(std::string pointer, double limit, double achieved) {
-  return {std::move(pointer), limit, achieved, (limit - achieved) / limit};
-}
-
-Margin AtLeast(std::string pointer, double limit, double achieved) {
-  return {std::move(pointer), limit, achieved, achieved / limit - 1.0};
-}
-
-// Every margin but the strokes'.
-std::vector<Margin> SupplyMargins(const Problem& problem, const Candidate& candidate,
-                                  const OperatingPoint& point, const Evaluation& evaluation) {
-  std::vector<Margin> margins;
-  const double ambient_pa = problem.ambient.pressure_pa;
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    const ActuatorGroup& group = problem.groups[g];
-    const double highest_pa =
-        std::max(evaluation.groups[g].highest_pressure_pa,
-                 candidate.lines[g]->holds ? group.chamber.operating_pressure_pa : point.source_pa);
-    margins.push_back(AtMost(Pointer(g, "pressure_kpa_gauge_max"),
-                             (group.pressure_max_pa - ambient_pa) / kPaPerKpa,
-                             (highest_pa - ambient_pa) / kPaPerKpa));
-    if (std::isfinite(group.fall_time_max_s))
-      margins.push_back(AtMost(Pointer(g, "fall_time_s_max"), group.fall_time_max_s,
-                               evaluation.groups[g].fall_time_s));
-  }
-  margins.push_back(
-      AtLeast("/duty/frequency_hz", problem.frequency_hz, evaluation.frequency_sustained_hz));
-  const double actuations =
-      std::min(evaluation.air_available_m3 / evaluation.air_per_cycle_m3,
-               evaluation.energy_per_cycle_j > 0.0
-                   ? (evaluation.energy_available_j - evaluation.energy_first_fill_j) /
-                         evaluation.energy_per_cycle_j
-                   : kUnlimited);
-  if (std::isfinite(actuations))
-    margins.push_back(AtLeast("/duty/actuations", problem.actuations, actuations));
-  if (std::isfinite(problem.source_pressure_max_pa))
-    margins.push_back(AtMost("/supply/source_pressure_kpa_gauge_max",
-                             (problem.source_pressure_max_pa - ambient_pa) / kPaPerKpa,
-                             (point.source_pa - ambient_pa) / kPaPerKpa));
-  const Amounts total = TotalAmounts(problem, candidate, point.reservoir_m3);
-  if (std::isfinite(problem.mass_max_kg))
-    margins.push_back(AtMost("/supply/mass_kg_max", problem.mass_max_kg, total.mass_kg));
-  if (std::isfinite(problem.volume_max_l))
-    margins.push_back(AtMost("/supply/volume_l_max", problem.volume_max_l, total.volume_m3 * 1e3));
-  if (std::isfinite(problem.cost_max_eur))
-    margins.push_back(AtMost("/supply/cost_eur_max", problem.cost_max_eur, total.cost_eur));
-  return margins;
 }
 
 }  // namespace
@@ -181,18 +156,29 @@ Amounts CustomReservoir(const Problem& problem, double volume_m3) {
   return {made.mass_kg, made.body_volume_m3, 0.0};
 }
 
-Amounts TotalAmounts(const Problem& problem, const Candidate& candidate, double reservoir_m3) {
-  Amounts total;
+template <class T>
+AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
+                          const T& reservoir_m3) {
+  AmountsOf<T> total;
   for (const Line* line : candidate.lines) total += line->amounts;
   for (const Option* option : {&candidate.regulator, &candidate.bottle, &candidate.compressor,
                                &candidate.battery, &candidate.reservoir})
     total += option->amounts;
-  if (candidate.reservoir.index == kCustom) total += CustomReservoir(problem, reservoir_m3);
+  if (candidate.reservoir.index != kCustom) return total;
+  // Made to measure, all of it is linear in the volume.
+  const double volume_m3 = model::ValueOf(reservoir_m3);
+  const Amounts made = CustomReservoir(problem, volume_m3);
+  const Amounts none = CustomReservoir(problem, 0.0);
+  const auto grown = [&](double here, double fixed) {
+    return model::Chain(reservoir_m3, here, (here - fixed) / volume_m3);
+  };
+  total += AmountsOf<T>{grown(made.mass_kg, none.mass_kg), grown(made.volume_m3, none.volume_m3)};
   return total;
 }
 
-double ObjectiveValue(const Problem& problem, const Candidate& candidate,
-                      const OperatingPoint& point, const Evaluation& evaluation) {
+template <class T>
+T ObjectiveValue(const Problem& problem, const Candidate& candidate,
+                 const OperatingPointOf<T>& point, const EvaluationOf<T>& evaluation) {
   constexpr double kJoulePerWattHour = 3600.0;
   return ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, point.reservoir_m3)) +
          problem.objective.energy_wh * evaluation.energy_total_j / kJoulePerWattHour;
@@ -204,32 +190,34 @@ Evaluation Evaluate(const Problem& problem, const Candidate& candidate, const Op
                       options);
 }
 
-Evaluation EvaluateWith(const Strokes& strokes, const Problem& problem, const Candidate& candidate,
-                        const OperatingPoint& point, const EvaluateOptions& options) {
-  Evaluation evaluation;
+template <class T>
+EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem,
+                             const Candidate& candidate, const OperatingPointOf<T>& point,
+                             const EvaluateOptions& options) {
+  EvaluationOf<T> evaluation;
   evaluation.failed = strokes.failed;
   if (!strokes.works) return evaluation;
   evaluation.works = true;
   evaluation.from_full = strokes.from_full;
 
   const bool revised = HasEffects(problem);
-  evaluation.air_per_cycle_m3 = revised ? strokes.air_m3 : 0.0;
+  evaluation.air_per_cycle_m3 = T(revised ? strokes.air_m3 : 0.0);
   double coil_power_w = 0.0;
-  double slowest_s = 0.0;
+  T slowest_s = T(0.0);
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const Line& line = *candidate.lines[g];
-    const double rise_s = strokes.rise_s[g];
-    const double inflate_s = strokes.inflate_s[g];
+    const T rise_s = strokes.rise_s[g];
+    const T inflate_s = strokes.inflate_s[g];
     const double fall_s = revised ? strokes.fall_s[g] : line.fall_time_s;
-    evaluation.groups.push_back({rise_s, fall_s, inflate_s, 1.0 / (rise_s + fall_s),
-                                 revised ? strokes.highest_pa[g] : 0.0});
-    evaluation.air_per_cycle_m3 += revised ? 0.0 : AirPerStroke(problem, g, line, point.source_pa);
+    evaluation.groups.push_back({rise_s, T(fall_s), inflate_s, 1.0 / (rise_s + fall_s),
+                                 T(revised ? strokes.highest_pa[g] : 0.0)});
+    if (!revised) evaluation.air_per_cycle_m3 += AirPerStroke(problem, g, line, point.source_pa);
     evaluation.energy_coils_j +=
         problem.actuations *
         CoilEnergyPerCycle(problem, line,
-                           options.least_coil_energy ? line.inflate_time_least_s : inflate_s);
+                           options.least_coil_energy ? T(line.inflate_time_least_s) : inflate_s);
     coil_power_w += line.coil_power_w;
-    slowest_s = std::max({slowest_s, inflate_s, fall_s});
+    slowest_s = std::max({slowest_s, inflate_s, T(fall_s)});
   }
   evaluation.air_total_m3 = problem.actuations * evaluation.air_per_cycle_m3;
   evaluation.energy_per_cycle_j = evaluation.energy_coils_j / problem.actuations;
@@ -239,54 +227,26 @@ Evaluation EvaluateWith(const Strokes& strokes, const Problem& problem, const Ca
     coil_power_w += power_w;
   }
   if (candidate.compressor.index != kNone) AddPump(problem, candidate, point, strokes, evaluation);
-  evaluation.air_available_m3 = AirAvailable(problem, candidate, point.source_pa);
+  evaluation.air_available_m3 = AirAvailable(problem, candidate, model::ValueOf(point.source_pa));
   AddBattery(problem, candidate, coil_power_w, evaluation);
   evaluation.energy_total_j =
       evaluation.energy_first_fill_j + problem.actuations * evaluation.energy_per_cycle_j;
   evaluation.frequency_sustained_hz =
-      std::min(SourceFrequency(problem, candidate, evaluation), 0.5 / slowest_s);
+      std::min(SourceFrequency(problem, candidate, evaluation), T(0.5 / slowest_s));
   return evaluation;
 }
 
-std::vector<Margin> Margins(const Problem& problem, const Candidate& candidate,
-                            const OperatingPoint& point, const Evaluation& evaluation) {
-  std::vector<Margin> margins;
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
-    if (std::isfinite(problem.groups[g].rise_time_max_s))
-      margins.push_back(AtMost(Pointer(g, "rise_time_s_max"), problem.groups[g].rise_time_max_s,
-                               evaluation.groups[g].rise_time_s));
-  for (Margin& margin : SupplyMargins(problem, candidate, point, evaluation))
-    margins.push_back(std::move(margin));
-  return margins;
-}
-
-double StrokeExcess(const Problem& problem, const Evaluation& evaluation) {
-  if (!evaluation.works) return kUnlimited;
-  double excess = -kUnlimited;
-  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
-    const GroupPerformance& group = evaluation.groups[g];
-    excess = std::max(excess, group.inflate_time_s / HalfPeriod(problem) - 1.0);
-    if (std::isfinite(problem.groups[g].rise_time_max_s))
-      excess = std::max(excess, group.rise_time_s / problem.groups[g].rise_time_max_s - 1.0);
-  }
-  return excess;
-}
-
-double CurrentMargin(const Problem& problem, const Candidate& candidate,
-                     const Evaluation& evaluation) {
-  if (candidate.battery.index == kNone) return kUnlimited;
-  const double current_max_a =
-      candidate.battery.quantity * problem.parts.batteries[candidate.battery.index].current_max_a;
-  return 1.0 - evaluation.battery_current_a / current_max_a;
-}
-
-double SupplyMargin(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
-                    const Evaluation& evaluation) {
-  if (!evaluation.works) return -kUnlimited;
-  double smallest = kUnlimited;
-  for (const Margin& margin : SupplyMargins(problem, candidate, point, evaluation))
-    smallest = std::min(smallest, margin.relative_margin);
-  return std::min(smallest, CurrentMargin(problem, candidate, evaluation));
-}
+template Amounts TotalAmounts(const Problem&, const Candidate&, const double&);
+template Evaluation EvaluateWith(const Strokes&, const Problem&, const Candidate&,
+                                 const OperatingPoint&, const EvaluateOptions&);
+template double ObjectiveValue(const Problem&, const Candidate&, const OperatingPoint&,
+                               const Evaluation&);
+template EvaluationOf<model::Dual> EvaluateWith(const StrokesOf<model::Dual>&, const Problem&,
+                                                const Candidate&,
+                                                const OperatingPointOf<model::Dual>&,
+                                                const EvaluateOptions&);
+template model::Dual ObjectiveValue(const Problem&, const Candidate&,
+                                    const OperatingPointOf<model::Dual>&,
+                                    const EvaluationOf<model::Dual>&);
 
 }  // namespace plenum::optimizer

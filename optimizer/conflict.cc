@@ -78,8 +78,9 @@ std::optional<double> Best(const Problem& problem, const Requirement& requiremen
       if (answer.designs.empty()) continue;
       const Totals& totals = answer.designs.front().totals;
       if (requirement.objective->cost_eur > 0.0 && !totals.cost_eur) continue;
-      const double amount = ObjectiveOf(*requirement.objective, {totals.mass_kg, totals.volume_m3,
-                                                                 totals.cost_eur.value_or(0.0)});
+      const double amount =
+          ObjectiveOf(*requirement.objective,
+                      Amounts{totals.mass_kg, totals.volume_m3, totals.cost_eur.value_or(0.0)});
       best = std::min(best.value_or(kUnlimited), amount);
     }
     return best;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "model/storage.h"
-#include "optimizer/nlp.h"
 #include "optimizer/root.h"
+#include "optimizer/sizing_program.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -204,34 +204,11 @@ bool CustomSizing::Offer(double volume_m3) {
 
 // From a volume that works Ipopt finds the best pair of pressure and volume near it.
 void CustomSizing::Polish() {
-  const Window window = SourceWindow(problem_, candidate_);
-  const double volume_m3 = leaf_.point.reservoir_m3;
-  const double scale = std::abs(leaf_.objective);
-  const auto point_at = [&](const std::vector<double>& x) {
-    const double volume = x[1] * volume_m3;
-    return OperatingPoint{window.low_pa + x[0] * (window.high_pa - window.low_pa), volume, volume};
-  };
-  Nlp nlp;
-  nlp.low = {0.0, std::max(0.9, model::kMadeReservoirSmallestM3 / volume_m3)};
-  nlp.high = {1.0, std::min(1.1, model::kMadeReservoirLargestM3 / volume_m3)};
-  if (!(window.high_pa > window.low_pa) || !(nlp.low[1] < 1.0)) return;
-  nlp.start = {(leaf_.point.source_pa - window.low_pa) / (window.high_pa - window.low_pa), 1.0};
-  const Evaluation start = Evaluate(problem_, candidate_, leaf_.point);
-  if (!start.works) return;  // the time is up: there are no margins to count
-  nlp.constraints =
-      static_cast<int>(SolverMargins(problem_, candidate_, leaf_.point, start).size());
-  nlp.evaluate = [&](const std::vector<double>& x, NlpValues& values) {
-    const OperatingPoint point = point_at(x);
-    const Evaluation evaluation = Evaluate(problem_, candidate_, point);
-    if (!evaluation.works) return false;
-    values.objective = ObjectiveValue(problem_, candidate_, point, evaluation) / scale;
-    values.constraints = SolverMargins(problem_, candidate_, point, evaluation);
-    return true;
-  };
-  nlp.stop = [&] { return candidate_.stopped(); };
-  const NlpResult result = SolveWithIpopt(nlp);
+  const std::optional<SizingProgram> program = SizingProgram::At(problem_, candidate_, leaf_.point);
+  if (!program) return;
+  const NlpResult result = SolveWithIpopt(program->MakeNlp());
   if (result.status != NlpStatus::kSolved) return;
-  Offer(ALittleMore(point_at(result.x).reservoir_m3));
+  Offer(ALittleMore(program->PointOf(result.x).reservoir_m3));
 }
 
 }  // namespace plenum::optimizer

@@ -5,6 +5,7 @@
 
 #include "model/periodic.h"
 #include "model/reservoir_stroke.h"
+#include "model/scalar.h"
 #include "model/stroke.h"
 #include "optimizer/effect_strokes.h"
 
@@ -14,7 +15,7 @@ namespace {
 constexpr double kPeriodicTolerance = 1e-7;
 // Closer to equal pressures than the simulator's default, so that a source at the operating
 // pressure fills up to it, as the closed forms say.
-constexpr double kLinearRatio = 1.0 - 1e-5;
+constexpr double kLinearRatio = 1.0 - 1e-7;
 
 bool Regulated(Configuration configuration) { return configuration != Configuration::kCompressor; }
 
@@ -70,28 +71,6 @@ double RiseLimit(const Problem& problem, int g) {
 
 enum class Alone { kYes, kNo, kTooSlow };
 
-// Delivery just below the pressure at which a pump stops.
-double LastDelivery(const model::CompressorCurve& curve, double stop_pa) {
-  return std::max(0.0, curve.free_air_m3_per_s(std::min(stop_pa, model::HighestPressure(curve))));
-}
-
-// A valve that cannot hold leaves its actuators on the source, which fills them from p_op up to the
-// stop pressure. Counted as pumped at the stop pressure, the most that it can take.
-void AddHeldAir(const Problem& problem, const Candidate& candidate, double stop_pa, int g,
-                Strokes& strokes) {
-  const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
-  const model::Chamber& chamber = candidate.lines[g]->chamber;
-  const double content =
-      model::Content(chamber, stop_pa) - model::Content(chamber, chamber.operating_pressure_pa);
-  const double air_m3 =
-      problem.groups[g].count * model::StandardVolume(content, problem.ambient.temperature_k);
-  const double seconds = air_m3 / (candidate.compressor.quantity * LastDelivery(curve, stop_pa));
-  strokes.pump_on_s += seconds;
-  strokes.pump_energy_j +=
-      seconds * candidate.compressor.quantity * model::ElectricalPower(curve, stop_pa);
-  strokes.pump_air_m3 += air_m3;
-}
-
 // Stroke of one group alone on the full reservoir, if that is the whole story: the reservoir is
 // full again before another group's stroke, `time_s` later. A single group's own next stroke may
 // come too early: the running time then exceeds the period, and the duty refuses this stop
@@ -129,6 +108,33 @@ Strokes EmptyStrokes(const Problem& problem) {
 }
 
 }  // namespace
+
+template <class T>
+void AddHeldAir(const Problem& problem, const Candidate& candidate, const T& stop_pa, int g,
+                StrokesOf<T>& strokes) {
+  const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
+  const model::Chamber& chamber = candidate.lines[g]->chamber;
+  const double stop = model::ValueOf(stop_pa);
+  const T full =
+      model::Chain(stop_pa, model::Content(chamber, stop), model::ContentSlope(chamber, stop));
+  const T air_m3 = problem.groups[g].count *
+                   model::StandardVolume(1.0, problem.ambient.temperature_k) *
+                   (full - model::Content(chamber, chamber.operating_pressure_pa));
+  // Just below the pressure at which the pumps stop.
+  const T last_pa = std::min(stop_pa, T(model::HighestPressure(curve)));
+  const T delivery = std::max(T(0.0), model::CurveAt(curve.free_air_m3_per_s, last_pa));
+  const bool drawn =
+      !curve.current_a.empty() && stop > curve.current_a.front() && stop < curve.current_a.back();
+  const T power_w = model::Chain(stop_pa, model::ElectricalPower(curve, stop),
+                                 drawn ? curve.voltage_v * curve.current_a.Slope(stop) : 0.0);
+  const T seconds = air_m3 / (static_cast<double>(candidate.compressor.quantity) * delivery);
+  strokes.pump_on_s += seconds;
+  strokes.pump_energy_j += seconds * static_cast<double>(candidate.compressor.quantity) * power_w;
+  strokes.pump_air_m3 += air_m3;
+}
+template void AddHeldAir(const Problem&, const Candidate&, const double&, int, Strokes&);
+template void AddHeldAir(const Problem&, const Candidate&, const model::Dual&, int,
+                         StrokesOf<model::Dual>&);
 
 model::Gas GasOf(Configuration configuration) {
   return configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
@@ -214,13 +220,10 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
   return rig;
 }
 
-namespace {
-
-// Every stroke begins at ambient, as its rise time is defined, also where the fall only just meets
-// its target within half of the period. How fast a chamber empties is nothing to the source.
-void EmptyInTime(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
-                 model::Rig& rig) {
+model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
+                           const OperatingPoint& point) {
   constexpr double kWithin = 0.9;  // of half of the period
+  model::Rig rig = MakeRig(problem, candidate, point);
   const double factor = FlowFactor(problem, GasOf(candidate.configuration));
   for (std::size_t g = 0; g < rig.groups.size(); ++g) {
     const Line& line = *candidate.lines[g];
@@ -232,20 +235,23 @@ void EmptyInTime(const Problem& problem, const Candidate& candidate, const Opera
     for (model::FlowElement& element : rig.groups[g].exhaust)
       element.sonic_conductance_m3_per_s_pa *= wider;
   }
+  return rig;
 }
 
-}  // namespace
+model::SimulateOptions StrokeOptions(const Problem& problem) {
+  model::SimulateOptions options;
+  options.rise_fraction = problem.rise_fraction;
+  options.fall_fraction = problem.fall_fraction;
+  options.linear_ratio = kLinearRatio;
+  return options;
+}
 
 Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
   if (HasEffects(problem)) return SimulateWithEffects(problem, candidate, point);
   Strokes strokes = EmptyStrokes(problem);
-  model::Rig rig = MakeRig(problem, candidate, point);
-  EmptyInTime(problem, candidate, point, rig);
-  model::SimulateOptions options;
-  options.rise_fraction = problem.rise_fraction;
-  options.fall_fraction = problem.fall_fraction;
-  options.linear_ratio = kLinearRatio;
+  const model::Rig rig = MakePeriodicRig(problem, candidate, point);
+  model::SimulateOptions options = StrokeOptions(problem);
   const Workbench own;
   const Workbench& bench = candidate.bench != nullptr ? *candidate.bench : own;
   options.cancelled = bench.stop;

@@ -9,20 +9,29 @@
 
 namespace plenum::optimizer {
 
-struct Strokes {
+template <class T>
+struct StrokesOf {
   bool works = false;
-  bool failed = false;                    // the simulator gave up or was stopped: nothing is known
-  std::vector<double> rise_s, inflate_s;  // per group, worst of the cycle
-  double pump_on_s = 0.0;                 // per cycle
-  double pump_energy_j = 0.0;             // per cycle, all pumps
-  double pump_air_m3 = 0.0;               // the same, ANR; not known with effects
-  bool from_full = false;                 // no two groups meet, and each finds the reservoir full
+  bool failed = false;               // the simulator gave up or was stopped: nothing is known
+  std::vector<T> rise_s, inflate_s;  // per group, worst of the cycle
+  T pump_on_s = T(0.0);              // per cycle
+  T pump_energy_j = T(0.0);          // per cycle, all pumps
+  T pump_air_m3 = T(0.0);            // the same, ANR; not known with effects
+  bool from_full = false;            // no two groups meet, and each finds the reservoir full
   // With effects only; without them the line knows.
   std::vector<double> fall_s, highest_pa;  // per group
   double air_m3 = 0.0;                     // ANR, per cycle, all actuators
 };
+using Strokes = StrokesOf<double>;
 
 model::Gas GasOf(Configuration configuration);
+
+// Adds what a valve that cannot hold lets through: its actuators stay on the source, which fills
+// them from p_op up to the stop pressure. Counted as pumped at the stop pressure, the most that it
+// can take.
+template <class T>
+void AddHeldAir(const Problem& problem, const Candidate& candidate, const T& stop_pa, int group,
+                StrokesOf<T>& strokes);
 
 // `works` is false where a pressure is never reached, and where a bound shows that a limit on a
 // rise time is missed. One quadrature or one small integration per group where groups do not meet
@@ -44,6 +53,13 @@ Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
 // The candidate as a rig for the simulator, with the commands of one cycle: actuators at rest and a
 // full reservoir.
 model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
+
+// The same, where every stroke begins at ambient, as its rise time is defined, also where the fall
+// only just meets its target within half of the period. How fast a chamber empties is nothing to
+// the source.
+model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
+                           const OperatingPoint& point);
+model::SimulateOptions StrokeOptions(const Problem& problem);
 
 }  // namespace plenum::optimizer
 

@@ -5,8 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "optimizer/box.h"
-#include "optimizer/custom_sizing.h"
+#include "optimizer/leaf_sizing.h"
 #include "optimizer/queue.h"
 #include "optimizer/report.h"
 
@@ -116,36 +115,27 @@ class Walker {
   }
 
   void Divide(const Node& node) {
-    const int slot = node.bounds->WidestSlot(node.box);
-    const BoxNode& divided = (*node.bounds->plan().slots[slot].nodes)[node.box.nodes[slot]];
-    for (int child : {divided.left, divided.right}) {
+    Halves halves = optimizer::Divide(*node.bounds, node.box);
+    for (Box& half : halves.boxes) {
       auto part = std::make_unique<Node>();
       part->bounds = node.bounds;
-      part->box = node.box;
-      part->box.nodes[slot] = child;
+      part->box = std::move(half);
       part->depth = node.depth + 1;
-      const Constraint missed = part->bounds->Assess(part->box, slot);
+      const Constraint missed = part->bounds->Assess(part->box, halves.slot);
       Keep(std::move(part), missed);
     }
   }
 
   void Size(NodePtr node) {
     const Candidate candidate = node->bounds->CandidateOf(node->box);
-    Leaf leaf;
-    if (candidate.reservoir.index == kCustom) {
-      if (!node->sizing)
-        node->sizing = std::make_unique<CustomSizing>(problem_, candidate, NeedsOf(node->box));
-      if (!node->sizing->Refine()) {
-        node->box.bound = std::max(node->box.bound, node->sizing->leaf().lower_bound);
-        const double bound = node->box.bound;
-        Push(std::move(node), bound);
-        return;
-      }
-      leaf = node->sizing->leaf();
-      node->sizing.reset();
-    } else {
-      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate));
+    const std::optional<Leaf> sized = SizeLeaf(problem_, candidate, node->box, node->sizing);
+    if (!sized) {
+      const double bound = node->box.bound;
+      Push(std::move(node), bound);
+      return;
     }
+    node->sizing.reset();
+    const Leaf leaf = *sized;
     const double bound = std::max(node->box.bound, leaf.lower_bound);
     if (leaf.status == LeafStatus::kUndecided && Stopped()) {
       Push(std::move(node), bound);

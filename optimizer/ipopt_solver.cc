@@ -106,7 +106,7 @@ class IpoptProblem : public Ipopt::TNLP {
 
   bool UpdateDerivatives(int n, const double* x) {
     if (!UpdateValues(n, x)) return false;
-    if (!differentiated_) differentiated_ = Differentiate(nlp_, point_, at_);
+    if (!differentiated_) differentiated_ = nlp_.differentiate(point_, at_);
     return differentiated_;
   }
 

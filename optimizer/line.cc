@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "model/scalar.h"
+
 namespace plenum::optimizer {
 
 namespace {
@@ -22,21 +24,9 @@ bool PartsMate(const Problem& problem, const Line& line) {
          fitting.thread == problem.parts.valves[line.valve].port;
 }
 
-Amounts& Amounts::operator+=(const Amounts& other) {
-  mass_kg += other.mass_kg;
-  volume_m3 += other.volume_m3;
-  cost_eur += other.cost_eur;
-  return *this;
-}
-
 Amounts operator*(double quantity, const model::PartBasics& basics) {
   return {quantity * basics.mass_kg, quantity * basics.body_volume_m3,
           quantity * basics.cost_eur.value_or(0.0)};
-}
-
-double ObjectiveOf(const Objective& objective, const Amounts& amounts) {
-  return objective.mass_kg * amounts.mass_kg + objective.volume_l * amounts.volume_m3 * 1e3 +
-         objective.cost_eur * amounts.cost_eur;
 }
 
 bool CostMatters(const Problem& problem) {
@@ -58,17 +48,19 @@ double FlowFactor(const Problem& problem, model::Gas gas) {
          std::sqrt(model::kReferenceTemperatureK / problem.ambient.temperature_k);
 }
 
-double AirPerStroke(const Problem& problem, int group, const Line& line, double source_pa) {
+template <class T>
+T AirPerStroke(const Problem& problem, int group, const Line& line, const T& source_pa) {
   const ActuatorGroup& actuators = problem.groups[group];
-  const double full_pa = line.holds ? actuators.chamber.operating_pressure_pa : source_pa;
-  const double content = model::Content(line.chamber, full_pa) -
-                         model::Content(line.chamber, problem.ambient.pressure_pa);
-  return actuators.count * model::StandardVolume(content, problem.ambient.temperature_k);
+  const T full_pa = line.holds ? T(actuators.chamber.operating_pressure_pa) : source_pa;
+  const double value_pa = model::ValueOf(full_pa);
+  const T full = model::Chain(full_pa, model::Content(line.chamber, value_pa),
+                              model::ContentSlope(line.chamber, value_pa));
+  const T content = full - model::Content(line.chamber, problem.ambient.pressure_pa);
+  return static_cast<double>(actuators.count) * content *
+         model::StandardVolume(1.0, problem.ambient.temperature_k);
 }
 
-double CoilEnergyPerCycle(const Problem& problem, const Line& line, double inflate_time_s) {
-  const double on_s = HalfPeriod(problem) + (line.holds ? inflate_time_s : 0.0);
-  return line.coil_power_w * on_s;
-}
+template double AirPerStroke(const Problem&, int, const Line&, const double&);
+template model::Dual AirPerStroke(const Problem&, int, const Line&, const model::Dual&);
 
 }  // namespace plenum::optimizer

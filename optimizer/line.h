@@ -14,14 +14,26 @@ namespace plenum::optimizer {
 
 // Sums of a set of parts. Cost is meaningful only where every part has a price; a part without one
 // drops out before it is summed when cost matters.
-struct Amounts {
-  double mass_kg = 0.0, volume_m3 = 0.0, cost_eur = 0.0;
-  Amounts& operator+=(const Amounts& other);
+template <class T>
+struct AmountsOf {
+  T mass_kg = T(0.0), volume_m3 = T(0.0), cost_eur = T(0.0);
+  template <class U>
+  AmountsOf& operator+=(const AmountsOf<U>& other) {
+    mass_kg += other.mass_kg;
+    volume_m3 += other.volume_m3;
+    cost_eur += other.cost_eur;
+    return *this;
+  }
 };
+using Amounts = AmountsOf<double>;
 Amounts operator*(double quantity, const model::PartBasics& basics);
 
 // Weighted objective of parts alone (energy comes on top).
-double ObjectiveOf(const Objective& objective, const Amounts& amounts);
+template <class T>
+T ObjectiveOf(const Objective& objective, const AmountsOf<T>& amounts) {
+  return objective.mass_kg * amounts.mass_kg + objective.volume_l * amounts.volume_m3 * 1e3 +
+         objective.cost_eur * amounts.cost_eur;
+}
 bool CostMatters(const Problem& problem);
 
 struct Line {
@@ -66,11 +78,16 @@ double FlowFactor(const Problem& problem, model::Gas gas);
 
 // Air that one actuation of the whole group takes, m³ ANR. A valve that holds closes at p_op; one
 // that cannot leaves the actuator on the source, which fills it up to `source_pa`.
-double AirPerStroke(const Problem& problem, int group, const Line& line, double source_pa);
+template <class T>
+T AirPerStroke(const Problem& problem, int group, const Line& line, const T& source_pa);
 
 // Coil energy of one cycle of the whole group, J: a 3/2 is energised for half of the period, a pair
 // or a proportional valve while it inflates and while it vents.
-double CoilEnergyPerCycle(const Problem& problem, const Line& line, double inflate_time_s);
+template <class T>
+T CoilEnergyPerCycle(const Problem& problem, const Line& line, const T& inflate_time_s) {
+  const T on_s = HalfPeriod(problem) + (line.holds ? inflate_time_s : T(0.0));
+  return line.coil_power_w * on_s;
+}
 
 }  // namespace plenum::optimizer
 

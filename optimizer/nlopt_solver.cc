@@ -14,40 +14,48 @@ struct Callback {
   nlopt_opt solver;
 };
 
-NlpDerivatives At(Callback& callback, unsigned n, const double* x) {
-  NlpDerivatives at;
+// Where the program is not defined, or is told to stop, the solver ends and the numbers are void.
+bool Defined(Callback& callback, const std::vector<double>& x, NlpValues& values,
+             NlpDerivatives* derivatives) {
   ++callback.result->evaluations;
-  const bool stopped = callback.nlp->stop && callback.nlp->stop();
-  if (stopped || !Differentiate(*callback.nlp, {x, x + n}, at)) {
-    nlopt_force_stop(callback.solver);
-    at.values.objective = 0.0;
-    at.values.constraints.assign(callback.nlp->constraints, 0.0);
-    at.gradient.assign(n, 0.0);
-    at.jacobian.assign(callback.nlp->constraints, std::vector<double>(n, 0.0));
-  }
-  return at;
+  const Nlp& nlp = *callback.nlp;
+  const bool stopped = nlp.stop && nlp.stop();
+  if (!stopped && nlp.evaluate(x, values) &&
+      (derivatives == nullptr || nlp.differentiate(x, *derivatives)))
+    return true;
+  nlopt_force_stop(callback.solver);
+  return false;
 }
 
 double ObjectiveCallback(unsigned n, const double* x, double* gradient, void* data) {
-  const NlpDerivatives at = At(*static_cast<Callback*>(data), n, x);
+  NlpValues values;
+  NlpDerivatives at;
+  if (!Defined(*static_cast<Callback*>(data), {x, x + n}, values, gradient ? &at : nullptr))
+    at.gradient.assign(n, 0.0);
   if (gradient != nullptr) std::copy_n(at.gradient.begin(), n, gradient);
-  return at.values.objective;
+  return values.objective;
 }
 
 // NLopt wants g(x) ≤ 0.
 void ConstraintCallback(unsigned m, double* values, unsigned n, const double* x, double* gradient,
                         void* data) {
-  const NlpDerivatives at = At(*static_cast<Callback*>(data), n, x);
+  NlpValues at;
+  NlpDerivatives slopes;
+  if (!Defined(*static_cast<Callback*>(data), {x, x + n}, at, gradient ? &slopes : nullptr)) {
+    at.constraints.assign(m, 0.0);
+    slopes.jacobian.assign(m, std::vector<double>(n, 0.0));
+  }
   for (unsigned c = 0; c < m; ++c) {
-    values[c] = -at.values.constraints[c];
+    values[c] = -at.constraints[c];
     if (gradient == nullptr) continue;
-    for (unsigned i = 0; i < n; ++i) gradient[c * n + i] = -at.jacobian[c][i];
+    for (unsigned i = 0; i < n; ++i) gradient[c * n + i] = -slopes.jacobian[c][i];
   }
 }
 
 }  // namespace
 
 NlpResult SolveWithNlopt(const Nlp& nlp) {
+  constexpr double kMissed = -1e-6;  // of a constraint
   NlpResult result;
   const unsigned n = static_cast<unsigned>(nlp.low.size());
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> solver(
@@ -71,6 +79,12 @@ NlpResult SolveWithNlopt(const Nlp& nlp) {
                   : status == NLOPT_MAXEVAL_REACHED || status == NLOPT_ROUNDOFF_LIMITED
                       ? NlpStatus::kNotConverged
                       : NlpStatus::kFailed;
+  // A step that has become short is a success to it, feasible or not.
+  NlpValues end;
+  if (result.status == NlpStatus::kSolved &&
+      (!nlp.evaluate(result.x, end) || std::any_of(end.constraints.begin(), end.constraints.end(),
+                                                   [](double value) { return value < kMissed; })))
+    result.status = NlpStatus::kNotConverged;
   return result;
 }
 

@@ -17,11 +17,18 @@ struct NlpValues {
   std::vector<double> constraints;
 };
 
+struct NlpDerivatives {
+  std::vector<double> gradient;               // n
+  std::vector<std::vector<double>> jacobian;  // constraints × n
+};
+
 struct Nlp {
   std::vector<double> low, high, start;  // finite; scaled to about 1 by the caller
   int constraints = 0;
   // False where the model is not defined at x; the solver then shortens its step.
   std::function<bool(const std::vector<double>& x, NlpValues& values)> evaluate;
+  // First derivatives, exact.
+  std::function<bool(const std::vector<double>& x, NlpDerivatives& derivatives)> differentiate;
   std::function<bool()> stop;  // asked at every point; may be empty
 };
 
@@ -34,16 +41,8 @@ struct NlpResult {
   int evaluations = 0;
 };
 
-NlpResult SolveWithIpopt(const Nlp& nlp);  // interior point, BFGS for the Hessian
+NlpResult SolveWithIpopt(const Nlp& nlp);  // interior point, limited-memory BFGS for the Hessian
 NlpResult SolveWithNlopt(const Nlp& nlp);  // SLSQP
-
-// f, g and their central differences at x, step 1e-6 inside the bounds (one-sided at a bound).
-struct NlpDerivatives {
-  NlpValues values;
-  std::vector<double> gradient;               // n
-  std::vector<std::vector<double>> jacobian;  // constraints × n
-};
-bool Differentiate(const Nlp& nlp, const std::vector<double>& x, NlpDerivatives& derivatives);
 
 }  // namespace plenum::optimizer
 

@@ -62,7 +62,8 @@ double Resolution(const Problem& problem, const std::vector<Amount>& amounts) {
 }
 
 double ObjectiveOfTotals(const Objective& objective, const Totals& totals) {
-  return ObjectiveOf(objective, {totals.mass_kg, totals.volume_m3, totals.cost_eur.value_or(0.0)}) +
+  return ObjectiveOf(objective,
+                     Amounts{totals.mass_kg, totals.volume_m3, totals.cost_eur.value_or(0.0)}) +
          objective.energy_wh * totals.energy_j / kJoulePerWattHour;
 }
 

@@ -132,12 +132,15 @@ struct Totals {
   double energy_j = 0.0;
 };
 
-struct GroupPerformance {
-  double rise_time_s = 0.0, fall_time_s = 0.0;
-  double inflate_time_s = 0.0;  // to the operating pressure
-  double frequency_max_hz = 0.0;
-  double highest_pressure_pa = 0.0;  // of the periodic state; 0: that at which the valve closes
+// T here and below: double, or a dual number that carries derivatives (model/scalar.h).
+template <class T>
+struct GroupPerformanceOf {
+  T rise_time_s = T(0.0), fall_time_s = T(0.0);
+  T inflate_time_s = T(0.0);  // to the operating pressure
+  T frequency_max_hz = T(0.0);
+  T highest_pressure_pa = T(0.0);  // of the periodic state; 0: that at which the valve closes
 };
+using GroupPerformance = GroupPerformanceOf<double>;
 
 struct Performance {
   std::vector<GroupPerformance> groups;
@@ -147,11 +150,14 @@ struct Performance {
   double run_time_s = 0.0;
 };
 
-struct Margin {
-  std::string requirement;                // JSON pointer into the requirements
-  double required = 0.0, achieved = 0.0;  // in the units of the requirement's field
-  double relative_margin = 0.0;           // ≥ 0: met
+template <class T>
+struct MarginOf {
+  std::string requirement;  // JSON pointer into the requirements
+  double required = 0.0;    // in the units of the requirement's field
+  T achieved = T(0.0);
+  T relative_margin = T(0.0);  // ≥ 0: met
 };
+using Margin = MarginOf<double>;
 
 struct Design {
   Configuration configuration;

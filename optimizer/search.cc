@@ -12,9 +12,9 @@
 #include <queue>
 
 #include "optimizer/conflict.h"
-#include "optimizer/custom_sizing.h"
 #include "optimizer/dive.h"
 #include "optimizer/effect_strokes.h"
+#include "optimizer/leaf_sizing.h"
 #include "optimizer/problem.h"
 #include "optimizer/queue.h"
 #include "optimizer/ranking.h"
@@ -189,18 +189,15 @@ class BoxSearch {
   }
 
   void Divide(Node& node) {
-    const int slot = node.bounds->WidestSlot(node.box);
-    const std::vector<BoxNode>& tree = *node.bounds->plan().slots[slot].nodes;
-    const BoxNode& divided = tree[node.box.nodes[slot]];
-    const auto [left, right] = recorder_.Split(node.record, slot, tree[divided.right].first);
-    for (const auto& [child, record] : {std::pair{divided.left, left}, {divided.right, right}}) {
+    Halves halves = optimizer::Divide(*node.bounds, node.box);
+    const auto [left, right] = recorder_.Split(node.record, halves.slot, halves.middle);
+    for (int half : {0, 1}) {
       auto part = std::make_unique<Node>();
       part->bounds = node.bounds;
-      part->box = node.box;
-      part->box.nodes[slot] = child;
+      part->box = std::move(halves.boxes[half]);
       part->depth = node.depth + 1;
-      part->record = record;
-      const Constraint missed = part->bounds->Assess(part->box, slot);
+      part->record = half == 0 ? left : right;
+      const Constraint missed = part->bounds->Assess(part->box, halves.slot);
       Keep(std::move(part), missed);
     }
   }
@@ -215,20 +212,12 @@ class BoxSearch {
       return;
     }
     const Candidate candidate = node->bounds->CandidateOf(node->box);
-    Leaf leaf;
-    if (candidate.reservoir.index == kCustom) {
-      // A few steps at a time: as its bound rises the box goes back into the queue.
-      if (!node->sizing)
-        node->sizing = std::make_unique<CustomSizing>(problem_, candidate, NeedsOf(node->box));
-      if (!node->sizing->Refine()) {
-        node->box.bound = std::max(node->box.bound, node->sizing->leaf().lower_bound);
-        Push(std::move(node));
-        return;
-      }
-      leaf = node->sizing->leaf();
-    } else {
-      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate));
+    const std::optional<Leaf> sized = SizeLeaf(problem_, candidate, node->box, node->sizing);
+    if (!sized) {  // as its bound rises the box goes back into the queue
+      Push(std::move(node));
+      return;
     }
+    Leaf leaf = *sized;
     if (leaf.status == LeafStatus::kUndecided && Stopped()) {
       Push(std::move(node));
       return;

@@ -172,18 +172,6 @@ double SmallestMargin(const Problem& problem, const Candidate& candidate,
                   SupplyMargin(problem, candidate, point, evaluation));
 }
 
-std::vector<double> SolverMargins(const Problem& problem, const Candidate& candidate,
-                                  const OperatingPoint& point, const Evaluation& evaluation) {
-  std::vector<double> values;
-  for (const GroupPerformance& group : evaluation.groups)
-    values.push_back(1.0 - group.inflate_time_s / HalfPeriod(problem));
-  for (const Margin& margin : Margins(problem, candidate, point, evaluation))
-    values.push_back(std::min(margin.relative_margin, 1.0));
-  if (candidate.battery.index != kNone)
-    values.push_back(CurrentMargin(problem, candidate, evaluation));
-  return values;
-}
-
 bool PumpEnergyRises(const Problem& problem, const Candidate& candidate) {
   if (candidate.compressor.index == kNone) return true;
   const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;

@@ -26,8 +26,18 @@ Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double res
 
 // All relative margins of an evaluation that works, strokes first and limited to 1: what a solver
 // keeps ≥ 0. The smallest of them, or −∞ where nothing works.
-std::vector<double> SolverMargins(const Problem& problem, const Candidate& candidate,
-                                  const OperatingPoint& point, const Evaluation& evaluation);
+template <class T>
+std::vector<T> SolverMargins(const Problem& problem, const Candidate& candidate,
+                             const OperatingPointOf<T>& point, const EvaluationOf<T>& evaluation) {
+  std::vector<T> values;
+  for (const GroupPerformanceOf<T>& group : evaluation.groups)
+    values.push_back(1.0 - group.inflate_time_s / HalfPeriod(problem));
+  for (const MarginOf<T>& margin : Margins(problem, candidate, point, evaluation))
+    values.push_back(margin.relative_margin > 1.0 ? T(1.0) : margin.relative_margin);
+  if (candidate.battery.index != kNone)
+    values.push_back(CurrentMargin(problem, candidate, evaluation));
+  return values;
+}
 double SmallestMargin(const Problem& problem, const Candidate& candidate,
                       const OperatingPoint& point, const Evaluation& evaluation);
 

@@ -60,7 +60,7 @@ class Enumeration {
       for (const ProofSlot& slot : plan.slots) {
         amounts_.emplace_back();
         for (const ProofItem& item : slot.choices)
-          amounts_.back().push_back(AmountsOf(problem_, slot, item));
+          amounts_.back().push_back(ChoiceAmounts(problem_, slot, item));
       }
       From(0, {});
     }

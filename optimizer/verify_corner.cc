@@ -21,7 +21,7 @@ SlotAmounts AmountsOfAll(const Problem& problem, const ProofPlan& plan) {
   SlotAmounts all;
   for (const ProofSlot& slot : plan.slots) {
     all.emplace_back();
-    for (const ProofItem& item : slot.choices) all.back().push_back(AmountsOf(problem, slot, item));
+    for (const ProofItem& item : slot.choices) all.back().push_back(ChoiceAmounts(problem, slot, item));
   }
   return all;
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr int kCyclesMax = 2000;
 constexpr double kPeriodic = 1e-8;  // relative change of the source from cycle to cycle
 // A source at the operating pressure fills up to it: closer to equal pressures than by default.
-constexpr double kLinear = 1.0 - 1e-5;
+constexpr double kLinear = 1.0 - 1e-7;
 
 model::Chamber ChamberOf(const ActuatorGroup& group, const LineParts& line) {
   model::Chamber chamber = group.chamber;
@@ -98,6 +98,24 @@ model::SimulateOptions OptionsOf(const Problem& problem, double end_s) {
   return options;
 }
 
+// Strokes count from ambient: an actuator that would still hold air when its next one begins gets a
+// wider exhaust. How fast it empties is nothing to the source.
+void EmptyBeforeNext(const Problem& problem, const Settings& settings, model::Rig& rig) {
+  constexpr double kShare = 0.45;  // of the period
+  const double factor = model::FlowFactor(rig.gas) *
+                        std::sqrt(model::kReferenceTemperatureK / problem.ambient.temperature_k);
+  for (model::GroupRig& group : rig.groups) {
+    const double full_pa = group.close_at_operating ? group.chamber.operating_pressure_pa
+                                                    : settings.source_pressure_pa;
+    const double seconds =
+        model::EmptyTime(model::MakeSeries(group.exhaust, factor), group.chamber, full_pa,
+                         problem.ambient.pressure_pa, problem.ambient.temperature_k);
+    for (model::FlowElement& element : group.exhaust)
+      element.sonic_conductance_m3_per_s_pa *=
+          std::max(1.0, seconds * problem.frequency_hz / kShare);
+  }
+}
+
 // The state at the start of a cycle that repeats; none where the simulator does not get there.
 std::optional<State> Repeating(const Problem& problem, const Settings& settings,
                                const Assembly& assembly, double rising_m3) {
@@ -105,8 +123,9 @@ std::optional<State> Repeating(const Problem& problem, const Settings& settings,
               std::vector<double>(problem.groups.size(), problem.ambient.pressure_pa)};
   const model::SimulateOptions options = OptionsOf(problem, 1.0 / problem.frequency_hz);
   for (int cycle = 0; cycle < kCyclesMax; ++cycle) {
-    const model::Response response =
-        model::Simulate(MakeRig(problem, settings, assembly, state, 1, rising_m3), options);
+    model::Rig rig = MakeRig(problem, settings, assembly, state, 1, rising_m3);
+    EmptyBeforeNext(problem, settings, rig);
+    const model::Response response = model::Simulate(rig, options);
     if (response.status != model::SimulateStatus::kDone) return std::nullopt;
     State next = state;
     bool same = cycle > 0;
@@ -152,7 +171,9 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
   if (!state) return std::nullopt;
   const double period_s = 1.0 / problem.frequency_hz;
   const model::Rig rig = MakeRig(problem, settings, assembly, *state, 2, rising_m3);
-  const model::Response response = model::Simulate(rig, OptionsOf(problem, 2.0 * period_s));
+  model::Rig emptied = rig;
+  EmptyBeforeNext(problem, settings, emptied);
+  const model::Response response = model::Simulate(emptied, OptionsOf(problem, 2.0 * period_s));
   if (response.status != model::SimulateStatus::kDone) return std::nullopt;
   const std::size_t groups = problem.groups.size();
   Cycle cycle;
@@ -164,10 +185,6 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
       continue;
     cycle.rise_s[stroke.group] = stroke.to_target_s;
     cycle.inflate_s[stroke.group] = stroke.to_operating_s;
-    const double ambient_pa = problem.ambient.pressure_pa;
-    const double operating_pa = problem.groups[stroke.group].chamber.operating_pressure_pa;
-    cycle.left_over = std::max(
-        cycle.left_over, (stroke.start_pressure_pa - ambient_pa) / (operating_pa - ambient_pa));
   }
   for (const model::FullStroke& stroke : model::FullStrokes(rig, OptionsOf(problem, period_s)))
     cycle.fall_s.push_back(stroke.fall_time_s);
@@ -208,10 +225,11 @@ QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly)
         Target(problem, problem.groups[g], problem.fall_fraction), temperature_k));
     rigs_.push_back(rig);
   }
-  if (assembly.compressor && rigs_.size() == 1) fill_table_ = model::FlowTable(fills_.front());
+  if (assembly.compressor)
+    for (const model::Series& fill : fills_) fill_tables_.emplace_back(fill);
 }
 
-void QuickCycles::FillFromRegulator(const Settings& settings, int g, Cycle& cycle) const {
+double QuickCycles::FillFromRegulator(const Settings& settings, int g, Cycle& cycle) const {
   const model::GroupRig& rig = rigs_[g];
   double flow_max = assembly_.regulator->flow_max_m3_per_s;
   if (assembly_.configuration == Configuration::kMains)
@@ -223,18 +241,20 @@ void QuickCycles::FillFromRegulator(const Settings& settings, int g, Cycle& cycl
   };
   cycle.rise_s[g] = seconds(Target(problem_, problem_.groups[g], problem_.rise_fraction));
   cycle.inflate_s[g] = seconds(rig.chamber.operating_pressure_pa);
+  return cycle.inflate_s[g];
 }
 
-// The only group, out of a reservoir that was full when its stroke began. Where the pumps cannot
-// fill it up again within a period the running time passes the period, which no duty allows.
-void QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3,
-                                    Cycle& cycle) const {
-  const model::GroupRig& rig = rigs_.front();
+// A group out of a reservoir that is full when its stroke begins; how long until it is full again.
+// Where pumps cannot fill it up again within a period the running time of an only group passes the
+// period, which no duty allows.
+double QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3, int g,
+                                      Cycle& cycle) const {
+  const model::GroupRig& rig = rigs_[g];
   const model::CompressorCurve& curve = assembly_.compressor->curve;
   const double temperature_k = problem_.ambient.temperature_k;
   const double source_pa = settings.source_pressure_pa;
   model::ReservoirStrokeInput input;
-  input.fill = &fill_table_;
+  input.fill = &fill_tables_[g];
   input.chamber = &rig.chamber;
   input.count = rig.count;
   input.compressor = &curve;
@@ -243,26 +263,27 @@ void QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3,
   input.volume_falling_m3 = settings.reservoir_volume_m3.value_or(0.0);
   input.volume_rising_m3 = rising_m3;
   input.from_pa = problem_.ambient.pressure_pa;
-  input.target_pa = Target(problem_, problem_.groups[0], problem_.rise_fraction);
+  input.target_pa = Target(problem_, problem_.groups[g], problem_.rise_fraction);
   input.operating_pa = rig.chamber.operating_pressure_pa;
   input.temperature_k = temperature_k;
   const model::ReservoirStroke stroke = model::FillFromReservoir(input);
-  if (!stroke.reached) return;
-  cycle.rise_s[0] = stroke.rise_s;
-  cycle.inflate_s[0] = stroke.inflate_s;
-  cycle.pump_on_s =
-      stroke.pump_on_s + model::PumpUpTime(curve, input.compressors, rising_m3,
-                                           stroke.reservoir_end_pa, source_pa, temperature_k);
-  cycle.pump_j =
+  if (!stroke.reached) return model::kNever;
+  cycle.rise_s[g] = stroke.rise_s;
+  cycle.inflate_s[g] = stroke.inflate_s;
+  const double refill_s = model::PumpUpTime(curve, input.compressors, rising_m3,
+                                            stroke.reservoir_end_pa, source_pa, temperature_k);
+  cycle.pump_on_s += stroke.pump_on_s + refill_s;
+  cycle.pump_j +=
       stroke.pump_energy_j +
       model::EnergyToFill(curve, rising_m3, stroke.reservoir_end_pa, source_pa, temperature_k);
-  cycle.pump_air_m3 =
+  cycle.pump_air_m3 +=
       stroke.pump_air_m3 +
       model::StandardVolume(rising_m3 * (source_pa - stroke.reservoir_end_pa), temperature_k);
-  if (rig.close_at_operating) return;
+  const double full_s = stroke.inflate_s + refill_s;
+  if (rig.close_at_operating) return full_s;
   const double content = model::Content(rig.chamber, source_pa) -
                          model::Content(rig.chamber, rig.chamber.operating_pressure_pa);
-  if (!(content > 0.0)) return;
+  if (!(content > 0.0)) return full_s;
   const double last_pa = std::min(source_pa, model::HighestPressure(curve));
   const double air_m3 = rig.count * model::StandardVolume(content, temperature_k);
   const double seconds =
@@ -270,11 +291,15 @@ void QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3,
   cycle.pump_on_s += seconds;
   cycle.pump_j += seconds * input.compressors * model::ElectricalPower(curve, source_pa);
   cycle.pump_air_m3 += air_m3;
+  return full_s;
 }
 
 std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3) const {
   const std::size_t groups = problem_.groups.size();
-  if (groups > 1 && (problem_.simultaneous || assembly_.compressor))
+  // A valve that cannot hold lets its actuators draw while others do.
+  const bool held = std::all_of(rigs_.begin(), rigs_.end(),
+                                [](const model::GroupRig& rig) { return rig.close_at_operating; });
+  if (groups > 1 && (problem_.simultaneous || (assembly_.compressor && !held)))
     return Simulated(problem_, settings, assembly_, rising_m3);
   const double turn_s = 1.0 / problem_.frequency_hz / static_cast<double>(groups);
   Cycle cycle;
@@ -282,11 +307,9 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
   cycle.inflate_s.assign(groups, model::kNever);
   cycle.fall_s = fall_s_;
   for (int g = 0; g < static_cast<int>(groups); ++g) {
-    if (assembly_.compressor)
-      FillFromReservoir(settings, rising_m3, cycle);
-    else
-      FillFromRegulator(settings, g, cycle);
-    if (groups > 1 && !(cycle.inflate_s[g] <= turn_s))
+    const double over_s = assembly_.compressor ? FillFromReservoir(settings, rising_m3, g, cycle)
+                                               : FillFromRegulator(settings, g, cycle);
+    if (groups > 1 && !(over_s <= turn_s))
       return Simulated(problem_, settings, assembly_, rising_m3);
   }
   AddNeeds(problem_, settings, assembly_, cycle);

@@ -14,9 +14,7 @@ namespace plenum::optimizer {
 
 struct Cycle {
   std::vector<double> rise_s, inflate_s, fall_s;  // per group; +∞: never reached
-  double left_over =
-      0.0;              // share of the operating gauge pressure that a stroke at most begins with
-  double air_m3 = 0.0;  // ANR, by the contents at rest and full
+  double air_m3 = 0.0;                            // ANR, by the contents at rest and full
   double pump_on_s = 0.0, pump_j = 0.0, pump_air_m3 = 0.0;
   double coil_w = 0.0;                       // all on at once, with the regulator
   double steady_j = 0.0, inflating_j = 0.0;  // coils and regulator; of it what strokes shorten
@@ -40,14 +38,16 @@ class QuickCycles {
   std::optional<Cycle> At(const Settings& settings, double rising_m3) const;
 
  private:
-  void FillFromRegulator(const Settings& settings, int group, Cycle& cycle) const;
-  void FillFromReservoir(const Settings& settings, double rising_m3, Cycle& cycle) const;
+  // Until the source is as it was before the stroke.
+  double FillFromRegulator(const Settings& settings, int group, Cycle& cycle) const;
+  double FillFromReservoir(const Settings& settings, double rising_m3, int group,
+                           Cycle& cycle) const;
 
   const Problem& problem_;
   const Assembly& assembly_;
   std::vector<model::GroupRig> rigs_;
   std::vector<model::Series> fills_;  // with the regulator's share
-  model::FlowTable fill_table_;       // of the only group
+  std::vector<model::FlowTable> fill_tables_;
   std::vector<double> fall_s_;
 };
 

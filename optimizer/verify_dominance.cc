@@ -132,7 +132,7 @@ bool NoWorse(const Problem& problem, const ProofPlan& plan, const ProofSlot& slo
 
 }  // namespace
 
-ItemAmounts AmountsOf(const Problem& problem, const ProofSlot& slot, const ProofItem& item) {
+ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const ProofItem& item) {
   if (item.part == -1) return {};
   ItemAmounts sum;
   double energy_j = 0.0;  // whatever the strokes
@@ -176,7 +176,7 @@ ItemAmounts AmountsOf(const Problem& problem, const ProofSlot& slot, const Proof
 bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
                const ProofItem& better, const ProofItem& worse) {
   if (better.part < 0 || worse.part < 0 || better == worse) return false;
-  const ItemAmounts a = AmountsOf(problem, slot, better), b = AmountsOf(problem, slot, worse);
+  const ItemAmounts a = ChoiceAmounts(problem, slot, better), b = ChoiceAmounts(problem, slot, worse);
   if ((std::isfinite(problem.mass_max_kg) && !Least(a.mass_kg, b.mass_kg)) ||
       (std::isfinite(problem.volume_max_l) && !Least(a.volume_m3, b.volume_m3)) ||
       (std::isfinite(problem.cost_max_eur) && !Least(a.cost_eur, b.cost_eur)))

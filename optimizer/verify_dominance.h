@@ -13,7 +13,7 @@ struct ItemAmounts {
 };
 
 // All pieces of a choice, gas included; the least of a made-to-measure reservoir.
-ItemAmounts AmountsOf(const Problem& problem, const ProofSlot& slot, const ProofItem& item);
+ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const ProofItem& item);
 
 bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
                const ProofItem& better, const ProofItem& worse);

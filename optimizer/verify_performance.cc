@@ -39,11 +39,9 @@ void CheckMargins(const std::map<std::string, Reached>& requirements, const Desi
 }
 
 // Close to equal pressures the simulator follows a straight line instead of the flow law, which
-// delays the end of a stroke whose source is hardly above the operating pressure; and a stroke that
-// finds actuators that are not empty yet is shorter than one from ambient. There the quadratures
-// count.
-constexpr double kHardlyAbove = 1.0 + 1e-3;
-constexpr double kEmpty = 1e-5;
+// delays the end of a stroke whose source is hardly above the operating pressure. There the
+// quadratures count.
+constexpr double kHardlyAbove = 1.0 + 1e-6;
 
 std::optional<Cycle> CycleOf(const Problem& problem, const Design& design,
                              const Assembly& assembly) {
@@ -53,7 +51,7 @@ std::optional<Cycle> CycleOf(const Problem& problem, const Design& design,
         return design.settings.source_pressure_pa <
                kHardlyAbove * group.chamber.operating_pressure_pa;
       });
-  if (!cycle || (!hardly_above && cycle->left_over < kEmpty)) return cycle;
+  if (!cycle || !hardly_above) return cycle;
   const std::optional<Cycle> quick =
       QuickCycles(problem, assembly)
           .At(design.settings, design.settings.reservoir_volume_m3.value_or(0.0));

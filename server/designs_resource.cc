@@ -7,12 +7,29 @@
 namespace plenum::server {
 namespace {
 
-api::Json ToJson(const optimizer::Progress& progress) {
+// What `best` and `lower_bound` of a progress are amounts of, as the requirements say it.
+api::Json ObjectiveOf(const api::Json& requirements) {
+  return requirements.value("objective", api::Json{{"minimize", "mass_kg"}});
+}
+
+api::Json ToJson(const optimizer::Progress& progress, const api::Json& objective) {
   return {{"seconds", api::Number(progress.seconds)},
           {"evaluated", progress.evaluated},
           {"open", progress.open},
           {"best", progress.best ? api::Number(*progress.best) : api::Json()},
-          {"lower_bound", api::Number(progress.lower_bound)}};
+          {"lower_bound", api::Number(progress.lower_bound)},
+          {"objective", objective}};
+}
+
+// The last progress, which a list of jobs shows in place of the answer.
+api::Json Outcome(const api::Json& answer, const api::Json& objective) {
+  const api::Json& designs = answer.at("designs");
+  return {{"seconds", answer.at("seconds")},
+          {"evaluated", answer.at("proof").at("evaluated")},
+          {"best", designs.empty() ? api::Json() : designs.front().at("objective")},
+          {"lower_bound", answer.at("proof").at("lower_bound")},
+          {"objective", objective},
+          {"outcome", answer.at("status")}};
 }
 
 }  // namespace
@@ -31,14 +48,16 @@ Work DesignWork(SharedCatalog& catalog) {
                                           std::get<std::vector<catalog::ModelRevision>>(models));
     if (auto* errors = std::get_if<api::Errors>(&request)) return *errors;
 
+    const api::Json objective = ObjectiveOf(std::get<api::Json>(json));
     optimizer::SearchOptions options;
     options.cancelled = control.cancelled;
     options.progress = [&](const optimizer::Progress& progress) {
-      control.report(ToJson(progress));
+      control.report(ToJson(progress, objective));
     };
     api::Json answer =
         api::AnswerRequest(std::get<api::DesignRequest>(request), options, *parts.parts);
     answer["catalogue_revision"] = api::RenderRevisionName(parts.revision);
+    control.report(Outcome(answer, objective));
     return answer;
   };
 }

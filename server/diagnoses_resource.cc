@@ -135,11 +135,14 @@ Work DiagnosisWork(SharedCatalog& catalog) {
 
     const auto turn = AwaitTurn(request.diagnosis.dataset, control);
     const auto start = Clock::now();
-    const auto report = [&](double share, const std::string& doing) {
+    const auto report_of = [&](double share, const std::string& doing) -> api::Json {
       const std::chrono::duration<double> elapsed = Clock::now() - start;
-      control.report({{"seconds", api::Number(elapsed.count())},
-                      {"share", api::Number(share)},
-                      {"doing", doing}});
+      return {{"seconds", api::Number(elapsed.count())},
+              {"share", api::Number(share)},
+              {"doing", doing}};
+    };
+    const auto report = [&](double share, const std::string& doing) {
+      control.report(report_of(share, doing));
     };
     const auto cancelled = [&] {
       return control.cancelled() ||
@@ -149,6 +152,10 @@ Work DiagnosisWork(SharedCatalog& catalog) {
         api::RunDiagnosis(request.diagnosis, {.cancelled = cancelled, .progress = report});
     if (!request.save.empty())
       Save(catalog, request.save, order.by.who, diagnosis.revision, diagnosis.answer);
+    // The last progress, which a list of jobs shows in place of the answer.
+    auto outcome = report_of(1.0, "ended");
+    outcome["outcome"] = diagnosis.answer.at("verdict");
+    control.report(std::move(outcome));
     return std::move(diagnosis.answer);
   };
 }

@@ -1,7 +1,8 @@
 // Writes measured data sets with known truth.
-//   make_cases SERIES COUNT FOLDER
+//   make_cases SERIES COUNT FOLDER [KIND]
 // FOLDER/cases/NNNN.json are measurements, FOLDER/truth/NNNN.json what is true of them; what is
-// there already is kept.
+// there already is kept. With a KIND (clean, full, fifth, pair, outside) only the cases of that
+// kind among the first COUNT of the series.
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -25,18 +26,20 @@ void Write(const std::filesystem::path& path, const plenum::api::Json& json) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::fprintf(stderr, "usage: make_cases SERIES COUNT FOLDER\n");
+  if (argc != 4 && argc != 5) {
+    std::fprintf(stderr, "usage: make_cases SERIES COUNT FOLDER [KIND]\n");
     return 2;
   }
   const std::uint64_t series = std::strtoull(argv[1], nullptr, 10);
   const int count = std::atoi(argv[2]);
   const std::filesystem::path folder = argv[3];
+  const std::string kind = argc > 4 ? argv[4] : "";
   std::filesystem::create_directories(folder / "cases");
   std::filesystem::create_directories(folder / "truth");
   std::atomic<int> next = 0, failed = 0;
   const auto work = [&] {
     for (int i = next++; i < count; i = next++) {
+      if (!kind.empty() && NameOf(plenum::test::KindOfSeries(i)) != kind) continue;
       char name[32];
       std::snprintf(name, sizeof name, "%04d.json", i);
       if (std::filesystem::exists(folder / "truth" / name)) continue;

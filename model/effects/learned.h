@@ -16,6 +16,12 @@
 //   learned_volume       memory_N     below the highest x so far, x_m, the wall is softer by
 //                                     V0·x_m·h(x/x_m), h on knots in (0, 1), 0 at both ends
 //   learned_leak         store        a rigid volume behind an orifice (C, b), both ways
+// Some swing, with a phase of every run's own at its start, φ:
+//   learned_supply       swing        p_s·(1 + a·sin(2π·f·t + φ))
+//   learned_sensor       swing        the reading is a·sin(2π·f·t + φ) above the pressure
+// And one has a time of every stroke's own:
+//   learned_valve        late         each command acts late by a time of its own; those of runs
+//                                     that are not recorded yet by the mean of these times
 // Valid in the range of pressures that they were learned from. Source: hybrid models that learn a
 // correction inside an equation instead of on the output.
 #ifndef PLENUM_MODEL_EFFECTS_LEARNED_H_
@@ -32,6 +38,13 @@
 namespace plenum::model {
 
 inline constexpr double kLearnedEnd = 1.2;
+
+// What belongs to a run, not to the rig.
+inline constexpr std::string_view kLatenessName = "lateness_s";
+inline constexpr ParameterSpec kPhaseSpec = {"phase_rad", -1e3, 1e3};
+inline bool OfEachRun(const ParameterSpec& spec) {
+  return spec.name == kLatenessName || spec.name == kPhaseSpec.name;
+}
 
 // Straight lines between values at equal distances from 0 to `end`; constant outside. The line in
 // force is a mode (unit.h), so that no step crosses a knot: it is chosen by Settle.

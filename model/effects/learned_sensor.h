@@ -1,6 +1,9 @@
-// learned_sensor of learned.h: a reading that is off by a function of the pressure, or that drifts.
+// learned_sensor of learned.h: a reading that is off by a function of the pressure, that drifts or
+// that swings.
 #ifndef PLENUM_MODEL_EFFECTS_LEARNED_SENSOR_H_
 #define PLENUM_MODEL_EFFECTS_LEARNED_SENSOR_H_
+
+#include <numbers>
 
 #include "model/effects/learned.h"
 
@@ -60,6 +63,34 @@ class LearnedDrift final : public EffectUnit<T> {
 
  private:
   T settled_pa_, time_constant_s_, rate_pa_per_s_;
+};
+
+template <class T>
+class LearnedSwingOfSensor final : public EffectUnit<T> {
+ public:
+  static constexpr ParameterSpec kParameters[] = {
+      {"amplitude_pa", 0.0, 1e6}, {"frequency_hz", 1e-4, 1e4}, kPhaseSpec};
+  static constexpr EffectSpec kSpec = {"learned_sensor", "swing", EffectPlace::kSensor,
+                                       kParameters};
+
+  explicit LearnedSwingOfSensor(std::span<const T> p)
+      : amplitude_pa_(p[0]), turn_rad_per_s_(2.0 * std::numbers::pi * p[1]), phase_rad_(p[2]) {}
+
+  int states() const override { return 1; }  // the time, s
+  void Start(const GroupSetup<T>&, const Moment<T>&, T* x, double* size) override {
+    x[0] = T(0.0);
+    size[0] = 1.0;
+  }
+  void Rates(const GroupSetup<T>&, const Moment<T>&, const T*, T* dxdt) const override {
+    dxdt[0] = T(1.0);
+  }
+  void Measure(const T* x, T& gauge_pa) const override {
+    using std::sin;
+    gauge_pa += amplitude_pa_ * sin(turn_rad_per_s_ * x[0] + phase_rad_);
+  }
+
+ private:
+  T amplitude_pa_, turn_rad_per_s_, phase_rad_;
 };
 
 }  // namespace plenum::model

@@ -19,6 +19,8 @@
 #include "model/effects/learned_conductance.h"
 #include "model/effects/learned_leak.h"
 #include "model/effects/learned_sensor.h"
+#include "model/effects/learned_supply.h"
+#include "model/effects/learned_valve.h"
 #include "model/effects/learned_volume.h"
 #include "model/effects/line_dynamics.h"
 #include "model/effects/nonlinear_compliance.h"
@@ -74,6 +76,8 @@ struct Learned {
 constexpr auto kRegistry = std::to_array<Entry>({
     MakeEntry<ValveDelay>(),
     MakeEntry<ValveRamp>(),
+    MakeEntry<LearnedLateStrokes>(),
+    MakeEntry<LearnedSwingOfSupply>(),
     MakeEntry<DirectionalConductance>(),
     MakeEntry<CrackingPressure>(),
     MakeEntry<ExhaustRestriction>(),
@@ -113,6 +117,7 @@ constexpr auto kRegistry = std::to_array<Entry>({
     MakeEntry<Learned<5>::Sensor>(),
     MakeEntry<Learned<9>::Sensor>(),
     MakeEntry<LearnedDrift>(),
+    MakeEntry<LearnedSwingOfSensor>(),
 });
 
 constexpr auto kSpecs = [] {

@@ -98,6 +98,11 @@ class EffectUnit {
   // Gas in stores of its own behind the valve, m³ ANR.
   virtual T Stored(const GroupSetup<T>&, const T* /*x*/) const { return T(0.0); }
 
+  // What the source gives at a time: turns its pressure, Pa, into the one then. Of all groups the
+  // first such unit acts, since they share the source.
+  virtual bool acts_on_source() const { return false; }
+  virtual void Source(const T& /*t_s*/, T& /*pressure_pa*/) const {}
+
   // What the sensor shows: turns the gauge pressure, Pa, into the reading.
   virtual void Measure(const T* /*x*/, T& /*gauge_pa*/) const {}
 

@@ -74,6 +74,37 @@ TEST(Discrepancy, ASnapOfTheWallIsLearnedInTheVolumeLaw) {
   EXPECT_LT(*learned.discrepancy.holdout_after_pa, 0.5 * *learned.discrepancy.holdout_before_pa);
 }
 
+// What differs from run to run is one number of each run; what they share predicts another run.
+void ExpectLearned(const std::string& effect, const std::string& id, model::EffectPlace equation) {
+  const LearnedModel learned = Of(effect).Learn();
+  const Discrepancy& d = learned.discrepancy;
+  ASSERT_TRUE(d.learned) << effect;
+  EXPECT_EQ(d.learned->effect.spec->id, id) << effect;
+  EXPECT_EQ(d.equation, equation) << effect;
+  EXPECT_EQ(d.learned->parameters.size(), d.learned->effect.parameters.size()) << effect;
+  EXPECT_LT(*d.holdout_after_pa, 0.5 * *d.holdout_before_pa) << effect;
+}
+
+TEST(Discrepancy, ASwingingRegulatorIsLearnedInTheSupply) {
+  const test::BenchCase bench = test::DrawCase(3, test::CaseKind::kOutside, "swinging_regulator");
+  const LearnedModel learned = Learning(test::ToDataset(bench)).Learn();
+  ASSERT_TRUE(learned.discrepancy.learned);
+  const model::Effect& effect = learned.discrepancy.learned->effect;
+  ASSERT_EQ(effect.spec->id, "learned_supply");
+  const test::TrueEffect& truth = bench.effects.front();
+  EXPECT_NEAR(effect.parameters[0], truth["amplitude"], 0.1 * truth["amplitude"]);
+  EXPECT_NEAR(effect.parameters[1], truth["frequency_hz"], 0.01 * truth["frequency_hz"]);
+  EXPECT_LT(*learned.discrepancy.holdout_after_pa, 0.5 * *learned.discrepancy.holdout_before_pa);
+}
+
+TEST(Discrepancy, ADriftingSensorIsLearnedInTheSensor) {
+  ExpectLearned("drifting_sensor", "learned_sensor", model::EffectPlace::kSensor);
+}
+
+TEST(Discrepancy, AStickingValveIsLearnedAsLateStrokes) {
+  ExpectLearned("sticking_valve", "learned_valve", model::EffectPlace::kValve);
+}
+
 TEST(Discrepancy, NothingIsLearnedFromNoise) {
   const Learning learning(test::ToDataset(test::DrawCase(2, test::CaseKind::kClean)));
   const LearnedModel learned = learning.Learn();

@@ -97,9 +97,9 @@ TEST_P(CorrelatedNoiseTest, CorrelationAndLevelAreRecovered) {
   for (int seed = 0; seed < kSeeds / 4; ++seed) {
     const std::vector<double> noise = CorrelatedNoise(seed, t_s, theta_s, kSigmaPa);
     const Noise found = OfHold(t_s, Creeping(t_s, noise));
-    lags.push_back(found.lag1);
     ratios.push_back(found.sigma_pa / kSigmaPa);
     const double rho_found = std::exp(-0.005 / found.memory.theta_s);
+    lags.push_back(found.memory.share * rho_found);
     const double sum = 2.0 * found.memory.share * rho_found / (1.0 - rho_found);
     EXPECT_NEAR(found.effective_samples, 2000.0 / (1.0 + sum), 1e-3);
   }

@@ -64,7 +64,6 @@ Case MakeCase(const std::vector<double>& t_s, const std::vector<double>& noise,
   made.fitted.noise.relative_error = 0.0;
   made.fitted.noise.memory.theta_s = theta_s;
   made.fitted.noise.spacing_s = t_s[1] - t_s[0];
-  made.fitted.noise.lag1 = theta_s > 0.0 ? std::exp(-(t_s[1] - t_s[0]) / theta_s) : 0.0;
   return made;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -191,6 +192,54 @@ TEST(LearnedEffects, SensorTermsAddToTheReading) {
     EXPECT_NEAR(reading[k] - plain[k], 1e5 * shift, 0.05) << k;
     EXPECT_NEAR(drifted[k] - plain[k], 500.0 * (1.0 - std::exp(-t_s / 0.8)) - 30.0 * t_s, 0.05);
   }
+}
+
+TEST(LearnedEffects, ASwingingSensorAddsASine) {
+  const std::vector<double> plain = Pressures(Cycled());
+  GroupRig swinging = Cycled();
+  swinging.effects = {Learned("learned_sensor", "swing", {500.0, 0.7, 0.3})};
+  const std::vector<double> reading = Pressures(swinging);
+  for (std::size_t k = 0; k < plain.size(); ++k) {
+    const double t_s = static_cast<double>(k) / 40.0;
+    EXPECT_NEAR(reading[k] - plain[k], 500.0 * std::sin(2.0 * std::numbers::pi * 0.7 * t_s + 0.3),
+                0.05);
+  }
+}
+
+// The same as a source whose recorded course is that sine, behind a regulator's place or not.
+TEST(LearnedEffects, ASwingingSupplyIsASourceOfThatCourse) {
+  const double amplitude = 0.06, frequency_hz = 1.7, phase_rad = 0.4;
+  DrivenSource course;
+  for (int k = 0; k <= 9000; ++k) {
+    const double t_s = 5e-4 * k;
+    course.time_s.push_back(t_s);
+    course.pressure_pa.push_back(
+        3e5 *
+        (1.0 + amplitude * std::sin(2.0 * std::numbers::pi * frequency_hz * t_s + phase_rad)));
+  }
+  const Response recorded = Simulate(RigOf(course, {Cycled()}), Until(4.5, 40.0));
+  ASSERT_EQ(recorded.status, SimulateStatus::kDone) << recorded.detail;
+  GroupRig group = Cycled();
+  group.effects = {Learned("learned_supply", "swing", {amplitude, frequency_hz, phase_rad})};
+  ExpectNear(Pressures(group), recorded.groups[0].pressure_pa, 2.0);
+}
+
+TEST(LearnedEffects, ASwingingReservoirSwingsAboutItsPressure) {
+  ReservoirSource reservoir;
+  reservoir.volume_m3 = 1e3;  // so large that it stays where it is
+  reservoir.initial_pressure_pa = 3e5;
+  GroupRig group = Cycled();
+  group.effects = {Learned("learned_supply", "swing", {0.05, 1.1, 0.2})};
+  const Response r = Simulate(RigOf(reservoir, {group}), Until(4.5, 40.0));
+  ASSERT_EQ(r.status, SimulateStatus::kDone) << r.detail;
+  ExpectNear(r.groups[0].pressure_pa, Pressures(group), 2.0);
+}
+
+TEST(LearnedEffects, StrokesOfUnknownTimeComeLateByTheMean) {
+  GroupRig late = Cycled(), delayed = Cycled();
+  late.effects = {Learned("learned_valve", "late", {0.05})};
+  delayed.effects = {Learned("valve_delay", "", {0.05})};
+  ExpectNear(Pressures(late), Pressures(delayed), 1e-9);
 }
 
 }  // namespace

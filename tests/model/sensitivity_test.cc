@@ -327,10 +327,23 @@ INSTANTIATE_TEST_SUITE_P(
         EffectCase{"learned_volume", "memory_3", {0.07, 0.13, 0.1}},
         EffectCase{"learned_sensor", "pressure_3", {0.01, 0.03, -0.01}},
         EffectCase{"learned_sensor", "drift", {300.0, 0.7, 40.0}},
+        EffectCase{"learned_sensor", "swing", {400.0, 1.3, 0.4}},
+        EffectCase{"learned_valve", "late", {0.0213}},
         EffectCase{"leak", "orifice", {0.004e-8, 0.3}}, EffectCase{"leak", "laminar", {0.003e-8}},
         EffectCase{"leak", "porous", {1e15, 1e21}}, EffectCase{"sensor_lag", "", {0.02}},
         EffectCase{"sensor_gain", "", {1.03}}, EffectCase{"sensor_offset", "", {512.0}}),
     [](const auto& test) { return std::string(test.param.id) + test.param.law; });
+
+// The lowest pressure of the source is that at the ends of steps, which moves with them.
+TEST(Sensitivity, OfASwingingSupply) {
+  GroupRig group = TwoElements();
+  group.effects = {{FindEffect("learned_supply", "swing"), {0.05, 1.3, 0.4}}};
+  const auto smooth = [](const std::string& name) {
+    return name.find("source_lowest") == std::string::npos;
+  };
+  const Worst worst = AgainstDifferences(RigOf(Regulated(3e5), {group}), Tight(), 1e-4, smooth);
+  EXPECT_LT(worst.error, 1e-5) << worst.where;
+}
 
 TEST(Sensitivity, OfFullStrokesFollowsTheScalingOfTime) {
   GroupRig group = OneActuator(2e5, 1.7, kValve);

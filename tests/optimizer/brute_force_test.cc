@@ -11,6 +11,7 @@
 #include <set>
 
 #include "optimizer/tree_search.h"
+#include "optimizer/verify.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {
@@ -90,6 +91,12 @@ void ExpectHonest(const Answer& answer, const BruteForce& truth) {
   }
 }
 
+// What the search writes its verifier accepts, on a simulation of its own.
+void ExpectVerified(const Problem& problem, const Answer& answer) {
+  for (const optimizer::Check& check : optimizer::Verify(problem, answer).checks)
+    EXPECT_TRUE(check.ok) << check.name << ": " << check.detail;
+}
+
 void Compare(const Problem& problem, Tally& tally) {
   auto start = std::chrono::steady_clock::now();
   const BruteForce truth = Enumerate(problem);
@@ -111,6 +118,7 @@ void Compare(const Problem& problem, Tally& tally) {
                               [](const optimizer::Choice& part) { return part.id == "custom"; });
 
   ExpectCountsAddUp(answer.proof, truth.combinations);
+  ExpectVerified(problem, answer);
   const std::size_t expected =
       std::min(truth.designs.size(), static_cast<std::size_t>(problem.count));
   if (answer.proof.undecided == 0 && truth.undecided == 0)

@@ -209,10 +209,10 @@ TEST_F(Diagnoses, CanBeFollowedAndPolled) {
   EXPECT_THAT(Events(job), HasSubstr("event: end\n"));
   const Json polled = Body(client_->Get(job));
   EXPECT_EQ(polled["status"], "done");
-  EXPECT_GT(polled["progress"]["share"], 0.5);
-  EXPECT_LE(polled["progress"]["share"], 1.0);
+  EXPECT_EQ(polled["progress"]["share"], 1.0);
   EXPECT_FALSE(polled["progress"]["doing"].get<std::string>().empty());
   EXPECT_EQ(polled["result"]["verdict"], "explained");
+  EXPECT_EQ(Body(client_->Get(kPath))["jobs"][0]["progress"]["outcome"], "explained");
 }
 
 TEST_F(Diagnoses, CanBeCancelledRunningOrQueued) {

@@ -81,6 +81,17 @@ std::string Escaped(std::string step) {
   return step;
 }
 
+// Whether the value has what the form fixes: of several forms the one that it is written in.
+bool IsMeant(const Json& form, const Json& value) {
+  for (const auto& [name, inner] : In(form, "properties").items()) {
+    if (!value.contains(name)) continue;
+    if (inner.is_object() && inner.contains("const") && inner["const"] != value[name]) return false;
+    if (TypeOf(inner) == "object" && value[name].is_object() && !IsMeant(inner, value[name]))
+      return false;
+  }
+  return true;
+}
+
 class Breaker {
  public:
   Breaker(const Json& document, std::mt19937& random) : document_(document), random_(random) {}
@@ -110,7 +121,8 @@ class Breaker {
     if (!pointer.empty()) Replace(schema, pointer);
     const Json& value = document_.at(Json::json_pointer(pointer));
     for (const Json& form : Forms(schema)) {
-      if (TypeOf(form) == "object" && value.is_object()) WalkObject(form, value, pointer);
+      if (TypeOf(form) == "object" && value.is_object() && IsMeant(form, value))
+        WalkObject(form, value, pointer);
       if (TypeOf(form) == "array" && value.is_array()) WalkArray(form, value, pointer);
     }
   }

@@ -273,6 +273,23 @@ TEST_F(Http, DesignThatIsWaitedForGivesTheResult) {
   EXPECT_EQ(job["result"], Body(result));
 }
 
+TEST_F(Http, TheListOfJobsSaysWhatEachSearchFound) {
+  const auto found =
+      Body(client_->Post("/v1/designs", {{"Prefer", "wait=30"}}, Exosuit(30.0).dump(), kJson));
+  Json hopeless = Exosuit(30.0);
+  hopeless["supply"]["mass_kg_max"] = 0.2;
+  ASSERT_EQ(client_->Post("/v1/designs", {{"Prefer", "wait=30"}}, hopeless.dump(), kJson)->status,
+            200);
+  const auto jobs = Body(client_->Get("/v1/designs"))["jobs"];
+  const Json best = jobs[1]["progress"], none = jobs[0]["progress"];
+  EXPECT_EQ(best["outcome"], "optimal");
+  EXPECT_EQ(best["objective"], (Json{{"minimize", "mass_kg"}}));
+  EXPECT_EQ(best["best"], found["designs"][0]["totals"]["mass_kg"]);
+  EXPECT_GT(best["seconds"], 0.0);
+  EXPECT_EQ(none["outcome"], "infeasible");
+  EXPECT_TRUE(none["best"].is_null());
+}
+
 TEST_F(Http, RequirementsCanBeCheckedWithoutAJob) {
   const std::string path = "/v1/designs?validate_only=";
   const auto valid = client_->Post(path + "true", Exosuit(1.0).dump(), kJson);

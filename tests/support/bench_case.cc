@@ -12,6 +12,7 @@ namespace plenum::test {
 namespace {
 
 constexpr int kAttempts = 60;
+constexpr int kKinds = 5;
 constexpr double kSizeLow = 0.1, kSizeHigh = 4.0;  // of the typical size; outside: drawn anew
 constexpr std::uint64_t kRunStream = 1000, kFaultStream = 500;
 
@@ -264,9 +265,10 @@ BenchCase DrawCase(std::uint64_t seed, CaseKind kind, const std::string& effect)
   throw std::runtime_error("bench_case: " + effect + " cannot be made visible");
 }
 
+CaseKind KindOfSeries(int index) { return static_cast<CaseKind>(index % kKinds); }
+
 BenchCase CaseOfSeries(std::uint64_t series, int index) {
-  constexpr int kKinds = 5;
-  const auto kind = static_cast<CaseKind>(index % kKinds);
+  const CaseKind kind = KindOfSeries(index);
   const auto turn = static_cast<std::size_t>(index / kKinds);
   const auto& ids = kind == CaseKind::kOutside ? OutsideEffects() : ListedEffects();
   const std::uint64_t seed = series * 1'000'003 + static_cast<std::uint64_t>(index);

@@ -62,6 +62,7 @@ struct BenchCase {
 BenchCase DrawCase(std::uint64_t seed, CaseKind kind, const std::string& effect = {});
 
 // The `index`-th case of a series: the kinds in turn, in each kind the effects in turn.
+CaseKind KindOfSeries(int index);
 BenchCase CaseOfSeries(std::uint64_t series, int index);
 
 // What the true rig would show in a run: pressures without noise, gauge, at the run's sample times.

@@ -1,7 +1,7 @@
 // The frame: where one is, the units, light or dark.
 import { useEffect } from 'preact/hooks';
 
-import { wantsToken } from './lib/api';
+import { hasToken, wantsToken } from './lib/api';
 import { refreshModels } from './lib/models';
 import { previousJob } from './lib/jobs';
 import { link, route, view } from './lib/route';
@@ -113,6 +113,11 @@ export function App() {
           ))}
         </nav>
         <div class="units">
+          {hasToken() && (
+            <button type="button" onClick={() => (wantsToken.value = 'change')}>
+              Token…
+            </button>
+          )}
           <Segmented
             hideLabel
             label="Unit of pressure"

@@ -65,3 +65,44 @@ test('a search is written and started with the keyboard alone', async () => {
   await page.getByRole('heading', { name: 'Catalogue' }).waitFor();
   await close();
 });
+
+test('a table that goes on beyond its box says so, and its first columns stay', async () => {
+  const ranked = views.find((view) => view.name === 'designs');
+  const { page, close } = await openPage(browser, service.base, ranked.hash, {
+    viewport: { width: 360, height: 900 },
+  });
+  await ranked.ready(page);
+  const box = page.getByRole('region', { name: 'Ranked designs' });
+  const frame = box.locator('..');
+  await page.waitForFunction(
+    (at) => at.dataset.beyond.includes('right'),
+    await frame.elementHandle(),
+  );
+  assert.equal(
+    await frame.locator('.edge.left').evaluate((at) => getComputedStyle(at).opacity),
+    '0',
+  );
+  const before = await box.getByRole('rowheader').first().boundingBox();
+  await box.focus();
+  for (let i = 0; i < 60; ++i) await page.keyboard.press('ArrowRight');
+  await page.waitForFunction(
+    (at) => at.dataset.beyond.includes('left'),
+    await frame.elementHandle(),
+  );
+  const after = await box.getByRole('rowheader').first().boundingBox();
+  assert.ok(Math.abs(after.x - before.x) < 1, `${before.x} to ${after.x}`);
+  await close();
+});
+
+test('a projector gets larger letters', async () => {
+  const sizes = [];
+  for (const width of [1280, 1920, 3840]) {
+    const { page, close } = await openPage(browser, service.base, '', {
+      viewport: { width, height: 1000 },
+    });
+    sizes.push(await page.evaluate(() => parseFloat(getComputedStyle(document.body).fontSize)));
+    await close();
+  }
+  assert.equal(sizes[0], 13);
+  assert.ok(sizes[1] >= 15.9 && sizes[2] >= 31.9, `${sizes}`);
+});

@@ -29,6 +29,41 @@ test('a bad number is marked at its field while it is typed', async () => {
   await close([422]);
 });
 
+test('the ranges shown are those of the service', async () => {
+  const { components } = await service.get('/openapi.json');
+  // The numbers' schema at a pointer, without the choice to say nothing.
+  const schemaAt = (pointer) =>
+    pointer
+      .split('/')
+      .slice(1)
+      .reduce((at, step) => {
+        const inner = /^\d+$/.test(step) ? at.items : at.properties[step];
+        return inner.anyOf?.find((one) => one.type !== 'null') ?? inner;
+      }, components.schemas.Requirements);
+  const { page, close } = await openPage(browser, service.base);
+  await page.getByText('Wall supply').click();
+  await page.getByText('Ambient, numbers of parts').click();
+  const shown = await page
+    .locator('input[data-pointer]')
+    .evaluateAll((inputs) =>
+      inputs.map((input) => [
+        input.dataset.pointer,
+        document.getElementById(input.getAttribute('aria-describedby')).textContent,
+      ]),
+    );
+  let ranges = 0;
+  for (const [pointer, hint] of shown) {
+    const [, low, high] = /(\S+) … (\S+)$/.exec(hint.replaceAll('\u202f', '')) ?? [];
+    if (low === undefined) continue;
+    ++ranges;
+    const { minimum, exclusiveMinimum, maximum, exclusiveMaximum } = schemaAt(pointer);
+    const range = [minimum ?? exclusiveMinimum, maximum ?? exclusiveMaximum];
+    assert.deepEqual([Number(low), Number(high)], range, pointer);
+  }
+  assert.ok(ranges >= 18, `${ranges} ranges`);
+  await close();
+});
+
 test('units change what is shown and never what is asked', async () => {
   const { page, close } = await openPage(browser, service.base);
   const posted = [];
@@ -49,7 +84,15 @@ test('units change what is shown and never what is asked', async () => {
   assert.equal(posted.at(-1).actuators[0].operating_pressure_kpa_gauge, 105);
   await page.getByRole('button', { name: 'L', exact: true }).click();
   assert.equal(await page.getByLabel('Volume at rest').inputValue(), '0.05');
-  await close();
+  // So do the limits that the service names.
+  await page.getByLabel('Volume at rest').fill('2000');
+  await page.getByText('must be ≥ 0.00001 and ≤ 1\u202f000, not 2\u202f000').first().waitFor();
+  // And what the catalogue shows.
+  await page.getByRole('link', { name: 'Catalogue' }).click();
+  await page.getByRole('link', { name: /^reservoir/ }).click();
+  await page.getByRole('columnheader', { name: 'internal volume L' }).waitFor();
+  await page.getByRole('columnheader', { name: 'p max bar abs' }).waitFor();
+  await close([422]);
 });
 
 test('requirements are saved, loaded and shared by address', async () => {
@@ -83,7 +126,14 @@ test('an infeasible problem says what conflicts', async () => {
   const id = await rank(service, impossible);
   const { page, close } = await openPage(browser, service.base, `#/designs/${id}`);
   await page.getByText('infeasible', { exact: true }).waitFor();
-  await page.getByRole('region', { name: 'Conflicting requirements' }).getByText('mass').waitFor();
+  const conflicts = page.getByRole('region', { name: 'Conflicting requirements' });
+  await conflicts.getByRole('columnheader', { name: 'best found' }).waitFor();
+  await conflicts.getByRole('row', { name: /mass/ }).waitFor();
+  // What was found can be asked for, and is then met.
+  await conflicts.getByRole('button', { name: 'Ask for that' }).click();
+  await page.getByText('These requirements can be searched.').waitFor();
+  await page.getByRole('button', { name: 'Find the best designs' }).click();
+  await page.getByText('Proved: no other combination').waitFor();
   await close();
 });
 
@@ -195,32 +245,50 @@ test('a part whose id is taken is refused at the id', async () => {
   await close([409]);
 });
 
-test('a service that wants a token is asked with one', async () => {
-  const { page, close } = await openPage(browser, service.base, '#/catalogue/battery', {
-    before: (p) =>
-      p.route('**/v1/**', (route) =>
-        route.request().headers().authorization === 'Bearer right'
-          ? route.continue()
-          : route.fulfill({
-              status: 401,
-              contentType: 'application/problem+json',
-              body: '{"title":"a token is needed"}',
-            }),
-      ),
-  });
-  await page.getByLabel('Token').fill('wrong');
-  await page.getByRole('button', { name: 'Use it' }).click();
+test('a service that others can reach asks for a token; one to read may not search', async (t) => {
+  const guarded = await startService({ scopes: ['read', 'write'] });
+  t.after(() => guarded.stop());
+  const { page, close } = await openPage(browser, guarded.base, '#/catalogue/battery');
+  const use = async (token) => {
+    await page.getByLabel('Token', { exact: true }).fill(token);
+    await page.getByRole('button', { name: 'Use it' }).click();
+  };
+  await page.getByText('This service asks for a token').waitFor();
+  await use('wrong');
   await page.getByText('The token given is not known').waitFor();
-  await page.getByLabel('Token').fill('right');
-  await page.getByRole('button', { name: 'Use it' }).click();
+  await use(guarded.tokens.read);
   await page.getByRole('heading', { name: /battery: \d+ parts/ }).waitFor();
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Export CSV' }).click();
   assert.match(await textOf(await download), /^id,manufacturer/);
-  const { id } = await service.post('/v1/designs', example('gripper'));
-  await page.goto(`${service.base}/#/designs/${id}`);
+  await page.getByRole('link', { name: 'Requirements', exact: true }).click();
+  await page.getByText('Not checked: this token may read, not write').waitFor();
+  await page.getByRole('button', { name: 'Find the best designs' }).click();
+  await page.getByRole('alert').getByText('this token may read, not write').waitFor();
+
+  // With one to write the search runs, and its events are let through, too.
+  await page.getByRole('button', { name: 'Token…' }).click();
+  await use(guarded.tokens.write);
+  await page.getByText('can be searched').waitFor();
+  await page.getByRole('button', { name: 'Find the best designs' }).click();
   await page.getByText('Proved: no other combination').waitFor();
-  await close([401]);
+  await page.getByRole('link', { name: 'Jobs' }).click();
+  await page.getByRole('row', { name: /exosuit proved 1\.690 kg/ }).waitFor();
+  await close([401, 403]);
+});
+
+test('a fault of the service is said where it happened', async () => {
+  const { page, close } = await openPage(browser, service.base, '#/catalogue/battery');
+  await page.getByRole('heading', { name: /battery: \d+ parts/ }).waitFor();
+  await page.route('**/v1/parts', (route) =>
+    route.fulfill({ status: 500, contentType: 'text/plain', body: 'a fault' }),
+  );
+  await page.getByRole('button', { name: 'Add a part' }).click();
+  await page.getByLabel('Maker').fill('bench');
+  await page.getByRole('button', { name: 'Add the part' }).click();
+  await page.getByText('the service answered 500').waitFor();
+  assert.equal(await page.getByLabel('Maker').inputValue(), 'bench');
+  await close([500]);
 });
 
 test('the service going away is said, and the page goes on when it is back', async () => {

@@ -1,7 +1,7 @@
 // The real service on a copy of the catalogue, and Chromium that notes every error and every
 // request to elsewhere.
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
+import { execFileSync, spawn } from 'node:child_process';
 import { copyFileSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -12,11 +12,19 @@ import { chromium } from 'playwright-core';
 export const top = fileURLToPath(new URL('../..', import.meta.url));
 const binary = process.env.PLENUM ?? join(top, 'build/release/plenum');
 
-export async function startService() {
+// With `scopes` others may reach it, and it asks for tokens: `tokens` holds one of each scope.
+export async function startService({ scopes = [] } = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'plenum-page-'));
   const catalog = join(folder, 'catalog.db');
   copyFileSync(join(top, 'catalog.db'), catalog);
-  const child = spawn(binary, ['serve', '--port', '0', '--catalog', catalog], {
+  const make = (scope) =>
+    execFileSync(binary, ['token', 'create', 'a test', '--scope', scope, '--catalog', catalog], {
+      encoding: 'utf8',
+      stdio: ['ignore', 'pipe', 'ignore'],
+    }).trim();
+  const tokens = Object.fromEntries(scopes.map((scope) => [scope, make(scope)]));
+  const args = scopes.length > 0 ? ['--allow-host', 'plenum.example'] : [];
+  const child = spawn(binary, ['serve', '--port', '0', '--catalog', catalog, ...args], {
     stdio: ['ignore', 'ignore', 'pipe'],
   });
   const base = await new Promise((resolve, reject) => {
@@ -30,6 +38,7 @@ export async function startService() {
   });
   return {
     base,
+    tokens,
     get: async (path) => (await fetch(base + path)).json(),
     post: async (path, body, headers = {}) =>
       (

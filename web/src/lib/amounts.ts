@@ -1,6 +1,6 @@
 // What designs are compared by: the axes of plots and the columns of tables.
-import { short, shown } from './format';
-import type { Design, Requirements } from './types';
+import { fieldName, short, shown, significant } from './format';
+import type { Amount, Design, PartRow, Requirements } from './types';
 import { type Kind, unitOf } from './units';
 
 export interface Axis {
@@ -8,6 +8,7 @@ export interface Axis {
   label: string;
   kind: Kind;
   unit: string;
+  meaning: string;
   better: 'low' | 'high';
   of: (design: Design) => number | null;
 }
@@ -21,34 +22,118 @@ const plain = (
   id: string,
   label: string,
   unit: string,
+  meaning: string,
   of: Axis['of'],
   better: Axis['better'] = 'low',
   kind: Kind = 'plain',
-): Axis => ({ id, label, unit, of, better, kind });
+): Axis => ({ id, label, unit, meaning, of, better, kind });
+
+const settings = (of: (d: Design['settings']) => number | null) => (d: Design) => of(d.settings);
 
 export const axes: Axis[] = [
-  plain('mass', 'mass', 'kg', (d) => d.totals.mass_kg),
-  plain('volume', 'volume', '', (d) => d.totals.volume_l, 'low', 'volume_l'),
-  plain('cost', 'cost', '€', (d) => d.totals.cost_eur),
-  plain('energy', 'energy', 'Wh', (d) => d.totals.energy_wh),
-  plain('rise', 'rise', 's', (d) => worst(d.performance.groups.map((g) => g.rise_time_s))),
-  plain('fall', 'fall', 's', (d) => worst(d.performance.groups.map((g) => g.fall_time_s))),
-  plain('margin', 'least margin', '%', (d) => Math.round(1e5 * leastMargin(d)) / 1e3, 'high'),
-  plain('source', 'source', '', (d) => d.settings.source_pressure_kpa_gauge, 'low', 'pressure'),
-  plain('reservoir', 'reservoir', '', (d) => d.settings.reservoir_volume_ml, 'low', 'volume_ml'),
-  plain('sustained', 'sustained', 'Hz', (d) => d.performance.frequency_hz_sustained, 'high'),
-  plain('duty', 'pump duty', '%', (d) =>
-    d.settings.compressor_duty === null ? null : 100 * d.settings.compressor_duty,
+  plain('mass', 'mass', 'kg', 'Of all parts together', (d) => d.totals.mass_kg),
+  plain(
+    'volume',
+    'volume',
+    '',
+    'Of the bodies of all parts together',
+    (d) => d.totals.volume_l,
+    'low',
+    'volume_l',
   ),
-  plain('estimated', 'estimated mass', '%', (d) => 100 * d.data_quality.mass_share_estimated),
+  plain('cost', 'cost', '€', 'Of all parts together', (d) => d.totals.cost_eur),
+  plain(
+    'energy',
+    'energy',
+    'Wh',
+    'Electrical, of pump and coils over all actuations',
+    (d) => d.totals.energy_wh,
+  ),
+  plain('rise', 'rise', 's', 'The slowest rise of any group, in the periodic state', (d) =>
+    worst(d.performance.groups.map((g) => g.rise_time_s)),
+  ),
+  plain('fall', 'fall', 's', 'The slowest fall of any group, in the periodic state', (d) =>
+    worst(d.performance.groups.map((g) => g.fall_time_s)),
+  ),
+  plain(
+    'margin',
+    'least margin',
+    '%',
+    'What the tightest requirement has to spare',
+    (d) => Math.round(1e5 * leastMargin(d)) / 1e3,
+    'high',
+  ),
+  plain(
+    'source',
+    'source',
+    '',
+    'Pressure that the lines are fed from',
+    settings((s) => s.source_pressure_kpa_gauge),
+    'low',
+    'pressure',
+  ),
+  plain(
+    'reservoir',
+    'reservoir',
+    '',
+    'Volume between pump and valves',
+    settings((s) => s.reservoir_volume_ml),
+    'low',
+    'volume_ml',
+  ),
+  plain(
+    'sustained',
+    'sustained',
+    'Hz',
+    'The highest frequency that the supply keeps up',
+    (d) => d.performance.frequency_hz_sustained,
+    'high',
+  ),
+  plain(
+    'duty',
+    'pump duty',
+    '%',
+    'Share of the time that the pump runs',
+    settings((s) => (s.compressor_duty === null ? null : 100 * s.compressor_duty)),
+  ),
+  plain(
+    'estimated',
+    'estimated mass',
+    '%',
+    'How much of the mass rests on estimates',
+    (d) => 100 * d.data_quality.mass_share_estimated,
+  ),
   plain(
     'probability',
     'probability',
     '%',
+    "That it meets everything within its parts' tolerances",
     (d) => (d.robustness ? 100 * d.robustness.probability : null),
     'high',
   ),
 ];
+
+const supplyWords = { compressor: 'compressor', cylinder: 'cylinder', co2: 'CO₂', mains: 'wall' };
+export const supplyWord = ({ configuration }: Pick<Design, 'configuration'>): string =>
+  supplyWords[configuration];
+
+export const quantityOf = (part: PartRow): string =>
+  part.unit === 'm' ? `${significant(part.quantity)} m` : `${part.quantity} ×`;
+
+const axisOfAmount: Record<Amount, string> = {
+  mass_kg: 'mass',
+  volume_l: 'volume',
+  cost_eur: 'cost',
+  energy_wh: 'energy',
+};
+
+// What a plot shows of an answer at first: what was minimised, across and upwards.
+export function usualAxes({ objective }: Pick<Requirements, 'objective'>): [string, string] {
+  const { minimize, pareto } = objective ?? {};
+  if (pareto) return [axisOfAmount[pareto[0]!], axisOfAmount[pareto[1]!]];
+  const first = typeof minimize === 'string' ? axisOfAmount[minimize] : 'mass';
+  return [first, first === 'volume' ? 'mass' : 'volume'];
+}
 
 export const axisOf = (id: string | null | undefined): Axis | undefined =>
   axes.find((axis) => axis.id === id);
@@ -84,16 +169,27 @@ export function requirementUnit(pointer: string): string {
   return pointer.endsWith('_anr_max') ? 'L/min' : '';
 }
 
+// Where in the requirements something is, in the words of the form.
+export function placeInWords(pointer: string, groups: { name: string }[]): string {
+  const [, index, rest] = /^\/actuators\/(\d+)\/(.+)$/.exec(pointer) ?? [];
+  const field = (rest ?? pointer).split('/').pop()!;
+  const name = fieldName(field.replace(/_max$/, '')).label || 'the requirements';
+  return rest ? `${name} of ${groups[Number(index)]?.name ?? index}` : name;
+}
+
+// Whether a requirement is a least or a most.
+export const sense = (pointer: string): string => (pointer.startsWith('/duty') ? '≥' : '≤');
+
 // What a search minimises, in words.
-export function objectiveName({ objective }: Requirements): string {
+export function objectiveName({ objective }: Pick<Requirements, 'objective'>): string {
   const minimize = objective?.minimize ?? 'mass_kg';
   const words = { mass_kg: 'mass', volume_l: 'volume', cost_eur: 'cost', energy_wh: 'energy' };
   return typeof minimize === 'string' ? words[minimize] : 'weighted sum';
 }
 
 // Of what a search minimises; none for a weighted sum.
-export function objectiveUnit(requirements: Requirements): string {
-  const { minimize, pareto } = requirements.objective ?? {};
+export function objectiveUnit({ objective }: Pick<Requirements, 'objective'>): string {
+  const { minimize, pareto } = objective ?? {};
   const amount =
     typeof minimize === 'string' ? minimize : minimize ? '' : (pareto?.[0] ?? 'mass_kg');
   return { mass_kg: 'kg', volume_l: 'L', cost_eur: '€', energy_wh: 'Wh', '': '' }[amount];

@@ -22,7 +22,7 @@ export class Problem extends Error {
 
 // A service that others can reach asks for a token; it is kept as long as the window is open.
 const kept = 'plenum-token';
-export const wantsToken = signal(false);
+export const wantsToken = signal<'' | 'none' | 'refused' | 'change'>('');
 export const hasToken = (): boolean => sessionStorage.getItem(kept) !== null;
 
 export function takeToken(token: string): void {
@@ -75,7 +75,7 @@ export async function ask<T>(
     if (options.signal?.aborted) throw error;
     throw new Problem(0, 'the service does not answer; is plenum serve still running?');
   }
-  if (response.status === 401) wantsToken.value = true;
+  if (response.status === 401) wantsToken.value = hasToken() ? 'refused' : 'none';
   if (!response.ok) throw await problemOf(response);
   const text = response.status === 204 ? '' : await response.text();
   const isJson = (response.headers.get('Content-Type') ?? '').includes('json');

@@ -1,6 +1,5 @@
 // Numbers as a person reads them: three significant digits, thin spaces between thousands.
-import type { Kind } from './units';
-import { toShown } from './units';
+import { type Kind, toShown, unitOf } from './units';
 
 const thin = '\u202f';
 
@@ -10,20 +9,33 @@ export function significant(value: number | null | undefined, digits = 3): strin
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
   if (value === 0) return '0';
   const magnitude = Math.floor(Math.log10(Math.abs(value)));
-  if (magnitude >= 9 || magnitude < -5) return value.toExponential(digits - 1).replace('e+', 'e');
+  if (magnitude >= 9 || magnitude < -5) {
+    const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
+    return `${mantissa!.replace('-', '−')}×10${superscript(Number(exponent))}`;
+  }
   const places = Math.max(0, digits - 1 - magnitude);
   const [whole = '', part] = Math.abs(value).toFixed(places).split('.');
   return `${value < 0 ? '−' : ''}${group(whole)}${part ? `.${part}` : ''}`;
 }
 
+// To the digits that matter beside `scale`: thousandths of it.
+export function beside(scale: number, value: number): string {
+  const places = Math.max(0, 2 - Math.floor(Math.log10(Math.max(scale, 1e-9))));
+  return value
+    .toFixed(Math.min(places, 9))
+    .replace(/^-(?=0\.?0*$)/, '')
+    .replace('-', '−');
+}
+
 // Without zeros at the end: bounds and ticks.
 export const short = (value: number, digits = 6): string => {
   const text = significant(value, digits);
-  return text.includes('.') && !text.includes('e') ? text.replace(/\.?0+$/, '') : text;
+  if (text.includes('×')) return text.replace(/\.?0+×/, '×').replace(/^(−?)1×/, '$1');
+  return text.includes('.') ? text.replace(/\.?0+$/, '') : text;
 };
 
 export const isSame = (a: number, b: number): boolean =>
-  Math.abs(a - b) <= 1e-5 * Math.max(Math.abs(a), Math.abs(b));
+  Math.abs(a - b) <= 1e-4 * Math.max(Math.abs(a), Math.abs(b));
 
 // Enough digits to tell two numbers apart.
 export function digitsApart(a: number, b: number): number {
@@ -56,13 +68,22 @@ export const scientific = (value: string): string =>
   value.length > 7 ? `${value[0]}.${value[1]} × 10${superscript(value.length - 1)}` : group(value);
 
 const superscript = (n: number): string =>
-  [...String(n)].map((d) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(d)]).join('');
+  [...String(n)].map((d) => (d === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(d)])).join('');
 
 export function duration(seconds: number): string {
   if (seconds < 60) return `${significant(seconds, 2)} s`;
   if (seconds < 3600) return `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`;
   return `${Math.floor(seconds / 3600)} h ${Math.round((seconds % 3600) / 60)} min`;
 }
+
+// A time of the service (RFC 3339) in the reader's own clock; the day unless it is today's.
+export const moment = (at: string): string => {
+  const time = new Date(at);
+  const two = (n: number) => String(n).padStart(2, '0');
+  const day = `${time.getFullYear()}-${two(time.getMonth() + 1)}-${two(time.getDate())} `;
+  const isToday = time.toDateString() === new Date().toDateString();
+  return `${isToday ? '' : day}${two(time.getHours())}:${two(time.getMinutes())}`;
+};
 
 // Names of fields, as the contract writes them, in words: "mass_kg" → "mass", unit "kg".
 const units: [RegExp, string][] = [
@@ -96,6 +117,38 @@ const units: [RegExp, string][] = [
   [/_k$/, 'K'],
 ];
 
+export const fieldKind = (field: string): Kind =>
+  field.endsWith('_kpa_gauge')
+    ? 'pressure'
+    : field.endsWith('_kpa')
+      ? 'difference'
+      : field.endsWith('_ml')
+        ? 'volume_ml'
+        : field.endsWith('_l')
+          ? 'volume_l'
+          : 'plain';
+
+// The service speaks in the document's units: its limits in those shown.
+export const inUnit = (kind: Kind, error: string): string =>
+  kind === 'plain'
+    ? error
+    : error.replace(
+        /(≥|≤|>|<|not) (-?\d[\d.]*(?:e[+-]?\d+)?)/g,
+        (_, sign, number) => `${sign} ${short(toShown(kind, Number(number)))}`,
+      );
+
+export function fieldName(field: string): { label: string; unit: string } {
+  if (field === 'current_max_a') return { label: 'current max', unit: 'A' };
+  for (const [suffix, unit] of units) {
+    if (suffix.test(field))
+      return {
+        label: field.replace(suffix, '').replaceAll('_', ' '),
+        unit: unitOf(fieldKind(field), unit),
+      };
+  }
+  return { label: field.replaceAll('_', ' '), unit: '' };
+}
+
 // The same, short enough for the head of a column: C and b as in ISO 6358.
 export function columnName(field: string): { label: string; unit: string } {
   const { label, unit } = fieldName(field);
@@ -105,14 +158,6 @@ export function columnName(field: string): { label: string; unit: string } {
       .replace('critical ratio', 'b')
       .replace('pressure', 'p')
       .replace(' diameter', ' ⌀'),
-    unit: unit === 'kPa gauge' ? 'kPa' : unit,
+    unit: unit.replace(' gauge', ''),
   };
-}
-
-export function fieldName(field: string): { label: string; unit: string } {
-  if (field === 'current_max_a') return { label: 'current max', unit: 'A' };
-  for (const [suffix, unit] of units) {
-    if (suffix.test(field)) return { label: field.replace(suffix, '').replaceAll('_', ' '), unit };
-  }
-  return { label: field.replaceAll('_', ' '), unit: '' };
 }

@@ -19,6 +19,7 @@ export interface GroupMaps {
   source: number; // ratio to ambient
   expansion: number;
   critical: number;
+  criticalOut: number;
   conductance: number | null; // dm³/(s·bar), of the whole line
 }
 
@@ -59,6 +60,7 @@ export async function mapsOf(
   const expansion = expansionOf(group);
   const valve = parts.get(rowOf(design, 'valve', group.name)?.id ?? '');
   const critical = (valve && numberOf(valve, 'critical_ratio_fill')) ?? 0.3;
+  const criticalOut = (valve && numberOf(valve, 'critical_ratio_exhaust')) ?? critical;
   const fractions = {
     rise: requirements.rise ?? { to_fraction: 0.95 },
     fall: requirements.fall ?? { to_fraction: 0.05 },
@@ -109,7 +111,7 @@ export async function mapsOf(
     ['expansion_ratio', steps(1, Math.max(2 * expansion - 1, 3), 32)],
     'fall_time_normalised',
     { x: operating, y: expansion },
-    { source_pressure_ratio: [1000] },
+    { source_pressure_ratio: [1000], critical_ratio: [criticalOut] },
   );
 
   // One C for the whole line: with it the map gives the time that the line takes.
@@ -150,12 +152,13 @@ export async function mapsOf(
   }
   return {
     rise: { ...rise, seconds: seconds(rise.normalised) },
-    // The way out is another line: its time is not known from this C.
-    fall: { ...fall, seconds: null },
+    // The way out is another line, with a C of its own.
+    fall: { ...fall, seconds: alone.performance.groups[0]!.fall_time_s },
     pump: pump && { ...pump, seconds: seconds(pump.normalised) },
     source,
     expansion,
     critical,
+    criticalOut,
     conductance,
   };
 }

@@ -2,6 +2,7 @@
 import { signal } from '@preact/signals';
 
 import type { FieldError } from './api';
+import type { Word } from './words';
 
 export type ValveState = 'hold' | 'inflate' | 'deflate';
 
@@ -285,11 +286,36 @@ const effectWords: Record<string, string> = {
   learned_sensor: 'a learned error of the sensor',
 };
 
+// A learned law says how many knots it has: "pressure_5".
+const lawWord = (law: string): string => law.replace(/_(\d+)$/, ', $1 knots').replaceAll('_', ' ');
+
 export const effectName = (id: string, law?: string): string =>
-  `${effectWords[id] ?? id.replaceAll('_', ' ')}${law ? ` (${law})` : ''}`;
+  `${effectWords[id] ?? id.replaceAll('_', ' ')}${law ? ` (${lawWord(law)})` : ''}`;
 
 export const effectNames = (ids: string[], laws: Record<string, string> = {}): string =>
   ids.map((id) => effectName(id, laws[id])).join(' + ') || 'base model';
+
+// A sentence of the service with names for a person in place of ids; what is left of ids are names
+// of numbers, as in "leak.critical_ratio".
+export const inWords = (sentence: string): string => {
+  const text = sentence
+    .replace(/\b([a-z_]+)\.([a-z_]+)\b/g, (whole, id, parameter) =>
+      effectWords[id] ? `${parameter} of ${id}` : whole,
+    )
+    .replace(
+      /\b(?:an? )?([a-z_]+)\b/g,
+      (whole, id) => effectWords[id] ?? whole.replaceAll('_', ' '),
+    );
+  return text.charAt(0).toUpperCase() + text.slice(1);
+};
+
+export const verdictWord: Record<Diagnosis['verdict'], Word> = {
+  adequate: { text: 'adequate', kind: 'good' },
+  explained: { text: 'explained', kind: 'good' },
+  tie: { text: 'a tie', kind: 'warn' },
+  unexplained: { text: 'unexplained', kind: 'bad' },
+  undecided: { text: 'undecided', kind: 'warn' },
+};
 
 // What the page has open, the file's own text while it is as it was, and what the service finds
 // wrong with it.

@@ -40,9 +40,18 @@ export const requirements = signal<Requirements>((start && decode(start)) || pre
 export const fieldErrors = signal<FieldError[]>([]);
 export type Validity = 'checking' | 'valid' | 'invalid' | 'unknown';
 export const validity = signal<Validity>('checking');
+export const whyUnknown = signal('');
+
+type Path = (string | number)[];
+
+export const valueAt = (document: unknown, path: Path): unknown =>
+  path.reduce<unknown>(
+    (at, step) => (at as Record<string | number, unknown> | undefined)?.[step],
+    document,
+  );
 
 // Sets the value at a path such as ['duty', 'frequency_hz'] in a copy; undefined removes it.
-export function edit(path: (string | number)[], value: unknown): void {
+export function edit(path: Path, value: unknown): void {
   const next = structuredClone(requirements.peek()) as unknown as Record<string | number, unknown>;
   let at = next;
   for (const step of path.slice(0, -1)) at = (at[step] ??= {}) as Record<string | number, unknown>;
@@ -80,6 +89,10 @@ async function validate(document: Requirements): Promise<void> {
     batch(() => {
       fieldErrors.value = problem.errors;
       validity.value = problem.status === 422 || problem.status === 400 ? 'invalid' : 'unknown';
+      whyUnknown.value =
+        problem.status === 0
+          ? 'The service does not answer; nothing was checked.'
+          : `Not checked: ${problem.message}.`;
     });
   }
 }

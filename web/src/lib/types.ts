@@ -178,10 +178,12 @@ export interface Answer {
 
 export interface Progress {
   seconds: number;
-  evaluated: number;
-  open: number;
+  evaluated: number | string;
+  open?: number; // while it runs
   best: number | null;
   lower_bound: number | null;
+  objective?: Requirements['objective']; // what they are amounts of
+  outcome?: Answer['status']; // in the end
 }
 
 export type JobStatus = 'queued' | 'running' | 'done' | 'cancelled' | 'failed';
@@ -191,12 +193,14 @@ export interface Doing {
   seconds: number;
   share: number;
   doing: string;
+  outcome?: string; // the verdict, in the end
 }
 
 export interface Job<Result = Answer, Report = Progress> {
   id: string;
   name: string;
   status: JobStatus;
+  submitted_at: string;
   progress: Report | null;
   result?: Result | null;
   detail?: string;

@@ -25,12 +25,14 @@ effect(() => {
 const kpaPer: Record<PressureUnit, number> = { kPa: 1, bar: 100, psi: 6.894757293168 };
 
 // What a number is, which decides how it is shown.
-export type Kind = 'pressure' | 'volume_ml' | 'volume_l' | 'plain';
+export type Kind = 'pressure' | 'difference' | 'volume_ml' | 'volume_l' | 'plain';
 
 export function unitOf(kind: Kind, plain = ''): string {
   switch (kind) {
     case 'pressure':
       return `${pressureUnit.value} ${reference.value}`;
+    case 'difference': // of two pressures
+      return pressureUnit.value;
     case 'volume_ml':
     case 'volume_l':
       return volumeUnit.value;
@@ -45,6 +47,8 @@ export function toShown(kind: Kind, value: number): number {
       return (
         (value + (reference.value === 'abs' ? ambientKpa.value : 0)) / kpaPer[pressureUnit.value]
       );
+    case 'difference':
+      return value / kpaPer[pressureUnit.value];
     case 'volume_ml':
       return volumeUnit.value === 'L' ? value / 1000 : value;
     case 'volume_l':
@@ -64,6 +68,8 @@ export function fromShown(kind: Kind, shown: number): number {
         clean(shown * kpaPer[pressureUnit.value]) -
         (reference.value === 'abs' ? ambientKpa.value : 0)
       );
+    case 'difference':
+      return clean(shown * kpaPer[pressureUnit.value]);
     case 'volume_ml':
       return volumeUnit.value === 'L' ? clean(shown * 1000) : shown;
     case 'volume_l':

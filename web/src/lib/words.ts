@@ -33,7 +33,12 @@ export function proofInWords(answer: Answer): string {
   }
 }
 
-export const statusWord: Record<Answer['status'], { text: string; kind: string }> = {
+export interface Word {
+  text: string;
+  kind: string; // of a chip
+}
+
+export const statusWord: Record<Answer['status'], Word> = {
   optimal: { text: 'proved', kind: 'good' },
   feasible: { text: 'best found', kind: 'warn' },
   infeasible: { text: 'infeasible', kind: 'bad' },

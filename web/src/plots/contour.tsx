@@ -6,6 +6,7 @@ import { useId } from 'preact/hooks';
 
 import { short } from '../lib/format';
 import { Axes } from './axes';
+import { Picture } from './picture';
 import { useWidth } from './width';
 
 const height = 270;
@@ -86,9 +87,9 @@ export function ContourMap(props: {
           )}
         </span>
       </figcaption>
-      <div ref={ref} style={{ height: `${height}px` }}>
+      <div ref={ref} style={{ height: `${height / 10}rem` }}>
         {width > 0 && (
-          <svg width={width} height={height}>
+          <Picture width={width} height={height}>
             <clipPath id={clip}>
               <rect
                 x={space.left}
@@ -124,7 +125,7 @@ export function ContourMap(props: {
               <circle r="6" />
               <path d="M-11 0 H11 M0 -11 V11" />
             </g>
-          </svg>
+          </Picture>
         )}
       </div>
       <p class="hint">{props.note}</p>

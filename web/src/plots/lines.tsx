@@ -6,6 +6,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import uPlot from 'uplot';
 
 import { short, significant } from '../lib/format';
+import { pageScale } from '../lib/page_scale';
 import { colour, palette } from '../lib/theme';
 
 export interface Line {
@@ -28,14 +29,15 @@ export interface Band {
   colour: string;
 }
 
-const font = '11px -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif';
+const fontOf = (size: number): string =>
+  `${size}px -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif`;
 
 function drawGuides(plot: uPlot, guides: Guide[], ink: string) {
   const { ctx, bbox } = plot;
   ctx.save();
   ctx.strokeStyle = ink;
   ctx.fillStyle = ink;
-  ctx.font = font.replace('11px', `${10 * devicePixelRatio}px`);
+  ctx.font = fontOf(10 * pageScale.peek() * devicePixelRatio);
   ctx.setLineDash([3 * devicePixelRatio, 3 * devicePixelRatio]);
   for (const guide of guides) {
     const y = plot.valToPos(guide.value, 'y', true);
@@ -84,7 +86,8 @@ export function Lines(props: {
   const box = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
   const at = useSignal<number | null>(null);
-  const height = props.height ?? 220;
+  const size = pageScale.value;
+  const height = Math.round((props.height ?? 220) * size);
   const paint = palette.value;
   // What the plot is made of but its values; a change makes a new one.
   const shape = JSON.stringify([
@@ -96,6 +99,7 @@ export function Lines(props: {
     props.bands,
     props.yFromZero,
     paint,
+    size,
     props.lines.map((line) => [line.label, line.colour, line.dash, line.width, line.points]),
   ]);
   const data = [props.x, ...props.lines.map((line) => line.values)] as uPlot.AlignedData;
@@ -105,7 +109,16 @@ export function Lines(props: {
     if (!holder) return;
     const ink = colour('--muted');
     const grid = { stroke: colour('--grid'), width: 1 };
-    const axis = { stroke: ink, font, labelFont: font, grid, ticks: { ...grid, size: 4 } };
+    const font = fontOf(11 * size);
+    const axis = {
+      stroke: ink,
+      font,
+      labelFont: font,
+      grid,
+      ticks: { ...grid, size: 4 * size },
+      labelSize: 16 * size,
+      labelGap: 0,
+    };
     const made = new uPlot(
       {
         width: holder.clientWidth,
@@ -129,13 +142,12 @@ export function Lines(props: {
             : {},
         },
         axes: [
-          { ...axis, label: props.xLabel, labelSize: 16, size: 30, labelGap: 0 },
+          { ...axis, label: props.xLabel, size: 30 * size, space: 60 * size },
           {
             ...axis,
             label: props.yLabel,
-            labelSize: 16,
-            size: 46,
-            labelGap: 0,
+            size: 46 * size,
+            space: 30 * size,
             values: (_, ticks) => ticks.map((tick) => (tick === null ? '' : short(tick))),
           },
         ],
@@ -144,7 +156,7 @@ export function Lines(props: {
           ...props.lines.map((line) => ({
             label: line.label,
             stroke: colour(line.colour),
-            width: line.width ?? 1.6,
+            width: (line.width ?? 1.6) * size,
             dash: line.dash,
             points: line.points
               ? { show: true, size: 3, fill: colour(line.colour) }

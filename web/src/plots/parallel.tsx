@@ -4,15 +4,18 @@ import { useEffect, useRef } from 'preact/hooks';
 
 import { type Axis, axisUnit } from '../lib/amounts';
 import { digitsApart, isSame, short, significant } from '../lib/format';
+import { pageScale } from '../lib/page_scale';
 import { colour, palette } from '../lib/theme';
 import type { Design } from '../lib/types';
 import { toShown } from '../lib/units';
+import { Scroll } from '../ui/scroll';
+import { Picture } from './picture';
 import { useWidth } from './width';
 
 export type Brushes = Record<string, [number, number]>;
 
-const height = 260;
-const top = 34;
+const height = 268;
+const top = 42;
 const bottom = 18;
 const inset = 34;
 
@@ -34,18 +37,17 @@ export function Parallel(props: {
     const pad = !single ? 0 : Math.abs(high) * 0.05 || 1;
     return { axis, single, scale: scaleLinear([low - pad, high + pad], [height - bottom, top]) };
   });
-  const inner = Math.max(width, shown.length * 70);
-  const xOf = (i: number) => inset + (i * (inner - 2 * inset)) / Math.max(1, shown.length - 1);
+  const xOf = (i: number) => inset + (i * (width - 2 * inset)) / Math.max(1, shown.length - 1);
 
   useEffect(() => {
     const element = canvas.current;
     const ctx = element?.getContext('2d');
     if (!element || !ctx || width === 0) return;
-    const ratio = devicePixelRatio;
-    element.width = inner * ratio;
+    const ratio = devicePixelRatio * pageScale.value;
+    element.width = width * ratio;
     element.height = height * ratio;
     ctx.scale(ratio, ratio);
-    ctx.clearRect(0, 0, inner, height);
+    ctx.clearRect(0, 0, width, height);
     const trace = (design: Design) => {
       let pen = false;
       shown.forEach(({ axis, scale }, i) => {
@@ -109,34 +111,36 @@ export function Parallel(props: {
           <span class="legend-item">drag along an axis to filter</span>
         </span>
       </figcaption>
-      <div
-        ref={ref}
-        class="parallel-box"
-        style={{ height: `${height + (inner > width ? 14 : 0)}px` }}
-      >
-        {width > 0 && (
-          <>
-            <canvas
-              ref={canvas}
-              style={{ width: `${inner}px`, height: `${height}px` }}
-              aria-hidden="true"
-            />
-            <svg width={inner} height={height}>
-              {shown.map(({ axis, scale, single }, i) => (
-                <BrushAxis
-                  key={axis.id}
-                  axis={axis}
-                  x={xOf(i)}
-                  scale={scale}
-                  range={props.brushes[axis.id]}
-                  single={single}
-                  onBrush={(range) => props.onBrush(axis.id, range)}
-                />
-              ))}
-            </svg>
-          </>
-        )}
-      </div>
+      <Scroll label="Axes">
+        <div
+          ref={ref}
+          class="parallel-box"
+          style={{ height: `${height / 10}rem`, minWidth: `${shown.length * 6.4}rem` }}
+        >
+          {width > 0 && (
+            <>
+              <canvas
+                ref={canvas}
+                style={{ width: `${width / 10}rem`, height: `${height / 10}rem` }}
+                aria-hidden="true"
+              />
+              <Picture width={width} height={height}>
+                {shown.map(({ axis, scale, single }, i) => (
+                  <BrushAxis
+                    key={axis.id}
+                    axis={axis}
+                    x={xOf(i)}
+                    scale={scale}
+                    range={props.brushes[axis.id]}
+                    single={single}
+                    onBrush={(range) => props.onBrush(axis.id, range)}
+                  />
+                ))}
+              </Picture>
+            </>
+          )}
+        </div>
+      </Scroll>
     </figure>
   );
 }
@@ -156,7 +160,7 @@ function BrushAxis(props: {
     const box = (event.currentTarget as Element).ownerDocument
       .querySelector('.parallel-box')!
       .getBoundingClientRect();
-    const y = Math.min(Math.max(event.clientY - box.top, top), height - bottom);
+    const y = Math.min(Math.max((event.clientY - box.top) / pageScale.value, top), height - bottom);
     return scale.invert(y);
   };
   const frame = useRef(0);
@@ -183,7 +187,7 @@ function BrushAxis(props: {
     else return;
     event.preventDefault();
   };
-  const digits = digitsApart(toShown(axis.kind, low), toShown(axis.kind, high));
+  const digits = Math.max(3, digitsApart(toShown(axis.kind, low), toShown(axis.kind, high)) - 1);
   const text = (value: number) => significant(toShown(axis.kind, value), digits);
   const range = props.range;
   return (
@@ -235,7 +239,7 @@ function BrushAxis(props: {
       <text x={x} y={22} class="unit">
         {axisUnit(axis)}
       </text>
-      <text x={x} y={props.single ? (top + height - bottom) / 2 - 5 : top - 2} class="end">
+      <text x={x} y={props.single ? (top + height - bottom) / 2 - 5 : top - 5} class="end">
         {props.single ? short(toShown(axis.kind, (low + high) / 2), 4) : text(high)}
       </text>
       {!props.single && (

@@ -2,16 +2,17 @@
 import { scaleLinear } from 'd3-scale';
 import { useMemo } from 'preact/hooks';
 
-import { axes, type Axis, axisUnit, paretoFront } from '../lib/amounts';
+import { axes, type Axis, axisUnit, paretoFront, supplyWord } from '../lib/amounts';
 import { shown } from '../lib/format';
 import type { Design } from '../lib/types';
 import { toShown } from '../lib/units';
 import { Select } from '../ui/controls';
 import { Axes } from './axes';
+import { Picture } from './picture';
 import { useWidth } from './width';
 
 const height = 260;
-const space = { left: 52, right: 14, top: 10, bottom: 36 };
+const space = { left: 52, right: 26, top: 10, bottom: 36 };
 
 interface Point {
   design: Design;
@@ -39,7 +40,7 @@ export function Scatter(props: {
     for (const design of props.designs) {
       const [px, py] = [x.of(design), y.of(design)];
       if (px === null || py === null) continue;
-      const tip = `#${design.rank} ${design.configuration}: ${x.label} ${shown(x.kind, px, 4)} ${axisUnit(x)}, ${y.label} ${shown(y.kind, py, 4)} ${axisUnit(y)}`;
+      const tip = `#${design.rank} ${supplyWord(design)}: ${x.label} ${shown(x.kind, px, 4)} ${axisUnit(x)}, ${y.label} ${shown(y.kind, py, 4)} ${axisUnit(y)}`;
       found.push({ design, x: px, y: py, tip });
     }
     return { points: found, front: paretoFront(found, x, y) };
@@ -95,9 +96,9 @@ export function Scatter(props: {
           </span>
         </span>
       </figcaption>
-      <div ref={ref} style={{ height: `${height}px` }}>
+      <div ref={ref} style={{ height: `${height / 10}rem` }}>
         {width > 0 && points.length > 0 && (
-          <svg width={width} height={height}>
+          <Picture width={width} height={height}>
             <Axes
               hasGrid
               frame={{ width, height, ...space }}
@@ -118,7 +119,7 @@ export function Scatter(props: {
                 onClick={() => props.onOpen(p.design.rank)}
               />
             ))}
-          </svg>
+          </Picture>
         )}
       </div>
     </figure>

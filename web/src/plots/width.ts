@@ -1,7 +1,9 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 
-// The width of an element as the page lays it out.
+import { pageScale } from '../lib/page_scale';
+
+// The width of an element as the page lays it out, in units of `pageScale` pixels.
 export function useWidth() {
   const ref = useRef<HTMLDivElement>(null);
   const width = useSignal(0);
@@ -9,7 +11,7 @@ export function useWidth() {
     const element = ref.current;
     if (!element) return;
     const observer = new ResizeObserver(() => {
-      width.value = Math.floor(element.clientWidth);
+      width.value = Math.floor(element.clientWidth / pageScale.peek());
     });
     observer.observe(element);
     return () => observer.disconnect();

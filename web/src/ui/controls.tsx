@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useLayoutEffect, useRef } from 'preact/hooks';
 
-import { short } from '../lib/format';
+import { inUnit, short } from '../lib/format';
 import { fromShown, type Kind, toShown, unitOf } from '../lib/units';
 
 export function Panel(props: {
@@ -157,7 +157,7 @@ export function NumberField(props: NumberFieldProps) {
   const range = props.range
     ? `${short(toShown(kind, props.range[0]), 3)} … ${short(toShown(kind, props.range[1]), 3)}`
     : '';
-  const error = broken.value ? 'a number is needed here' : props.error;
+  const error = broken.value ? 'a number is needed here' : props.error && inUnit(kind, props.error);
   const hint = [props.hint, range].filter(Boolean).join(' · ');
   return (
     <div class={`field ${error ? 'wrong' : ''}`}>

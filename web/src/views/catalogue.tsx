@@ -54,7 +54,8 @@ export function CatalogueView() {
                 href={link(['catalogue', f.name])}
                 aria-current={f.name === family ? 'true' : undefined}
               >
-                {f.name} <span class="muted">{familyCounts.value[f.name] ?? 0}</span>
+                {f.name === 'co2' ? 'CO₂' : f.name}{' '}
+                <span class="muted">{familyCounts.value[f.name] ?? 0}</span>
               </a>
             </li>
           ))}

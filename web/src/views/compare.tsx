@@ -1,13 +1,13 @@
 // Up to four designs side by side: deltas to the first, responses over each other.
-import { axes, axisUnit, requirementName } from '../lib/amounts';
-import { change, percent, short, significant } from '../lib/format';
+import { axes, type Axis, axisUnit, quantityOf, requirementName, supplyWord } from '../lib/amounts';
+import { change, percent, shown, signed } from '../lib/format';
 import { link, route, setQuery } from '../lib/route';
 import { seriesColours } from '../lib/theme';
 import type { Answer, Design } from '../lib/types';
-import { pressuresShown, toShown, unitOf } from '../lib/units';
+import { pressuresShown, unitOf } from '../lib/units';
 import { type Line, Lines } from '../plots/lines';
 import { Chip, Notice, Panel, Segmented } from '../ui/controls';
-import { Margins } from './ranked_table';
+import { Scroll } from '../ui/scroll';
 
 export function ComparePanel({ answer, id }: { answer: Answer; id: string }) {
   const ranks = (route.value.query.get('ranks') ?? '').split(',').map(Number);
@@ -46,10 +46,10 @@ function Heads({ designs, id }: { designs: Design[]; id?: string }) {
           <i class="swatch" style={{ background: `var(${seriesColours[i]})` }} />{' '}
           {id ? (
             <a href={link(['designs', id, String(design.rank)])}>
-              #{design.rank} {design.configuration}
+              #{design.rank} {supplyWord(design)}
             </a>
           ) : (
-            `#${design.rank} ${design.configuration}`
+            `#${design.rank} ${supplyWord(design)}`
           )}
         </th>
       ))}
@@ -61,7 +61,7 @@ function Amounts({ designs, answer, id }: { designs: Design[]; answer: Answer; i
   const first = designs[0]!;
   const used = axes.filter((axis) => designs.some((design) => axis.of(design) !== null));
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label="Amounts side by side">
+    <Scroll label="Amounts side by side">
       <table class="compare">
         <thead>
           <tr>
@@ -79,21 +79,10 @@ function Amounts({ designs, answer, id }: { designs: Design[]; answer: Answer; i
                 </th>
                 {designs.map((design) => {
                   const value = axis.of(design);
-                  const delta =
-                    value !== null && base !== null && design !== first && base !== 0
-                      ? value / base - 1
-                      : null;
-                  const isBetter = delta !== null && (axis.better === 'low') === delta < 0;
                   return (
                     <td key={design.rank}>
-                      {value === null
-                        ? '–'
-                        : significant(toShown(axis.kind, value), axis.id === 'mass' ? 4 : 3)}{' '}
-                      {delta !== null && Math.abs(delta) > 5e-5 && (
-                        <span class={isBetter ? 'delta better' : 'delta worse'}>
-                          {change(delta)}
-                        </span>
-                      )}
+                      {shown(axis.kind, value, axis.id === 'mass' ? 4 : 3)}{' '}
+                      {design !== first && <Delta axis={axis} value={value} base={base} />}
                     </td>
                   );
                 })}
@@ -116,17 +105,24 @@ function Amounts({ designs, answer, id }: { designs: Design[]; answer: Answer; i
               })}
             </tr>
           ))}
-          <tr>
-            <th scope="row">all margins</th>
-            {designs.map((design) => (
-              <td key={design.rank}>
-                <Margins design={design} answer={answer} />
-              </td>
-            ))}
-          </tr>
         </tbody>
       </table>
-    </div>
+    </Scroll>
+  );
+}
+
+// Of shares the difference in points, of other amounts the relative one.
+function Delta(props: { axis: Axis; value: number | null; base: number | null }) {
+  const { axis, value, base } = props;
+  if (value === null || base === null) return null;
+  const isShare = axis.unit === '%';
+  const delta = isShare ? value - base : base === 0 ? 0 : value / base - 1;
+  if (Math.abs(delta) < (isShare ? 5e-3 : 5e-5)) return null;
+  const isBetter = (axis.better === 'low') === delta < 0;
+  return (
+    <span class={isBetter ? 'delta better' : 'delta worse'}>
+      {isShare ? signed(delta, 2) : change(delta)}
+    </span>
   );
 }
 
@@ -137,13 +133,10 @@ function PartsSideBySide({ designs }: { designs: Design[] }) {
   const text = (design: Design, key: string) =>
     design.parts
       .filter((p) => `${p.family}|${p.group ?? ''}` === key)
-      .map(
-        (p) =>
-          `${short(p.quantity)}${p.unit === 'm' ? ' m' : ' ×'} ${p.manufacturer} ${p.part_number}`,
-      )
+      .map((p) => `${quantityOf(p)} ${p.manufacturer} ${p.part_number}`)
       .join(', ');
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label="Parts side by side">
+    <Scroll label="Parts side by side">
       <table class="compare">
         <thead>
           <tr>
@@ -170,7 +163,7 @@ function PartsSideBySide({ designs }: { designs: Design[] }) {
           })}
         </tbody>
       </table>
-    </div>
+    </Scroll>
   );
 }
 
@@ -190,7 +183,7 @@ function Responses({ designs, answer }: { designs: Design[]; answer: Answer }) {
         : (groups.find((g) => g.name === name)?.pressure_kpa_gauge ?? []);
     const shown = t_s.length === x.length ? pressuresShown(values) : x.map(() => null);
     return {
-      label: `#${design.rank} ${design.configuration}`,
+      label: `#${design.rank} ${supplyWord(design)}`,
       values: shown,
       colour: seriesColours[i]!,
       dash: i > 0 ? [7 - i, 2 + i] : undefined,

@@ -2,9 +2,11 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
+import { supplyWord } from '../lib/amounts';
 import { type Parts, partsOf } from '../lib/rig';
 import { link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
+import { proofInWords } from '../lib/words';
 import { Chip, Notice } from '../ui/controls';
 import { csv, saveFile } from '../ui/files';
 import { Maps } from './maps';
@@ -34,7 +36,7 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
           <h1>
             <a href={link(['designs', id])}>{answer.name || 'Designs'}</a> › design {rank}
           </h1>
-          <Chip>{design.configuration}</Chip>
+          <Chip>{supplyWord(design)}</Chip>
           <span class="toolbar-group">
             {rank > 1 && (
               <a class="button" href={link(['designs', id, String(rank - 1)])}>
@@ -70,6 +72,9 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
           </span>
         </div>
         <Facts design={design} />
+        <p class="only-printed">
+          {proofInWords(answer)} Catalogue revision {answer.catalogue_revision?.number ?? '–'}.
+        </p>
       </div>
       <div class="plots wide-left">
         <PartsPanel design={design} />

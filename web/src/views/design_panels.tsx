@@ -5,6 +5,7 @@ import {
   requirementName,
   requirementNumber,
   requirementUnit,
+  sense,
 } from '../lib/amounts';
 import { fieldName, percent, significant } from '../lib/format';
 import { link } from '../lib/route';
@@ -12,6 +13,8 @@ import type { Answer, Design } from '../lib/types';
 import { toShown } from '../lib/units';
 import { Chip, Panel } from '../ui/controls';
 import { type Fact, FactList } from '../ui/facts';
+import { ShareBar } from '../ui/share_bar';
+import { number, Table } from '../ui/table';
 
 const familyColour: Record<string, string> = {
   compressor: '--c1',
@@ -24,6 +27,8 @@ const familyColour: Record<string, string> = {
   fitting: '--c5',
   tubing: '--c6',
 };
+
+const colourOf = ({ family }: { family: string }) => `var(${familyColour[family] ?? '--c6'})`;
 
 export function Facts({ design }: { design: Design }) {
   const facts = axes.flatMap((axis): Fact[] => {
@@ -38,7 +43,7 @@ export function Facts({ design }: { design: Design }) {
 export function PartsPanel({ design }: { design: Design }) {
   const total = design.totals.mass_kg;
   const rows = [...design.parts].sort((a, b) => b.mass_kg - a.mass_kg);
-  const width = (row: { mass_kg: number }) => `${(100 * row.mass_kg) / Math.max(total, 1e-12)}%`;
+  const isPriced = rows.some((row) => row.cost_eur !== null);
   return (
     <Panel title="Parts and masses">
       <div
@@ -49,74 +54,58 @@ export function PartsPanel({ design }: { design: Design }) {
         {rows.map((row) => (
           <span
             key={`${row.id}${row.group}`}
-            style={{ width: width(row), background: `var(${familyColour[row.family] ?? '--c6'})` }}
+            style={{ width: `${(100 * row.mass_kg) / total}%`, background: colourOf(row) }}
             data-tip={`${row.family} ${percent(row.mass_kg / total)}`}
           />
         ))}
       </div>
-      <div class="scroll" tabIndex={0} role="region" aria-label="Parts">
-        <table>
-          <thead>
-            <tr>
-              <th scope="col">part</th>
-              <th scope="col">for</th>
-              <th scope="col" class="num">
-                quantity
-              </th>
-              <th scope="col" class="num">
-                mass <small>kg</small>
-              </th>
-              <th scope="col" class="num">
-                of all
-              </th>
-              <th scope="col" class="num">
-                cost <small>€</small>
-              </th>
-            </tr>
-          </thead>
-          <tbody>
-            {rows.map((row) => (
-              <tr key={`${row.id}${row.group}`}>
-                <th scope="row" class="part-cell">
-                  <i
-                    class="swatch"
-                    style={{ background: `var(${familyColour[row.family] ?? '--c6'})` }}
-                  />
-                  <span>
-                    {row.id === 'custom' ? (
-                      `${row.manufacturer} ${row.part_number}`
-                    ) : (
-                      <a href={link(['catalogue', row.family], { part: row.id })}>
-                        {row.manufacturer} {row.part_number}
-                      </a>
-                    )}
-                    <small class="muted"> {row.family}</small>
-                  </span>
-                </th>
-                <td>{row.group ?? 'all'}</td>
-                <td class="num">
-                  {row.unit === 'm' ? `${significant(row.quantity)} m` : row.quantity}
-                </td>
-                <td class="num">{significant(row.mass_kg)}</td>
-                <td class="num">{percent(row.mass_kg / total)}</td>
-                <td class="num">{significant(row.cost_eur)}</td>
-              </tr>
-            ))}
-          </tbody>
-          <tfoot>
-            <tr>
-              <th scope="row" colSpan={3}>
-                all together
-              </th>
-              <td class="num">
-                <b>{significant(total, 4)}</b>
-              </td>
-              <td />
-              <td class="num">{significant(design.totals.cost_eur)}</td>
-            </tr>
-          </tfoot>
-        </table>
-      </div>
+      <Table
+        label="Parts"
+        heads={[
+          'part',
+          number('quantity'),
+          number('mass', 'kg'),
+          number('of all', '%'),
+          ...(isPriced ? [number('cost', '€')] : []),
+        ]}
+        foot={
+          <tr>
+            <th scope="row" colSpan={2}>
+              all together
+            </th>
+            <td class="num">
+              <b>{significant(total, 4)}</b>
+            </td>
+            <td />
+            {isPriced && <td class="num">{significant(design.totals.cost_eur)}</td>}
+          </tr>
+        }
+      >
+        {rows.map((row) => (
+          <tr key={`${row.id}${row.group}`}>
+            <th scope="row" class="part-cell">
+              <i class="swatch" style={{ background: colourOf(row) }} />
+              {row.id === 'custom' ? (
+                `${row.manufacturer} ${row.part_number}`
+              ) : (
+                <a href={link(['catalogue', row.family], { part: row.id })}>
+                  {row.manufacturer} {row.part_number}
+                </a>
+              )}{' '}
+              <small class="muted">
+                {row.family}
+                {row.group !== null && ` for ${row.group}`}
+              </small>
+            </th>
+            <td class="num">
+              {row.unit === 'm' ? `${significant(row.quantity)} m` : row.quantity}
+            </td>
+            <td class="num">{significant(row.mass_kg)}</td>
+            <td class="num">{((100 * row.mass_kg) / total).toFixed(1)}</td>
+            {isPriced && <td class="num">{significant(row.cost_eur)}</td>}
+          </tr>
+        ))}
+      </Table>
     </Panel>
   );
 }
@@ -126,46 +115,29 @@ export function MarginsPanel({ design, answer }: { design: Design; answer: Answe
   const least = Math.min(...design.margins.map((m) => m.relative_margin));
   return (
     <Panel title="Requirements and margins">
-      <div class="scroll" tabIndex={0} role="region" aria-label="Margins">
-        <table>
-          <thead>
-            <tr>
-              <th scope="col">requirement</th>
-              <th scope="col" class="num">
-                asked
-              </th>
-              <th scope="col" class="num">
-                is
-              </th>
-              <th scope="col">
-                <span class="only-heard">unit</span>
-              </th>
-              <th scope="col">margin</th>
-            </tr>
-          </thead>
-          <tbody>
-            {design.margins.map((m) => (
-              <tr key={m.requirement}>
-                <th scope="row">{requirementName(m.requirement, groups)}</th>
-                <td class="num">{requirementNumber(m.requirement, m.required)}</td>
-                <td class="num">{requirementNumber(m.requirement, m.achieved)}</td>
-                <td class="unit">{requirementUnit(m.requirement)}</td>
-                <td>
-                  <span class="margin-bar">
-                    <span class="track">
-                      <span
-                        class={m.relative_margin === least ? (m.binding ? 'binding' : 'least') : ''}
-                        style={{ width: `${Math.min(100, 100 * Math.max(0, m.relative_margin))}%` }}
-                      />
-                    </span>
-                    {percent(m.relative_margin)} {m.binding && <Chip kind="bad">binding</Chip>}
-                  </span>
-                </td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </div>
+      <Table label="Margins" heads={['requirement', number('asked'), number('is'), 'margin']}>
+        {design.margins.map((m) => (
+          <tr key={m.requirement}>
+            <th scope="row">
+              {requirementName(m.requirement, groups)}{' '}
+              <small class="muted">{requirementUnit(m.requirement)}</small>{' '}
+              {m.binding && <Chip kind="bad">binding</Chip>}
+            </th>
+            <td class="num">
+              {sense(m.requirement)} {requirementNumber(m.requirement, m.required)}
+            </td>
+            <td class="num">{requirementNumber(m.requirement, m.achieved)}</td>
+            <td>
+              <ShareBar
+                share={m.relative_margin}
+                mark={m.relative_margin !== least ? '' : m.binding ? 'binding' : 'least'}
+              >
+                {percent(m.relative_margin)}
+              </ShareBar>
+            </td>
+          </tr>
+        ))}
+      </Table>
       {design.robustness && (
         <p>
           Meets everything in {percent(design.robustness.probability, 0)} of the draws within the

@@ -1,8 +1,8 @@
 // The answer of one job: while it runs its progress, then the ranked list.
 import { useEffect } from 'preact/hooks';
 
-import { requirementName, requirementNumber, requirementUnit } from '../lib/amounts';
-import { percent } from '../lib/format';
+import { requirementName, requirementNumber, requirementUnit, sense } from '../lib/amounts';
+import { percent, significant } from '../lib/format';
 import { ended, pathOf, useJob, jobList, previousJob, refreshJobs, start } from '../lib/jobs';
 import { edit, load } from '../lib/requirements';
 import { go, link, redirect, route } from '../lib/route';
@@ -10,6 +10,7 @@ import type { Answer } from '../lib/types';
 import { proofInWords, statusWord } from '../lib/words';
 import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';
+import { extra, heard, number, Table } from '../ui/table';
 import { ComparePanel } from './compare';
 import { DesignPage } from './design';
 import { ProgressPanel } from './progress';
@@ -119,9 +120,13 @@ function Headline({ answer, id }: { answer: Answer; id: string }) {
               go(['requirements']);
             }}
           >
-            Requirements
+            Edit requirements
           </button>
-          <button type="button" onClick={() => void again()}>
+          <button
+            type="button"
+            data-tip="The same requirements with the catalogue as it is now"
+            onClick={() => void again()}
+          >
             Rank again
           </button>
           <button
@@ -167,57 +172,54 @@ function askFor(answer: Answer, pointer: string, best: number): void {
   go(['requirements']);
 }
 
+// What is found is enough, not the least: the searches behind each number end with the time.
 function Conflict({ answer }: { answer: Answer }) {
+  const rows = answer.conflict!;
+  const isProved = rows.every((row) => row.proved);
   return (
     <Panel title="These requirements cannot be met together">
-      <p>One of them has to give; each row says how far while the others stay.</p>
-      <div class="scroll" tabIndex={0} role="region" aria-label="Conflicting requirements">
-        <table>
-          <thead>
-            <tr>
-              <th scope="col">requirement</th>
-              <th scope="col" class="num">
-                asked
-              </th>
-              <th scope="col" class="num">
-                best while the others hold
-              </th>
-              <th scope="col" class="num">
-                would have to give
-              </th>
-              <th scope="col">
-                <span class="only-heard">change</span>
-              </th>
-            </tr>
-          </thead>
-          <tbody>
-            {answer.conflict!.map((row) => (
-              <tr key={row.requirement}>
-                <td>
-                  {requirementName(row.requirement, answer.requirements.actuators)}{' '}
-                  <small class="muted">{requirementUnit(row.requirement)}</small>
-                </td>
-                <td class="num">{requirementNumber(row.requirement, row.required)}</td>
-                <td class="num">{requirementNumber(row.requirement, row.best)}</td>
-                <td class="num">
-                  {percent(row.relaxation)}
-                  {!row.proved && <small class="muted"> at most</small>}
-                </td>
-                <td class="num">
-                  {row.best !== null && (
-                    <button
-                      type="button"
-                      onClick={() => askFor(answer, row.requirement, row.best!)}
-                    >
-                      Ask for that
-                    </button>
-                  )}
-                </td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </div>
+      <p>
+        One of them has to give; each row says what was found to be enough while the others stay.
+        {!isProved && ' Time ran out before it was clear that those in doubt take part.'}
+        {rows.some((row) => row.best === null) &&
+          ' Where there is no number, none was found in the time given; a longer limit may find one.'}
+      </p>
+      <Table
+        label="Conflicting requirements"
+        heads={[
+          'requirement',
+          number('asked'),
+          number('best found'),
+          extra(number('enough to give')),
+          heard('change'),
+        ]}
+      >
+        {rows.map((row) => (
+          <tr key={row.requirement}>
+            <th scope="row">
+              {requirementName(row.requirement, answer.requirements.actuators)}{' '}
+              <small class="muted">{requirementUnit(row.requirement)}</small>{' '}
+              {!row.proved && <Chip kind="warn">in doubt</Chip>}
+            </th>
+            <td class="num">
+              {sense(row.requirement)} {requirementNumber(row.requirement, row.required)}
+            </td>
+            <td class="num">{requirementNumber(row.requirement, row.best)}</td>
+            <td class="num extra">{give(row.relaxation)}</td>
+            <td class="num">
+              {row.best !== null && (
+                <button type="button" onClick={() => askFor(answer, row.requirement, row.best!)}>
+                  Ask for that
+                </button>
+              )}
+            </td>
+          </tr>
+        ))}
+      </Table>
     </Panel>
   );
 }
+
+// "745 %" is read worse than "8.4 times".
+const give = (share: number | null): string =>
+  share !== null && share > 1 ? `${significant(1 + share, 2)} ×` : percent(share);

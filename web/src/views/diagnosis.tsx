@@ -1,8 +1,15 @@
 // What a diagnosis found: the verdict, measured against model before and after, residuals, what is
 // left, the candidates, the next experiment; and the revised model, saved and used.
 import { significant } from '../lib/format';
-import { type Diagnosis, effectName, type Measurement, type Shade } from '../lib/measurement';
-import { pressuresShown, unitOf } from '../lib/units';
+import {
+  type Diagnosis,
+  effectName,
+  inWords,
+  type Measurement,
+  type Shade,
+  verdictWord,
+} from '../lib/measurement';
+import { pressuresShown, toShown, unitOf } from '../lib/units';
 import { Lines } from '../plots/lines';
 import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';
@@ -11,14 +18,6 @@ import { Candidates, Errors, Phases } from './diagnosis_tables';
 import { NextExperiment } from './next_experiment';
 import { PhaseKey, pickRun, RunPicker } from './runs';
 import { SaveModel } from './save_model';
-
-const kinds: Record<Diagnosis['verdict'], { text: string; kind: string }> = {
-  adequate: { text: 'adequate', kind: 'good' },
-  explained: { text: 'explained', kind: 'good' },
-  tie: { text: 'a tie', kind: 'warn' },
-  unexplained: { text: 'unexplained', kind: 'bad' },
-  undecided: { text: 'undecided', kind: 'warn' },
-};
 
 export function DiagnosisView({
   diagnosis: d,
@@ -29,13 +28,13 @@ export function DiagnosisView({
   id: string;
   data: Measurement | null;
 }) {
-  const word = kinds[d.verdict];
+  const word = verdictWord[d.verdict];
   return (
     <>
       <Panel
         title={
           <>
-            <Chip kind={word.kind}>{word.text}</Chip> {d.sentence}
+            <Chip kind={word.kind}>{word.text}</Chip> {inWords(d.sentence)}
           </>
         }
         aside={
@@ -52,7 +51,7 @@ export function DiagnosisView({
         <Errors d={d} />
         {d.warnings.map((warning) => (
           <Notice key={warning} kind="warn">
-            {warning}
+            {inWords(warning)}
           </Notice>
         ))}
       </Panel>
@@ -91,7 +90,9 @@ function Curves({ d }: { d: Diagnosis }) {
   const series = d.series.find((s) => s.run === pickRun(ids))!;
   const bands = shadesOfSeries(series);
   const rest = (model: (number | null)[]) =>
-    series.measured_kpa.map((v, i) => (v === null || model[i] == null ? null : v - model[i]!));
+    series.measured_kpa.map((v, i) =>
+      v === null || model[i] == null ? null : toShown('difference', v - model[i]!),
+    );
   const plot = { x: series.t_s, xLabel: 'time, s', bands, sync: 'diagnosis' };
   return (
     <Panel title="Measured against model" aside={<RunPicker ids={ids} value={series.run} />}>
@@ -119,7 +120,7 @@ function Curves({ d }: { d: Diagnosis }) {
       <Lines
         {...plot}
         title="Residual: measured less model"
-        yLabel="residual, kPa"
+        yLabel={`residual, ${unitOf('difference')}`}
         height={180}
         lines={[
           { label: 'before', values: rest(series.before_kpa), colour: '--c2', width: 1 },

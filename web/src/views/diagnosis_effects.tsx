@@ -1,13 +1,24 @@
 // The effects that a diagnosis established, and the declared numbers as they were fitted.
-import { fieldName, significant } from '../lib/format';
+import { digitsApart, fieldKind, fieldName, significant } from '../lib/format';
 import { type Diagnosis, effectName, type Estimate } from '../lib/measurement';
+import { type Kind, toShown } from '../lib/units';
 import { Panel } from '../ui/controls';
+import { number, Table } from '../ui/table';
 
-const interval = (e: Estimate): string =>
-  e.ci95 ? `${significant(e.ci95[0])} … ${significant(e.ci95[1])}` : '–';
+// With digits enough to tell the ends apart.
+function inDigits(kind: Kind, e: Estimate): { value: string; interval: string } {
+  const [low, high] = e.ci95?.map((end) => toShown(kind, end)) ?? [];
+  const digits = low === undefined ? 3 : Math.min(6, digitsApart(low, high!) - 1);
+  const text = (value: number) => significant(value, Math.max(3, digits));
+  return {
+    value: text(toShown(kind, e.value)),
+    interval: low === undefined ? '–' : `${text(low)} … ${text(high!)}`,
+  };
+}
 
 function Row({ name, value }: { name: string; value: Estimate | string }) {
   const { label, unit } = fieldName(name);
+  const text = typeof value === 'string' ? null : inDigits(fieldKind(name), value);
   return (
     <tr>
       <td>
@@ -19,9 +30,9 @@ function Row({ name, value }: { name: string; value: Estimate | string }) {
         </td>
       ) : (
         <>
-          <td class="num">{significant(value.value)}</td>
+          <td class="num">{text!.value}</td>
           <td class="num">
-            {value.identified === false ? 'not fixed by the data' : interval(value)}
+            {value.identified === false ? 'not fixed by the data' : text!.interval}
           </td>
         </>
       )}
@@ -34,26 +45,14 @@ export const EstimateTable = (props: {
   of: string;
   rows: [string, Estimate | string][];
 }) => (
-  <div class="scroll" tabIndex={0} role="region" aria-label={`Fitted: ${props.name}`}>
-    <table>
-      <thead>
-        <tr>
-          <th scope="col">{props.of}</th>
-          <th scope="col" class="num">
-            value
-          </th>
-          <th scope="col" class="num">
-            95 % interval
-          </th>
-        </tr>
-      </thead>
-      <tbody>
-        {props.rows.map(([name, value]) => (
-          <Row key={name} name={name} value={value} />
-        ))}
-      </tbody>
-    </table>
-  </div>
+  <Table
+    label={`Fitted: ${props.name}`}
+    heads={[props.of, number('value'), number('95 % interval')]}
+  >
+    {props.rows.map(([name, value]) => (
+      <Row key={name} name={name} value={value} />
+    ))}
+  </Table>
 );
 
 export function Effects({ d }: { d: Diagnosis }) {

@@ -1,16 +1,20 @@
 // The tables of a diagnosis: errors, residuals by phase, candidates.
-import { significant } from '../lib/format';
+import { beside, shown, significant } from '../lib/format';
 import { type Diagnosis, effectNames } from '../lib/measurement';
+import { toShown, unitOf } from '../lib/units';
 import { Chip, Panel } from '../ui/controls';
 import { Swing } from '../ui/swing';
+import { extra, heard, number, Table } from '../ui/table';
 
 export function Errors({ d }: { d: Diagnosis }) {
   const rows: [string, Partial<Diagnosis['after']>][] = [
     ['as declared', d.declared],
     ['re-fitted, no effects', d.before],
-    ...(d.verdict === 'adequate'
-      ? []
-      : [['with effects', d.after] as [string, Diagnosis['after']]]),
+    ...(d.effects.length > 0
+      ? [['with effects', d.after] as [string, Diagnosis['after']]]
+      : d.tied.length > 0
+        ? [['with the best of those tied', d.after] as [string, Diagnosis['after']]]
+        : []),
   ];
   if (d.discrepancy?.learned)
     rows.push([
@@ -21,51 +25,39 @@ export function Errors({ d }: { d: Diagnosis }) {
       },
     ]);
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label="Errors of the model">
-      <table>
-        <thead>
-          <tr>
-            <th scope="col">model</th>
-            <th scope="col" class="num">
-              RMS <small>kPa</small>
-            </th>
-            <th scope="col" class="num">
-              of operating <small>%</small>
-            </th>
-            <th scope="col" class="num">
-              peak <small>kPa</small>
-            </th>
-            <th scope="col" class="num">
-              held out <small>kPa</small>
-            </th>
-          </tr>
-        </thead>
-        <tbody>
-          {rows.map(([label, report]) => (
-            <tr key={label}>
-              <th scope="row">{label}</th>
-              <td class="num">{significant(report.rms_kpa)}</td>
-              <td class="num">{significant(report.rms_percent)}</td>
-              <td class="num">{significant(report.peak_kpa)}</td>
-              <td class="num">{significant(report.holdout_rms_kpa)}</td>
-            </tr>
-          ))}
-          <tr>
-            <td>noise of the readings</td>
-            <td class="num">{significant(d.noise_kpa)}</td>
-            <td />
-            <td />
-            <td />
-          </tr>
-        </tbody>
-      </table>
-    </div>
+    <Table
+      label="Errors of the model"
+      heads={[
+        'model',
+        number('RMS', unitOf('difference')),
+        extra(number('of operating', '%')),
+        number('peak', unitOf('difference')),
+        number('held out', unitOf('difference')),
+      ]}
+    >
+      {rows.map(([label, report]) => (
+        <tr key={label}>
+          <th scope="row">{label}</th>
+          <td class="num">{shown('difference', report.rms_kpa)}</td>
+          <td class="num extra">{significant(report.rms_percent)}</td>
+          <td class="num">{shown('difference', report.peak_kpa)}</td>
+          <td class="num">{shown('difference', report.holdout_rms_kpa)}</td>
+        </tr>
+      ))}
+      <tr>
+        <td>noise of the readings</td>
+        <td class="num">{shown('difference', d.noise_kpa)}</td>
+        <td class="extra" />
+        <td />
+        <td />
+      </tr>
+    </Table>
   );
 }
 
 export function Phases({ d }: { d: Diagnosis }) {
   const { phases, white, independent_of_inputs } = d.residual;
-  const most = Math.max(1e-9, ...phases.map((p) => Math.abs(p.mean_kpa)));
+  const most = Math.max(d.noise_kpa, ...phases.map((p) => Math.abs(p.mean_kpa)), 1e-9);
   return (
     <Panel title="What is left, by phase" aside={<span class="muted">after the best fit</span>}>
       <p>
@@ -76,44 +68,48 @@ export function Phases({ d }: { d: Diagnosis }) {
         {d.unexplained_fraction > 0 && (
           <span>
             {' '}
-            {significant(100 * d.unexplained_fraction, 2)} % of its variance is more than noise.
+            {d.unexplained_fraction < 1e-3
+              ? 'Less than 0.1'
+              : significant(100 * d.unexplained_fraction, 2)}{' '}
+            % of its variance is more than noise.
           </span>
         )}
       </p>
-      <div class="scroll phases" tabIndex={0} role="region" aria-label="Residuals by phase">
-        <table>
-          <thead>
-            <tr>
-              <th scope="col">run</th>
-              <th scope="col">phase</th>
-              <th scope="col" class="num">
-                mean <small>kPa</small>
-              </th>
-              <th scope="col">
-                <span class="only-heard">bar</span>
-              </th>
-              <th scope="col" class="num">
-                trend <small>kPa/s</small>
-              </th>
-            </tr>
-          </thead>
-          <tbody>
-            {phases.map((p, i) => (
-              <tr key={i}>
-                <td>{p.run}</td>
-                <td>{p.phase}</td>
-                <td class="num">{significant(p.mean_kpa, 2)}</td>
-                <td>
-                  <Swing share={p.mean_kpa / most} isGood={p.mean_kpa < 0} />
-                </td>
-                <td class="num">{significant(p.trend_kpa_per_s, 2)}</td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </div>
+      <Table
+        label="Residuals by phase"
+        boxClass="phases"
+        heads={[
+          'run',
+          'phase',
+          number('mean', unitOf('difference')),
+          heard('bar'),
+          number('trend', `${unitOf('difference')}/s`),
+        ]}
+      >
+        {phases.map((p, i) => (
+          <tr key={i}>
+            <td>{p.run}</td>
+            <td>{p.phase}</td>
+            <td class="num">
+              {beside(toShown('difference', d.noise_kpa), toShown('difference', p.mean_kpa))}
+            </td>
+            <td>
+              <Swing share={p.mean_kpa / most} isGood={p.mean_kpa < 0} />
+            </td>
+            <td class="num">{shown('difference', p.trend_kpa_per_s, 2)}</td>
+          </tr>
+        ))}
+      </Table>
     </Panel>
   );
+}
+
+// Whether it is the set of effects that the verdict takes.
+function isChosen(d: Diagnosis, c: Diagnosis['candidates'][number]): boolean {
+  const key = (id: string, law: unknown) => `${id} ${law ?? ''}`;
+  const taken = d.effects.map((effect) => key(effect.id, effect.parameters.law)).sort();
+  const own = c.effects.map((id) => key(id, c.laws[id])).sort();
+  return d.verdict !== 'undecided' && d.tied.length === 0 && taken.join() === own.join();
 }
 
 export function Candidates({ d }: { d: Diagnosis }) {
@@ -121,40 +117,36 @@ export function Candidates({ d }: { d: Diagnosis }) {
   return (
     <Panel
       title="Candidates"
-      aside={<span class="muted">less BIC is better; below 10 is close</span>}
+      aside={
+        <span class="muted">
+          ΔBIC: how far behind the best of these, fit against number of parameters; below 10 is
+          close
+        </span>
+      }
     >
-      <div class="scroll phases" tabIndex={0} role="region" aria-label="Candidate models">
-        <table>
-          <thead>
-            <tr>
-              <th scope="col">effects</th>
-              <th scope="col" class="num">
-                ΔBIC
-              </th>
-              <th scope="col" class="num">
-                RMS <small>kPa</small>
-              </th>
-              <th scope="col" class="num">
-                held out <small>kPa</small>
-              </th>
-            </tr>
-          </thead>
-          <tbody>
-            {d.candidates.map((c, i) => (
-              <tr key={i} class={i === 0 ? 'baseline' : ''}>
-                <th scope="row">
-                  {effectNames(c.effects, c.laws)}{' '}
-                  {tied.has(c.effects.join()) && <Chip kind="warn">tied</Chip>}
-                  {!c.converged && <Chip>did not converge</Chip>}
-                </th>
-                <td class="num">{significant(c.delta_bic)}</td>
-                <td class="num">{significant(c.rms_kpa)}</td>
-                <td class="num">{significant(c.holdout_rms_kpa)}</td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </div>
+      <Table
+        label="Candidate models"
+        boxClass="phases"
+        heads={[
+          'effects',
+          number('ΔBIC'),
+          number('RMS', unitOf('difference')),
+          number('held out', unitOf('difference')),
+        ]}
+      >
+        {d.candidates.map((c, i) => (
+          <tr key={i} class={isChosen(d, c) ? 'baseline' : ''}>
+            <th scope="row">
+              {effectNames(c.effects, c.laws)} {isChosen(d, c) && <Chip kind="good">taken</Chip>}
+              {tied.has(c.effects.join()) && <Chip kind="warn">tied</Chip>}
+              {!c.converged && <Chip>did not converge</Chip>}
+            </th>
+            <td class="num">{significant(c.delta_bic)}</td>
+            <td class="num">{shown('difference', c.rms_kpa)}</td>
+            <td class="num">{shown('difference', c.holdout_rms_kpa)}</td>
+          </tr>
+        ))}
+      </Table>
     </Panel>
   );
 }

@@ -80,9 +80,9 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
   const rows = Math.max(kinds.length, groups.length, 1);
   const step = 92;
   const height = rows * step + 10;
-  const width = 430;
+  const width = 372;
   const yOf = (i: number, n: number) => height / 2 + (i - (n - 1) / 2) * step;
-  const bus = 160;
+  const bus = 146;
   const largest = Math.max(...groups.map(volumeOf));
   const ends = [
     ...kinds.map((_, i) => yOf(i, kinds.length)),
@@ -102,17 +102,17 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
         const y = yOf(i, kinds.length);
         return (
           <g key={kind}>
-            <path class="pipe" d={`M38 ${y} H${bus}`} />
-            <g transform={place(38, y)} class="sign source">
+            <path class="pipe" d={`M34 ${y} H${bus}`} />
+            <g transform={place(34, y)} class="sign source">
               <SourceSign kind={kind} />
             </g>
-            <g transform={place(112, y)} class="sign">
+            <g transform={place(104, y)} class="sign">
               {kind === 'compressor' ? <Reservoir /> : <Regulator />}
             </g>
-            <text x="38" y={y + 27}>
+            <text x="34" y={y + 27}>
               {names[kind]}
             </text>
-            <text x="112" y={y + 27}>
+            <text x="104" y={y + 27}>
               {kind === 'compressor' ? 'reservoir' : 'regulator'}
             </text>
           </g>
@@ -124,28 +124,28 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
         const fall = group.fall_time_s_max;
         return (
           <g key={i}>
-            <path class="pipe" d={`M${bus} ${y} H370`} />
-            <g transform={place(200, y)} class="sign">
+            <path class="pipe" d={`M${bus} ${y} H330`} />
+            <g transform={place(178, y)} class="sign">
               <Valve />
             </g>
-            <path class="tube" d={`M232 ${y} q8 -12 16 0 t16 0 t16 0 t16 0`} />
-            <g transform={place(366, y)} class="sign actuator">
+            <path class="tube" d={`M208 ${y} q8 -12 16 0 t16 0 t16 0 t16 0`} />
+            <g transform={place(326, y)} class="sign actuator">
               <Actuator group={group} largest={largest} />
             </g>
-            <text x="200" y={y + 27}>
+            <text x="178" y={y + 27}>
               valve
             </text>
-            <text x="266" y={y + 27}>
+            <text x="240" y={y + 27}>
               {short(group.tube_length_m)} m
             </text>
-            <text x="266" y={y - 16}>
+            <text x="240" y={y - 16}>
               {short(toShown('pressure', group.operating_pressure_kpa_gauge), 4)}{' '}
               {unitOf('pressure')}
             </text>
-            <text x="366" y={y + 38} class="name">
+            <text x="326" y={y + 38} class="name">
               {group.count} × {clip(group.name)}
             </text>
-            <text x="366" y={y + 51}>
+            <text x="326" y={y + 51}>
               {[rise && `↑ ${short(rise)} s`, fall && `↓ ${short(fall)} s`]
                 .filter(Boolean)
                 .join('  ')}

@@ -2,9 +2,10 @@
 import { computed } from '@preact/signals';
 
 import { numberOf } from '../lib/catalogue';
-import { fieldName, short } from '../lib/format';
+import { fieldKind, fieldName, short } from '../lib/format';
 import { route, setQuery } from '../lib/route';
 import type { Family, Part } from '../lib/types';
+import { fromShown, toShown } from '../lib/units';
 
 // Filters in the address: "n=mass_kg:0:1~…" ranges, "t=port:M5~…" values.
 interface Filters {
@@ -26,7 +27,8 @@ export const filters = computed<Filters>(() => {
   return found;
 });
 
-const bound = (value: number): string => (Number.isFinite(value) ? String(value) : '');
+const bound = (value: number): string =>
+  Number.isFinite(value) ? String(Number(value.toPrecision(7))) : '';
 
 function setFilters(next: Filters): void {
   const numbers = Object.entries(next.numbers).filter(
@@ -70,7 +72,11 @@ export function Facets({ meta, list }: { meta: Family; list: Part[] }) {
     const range: [number, number] = [...(chosen.numbers[field] ?? [-Infinity, Infinity])];
     const number = Number(text.replace(',', '.'));
     range[end] =
-      text.trim() === '' || !Number.isFinite(number) ? (end ? Infinity : -Infinity) : number;
+      text.trim() === '' || !Number.isFinite(number)
+        ? end
+          ? Infinity
+          : -Infinity
+        : fromShown(fieldKind(field), number);
     setFilters({ ...chosen, numbers: { ...chosen.numbers, [field]: range } });
   };
   const any =
@@ -85,6 +91,7 @@ export function Facets({ meta, list }: { meta: Family; list: Part[] }) {
       )}
       {numbers.map((field) => {
         const { label, unit } = fieldName(field.name);
+        const inUnit = (value: number) => toShown(fieldKind(field.name), value);
         const values = list
           .map((p) => numberOf(p, field.name))
           .filter((v): v is number => v !== null);
@@ -102,6 +109,7 @@ export function Facets({ meta, list }: { meta: Family; list: Part[] }) {
               low={Math.min(...values)}
               high={Math.max(...values)}
               range={range}
+              inUnit={inUnit}
               onPick={(from, to) =>
                 setFilters({
                   ...chosen,
@@ -114,8 +122,8 @@ export function Facets({ meta, list }: { meta: Family; list: Part[] }) {
                 type="text"
                 inputMode="decimal"
                 aria-label={`${label}, at least`}
-                value={range ? bound(range[0]) : ''}
-                placeholder={short(Math.min(...values), 3)}
+                value={range ? bound(inUnit(range[0])) : ''}
+                placeholder={short(inUnit(Math.min(...values)), 3)}
                 onChange={(e) => setBound(field.name, 0, e.currentTarget.value)}
               />
               …
@@ -123,8 +131,8 @@ export function Facets({ meta, list }: { meta: Family; list: Part[] }) {
                 type="text"
                 inputMode="decimal"
                 aria-label={`${label}, at most`}
-                value={range ? bound(range[1]) : ''}
-                placeholder={short(Math.max(...values), 3)}
+                value={range ? bound(inUnit(range[1])) : ''}
+                placeholder={short(inUnit(Math.max(...values)), 3)}
                 onChange={(e) => setBound(field.name, 1, e.currentTarget.value)}
               />
             </span>
@@ -171,9 +179,10 @@ function Histogram(props: {
   low: number;
   high: number;
   range?: [number, number];
+  inUnit: (value: number) => number;
   onPick: (from: number, to: number) => void;
 }) {
-  const { values, low, high, range } = props;
+  const { values, low, high, range, inUnit } = props;
   if (!(high > low)) return null;
   const isLog = low > 0 && high / low > 30;
   const to = (v: number) => (isLog ? Math.log(v) : v);
@@ -190,7 +199,7 @@ function Histogram(props: {
       {counts.map((n, i) => (
         <g
           key={i}
-          data-tip={`${n} of ${short(edge(i), 3)} … ${short(edge(i + 1), 3)}`}
+          data-tip={`${n} of ${short(inUnit(edge(i)), 3)} … ${short(inUnit(edge(i + 1)), 3)}`}
           onClick={() => props.onPick(edge(i), edge(i + 1))}
         >
           <rect class="back" x={i * 10} y={0} width={10} height={26} />

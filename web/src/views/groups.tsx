@@ -1,7 +1,8 @@
 // The groups of equal actuators, one block of fields each.
 import { edit, errorAt, requirements } from '../lib/requirements';
 import type { Group } from '../lib/types';
-import { NumberField, TextField } from '../ui/controls';
+import { TextField } from '../ui/controls';
+import { RequirementField } from './requirement_field';
 
 const blank = (n: number): Group => ({
   name: `group ${n}`,
@@ -35,14 +36,7 @@ export function Groups() {
 
 function GroupFields({ group, index, alone }: { group: Group; index: number; alone: boolean }) {
   const at = `/actuators/${index}`;
-  const set = (name: keyof Group) => (value: number | null) =>
-    edit(['actuators', index, name], value ?? (name.endsWith('_max') ? undefined : null));
-  const field = (name: keyof Group) => ({
-    value: group[name] as number | null | undefined,
-    onChange: set(name),
-    pointer: `${at}/${name}`,
-    error: errorAt(`${at}/${name}`),
-  });
+  const path = (name: keyof Group) => ['actuators', index, name];
   const groups = requirements.value.actuators;
   return (
     <fieldset class="group">
@@ -54,7 +48,7 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
           error={errorAt(`${at}/name`)}
           onChange={(v) => edit(['actuators', index, 'name'], v)}
         />
-        <NumberField label="Actuators" {...field('count')} range={[1, 64]} />
+        <RequirementField label="Actuators" path={path('count')} range={[1, 64]} />
         {group.pressure_volume ? (
           <div class="field">
             <span class="label">Volume law</span>
@@ -78,42 +72,57 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
           </div>
         ) : (
           <>
-            <NumberField
+            <RequirementField
               label="Volume at rest"
               kind="volume_ml"
-              {...field('rest_volume_ml')}
+              path={path('rest_volume_ml')}
               range={[0.01, 1e6]}
             />
-            <NumberField
+            <RequirementField
               label="Expansion"
               unit="× at operating"
-              {...field('expansion_ratio')}
+              path={path('expansion_ratio')}
               range={[1, 50]}
               hint="1 is rigid"
             />
           </>
         )}
-        <NumberField
+        <RequirementField
           label="Operating pressure"
           kind="pressure"
-          {...field('operating_pressure_kpa_gauge')}
+          path={path('operating_pressure_kpa_gauge')}
           range={[1, 1e4]}
         />
-        <NumberField
+        <RequirementField
           label="Pressure, at most"
           placeholder="1.05 × operating"
           kind="pressure"
           optional
-          {...field('pressure_kpa_gauge_max')}
+          path={path('pressure_kpa_gauge_max')}
         />
-        <NumberField label="Rise time, at most" unit="s" optional {...field('rise_time_s_max')} />
-        <NumberField label="Fall time, at most" unit="s" optional {...field('fall_time_s_max')} />
-        <NumberField label="Tube length" unit="m" {...field('tube_length_m')} range={[0.01, 100]} />
-        <NumberField
+        <RequirementField
+          label="Rise time, at most"
+          unit="s"
+          optional
+          path={path('rise_time_s_max')}
+        />
+        <RequirementField
+          label="Fall time, at most"
+          unit="s"
+          optional
+          path={path('fall_time_s_max')}
+        />
+        <RequirementField
+          label="Tube length"
+          unit="m"
+          path={path('tube_length_m')}
+          range={[0.01, 100]}
+        />
+        <RequirementField
           label="Fittings per line"
-          {...field('fittings_per_line')}
-          value={group.fittings_per_line ?? 2}
-          range={[0, 13]}
+          path={path('fittings_per_line')}
+          usual={2}
+          range={[0, 5]}
         />
       </div>
       {!alone && (

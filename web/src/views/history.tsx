@@ -4,9 +4,10 @@ import { useEffect } from 'preact/hooks';
 
 import { asProblem, get, post } from '../lib/api';
 import { partPath } from '../lib/catalogue';
-import { fieldName } from '../lib/format';
+import { fieldName, moment } from '../lib/format';
 import type { Part } from '../lib/types';
 import { Dialog, Notice } from '../ui/controls';
+import { heard, number, Table } from '../ui/table';
 
 interface Revision {
   number: number;
@@ -14,8 +15,6 @@ interface Revision {
   who: string;
   what: string;
 }
-
-const when = (at: string): string => at.replace('T', ' ').slice(0, 16);
 
 export function PartHistory({ id }: { id: string }) {
   const entries = useSignal<
@@ -37,7 +36,7 @@ export function PartHistory({ id }: { id: string }) {
           <li key={revision.number}>
             <b>revision {revision.number}</b>{' '}
             <span class="muted">
-              {when(revision.at)} {revision.who}
+              {moment(revision.at)} {revision.who}
             </span>{' '}
             {before === null ? 'added' : after === null ? 'removed' : changes(before, after)}
           </li>
@@ -85,45 +84,28 @@ export function RevisionsDialog({ onClose }: { onClose: (changed: boolean) => vo
   return (
     <Dialog title="History of the catalogue" onClose={() => onClose(changed.value)}>
       {problem.value && <Notice kind="bad">{problem.value}</Notice>}
-      <div class="scroll" tabIndex={0} role="region" aria-label="Revisions">
-        <table>
-          <thead>
-            <tr>
-              <th scope="col" class="num">
-                revision
-              </th>
-              <th scope="col">when</th>
-              <th scope="col">who</th>
-              <th scope="col">what</th>
-              <th scope="col">
-                <span class="only-heard">undo</span>
-              </th>
-            </tr>
-          </thead>
-          <tbody>
-            {list.value?.map((r) => (
-              <tr key={r.number}>
-                <td class="num">{r.number}</td>
-                <td class="nowrap">{when(r.at)}</td>
-                <td>{r.who}</td>
-                <td>{r.what}</td>
-                <td>
-                  {r.number > 1 && (
-                    <button
-                      type="button"
-                      class="small"
-                      aria-label={`Undo revision ${r.number}`}
-                      onClick={() => void undo(r.number)}
-                    >
-                      Undo
-                    </button>
-                  )}
-                </td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </div>
+      <Table label="Revisions" heads={[number('revision'), 'when', 'who', 'what', heard('undo')]}>
+        {list.value?.map((r) => (
+          <tr key={r.number}>
+            <td class="num">{r.number}</td>
+            <td class="nowrap">{moment(r.at)}</td>
+            <td>{r.who}</td>
+            <td>{r.what}</td>
+            <td>
+              {r.number > 1 && (
+                <button
+                  type="button"
+                  class="small"
+                  aria-label={`Undo revision ${r.number}`}
+                  onClick={() => void undo(r.number)}
+                >
+                  Undo
+                </button>
+              )}
+            </td>
+          </tr>
+        ))}
+      </Table>
     </Dialog>
   );
 }

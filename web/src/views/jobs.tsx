@@ -2,29 +2,17 @@
 import type { ComponentChildren } from 'preact';
 import { useEffect } from 'preact/hooks';
 
-import { duration, significant } from '../lib/format';
-import { diagnosisList, jobList, refreshDiagnoses, refreshJobs } from '../lib/jobs';
+import { objectiveUnit } from '../lib/amounts';
+import { duration, moment, significant } from '../lib/format';
+import { diagnosisList, ended, jobList, refreshDiagnoses, refreshJobs } from '../lib/jobs';
+import { verdictWord } from '../lib/measurement';
 import { link } from '../lib/route';
-import type { JobStatus } from '../lib/types';
+import type { Job } from '../lib/types';
+import { statusWord, type Word } from '../lib/words';
 import { Chip, Panel } from '../ui/controls';
+import { extra, number, Table } from '../ui/table';
 
 const periodMs = 2000;
-
-const kinds: Record<JobStatus, string> = {
-  queued: 'warn',
-  running: 'warn',
-  done: 'good',
-  cancelled: 'warn',
-  failed: 'bad',
-};
-
-interface Row {
-  id: string;
-  name: string;
-  status: JobStatus;
-  href: string;
-  more: ComponentChildren[];
-}
 
 export function JobsView() {
   useEffect(() => {
@@ -39,80 +27,91 @@ export function JobsView() {
       <Panel first title="Searches">
         <Jobs
           label="Searches"
-          heads={['best', 'took']}
-          rows={jobList.value?.map((job) => ({
-            ...job,
-            href: link(['designs', job.id]),
-            more: [
-              significant(job.progress?.best ?? null, 4),
-              job.progress ? duration(job.progress.seconds) : '–',
-            ],
-          }))}
+          jobs={jobList.value}
+          found="best"
+          words={statusWord}
+          href={(id) => link(['designs', id])}
+          none={
+            <>
+              None yet. <a href={link(['requirements'])}>Write the requirements</a> and start one.
+            </>
+          }
         >
-          None yet. <a href={link(['requirements'])}>Write the requirements</a> and start one.
+          {({ progress }) =>
+            progress && progress.best !== null
+              ? `${significant(progress.best, 4)} ${objectiveUnit(progress)}`
+              : '–'
+          }
         </Jobs>
       </Panel>
       <Panel title="Diagnoses">
         <Jobs
           label="Diagnoses"
-          heads={['took']}
-          rows={diagnosisList.value?.map((job) => ({
-            ...job,
-            href: link(['measured'], { job: job.id }),
-            more: [job.progress ? duration(job.progress.seconds) : '–'],
-          }))}
-        >
-          None yet. <a href={link(['measured'])}>Drop a measurement</a> to start one.
-        </Jobs>
+          jobs={diagnosisList.value}
+          words={verdictWord}
+          href={(id) => link(['measured'], { job: id })}
+          none={
+            <>
+              None yet. <a href={link(['measured'])}>Drop a measurement</a> to start one.
+            </>
+          }
+        />
       </Panel>
     </>
   );
 }
 
-function Jobs(props: {
+const statusWords: Record<string, Word> = {
+  queued: { text: 'queued', kind: 'warn' },
+  running: { text: 'running', kind: 'warn' },
+  done: { text: 'done', kind: 'good' },
+  cancelled: { text: 'cancelled', kind: 'warn' },
+  failed: { text: 'failed', kind: 'bad' },
+};
+
+function Jobs<Report extends { seconds: number; outcome?: string }>(props: {
   label: string;
-  heads: string[];
-  rows: Row[] | undefined;
-  children: ComponentChildren; // what to say of none
+  jobs: Job<unknown, Report>[] | null;
+  found?: string; // what the children say of a job
+  words: Record<string, Word>; // of what it found in the end
+  href: (id: string) => string;
+  none: ComponentChildren;
+  children?: (job: Job<unknown, Report>) => ComponentChildren;
 }) {
-  if (!props.rows) return <p role="status">Loading…</p>;
-  if (props.rows.length === 0) return <p>{props.children}</p>;
+  if (!props.jobs) return <p role="status">Loading…</p>;
+  if (props.jobs.length === 0) return <p>{props.none}</p>;
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label={props.label}>
-      <table>
-        <thead>
-          <tr>
-            <th scope="col">name</th>
-            <th scope="col">status</th>
-            {props.heads.map((head) => (
-              <th key={head} scope="col" class="num">
-                {head}
-              </th>
-            ))}
-            <th scope="col">id</th>
+    <Table
+      label={props.label}
+      heads={[
+        'name',
+        'result',
+        ...(props.found ? [number(props.found)] : []),
+        number('took'),
+        'started',
+        extra({ text: 'id' }),
+      ]}
+    >
+      {props.jobs.map((job) => {
+        const outcome = ended(job.status) ? job.progress?.outcome : undefined;
+        const word = (outcome && props.words[outcome]) || statusWords[job.status]!;
+        return (
+          <tr key={job.id}>
+            <th scope="row">
+              <a href={props.href(job.id)}>{job.name || 'unnamed'}</a>
+            </th>
+            <td>
+              <Chip kind={word.kind}>{word.text}</Chip>
+            </td>
+            {props.children && <td class="num">{props.children(job)}</td>}
+            <td class="num">{job.progress ? duration(job.progress.seconds) : '–'}</td>
+            <td class="nowrap">{moment(job.submitted_at)}</td>
+            <td class="extra">
+              <code>{job.id}</code>
+            </td>
           </tr>
-        </thead>
-        <tbody>
-          {props.rows.map((row) => (
-            <tr key={row.id}>
-              <th scope="row">
-                <a href={row.href}>{row.name || 'unnamed'}</a>
-              </th>
-              <td>
-                <Chip kind={kinds[row.status]}>{row.status}</Chip>
-              </td>
-              {row.more.map((cell, i) => (
-                <td key={i} class="num">
-                  {cell}
-                </td>
-              ))}
-              <td>
-                <code>{row.id}</code>
-              </td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
-    </div>
+        );
+      })}
+    </Table>
   );
 }

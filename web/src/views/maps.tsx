@@ -6,17 +6,17 @@ import { asProblem } from '../lib/api';
 import { significant } from '../lib/format';
 import { type GroupMaps, mapsOf, type Place } from '../lib/maps';
 import { missingPart, type Parts } from '../lib/rig';
+import { route, setQuery } from '../lib/route';
 import type { Design, Requirements } from '../lib/types';
 import { ContourMap } from '../plots/contour';
 import { Notice, Segmented } from '../ui/controls';
 
 const levels = [0.2, 0.5, 1, 2, 5, 10];
 
-// "1.4 here: 0.29 s".
 const here = (place: Place, without = ''): string =>
   place.normalised === null
-    ? 'Never reached here'
-    : `${significant(place.normalised)} here${place.seconds === null ? '' : `, ${significant(place.seconds)} s${without}`}`;
+    ? 'Never reached by this design'
+    : `This design: ${significant(place.normalised)}${place.seconds === null ? '' : `, which is ${significant(place.seconds)} s${without}`}`;
 
 export function Maps({
   design,
@@ -27,10 +27,11 @@ export function Maps({
   requirements: Requirements;
   parts: Parts | null;
 }) {
-  const index = useSignal(0);
+  const last = requirements.actuators.length - 1;
+  const index = Math.min(last, Math.max(0, Number(route.value.query.get('group')) || 0));
   const maps = useSignal<GroupMaps | null>(null);
   const problem = useSignal('');
-  const group = requirements.actuators[index.value]!;
+  const group = requirements.actuators[index]!;
   useEffect(() => {
     if (!parts || missingPart(design, parts)) return;
     mapsOf(design, requirements, parts, group).then(
@@ -45,15 +46,17 @@ export function Maps({
   const toFraction = requirements.rise?.to_fraction ?? 0.95;
   return (
     <>
-      <div class="panel">
-        {requirements.actuators.length > 1 && (
+      {requirements.actuators.length > 1 && (
+        <div class="across">
           <Segmented
             label="group"
-            value={String(index.value)}
-            onChange={(v) => (index.value = Number(v))}
+            value={String(index)}
+            onChange={(v) => setQuery({ group: v === '0' ? undefined : v })}
             options={requirements.actuators.map((g, i) => ({ value: String(i), label: g.name }))}
           />
-        )}
+        </div>
+      )}
+      <div class="panel">
         {problem.value && <Notice kind="bad">{problem.value}</Notice>}
         {now && (
           <ContourMap
@@ -65,7 +68,7 @@ export function Maps({
             yLabel="operating pressure / ambient"
             border={(source) => 1 + (source - 1) / toFraction}
             at={now.rise.at}
-            note={`${here(now.rise, design.configuration === 'compressor' ? '' : ' without the regulator')}. Expansion ${significant(now.expansion)}, b ${significant(now.critical)} (valve), C ${significant(now.conductance)} dm³/(s·bar) of the whole line.`}
+            note={`${here(now.rise, design.configuration === 'compressor' ? '' : ' without the regulator')}. C ${significant(now.conductance)} dm³/(s·bar) and b ${significant(now.critical)} of the line, V₀ volume at rest, P₀ 100 kPa, expansion ${significant(now.expansion)}.`}
           />
         )}
       </div>
@@ -94,7 +97,7 @@ export function Maps({
             xLabel="operating pressure / ambient"
             yLabel="expansion ratio"
             at={now.fall.at}
-            note={`${here(now.fall)}. b ${significant(now.critical)} (valve).`}
+            note={`${here(now.fall)}. b ${significant(now.criticalOut)} of the way out.`}
           />
         )}
       </div>

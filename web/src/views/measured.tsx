@@ -176,6 +176,12 @@ const Welcome = ({ over }: { over: boolean }) => (
       <b>Drop a measurement here</b> and see what the model lacks: JSON (measurement/1), or CSV with
       the columns <code>run, t_s, valve, pressure_kpa_gauge</code>.
     </p>
+    <pre>
+      {`run,t_s,valve,pressure_kpa_gauge
+r1,0.00,hold,0.1
+r1,0.01,inflate,0.9
+r1,0.02,inflate,2.4`}
+    </pre>
     <p class="muted">
       The valve is hold, inflate or deflate. A CSV may also hold source_pressure_kpa_gauge,
       inlet_pressure_kpa_gauge, temperature_k, volume_ml and flow_l_per_min_anr. Its rig is asked

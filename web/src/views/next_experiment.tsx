@@ -1,6 +1,12 @@
 // The run that would decide a tie: what to do, what to expect, and a file to fill in.
-import { fieldName, significant } from '../lib/format';
-import { type Diagnosis, effectNames, type Measurement, shadesOf } from '../lib/measurement';
+import { fieldName, shown, significant } from '../lib/format';
+import {
+  type Diagnosis,
+  effectNames,
+  inWords,
+  type Measurement,
+  shadesOf,
+} from '../lib/measurement';
 import { toShown, unitOf } from '../lib/units';
 import { Panel } from '../ui/controls';
 import { type Fact, FactList } from '../ui/facts';
@@ -9,7 +15,7 @@ import { PhaseKey } from './runs';
 
 export function NextExperiment({ d, data }: { d: Diagnosis; data: Measurement | null }) {
   const next = d.next_experiment!;
-  const valve = next.valve ?? [];
+  const valve = (next.valve ?? []).filter((v, i, all) => v.state !== all[i - 1]?.state);
   const end = next.t_end_s ?? valve[valve.length - 1]?.t_s ?? 1;
   const save = () => {
     const { id, blocked, source_pressure_kpa_gauge, initial, t_s } = next;
@@ -25,7 +31,7 @@ export function NextExperiment({ d, data }: { d: Diagnosis; data: Measurement | 
   };
   const facts: Fact[] = [
     ['actuator', next.blocked ? 'blocked' : 'free', ''],
-    ...(next.source_pressure_kpa_gauge === undefined
+    ...(next.source_pressure_kpa_gauge === undefined || !valve.some((v) => v.state === 'inflate')
       ? []
       : [
           [
@@ -36,7 +42,11 @@ export function NextExperiment({ d, data }: { d: Diagnosis; data: Measurement | 
         ]),
     ['for', significant(end), 's'],
     ['measure', (next.measure ?? []).map((name) => fieldName(name).label).join(', '), ''],
-    ['expected difference', significant(next.expected_difference_kpa), 'kPa RMS'],
+    [
+      'expected difference',
+      shown('difference', next.expected_difference_kpa),
+      `${unitOf('difference')} RMS`,
+    ],
     ['expected ΔBIC', significant(next.expected_delta_bic), '10 decides'],
   ];
   return (
@@ -56,7 +66,7 @@ export function NextExperiment({ d, data }: { d: Diagnosis; data: Measurement | 
             <b>{effectNames(ids, d.tied_laws[i])}</b>
           </span>
         ))}
-        . {next.why}
+        . {inWords(next.why ?? '')}
       </p>
       <FactList facts={facts} />
       <div

@@ -2,7 +2,8 @@
 import { models } from '../lib/models';
 import { edit, errorAt, requirements } from '../lib/requirements';
 import type { Amount } from '../lib/types';
-import { Check, NumberField, Panel, Segmented, Select } from '../ui/controls';
+import { Check, Panel, Segmented, Select } from '../ui/controls';
+import { RequirementField } from './requirement_field';
 
 const amounts: { value: Amount; label: string }[] = [
   { value: 'mass_kg', label: 'mass' },
@@ -12,7 +13,7 @@ const amounts: { value: Amount; label: string }[] = [
 ];
 
 export function Objective() {
-  const { objective, ranking, robust, explain, model } = requirements.value;
+  const { objective, robust, explain, model } = requirements.value;
   const pareto = objective?.pareto;
   const minimize = typeof objective?.minimize === 'string' ? objective.minimize : 'mass_kg';
   const weights = typeof objective?.minimize === 'object' ? objective.minimize : undefined;
@@ -66,40 +67,34 @@ export function Objective() {
       <div class="fields">
         {mode === 'weighted' &&
           amounts.map((a) => (
-            <NumberField
+            <RequirementField
               key={a.value}
               label={`Weight of ${a.label}`}
-              value={weights?.[a.value] ?? 0}
-              error={errorAt(`/objective/minimize/${a.value}`)}
-              onChange={(v) => edit(['objective', 'minimize', a.value], v ?? 0)}
+              path={['objective', 'minimize', a.value]}
+              usual={0}
             />
           ))}
-        <NumberField
+        <RequirementField
           label="Designs to list"
-          value={ranking?.count ?? 20}
+          path={['ranking', 'count']}
+          usual={20}
           range={[1, 500]}
-          pointer="/ranking/count"
-          error={errorAt('/ranking/count')}
-          onChange={(v) => edit(['ranking', 'count'], v)}
         />
         {robust && mode !== 'front' && (
-          <NumberField
+          <RequirementField
             label="Probability, at least"
             optional
             placeholder="any"
-            value={ranking?.probability_min}
+            path={['ranking', 'probability_min']}
             range={[0, 1]}
-            error={errorAt('/ranking/probability_min')}
-            onChange={(v) => edit(['ranking', 'probability_min'], v ?? undefined)}
           />
         )}
-        <NumberField
+        <RequirementField
           label="Time limit"
           unit="s"
-          value={ranking?.time_limit_s ?? 30}
+          path={['ranking', 'time_limit_s']}
+          usual={30}
           range={[0.01, 3600]}
-          error={errorAt('/ranking/time_limit_s')}
-          onChange={(v) => edit(['ranking', 'time_limit_s'], v)}
         />
       </div>
       <div class="checks">

@@ -4,11 +4,13 @@ import { useEffect } from 'preact/hooks';
 
 import { ask, asProblem } from '../lib/api';
 import { loadPart, numberOf, partPath, provenanceWord } from '../lib/catalogue';
-import { fieldName, short } from '../lib/format';
+import { fieldKind, fieldName, short } from '../lib/format';
 import { edit, requirements } from '../lib/requirements';
 import type { Family, Part } from '../lib/types';
+import { toShown, unitOf } from '../lib/units';
 import { Lines } from '../plots/lines';
 import { Chip, Dialog, Notice } from '../ui/controls';
+import { number, Table } from '../ui/table';
 import { PartHistory } from './history';
 import { PartForm } from './part_form';
 
@@ -128,42 +130,34 @@ function FieldTable({ part, meta }: { part: Part; meta: Family }) {
     meaning: field.meaning,
   }));
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label="Numbers and sources">
-      <table class="sources">
-        <thead>
-          <tr>
-            <th scope="col">what</th>
-            <th scope="col" class="num">
-              value
+    <Table
+      label="Numbers and sources"
+      class="sources"
+      heads={['what', number('value'), 'from', 'source']}
+    >
+      {rows.map((row) => {
+        const value = numberOf(part, row.name);
+        const from = part.provenance[row.name];
+        return (
+          <tr key={row.name}>
+            <th scope="row" data-tip={row.meaning}>
+              {row.label}
             </th>
-            <th scope="col">from</th>
-            <th scope="col">source</th>
+            <td class="num">
+              {value === null
+                ? String(part[row.name])
+                : `${short(toShown(fieldKind(row.name), value), 6)} ${row.unit}`}
+            </td>
+            <td>
+              <span class={`from ${from?.kind ?? ''}`}>
+                {from ? provenanceWord[from.kind] : '–'}
+              </span>
+            </td>
+            <td class="source">{from?.source ?? '–'}</td>
           </tr>
-        </thead>
-        <tbody>
-          {rows.map((row) => {
-            const value = numberOf(part, row.name);
-            const from = part.provenance[row.name];
-            return (
-              <tr key={row.name}>
-                <th scope="row" data-tip={row.meaning}>
-                  {row.label}
-                </th>
-                <td class="num">
-                  {value === null ? String(part[row.name]) : `${short(value, 6)} ${row.unit}`}
-                </td>
-                <td>
-                  <span class={`from ${from?.kind ?? ''}`}>
-                    {from ? provenanceWord[from.kind] : '–'}
-                  </span>
-                </td>
-                <td class="source">{from?.source ?? '–'}</td>
-              </tr>
-            );
-          })}
-        </tbody>
-      </table>
-    </div>
+        );
+      })}
+    </Table>
   );
 }
 
@@ -173,9 +167,9 @@ function Curve({ part }: { part: Part }) {
   return (
     <Lines
       title={`Delivery${from ? `, ${provenanceWord[from.kind]}` : ''}`}
-      x={curve.map((p) => p.pressure_kpa_gauge)}
-      xUnit="kPa gauge"
-      xLabel="outlet pressure, kPa gauge"
+      x={curve.map((p) => toShown('pressure', p.pressure_kpa_gauge))}
+      xUnit={unitOf('pressure')}
+      xLabel={`outlet pressure, ${unitOf('pressure')}`}
       yLabel="free air, L/min"
       height={180}
       yFromZero

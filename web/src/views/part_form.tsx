@@ -4,7 +4,7 @@ import { useSignal } from '@preact/signals';
 
 import { ask, asProblem, type FieldError } from '../lib/api';
 import { partPath, provenanceWord } from '../lib/catalogue';
-import { fieldName } from '../lib/format';
+import { fieldKind, fieldName } from '../lib/format';
 import type { CurvePoint, Family, Part, Provenance } from '../lib/types';
 import { Dialog, Notice, NumberField, Select, TextField } from '../ui/controls';
 
@@ -181,6 +181,7 @@ export function PartForm(props: {
                 key={field.name}
                 label={`${label}${field.required ? '' : ' (optional)'}`}
                 unit={unit}
+                kind={fieldKind(field.name)}
                 value={now[field.name] as number | undefined}
                 range={[field.min, field.max]}
                 error={errorAt(field.name)}

@@ -1,4 +1,5 @@
 // A search under way: best so far, the bound of the proof closing on it, cancel.
+import { objectiveName, objectiveUnit } from '../lib/amounts';
 import { count, duration, percent, significant } from '../lib/format';
 import type { Watched } from '../lib/jobs';
 import { Lines } from '../plots/lines';
@@ -12,6 +13,8 @@ export function ProgressPanel({ watched, self }: { watched: Watched; self: strin
   const best = progress?.best ?? null;
   const bound = progress?.lower_bound ?? null;
   const gap = best !== null && bound !== null && best > 0 ? Math.max(0, 1 - bound / best) : null;
+  const unit = progress ? objectiveUnit(progress) : '';
+  const name = progress ? objectiveName(progress) : '';
   const queued = watched.job?.status === 'queued';
   return (
     <Panel
@@ -22,25 +25,34 @@ export function ProgressPanel({ watched, self }: { watched: Watched; self: strin
         isLive
         facts={[
           ['time', progress ? duration(progress.seconds) : '–'],
-          ['best so far', significant(best, 4)],
-          ['nothing better than', significant(bound, 4)],
+          [
+            name ? `least ${name} so far` : 'best so far',
+            significant(best, 4),
+            best === null ? '' : unit,
+          ],
+          ['all others at least', significant(bound, 4), bound === null ? '' : unit],
           ['gap', percent(gap)],
           ['evaluated', count(progress?.evaluated ?? 0)],
-          ['open boxes', count(progress?.open ?? 0)],
+          ['regions left', count(progress?.open ?? 0)],
         ]}
       />
       <Bar label="How far the proof has closed" share={gap === null ? 0 : 1 - gap} />
+      {gap === 0 && (
+        <p role="status">
+          Nothing beats the best so far; what else belongs on the list is still being proved.
+        </p>
+      )}
       {trace.length > 1 && (
         <Lines
           title="The proof closing"
           xLabel="time, s"
-          yLabel="objective"
+          yLabel={[name || 'objective', unit].filter(Boolean).join(', ')}
           height={200}
           x={trace.map((p) => p.seconds)}
           lines={[
             { label: 'best so far', values: trace.map((p) => p.best), colour: '--c1' },
             {
-              label: 'lower bound',
+              label: 'all others at least',
               values: trace.map((p) => p.lower_bound),
               colour: '--c2',
               dash: [5, 3],

@@ -10,6 +10,7 @@ import {
   requirementName,
   requirementNumber,
   requirementUnit,
+  usualAxes,
 } from '../lib/amounts';
 import { change, significant } from '../lib/format';
 import { jobList, pathOf, refreshJobs, useJob } from '../lib/jobs';
@@ -48,8 +49,9 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
   }, [id]);
 
   const usable = axes.filter((axis) => answer.designs.some((design) => axis.of(design) !== null));
-  const x = axisOf(q.get('x')) ?? axisOf('mass')!;
-  const y = axisOf(q.get('y')) ?? axisOf('volume')!;
+  const [usualX, usualY] = usualAxes(answer.requirements);
+  const x = axisOf(q.get('x') ?? usualX)!;
+  const y = axisOf(q.get('y') ?? usualY)!;
   const baseline = Number(q.get('base')) || 1;
   const sort = q.get('sort') ?? 'rank';
   const ranges = Object.entries(brushes).map(([name, range]) => [axisOf(name), range] as const);
@@ -101,8 +103,8 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
             baseline={baseline}
             onAxes={(nextX, nextY) =>
               setQuery({
-                x: nextX === 'mass' ? undefined : nextX,
-                y: nextY === 'volume' ? undefined : nextY,
+                x: nextX === usualX ? undefined : nextX,
+                y: nextY === usualY ? undefined : nextY,
               })
             }
             onOpen={(rank) => go(['designs', id, String(rank)])}
@@ -146,11 +148,11 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
             />
             {!nominal && jobs.length > 0 && (
               <Select
-                label="Before"
+                label="Changes since"
                 value={q.get('with') ?? ''}
                 onChange={(v) => setQuery({ with: v })}
                 options={[
-                  { value: '', label: 'no other search' },
+                  { value: '', label: 'no search chosen' },
                   ...jobs.map((job) => ({
                     value: job.id,
                     label: `${job.name || 'unnamed'} ${job.id.slice(0, 6)}`,
@@ -223,8 +225,8 @@ export function AgainstNominal({ answer }: { answer: Answer }) {
           <ul class="history">
             {dropped.map((d) => (
               <li key={d.nominal_rank}>
-                nominal #{d.nominal_rank}, objective {significant(d.objective, 4)}:{' '}
-                {whyDropped(d.why, groups)}
+                nominal #{d.nominal_rank}, {significant(d.objective, 4)}{' '}
+                {objectiveUnit(answer.requirements)}: {whyDropped(d.why, groups)}
               </li>
             ))}
           </ul>

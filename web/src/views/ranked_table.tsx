@@ -1,15 +1,20 @@
 // The table of the ranked list, of which only the rows in sight are drawn.
 import { signal } from '@preact/signals';
 
-import { type Axis, axisOf, axisUnit, leastMargin, requirementName } from '../lib/amounts';
-import { change, digitsApart, isSame, percent, significant } from '../lib/format';
+import {
+  type Axis,
+  axisOf,
+  axisUnit,
+  leastMargin,
+  quantityOf,
+  requirementName,
+  supplyWord,
+} from '../lib/amounts';
+import { change, digitsApart, isSame, percent, shown } from '../lib/format';
 import { link, setQuery } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
-import { toShown } from '../lib/units';
 import { Chip } from '../ui/controls';
-import { useWindow } from '../ui/window';
-
-const rowHeight = 36;
+import { type Head, LongTable, number, SortHead } from '../ui/table';
 
 export const picked = signal<number[]>([]);
 
@@ -41,7 +46,9 @@ function extentOf(axis: Axis, designs: Design[]): [number, number] {
 
 // Enough digits to tell the designs apart, within reason.
 const digitsOf = (axis: Axis, designs: Design[]): number =>
-  Math.min(axis.id === 'mass' ? 5 : 4, digitsApart(...extentOf(axis, designs)));
+  axis.id === 'mass'
+    ? Math.min(5, Math.max(4, digitsApart(...extentOf(axis, designs))))
+    : Math.min(4, digitsApart(...extentOf(axis, designs)));
 
 export const isAlike = (axis: Axis, designs: Design[]): boolean =>
   designs.every((design) => axis.of(design) !== null) && isSame(...extentOf(axis, designs));
@@ -72,30 +79,30 @@ export function Table(props: {
   before?: Map<string, number>;
 }) {
   const { answer, rows, baseline, sort } = props;
-  const sight = useWindow(rowHeight, rows.length, 34);
-  const visible = rows.slice(sight.start, sight.end);
-  const some = columns.filter((axis) => answer.designs.some((design) => axis.of(design) !== null));
-  const alike =
-    answer.designs.length > 1 ? some.filter((axis) => isAlike(axis, answer.designs)) : [];
+  const { designs } = answer;
+  const some = columns.filter((axis) => designs.some((design) => axis.of(design) !== null));
+  const alike = designs.length > 1 ? some.filter((axis) => isAlike(axis, designs)) : [];
   const used = some
     .filter((axis) => !alike.includes(axis))
-    .map((axis) => ({ axis, digits: digitsOf(axis, answer.designs) }));
-  const base = answer.designs.find((design) => design.rank === baseline);
-  const sortBy = (name: string) =>
-    setQuery({ sort: sort === name ? `-${name}` : name === 'rank' ? undefined : name });
-  const head = (name: string, text: string, unit = '', tip?: string) => (
-    <th
+    .map((axis) => ({ axis, digits: digitsOf(axis, designs) }));
+  const kinds = new Set(designs.map((design) => design.configuration));
+  const same = [
+    ...(designs.length > 1 && kinds.size === 1 ? [`supply ${supplyWord(designs[0]!)}`] : []),
+    ...alike.map(
+      (axis) => `${axis.label} ${shown(axis.kind, axis.of(designs[0]!))} ${axisUnit(axis)}`,
+    ),
+  ];
+  const hasSupply = designs.length === 1 || kinds.size > 1;
+  const base = designs.find((design) => design.rank === baseline);
+  const head = (name: string, head: Head, tip?: string) => (
+    <SortHead
       key={name}
-      scope="col"
-      class={name === 'configuration' || name === 'margin' ? '' : 'num'}
-      aria-sort={sort === name ? 'ascending' : sort === `-${name}` ? 'descending' : 'none'}
-    >
-      <button type="button" onClick={() => sortBy(name)} data-tip={tip}>
-        {text}
-        {unit && <small> {unit}</small>}
-        <i>{sort === name ? '▲' : sort === `-${name}` ? '▼' : ''}</i>
-      </button>
-    </th>
+      name={name}
+      head={head}
+      sort={sort}
+      tip={tip}
+      onSort={(next) => setQuery({ sort: next === 'rank' ? undefined : next })}
+    />
   );
   const toggle = (rank: number) => {
     const next = picked.value.includes(rank)
@@ -106,117 +113,89 @@ export function Table(props: {
   };
   return (
     <>
-      {alike.length > 0 && (
-        <p class="alike muted">
-          The same in all:{' '}
-          {alike
-            .map(
-              (axis) =>
-                `${axis.label} ${significant(toShown(axis.kind, axis.of(answer.designs[0]!)!))} ${axisUnit(axis)}`,
-            )
-            .join(', ')}
-          .
-        </p>
-      )}
-      <div
-        class="scroll ranked"
-        tabIndex={0}
-        role="region"
-        aria-label="Ranked designs"
-        onScroll={sight.onScroll}
-      >
-        <table aria-rowcount={rows.length + 1}>
-          <thead>
-            <tr>
-              <th scope="col">
-                <span class="only-heard">compare</span>
-              </th>
-              {head('rank', '#')}
-              {head('configuration', 'supply')}
-              {used.map(({ axis }) => head(axis.id, axis.label, axisUnit(axis)))}
-              {head(
-                'margin',
-                'margins',
-                '',
-                'One bar a requirement, full at 50 %; the least one is marked',
-              )}
-              {head(
-                'estimated',
-                'data',
-                '',
-                'How much of the mass rests on estimates; ~ flow data are estimates, too',
-              )}
+      {same.length > 0 && <p class="alike muted">The same in all: {same.join(', ')}.</p>}
+      <LongTable
+        label="Ranked designs"
+        class="ranked"
+        rowHeight={36}
+        inSight={34}
+        rows={rows}
+        head={
+          <>
+            <th scope="col">
+              <span class="only-heard">compare</span>
+            </th>
+            {head('rank', number('#'))}
+            {hasSupply && head('configuration', { text: 'supply' })}
+            {used.map(({ axis }) =>
+              head(axis.id, number(axis.label, axisUnit(axis)), axis.meaning),
+            )}
+            {head(
+              'margin',
+              { text: 'margins' },
+              'One bar a requirement, full at 50 %; the least one is marked, red where it binds',
+            )}
+            {head(
+              'estimated',
+              number('estimated'),
+              'How much of the mass rests on estimates; ~ where flow data are estimates, too',
+            )}
+            <th scope="col" class="num">
+              to #{baseline}
+            </th>
+            <th scope="col">other parts than #{baseline}</th>
+            {props.before && (
               <th scope="col" class="num">
-                to #{baseline}
+                before
               </th>
-              <th scope="col">other parts than #{baseline}</th>
-              {props.before && (
-                <th scope="col" class="num">
-                  before
-                </th>
-              )}
-            </tr>
-          </thead>
-          <tbody>
-            {sight.above > 0 && (
-              <tr aria-hidden="true" class="spacer" style={{ height: `${sight.above}px` }} />
             )}
-            {visible.map((design, i) => (
-              <tr
-                key={design.rank}
-                aria-rowindex={sight.start + i + 2}
-                class={design.rank === baseline ? 'baseline' : ''}
-              >
-                <td>
-                  <input
-                    type="checkbox"
-                    aria-label={`Compare design ${design.rank}`}
-                    checked={picked.value.includes(design.rank)}
-                    onChange={() => toggle(design.rank)}
-                  />
-                </td>
-                <th scope="row" class="num">
-                  <a href={link(['designs', props.id, String(design.rank)])}>{design.rank}</a>
-                </th>
-                <td
-                  class="nowrap"
-                  data-tip={design.parts
-                    .map((p) => `${p.quantity} × ${p.manufacturer} ${p.part_number}`)
-                    .join('; ')}
-                >
-                  {design.configuration}
-                </td>
-                {used.map(({ axis, digits }) => {
-                  const value = axis.of(design);
-                  return (
-                    <td key={axis.id} class="num">
-                      {value === null ? '–' : significant(toShown(axis.kind, value), digits)}
-                    </td>
-                  );
-                })}
-                <td>
-                  <Margins design={design} answer={answer} />
-                </td>
-                <td class="num nowrap">
-                  <Quality design={design} />
-                </td>
-                <td class="num nowrap">
-                  {base && design !== base ? change(design.objective / base.objective - 1) : '–'}
-                </td>
-                <Others text={partsInShort(design, base)} />
-                {props.before && (
-                  <td class="num nowrap">
-                    {was(props.before.get(signature(design)), design.rank)}
-                  </td>
-                )}
-              </tr>
+          </>
+        }
+        row={(design, i) => (
+          <tr
+            key={design.rank}
+            aria-rowindex={i + 2}
+            class={design.rank === baseline ? 'baseline' : ''}
+          >
+            <td>
+              <input
+                type="checkbox"
+                aria-label={`Compare design ${design.rank}`}
+                checked={picked.value.includes(design.rank)}
+                onChange={() => toggle(design.rank)}
+              />
+            </td>
+            <th
+              scope="row"
+              class="num"
+              data-tip={design.parts
+                .map((p) => `${quantityOf(p)} ${p.manufacturer} ${p.part_number}`)
+                .join('; ')}
+            >
+              <a href={link(['designs', props.id, String(design.rank)])}>{design.rank}</a>
+            </th>
+            {hasSupply && <td class="nowrap">{supplyWord(design)}</td>}
+            {used.map(({ axis, digits }) => (
+              <td key={axis.id} class="num">
+                {shown(axis.kind, axis.of(design), digits)}
+              </td>
             ))}
-            {sight.below > 0 && (
-              <tr aria-hidden="true" class="spacer" style={{ height: `${sight.below}px` }} />
+            <td>
+              <Margins design={design} answer={answer} />
+            </td>
+            <td class="num nowrap">
+              <Quality design={design} />
+            </td>
+            <td class="num nowrap">
+              {base && design !== base ? change(design.objective / base.objective - 1) : '–'}
+            </td>
+            <Others text={partsInShort(design, base)} />
+            {props.before && (
+              <td class="num nowrap">{was(props.before.get(signature(design)), design.rank)}</td>
             )}
-          </tbody>
-        </table>
-      </div>
+          </tr>
+        )}
+      />
     </>
   );
 }
@@ -256,7 +235,7 @@ export function Margins({ design, answer }: { design: Design; answer: Answer }) 
   const tightest = design.margins.find((m) => m.relative_margin === least);
   return (
     <span class="margins" data-tip={tip}>
-      <svg width={width} height="20" aria-hidden="true">
+      <svg viewBox={`0 0 ${width} 20`} style={{ width: `${width / 10}rem` }} aria-hidden="true">
         {design.margins.map((m, i) => {
           const h = Math.max(1.5, Math.min(1, Math.max(0, m.relative_margin) / 0.5) * 20);
           return (

@@ -1,7 +1,8 @@
 // The panels of the requirements beside the actuators and the objective: duty, supply, conditions.
 import { edit, errorAt, requirements } from '../lib/requirements';
 import type { Configuration } from '../lib/types';
-import { Check, NumberField, Panel, Segmented } from '../ui/controls';
+import { Check, Panel, Segmented } from '../ui/controls';
+import { RequirementField } from './requirement_field';
 
 const configurations: { value: Configuration; label: string }[] = [
   { value: 'compressor', label: 'Compressor and reservoir' },
@@ -24,8 +25,6 @@ export function Supply() {
         on ? { pressure_kpa_gauge: 600, flow_l_per_min_anr_max: 200 } : undefined,
       );
   };
-  const limit = (name: string, value: number | null) => edit(['supply', name], value ?? undefined);
-  const mains = supply.mains;
   const wrong = errorAt('/supply/configurations') ?? errorAt('/supply/mains');
   return (
     <Panel title="Supply">
@@ -41,64 +40,48 @@ export function Supply() {
       </div>
       {wrong && <p class="error">{wrong}</p>}
       <div class="fields">
-        {mains && (
+        {supply.mains && (
           <>
-            <NumberField
+            <RequirementField
               label="Wall pressure"
               kind="pressure"
-              value={mains.pressure_kpa_gauge}
+              path={['supply', 'mains', 'pressure_kpa_gauge']}
               range={[1, 10000]}
-              pointer="/supply/mains/pressure_kpa_gauge"
-              error={errorAt('/supply/mains/pressure_kpa_gauge')}
-              onChange={(v) => edit(['supply', 'mains', 'pressure_kpa_gauge'], v)}
             />
-            <NumberField
+            <RequirementField
               label="Wall flow, at most"
               unit="L/min ANR"
               optional
-              value={mains.flow_l_per_min_anr_max}
-              pointer="/supply/mains/flow_l_per_min_anr_max"
-              error={errorAt('/supply/mains/flow_l_per_min_anr_max')}
-              onChange={(v) => edit(['supply', 'mains', 'flow_l_per_min_anr_max'], v ?? undefined)}
+              path={['supply', 'mains', 'flow_l_per_min_anr_max']}
+              hint="at 100 kPa and 20 °C"
             />
           </>
         )}
-        <NumberField
+        <RequirementField
           label="Source pressure, at most"
           kind="pressure"
           optional
-          value={supply.source_pressure_kpa_gauge_max}
-          pointer="/supply/source_pressure_kpa_gauge_max"
-          error={errorAt('/supply/source_pressure_kpa_gauge_max')}
-          onChange={(v) => limit('source_pressure_kpa_gauge_max', v)}
+          path={['supply', 'source_pressure_kpa_gauge_max']}
+          range={[1, 50000]}
         />
-        <NumberField
+        <RequirementField
           label="Mass, at most"
           unit="kg"
           optional
-          value={supply.mass_kg_max}
-          error={errorAt('/supply/mass_kg_max')}
-          pointer="/supply/mass_kg_max"
-          onChange={(v) => limit('mass_kg_max', v)}
+          path={['supply', 'mass_kg_max']}
         />
-        <NumberField
+        <RequirementField
           label="Volume, at most"
           kind="volume_l"
           optional
-          value={supply.volume_l_max}
-          error={errorAt('/supply/volume_l_max')}
-          pointer="/supply/volume_l_max"
-          onChange={(v) => limit('volume_l_max', v)}
+          path={['supply', 'volume_l_max']}
         />
-        <NumberField
+        <RequirementField
           label="Cost, at most"
           unit="€"
           optional
-          value={supply.cost_eur_max}
-          error={errorAt('/supply/cost_eur_max')}
-          pointer="/supply/cost_eur_max"
+          path={['supply', 'cost_eur_max']}
           hint="parts without a price drop out"
-          onChange={(v) => limit('cost_eur_max', v)}
         />
       </div>
     </Panel>
@@ -106,42 +89,34 @@ export function Supply() {
 }
 
 export function Duty() {
-  const { duty, rise, fall } = requirements.value;
+  const { duty } = requirements.value;
   return (
     <Panel title="Duty">
       <div class="fields">
-        <NumberField
+        <RequirementField
           label="Frequency"
           unit="Hz"
-          value={duty.frequency_hz}
+          path={['duty', 'frequency_hz']}
           range={[1e-4, 100]}
-          pointer="/duty/frequency_hz"
-          error={errorAt('/duty/frequency_hz')}
-          onChange={(v) => edit(['duty', 'frequency_hz'], v)}
         />
-        <NumberField
+        <RequirementField
           label="Actuations"
-          value={duty.actuations}
+          path={['duty', 'actuations']}
           hint="without refill or recharge"
-          pointer="/duty/actuations"
-          error={errorAt('/duty/actuations')}
-          onChange={(v) => edit(['duty', 'actuations'], v)}
         />
-        <NumberField
-          label="Rise counts to"
+        <RequirementField
+          label="Rise counts up to"
           unit="of operating"
-          value={rise?.to_fraction ?? 0.95}
+          path={['rise', 'to_fraction']}
+          usual={0.95}
           range={[0, 1]}
-          error={errorAt('/rise/to_fraction')}
-          onChange={(v) => edit(['rise'], { to_fraction: v })}
         />
-        <NumberField
-          label="Fall counts to"
+        <RequirementField
+          label="Fall counts down to"
           unit="of operating"
-          value={fall?.to_fraction ?? 0.05}
+          path={['fall', 'to_fraction']}
+          usual={0.05}
           range={[0, 1]}
-          error={errorAt('/fall/to_fraction')}
-          onChange={(v) => edit(['fall'], { to_fraction: v })}
         />
       </div>
       <Segmented
@@ -158,7 +133,7 @@ export function Duty() {
 }
 
 export function Conditions() {
-  const { ambient, limits, exclude, require } = requirements.value;
+  const { exclude, require } = requirements.value;
   const most = [
     ['compressors_max', 'Compressors', 2],
     ['batteries_max', 'Batteries', 4],
@@ -166,35 +141,31 @@ export function Conditions() {
     ['co2_max', 'CO₂ cartridges', 4],
     ['reservoirs_max', 'Reservoirs', 2],
   ] as const;
-  const conditions = ambient ?? { pressure_kpa_abs: 100, temperature_k: 293.15 };
   return (
     <details class="panel">
       <summary>Ambient, numbers of parts, left out parts</summary>
       <div class="fields">
-        <NumberField
+        <RequirementField
           label="Ambient pressure"
           unit="kPa abs"
-          value={conditions.pressure_kpa_abs}
+          path={['ambient', 'pressure_kpa_abs']}
+          usual={100}
           range={[20, 200]}
-          error={errorAt('/ambient/pressure_kpa_abs')}
-          onChange={(v) => edit(['ambient'], { ...conditions, pressure_kpa_abs: v })}
         />
-        <NumberField
+        <RequirementField
           label="Ambient temperature"
           unit="K"
-          value={conditions.temperature_k}
+          path={['ambient', 'temperature_k']}
+          usual={293.15}
           range={[200, 350]}
-          error={errorAt('/ambient/temperature_k')}
-          onChange={(v) => edit(['ambient'], { ...conditions, temperature_k: v })}
         />
         {most.map(([name, label, usual]) => (
-          <NumberField
+          <RequirementField
             key={name}
             label={`${label}, at most`}
-            value={limits?.[name] ?? usual}
+            path={['limits', name]}
+            usual={usual}
             range={[1, 16]}
-            error={errorAt(`/limits/${name}`)}
-            onChange={(v) => edit(['limits', name], v)}
           />
         ))}
       </div>

@@ -1,9 +1,19 @@
 // What the supply has to do: the form, its check, and the start of a search.
 import { useSignal } from '@preact/signals';
 
+import { placeInWords } from '../lib/amounts';
 import { asProblem, type Problem } from '../lib/api';
+import { fieldKind, inUnit } from '../lib/format';
 import { previousJob, start } from '../lib/jobs';
-import { edit, fieldErrors, load, presets, requirements, validity } from '../lib/requirements';
+import {
+  edit,
+  fieldErrors,
+  load,
+  presets,
+  requirements,
+  validity,
+  whyUnknown,
+} from '../lib/requirements';
 import { go } from '../lib/route';
 import type { Requirements } from '../lib/types';
 import { Notice, Panel, TextField } from '../ui/controls';
@@ -85,6 +95,10 @@ export function RequirementsView() {
             </button>
           </span>
         </div>
+        <p class="muted">
+          Say what the actuators need: plenum chooses the parts of their air supply from the
+          catalogue and proves that no other choice is better.
+        </p>
         <Panel
           title="Actuators"
           aside={
@@ -105,6 +119,8 @@ export function RequirementsView() {
       <div class="column side">
         <Panel title="The system">
           <Drawing requirements={document} />
+        </Panel>
+        <div class="panel go">
           <Verdict />
           {problem.value && (
             <Notice kind="bad">
@@ -119,7 +135,7 @@ export function RequirementsView() {
           >
             {busy.value ? 'Starting…' : 'Find the best designs'}
           </button>
-        </Panel>
+        </div>
       </div>
     </form>
   );
@@ -141,14 +157,26 @@ function Verdict() {
   if (validity.value === 'unknown')
     return (
       <p class="verdict bad" role="status">
-        The service does not answer; nothing was checked.
+        {whyUnknown.value}
       </p>
     );
   const n = fieldErrors.value.length;
   return (
     <div class="verdict bad" role="status">
       {n === 1 ? 'One thing has to change:' : `${n} things have to change:`}
-      <ErrorList errors={fieldErrors.value} />
+      <ul>
+        {fieldErrors.value.map((error) => (
+          <li key={error.pointer + error.detail}>
+            <button type="button" class="quiet small" onClick={() => focusOn(error.pointer)}>
+              {placeInWords(error.pointer, requirements.value.actuators)}
+            </button>{' '}
+            {inUnit(fieldKind(error.pointer.replace(/_max$/, '')), error.detail)}
+          </li>
+        ))}
+      </ul>
     </div>
   );
 }
+
+const focusOn = (pointer: string): void =>
+  document.querySelector<HTMLElement>(`[data-pointer="${pointer}"]`)?.focus();

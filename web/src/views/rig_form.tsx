@@ -4,80 +4,65 @@ import { Check, NumberField, Panel, Select } from '../ui/controls';
 
 export function RigForm() {
   const data = measurement.value!;
-  const { actuator, line, supply } = data.rig;
+  const { supply } = data.rig;
   const set = (rig: Partial<Rig>) =>
     (measurement.value = { ...data, rig: { ...data.rig, ...rig } });
-  const setActuator = (name: keyof Rig['actuator']) => (v: number | null) =>
-    set({ actuator: { ...actuator, [name]: v } });
-  const setLine = (name: keyof Rig['line']) => (v: number | null) =>
-    set({ line: { ...line, [name]: v } });
+  // Of one block of the rig, by name.
+  const field = (block: 'actuator' | 'line', name: string) => ({
+    value: (data.rig[block] as Record<string, number | null>)[name],
+    error: errorAt(`/rig/${block}/${name}`),
+    onChange: (v: number | null) => set({ [block]: { ...data.rig[block], [name]: v } }),
+  });
   const errorAt = (pointer: string) =>
     measurementErrors.value.find((e) => e.pointer === pointer)?.detail;
   const source = data.runs[0]?.source_pressure_kpa_gauge;
   const sigma = data.relative_uncertainty ?? {};
-  const setSigma = (name: string) => (v: number | null) =>
-    (measurement.value = {
-      ...data,
-      relative_uncertainty: { ...sigma, ...(v === null ? {} : { [name]: v }) },
-    });
+  const uncertain = (name: string) => ({
+    value: typeof sigma[name] === 'number' ? sigma[name] : null,
+    onChange: (v: number | null) => {
+      const { [name]: _, ...others } = sigma;
+      measurement.value = {
+        ...data,
+        relative_uncertainty: v === null ? others : { ...others, [name]: v },
+      };
+    },
+    unit: '1 σ, share',
+    optional: true,
+    placeholder: 'exact',
+    hint: 'such as 0.03 for 3 %',
+  });
   return (
     <Panel title="The rig it was measured on">
       <div class="fields">
         <NumberField
           label="Volume at rest"
           kind="volume_ml"
-          value={actuator.rest_volume_ml}
-          error={errorAt('/rig/actuator/rest_volume_ml')}
-          onChange={setActuator('rest_volume_ml')}
+          {...field('actuator', 'rest_volume_ml')}
         />
         <NumberField
           label="Expansion"
           unit="× at operating"
-          value={actuator.expansion_ratio}
-          error={errorAt('/rig/actuator/expansion_ratio')}
-          onChange={setActuator('expansion_ratio')}
+          {...field('actuator', 'expansion_ratio')}
         />
         <NumberField
           label="Operating pressure"
           kind="pressure"
-          value={actuator.operating_pressure_kpa_gauge}
-          error={errorAt('/rig/actuator/operating_pressure_kpa_gauge')}
-          onChange={setActuator('operating_pressure_kpa_gauge')}
+          {...field('actuator', 'operating_pressure_kpa_gauge')}
         />
         <NumberField
           label="Conductance C of the line"
           unit="dm³/(s·bar)"
-          value={line.sonic_conductance_dm3_per_s_bar}
-          error={errorAt('/rig/line/sonic_conductance_dm3_per_s_bar')}
-          onChange={setLine('sonic_conductance_dm3_per_s_bar')}
+          {...field('line', 'sonic_conductance_dm3_per_s_bar')}
         />
-        <NumberField
-          label="Critical ratio b"
-          value={line.critical_ratio}
-          error={errorAt('/rig/line/critical_ratio')}
-          onChange={setLine('critical_ratio')}
-        />
-        <NumberField
-          label="C uncertain by"
-          unit="1 σ, share"
-          value={typeof sigma.sonic_conductance === 'number' ? sigma.sonic_conductance : null}
-          optional
-          placeholder="exact"
-          onChange={setSigma('sonic_conductance')}
-        />
-        <NumberField
-          label="Volume uncertain by"
-          unit="1 σ, share"
-          value={typeof sigma.rest_volume === 'number' ? sigma.rest_volume : null}
-          optional
-          placeholder="exact"
-          onChange={setSigma('rest_volume')}
-        />
+        <NumberField label="Critical ratio b" {...field('line', 'critical_ratio')} />
+        <NumberField label="C uncertain by" {...uncertain('sonic_conductance')} />
+        <NumberField label="Volume uncertain by" {...uncertain('rest_volume')} />
         {supply.kind === 'regulated' && (
           <NumberField
             label="Source pressure"
             kind="pressure"
             value={source}
+            hint="of the regulator"
             error={errorAt('/runs/0/source_pressure_kpa_gauge')}
             onChange={(v) =>
               (measurement.value = {

@@ -46,8 +46,9 @@ export function SaveModel({ diagnosis: d, model }: { diagnosis: Diagnosis; model
         Kept: {model.effects.length ? effectNames(model.effects.map((e) => e.id)) : 'no effect'}
         {factors.length > 0 &&
           `, ${factors.length} re-fitted ${factors.length === 1 ? 'number' : 'numbers'}`}
-        , their variances, the errors and the hash of the data. Ranking uses the effects.
-        {d.discrepancy?.learned && ' The learned term is not kept.'}
+        , their variances, the errors and the hash of the data. Ranking uses the effects, but those
+        of the sensor.
+        {d.discrepancy?.learned && ' The learned term holds only within the range of these data.'}
       </p>
       <div class="toolbar">
         <TextField

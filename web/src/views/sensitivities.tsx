@@ -6,9 +6,11 @@ import { requirementName } from '../lib/amounts';
 import { asProblem } from '../lib/api';
 import { asDesigned, type Change, evaluate, type Evaluation } from '../lib/evaluation';
 import { change as changeOf } from '../lib/format';
+import { route, setQuery } from '../lib/route';
 import type { Design, Requirements } from '../lib/types';
 import { Notice, Panel, Segmented } from '../ui/controls';
 import { Swing } from '../ui/swing';
+import { Table } from '../ui/table';
 
 type By = '-10' | '10';
 
@@ -54,7 +56,7 @@ export function Sensitivities({
   design: Design;
   requirements: Requirements;
 }) {
-  const by = useSignal<By>('10');
+  const by: By = route.value.query.get('by') === '-10' ? '-10' : '10';
   const base = useSignal<Evaluation | null>(null);
   const rows = useSignal<{ label: string; found: Evaluation | null }[]>([]);
   const problem = useSignal('');
@@ -63,7 +65,7 @@ export function Sensitivities({
     const load = async () => {
       base.value = await evaluate(design, requirements, start);
       rows.value = await Promise.all(
-        causes(start, 1 + Number(by.value) / 100).map(async ([label, patch]) => ({
+        causes(start, 1 + Number(by) / 100).map(async ([label, patch]) => ({
           label,
           // Some changes cannot be asked for: an operating pressure above what its limit allows.
           found: await evaluate(design, requirements, { ...start, ...patch }).catch(() => null),
@@ -72,7 +74,7 @@ export function Sensitivities({
       problem.value = '';
     };
     load().catch((error) => (problem.value = asProblem(error).message));
-  }, [design, by.value]);
+  }, [design, by]);
   const was = base.value?.works ? base.value : null;
   const share = (effect: Effect, found: Evaluation): number | null => {
     const [before, after] = [effect.of(was!), effect.of(found)];
@@ -85,8 +87,8 @@ export function Sensitivities({
       aside={
         <Segmented
           label="each number by"
-          value={by.value}
-          onChange={(v) => (by.value = v)}
+          value={by}
+          onChange={(v) => setQuery({ by: v === '10' ? undefined : v })}
           options={[
             { value: '-10', label: '−10 %' },
             { value: '10', label: '+10 %' },
@@ -96,45 +98,32 @@ export function Sensitivities({
     >
       {problem.value && <Notice kind="bad">{problem.value}</Notice>}
       {was && (
-        <div class="scroll" tabIndex={0} role="region" aria-label="Sensitivities">
-          <table class="tornado">
-            <thead>
-              <tr>
-                <th scope="col">of</th>
-                {used.map((effect) => (
-                  <th key={effect.label} scope="col">
-                    {effect.label}
-                  </th>
-                ))}
-                <th scope="col">then</th>
-              </tr>
-            </thead>
-            <tbody>
-              {rows.value.map(({ label, found }) => (
-                <tr key={label}>
-                  <th scope="row">{label}</th>
-                  {found?.works ? (
-                    used.map((effect) => {
-                      const value = share(effect, found);
-                      return (
-                        <td key={effect.label}>
-                          {value === null ? '–' : <Cell share={value} effect={effect} />}
-                        </td>
-                      );
-                    })
-                  ) : (
-                    <td colSpan={used.length} class="muted">
-                      {found
-                        ? 'the parts do not stand it, or a stroke does not end'
-                        : 'not possible'}
+        <Table
+          label="Sensitivities"
+          class="tornado"
+          heads={['of', ...used.map((effect) => effect.label), 'then']}
+        >
+          {rows.value.map(({ label, found }) => (
+            <tr key={label}>
+              <th scope="row">{label}</th>
+              {found?.works ? (
+                used.map((effect) => {
+                  const value = share(effect, found);
+                  return (
+                    <td key={effect.label}>
+                      {value === null ? '–' : <Cell share={value} effect={effect} />}
                     </td>
-                  )}
-                  <td>{found?.works && <Then found={found} requirements={requirements} />}</td>
-                </tr>
-              ))}
-            </tbody>
-          </table>
-        </div>
+                  );
+                })
+              ) : (
+                <td colSpan={used.length} class="muted">
+                  {found ? 'the parts do not stand it, or a stroke does not end' : 'not possible'}
+                </td>
+              )}
+              <td>{found?.works && <Then found={found} requirements={requirements} />}</td>
+            </tr>
+          ))}
+        </Table>
       )}
       <p class="hint">
         Parts and all other settings stay; the periodic state is worked out again for each. Bars:

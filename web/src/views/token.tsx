@@ -1,17 +1,20 @@
 // What a service that others can reach asks for first.
 import { useSignal } from '@preact/signals';
 
-import { hasToken, takeToken } from '../lib/api';
+import { takeToken, wantsToken } from '../lib/api';
 import { Notice, Panel } from '../ui/controls';
 
 export function TokenView() {
   const token = useSignal('');
   return (
     <Panel first title="This service asks for a token">
-      {hasToken() && <Notice kind="bad">The token given is not known, or it has ended.</Notice>}
+      {wantsToken.value === 'refused' && (
+        <Notice kind="bad">The token given is not known, or it has ended.</Notice>
+      )}
       <p>
-        Whoever runs it makes one with <code>plenum token create</code>. It is kept until this
-        window is closed.
+        Whoever runs it makes one with <code>plenum token create</code>: with{' '}
+        <code>--scope read</code> one may look, with <code>--scope write</code> also search,
+        diagnose and change the catalogue. It is kept until this window is closed.
       </p>
       <form
         class="toolbar"
@@ -32,6 +35,11 @@ export function TokenView() {
         <button type="submit" class="primary" disabled={token.value.trim() === ''}>
           Use it
         </button>
+        {wantsToken.value === 'change' && (
+          <button type="button" onClick={() => (wantsToken.value = '')}>
+            Back
+          </button>
+        )}
       </form>
     </Panel>
   );

@@ -1,7 +1,7 @@
 // What the trial of a design shows: its sliders, curves and times.
 import { useId } from 'preact/hooks';
 
-import { requirementName, requirementNumber, requirementUnit } from '../lib/amounts';
+import { requirementName, requirementNumber, requirementUnit, sense } from '../lib/amounts';
 import type { Evaluation } from '../lib/evaluation';
 import { change as changeOf, shown, significant } from '../lib/format';
 import { seriesColours } from '../lib/theme';
@@ -9,6 +9,7 @@ import type { Requirements, Response } from '../lib/types';
 import { type Kind, pressuresShown, toShown, unitOf } from '../lib/units';
 import { type Line, Lines } from '../plots/lines';
 import { Notice } from '../ui/controls';
+import { number, Table } from '../ui/table';
 
 export function Slider(props: {
   label: string;
@@ -114,7 +115,7 @@ export function Met({
       return {
         name: requirementName(requirement, requirements.actuators),
         unit: requirementUnit(requirement),
-        asked: `${requirement.startsWith('/duty') ? '≥' : '≤'} ${requirementNumber(requirement, required)}`,
+        asked: `${sense(requirement)} ${requirementNumber(requirement, required)}`,
         was: requirementNumber(requirement, achieved),
         is: then ? requirementNumber(requirement, then.achieved) : '–',
         share: then && achieved !== 0 ? then.achieved / achieved - 1 : null,
@@ -140,7 +141,7 @@ export function Met({
   ];
   const [low, high] = trial.source_pressure_range_kpa_gauge ?? [];
   return (
-    <div class="scroll met" tabIndex={0} role="region" aria-label="Requirements with the change">
+    <div class="met">
       {!trial.works && (
         <Notice kind="warn">
           {low === undefined
@@ -148,42 +149,34 @@ export function Met({
             : `It does not work: a stroke takes longer than half of the period, or the source is outside ${shown('pressure', low)} to ${shown('pressure', high)} ${unitOf('pressure')}.`}
         </Notice>
       )}
-      <table class="times">
-        <thead>
-          <tr>
-            <th scope="col">in the periodic state</th>
-            <th scope="col" class="num">
-              asked
+      <Table
+        label="Requirements with the change"
+        class="times"
+        boxClass="met"
+        heads={[
+          'in the periodic state',
+          number('asked'),
+          number('as designed'),
+          number('what if'),
+          number('change'),
+        ]}
+      >
+        {rows.map((row) => (
+          <tr key={row.name}>
+            <th scope="row">
+              {row.name} <small class="muted">{row.unit}</small>
             </th>
-            <th scope="col" class="num">
-              as designed
-            </th>
-            <th scope="col" class="num">
-              what if
-            </th>
-            <th scope="col" class="num">
-              change
-            </th>
+            <td class="num muted">{row.asked}</td>
+            <td class="num">{row.was}</td>
+            <td class="num">
+              <span class={row.isMissed ? 'over' : ''}>
+                {row.is} {row.isMissed && 'missed'}
+              </span>
+            </td>
+            <td class="num muted">{row.share !== null && changeOf(row.share)}</td>
           </tr>
-        </thead>
-        <tbody>
-          {rows.map((row) => (
-            <tr key={row.name}>
-              <th scope="row">
-                {row.name} <small class="muted">{row.unit}</small>
-              </th>
-              <td class="num muted">{row.asked}</td>
-              <td class="num">{row.was}</td>
-              <td class="num">
-                <span class={row.isMissed ? 'over' : ''}>
-                  {row.is} {row.isMissed && 'missed'}
-                </span>
-              </td>
-              <td class="num muted">{row.share !== null && changeOf(row.share)}</td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
+        ))}
+      </Table>
     </div>
   );
 }

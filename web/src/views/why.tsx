@@ -9,6 +9,7 @@ import {
   requirementName,
   requirementNumber,
   requirementUnit,
+  supplyWord,
 } from '../lib/amounts';
 import { asProblem } from '../lib/api';
 import { change, percent, significant } from '../lib/format';
@@ -16,9 +17,9 @@ import { start } from '../lib/jobs';
 import { go, link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
 import { Notice, Panel } from '../ui/controls';
+import { ShareBar } from '../ui/share_bar';
+import { extra, number, Table } from '../ui/table';
 import { partsInShort } from './ranked_table';
-
-const supplies = { compressor: 'compressor', cylinder: 'cylinder', co2: 'CO₂', mains: 'wall' };
 
 export function Why({ answer, id }: { answer: Answer; id: string }) {
   const first = answer.designs[0]!;
@@ -122,13 +123,12 @@ function otherSupplies(answer: Answer, id: string) {
       {others.length === 0 && 'No other kind of supply was asked for.'}
       {found.map((d) => (
         <span key={d.rank}>
-          Best {supplies[d.configuration]}:{' '}
-          <a href={link(['designs', id, String(d.rank)])}>#{d.rank}</a>,{' '}
+          Best {supplyWord(d)}: <a href={link(['designs', id, String(d.rank)])}>#{d.rank}</a>,{' '}
           {change(d.objective / first.objective - 1)}.{' '}
         </span>
       ))}
       {none.length > 0 &&
-        `No ${none.map((kind) => supplies[kind]).join(' and no ')} supply is among the best ${answer.designs.length}.`}
+        `No ${none.map((configuration) => supplyWord({ configuration })).join(' and no ')} supply is among the best ${answer.designs.length}.`}
     </>
   );
 }
@@ -181,50 +181,35 @@ function Prices({ answer }: { answer: Answer }) {
   const most = Math.max(1e-9, ...answer.prices!.map((row) => row.saving_share ?? 0));
   const rows = [...answer.prices!].sort((a, b) => (b.saving ?? 0) - (a.saving ?? 0));
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label="Prices of requirements">
-      <table class="prices">
-        <thead>
-          <tr>
-            <th scope="col">a tenth looser</th>
-            <th scope="col" class="num">
-              asked
-            </th>
-            <th scope="col" class="num">
-              then
-            </th>
-            <th scope="col" class="num">
-              saves <small>{objectiveUnit(answer.requirements)}</small>
-            </th>
-            <th scope="col">of the best</th>
-          </tr>
-        </thead>
-        <tbody>
-          {rows.map((row) => (
-            <tr key={row.requirement}>
-              <th scope="row">
-                {requirementName(row.requirement, answer.requirements.actuators)}{' '}
-                <small class="muted">{requirementUnit(row.requirement)}</small>
-              </th>
-              <td class="num">{requirementNumber(row.requirement, row.required)}</td>
-              <td class="num">{requirementNumber(row.requirement, row.loosened)}</td>
-              <td class="num">{isNothing(row.saving) ? '0' : significant(row.saving)}</td>
-              <td>
-                <span class="margin-bar">
-                  <span class="track">
-                    <span
-                      class="least"
-                      style={{ width: `${(100 * Math.max(0, row.saving_share ?? 0)) / most}%` }}
-                    />
-                  </span>
-                  {isNothing(row.saving) ? 'nothing' : percent(row.saving_share)}
-                  {row.status !== 'optimal' && <small class="muted"> not proved</small>}
-                </span>
-              </td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
-    </div>
+    <Table
+      label="Prices of requirements"
+      class="prices"
+      heads={[
+        'a tenth looser',
+        number('asked'),
+        extra(number('then')),
+        number('saves', objectiveUnit(answer.requirements)),
+        'of the best',
+      ]}
+    >
+      {rows.map((row) => (
+        <tr key={row.requirement}>
+          <th scope="row">
+            {requirementName(row.requirement, answer.requirements.actuators)}{' '}
+            <small class="muted">{requirementUnit(row.requirement)}</small>
+          </th>
+          <td class="num">{requirementNumber(row.requirement, row.required)}</td>
+          <td class="num extra">{requirementNumber(row.requirement, row.loosened)}</td>
+          <td class="num">{isNothing(row.saving) ? '0' : significant(row.saving)}</td>
+          <td>
+            <ShareBar share={(row.saving_share ?? 0) / most} mark="least">
+              {isNothing(row.saving) ? 'nothing' : percent(row.saving_share)}
+              {row.status !== 'optimal' && <small class="muted"> not proved</small>}
+            </ShareBar>
+          </td>
+        </tr>
+      ))}
+    </Table>
   );
 }
 
