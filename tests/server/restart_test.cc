@@ -95,6 +95,7 @@ TEST_P(Restart, UnfinishedJobsEndWithTheSameAnswer) {
   catalog::Store(bench_.catalog(), catalog::Access::kWrite).SaveModel("bench", Model(0.1), "me");
   Json crawler = Example("crawler", 60.0), revised = Exosuit(0.3);
   crawler["ranking"]["count"] = 20;
+  crawler["robust"] = {{"draws", 25}, {"time_limit_s", 60.0}};  // long enough to be killed in
   revised["model"] = "bench";
   Start();
   const Json expected = WhenEnded(Post(crawler, "c"))["result"],
