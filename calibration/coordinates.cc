@@ -47,7 +47,7 @@ using enum Coordinate::Kind;
 const std::vector<Search>& Searches() {
   static const std::vector<Search> kSearches = {
       {"valve_delay", "delay_s", kLinear, Size::kStroke, 0.0, {0.02}},
-      {"valve_ramp", "duration_s", kLinear, Size::kStroke, 0.0, {0.05}},
+      {"valve_ramp", "duration_s", kLinear, Size::kStroke, 0.0, {0.01}},
       {"directional_conductance", "fill_factor", kLinear, Size::kOne, 1.0, {0.02}},
       {"cracking_pressure", "pressure_pa", kLinear, Size::kPressure, 0.0, {0.02}},
       {"exhaust_restriction",

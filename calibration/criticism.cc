@@ -71,9 +71,11 @@ bool AddRun(const FitData& data, const Fit& fit, const Term& term, std::size_t r
   const auto rows = static_cast<Eigen::Index>(observed.rows());
   const auto fitted = static_cast<Eigen::Index>(fit.coordinates.size());
   Eigen::MatrixXd all(rows, static_cast<Eigen::Index>(parameters.size()));
+  const std::vector<double> slopes =
+      GridSlopes(data.forward->dataset().runs[run], observed, prediction.reading);
   for (Eigen::Index j = 0; j < all.cols(); ++j) {
     const auto k = static_cast<std::size_t>(j);
-    Whitened(observed, prediction.derivatives[k], {all.col(j).data(), observed.rows()});
+    Whitened(observed, prediction.derivatives[k], slopes, {all.col(j).data(), observed.rows()});
     if (j < fitted) all.col(j) *= fit.coordinates[k].Slope(fit.u[j]);
   }
   Eigen::VectorXd e(rows);
@@ -113,9 +115,10 @@ double Gain(const Sums& sums) {
 
 }  // namespace
 
-double LearnableGain(const FitData& data, const Fit& fit, const FitOptions& options) {
+double LearnableGain(const FitData& data, const Fit& fit, double memory,
+                     const FitOptions& options) {
   const auto fitted = static_cast<Eigen::Index>(fit.coordinates.size());
-  const double n = static_cast<double>(fit.rows);
+  const double worth = static_cast<double>(fit.rows) / memory;
   double most = 0.0;
   for (const Term& term : Terms()) {
     if (options.cancelled && options.cancelled()) break;
@@ -133,8 +136,8 @@ double LearnableGain(const FitData& data, const Fit& fit, const FitOptions& opti
     });
     if (!done) continue;
     const double gain = std::min(Gain(sums), 0.5 * fit.chi2_data);
-    const double bic = n * std::log(fit.chi2_data / (fit.chi2_data - gain)) -
-                       static_cast<double>(numbers) * std::log(n);
+    const double bic = worth * std::log(fit.chi2_data / (fit.chi2_data - gain)) -
+                       static_cast<double>(numbers) * std::log(std::max(1.0, worth));
     most = std::max(most, bic);
   }
   return most;

@@ -5,7 +5,9 @@
 // known to first order without a fit (a score test). With e the whitened residuals with the priors,
 // J their derivatives at the optimum and A those with respect to the term's numbers,
 //   Δχ² = gᵀ·M⁻¹·g,  g = Aᵀ·N·e,  M = Aᵀ·N·A,  N = I − J·(JᵀJ)⁻¹·Jᵀ.
-// The terms are leaks, line conductances, volume laws and sensor curves that depend on the pressure
+// e counts as n/φ independent readings (evidence.h), so that a memory that the whitening missed, or
+// the sawtooth of a coarse grid, is no structure: Δχ² of n readings becomes Δχ²/φ. The terms are
+// leaks, line conductances, volume laws and sensor curves that depend on the pressure
 // or the expansion (model/effects/learned.h). Source: Rao's score test.
 #ifndef PLENUM_CALIBRATION_CRITICISM_H_
 #define PLENUM_CALIBRATION_CRITICISM_H_
@@ -14,8 +16,9 @@
 
 namespace plenum::calibration {
 
-// The largest gain in BIC of any term; 0 where none gains or a run cannot be simulated.
-double LearnableGain(const FitData& data, const Fit& fit, const FitOptions& options);
+// The largest gain in BIC of any term, with residuals worth 1/memory of their number; 0 where none
+// gains or a run cannot be simulated.
+double LearnableGain(const FitData& data, const Fit& fit, double memory, const FitOptions& options);
 
 }  // namespace plenum::calibration
 

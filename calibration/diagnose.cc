@@ -42,8 +42,14 @@ class Diagnosing {
     const auto enough = [this](const Fit& fit) {
       return PriorsHold(fit) && IsNoise(LeftoverOf(bench_, fit, false));
     };
-    search_ = SearchEffects(bench_.data, options_, enough);
-    bench_.data = search_.data;
+    const FitData data = bench_.data;
+    const bool on_grid = std::any_of(observed_.begin(), observed_.end(),
+                                     [](const ObservedRun& run) { return run.noise.staircase; });
+    if (on_grid) LearnReadings(FitModel(data, forward_.Declared(), bench_.tight));
+    do {
+      search_ = SearchEffects(data, options_, enough);
+      bench_.data = search_.data;
+    } while (LearnReadings(Chosen().fit) && !Stopped());
     base_ = &search_.contenders[search_.base];
     Assess();
     return std::move(diagnosis_);
@@ -93,6 +99,16 @@ class Diagnosing {
     if (options_.progress) options_.progress(share, what);
   }
 
+  // What a fit shows of the readings: wild ones, and how much noise is behind their grid. True
+  // where fits are to be made again.
+  bool LearnReadings(const Fit& fit) {
+    if (!fit.Usable()) return false;
+    std::vector<Reading> predicted(observed_.size());
+    for (const std::size_t run : bench_.data.runs) predicted[run] = Shown(bench_, fit.state, run);
+    const bool wild = LeaveOutWild(bench_.dataset, bench_.data.runs, predicted, observed_);
+    return TakeHiddenNoise(bench_.dataset, bench_.data.runs, predicted, observed_) || wild;
+  }
+
   void Assess() {
     Evidence evidence;
     evidence.complete = search_.complete && base_->fit.Usable() && Chosen().fit.Usable();
@@ -112,8 +128,12 @@ class Diagnosing {
     diagnosis_.verdict = Judge(evidence);
     if (diagnosis_.verdict == Verdict::kUnexplained && evidence.accepted) {
       const double memory = MemoryOf(WhitenedOf(bench_, Chosen().fit));
+      const Fit base = base_->fit;
+      Reweigh(bench_.data, bench_.tight, memory, search_.contenders);
       search_.chosen = Standing(search_.contenders, memory);
       Weigh(memory, evidence);
+      search_.contenders[search_.base].fit = base;  // what it leaves is told of its least squares
+      if (evidence.complete && IsTieBesideStructure(evidence)) diagnosis_.verdict = Verdict::kTie;
     }
     const Contender& chosen = Chosen();
     diagnosis_.before = ErrorOf(bench_, base_->fit.state);

@@ -66,6 +66,8 @@ struct ResidualReport {
   double portmanteau = 0.0, portmanteau_limit = 0.0;
   double cross = 0.0, cross_limit = 0.0;
   double lack_of_fit = 0.0, lack_of_fit_limit = 0.0;  // variance over that of the noise
+  double underread = 1.0;  // variance of the noise, with the memory that the residual shows, over
+                           // that which the readings' differences show
   std::vector<PhaseResidual> phases;
 };
 

@@ -173,6 +173,7 @@ ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run
   FitData alone = data;
   alone.runs = {run};
   options.nuisance_only = true;
+  options.own_pairs = HasOwnPairs(data, run);
   const Fit aligned = FitModel(alone, state, options);
   return aligned.Usable() ? aligned.state : state;
 }

@@ -74,21 +74,14 @@ class Search {
   }
 
   SearchResult Run() {
-    std::optional<std::size_t> chosen = Grow();
-    if (!chosen) {  // again, with each run's clock fitted
-      const SearchResult without = result_;
-      result_.data.clocks = true;
-      result_.contenders.clear();
-      chosen = Grow();
-      if (Cancelled()) result_ = without, chosen = 0;
-    }
-    if (Of(*chosen).effects.size() > 1u && LeftShare(Of(*chosen)) < kEstablished && !Cancelled()) {
-      const int size = static_cast<int>(Of(*chosen).effects.size());
-      Exchange(Of(*chosen).effects);
-      chosen = Best(size);
-    }
-    Finish(static_cast<int>(Of(*chosen).effects.size()));
-    return std::move(result_);
+    Compare();
+    if (!ClocksAreOff()) return std::move(result_);
+    SearchResult without = result_;
+    UseClocks();
+    Compare();
+    if (!Cancelled()) return std::move(result_);
+    without.complete = false;
+    return without;
   }
 
  private:
@@ -98,6 +91,40 @@ class Search {
     double bic_before = 0.0;  // of the smaller set
     Fit fit = {};
   };
+
+  // All sets as deep as need be, and the choice among them.
+  void Compare() {
+    std::optional<std::size_t> chosen = Grow();
+    if (!chosen) {  // again, with each run's clock fitted
+      const SearchResult without = result_;
+      UseClocks();
+      chosen = Grow();
+      if (Cancelled()) result_ = without, chosen = 0;
+    }
+    if (Of(*chosen).effects.size() > 1u && LeftShare(Of(*chosen)) < kEstablished && !Cancelled()) {
+      const int size = static_cast<int>(Of(*chosen).effects.size());
+      Shrink(Of(*chosen).effects);
+      Exchange(Of(*chosen).effects);
+      chosen = Best(size);
+    }
+    Finish(static_cast<int>(Of(*chosen).effects.size()));
+  }
+
+  void UseClocks() {
+    result_.data.clocks = true;
+    result_.contenders.clear();
+  }
+
+  // Whether the chosen set, fitted to the end, gains by the runs' clocks what none of its own
+  // numbers can take up: small errors of the clocks hide beside an effect that leaves little.
+  bool ClocksAreOff() const {
+    const Fit& chosen = Of(result_.chosen).fit;
+    if (result_.data.clocks || Cancelled() || !chosen.Usable()) return false;
+    FitData data = result_.data;
+    data.clocks = true;
+    const Fit with = FitModel(data, chosen.state, Tight());
+    return with.Usable() && with.bic + ClocksCost(data, with, Tight()) < chosen.bic - kClock;
+  }
 
   // Sets forwards from the base model, and the best of them; none where the clocks are found off.
   std::optional<std::size_t> Grow() {
@@ -354,20 +381,29 @@ class Search {
     RunJobs(jobs, 0.6, 0.7, "laws");
   }
 
-  // Every set that differs from this one in one member. By value, here and in Finish: the
-  // contenders that it comes from move.
+  static Set Without(const Set& set, Spec out) {
+    Set rest = set;
+    std::erase(rest, out);
+    return rest;
+  }
+
+  // Backwards: the sets with one member less, from where the larger set came to. A smaller set that
+  // was cut short, or caught beside its optimum, must not make a member look needed. By value, here
+  // and in Exchange: the contenders that the set comes from move.
+  void Shrink(Set set) {
+    std::vector<Job> jobs;
+    for (const Spec out : set) {
+      const Set rest = Without(set, out);
+      jobs.push_back({rest, StateOf(*Find(set), rest), Base().fit.bic});
+    }
+    RunJobs(jobs, 0.85, 0.87, "smaller sets");
+  }
+
+  // Every set that differs from this one in one member.
   void Exchange(Set set) {
     std::vector<Job> jobs;
     for (const Spec out : set) {
-      Set rest;
-      std::copy_if(set.begin(), set.end(), std::back_inserter(rest),
-                   [&](Spec spec) { return spec != out; });
-      Contender* from = Find(rest);
-      if (!from) {
-        std::vector<Job> smaller = {{rest, StateOf(*Find(set), rest)}};
-        RunJobs(smaller, 0.85, 0.87, "smaller sets");
-        from = Find(rest);
-      }
+      const Contender* from = Find(Without(set, out));
       if (!from->fit.Usable()) continue;
       const Contender seed = *from;
       for (const Spec spec : BestLaws()) AddJobs(seed, spec, jobs);
@@ -424,16 +460,21 @@ class Search {
     return rivalled ? bic : kClocksAreAll;
   }
 
-  // The best sets of each size up to the one that the search came to are fitted to the last digit;
-  // then the choice is made again, because a fit cut short may have made a larger set look needed.
-  void Finish(int size_max) {
-    Report(0.92, "final fits");
+  FitOptions Tight() const {
     FitOptions tight = fit_options_;
     tight.noise_share = 1e-3;
     tight.steps_max = kFinalSteps;
     tight.function_tolerance = 1e-9;
     tight.iterations_max = 100;
     tight.threads = options_.threads;
+    return tight;
+  }
+
+  // The best sets of each size up to the one that the search came to are fitted to the last digit;
+  // then the choice is made again, because a fit cut short may have made a larger set look needed.
+  void Finish(int size_max) {
+    Report(0.92, "final fits");
+    const FitOptions tight = Tight();
     for (int size = 0; size <= size_max; ++size) {
       const double best = Of(Best(size)).fit.bic;
       const double reach = size == size_max ? 2.0 * kTie : kSameOptimum;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "calibration/criticism.h"
+#include "calibration/evidence.h"
 #include "calibration/residual.h"
 
 namespace plenum::calibration {
@@ -61,6 +62,7 @@ Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& stat
   data.runs = {run};
   FitOptions options = bench.tight;
   options.nuisance_only = true;
+  options.own_pairs = HasOwnPairs(bench.data, run);
   const Fit aligned = FitModel(data, state, options);
   return ErrorsOf(bench, run, aligned.Usable() ? aligned.state : state);
 }
@@ -107,8 +109,11 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
   }
   leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()));
   leftover.rms_pa = squares.Rms();
-  leftover.noise_pa = NoiseOf(bench, bench.data.runs);
-  if (IsNoise(leftover)) leftover.learnable_bic = LearnableGain(bench.data, fit, bench.tight);
+  const double underread = std::sqrt(leftover.residual.underread);
+  leftover.noise_pa = underread * NoiseOf(bench, bench.data.runs);
+  if (IsNoise(leftover))
+    leftover.learnable_bic =
+        LearnableGain(bench.data, fit, MemoryOf(WhitenedOf(bench, fit)), bench.tight);
   if (!with_holdout) return leftover;
   if (bench.held_out.empty()) {
     leftover.holdout_rms_pa = LeaveOneOut(bench, fit);
@@ -117,7 +122,7 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
     Squares held_out;
     for (const std::size_t i : bench.held_out) held_out.Add(ErrorsUnseen(bench, i, fit.state));
     leftover.holdout_rms_pa = held_out.Rms();
-    leftover.holdout_noise_pa = NoiseOf(bench, bench.held_out);
+    leftover.holdout_noise_pa = underread * NoiseOf(bench, bench.held_out);
   }
   return leftover;
 }

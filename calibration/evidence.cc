@@ -6,6 +6,11 @@
 #include "calibration/thresholds.h"
 
 namespace plenum::calibration {
+namespace {
+
+constexpr std::size_t kReweighed = 6;
+
+}  // namespace
 
 double MemoryOf(std::span<const std::vector<double>> series) {
   const auto covariance = [&](std::size_t lag) {
@@ -32,6 +37,27 @@ double BicWith(const Fit& fit, double memory) {
                                   [](const Coordinate& coordinate) { return !coordinate.prior; });
   return worth * std::log(fit.chi2_data / n) + fit.chi2_prior +
          static_cast<double>(free) * std::log(std::max(1.0, worth));
+}
+
+void Reweigh(const FitData& data, const FitOptions& options, double memory,
+             std::vector<Contender>& contenders) {
+  for (std::size_t size = 0; size <= kEffectsMax; ++size) {
+    std::vector<Contender*> best;
+    for (Contender& contender : contenders)
+      if (contender.effects.size() == size && contender.fit.Usable()) best.push_back(&contender);
+    std::sort(best.begin(), best.end(), [&](const Contender* a, const Contender* b) {
+      return BicWith(a->fit, memory) < BicWith(b->fit, memory);
+    });
+    best.resize(std::min(best.size(), kReweighed));
+    for (Contender* contender : best) {
+      FitOptions weighed = options;
+      weighed.weight = 1.0 / (memory * std::max(1.0, contender->fit.chi2_data /
+                                                         static_cast<double>(contender->fit.rows)));
+      Fit fit = FitModel(data, contender->fit.state, weighed);
+      if (fit.Usable() && BicWith(fit, memory) < BicWith(contender->fit, memory))
+        contender->fit = std::move(fit);
+    }
+  }
 }
 
 std::size_t Standing(std::span<const Contender> contenders, double memory) {

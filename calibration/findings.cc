@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "calibration/evidence.h"
 #include "calibration/parallel.h"
 #include "calibration/phases.h"
+#include "calibration/profile.h"
 
 namespace plenum::calibration {
 namespace {
@@ -28,8 +30,11 @@ std::vector<std::string> IdsOf(const Contender& contender) {
 void AddEstimates(const Bench& bench, const Fit& fit, Diagnosis& diagnosis) {
   FitOptions options = bench.tight;
   options.cancelled = nullptr;  // one evaluation
-  const Eigen::MatrixXd covariance = Covariance(bench.data, fit, options);
-  const std::vector<Estimate> estimates = Intervals(fit, covariance);
+  const double memory = MemoryOf(WhitenedOf(bench, fit));
+  const Eigen::MatrixXd covariance = Covariance(bench.data, fit, options, memory);
+  std::vector<Estimate> estimates = Intervals(fit, covariance);
+  if (!Stopped(bench))
+    ProfileIntervals(bench.data, fit, covariance, Inflation(fit, memory), bench.tight, estimates);
   std::vector<std::size_t> effects, fitted;  // which coordinates
   for (const model::Effect& effect : fit.state.effects)
     diagnosis.effects.push_back({effect, std::vector<Estimate>(effect.parameters.size())});
@@ -157,7 +162,8 @@ std::string Sentence(const Bench& bench, const SearchResult& search, const Diagn
       return "The model lacks " + list(IdsOf(search.contenders[search.chosen])) +
              "; with it, only noise is left.";
     case Verdict::kTie:
-      return "The data cannot tell which is missing: " + either + ".";
+      return "The data cannot tell which is missing: " + either +
+             (diagnosis.unexplained_fraction > 0.0 ? "; and some structure is left." : ".");
     case Verdict::kUnexplained:
       if (!diagnosis.tied.empty())
         return "The data cannot tell which is missing: " + either +

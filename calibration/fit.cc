@@ -55,8 +55,14 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
 class RunCost : public ceres::CostFunction {
  public:
   RunCost(const FitData& data, std::size_t run, const ModelState& start,
-          const std::vector<Coordinate>& coordinates, const PredictOptions& options)
-      : data_(data), run_(run), start_(start), coordinates_(coordinates), options_(options) {
+          const std::vector<Coordinate>& coordinates, const PredictOptions& options,
+          double weight = 1.0)
+      : data_(data),
+        run_(run),
+        start_(start),
+        coordinates_(coordinates),
+        options_(options),
+        scale_(std::sqrt(weight)) {
     for (const Coordinate& coordinate : coordinates) parameters_.push_back(coordinate.parameter);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(coordinates.size()));
     set_num_residuals(static_cast<int>(Observed().rows()));
@@ -94,11 +100,14 @@ class RunCost : public ceres::CostFunction {
     const std::size_t rows = Observed().rows();
     Residuals(data_.forward->dataset().runs[run_], Observed(), prediction.reading,
               {residuals, rows});
+    Eigen::Map<Eigen::VectorXd>(residuals, static_cast<Eigen::Index>(rows)) *= scale_;
     if (!jacobian) return true;
+    const std::vector<double> slopes =
+        GridSlopes(data_.forward->dataset().runs[run_], Observed(), prediction.reading);
     Eigen::VectorXd column(static_cast<Eigen::Index>(rows));
     for (std::size_t j = 0; j < coordinates_.size(); ++j) {
-      Whitened(Observed(), prediction.derivatives[j], {column.data(), rows});
-      jacobian->col(static_cast<Eigen::Index>(j)) = coordinates_[j].Slope(u[j]) * column;
+      Whitened(Observed(), prediction.derivatives[j], slopes, {column.data(), rows});
+      jacobian->col(static_cast<Eigen::Index>(j)) = scale_ * coordinates_[j].Slope(u[j]) * column;
     }
     return jacobian->allFinite();
   }
@@ -114,6 +123,7 @@ class RunCost : public ceres::CostFunction {
   const std::vector<Coordinate>& coordinates_;
   std::vector<Parameter> parameters_;
   PredictOptions options_;
+  double scale_;         // of the residuals
   mutable Known known_;  // the last point with derivatives
 };
 
@@ -170,14 +180,22 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
        RunCoordinates(*data.forward, data.runs, start.effects, data.sizes))
     coordinates.push_back(coordinate);
   if (options.nuisance_only) {
-    std::erase_if(coordinates, [](const Coordinate& coordinate) {
-      return coordinate.parameter.kind == Parameter::Kind::kDeclared;
+    std::erase_if(coordinates, [&](const Coordinate& coordinate) {
+      const Declared number = coordinate.parameter.declared;
+      const bool of_line =
+          number == Declared::kSonicConductance || number == Declared::kCriticalRatio;
+      return coordinate.parameter.kind == Parameter::Kind::kDeclared &&
+             !(options.own_pairs && of_line);
     });
     return coordinates;
   }
   for (std::size_t i = 0; i < start.effects.size(); ++i)
     for (const Coordinate& coordinate : EffectCoordinates(*start.effects[i].spec, i, data.sizes))
       coordinates.push_back(coordinate);
+  if (options.fixed)
+    std::erase_if(coordinates, [&](const Coordinate& coordinate) {
+      return coordinate.parameter == *options.fixed;
+    });
   return coordinates;
 }
 
@@ -185,7 +203,8 @@ void AddCosts(const FitData& data, const ModelState& start, const FitOptions& op
               const std::vector<Coordinate>& coordinates, double* u, ceres::Problem& problem) {
   for (const std::size_t run : data.runs)
     problem.AddResidualBlock(
-        new RunCost(data, run, start, coordinates, OptionsOf(data, run, options)), nullptr, u);
+        new RunCost(data, run, start, coordinates, OptionsOf(data, run, options), options.weight),
+        nullptr, u);
   if (HasPrior(coordinates)) problem.AddResidualBlock(new PriorCost(coordinates), nullptr, u);
 }
 
@@ -306,7 +325,22 @@ double Edge(const Coordinate& coordinate, double u) {
   return coordinate.Number(std::clamp(u, coordinate.low, coordinate.high));
 }
 
+// The declared pairs of a line: what a tube adds follows from its size.
+std::vector<model::FlowElement> PairsOf(const Run& run) {
+  std::vector<model::FlowElement> pairs;
+  for (const LinePiece& piece : run.line)
+    if (!piece.tube) pairs.insert(pairs.end(), {piece.fill, piece.exhaust});
+  return pairs;
+}
+
 }  // namespace
+
+bool HasOwnPairs(const FitData& data, std::size_t run) {
+  const std::vector<Run>& runs = data.forward->dataset().runs;
+  return std::none_of(data.runs.begin(), data.runs.end(), [&](std::size_t fitted) {
+    return PairsOf(runs[fitted]) == PairsOf(runs[run]);
+  });
+}
 
 Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& options) {
   FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres says is in the status
@@ -358,7 +392,7 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   fit.state = StateAt(start, fit.coordinates, fit.u.data());
   if (late && !options.nuisance_only) MeanLateness(fit.coordinates, fit.state);
   fit.chi2_prior = Chi2Prior(fit);
-  fit.chi2_data = 2.0 * summary.final_cost - fit.chi2_prior;
+  fit.chi2_data = (2.0 * summary.final_cost - fit.chi2_prior) / options.weight;
   fit.bic = Bic(fit);
   return fit;
 }
@@ -371,7 +405,14 @@ bool PriorsHold(const Fit& fit) {
   return fit.chi2_prior <= boost::math::quantile(boost::math::complement(law, kFalseAlarm));
 }
 
-Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options) {
+double Inflation(const Fit& fit, double memory) {
+  const double freedom =
+      static_cast<double>(fit.rows) - static_cast<double>(fit.coordinates.size());
+  return memory * std::max(1.0, fit.chi2_data / std::max(1.0, freedom));
+}
+
+Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options,
+                           double memory) {
   const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
   Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(size, size);
   for (const std::size_t run : data.runs) {
@@ -384,9 +425,7 @@ Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions
     if (cost.Evaluate(blocks, residuals.data(), jacobians))
       curvature += jacobian.transpose() * jacobian;
   }
-  const double freedom = static_cast<double>(fit.rows) - static_cast<double>(size);
-  const double inflation = std::max(1.0, fit.chi2_data / std::max(1.0, freedom));
-  curvature /= inflation;
+  curvature /= Inflation(fit, memory);
   for (Eigen::Index j = 0; j < size; ++j) {
     const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
     if (coordinate.prior) curvature(j, j) += 1.0;

@@ -5,7 +5,8 @@
 // deviations. Minimised by Levenberg–Marquardt within bounds (Ceres) with exact derivatives.
 //
 // Intervals: the curvature of χ² at the optimum gives the covariance of the coordinates
-// (coordinates.h), inflated by χ²/(n − k) where that is above 1; ±1.96 standard deviations there,
+// (coordinates.h), that of the readings inflated by χ²/(n − k) where that is above 1 and by the
+// memory of their residuals (evidence.h); ±1.96 standard deviations there,
 // carried to the numbers through the coordinate and cut at its bounds. A number at its bound still
 // moves in the others' intervals: the data alone would have carried it further. A parameter whose
 // standard deviation is above kUnidentified (in e-folds, or of a declared number's prior) is not
@@ -15,6 +16,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +39,11 @@ struct FitOptions {
   double noise_share = 1e-2;         // integration error allowed, as a share of the noise
   double function_tolerance = 1e-6;  // relative change of χ² that ends the search
   int iterations_max = 40;
-  std::size_t steps_max = 3'000;  // of one run's integration; beyond, a step is not taken
-  bool nuisance_only = false;     // only what each run has of its own moves
+  std::size_t steps_max = 3'000;        // of one run's integration; beyond, a step is not taken
+  bool nuisance_only = false;           // only what each run has of its own moves
+  bool own_pairs = false;               // with nuisance_only: and the declared pairs (C, b)
+  std::optional<Parameter> fixed = {};  // stays where it starts
+  double weight = 1.0;  // of Σ e² beside the priors, in the search for the optimum
   int threads = 1;
   std::function<bool()> cancelled;  // may be empty
 };
@@ -63,14 +68,22 @@ struct Fit {
 // swings are looked for all around.
 Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& options);
 
+// Whether the run's line has declared pairs (C, b) that no run of the data has.
+bool HasOwnPairs(const FitData& data, std::size_t run);
+
 // Whether the declared numbers are where their uncertainties let them be, but for a chance of
 // kFalseAlarm (whiteness.h): what is missing may hide in them and leave nothing but noise.
 bool PriorsHold(const Fit& fit);
 
 inline constexpr double kUnidentified = 0.9;
 
-// Of the coordinates u. Costs one evaluation.
-Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options);
+// What χ² of the readings is divided by before it is weighed against priors: χ²/(n − k) where that
+// is above 1, times their memory.
+double Inflation(const Fit& fit, double memory);
+
+// Of the coordinates u, of readings that are worth 1/memory of their number. Costs one evaluation.
+Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options,
+                           double memory = 1.0);
 
 // Per coordinate, from their covariance.
 std::vector<Estimate> Intervals(const Fit& fit, const Eigen::MatrixXd& covariance);

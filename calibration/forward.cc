@@ -47,6 +47,14 @@ double* NumberNamed(model::Effect& effect, std::string_view name) {
   return nullptr;
 }
 
+// By how much the declared compressor raises its reservoir's pressure when the run begins, Pa/s.
+double PumpingRate(const Run& run) {
+  if (run.supply != Supply::kCompressor) return 0.0;
+  const double kelvin_ratio = run.ambient.temperature_k / model::kReferenceTemperatureK;
+  return model::FreeAirDelivery(run.compressor, run.source_pressure_pa) *
+         model::kReferencePressurePa * kelvin_ratio / run.reservoir_volume_m3;
+}
+
 // The numbers of the rig that a parameter moves, and how much of each per unit of it.
 class DirectionOf {
  public:
@@ -71,6 +79,8 @@ class DirectionOf {
       case Parameter::Kind::kClock:
         if (parameter.run != run_index) break;
         for (const model::ValveCommand& command : group_.schedule) Add(command.time_s, 1.0);
+        if (auto* reservoir = std::get_if<model::ReservoirSource>(&rig_.source))
+          Add(reservoir->initial_pressure_pa, -PumpingRate(run_));
         break;
       case Parameter::Kind::kPhase:
         if (parameter.run != run_index) break;
@@ -291,7 +301,7 @@ model::Source ForwardModel::SourceOf(std::size_t index, const ModelState& state)
     case Supply::kCompressor:
       return model::ReservoirSource{
           .volume_m3 = run.reservoir_volume_m3 * Factor(state, Declared::kReservoirVolume),
-          .initial_pressure_pa = pressure_pa,
+          .initial_pressure_pa = pressure_pa - state.clock_s[index] * PumpingRate(run),
           .compressor = run.compressor};
     case Supply::kNone:
       break;

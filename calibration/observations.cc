@@ -41,6 +41,7 @@ ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
                          std::binary_search(noise.near_end.begin(), noise.near_end.end(), i);
     if (std::isfinite(measured[i]) && !dropped) signal.samples.push_back(i);
   }
+  if (noise.staircase && !channel) signal.grid = Grid(noise.quantum_pa, noise.quantum_pa);
   std::vector<double> t_s;
   for (const std::size_t i : signal.samples) t_s.push_back(run.t_s[i]);
   signal.steps = StepsOf(t_s, noise.memory);
@@ -142,18 +143,85 @@ void Residuals(const Run& run, const ObservedRun& observed, const Reading& predi
   for (const ObservedSignal& signal : observed.signals) {
     const std::vector<double>& model = Predicted(predicted, signal);
     const std::vector<double>& measured = Measured(run, signal);
-    Whiten(
-        signal, [&](std::size_t i) { return model.empty() ? 0.0 : model[i] - measured[i]; }, row);
+    const auto off = [&](std::size_t i) {
+      if (model.empty()) return 0.0;
+      const double above = model[i] - measured[i];
+      return above + signal.grid.At(-above).mean;
+    };
+    Whiten(signal, off, row);
   }
 }
 
-void Whitened(const ObservedRun& observed, const Reading& derivative, std::span<double> rows) {
+std::vector<double> GridSlopes(const Run& run, const ObservedRun& observed,
+                               const Reading& predicted) {
+  const ObservedSignal& pressure = observed.signals.front();
+  std::vector<double> slopes;
+  if (pressure.grid.quantum() == 0.0) return slopes;
+  for (std::size_t i = 0; i < run.pressure_pa.size(); ++i)
+    slopes.push_back(pressure.grid.At(run.pressure_pa[i] - predicted.pressure_pa[i]).slope);
+  return slopes;
+}
+
+void Whitened(const ObservedRun& observed, const Reading& derivative,
+              std::span<const double> slopes, std::span<double> rows) {
   double* row = rows.data();
   for (const ObservedSignal& signal : observed.signals) {
     const std::vector<double>& series = Predicted(derivative, signal);
-    Whiten(
-        signal, [&](std::size_t i) { return series.empty() ? 0.0 : series[i]; }, row);
+    const bool on_grid = signal.channel == nullptr && !slopes.empty();
+    const auto at = [&](std::size_t i) {
+      return series.empty() ? 0.0 : series[i] * (on_grid ? slopes[i] : 1.0);
+    };
+    Whiten(signal, at, row);
   }
+}
+
+bool TakeHiddenNoise(const Dataset& dataset, const std::vector<std::size_t>& runs,
+                     const std::vector<Reading>& predicted, std::vector<ObservedRun>& observed) {
+  bool less = false;
+  for (const std::size_t run : runs) {
+    ObservedSignal& pressure = observed[run].signals.front();
+    if (pressure.grid.quantum() == 0.0 || predicted[run].pressure_pa.empty()) continue;
+    std::vector<double> readings, model;
+    for (const std::size_t i : pressure.samples) {
+      readings.push_back(dataset.runs[run].pressure_pa[i]);
+      model.push_back(predicted[run].pressure_pa[i]);
+    }
+    const double hidden = LikeliestNoise(readings, model, pressure.grid.quantum());
+    if (hidden > kHiddenLess * pressure.grid.noise()) continue;
+    pressure.grid = Grid(pressure.grid.quantum(), hidden);
+    less = true;
+  }
+  return less;
+}
+
+bool LeaveOutWild(const Dataset& dataset, const std::vector<std::size_t>& runs,
+                  const std::vector<Reading>& predicted, std::vector<ObservedRun>& observed) {
+  bool any = false;
+  for (const std::size_t index : runs) {
+    if (predicted[index].pressure_pa.empty()) continue;
+    const Run& run = dataset.runs[index];
+    ObservedSignal& pressure = observed[index].signals.front();
+    Noise& noise = observed[index].noise;
+    const auto off = [&](std::size_t k) {
+      const std::size_t i = pressure.samples[k];
+      return std::abs(run.pressure_pa[i] - predicted[index].pressure_pa[i]);
+    };
+    std::vector<std::size_t> wild;
+    for (std::size_t k = 1; k + 1 < pressure.samples.size(); ++k)
+      if (off(k) > kWildSigmas * pressure.sigma && 4.0 * std::max(off(k - 1), off(k + 1)) < off(k))
+        wild.push_back(pressure.samples[k]);
+    const double most = kWildShare * static_cast<double>(pressure.samples.size());
+    if (wild.empty() || static_cast<double>(wild.size()) > most) continue;
+    any = true;
+    noise.outliers.insert(noise.outliers.end(), wild.begin(), wild.end());
+    std::sort(noise.outliers.begin(), noise.outliers.end());
+    std::erase_if(pressure.samples,
+                  [&](std::size_t i) { return std::binary_search(wild.begin(), wild.end(), i); });
+    std::vector<double> t_s;
+    for (const std::size_t i : pressure.samples) t_s.push_back(run.t_s[i]);
+    pressure.steps = StepsOf(t_s, noise.memory);
+  }
+  return any;
 }
 
 std::vector<double> PressureResidual(const Run& run, const ObservedRun& observed,

@@ -215,7 +215,8 @@ ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_nu
     ReadMemories(series, noises);
     TestStructure(noises, series, report, by_input);
   }
-  report.lack_of_fit_limit *= Underread(noises, series);
+  report.underread = Underread(noises, series);
+  report.lack_of_fit_limit *= report.underread;
   return report;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -33,6 +34,30 @@ double LogLikelihood(std::span<const double> readings, std::span<const double> m
   return sum;
 }
 
+}  // namespace
+
+Grid::Grid(double quantum, double noise) : quantum_(quantum), noise_(noise) {
+  const double width = std::numbers::pi * std::max(noise / quantum, kLeastGridNoise);
+  for (int k = 1; k <= kHarmonics; ++k)
+    size_[static_cast<std::size_t>(k - 1)] =
+        (k % 2 == 0 ? 1.0 : -1.0) * std::exp(-2.0 * std::pow(k * width, 2));
+}
+
+Grid::Shift Grid::At(double off) const {
+  if (quantum_ == 0.0) return {};
+  const double phase = -2.0 * std::numbers::pi * off / quantum_;  // of the model from the reading
+  const std::complex<double> turn(std::cos(phase), std::sin(phase));
+  std::complex<double> turned = 1.0;
+  Shift result;
+  for (int k = 1; k <= kHarmonics; ++k) {
+    turned *= turn;
+    const double size = size_[static_cast<std::size_t>(k - 1)];
+    result.mean += quantum_ / (std::numbers::pi * k) * size * turned.imag();
+    result.slope += 2.0 * size * turned.real();
+  }
+  return result;
+}
+
 // Golden section over ln s.
 double LikeliestNoise(std::span<const double> readings, std::span<const double> model,
                       double quantum) {
@@ -54,8 +79,6 @@ double LikeliestNoise(std::span<const double> readings, std::span<const double> 
   }
   return std::exp(0.5 * (low + high));
 }
-
-}  // namespace
 
 RoundedResidual StandardiseRounded(std::span<const double> readings, std::span<const double> model,
                                    double quantum) {

@@ -8,13 +8,44 @@
 // has mean 0, variance 1 and no memory if model and noise are right. s is the most likely one given
 // the readings (so that a wrong model raises s). Readings that are all but sure, v < 0.02·q², tell
 // nothing and become NaN: without noise all do, and only a model outside the intervals is seen.
+//
+// A fit compares μ(m) with the reading, which is on the grid:
+//   μ(m) − m = q/π·Σ_k (−1)^k/k·exp(−2·(π·k·s/q)²)·sin(2π·k·m/q),
+// the characteristic function's series (Widrow & Kollár, Quantization Noise (2008), chapter 6); s
+// is taken at kLeastGridNoise at least, so that kHarmonics terms suffice and every reading tells.
 #ifndef PLENUM_CALIBRATION_ROUNDING_H_
 #define PLENUM_CALIBRATION_ROUNDING_H_
 
+#include <array>
 #include <span>
 #include <vector>
 
 namespace plenum::calibration {
+
+inline constexpr double kLeastGridNoise = 0.12;  // of the quantum
+inline constexpr int kHarmonics = 6;
+
+class Grid {
+ public:
+  Grid() = default;  // none: shifts nothing
+  Grid(double quantum, double noise);
+  double quantum() const { return quantum_; }
+  double noise() const { return noise_; }
+
+  // μ(m) − m and dμ/dm. `off` is reading − model.
+  struct Shift {
+    double mean = 0.0, slope = 1.0;
+  };
+  Shift At(double off) const;
+
+ private:
+  double quantum_ = 0.0, noise_ = 0.0;
+  std::array<double, kHarmonics> size_{};
+};
+
+// s of readings on a grid, of finite readings and models.
+double LikeliestNoise(std::span<const double> readings, std::span<const double> model,
+                      double quantum);
 
 struct RoundedResidual {
   std::vector<double> e;

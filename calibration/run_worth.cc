@@ -36,7 +36,7 @@ Eigen::MatrixXd Jacobian(const Prediction& prediction, const ObservedRun& observ
   Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(observed.rows()), size);
   for (Eigen::Index j = 0; j < size; ++j) {
     const auto k = static_cast<std::size_t>(j);
-    Whitened(observed, prediction.derivatives[k], {jacobian.col(j).data(), observed.rows()});
+    Whitened(observed, prediction.derivatives[k], {}, {jacobian.col(j).data(), observed.rows()});
     jacobian.col(j) *= fit.coordinates[k].Slope(fit.u[j]);
   }
   return jacobian;
@@ -174,7 +174,7 @@ std::optional<RunWorth> WorthOf(const FitData& data, std::span<const TiedFit> ti
   std::vector<Eigen::MatrixXd> jacobians;
   for (std::size_t m = 0; m < tied.size(); ++m) {
     readings.emplace_back(static_cast<Eigen::Index>(observed.rows()));
-    Whitened(observed, predictions[m].reading, {readings.back().data(), observed.rows()});
+    Whitened(observed, predictions[m].reading, {}, {readings.back().data(), observed.rows()});
     jacobians.push_back(Jacobian(predictions[m], observed, *tied[m].fit));
   }
   std::vector<std::size_t> always = {0};

@@ -34,6 +34,9 @@ inline constexpr double kNegligible = 0.25;
 // established, and no third effect is sought beside a pair that does.
 inline constexpr double kEstablished = 0.2;
 
+// The same of each set of a tie.
+inline constexpr double kTieLeft = 0.1;
+
 inline constexpr int kEffectsMax = 3;
 inline constexpr int kSeeds = 3;  // best single effects that pairs are built on
 

@@ -45,4 +45,9 @@ Verdict Judge(const Evidence& evidence) {
   return evidence.tied > 0 ? Verdict::kTie : Verdict::kExplained;
 }
 
+bool IsTieBesideStructure(const Evidence& evidence) {
+  return evidence.accepted && evidence.tied > 0 && HoldsOut(evidence.after) &&
+         UnexplainedFraction(evidence.before, evidence.after) <= kTieLeft;
+}
+
 }  // namespace plenum::calibration

@@ -38,6 +38,10 @@ struct Evidence {
 // by more than kHoldout; then kTie if others are as good; else kExplained.
 Verdict Judge(const Evidence& evidence);
 
+// A tie claims less than an explanation: it stands where each of several sets leaves at most
+// kTieLeft of what the base model left, though that is structure, and holds out.
+bool IsTieBesideStructure(const Evidence& evidence);
+
 }  // namespace plenum::calibration
 
 #endif  // PLENUM_CALIBRATION_VERDICT_H_

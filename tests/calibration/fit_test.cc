@@ -114,6 +114,35 @@ TEST(Fit, ClocksThatAreOffAreFound) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(fit.state.clock_s[i], late_s[i], 1e-3) << i;
 }
 
+TEST(Fit, PairsOfPartsThatNoRunSharesMoveByThemselves) {
+  Dataset dataset = MeasuredBench([](EffectRig& rig) { rig.fill[0].conductance *= 1.05; }, 8);
+  const Bench shared(dataset);
+  EXPECT_FALSE(HasOwnPairs(shared.data, 3));
+  dataset.runs[3].line[0].fill.sonic_conductance_m3_per_s_pa *= 1.01;
+  Bench bench(dataset);
+  EXPECT_TRUE(HasOwnPairs(bench.data, 3));
+  bench.data.runs = {3};
+  FitOptions options;
+  options.nuisance_only = options.own_pairs = true;
+  const Fit fit = FitModel(bench.data, bench.forward.Declared(), options);
+  ASSERT_TRUE(fit.Usable());
+  ASSERT_EQ(fit.coordinates.size(), 1u);
+  EXPECT_EQ(fit.coordinates[0].parameter.declared, Declared::kSonicConductance);
+  EXPECT_GT(fit.state.factor[static_cast<std::size_t>(Declared::kSonicConductance)], 1.01);
+}
+
+// Readings that weigh less leave a declared number nearer to what was declared.
+TEST(Fit, TheWeightOfReadingsIsBesideThePriors) {
+  const Bench bench(MeasuredBench([](EffectRig& rig) { rig.rest_volume_m3 *= 1.05; }, 9));
+  FitOptions options;
+  const Fit full = FitModel(bench.data, bench.forward.Declared(), options);
+  options.weight = 1e-3;
+  const Fit light = FitModel(bench.data, bench.forward.Declared(), options);
+  ASSERT_TRUE(full.Usable() && light.Usable());
+  EXPECT_LT(light.chi2_prior, full.chi2_prior);
+  EXPECT_GT(light.chi2_data, full.chi2_data);
+}
+
 TEST(Fit, CancelledSaysSo) {
   const Bench bench(MeasuredBench({}, 7));
   FitOptions options;

@@ -100,6 +100,38 @@ TEST(Forward, DerivativesAgreeWithDifferences) {
   }
 }
 
+// A recorder that starts late shifts what it shows of a rig with a running pump, and no more.
+TEST(Forward, AClockMovesCommandsAndPump) {
+  Dataset dataset = MeasuredBench({}, 1, 0.0);
+  calibration::Run& run = dataset.runs[0];
+  run.supply = Supply::kCompressor;
+  run.source_pressure_pa = 2.2e5;
+  run.reservoir_volume_m3 = 2e-4;
+  run.compressor.free_air_m3_per_s = model::MonotoneCurve({1e5, 3e5, 6e5}, {1.5e-4, 1e-4, 0.0});
+  run.compressor.pressure_max_pa = 6e5;
+  const double late_s = 4e-3;
+  Dataset late = dataset;
+  for (double& t_s : late.runs[0].t_s) t_s += late_s;
+  const ForwardModel forward(dataset), shifted(late);
+  const auto on_time = forward.Predict(0, forward.Declared(), {}, Tight()).reading;
+  ModelState state = shifted.Declared();
+  state.clock_s[0] = late_s;
+  const Parameter clock{.kind = Parameter::Kind::kClock, .run = 0};
+  const Prediction seen = shifted.Predict(0, state, {&clock, 1}, Tight());
+  ASSERT_EQ(seen.status, model::SimulateStatus::kDone) << seen.detail;
+  double most_pa = 0.0;
+  for (std::size_t k = 0; k < on_time.pressure_pa.size(); ++k)
+    most_pa = std::max(most_pa, std::abs(seen.reading.pressure_pa[k] - on_time.pressure_pa[k]));
+  EXPECT_LT(most_pa, 2.0);  // of 150 that the pump makes in that time
+  ModelState above = state, below = state;
+  above.clock_s[0] += 1e-5, below.clock_s[0] -= 1e-5;
+  const auto up = shifted.Predict(0, above, {}, Tight()).reading.pressure_pa;
+  const auto down = shifted.Predict(0, below, {}, Tight()).reading.pressure_pa;
+  const std::size_t held = 100;  // long after the stroke
+  EXPECT_NEAR(seen.derivatives[0].pressure_pa[held], (up[held] - down[held]) / 2e-5,
+              2e-3 * std::abs(seen.derivatives[0].pressure_pa[held]));
+}
+
 TEST(Forward, AMeasuredSourceOfOneLevelIsARegulatedOne) {
   Dataset dataset = MeasuredBench({}, 1, 0.0);
   for (auto& run : dataset.runs) {

@@ -31,6 +31,15 @@ TEST(Verdict, OfWhatIsLeft) {
   EXPECT_EQ(Judge({true, true, 2, Structure(900), Structure(400)}), Verdict::kUnexplained);
 }
 
+TEST(Verdict, ATieMayStandBesideSmallStructure) {
+  EXPECT_TRUE(IsTieBesideStructure({true, true, 1, Structure(900), Structure(250)}));
+  EXPECT_FALSE(IsTieBesideStructure({true, true, 1, Structure(900), Structure(500)}));
+  EXPECT_FALSE(IsTieBesideStructure({true, true, 0, Structure(900), Structure(250)}));
+  Leftover unseen_off = Structure(250);
+  unseen_off.holdout_rms_pa = 200.0;
+  EXPECT_FALSE(IsTieBesideStructure({true, true, 1, Structure(900), unseen_off}));
+}
+
 TEST(Verdict, WhatATermCouldLearnIsNoNoise) {
   Leftover learnable = Noise();
   learnable.learnable_bic = 40.0;
