@@ -139,7 +139,10 @@ class Diagnosing {
     diagnosis_.before = ErrorOf(bench_, base_->fit.state);
     const ErrorReport after =
         evidence.accepted ? ErrorOf(bench_, chosen.fit.state) : diagnosis_.before;
-    AddCandidates(bench_, search_, diagnosis_);
+    AddCandidates(bench_, search_,
+                  {{&base_->fit, evidence.before.holdout_rms_pa},
+                   {&chosen.fit, evidence.after.holdout_rms_pa}},
+                  diagnosis_);
     // Effects are established where they account for most of the residual and a term learned
     // without them does not do as well; which of several they are may still be open.
     bool established =

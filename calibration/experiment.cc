@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 #include <thread>
 #include <utility>
 
@@ -231,12 +232,26 @@ class Designer {
     experiment.expected_delta_bic = DeltaBic(std::max(0.0, left), run);
     experiment.expected_difference_pa =
         std::sqrt(squares / static_cast<double>(run.pressure_pa.size()));
-    experiment.why = Why(rated.proposal, experiment, truth, rival, rate);
+    std::vector<double> rows(observed.back().rows());
+    Residuals(run, observed.back(), answer, rows);
+    const auto pressure_rows = static_cast<std::ptrdiff_t>(run.pressure_pa.size());
+    const auto squared = [](double sum, double e) { return sum + e * e; };
+    Parts parts;
+    parts.pressure = std::accumulate(rows.begin(), rows.begin() + pressure_rows, 0.0, squared);
+    parts.channels = std::accumulate(rows.begin() + pressure_rows, rows.end(), 0.0, squared);
+    parts.earlier = left - parts.pressure - parts.channels;
+    experiment.why = Why(rated.proposal, experiment, parts, truth, rival, rate);
     return experiment;
   }
 
-  std::string Why(const Proposal& proposal, const Experiment& experiment, std::size_t truth,
-                  std::size_t rival, double rate) const {
+  // Where the χ² is that the rival is left with: in the proposed run's pressure, in its channels,
+  // or in the runs at hand, which it has to leave to come near the proposed one.
+  struct Parts {
+    double pressure = 0.0, channels = 0.0, earlier = 0.0;
+  };
+
+  std::string Why(const Proposal& proposal, const Experiment& experiment, const Parts& parts,
+                  std::size_t truth, std::size_t rival, double rate) const {
     const double noise_pa = (*data_.observed)[data_.runs.front()].signals.front().sigma;
     std::string why = proposal.what;
     if (rate > 1.0) why += ", sampled " + Fixed(rate, "%.0f") + " times as fast";
@@ -244,6 +259,10 @@ class Designer {
            Joined(tied_[truth].effects) + " still differ by " +
            Fixed(experiment.expected_difference_pa / 1e3, "%.2g") + " kPa (RMS, " +
            Fixed(experiment.expected_difference_pa / noise_pa, "%.2g") + " times the noise)";
+    if (parts.channels > std::max(parts.pressure, parts.earlier))
+      why += "; " + Joined(experiment.measure) + " parts them";
+    else if (parts.earlier > parts.pressure)
+      why += "; to come that near it must leave the runs at hand, which parts them";
     if (experiment.expected_delta_bic < kDecisiveDeltaBic)
       why += "; no run within the range of these data is expected to decide";
     why[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(why[0])));

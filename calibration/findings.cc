@@ -1,15 +1,17 @@
 #include "calibration/findings.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "calibration/evidence.h"
+#include "calibration/parallel.h"
 #include "calibration/phases.h"
 #include "calibration/profile.h"
 
 namespace plenum::calibration {
 namespace {
 
-constexpr std::size_t kCandidatesShown = 30;
+constexpr std::size_t kCandidatesShown = 30, kStoppedShown = 2;
 constexpr std::size_t kFinalists = 5;  // whose held-out error is found by leaving out each run
 
 std::string TitleOf(const model::EffectSpec& spec) {
@@ -60,11 +62,12 @@ void AddEstimates(const Bench& bench, const Fit& fit, Diagnosis& diagnosis) {
   }
 }
 
-void AddCandidates(const Bench& bench, const SearchResult& search, Diagnosis& diagnosis) {
+void AddCandidates(const Bench& bench, const SearchResult& search, const HoldoutByFit& known,
+                   Diagnosis& diagnosis) {
   const double best = search.contenders.front().fit.bic;
   for (std::size_t i = 0; i < search.contenders.size(); ++i) {
     const Contender& contender = search.contenders[i];
-    const std::size_t shown = Stopped(bench) ? kFinalists : kCandidatesShown;
+    const std::size_t shown = Stopped(bench) ? kStoppedShown : kCandidatesShown;
     if (i >= shown && i != search.base) continue;
     Candidate candidate;
     for (const model::EffectSpec* spec : contender.effects)
@@ -79,10 +82,14 @@ void AddCandidates(const Bench& bench, const SearchResult& search, Diagnosis& di
       Squares fitted, held_out;
       for (const std::size_t run : bench.data.runs)
         fitted.Add(ErrorsOf(bench, run, contender.fit.state));
-      for (const std::size_t run : bench.held_out)
-        if (!Stopped(bench)) held_out.Add(ErrorsUnseen(bench, run, contender.fit.state));
       candidate.rms_pa = fitted.Rms();
-      if (bench.held_out.empty() && i < kFinalists && !Stopped(bench))
+      const auto found = std::find_if(known.begin(), known.end(),
+                                      [&](const auto& one) { return one.first == &contender.fit; });
+      if (found != known.end()) candidate.holdout_rms_pa = found->second;
+      const bool due = !candidate.holdout_rms_pa && !Stopped(bench);
+      for (const std::size_t run : bench.held_out)
+        if (due) held_out.Add(ErrorsUnseen(bench, run, contender.fit.state));
+      if (due && bench.held_out.empty() && i < kFinalists)
         candidate.holdout_rms_pa = LeaveOneOut(bench, contender.fit);
       else if (held_out.count > 0 && !Stopped(bench))
         candidate.holdout_rms_pa = held_out.Rms();
@@ -93,9 +100,10 @@ void AddCandidates(const Bench& bench, const SearchResult& search, Diagnosis& di
 
 void AddSeries(const Bench& bench, const ModelState& before, const ModelState& after,
                Diagnosis& diagnosis) {
-  for (std::size_t i = 0; i < bench.dataset.runs.size(); ++i) {
+  diagnosis.series.resize(bench.dataset.runs.size());
+  ForAll(bench.dataset.runs.size(), bench.tight.threads, [&](std::size_t i) {
     const Run& run = bench.dataset.runs[i];
-    Series series;
+    Series& series = diagnosis.series[i];
     series.run = run.id;
     series.held_out = HeldOut(bench, i);
     series.t_s = run.t_s;
@@ -110,8 +118,7 @@ void AddSeries(const Bench& bench, const ModelState& before, const ModelState& a
     series.declared_pa = predict(bench.forward.Declared());
     series.before_pa = predict(before);
     series.after_pa = predict(after);
-    diagnosis.series.push_back(std::move(series));
-  }
+  });
 }
 
 void AddWarnings(const Bench& bench, Diagnosis& diagnosis) {

@@ -17,8 +17,13 @@ std::vector<std::string> IdsOf(const Contender& contender);
 // `effects` and `fitted` with their intervals, and the covariance of both.
 void AddEstimates(const Bench& bench, const Fit& fit, Diagnosis& diagnosis);
 
-// The best sets and the base model. Fewer, and without errors on unseen runs, when time is over.
-void AddCandidates(const Bench& bench, const SearchResult& search, Diagnosis& diagnosis);
+// Errors on unseen runs that are known already, by the fit that they are of.
+using HoldoutByFit = std::vector<std::pair<const Fit*, std::optional<double>>>;
+
+// The best sets and the base model. Fewer, and without errors on unseen runs that are not `known`,
+// when time is over.
+void AddCandidates(const Bench& bench, const SearchResult& search, const HoldoutByFit& known,
+                   Diagnosis& diagnosis);
 
 // Every run as measured and as the declared model and two fitted ones have it.
 void AddSeries(const Bench& bench, const ModelState& before, const ModelState& after,

@@ -361,6 +361,7 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
   simulate.relative_tolerance = options.relative_tolerance;
   simulate.absolute_tolerance_pa = 1e4 * options.relative_tolerance;
   simulate.steps_max = options.steps_max;
+  simulate.integrator = model::Integrator::kDamped;
   simulate.cancelled = options.cancelled;
   simulate.record = options.recorded_alone && !RecordsMoreThanPressures(run)
                         ? model::Record::kPressures

@@ -33,6 +33,7 @@ class CvodeIntegrator {
   double Slope(double theta, std::size_t i);  // per step
   double At(double theta, std::size_t i) { return Value(theta, i); }
   long long steps_at_stability() const { return 0; }
+  long long steps_in_fast_modes() const { return 0; }
 
  private:
   struct Memory;

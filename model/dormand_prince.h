@@ -27,6 +27,9 @@ namespace plenum::model {
 template <class T>
 class DormandPrinceOf {
  public:
+  // By how much more the states that no sensor sees may be off.
+  static constexpr double kHiddenRoom = 1.0;
+
   // kTooSmall: the step was accepted at the smallest size that moves t although its error is above
   // tolerance; kNotFinite: even then the result is not finite, and nothing was accepted.
   enum class Outcome { kAccepted, kTooSmall, kNotFinite };

@@ -184,6 +184,7 @@ class Projection {
 template <class SeedsOf, class Take>
 void ForEachChunk(const Rig& rig, const SimulateOptions& options, RunUntil until,
                   std::size_t parameters, const SeedsOf& seeds_of, const Take& take) {
+  bool stiff = options.integrator == Integrator::kCvode;
   for (std::size_t first = 0; first == 0 || first < parameters; first += kDirections) {
     const std::size_t count = std::min<std::size_t>(kDirections, parameters - first);
     std::vector<Seed> seeds;
@@ -192,8 +193,17 @@ void ForEachChunk(const Rig& rig, const SimulateOptions& options, RunUntil until
         seeds.push_back({moved.number, static_cast<int>(j), moved.weight});
       }
     }
-    Run<Dual, ExplicitIntegrator<Dual>> run(rig, options, until, Lift(seeds));
-    const DualResponse response = run.Execute();
+    DualResponse response;
+    if (!stiff) {
+      Run<Dual, ExplicitIntegrator<Dual>> run(rig, options, until, Lift(seeds));
+      response = run.Execute();
+      stiff = run.stiff();
+    }
+    if (stiff) {
+      const SimulateOptions damped = DampedOptions(options);
+      response = Run<Dual, ImplicitIntegrator<Dual>>(rig, damped, until, Lift(seeds)).Execute();
+      response.stiff = true;
+    }
     take(response, first, count);
     if (response.status != SimulateStatus::kDone) return;
   }

@@ -22,8 +22,8 @@
 // The error control sees the values alone: the derivatives are those of the computed solution, and
 // come to the true ones with the tolerance. Measured against CVODES, as a share of the largest
 // derivative in the run: 1e-5 at a relative tolerance of 1e-11, up to 1e-3 at the default 1e-8
-// where a leak or creep goes on at equal pressures. Stiff rigs stay with
-// the explicit integrator and may end with kTooManySteps.
+// where a leak or creep goes on at equal pressures. Stiff rigs go on with a linearly implicit
+// method of order 3 (model/rosenbrock.h), whose steps are more for the same tolerance.
 #ifndef PLENUM_MODEL_SENSITIVITY_H_
 #define PLENUM_MODEL_SENSITIVITY_H_
 
@@ -59,7 +59,8 @@ struct SensitivityResponse {
 };
 
 // kInvalid, with the parameter's place in the list, where an address is no differentiable number of
-// the rig; kNotFinite where a derivative is not finite. SimulateOptions::integrator is not used.
+// the rig; kNotFinite where a derivative is not finite. Integrator::kCvode takes the
+// implicit method from the start.
 SensitivityResponse SimulateWithSensitivities(const Rig& rig, const SimulateOptions& options,
                                               std::span<const double* const> parameters);
 

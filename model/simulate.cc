@@ -24,6 +24,12 @@ Response RunRig(const Rig& rig, const SimulateOptions& options, RunUntil until) 
     Response response = run.Execute();
     if (!run.stiff()) return response;
   }
+  if (options.integrator == Integrator::kDamped) {
+    const SimulateOptions damped = DampedOptions(options);
+    Response response = Run<double, ImplicitIntegrator<double>>(rig, damped, until).Execute();
+    response.stiff = true;
+    return response;
+  }
   Response response = Run<double, CvodeIntegrator>(rig, options, until).Execute();
   response.stiff = true;
   return response;

@@ -98,8 +98,11 @@ struct Rig {
   std::vector<GroupRig> groups;
 };
 
-// kAutomatic: Dormand–Prince, and CVODE where that turns out stiff.
-enum class Integrator { kAutomatic, kDormandPrince, kCvode };
+// kAutomatic: Dormand–Prince, and CVODE where that turns out stiff. kDamped: Dormand–Prince, and a
+// linearly implicit method (rosenbrock.h) where fast modes take its steps; what rings too fast to
+// move the actuators' pressures is then damped. With sensitivities that method stands for CVODE
+// too.
+enum class Integrator { kAutomatic, kDormandPrince, kCvode, kDamped };
 
 // What a run keeps beside its samples: strokes and the accounts of gas and energy (kAll), or
 // nothing (kSamples); kPressures samples only what pressure sensors read: actuator and source.

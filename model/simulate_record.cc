@@ -122,6 +122,8 @@ void Run<T, Stepper>::RecordEnd() {
 PLENUM_RECORD(double, ExplicitIntegrator<double>)
 PLENUM_RECORD(double, CvodeIntegrator)
 PLENUM_RECORD(Dual, ExplicitIntegrator<Dual>)
+PLENUM_RECORD(double, ImplicitIntegrator<double>)
+PLENUM_RECORD(Dual, ImplicitIntegrator<Dual>)
 #undef PLENUM_RECORD
 
 }  // namespace plenum::model

@@ -12,7 +12,8 @@ constexpr std::size_t kStepsBetweenQuestions = 64;
 // A valve counts as closed when it is this share of the tolerance away from equal pressures.
 constexpr double kSettledShare = 1e-3;
 // Steps at the border of stability after which CVODE is the better integrator.
-constexpr long long kStiffSteps = 5000;
+constexpr std::size_t kStiffSteps = 5000;
+constexpr std::size_t kStiffShare = 10;  // of steps_max: a run to be damped starts anew early
 // Pressures this close have arrived at the same instant.
 constexpr double kTogetherShare = 1e-9;
 // Nothing moves by more than this share of its size until the end: the state is steady.
@@ -234,8 +235,12 @@ bool Run<T, Stepper>::StepsLeft() {
   if (response_.steps % kStepsBetweenQuestions == 0 && options_.cancelled && options_.cancelled()) {
     return Fail(SimulateStatus::kCancelled, "cancelled");
   }
-  if (options_.integrator == Integrator::kAutomatic && !kIsDual<T> &&
-      stepper_.steps_at_stability() > kStiffSteps) {
+  const bool damped = options_.integrator == Integrator::kDamped;
+  const auto held_down = static_cast<std::size_t>(damped ? stepper_.steps_in_fast_modes()
+                                                         : stepper_.steps_at_stability());
+  const std::size_t bound =
+      damped ? std::min(kStiffSteps, options_.steps_max / kStiffShare) : kStiffSteps;
+  if (options_.integrator != Integrator::kDormandPrince && held_down > bound) {
     stiff_ = true;
     return Fail(SimulateStatus::kTooManySteps, "steps held down by stability");
   }
@@ -473,5 +478,7 @@ bool Run<T, Stepper>::Stalled() const {
 template class Run<double, ExplicitIntegrator<double>>;
 template class Run<double, CvodeIntegrator>;
 template class Run<Dual, ExplicitIntegrator<Dual>>;
+template class Run<double, ImplicitIntegrator<double>>;
+template class Run<Dual, ImplicitIntegrator<Dual>>;
 
 }  // namespace plenum::model

@@ -37,7 +37,7 @@ struct ValveProgress {
   Opening<T> filling, venting;  // where a run ended, and where another goes on
 };
 
-// T is double or Dual, Stepper ExplicitIntegrator<T> or CvodeIntegrator.
+// T is double or Dual, Stepper ExplicitIntegrator<T>, ImplicitIntegrator<T> or CvodeIntegrator.
 template <class T, class Stepper>
 class Run {
  public:
@@ -115,9 +115,17 @@ class Run {
   bool stiff_ = false;
 };
 
+// For the linearly implicit method, which is of lower order: more steps.
+inline SimulateOptions DampedOptions(SimulateOptions options) {
+  options.steps_max *= 4;
+  return options;
+}
+
 extern template class Run<double, ExplicitIntegrator<double>>;
 extern template class Run<double, CvodeIntegrator>;
 extern template class Run<Dual, ExplicitIntegrator<Dual>>;
+extern template class Run<double, ImplicitIntegrator<double>>;
+extern template class Run<Dual, ImplicitIntegrator<Dual>>;
 
 }  // namespace plenum::model
 

@@ -150,13 +150,16 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
 template <class T>
 void System<T>::LayOut() {
   sizes_.clear();
+  hidden_.clear();
   for (Group& group : groups_) {
     group.at = sizes_.size();
     sizes_.push_back(0.0);
     for (const auto& unit : group.units) {
       has_modes_ = has_modes_ || unit->guards() > 0;
       group.unit_at.push_back(sizes_.size());
+      hidden_.resize(sizes_.size(), false);
       sizes_.resize(sizes_.size() + static_cast<std::size_t>(unit->states()), 0.0);
+      hidden_.resize(sizes_.size(), unit->hidden_states());
     }
   }
   source_ = sizes_.size();
@@ -174,6 +177,7 @@ void System<T>::LayOut() {
   if (account_) sizes_.resize(sizes_.size() + 3, kInfinity);
   outlets_.reserve(groups_.size());
   scratch_.resize(sizes_.size());
+  hidden_.resize(sizes_.size(), false);
 }
 
 template <class T>

@@ -65,7 +65,8 @@ class System {
   std::size_t size() const { return sizes_.size(); }
   std::size_t dynamic_size() const { return dynamic_size_; }  // without the accounts
   std::size_t groups() const { return groups_.size(); }
-  std::span<const double> sizes() const { return sizes_; }  // typical sizes; 0: a pressure
+  bool hidden(std::size_t state) const { return hidden_[state]; }  // effects/unit.h
+  std::span<const double> sizes() const { return sizes_; }         // typical sizes; 0: a pressure
 
   std::vector<T> InitialState();
   void operator()(const T& t, std::span<const T> y, std::span<T> dydt);
@@ -195,7 +196,8 @@ class System {
   std::vector<Group> groups_;
   std::size_t source_ = 0, pump_accounts_ = 0, dynamic_size_ = 0;
   bool account_;
-  bool has_modes_ = false;  // some effect has
+  bool has_modes_ = false;    // some effect has
+  std::vector<char> hidden_;  // by state
   std::vector<double> sizes_;
   std::vector<NodeOutlet<T>> outlets_;
   std::vector<Guard<T>> guards_;

@@ -25,6 +25,7 @@ class LineDynamics final : public EffectUnit<T> {
   explicit LineDynamics(std::span<const T> p) : length_m_(p[0]), inner_diameter_m_(p[1]) {}
 
   int states() const override { return 2; }  // node pressure, flow to the actuator
+  bool hidden_states() const override { return true; }
   void Start(const GroupSetup<T>& setup, const Moment<T>& m, T* x, double* size) override {
     x[0] = m.pressure_pa;
     x[1] = T(0.0);

@@ -89,6 +89,8 @@ class EffectUnit {
   // States of its own. `size` is the typical size of each, for error control.
   virtual int states() const { return 0; }
   virtual void Start(const GroupSetup<T>&, const Moment<T>&, T* /*x*/, double* /*size*/) {}
+  // They may ring too fast to move the actuator's pressure, which is what is looked at.
+  virtual bool hidden_states() const { return false; }
 
   virtual void BeforeVolume(const GroupSetup<T>&, const T* /*x*/, Moment<T>&) const {}
   virtual void AfterVolume(const GroupSetup<T>&, const T* /*x*/, Moment<T>&) const {}

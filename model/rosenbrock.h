@@ -1,0 +1,237 @@
+// Linearly implicit Runge–Kutta method ROS34PW2 of order 3 for stiff systems, stiffly accurate and
+// L-stable, with an embedded second-order error estimate and cubic dense output.
+//
+// Stages, with any approximation J of ∂f/∂y — a W-method keeps its order with a rough one:
+//   (I − γ·h·J)·k_i = h·f(t + α_i·h, y + Σ_j α_ij·k_j) + h·J·Σ_j γ_ij·k_j,  j < i,
+//   y₁ = y + Σ b_i·k_i.
+// J is taken by differences of the values at the start of a step. With T = Dual it stays a matrix
+// of values, so that one factorisation serves the state and all its derivatives.
+//
+// Source: Rang, Angermann, New Rosenbrock W-methods of order 3 for partial differential algebraic
+// equations of index 1, BIT 45 (2005) 761; Hairer, Wanner, Solving Ordinary Differential
+// Equations II, IV.7.
+//
+// The interface is that of DormandPrinceOf (dormand_prince.h).
+#ifndef PLENUM_MODEL_ROSENBROCK_H_
+#define PLENUM_MODEL_ROSENBROCK_H_
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "model/scalar.h"
+
+namespace plenum::model {
+
+template <class T>
+class RosenbrockOf {
+ public:
+  // By how much more the states that no sensor sees may be off: what rings in them too fast to move
+  // the pressures is damped, not followed.
+  static constexpr double kHiddenRoom = 1e2;
+
+  enum class Outcome { kAccepted, kTooSmall, kNotFinite };
+
+  explicit RosenbrockOf(std::size_t size)
+      : y0_(size), y1_(size), stage_(size), error_(size), f0_(size), f1_(size), slope_(size) {
+    for (auto& k : k_) k.resize(size);
+  }
+
+  template <class Rhs>
+  void Start(Rhs&& rhs, const T& t, std::span<const T> y, double step) {
+    t1_ = t;
+    std::copy(y.begin(), y.end(), y1_.begin());
+    rhs(t, std::span<const T>(y1_), std::span<T>(f1_));
+    next_step_ = step;
+  }
+
+  // Advances by one accepted step of at most `step_max`.
+  template <class Rhs, class Norm>
+  Outcome Step(Rhs&& rhs, const T& step_max, Norm&& norm) {
+    t0_ = t1_;
+    y0_.swap(y1_);
+    f0_.swap(f1_);
+    TakeJacobian(rhs);
+    const double h_max = ValueOf(step_max);
+    double h = std::min(next_step_, h_max);
+    const double h_smallest =
+        std::min(h_max, 16.0 * kEpsilon * std::max(std::abs(ValueOf(t0_)), 1e-9));
+    for (bool rejected = false;; rejected = true) {
+      h_ = h == h_max ? step_max : T(h);
+      Stages(rhs);
+      const double error =
+          norm(std::span<const T>(y0_), std::span<const T>(y1_), std::span<const T>(error_));
+      const bool smallest = h <= h_smallest;
+      if (error <= 1.0 || (smallest && std::isfinite(error))) {
+        const double factor = kSafety * std::pow(std::max(error, 1e-10), -1.0 / 3.0);
+        next_step_ = h * std::clamp(factor, 0.2, rejected ? 1.0 : 6.0);
+        if (error <= 1.0 && h == h_max) next_step_ = std::max(next_step_, h);
+        End(rhs);
+        return error <= 1.0 ? Outcome::kAccepted : Outcome::kTooSmall;
+      }
+      if (smallest) return Outcome::kNotFinite;
+      const double factor = std::isfinite(error) ? kSafety * std::pow(error, -1.0 / 3.0) : 0.1;
+      h = std::max(h_smallest, h * std::clamp(factor, 0.1, 0.9));
+    }
+  }
+
+  // Takes the last step again up to a share `theta` of it, without a new estimate of the error.
+  template <class Rhs>
+  void Shorten(Rhs&& rhs, double theta) {
+    h_ = T(theta * ValueOf(h_));
+    Stages(rhs);
+    End(rhs);
+  }
+
+  // Moves the end of the last step by a small time along the slope there. A new Start must follow.
+  void MoveEnd(const T& shift) {
+    for (std::size_t i = 0; i < y1_.size(); ++i) y1_[i] += shift * f1_[i];
+    t1_ += shift;
+  }
+
+  double StiffnessOfStep() const { return 0.0; }  // stability never holds it down
+
+  const T& start_time() const { return t0_; }
+  const T& time() const { return t1_; }
+  const T& step() const { return h_; }
+  double next_step() const { return next_step_; }
+  void set_next_step(double step) { next_step_ = step; }
+  std::span<const T> state() const { return y1_; }
+  std::span<const T> derivative() const { return f1_; }
+
+  // Cubic through both ends and their slopes, at t = start_time() + θ·step(), θ in [0, 1].
+  T At(const T& theta, std::size_t i) const {
+    const T rest = 1.0 - theta;
+    const T difference = y1_[i] - y0_[i];
+    return rest * y0_[i] + theta * y1_[i] -
+           theta * rest * (rest * (difference - h_ * f0_[i]) - theta * (difference - h_ * f1_[i]));
+  }
+  // Its derivative with respect to θ.
+  T SlopeAt(const T& theta, std::size_t i) const {
+    const T rest = 1.0 - theta;
+    const T difference = y1_[i] - y0_[i];
+    const T a = difference - h_ * f0_[i], b = difference - h_ * f1_[i];
+    return difference - (1.0 - 2.0 * theta) * (rest * a - theta * b) + theta * rest * (a + b);
+  }
+
+ private:
+  static constexpr double kEpsilon = 2.220446049250313e-16;
+  static constexpr double kSafety = 0.9;
+  static constexpr double kGamma = 0.435866521508459;
+  static constexpr double kDifference = 1e-7;  // of a state's size
+
+  template <class Rhs>
+  void TakeJacobian(Rhs&& rhs) {
+    const auto size = static_cast<Eigen::Index>(y0_.size());
+    jacobian_.resize(size, size);
+    double largest = 0.0;
+    for (const T& y : y0_) largest = std::max(largest, std::abs(ValueOf(y)));
+    for (std::size_t i = 0; i < y0_.size(); ++i) stage_[i] = T(ValueOf(y0_[i]));
+    for (std::size_t j = 0; j < y0_.size(); ++j) {
+      const double at = ValueOf(y0_[j]);
+      const double size_of =
+          std::max({std::abs(at), std::abs(ValueOf(f0_[j])) * next_step_, 1e-12 * largest, 1e-12});
+      const double moved = at + kDifference * size_of;
+      stage_[j] = T(moved);
+      rhs(T(ValueOf(t0_)), std::span<const T>(stage_), std::span<T>(slope_));
+      for (std::size_t i = 0; i < y0_.size(); ++i)
+        jacobian_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            (ValueOf(slope_[i]) - ValueOf(f0_[i])) / (moved - at);
+      stage_[j] = T(at);
+    }
+  }
+
+  template <class Rhs>
+  void Stages(Rhs&& rhs) {
+    static constexpr double kAlpha[4][3] = {
+        {}, {0.871733043016918}, {0.8445706001536942, -0.1129906423648419}, {0.0, 0.0, 1.0}};
+    static constexpr double kCoupling[4][3] = {
+        {},
+        {-0.871733043016918},
+        {-0.9033805701304408, 0.05418067238809533},
+        {0.24212380706095346, -1.2232505839045147, 0.5452602553351021}};
+    static constexpr std::array<double, 4> kB = {0.24212380706095346, -1.2232505839045147,
+                                                 1.545260255335102, 0.435866521508459};
+    static constexpr std::array<double, 4> kEmbedded = {0.3781090314581937, -0.09604229221242318,
+                                                        0.5, 0.2179332607542295};
+    const auto size = jacobian_.rows();
+    const double h = ValueOf(h_);
+    lu_.compute(Eigen::MatrixXd::Identity(size, size) - kGamma * h * jacobian_);
+    for (std::size_t s = 0; s < 4; ++s) {
+      double alpha = 0.0;
+      for (std::size_t j = 0; j < s; ++j) alpha += kAlpha[s][j];
+      for (std::size_t i = 0; i < y0_.size(); ++i) {
+        stage_[i] = y0_[i];
+        for (std::size_t j = 0; j < s; ++j)
+          if (kAlpha[s][j] != 0.0) stage_[i] += kAlpha[s][j] * k_[j][i];
+      }
+      if (s == 0)
+        slope_ = f0_;
+      else
+        rhs(t0_ + alpha * h_, std::span<const T>(stage_), std::span<T>(slope_));
+      for (std::size_t i = 0; i < y0_.size(); ++i) {
+        stage_[i] = T(0.0);
+        for (std::size_t j = 0; j < s; ++j) stage_[i] += kCoupling[s][j] * k_[j][i];
+      }
+      for (std::size_t i = 0; i < y0_.size(); ++i) {
+        k_[s][i] = h_ * slope_[i];
+        for (std::size_t j = 0; s > 0 && j < y0_.size(); ++j) {
+          const double entry =
+              jacobian_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+          if (entry != 0.0) k_[s][i] += h * entry * stage_[j];
+        }
+      }
+      Solve(k_[s]);
+    }
+    for (std::size_t i = 0; i < y0_.size(); ++i) {
+      y1_[i] = y0_[i];
+      error_[i] = T(0.0);
+      for (std::size_t s = 0; s < 4; ++s) {
+        y1_[i] += kB[s] * k_[s][i];
+        error_[i] += (kB[s] - kEmbedded[s]) * k_[s][i];
+      }
+    }
+  }
+
+  // x ← (I − γ·h·J)⁻¹·x, value and derivatives alike.
+  void Solve(std::vector<T>& x) {
+    constexpr int kColumns = kIsDual<T> ? 1 + kDirections : 1;
+    Eigen::MatrixXd columns(static_cast<Eigen::Index>(x.size()), kColumns);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      columns(row, 0) = ValueOf(x[i]);
+      if constexpr (kIsDual<T>) columns.row(row).template tail<kDirections>() = x[i].v;
+    }
+    columns = lu_.solve(columns).eval();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      if constexpr (kIsDual<T>) {
+        x[i].a = columns(row, 0);
+        x[i].v = columns.row(row).template tail<kDirections>();
+      } else {
+        x[i] = columns(row, 0);
+      }
+    }
+  }
+
+  template <class Rhs>
+  void End(Rhs&& rhs) {
+    t1_ = t0_ + h_;
+    rhs(t1_, std::span<const T>(y1_), std::span<T>(f1_));
+  }
+
+  T t0_ = T(0.0), t1_ = T(0.0), h_ = T(0.0);
+  double next_step_ = 0.0;
+  std::vector<T> y0_, y1_, stage_, error_, f0_, f1_, slope_;
+  std::array<std::vector<T>, 4> k_;
+  Eigen::MatrixXd jacobian_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+};
+
+}  // namespace plenum::model
+
+#endif  // PLENUM_MODEL_ROSENBROCK_H_

@@ -1,0 +1,118 @@
+#include "model/rosenbrock.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "model/sensitivity.h"
+#include "tests/model/simulate_rigs.h"
+
+namespace plenum::model {
+namespace {
+
+const auto kAcceptAll = [](auto, auto, auto) { return 1e-9; };
+
+// A pendulum that grows: nonlinear, and driven so that the time counts.
+const auto kDriven = [](const auto& t, auto y, auto dydt) {
+  using std::cos, std::sin;
+  dydt[0] = y[1];
+  dydt[1] = cos(t) - y[0] * y[0] * y[0];
+};
+
+template <class T>
+std::vector<T> AtTwo(int steps, const T& start) {
+  RosenbrockOf<T> stepper(2);
+  const T h = T(2.0 / steps);
+  stepper.Start(kDriven, T(0.0), std::vector<T>{start, T(0.2)}, ValueOf(h));
+  for (int i = 0; i < steps; ++i) stepper.Step(kDriven, h, kAcceptAll);
+  return {stepper.state().begin(), stepper.state().end()};
+}
+
+TEST(Rosenbrock, ErrorFallsWithTheThirdPowerOfTheStep) {
+  const double fine = AtTwo(4000, 1.0)[0];
+  const auto error = [&](int steps) { return std::abs(AtTwo(steps, 1.0)[0] - fine); };
+  EXPECT_NEAR(std::log2(error(40) / error(80)), 3.0, 0.2);
+  EXPECT_NEAR(std::log2(error(80) / error(160)), 3.0, 0.2);
+}
+
+// The derivatives are carried by a matrix that knows nothing of them.
+TEST(Rosenbrock, DerivativesConvergeToDifferencesOfFineSteps) {
+  const double h = 1e-4;
+  const double difference = (AtTwo(4000, 1.0 + h)[0] - AtTwo(4000, 1.0 - h)[0]) / (2.0 * h);
+  const auto error = [&](int steps) {
+    return std::abs(AtTwo(steps, Dual(1.0, 0))[0].v[0] - difference);
+  };
+  EXPECT_LT(error(160), 1e-4 * std::abs(difference));
+  EXPECT_NEAR(std::log2(error(40) / error(80)), 3.0, 0.3);
+}
+
+// y' = −λ·(y − cos t) with λ = 1e6: steps a hundred thousand times the time constant.
+TEST(Rosenbrock, StiffMotionDoesNotHoldTheStep) {
+  const auto rhs = [](double t, std::span<const double> y, std::span<double> dydt) {
+    dydt[0] = -1e6 * (y[0] - std::cos(t));
+  };
+  RosenbrockOf<double> stepper(1);
+  stepper.Start(rhs, 0.0, std::vector<double>{0.0}, 0.1);
+  for (int i = 0; i < 20; ++i) stepper.Step(rhs, 0.1, kAcceptAll);
+  EXPECT_NEAR(stepper.state()[0], std::cos(2.0), 0.02);
+  for (double theta = 0.1; theta < 1.0; theta += 0.2)
+    EXPECT_NEAR(stepper.At(theta, 0), std::cos(1.9 + 0.1 * theta), 0.05);
+}
+
+TEST(Rosenbrock, DenseOutputHasTheSlopesOfBothEnds) {
+  RosenbrockOf<double> stepper(2);
+  stepper.Start(kDriven, 0.3, std::vector<double>{0.7, -0.4}, 0.1);
+  stepper.Step(kDriven, 0.1, kAcceptAll);
+  EXPECT_NEAR(stepper.At(0.0, 0), 0.7, 1e-15);
+  EXPECT_NEAR(stepper.At(1.0, 0), stepper.state()[0], 1e-15);
+  EXPECT_NEAR(stepper.SlopeAt(0.0, 0), 0.1 * -0.4, 1e-15);
+  EXPECT_NEAR(stepper.SlopeAt(1.0, 0), 0.1 * stepper.derivative()[0], 1e-15);
+  for (const double theta : {0.2, 0.7})
+    EXPECT_NEAR((stepper.At(theta + 1e-6, 1) - stepper.At(theta - 1e-6, 1)) / 2e-6,
+                stepper.SlopeAt(theta, 1), 1e-8);
+}
+
+// A short tube rings a thousand times a second. Its pressures and what they do as the conductance
+// changes are those of a run that follows every turn.
+TEST(Rosenbrock, DampsAShortLineThatRings) {
+  GroupRig group =
+      OneActuator(2e5, 1.8, {.sonic_conductance_m3_per_s_pa = 0.05e-8, .critical_ratio = 0.3});
+  group.schedule = {{0.2, ValveState::kInflate},
+                    {0.8, ValveState::kHold},
+                    {1.2, ValveState::kDeflate},
+                    {2.0, ValveState::kHold}};
+  group.effects = {{FindEffect("line_dynamics"), {0.1, 2e-3}}};
+  const Rig rig = RigOf(Regulated(3e5), {group});
+  SimulateOptions exact = Until(2.5, 100.0), damped = exact;
+  exact.integrator = Integrator::kCvode;
+  exact.relative_tolerance = 1e-9;
+  damped.integrator = Integrator::kDamped;
+  damped.relative_tolerance = 1e-6;
+  damped.absolute_tolerance_pa = 0.01;
+  damped.steps_max = 3000;
+  const double* conductance = &rig.groups[0].fill[0].sonic_conductance_m3_per_s_pa;
+  const SensitivityResponse dual = SimulateWithSensitivities(rig, damped, {&conductance, 1});
+  const Response plain = Simulate(rig, damped);
+  ASSERT_EQ(dual.response.status, SimulateStatus::kDone) << dual.response.detail;
+  ASSERT_EQ(plain.status, SimulateStatus::kDone) << plain.detail;
+  EXPECT_TRUE(plain.stiff && dual.response.stiff);
+  const Response reference = Simulate(rig, exact);
+  Rig more = rig, less = rig;
+  const double h = 1e-3 * *conductance;
+  more.groups[0].fill[0].sonic_conductance_m3_per_s_pa += h;
+  less.groups[0].fill[0].sonic_conductance_m3_per_s_pa -= h;
+  const auto up = Simulate(more, exact).groups[0].pressure_pa;
+  const auto down = Simulate(less, exact).groups[0].pressure_pa;
+  for (std::size_t k = 0; k < up.size(); ++k) {
+    EXPECT_NEAR(plain.groups[0].pressure_pa[k], reference.groups[0].pressure_pa[k], 20.0) << k;
+    EXPECT_NEAR(dual.response.groups[0].pressure_pa[k], plain.groups[0].pressure_pa[k], 1e-3) << k;
+    const double difference = (up[k] - down[k]) / 2e-3;
+    EXPECT_NEAR(*conductance * dual.derivatives[0].groups[0].pressure_pa[k], difference, 150.0)
+        << k;
+  }
+}
+
+}  // namespace
+}  // namespace plenum::model
