@@ -94,6 +94,7 @@ api::Json Exosuit(double time_limit_s) { return Example("exosuit", time_limit_s)
 api::Json SlowToProve(double time_limit_s) {
   api::Json request = Example("exosuit", time_limit_s);
   request["objective"] = {{"minimize", "volume_l"}};
+  request["ranking"]["count"] = 100;
   return request;
 }
 
