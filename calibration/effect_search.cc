@@ -43,11 +43,26 @@ Set Ordered(Set set) {
   return set;
 }
 
-// The effects that have a name; learned terms stand for what has none (discrepancy.h).
-std::vector<Spec> NamedEffects() {
+// Whether the data exercise what an effect acts on: a valve that never opens tells nothing of
+// itself, of its line and of what feeds it, and a blocked actuator nothing of its volume.
+bool Exercised(const model::EffectSpec& spec, const std::vector<Run>& runs) {
+  using enum model::EffectPlace;
+  const auto opens = [](const Run& run) {
+    return std::any_of(run.valve.begin(), run.valve.end(), [](const model::ValveCommand& command) {
+      return command.state != model::ValveState::kHold;
+    });
+  };
+  const bool fed = spec.place == kValve || spec.place == kLine || spec.place == kSupply;
+  return !fed || std::any_of(runs.begin(), runs.end(), opens);
+}
+
+// The effects that have a name, of which the data can tell; learned terms stand for what has none
+// (discrepancy.h).
+std::vector<Spec> NamedEffects(const FitData& data) {
   std::vector<Spec> named;
   for (const Spec spec : model::Effects())
-    if (!spec->id.starts_with("learned")) named.push_back(spec);
+    if (!spec->id.starts_with("learned") && Exercised(*spec, data.forward->dataset().runs))
+      named.push_back(spec);
   return named;
 }
 
@@ -201,7 +216,7 @@ class Search {
 
   void FitSingles() {
     std::vector<Job> jobs;
-    for (const Spec spec : NamedEffects()) AddJobs(Base(), spec, jobs);
+    for (const Spec spec : NamedEffects(result_.data)) AddJobs(Base(), spec, jobs);
     RunJobs(jobs, 0.05, 0.4, "single effects");
   }
 
@@ -344,7 +359,7 @@ class Search {
   // Of an id with several laws the one whose single fit is best.
   std::vector<Spec> BestLaws() {
     std::vector<Spec> best;
-    for (const Spec spec : NamedEffects()) {
+    for (const Spec spec : NamedEffects(result_.data)) {
       const Contender* single = Find({spec});
       if (!single || !single->fit.Usable()) continue;
       const auto same =
@@ -375,7 +390,7 @@ class Search {
       Contender rest = best;
       std::erase(rest.effects, member);
       rest.fit.state = StateOf(best, rest.effects);
-      for (const Spec spec : NamedEffects())
+      for (const Spec spec : NamedEffects(result_.data))
         if (spec != member && spec->id == member->id) AddJobs(rest, spec, jobs);
     }
     RunJobs(jobs, 0.6, 0.7, "laws");
@@ -449,7 +464,7 @@ class Search {
     if (!(bic < Of(set).fit.bic) || !enough_(with)) return bic;
     std::vector<Job> jobs;
     const Contender from = Of(set);
-    for (const Spec spec : NamedEffects())
+    for (const Spec spec : NamedEffects(result_.data))
       if (ActsInTime(*spec)) AddJobs(from, spec, jobs);
     RunJobs(jobs, 0.05, 0.1, "clocks");
     const bool rivalled = std::any_of(

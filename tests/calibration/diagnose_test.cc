@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "tests/calibration/bench.h"
+#include "tests/calibration/processes.h"
 
 namespace plenum::calibration {
 namespace {
@@ -57,6 +58,32 @@ TEST(Diagnose, InertiaIsNamedBesideABlockedRun) {
 }
 
 #endif
+
+// A chamber shut from the first reading on, which falls.
+TEST(Diagnose, AValveThatNeverOpensTellsNothingOfItsLine) {
+  Dataset dataset = MeasuredBench({}, 24);
+  dataset.runs.resize(1);
+  dataset.holdout.clear();
+  auto& run = dataset.runs.front();
+  run.valve = {{0.0, model::ValveState::kHold}};
+  run.initial_pressure_pa = 2e5;
+  run.channels = {};
+  const std::vector<double> noise = test::WhiteNoise(1, run.t_s.size(), 100.0);
+  run.pressure_pa.clear();
+  for (std::size_t i = 0; i < run.t_s.size(); ++i)
+    run.pressure_pa.push_back(1.8e5 + 2e4 * std::exp(-run.t_s[i]) + noise[i]);
+  const Diagnosis d = Diagnose(dataset, {});
+  ASSERT_FALSE(d.candidates.empty());
+  using enum model::EffectPlace;
+  for (const Candidate& candidate : d.candidates)
+    for (const std::string& name : candidate.effects) {
+      const std::string id = name.substr(0, name.find(':'));
+      for (const model::EffectSpec* spec : model::Effects())
+        EXPECT_TRUE(spec->id != id ||
+                    (spec->place != kValve && spec->place != kLine && spec->place != kSupply))
+            << name;
+    }
+}
 
 TEST(Diagnose, CancelledIsUndecided) {
   DiagnoseOptions options;
