@@ -130,11 +130,19 @@ Fit FitTerm(const FitData& data, const std::vector<std::size_t>& runs,
   return best;
 }
 
+// How well the runs left out are predicted. The score is Σ n·ln(χ²/n) over them, n their readings,
+// no χ² below n: a run that alone shows what the term describes is off by much without it, and does
+// not outweigh all others.
+struct Unseen {
+  double score = kNone;
+  double rms_pa = std::numeric_limits<double>::quiet_NaN();
+};
+
 struct Attempt {
   const Family* family = nullptr;
   Fit fit;
   double score = kNone;
-  double left_out = kNone;  // misfit of the runs left out
+  Unseen left_out = {};
 };
 
 Attempt FitFamily(const FitData& data, const Family& family, const ModelState& base,
@@ -185,31 +193,32 @@ double OwnNumbers(const FitData& data, const Fit& fit, std::size_t run) {
       RunCoordinates(*data.forward, {run}, fit.state.effects, data.sizes).size());
 }
 
-// Each of at most kFolds runs left out in turn; `fit_on` fits the others. Σ n·ln(χ²/n) over the
-// runs left out, n their readings, no χ² below n: a run that alone shows what the term describes is
-// off by much without it, and does not outweigh all others.
+// Each of at most kFolds runs left out in turn; `fit_on` fits the others.
 template <class FitOn>
-double LeftOut(const FitData& data, const FitOn& fit_on, const FitOptions& options) {
+Unseen LeftOut(const FitData& data, const FitOn& fit_on, const FitOptions& options) {
   const std::size_t folds = std::min(kFolds, data.runs.size());
-  double sum = 0.0;
+  double score = 0.0, squares_pa2 = 0.0, samples = 0.0;
   for (std::size_t k = 0; k < folds; ++k) {
     std::vector<std::size_t> others = data.runs;
     const std::size_t at = k * data.runs.size() / folds;
     const std::size_t left_out = others[at];
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(at));
     const Fit fit = fit_on(others);
-    if (!fit.Usable()) return kNone;
+    if (!fit.Usable()) return {};
     ModelState state = fit.state;
     CopyRun(data.forward->Declared(), left_out, state);
-    const double squares =
-        SquaresOf(data, Aligned(data, state, left_out, options), {left_out}, options);
+    state = Aligned(data, state, left_out, options);
+    const double squares = SquaresOf(data, state, {left_out}, options);
     const auto n = static_cast<double>((*data.observed)[left_out].rows());
-    sum += n * std::log(std::max(squares / n, 1.0)) + OwnNumbers(data, fit, left_out) * std::log(n);
+    score +=
+        n * std::log(std::max(squares / n, 1.0)) + OwnNumbers(data, fit, left_out) * std::log(n);
+    squares_pa2 += n * std::pow(PressureRms(data, state, {left_out}, options), 2);
+    samples += n;
   }
-  return sum;
+  return {score, std::sqrt(squares_pa2 / samples)};
 }
 
-double LeftOutWithout(const FitData& data, const ModelState& base, const FitOptions& options) {
+Unseen LeftOutWithout(const FitData& data, const ModelState& base, const FitOptions& options) {
   return LeftOut(
       data,
       [&](const std::vector<std::size_t>& runs) {
@@ -230,9 +239,9 @@ void Polish(const FitData& data, const FitOptions& quick, Attempt& attempt) {
   attempt.fit = std::move(fit);
 }
 
-// Candidates by BIC, the finalists among them judged on runs left out.
+// Candidates by BIC, the finalists among them judged on runs left out, as the model `without`.
 const Attempt* Choose(const FitData& data, const Fit& established, const ModelState& base,
-                      std::vector<Attempt>& attempts, const FitOptions& options) {
+                      std::vector<Attempt>& attempts, const FitOptions& options, Unseen& without) {
   std::stable_sort(attempts.begin(), attempts.end(),
                    [](const Attempt& a, const Attempt& b) { return a.score < b.score; });
   const auto gains = [&](const Attempt& attempt) {
@@ -244,7 +253,8 @@ const Attempt* Choose(const FitData& data, const Fit& established, const ModelSt
     return &attempts.front();
   }
   const Attempt* best = nullptr;
-  double least = LeftOutWithout(data, base, options);
+  without = LeftOutWithout(data, base, options);
+  double least = without.score;
   for (std::size_t k = 0; k < std::min(kFinalists, attempts.size()); ++k) {
     Attempt& attempt = attempts[k];
     if (!gains(attempt)) break;
@@ -258,7 +268,8 @@ const Attempt* Choose(const FitData& data, const Fit& established, const ModelSt
         [&](const std::vector<std::size_t>& runs) { return FitTerm(data, runs, {start}, options); },
         options);
     // Of those that predict alike the first, which fits better.
-    if (attempt.left_out < least - (best ? kGain : 0.0)) least = attempt.left_out, best = &attempt;
+    if (attempt.left_out.score < least - (best ? kGain : 0.0))
+      least = attempt.left_out.score, best = &attempt;
   }
   return best;
 }
@@ -330,16 +341,20 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
   std::erase_if(attempts, [](const Attempt& attempt) { return !attempt.fit.Usable(); });
   if (options.cancelled && options.cancelled()) return learned;
   quick.threads = options.threads;
-  const Attempt* best = Choose(data, established, base, attempts, quick);
+  Unseen without;
+  const Attempt* best = Choose(data, established, base, attempts, quick, without);
+  if (holdout.empty() && std::isfinite(without.rms_pa))
+    discrepancy.holdout_before_pa = discrepancy.holdout_after_pa = without.rms_pa;
   if (!best || (options.cancelled && options.cancelled())) return learned;
   learned.fit = best->fit;
   discrepancy.equation = learned.fit.state.effects.back().spec->place;
   discrepancy.features = best->family->features;
   discrepancy.learned = LearnedOf(data, learned.fit, options);
   discrepancy.rms_after_pa = PressureRms(data, learned.fit.state, data.runs, options);
-  if (!holdout.empty()) {
+  if (!holdout.empty())
     discrepancy.holdout_after_pa = UnseenRms(data, learned.fit.state, holdout, options);
-  }
+  else if (discrepancy.holdout_before_pa)
+    discrepancy.holdout_after_pa = best->left_out.rms_pa;
   return learned;
 }
 

@@ -32,7 +32,7 @@ struct LearnedModel {
 };
 
 // `established` is a usable fit of data.runs; `holdout` are runs that no fit sees, for the report
-// alone.
+// alone: where there are none, the errors of the runs left out in turn take their place.
 LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
                               const std::vector<std::size_t>& holdout, const FitOptions& options);
 

@@ -64,6 +64,19 @@ TEST(Discrepancy, ASeamThatGapesIsLearnedAsALeakThatOpens) {
               *d.holdout_after_pa, 1e-9);
 }
 
+TEST(Discrepancy, WithoutHeldOutRunsTheErrorsAreThoseOfRunsLeftOutInTurn) {
+#ifdef PLENUM_SANITIZED
+  GTEST_SKIP() << "takes minutes; the test above goes the same way";
+#endif
+  Learning learning = Of("gaping_seam");
+  learning.holdout.clear();
+  const LearnedModel learned = learning.Learn();
+  const Discrepancy& d = learned.discrepancy;
+  ASSERT_TRUE(d.holdout_before_pa && d.holdout_after_pa);
+  EXPECT_GT(*d.holdout_before_pa, d.rms_before_pa);
+  EXPECT_LT(*d.holdout_after_pa, 0.5 * *d.holdout_before_pa);
+}
+
 TEST(Discrepancy, ASnapOfTheWallIsLearnedInTheVolumeLaw) {
 #ifdef PLENUM_SANITIZED
   GTEST_SKIP() << "takes minutes; the test above goes the same way";
