@@ -26,7 +26,7 @@ using optimizer::Problem;
 using optimizer::SizingProgram;
 
 #ifdef PLENUM_SANITIZED
-constexpr std::uint64_t kSeeds = 12;
+constexpr std::uint64_t kSeeds = 24;
 #else
 constexpr std::uint64_t kSeeds = 60;
 #endif
