@@ -303,10 +303,10 @@ test('the service going away is said, and the page goes on when it is back', asy
   await page.getByText('These requirements can be searched.').waitFor();
 
   // In the middle of a search.
-  const slow = { ...example('crawler'), objective: { minimize: 'volume_l' } };
+  const slow = { ...example('exosuit'), objective: { minimize: 'volume_l' } };
   const { id } = await own.post('/v1/designs', {
     ...slow,
-    ranking: { count: 3, time_limit_s: 60 },
+    ranking: { count: 100, time_limit_s: 60 },
   });
   await page.goto(`${own.base}/#/designs/${id}`);
   await page.getByText('The proof closing').waitFor();
