@@ -31,11 +31,6 @@ struct Samples {
   std::vector<std::size_t> index;  // in the run
 };
 
-struct Window {
-  std::array<double, 4> t_s, weight;
-  double z = 0.0;
-};
-
 double Median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -48,67 +43,63 @@ double MedianSpacing(const std::vector<double>& t_s) {
   return Median(gaps);
 }
 
-Window MakeWindow(const Samples& samples, std::size_t first, std::size_t stride) {
-  Window window;
-  for (std::size_t i = 0; i < 4; ++i) window.t_s[i] = samples.t_s[first + i * stride];
+// The divided difference z of four samples.
+double ThirdDifferenceAt(const Samples& samples, std::size_t first) {
+  const double* t_s = &samples.t_s[first];
+  std::array<double, 4> weight;
   double squares = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     double product = 1.0;
     for (std::size_t j = 0; j < 4; ++j)
-      if (j != i) product *= (window.t_s[i] - window.t_s[j]) / (window.t_s[3] - window.t_s[0]);
-    window.weight[i] = 1.0 / product;
-    squares += window.weight[i] * window.weight[i];
+      if (j != i) product *= (t_s[i] - t_s[j]) / (t_s[3] - t_s[0]);
+    weight[i] = 1.0 / product;
+    squares += weight[i] * weight[i];
   }
-  for (std::size_t i = 0; i < 4; ++i) {
-    window.weight[i] /= std::sqrt(squares);
-    window.z += window.weight[i] * samples.y[first + i * stride];
-  }
-  return window;
+  double z = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) z += weight[i] / std::sqrt(squares) * samples.y[first + i];
+  return z;
 }
 
-// Every window of that stride that lies in one of the spans and crosses no gap of the sampling.
-std::vector<Window> Windows(const Samples& samples, std::span<const TimeSpan> spans,
-                            std::size_t stride, double spacing_s) {
-  std::vector<Window> windows;
+// Of every four samples in a row that lie in one of the spans and cross no gap of the sampling.
+std::vector<double> ThirdDifferences(const Samples& samples, std::span<const TimeSpan> spans,
+                                     double spacing_s) {
+  const std::vector<double>& t_s = samples.t_s;
+  std::vector<double> differences;
   for (const TimeSpan& span : spans) {
-    const auto begin = std::lower_bound(samples.t_s.begin(), samples.t_s.end(), span.start_s);
-    const auto end = std::upper_bound(samples.t_s.begin(), samples.t_s.end(), span.end_s);
-    const auto first = static_cast<std::size_t>(begin - samples.t_s.begin());
-    const auto last = static_cast<std::size_t>(end - samples.t_s.begin());
-    for (std::size_t i = first; i + 3 * stride < last; ++i) {
-      const Window window = MakeWindow(samples, i, stride);
+    const auto begin = std::lower_bound(t_s.begin(), t_s.end(), span.start_s);
+    const auto end = std::upper_bound(t_s.begin(), t_s.end(), span.end_s);
+    const auto first = static_cast<std::size_t>(begin - t_s.begin());
+    const auto last = static_cast<std::size_t>(end - t_s.begin());
+    for (std::size_t i = first; i + 3 < last; ++i) {
       double gap = 0.0;
-      for (std::size_t j = 1; j < 4; ++j) gap = std::max(gap, window.t_s[j] - window.t_s[j - 1]);
-      if (gap <= kGapMax * static_cast<double>(stride) * spacing_s) windows.push_back(window);
+      for (std::size_t j = i + 1; j < i + 4; ++j) gap = std::max(gap, t_s[j] - t_s[j - 1]);
+      if (gap <= kGapMax * spacing_s) differences.push_back(ThirdDifferenceAt(samples, i));
     }
   }
-  return windows;
+  return differences;
 }
 
 // Drops what lies beyond kTrimSigmas robust deviations (at least `floor` each).
-void Trim(std::vector<Window>& windows, double floor) {
-  if (windows.empty()) return;
+void Trim(std::vector<double>& values, double floor) {
+  if (values.empty()) return;
   std::vector<double> sizes;
-  for (const Window& window : windows) sizes.push_back(std::abs(window.z));
+  for (const double value : values) sizes.push_back(std::abs(value));
   const double limit = kTrimSigmas * std::max(kMadToSigma * Median(sizes), floor);
-  if (limit > 0.0)
-    std::erase_if(windows, [&](const Window& window) { return std::abs(window.z) > limit; });
+  if (limit > 0.0) std::erase_if(values, [&](double value) { return std::abs(value) > limit; });
 }
 
-double MeanSquare(const std::vector<Window>& windows) {
+double Rms(const std::vector<double>& values) {
   double sum = 0.0;
-  for (const Window& window : windows) sum += window.z * window.z;
-  return sum / static_cast<double>(windows.size());
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-// What a run gives to the estimate: the samples without the wild ones, where to look, and the
-// windows of stride 1 with their RMS.
+// What a run gives to the estimate: the samples without the wild ones, where to look, and the RMS
+// of the differences there.
 struct Record {
   Samples samples;
   std::vector<TimeSpan> places;
-  double spacing_s = 0.0, floor = 0.0;
-  std::vector<Window> windows;
-  double rms = 0.0;
+  double spacing_s = 0.0, rms = 0.0;
 };
 
 // Deviations within the groups of samples that share an instant, scaled to the variance of one
@@ -136,13 +127,6 @@ std::vector<double> TakeRepeats(Samples& samples, int& freedom) {
   return deviations;
 }
 
-double TrimmedRms(const std::vector<double>& deviations, double floor) {
-  std::vector<Window> windows;
-  for (const double deviation : deviations) windows.push_back({{}, {}, deviation});
-  Trim(windows, floor);
-  return std::sqrt(MeanSquare(windows));
-}
-
 std::vector<TimeSpan> Tails(std::span<const TimeSpan> strokes) {
   std::vector<TimeSpan> tails;
   for (const TimeSpan& span : strokes)
@@ -155,7 +139,7 @@ std::vector<TimeSpan> Places(const Samples& samples, std::span<const TimeSpan> q
                              std::span<const TimeSpan> strokes, double spacing_s,
                              NoiseSource& source) {
   const auto enough = [&](const std::vector<TimeSpan>& spans) {
-    return static_cast<int>(Windows(samples, spans, 1, spacing_s).size()) >= kWindowsMin;
+    return static_cast<int>(ThirdDifferences(samples, spans, spacing_s).size()) >= kWindowsMin;
   };
   std::vector<TimeSpan> spans(quiet.begin(), quiet.end());
   source = NoiseSource::kClosed;
@@ -201,38 +185,36 @@ Record RecordOf(const Readings& readings, Noise& noise) {
   noise.repeat_freedom = noise.windows = 0;
   if (samples.y.size() < 4) return record;
   const double rounding_pa = noise.quantum_pa / std::sqrt(12.0);
-  const std::vector<double> deviations = TakeRepeats(samples, noise.repeat_freedom);
+  std::vector<double> deviations = TakeRepeats(samples, noise.repeat_freedom);
   if (noise.repeat_freedom > 0) {
-    double sum = 0.0;  // each is scaled to one reading's variance
-    for (const double deviation : deviations) sum += deviation * deviation;
-    noise.repeat_sigma_pa = std::sqrt(sum / static_cast<double>(deviations.size()));
+    noise.repeat_sigma_pa = Rms(deviations);  // each is scaled to one reading's variance
   }
   if (samples.t_s.size() > 1) noise.spacing_s = MedianSpacing(samples.t_s);
   if (samples.y.size() >= 4) {
     record.spacing_s = noise.spacing_s;
-    record.floor = rounding_pa;
     const auto [low, high] = std::minmax_element(samples.y.begin(), samples.y.end());
     record.places =
         Places(samples, readings.quiet, readings.strokes, record.spacing_s, noise.source);
-    std::vector<Window> windows = Windows(samples, record.places, 1, record.spacing_s);
-    Trim(windows, rounding_pa);
-    const double local_pa = windows.empty() ? 0.0 : std::sqrt(MeanSquare(windows));
+    std::vector<double> differences = ThirdDifferences(samples, record.places, record.spacing_s);
+    Trim(differences, rounding_pa);
+    const double local_pa = differences.empty() ? 0.0 : Rms(differences);
     const double floor_pa = std::max({local_pa, rounding_pa, kNoiseless * (*high - *low)});
     const std::vector<std::size_t> wild = Outliers(samples.t_s, samples.y, floor_pa);
     for (const std::size_t i : wild) noise.outliers.push_back(samples.index[i]);
     record.samples = Without(samples, wild);
-    record.windows = Windows(record.samples, record.places, 1, record.spacing_s);
-    Trim(record.windows, rounding_pa);
-    noise.windows = static_cast<int>(record.windows.size());
+    differences = ThirdDifferences(record.samples, record.places, record.spacing_s);
+    Trim(differences, rounding_pa);
+    noise.windows = static_cast<int>(differences.size());
+    if (noise.windows > 0) record.rms = Rms(differences);
   }
   if (noise.windows > 0) {
-    record.rms = std::sqrt(MeanSquare(record.windows));
     noise.sigma_pa = record.rms;
     noise.relative_error = kSigmaError / std::sqrt(noise.windows);
   }
   if (noise.repeat_freedom > std::max(noise.windows, kRepeatsMin)) {
     noise.source = NoiseSource::kRepeats;
-    noise.sigma_pa = TrimmedRms(deviations, rounding_pa);
+    Trim(deviations, rounding_pa);
+    noise.sigma_pa = Rms(deviations);
     noise.relative_error = 1.0 / std::sqrt(2.0 * noise.repeat_freedom);
   }
   noise.staircase = noise.sigma_pa < 0.5 * noise.quantum_pa;
@@ -289,7 +271,7 @@ void TakeMemory(const std::vector<Record>& records, std::vector<Noise>& noises) 
       noise.sigma_pa = found.levels[j].sigma;
       noise.relative_error = found.levels[j].relative_error;
     } else {  // what its differences pass by
-      noise.sigma_pa /= std::sqrt(ThirdDifference(rho, share, 1));
+      noise.sigma_pa /= std::sqrt(ThirdDifference(rho, share));
     }
     noise.effective_samples /= 1.0 + 2.0 * share * rho / (1.0 - rho);
   }

@@ -93,9 +93,8 @@ std::vector<double> Whitened(std::span<const double> t_s, std::span<const double
   return white;
 }
 
-double ThirdDifference(double rho, double share, int stride) {
-  const double r = std::pow(rho, stride);
-  return 1.0 - share * (1.5 - 0.6 * r + 0.1 * r * r) * r;
+double ThirdDifference(double rho, double share) {
+  return 1.0 - share * (1.5 - 0.6 * rho + 0.1 * rho * rho) * rho;
 }
 
 NoiseMemory LikeliestMemory(std::span<const NoiseSeries> series,

@@ -43,9 +43,8 @@ class InnovationSteps {
 std::vector<double> Whitened(std::span<const double> t_s, std::span<const double> e,
                              const NoiseMemory& memory);
 
-// E z² of third differences (noise.h) over every `stride`-th of even samples, over σ²; ρ is that of
-// neighbours.
-double ThirdDifference(double rho, double share, int stride);
+// E z² of third differences (noise.h) of even samples over σ²; ρ is that of neighbours.
+double ThirdDifference(double rho, double share);
 
 // A series in units of its noise, NaN where missing.
 struct NoiseSeries {

@@ -92,7 +92,7 @@ double Underread(const std::vector<Noise>& noises, const std::vector<ResidualSer
     if (noises[i].memories.empty()) continue;
     const auto seen = [&](const NoiseMemory& memory) {
       const double theta_s = std::max(memory.theta_s, kMemoryless * noises[i].spacing_s);
-      return ThirdDifference(std::exp(-noises[i].spacing_s / theta_s), memory.share, 1);
+      return ThirdDifference(std::exp(-noises[i].spacing_s / theta_s), memory.share);
     };
     most = std::max(most, seen(noises[i].memory) / seen(series[i].memory));
   }
