@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "model/scalar.h"
+#include "model/step_control.h"
 
 namespace plenum::model {
 
@@ -30,9 +31,7 @@ class DormandPrinceOf {
   // By how much more the states that no sensor sees may be off.
   static constexpr double kHiddenRoom = 1.0;
 
-  // kTooSmall: the step was accepted at the smallest size that moves t although its error is above
-  // tolerance; kNotFinite: even then the result is not finite, and nothing was accepted.
-  enum class Outcome { kAccepted, kTooSmall, kNotFinite };
+  using Outcome = StepResult;
 
   explicit DormandPrinceOf(std::size_t size) : y0_(size), y1_(size), stage_(size), error_(size) {
     for (auto& k : k_) k.resize(size);
@@ -45,8 +44,7 @@ class DormandPrinceOf {
     t1_ = t;
     std::copy(y.begin(), y.end(), y1_.begin());
     rhs(t, std::span<const T>(y1_), std::span<T>(k_[6]));
-    next_step_ = step;
-    old_error_ = 1e-4;
+    control_.Start(step);
   }
 
   // Advances by one accepted step of at most `step_max`.
@@ -55,32 +53,16 @@ class DormandPrinceOf {
     t0_ = t1_;
     y0_.swap(y1_);
     k_[0].swap(k_[6]);
-    const double h_max = ValueOf(step_max);
-    double h = std::min(next_step_, h_max);
-    const double h_smallest =
-        std::min(h_max, 16.0 * kEpsilon * std::max(std::abs(ValueOf(t0_)), 1e-9));
-    for (bool rejected = false;; rejected = true) {
-      h_ = h == h_max ? step_max : T(h);
+    const auto error_of = [&](double h) {
+      h_ = h == ValueOf(step_max) ? step_max : T(h);
       Stages(rhs);
-      const double error =
-          norm(std::span<const T>(y0_), std::span<const T>(y1_), std::span<const T>(error_));
-      const bool smallest = h <= h_smallest;
-      if (error <= 1.0 || (smallest && std::isfinite(error))) {
-        const double bounded = std::max(error, 1e-10);
-        const double factor =
-            kSafety * std::pow(bounded, -kExponent) * std::pow(old_error_, kMemory);
-        next_step_ = h * std::clamp(factor, 0.2, rejected ? 1.0 : 10.0);
-        // A step cut short by step_max says nothing against the longer one.
-        if (error <= 1.0 && h == h_max) next_step_ = std::max(next_step_, h);
-        old_error_ = std::max(error, 1e-4);
-        t1_ = t0_ + h_;
-        MakeDense();
-        return error <= 1.0 ? Outcome::kAccepted : Outcome::kTooSmall;
-      }
-      if (smallest) return Outcome::kNotFinite;
-      const double factor = std::isfinite(error) ? kSafety * std::pow(error, -kExponent) : 0.1;
-      h = std::max(h_smallest, h * std::clamp(factor, 0.1, 0.9));
-    }
+      return norm(std::span<const T>(y0_), std::span<const T>(y1_), std::span<const T>(error_));
+    };
+    const Outcome outcome = control_.Take(ValueOf(t0_), ValueOf(step_max), error_of);
+    if (outcome == Outcome::kNotFinite) return outcome;
+    t1_ = t0_ + h_;
+    MakeDense();
+    return outcome;
   }
 
   // Takes the last step again up to a share `theta` of it, without a new estimate of the error.
@@ -113,8 +95,8 @@ class DormandPrinceOf {
   const T& start_time() const { return t0_; }
   const T& time() const { return t1_; }
   const T& step() const { return h_; }
-  double next_step() const { return next_step_; }
-  void set_next_step(double step) { next_step_ = step; }
+  double next_step() const { return control_.next_step(); }
+  void set_next_step(double step) { control_.set_next_step(step); }
   std::span<const T> state() const { return y1_; }
   std::span<const T> derivative() const { return k_[6]; }
   std::span<const T> start_derivative() const { return k_[0]; }
@@ -135,10 +117,7 @@ class DormandPrinceOf {
   }
 
  private:
-  static constexpr double kEpsilon = 2.220446049250313e-16;
-  static constexpr double kSafety = 0.9;
   static constexpr double kMemory = 0.04;
-  static constexpr double kExponent = 0.2 - 0.75 * kMemory;
 
   template <class Rhs>
   void Stages(Rhs&& rhs) {
@@ -191,7 +170,7 @@ class DormandPrinceOf {
   }
 
   T t0_ = T(0.0), t1_ = T(0.0), h_ = T(0.0);
-  double next_step_ = 0.0, old_error_ = 1e-4;
+  StepControl control_{{.exponent = 0.2 - 0.75 * kMemory, .memory = kMemory, .growth_max = 10.0}};
   std::vector<T> y0_, y1_, stage_, error_;
   std::array<std::vector<T>, 7> k_;
   std::array<std::vector<T>, 5> dense_;

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "model/scalar.h"
+#include "model/step_control.h"
 
 namespace plenum::model {
 
@@ -34,7 +35,7 @@ class RosenbrockOf {
   // the pressures is damped, not followed.
   static constexpr double kHiddenRoom = 1e2;
 
-  enum class Outcome { kAccepted, kTooSmall, kNotFinite };
+  using Outcome = StepResult;
 
   explicit RosenbrockOf(std::size_t size)
       : y0_(size), y1_(size), stage_(size), error_(size), f0_(size), f1_(size), slope_(size) {
@@ -46,7 +47,7 @@ class RosenbrockOf {
     t1_ = t;
     std::copy(y.begin(), y.end(), y1_.begin());
     rhs(t, std::span<const T>(y1_), std::span<T>(f1_));
-    next_step_ = step;
+    control_.Start(step);
   }
 
   // Advances by one accepted step of at most `step_max`.
@@ -56,27 +57,14 @@ class RosenbrockOf {
     y0_.swap(y1_);
     f0_.swap(f1_);
     TakeJacobian(rhs);
-    const double h_max = ValueOf(step_max);
-    double h = std::min(next_step_, h_max);
-    const double h_smallest =
-        std::min(h_max, 16.0 * kEpsilon * std::max(std::abs(ValueOf(t0_)), 1e-9));
-    for (bool rejected = false;; rejected = true) {
-      h_ = h == h_max ? step_max : T(h);
+    const auto error_of = [&](double h) {
+      h_ = h == ValueOf(step_max) ? step_max : T(h);
       Stages(rhs);
-      const double error =
-          norm(std::span<const T>(y0_), std::span<const T>(y1_), std::span<const T>(error_));
-      const bool smallest = h <= h_smallest;
-      if (error <= 1.0 || (smallest && std::isfinite(error))) {
-        const double factor = kSafety * std::pow(std::max(error, 1e-10), -1.0 / 3.0);
-        next_step_ = h * std::clamp(factor, 0.2, rejected ? 1.0 : 6.0);
-        if (error <= 1.0 && h == h_max) next_step_ = std::max(next_step_, h);
-        End(rhs);
-        return error <= 1.0 ? Outcome::kAccepted : Outcome::kTooSmall;
-      }
-      if (smallest) return Outcome::kNotFinite;
-      const double factor = std::isfinite(error) ? kSafety * std::pow(error, -1.0 / 3.0) : 0.1;
-      h = std::max(h_smallest, h * std::clamp(factor, 0.1, 0.9));
-    }
+      return norm(std::span<const T>(y0_), std::span<const T>(y1_), std::span<const T>(error_));
+    };
+    const Outcome outcome = control_.Take(ValueOf(t0_), ValueOf(step_max), error_of);
+    if (outcome != Outcome::kNotFinite) End(rhs);
+    return outcome;
   }
 
   // Takes the last step again up to a share `theta` of it, without a new estimate of the error.
@@ -98,8 +86,8 @@ class RosenbrockOf {
   const T& start_time() const { return t0_; }
   const T& time() const { return t1_; }
   const T& step() const { return h_; }
-  double next_step() const { return next_step_; }
-  void set_next_step(double step) { next_step_ = step; }
+  double next_step() const { return control_.next_step(); }
+  void set_next_step(double step) { control_.set_next_step(step); }
   std::span<const T> state() const { return y1_; }
   std::span<const T> derivative() const { return f1_; }
 
@@ -119,8 +107,6 @@ class RosenbrockOf {
   }
 
  private:
-  static constexpr double kEpsilon = 2.220446049250313e-16;
-  static constexpr double kSafety = 0.9;
   static constexpr double kGamma = 0.435866521508459;
   static constexpr double kDifference = 1e-7;  // of a state's size
 
@@ -134,7 +120,7 @@ class RosenbrockOf {
     for (std::size_t j = 0; j < y0_.size(); ++j) {
       const double at = ValueOf(y0_[j]);
       const double size_of =
-          std::max({std::abs(at), std::abs(ValueOf(f0_[j])) * next_step_, 1e-12 * largest, 1e-12});
+          std::max({std::abs(at), std::abs(ValueOf(f0_[j])) * next_step(), 1e-12 * largest, 1e-12});
       const double moved = at + kDifference * size_of;
       stage_[j] = T(moved);
       rhs(T(ValueOf(t0_)), std::span<const T>(stage_), std::span<T>(slope_));
@@ -225,7 +211,7 @@ class RosenbrockOf {
   }
 
   T t0_ = T(0.0), t1_ = T(0.0), h_ = T(0.0);
-  double next_step_ = 0.0;
+  StepControl control_{{.exponent = 1.0 / 3.0, .memory = 0.0, .growth_max = 6.0}};
   std::vector<T> y0_, y1_, stage_, error_, f0_, f1_, slope_;
   std::array<std::vector<T>, 4> k_;
   Eigen::MatrixXd jacobian_;
