@@ -4,8 +4,8 @@
 // Stages, with any approximation J of ∂f/∂y — a W-method keeps its order with a rough one:
 //   (I − γ·h·J)·k_i = h·f(t + α_i·h, y + Σ_j α_ij·k_j) + h·J·Σ_j γ_ij·k_j,  j < i,
 //   y₁ = y + Σ b_i·k_i.
-// J is taken by differences of the values at the start of a step. With T = Dual it stays a matrix
-// of values, so that one factorisation serves the state and all its derivatives.
+// J is taken at the start of a step, by differences or, with T = Dual, from derivatives; it stays a
+// matrix of values, so that one factorisation serves the state and all its derivatives.
 //
 // Source: Rang, Angermann, New Rosenbrock W-methods of order 3 for partial differential algebraic
 // equations of index 1, BIT 45 (2005) 761; Hairer, Wanner, Solving Ordinary Differential
@@ -110,25 +110,61 @@ class RosenbrockOf {
   static constexpr double kGamma = 0.435866521508459;
   static constexpr double kDifference = 1e-7;  // of a state's size
 
+  // How large state j is, or what it moves by in a step.
+  double SizeOf(std::size_t j) const {
+    double largest = 0.0;
+    for (const T& y : y0_) largest = std::max(largest, std::abs(ValueOf(y)));
+    return std::max({std::abs(ValueOf(y0_[j])), std::abs(ValueOf(f0_[j])) * next_step(),
+                     1e-12 * largest, 1e-12});
+  }
+
   template <class Rhs>
   void TakeJacobian(Rhs&& rhs) {
     const auto size = static_cast<Eigen::Index>(y0_.size());
     jacobian_.resize(size, size);
-    double largest = 0.0;
-    for (const T& y : y0_) largest = std::max(largest, std::abs(ValueOf(y)));
-    for (std::size_t i = 0; i < y0_.size(); ++i) stage_[i] = T(ValueOf(y0_[i]));
-    for (std::size_t j = 0; j < y0_.size(); ++j) {
-      const double at = ValueOf(y0_[j]);
-      const double size_of =
-          std::max({std::abs(at), std::abs(ValueOf(f0_[j])) * next_step(), 1e-12 * largest, 1e-12});
-      const double moved = at + kDifference * size_of;
-      stage_[j] = T(moved);
-      rhs(T(ValueOf(t0_)), std::span<const T>(stage_), std::span<T>(slope_));
-      for (std::size_t i = 0; i < y0_.size(); ++i)
-        jacobian_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            (ValueOf(slope_[i]) - ValueOf(f0_[i])) / (moved - at);
-      stage_[j] = T(at);
+    if constexpr (kIsDual<T>) {
+      for (std::size_t first = 0; first < y0_.size(); first += kDirections)
+        TakeColumns(rhs, first, std::min<std::size_t>(kDirections, y0_.size() - first));
+    } else {
+      std::copy(y0_.begin(), y0_.end(), stage_.begin());
+      for (std::size_t j = 0; j < y0_.size(); ++j) {
+        stage_[j] = y0_[j] + kDifference * SizeOf(j);
+        const double moved = stage_[j] - y0_[j];
+        rhs(t0_, std::span<const T>(stage_), std::span<T>(slope_));
+        for (std::size_t i = 0; i < y0_.size(); ++i) Entry(i, j) = (slope_[i] - f0_[i]) / moved;
+        stage_[j] = y0_[j];
+      }
     }
+  }
+
+  // Derivatives are linear in those of the state: along each direction another state moves by `by`
+  // more. Of the size of what the direction moves already, so that little is lost in the
+  // difference.
+  template <class Rhs>
+  void TakeColumns(Rhs&& rhs, std::size_t first, std::size_t count) {
+    std::copy(y0_.begin(), y0_.end(), stage_.begin());
+    std::array<double, kDirections> by{};
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto direction = static_cast<Eigen::Index>(k);
+      double share = 1.0;
+      for (std::size_t i = 0; i < y0_.size(); ++i) {
+        const double moves =
+            std::abs(y0_[i].v[direction]) + next_step() * std::abs(f0_[i].v[direction]);
+        share = std::max(share, moves / SizeOf(i));
+      }
+      by[k] = share * SizeOf(first + k);
+      stage_[first + k].v[direction] += by[k];
+    }
+    rhs(t0_, std::span<const T>(stage_), std::span<T>(slope_));
+    for (std::size_t i = 0; i < y0_.size(); ++i)
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto direction = static_cast<Eigen::Index>(k);
+        Entry(i, first + k) = (slope_[i].v[direction] - f0_[i].v[direction]) / by[k];
+      }
+  }
+
+  double& Entry(std::size_t i, std::size_t j) {
+    return jacobian_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
 
   template <class Rhs>
@@ -166,9 +202,7 @@ class RosenbrockOf {
       for (std::size_t i = 0; i < y0_.size(); ++i) {
         k_[s][i] = h_ * slope_[i];
         for (std::size_t j = 0; s > 0 && j < y0_.size(); ++j) {
-          const double entry =
-              jacobian_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-          if (entry != 0.0) k_[s][i] += h * entry * stage_[j];
+          if (Entry(i, j) != 0.0) k_[s][i] += h * Entry(i, j) * stage_[j];
         }
       }
       Solve(k_[s]);
@@ -185,23 +219,18 @@ class RosenbrockOf {
 
   // x ← (I − γ·h·J)⁻¹·x, value and derivatives alike.
   void Solve(std::vector<T>& x) {
-    constexpr int kColumns = kIsDual<T> ? 1 + kDirections : 1;
-    Eigen::MatrixXd columns(static_cast<Eigen::Index>(x.size()), kColumns);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      columns(row, 0) = ValueOf(x[i]);
-      if constexpr (kIsDual<T>) columns.row(row).template tail<kDirections>() = x[i].v;
+    const auto& factors = lu_.matrixLU();
+    const auto& place = lu_.permutationP().indices();
+    const auto size = factors.rows();
+    const auto at = [&](Eigen::Index i) -> T& { return stage_[static_cast<std::size_t>(i)]; };
+    for (Eigen::Index i = 0; i < size; ++i) at(place[i]) = x[static_cast<std::size_t>(i)];
+    for (Eigen::Index i = 0; i < size; ++i)
+      for (Eigen::Index j = 0; j < i; ++j) at(i) -= factors(i, j) * at(j);
+    for (Eigen::Index i = size - 1; i >= 0; --i) {
+      for (Eigen::Index j = i + 1; j < size; ++j) at(i) -= factors(i, j) * at(j);
+      at(i) /= factors(i, i);
     }
-    columns = lu_.solve(columns).eval();
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      if constexpr (kIsDual<T>) {
-        x[i].a = columns(row, 0);
-        x[i].v = columns.row(row).template tail<kDirections>();
-      } else {
-        x[i] = columns(row, 0);
-      }
-    }
+    x.swap(stage_);
   }
 
   template <class Rhs>

@@ -184,7 +184,8 @@ class Projection {
 template <class SeedsOf, class Take>
 void ForEachChunk(const Rig& rig, const SimulateOptions& options, RunUntil until,
                   std::size_t parameters, const SeedsOf& seeds_of, const Take& take) {
-  bool stiff = options.integrator == Integrator::kCvode;
+  bool stiff =
+      options.integrator == Integrator::kCvode || options.integrator == Integrator::kImplicit;
   for (std::size_t first = 0; first == 0 || first < parameters; first += kDirections) {
     const std::size_t count = std::min<std::size_t>(kDirections, parameters - first);
     std::vector<Seed> seeds;

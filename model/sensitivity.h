@@ -59,8 +59,8 @@ struct SensitivityResponse {
 };
 
 // kInvalid, with the parameter's place in the list, where an address is no differentiable number of
-// the rig; kNotFinite where a derivative is not finite. Integrator::kCvode takes the
-// implicit method from the start.
+// the rig; kNotFinite where a derivative is not finite. Integrator::kCvode and
+// kImplicit take the implicit method from the start.
 SensitivityResponse SimulateWithSensitivities(const Rig& rig, const SimulateOptions& options,
                                               std::span<const double* const> parameters);
 

@@ -19,12 +19,13 @@ Response Refused(const std::string& reason) {
 }
 
 Response RunRig(const Rig& rig, const SimulateOptions& options, RunUntil until) {
-  if (options.integrator != Integrator::kCvode) {
+  const bool implicit = options.integrator == Integrator::kImplicit;
+  if (options.integrator != Integrator::kCvode && !implicit) {
     Run<double, ExplicitIntegrator<double>> run(rig, options, until);
     Response response = run.Execute();
     if (!run.stiff()) return response;
   }
-  if (options.integrator == Integrator::kDamped) {
+  if (implicit || options.integrator == Integrator::kDamped) {
     const SimulateOptions damped = DampedOptions(options);
     Response response = Run<double, ImplicitIntegrator<double>>(rig, damped, until).Execute();
     response.stiff = true;

@@ -100,9 +100,9 @@ struct Rig {
 
 // kAutomatic: Dormand–Prince, and CVODE where that turns out stiff. kDamped: Dormand–Prince, and a
 // linearly implicit method (rosenbrock.h) where fast modes take its steps; what rings too fast to
-// move the actuators' pressures is then damped. With sensitivities that method stands for CVODE
-// too.
-enum class Integrator { kAutomatic, kDormandPrince, kCvode, kDamped };
+// move the actuators' pressures is then damped. kImplicit: that method from the start. With
+// sensitivities it stands for CVODE too.
+enum class Integrator { kAutomatic, kDormandPrince, kCvode, kDamped, kImplicit };
 
 // What a run keeps beside its samples: strokes and the accounts of gas and energy (kAll), or
 // nothing (kSamples); kPressures samples only what pressure sensors read: actuator and source.

@@ -48,6 +48,18 @@ TEST(Rosenbrock, DerivativesConvergeToDifferencesOfFineSteps) {
   EXPECT_NEAR(std::log2(error(40) / error(80)), 3.0, 0.3);
 }
 
+// What moves with a parameter may be far larger than the state itself, or far smaller: the values
+// do not feel it.
+TEST(Rosenbrock, ValuesDoNotDependOnTheSizeOfDerivatives) {
+  const double plain = AtTwo(40, 1.0)[0];
+  for (const double size : {1e-18, 1.0, 1e18}) {
+    Dual start(1.0, 3);
+    start.v *= size;
+    EXPECT_NEAR(AtTwo(40, start)[0].a, plain, 1e-7) << size;
+    EXPECT_NEAR(AtTwo(40, start)[0].v[3] / size, AtTwo(40, Dual(1.0, 0))[0].v[0], 1e-7) << size;
+  }
+}
+
 // y' = −λ·(y − cos t) with λ = 1e6: steps a hundred thousand times the time constant.
 TEST(Rosenbrock, StiffMotionDoesNotHoldTheStep) {
   const auto rhs = [](double t, std::span<const double> y, std::span<double> dydt) {
@@ -98,6 +110,14 @@ TEST(Rosenbrock, DampsAShortLineThatRings) {
   ASSERT_EQ(dual.response.status, SimulateStatus::kDone) << dual.response.detail;
   ASSERT_EQ(plain.status, SimulateStatus::kDone) << plain.detail;
   EXPECT_TRUE(plain.stiff && dual.response.stiff);
+  SimulateOptions at_once = damped;  // the same run, without the trial of the explicit method
+  at_once.integrator = Integrator::kImplicit;
+  EXPECT_EQ(Simulate(rig, at_once).groups[0].pressure_pa, plain.groups[0].pressure_pa);
+  EXPECT_EQ(SimulateWithSensitivities(rig, at_once, {&conductance, 1})
+                .derivatives[0]
+                .groups[0]
+                .pressure_pa,
+            dual.derivatives[0].groups[0].pressure_pa);
   const Response reference = Simulate(rig, exact);
   Rig more = rig, less = rig;
   const double h = 1e-3 * *conductance;
