@@ -51,7 +51,8 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
 }
 
 // Residuals of one run over all coordinates as one block. A step is asked for thrice at one point —
-// by the search along it, for its cost, and for the derivatives there — and simulated once.
+// by the search along it, for its cost, and for the derivatives there — and simulated once. A run
+// that turned out stiff is taken to stay so: the explicit method is not tried again.
 class RunCost : public ceres::CostFunction {
  public:
   RunCost(const FitData& data, std::size_t run, const ModelState& start,
@@ -96,6 +97,7 @@ class RunCost : public ceres::CostFunction {
         run_, state,
         jacobian ? std::span<const Parameter>(parameters_) : std::span<const Parameter>(),
         options_);
+    if (prediction.stiff) options_.stiff = true;
     if (prediction.status != model::SimulateStatus::kDone) return false;
     const std::size_t rows = Observed().rows();
     Residuals(data_.forward->dataset().runs[run_], Observed(), prediction.reading,
@@ -122,7 +124,7 @@ class RunCost : public ceres::CostFunction {
   const ModelState& start_;
   const std::vector<Coordinate>& coordinates_;
   std::vector<Parameter> parameters_;
-  PredictOptions options_;
+  mutable PredictOptions options_;
   double scale_;         // of the residuals
   mutable Known known_;  // the last point with derivatives
 };

@@ -361,7 +361,7 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
   simulate.relative_tolerance = options.relative_tolerance;
   simulate.absolute_tolerance_pa = 1e4 * options.relative_tolerance;
   simulate.steps_max = options.steps_max;
-  simulate.integrator = model::Integrator::kDamped;
+  simulate.integrator = options.stiff ? model::Integrator::kImplicit : model::Integrator::kDamped;
   simulate.cancelled = options.cancelled;
   simulate.record = options.recorded_alone && !RecordsMoreThanPressures(run)
                         ? model::Record::kPressures
@@ -383,6 +383,7 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
     const model::Response response = model::Simulate(rig, simulate);
     prediction.status = response.status;
     prediction.detail = response.detail;
+    prediction.stiff = response.stiff;
     prediction.reading = ReadingOf(response);
     FillTemperature(run, prediction.reading);
     prediction.derivatives.resize(parameters.size());
@@ -392,6 +393,7 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
       model::SimulateAlongDirections(rig, simulate, directions);
   prediction.status = result.response.status;
   prediction.detail = result.response.detail;
+  prediction.stiff = result.response.stiff;
   prediction.reading = ReadingOf(result.response);
   FillTemperature(run, prediction.reading);
   prediction.derivatives.resize(parameters.size());

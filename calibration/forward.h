@@ -70,6 +70,7 @@ struct Reading {
 struct Prediction {
   model::SimulateStatus status = model::SimulateStatus::kNotRun;
   std::string detail;                // for any status but kDone
+  bool stiff = false;                // an implicit method was needed
   Reading reading;                   // as far as it came
   std::vector<Reading> derivatives;  // by parameter: ∂reading/∂number; empty where it is 0
 };
@@ -79,6 +80,7 @@ struct PredictOptions {
   std::function<bool()> cancelled = {};
   std::size_t steps_max = 200'000;
   bool recorded_alone = false;  // of the channels only those that the run itself has
+  bool stiff = false;           // known to be: the implicit method from the start
 };
 
 // Holds what the runs of a data set need again and again: measured source pressures condensed to a
