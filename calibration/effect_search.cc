@@ -303,13 +303,15 @@ class Search {
     std::vector<Contender*> near;
     for (std::size_t k = 0; k < sorted.size(); ++k) {
       const bool unfinished = k < kAlwaysOn && sorted[k]->fit.status == FitStatus::kIterationsSpent;
-      if (unfinished || sorted[k]->fit.bic < best->fit.bic + reach) near.push_back(sorted[k]);
+      const bool close = sorted[k]->fit.bic < best->fit.bic + reach;
+      if (!sorted[k]->refined && (unfinished || close)) near.push_back(sorted[k]);
     }
     FitOptions further = fit_options_;
     further.function_tolerance = 0.01 * kScreening;
     further.iterations_max = 3 * kScreeningIterations;
     ForAll(near.size(), options_.threads, [&](std::size_t i) {
       Fit fit = FitModel(result_.data, near[i]->fit.state, further);
+      near[i]->refined = fit.status != FitStatus::kIterationsSpent;
       if (fit.Usable() && fit.bic < near[i]->fit.bic) near[i]->fit = std::move(fit);
     });
   }
@@ -328,6 +330,7 @@ class Search {
     const auto chi2 = [](const Fit& fit) { return fit.chi2_data + fit.chi2_prior; };
     if (!contender->fit.Usable() || chi2(job.fit) < chi2(contender->fit) - kSameOptimum) {
       contender->fit = std::move(job.fit);
+      contender->refined = false;
       contender->found_again = 1;
     } else if (chi2(job.fit) < chi2(contender->fit) + kSameOptimum) {
       ++contender->found_again;

@@ -26,6 +26,7 @@ struct Contender {
   std::vector<const model::EffectSpec*> effects;  // in the order of the registry
   Fit fit;
   int starts = 0, found_again = 0;  // how many ended at the best fit's χ²
+  bool refined = false;             // a further fit from there gains nothing that counts
 };
 
 struct SearchOptions {
