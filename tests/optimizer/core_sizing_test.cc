@@ -17,14 +17,14 @@ using optimizer::LeafStatus;
 using optimizer::Problem;
 
 #ifdef PLENUM_SANITIZED
-constexpr std::uint64_t kSeeds = 1;
+constexpr std::uint64_t kSeeds = 3;
 #else
-constexpr std::uint64_t kSeeds = 4;
+constexpr std::uint64_t kSeeds = 8;
 #endif
 
 Problem Drawn(std::uint64_t seed) {
   Draw draw;
-  draw.seed = 7100 + seed;
+  draw.seed = 7102 + seed;
   draw.configurations = {Configuration::kCompressor};
   draw.groups = 1;
   draw.severity = 0.0;
