@@ -20,24 +20,19 @@ struct DrivenSource {
   double factor = 1.0;              // on the gauge pressure
   bool operator==(const DrivenSource&) const = default;
 
-  // p(t) of the record, and its slope in Pa/s, 0 outside.
-  double RecordedPressure(double t_s) const {
-    if (t_s <= time_s.front()) return pressure_pa.front();
-    if (t_s >= time_s.back()) return pressure_pa.back();
-    return pressure_pa[PieceOf(t_s) - 1] + RecordedSlope(t_s) * (t_s - time_s[PieceOf(t_s) - 1]);
-  }
-  double RecordedSlope(double t_s) const {
-    if (t_s <= time_s.front() || t_s >= time_s.back()) return 0.0;
-    const std::size_t i = PieceOf(t_s);
-    return (pressure_pa[i] - pressure_pa[i - 1]) / (time_s[i] - time_s[i - 1]);
-  }
-
- private:
-  // The first point after an instant within the record.
-  std::size_t PieceOf(double t_s) const {
+  // p(t) of the record, and its slope, 0 outside.
+  struct Point {
+    double pressure_pa, slope_pa_per_s;
+  };
+  Point RecordedAt(double t_s) const {
+    if (t_s <= time_s.front()) return {pressure_pa.front(), 0.0};
+    if (t_s >= time_s.back()) return {pressure_pa.back(), 0.0};
     const auto next = std::upper_bound(time_s.begin(), time_s.end(), t_s);
-    return static_cast<std::size_t>(next - time_s.begin());
+    const auto i = static_cast<std::size_t>(next - time_s.begin());
+    const double slope = (pressure_pa[i] - pressure_pa[i - 1]) / (time_s[i] - time_s[i - 1]);
+    return {pressure_pa[i - 1] + slope * (t_s - time_s[i - 1]), slope};
   }
+  double RecordedPressure(double t_s) const { return RecordedAt(t_s).pressure_pa; }
 };
 
 }  // namespace plenum::model

@@ -210,9 +210,9 @@ template <class T>
 T System<T>::DeclaredSource(const T& t, std::span<const T> y) const {
   if (regulated_) return regulated_pa_;
   if (driven_) {
-    return ambient_pa_ + driven_factor_ * (Chain(t, driven_->RecordedPressure(ValueOf(t)),
-                                                 driven_->RecordedSlope(ValueOf(t))) -
-                                           ambient_pa_);
+    const DrivenSource::Point at = driven_->RecordedAt(ValueOf(t));
+    return ambient_pa_ +
+           driven_factor_ * (Chain(t, at.pressure_pa, at.slope_pa_per_s) - ambient_pa_);
   }
   return reservoir_ ? y[source_] : T(0.0);
 }
