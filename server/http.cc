@@ -72,7 +72,8 @@ Reply FaultReply(const httplib::Request& request, const std::exception_ptr& faul
                         "nothing was changed");
   if (store_fault == catalog::StoreFault::kOther)
     return ProblemReply(500, "a fault of the program; its log says more");
-  auto reply = ProblemReply(503, "another process holds the catalogue; nothing was changed");
+  auto reply = ProblemReply(
+      503, "the catalogue is being written by another for too long; nothing was changed");
   reply.headers.emplace_back("Retry-After", "5");
   return reply;
 }
