@@ -262,7 +262,20 @@ struct HttpService::Impl {
     if (large && !turn)
       return BusyReply("large_requests_max", kLargeMax, "other large requests are being worked on",
                        1);
-    return route.answer(call);
+    Reply reply = route.answer(call);
+    if (reply.stream && NeedsToken(options) && route.access != Access::kOpen)
+      reply.stream = WhileAuthorized(std::move(reply.stream), route.access, call);
+    return reply;
+  }
+
+  // A stream may be open for an hour: it ends when its token is revoked.
+  std::function<bool(const Write&)> WhileAuthorized(std::function<bool(const Write&)> stream,
+                                                    Access access, const Call& call) {
+    const auto given = call.header("Authorization");
+    const Header header = [given](const char*) { return given; };
+    return [this, stream = std::move(stream), access, header](const Write& write) {
+      return std::holds_alternative<Token>(Authorize(header, access, tokens)) && stream(write);
+    };
   }
 
   // A whole answer without httplib, for what never became a request.

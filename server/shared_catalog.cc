@@ -93,6 +93,7 @@ const catalog::Revision& SharedCatalog::RefreshHead() {
 const CatalogView& SharedCatalog::RefreshView() {
   // The whole revision counts: after a restore the same number may stand for other parts.
   if (!view_.parts || view_.revision != RefreshHead()) {
+    view_ = {};  // before the next takes as much memory
     auto [revision, parts] = store_.ListWithHead();
     view_ = {std::move(revision), std::move(parts)};
   }

@@ -147,6 +147,26 @@ TEST_F(WithTokens, ARevokedTokenEndsAtOnce) {
   EXPECT_FALSE(RevokeToken(file_, "none"));
 }
 
+// A stream ends with its token; a request that was admitted is answered.
+TEST_F(WithTokens, ARevokedTokenEndsItsStreams) {
+  const std::string writer = CreateToken(file_, "writer", Scope::kWrite);
+  const std::string reader = CreateToken(file_, "reader", Scope::kRead);
+  const httplib::Headers headers = {{"Authorization", "Bearer " + writer}};
+  const auto job = client_.Post("/v1/designs", headers, SlowToProve(120.0).dump(), kJson);
+  ASSERT_EQ(job->status, 202);
+  const std::string path = job->get_header_value("Location");
+  Raw stream(service_.port());
+  stream.Send("GET " + path + "/events HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer " +
+              reader + "\r\nConnection: close\r\n\r\n");
+  EXPECT_THAT(stream.Receive("event: progress"), HasSubstr("200 OK"));
+  for (const Token& token : ReadTokens(file_))
+    if (token.name == "reader") RevokeToken(file_, token.id);
+  EXPECT_THAT(stream.Receive(), testing::Not(HasSubstr("event: end")));  // closed by the service
+  const auto still = client_.Get(path, headers);
+  EXPECT_EQ(JsonOf(still->body)["status"], "running");
+  EXPECT_EQ(client_.Delete(path, headers)->status, 200);
+}
+
 TEST_F(WithTokens, TheFileHoldsNoTokens) {
   const std::string text = CreateToken(file_, "a", Scope::kRead);
   EXPECT_EQ(text.size(), 7u + 64u);
