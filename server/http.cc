@@ -30,6 +30,7 @@ std::string StatusLine(int status) {
 
 void Send(const Reply& reply, httplib::Response& response) {
   response.status = reply.status;
+  response.set_header("Accept-Ranges", "none");
   for (const auto& [name, value] : reply.headers) response.set_header(name.c_str(), value);
   if (reply.stream) {
     response.set_chunked_content_provider(

@@ -1,5 +1,6 @@
 #include "server/protocol.h"
 
+#include <strings.h>
 #include <sys/socket.h>
 
 #include <utility>
@@ -41,6 +42,19 @@ class RequestStream : public httplib::Stream {
   std::size_t read_ = 0;
 };
 
+// Answers are whole, which RFC 9110 allows (14.2); httplib would cut them under a status of 200.
+void DropRange(std::string& head) {
+  constexpr std::string_view kLineEnd = "\r\n", kName = "range:";
+  for (std::size_t at = head.find(kLineEnd); at != std::string::npos;) {
+    const std::size_t line = at + kLineEnd.size(), end = head.find(kLineEnd, line);
+    if (end != std::string::npos &&
+        strncasecmp(head.c_str() + line, kName.data(), kName.size()) == 0)
+      head.erase(line, end + kLineEnd.size() - line);
+    else
+      at = end;
+  }
+}
+
 // Runs what it is given at once: accepting a connection only hands it over.
 class AtOnce : public httplib::TaskQueue {
  public:
@@ -55,6 +69,7 @@ Protocol::Protocol() {
 }
 
 bool Protocol::Answer(Incoming request, Outgoing& out) {
+  DropRange(request.head);
   RequestStream stream(request, out);
   bool closed = request.is_last;
   const auto set_body = [&](httplib::Request& parsed) {
@@ -62,7 +77,6 @@ bool Protocol::Answer(Incoming request, Outgoing& out) {
     // "100 Continue" was said when the body was missing.
     parsed.headers.erase("Expect");
     parsed.headers.erase("Accept-Encoding");
-    parsed.headers.erase("Range");
   };
   return process_request(stream, request.is_last, closed, set_body) && !closed;
 }
