@@ -143,8 +143,9 @@ Json RenderResidual(const calibration::ResidualReport& residual) {
                       {"start_s", Number(phase.start_s)},
                       {"end_s", Number(phase.end_s)},
                       {"samples", phase.samples}});
-  return {{"white", residual.white},
-          {"independent_of_inputs", residual.independent_of_inputs},
+  const auto tested = [&](bool passed) { return residual.tested ? Json(passed) : Json(nullptr); };
+  return {{"white", tested(residual.white)},
+          {"independent_of_inputs", tested(residual.independent_of_inputs)},
           {"phases", std::move(phases)},
           {"portmanteau", Number(residual.portmanteau)},
           {"portmanteau_limit", Number(residual.portmanteau_limit)},

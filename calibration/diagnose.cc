@@ -17,6 +17,14 @@ namespace plenum::calibration {
 namespace {
 
 constexpr std::size_t kFinalSteps = 200'000;
+// Readings that threads simulate side by side, each with its derivatives: about 0.3 kB a reading.
+constexpr std::size_t kReadingsAtATime = 100'000;
+
+int ThreadsFor(const Dataset& dataset, int threads) {
+  std::size_t longest = 1;
+  for (const Run& run : dataset.runs) longest = std::max(longest, run.t_s.size());
+  return std::clamp(static_cast<int>(kReadingsAtATime / longest), 1, std::max(1, threads));
+}
 
 class Diagnosing {
  public:
@@ -27,6 +35,7 @@ class Diagnosing {
         observed_(Observe(dataset)),
         bench_{dataset, forward_, observed_, {}, {}, {}} {
     options_.cancelled = [this] { return Stopped(); };
+    options_.threads = ThreadsFor(dataset, options.threads);
     bench_.data.forward = &forward_;
     bench_.data.observed = &observed_;
     bench_.data.sizes = SizesOf(dataset);
@@ -34,7 +43,7 @@ class Diagnosing {
       (HeldOut(bench_, i) ? bench_.held_out : bench_.data.runs).push_back(i);
     bench_.tight.noise_share = 1e-3;
     bench_.tight.steps_max = kFinalSteps;
-    bench_.tight.threads = options.threads;
+    bench_.tight.threads = options_.threads;
     bench_.tight.cancelled = options_.cancelled;
   }
 
@@ -168,7 +177,7 @@ class Diagnosing {
       diagnosis_.discrepancy = std::move(learned.discrepancy);
       AddEstimates(bench_, learned.fit, diagnosis_);
       if (diagnosis_.discrepancy->learned) diagnosis_.effects.pop_back();
-    } else {
+    } else if (diagnosis_.verdict != Verdict::kUndecided) {
       AddEstimates(bench_, chosen.fit, diagnosis_);
     }
     diagnosis_.after = shown == base_ ? diagnosis_.before : after;
@@ -176,7 +185,6 @@ class Diagnosing {
     diagnosis_.after.holdout_rms_pa = evidence.after.holdout_rms_pa;
     diagnosis_.residual = evidence.after.residual;
     diagnosis_.unexplained_fraction = UnexplainedFraction(evidence.before, evidence.after);
-    if (diagnosis_.verdict == Verdict::kUndecided) diagnosis_.effects.clear();
     if (open) {
       diagnosis_.effects.clear();
       std::vector<TiedFit> fits;

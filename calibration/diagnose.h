@@ -17,11 +17,11 @@ struct DiagnoseOptions : SearchOptions {
   double time_limit_s = std::numeric_limits<double>::infinity();
 };
 
-// Cancelled or out of time before the verdict: kUndecided, no effects, the errors and candidates so
-// far. Later, the verdict stands, and a warning names what was left undone (a learned term, the
-// next experiment, held-out errors of candidates). Either way within a fraction of a second.
-// Without runs to hold out, the finalists are fitted again without each run in turn and judged by
-// the runs left out.
+// Cancelled or out of time before the verdict: kUndecided, no effects and estimates, the errors
+// and candidates so far, the residual untested. Later, the verdict stands, and a warning names what
+// was left undone (a learned term, the next experiment, held-out errors of candidates). Either way
+// within a fraction of a second. Without runs to hold out, the finalists are fitted again without
+// each run in turn and judged by the runs left out.
 Diagnosis Diagnose(const Dataset& dataset, const DiagnoseOptions& options);
 
 // What a known model makes of the runs: its effects and the factors on declared numbers stand; only

@@ -61,6 +61,7 @@ struct PhaseResidual {
 // Of measured − model after the best fit. Statistics with their limits, so that the judgement can
 // be checked.
 struct ResidualReport {
+  bool tested = false;  // for white and independent_of_inputs: there was time for it
   bool white = false;
   bool independent_of_inputs = false;
   double portmanteau = 0.0, portmanteau_limit = 0.0;
@@ -94,7 +95,10 @@ struct Discrepancy {
   std::vector<Place> places;
 };
 
-struct Series {  // of one run, for plots; gauge pressures are − ambient
+// Of one run, for plots; gauge pressures are − ambient. Of data sets with more than
+// kSeriesSamplesMax samples evenly chosen ones.
+inline constexpr std::size_t kSeriesSamplesMax = 20'000;
+struct Series {
   std::string run;
   bool held_out = false;
   std::vector<Phase> phase;

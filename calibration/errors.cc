@@ -107,7 +107,8 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
     for (const double r : PressureResidual(bench.dataset.runs[i], bench.observed[i], reading))
       squares.Add(r);
   }
-  leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()));
+  leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()), nullptr,
+                                      bench.tight.cancelled);
   leftover.rms_pa = squares.Rms();
   const double underread = std::sqrt(leftover.residual.underread);
   leftover.noise_pa = underread * NoiseOf(bench, bench.data.runs);

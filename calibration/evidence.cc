@@ -1,7 +1,10 @@
 #include "calibration/evidence.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <complex>
+#include <unsupported/Eigen/FFT>
 
 #include "calibration/thresholds.h"
 
@@ -10,21 +13,33 @@ namespace {
 
 constexpr std::size_t kReweighed = 6;
 
+// Σ e_i·e_{i−k} by lag k: the inverse transform of |ê|², with as many zeros behind e that no lag
+// wraps around.
+std::vector<double> Products(std::vector<double> e) {
+  const std::size_t lags = e.size();
+  e.resize(std::bit_ceil(2 * lags), 0.0);
+  Eigen::FFT<double> fft;
+  std::vector<std::complex<double>> spectrum;
+  fft.fwd(spectrum, e);
+  for (std::complex<double>& line : spectrum) line = std::norm(line);
+  std::vector<double> products;
+  fft.inv(products, spectrum);
+  products.resize(lags);
+  return products;
+}
+
 }  // namespace
 
 double MemoryOf(std::span<const std::vector<double>> series) {
-  const auto covariance = [&](std::size_t lag) {
-    double sum = 0.0;
-    for (const std::vector<double>& e : series)
-      for (std::size_t i = lag; i < e.size(); ++i) sum += e[i] * e[i - lag];
-    return sum;
-  };
-  std::size_t longest = 0;
-  for (const std::vector<double>& e : series) longest = std::max(longest, e.size());
-  const double variance = covariance(0);
+  std::vector<double> covariance;  // by lag, of all series
+  for (const std::vector<double>& e : series) {
+    const std::vector<double> products = Products(e);
+    covariance.resize(std::max(covariance.size(), products.size()), 0.0);
+    for (std::size_t lag = 0; lag < products.size(); ++lag) covariance[lag] += products[lag];
+  }
   double memory = 1.0;
-  for (std::size_t lag = 1; lag < longest; ++lag) {
-    const double share = covariance(lag) / variance;
+  for (std::size_t lag = 1; lag < covariance.size(); ++lag) {
+    const double share = covariance[lag] / covariance.front();
     if (!(share > 0.0)) break;
     memory += 2.0 * share;
   }

@@ -100,20 +100,28 @@ void AddCandidates(const Bench& bench, const SearchResult& search, const Holdout
 
 void AddSeries(const Bench& bench, const ModelState& before, const ModelState& after,
                Diagnosis& diagnosis) {
+  std::size_t samples = 0;
+  for (const Run& run : bench.dataset.runs) samples += run.t_s.size();
+  const std::size_t stride = (samples + kSeriesSamplesMax - 1) / kSeriesSamplesMax;
   diagnosis.series.resize(bench.dataset.runs.size());
   ForAll(bench.dataset.runs.size(), bench.tight.threads, [&](std::size_t i) {
     const Run& run = bench.dataset.runs[i];
     Series& series = diagnosis.series[i];
     series.run = run.id;
     series.held_out = HeldOut(bench, i);
-    series.t_s = run.t_s;
-    series.measured_pa = run.pressure_pa;
+    const auto chosen = [&](const std::vector<double>& all) {
+      std::vector<double> some;
+      for (std::size_t k = 0; k < all.size(); k += stride) some.push_back(all[k]);
+      return some;
+    };
+    series.t_s = chosen(run.t_s);
+    series.measured_pa = chosen(run.pressure_pa);
     const std::vector<PhaseSpan> phases = PhasesOf(run);
-    for (const double t_s : run.t_s) series.phase.push_back(phases[PhaseAt(phases, t_s)].phase);
+    for (const double t_s : series.t_s) series.phase.push_back(phases[PhaseAt(phases, t_s)].phase);
     const auto predict = [&](const ModelState& state) {
       std::vector<double> pressure_pa = Shown(bench, state, i).pressure_pa;
       pressure_pa.resize(run.t_s.size(), std::numeric_limits<double>::quiet_NaN());
-      return pressure_pa;
+      return chosen(pressure_pa);
     };
     series.declared_pa = predict(bench.forward.Declared());
     series.before_pa = predict(before);

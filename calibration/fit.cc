@@ -50,9 +50,12 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
   return state;
 }
 
-// Residuals of one run over all coordinates as one block. A step is asked for thrice at one point —
-// by the search along it, for its cost, and for the derivatives there — and simulated once. A run
-// that turned out stiff is taken to stay so: the explicit method is not tried again.
+// One run over all k coordinates as one block of k + 1 rows. The search needs of the residuals e
+// and their derivatives J only JᵀJ, Jᵀe and eᵀe, so that the rows are R of [J e] = Q·R, which has
+// the same products and none of the readings' number; without derivatives the one row |e|. A step
+// is asked for thrice at one point — by the search along it, for its cost, and for the derivatives
+// there — and simulated once. A run that turned out stiff is taken to stay so: the explicit method
+// is not tried again.
 class RunCost : public ceres::CostFunction {
  public:
   RunCost(const FitData& data, std::size_t run, const ModelState& start,
@@ -66,22 +69,22 @@ class RunCost : public ceres::CostFunction {
         scale_(std::sqrt(weight)) {
     for (const Coordinate& coordinate : coordinates) parameters_.push_back(coordinate.parameter);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(coordinates.size()));
-    set_num_residuals(static_cast<int>(Observed().rows()));
+    set_num_residuals(static_cast<int>(coordinates.size()) + 1);
   }
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
     const Eigen::Map<const Eigen::VectorXd> u(blocks[0], size());
     const bool derive = jacobians && jacobians[0];
+    Eigen::Map<Eigen::VectorXd> rows(residuals, num_residuals());
     if (known_.u.size() != size() || known_.u != u) {
-      if (!derive) return Evaluate(u.data(), residuals, nullptr);
+      if (!derive) return Evaluate(u.data(), rows);
       known_.u.resize(0);
-      known_.residuals.resize(num_residuals());
-      known_.jacobian.resize(num_residuals(), size());
-      if (!Evaluate(u.data(), known_.residuals.data(), &known_.jacobian)) return false;
+      if (!Derive(u.data(), known_.root)) return false;
       known_.u = u;
     }
-    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = known_.residuals;
-    if (derive) Eigen::Map<Matrix>(jacobians[0], num_residuals(), size()) = known_.jacobian;
+    rows = known_.root.rightCols<1>();
+    if (derive)
+      Eigen::Map<Matrix>(jacobians[0], num_residuals(), size()) = known_.root.leftCols(size());
     return true;
   }
 
@@ -91,32 +94,67 @@ class RunCost : public ceres::CostFunction {
   Eigen::Index size() const { return static_cast<Eigen::Index>(coordinates_.size()); }
   const ObservedRun& Observed() const { return (*data_.observed)[run_]; }
 
-  bool Evaluate(const double* u, double* residuals, Matrix* jacobian) const {
-    const ModelState state = StateAt(start_, coordinates_, u);
-    const Prediction prediction = data_.forward->Predict(
-        run_, state,
-        jacobian ? std::span<const Parameter>(parameters_) : std::span<const Parameter>(),
-        options_);
+  Prediction Predict(const double* u, std::span<const Parameter> parameters) const {
+    Prediction prediction =
+        data_.forward->Predict(run_, StateAt(start_, coordinates_, u), parameters, options_);
     if (prediction.stiff) options_.stiff = true;
+    return prediction;
+  }
+
+  std::vector<double> ResidualsOf(const Prediction& prediction) const {
+    std::vector<double> e(Observed().rows());
+    Residuals(data_.forward->dataset().runs[run_], Observed(), prediction.reading, e);
+    return e;
+  }
+
+  bool Evaluate(const double* u, Eigen::Map<Eigen::VectorXd> rows) const {
+    const Prediction prediction = Predict(u, {});
     if (prediction.status != model::SimulateStatus::kDone) return false;
-    const std::size_t rows = Observed().rows();
-    Residuals(data_.forward->dataset().runs[run_], Observed(), prediction.reading,
-              {residuals, rows});
-    Eigen::Map<Eigen::VectorXd>(residuals, static_cast<Eigen::Index>(rows)) *= scale_;
-    if (!jacobian) return true;
+    double squares = 0.0;
+    for (const double e : ResidualsOf(prediction)) squares += e * e;
+    rows.setZero();
+    rows[0] = scale_ * std::sqrt(squares);
+    return true;
+  }
+
+  // R, its last column that of the residuals.
+  bool Derive(const double* u, Eigen::MatrixXd& root) const {
+    Prediction prediction = Predict(u, parameters_);
+    if (prediction.status != model::SimulateStatus::kDone) return false;
     const std::vector<double> slopes =
         GridSlopes(data_.forward->dataset().runs[run_], Observed(), prediction.reading);
-    Eigen::VectorXd column(static_cast<Eigen::Index>(rows));
-    for (std::size_t j = 0; j < coordinates_.size(); ++j) {
-      Whitened(Observed(), prediction.derivatives[j], slopes, {column.data(), rows});
-      jacobian->col(static_cast<Eigen::Index>(j)) = scale_ * coordinates_[j].Slope(u[j]) * column;
+    std::vector<std::vector<double>> columns;
+    for (Reading& derivative : prediction.derivatives) {
+      Whitened(Observed(), derivative, slopes, columns.emplace_back(Observed().rows()));
+      derivative = {};  // a long run's take much memory
     }
-    return jacobian->allFinite();
+    columns.push_back(ResidualsOf(prediction));
+    Eigen::MatrixXd products(size() + 1, size() + 1);
+    for (Eigen::Index j = 0; j <= size(); ++j)
+      for (Eigen::Index i = 0; i <= j; ++i)
+        products(j, i) = scale_ * scale_ * SlopeOf(i, u) * SlopeOf(j, u) *
+                         Column(columns, i).dot(Column(columns, j));
+    if (!products.triangularView<Eigen::Lower>().toDenseMatrix().allFinite()) return false;
+    const Eigen::LDLT<Eigen::MatrixXd> factors(products);
+    const Eigen::MatrixXd half = Eigen::MatrixXd(factors.matrixL()) *
+                                 factors.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    root = (factors.transpositionsP().transpose() * half).transpose();
+    return true;
+  }
+
+  // Of the coordinate's number by u; the residuals' column has none.
+  double SlopeOf(Eigen::Index j, const double* u) const {
+    return j == size() ? 1.0 : coordinates_[static_cast<std::size_t>(j)].Slope(u[j]);
+  }
+  static Eigen::Map<const Eigen::VectorXd> Column(const std::vector<std::vector<double>>& columns,
+                                                  Eigen::Index j) {
+    const std::vector<double>& column = columns[static_cast<std::size_t>(j)];
+    return {column.data(), static_cast<Eigen::Index>(column.size())};
   }
 
   struct Known {
-    Eigen::VectorXd u, residuals;
-    Matrix jacobian;
+    Eigen::VectorXd u;
+    Eigen::MatrixXd root;
   };
 
   const FitData& data_;

@@ -177,16 +177,16 @@ class DirectionOf {
   model::Direction direction_;
 };
 
-Reading ReadingOf(const model::Response& response) {
+Reading ReadingOf(model::Response response) {
   Reading reading;
   if (response.groups.empty()) return reading;  // refused
-  const model::GroupResponse& group = response.groups.front();
-  reading.pressure_pa = group.reading_pa.empty() ? group.pressure_pa : group.reading_pa;
-  reading.channels = {.source_pressure_pa = response.source_pressure_pa,
-                      .inlet_pressure_pa = group.inlet_pressure_pa,
-                      .temperature_k = group.temperature_k,
-                      .volume_m3 = group.volume_m3,
-                      .flow_m3_per_s = group.flow_m3_per_s};
+  model::GroupResponse& group = response.groups.front();
+  reading.pressure_pa = std::move(group.reading_pa.empty() ? group.pressure_pa : group.reading_pa);
+  reading.channels = {.source_pressure_pa = std::move(response.source_pressure_pa),
+                      .inlet_pressure_pa = std::move(group.inlet_pressure_pa),
+                      .temperature_k = std::move(group.temperature_k),
+                      .volume_m3 = std::move(group.volume_m3),
+                      .flow_m3_per_s = std::move(group.flow_m3_per_s)};
   return reading;
 }
 
@@ -380,25 +380,24 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
     moved.push_back(j);
   }
   if (directions.empty()) {
-    const model::Response response = model::Simulate(rig, simulate);
+    model::Response response = model::Simulate(rig, simulate);
     prediction.status = response.status;
     prediction.detail = response.detail;
     prediction.stiff = response.stiff;
-    prediction.reading = ReadingOf(response);
+    prediction.reading = ReadingOf(std::move(response));
     FillTemperature(run, prediction.reading);
     prediction.derivatives.resize(parameters.size());
     return prediction;
   }
-  const model::SensitivityResponse result =
-      model::SimulateAlongDirections(rig, simulate, directions);
+  model::SensitivityResponse result = model::SimulateAlongDirections(rig, simulate, directions);
   prediction.status = result.response.status;
   prediction.detail = result.response.detail;
   prediction.stiff = result.response.stiff;
-  prediction.reading = ReadingOf(result.response);
+  prediction.reading = ReadingOf(std::move(result.response));
   FillTemperature(run, prediction.reading);
   prediction.derivatives.resize(parameters.size());
   for (std::size_t j = 0; j < result.derivatives.size(); ++j)
-    prediction.derivatives[moved[j]] = ReadingOf(result.derivatives[j]);
+    prediction.derivatives[moved[j]] = ReadingOf(std::move(result.derivatives[j]));
   return prediction;
 }
 

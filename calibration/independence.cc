@@ -108,7 +108,8 @@ struct Sums {
 
 }  // namespace
 
-Independence TestIndependence(const std::vector<ResidualSeries>& series) {
+Independence TestIndependence(const std::vector<ResidualSeries>& series,
+                              const std::function<bool()>& cancelled) {
   std::map<std::pair<std::string, std::string>, Sums> sums;
   double squares = 0.0, count = 0.0;
   for (const ResidualSeries& one : series) {
@@ -120,7 +121,9 @@ Independence TestIndependence(const std::vector<ResidualSeries>& series) {
       squares += value * value;
       count += 1.0;
     }
+    if (cancelled && cancelled()) return {};
     for (Function& function : FunctionsOf(run, one.model_pa)) {
+      if (cancelled && cancelled()) return {};
       for (std::size_t i = 0; i < e.size(); ++i)
         if (!std::isfinite(e[i])) function.values[i] = kMissing;
       const std::vector<double> u = Whitened(run.t_s, function.values, one.memory);

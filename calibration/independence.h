@@ -12,6 +12,7 @@
 #ifndef PLENUM_CALIBRATION_INDEPENDENCE_H_
 #define PLENUM_CALIBRATION_INDEPENDENCE_H_
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,9 @@ struct Independence {
   std::vector<InputCorrelation> inputs;  // largest first
 };
 
-Independence TestIndependence(const std::vector<ResidualSeries>& series);
+// Without inputs where `cancelled` says that nobody wants to know.
+Independence TestIndependence(const std::vector<ResidualSeries>& series,
+                              const std::function<bool()>& cancelled = {});
 
 }  // namespace plenum::calibration
 

@@ -98,22 +98,22 @@ double ThirdDifference(double rho, double share) {
 }
 
 NoiseMemory LikeliestMemory(std::span<const NoiseSeries> series,
-                            std::span<const NoiseMemory> allowed) {
+                            std::span<const NoiseMemory> allowed,
+                            const std::function<bool()>& cancelled) {
+  const auto misfit_of = [&](const NoiseMemory& memory) {
+    return cancelled && cancelled() ? 0.0 : Misfit(series, memory);
+  };
   NoiseMemory best;
   double least = std::numeric_limits<double>::infinity();
   for (const NoiseMemory& memory : allowed) {
-    const double misfit = Misfit(series, memory);
+    const double misfit = misfit_of(memory);
     if (misfit < least) best = memory, least = misfit;
   }
   if (best.theta_s == 0.0) return best;
   const double lowest = std::max(0.0, best.share - kShareAbout);
   const double highest = std::min(1.0, best.share + kShareAbout);
   const auto best_share = [&](double theta_s) {
-    return Minimise(
-        [&](double share) {
-          return Misfit(series, {theta_s, share});
-        },
-        lowest, highest);
+    return Minimise([&](double share) { return misfit_of({theta_s, share}); }, lowest, highest);
   };
   const double theta_s = Minimise([&](double at) { return best_share(at).value; },
                                   best.theta_s / kThetaAbout, best.theta_s * kThetaAbout)

@@ -9,6 +9,7 @@
 #ifndef PLENUM_CALIBRATION_NOISE_MEMORY_H_
 #define PLENUM_CALIBRATION_NOISE_MEMORY_H_
 
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -53,9 +54,11 @@ struct NoiseSeries {
 };
 
 // The likeliest memory of series of one sensor: of those allowed, and then about that one, within a
-// factor 1.3 of θ and 0.1 of the share. θ = 0 where none is allowed.
+// factor 1.3 of θ and 0.1 of the share. θ = 0 where none is allowed, and any where `cancelled` says
+// that nobody wants to know.
 NoiseMemory LikeliestMemory(std::span<const NoiseSeries> series,
-                            std::span<const NoiseMemory> allowed);
+                            std::span<const NoiseMemory> allowed,
+                            const std::function<bool()>& cancelled = {});
 
 }  // namespace plenum::calibration
 

@@ -69,7 +69,8 @@ void TestLackOfFit(const std::vector<FittedRun>& runs, int fitted_numbers, Resid
 
 // Gives the series the memory of their noise: where that is an estimate, the one that is likeliest
 // given what is left, among those that agree with the quiet readings.
-void GiveMemory(const std::vector<Noise>& noises, std::vector<ResidualSeries>& series) {
+void GiveMemory(const std::vector<Noise>& noises, const std::function<bool()>& cancelled,
+                std::vector<ResidualSeries>& series) {
   std::vector<NoiseSeries> estimated;
   const std::vector<NoiseMemory>* allowed = nullptr;
   for (std::size_t i = 0; i < series.size(); ++i) {
@@ -79,7 +80,7 @@ void GiveMemory(const std::vector<Noise>& noises, std::vector<ResidualSeries>& s
     allowed = &noises[i].memories;
   }
   if (!allowed) return;
-  const NoiseMemory memory = LikeliestMemory(estimated, *allowed);
+  const NoiseMemory memory = LikeliestMemory(estimated, *allowed, cancelled);
   for (std::size_t i = 0; i < series.size(); ++i)
     if (!noises[i].memories.empty()) series[i].memory = memory;
 }
@@ -115,15 +116,22 @@ Portmanteau TestWhite(const std::vector<ResidualSeries>& series) {
 }
 
 // Both tests of structure; where they were made before, with another memory, the milder one counts.
-void TestStructure(const std::vector<Noise>& noises, std::vector<ResidualSeries>& series,
-                   ResidualReport& report, std::vector<InputCorrelation>* by_input) {
-  GiveMemory(noises, series);
+void TestStructure(const std::vector<Noise>& noises, const std::function<bool()>& cancelled,
+                   std::vector<ResidualSeries>& series, ResidualReport& report,
+                   std::vector<InputCorrelation>* by_input) {
+  const auto stopped = [&] { return cancelled && cancelled(); };
+  report.tested = false;
+  if (stopped()) return;
+  GiveMemory(noises, cancelled, series);
+  if (stopped()) return;
   const Portmanteau white = TestWhite(series);
   if (white.statistic / white.limit < report.portmanteau / report.portmanteau_limit) {
     report.portmanteau = white.statistic;
     report.portmanteau_limit = white.limit;
   }
-  Independence independence = TestIndependence(series);
+  Independence independence = TestIndependence(series, cancelled);
+  if (stopped()) return;
+  report.tested = true;
   if (independence.statistic < report.cross) {
     report.cross = independence.statistic;
     report.cross_limit = independence.limit;
@@ -186,7 +194,8 @@ std::vector<PhaseResidual> ResidualByPhase(const Run& run, std::span<const doubl
 }
 
 ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_numbers,
-                               std::vector<InputCorrelation>* by_input) {
+                               std::vector<InputCorrelation>* by_input,
+                               const std::function<bool()>& cancelled) {
   ResidualReport report;
   report.portmanteau = report.cross = std::numeric_limits<double>::infinity();
   report.portmanteau_limit = report.cross_limit = 1.0;
@@ -199,12 +208,12 @@ ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_nu
       report.phases.push_back(std::move(phase));
   }
   TestLackOfFit(runs, fitted_numbers, report);
-  TestStructure(noises, series, report, by_input);
+  TestStructure(noises, cancelled, series, report, by_input);
   const auto hides = [](const Noise& noise) { return noise.staircase; };
   const bool structure = !report.white || !report.independent_of_inputs;
   if (structure && std::any_of(noises.begin(), noises.end(), hides)) {
     ReadMemories(series, noises);
-    TestStructure(noises, series, report, by_input);
+    TestStructure(noises, cancelled, series, report, by_input);
   }
   report.underread = Underread(noises, series);
   report.lack_of_fit_limit *= report.underread;

@@ -44,9 +44,11 @@ std::vector<PhaseResidual> ResidualByPhase(const Run& run, std::span<const doubl
 // Of all runs together, and white only if each run by itself is: the portmanteau reported is the
 // one furthest towards its limit. Where the noise's memory is an estimate, both tests of
 // structure take the likeliest one, given the residuals, that the readings' differences allow.
-// `by_input`, if asked, gets the statistic of every input.
+// `by_input`, if asked, gets the statistic of every input. Once `cancelled` says so, the tests of
+// structure are left out.
 ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_numbers,
-                               std::vector<InputCorrelation>* by_input = nullptr);
+                               std::vector<InputCorrelation>* by_input = nullptr,
+                               const std::function<bool()>& cancelled = {});
 
 }  // namespace plenum::calibration
 

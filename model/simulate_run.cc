@@ -8,7 +8,7 @@
 namespace plenum::model {
 namespace {
 
-constexpr std::size_t kStepsBetweenQuestions = 64;
+constexpr std::size_t kStepsBetweenQuestions = 64, kSamplesBetweenQuestions = 4096;
 // A valve counts as closed when it is this share of the tolerance away from equal pressures.
 constexpr double kSettledShare = 1e-3;
 // Steps at the border of stability after which CVODE is the better integrator.
@@ -35,9 +35,6 @@ Run<T, Stepper>::Run(const Rig& rig, const SimulateOptions& options, RunUntil un
       sample_(system_.size()),
       valves_(rig.groups.size()) {
   response_.groups.resize(rig.groups.size());
-  for (std::size_t i = 0; i < rig.groups.size(); ++i) {
-    response_.groups[i].name = rig.groups[i].name;
-  }
   if (!options.sample_times_s.empty()) {
     sample_count_ = options.sample_times_s.size();
   } else if (options.sample_hz > 0.0) {
@@ -45,6 +42,11 @@ Run<T, Stepper>::Run(const Rig& rig, const SimulateOptions& options, RunUntil un
         1 + static_cast<std::size_t>(std::ceil(options.end_s * options.sample_hz * (1.0 - 1e-12)));
   }
   response_.t_s.reserve(sample_count_);
+  if (system_.has_source()) response_.source_pressure_pa.reserve(sample_count_);
+  for (std::size_t i = 0; i < rig.groups.size(); ++i) {
+    response_.groups[i].name = rig.groups[i].name;
+    response_.groups[i].pressure_pa.reserve(sample_count_);
+  }
 }
 
 template <class T, class Stepper>
@@ -232,9 +234,7 @@ bool Run<T, Stepper>::StepsLeft() {
     return Fail(SimulateStatus::kTooManySteps,
                 "more than " + std::to_string(options_.steps_max) + " steps");
   }
-  if (response_.steps % kStepsBetweenQuestions == 0 && options_.cancelled && options_.cancelled()) {
-    return Fail(SimulateStatus::kCancelled, "cancelled");
-  }
+  if (Cancelled()) return Fail(SimulateStatus::kCancelled, "cancelled");
   const bool damped = options_.integrator == Integrator::kDamped;
   const auto held_down = static_cast<std::size_t>(damped ? stepper_.steps_in_fast_modes()
                                                          : stepper_.steps_at_stability());
@@ -245,6 +245,16 @@ bool Run<T, Stepper>::StepsLeft() {
     return Fail(SimulateStatus::kTooManySteps, "steps held down by stability");
   }
   return true;
+}
+
+template <class T, class Stepper>
+bool Run<T, Stepper>::Cancelled() {
+  const std::size_t samples = response_.t_s.size();
+  const bool due = response_.steps % kStepsBetweenQuestions == 0 ||
+                   samples >= samples_at_question_ + kSamplesBetweenQuestions;
+  if (!due || !options_.cancelled) return false;
+  samples_at_question_ = samples;
+  return options_.cancelled();
 }
 
 template <class T, class Stepper>

@@ -74,6 +74,7 @@ class Run {
   T NextBoundary() const;
   bool IntegrateTo(const T& boundary_s);
   bool StepsLeft();
+  bool Cancelled();
   bool AtRest() const;
   bool TakeStep(const T& boundary_s);
   bool TakeEvent(std::size_t event);  // whether the equations switch there
@@ -110,6 +111,7 @@ class Run {
   std::vector<Valve> valves_;
   ResponseOf<T> response_;
   std::size_t sample_count_ = 0;
+  std::size_t samples_at_question_ = 0;  // whether the run is cancelled
   bool demand_exceeds_ = false;  // the lines take more than pumps that hold the limit can deliver
   bool smooth_ = false;          // the last cut changed nothing at once
   bool stiff_ = false;

@@ -110,6 +110,7 @@ void Remove(const CatalogOptions& options) {
 void Import(const CatalogOptions& options) {
   const auto text = ReadText(options.file);
   auto store = OpenCatalog(options.catalog, Access::kWrite);
+  if (const auto wrong = CheckCsv(options.family, text); !wrong.empty()) Refuse(wrong);
   const auto result = ImportCsv(store, options.family, text, options.dry_run, CommandSignature());
   if (!result.errors.empty()) Refuse(result.errors);
   if (options.json) return Print(Dump(ToJson(result, options.dry_run)) + "\n");

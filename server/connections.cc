@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "server/limits.h"
 
@@ -99,6 +100,7 @@ struct Connections::Connection final : Outgoing {
   std::string out;
   std::size_t sent = 0;  // of out
   RequestFrame frame;
+  bool examined = false;             // the head of the request whose body is to come
   std::shared_ptr<void> large_turn;  // while the body is a large table
   bool broken = false;
   bool closing = false;     // after what is in `out`
@@ -111,8 +113,8 @@ struct Connections::Connection final : Outgoing {
   std::atomic<bool> evicted = false;  // had to make room
 };
 
-Connections::Connections(HandleRequest handle, RenderRefusal refuse)
-    : handle_(std::move(handle)), refuse_(std::move(refuse)) {
+Connections::Connections(HandleRequest handle, ExamineHead examine, RenderRefusal refuse)
+    : handle_(std::move(handle)), examine_(std::move(examine)), refuse_(std::move(refuse)) {
   RaiseFileLimit();
   epoll_ = epoll_create1(EPOLL_CLOEXEC);
   wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
@@ -236,23 +238,11 @@ Connections::Next Connections::ServeArrived(Connection& connection) {
     const State state = connection.frame.Look(connection.in);
     if (state == State::kRefused) return Refuse(connection, connection.frame.refusal());
     if (state == State::kHead) return Next::kRead;
-    if (connection.frame.is_large_import() && !connection.large_turn) {
-      connection.large_turn = large_imports_.Enter();
-      if (!connection.large_turn)
-        return Refuse(connection, {429, "large_imports_max", "another large table is under way"});
-      connection.in.reserve(connection.frame.size());
-    }
-    if (state == State::kBody) {
-      if (connection.frame.expects_continue() && connection.in.size() <= kHeadBytesMax) {
-        connection.Write("HTTP/1.1 100 Continue\r\n\r\n");
-        connection.Flush();
-      }
-      connection.Extend(TimeFor(connection.frame.size()));
-      return Next::kRead;
-    }
+    if (state == State::kBody) return AwaitBody(connection);
     Incoming request{connection.frame.TakeHead(connection.in),
                      connection.frame.TakeBody(connection.in), connection.peer, stopping_};
     connection.frame = {};
+    connection.examined = false;
     connection.closing = !handle_(std::move(request), connection) || stopping_;
     connection.large_turn.reset();
     connection.Await(TimeFor(connection.unsent()));
@@ -262,11 +252,38 @@ Connections::Next Connections::ServeArrived(Connection& connection) {
   return Next::kRead;
 }
 
+// Who may not send it is told before the body takes a place from others.
+Connections::Next Connections::AwaitBody(Connection& connection) {
+  const RequestFrame& frame = connection.frame;
+  const bool first = !std::exchange(connection.examined, true);
+  if (first) {
+    const std::string refusal =
+        examine_(connection.in.substr(0, frame.head_size()), connection.peer);
+    if (!refusal.empty()) return RefuseWith(connection, refusal);
+  }
+  if (frame.is_large_import() && !connection.large_turn) {
+    connection.large_turn = large_imports_.Enter();
+    if (!connection.large_turn)
+      return Refuse(connection, {429, "large_imports_max", "another large table is under way"});
+    connection.in.reserve(frame.size());
+  }
+  if (first && frame.expects_continue()) {
+    connection.Write("HTTP/1.1 100 Continue\r\n\r\n");
+    connection.Flush();
+  }
+  connection.Extend(TimeFor(frame.size()));
+  return Next::kRead;
+}
+
 Connections::Next Connections::Refuse(Connection& connection, const Refusal& refusal) {
+  return RefuseWith(connection, refuse_(refusal, connection.peer));
+}
+
+Connections::Next Connections::RefuseWith(Connection& connection, const std::string& answer) {
   connection.in = {};
   connection.large_turn.reset();
   connection.closing = true;
-  connection.Write(refuse_(refusal, connection.peer));
+  connection.Write(answer);
   connection.Await(TimeFor(connection.unsent()));
   return Send(connection);
 }

@@ -41,12 +41,14 @@ class Outgoing {
 
 // Answers a request; false: the connection is to be closed after the answer.
 using HandleRequest = std::function<bool(Incoming, Outgoing&)>;
+// The whole refusal, as text, of a request whose body is still to come; empty: let it come.
+using ExamineHead = std::function<std::string(const std::string& head, const std::string& peer)>;
 // The whole answer, as text, to what is no request that is served.
 using RenderRefusal = std::function<std::string(const Refusal&, const std::string& peer)>;
 
 class Connections {
  public:
-  Connections(HandleRequest handle, RenderRefusal refuse);
+  Connections(HandleRequest handle, ExamineHead examine, RenderRefusal refuse);
   ~Connections();
 
   void Start(int threads);
@@ -69,7 +71,9 @@ class Connections {
   Next Advance(Connection& connection);
   Next Receive(Connection& connection);
   Next ServeArrived(Connection& connection);
+  Next AwaitBody(Connection& connection);
   Next Refuse(Connection& connection, const Refusal& refusal);
+  Next RefuseWith(Connection& connection, const std::string& answer);
   Next Send(Connection& connection);
   Next AfterSending(Connection& connection);
   void Rearm(Connection& connection, Next next);
@@ -79,6 +83,7 @@ class Connections {
   void MakeRoom();
 
   const HandleRequest handle_;
+  const ExamineHead examine_;
   const RenderRefusal refuse_;
   int epoll_ = -1, wake_ = -1;
   std::atomic<bool> stopping_ = false;

@@ -69,9 +69,7 @@ Reply PostDesign(SharedCatalog& catalog, const JobsResource& designs, const Call
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
   const CatalogView view = catalog.View();
-  auto parsed = api::ParseRequirements(
-      std::get<api::Json>(json), *view.parts,
-      catalog.With([](const catalog::Store& store) { return store.Models(); }));
+  auto parsed = api::ParseRequirements(std::get<api::Json>(json), *view.parts, catalog.Models());
   if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
   if (validate_only) return JsonReply(200, {{"valid", true}});
   const auto signature = SignatureOf(call);

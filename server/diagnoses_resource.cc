@@ -16,6 +16,7 @@
 namespace plenum::server {
 namespace {
 
+constexpr std::chrono::seconds kSavePatience{60};
 constexpr const char* kModel = "model";
 constexpr const char* kSave = "save";
 constexpr const char* kTimeLimit = "time_limit_s";
@@ -104,15 +105,18 @@ void Save(SharedCatalog& catalog, const std::string& name, const std::string& wh
   if (!revision) return;
   const api::Json model = api::RenderModel(*revision);
   try {
-    answer["saved"] = catalog.With([&](catalog::Store& store) {
-      return api::RenderModelRevision(store.SaveModel(name, Dump(model), who), false);
-    });
+    answer["saved"] = catalog.With(
+        [&](catalog::Store& store) {
+          return api::RenderModelRevision(store.SaveModel(name, Dump(model), who), false);
+        },
+        kSavePatience);
   } catch (const catalog::StoreError& error) {
     std::fprintf(stderr, "model %s was not saved: %s\n", name.c_str(), error.what());
     answer["not_saved"] = {
-        {"detail", error.fault() == catalog::StoreFault::kBusy
-                       ? "another process holds the catalogue; POST name and model to /v1/models"
-                       : "the catalogue cannot be written; POST name and model to /v1/models"},
+        {"detail",
+         error.fault() == catalog::StoreFault::kBusy
+             ? "the catalogue is being written by another; POST name and model to /v1/models"
+             : "the catalogue cannot be written; POST name and model to /v1/models"},
         {"name", name},
         {"model", model}};
   }
@@ -163,13 +167,13 @@ Work DiagnosisWork(SharedCatalog& catalog) {
 Reply PostDiagnosis(SharedCatalog& catalog, const JobsResource& diagnoses, const Call& call) {
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
-  const auto models = catalog.With([](const catalog::Store& store) { return store.Models(); });
+  const auto models = catalog.Models();
   auto parsed = ReadRequest(call.body, models, std::move(std::get<api::Json>(json)));
   if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
   const auto signature = SignatureOf(call);
   if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
   const auto& request = std::get<Request>(parsed);
-  const auto head = catalog.With([](const catalog::Store& store) { return store.Head(); });
+  const auto head = catalog.Head();
   return StartJob(diagnoses, call,
                   OrderOf(call, std::get<catalog::Signature>(signature),
                           request.diagnosis.dataset.name, head, request.model));

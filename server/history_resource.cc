@@ -113,7 +113,7 @@ Reply UndoRevision(SharedCatalog& catalog, const Call& call) {
   if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
   const auto number = Whole(call.argument);
   if (!number) return NoRevision(call.argument);
-  const auto written = catalog.With([&](catalog::Store& store) {
+  const auto written = catalog.WithLong([&](catalog::Store& store) {
     return store.Undo(*number, std::get<catalog::Signature>(signature));
   });
   switch (written.status) {

@@ -1,6 +1,5 @@
 #include "server/http.h"
 
-#include <httplib.h>
 #include <malloc.h>
 #include <sys/socket.h>
 
@@ -13,6 +12,7 @@
 #include "server/designs_resource.h"
 #include "server/diagnoses_resource.h"
 #include "server/limits.h"
+#include "server/protocol.h"
 #include "server/request_log.h"
 #include "server/routes.h"
 
@@ -21,75 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kListenBacklog = 1024;
-
-// One request's bytes to read from and its connection to write to.
-class RequestStream : public httplib::Stream {
- public:
-  RequestStream(const Incoming& request, Outgoing& out) : request_(request), out_(out) {}
-
-  bool is_readable() const override { return read_ < request_.head.size(); }
-  bool is_writable() const override { return out_.Flush(); }
-  ssize_t read(char* to, std::size_t size) override {
-    const std::size_t n = request_.head.copy(to, size, read_);
-    read_ += n;
-    return static_cast<ssize_t>(n);
-  }
-  ssize_t write(const char* from, std::size_t size) override {
-    out_.Write({from, size});
-    return static_cast<ssize_t>(size);
-  }
-  void get_remote_ip_and_port(std::string& ip, int& port) const override {
-    ip = request_.peer;
-    port = 0;
-  }
-  void get_local_ip_and_port(std::string& ip, int& port) const override {
-    ip.clear();
-    port = 0;
-  }
-  socket_t socket() const override { return 0; }  // there is nothing to select on
-
- private:
-  const Incoming& request_;
-  Outgoing& out_;
-  std::size_t read_ = 0;
-};
-
-// httplib reads heads and writes answers; connections and bodies never reach it.
-class Protocol : public httplib::Server {
- public:
-  std::function<void(int socket)> admit;
-
-  // Answers one request; false when its connection is to be closed.
-  bool Answer(Incoming request, Outgoing& out) {
-    RequestStream stream(request, out);
-    bool closed = request.is_last;
-    const auto set_body = [&](httplib::Request& parsed) {
-      parsed.body = std::move(request.body);
-      // "100 Continue" was said when the body was missing.
-      parsed.headers.erase("Expect");
-      parsed.headers.erase("Accept-Encoding");
-      parsed.headers.erase("Range");
-    };
-    return process_request(stream, request.is_last, closed, set_body) && !closed;
-  }
-
-  // Beyond httplib's five connections that may wait to be accepted.
-  void WidenBacklog() { ::listen(svr_sock_, kListenBacklog); }
-
- private:
-  bool process_and_close_socket(socket_t socket) override {
-    admit(socket);
-    return true;
-  }
-};
-
-// Runs what it is given at once: accepting a connection only hands it over.
-class AtOnce : public httplib::TaskQueue {
- public:
-  void enqueue(std::function<void()> task) override { task(); }
-  void shutdown() override {}
-};
+constexpr int kGoOn = 204;  // of a head that is not refused: no refusal has this status
 
 std::string StatusLine(int status) {
   return "HTTP/1.1 " + std::to_string(status) + " " +
@@ -98,6 +30,7 @@ std::string StatusLine(int status) {
 
 void Send(const Reply& reply, httplib::Response& response) {
   response.status = reply.status;
+  response.set_header("Accept-Ranges", "none");
   for (const auto& [name, value] : reply.headers) response.set_header(name.c_str(), value);
   if (reply.stream) {
     response.set_chunked_content_provider(
@@ -140,7 +73,8 @@ Reply FaultReply(const httplib::Request& request, const std::exception_ptr& faul
                         "nothing was changed");
   if (store_fault == catalog::StoreFault::kOther)
     return ProblemReply(500, "a fault of the program; its log says more");
-  auto reply = ProblemReply(503, "another process holds the catalogue; nothing was changed");
+  auto reply = ProblemReply(
+      503, "the catalogue is being written by another for too long; nothing was changed");
   reply.headers.emplace_back("Retry-After", "5");
   return reply;
 }
@@ -166,6 +100,18 @@ bool NeedsToken(const HttpOptions& options) {
 }
 
 struct HttpService::Impl {
+  enum class Part { kHead, kWhole };
+  struct Asked {
+    const Route* route = nullptr;
+    std::string argument;
+  };
+  // An answer that goes nowhere yet.
+  struct Text final : Outgoing {
+    void Write(std::string_view bytes) override { text += bytes; }
+    bool Flush() override { return true; }
+    std::string text;
+  };
+
   // The port first: without it no job is begun.
   explicit Impl(const HttpOptions& given)
       : options(given),
@@ -179,6 +125,9 @@ struct HttpService::Impl {
                        [this] { MeasureConnections(); }})),
         connections([this](Incoming request,
                            Outgoing& out) { return protocol.Answer(std::move(request), out); },
+                    [this](const std::string& head, const std::string& peer) {
+                      return Examined(head, peer);
+                    },
                     [this](const Refusal& refusal, const std::string& peer) {
                       return RefusalText(refusal, peer);
                     }) {
@@ -211,30 +160,49 @@ struct HttpService::Impl {
 
   void SetHandlers() {
     protocol.admit = [this](int socket) { connections.Admit(socket); };
-    protocol.new_task_queue = [] { return new AtOnce; };
     protocol.set_keep_alive_timeout(kIdleSecondsMax);
     protocol.set_pre_routing_handler([this](const auto& request, auto& response) {
-      Answer(request, response);
+      Answer(request, response, Part::kWhole);
       return httplib::Server::HandlerResponse::Handled;
     });
-    // What httplib itself refuses has no body yet.
-    protocol.set_error_handler([](const auto&, auto& response) {
-      if (!response.body.empty() || response.content_provider_) return;
-      Send(ProblemReply(response.status, "the request could not be read"), response);
+    examiner.set_pre_routing_handler([this](const auto& request, auto& response) {
+      Answer(request, response, Part::kHead);
+      return httplib::Server::HandlerResponse::Handled;
     });
+    for (Protocol* reader : {&protocol, &examiner}) {
+      // What httplib itself refuses has no body yet.
+      reader->set_error_handler([](const auto&, auto& response) {
+        if (!response.body.empty() || response.content_provider_) return;
+        Send(ProblemReply(response.status, "the request could not be read"), response);
+      });
+    }
   }
 
-  void Answer(const httplib::Request& request, httplib::Response& response) {
+  // The refusal of a request whose body is still to come, if its head is enough for one.
+  std::string Examined(const std::string& head, const std::string& peer) {
+    Text answer;
+    examiner.Answer({head, "", peer, true}, answer);
+    return answer.text.starts_with("HTTP/1.1 " + std::to_string(kGoOn)) ? "" : answer.text;
+  }
+
+  void Answer(const httplib::Request& request, httplib::Response& response, Part part) {
     const auto start = Clock::now();
     const std::size_t bytes_in = request.body.size();
     std::string route = "none", user;
     Reply reply;
     try {
-      reply = Respond(request, route, user);
+      auto asked = Examine(request, route, user);
+      if (auto* refused = std::get_if<Reply>(&asked))
+        reply = *std::move(refused);
+      else if (part == Part::kHead)
+        reply.status = kGoOn;
+      else
+        reply = Run(std::get<Asked>(std::move(asked)), request, user);
     } catch (...) {
       reply = FaultReply(request, std::current_exception());
     }
     Send(reply, response);
+    if (reply.status == kGoOn && part == Part::kHead) return;
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     metrics.Count(request.method, route, reply.status, seconds, bytes_in, reply.body.size());
     if (bytes_in > kLargeBodyBytes) malloc_trim(0);
@@ -251,8 +219,10 @@ struct HttpService::Impl {
          {"seconds", api::Number(seconds)}});
   }
 
-  // Sets the pattern of the route that answers, and whose token was shown.
-  Reply Respond(const httplib::Request& request, std::string& route, std::string& user) {
+  // What a head asks for, or why it gets no answer. Sets the pattern of the route that it names,
+  // and whose token was shown.
+  std::variant<Asked, Reply> Examine(const httplib::Request& request, std::string& route,
+                                     std::string& user) {
     const Header header = HeadersOf(request);
     if (auto refused = RefuseForeign(header, options.allow_hosts)) return *std::move(refused);
     if (request.path.size() > kPathBytesMax)
@@ -275,8 +245,7 @@ struct HttpService::Impl {
         if (auto* refused = std::get_if<Reply>(&token)) return *std::move(refused);
         user = std::get<Token>(token).name;
       }
-      return Run(candidate,
-                 {std::move(argument), request.params, header, request.body, request.path, user});
+      return Asked{&candidate, std::move(argument)};
     }
     if (allowed.empty()) return ProblemReply(404, "there is no " + request.path);
     auto reply = ProblemReply(405, request.path + " takes " + allowed);
@@ -284,14 +253,30 @@ struct HttpService::Impl {
     return reply;
   }
 
-  Reply Run(const Route& route, const Call& call) {
+  Reply Run(const Asked& asked, const httplib::Request& request, const std::string& user) {
+    const Route& route = *asked.route;
+    const Call call{asked.argument, request.params, HeadersOf(request),
+                    request.body,   request.path,   user};
     const bool large = IsLarge(route, call);
     const auto turn =
         large ? large_requests.Enter(std::chrono::seconds(kLargeWaitSeconds)) : nullptr;
     if (large && !turn)
       return BusyReply("large_requests_max", kLargeMax, "other large requests are being worked on",
                        1);
-    return route.answer(call);
+    Reply reply = route.answer(call);
+    if (reply.stream && NeedsToken(options) && route.access != Access::kOpen)
+      reply.stream = WhileAuthorized(std::move(reply.stream), route.access, call);
+    return reply;
+  }
+
+  // A stream may be open for an hour: it ends when its token is revoked.
+  std::function<bool(const Write&)> WhileAuthorized(std::function<bool(const Write&)> stream,
+                                                    Access access, const Call& call) {
+    const auto given = call.header("Authorization");
+    const Header header = [given](const char*) { return given; };
+    return [this, stream = std::move(stream), access, header](const Write& write) {
+      return std::holds_alternative<Token>(Authorize(header, access, tokens)) && stream(write);
+    };
   }
 
   // A whole answer without httplib, for what never became a request.
@@ -327,6 +312,7 @@ struct HttpService::Impl {
 
   HttpOptions options;
   Protocol protocol;
+  Protocol examiner;  // of heads alone; takes no connections
   const int port;
   TokenKeeper tokens;
   Metrics metrics;

@@ -57,18 +57,17 @@ api::Errors FieldErrors(const std::vector<catalog::FieldError>& field_errors) {
   return errors;
 }
 
+// Once for the errors, so that nothing is written before all of it is known to be right, then again
+// as the parts are wanted: all at once would take many times the text.
+api::Errors CheckCsv(const std::string& family, std::string_view text) {
+  if (catalog::FindFamily(family) == nullptr)
+    return {{"/family", "must be one of " + FamilyNames() + ", not \"" + family + "\""}};
+  return ToErrors(catalog::ReadCsv(family, text, [](const catalog::Part&, int) {}));
+}
+
 CsvImport ImportCsv(catalog::Store& store, const std::string& family, std::string_view text,
                     bool dry_run, const catalog::Signature& by) {
   CsvImport result;
-  if (catalog::FindFamily(family) == nullptr) {
-    result.errors.push_back(
-        {"/family", "must be one of " + FamilyNames() + ", not \"" + family + "\""});
-    return result;
-  }
-  // Once for the errors, so that nothing is written before all of it is known to be right, then
-  // again as the parts are wanted: all at once would take many times the text.
-  result.errors = ToErrors(catalog::ReadCsv(family, text, [](const catalog::Part&, int) {}));
-  if (!result.errors.empty()) return result;
   const catalog::PartSource parts = [&](const catalog::TakeEach& take) {
     catalog::ReadCsv(family, text, [&](const catalog::Part& part, int) { take(part); });
   };

@@ -19,9 +19,13 @@ struct CsvImport {
   catalog::Revision revision;  // that holds the rows; of a dry run the one it was compared with
 };
 
-// Reads `text` as parts of `family` and writes them as a user's rows, all in one transaction. A row
-// that equals the stored one is left alone, so that an exported file goes back in without turning
-// seed rows into a user's. A dry run finds the same errors and the same plan and writes nothing.
+// What is wrong with `text` as parts of `family`. Needs no store.
+api::Errors CheckCsv(const std::string& family, std::string_view text);
+
+// Reads `text`, in which CheckCsv finds nothing wrong, as parts of `family` and writes them as a
+// user's rows, all in one transaction. A row that equals the stored one is left alone, so that an
+// exported file goes back in without turning seed rows into a user's. A dry run finds the same
+// errors and the same plan and writes nothing.
 CsvImport ImportCsv(catalog::Store& store, const std::string& family, std::string_view text,
                     bool dry_run, const catalog::Signature& by);
 

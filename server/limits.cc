@@ -25,6 +25,8 @@ api::Json RenderLimits(const JobOptions& jobs, const catalog::JobsKept& kept) {
                       {"import_rows_max", kImportRowsMax},
                       {"import_columns_max", catalog::kCsvColumnsMax},
                       {"import_cell_bytes_max", catalog::kCsvCellBytesMax},
+                      {"catalogue_waiting_max", kCatalogueWaitingMax},
+                      {"catalogue_wait_seconds", kCatalogueWaitSeconds},
                       {"connections_max", kConnectionsMax},
                       {"requests_at_a_time_max", kRequestThreads},
                       {"computing_max", kComputingMax},

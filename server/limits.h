@@ -38,6 +38,9 @@ inline constexpr int kLargeWaitSeconds = 10;
 inline constexpr std::size_t kImportBytesMax = 32 << 20;
 inline constexpr int kLargeImportsMax = 1;
 inline constexpr std::size_t kImportRowsMax = 150'000;
+// Requests and jobs that wait for their turn at the catalogue's file.
+inline constexpr int kCatalogueWaitingMax = 16;
+inline constexpr int kCatalogueWaitSeconds = 10;
 inline constexpr int kComputingMax = 8;  // simulations and maps at a time
 inline constexpr int kWaitingMax = 8;    // requests that wait for their job
 inline constexpr int kWaitSecondsMax = 300;

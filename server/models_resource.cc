@@ -18,9 +18,7 @@ api::Json Rendered(const std::vector<catalog::ModelRevision>& models) {
 }  // namespace
 
 Reply ListModels(SharedCatalog& catalog, const Call&) {
-  return JsonReply(
-      200, {{"models",
-             Rendered(catalog.With([](const catalog::Store& store) { return store.Models(); }))}});
+  return JsonReply(200, {{"models", Rendered(catalog.Models())}});
 }
 
 Reply GetModel(SharedCatalog& catalog, const Call& call) {

@@ -130,6 +130,13 @@ namespace {
 
 Reply GetNewest(SharedCatalog& catalog, const Call& call) {
   auto shown = catalog.replies().Find(catalog.Head(), call.argument);
+  if (const auto view = shown ? std::nullopt : catalog.ViewBeforeWrite()) {
+    const auto part =
+        std::lower_bound(view->parts->begin(), view->parts->end(), call.argument,
+                         [](const catalog::Part& one, const auto& id) { return one.id < id; });
+    if (part == view->parts->end() || part->id != call.argument) return NoPart(call.argument);
+    shown = std::make_shared<const Reply>(PartReply(200, *part, view->revision));
+  }
   if (!shown) {
     catalog.With([&](catalog::Store& store) {
       const auto revision = store.Head();
@@ -244,7 +251,10 @@ Reply ExportParts(SharedCatalog& catalog, const Call& call) {
   if (!family) errors.push_back({"/family", "is missing; one of " + FamilyNames()});
   CheckFamily(family, errors);
   if (!errors.empty()) return ProblemReply(422, errors);
-  const auto parts = catalog.With([&](auto& store) { return store.List(*family); });
+  const Parts all = catalog.Snapshot();
+  std::vector<catalog::Part> parts;
+  std::copy_if(all->begin(), all->end(), std::back_inserter(parts),
+               [&](const catalog::Part& part) { return part.family == *family; });
   return {200,
           "text/csv; charset=utf-8; header=present",
           catalog::WriteCsv(*family, parts),
@@ -272,7 +282,9 @@ Reply ImportParts(SharedCatalog& catalog, const Call& call) {
   if (auto refused = RefuseTable(call.body)) return *refused;
   const auto signature = SignatureOf(call);
   if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
-  const auto result = catalog.With([&](auto& store) {
+  auto wrong = CheckCsv(*family, call.body);  // without the store: others may have it meanwhile
+  if (!wrong.empty()) return ProblemReply(422, wrong);
+  const auto result = catalog.WithLong([&](catalog::Store& store) {
     return ImportCsv(store, *family, call.body, dry_run, std::get<catalog::Signature>(signature));
   });
   if (!result.errors.empty()) return ProblemReply(422, result.errors);

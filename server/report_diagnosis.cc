@@ -268,7 +268,9 @@ std::string PhasePlot(const Json& answer, double noise_kpa) {
 
 std::string Residual(const Json& answer, double noise_kpa) {
   const Json& residual = answer.at("residual");
-  const auto verdict = [](const Json& good) { return std::string(good == true ? "yes" : "no"); };
+  const auto verdict = [](const Json& good) {
+    return std::string(good.is_null() ? "not tested" : good == true ? "yes" : "no");
+  };
   const std::vector<std::vector<std::string>> tests = {
       {"white: no memory (Ljung–Box over 20 lags)", verdict(residual.at("white")),
        Short(residual.at("portmanteau")), Short(residual.at("portmanteau_limit"))},

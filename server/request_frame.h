@@ -27,6 +27,8 @@ class RequestFrame {
 
   // How many bytes of the request are known of: all of a complete one.
   std::size_t size() const { return end_; }
+  // Of the line and headers with the empty line, once they have come.
+  std::size_t head_size() const { return head_size_; }
   // Whether the body is larger than all but a table of parts may be: kBody or kComplete.
   bool is_large_import() const;
   // Takes a complete request from the beginning of `bytes`: the line and headers with the empty

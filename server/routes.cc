@@ -84,8 +84,7 @@ std::vector<Route> Routes(const Services& services) {
        Access::kRead,
        [&](const Call& call) {
          return AnswerAtOnce(call, [&](const api::Json& request) {
-           const auto models = catalog.With([](const auto& store) { return store.Models(); });
-           return api::RunEvaluation(request, *catalog.Snapshot(), models);
+           return api::RunEvaluation(request, *catalog.Snapshot(), catalog.Models());
          });
        }},
       {"POST", "/v1/maps", "map/1 in, rise time, fall time and frequency over the grid out",

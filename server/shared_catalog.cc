@@ -8,6 +8,9 @@
 namespace plenum::server {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kLookEvery = std::chrono::milliseconds(2);
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 // Two writes within one tick of the file system's clock leave the same time.
 constexpr std::int64_t kTickNs = 50'000'000;
@@ -34,7 +37,49 @@ SharedCatalog::FileState SharedCatalog::StateOfFile() const {
   return {file.st_ino, file.st_size, file.st_mtim.tv_sec * kNsPerS + file.st_mtim.tv_nsec};
 }
 
-const catalog::Revision& SharedCatalog::HeadLocked() {
+SharedCatalog::Turn SharedCatalog::AwaitTurn(std::chrono::seconds patience) {
+  Turn turn{waiting_.Enter(), std::unique_lock(mutex_, std::defer_lock)};
+  if (!turn.place || !turn.lock.try_lock_for(patience))
+    throw catalog::StoreError("another request writes for long", catalog::StoreFault::kBusy);
+  return turn;
+}
+
+std::shared_ptr<const SharedCatalog::Published> SharedCatalog::WhatIsPublished() const {
+  const std::lock_guard lock(published_mutex_);
+  return published_;
+}
+
+std::optional<CatalogView> SharedCatalog::ViewBeforeWrite() const {
+  const auto published = WhatIsPublished();
+  return published ? std::optional(published->view) : std::nullopt;
+}
+
+SharedCatalog::Publication::Publication(SharedCatalog& catalog) : catalog_(catalog) {
+  auto published = std::make_shared<const Published>(
+      Published{catalog_.RefreshView(), catalog_.store_.Models()});
+  const std::lock_guard lock(catalog_.published_mutex_);
+  catalog_.published_ = std::move(published);
+}
+
+SharedCatalog::Publication::~Publication() {
+  const std::lock_guard lock(catalog_.published_mutex_);
+  catalog_.published_ = nullptr;
+}
+
+// `ask` with the store when its turn comes, or `look` at what a long write has published.
+template <typename Ask, typename Look>
+auto SharedCatalog::AskOrLook(Ask ask, Look look) {
+  std::unique_lock lock(mutex_, std::defer_lock);
+  const auto until = Clock::now() + std::chrono::seconds(kCatalogueWaitSeconds);
+  while (!lock.try_lock_for(kLookEvery)) {
+    if (const auto published = WhatIsPublished()) return look(*published);
+    if (Clock::now() > until)
+      throw catalog::StoreError("another request writes for long", catalog::StoreFault::kBusy);
+  }
+  return ask();
+}
+
+const catalog::Revision& SharedCatalog::RefreshHead() {
   const FileState state = StateOfFile();
   const bool settled = NowNs() - state.written_ns > kTickNs;
   if (!head_ || !settled || state != head_state_) {
@@ -45,27 +90,38 @@ const catalog::Revision& SharedCatalog::HeadLocked() {
   return *head_;
 }
 
-catalog::Revision SharedCatalog::Head() {
-  const std::lock_guard lock(mutex_);
-  return HeadLocked();
-}
-
-CatalogView SharedCatalog::View() {
-  const std::lock_guard lock(mutex_);
+const CatalogView& SharedCatalog::RefreshView() {
   // The whole revision counts: after a restore the same number may stand for other parts.
-  if (!view_.parts || view_.revision != HeadLocked()) {
+  if (!view_.parts || view_.revision != RefreshHead()) {
+    view_ = {};  // before the next takes as much memory
     auto [revision, parts] = store_.ListWithHead();
     view_ = {std::move(revision), std::move(parts)};
   }
   return view_;
 }
 
+catalog::Revision SharedCatalog::Head() {
+  return AskOrLook([this] { return catalog::Revision(RefreshHead()); },
+                   [](const Published& published) { return published.view.revision; });
+}
+
+CatalogView SharedCatalog::View() {
+  return AskOrLook([this] { return CatalogView(RefreshView()); },
+                   [](const Published& published) { return published.view; });
+}
+
+std::vector<catalog::ModelRevision> SharedCatalog::Models() {
+  return AskOrLook([this] { return store_.Models(); },
+                   [](const Published& published) { return published.models; });
+}
+
 std::optional<CatalogView> SharedCatalog::ViewAt(std::int64_t revision) {
   if (auto view = View(); view.revision.number == revision) return view;
-  const std::lock_guard lock(mutex_);
-  const auto found = store_.FindRevision(revision);
-  if (!found) return std::nullopt;
-  return CatalogView{*found, store_.ListAt(revision)};
+  return With([&](const catalog::Store& store) -> std::optional<CatalogView> {
+    const auto found = store.FindRevision(revision);
+    if (!found) return std::nullopt;
+    return CatalogView{*found, store.ListAt(revision)};
+  });
 }
 
 }  // namespace plenum::server

@@ -15,7 +15,10 @@ namespace {
 using api::Json;
 using Align = Table::Align;
 
-std::string YesNo(const Json& flag) { return flag == true ? "yes" : "no"; }
+// Null: there was no time for the test.
+std::string YesNo(const Json& flag) {
+  return flag.is_null() ? "not tested" : flag == true ? "yes" : "no";
+}
 
 std::string Percent(const Json& share) {
   return share.is_number() ? fmt::format("{:.0f} %", 100.0 * share.get<double>()) : "–";

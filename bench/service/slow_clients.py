@@ -9,11 +9,12 @@ status 1 if an honest one failed or waited more than a second.
 """
 import http.client, os, shutil, signal, socket, ssl, subprocess, sys, tempfile, threading, time
 
-HOST = "plenum.example.org"
+import front
+
+HOST = front.HOST
 binary, catalog = sys.argv[1:3]
 count = int(sys.argv[3]) if len(sys.argv) > 3 else 200
 behind_nginx = "--nginx" in sys.argv
-root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 folder = tempfile.mkdtemp()
 catalog = shutil.copy(catalog, folder)
 arguments = [binary, "serve", "--port", "0", "--no-log", "--catalog", catalog]
@@ -27,28 +28,6 @@ service = subprocess.Popen(arguments, stderr=subprocess.PIPE, text=True)
 port = service_port = int(service.stderr.readline().rsplit(":", 1)[1].strip("/\n"))
 tls = ssl.create_default_context()
 tls.check_hostname, tls.verify_mode = False, ssl.CERT_NONE
-
-
-def start_nginx():
-    subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "1",
-                    "-subj", f"/CN={HOST}", "-keyout", f"{folder}/privkey.pem",
-                    "-out", f"{folder}/fullchain.pem"], check=True, stderr=subprocess.DEVNULL)
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        free = probe.getsockname()[1]
-    with open(f"{root}/deploy/nginx.conf") as file:
-        text = file.read()
-    for old, new in (("listen 443", f"listen 127.0.0.1:{free}"), ("/etc/ssl/plenum", folder),
-                     ("127.0.0.1:8080", f"127.0.0.1:{service_port}"), ("/var/log/nginx", folder),
-                     ("/run/nginx.pid", f"{folder}/nginx.pid")):
-        assert old in text, old
-        text = text.replace(old, new)
-    with open(f"{folder}/nginx.conf", "w") as file:
-        file.write(text)
-    subprocess.run(["nginx", "-t", "-q", "-c", f"{folder}/nginx.conf"], check=True)
-    nginx = subprocess.Popen(["nginx", "-c", f"{folder}/nginx.conf", "-g", "daemon off;"])
-    time.sleep(1)
-    return nginx, free
 
 
 def connect():
@@ -66,7 +45,7 @@ SLOW = [
     (f"POST /v1/designs HTTP/1.1\r\n{authorized()}Content-Length: 5000\r\n\r\n".encode(), b" "),
     (f"GET /v1/parts?limit=150 HTTP/1.1\r\n{authorized()}\r\n".encode() * 3, b""),
 ]
-nginx, port = start_nginx() if behind_nginx else (None, port)
+nginx, port = front.start(folder, service_port) if behind_nginx else (None, port)
 slow, refused, over = [], [0], threading.Event()
 
 

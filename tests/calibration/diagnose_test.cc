@@ -101,6 +101,34 @@ TEST(Diagnose, OutOfTimeNamesNothing) {
   EXPECT_TRUE(d.effects.empty());
   EXPECT_GT(d.declared.rms_pa, 0.0);
   EXPECT_LT(d.declared.rms_pa, 1e5);
+  EXPECT_FALSE(d.residual.tested);
+}
+
+TEST(Diagnose, SeriesOfLongRecordsAreChosenEvenly) {
+  Dataset dataset = MeasuredBench({}, 25);
+  for (calibration::Run& run : dataset.runs) {
+    run.valve.clear();  // a closed chamber
+    run.t_s.clear();
+    run.pressure_pa = test::WhiteNoise(7, 12'000, 100.0);
+    for (int i = 0; i < 12'000; ++i) run.t_s.push_back(5.0 * i / 12'000);
+    for (double& pressure_pa : run.pressure_pa) pressure_pa += 1e5;
+  }
+  DiagnoseOptions options;
+  std::atomic<bool> fitted = false;
+  options.progress = [&](double, const std::string& what) { fitted = what != "base model"; };
+  options.cancelled = [&] { return fitted.load(); };
+  const Diagnosis d = Diagnose(dataset, options);
+  EXPECT_EQ(d.verdict, Verdict::kUndecided);
+  ASSERT_EQ(d.series.size(), 4u);
+  for (const Series& series : d.series) {
+    ASSERT_EQ(series.t_s.size(), 4'000u);
+    for (const auto* list :
+         {&series.measured_pa, &series.declared_pa, &series.before_pa, &series.after_pa})
+      EXPECT_EQ(list->size(), 4'000u);
+    EXPECT_EQ(series.phase.size(), 4'000u);
+    EXPECT_DOUBLE_EQ(series.t_s[7], 5.0 * 21 / 12'000);
+    EXPECT_EQ(series.measured_pa[7], dataset.runs[0].pressure_pa[21]);
+  }
 }
 
 // Stopped at any instant: never an effect by name before the search is through, never a number that

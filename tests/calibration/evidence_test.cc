@@ -31,6 +31,27 @@ TEST(Evidence, RepeatedReadingsAddNothing) {
   EXPECT_NEAR(MemoryOf(series), 5.0, 1.0);
 }
 
+// Against the sums themselves, over series of different lengths.
+TEST(Evidence, MemoryIsThatOfTheProductsByLag) {
+  std::mt19937_64 random(9);
+  std::normal_distribution<double> normal;
+  std::vector<std::vector<double>> series(3);
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    double x = 0.0;
+    for (std::size_t i = 0; i < 1 + 150 * k; ++i) series[k].push_back(x = 0.8 * x + normal(random));
+  }
+  const auto product = [&](std::size_t lag) {
+    double sum = 0.0;
+    for (const std::vector<double>& e : series)
+      for (std::size_t i = lag; i < e.size(); ++i) sum += e[i] * e[i - lag];
+    return sum;
+  };
+  double expected = 1.0;
+  for (std::size_t lag = 1; product(lag) > 0.0; ++lag) expected += 2.0 * product(lag) / product(0);
+  EXPECT_GT(expected, 3.0);
+  EXPECT_NEAR(MemoryOf(series), expected, 1e-9);
+}
+
 Contender With(std::vector<const model::EffectSpec*> effects, double chi2) {
   Contender contender{std::move(effects), {}};
   contender.fit.status = FitStatus::kConverged;

@@ -320,6 +320,24 @@ TEST(Residual, NoReadingsGiveNoAlarmAndNoCrash) {
   EXPECT_EQ(AssessResiduals({}, 0).phases.size(), 0u);
 }
 
+// Stopped at the first question or at a later one: no judgement, but what is left by phase.
+TEST(Residual, AStopLeavesTheTestsOut) {
+  const std::vector<double> even = EvenTimes(300, 0.02);
+  Case made = MakeCase(even, WhiteNoise(3, even.size(), kSigmaPa));
+  made.fitted.run = &made.run;
+  EXPECT_TRUE(Assess(made).tested);
+  for (const int allowed : {0, 1, 2, 5}) {
+    int asked = 0;
+    const ResidualReport report =
+        AssessResiduals({made.fitted}, 0, nullptr, [&] { return ++asked > allowed; });
+    EXPECT_FALSE(report.tested) << allowed;
+    EXPECT_FALSE(report.white && report.independent_of_inputs) << allowed;
+    EXPECT_EQ(report.phases.size(), Assess(made).phases.size());
+    EXPECT_EQ(report.phases.front().rms_pa, Assess(made).phases.front().rms_pa);
+    EXPECT_GT(report.lack_of_fit, 0.5);
+  }
+}
+
 TEST(Whiteness, OneRunAmongManyMayNotHide) {
   std::vector<double> even = EvenTimes(300, 0.02);
   std::vector<Case> cases;

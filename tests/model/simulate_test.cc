@@ -193,6 +193,15 @@ TEST(Simulate, StopsWhenAskedAndWhenStepsRunOut) {
   EXPECT_EQ(r.status, SimulateStatus::kTooManySteps);
   EXPECT_THAT(r.detail, ::testing::HasSubstr("20 steps"));
   EXPECT_EQ(r.steps, 20u);
+
+  // Many samples a step are work, too.
+  options = Until(500.0, 2000.0);
+  asked = 0;
+  options.cancelled = [&] { return ++asked > 3; };
+  r = Simulate(rig, options);
+  EXPECT_EQ(r.status, SimulateStatus::kCancelled);
+  EXPECT_LT(r.steps, 3u * 64u);
+  EXPECT_LT(r.t_s.size(), 100'000u);
 }
 
 TEST(Simulate, NeverReachedIsInfinite) {

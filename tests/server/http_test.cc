@@ -380,6 +380,16 @@ TEST_F(Http, DesignJobsCanBeFollowedAndCancelled) {
   ExpectProblem(client_->Get("/v1/designs/none/events"), 404);
 }
 
+TEST_F(Http, AnswersAreWholeWhateverRangeIsAskedFor) {
+  const std::string whole = client_->Get("/v1/limits")->body;
+  for (const char* range : {"bytes=0-9", "bytes=9-5", "bytes=-3", "items=1-2", "bytes=0-1,4-5"}) {
+    const auto answer = client_->Get("/v1/limits", {{"Range", range}});
+    EXPECT_EQ(answer->status, 200) << range;
+    EXPECT_EQ(answer->body, whole) << range;
+  }
+  EXPECT_EQ(client_->Head("/v1/limits")->get_header_value("Accept-Ranges"), "none");
+}
+
 TEST_F(Http, ServesWhileConnectionsIdle) {
   // A client may hold some connections without others being starved.
   std::vector<std::unique_ptr<httplib::Client>> clients;

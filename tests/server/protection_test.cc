@@ -93,6 +93,51 @@ TEST_F(WithTokens, ScopesTellReadingFromWriting) {
   EXPECT_EQ(JsonOf(history->body)["history"][0]["revision"]["who"], "writer");
 }
 
+// A body that is announced is not waited for where the head is enough for a refusal, and takes no
+// place from others.
+TEST_F(WithTokens, TheHeadIsJudgedBeforeTheBody) {
+  const std::string reader = CreateToken(file_, "reader", Scope::kRead);
+  const std::string writer = CreateToken(file_, "writer", Scope::kWrite);
+  const auto head = [](const std::string& what, const std::string& token,
+                       const std::string& more = "Host: plenum.example\r\n") {
+    return what + " HTTP/1.1\r\n" + more +
+           (token.empty() ? "" : "Authorization: Bearer " + token + "\r\n") +
+           "Content-Length: 20000000\r\nExpect: 100-continue\r\n\r\n";
+  };
+  const std::string import = "POST /v1/parts/import?family=tubing";
+  std::vector<std::unique_ptr<Raw>> waiting;  // all open at once
+  const auto status = [&](const std::string& bytes) {
+    waiting.push_back(std::make_unique<Raw>(service_.port()));
+    waiting.back()->Send(bytes);
+    return waiting.back()->Receive("\r\n\r\n").substr(9, 3);
+  };
+  EXPECT_EQ(status(head(import, "")), "401");
+  EXPECT_EQ(status(head(import, "plenum_0")), "401");
+  EXPECT_EQ(status(head(import, reader)), "403");
+  EXPECT_EQ(status(head(import, writer, "Host: rebound.example\r\n")), "403");
+  EXPECT_EQ(status(head(import, writer, "Host: localhost\r\nOrigin: http://evil.example\r\n")),
+            "403");
+  EXPECT_EQ(status(head(import, writer, "")), "400");
+  EXPECT_EQ(status(head(import, writer, "Host: localhost\r\nContent-Encoding: gzip\r\n")), "415");
+  EXPECT_EQ(status(head(import, writer)), "100");
+  EXPECT_EQ(status(head(import, writer)), "429");
+
+  // The same for smaller bodies of every route.
+  const auto announced = [&](const std::string& what, const std::string& token) {
+    return what + " HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer " + token +
+           "\r\nContent-Length: 100\r\nExpect: 100-continue\r\n\r\n";
+  };
+  for (const char* route :
+       {"POST /v1/designs", "POST /v1/diagnoses", "POST /v1/simulations", "POST /v1/evaluations",
+        "POST /v1/maps", "POST /v1/parts", "PUT /v1/parts/x", "DELETE /v1/parts/x",
+        "POST /v1/models", "POST /v1/revisions/1/undo", "GET /v1/parts"}) {
+    EXPECT_EQ(status(announced(route, "none")), "401") << route;
+    EXPECT_EQ(status(announced(route, writer)), "100") << route;
+  }
+  EXPECT_EQ(status(announced("POST /v1/nothing", writer)), "404");
+  EXPECT_EQ(status(announced("PATCH /v1/parts/x", writer)), "405");
+}
+
 TEST_F(WithTokens, ARevokedTokenEndsAtOnce) {
   const std::string text = CreateToken(file_, "a", Scope::kRead);
   CreateToken(file_, "b", Scope::kRead);
@@ -100,6 +145,26 @@ TEST_F(WithTokens, ARevokedTokenEndsAtOnce) {
   EXPECT_TRUE(RevokeToken(file_, ReadTokens(file_).front().id));
   EXPECT_EQ(Get("/v1", text), 401);
   EXPECT_FALSE(RevokeToken(file_, "none"));
+}
+
+// A stream ends with its token; a request that was admitted is answered.
+TEST_F(WithTokens, ARevokedTokenEndsItsStreams) {
+  const std::string writer = CreateToken(file_, "writer", Scope::kWrite);
+  const std::string reader = CreateToken(file_, "reader", Scope::kRead);
+  const httplib::Headers headers = {{"Authorization", "Bearer " + writer}};
+  const auto job = client_.Post("/v1/designs", headers, SlowToProve(120.0).dump(), kJson);
+  ASSERT_EQ(job->status, 202);
+  const std::string path = job->get_header_value("Location");
+  Raw stream(service_.port());
+  stream.Send("GET " + path + "/events HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer " +
+              reader + "\r\nConnection: close\r\n\r\n");
+  EXPECT_THAT(stream.Receive("event: progress"), HasSubstr("200 OK"));
+  for (const Token& token : ReadTokens(file_))
+    if (token.name == "reader") RevokeToken(file_, token.id);
+  EXPECT_THAT(stream.Receive(), testing::Not(HasSubstr("event: end")));  // closed by the service
+  const auto still = client_.Get(path, headers);
+  EXPECT_EQ(JsonOf(still->body)["status"], "running");
+  EXPECT_EQ(client_.Delete(path, headers)->status, 200);
 }
 
 TEST_F(WithTokens, TheFileHoldsNoTokens) {
