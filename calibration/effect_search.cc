@@ -51,6 +51,10 @@ class Search {
     return Finish(size);
   }
 
+  // In a single run a clock that is off and a stroke that is late are one. The effect claims more:
+  // it must do better than the clock by this.
+  double EffectAhead() const { return sets_.data.runs.size() == 1u ? kTieOneRun : 0.0; }
+
   void UseClocks() {
     sets_.data.clocks = true;
     sets_.list.clear();
@@ -85,7 +89,7 @@ class Search {
       const std::optional<std::size_t> best = sets_.Best(size);
       const double best_bic = best ? sets_[*best].fit.bic : kNever;
       const double chosen_bic = sets_[chosen].fit.bic;
-      if (clocks_bic < std::min(best_bic, chosen_bic) - kClock) return {};
+      if (clocks_bic < std::min(best_bic + EffectAhead(), chosen_bic) - kClock) return {};
       if (!(best_bic < chosen_bic - kAccept)) break;
       chosen = *best;
     }
@@ -211,7 +215,7 @@ class Search {
     const bool rivalled =
         std::any_of(sets_.list.begin(), sets_.list.end(), [&](const Contender& other) {
           return other.effects.size() == from.effects.size() + 1 && other.fit.Usable() &&
-                 Contains(other, from) && other.fit.bic < bic;
+                 Contains(other, from) && other.fit.bic < bic - EffectAhead();
         });
     return rivalled ? bic : kClocksAreAll;
   }
