@@ -47,6 +47,9 @@ class Search {
     if (size > 1 && sets_.LeftShare(sets_[*chosen]) < kEstablished && !sets_.Cancelled()) {
       Shrink(set);
       Exchange(set);
+      // An exchange may have come to an optimum that a smaller set missed.
+      const EffectSet better = sets_[*sets_.Best(size)].effects;
+      if (better != set) Shrink(better);
     }
     return Finish(size);
   }
