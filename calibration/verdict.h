@@ -15,8 +15,8 @@ struct Leftover {
   double noise_pa = 0.0;  // of the same samples
   std::optional<double> holdout_rms_pa;
   std::optional<double> holdout_noise_pa;  // with what the uncertainty of fitted numbers adds
-  double learnable_bic = 0.0;  // what a learned term would gain (criticism.h)
-  bool priors_hold = true;     // the declared numbers are where their uncertainties let them be
+  double learnable_bic = 0.0;              // what a learned term would gain (criticism.h)
+  bool priors_hold = true;  // the declared numbers are where their uncertainties let them be
 };
 
 // Nothing but noise: white and independent of the inputs, no more of it than the readings show, and
