@@ -135,6 +135,13 @@ class Diagnosing {
     evidence.before = LeftoverOf(bench_, base_->fit, !Stopped());
     Weigh(1.0, evidence);
     diagnosis_.verdict = Judge(evidence);
+    const bool named =
+        diagnosis_.verdict == Verdict::kExplained || diagnosis_.verdict == Verdict::kTie;
+    if (named && Chosen().effects.size() > 1u && !Stopped()) {
+      Progress(0.94, "what else would do as well");
+      evidence.imitated = TermRivals(bench_.data, base_->fit, Chosen().fit, bench_.tight);
+      diagnosis_.verdict = Judge(evidence);
+    }
     if (diagnosis_.verdict == Verdict::kUnexplained && evidence.accepted) {
       const double memory = MemoryOf(WhitenedOf(bench_, Chosen().fit));
       const Fit base = base_->fit;
@@ -197,6 +204,7 @@ class Diagnosing {
     Progress(0.99, "report");
     AddSeries(bench_, base_->fit.state, shown->fit.state, diagnosis_);
     AddWarnings(bench_, diagnosis_);
+    if (diagnosis_.verdict == Verdict::kUnexplained) AddDoubts(evidence);
     if (Stopped()) {
       diagnosis_.warnings.push_back(
           diagnosis_.verdict == Verdict::kUndecided
@@ -209,6 +217,18 @@ class Diagnosing {
         diagnosis_.warnings.push_back(std::move(sentence));
     }
     diagnosis_.sentence = Sentence(bench_, search_, diagnosis_);
+  }
+
+  // Why the set that fits best is not taken for the explanation.
+  void AddDoubts(const Evidence& evidence) {
+    if (!evidence.accepted) return;
+    std::string set;
+    for (const std::string& id : IdsOf(Chosen())) set += (set.empty() ? "" : " + ") + id;
+    if (evidence.imitated)
+      diagnosis_.warnings.push_back(set + " fits no better than one learned term in its place");
+    if (!evidence.after.priors_hold)
+      diagnosis_.warnings.push_back(
+          set + " fits only with declared numbers that are beyond their uncertainties");
   }
 
   const Contender& Chosen() const { return search_.contenders[search_.chosen]; }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "calibration/parallel.h"
+#include "calibration/thresholds.h"
 #include "calibration/tones.h"
 #include "model/effects/learned.h"
 
@@ -22,6 +23,9 @@ constexpr int kIterations = 10, kPolish = 25;
 constexpr double kFunctionTolerance = 1e-4, kPolishTolerance = 1e-6;
 constexpr double kNoiseShare = 1e-2;
 constexpr std::size_t kStepsMax = 5'000;  // of a run: a term on its way may be stiff
+// A rival's finer laws are tried where the coarser one leaves at most this share of what the set
+// gains.
+constexpr double kHopeful = 0.5;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 // One kind of term: laws from coarse to fine.
@@ -145,10 +149,12 @@ struct Attempt {
   Unseen left_out = {};
 };
 
+// A finer law is tried where the coarser one has come below `hopeful`.
 Attempt FitFamily(const FitData& data, const Family& family, const ModelState& base,
-                  const ModelState& established, const FitOptions& options) {
+                  const ModelState& established, const FitOptions& options, double hopeful) {
   Attempt attempt{&family, {}};
   for (const char* law : family.laws) {
+    if (attempt.fit.Usable() && !(attempt.score < hopeful)) break;
     const model::EffectSpec* spec = model::FindEffect(family.id, law);
     Fit fit = FitTerm(data, data.runs, Starts(data, *spec, base, established, options), options);
     if (!fit.Usable() || !(Score(fit) < attempt.score - (attempt.fit.Usable() ? kGain : 0.0))) {
@@ -274,6 +280,37 @@ const Attempt* Choose(const FitData& data, const Fit& established, const ModelSt
   return best;
 }
 
+FitOptions Quick(FitOptions options) {
+  options.iterations_max = std::min(options.iterations_max, kIterations);
+  options.function_tolerance = std::max(options.function_tolerance, kFunctionTolerance);
+  options.noise_share = std::max(options.noise_share, kNoiseShare);
+  options.steps_max = std::min(options.steps_max, kStepsMax);
+  return options;
+}
+
+// Numbers that were stretched in place of what is missing are in a term's way.
+ModelState BaseOf(const FitData& data, const Fit& established) {
+  ModelState base = established.state;
+  if (!PriorsHold(established)) base.factor = data.forward->Declared().factor;
+  return base;
+}
+
+// Of each family that is not there yet, those that could be fitted; a family goes on to finer laws
+// below `hopeful`.
+std::vector<Attempt> FitFamilies(const FitData& data, const ModelState& base,
+                                 const ModelState& established, FitOptions options,
+                                 double hopeful = kNone) {
+  std::vector<Attempt> attempts(Families().size());
+  const int threads = options.threads;
+  options.threads = 1;
+  ForAll(attempts.size(), threads, [&](std::size_t i) {
+    if (!Holds(established, Families()[i].id))
+      attempts[i] = FitFamily(data, Families()[i], base, established, options, hopeful);
+  });
+  std::erase_if(attempts, [](const Attempt& attempt) { return !attempt.fit.Usable(); });
+  return attempts;
+}
+
 FittedEffect LearnedOf(const FitData& data, const Fit& fit, const FitOptions& options) {
   FittedEffect learned{fit.state.effects.back(), {}};
   for (const double number : learned.effect.parameters)
@@ -313,6 +350,16 @@ double UnseenRms(const FitData& data, const ModelState& state, const std::vector
   return PressureRms(data, aligned, runs, options);
 }
 
+bool TermRivals(const FitData& data, const Fit& base, const Fit& set, const FitOptions& options) {
+  const FitOptions quick = Quick(options);
+  const double hopeful = Score(set) + kHopeful * std::max(0.0, Score(base) - Score(set));
+  std::vector<Attempt> attempts = FitFamilies(data, BaseOf(data, base), base.state, quick, hopeful);
+  return std::any_of(attempts.begin(), attempts.end(), [&](Attempt& attempt) {
+    if (attempt.score < hopeful) Polish(data, quick, attempt);
+    return attempt.score < Score(set) + kAccept;
+  });
+}
+
 LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
                               const std::vector<std::size_t>& holdout, const FitOptions& options) {
   LearnedModel learned{{}, established};
@@ -324,23 +371,10 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
     discrepancy.holdout_before_pa = UnseenRms(data, established.state, holdout, options);
     discrepancy.holdout_after_pa = discrepancy.holdout_before_pa;
   }
-  FitOptions quick = options;
-  quick.iterations_max = std::min(options.iterations_max, kIterations);
-  quick.function_tolerance = std::max(options.function_tolerance, kFunctionTolerance);
-  quick.noise_share = std::max(options.noise_share, kNoiseShare);
-  quick.steps_max = std::min(options.steps_max, kStepsMax);
-  quick.threads = 1;
-  // Numbers that were stretched in place of what is missing are in its way.
-  ModelState base = established.state;
-  if (!PriorsHold(established)) base.factor = data.forward->Declared().factor;
-  std::vector<Attempt> attempts(Families().size());
-  ForAll(attempts.size(), options.threads, [&](std::size_t i) {
-    if (!Holds(established.state, Families()[i].id))
-      attempts[i] = FitFamily(data, Families()[i], base, established.state, quick);
-  });
-  std::erase_if(attempts, [](const Attempt& attempt) { return !attempt.fit.Usable(); });
+  FitOptions quick = Quick(options);
+  const ModelState base = BaseOf(data, established);
+  std::vector<Attempt> attempts = FitFamilies(data, base, established.state, quick);
   if (options.cancelled && options.cancelled()) return learned;
-  quick.threads = options.threads;
   Unseen without;
   const Attempt* best = Choose(data, established, base, attempts, quick, without);
   if (holdout.empty() && std::isfinite(without.rms_pa))

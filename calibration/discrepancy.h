@@ -36,6 +36,11 @@ struct LearnedModel {
 LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
                               const std::vector<std::size_t>& holdout, const FitOptions& options);
 
+// Whether one learned term beside the base model fits the runs as well as the set of effects does:
+// within kAccept of its BIC (thresholds.h). Several effects that do no better than one term of
+// unknown cause may be names for what is not in the list.
+bool TermRivals(const FitData& data, const Fit& base, const Fit& set, const FitOptions& options);
+
 // RMS of the pressure residual over all usable readings of the runs; NaN where a run fails.
 double PressureRms(const FitData& data, const ModelState& state,
                    const std::vector<std::size_t>& runs, const FitOptions& options);

@@ -11,29 +11,12 @@
 #ifndef PLENUM_CALIBRATION_EFFECT_SEARCH_H_
 #define PLENUM_CALIBRATION_EFFECT_SEARCH_H_
 
-#include <algorithm>
 #include <functional>
-#include <string>
-#include <thread>
 #include <vector>
 
-#include "calibration/fit.h"
+#include "calibration/contenders.h"
 
 namespace plenum::calibration {
-
-// A set of effects and its best fit.
-struct Contender {
-  std::vector<const model::EffectSpec*> effects;  // in the order of the registry
-  Fit fit;
-  int starts = 0, found_again = 0;  // how many ended at the best fit's χ²
-  bool refined = false;             // a further fit from there gains nothing that counts
-};
-
-struct SearchOptions {
-  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  std::function<bool()> cancelled;                           // may be empty
-  std::function<void(double, const std::string&)> progress;  // share done, what is under way
-};
 
 struct SearchResult {
   FitData data;                       // clocks as decided
@@ -46,11 +29,6 @@ struct SearchResult {
 // `enough` says whether a fit leaves nothing to explain; the search grows sets until it does.
 SearchResult SearchEffects(const FitData& data, const SearchOptions& options,
                            const std::function<bool(const Fit&)>& enough);
-
-// The same ids, whatever the laws.
-bool SameEffects(const Contender& a, const Contender& b);
-// Every id of `inner` is in `outer`.
-bool Contains(const Contender& outer, const Contender& inner);
 
 }  // namespace plenum::calibration
 

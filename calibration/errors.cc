@@ -11,6 +11,43 @@ namespace {
 
 constexpr std::size_t kReportSteps = 20'000;  // when there is no time left
 
+// Σ ∂p/∂uᵀ·Σ·∂p/∂u over the run's pressure samples; 0 where it cannot be simulated.
+double PredictionVariance(const FitData& data, const Fit& fit, std::size_t run,
+                          const FitOptions& options) {
+  std::vector<Parameter> parameters;
+  for (const Coordinate& coordinate : fit.coordinates) parameters.push_back(coordinate.parameter);
+  const Prediction prediction = data.forward->Predict(
+      run, fit.state, parameters, {.cancelled = options.cancelled, .steps_max = options.steps_max});
+  if (prediction.status != model::SimulateStatus::kDone) return 0.0;
+  const std::vector<std::size_t>& samples = (*data.observed)[run].signals.front().samples;
+  Eigen::MatrixXd slopes =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(samples.size()), fit.u.size());
+  for (Eigen::Index j = 0; j < fit.u.size(); ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    const std::vector<double>& derivative = prediction.derivatives[k].pressure_pa;
+    const double slope = derivative.empty() ? 0.0 : fit.coordinates[k].Slope(fit.u[j]);
+    for (std::size_t i = 0; i < samples.size() && slope != 0.0; ++i)
+      slopes(static_cast<Eigen::Index>(i), j) = slope * derivative[samples[i]];
+  }
+  return (slopes * Covariance(data, fit, options)).cwiseProduct(slopes).sum();
+}
+
+// Squares on runs that a fit did not see, and those expected.
+struct UnseenSum {
+  Squares squares;
+  double expected_pa2 = 0.0, samples = 0.0;
+  void Add(const Bench& bench, const FitData& data, const Fit& fit, std::size_t run) {
+    squares.Add(ErrorsUnseen(bench, run, fit.state));
+    const auto count = static_cast<double>(bench.observed[run].signals.front().samples.size());
+    expected_pa2 += count * std::pow(NoiseOf(bench, {run}), 2) +
+                    PredictionVariance(data, fit, run, bench.tight);
+    samples += count;
+  }
+  UnseenError Mean() const {
+    return {squares.Rms(), std::sqrt(expected_pa2 / std::max(1.0, samples))};
+  }
+};
+
 }  // namespace
 
 bool Stopped(const Bench& bench) { return bench.tight.cancelled && bench.tight.cancelled(); }
@@ -78,9 +115,15 @@ double NoiseOf(const Bench& bench, const std::vector<std::size_t>& runs) {
   return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
-std::optional<double> LeaveOneOut(const Bench& bench, const Fit& fit) {
+UnseenError HeldOutError(const Bench& bench, const Fit& fit) {
+  UnseenSum sum;
+  for (const std::size_t run : bench.held_out) sum.Add(bench, bench.data, fit, run);
+  return sum.Mean();
+}
+
+std::optional<UnseenError> LeaveOneOut(const Bench& bench, const Fit& fit) {
   if (bench.data.runs.size() < 2) return std::nullopt;
-  Squares squares;
+  UnseenSum sum;
   for (const std::size_t left_out : bench.data.runs) {
     FitData data = bench.data;
     std::erase(data.runs, left_out);
@@ -90,9 +133,9 @@ std::optional<double> LeaveOneOut(const Bench& bench, const Fit& fit) {
     CopyRun(bench.forward.Declared(), left_out, start);
     const Fit without = FitModel(data, start, options);
     if (!without.Usable()) return std::nullopt;
-    squares.Add(ErrorsUnseen(bench, left_out, without.state));
+    sum.Add(bench, data, without, left_out);
   }
-  return squares.Rms();
+  return sum.Mean();
 }
 
 Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
@@ -110,20 +153,19 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
   leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()), nullptr,
                                       bench.tight.cancelled);
   leftover.rms_pa = squares.Rms();
-  const double underread = std::sqrt(leftover.residual.underread);
+  leftover.priors_hold = PriorsHold(fit);
+  // A memory that leaves the residual coloured is not that of the noise.
+  const double underread = leftover.residual.white ? std::sqrt(leftover.residual.underread) : 1.0;
   leftover.noise_pa = underread * NoiseOf(bench, bench.data.runs);
   if (IsNoise(leftover))
     leftover.learnable_bic =
         LearnableGain(bench.data, fit, MemoryOf(WhitenedOf(bench, fit)), bench.tight);
   if (!with_holdout) return leftover;
-  if (bench.held_out.empty()) {
-    leftover.holdout_rms_pa = LeaveOneOut(bench, fit);
-    leftover.holdout_noise_pa = leftover.noise_pa;
-  } else {
-    Squares held_out;
-    for (const std::size_t i : bench.held_out) held_out.Add(ErrorsUnseen(bench, i, fit.state));
-    leftover.holdout_rms_pa = held_out.Rms();
-    leftover.holdout_noise_pa = underread * NoiseOf(bench, bench.held_out);
+  const std::optional<UnseenError> unseen =
+      bench.held_out.empty() ? LeaveOneOut(bench, fit) : HeldOutError(bench, fit);
+  if (unseen) {
+    leftover.holdout_rms_pa = unseen->rms_pa;
+    leftover.holdout_noise_pa = underread * unseen->expected_pa;
   }
   return leftover;
 }

@@ -62,8 +62,18 @@ ErrorReport ErrorOf(const Bench& bench, const ModelState& state);
 // Root mean square of the noise of the usable samples of these runs.
 double NoiseOf(const Bench& bench, const std::vector<std::size_t>& runs);
 
-// The error on runs left out one by one, each predicted by a fit to the others; none of one run.
-std::optional<double> LeaveOneOut(const Bench& bench, const Fit& fit);
+// Error on runs that a fit did not see, and what it may be: √(σ² + ∂p/∂uᵀ·Σ·∂p/∂u) in the mean, σ
+// the noise and Σ the covariance of the fitted coordinates u. Few runs fix few numbers, and a model
+// that is right then predicts others badly.
+struct UnseenError {
+  double rms_pa = 0.0, expected_pa = 0.0;
+};
+
+// Of the runs held out.
+UnseenError HeldOutError(const Bench& bench, const Fit& fit);
+
+// Of runs left out one by one, each predicted by a fit to the others; none of one run.
+std::optional<UnseenError> LeaveOneOut(const Bench& bench, const Fit& fit);
 
 // With the error on runs held out, or left out one by one, if that is asked for.
 Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout);

@@ -89,10 +89,12 @@ void AddCandidates(const Bench& bench, const SearchResult& search, const Holdout
       const bool due = !candidate.holdout_rms_pa && !Stopped(bench);
       for (const std::size_t run : bench.held_out)
         if (due) held_out.Add(ErrorsUnseen(bench, run, contender.fit.state));
-      if (due && bench.held_out.empty() && i < kFinalists)
-        candidate.holdout_rms_pa = LeaveOneOut(bench, contender.fit);
-      else if (held_out.count > 0 && !Stopped(bench))
+      if (due && bench.held_out.empty() && i < kFinalists) {
+        if (const auto unseen = LeaveOneOut(bench, contender.fit))
+          candidate.holdout_rms_pa = unseen->rms_pa;
+      } else if (held_out.count > 0 && !Stopped(bench)) {
         candidate.holdout_rms_pa = held_out.Rms();
+      }
     }
     diagnosis.candidates.push_back(std::move(candidate));
   }

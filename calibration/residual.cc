@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "calibration/phases.h"
+#include "calibration/rounded_memory.h"
 #include "calibration/rounding.h"
 #include "calibration/whiteness.h"
 
@@ -27,23 +28,25 @@ std::vector<double> InNoise(const FittedRun& fitted) {
   return residual;
 }
 
-// The memory of noise that a coarse grid hides in the readings: that of the residuals which
-// rounding leaves, as their differences show it where the valve is closed.
-void ReadMemories(const std::vector<ResidualSeries>& series, std::vector<Noise>& noises) {
-  std::vector<Readings> readings;
+// The residuals of readings on a coarse grid again, as noise that remembers leaves them.
+void FilterRounded(const std::vector<FittedRun>& runs, std::vector<ResidualSeries>& series) {
+  std::vector<std::vector<double>> readings;
+  std::vector<RoundedSeries> rounded;
   std::vector<std::size_t> hidden;
-  for (std::size_t i = 0; i < series.size(); ++i) {
-    if (!noises[i].staircase) continue;
-    readings.push_back(ReadingsOf(*series[i].run));
-    readings.back().y = series[i].residual;
-    hidden.push_back(i);
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (runs[i].noise.staircase) hidden.push_back(i);
+  for (const std::size_t i : hidden) {
+    std::vector<double>& y = readings.emplace_back(Residual(runs[i]));
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += runs[i].model_pa[k];
   }
-  const std::vector<Noise> shown = EstimateNoise(readings);
   for (std::size_t k = 0; k < hidden.size(); ++k) {
-    Noise& noise = noises[hidden[k]];
-    noise.memory = shown[k].memory;
-    noise.memories = shown[k].memories;
+    const FittedRun& run = runs[hidden[k]];
+    rounded.push_back({run.run->t_s, readings[k], run.model_pa, run.noise.quantum_pa,
+                       LikeliestNoise(readings[k], run.model_pa, run.noise.quantum_pa)});
   }
+  const NoiseMemory memory = LikeliestRoundedMemory(rounded, runs[hidden.front()].noise.spacing_s);
+  for (std::size_t k = 0; k < hidden.size(); ++k)
+    series[hidden[k]].residual = InnovationsOf(rounded[k], memory);
 }
 
 void TestLackOfFit(const std::vector<FittedRun>& runs, int fitted_numbers, ResidualReport& report) {
@@ -212,7 +215,7 @@ ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_nu
   const auto hides = [](const Noise& noise) { return noise.staircase; };
   const bool structure = !report.white || !report.independent_of_inputs;
   if (structure && std::any_of(noises.begin(), noises.end(), hides)) {
-    ReadMemories(series, noises);
+    FilterRounded(runs, series);
     TestStructure(noises, cancelled, series, report, by_input);
   }
   report.underread = Underread(noises, series);

@@ -11,7 +11,8 @@
 // the quiet side.
 //
 // Where noise is below half of the readings' quantum, whiteness and independence are tested of the
-// residual that rounding.h makes of it.
+// residual that rounding.h makes of it; where that shows structure, of what noise that remembers
+// leaves (rounded_memory.h), and the milder result counts.
 #ifndef PLENUM_CALIBRATION_RESIDUAL_H_
 #define PLENUM_CALIBRATION_RESIDUAL_H_
 

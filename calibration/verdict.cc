@@ -41,12 +41,14 @@ Verdict Judge(const Evidence& evidence) {
   if (!evidence.accepted)
     return IsNoise(evidence.before) ? Verdict::kAdequate : Verdict::kUnexplained;
   const bool clean = IsNoise(evidence.after) || IsSmall(evidence.before, evidence.after);
-  if (!clean || !HoldsOut(evidence.after)) return Verdict::kUnexplained;
+  const bool imitation = evidence.imitated || !evidence.after.priors_hold;
+  if (!clean || !HoldsOut(evidence.after) || imitation) return Verdict::kUnexplained;
   return evidence.tied > 0 ? Verdict::kTie : Verdict::kExplained;
 }
 
 bool IsTieBesideStructure(const Evidence& evidence) {
   return evidence.accepted && evidence.tied > 0 && HoldsOut(evidence.after) &&
+         evidence.after.priors_hold && !evidence.imitated &&
          UnexplainedFraction(evidence.before, evidence.after) <= kTieLeft;
 }
 

@@ -118,6 +118,30 @@ TEST(Discrepancy, AStickingValveIsLearnedAsLateStrokes) {
   ExpectLearned("sticking_valve", "learned_valve", model::EffectPlace::kValve);
 }
 
+// With these effects, from these parameters.
+Fit Named(const Learning& learning, const std::vector<model::Effect>& effects) {
+  ModelState state = learning.established.state;
+  state.effects = effects;
+  return FitModel(learning.data, state, learning.options);
+}
+
+TEST(Discrepancy, OneTermRivalsWhatOnlyImitatesAndNotWhatIsTrue) {
+  const Learning seam = Of("gaping_seam");
+  std::vector<model::Effect> imitating;
+  for (const auto& [id, law] : {std::pair{"creep", ""}, std::pair{"leak", "laminar"}})
+    imitating.push_back(EffectStarts(*model::FindEffect(id, law), seam.data.sizes).front());
+  const Fit imitation = Named(seam, imitating);
+  ASSERT_TRUE(imitation.Usable());
+  ASSERT_LT(imitation.bic, seam.established.bic);
+  EXPECT_TRUE(TermRivals(seam.data, seam.established, imitation, seam.options));
+
+  const test::BenchCase pair = test::DrawCase(2, test::CaseKind::kPair);
+  const Learning two(test::ToDataset(pair));
+  const Fit truth = Named(two, test::ListedOf(pair));
+  ASSERT_TRUE(truth.Usable());
+  EXPECT_FALSE(TermRivals(two.data, two.established, truth, two.options));
+}
+
 TEST(Discrepancy, NothingIsLearnedFromNoise) {
   const Learning learning(test::ToDataset(test::DrawCase(2, test::CaseKind::kClean)));
   const LearnedModel learned = learning.Learn();

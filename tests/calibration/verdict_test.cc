@@ -40,6 +40,18 @@ TEST(Verdict, ATieMayStandBesideSmallStructure) {
   EXPECT_FALSE(IsTieBesideStructure({true, true, 1, Structure(900), unseen_off}));
 }
 
+TEST(Verdict, ASetThatOnlyImitatesIsNotNamed) {
+  Evidence evidence{true, true, 0, Structure(900), Noise()};
+  evidence.imitated = true;
+  EXPECT_EQ(Judge(evidence), Verdict::kUnexplained);
+  evidence.imitated = false;
+  evidence.after.priors_hold = false;
+  EXPECT_EQ(Judge(evidence), Verdict::kUnexplained);
+  Evidence tie{true, true, 1, Structure(900), Structure(250)};
+  tie.after.priors_hold = false;
+  EXPECT_FALSE(IsTieBesideStructure(tie));
+}
+
 TEST(Verdict, WhatATermCouldLearnIsNoNoise) {
   Leftover learnable = Noise();
   learnable.learnable_bic = 40.0;

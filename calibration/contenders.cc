@@ -1,0 +1,221 @@
+#include "calibration/contenders.h"
+
+#include <atomic>
+#include <mutex>
+
+#include "calibration/parallel.h"
+#include "calibration/thresholds.h"
+
+namespace plenum::calibration {
+namespace {
+
+constexpr std::size_t kFinalSteps = 30'000;
+// Fits that only have to be compared end where χ² falls by less than this share, at most after so
+// many steps; those near the best are then taken further.
+constexpr double kScreening = 1e-4;
+constexpr int kScreeningIterations = 12;
+// After so many steps only those go on that explain at least this share of what the best one does
+// beyond the smaller set, and the very best.
+constexpr int kFirstLook = 5;
+constexpr double kHopeful = 0.5;
+constexpr std::size_t kAlwaysOn = 6;
+constexpr double kNear = 20.0;       // of BIC
+constexpr double kNearShare = 0.02;  // of what the best set gains over the base model
+
+}  // namespace
+
+bool Contains(const Contender& outer, const Contender& inner) {
+  return std::all_of(
+      inner.effects.begin(), inner.effects.end(),
+      [&](const model::EffectSpec* spec) { return HoldsId(outer.effects, spec->id); });
+}
+
+bool SameEffects(const Contender& a, const Contender& b) {
+  return a.effects.size() == b.effects.size() && Contains(a, b);
+}
+
+ModelState StateOf(const Contender& contender, const EffectSet& rest) {
+  ModelState state = contender.fit.state;
+  std::erase_if(state.effects, [&](const model::Effect& effect) {
+    return std::find(rest.begin(), rest.end(), effect.spec) == rest.end();
+  });
+  return state;
+}
+
+Contenders::Contenders(const FitData& fit_data, const SearchOptions& options)
+    : data(fit_data), options_(&options) {}
+
+FitOptions Contenders::Screening() const {
+  FitOptions options;
+  options.cancelled = options_->cancelled;
+  options.function_tolerance = kScreening;
+  options.iterations_max = kScreeningIterations;
+  return options;
+}
+
+FitOptions Contenders::Further() const {
+  FitOptions options = Screening();
+  options.function_tolerance = 0.01 * kScreening;
+  options.iterations_max = 3 * kScreeningIterations;
+  return options;
+}
+
+FitOptions Contenders::Tight() const {
+  FitOptions options = Screening();
+  options.noise_share = 1e-3;
+  options.steps_max = kFinalSteps;
+  options.function_tolerance = 1e-9;
+  options.iterations_max = 100;
+  options.threads = options_->threads;
+  return options;
+}
+
+Contender* Contenders::Find(const EffectSet& set) {
+  for (Contender& contender : list)
+    if (contender.effects == set) return &contender;
+  return nullptr;
+}
+
+std::vector<std::size_t> Contenders::Sorted(int size) const {
+  std::vector<std::size_t> sorted;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (list[i].effects.size() == static_cast<std::size_t>(size) && list[i].fit.Usable())
+      sorted.push_back(i);
+  std::stable_sort(sorted.begin(), sorted.end(), [this](std::size_t a, std::size_t b) {
+    return list[a].fit.bic < list[b].fit.bic;
+  });
+  return sorted;
+}
+
+std::optional<std::size_t> Contenders::Best(int size) const {
+  const std::vector<std::size_t> sorted = Sorted(size);
+  if (sorted.empty()) return {};
+  return sorted.front();
+}
+
+double Contenders::LeftShare(const Contender& contender) const {
+  const auto above = [](const Fit& fit) {
+    return std::max(0.0, fit.chi2_data / static_cast<double>(fit.rows) - 1.0);
+  };
+  return above(contender.fit) / std::max(above(Base().fit), 1e-300);
+}
+
+void Contenders::FitBase() {
+  Report(0.02, "base model");
+  Contender base;
+  FitOptions options = Screening();
+  options.threads = options_->threads;
+  base.fit = FitModel(data, data.forward->Declared(), options);
+  base.starts = base.found_again = 1;
+  list.push_back(std::move(base));
+}
+
+void Contenders::AddJobs(const Contender& from, const model::EffectSpec* added,
+                         std::vector<Job>& jobs) {
+  if (HoldsId(from.effects, added->id)) return;
+  const EffectSet set = With(from.effects, added);
+  const auto planned = [&](const Job& job) { return job.set == set; };
+  if (Find(set) || std::any_of(jobs.begin(), jobs.end(), planned)) return;
+  for (const model::Effect& start : EffectStarts(*added, data.sizes)) {
+    Job job{set, from.fit.state, from.fit.bic};
+    if (!PriorsHold(from.fit)) job.start.factor = data.forward->Declared().factor;
+    job.start.effects.push_back(start);
+    std::sort(job.start.effects.begin(), job.start.effects.end(),
+              [](const auto& a, const auto& b) { return Precedes(a.spec, b.spec); });
+    jobs.push_back(std::move(job));
+  }
+}
+
+void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_share,
+                         const std::string& what) {
+  if (jobs.empty()) return;
+  std::vector<Job*> all;
+  for (Job& job : jobs) all.push_back(&job);
+  const double middle = 0.5 * (from_share + to_share);
+  FitOptions first = Screening();
+  first.iterations_max = kFirstLook;
+  Continue(all, first, from_share, middle, what);
+  FitOptions rest = Screening();
+  rest.iterations_max -= kFirstLook;
+  Continue(Hopeful(all), rest, middle, to_share, what);
+  const int size = static_cast<int>(jobs.front().set.size());
+  for (Job& job : jobs) Take(std::move(job));
+  Refine(size);
+}
+
+void Contenders::Continue(const std::vector<Job*>& jobs, const FitOptions& options,
+                          double from_share, double to_share, const std::string& what) {
+  std::atomic<std::size_t> done = 0;
+  std::mutex reporting;
+  ForAll(jobs.size(), options_->threads, [&](std::size_t i) {
+    if (Cancelled()) return;
+    Fit fit = FitModel(data, jobs[i]->start, options);
+    if (fit.Usable()) jobs[i]->start = fit.state;
+    if (fit.Usable() || !jobs[i]->fit.Usable()) jobs[i]->fit = std::move(fit);
+    const double share = static_cast<double>(++done) / static_cast<double>(jobs.size());
+    const std::lock_guard lock(reporting);
+    Report(from_share + share * (to_share - from_share), what);
+  });
+}
+
+// Those that have not converged but may still matter.
+std::vector<Contenders::Job*> Contenders::Hopeful(std::vector<Job*> jobs) const {
+  std::erase_if(jobs, [](const Job* job) { return !job->fit.Usable(); });
+  if (jobs.empty()) return jobs;
+  std::stable_sort(jobs.begin(), jobs.end(),
+                   [](const Job* a, const Job* b) { return a->fit.bic < b->fit.bic; });
+  const double best = jobs.front()->fit.bic;
+  const double gain = std::max(0.0, jobs.front()->bic_before - best);
+  std::vector<Job*> hopeful;
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    const bool may_matter = k < kAlwaysOn || jobs[k]->fit.bic < best + kNear + kHopeful * gain;
+    if (may_matter && jobs[k]->fit.status == FitStatus::kIterationsSpent)
+      hopeful.push_back(jobs[k]);
+  }
+  return hopeful;
+}
+
+// Takes the fits of sets of a size further that come near the best one, or are among the best and
+// have not ended.
+void Contenders::Refine(int size) {
+  const std::vector<std::size_t> sorted = Sorted(size);
+  if (sorted.empty()) return;
+  const double best = list[sorted.front()].fit.bic;
+  const double reach = std::max(kNear, kNearShare * std::max(0.0, Base().fit.bic - best));
+  std::vector<Contender*> near;
+  for (std::size_t k = 0; k < sorted.size(); ++k) {
+    Contender& contender = list[sorted[k]];
+    const bool unfinished = k < kAlwaysOn && contender.fit.status == FitStatus::kIterationsSpent;
+    const bool close = contender.fit.bic < best + reach;
+    if (!contender.refined && (unfinished || close)) near.push_back(&contender);
+  }
+  ForAll(near.size(), options_->threads, [&](std::size_t i) {
+    Fit fit = FitModel(data, near[i]->fit.state, Further());
+    near[i]->refined = fit.status != FitStatus::kIterationsSpent;
+    if (fit.Usable() && fit.bic < near[i]->fit.bic) near[i]->fit = std::move(fit);
+  });
+}
+
+void Contenders::Take(Job job) {
+  Contender* contender = Find(job.set);
+  if (!contender) {
+    list.push_back({.effects = job.set, .fit = {}});
+    contender = &list.back();
+  }
+  ++contender->starts;
+  if (!job.fit.Usable()) {
+    if (contender->starts == 1) contender->fit = std::move(job.fit);
+    return;
+  }
+  const auto chi2 = [](const Fit& fit) { return fit.chi2_data + fit.chi2_prior; };
+  if (!contender->fit.Usable() || chi2(job.fit) < chi2(contender->fit) - kSameOptimum) {
+    contender->fit = std::move(job.fit);
+    contender->refined = false;
+    contender->found_again = 1;
+  } else if (chi2(job.fit) < chi2(contender->fit) + kSameOptimum) {
+    ++contender->found_again;
+    if (chi2(job.fit) < chi2(contender->fit)) contender->fit = std::move(job.fit);
+  }
+}
+
+}  // namespace plenum::calibration

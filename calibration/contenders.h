@@ -1,0 +1,95 @@
+// Sets of effects with their fits: from every start of an added effect a few steps first, then as
+// far as the fit may matter to the choice among the sets.
+#ifndef PLENUM_CALIBRATION_CONTENDERS_H_
+#define PLENUM_CALIBRATION_CONTENDERS_H_
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "calibration/effect_sets.h"
+#include "calibration/fit.h"
+
+namespace plenum::calibration {
+
+// A set of effects and its best fit.
+struct Contender {
+  EffectSet effects;
+  Fit fit;
+  int starts = 0, found_again = 0;  // how many ended at the best fit's χ²
+  bool refined = false;             // a further fit from there gains nothing that counts
+};
+
+// The same ids, whatever the laws.
+bool SameEffects(const Contender& a, const Contender& b);
+// Every id of `inner` is in `outer`.
+bool Contains(const Contender& outer, const Contender& inner);
+
+// The fitted state with only the effects of `rest`.
+ModelState StateOf(const Contender& contender, const EffectSet& rest);
+
+struct SearchOptions {
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::function<bool()> cancelled;                           // may be empty
+  std::function<void(double, const std::string&)> progress;  // share done, what is under way
+};
+
+// Two fits whose χ² or BIC are this close are of the same optimum.
+inline constexpr double kSameOptimum = 1.0;
+
+class Contenders {
+ public:
+  // A fit to be made of a set.
+  struct Job {
+    EffectSet set;
+    ModelState start;
+    double bic_before = 0.0;  // of the smaller set
+    Fit fit = {};
+  };
+
+  Contenders(const FitData& fit_data, const SearchOptions& options);
+
+  FitData data;
+  std::vector<Contender> list;  // the base model first
+
+  const Contender& operator[](std::size_t i) const { return list[i]; }
+  const Contender& Base() const { return list.front(); }
+  Contender* Find(const EffectSet& set);
+  // Those with that many effects that could be fitted, by BIC; and the first of them.
+  std::vector<std::size_t> Sorted(int size) const;
+  std::optional<std::size_t> Best(int size) const;
+  // Variance above the noise over that of the base model.
+  double LeftShare(const Contender& contender) const;
+
+  void FitBase();
+  // The set of `from` with one more effect, from each of its starts; none if it has been fitted.
+  void AddJobs(const Contender& from, const model::EffectSpec* added, std::vector<Job>& jobs);
+  // Fits all from their starts: a few steps each at first, and to the end what may matter. The
+  // shares are of the whole work, for the progress.
+  void RunJobs(std::vector<Job>& jobs, double from_share, double to_share, const std::string& what);
+
+  bool Cancelled() const { return options_->cancelled && options_->cancelled(); }
+  void Report(double share, const std::string& what) const {
+    if (options_->progress) options_->progress(share, what);
+  }
+  // Fits that only have to be compared, those that come near the best, and those that decide.
+  FitOptions Screening() const;
+  FitOptions Further() const;
+  FitOptions Tight() const;
+
+ private:
+  void Continue(const std::vector<Job*>& jobs, const FitOptions& options, double from_share,
+                double to_share, const std::string& what);
+  std::vector<Job*> Hopeful(std::vector<Job*> jobs) const;
+  void Refine(int size);
+  void Take(Job job);
+
+  const SearchOptions* options_;
+};
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_CONTENDERS_H_

@@ -1,0 +1,33 @@
+// Sets of effects that a search tries.
+#ifndef PLENUM_CALIBRATION_EFFECT_SETS_H_
+#define PLENUM_CALIBRATION_EFFECT_SETS_H_
+
+#include <string_view>
+#include <vector>
+
+#include "calibration/dataset.h"
+#include "model/effects/effect.h"
+
+namespace plenum::calibration {
+
+using EffectSet = std::vector<const model::EffectSpec*>;  // in the order of the registry
+
+// Whether the registry has `a` before `b`.
+bool Precedes(const model::EffectSpec* a, const model::EffectSpec* b);
+
+EffectSet With(EffectSet set, const model::EffectSpec* in);
+EffectSet Without(EffectSet set, const model::EffectSpec* out);
+
+bool HoldsId(const EffectSet& set, std::string_view id);
+
+// The effects that have a name, of which the runs can tell: a valve that never opens tells nothing
+// of itself, of its line and of what feeds it. Learned terms stand for what has no name
+// (discrepancy.h).
+EffectSet NamedEffects(const std::vector<Run>& runs);
+
+// Effects that shift strokes in time, as a clock does.
+bool ActsInTime(const model::EffectSpec& spec);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_EFFECT_SETS_H_
