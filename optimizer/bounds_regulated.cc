@@ -3,15 +3,15 @@
 #include <cmath>
 
 #include "model/storage.h"
-#include "model/stroke.h"
 #include "optimizer/box.h"
+#include "optimizer/filling.h"
 #include "optimizer/line.h"
 #include "optimizer/sizing.h"
 
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kRounding = 1.0 + 1e-9;  // as in make_line.cc
+constexpr double kRounding = kBoxSlack;
 
 }  // namespace
 
@@ -52,19 +52,16 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
     share.sonic_conductance_m3_per_s_pa /= group.count;
     std::vector<model::FlowElement> elements{share};
     elements.insert(elements.end(), line.fill.begin(), line.fill.end());
-    const model::Series fill = model::MakeSeries(elements, FlowFactor(problem_, gas_));
-    const auto fill_time = [&](double to_pa) {
-      return model::FillTime(fill, line.chamber, box.window.high_pa, problem_.ambient.pressure_pa,
-                             to_pa, problem_.ambient.temperature_k, flow_max / group.count);
-    };
-    const double inflate_s = fill_time(group.chamber.operating_pressure_pa);
-    if (!(inflate_s <= HalfPeriod(problem_) * kRounding)) return Constraint::kRise;
-    if (inflate_s > group.rise_time_max_s &&
-        !(fill_time(RiseTarget(problem_, group)) <= group.rise_time_max_s * kRounding))
-      return Constraint::kRise;
+    Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
+                    flow_max / group.count);
+    if (!filling.InTime(box.window.high_pa)) return Constraint::kRise;
     box.air_m3 += AirPerStroke(problem_, g, line, box.window.low_pa);
-    if (line.all_hold)  // energised while they inflate, too
+    if (line.all_hold && line.coil_power_w > 0.0) {  // energised while they inflate, too
+      const double inflate_s = problem_.objective.energy_wh > 0.0
+                                   ? filling.InflateTime(box.window.high_pa)
+                                   : filling.InflateTimeAtLeast(box.window.high_pa);
       box.energy_beyond_j += problem_.actuations * line.coil_power_w * inflate_s;
+    }
   }
   box.energy_j = box.energy_beyond_j +
                  problem_.actuations * HalfPeriod(problem_) * box.coil_power_w +

@@ -8,7 +8,6 @@
 #define PLENUM_OPTIMIZER_BOX_H_
 
 #include <array>
-#include <map>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -84,12 +83,17 @@ class Bounds {
     int group = 0;
     std::array<int, kSlotsPerGroup> nodes{};
     auto operator<=>(const LineKey&) const = default;
+    struct Hash {
+      std::size_t operator()(const LineKey& key) const;
+    };
   };
   struct LineParts {
     std::array<const BoxNode*, kSlotsPerGroup> nodes;
     LineCorners corners;
+    const GroupTrees& trees;
     bool single() const;
     int widest() const;  // of a box that is not single: by the share of the objective
+    std::array<int, kSlotsPerGroup> choices() const;  // indices of parts, of a single one
   };
   LineParts PartsOf(const LineKey& key) const;
 
@@ -111,11 +115,13 @@ class Bounds {
   // What is known of a box of lines, whatever the source.
   struct KnownLine {
     Constraint missed = Constraint::kNone;
-    std::shared_ptr<Line> line;  // of the corner; none if it misses something
+    double objective = 0.0;      // the corner's, at most that of the finished line
+    std::shared_ptr<Line> line;  // of the corner; none before a box has it
     bool finished = false;       // by FinishLine(), and its objective by FindLeastObjective()
   };
   KnownLine& KnowLine(const LineKey& key);
-  Constraint FindLeastObjective(const LineKey& key, Line& line);
+  std::shared_ptr<Line> Assemble(const LineKey& key) const;
+  Constraint FindLeastObjective(const LineKey& key, double& objective);
   static LineKey KeyOf(const Box& box, int group);
   Constraint RemakeLine(Box& box, int group);
   Constraint FinishLines(Box& box);
@@ -156,7 +162,7 @@ class Bounds {
   const Plan& plan_;
   const Workbench* bench_;
   model::Gas gas_;
-  std::map<LineKey, KnownLine> lines_;        // made before
+  std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;  // screened before
   std::unordered_map<int, PumpFacts> pumps_;  // per node of the compressors' tree
 };
 
