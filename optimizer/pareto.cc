@@ -23,20 +23,6 @@ constexpr double kSearchLeastS = 0.5;
 constexpr double kPricedEur = 1e12;  // a limit that only asks for prices
 constexpr double kJoulePerWattHour = 3600.0;
 
-Objective ObjectiveOn(Amount amount) {
-  switch (amount) {
-    case Amount::kMass:
-      return {.mass_kg = 1.0};
-    case Amount::kVolume:
-      return {.volume_l = 1.0};
-    case Amount::kCost:
-      return {.cost_eur = 1.0};
-    case Amount::kEnergy:
-      return {.energy_wh = 1.0};
-  }
-  return {};
-}
-
 // The amount that is minimised; limits are laid on the others. Energy depends on the settings and
 // has no limit of its own; a least mass is what the search proves soonest.
 std::size_t Minimised(const std::vector<Amount>& amounts) {
@@ -209,14 +195,16 @@ class FrontSearch {
     const std::size_t limited = 1 - minimised_;
     SearchOptions options = options_;
     options.time_limit_s = options_.time_limit_s - Seconds();
-    FrontWalk walk = WalkFront(Limited(region), amounts_[limited], resolution_, options);
+    FrontWalk walk =
+        WalkFront(Limited(region), amounts_[minimised_], amounts_[limited], resolution_, options);
     cancelled_ = cancelled_ || walk.cancelled;
     proved_ += static_cast<int>(walk.designs.size()) + walk.open.empty();
     searches_ += static_cast<int>(walk.designs.size()) + 1;
     for (const FrontWalk::Open& open : walk.open) {
       Caps caps = region;
-      caps[limited] = open.limit;
-      unexplored_.push_back({caps, amounts_[minimised_], open.least});
+      const bool near = open.limited == amounts_[limited];
+      caps[near ? limited : minimised_] = open.limit;
+      unexplored_.push_back({caps, amounts_[near ? minimised_ : limited], open.least});
     }
     for (Design& design : walk.designs) {
       Point point = PointOf(design);
@@ -313,6 +301,20 @@ class FrontSearch {
 };
 
 }  // namespace
+
+Objective ObjectiveOn(Amount amount) {
+  switch (amount) {
+    case Amount::kMass:
+      return {.mass_kg = 1.0};
+    case Amount::kVolume:
+      return {.volume_l = 1.0};
+    case Amount::kCost:
+      return {.cost_eur = 1.0};
+    case Amount::kEnergy:
+      return {.energy_wh = 1.0};
+  }
+  return {};
+}
 
 double& LimitOn(Amount amount, Problem& problem) {
   return amount == Amount::kMass     ? problem.mass_max_kg
