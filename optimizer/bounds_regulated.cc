@@ -6,12 +6,23 @@
 #include "optimizer/box.h"
 #include "optimizer/filling.h"
 #include "optimizer/line.h"
+#include "optimizer/root.h"
 #include "optimizer/sizing.h"
 
 namespace plenum::optimizer {
 namespace {
 
 constexpr double kRounding = kBoxSlack;
+constexpr double kFloorTolerance = 1e-3;
+
+// From a regulator, shared by so many lines, to one actuator.
+std::vector<model::FlowElement> Elements(model::FlowElement regulator, const Line& line,
+                                         int count) {
+  regulator.sonic_conductance_m3_per_s_pa /= count;
+  std::vector<model::FlowElement> elements{regulator};
+  elements.insert(elements.end(), line.fill.begin(), line.fill.end());
+  return elements;
+}
 
 }  // namespace
 
@@ -35,11 +46,9 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
   AddLines(box);
   box.window.low_pa = std::max(box.window.low_pa, regulator.outlet_min_pa);
   box.window.high_pa = std::min(box.window.high_pa, regulator.outlet_max_pa);
-  double flow_max = regulator.flow_max_m3_per_s;
-  if (plan_.configuration == Configuration::kMains) {
+  if (plan_.configuration == Configuration::kMains)
     box.window.high_pa = std::min(box.window.high_pa, problem_.mains_pressure_pa);
-    flow_max = std::min(flow_max, problem_.mains_flow_max_m3_per_s);
-  }
+  const double flow_max = FlowMax(regulator);
   if (box.window.empty()) return Constraint::kPressure;
 
   const double seconds = problem_.actuations / problem_.frequency_hz;
@@ -48,10 +57,7 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
     const Line& line = *box.lines[g];
     const ActuatorGroup& group = problem_.groups[g];
-    model::FlowElement share = regulator.flow;
-    share.sonic_conductance_m3_per_s_pa /= group.count;
-    std::vector<model::FlowElement> elements{share};
-    elements.insert(elements.end(), line.fill.begin(), line.fill.end());
+    const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, group.count);
     Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
                     flow_max / group.count);
     if (!filling.InTime(box.window.high_pa)) return Constraint::kRise;
@@ -68,6 +74,30 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
                  regulator.electrical_power_w * seconds;
   box.coil_power_w += regulator.electrical_power_w;
   return Constraint::kNone;
+}
+
+double Bounds::FlowMax(const RegulatorCorner& regulator) const {
+  return plan_.configuration == Configuration::kMains
+             ? std::min(regulator.flow_max_m3_per_s, problem_.mains_flow_max_m3_per_s)
+             : regulator.flow_max_m3_per_s;
+}
+
+// A source pressure below which some group, alone on the regulator, is too slow.
+double Bounds::RegulatedFloor(const Box& box) const {
+  const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
+  double floor_pa = box.window.low_pa;
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
+    const Line& line = *box.lines[g];
+    const int count = problem_.groups[g].count;
+    const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, count);
+    Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
+                    FlowMax(regulator) / count);
+    const auto late = [&](double source_pa) {
+      return filling.LatenessAtLeast(source_pa).value_or(0.0);
+    };
+    floor_pa = FeasibleBracket(late, floor_pa, box.window.high_pa, kFloorTolerance).low;
+  }
+  return floor_pa;
 }
 
 // The lightest bottle and battery of the box that bear the needs.

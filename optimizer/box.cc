@@ -198,8 +198,7 @@ Constraint Bounds::FinishLines(Box& box) {
         if (!known.line) known.line = Assemble(key);
         known.line->objective = known.objective;
         FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
-                   parts.single() || plan_.configuration == Configuration::kCompressor,
-                   *known.line);
+                   plan_.configuration == Configuration::kCompressor, *known.line);
       } else {
         known.line = nullptr;
       }

@@ -42,6 +42,7 @@ struct Box {
   Shared<std::vector<VolumeNeed>> volumes;  // compressor
   int look = 0;                             // grows where the needs of volumes may have grown
   double volume_ratio_max = 0.0;            // of the ends of an interval of made-to-measure volumes
+  bool source_bounded = false;              // from below, for the real parts; regulated
   bool source_known = false;                // the least source pressure is that of the real parts
 };
 
@@ -65,7 +66,8 @@ class Bounds {
 
   // What raises the bound of a box without dividing it, step by step: a look at the reservoirs that
   // its bound comes from; once all but bottle and battery are single choices their source pressure,
-  // found for good at a hundred times the cost, or finer intervals of made-to-measure volumes.
+  // bounded by enclosures of the strokes and then found for good at a hundred times the cost, or
+  // finer intervals of made-to-measure volumes.
   bool CanFindSource(const Box& box) const;
   Constraint FindSource(Box& box);
 
@@ -132,6 +134,8 @@ class Bounds {
 
   Constraint AssessRegulated(Box& box, bool source_changed);
   Constraint NeedOfRegulated(Box& box);
+  double FlowMax(const RegulatorCorner& regulator) const;
+  double RegulatedFloor(const Box& box) const;
   Constraint RestOfRegulated(Box& box);
 
   Constraint AssessCompressor(Box& box, int changed);

@@ -136,16 +136,18 @@ void FinishLine(const Problem& problem, int g, model::Gas gas, const ValveCorner
   Filling filling(problem, g, line.fill, factor, line.chamber, exact ? 1.0 : kBoxSlack);
   const auto late = [&](double source_pa) {
     const std::optional<double> least =
-        exact || with_curve ? std::nullopt : filling.LatenessAtLeast(source_pa);
+        with_curve ? std::nullopt : filling.LatenessAtLeast(source_pa);
     return least ? *least : filling.Lateness(source_pa);
   };
+  const bool found = exact && with_curve;
   const Bracket least =
-      FeasibleBracket(late, operating_pa, line.source_max_pa, exact ? 1e-9 : kBoxTolerance);
-  line.source_min_pa = std::max(valve.pressure_min_pa, exact ? least.high : least.low);
+      FeasibleBracket(late, operating_pa, line.source_max_pa, found ? 1e-9 : kBoxTolerance);
+  line.source_min_pa = std::max(valve.pressure_min_pa, found ? least.high : least.low);
+  // A lone 3/2 is energised for half of the period whatever the stroke.
+  if (line.all_hold && (exact || with_curve))
+    line.inflate_time_least_s = filling.InflateTime(line.source_max_pa);
   if (exact) line.fall_time_s = FallTime(problem, group, line.exhaust, factor, line.chamber);
   if (!with_curve) return;
-  // A lone 3/2 is energised for half of the period whatever the stroke.
-  if (line.all_hold) line.inflate_time_least_s = filling.InflateTime(line.source_max_pa);
   line.fill_series = filling.series();
   line.fill_table = model::FlowTable(line.fill_series);
   line.panels = MakeStrokePanels(problem, g, line.chamber);

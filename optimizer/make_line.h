@@ -23,8 +23,9 @@ Constraint ScreenLine(const Problem& problem, int group, model::Gas gas, const L
 // Without what FinishLine() adds.
 Line AssembleLine(const Problem& problem, int group, const LineCorners& corners);
 
-// Adds to a line that passed the least source pressure, for a box bounded from below only; where
-// `with_curve` its curve, flow table and the least inflation time; for a single line the fall time.
+// Adds to a line that passed the least source pressure, found where the line is single and
+// `with_curve`, else bounded from below; the least inflation time and, for a single line, the fall
+// time; `with_curve`, for reservoirs, its curve and the panels of its strokes.
 void FinishLine(const Problem& problem, int group, model::Gas gas, const ValveCorner& valve,
                 bool exact, bool with_curve, Line& line);
 
