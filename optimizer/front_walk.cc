@@ -16,6 +16,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kProgressIntervalS = 0.2;
+constexpr int kAlone = 20000;      // steps of the near walk before the far one begins
 constexpr double kNoLimit = 1e12;  // finite: a limit will be laid on the amount
 
 struct Node {
@@ -214,24 +215,24 @@ class Walker {
 }  // namespace
 
 FrontWalk WalkFront(const Problem& problem, Amount minimised, Amount limited, double resolution,
-                    const SearchOptions& options) {
+                    const SearchOptions& options, int steps_alone) {
   FrontWalk walk;
   Walker near(problem, limited, resolution, options, walk);
   std::optional<Walker> far;
-  if (minimised != Amount::kEnergy) {
-    Problem turned = problem;
-    turned.objective = ObjectiveOn(limited);
-    double& limit = LimitOn(minimised, turned);
-    limit = std::min(limit, kNoLimit);
-    far.emplace(std::move(turned), minimised, resolution, options, walk);
-  }
   const auto met = [&] {
     return std::isinf(near.lowest()) ||
            (far && (std::isinf(far->lowest()) || near.lowest() > far->limit() ||
                     far->lowest() > near.limit()));
   };
-  while (!met() && !near.Stopped()) {
+  for (int step = 0; !met() && !near.Stopped(); ++step) {
     near.Step();
+    if (step == steps_alone && minimised != Amount::kEnergy) {
+      Problem turned = problem;
+      turned.objective = ObjectiveOn(limited);
+      double& limit = LimitOn(minimised, turned);
+      limit = std::min(limit, kNoLimit);
+      far.emplace(std::move(turned), minimised, resolution, options, walk);
+    }
     if (far && !met() && !far->Stopped()) far->Step();
   }
   if (!met()) near.LeaveOpen(near.lowest());

@@ -10,8 +10,8 @@
 // show that nothing meets it. A second walk, with the amounts the other way round, begins there.
 // What no walk has found lies at or above the lowest bound of each in the amount that it minimises,
 // and within the limit that the other has come to: they have met when these exclude each other.
-// They take steps in turn, so that the result does not depend on the clock. Energy cannot be
-// limited: a front with it is walked from one end.
+// The second begins where the first is long, and they take steps in turn, so that the result does
+// not depend on the clock. Energy cannot be limited: a front with it is walked from one end.
 #ifndef PLENUM_OPTIMIZER_FRONT_WALK_H_
 #define PLENUM_OPTIMIZER_FRONT_WALK_H_
 
@@ -32,9 +32,13 @@ struct FrontWalk {
   bool cancelled = false;
 };
 
-// `problem`: with a finite limit on `limited` to begin with; `minimised` is its objective.
+// Steps of the first walk before the second begins.
+inline constexpr int kStepsAlone = 20000;
+
+// `problem`: with a finite limit on `limited` to begin with; `minimised` is its objective. The
+// designs hold all points of the front, in no order, and some that these beat.
 FrontWalk WalkFront(const Problem& problem, Amount minimised, Amount limited, double resolution,
-                    const SearchOptions& options);
+                    const SearchOptions& options, int steps_alone = kStepsAlone);
 
 }  // namespace plenum::optimizer
 

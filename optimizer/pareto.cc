@@ -227,6 +227,15 @@ class FrontSearch {
     return better;
   }
 
+  // Within the resolution of a point with less of the minimised amount: the walk from the far end
+  // meets such points first.
+  bool Obsolete(const Point& point, const Point& other) const {
+    if (point.size() != 2) return false;
+    const std::size_t limited = 1 - minimised_;
+    return other[minimised_] < point[minimised_] * (1.0 - kTie) &&
+           other[limited] <= point[limited] * (1.0 + resolution_);
+  }
+
   bool Same(const Point& a, const Point& b) const {
     for (std::size_t i = 0; i < a.size(); ++i)
       if (std::abs(a[i] - b[i]) > kTie * std::abs(b[i])) return false;
@@ -236,6 +245,7 @@ class FrontSearch {
   bool BelongsToFront(std::size_t index) const {
     for (std::size_t other = 0; other < found_.size(); ++other)
       if (Beats(found_[other].point, found_[index].point) ||
+          Obsolete(found_[index].point, found_[other].point) ||
           (other < index && Same(found_[other].point, found_[index].point)))
         return false;
     return true;
