@@ -76,7 +76,9 @@ class Walker {
   void Plant() {
     for (Configuration configuration : problem_.configurations) {
       if (Stopped()) return;
-      plans_.push_back(MakePlan(problem_, configuration));
+      std::unique_ptr<Plan> plan = MakePlan(problem_, configuration, bench_.stop);
+      if (!plan) return;
+      plans_.push_back(std::move(plan));
       if (plans_.back()->empty()) continue;
       bounds_.push_back(std::make_unique<Bounds>(problem_, *plans_.back(), &bench_));
       auto node = std::make_unique<Node>();
