@@ -19,6 +19,8 @@ constexpr double kGrowth = 2.0;
 constexpr double kHistoryMax = 1e4;
 // Nearer than this to the pumps' limit, a reservoir is at it.
 constexpr double kAtLimit = 1e-12;
+// The simulator's own error, as a share of the tolerance.
+constexpr double kSimulated = 0.1;
 
 // Where a period begins or ends.
 struct Standing {
@@ -252,7 +254,7 @@ PeriodicState FindPeriodicState(const Rig& rig, double period_s, const SimulateO
     std::erase_if(group.schedule, [](const ValveCommand& c) { return c.time_s < 0.0; });
   }
   SimulateOptions accurate = simulate;
-  accurate.relative_tolerance = std::min(simulate.relative_tolerance, 0.1 * options.tolerance);
+  accurate.relative_tolerance = std::min(simulate.relative_tolerance, kSimulated * options.tolerance);
   CycleMap map(one_period, period_s, accurate);
   Anderson anderson(static_cast<std::size_t>(options.depth));
   const auto finish = [&](PeriodicStatus status, std::string detail) {
@@ -290,6 +292,15 @@ PeriodicState FindPeriodicState(const Rig& rig, double period_s, const SimulateO
     result.error_estimate = LargestShare(next - x.state, sizes);
     const bool converged =
         result.residual <= options.tolerance && result.error_estimate <= options.tolerance;
+    // A period that repeats within the simulator's own error is as good as the next, and what it
+    // begins with is what comes after it.
+    if (std::max(result.residual, result.error_estimate) <= kSimulated * options.tolerance &&
+        simulate.sample_hz == 0.0) {
+      result.state.assign(x.state.begin(), x.state.end());
+      const Response after = cycle.response;
+      Describe(std::move(cycle), after, period_s, result);
+      return finish(PeriodicStatus::kConverged, "");
+    }
     if (!jumped || residual <= best_residual) best = cycle.end, best_residual = residual;
     jumped = next != image;
     x = std::move(cycle.end);

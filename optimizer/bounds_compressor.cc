@@ -107,12 +107,17 @@ Constraint Bounds::FindSource(Box& box) {
     if (box.source_known) return SizeCore(box);
     return IsMade(lowest) ? RefineVolumes(box) : FindStockSource(box);
   }
-  box.source_known = true;
-  const Candidate candidate = CandidateOf(box);
-  const NeededPressure needed = NeededSourcePressure(problem_, candidate, {});
-  if (needed.status == LeafStatus::kInfeasible) return Constraint::kRise;
-  if (needed.status == LeafStatus::kUndecided) return Constraint::kNone;
-  box.source_floor_pa = needed.source_pa;
+  if (!box.source_bounded) {
+    box.source_bounded = true;
+    box.source_floor_pa = RegulatedFloor(box);
+  } else {
+    box.source_known = true;
+    const Candidate candidate = CandidateOf(box);
+    const NeededPressure needed = NeededSourcePressure(problem_, candidate, {});
+    if (needed.status == LeafStatus::kInfeasible) return Constraint::kRise;
+    if (needed.status == LeafStatus::kUndecided) return Constraint::kNone;
+    box.source_floor_pa = needed.source_pa;
+  }
   if (const Constraint missed = NeedOfRegulated(box); missed != Constraint::kNone) return missed;
   return RestOfRegulated(box);
 }

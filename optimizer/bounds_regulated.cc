@@ -3,15 +3,26 @@
 #include <cmath>
 
 #include "model/storage.h"
-#include "model/stroke.h"
 #include "optimizer/box.h"
+#include "optimizer/filling.h"
 #include "optimizer/line.h"
+#include "optimizer/root.h"
 #include "optimizer/sizing.h"
 
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kRounding = 1.0 + 1e-9;  // as in make_line.cc
+constexpr double kRounding = kBoxSlack;
+constexpr double kFloorTolerance = 1e-3;
+
+// From a regulator, shared by so many lines, to one actuator.
+std::vector<model::FlowElement> Elements(model::FlowElement regulator, const Line& line,
+                                         int count) {
+  regulator.sonic_conductance_m3_per_s_pa /= count;
+  std::vector<model::FlowElement> elements{regulator};
+  elements.insert(elements.end(), line.fill.begin(), line.fill.end());
+  return elements;
+}
 
 }  // namespace
 
@@ -35,11 +46,9 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
   AddLines(box);
   box.window.low_pa = std::max(box.window.low_pa, regulator.outlet_min_pa);
   box.window.high_pa = std::min(box.window.high_pa, regulator.outlet_max_pa);
-  double flow_max = regulator.flow_max_m3_per_s;
-  if (plan_.configuration == Configuration::kMains) {
+  if (plan_.configuration == Configuration::kMains)
     box.window.high_pa = std::min(box.window.high_pa, problem_.mains_pressure_pa);
-    flow_max = std::min(flow_max, problem_.mains_flow_max_m3_per_s);
-  }
+  const double flow_max = FlowMax(regulator);
   if (box.window.empty()) return Constraint::kPressure;
 
   const double seconds = problem_.actuations / problem_.frequency_hz;
@@ -48,29 +57,47 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
     const Line& line = *box.lines[g];
     const ActuatorGroup& group = problem_.groups[g];
-    model::FlowElement share = regulator.flow;
-    share.sonic_conductance_m3_per_s_pa /= group.count;
-    std::vector<model::FlowElement> elements{share};
-    elements.insert(elements.end(), line.fill.begin(), line.fill.end());
-    const model::Series fill = model::MakeSeries(elements, FlowFactor(problem_, gas_));
-    const auto fill_time = [&](double to_pa) {
-      return model::FillTime(fill, line.chamber, box.window.high_pa, problem_.ambient.pressure_pa,
-                             to_pa, problem_.ambient.temperature_k, flow_max / group.count);
-    };
-    const double inflate_s = fill_time(group.chamber.operating_pressure_pa);
-    if (!(inflate_s <= HalfPeriod(problem_) * kRounding)) return Constraint::kRise;
-    if (inflate_s > group.rise_time_max_s &&
-        !(fill_time(RiseTarget(problem_, group)) <= group.rise_time_max_s * kRounding))
-      return Constraint::kRise;
+    const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, group.count);
+    Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
+                    flow_max / group.count);
+    if (!filling.InTime(box.window.high_pa)) return Constraint::kRise;
     box.air_m3 += AirPerStroke(problem_, g, line, box.window.low_pa);
-    if (line.all_hold)  // energised while they inflate, too
+    if (line.all_hold && line.coil_power_w > 0.0) {  // energised while they inflate, too
+      const double inflate_s = problem_.objective.energy_wh > 0.0
+                                   ? filling.InflateTime(box.window.high_pa)
+                                   : filling.InflateTimeAtLeast(box.window.high_pa);
       box.energy_beyond_j += problem_.actuations * line.coil_power_w * inflate_s;
+    }
   }
   box.energy_j = box.energy_beyond_j +
                  problem_.actuations * HalfPeriod(problem_) * box.coil_power_w +
                  regulator.electrical_power_w * seconds;
   box.coil_power_w += regulator.electrical_power_w;
   return Constraint::kNone;
+}
+
+double Bounds::FlowMax(const RegulatorCorner& regulator) const {
+  return plan_.configuration == Configuration::kMains
+             ? std::min(regulator.flow_max_m3_per_s, problem_.mains_flow_max_m3_per_s)
+             : regulator.flow_max_m3_per_s;
+}
+
+// A source pressure below which some group, alone on the regulator, is too slow.
+double Bounds::RegulatedFloor(const Box& box) const {
+  const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
+  double floor_pa = box.window.low_pa;
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
+    const Line& line = *box.lines[g];
+    const int count = problem_.groups[g].count;
+    const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, count);
+    Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
+                    FlowMax(regulator) / count);
+    const auto late = [&](double source_pa) {
+      return filling.LatenessAtLeast(source_pa).value_or(0.0);
+    };
+    floor_pa = FeasibleBracket(late, floor_pa, box.window.high_pa, kFloorTolerance).low;
+  }
+  return floor_pa;
 }
 
 // The lightest bottle and battery of the box that bear the needs.

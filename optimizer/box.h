@@ -8,7 +8,6 @@
 #define PLENUM_OPTIMIZER_BOX_H_
 
 #include <array>
-#include <map>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -45,6 +44,7 @@ struct Box {
   Shared<std::vector<VolumeNeed>> volumes;  // compressor
   int look = 0;                             // grows where the needs of volumes may have grown
   double volume_ratio_max = 0.0;            // of the ends of an interval of made-to-measure volumes
+  bool source_bounded = false;              // from below, for the real parts; regulated
   bool source_known = false;                // the least source pressure is that of the real parts
   std::shared_ptr<CoreSizing> core;         // shared by all that differ in the battery alone
 };
@@ -69,8 +69,9 @@ class Bounds {
 
   // What raises the bound of a box without dividing it, step by step: a look at the reservoirs that
   // its bound comes from; once all but bottle and battery are single choices their source pressure,
-  // found for good at a hundred times the cost, or finer intervals of made-to-measure volumes, and
-  // where energy counts the best settings of those with any battery (core_sizing.h).
+  // bounded by enclosures of the strokes and then found for good at a hundred times the cost, or
+  // finer intervals of made-to-measure volumes, and where energy counts the best settings of those
+  // with any battery (core_sizing.h).
   bool CanFindSource(const Box& box) const;
   Constraint FindSource(Box& box);
 
@@ -88,12 +89,17 @@ class Bounds {
     int group = 0;
     std::array<int, kSlotsPerGroup> nodes{};
     auto operator<=>(const LineKey&) const = default;
+    struct Hash {
+      std::size_t operator()(const LineKey& key) const;
+    };
   };
   struct LineParts {
     std::array<const BoxNode*, kSlotsPerGroup> nodes;
     LineCorners corners;
+    const GroupTrees& trees;
     bool single() const;
     int widest() const;  // of a box that is not single: by the share of the objective
+    std::array<int, kSlotsPerGroup> choices() const;  // indices of parts, of a single one
   };
   LineParts PartsOf(const LineKey& key) const;
 
@@ -115,11 +121,13 @@ class Bounds {
   // What is known of a box of lines, whatever the source.
   struct KnownLine {
     Constraint missed = Constraint::kNone;
-    std::shared_ptr<Line> line;  // of the corner; none if it misses something
+    double objective = 0.0;      // the corner's, at most that of the finished line
+    std::shared_ptr<Line> line;  // of the corner; none before a box has it
     bool finished = false;       // by FinishLine(), and its objective by FindLeastObjective()
   };
   KnownLine& KnowLine(const LineKey& key);
-  Constraint FindLeastObjective(const LineKey& key, Line& line);
+  std::shared_ptr<Line> Assemble(const LineKey& key) const;
+  Constraint FindLeastObjective(const LineKey& key, double& objective);
   static LineKey KeyOf(const Box& box, int group);
   Constraint RemakeLine(Box& box, int group);
   Constraint FinishLines(Box& box);
@@ -130,6 +138,8 @@ class Bounds {
 
   Constraint AssessRegulated(Box& box, bool source_changed);
   Constraint NeedOfRegulated(Box& box);
+  double FlowMax(const RegulatorCorner& regulator) const;
+  double RegulatedFloor(const Box& box) const;
   Constraint RestOfRegulated(Box& box);
 
   Constraint AssessCompressor(Box& box, int changed);
@@ -162,7 +172,7 @@ class Bounds {
   const Plan& plan_;
   const Workbench* bench_;
   model::Gas gas_;
-  std::map<LineKey, KnownLine> lines_;        // made before
+  std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;  // screened before
   std::unordered_map<int, PumpFacts> pumps_;  // per node of the compressors' tree
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -15,6 +16,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kProgressIntervalS = 0.2;
+constexpr int kAlone = 20000;      // steps of the near walk before the far one begins
+constexpr double kNoLimit = 1e12;  // finite: a limit will be laid on the amount
 
 struct Node {
   Box box;
@@ -38,42 +41,44 @@ struct LowestKey {
 
 class Walker {
  public:
-  Walker(Problem problem, Amount limited, double resolution, const SearchOptions& options)
+  // `walk`: where the points go.
+  Walker(Problem problem, Amount limited, double resolution, const SearchOptions& options,
+         FrontWalk& walk)
       : problem_(std::move(problem)),
         limited_(limited),
         limit_(LimitOn(limited, problem_)),
         resolution_(resolution),
         options_(options),
-        bench_{[this] { return Stopped(); }, options.periodic} {}
-
-  FrontWalk Run() {
+        bench_{[this] { return Stopped(); }, options.periodic},
+        walk_(walk) {
     Plant();
-    while (!open_.empty() && !Stopped()) {
-      Report();
-      Step(open_.Pop());
-    }
-    if (!planted_)
-      LeaveOpen(0.0);
-    else if (!open_.empty())
-      LeaveOpen(open_.top()->key);
-    walk_.cancelled = cancelled_;
-    return std::move(walk_);
   }
+
+  bool Stopped() {
+    walk_.cancelled = walk_.cancelled || (options_.cancelled && options_.cancelled());
+    return walk_.cancelled || Seconds() > options_.time_limit_s;
+  }
+
+  void Step() {
+    Report();
+    Step(open_.Pop());
+  }
+
+  // What is not found yet has at least so much of the objective, and at most so much of the other.
+  double lowest() const { return !planted_ ? 0.0 : open_.empty() ? kUnlimited : open_.top()->key; }
+  double limit() const { return limit_; }
+
+  void LeaveOpen(double least) { walk_.open.push_back({limited_, limit_, least}); }
 
  private:
   double Seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  bool Stopped() {
-    cancelled_ = cancelled_ || (options_.cancelled && options_.cancelled());
-    return cancelled_ || Seconds() > options_.time_limit_s;
-  }
-
-  void LeaveOpen(double least) { walk_.open.push_back({limit_, least}); }
-
   void Plant() {
     for (Configuration configuration : problem_.configurations) {
       if (Stopped()) return;
-      plans_.push_back(MakePlan(problem_, configuration));
+      std::unique_ptr<Plan> plan = MakePlan(problem_, configuration, bench_.stop);
+      if (!plan) return;
+      plans_.push_back(std::move(plan));
       if (plans_.back()->empty()) continue;
       bounds_.push_back(std::make_unique<Bounds>(problem_, *plans_.back(), &bench_));
       auto node = std::make_unique<Node>();
@@ -203,17 +208,37 @@ class Walker {
   std::vector<std::unique_ptr<Plan>> plans_;
   std::vector<std::unique_ptr<Bounds>> bounds_;
   Queue<NodePtr, LowestKey> open_;
-  FrontWalk walk_;
+  FrontWalk& walk_;
   long long serial_ = 0;
   double reported_s_ = 0.0;
-  bool cancelled_ = false, planted_ = false;
+  bool planted_ = false;
 };
 
 }  // namespace
 
-FrontWalk WalkFront(Problem problem, Amount limited, double resolution,
-                    const SearchOptions& options) {
-  return Walker(std::move(problem), limited, resolution, options).Run();
+FrontWalk WalkFront(const Problem& problem, Amount minimised, Amount limited, double resolution,
+                    const SearchOptions& options, int steps_alone) {
+  FrontWalk walk;
+  Walker near(problem, limited, resolution, options, walk);
+  std::optional<Walker> far;
+  const auto met = [&] {
+    return std::isinf(near.lowest()) ||
+           (far && (std::isinf(far->lowest()) || near.lowest() > far->limit() ||
+                    far->lowest() > near.limit()));
+  };
+  for (int step = 0; !met() && !near.Stopped(); ++step) {
+    near.Step();
+    if (step == steps_alone && minimised != Amount::kEnergy) {
+      Problem turned = problem;
+      turned.objective = ObjectiveOn(limited);
+      double& limit = LimitOn(minimised, turned);
+      limit = std::min(limit, kNoLimit);
+      far.emplace(std::move(turned), minimised, resolution, options, walk);
+    }
+    if (far && !met() && !far->Stopped()) far->Step();
+  }
+  if (!met()) near.LeaveOpen(near.lowest());
+  return walk;
 }
 
 }  // namespace plenum::optimizer

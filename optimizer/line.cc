@@ -16,12 +16,11 @@ bool DiametersMate(double tube_outer_m, double fitting_outer_m) {
   return std::abs(tube_outer_m - fitting_outer_m) <= kDiameterToleranceM;
 }
 
-bool PartsMate(const Problem& problem, const Line& line) {
-  if (line.fitting < 0) return true;
-  const model::Fitting& fitting = problem.parts.fittings[line.fitting];
-  return DiametersMate(problem.parts.tubing[line.tubing].outer_diameter_m,
-                       fitting.tube_outer_diameter_m) &&
-         fitting.thread == problem.parts.valves[line.valve].port;
+bool PartsMate(const Problem& problem, int tubing, int fitting, int valve) {
+  if (fitting < 0) return true;
+  const model::Fitting& part = problem.parts.fittings[fitting];
+  return DiametersMate(problem.parts.tubing[tubing].outer_diameter_m, part.tube_outer_diameter_m) &&
+         part.thread == problem.parts.valves[valve].port;
 }
 
 Amounts operator*(double quantity, const model::PartBasics& basics) {

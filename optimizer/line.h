@@ -66,7 +66,7 @@ struct Line {
 // Tubes and fittings mate when their diameters agree to 0.05 mm, fittings and valves when thread
 // and port are the same. Nothing has to mate where no fitting is needed.
 bool DiametersMate(double tube_outer_m, double fitting_outer_m);
-bool PartsMate(const Problem& problem, const Line& line);
+bool PartsMate(const Problem& problem, int tubing, int fitting, int valve);  // as in Line
 
 // Target pressures of a group.
 double RiseTarget(const Problem& problem, const ActuatorGroup& group);

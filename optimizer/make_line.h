@@ -16,18 +16,22 @@ struct LineCorners {
 };
 
 // kNone, or why no source makes the line meet its group's limits: rise and fall time, half of the
-// period, pressure ratings. Leaves the line without what FinishLine() adds.
+// period, pressure ratings.
 Constraint ScreenLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
-                      bool exact, Line& line);
+                      bool exact);
 
-// Adds to a line that passed the least source pressure, for a box bounded from below only, the
-// least inflation time and, `with_table`, the flow table.
-void FinishLine(const Problem& problem, int group, const ValveCorner& valve, bool exact,
-                bool with_table, Line& line);
+// Without what FinishLine() adds.
+Line AssembleLine(const Problem& problem, int group, const LineCorners& corners);
 
-// Both.
+// Adds to a line that passed the least source pressure, found where the line is single and
+// `with_curve`, else bounded from below; the least inflation time and, for a single line, the fall
+// time; `with_curve`, for reservoirs, its curve and the panels of its strokes.
+void FinishLine(const Problem& problem, int group, model::Gas gas, const ValveCorner& valve,
+                bool exact, bool with_curve, Line& line);
+
+// All of it.
 Constraint MakeLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
-                    bool exact, bool with_table, Line& line);
+                    bool exact, bool with_curve, Line& line);
 
 }  // namespace plenum::optimizer
 

@@ -23,20 +23,6 @@ constexpr double kSearchLeastS = 0.5;
 constexpr double kPricedEur = 1e12;  // a limit that only asks for prices
 constexpr double kJoulePerWattHour = 3600.0;
 
-Objective ObjectiveOn(Amount amount) {
-  switch (amount) {
-    case Amount::kMass:
-      return {.mass_kg = 1.0};
-    case Amount::kVolume:
-      return {.volume_l = 1.0};
-    case Amount::kCost:
-      return {.cost_eur = 1.0};
-    case Amount::kEnergy:
-      return {.energy_wh = 1.0};
-  }
-  return {};
-}
-
 // The amount that is minimised; limits are laid on the others. Energy depends on the settings and
 // has no limit of its own; a least mass is what the search proves soonest.
 std::size_t Minimised(const std::vector<Amount>& amounts) {
@@ -209,14 +195,16 @@ class FrontSearch {
     const std::size_t limited = 1 - minimised_;
     SearchOptions options = options_;
     options.time_limit_s = options_.time_limit_s - Seconds();
-    FrontWalk walk = WalkFront(Limited(region), amounts_[limited], resolution_, options);
+    FrontWalk walk =
+        WalkFront(Limited(region), amounts_[minimised_], amounts_[limited], resolution_, options);
     cancelled_ = cancelled_ || walk.cancelled;
     proved_ += static_cast<int>(walk.designs.size()) + walk.open.empty();
     searches_ += static_cast<int>(walk.designs.size()) + 1;
     for (const FrontWalk::Open& open : walk.open) {
       Caps caps = region;
-      caps[limited] = open.limit;
-      unexplored_.push_back({caps, amounts_[minimised_], open.least});
+      const bool near = open.limited == amounts_[limited];
+      caps[near ? limited : minimised_] = open.limit;
+      unexplored_.push_back({caps, amounts_[near ? minimised_ : limited], open.least});
     }
     for (Design& design : walk.designs) {
       Point point = PointOf(design);
@@ -239,6 +227,15 @@ class FrontSearch {
     return better;
   }
 
+  // Within the resolution of a point with less of the minimised amount: the walk from the far end
+  // meets such points first.
+  bool Obsolete(const Point& point, const Point& other) const {
+    if (point.size() != 2) return false;
+    const std::size_t limited = 1 - minimised_;
+    return other[minimised_] < point[minimised_] * (1.0 - kTie) &&
+           other[limited] <= point[limited] * (1.0 + resolution_);
+  }
+
   bool Same(const Point& a, const Point& b) const {
     for (std::size_t i = 0; i < a.size(); ++i)
       if (std::abs(a[i] - b[i]) > kTie * std::abs(b[i])) return false;
@@ -248,6 +245,7 @@ class FrontSearch {
   bool BelongsToFront(std::size_t index) const {
     for (std::size_t other = 0; other < found_.size(); ++other)
       if (Beats(found_[other].point, found_[index].point) ||
+          Obsolete(found_[index].point, found_[other].point) ||
           (other < index && Same(found_[other].point, found_[index].point)))
         return false;
     return true;
@@ -313,6 +311,20 @@ class FrontSearch {
 };
 
 }  // namespace
+
+Objective ObjectiveOn(Amount amount) {
+  switch (amount) {
+    case Amount::kMass:
+      return {.mass_kg = 1.0};
+    case Amount::kVolume:
+      return {.volume_l = 1.0};
+    case Amount::kCost:
+      return {.cost_eur = 1.0};
+    case Amount::kEnergy:
+      return {.energy_wh = 1.0};
+  }
+  return {};
+}
 
 double& LimitOn(Amount amount, Problem& problem) {
   return amount == Amount::kMass     ? problem.mass_max_kg

@@ -12,6 +12,8 @@ namespace plenum::optimizer {
 enum class Amount { kMass, kVolume, kCost, kEnergy };
 const char* Name(Amount amount);  // "mass_kg", "volume_l", "cost_eur", "energy_wh"
 
+Objective ObjectiveOn(Amount amount);  // that amount alone
+
 // In the unit of its name; NaN for the cost of parts without a price.
 double Of(Amount amount, const Totals& totals);
 
@@ -31,8 +33,8 @@ struct Front {
   // proof's counts and bound are those of the first search, which has no limits but the problem's.
   Answer answer;
   std::vector<Amount> amounts;
-  // A design whose amounts, but for the minimised one, all lie above those of a point of the front
-  // by less than this share may be missing.
+  // A design whose amounts, but for a minimised one, all lie above those of a point of the front by
+  // less than this share may be missing.
   double resolution = 0.0;
   int searches = 0, proved = 0;
   std::vector<Unexplored> unexplored;  // empty: the front is whole
@@ -43,8 +45,9 @@ struct Front {
 // until every region is proved empty. A region's answer also serves any smaller region that holds
 // it. Points that a later search finds to be matched or beaten in every amount are dropped, so that
 // ties leave no weakly dominated point. (Kirlik and Sayın 2014, with overlapping regions in place
-// of their partition.) With two amounts the regions are nested, and one search goes through all of
-// them (front_walk.h); each of its points counts as a search, and so does the end of the front.
+// of their partition.) With two amounts the regions are nested, and one search from each end goes
+// through all of them (front_walk.h); each of its points counts as a search, and so does the last
+// proof that there are no more.
 //
 // `optimal` only when every search was proved; a search that runs out of time leaves its region in
 // `unexplored`. Where the volume of a made-to-measure reservoir trades against energy the front is

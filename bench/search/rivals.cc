@@ -1,6 +1,6 @@
 // The rivals of C++ on the base instance; writes one line for each run, which rivals_table.py
 // reads.
-//   rivals FILE SIZE… [--instances N] [--time-limit S]
+//   rivals FILE SIZE… [--instances N] [--time-limit S] [--only RIVAL]
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -42,11 +42,12 @@ std::vector<Rival> Rivals() {
           Bonmin("B-Hyb"), GeneticAlgorithm(), RandomSearch()};
 }
 
-void Run(std::FILE* file, int size, int count, double time_limit_s) {
+void Run(std::FILE* file, int size, int count, double time_limit_s, const std::string& only) {
   std::vector<std::uint64_t> seeds;
   const std::vector<BaseInstance> instances = Instances(size, count, seeds);
   for (const Rival& rival : Rivals())
     for (std::size_t i = 0; i < instances.size(); ++i) {
+      if (!only.empty() && rival.name != only) continue;
       std::fprintf(stderr, "%d parts, instance %zu: %s\n", size, i + 1, rival.name.c_str());
       Write(file, rival.name, size, seeds[i], instances[i],
             rival.solve(instances[i], seeds[i], time_limit_s));
@@ -73,20 +74,24 @@ int main(int argc, char** argv) {
   std::vector<int> sizes;
   int instances = 10;
   double time_limit_s = 20.0;
+  std::string only;
   for (int i = 2; i < argc; ++i) {
     if (std::strcmp(argv[i], "--instances") == 0 && i + 1 < argc)
       instances = std::stoi(argv[++i]);
     else if (std::strcmp(argv[i], "--time-limit") == 0 && i + 1 < argc)
       time_limit_s = std::stod(argv[++i]);
+    else if (std::strcmp(argv[i], "--only") == 0 && i + 1 < argc)
+      only = argv[++i];
     else
       sizes.push_back(std::stoi(argv[i]));
   }
   std::FILE* file = argc > 1 ? std::fopen(argv[1], "w") : nullptr;
   if (file == nullptr || sizes.empty()) {
-    std::fprintf(stderr, "usage: rivals FILE SIZE... [--instances N] [--time-limit S]\n");
+    std::fprintf(stderr,
+                 "usage: rivals FILE SIZE... [--instances N] [--time-limit S] [--only RIVAL]\n");
     return 2;
   }
   plenum::bench::Describe(file);
-  for (int size : sizes) plenum::bench::Run(file, size, instances, time_limit_s);
+  for (int size : sizes) plenum::bench::Run(file, size, instances, time_limit_s, only);
   std::fclose(file);
 }

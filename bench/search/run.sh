@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The search and its rivals on one base-model instance: installs what is missing, builds with -O3
 # -march=native, prints the conditions, every rival's formulation and options, and the tables. Not 0
-# where the search misses an optimum. Some minutes.
+# where the search misses an optimum. About an hour, most of it rivals that run to their limit.
 #   bench/search/run.sh [SIZE…]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -13,8 +13,8 @@ configure rivals
 cmake --build --preset rivals >&2
 
 sizes=("$@")
-[ ${#sizes[@]} -gt 0 ] || sizes=(30 100 1000)
-time_limit_s=5
+[ ${#sizes[@]} -gt 0 ] || sizes=(30 100)
+time_limit_s=60
 core=$(taskset -cp $$ | sed 's/.*[ ,-]//') # the last one that we may use
 results=$(mktemp)
 trap 'rm "$results"' EXIT
@@ -24,7 +24,7 @@ echo "Machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), core
 echo "Libraries:$(dpkg-query -W -f ' ${Package} ${Version}' \
   coinor-libbonmin4 coinor-libcbc3 libpagmo8 python3-scipy)"
 echo
-taskset -c "$core" build/rivals/rivals "$results" "${sizes[@]}" --instances 5 \
+taskset -c "$core" build/rivals/rivals "$results" "${sizes[@]}" --instances 10 \
   --time-limit "$time_limit_s" >&2
 # Debian's Python, which has Debian's SciPy.
 taskset -c "$core" /usr/bin/python3 bench/search/rivals_scipy.py \

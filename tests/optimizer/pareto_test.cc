@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "optimizer/front_walk.h"
 #include "tests/optimizer/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
@@ -167,18 +168,47 @@ const std::set<Configuration> kRegulated{Configuration::kCylinder, Configuration
                                          Configuration::kMains};
 
 TEST(ParetoTest, TwoAmountsOfRegulatedSupplies) {
-  constexpr Amount kPairs[][2] = {{Amount::kMass, Amount::kVolume},
-                                  {Amount::kCost, Amount::kMass},
-                                  {Amount::kVolume, Amount::kCost},
-                                  {Amount::kMass, Amount::kEnergy}};
+  constexpr Amount kPairs[][2] = {
+      {Amount::kMass, Amount::kVolume}, {Amount::kCost, Amount::kMass},
+      {Amount::kVolume, Amount::kCost}, {Amount::kMass, Amount::kEnergy},
+      {Amount::kEnergy, Amount::kCost}, {Amount::kVolume, Amount::kEnergy}};
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const auto& pair = kPairs[seed % 4];
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const auto& pair = kPairs[seed % 6];
     SCOPED_TRACE("seed " + std::to_string(seed));
     Compare(Drawn(2000 + seed, kRegulated, {1, 2, 3, 2, 2, 2, 0, 2, 0}), {pair[0], pair[1]}, tally);
   }
   EXPECT_EQ(tally.whole, tally.problems);
   EXPECT_GT(tally.largest, 2u);
+}
+
+// Long fronts are walked from both ends; short ones are here, too.
+TEST(ParetoTest, WalksFromBothEndsMeet) {
+  constexpr Amount kPairs[][2] = {{Amount::kMass, Amount::kVolume},
+                                  {Amount::kCost, Amount::kMass},
+                                  {Amount::kVolume, Amount::kCost}};
+  std::size_t largest = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto& [minimised, limited] = kPairs[seed % 3];
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Problem problem = Drawn(2000 + seed, kRegulated, {1, 2, 3, 2, 2, 2, 0, 2, 0});
+    const std::vector<Point> truth = NonDominated(AllPoints(problem, {minimised, limited}));
+    problem.count = 1;
+    problem.objective = optimizer::ObjectiveOn(minimised);
+    double& limit = LimitOn(limited, problem);
+    limit = std::min(limit, 1e12);
+    const optimizer::FrontWalk walk =
+        optimizer::WalkFront(problem, minimised, limited, kSame, Within(60.0), 0);
+    EXPECT_TRUE(walk.open.empty());
+    std::vector<Point> points;
+    for (const optimizer::Design& design : walk.designs)
+      points.push_back({Of(minimised, design.totals), Of(limited, design.totals)});
+    const std::vector<Point> front = NonDominated(points);
+    EXPECT_EQ(front.size(), truth.size());
+    for (const Point& point : front) EXPECT_TRUE(Has(truth, point)) << "surplus " << point[0];
+    largest = std::max(largest, front.size());
+  }
+  EXPECT_GT(largest, 2u);
 }
 
 TEST(ParetoTest, ThreeAmounts) {
