@@ -8,8 +8,9 @@
 #define PLENUM_OPTIMIZER_BOX_H_
 
 #include <array>
-#include <map>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct VolumeNeed {
   double objective = 0.0;  // of a reservoir in it, at least
   double rest = 0.0;       // of reservoir, battery and energy, at least
   int look = -1;           // Box::look when it was looked at; less: in a larger box, still a bound
+  bool energy_known = false;  // by LeastMissionEnergy(), in that look
 };
 
 struct Box {
@@ -85,6 +87,16 @@ class Bounds {
     std::array<int, kSlotsPerGroup> nodes{};
     auto operator<=>(const LineKey&) const = default;
   };
+  struct HashOfLine {
+    std::size_t operator()(const LineKey& key) const {
+      std::uint64_t hash = static_cast<std::uint64_t>(key.group);
+      for (int node : key.nodes) {
+        hash = (hash ^ static_cast<std::uint64_t>(node)) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+      }
+      return hash;
+    }
+  };
   struct LineParts {
     std::array<const BoxNode*, kSlotsPerGroup> nodes;
     LineCorners corners;
@@ -135,6 +147,7 @@ class Bounds {
   bool IsSettled(const Box& box, const VolumeNeed& volume) const;
   static std::size_t Lowest(const Box& box);
   Constraint LookAtLowest(Box& box);
+  std::optional<VolumeNeed> LookAt(const Box& box, VolumeNeed volume);
   bool IsMade(const VolumeNeed& volume) const;
   double Spread(const VolumeNeed& volume) const;
   std::vector<VolumeNeed> Halves(const VolumeNeed& volume) const;
@@ -156,8 +169,8 @@ class Bounds {
   const Plan& plan_;
   const Workbench* bench_;
   model::Gas gas_;
-  std::map<LineKey, KnownLine> lines_;        // made before
-  std::unordered_map<int, PumpFacts> pumps_;  // per node of the compressors' tree
+  std::unordered_map<LineKey, KnownLine, HashOfLine> lines_;  // made before
+  std::unordered_map<int, PumpFacts> pumps_;                  // per node of the compressors' tree
 };
 
 }  // namespace plenum::optimizer
