@@ -23,6 +23,9 @@ constexpr double kFinestRatio = 1.004;
 // Of the least source pressure, whose lower end is used.
 constexpr double kBoxTolerance = 1e-2;
 constexpr double kSingleTolerance = 1e-3;
+// Of the range of source pressures, for the energy.
+constexpr int kBoxDivisions = 8;
+constexpr int kSingleDivisions = 16;
 
 }  // namespace
 
@@ -124,17 +127,18 @@ std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
   const PumpLoad load = MakePumpLoad(problem_, lines, box.window.low_pa);
   const PumpLimits limits{CornerAt(plan_.compressors, box, plan_.compressor_slot).duty_max,
                           CornerAt(plan_.batteries, box, plan_.battery_slot).energy_j};
+  const bool single = CoreIsSingle(box, plan_.reservoir_slot);
   if (volume.look == box.look) {
-    volume.need.energy_j = LeastMissionEnergy(problem_, pump, load, volume.need);
+    volume.need.energy_j = LeastMissionEnergy(problem_, pump, load, volume.need,
+                                              single ? kSingleDivisions : kBoxDivisions);
     if (!(volume.need.energy_j <= limits.energy_max_j)) return std::nullopt;
     volume.energy_known = true;
   } else {
     volume.need.source_max_pa =
         std::min(volume.need.source_max_pa, plan_.reservoirs.corners[volume.node].pressure_max_pa);
-    const double tolerance =
-        CoreIsSingle(box, plan_.reservoir_slot) ? kSingleTolerance : kBoxTolerance;
     const std::optional<ReservoirNeed> need =
-        LeastReservoirNeed(problem_, pump, load, limits, box.window, volume.need, tolerance);
+        LeastReservoirNeed(problem_, pump, load, limits, box.window, volume.need,
+                           single ? kSingleTolerance : kBoxTolerance);
     if (!need) return std::nullopt;
     volume.need = *need;
     volume.look = box.look;

@@ -128,10 +128,10 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
 // these faster; the time that the bound on strokes gives them at the stop pressures in question
 // raises it, where all strokes begin at once.
 bool EnergyMayGrow(const Problem& problem, const PumpLoad& load);
-// Energy of the mission at any stop pressure in between, at least; `need` as LeastReservoirNeed
-// gave it for the same load.
+// Energy of the mission at any stop pressure in between, at least, by so many divisions of the
+// pressures; `need` as LeastReservoirNeed gave it for the same load.
 double LeastMissionEnergy(const Problem& problem, const PumpFacts& facts, const PumpLoad& load,
-                          const ReservoirNeed& need);
+                          const ReservoirNeed& need, int divisions);
 
 // Both for a candidate whose compressor and lines are chosen, by intervals of volumes that
 // divide [low, high]; intervals that will not do are left out.
