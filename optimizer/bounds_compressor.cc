@@ -91,7 +91,7 @@ bool Bounds::CanFindSource(const Box& box) const {
   if (plan_.configuration == Configuration::kCompressor &&
       !(box.lines_finished && IsSettled(box, (*box.volumes)[Lowest(box)])))
     return true;
-  return !box.source_known && CoreIsSingle(box);
+  return CoreIsSingle(box) && (!box.source_known || CanSizeCore(box));
 }
 
 Constraint Bounds::FindSource(Box& box) {
@@ -104,6 +104,7 @@ Constraint Bounds::FindSource(Box& box) {
     }
     const VolumeNeed& lowest = (*box.volumes)[Lowest(box)];
     if (!IsSettled(box, lowest)) return LookAtLowest(box);
+    if (box.source_known) return SizeCore(box);
     return IsMade(lowest) ? RefineVolumes(box) : FindStockSource(box);
   }
   box.source_known = true;

@@ -20,6 +20,8 @@
 
 namespace plenum::optimizer {
 
+struct CoreSizing;
+
 // Some of the reservoirs that a box may have: a node of their tree, of a made-to-measure one an
 // interval of volumes.
 struct VolumeNeed {
@@ -46,6 +48,7 @@ struct Box {
   int look = 0;                             // grows where the needs of volumes may have grown
   double volume_ratio_max = 0.0;            // of the ends of an interval of made-to-measure volumes
   bool source_known = false;                // the least source pressure is that of the real parts
+  std::shared_ptr<CoreSizing> core;         // shared by all that differ in the battery alone
 };
 
 std::vector<ReservoirNeed> NeedsOf(const Box& box);
@@ -68,7 +71,8 @@ class Bounds {
 
   // What raises the bound of a box without dividing it, step by step: a look at the reservoirs that
   // its bound comes from; once all but bottle and battery are single choices their source pressure,
-  // found for good at a hundred times the cost, or finer intervals of made-to-measure volumes.
+  // found for good at a hundred times the cost, or finer intervals of made-to-measure volumes, and
+  // where energy counts the best settings of those with any battery (core_sizing.h).
   bool CanFindSource(const Box& box) const;
   Constraint FindSource(Box& box);
 
@@ -158,6 +162,8 @@ class Bounds {
   double LeastEnergy(const Candidate& candidate, OperatingPoint point,
                      const Evaluation& least) const;
   Constraint RefineVolumes(Box& box);
+  bool CanSizeCore(const Box& box) const;
+  Constraint SizeCore(Box& box);
 
   // The least share of the objective of a battery that bears so much; `others`: what the rest of
   // the design at least amounts to.

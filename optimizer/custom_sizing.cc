@@ -29,11 +29,14 @@ std::vector<ReservoirNeed> NeedsOfCandidate(const Problem& problem, const Candid
   const PumpFacts facts =
       MakePumpFacts(problem, problem.parts.compressors[candidate.compressor.index].curve,
                     candidate.compressor.quantity);
-  const model::Battery& battery = problem.parts.batteries[candidate.battery.index];
-  return ReservoirNeeds(problem, facts, candidate,
-                        candidate.battery.quantity *
-                            model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v),
-                        model::kMadeReservoirSmallestM3, model::kMadeReservoirLargestM3);
+  double energy_j = kUnlimited;
+  if (candidate.battery.index != kNone) {
+    const model::Battery& battery = problem.parts.batteries[candidate.battery.index];
+    energy_j = candidate.battery.quantity *
+               model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v);
+  }
+  return ReservoirNeeds(problem, facts, candidate, energy_j, model::kMadeReservoirSmallestM3,
+                        model::kMadeReservoirLargestM3);
 }
 
 CustomSizing::CustomSizing(const Problem& problem, Candidate candidate)

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "optimizer/custom_sizing.h"
+#include "optimizer/leaf_sizing.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -33,7 +33,7 @@ class Diver {
   void Below(Box box, int turns) {
     if (Done() || box.bound > ranking_.run_end()) return;
     while (bounds_.CanFindSource(box))
-      if (bounds_.FindSource(box) != Constraint::kNone) return;
+      if (stop_() || bounds_.FindSource(box) != Constraint::kNone) return;
     if (bounds_.IsSingle(box)) {
       if (turns == 0) Try(std::move(box));
       return;
@@ -56,17 +56,11 @@ class Diver {
     PartIds ids = EarliestIds(problem_, bounds_.plan(), box);
     if (ranking_.Find(ids) != nullptr) return;
     const Candidate candidate = bounds_.CandidateOf(box);
-    Leaf leaf;
-    if (candidate.reservoir.index == kCustom) {
-      CustomSizing sizing(problem_, candidate, NeedsOf(box));
-      while (!stop_() && !sizing.Refine()) {
-      }
-      leaf = sizing.leaf();
-    } else {
-      leaf = SizeAtVolume(problem_, candidate, ReservoirVolume(problem_, candidate));
-    }
-    if (leaf.status == LeafStatus::kFeasible)
-      ranking_.Add({std::move(box), &bounds_, leaf, std::move(ids), -1, nullptr});
+    std::unique_ptr<CustomSizing> sizing;
+    std::optional<Leaf> sized;
+    while (!stop_() && !sized) sized = SizeLeaf(problem_, candidate, box, sizing);
+    if (sized && sized->status == LeafStatus::kFeasible)
+      ranking_.Add({std::move(box), &bounds_, *sized, std::move(ids), -1, nullptr});
   }
 
   const Problem& problem_;

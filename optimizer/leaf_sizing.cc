@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "optimizer/core_sizing.h"
+
 namespace plenum::optimizer {
 
 Halves Divide(const Bounds& bounds, const Box& box) {
@@ -20,6 +22,8 @@ std::optional<Leaf> SizeLeaf(const Problem& problem, const Candidate& candidate,
                              std::unique_ptr<CustomSizing>& sizing) {
   if (candidate.reservoir.index != kCustom)
     return SizeAtVolume(problem, candidate, ReservoirVolume(problem, candidate));
+  if (!sizing && box.core)
+    if (const std::optional<Leaf> leaf = LeafOfCore(problem, candidate, *box.core)) return leaf;
   if (!sizing) sizing = std::make_unique<CustomSizing>(problem, candidate, NeedsOf(box));
   if (sizing->Refine()) return sizing->leaf();
   box.bound = std::max(box.bound, sizing->leaf().lower_bound);
