@@ -23,6 +23,9 @@ constexpr double kFinestRatio = 1.004;
 // Of the least source pressure, whose lower end is used.
 constexpr double kBoxTolerance = 1e-2;
 constexpr double kSingleTolerance = 1e-3;
+// Of the range of source pressures, for the energy.
+constexpr int kBoxDivisions = 8;
+constexpr int kSingleDivisions = 16;
 
 }  // namespace
 
@@ -104,7 +107,7 @@ bool Bounds::IsWide(const Box& box, const VolumeNeed& volume) const {
 
 // Looked at for this box, and no longer to be halved.
 bool Bounds::IsSettled(const Box& box, const VolumeNeed& volume) const {
-  return volume.look == box.look && !IsWide(box, volume);
+  return volume.look == box.look && volume.energy_known && !IsWide(box, volume);
 }
 
 // The reservoirs whose bound is that of the box.
@@ -115,36 +118,52 @@ std::size_t Bounds::Lowest(const Box& box) {
   return static_cast<std::size_t>(lowest - box.volumes->begin());
 }
 
-// Looks at the reservoirs with the lowest bound as this box has them, or at each half of them where
-// that is done: they are dropped where none of them will do.
-Constraint Bounds::LookAtLowest(Box& box) {
+// What these reservoirs need in this box: their source pressure and what it takes, and where that
+// is known the energy of coils; none where none of them will do.
+std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
   const PumpFacts& pump = PumpOf(box);
-  const double tolerance =
-      CoreIsSingle(box, plan_.reservoir_slot) ? kSingleTolerance : kBoxTolerance;
   std::vector<const Line*> lines;
   for (const std::shared_ptr<const Line>& line : box.lines) lines.push_back(line.get());
   const PumpLoad load = MakePumpLoad(problem_, lines, box.window.low_pa);
   const PumpLimits limits{CornerAt(plan_.compressors, box, plan_.compressor_slot).duty_max,
                           CornerAt(plan_.batteries, box, plan_.battery_slot).energy_j};
-  std::vector<VolumeNeed>& volumes = box.volumes.Own();
-  const auto look = [&](VolumeNeed volume) {
+  const bool single = CoreIsSingle(box, plan_.reservoir_slot);
+  if (volume.look == box.look) {
+    volume.need.energy_j = LeastMissionEnergy(problem_, pump, load, volume.need,
+                                              single ? kSingleDivisions : kBoxDivisions);
+    if (!(volume.need.energy_j <= limits.energy_max_j)) return std::nullopt;
+    volume.energy_known = true;
+  } else {
     volume.need.source_max_pa =
         std::min(volume.need.source_max_pa, plan_.reservoirs.corners[volume.node].pressure_max_pa);
     const std::optional<ReservoirNeed> need =
-        LeastReservoirNeed(problem_, pump, load, limits, box.window, volume.need, tolerance);
-    if (!need) return;
+        LeastReservoirNeed(problem_, pump, load, limits, box.window, volume.need,
+                           single ? kSingleTolerance : kBoxTolerance);
+    if (!need) return std::nullopt;
     volume.need = *need;
     volume.look = box.look;
-    volume.rest = std::max(volume.rest, RestAt(box, volume));
-    volumes.push_back(volume);
-  };
+    volume.energy_known = !EnergyMayGrow(problem_, load);
+  }
+  volume.rest = std::max(volume.rest, RestAt(box, volume));
+  return volume;
+}
+
+// Looks at the reservoirs with the lowest bound as this box has them, or divides them where that is
+// done.
+Constraint Bounds::LookAtLowest(Box& box) {
+  std::vector<VolumeNeed>& volumes = box.volumes.Own();
   const std::size_t lowest = Lowest(box);
   const VolumeNeed volume = volumes[lowest];
   volumes.erase(volumes.begin() + static_cast<std::ptrdiff_t>(lowest));
-  if (volume.look == box.look) {
-    for (const VolumeNeed& half : Halves(volume)) look(half);
-  } else {
-    look(volume);
+  if (volume.look == box.look && (volume.energy_known || IsWide(box, volume))) {
+    // What is known of both holds for each half, which is looked at once it is the lowest.
+    for (VolumeNeed half : Halves(volume)) {
+      half.look = -1;
+      half.rest = std::max(half.rest, RestAt(box, half));
+      volumes.push_back(half);
+    }
+  } else if (const std::optional<VolumeNeed> looked = LookAt(box, volume)) {
+    volumes.push_back(*looked);
   }
   return RestOfCompressor(box);
 }

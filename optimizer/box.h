@@ -9,6 +9,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct VolumeNeed {
   double objective = 0.0;  // of a reservoir in it, at least
   double rest = 0.0;       // of reservoir, battery and energy, at least
   int look = -1;           // Box::look when it was looked at; less: in a larger box, still a bound
+  bool energy_known = false;  // by LeastMissionEnergy(), in that look
 };
 
 struct Box {
@@ -149,6 +151,7 @@ class Bounds {
   bool IsSettled(const Box& box, const VolumeNeed& volume) const;
   static std::size_t Lowest(const Box& box);
   Constraint LookAtLowest(Box& box);
+  std::optional<VolumeNeed> LookAt(const Box& box, VolumeNeed volume);
   bool IsMade(const VolumeNeed& volume) const;
   double Spread(const VolumeNeed& volume) const;
   std::vector<VolumeNeed> Halves(const VolumeNeed& volume) const;

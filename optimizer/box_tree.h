@@ -18,7 +18,6 @@ template <typename Corner>
 struct Item {
   Option option;
   Corner corner;
-  int rank = 0;  // in the order of ids, then quantities
 };
 
 struct BoxNode {
@@ -43,22 +42,27 @@ namespace box_tree_internal {
 template <typename Corner>
 class Builder {
  public:
-  explicit Builder(const std::vector<Item<Corner>>& items) : items_(items), order_(items.size()) {
+  explicit Builder(const std::vector<const Item<Corner>*>& items)
+      : items_(items), order_(items.size()) {
     std::iota(order_.begin(), order_.end(), 0);
-    for (const Item<Corner>& item : items) keys_.push_back(SplitKeys(item.corner));
+    keys_.reserve(items.size());
+    for (const Item<Corner>* item : items) keys_.push_back(SplitKeys(item->corner));
   }
 
   BoxTree<Corner> Build() {
     if (items_.empty()) return {};
+    tree_.nodes.reserve(2 * items_.size());
+    tree_.corners.reserve(2 * items_.size());
+    tree_.options.reserve(items_.size());
     Grow(0, static_cast<int>(order_.size()));
-    for (int i : order_) tree_.options.push_back(items_[i].option);
+    for (int i : order_) tree_.options.push_back(items_[i]->option);
     return std::move(tree_);
   }
 
  private:
   using Keys = decltype(SplitKeys(std::declval<Corner>()));
 
-  int Rank(int position) const { return items_[order_[position]].rank; }
+  int Rank(int position) const { return order_[position]; }
 
   Keys Spread(int first, int last) const {
     Keys low = keys_[order_[first]], high = low;
@@ -75,7 +79,7 @@ class Builder {
   // there are several, else at the median of the attribute that is spread most.
   int Divide(int first, int last) {
     const auto begin = order_.begin() + first, end = order_.begin() + last;
-    const auto class_of = [&](int i) { return MatingClass(items_[i].corner); };
+    const auto class_of = [&](int i) { return MatingClass(items_[i]->corner); };
     const auto by_class = [&](int a, int b) {
       return class_of(a) != class_of(b) ? class_of(a) < class_of(b) : a < b;
     };
@@ -107,7 +111,7 @@ class Builder {
   int Grow(int first, int last) {
     const int index = static_cast<int>(tree_.nodes.size());
     tree_.nodes.push_back({-1, -1, first, last});
-    tree_.corners.push_back(items_[order_[first]].corner);
+    tree_.corners.push_back(items_[order_[first]]->corner);
     double low = tree_.corners[index].objective, high = low;
     int earliest = first;
     if (last - first > 1) {
@@ -130,7 +134,7 @@ class Builder {
     return index;
   }
 
-  const std::vector<Item<Corner>>& items_;
+  const std::vector<const Item<Corner>*>& items_;
   std::vector<int> order_;
   std::vector<Keys> keys_;
   BoxTree<Corner> tree_;
@@ -138,8 +142,9 @@ class Builder {
 
 }  // namespace box_tree_internal
 
+// `items`: in the order of ids, then quantities.
 template <typename Corner>
-BoxTree<Corner> MakeBoxTree(const std::vector<Item<Corner>>& items) {
+BoxTree<Corner> MakeBoxTree(const std::vector<const Item<Corner>*>& items) {
   return box_tree_internal::Builder<Corner>(items).Build();
 }
 

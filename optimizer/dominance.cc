@@ -1,10 +1,12 @@
 #include "optimizer/dominance.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
-#include <numeric>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 namespace plenum::optimizer {
 namespace {
@@ -13,122 +15,80 @@ bool ListedFirst(const Contender& a, const Contender& b) {
   return a.id != b.id ? a.id < b.id : a.item.quantity < b.item.quantity;
 }
 
-// The contenders of one class by their losses, as a kd-tree whose nodes know the least losses of
-// those below them that have been added: a node that has more of some loss than a contender holds
-// none of its dominators.
-class LossTree {
+// Losses of the contenders of one class that are kept, in chunks as they come: one column for each
+// loss, so that one of a whole chunk is compared at once.
+class KeptLosses {
  public:
-  LossTree(const std::vector<Contender>& contenders, const std::vector<int>& members)
-      : contenders_(contenders),
-        members_(members),
-        losses_(contenders[members.front()].losses.size()),
-        order_(members.size()),
-        leaf_of_(members.size()),
-        added_(members.size(), false) {
-    std::iota(order_.begin(), order_.end(), 0);
-    Grow(0, static_cast<int>(members.size()), -1);
-    least_.assign(nodes_.size() * losses_, std::numeric_limits<double>::infinity());
-  }
+  explicit KeptLosses(std::size_t losses) : losses_(losses) {}
 
-  void Add(int member) {
-    added_[member] = true;
-    const std::vector<double>& losses = LossesOf(member);
-    for (int at = leaf_of_[member]; at >= 0; at = nodes_[at].parent)
-      for (std::size_t k = 0; k < losses_; ++k)
-        least_[at * losses_ + k] = std::min(least_[at * losses_ + k], losses[k]);
-  }
-
-  // Hands those members to `found` that were added and lose no more anywhere, until it returns
-  // false.
-  template <typename Found>
-  bool NoWorse(const std::vector<double>& losses, const Found& found, int at = 0) const {
-    for (std::size_t k = 0; k < losses_; ++k)
-      if (least_[at * losses_ + k] > losses[k]) return true;
-    const Node& node = nodes_[at];
-    if (node.left < 0) {
-      for (int i = node.first; i < node.last; ++i)
-        if (added_[order_[i]] && Below(LossesOf(order_[i]), losses) && !found(order_[i]))
-          return false;
-      return true;
+  void Add(const Losses& losses) {
+    const std::size_t place = size_++ % kChunk;
+    if (place == 0) chunks_.resize(chunks_.size() + losses_);
+    Column* columns = &chunks_[chunks_.size() - losses_];
+    for (std::size_t k = 0; k < losses_; ++k) {
+      columns[k].loss[place] = losses[k];
+      columns[k].least = std::min(columns[k].least, losses[k]);
     }
-    return NoWorse(losses, found, node.left) && NoWorse(losses, found, node.right);
+  }
+
+  // Hands the numbers of those that lose no more anywhere to `found`, until it returns false. The
+  // last to come are the first: with a share of the objective that is hardly smaller they are the
+  // likeliest to lose no more, and most chunks of much smaller shares have none that does.
+  template <typename Found>
+  void NoWorse(const Losses& losses, const Found& found) const {
+    for (std::size_t last = size_; last > 0;) {
+      const std::size_t first = (last - 1) / kChunk * kChunk;
+      const Column* columns = chunks_.data() + first / kChunk * losses_;
+      std::array<std::int64_t, kChunk> worse;
+      if (AnyNoWorse(columns, losses, worse))
+        for (std::size_t i = last - first; i-- > 0;)
+          if (worse[i] == 0 && !found(first + i)) return;
+      last = first;
+    }
   }
 
  private:
-  struct Node {
-    int first, last, parent, left = -1, right = -1;
+  static constexpr std::size_t kChunk = 64;
+  struct Column {
+    double least = std::numeric_limits<double>::infinity();
+    std::array<double, kChunk> loss;
+    Column() { loss.fill(std::numeric_limits<double>::infinity()); }
   };
 
-  static bool Below(const std::vector<double>& a, const std::vector<double>& b) {
-    for (std::size_t k = 0; k < a.size(); ++k)
-      if (a[k] > b[k]) return false;
-    return true;
-  }
-
-  const std::vector<double>& LossesOf(int member) const {
-    return contenders_[members_[member]].losses;
-  }
-
-  // Where [first, last) is divided: as near to the middle as one loss of all allows, beginning with
-  // the k-th; `first` where they are all alike.
-  int Divide(int first, int last, std::size_t k) {
-    const auto begin = order_.begin();
-    for (std::size_t turn = 0; turn < losses_; ++turn, k = (k + 1) % losses_) {
-      const auto loss = [&](int member) { return LossesOf(member)[k]; };
-      const int half = first + (last - first) / 2;
-      std::nth_element(begin + first, begin + half, begin + last,
-                       [&](int a, int b) { return loss(a) < loss(b); });
-      const double median = loss(order_[half]);
-      auto border = std::partition(begin + first, begin + last,
-                                   [&](int member) { return loss(member) < median; });
-      if (border == begin + first)
-        border = std::partition(begin + first, begin + last,
-                                [&](int member) { return loss(member) <= median; });
-      if (border != begin + last) return static_cast<int>(border - begin);
+  bool AnyNoWorse(const Column* columns, const Losses& losses,
+                  std::array<std::int64_t, kChunk>& worse) const {
+    for (std::size_t k = 0; k < losses_; ++k)
+      if (columns[k].least > losses[k]) return false;
+    worse.fill(0);
+    for (std::size_t k = 0; k < losses_; ++k) {
+      const double* column = columns[k].loss.data();
+      const double loss = losses[k];
+      for (std::size_t i = 0; i < kChunk; ++i) worse[i] |= column[i] > loss;
     }
-    return first;
+    return std::find(worse.begin(), worse.end(), 0) != worse.end();
   }
 
-  int Grow(int first, int last, int parent, std::size_t depth = 0) {
-    constexpr int kLeaf = 8;
-    const int index = static_cast<int>(nodes_.size());
-    nodes_.push_back({first, last, parent});
-    const int middle =
-        last - first > kLeaf && losses_ > 0 ? Divide(first, last, depth % losses_) : first;
-    if (middle == first) {
-      for (int i = first; i < last; ++i) leaf_of_[order_[i]] = index;
-      return index;
-    }
-    const int left = Grow(first, middle, index, depth + 1);
-    const int right = Grow(middle, last, index, depth + 1);
-    nodes_[index].left = left;
-    nodes_[index].right = right;
-    return index;
-  }
-
-  const std::vector<Contender>& contenders_;
-  const std::vector<int>& members_;
-  std::size_t losses_;
-  std::vector<int> order_, leaf_of_;  // members as the tree has them; their leaves
-  std::vector<bool> added_;
-  std::vector<Node> nodes_;
-  std::vector<double> least_;  // per node and loss
+  std::size_t losses_, size_ = 0;
+  std::vector<Column> chunks_;  // of each loss one per chunk
 };
 
 }  // namespace
 
-Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie,
+Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie, bool name_left_out,
                  const std::function<bool()>& stop) {
   constexpr int kBetweenLooks = 256;
-  std::vector<int> order(contenders.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    const Contender &x = contenders[a], &y = contenders[b];
-    return x.objective != y.objective ? x.objective < y.objective : ListedFirst(x, y);
+  using Share = std::pair<double, int>;  // of the objective; the contender
+  std::vector<Share> order;
+  order.reserve(contenders.size());
+  for (int i = 0; i < static_cast<int>(contenders.size()); ++i)
+    order.emplace_back(contenders[i].objective, i);
+  std::sort(order.begin(), order.end(), [&](const Share& a, const Share& b) {
+    return a.first != b.first ? a.first < b.first
+                              : ListedFirst(contenders[a.second], contenders[b.second]);
   });
   std::unordered_map<std::string_view, std::size_t> number_of;
   std::vector<std::vector<int>> classes;
-  for (int index : order) {
+  for (const auto& [share, index] : order) {
     const auto [entry, fresh] = number_of.try_emplace(contenders[index].mates, classes.size());
     if (fresh) classes.emplace_back();
     classes[entry->second].push_back(index);
@@ -136,24 +96,26 @@ Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie,
   Skyband result;
   std::vector<ProofItem> dominators;
   for (const std::vector<int>& members : classes) {
-    LossTree kept(contenders, members);
-    for (int member = 0; member < static_cast<int>(members.size()); ++member) {
+    KeptLosses kept_losses(contenders[members.front()].losses.size());
+    std::vector<int> kept;
+    for (std::size_t member = 0; member < members.size(); ++member) {
       if (stop && member % kBetweenLooks == 0 && stop()) return {};
       const Contender& contender = contenders[members[member]];
       dominators.clear();
-      kept.NoWorse(contender.losses, [&](int other) {
-        const Contender& better = contenders[members[other]];
+      kept_losses.NoWorse(contender.losses, [&](std::size_t other) {
+        const Contender& better = contenders[kept[other]];
         if (better.objective < contender.objective - tie || ListedFirst(better, contender))
           dominators.push_back(better.item);
         return static_cast<int>(dominators.size()) < k;
       });
       if (static_cast<int>(dominators.size()) == k) {
-        result.left_out.push_back({contender.item, dominators});
+        if (name_left_out) result.left_out.push_back({contender.item, dominators});
         continue;
       }
-      kept.Add(member);
-      result.kept.push_back(members[member]);
+      kept_losses.Add(contender.losses);
+      kept.push_back(members[member]);
     }
+    result.kept.insert(result.kept.end(), kept.begin(), kept.end());
   }
   return result;
 }

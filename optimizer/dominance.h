@@ -10,6 +10,7 @@
 #ifndef PLENUM_OPTIMIZER_DOMINANCE_H_
 #define PLENUM_OPTIMIZER_DOMINANCE_H_
 
+#include <boost/container/static_vector.hpp>
 #include <functional>
 #include <string>
 #include <vector>
@@ -18,13 +19,16 @@
 
 namespace plenum::optimizer {
 
+// Kept within the contender, since there are many of them. As many as any family has.
+using Losses = boost::container::static_vector<double, 18>;
+
 // A choice as dominance sees it.
 struct Contender {
   ProofItem item;
   std::string id;
-  double objective = 0.0;      // its share
-  std::string mates;           // equal for parts that mate with the same parts and behave alike
-  std::vector<double> losses;  // smaller is better, as many for each choice of a family
+  double objective = 0.0;  // its share
+  std::string mates;       // equal for parts that mate with the same parts and behave alike
+  Losses losses;           // smaller is better, as many for each choice of a family
 };
 
 struct Skyband {
@@ -32,9 +36,9 @@ struct Skyband {
   std::vector<ProofDominated> left_out;
 };
 
-// `tie`: objectives closer than this may tie.
+// `tie`: objectives closer than this may tie. `name_left_out`: fill Skyband::left_out.
 // Told to stop, it gives nothing that can be used.
-Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie,
+Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie, bool name_left_out,
                  const std::function<bool()>& stop = {});
 
 }  // namespace plenum::optimizer

@@ -76,7 +76,7 @@ class Walker {
   void Plant() {
     for (Configuration configuration : problem_.configurations) {
       if (Stopped()) return;
-      std::unique_ptr<Plan> plan = MakePlan(problem_, configuration, bench_.stop);
+      std::unique_ptr<Plan> plan = MakePlan(problem_, configuration, false, bench_.stop);
       if (!plan) return;
       plans_.push_back(std::move(plan));
       if (plans_.back()->empty()) continue;

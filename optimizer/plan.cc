@@ -14,8 +14,8 @@ double GasLeft(const Problem& problem, Configuration configuration, double inlet
 }
 
 std::unique_ptr<Plan> MakePlan(const Problem& problem, Configuration configuration,
-                               const std::function<bool()>& stop) {
-  return Planter(problem, configuration, stop).Plant();
+                               bool name_left_out, const std::function<bool()>& stop) {
+  return Planter(problem, configuration, name_left_out, stop).Plant();
 }
 
 }  // namespace plenum::optimizer

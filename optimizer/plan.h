@@ -23,7 +23,7 @@ struct Slot {
   int group = -1;
   const std::vector<BoxNode>* nodes = nullptr;
   const std::vector<Option>* options = nullptr;
-  std::vector<ProofDominated> dominated;
+  std::vector<ProofDominated> dominated;  // where MakePlan was asked to name them
 };
 
 struct GroupTrees {
@@ -62,9 +62,9 @@ struct Plan {
   bool empty() const;                          // some slot has no choice
 };
 
-// Null where `stop` said so.
+// Null where `stop` said so. `name_left_out`: fill Slot::dominated.
 std::unique_ptr<Plan> MakePlan(const Problem& problem, Configuration configuration,
-                               const std::function<bool()>& stop = {});
+                               bool name_left_out = false, const std::function<bool()>& stop = {});
 
 // Gas left in 1 m³ of a bottle at an inlet pressure, m³ ANR.
 double GasLeft(const Problem& problem, Configuration configuration, double inlet_pa);

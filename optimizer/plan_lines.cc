@@ -16,7 +16,7 @@ void Planter::PlantGroup(int g) {
   }
 
   std::map<double, Kinds> diameters_of;  // by outer diameter of the tube
-  std::vector<Entry<TubeCorner>> tubes;
+  Entries<TubeCorner> tubes;
   for (int i = 0; i < static_cast<int>(parts.tubing.size()); ++i) {
     const model::Tubing& part = parts.tubing[i];
     if (!Priced(part.per_metre)) continue;
@@ -30,21 +30,21 @@ void Planter::PlantGroup(int g) {
     entry.item.corner.diameters = kinds->second;
     entry.item.corner.inner_low_m = entry.item.corner.inner_high_m = part.inner_diameter_m;
     entry.item.corner.pressure_max_pa = std::min(part.pressure_max_pa, useful_max_pa_);
-    entry.id = part.per_metre.id;
-    entry.mates = Bytes({needs_fittings ? outer_m : 0.0, part.inner_diameter_m});
-    entry.losses = {-part.pressure_max_pa};
-    tubes.push_back(std::move(entry));
+    entry.contender.id = part.per_metre.id;
+    entry.contender.mates = Bytes({needs_fittings ? outer_m : 0.0, part.inner_diameter_m});
+    entry.contender.losses = {-part.pressure_max_pa};
+    tubes.Add(std::move(entry));
   }
   PlantSlot(Family::kTubing, g, static_cast<long long>(parts.tubing.size()), std::move(tubes),
             trees.tubes);
 
-  std::vector<Entry<FittingCorner>> fittings;
+  Entries<FittingCorner> fittings;
   if (!needs_fittings) {
     Entry<FittingCorner> none;
     none.item.option.index = kNone;
     none.item.corner.diameters = none.item.corner.threads = ~Kinds{0};
     none.item.corner.pressure_max_pa = kUnlimited;
-    fittings.push_back(none);
+    fittings.Add(none);
   }
   for (int i = 0; needs_fittings && i < static_cast<int>(parts.fittings.size()); ++i) {
     const model::Fitting& part = parts.fittings[i];
@@ -57,16 +57,16 @@ void Planter::PlantGroup(int g) {
     entry.item.corner.threads = threads.Bit(part.thread);
     entry.item.corner.flow = part.flow;
     entry.item.corner.pressure_max_pa = std::min(part.pressure_max_pa, useful_max_pa_);
-    entry.id = part.basics.id;
-    entry.mates = Bytes({part.tube_outer_diameter_m}) + part.thread;
-    entry.losses = {-part.pressure_max_pa};
-    AddFlow(part.flow, entry.losses);
-    fittings.push_back(std::move(entry));
+    entry.contender.id = part.basics.id;
+    entry.contender.mates = Bytes({part.tube_outer_diameter_m}) + part.thread;
+    entry.contender.losses = {-part.pressure_max_pa};
+    AddFlow(part.flow, entry.contender.losses);
+    fittings.Add(std::move(entry));
   }
   PlantSlot(Family::kFitting, g, needs_fittings ? static_cast<long long>(parts.fittings.size()) : 1,
             std::move(fittings), trees.fittings);
 
-  std::vector<Entry<ValveCorner>> valves;
+  Entries<ValveCorner> valves;
   for (int i = 0; i < static_cast<int>(parts.valves.size()); ++i) {
     const model::Valve& part = parts.valves[i];
     if (!Priced(part.basics)) continue;
@@ -87,12 +87,13 @@ void Planter::PlantGroup(int g) {
     corner.pressure_max_pa = std::min(part.pressure_max_pa, useful_max_pa_);
     corner.objective +=
         EnergyWeight(problem_) * problem_.actuations * corner.coil_power_w * HalfPeriod(problem_);
-    entry.id = part.basics.id;
-    entry.mates = (corner.some_hold ? "holds " : "vents ") + (needs_fittings ? part.port : "");
-    entry.losses = {corner.coil_power_w, -part.pressure_max_pa, part.pressure_min_pa};
-    AddFlow(part.fill, entry.losses);
-    AddFlow(part.exhaust, entry.losses);
-    valves.push_back(std::move(entry));
+    entry.contender.id = part.basics.id;
+    entry.contender.mates =
+        (corner.some_hold ? "holds " : "vents ") + (needs_fittings ? part.port : "");
+    entry.contender.losses = {corner.coil_power_w, -part.pressure_max_pa, part.pressure_min_pa};
+    AddFlow(part.fill, entry.contender.losses);
+    AddFlow(part.exhaust, entry.contender.losses);
+    valves.Add(std::move(entry));
   }
   PlantSlot(Family::kValve, g, static_cast<long long>(parts.valves.size()), std::move(valves),
             trees.valves);

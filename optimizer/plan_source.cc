@@ -4,7 +4,7 @@
 namespace plenum::optimizer {
 
 int Planter::PlantRegulators() {
-  std::vector<Entry<RegulatorCorner>> entries;
+  Entries<RegulatorCorner> entries;
   for (int i = 0; i < static_cast<int>(problem_.parts.regulators.size()); ++i) {
     const model::Regulator& part = problem_.parts.regulators[i];
     if (!Priced(part.basics)) continue;
@@ -21,17 +21,17 @@ int Planter::PlantRegulators() {
     corner.electrical_power_w = part.electrical_power_w;
     corner.objective += EnergyWeight(problem_) * problem_.actuations * part.electrical_power_w /
                         problem_.frequency_hz;
-    entry.id = part.basics.id;
-    entry.losses = {-part.flow.sonic_conductance_m3_per_s_pa,
-                    -part.flow.critical_ratio,
-                    part.flow.subsonic_index,
-                    -part.flow_max_m3_per_s,
-                    part.inlet_pressure_min_pa,
-                    -part.inlet_pressure_max_pa,
-                    part.outlet_pressure_min_pa,
-                    -part.outlet_pressure_max_pa,
-                    part.electrical_power_w};
-    entries.push_back(std::move(entry));
+    entry.contender.id = part.basics.id;
+    entry.contender.losses = {-part.flow.sonic_conductance_m3_per_s_pa,
+                              -part.flow.critical_ratio,
+                              part.flow.subsonic_index,
+                              -part.flow_max_m3_per_s,
+                              part.inlet_pressure_min_pa,
+                              -part.inlet_pressure_max_pa,
+                              part.outlet_pressure_min_pa,
+                              -part.outlet_pressure_max_pa,
+                              part.electrical_power_w};
+    entries.Add(std::move(entry));
   }
   return PlantSlot(Family::kRegulator, -1, static_cast<long long>(problem_.parts.regulators.size()),
                    std::move(entries), plan_->regulators);
@@ -49,7 +49,7 @@ void Planter::SetBottle(double gas_kg, double full_m3, double water_m3, double f
   corner.gas_to_high_m3 = gas_m3(plan_->bottle_range.high_pa);
   corner.fill_pressure_pa = fill_pa;
   corner.flow_sustained_m3_per_s = flow_m3_per_s;
-  entry.losses = {-corner.gas_to_low_m3, -corner.gas_to_high_m3, fill_pa, -flow_m3_per_s};
+  entry.contender.losses = {-corner.gas_to_low_m3, -corner.gas_to_high_m3, fill_pa, -flow_m3_per_s};
 }
 
 int Planter::PlantCylinders() {
@@ -83,6 +83,7 @@ int Planter::PlantCo2() {
 int Planter::PlantCompressors() {
   for (const model::Compressor& part : problem_.parts.compressors)
     voltages_.Bit(part.curve.voltage_v);
+  CoarsePump alone;  // one of the part that is planted
   const auto make = [&](const model::Compressor& part, int quantity,
                         Entry<CompressorCorner>& entry) {
     const model::CompressorCurve& curve = part.curve;
@@ -91,11 +92,13 @@ int Planter::PlantCompressors() {
     corner.voltages = voltages_.Bit(curve.voltage_v);
     corner.duty_max = part.duty_max;
     corner.pressure_max_pa = model::HighestPressure(curve);
-    corner.pump = MakeCoarsePump(problem_, plan_->highest_pump_pa, curve, quantity);
-    entry.mates = Bytes({static_cast<double>(quantity), curve.voltage_v, curve.pressure_max_pa}) +
-                  Bytes(curve.free_air_m3_per_s.x()) + Bytes(curve.free_air_m3_per_s.y()) +
-                  Bytes(curve.current_a.x()) + Bytes(curve.current_a.y());
-    entry.losses = {-part.duty_max};
+    if (quantity == 1) alone = MakeCoarsePump(problem_, plan_->highest_pump_pa, curve);
+    corner.pump = Several(alone, quantity);
+    entry.contender.mates =
+        Bytes({static_cast<double>(quantity), curve.voltage_v, curve.pressure_max_pa}) +
+        Bytes(curve.free_air_m3_per_s.x()) + Bytes(curve.free_air_m3_per_s.y()) +
+        Bytes(curve.current_a.x()) + Bytes(curve.current_a.y());
+    entry.contender.losses = {-part.duty_max};
   };
   const int most = problem_.limits.compressors;
   const auto& parts = problem_.parts.compressors;
@@ -109,13 +112,13 @@ int Planter::PlantReservoirs() {
     corner = CornerOf<ReservoirCorner>(problem_, entry.item.option.amounts);
     corner.low_m3 = corner.high_m3 = quantity * part.volume_m3;
     corner.pressure_max_pa = part.pressure_max_pa;
-    entry.mates = Bytes({corner.low_m3});
-    entry.losses = {-part.pressure_max_pa};
+    entry.contender.mates = Bytes({corner.low_m3});
+    entry.contender.losses = {-part.pressure_max_pa};
   };
   const int most = problem_.limits.reservoirs;
   const auto& parts = problem_.parts.reservoirs;
   long long total = static_cast<long long>(parts.size()) * most;
-  std::vector<Entry<ReservoirCorner>> entries = InParallel<ReservoirCorner>(parts, most, make);
+  Entries<ReservoirCorner> entries = InParallel<ReservoirCorner>(parts, most, make);
   const auto required = problem_.require.find(Family::kReservoir);
   if (!problem_.exclude.contains("custom") &&
       (required == problem_.require.end() || required->second.contains("custom"))) {
@@ -129,10 +132,10 @@ int Planter::PlantReservoirs() {
     custom.item.corner.low_m3 = model::kMadeReservoirSmallestM3;
     custom.item.corner.high_m3 = model::kMadeReservoirLargestM3;
     custom.item.corner.pressure_max_pa = CustomRatingPa(problem_);
-    custom.id = "custom";
-    custom.mates = "custom";
-    custom.losses = {0.0};
-    if (!CostMatters(problem_)) entries.push_back(std::move(custom));
+    custom.contender.id = "custom";
+    custom.contender.mates = "custom";
+    custom.contender.losses = {0.0};
+    if (!CostMatters(problem_)) entries.Add(std::move(custom));
   }
   return PlantSlot(Family::kReservoir, -1, total, std::move(entries), plan_->reservoirs);
 }
@@ -151,8 +154,8 @@ int Planter::PlantBatteries() {
     corner.energy_j = quantity * model::UsableEnergy(part.capacity_ah, pack_v);
     corner.current_max_a = quantity * part.current_max_a;
     corner.voltage_v = pack_v;
-    if (plan_->configuration == Configuration::kCompressor) entry.mates = Bytes({pack_v});
-    entry.losses = {-corner.energy_j, -corner.current_max_a, -pack_v};
+    if (plan_->configuration == Configuration::kCompressor) entry.contender.mates = Bytes({pack_v});
+    entry.contender.losses = {-corner.energy_j, -corner.current_max_a, -pack_v};
   };
   const int most = problem_.limits.batteries;
   const auto& parts = problem_.parts.batteries;

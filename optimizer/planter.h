@@ -45,13 +45,25 @@ inline double EnergyWeight(const Problem& problem) {
   return problem.objective.energy_wh / kJoulePerWattHour;
 }
 
-// A choice with what dominance compares; PlantSlot adds the amounts that limits are on.
+// The choices of a family and what dominance compares; PlantSlot adds what holds for all.
 template <typename Corner>
 struct Entry {
   Item<Corner> item;
-  std::string id;
-  std::string mates;
-  std::vector<double> losses;
+  Contender contender;
+};
+template <typename Corner>
+struct Entries {
+  std::vector<Item<Corner>> items;
+  std::vector<Contender> contenders;
+
+  void Reserve(std::size_t size) {
+    items.reserve(size);
+    contenders.reserve(size);
+  }
+  void Add(Entry<Corner> entry) {
+    items.push_back(entry.item);
+    contenders.push_back(std::move(entry.contender));
+  }
 };
 
 template <typename Corner>
@@ -74,8 +86,12 @@ inline std::string Bytes(std::span<const double> values) {
 
 class Planter {
  public:
-  Planter(const Problem& problem, Configuration configuration, const std::function<bool()>& stop)
-      : problem_(problem), stop_(stop), plan_(std::make_unique<Plan>()) {
+  Planter(const Problem& problem, Configuration configuration, bool name_left_out,
+          const std::function<bool()>& stop)
+      : problem_(problem),
+        name_left_out_(name_left_out),
+        stop_(stop),
+        plan_(std::make_unique<Plan>()) {
     plan_->configuration = configuration;
     plan_->equal_flow = EqualFlow();
     plan_->bottle_range = FindBottleRange();
@@ -202,39 +218,34 @@ class Planter {
 
   // Leaves out what is dominated, plants the rest and adds the slot; returns its number.
   template <typename Corner>
-  int PlantSlot(Family family, int group, long long total, std::vector<Entry<Corner>> entries,
+  int PlantSlot(Family family, int group, long long total, Entries<Corner> entries,
                 BoxTree<Corner>& tree) {
     if (stopped()) return -1;
-    std::vector<Contender> contenders;
-    for (Entry<Corner>& entry : entries) {
-      Contender contender;
-      contender.item = {entry.item.option.index, entry.item.option.quantity};
-      contender.id = std::move(entry.id);
-      contender.objective = entry.item.corner.objective;
-      contender.mates = std::move(entry.mates);
-      contender.losses = std::move(entry.losses);
-      const Amounts& amounts = entry.item.corner.amounts;
+    std::vector<Contender>& contenders = entries.contenders;
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+      Contender& contender = contenders[i];
+      const Item<Corner>& item = entries.items[i];
+      contender.item = {item.option.index, item.option.quantity};
+      contender.objective = item.corner.objective;
+      const Amounts& amounts = item.corner.amounts;
       if (std::isfinite(problem_.mass_max_kg)) contender.losses.push_back(amounts.mass_kg);
       if (std::isfinite(problem_.volume_max_l)) contender.losses.push_back(amounts.volume_m3);
       if (std::isfinite(problem_.cost_max_eur)) contender.losses.push_back(amounts.cost_eur);
-      contenders.push_back(std::move(contender));
     }
-    Skyband skyband = KeepBest(contenders, problem_.count, plan_->tie, stop_);
+    Skyband skyband = KeepBest(contenders, problem_.count, plan_->tie, name_left_out_, stop_);
     if (stopped()) return -1;
     std::sort(skyband.kept.begin(), skyband.kept.end(), [&](int a, int b) {
       const Contender &x = contenders[a], &y = contenders[b];
       return x.id != y.id ? x.id < y.id : x.item.quantity < y.item.quantity;
     });
-    std::vector<Item<Corner>> items;
-    for (int i : skyband.kept) {
-      items.push_back(entries[i].item);
-      items.back().rank = static_cast<int>(items.size());
-    }
+    std::vector<const Item<Corner>*> items;
+    items.reserve(skyband.kept.size());
+    for (int i : skyband.kept) items.push_back(&entries.items[i]);
     tree = MakeBoxTree(items);
     plan_->slots.push_back(
         {family, group, &tree.nodes, &tree.options, std::move(skyband.left_out)});
     total_ *= total;
-    priced_ *= static_cast<long long>(entries.size());
+    priced_ *= static_cast<long long>(contenders.size());
     kept_ *= static_cast<long long>(items.size());
     return static_cast<int>(plan_->slots.size()) - 1;
   }
@@ -244,7 +255,7 @@ class Planter {
   }
 
   // C and b as losses, also the other way round where only equal flow compares.
-  void AddFlow(const model::FlowElement& flow, std::vector<double>& losses) const {
+  void AddFlow(const model::FlowElement& flow, Losses& losses) const {
     losses.push_back(-flow.sonic_conductance_m3_per_s_pa);
     losses.push_back(-flow.critical_ratio);
     losses.push_back(flow.subsonic_index);
@@ -260,19 +271,20 @@ class Planter {
 
   // `make(part, quantity, entry)` for each part × 1…quantity_max that has the price it needs.
   template <typename Corner, typename Part, typename Make>
-  std::vector<Entry<Corner>> InParallel(const std::vector<Part>& parts, int quantity_max,
-                                        const Make& make) const {
+  Entries<Corner> InParallel(const std::vector<Part>& parts, int quantity_max,
+                             const Make& make) const {
     constexpr int kBetweenLooks = 256;
-    std::vector<Entry<Corner>> entries;
+    Entries<Corner> entries;
+    entries.Reserve(parts.size() * static_cast<std::size_t>(quantity_max) + 1);
     for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
       if (i % kBetweenLooks == 0 && stopped()) break;
       if (!Priced(parts[i].basics)) continue;
       for (int quantity = 1; quantity <= quantity_max; ++quantity) {
         Entry<Corner> entry;
         entry.item.option = {i, quantity, static_cast<double>(quantity) * parts[i].basics};
-        entry.id = parts[i].basics.id;
+        entry.contender.id = parts[i].basics.id;
         make(parts[i], quantity, entry);
-        entries.push_back(std::move(entry));
+        entries.Add(std::move(entry));
       }
     }
     return entries;
@@ -293,6 +305,7 @@ class Planter {
   int PlantBatteries();
 
   const Problem& problem_;
+  bool name_left_out_;
   const std::function<bool()>& stop_;
   std::unique_ptr<Plan> plan_;
   double useful_max_pa_ = kUnlimited;

@@ -14,6 +14,7 @@ namespace {
 constexpr int kCells = 1024;
 constexpr double kNoDelivery = 1e12;
 constexpr double kIntervalRatio = 1.25;
+constexpr int kNeedDivisions = 8;        // of its range, for the energy
 constexpr double kNeedTolerance = 3e-3;  // of the source pressure; its lower end is used
 
 double ContentPerVolume(const Problem& problem) {
@@ -126,14 +127,20 @@ double HighestPumpPressure(const Problem& problem) {
 }
 
 CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,
-                          const model::CompressorCurve& curve, int pumps) {
+                          const model::CompressorCurve& curve) {
   const PumpTables tables =
-      MakeTables(curve, pumps, EvenCells(problem.ambient.pressure_pa, highest_pa, kCoarseCells));
+      MakeTables(curve, 1, EvenCells(problem.ambient.pressure_pa, highest_pa, kCoarseCells));
   CoarsePump coarse;
   std::copy_n(tables.energy_j_per_m3.begin(), kCoarseCells, coarse.energy_j_per_m3.begin());
   std::copy_n(tables.seconds_per_m3.begin(), kCoarseCells, coarse.seconds_per_m3.begin());
   std::copy_n(tables.current_a.begin(), kCoarseCells, coarse.current_a.begin());
   return coarse;
+}
+
+CoarsePump Several(CoarsePump one, int pumps) {
+  for (double& seconds : one.seconds_per_m3) seconds /= pumps;
+  for (double& current : one.current_a) current *= pumps;
+  return one;
 }
 
 PumpFacts MakePumpFacts(const Problem& problem, double highest_pa, const CoarsePump& coarse) {
@@ -354,15 +361,20 @@ PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& li
   return load;
 }
 
-namespace {
+bool EnergyMayGrow(const Problem& problem, const PumpLoad& load) {
+  const bool turns = !problem.simultaneous && problem.groups.size() > 1;
+  return !turns && std::any_of(load.lines.begin(), load.lines.end(),
+                               [](const Line* line) { return line->all_hold; });
+}
 
-// Energy of the mission at any stop pressure in between, at least, where all strokes begin at once;
-// `need`: with that of the lowest, coils at their least. The pumps take no less at a higher one
-// while coils that are energised only for the strokes take no more: of each interval of pressures
-// the lower end counts for the pumps and the upper end for the coils.
-double LeastEnergy(const Problem& problem, const PumpFacts& facts, const PumpLoad& load,
-                   const ReservoirNeed& need) {
-  constexpr double kRatios[] = {1.02, 1.06, 1.15, 1.35};
+// The pumps take no less at a higher stop pressure while coils that are energised only for the
+// strokes take no more: of each interval of pressures the lower end counts for the pumps and the
+// upper end for the coils. The interval with the least energy is divided.
+double LeastMissionEnergy(const Problem& problem, const PumpFacts& facts, const PumpLoad& load,
+                          const ReservoirNeed& need, int divisions) {
+  if (!EnergyMayGrow(problem, load)) return need.energy_j;
+  constexpr double kNarrow = 1e-3;      // of a pressure
+  constexpr double kShare = 0.4;        // energy mostly changes fastest next to the lowest pressure
   constexpr double kWorthwhile = 1e-3;  // of the energy
   const double least_coils_j = problem.actuations * load.coil_j;
   const auto pumps_j = [&](double source_pa) {
@@ -386,19 +398,30 @@ double LeastEnergy(const Problem& problem, const PumpFacts& facts, const PumpLoa
     }
     return problem.actuations * energy_j;
   };
-  double least_j = kUnlimited, pump_j = need.energy_j - least_coils_j;
+  const double pump_j = need.energy_j - least_coils_j;
   if (!(coils_j(need.source_pa) > least_coils_j + kWorthwhile * need.energy_j))
     return need.energy_j;
-  for (double ratio : kRatios) {
-    const double next_pa = need.source_pa * ratio;
-    if (next_pa >= need.source_max_pa || pump_j + least_coils_j >= least_j) break;
-    least_j = std::min(least_j, pump_j + coils_j(next_pa));
-    pump_j = pumps_j(next_pa);
+  struct Interval {
+    double low_pa, high_pa, pump_j, coils_j;
+    double energy_j() const { return pump_j + coils_j; }
+  };
+  std::vector<Interval> intervals{{need.source_pa, need.source_max_pa, pump_j, least_coils_j}};
+  const auto lowest = [&]() -> Interval& {
+    return *std::min_element(
+        intervals.begin(), intervals.end(),
+        [](const Interval& a, const Interval& b) { return a.energy_j() < b.energy_j(); });
+  };
+  for (int i = 0; i < divisions; ++i) {
+    Interval& low = lowest();
+    if (low.high_pa - low.low_pa < kNarrow * low.low_pa) break;
+    Interval high = low;
+    low.high_pa = high.low_pa = low.low_pa + kShare * (low.high_pa - low.low_pa);
+    low.coils_j = coils_j(low.high_pa);
+    high.pump_j = pumps_j(high.low_pa);
+    intervals.push_back(high);
   }
-  return std::min(least_j, pump_j + least_coils_j);
+  return lowest().energy_j();
 }
-
-}  // namespace
 
 std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const PumpFacts& facts,
                                                 const PumpLoad& load, const PumpLimits& limits,
@@ -453,10 +476,6 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
     need.source_pa = std::max(need.source_pa, *least_pa);
   }
   if (!bearable(need)) return std::nullopt;
-  const bool coils_differ = std::any_of(load.lines.begin(), load.lines.end(),
-                                        [](const Line* line) { return line->all_hold; });
-  if (!turns && coils_differ) need.energy_j = LeastEnergy(problem, facts, load, need);
-  if (!(need.energy_j <= limits.energy_max_j)) return std::nullopt;
   return need;
 }
 
@@ -472,11 +491,13 @@ std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFact
   for (bool last = false; !last;) {
     const double next_m3 = std::min(low_m3 * kIntervalRatio, high_m3);
     last = next_m3 >= high_m3;
-    const std::optional<ReservoirNeed> need =
+    std::optional<ReservoirNeed> need =
         LeastReservoirNeed(problem, facts, load, limits, window,
                            {.low_m3 = low_m3, .high_m3 = next_m3}, kNeedTolerance);
-    if (need && AloneStrokeExcess(problem, candidate,
-                                  {need->source_max_pa, need->high_m3, need->low_m3}) <= 0.0)
+    if (need) need->energy_j = LeastMissionEnergy(problem, facts, load, *need, kNeedDivisions);
+    if (need && need->energy_j <= limits.energy_max_j &&
+        AloneStrokeExcess(problem, candidate, {need->source_max_pa, need->high_m3, need->low_m3}) <=
+            0.0)
       needs.push_back(*need);
     low_m3 = next_m3;
   }

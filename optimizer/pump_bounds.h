@@ -71,7 +71,8 @@ struct CoarsePump {
 };
 double HighestPumpPressure(const Problem& problem);
 CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,
-                          const model::CompressorCurve& curve, int pumps);
+                          const model::CompressorCurve& curve);
+CoarsePump Several(CoarsePump one, int pumps);
 PumpFacts MakePumpFacts(const Problem& problem, double highest_pa, const CoarsePump& coarse);
 
 struct PumpNeed {
@@ -123,7 +124,16 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
                                                 const Window& window, ReservoirNeed known,
                                                 double tolerance);
 
-// The same for a candidate whose compressor and lines are chosen, by intervals of volumes that
+// ReservoirNeed::energy_j counts coils that are energised only for the strokes as if no source made
+// these faster; the time that the bound on strokes gives them at the stop pressures in question
+// raises it, where all strokes begin at once.
+bool EnergyMayGrow(const Problem& problem, const PumpLoad& load);
+// Energy of the mission at any stop pressure in between, at least, by so many divisions of the
+// pressures; `need` as LeastReservoirNeed gave it for the same load.
+double LeastMissionEnergy(const Problem& problem, const PumpFacts& facts, const PumpLoad& load,
+                          const ReservoirNeed& need, int divisions);
+
+// Both for a candidate whose compressor and lines are chosen, by intervals of volumes that
 // divide [low, high]; intervals that will not do are left out.
 std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFacts& facts,
                                           const Candidate& candidate, double energy_max_j,

@@ -105,7 +105,8 @@ class BoxSearch {
   // The root box of every configuration. False if stopped on the way.
   bool Plant() {
     for (Configuration configuration : problem_.configurations) {
-      std::unique_ptr<Plan> plan = MakePlan(problem_, configuration, [this] { return Stopped(); });
+      std::unique_ptr<Plan> plan =
+          MakePlan(problem_, configuration, options_.record, [this] { return Stopped(); });
       if (!plan) return false;
       plans_.push_back(std::move(plan));
       bounds_.push_back(std::make_unique<Bounds>(problem_, *plans_.back(), &bench_));

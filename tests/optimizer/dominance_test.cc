@@ -41,8 +41,8 @@ TEST(DominanceTest, LeavesOutWhatKOthersDominate) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed)
     for (int k : {1, 2, 5}) {
       const double tie = seed % 3 == 0 ? 0.15 : 0.01;
-      const std::vector<Contender> contenders = Random(seed, 120);
-      const Skyband skyband = KeepBest(contenders, k, tie);
+      const std::vector<Contender> contenders = Random(seed, 400);
+      const Skyband skyband = KeepBest(contenders, k, tie, true);
       EXPECT_EQ(skyband.kept.size() + skyband.left_out.size(), contenders.size());
       for (const auto& left_out : skyband.left_out) {
         ASSERT_EQ(static_cast<int>(left_out.dominators.size()), k);
