@@ -254,7 +254,8 @@ PeriodicState FindPeriodicState(const Rig& rig, double period_s, const SimulateO
     std::erase_if(group.schedule, [](const ValveCommand& c) { return c.time_s < 0.0; });
   }
   SimulateOptions accurate = simulate;
-  accurate.relative_tolerance = std::min(simulate.relative_tolerance, kSimulated * options.tolerance);
+  accurate.relative_tolerance =
+      std::min(simulate.relative_tolerance, kSimulated * options.tolerance);
   CycleMap map(one_period, period_s, accurate);
   Anderson anderson(static_cast<std::size_t>(options.depth));
   const auto finish = [&](PeriodicStatus status, std::string detail) {
