@@ -100,8 +100,8 @@ export interface Diagnosis {
   tied_laws: Record<string, string>[];
   next_experiment: Experiment | null;
   residual: {
-    white: boolean;
-    independent_of_inputs: boolean;
+    white: boolean | null;
+    independent_of_inputs: boolean | null;
     phases: {
       run: string;
       phase: string;

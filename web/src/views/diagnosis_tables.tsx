@@ -56,16 +56,25 @@ export function Errors({ d }: { d: Diagnosis }) {
   );
 }
 
+// Tests are left out where the time ran out: null.
+function Test(p: { passed: boolean | null; yes: string; no: string; untested: string }) {
+  if (p.passed === null) return <Chip>{p.untested}</Chip>;
+  return <Chip kind={p.passed ? 'good' : 'warn'}>{p.passed ? p.yes : p.no}</Chip>;
+}
+
 export function Phases({ d }: { d: Diagnosis }) {
   const { phases, white, independent_of_inputs } = d.residual;
   const most = Math.max(d.noise_kpa, ...phases.map((p) => Math.abs(p.mean_kpa)), 1e-9);
   return (
     <Panel title="What is left, by phase" aside={<span class="muted">after the best fit</span>}>
       <p>
-        <Chip kind={white ? 'good' : 'warn'}>{white ? 'white' : 'not white'}</Chip>{' '}
-        <Chip kind={independent_of_inputs ? 'good' : 'warn'}>
-          {independent_of_inputs ? 'independent of the inputs' : 'follows the inputs'}
-        </Chip>
+        <Test passed={white} yes="white" no="not white" untested="not tested for whiteness" />{' '}
+        <Test
+          passed={independent_of_inputs}
+          yes="independent of the inputs"
+          no="follows the inputs"
+          untested="not tested against the inputs"
+        />
         {d.unexplained_fraction > 0 && (
           <span>
             {' '}
