@@ -24,7 +24,7 @@ class KeptLosses {
   void Add(const Losses& losses) {
     const std::size_t place = size_++ % kChunk;
     if (place == 0) chunks_.resize(chunks_.size() + losses_);
-    Column* columns = &chunks_[chunks_.size() - losses_];
+    Column* columns = chunks_.data() + (chunks_.size() - losses_);  // none where nothing counts
     for (std::size_t k = 0; k < losses_; ++k) {
       columns[k].loss[place] = losses[k];
       columns[k].least = std::min(columns[k].least, losses[k]);
