@@ -29,7 +29,8 @@ std::vector<double> InNoise(const FittedRun& fitted) {
 }
 
 // The residuals of readings on a coarse grid again, as noise that remembers leaves them.
-void FilterRounded(const std::vector<FittedRun>& runs, std::vector<ResidualSeries>& series) {
+void FilterRounded(const std::vector<FittedRun>& runs, const std::function<bool()>& cancelled,
+                   std::vector<ResidualSeries>& series) {
   std::vector<std::vector<double>> readings;
   std::vector<RoundedSeries> rounded;
   std::vector<std::size_t> hidden;
@@ -44,7 +45,8 @@ void FilterRounded(const std::vector<FittedRun>& runs, std::vector<ResidualSerie
     rounded.push_back({run.run->t_s, readings[k], run.model_pa, run.noise.quantum_pa,
                        LikeliestNoise(readings[k], run.model_pa, run.noise.quantum_pa)});
   }
-  const NoiseMemory memory = LikeliestRoundedMemory(rounded, runs[hidden.front()].noise.spacing_s);
+  const NoiseMemory memory =
+      LikeliestRoundedMemory(rounded, runs[hidden.front()].noise.spacing_s, cancelled);
   for (std::size_t k = 0; k < hidden.size(); ++k)
     series[hidden[k]].residual = InnovationsOf(rounded[k], memory);
 }
@@ -215,7 +217,7 @@ ResidualReport AssessResiduals(const std::vector<FittedRun>& runs, int fitted_nu
   const auto hides = [](const Noise& noise) { return noise.staircase; };
   const bool structure = !report.white || !report.independent_of_inputs;
   if (structure && std::any_of(noises.begin(), noises.end(), hides)) {
-    FilterRounded(runs, series);
+    FilterRounded(runs, cancelled, series);
     TestStructure(noises, cancelled, series, report, by_input);
   }
   report.underread = Underread(noises, series);

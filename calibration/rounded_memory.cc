@@ -100,7 +100,8 @@ std::vector<double> InnovationsOf(const RoundedSeries& series, const NoiseMemory
   return e;
 }
 
-NoiseMemory LikeliestRoundedMemory(std::span<const RoundedSeries> series, double spacing_s) {
+NoiseMemory LikeliestRoundedMemory(std::span<const RoundedSeries> series, double spacing_s,
+                                   const std::function<bool()>& cancelled) {
   // Over ln θ and the share, on a grid that shrinks about the best.
   double theta_low = std::log(kLeastTheta * spacing_s),
          theta_high = std::log(kRoundedReach * spacing_s);
@@ -110,6 +111,7 @@ NoiseMemory LikeliestRoundedMemory(std::span<const RoundedSeries> series, double
   for (int pass = 0; pass < kPasses; ++pass) {
     for (int i = 0; i < kBrackets; ++i) {
       for (int k = 0; k < kBrackets; ++k) {
+        if (cancelled && cancelled()) return best;
         const NoiseMemory memory{
             std::exp(theta_low + (theta_high - theta_low) * i / (kBrackets - 1)),
             share_low + (share_high - share_low) * k / (kBrackets - 1)};

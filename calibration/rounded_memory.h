@@ -16,6 +16,7 @@
 #ifndef PLENUM_CALIBRATION_ROUNDED_MEMORY_H_
 #define PLENUM_CALIBRATION_ROUNDED_MEMORY_H_
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -36,9 +37,10 @@ struct RoundedSeries {
 std::vector<double> InnovationsOf(const RoundedSeries& series, const NoiseMemory& memory);
 
 // The likeliest memory of series of one sensor, θ up to kRoundedReach spacings: what remembers for
-// longer is not told from structure.
+// longer is not told from structure. Any where `cancelled` says that nobody wants to know.
 inline constexpr double kRoundedReach = 8.0;
-NoiseMemory LikeliestRoundedMemory(std::span<const RoundedSeries> series, double spacing_s);
+NoiseMemory LikeliestRoundedMemory(std::span<const RoundedSeries> series, double spacing_s,
+                                   const std::function<bool()>& cancelled = {});
 
 }  // namespace plenum::calibration
 
