@@ -41,14 +41,15 @@ struct LowestKey {
 
 class Walker {
  public:
-  // `walk`: where the points go.
+  // `start`: from when the time limit counts. `walk`: where the points go.
   Walker(Problem problem, Amount limited, double resolution, const SearchOptions& options,
-         FrontWalk& walk)
+         Clock::time_point start, FrontWalk& walk)
       : problem_(std::move(problem)),
         limited_(limited),
         limit_(LimitOn(limited, problem_)),
         resolution_(resolution),
         options_(options),
+        start_(start),
         bench_{[this] { return Stopped(); }, options.periodic},
         walk_(walk) {
     Plant();
@@ -203,7 +204,7 @@ class Walker {
   double& limit_;  // in problem_
   const double resolution_;
   const SearchOptions& options_;
-  const Clock::time_point start_ = Clock::now();
+  const Clock::time_point start_;
   Workbench bench_;
   std::vector<std::unique_ptr<Plan>> plans_;
   std::vector<std::unique_ptr<Bounds>> bounds_;
@@ -218,8 +219,9 @@ class Walker {
 
 FrontWalk WalkFront(const Problem& problem, Amount minimised, Amount limited, double resolution,
                     const SearchOptions& options, int steps_alone) {
+  const Clock::time_point start = Clock::now();
   FrontWalk walk;
-  Walker near(problem, limited, resolution, options, walk);
+  Walker near(problem, limited, resolution, options, start, walk);
   std::optional<Walker> far;
   const auto met = [&] {
     return std::isinf(near.lowest()) ||
@@ -233,7 +235,7 @@ FrontWalk WalkFront(const Problem& problem, Amount minimised, Amount limited, do
       turned.objective = ObjectiveOn(limited);
       double& limit = LimitOn(minimised, turned);
       limit = std::min(limit, kNoLimit);
-      far.emplace(std::move(turned), minimised, resolution, options, walk);
+      far.emplace(std::move(turned), minimised, resolution, options, start, walk);
     }
     if (far && !met() && !far->Stopped()) far->Step();
   }
