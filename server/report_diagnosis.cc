@@ -268,19 +268,16 @@ std::string PhasePlot(const Json& answer, double noise_kpa) {
 
 std::string Residual(const Json& answer, double noise_kpa) {
   const Json& residual = answer.at("residual");
-  const auto verdict = [](const Json& good) {
-    return std::string(good.is_null() ? "not tested" : good == true ? "yes" : "no");
-  };
   const std::vector<std::vector<std::string>> tests = {
-      {"white: no memory (Ljung–Box over 20 lags)", verdict(residual.at("white")),
+      {"white: no memory (Ljung–Box over 20 lags)", PassedText(residual.at("white")),
        Short(residual.at("portmanteau")), Short(residual.at("portmanteau_limit"))},
       {"independent of the inputs (largest correlation, in standard deviations)",
-       verdict(residual.at("independent_of_inputs")), Short(residual.at("cross")),
+       PassedText(residual.at("independent_of_inputs")), Short(residual.at("cross")),
        Short(residual.at("cross_limit"))},
       {"no larger than the noise (variance over that of the noise)",
-       verdict(residual.at("lack_of_fit").is_number() &&
-               residual.at("lack_of_fit_limit").is_number() &&
-               residual.at("lack_of_fit") <= residual.at("lack_of_fit_limit")),
+       PassedText(residual.at("lack_of_fit").is_number() &&
+                  residual.at("lack_of_fit_limit").is_number() &&
+                  residual.at("lack_of_fit") <= residual.at("lack_of_fit_limit")),
        Short(residual.at("lack_of_fit")), Short(residual.at("lack_of_fit_limit"))}};
   std::vector<std::vector<std::string>> phases;
   for (const Json& phase : residual.at("phases"))

@@ -15,11 +15,6 @@ namespace {
 using api::Json;
 using Align = Table::Align;
 
-// Null: there was no time for the test.
-std::string YesNo(const Json& flag) {
-  return flag.is_null() ? "not tested" : flag == true ? "yes" : "no";
-}
-
 std::string Percent(const Json& share) {
   return share.is_number() ? fmt::format("{:.0f} %", 100.0 * share.get<double>()) : "–";
 }
@@ -143,8 +138,8 @@ std::string ResidualText(const Json& answer) {
       "Residual: white {} ({} of {}), independent of the inputs {} ({} of {}), variance over noise "
       "{} "
       "of {}\n",
-      YesNo(residual.at("white")), Short(residual.at("portmanteau")),
-      Short(residual.at("portmanteau_limit")), YesNo(residual.at("independent_of_inputs")),
+      PassedText(residual.at("white")), Short(residual.at("portmanteau")),
+      Short(residual.at("portmanteau_limit")), PassedText(residual.at("independent_of_inputs")),
       Short(residual.at("cross")), Short(residual.at("cross_limit")),
       Short(residual.at("lack_of_fit")), Short(residual.at("lack_of_fit_limit")));
   const Json& phases = residual.at("phases");
@@ -170,6 +165,10 @@ std::string ResidualText(const Json& answer) {
 }
 
 }  // namespace
+
+std::string PassedText(const Json& passed) {
+  return passed.is_null() ? "not tested" : passed == true ? "yes" : "no";
+}
 
 NameAndUnit Spoken(const std::string& parameter) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kUnits = {{

@@ -23,6 +23,8 @@ NameAndUnit Spoken(const std::string& parameter);
 std::string EffectsText(const api::Json& effects, const api::Json& laws);
 // "explained", in capital letters first: the verdict and what it means.
 std::string VerdictText(const api::Json& answer);
+// Whether a test was passed: "yes", "no"; "not tested" where null, for want of time.
+std::string PassedText(const api::Json& passed);
 
 }  // namespace plenum::server
 
