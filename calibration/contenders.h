@@ -86,8 +86,11 @@ class Contenders {
   std::vector<Job*> Hopeful(std::vector<Job*> jobs) const;
   void Refine(int size);
   void Take(Job job);
+  // Found once beside the base model, and used beside all sets.
+  const std::vector<model::Effect>& StartsOf(const model::EffectSpec* spec);
 
   const SearchOptions* options_;
+  std::vector<std::vector<model::Effect>> starts_;
 };
 
 }  // namespace plenum::calibration
