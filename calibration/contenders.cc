@@ -118,7 +118,7 @@ void Contenders::AddJobs(const Contender& from, const model::EffectSpec* added,
   const EffectSet set = With(from.effects, added);
   const auto planned = [&](const Job& job) { return job.set == set; };
   if (Find(set) || std::any_of(jobs.begin(), jobs.end(), planned)) return;
-  for (const model::Effect& start : StartsOf(added)) {
+  for (const model::Effect& start : StartsBeside(from, added)) {
     Job job{set, from.fit.state, from.fit.bic};
     if (!PriorsHold(from.fit)) job.start.factor = data.forward->Declared().factor;
     job.start.effects.push_back(start);
@@ -128,13 +128,14 @@ void Contenders::AddJobs(const Contender& from, const model::EffectSpec* added,
   }
 }
 
-const std::vector<model::Effect>& Contenders::StartsOf(const model::EffectSpec* spec) {
-  for (const std::vector<model::Effect>& starts : starts_)
-    if (starts.front().spec == spec) return starts;
+const std::vector<model::Effect>& Contenders::StartsBeside(const Contender& from,
+                                                           const model::EffectSpec* spec) {
+  for (const Starts& known : starts_)
+    if (known.size == from.effects.size() && known.starts.front().spec == spec) return known.starts;
   FitOptions options = Screening();
   options.threads = options_->threads;
-  starts_.push_back(ScannedStarts(data, Base().fit, *spec, options));
-  return starts_.back();
+  starts_.push_back({from.effects.size(), ScannedStarts(data, from.fit, *spec, options)});
+  return starts_.back().starts;
 }
 
 void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_share,
@@ -204,6 +205,7 @@ void Contenders::Refine(int size) {
     Fit fit = FitModel(data, near[i]->fit.state, Further());
     near[i]->refined = fit.status != FitStatus::kIterationsSpent;
     if (fit.Usable() && fit.bic < near[i]->fit.bic) near[i]->fit = std::move(fit);
+    Narrow(data, Further(), near[i]->fit);
   });
 }
 
