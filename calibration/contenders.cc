@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "calibration/parallel.h"
+#include "calibration/start_scan.h"
 #include "calibration/thresholds.h"
 
 namespace plenum::calibration {
@@ -107,6 +108,7 @@ void Contenders::FitBase() {
   options.threads = options_->threads;
   base.fit = FitModel(data, data.forward->Declared(), options);
   base.starts = base.found_again = 1;
+  starts_.clear();
   list.push_back(std::move(base));
 }
 
@@ -116,7 +118,7 @@ void Contenders::AddJobs(const Contender& from, const model::EffectSpec* added,
   const EffectSet set = With(from.effects, added);
   const auto planned = [&](const Job& job) { return job.set == set; };
   if (Find(set) || std::any_of(jobs.begin(), jobs.end(), planned)) return;
-  for (const model::Effect& start : EffectStarts(*added, data.sizes)) {
+  for (const model::Effect& start : StartsBeside(from, added)) {
     Job job{set, from.fit.state, from.fit.bic};
     if (!PriorsHold(from.fit)) job.start.factor = data.forward->Declared().factor;
     job.start.effects.push_back(start);
@@ -124,6 +126,16 @@ void Contenders::AddJobs(const Contender& from, const model::EffectSpec* added,
               [](const auto& a, const auto& b) { return Precedes(a.spec, b.spec); });
     jobs.push_back(std::move(job));
   }
+}
+
+const std::vector<model::Effect>& Contenders::StartsBeside(const Contender& from,
+                                                           const model::EffectSpec* spec) {
+  for (const Starts& known : starts_)
+    if (known.size == from.effects.size() && known.starts.front().spec == spec) return known.starts;
+  FitOptions options = Screening();
+  options.threads = options_->threads;
+  starts_.push_back({from.effects.size(), ScannedStarts(data, from.fit, *spec, options)});
+  return starts_.back().starts;
 }
 
 void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_share,
@@ -193,6 +205,7 @@ void Contenders::Refine(int size) {
     Fit fit = FitModel(data, near[i]->fit.state, Further());
     near[i]->refined = fit.status != FitStatus::kIterationsSpent;
     if (fit.Usable() && fit.bic < near[i]->fit.bic) near[i]->fit = std::move(fit);
+    Narrow(data, Further(), near[i]->fit);
   });
 }
 

@@ -86,8 +86,16 @@ class Contenders {
   std::vector<Job*> Hopeful(std::vector<Job*> jobs) const;
   void Refine(int size);
   void Take(Job job);
+  struct Starts {
+    std::size_t size = 0;  // of the sets
+    std::vector<model::Effect> starts;
+  };
+  // Found beside the first set of a size, which is the best, and used beside all of that size.
+  const std::vector<model::Effect>& StartsBeside(const Contender& from,
+                                                 const model::EffectSpec* spec);
 
   const SearchOptions* options_;
+  std::vector<Starts> starts_;
 };
 
 }  // namespace plenum::calibration

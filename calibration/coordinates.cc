@@ -150,7 +150,7 @@ std::pair<double, double> Visible(const model::EffectSpec& effect, const model::
   if (effect.id == "heat_transfer") range.first = std::max(spec.low, 0.01 * sizes.stroke_s);
   if (effect.id == "supply_droop" && spec.name == "volume_m3")
     range.first = std::max(spec.low, 0.03 * sizes.volume_m3);
-  if (effect.id == "sensor_gain") range = {0.9, 1.1};  // beyond that a sensor is broken
+  if (effect.id == "sensor_gain") range = {0.8, 1.25};  // beyond that a sensor is broken
   if (spec.name.ends_with("_rad_per_s")) range.second = std::min(spec.high, 150.0 / sizes.stroke_s);
   return range;
 }

@@ -311,6 +311,14 @@ std::vector<Attempt> FitFamilies(const FitData& data, const ModelState& base,
   return attempts;
 }
 
+// A curve of the sensor is its offset and its gain, too: that it fits as well is no doubt of them.
+bool OfOnePlace(const std::vector<model::Effect>& effects, const model::Effect& term) {
+  return term.spec->place == model::EffectPlace::kSensor &&
+         std::all_of(effects.begin(), effects.end(), [&](const model::Effect& effect) {
+           return effect.spec->place == term.spec->place;
+         });
+}
+
 FittedEffect LearnedOf(const FitData& data, const Fit& fit, const FitOptions& options) {
   FittedEffect learned{fit.state.effects.back(), {}};
   for (const double number : learned.effect.parameters)
@@ -356,7 +364,8 @@ bool TermRivals(const FitData& data, const Fit& base, const Fit& set, const FitO
   std::vector<Attempt> attempts = FitFamilies(data, BaseOf(data, base), base.state, quick, hopeful);
   return std::any_of(attempts.begin(), attempts.end(), [&](Attempt& attempt) {
     if (attempt.score < hopeful) Polish(data, quick, attempt);
-    return attempt.score < Score(set) + kAccept;
+    const bool holds_set = OfOnePlace(set.state.effects, attempt.fit.state.effects.back());
+    return attempt.score < Score(set) + (holds_set ? -kAccept : kAccept);
   });
 }
 

@@ -38,7 +38,8 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
 
 // Whether one learned term beside the base model fits the runs as well as the set of effects does:
 // within kAccept of its BIC (thresholds.h). Several effects that do no better than one term of
-// unknown cause may be names for what is not in the list.
+// unknown cause may be names for what is not in the list. A curve of the sensor holds all effects
+// of the sensor and must do better than they by as much.
 bool TermRivals(const FitData& data, const Fit& base, const Fit& set, const FitOptions& options);
 
 // RMS of the pressure residual over all usable readings of the runs; NaN where a run fails.

@@ -24,10 +24,11 @@ class Search {
 
   SearchResult Run() {
     SearchResult result = Compare();
-    if (!ClocksAreOff(result)) return result;
-    UseClocks();
-    SearchResult with = Compare();
-    if (!sets_.Cancelled()) return with;
+    if (sets_.data.clocks ? !ActsInTimeInstead(result) : !ClocksAreOff(result)) return result;
+    may_be_off_ = !sets_.data.clocks;
+    UseClocks(may_be_off_);
+    SearchResult other = Compare();
+    if (!sets_.Cancelled()) return other;
     result.complete = false;
     return result;
   }
@@ -38,7 +39,7 @@ class Search {
     std::optional<std::size_t> chosen = Grow();
     if (!chosen) {  // again, with each run's clock fitted
       const Contenders without = sets_;
-      UseClocks();
+      UseClocks(true);
       chosen = Grow();
       if (sets_.Cancelled()) sets_ = without, chosen = 0;
     }
@@ -58,8 +59,8 @@ class Search {
   // it must do better than the clock by this.
   double EffectAhead() const { return sets_.data.runs.size() == 1u ? kTieOneRun : 0.0; }
 
-  void UseClocks() {
-    sets_.data.clocks = true;
+  void UseClocks(bool use) {
+    sets_.data.clocks = use;
     sets_.list.clear();
   }
 
@@ -70,8 +71,33 @@ class Search {
     if (sets_.data.clocks || sets_.Cancelled() || !chosen.Usable()) return false;
     FitData data = sets_.data;
     data.clocks = true;
-    const Fit with = FitModel(data, chosen.state, sets_.Tight());
+    Fit with = FitModel(data, chosen.state, sets_.Tight());
+    Narrow(data, sets_.Tight(), with);
     return with.Usable() && with.bic + ClocksCost(data, with, sets_.Tight()) < chosen.bic - kClock;
+  }
+
+  // Whether an effect that acts in time does better than the clocks beside the chosen set: clocks
+  // may have been taken to be off while much else was still unexplained.
+  bool ActsInTimeInstead(const SearchResult& result) const {
+    const Fit& chosen = result.contenders[result.chosen].fit;
+    if (sets_.Cancelled() || !chosen.Usable()) return false;
+    FitOptions options = sets_.Further();
+    options.threads = options_.threads;
+    FitData data = sets_.data;
+    data.clocks = false;
+    const double bic = chosen.bic + ClocksCost(sets_.data, chosen, options) - EffectAhead();
+    ModelState start = chosen.state;
+    std::fill(start.clock_s.begin(), start.clock_s.end(), 0.0);
+    for (const Spec spec : Named()) {
+      if (!ActsInTime(*spec) || HoldsId(result.contenders[result.chosen].effects, spec->id))
+        continue;
+      ModelState late = start;
+      late.effects.push_back(EffectStarts(*spec, data.sizes).front());
+      Fit fit = FitModel(data, late, options);
+      Narrow(data, options, fit);
+      if (fit.Usable() && fit.bic < bic) return true;
+    }
+    return false;
   }
 
   // Sets forwards from the base model, and the best of them; none where the clocks are found off.
@@ -201,12 +227,14 @@ class Search {
   // BIC of a set with the runs' clocks fitted. kClocksAreAll where that leaves nothing, and one
   // effect more that acts in time does not do as well: there is no need to try all effects.
   double WithClocks(std::size_t set) {
-    if (sets_.data.clocks || sets_.Cancelled() || !sets_[set].fit.Usable()) return kNever;
+    if (sets_.data.clocks || !may_be_off_ || sets_.Cancelled() || !sets_[set].fit.Usable())
+      return kNever;
     FitData data = sets_.data;
     data.clocks = true;
     FitOptions options = sets_.Further();
     options.threads = options_.threads;
-    const Fit with = FitModel(data, sets_[set].fit.state, options);
+    Fit with = FitModel(data, sets_[set].fit.state, options);
+    Narrow(data, options, with);
     if (!with.Usable()) return kNever;
     const double bic = with.bic + ClocksCost(data, with, options);
     if (!(bic < sets_[set].fit.bic) || !enough_(with)) return bic;
@@ -236,6 +264,7 @@ class Search {
         Contender& contender = sets_.list[i];
         if (contender.fit.bic > best + reach) continue;
         Fit fit = FitModel(sets_.data, contender.fit.state, sets_.Tight());
+        Narrow(sets_.data, sets_.Tight(), fit);
         if (fit.Usable() && fit.bic < contender.fit.bic + kSameOptimum)
           contender.fit = std::move(fit);
       }
@@ -261,6 +290,7 @@ class Search {
   const SearchOptions& options_;
   const std::function<bool(const Fit&)>& enough_;
   Contenders sets_;
+  bool may_be_off_ = true;  // the clocks, as far as is known
 };
 
 }  // namespace

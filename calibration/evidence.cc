@@ -48,10 +48,7 @@ double MemoryOf(std::span<const std::vector<double>> series) {
 
 double BicWith(const Fit& fit, double memory) {
   const double n = static_cast<double>(fit.rows), worth = n / memory;
-  const auto free = std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
-                                  [](const Coordinate& coordinate) { return !coordinate.prior; });
-  return worth * std::log(fit.chi2_data / n) + fit.chi2_prior +
-         static_cast<double>(free) * std::log(std::max(1.0, worth));
+  return worth * std::log(fit.chi2_data / n) + fit.chi2_prior + Penalty(fit, memory);
 }
 
 void Reweigh(const FitData& data, const FitOptions& options, double memory,
@@ -69,6 +66,7 @@ void Reweigh(const FitData& data, const FitOptions& options, double memory,
       weighed.weight = 1.0 / (memory * std::max(1.0, contender->fit.chi2_data /
                                                          static_cast<double>(contender->fit.rows)));
       Fit fit = FitModel(data, contender->fit.state, weighed);
+      Narrow(data, options, fit);
       if (fit.Usable() && BicWith(fit, memory) < BicWith(contender->fit, memory))
         contender->fit = std::move(fit);
     }

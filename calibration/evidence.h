@@ -4,7 +4,7 @@
 // residuals tell the same thing over and over: n of them are worth n/φ independent ones,
 //   φ = 1 + 2·Σ ρ_k, over lags k up to the first ρ_k ≤ 0,
 // and sets of effects are compared by
-//   (n/φ)·ln(χ²/n) + χ²_prior + k·ln(n/φ),
+//   (n/φ)·ln(χ²/n) + χ²_prior + the penalty of n/φ readings (fit.h),
 // each at its least, where χ² weighs 1/φ over χ²/n beside the priors: a prior that is stretched to
 // follow what every reading says would else count in full.
 // Source: effective sample size of correlated data (Bayley & Hammersley, J. R. Stat. Soc. 8 (1946)

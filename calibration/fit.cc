@@ -255,13 +255,10 @@ double Chi2Prior(const Fit& fit) {
   return sum;
 }
 
-// n·ln(χ²/n) + χ²_prior + k·ln n; numbers with a prior are the same in every model and do not
-// count.
+// n·ln(χ²/n) + χ²_prior + the penalty.
 double Bic(const Fit& fit) {
   const double n = static_cast<double>(fit.rows);
-  const auto free = std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
-                                  [](const Coordinate& coordinate) { return !coordinate.prior; });
-  return n * std::log(fit.chi2_data / n) + fit.chi2_prior + static_cast<double>(free) * std::log(n);
+  return n * std::log(fit.chi2_data / n) + fit.chi2_prior + Penalty(fit, 1.0);
 }
 
 std::size_t RowsOf(const FitData& data) {
@@ -435,6 +432,41 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   fit.chi2_data = (2.0 * summary.final_cost - fit.chi2_prior) / options.weight;
   fit.bic = Bic(fit);
   return fit;
+}
+
+// Numbers with a prior are the same in every model and do not count.
+double Penalty(const Fit& fit, double memory) {
+  const double most = std::log(std::max(1.0, static_cast<double>(fit.rows) / memory));
+  const auto free = std::count_if(fit.coordinates.begin(), fit.coordinates.end(),
+                                  [](const Coordinate& coordinate) { return !coordinate.prior; });
+  double penalty = (static_cast<double>(free) - static_cast<double>(fit.narrowed.size())) * most;
+  for (const double nats : fit.narrowed) penalty += std::clamp(nats - std::log(memory), 0.0, most);
+  return penalty;
+}
+
+void Narrow(const FitData& data, const FitOptions& options, Fit& fit) {
+  if (!fit.Usable()) return;
+  std::vector<Eigen::Index> numbers;
+  Eigen::VectorXd range(fit.u.size());
+  for (Eigen::Index j = 0; j < fit.u.size(); ++j) {
+    const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
+    range[j] = coordinate.high - coordinate.low;
+    if (coordinate.parameter.kind == Parameter::Kind::kEffect) numbers.push_back(j);
+  }
+  fit.narrowed.clear();
+  if (numbers.size() > fit.state.effects.size()) {
+    const Eigen::VectorXd unit = range(numbers).cwiseInverse();
+    const Eigen::MatrixXd covariance = Covariance(data, fit, options)(numbers, numbers);
+    const Eigen::VectorXd spread =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+            unit.asDiagonal() * covariance * unit.asDiagonal(), Eigen::EigenvaluesOnly)
+            .eigenvalues();  // ascending
+    for (Eigen::Index j = static_cast<Eigen::Index>(fit.state.effects.size()); j < spread.size();
+         ++j)
+      fit.narrowed.push_back(
+          -std::log(2.0 * std::numbers::pi * std::max(spread[j], kLeastCurvature)));
+  }
+  fit.bic = Bic(fit);
 }
 
 bool PriorsHold(const Fit& fit) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/calibration/bench.h"
 #include "tests/support/bench_case.h"
 #include "tests/support/bench_dataset.h"
 
@@ -140,6 +141,20 @@ TEST(Discrepancy, OneTermRivalsWhatOnlyImitatesAndNotWhatIsTrue) {
   const Fit truth = Named(two, test::ListedOf(pair));
   ASSERT_TRUE(truth.Usable());
   EXPECT_FALSE(TermRivals(two.data, two.established, truth, two.options));
+}
+
+// Both are in every curve of the sensor.
+TEST(Discrepancy, ACurveOfTheSensorIsNoRivalOfItsGainAndItsOffset) {
+  const Learning learning(test::MeasuredBench(
+      [](test::EffectRig& rig) {
+        rig.sensor_gain = 1.03;
+        rig.sensor_offset_pa = 2e3;
+      },
+      9));
+  const Fit truth = Named(learning, {{model::FindEffect("sensor_gain"), {1.01}},
+                                     {model::FindEffect("sensor_offset"), {500.0}}});
+  ASSERT_TRUE(truth.Usable());
+  EXPECT_FALSE(TermRivals(learning.data, learning.established, truth, learning.options));
 }
 
 TEST(Discrepancy, NothingIsLearnedFromNoise) {

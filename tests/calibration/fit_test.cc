@@ -114,6 +114,23 @@ TEST(Fit, ClocksThatAreOffAreFound) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(fit.state.clock_s[i], late_s[i], 1e-3) << i;
 }
 
+// The time constant of a creep that is not there costs nothing, of one that is plain as much as any
+// number.
+TEST(Fit, AFurtherNumberCostsWhatTheReadingsTellOfIt) {
+  const auto numbers_counted = [](const test::Change& change) {
+    const Bench bench(MeasuredBench(change, 8, 10.0));
+    Fit fit = FitModel(bench.data, StartOf(bench, "creep"), {});
+    const double nats = std::log(static_cast<double>(fit.rows));
+    EXPECT_NEAR(Penalty(fit, 1.0), 2.0 * nats, 1e-9);
+    const double bic = fit.bic;
+    Narrow(bench.data, {}, fit);
+    EXPECT_NEAR(bic - fit.bic, 2.0 * nats - Penalty(fit, 1.0), 1e-6);
+    return Penalty(fit, 1.0) / nats;
+  };
+  EXPECT_NEAR(numbers_counted({}), 1.0, 0.2);
+  EXPECT_NEAR(numbers_counted([](EffectRig& rig) { rig.creep = {0.1, 1.0}; }), 2.0, 1e-9);
+}
+
 TEST(Fit, PairsOfPartsThatNoRunSharesMoveByThemselves) {
   Dataset dataset = MeasuredBench([](EffectRig& rig) { rig.fill[0].conductance *= 1.05; }, 8);
   const Bench shared(dataset);

@@ -1,0 +1,26 @@
+// Where fits of an effect that rings are to start.
+//
+// A line rings at ω = a/L and keeps its phase over many periods, so that χ² has an optimum at every
+// length at which model and readings ring in step: a few percent apart, and a fit ends in the
+// nearest. Lengths and bores are therefore tried on a grid beside a fit without the line, each with
+// that fit's numbers at their best to first order,
+//   χ²(θ) = |e|² − gᵀ·(JᵀJ)⁻¹·g,  g = Jᵀe,
+// e the whitened residuals with the line θ, J their derivatives without it, both with the priors.
+// The grid: kLengthStep from kShortest to kLongest, and the tubes as declared.
+#ifndef PLENUM_CALIBRATION_START_SCAN_H_
+#define PLENUM_CALIBRATION_START_SCAN_H_
+
+#include <vector>
+
+#include "calibration/fit.h"
+
+namespace plenum::calibration {
+
+// Of an effect that rings the best few points of its grid, apart by more than neighbours are; of
+// any other, and where the fit cannot be simulated, its usual starts.
+std::vector<model::Effect> ScannedStarts(const FitData& data, const Fit& without,
+                                         const model::EffectSpec& spec, const FitOptions& options);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_START_SCAN_H_

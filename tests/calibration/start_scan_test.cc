@@ -1,0 +1,63 @@
+#include "calibration/start_scan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/calibration/bench.h"
+
+namespace plenum::calibration {
+namespace {
+
+constexpr double kLengthM = 0.33, kBoreM = 3.3e-3, kNoisePa = 30.0;
+
+struct Ringing {
+  Ringing()
+      : dataset(test::MeasuredBench(
+            [](test::EffectRig& rig) {
+              rig.line = {kBoreM, kLengthM};
+            },
+            5, kNoisePa)),
+        forward(dataset),
+        observed(Observe(dataset)) {
+    data.forward = &forward;
+    data.observed = &observed;
+    data.runs = {0, 1, 2};
+    data.sizes = SizesOf(dataset);
+    base = FitModel(data, forward.Declared(), {});
+  }
+  double BestChi2(const std::vector<model::Effect>& starts) const {
+    double best = INFINITY;
+    for (const model::Effect& start : starts) {
+      ModelState state = base.state;
+      state.effects = {start};
+      const Fit fit = FitModel(data, state, {});
+      if (fit.Usable()) best = std::min(best, fit.chi2_data / static_cast<double>(fit.rows));
+    }
+    return best;
+  }
+  Dataset dataset;
+  ForwardModel forward;
+  std::vector<ObservedRun> observed;
+  FitData data;
+  Fit base;
+};
+
+TEST(StartScan, TheLengthThatRingsInStepIsFound) {
+  const Ringing bench;
+  const model::EffectSpec& line = *model::FindEffect("line_dynamics");
+  const std::vector<model::Effect> starts = ScannedStarts(bench.data, bench.base, line, {});
+  EXPECT_EQ(starts.size(), 3u);
+  EXPECT_NEAR(bench.BestChi2(starts), 1.0, 0.15);
+  EXPECT_GT(bench.BestChi2(EffectStarts(line, bench.data.sizes)), 1.3);
+}
+
+TEST(StartScan, WhatDoesNotRingStartsAsUsual) {
+  const Ringing bench;
+  const model::EffectSpec& delay = *model::FindEffect("valve_delay");
+  EXPECT_EQ(ScannedStarts(bench.data, bench.base, delay, {}),
+            EffectStarts(delay, bench.data.sizes));
+}
+
+}  // namespace
+}  // namespace plenum::calibration
