@@ -18,9 +18,9 @@ inline constexpr double kTie = 6.0;
 // declared numbers are from what was stated of them, and those statements are rough.
 inline constexpr double kTieInNoise = 10.0;
 
-// The same of a single run: no other confirms that what tells two sets apart there is not its own,
-// such as a drift of the room or the slow part of the noise, which the same readings tell.
-inline constexpr double kTieOneRun = 20.0;
+// In a single run, where no other confirms what it shows, the better set must also be better by
+// this many standard deviations of the difference (closeness.h): by chance one in a hundred.
+inline constexpr double kTieScatter = 2.33;
 
 // The runs' clocks are taken to be off where that lowers BIC by this much more than any effect in
 // their place does; the clocks count by how much of their prior the data exclude.

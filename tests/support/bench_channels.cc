@@ -86,6 +86,7 @@ std::vector<double> ChannelReadings(const BenchCase& bench, const BenchRun& run,
   const auto [low, high] = std::minmax_element(readings.begin(), readings.end());
   double sigma = kNoiseShare * (*high - *low);
   if (channel == "temperature_k") sigma = std::max(sigma, kTemperatureNoiseK);
+  if (channel.ends_with("kpa_gauge")) sigma = std::max(sigma, bench.sensor.noise_pa * 1e-3);
   Random random(bench.seed, kChannelStream + static_cast<std::uint64_t>(number));
   for (double& reading : readings) reading += sigma * random.Normal();
   return readings;

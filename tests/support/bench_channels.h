@@ -10,8 +10,8 @@
 namespace plenum::test {
 
 // What another sensor would show in a run, by the contract's name of its channel and in its units,
-// with white noise of 1 % of its range there, a temperature's at least 0.5 K. The volume is without
-// dead volume.
+// with white noise of 1 % of its range there, a temperature's at least 0.5 K, a pressure's at least
+// that of the chamber's sensor. The volume is without dead volume.
 std::vector<double> ChannelReadings(const BenchCase& bench, const BenchRun& run, int number,
                                     const std::string& channel);
 
