@@ -98,6 +98,7 @@ ErrorReport ErrorOf(const Bench& bench, const ModelState& state) {
 Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& state) {
   FitData data = bench.data;
   data.runs = {run};
+  data.clocks = data.clocks || bench.data.runs.size() == 1u;
   FitOptions options = bench.tight;
   options.nuisance_only = true;
   options.own_pairs = HasOwnPairs(bench.data, run);
