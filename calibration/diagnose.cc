@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 
+#include "calibration/closeness.h"
 #include "calibration/discrepancy.h"
 #include "calibration/errors.h"
 #include "calibration/evidence.h"
@@ -199,7 +200,7 @@ class Diagnosing {
         diagnosis_.tied.push_back(IdsOf(*contender));
         fits.push_back({IdsOf(*contender), &contender->fit});
       }
-      diagnosis_.next_experiment = DesignExperiment(bench_.data, fits, bench_.tight);
+      Propose(DesignExperiment(bench_.data, fits, bench_.tight));
     }
     Progress(0.99, "report");
     AddSeries(bench_, base_->fit.state, shown->fit.state, diagnosis_);
@@ -217,6 +218,17 @@ class Diagnosing {
         diagnosis_.warnings.push_back(std::move(sentence));
     }
     diagnosis_.sentence = Sentence(bench_, search_, diagnosis_);
+  }
+
+  // A run is proposed only where it is expected to decide.
+  void Propose(std::optional<Experiment> found) {
+    if (found && found->expected_delta_bic >= kDecisiveDeltaBic) {
+      diagnosis_.next_experiment = std::move(found);
+    } else if (!Stopped()) {
+      std::string warning = "no run within the range of these data is expected to tell them apart";
+      if (found) warning += "; the best of those tried: " + found->why;
+      diagnosis_.warnings.push_back(std::move(warning));
+    }
   }
 
   // Why the set that fits best is not taken for the explanation.
@@ -239,11 +251,7 @@ class Diagnosing {
     evidence.accepted = &Chosen() != base_;
     evidence.after =
         evidence.accepted ? LeftoverOf(bench_, Chosen().fit, !Stopped()) : evidence.before;
-    const bool alone = bench_.data.runs.size() == 1u && bench_.held_out.empty();
-    tied_ = Tied(Chosen(), memory,
-                 alone                      ? kTieOneRun
-                 : IsNoise(evidence.before) ? kTieInNoise
-                                            : kTie);
+    tied_ = Tied(Chosen(), memory, IsNoise(evidence.before) ? kTieInNoise : kTie);
     evidence.tied = static_cast<int>(tied_.size()) - 1;
     if (Stopped()) evidence.complete = false;
   }
@@ -251,9 +259,18 @@ class Diagnosing {
   // The chosen set and those of its size that do as well, the best first, each set of ids once.
   std::vector<const Contender*> Tied(const Contender& chosen, double memory, double reach) const {
     std::vector<const Contender*> tied = {&chosen};
+    const bool alone = bench_.data.runs.size() == 1u && bench_.held_out.empty();
+    const double evidence = alone ? EvidenceOf(bench_, chosen.fit, memory) : 0.0;
+    const auto apart = [&](const Fit& other) {
+      const bool better = BicWith(other, memory) > BicWith(chosen.fit, memory) + reach;
+      if (!better || !alone) return better;
+      const Gap gap = GapTo(bench_, chosen.fit, other, memory);
+      return gap.size > kTieScatter * gap.scatter &&
+             EvidenceOf(bench_, other, memory) > evidence + reach;
+    };
     for (const Contender& contender : search_.contenders) {
       if (contender.effects.size() != chosen.effects.size() || !contender.fit.Usable()) continue;
-      if (BicWith(contender.fit, memory) > BicWith(chosen.fit, memory) + reach) continue;
+      if (apart(contender.fit)) continue;
       const bool known = std::any_of(tied.begin(), tied.end(), [&](const Contender* other) {
         return SameEffects(contender, *other);
       });

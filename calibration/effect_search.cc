@@ -55,9 +55,10 @@ class Search {
     return Finish(size);
   }
 
-  // In a single run a clock that is off and a stroke that is late are one. The effect claims more:
-  // it must do better than the clock by this.
-  double EffectAhead() const { return sets_.data.runs.size() == 1u ? kTieOneRun : 0.0; }
+  // Where runs confirm each other the clocks must do better than effects by kClock. In a single run
+  // a clock that is off and a stroke that is late are one, and the effect claims more: there it
+  // must do better by as much.
+  double EffectAhead() const { return sets_.data.runs.size() == 1u ? 2.0 * kClock : 0.0; }
 
   void UseClocks(bool use) {
     sets_.data.clocks = use;

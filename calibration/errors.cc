@@ -32,19 +32,20 @@ double PredictionVariance(const FitData& data, const Fit& fit, std::size_t run,
   return (slopes * Covariance(data, fit, options)).cwiseProduct(slopes).sum();
 }
 
-// Squares on runs that a fit did not see, and those expected.
+// Squares on runs that a fit did not see, and what they are made of.
 struct UnseenSum {
   Squares squares;
-  double expected_pa2 = 0.0, samples = 0.0;
+  double noise_pa2 = 0.0, spread_pa2 = 0.0, samples = 0.0;
   void Add(const Bench& bench, const FitData& data, const Fit& fit, std::size_t run) {
     squares.Add(ErrorsUnseen(bench, run, fit.state));
     const auto count = static_cast<double>(bench.observed[run].signals.front().samples.size());
-    expected_pa2 += count * std::pow(NoiseOf(bench, {run}), 2) +
-                    PredictionVariance(data, fit, run, bench.tight);
+    noise_pa2 += count * std::pow(NoiseOf(bench, {run}), 2);
+    spread_pa2 += PredictionVariance(data, fit, run, bench.tight);
     samples += count;
   }
   UnseenError Mean() const {
-    return {squares.Rms(), std::sqrt(expected_pa2 / std::max(1.0, samples))};
+    const double count = std::max(1.0, samples);
+    return {squares.Rms(), std::sqrt(noise_pa2 / count), std::sqrt(spread_pa2 / count)};
   }
 };
 
@@ -97,6 +98,7 @@ ErrorReport ErrorOf(const Bench& bench, const ModelState& state) {
 Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& state) {
   FitData data = bench.data;
   data.runs = {run};
+  data.clocks = data.clocks || bench.data.runs.size() == 1u;
   FitOptions options = bench.tight;
   options.nuisance_only = true;
   options.own_pairs = HasOwnPairs(bench.data, run);
@@ -165,7 +167,8 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
       bench.held_out.empty() ? LeaveOneOut(bench, fit) : HeldOutError(bench, fit);
   if (unseen) {
     leftover.holdout_rms_pa = unseen->rms_pa;
-    leftover.holdout_noise_pa = underread * unseen->expected_pa;
+    leftover.holdout_noise_pa = underread * unseen->noise_pa;
+    leftover.holdout_spread_pa = underread * unseen->spread_pa;
   }
   return leftover;
 }

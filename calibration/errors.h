@@ -53,7 +53,8 @@ Squares ErrorsOf(const Bench& bench, std::size_t run, const ModelState& state);
 
 // Of a run that it did not see. Its clock and its initial pressure, where unknown, and the pairs
 // (C, b) of a line that no fitted run has are its own: nothing that was learned from other runs can
-// tell them, so that they alone are fitted, the pairs within their uncertainties.
+// tell them, so that they alone are fitted, the pairs within their uncertainties. Whether clocks are
+// off one fitted run does not show.
 Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& state);
 
 // Of all runs; those held out as unseen.
@@ -62,11 +63,11 @@ ErrorReport ErrorOf(const Bench& bench, const ModelState& state);
 // Root mean square of the noise of the usable samples of these runs.
 double NoiseOf(const Bench& bench, const std::vector<std::size_t>& runs);
 
-// Error on runs that a fit did not see, and what it may be: √(σ² + ∂p/∂uᵀ·Σ·∂p/∂u) in the mean, σ
-// the noise and Σ the covariance of the fitted coordinates u. Few runs fix few numbers, and a model
-// that is right then predicts others badly.
+// Error on runs that a fit did not see, and what it is made of where the model is right: the noise,
+// and the spread √(∂p/∂uᵀ·Σ·∂p/∂u) in the mean, Σ the covariance of the fitted coordinates u. Few
+// runs fix few numbers, and a model that is right then predicts others badly.
 struct UnseenError {
-  double rms_pa = 0.0, expected_pa = 0.0;
+  double rms_pa = 0.0, noise_pa = 0.0, spread_pa = 0.0;
 };
 
 // Of the runs held out.

@@ -193,12 +193,12 @@ class Designer {
     const auto [truth, rival] = rated.worth.least_pair[chosen];
     ExtendedData extended(dataset(), rated.proposal.run, true);
     Run& run = extended.dataset.runs.back();
-    std::vector<Prediction> shown;
-    {
+    std::vector<Prediction> shown;  // a channel that stands still in one may move in the other
+    for (const std::size_t side : {truth, rival}) {
       const ForwardModel forward(extended.dataset);
-      shown.push_back(forward.Predict(extended.run(), extended.With(tied_[truth].fit->state), {},
+      shown.push_back(forward.Predict(extended.run(), extended.With(tied_[side].fit->state), {},
                                       {.cancelled = options_.cancelled}));
-      if (shown.front().status != model::SimulateStatus::kDone) return {};
+      if (shown.back().status != model::SimulateStatus::kDone) return {};
     }
     std::vector<std::string> seen;
     ObservedRun would = WouldObserve((*data_.observed)[data_.runs.front()], run, shown, seen);
@@ -263,8 +263,6 @@ class Designer {
       why += "; " + Joined(experiment.measure) + " parts them";
     else if (parts.earlier > parts.pressure)
       why += "; to come that near it must leave the runs at hand, which parts them";
-    if (experiment.expected_delta_bic < kDecisiveDeltaBic)
-      why += "; no run within the range of these data is expected to decide";
     why[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(why[0])));
     return why + ".";
   }

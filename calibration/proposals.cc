@@ -213,6 +213,8 @@ std::vector<Proposal> ProposeRuns(const Dataset& dataset, const std::vector<std:
   if (!bench.sources_pa.empty()) {
     const double low = *bench.sources_pa.begin(), high = *bench.sources_pa.rbegin();
     sources_pa = {low, 0.5 * (low + high), high};
+    const double ambient_pa = bench.pattern.ambient.pressure_pa;
+    if (low == high) sources_pa.insert(ambient_pa + kLowerSource * (low - ambient_pa));
   }
   for (const bool blocked : {false, true}) {
     if (blocked && !gives) continue;

@@ -1,13 +1,13 @@
 // Runs that a bench could be asked for next: the rig of the data, its range of pressures, and
 // schedules that show what others hide.
 //
-// Sources lie between the lowest and the highest of the data; the actuator goes at most to its
-// operating pressure. Per source, blocked and free (where that differs): a stroke with a long hold
-// and with a four times longer one, to half of the pressure too; three full cycles with a rest
-// after; stairs up and down; ten short strokes. Without a source: closed or emptying from the
-// highest initial pressure of the data and from half of it. The commands follow from how long the
-// strokes take in a simulation given by the caller. Samples are as dense as in the data times
-// `rate`, kProposalSamples at most.
+// Sources lie between the lowest and the highest of the data, and where the data have one alone, at
+// that and at kLowerSource of it; the actuator goes at most to its operating pressure. Per source,
+// blocked and free (where that differs): a stroke with a long hold and with a four times longer
+// one, to half of the pressure too; three full cycles with a rest after; stairs up and down; ten
+// short strokes. Without a source: closed or emptying from the highest initial pressure of the data
+// and from half of it. The commands follow from how long the strokes take in a simulation given by
+// the caller. Samples are as dense as in the data times `rate`, kProposalSamples at most.
 #ifndef PLENUM_CALIBRATION_PROPOSALS_H_
 #define PLENUM_CALIBRATION_PROPOSALS_H_
 
@@ -20,6 +20,7 @@
 namespace plenum::calibration {
 
 inline constexpr int kProposalSamples = 4000;
+inline constexpr double kLowerSource = 0.6;  // of the gauge pressure
 
 struct Proposal {
   Run run;           // no readings

@@ -18,16 +18,19 @@ inline constexpr double kTie = 6.0;
 // declared numbers are from what was stated of them, and those statements are rough.
 inline constexpr double kTieInNoise = 10.0;
 
-// The same of a single run: no other confirms that what tells two sets apart there is not its own,
-// such as a drift of the room or the slow part of the noise, which the same readings tell.
-inline constexpr double kTieOneRun = 20.0;
+// In a single run, where no other confirms what it shows, the better set must also be better by
+// this many standard deviations of the difference (closeness.h): by chance one in a hundred.
+inline constexpr double kTieScatter = 2.33;
 
 // The runs' clocks are taken to be off where that lowers BIC by this much more than any effect in
 // their place does; the clocks count by how much of their prior the data exclude.
 inline constexpr double kClock = 10.0;
 
-// Held-out error over that of the noise up to which an explanation holds.
+// Held-out error over that of the noise up to which an explanation holds, and, squared, over what
+// the uncertainty of the fitted numbers adds: where runs are few that is one number's doing in the
+// main, and one in a thousand standard normal deviations squared is larger.
 inline constexpr double kHoldout = 1.3;
+inline constexpr double kHoldoutSpread = 10.83;
 
 // Structure that is significant but small does not unmake an explanation: the part of the
 // residual's variance above the noise, over that of the base model's, and its size over the noise.
@@ -35,11 +38,8 @@ inline constexpr double kLeftOver = 0.02;
 inline constexpr double kNegligible = 0.25;
 
 // Effects that leave more than this share of the base model's variance above the noise are not
-// established, and no third effect is sought beside a pair that does.
+// established, and no third effect is sought beside a pair that does. Nor are the sets of a tie.
 inline constexpr double kEstablished = 0.2;
-
-// The same of each set of a tie.
-inline constexpr double kTieLeft = 0.1;
 
 inline constexpr int kEffectsMax = 3;
 inline constexpr int kSeeds = 3;  // best single effects that pairs are built on

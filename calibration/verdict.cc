@@ -18,9 +18,10 @@ bool IsSmall(const Leftover& before, const Leftover& after) {
 }
 
 bool HoldsOut(const Leftover& leftover) {
-  return !leftover.holdout_rms_pa ||
-         *leftover.holdout_rms_pa <=
-             kHoldout * leftover.holdout_noise_pa.value_or(leftover.noise_pa);
+  if (!leftover.holdout_rms_pa) return true;
+  const double noise_pa = kHoldout * leftover.holdout_noise_pa.value_or(leftover.noise_pa);
+  return *leftover.holdout_rms_pa <=
+         std::hypot(noise_pa, std::sqrt(kHoldoutSpread) * leftover.holdout_spread_pa);
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ Verdict Judge(const Evidence& evidence) {
 bool IsTieBesideStructure(const Evidence& evidence) {
   return evidence.accepted && evidence.tied > 0 && HoldsOut(evidence.after) &&
          evidence.after.priors_hold && !evidence.imitated &&
-         UnexplainedFraction(evidence.before, evidence.after) <= kTieLeft;
+         UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
 }
 
 }  // namespace plenum::calibration

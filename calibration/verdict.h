@@ -14,9 +14,10 @@ struct Leftover {
   double rms_pa = 0.0;    // of the fitted runs
   double noise_pa = 0.0;  // of the same samples
   std::optional<double> holdout_rms_pa;
-  std::optional<double> holdout_noise_pa;  // with what the uncertainty of fitted numbers adds
-  double learnable_bic = 0.0;              // what a learned term would gain (criticism.h)
-  bool priors_hold = true;  // the declared numbers are where their uncertainties let them be
+  std::optional<double> holdout_noise_pa;
+  double holdout_spread_pa = 0.0;  // what the uncertainty of the fitted numbers adds to it
+  double learnable_bic = 0.0;      // what a learned term would gain (criticism.h)
+  bool priors_hold = true;         // the declared numbers are where their uncertainties let them be
 };
 
 // Nothing but noise: white and independent of the inputs, no more of it than the readings show, and
@@ -37,13 +38,13 @@ struct Evidence {
 // In this order: kUndecided if not complete. Without an accepted effect kAdequate if the base model
 // leaves noise alone, else kUnexplained. With one, kUnexplained where structure is left that is
 // neither noise nor small (kLeftOver, kNegligible), where runs that the fit did not see are off
-// by more than kHoldout, and where the set only imitates what is missing: it needs declared numbers
-// beyond their uncertainties, or one term of unknown cause does what it takes several effects for.
-// Then kTie if others are as good; else kExplained.
+// by more than √(kHoldout²·noise² + kHoldoutSpread·spread²), and where the set only imitates what
+// is missing: it needs declared numbers beyond their uncertainties, or one term of unknown cause
+// does what it takes several effects for. Then kTie if others are as good; else kExplained.
 Verdict Judge(const Evidence& evidence);
 
 // A tie claims less than an explanation: it stands where each of several sets leaves at most
-// kTieLeft of what the base model left, though that is structure, and holds out.
+// kEstablished of what the base model left, though that is structure, and holds out.
 bool IsTieBesideStructure(const Evidence& evidence);
 
 }  // namespace plenum::calibration

@@ -2,8 +2,9 @@
 // noise and compares at the case's noise.
 //   identify FOLDER [THREADS]
 // For each FOLDER/truth/NNNN.json (see make_cases) writes FOLDER/identify/NNNN.json with the rival
-// that comes nearest and its distance in BIC. A case is identifiable if that is above 10. Clean
-// cases, which every set contains, and those outside the list are left out.
+// that comes nearest and its distance in BIC (`distance_bic`), that of no effect at all
+// (`without_bic`), and the single effects within 10 (`near`). A case is identifiable if no rival is
+// within 10. Clean cases, which every set contains, and those outside the list are left out.
 //
 // Rivals: no effect, every single one, pairs of the best singles; of a pair also either of its
 // effects with every other one. Never a set that contains the true one, and no learned term: it is
@@ -40,6 +41,8 @@ using Ids = std::set<std::string>;
 
 constexpr std::size_t kSamples = 200;
 constexpr double kApart = 10.0;
+// A first reading without noise would pass for where the declared initial pressure comes from.
+constexpr double kNudgePa = 1e-3;
 constexpr std::size_t kBestSingles = 3;
 constexpr double kNoiseShare = 0.1;
 constexpr int kIterations = 25;
@@ -89,6 +92,7 @@ class Judge {
 
   Json Nearest() {
     Consider({});
+    const double without = nearest_.bic - true_bic_;
     for (const model::EffectSpec* spec : NamedEffects()) ConsiderFrom({}, *spec);
     std::sort(singles_.begin(), singles_.end(),
               [](const Tried& a, const Tried& b) { return a.bic < b.bic; });
@@ -108,6 +112,8 @@ class Judge {
     return {{"identifiable", std::isfinite(true_bic_) && distance > kApart},
             {"distance_bic", std::isfinite(distance) ? Json(distance) : Json(nullptr)},
             {"rival", IdsOf(nearest_.effects)},
+            {"without_bic", std::isfinite(without) ? Json(without) : Json(nullptr)},
+            {"near", Near()},
             {"fits", fits_},
             {"unusable", unusable_}};
   }
@@ -117,6 +123,14 @@ class Judge {
     Effects effects;
     double bic = INFINITY;
   };
+
+  // The single effects that do as well.
+  Ids Near() const {
+    Ids near;
+    for (const Tried& single : singles_)
+      if (single.bic < true_bic_ + kApart) near.merge(IdsOf(single.effects));
+    return near;
+  }
 
   // A measured source drives the model and stays whole.
   void Thin(double noise_pa) {
@@ -131,6 +145,7 @@ class Judge {
       }
       run.t_s.resize(kept);
       run.pressure_pa.resize(kept);
+      run.pressure_pa.front() += kNudgePa;
       calibration::ObservedSignal signal;
       for (std::size_t i = 0; i < kept; ++i) signal.samples.push_back(i);
       signal.steps.assign(kept, {});
@@ -199,7 +214,7 @@ void Identify(const std::filesystem::path& truth, const std::filesystem::path& a
   std::ifstream file(truth);
   const Json json = Json::parse(file);
   if (json["kind"] == "clean" || json["kind"] == "outside") return;
-  const test::BenchCase bench = test::CaseOfSeries(json["series"], json["index"]);
+  const test::BenchCase bench = test::CaseOfTruth(json);
   const std::string nearest = Judge(bench).Nearest().dump();
   std::ofstream(answer) << nearest << '\n';
 }

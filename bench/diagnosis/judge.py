@@ -1,8 +1,8 @@
 """Compares diagnoses with the truth.
 
 usage: judge.py FOLDER
-Reads FOLDER/truth, answers, times, decided, identify and rival (see run.sh) and prints tables, each
-share with its 95 % Wilson interval and the target that was fixed before any case was run.
+Reads FOLDER/truth, answers, times, decided, identify and rival (see run.sh), and the same in
+FOLDER/ties if that is there, and prints tables, each share with its 95 % Wilson interval and the target that was fixed before any case was run.
 """
 
 import collections
@@ -278,6 +278,31 @@ def times(cases):
               f"p95 {quantile(seconds, 0.95):.1f}, most {max(seconds):.1f}")
 
 
+def confounded(folder):
+    """Single effects in runs that show little, drawn apart from the series (make_cases ... tie)."""
+    cases = [c for c in (Case(folder, path) for path in sorted((folder / "truth").glob("*.json")))
+             if c.answer and c.identify]
+    seen = [c for c in cases if c.identify["without_bic"] is None or c.identify["without_bic"] > 10]
+    alike = [c for c in seen if not c.identifiable]
+    print(f"\nConfounded: {len(cases)} single effects in runs that show little, {len(seen)} to be "
+          f"seen at all, {len(alike)} of them with a rival within 10 of BIC")
+    for label, chosen in (("with a rival", alike),
+                          ("told apart", [c for c in seen if c.identifiable])):
+        count = collections.Counter(
+            c.verdict + {True: " (right)", False: " (wrong)"}.get(
+                c.exact if c.verdict == "explained"
+                else c.tie_holds_truth if c.verdict == "tie" else None, "")
+            for c in chosen)
+        print(f"  {label}: " + ", ".join(f"{n} {v}" for v, n in sorted(count.items())))
+        share(f"{label}: named or in the tie", (c.exact or c.tie_holds_truth for c in chosen))
+        share(f"{label}: wrong effect named with confidence",
+              (c.wrongly_confident for c in chosen), "<= 2 %")
+    share("ties that hold the truth", (c.tie_holds_truth for c in cases if c.verdict == "tie"),
+          ">= 90 %")
+    experiments(cases)
+    failures(cases)
+
+
 def failures(cases):
     print("\nCases that missed (series, number)")
     for c in cases:
@@ -303,6 +328,8 @@ def main():
     for table in (confusion, naming, per_effect, intervals, errors, rivals, experiments, times,
                   failures):
         table(cases)
+    if (folder / "ties").exists():
+        confounded(folder / "ties")
 
 
 main()

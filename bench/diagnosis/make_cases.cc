@@ -2,7 +2,7 @@
 //   make_cases SERIES COUNT FOLDER [KIND]
 // FOLDER/cases/NNNN.json are measurements, FOLDER/truth/NNNN.json what is true of them; what is
 // there already is kept. With a KIND (clean, full, fifth, pair, outside) only the cases of that
-// kind among the first COUNT of the series.
+// kind among the first COUNT of the series; with `tie` COUNT cases that may be ties.
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -34,17 +34,19 @@ int main(int argc, char** argv) {
   const int count = std::atoi(argv[2]);
   const std::filesystem::path folder = argv[3];
   const std::string kind = argc > 4 ? argv[4] : "";
+  const bool tie = kind == NameOf(plenum::test::CaseKind::kTie);
   std::filesystem::create_directories(folder / "cases");
   std::filesystem::create_directories(folder / "truth");
   std::atomic<int> next = 0, failed = 0;
   const auto work = [&] {
     for (int i = next++; i < count; i = next++) {
-      if (!kind.empty() && NameOf(plenum::test::KindOfSeries(i)) != kind) continue;
+      if (!tie && !kind.empty() && NameOf(plenum::test::KindOfSeries(i)) != kind) continue;
       char name[32];
       std::snprintf(name, sizeof name, "%04d.json", i);
       if (std::filesystem::exists(folder / "truth" / name)) continue;
       try {
-        const plenum::test::BenchCase bench = plenum::test::CaseOfSeries(series, i);
+        const plenum::test::BenchCase bench =
+            tie ? plenum::test::TieOfSeries(series, i) : plenum::test::CaseOfSeries(series, i);
         Write(folder / "cases" / name, MeasurementJson(bench));
         plenum::api::Json truth = TruthJson(bench);
         truth["series"] = series;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "tests/calibration/processes.h"
@@ -58,6 +59,15 @@ TEST(ProposeRuns, StayWithinWhatTheBenchHasShown) {
       std::max_element(proposals.begin(), proposals.end(),
                        [](auto& a, auto& b) { return a.run.t_s.back() < b.run.t_s.back(); });
   EXPECT_GE(longest_hold->run.t_s.back(), 12.0);  // four times the hold of the data
+}
+
+TEST(ProposeRuns, OneSourceAloneIsLoweredToo) {
+  Dataset dataset;
+  dataset.runs = {MakeRun(Supply::kRegulated, 3e5), MakeRun(Supply::kRegulated, 3e5)};
+  std::set<double> sources_pa;
+  for (const Proposal& proposal : ProposeRuns(dataset, {0, 1}, 1.0, kHalfASecond))
+    sources_pa.insert(proposal.run.source_pressure_pa);
+  EXPECT_EQ(sources_pa, (std::set<double>{1e5 + kLowerSource * 2e5, 3e5}));
 }
 
 TEST(ProposeRuns, FasterSamplingIsFaster) {

@@ -32,7 +32,7 @@ TEST(Verdict, OfWhatIsLeft) {
 }
 
 TEST(Verdict, ATieMayStandBesideSmallStructure) {
-  EXPECT_TRUE(IsTieBesideStructure({true, true, 1, Structure(900), Structure(250)}));
+  EXPECT_TRUE(IsTieBesideStructure({true, true, 1, Structure(900), Structure(350)}));
   EXPECT_FALSE(IsTieBesideStructure({true, true, 1, Structure(900), Structure(500)}));
   EXPECT_FALSE(IsTieBesideStructure({true, true, 0, Structure(900), Structure(250)}));
   Leftover unseen_off = Structure(250);
@@ -63,6 +63,10 @@ TEST(Verdict, WhatATermCouldLearnIsNoNoise) {
 TEST(Verdict, RunsNotSeenMayNotBeOff) {
   Leftover after = Noise();
   after.holdout_rms_pa = 200.0;
+  EXPECT_EQ(Judge({true, true, 0, Structure(900), after}), Verdict::kUnexplained);
+  after.holdout_spread_pa = 60.0;  // of one number, which may be two or three deviations off
+  EXPECT_EQ(Judge({true, true, 0, Structure(900), after}), Verdict::kExplained);
+  after.holdout_rms_pa = 300.0;
   EXPECT_EQ(Judge({true, true, 0, Structure(900), after}), Verdict::kUnexplained);
   after.holdout_rms_pa.reset();
   EXPECT_EQ(Judge({true, true, 0, Structure(900), after}), Verdict::kExplained);

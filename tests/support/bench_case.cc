@@ -14,7 +14,8 @@ namespace {
 constexpr int kAttempts = 60;
 constexpr int kKinds = 5;
 constexpr double kSizeLow = 0.1, kSizeHigh = 4.0;  // of the typical size; outside: drawn anew
-constexpr std::uint64_t kRunStream = 1000, kFaultStream = 500;
+constexpr double kTieLow = 1.0, kTieHigh = 6.0;    // as kVisibleLow, kVisibleHigh
+constexpr std::uint64_t kRunStream = 1000, kFaultStream = 500, kTieStream = 2000;
 
 BenchSupply DrawSupply(Random& random) {
   const double x = random.Uniform(0.0, 1.0);
@@ -102,16 +103,16 @@ class Scale {
     return fitter_.Fit(AllReadings(bench_, effects), floor_pa).rms_pa / floor_pa;
   }
 
-  // Makes the effect as visible as a full one; false if that is not a size to be met.
-  bool MakeFull(TrueEffect& effect, Random& random) const {
-    const double target = random.LogUniform(kVisibleLow, kVisibleHigh);
+  // Makes the effect as visible as that; false if that is not a size to be met.
+  bool MakeVisible(double low, double high, TrueEffect& effect, Random& random) const {
+    const double target = random.LogUniform(low, high);
     const TrueEffect typical = effect;
     double size = 1.0;
     for (int k = 0; k < 4; ++k) {
       effect = Sized(typical, size);
       if (size < kSizeLow || size > kSizeHigh || !Possible(effect, bench_.declared)) return false;
       const double visible = Visible({effect});
-      if (visible > kVisibleLow && visible < kVisibleHigh) return true;
+      if (visible > low && visible < high) return true;
       size *= target / visible;
     }
     return false;
@@ -134,12 +135,14 @@ std::vector<std::string> IdsOf(CaseKind kind, const std::string& effect, Random&
 bool DrawEffects(BenchCase& bench, const std::vector<std::string>& ids, Random& random) {
   if (ids.empty()) return true;
   const Scale scale(bench);
+  const bool tie = bench.kind == CaseKind::kTie;
+  const double low = tie ? kTieLow : kVisibleLow, high = tie ? kTieHigh : kVisibleHigh;
   const double rise_s = bench.declared.supply == BenchSupply::kNone
                             ? TimesOf(bench.declared, false, 0.0).fall_s
                             : TimesOf(bench.declared, false, bench.runs[0].source_gauge_pa).rise_s;
   for (const std::string& id : ids) {
     TrueEffect effect = DrawEffect(id, bench.declared, rise_s, random);
-    if (!scale.MakeFull(effect, random)) return false;
+    if (!scale.MakeVisible(low, high, effect, random)) return false;
     if (bench.kind == CaseKind::kFifth) effect = Sized(effect, 0.2);
     if (bench.kind == CaseKind::kPair) effect = Sized(effect, random.Uniform(1.0 / 3.0, 1.0));
     bench.effects.push_back(effect);
@@ -186,8 +189,8 @@ void LoseSome(double share, Random& random, std::vector<double>& readings) {
 }  // namespace
 
 std::string_view NameOf(CaseKind kind) {
-  static constexpr std::array<std::string_view, 5> kNames = {"clean", "full", "fifth", "pair",
-                                                             "outside"};
+  static constexpr std::array<std::string_view, 6> kNames = {"clean", "full",    "fifth",
+                                                             "pair",  "outside", "tie"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -195,13 +198,20 @@ double Sensor::NoiseFloor() const {
   return std::sqrt(noise_pa * noise_pa + quantum_pa * quantum_pa / 12.0);
 }
 
-std::vector<double> TrueReadings(const BenchCase& bench, const BenchRun& run, int number,
-                                 const Numbers& factors, const std::vector<TrueEffect>& effects) {
+EffectResult TrueCourse(const BenchCase& bench, const BenchRun& run, int number,
+                        const Numbers& factors, const std::vector<TrueEffect>& effects,
+                        const std::vector<double>& t_s) {
   EffectRig plant = Plant(bench.declared, run, factors);
   for (const TrueEffect& effect : effects) {
     Apply(effect, bench.declared, bench.seed * 64 + static_cast<std::uint64_t>(number), plant);
   }
-  std::vector<double> readings = SimulateEffects(plant, run.t_s, StepOf(effects)).measured_pa;
+  return SimulateEffects(plant, t_s, StepOf(effects));
+}
+
+std::vector<double> TrueReadings(const BenchCase& bench, const BenchRun& run, int number,
+                                 const Numbers& factors, const std::vector<TrueEffect>& effects) {
+  std::vector<double> readings =
+      TrueCourse(bench, run, number, factors, effects, run.t_s).measured_pa;
   double session_s = 0.0;
   for (std::size_t r = 0; r < bench.runs.size() && static_cast<int>(r) < number; ++r) {
     session_s += bench.runs[r].end_s;
@@ -241,7 +251,8 @@ Record Observe(const BenchCase& bench, const BenchRun& run, int number) {
 
 BenchCase DrawCase(std::uint64_t seed, CaseKind kind, const std::string& effect) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    Random random(seed, static_cast<std::uint64_t>(attempt));
+    const bool tie = kind == CaseKind::kTie;
+    Random random(seed, static_cast<std::uint64_t>(attempt) + (tie ? kTieStream : 0));
     BenchCase bench;
     bench.seed = seed;
     bench.kind = kind;
@@ -251,7 +262,8 @@ BenchCase DrawCase(std::uint64_t seed, CaseKind kind, const std::string& effect)
       continue;
     }
     bench.declared = DrawRig(supply, random);
-    bench.runs = DrawRuns(bench.declared, random);
+    bench.runs = tie ? DrawNarrowRuns(bench.declared, random) : DrawRuns(bench.declared, random);
+    bench.holdout_recorded = !tie || random.Coin();
     bench.uncertainty = DrawUncertainty(bench.declared, random);
     bench.factors = DrawFactors(bench.uncertainty, random);
     bench.sensor = DrawSensor(bench.declared, random);
@@ -273,6 +285,12 @@ BenchCase CaseOfSeries(std::uint64_t series, int index) {
   const auto& ids = kind == CaseKind::kOutside ? OutsideEffects() : ListedEffects();
   const std::uint64_t seed = series * 1'000'003 + static_cast<std::uint64_t>(index);
   return DrawCase(seed, kind, ids[turn % ids.size()]);
+}
+
+BenchCase TieOfSeries(std::uint64_t series, int index) {
+  const auto& ids = ListedEffects();
+  const std::uint64_t seed = series * 1'000'003 + static_cast<std::uint64_t>(index);
+  return DrawCase(seed, CaseKind::kTie, ids[static_cast<std::size_t>(index) % ids.size()]);
 }
 
 }  // namespace plenum::test

@@ -17,8 +17,9 @@ namespace plenum::test {
 // re-fitted within its uncertainties has an RMS of 4 to 16 times the noise (over the fitted runs,
 // without noise). kFifth: such an effect at a fifth of that size (Sized()). kPair: two listed
 // effects, each at a third to the whole of it. kOutside: one effect that is not listed, as large as
-// kFull.
-enum class CaseKind { kClean, kFull, kFifth, kPair, kOutside };
+// kFull. kTie: one listed effect, 1 to 6 times the noise, in runs that show little
+// (DrawNarrowRuns); whether another effect does as well there is not known beforehand.
+enum class CaseKind { kClean, kFull, kFifth, kPair, kOutside, kTie };
 std::string_view NameOf(CaseKind kind);
 inline constexpr double kVisibleLow = 4.0, kVisibleHigh = 16.0;  // times the noise
 
@@ -50,7 +51,8 @@ struct BenchCase {
   Numbers uncertainty{};  // relative standard deviations; infinity: unknown
   Numbers factors = kAsDeclared;
   bool initial_declared = true;
-  std::vector<BenchRun> runs;  // the last is held out
+  std::vector<BenchRun> runs;    // the last is held out
+  bool holdout_recorded = true;  // else it is no part of the measurement
   std::vector<TrueEffect> effects;
   Sensor sensor;
   double visible = 0.0;  // RMS after the re-fitted base model over that of the noise, without noise
@@ -65,7 +67,15 @@ BenchCase DrawCase(std::uint64_t seed, CaseKind kind, const std::string& effect 
 CaseKind KindOfSeries(int index);
 BenchCase CaseOfSeries(std::uint64_t series, int index);
 
-// What the true rig would show in a run: pressures without noise, gauge, at the run's sample times.
+// The same of kTie, which is none of these kinds: the effects in turn.
+BenchCase TieOfSeries(std::uint64_t series, int index);
+
+// The true rig in a run, without the drift of a sensor, at these times.
+EffectResult TrueCourse(const BenchCase& bench, const BenchRun& run, int number,
+                        const Numbers& factors, const std::vector<TrueEffect>& effects,
+                        const std::vector<double>& t_s);
+
+// What its pressure sensor would show: without noise, gauge, at the run's sample times.
 std::vector<double> TrueReadings(const BenchCase& bench, const BenchRun& run, int number,
                                  const Numbers& factors, const std::vector<TrueEffect>& effects);
 

@@ -163,10 +163,11 @@ Json MeasurementJson(const BenchCase& bench) {
        {{"pressure_kpa_abs", api::Rounded(rig.ambient_pa * kPerKpa)},
         {"temperature_k", rig.ambient_k}}}};
   json["relative_uncertainty"] = UncertaintyJson(bench.uncertainty);
-  for (std::size_t r = 0; r < bench.runs.size(); ++r) {
+  const std::size_t recorded = bench.runs.size() - (bench.holdout_recorded ? 0 : 1);
+  for (std::size_t r = 0; r < recorded; ++r) {
     json["runs"].push_back(RunJson(bench, bench.runs[r], bench.records[r]));
   }
-  json["holdout"] = {bench.runs.back().id};
+  if (bench.holdout_recorded) json["holdout"] = {bench.runs.back().id};
   return json;
 }
 
@@ -187,6 +188,12 @@ Json TruthJson(const BenchCase& bench) {
                             {"noise_rms_kpa", NoiseRms(bench.sensor, bench.records[r]) * kPerKpa}});
   }
   return json;
+}
+
+BenchCase CaseOfTruth(const Json& truth) {
+  const bool tie = truth.at("kind") == NameOf(CaseKind::kTie);
+  return tie ? TieOfSeries(truth.at("series"), truth.at("index"))
+             : CaseOfSeries(truth.at("series"), truth.at("index"));
 }
 
 BenchRun ExperimentFromJson(const BenchCase& bench, const Json& json) {

@@ -17,6 +17,9 @@ api::Json MeasurementJson(const BenchCase& bench);
 // neither missing, clipped nor outliers.
 api::Json TruthJson(const BenchCase& bench);
 
+// The case that a truth of make_cases is of, by its series, index and kind.
+BenchCase CaseOfTruth(const api::Json& truth);
+
 // A proposed experiment ("next_experiment" of a diagnosis): schedule, source, "t_end_s" and
 // "sample_hz". A supply that is measured keeps to the level asked for.
 BenchRun ExperimentFromJson(const BenchCase& bench, const api::Json& experiment);

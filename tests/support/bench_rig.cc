@@ -123,14 +123,7 @@ std::function<double(double)> DrawCourse(const BenchRun& run, double level_pa, d
   };
 }
 
-void DrawSampleTimes(std::vector<BenchRun>& runs, Random& random) {
-  double total_s = 0.0;
-  for (const BenchRun& run : runs) total_s += run.end_s;
-  std::vector<double> rates;
-  for (const double hz : {50.0, 80.0, 100.0, 125.0, 200.0, 250.0, 400.0, 500.0, 1000.0}) {
-    if (hz * total_s <= 30000.0 || rates.empty()) rates.push_back(hz);
-  }
-  const double interval_s = 1.0 / random.Pick(rates);
+void SampleEvery(double interval_s, std::vector<BenchRun>& runs, Random& random) {
   const double jitter = random.Coin(0.25) ? 0.35 : 0.0;
   for (BenchRun& run : runs) {
     for (int i = 1; i * interval_s <= run.end_s; ++i) {
@@ -138,6 +131,35 @@ void DrawSampleTimes(std::vector<BenchRun>& runs, Random& random) {
       run.t_s.push_back(std::round((i + off) * interval_s * 1e6) * 1e-6);
     }
   }
+}
+
+void DrawSampleTimes(std::vector<BenchRun>& runs, Random& random) {
+  double total_s = 0.0;
+  for (const BenchRun& run : runs) total_s += run.end_s;
+  std::vector<double> rates;
+  for (const double hz : {50.0, 80.0, 100.0, 125.0, 200.0, 250.0, 400.0, 500.0, 1000.0}) {
+    if (hz * total_s <= 30000.0 || rates.empty()) rates.push_back(hz);
+  }
+  SampleEvery(1.0 / random.Pick(rates), runs, random);
+}
+
+// --- What a hasty experimenter records --------------------------------------------------------
+
+void WriteNarrow(BenchRun& run, const StrokeTimes& stroke, Random& random) {
+  const bool holds = random.Coin(), falls = random.Coin();
+  const double level = random.Uniform(0.6, 1.0);
+  ScheduleWriter write(random.Uniform(0.1, 0.5));
+  write.Then(1, level * stroke.rise_s);
+  if (holds) write.Then(0, random.LogUniform(0.3, 5.0));
+  if (falls) write.Then(-1, random.Uniform(0.4, 1.2) * stroke.fall_s);
+  write.Into(run);
+}
+
+void WriteNarrowEmptying(BenchRun& run, const StrokeTimes& stroke, Random& random) {
+  const bool empties = random.Coin(0.7);
+  ScheduleWriter write(empties ? random.LogUniform(0.2, 4.0) : random.LogUniform(1.0, 10.0));
+  if (empties) write.Then(-1, random.Uniform(0.4, 1.2) * stroke.fall_s);
+  write.Into(run);
 }
 
 }  // namespace
@@ -272,6 +294,29 @@ std::vector<BenchRun> DrawRuns(const BenchRig& rig, Random& random) {
     runs.push_back(std::move(run));
   }
   DrawSampleTimes(runs, random);
+  return runs;
+}
+
+std::vector<BenchRun> DrawNarrowRuns(const BenchRig& rig, Random& random) {
+  BenchRun run;
+  run.blocked = random.Coin(0.2);
+  run.source_gauge_pa = Digits3(rig.operating_gauge_pa * random.Uniform(1.25, 3.0));
+  if (rig.supply == BenchSupply::kNone) {
+    run.initial_gauge_pa = Digits3(rig.operating_gauge_pa * random.Uniform(0.5, 1.05));
+    WriteNarrowEmptying(run, TimesOf(rig, run.blocked, 0.0), random);
+  } else {
+    WriteNarrow(run, TimesOf(rig, run.blocked, run.source_gauge_pa), random);
+  }
+  std::vector<BenchRun> runs;
+  for (int i = random.Integer(1, 2); i >= 0; --i) {
+    runs.push_back(run);
+    runs.back().id = "r" + std::to_string(runs.size());
+    if (rig.supply != BenchSupply::kMeasured) continue;
+    runs.back().source_course =
+        DrawCourse(run, rig.ambient_pa + run.source_gauge_pa,
+                   TimesOf(rig, run.blocked, run.source_gauge_pa).rise_s, random);
+  }
+  SampleEvery(run.end_s / random.LogUniform(40.0, 600.0), runs, random);
   return runs;
 }
 

@@ -85,6 +85,12 @@ BenchRig DrawRig(BenchSupply supply, Random& random);
 // uneven.
 std::vector<BenchRun> DrawRuns(const BenchRig& rig, Random& random);
 
+// What a hasty experimenter records: one or two runs that are all alike and one to hold out that
+// repeats them, from one source (initial) pressure, free or blocked, with one way to move the
+// valve: a rise alone, with a hold, with a fall, or all of these; without a source closed, emptying
+// or both. 40 to 600 samples a run. Effects that act alike there cannot be told apart.
+std::vector<BenchRun> DrawNarrowRuns(const BenchRig& rig, Random& random);
+
 }  // namespace plenum::test
 
 #endif  // PLENUM_TESTS_SUPPORT_BENCH_RIG_H_

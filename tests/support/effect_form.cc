@@ -163,12 +163,15 @@ void Simulator::Sample(double t_s, const EffectState& y, EffectResult& result) c
   result.temperature_k.push_back(gas.temperature_k);
   result.supply_pa.push_back(system_.SupplyPressure(t_s, y));
   result.node_pa.push_back(system_.NodePressure(y));
+  result.filled_kg.push_back(y[kSource] - y[kDroop]);
+  result.emptied_kg.push_back(y[kExhaust]);
 }
 
 EffectResult Simulator::Run(const std::vector<double>& times_s) {
   EffectState y = system_.Start();
   EffectResult result;
   result.t_s = times_s;
+  const double droop_start_kg = y[kDroop];
   result.gas_start_kg = y[kMass] + y[kDroop] + y[kNode] + y[kSecond];
   result.energy_start_j = system_.Energy(y);
   double t_s = 0.0;
@@ -182,6 +185,7 @@ EffectResult Simulator::Run(const std::vector<double>& times_s) {
     }
     Sample(sample_s, y, result);
   }
+  for (double& filled_kg : result.filled_kg) filled_kg += droop_start_kg;
   result.source_kg = y[kSource];
   result.delivered_kg = y[kDelivered];
   result.exhaust_kg = y[kExhaust];

@@ -133,6 +133,8 @@ struct EffectResult {
   std::vector<double> temperature_k;  // in the chamber
   std::vector<double> supply_pa;      // that the line draws from
   std::vector<double> node_pa;        // at the line's end; the chamber's without line dynamics
+  std::vector<double> filled_kg;      // into the line since time 0
+  std::vector<double> emptied_kg;     // through the valve to ambient since time 0
 
   // Totals from time 0 to the last time.
   double source_kg = 0.0;     // out of the regulated source or the reservoir
