@@ -112,11 +112,16 @@ Constraint Bounds::RestOfRegulated(Box& box) {
     const double high = GasLeft(problem_, plan_.configuration, plan_.bottle_range.high_pa);
     const double left = GasLeft(problem_, plan_.configuration, inlet_pa);
     const double share = high > low ? std::max(0.0, (left - low) / (high - low)) : 0.0;
+    const Amounts all = LeastOfAll(box);
+    const Amounts& counted = CornerAt(plan_.bottles, box, plan_.bottle_slot).amounts;
+    const Amounts others{all.mass_kg - counted.mass_kg, all.volume_m3 - counted.volume_m3,
+                         all.cost_eur - counted.cost_eur};
     const double bottle =
         LeastObjective(plan_.bottles, box.nodes[plan_.bottle_slot], [&](const BottleCorner& c) {
           return c.fill_pressure_pa <= regulator.inlet_max_pa &&
                  (1.0 - share) * c.gas_to_low_m3 + share * c.gas_to_high_m3 >= air_m3 / kRounding &&
-                 c.flow_sustained_m3_per_s * kRounding >= box.air_m3 * problem_.frequency_hz;
+                 c.flow_sustained_m3_per_s * kRounding >= box.air_m3 * problem_.frequency_hz &&
+                 WithinLimits(others, c.amounts);
         });
     if (std::isinf(bottle)) return Constraint::kGas;
     bound += bottle;

@@ -22,8 +22,13 @@ std::vector<ReservoirNeed> NeedsOf(const Box& box) {
   return needs;
 }
 
-Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench)
-    : problem_(problem), plan_(plan), bench_(bench), gas_(GasOf(plan.configuration)) {}
+Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
+               std::function<bool(const Amounts&)> useful)
+    : problem_(problem),
+      plan_(plan),
+      bench_(bench),
+      useful_(std::move(useful)),
+      gas_(GasOf(plan.configuration)) {}
 
 Box Bounds::Root() const {
   Box box;
@@ -89,10 +94,14 @@ std::size_t Bounds::LineKey::Hash::operator()(const LineKey& key) const {
 Bounds::KnownLine& Bounds::KnowLine(const LineKey& key) {
   const auto [entry, fresh] = lines_.try_emplace(key);
   KnownLine& known = entry->second;
-  if (!fresh) return known;
+  if (!fresh && known.weights == weights_) return known;
   const LineParts parts = PartsOf(key);
   const auto& [tube, fitting, valve] = parts.corners;
   known.objective = tube.objective + valve.objective + fitting.objective;
+  known.weights = weights_;
+  known.least = false;
+  if (known.line) known.line->objective = known.objective;
+  if (!fresh) return known;
   known.missed = ScreenLine(problem_, key.group, gas_, parts.corners, parts.single());
   if (known.missed == Constraint::kNone && parts.single()) {
     const auto [tubing, fittings, valves] = parts.choices();
@@ -191,7 +200,7 @@ Constraint Bounds::FinishLines(Box& box) {
     const LineKey key = KeyOf(box, g);
     KnownLine& known = KnowLine(key);
     if (known.missed == Constraint::kNone && !known.finished) {
-      known.finished = true;
+      known.finished = known.least = true;
       known.missed = FindLeastObjective(key, known.objective);
       const LineParts parts = PartsOf(key);
       if (known.missed == Constraint::kNone) {
@@ -228,13 +237,41 @@ bool Bounds::WithinLimits(Amounts amounts, const Amounts& more) const {
   amounts += more;
   return amounts.mass_kg <= problem_.mass_max_kg * kRounding &&
          amounts.volume_m3 * 1e3 <= problem_.volume_max_l * kRounding &&
-         amounts.cost_eur <= problem_.cost_max_eur * kRounding;
+         amounts.cost_eur <= problem_.cost_max_eur * kRounding && (!useful_ || useful_(amounts));
 }
 
 Constraint Bounds::Reassess(Box& box) {
   if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
   if (plan_.configuration != Configuration::kCompressor) return RestOfRegulated(box);
   for (VolumeNeed& volume : box.volumes.Own()) volume.rest = RestAt(box, volume);
+  return RestOfCompressor(box);
+}
+
+Constraint Bounds::Reweigh(Box& box) {
+  box.bound = 0.0;
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
+    const LineKey key = KeyOf(box, g);
+    KnownLine& known = KnowLine(key);
+    if (!known.line || known.finished < box.lines_finished) {  // forgotten
+      known.line = std::make_shared<Line>(*box.lines[g]);
+      known.line->objective = known.objective;
+      known.finished = box.lines_finished;
+    }
+    if (known.finished && !known.least) {
+      known.least = true;
+      known.missed = FindLeastObjective(key, known.objective);
+      if (known.missed != Constraint::kNone) return known.missed;
+      known.line->objective = known.objective;
+    }
+    box.lines[g] = known.line;
+  }
+  if (plan_.configuration != Configuration::kCompressor) return RestOfRegulated(box);
+  for (VolumeNeed& volume : box.volumes.Own()) {
+    volume.objective = IsMade(volume) ? ObjectiveOf(problem_.objective,
+                                                    CustomReservoir(problem_, volume.need.low_m3))
+                                      : plan_.reservoirs.corners[volume.node].objective;
+    volume.rest = RestAt(box, volume);
+  }
   return RestOfCompressor(box);
 }
 

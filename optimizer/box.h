@@ -55,8 +55,10 @@ std::vector<ReservoirNeed> NeedsOf(const Box& box);
 
 class Bounds {
  public:
-  // `bench`: handed to the candidates; may be null.
-  Bounds(const Problem& problem, const Plan& plan, const Workbench* bench = nullptr);
+  // `bench`: handed to the candidates; may be null. `useful`: amounts that are of interest, a limit
+  // like the problem's; what it accepts must not cease to be accepted with less of an amount.
+  Bounds(const Problem& problem, const Plan& plan, const Workbench* bench = nullptr,
+         std::function<bool(const Amounts&)> useful = {});
 
   const Plan& plan() const { return plan_; }
 
@@ -68,6 +70,13 @@ class Bounds {
 
   // The same of an assessed box after the problem's limits on amounts have fallen.
   Constraint Reassess(Box& box);
+
+  // The problem's objective has other weights of the amounts, and so has the plan (reweigh.h): what
+  // is known of boxes but for their bounds stays, and Reweigh() finds those.
+  void ChangeWeights() { ++weights_; }
+  Constraint Reweigh(Box& box);
+
+  Amounts LeastOfAll(const Box& box) const;  // sums of the least of each slot
 
   // What raises the bound of a box without dividing it, step by step: a look at the reservoirs that
   // its bound comes from; once all but bottle and battery are single choices their source pressure,
@@ -125,7 +134,9 @@ class Bounds {
     Constraint missed = Constraint::kNone;
     double objective = 0.0;      // the corner's, at most that of the finished line
     std::shared_ptr<Line> line;  // of the corner; none before a box has it
-    bool finished = false;       // by FinishLine(), and its objective by FindLeastObjective()
+    bool finished = false;       // by FinishLine()
+    bool least = false;          // the objective is by FindLeastObjective()
+    int weights = 0;             // that the objective has
   };
   KnownLine& KnowLine(const LineKey& key);
   std::shared_ptr<Line> Assemble(const LineKey& key) const;
@@ -134,9 +145,8 @@ class Bounds {
   Constraint RemakeLine(Box& box, int group);
   Constraint FinishLines(Box& box);
   bool WithinLimits(Amounts amounts, const Amounts& more = {}) const;
-  Amounts LeastOfAll(const Box& box) const;           // sums of the least of each slot
-  Amounts LeastBesidesBattery(const Box& box) const;  // and of each but the battery
-  void AddLines(Box& box) const;                      // window, coils
+  Amounts LeastBesidesBattery(const Box& box) const;
+  void AddLines(Box& box) const;  // window, coils
 
   Constraint AssessRegulated(Box& box, bool source_changed);
   Constraint NeedOfRegulated(Box& box);
@@ -174,7 +184,9 @@ class Bounds {
   const Problem& problem_;
   const Plan& plan_;
   const Workbench* bench_;
+  std::function<bool(const Amounts&)> useful_;
   model::Gas gas_;
+  int weights_ = 0;
   std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;  // screened before
   std::unordered_map<int, PumpFacts> pumps_;  // per node of the compressors' tree
 };

@@ -16,8 +16,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kProgressIntervalS = 0.2;
-constexpr int kAlone = 20000;      // steps of the near walk before the far one begins
-constexpr double kNoLimit = 1e12;  // finite: a limit will be laid on the amount
 
 struct Node {
   Box box;
@@ -41,44 +39,39 @@ struct LowestKey {
 
 class Walker {
  public:
-  // `start`: from when the time limit counts. `walk`: where the points go.
-  Walker(Problem problem, Amount limited, double resolution, const SearchOptions& options,
-         Clock::time_point start, FrontWalk& walk)
-      : problem_(std::move(problem)),
+  Walker(const Problem& problem, Amount limited, double resolution, const SearchOptions& options)
+      : problem_(problem),
         limited_(limited),
         limit_(LimitOn(limited, problem_)),
         resolution_(resolution),
         options_(options),
-        start_(start),
-        bench_{[this] { return Stopped(); }, options.periodic},
-        walk_(walk) {
-    Plant();
+        bench_{[this] { return Stopped(); }, options.periodic} {}
+
+  FrontPart Run() {
+    const bool planted = Plant();
+    while (!open_.empty() && !Stopped()) {
+      Report();
+      Step(open_.Pop());
+    }
+    if (!planted || !open_.empty()) LeaveOpen(planted ? open_.top()->key : 0.0);
+    return std::move(walk_);
   }
+
+ private:
+  double Seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   bool Stopped() {
     walk_.cancelled = walk_.cancelled || (options_.cancelled && options_.cancelled());
     return walk_.cancelled || Seconds() > options_.time_limit_s;
   }
 
-  void Step() {
-    Report();
-    Step(open_.Pop());
-  }
+  void LeaveOpen(double least) { walk_.open.push_back({{kUnlimited, limit_}, least}); }
 
-  // What is not found yet has at least so much of the objective, and at most so much of the other.
-  double lowest() const { return !planted_ ? 0.0 : open_.empty() ? kUnlimited : open_.top()->key; }
-  double limit() const { return limit_; }
-
-  void LeaveOpen(double least) { walk_.open.push_back({limited_, limit_, least}); }
-
- private:
-  double Seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
-  void Plant() {
+  // False if stopped on the way.
+  bool Plant() {
     for (Configuration configuration : problem_.configurations) {
-      if (Stopped()) return;
       std::unique_ptr<Plan> plan = MakePlan(problem_, configuration, false, bench_.stop);
-      if (!plan) return;
+      if (!plan) return false;
       plans_.push_back(std::move(plan));
       if (plans_.back()->empty()) continue;
       bounds_.push_back(std::make_unique<Bounds>(problem_, *plans_.back(), &bench_));
@@ -88,7 +81,7 @@ class Walker {
       const Constraint missed = node->bounds->Assess(node->box, -1);
       Keep(std::move(node), missed);
     }
-    planted_ = true;
+    return true;
   }
 
   void Push(NodePtr node, double key) {
@@ -204,43 +197,21 @@ class Walker {
   double& limit_;  // in problem_
   const double resolution_;
   const SearchOptions& options_;
-  const Clock::time_point start_;
+  const Clock::time_point start_ = Clock::now();
   Workbench bench_;
   std::vector<std::unique_ptr<Plan>> plans_;
   std::vector<std::unique_ptr<Bounds>> bounds_;
   Queue<NodePtr, LowestKey> open_;
-  FrontWalk& walk_;
+  FrontPart walk_;
   long long serial_ = 0;
   double reported_s_ = 0.0;
-  bool planted_ = false;
 };
 
 }  // namespace
 
-FrontWalk WalkFront(const Problem& problem, Amount minimised, Amount limited, double resolution,
-                    const SearchOptions& options, int steps_alone) {
-  const Clock::time_point start = Clock::now();
-  FrontWalk walk;
-  Walker near(problem, limited, resolution, options, start, walk);
-  std::optional<Walker> far;
-  const auto met = [&] {
-    return std::isinf(near.lowest()) ||
-           (far && (std::isinf(far->lowest()) || near.lowest() > far->limit() ||
-                    far->lowest() > near.limit()));
-  };
-  for (int step = 0; !met() && !near.Stopped(); ++step) {
-    near.Step();
-    if (step == steps_alone && minimised != Amount::kEnergy) {
-      Problem turned = problem;
-      turned.objective = ObjectiveOn(limited);
-      double& limit = LimitOn(minimised, turned);
-      limit = std::min(limit, kNoLimit);
-      far.emplace(std::move(turned), minimised, resolution, options, start, walk);
-    }
-    if (far && !met() && !far->Stopped()) far->Step();
-  }
-  if (!met()) near.LeaveOpen(near.lowest());
-  return walk;
+FrontPart WalkFront(const Problem& problem, Amount limited, double resolution,
+                    const SearchOptions& options) {
+  return Walker(problem, limited, resolution, options).Run();
 }
 
 }  // namespace plenum::optimizer

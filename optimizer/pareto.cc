@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 
+#include "optimizer/front_tree.h"
 #include "optimizer/front_walk.h"
 #include "optimizer/line.h"
 #include "optimizer/tree_search.h"
@@ -81,7 +82,7 @@ class FrontSearch {
       regions_.pop_front();
       if (Settled(region)) continue;
       if (amounts_.size() == 2 && searches_ > 0)
-        Walk(region);
+        ExploreTwo(region);
       else
         Explore(region);
     }
@@ -191,22 +192,26 @@ class FrontSearch {
   }
 
   // All that is left of a front in two amounts.
-  void Walk(const Caps& region) {
+  void ExploreTwo(const Caps& region) {
     const std::size_t limited = 1 - minimised_;
     SearchOptions options = options_;
     options.time_limit_s = options_.time_limit_s - Seconds();
-    FrontWalk walk =
-        WalkFront(Limited(region), amounts_[minimised_], amounts_[limited], resolution_, options);
-    cancelled_ = cancelled_ || walk.cancelled;
-    proved_ += static_cast<int>(walk.designs.size()) + walk.open.empty();
-    searches_ += static_cast<int>(walk.designs.size()) + 1;
-    for (const FrontWalk::Open& open : walk.open) {
-      Caps caps = region;
-      const bool near = open.limited == amounts_[limited];
-      caps[near ? limited : minimised_] = open.limit;
-      unexplored_.push_back({caps, amounts_[near ? minimised_ : limited], open.least});
+    const Point& first = found_.front().point;
+    FrontPart part =
+        amounts_[minimised_] == Amount::kEnergy
+            ? WalkFront(Limited(region), amounts_[limited], resolution_, options)
+            : GrowFront(Limited(Caps(2, kUnlimited)), {amounts_[minimised_], amounts_[limited]},
+                        {first[minimised_], first[limited]}, options);
+    cancelled_ = cancelled_ || part.cancelled;
+    proved_ += static_cast<int>(part.designs.size()) + part.open.empty();
+    searches_ += static_cast<int>(part.designs.size()) + 1;
+    for (const FrontPart::Open& open : part.open) {
+      Caps caps(2, kUnlimited);
+      caps[minimised_] = open.limits[0];
+      caps[limited] = open.limits[1];
+      unexplored_.push_back({std::move(caps), amounts_[minimised_], open.least});
     }
-    for (Design& design : walk.designs) {
+    for (Design& design : part.designs) {
       Point point = PointOf(design);
       found_.push_back({std::move(point), std::move(design)});
     }
@@ -227,28 +232,32 @@ class FrontSearch {
     return better;
   }
 
-  // Within the resolution of a point with less of the minimised amount: the walk from the far end
-  // meets such points first.
-  bool Obsolete(const Point& point, const Point& other) const {
-    if (point.size() != 2) return false;
-    const std::size_t limited = 1 - minimised_;
-    return other[minimised_] < point[minimised_] * (1.0 - kTie) &&
-           other[limited] <= point[limited] * (1.0 + resolution_);
-  }
-
   bool Same(const Point& a, const Point& b) const {
     for (std::size_t i = 0; i < a.size(); ++i)
       if (std::abs(a[i] - b[i]) > kTie * std::abs(b[i])) return false;
     return true;
   }
 
-  bool BelongsToFront(std::size_t index) const {
-    for (std::size_t other = 0; other < found_.size(); ++other)
-      if (Beats(found_[other].point, found_[index].point) ||
-          Obsolete(found_[index].point, found_[other].point) ||
-          (other < index && Same(found_[other].point, found_[index].point)))
-        return false;
-    return true;
+  // Of a point and those that it beats, or that are the same, one stays; and of two amounts those
+  // that better the limited one by the resolution.
+  std::vector<Found> Nondominated() {
+    std::stable_sort(found_.begin(), found_.end(), [&](const Found& a, const Found& b) {
+      return a.point[minimised_] < b.point[minimised_];
+    });
+    std::vector<Found> front;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      const Point& point = found_[i].point;
+      const bool beaten = std::any_of(found_.begin(), found_.end(), [&](const Found& other) {
+        return Beats(other.point, point);
+      });
+      const bool near = std::any_of(front.begin(), front.end(), [&](const Found& kept) {
+        return Same(kept.point, point) ||
+               (point.size() == 2 &&
+                point[1 - minimised_] > kept.point[1 - minimised_] * (1.0 - resolution_));
+      });
+      if (!beaten && !near) front.push_back(std::move(found_[i]));
+    }
+    return front;
   }
 
   // Limits of a region are not requirements of the problem.
@@ -278,11 +287,10 @@ class FrontSearch {
     front.proved = proved_;
     front.unexplored = std::move(unexplored_);
     front.answer = std::move(first_);
-    for (std::size_t i = 0; i < found_.size(); ++i)
-      if (BelongsToFront(i)) {
-        front.answer.designs.push_back(found_[i].design);
-        RestoreRequirements(front.answer.designs.back());
-      }
+    for (Found& found : Nondominated()) {
+      front.answer.designs.push_back(std::move(found.design));
+      RestoreRequirements(front.answer.designs.back());
+    }
     std::vector<Design>& designs = front.answer.designs;
     std::stable_sort(designs.begin(), designs.end(),
                      [](const Design& a, const Design& b) { return a.objective < b.objective; });

@@ -1,5 +1,5 @@
 // Processor time to whole fronts in two amounts on synthetic catalogues, one thread.
-//   front_bench [parts per family]… [--requirements N] [--time-limit S]
+//   front_bench [parts per family]… [--first I] [--requirements N] [--time-limit S] [--each]
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -15,22 +15,27 @@ namespace {
 
 using optimizer::Amount;
 
-void Run(int size, int requirements, double time_limit_s, const std::vector<Amount>& amounts) {
+void Run(int size, int first, int requirements, double time_limit_s, bool each,
+         const std::vector<Amount>& amounts) {
   const model::Parts parts = SyntheticParts(1, size);
   std::vector<double> seconds;
   std::size_t points = 0, largest = 0;
   int whole = 0;
-  for (int i = 0; i < requirements; ++i) {
+  for (int i = first; i < first + requirements; ++i) {
     optimizer::Problem problem = SyntheticRequirements(static_cast<std::uint64_t>(i));
     problem.parts = parts;
     optimizer::SearchOptions options;
     options.time_limit_s = time_limit_s;
     const std::clock_t before = std::clock();
     const optimizer::Front front = optimizer::ParetoFront(problem, amounts, options);
-    seconds.push_back(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
+    const double used_s = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+    seconds.push_back(used_s);
     points += front.answer.designs.size();
     largest = std::max(largest, front.answer.designs.size());
     whole += front.answer.proof.complete;
+    if (each)
+      std::printf("  %3d: %.3f s, %zu points%s\n", i, used_s, front.answer.designs.size(),
+                  front.answer.proof.complete ? "" : ", not whole");
   }
   std::sort(seconds.begin(), seconds.end());
   std::printf(
@@ -47,11 +52,16 @@ void Run(int size, int requirements, double time_limit_s, const std::vector<Amou
 int main(int argc, char** argv) {
   using plenum::optimizer::Amount;
   std::vector<int> sizes;
-  int requirements = 10;
+  int first = 0, requirements = 10;
+  bool each = false;
   double time_limit_s = 60.0;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--requirements") == 0 && i + 1 < argc)
       requirements = std::stoi(argv[++i]);
+    else if (std::strcmp(argv[i], "--first") == 0 && i + 1 < argc)
+      first = std::stoi(argv[++i]);
+    else if (std::strcmp(argv[i], "--each") == 0)
+      each = true;
     else if (std::strcmp(argv[i], "--time-limit") == 0 && i + 1 < argc)
       time_limit_s = std::stod(argv[++i]);
     else
@@ -60,5 +70,5 @@ int main(int argc, char** argv) {
   if (sizes.empty()) sizes = {1000, 10000};
   for (int size : sizes)
     for (Amount other : {Amount::kCost, Amount::kVolume})
-      plenum::bench::Run(size, requirements, time_limit_s, {Amount::kMass, other});
+      plenum::bench::Run(size, first, requirements, time_limit_s, each, {Amount::kMass, other});
 }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <random>
 
-#include "optimizer/front_walk.h"
 #include "tests/optimizer/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
@@ -182,33 +182,35 @@ TEST(ParetoTest, TwoAmountsOfRegulatedSupplies) {
   EXPECT_GT(tally.largest, 2u);
 }
 
-// Long fronts are walked from both ends; short ones are here, too.
-TEST(ParetoTest, WalksFromBothEndsMeet) {
-  constexpr Amount kPairs[][2] = {{Amount::kMass, Amount::kVolume},
-                                  {Amount::kCost, Amount::kMass},
-                                  {Amount::kVolume, Amount::kCost}};
-  std::size_t largest = 0;
+// Lighter parts are larger, by laws that bend either way, so that fronts are long and have points
+// on their hull and above it.
+Problem WithLongFront(std::uint64_t seed) {
+  Problem problem = Drawn(2004, {Configuration::kMains}, {1, 1, 9, 9, 0, 0, 0, 0, 0});
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> scatter(0.9, 1.1), bend(0.4, 2.5);
+  const auto trade = [&](auto& parts, double mass_kg, double volume_m3) {
+    const double power = bend(random);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const double share = static_cast<double>(i + 1) / static_cast<double>(parts.size());
+      const std::string id = parts[i].basics.id;
+      parts[i] = parts[0];
+      parts[i].basics = {id, mass_kg * share * scatter(random),
+                         volume_m3 * (1.1 - std::pow(share, power)) * scatter(random), 20.0};
+    }
+  };
+  trade(problem.parts.valves, 0.05, 60e-6);
+  trade(problem.parts.regulators, 0.3, 300e-6);
+  return problem;
+}
+
+TEST(ParetoTest, LongFrontsOfTwoAmounts) {
+  Tally tally;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const auto& [minimised, limited] = kPairs[seed % 3];
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Problem problem = Drawn(2000 + seed, kRegulated, {1, 2, 3, 2, 2, 2, 0, 2, 0});
-    const std::vector<Point> truth = NonDominated(AllPoints(problem, {minimised, limited}));
-    problem.count = 1;
-    problem.objective = optimizer::ObjectiveOn(minimised);
-    double& limit = LimitOn(limited, problem);
-    limit = std::min(limit, 1e12);
-    const optimizer::FrontWalk walk =
-        optimizer::WalkFront(problem, minimised, limited, kSame, Within(60.0), 0);
-    EXPECT_TRUE(walk.open.empty());
-    std::vector<Point> points;
-    for (const optimizer::Design& design : walk.designs)
-      points.push_back({Of(minimised, design.totals), Of(limited, design.totals)});
-    const std::vector<Point> front = NonDominated(points);
-    EXPECT_EQ(front.size(), truth.size());
-    for (const Point& point : front) EXPECT_TRUE(Has(truth, point)) << "surplus " << point[0];
-    largest = std::max(largest, front.size());
+    Compare(WithLongFront(seed), {Amount::kMass, Amount::kVolume}, tally);
   }
-  EXPECT_GT(largest, 2u);
+  EXPECT_EQ(tally.whole, tally.problems);
+  EXPECT_GT(tally.largest, 12u);
 }
 
 TEST(ParetoTest, ThreeAmounts) {
@@ -284,19 +286,27 @@ TEST(ParetoTest, ConflictsNameOnlyRequirements) {
   EXPECT_EQ(front.answer.conflict[0].requirement, "/actuators/0/rise_time_s_max");
 }
 
+// Stopped anywhere on the way.
 TEST(ParetoTest, WhatIsNotSearchedIsNamed) {
-  const Problem problem = LongFront();
-  const Front whole = ParetoFront(problem, {Amount::kMass, Amount::kVolume}, Within(60.0));
-  ASSERT_GT(whole.searches, 2);
-  int asked = 0;
-  optimizer::SearchOptions options = Within(60.0);
-  // Stops somewhere on the way.
-  options.cancelled = [&] { return ++asked > 12; };
-  const Front stopped = ParetoFront(problem, {Amount::kMass, Amount::kVolume}, options);
-  EXPECT_EQ(stopped.answer.status, Status::kCancelled);
-  EXPECT_FALSE(stopped.unexplored.empty());
-  EXPECT_FALSE(stopped.answer.proof.complete);
-  ExpectCovered(stopped, PointsOf(whole));
+  const std::vector<Amount> amounts{Amount::kMass, Amount::kVolume};
+  for (const Problem& problem : {LongFront(), WithLongFront(1), WithLongFront(2)}) {
+    const Front whole = ParetoFront(problem, amounts, Within(60.0));
+    ASSERT_GT(whole.searches, 2);
+    int stops = 0;
+    bool cancelled = true;
+    for (int most = 6; cancelled; most += 1 + most / 4) {
+      int asked = 0;
+      optimizer::SearchOptions options = Within(60.0);
+      options.cancelled = [&] { return ++asked > most; };
+      const Front stopped = ParetoFront(problem, amounts, options);
+      cancelled = stopped.answer.status == Status::kCancelled;
+      EXPECT_EQ(stopped.unexplored.empty(), !cancelled);
+      EXPECT_EQ(stopped.answer.proof.complete, !cancelled);
+      ExpectCovered(stopped, PointsOf(whole));
+      stops += cancelled;
+    }
+    EXPECT_GT(stops, 4);
+  }
 }
 
 }  // namespace
