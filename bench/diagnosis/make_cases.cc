@@ -1,8 +1,10 @@
 // Writes measured data sets with known truth.
 //   make_cases SERIES COUNT FOLDER [KIND]
-// FOLDER/cases/NNNN.json are measurements, FOLDER/truth/NNNN.json what is true of them; what is
-// there already is kept. With a KIND (clean, full, fifth, pair, outside) only the cases of that
-// kind among the first COUNT of the series; with `tie` COUNT cases that may be ties.
+// FOLDER/cases/NNNN.json are measurements, FOLDER/truth/NNNN.json what is true of them,
+// FOLDER/perfect/NNNN.json the same measurements by a perfect sensor, with the size of the white
+// noise that would say as little as the sensor's; what is there already is kept. With a KIND
+// (clean, full, fifth, pair, outside) only the cases of that kind among the first COUNT of the
+// series; with `tie` COUNT cases that may be ties.
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -37,6 +39,7 @@ int main(int argc, char** argv) {
   const bool tie = kind == NameOf(plenum::test::CaseKind::kTie);
   std::filesystem::create_directories(folder / "cases");
   std::filesystem::create_directories(folder / "truth");
+  std::filesystem::create_directories(folder / "perfect");
   std::atomic<int> next = 0, failed = 0;
   const auto work = [&] {
     for (int i = next++; i < count; i = next++) {
@@ -48,6 +51,8 @@ int main(int argc, char** argv) {
         const plenum::test::BenchCase bench =
             tie ? plenum::test::TieOfSeries(series, i) : plenum::test::CaseOfSeries(series, i);
         Write(folder / "cases" / name, MeasurementJson(bench));
+        Write(folder / "perfect" / name, {{"measurement", MeasurementJson(WithoutFaults(bench))},
+                                          {"noise_pa", bench.sensor.EffectiveNoise()}});
         plenum::api::Json truth = TruthJson(bench);
         truth["series"] = series;
         truth["index"] = i;

@@ -198,6 +198,11 @@ double Sensor::NoiseFloor() const {
   return std::sqrt(noise_pa * noise_pa + quantum_pa * quantum_pa / 12.0);
 }
 
+double Sensor::EffectiveNoise() const {
+  const double grown = (1.0 + correlation) / (1.0 - correlation);
+  return NoiseFloor() * std::sqrt(1.0 - correlated_share + correlated_share * grown);
+}
+
 EffectResult TrueCourse(const BenchCase& bench, const BenchRun& run, int number,
                         const Numbers& factors, const std::vector<TrueEffect>& effects,
                         const std::vector<double>& t_s) {
@@ -247,6 +252,19 @@ Record Observe(const BenchCase& bench, const BenchRun& run, int number) {
   }
   LoseSome(sensor.missing_share, random, record.reading_gauge_pa);
   return record;
+}
+
+BenchCase WithoutFaults(BenchCase bench) {
+  for (std::size_t r = 0; r < bench.runs.size(); ++r) {
+    const BenchRun& run = bench.runs[r];
+    Record& record = bench.records[r];
+    record.t_s = run.t_s;
+    record.reading_gauge_pa = record.clean_gauge_pa;
+    for (std::size_t i = 0; i < record.source_gauge_pa.size(); ++i) {
+      record.source_gauge_pa[i] = run.source_course(run.t_s[i]) - bench.declared.ambient_pa;
+    }
+  }
+  return bench;
 }
 
 BenchCase DrawCase(std::uint64_t seed, CaseKind kind, const std::string& effect) {

@@ -35,6 +35,9 @@ struct Sensor {
   double source_noise_pa = 0.0;  // of the source channel
   // Standard deviation about what a perfect sensor shows, without outliers and clipped readings.
   double NoiseFloor() const;
+  // Noise that remembers says less than white noise of its size: as much as white noise of its
+  // spectral density at low frequencies.
+  double EffectiveNoise() const;
 };
 
 struct Record {
@@ -78,6 +81,9 @@ EffectResult TrueCourse(const BenchCase& bench, const BenchRun& run, int number,
 // What its pressure sensor would show: without noise, gauge, at the run's sample times.
 std::vector<double> TrueReadings(const BenchCase& bench, const BenchRun& run, int number,
                                  const Numbers& factors, const std::vector<TrueEffect>& effects);
+
+// The same with a perfect sensor: clean readings at their true times.
+BenchCase WithoutFaults(BenchCase bench);
 
 // A run recorded with the case's sensor; `number` counts the runs of the session.
 Record Observe(const BenchCase& bench, const BenchRun& run, int number);

@@ -109,26 +109,13 @@ calibration::Dataset ToDataset(const BenchCase& bench) {
   return dataset;
 }
 
-calibration::Dataset NoiseFree(const BenchCase& bench) {
-  calibration::Dataset dataset = WithoutRuns(bench);
-  for (std::size_t r = 0; r < bench.runs.size(); ++r) {
-    const BenchRun& run = bench.runs[r];
-    Record record = bench.records[r];
-    record.t_s = run.t_s;
-    record.reading_gauge_pa = record.clean_gauge_pa;
-    if (run.source_course) {
-      for (std::size_t i = 0; i < run.t_s.size(); ++i) {
-        record.source_gauge_pa[i] = run.source_course(run.t_s[i]) - bench.declared.ambient_pa;
-      }
-    }
-    dataset.runs.push_back(ToRun(bench, run, record));
-  }
-  return dataset;
-}
+calibration::Dataset NoiseFree(const BenchCase& bench) { return ToDataset(WithoutFaults(bench)); }
 
-std::vector<model::Effect> ListedOf(const BenchCase& bench) {
-  if (bench.kind == CaseKind::kOutside) return {};
-  const api::Json owner = {{"effects", TruthJson(bench)["effects"]}};
+std::vector<model::Effect> ListedOf(const BenchCase& bench) { return ListedOf(TruthJson(bench)); }
+
+std::vector<model::Effect> ListedOf(const api::Json& truth) {
+  if (truth["kind"] == NameOf(CaseKind::kOutside)) return {};
+  const api::Json owner = {{"effects", truth["effects"]}};
   api::Errors errors;
   api::Reader reader(owner, "", errors);
   std::vector<model::Effect> effects = api::ReadEffects(reader);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "api/json.h"
 #include "calibration/dataset.h"
 #include "model/effects/effect.h"
 #include "tests/support/bench_case.h"
@@ -20,6 +21,7 @@ calibration::Dataset NoiseFree(const BenchCase& bench);
 
 // The case's listed effects as the model has them.
 std::vector<model::Effect> ListedOf(const BenchCase& bench);
+std::vector<model::Effect> ListedOf(const api::Json& truth);  // see bench_json.h
 
 }  // namespace plenum::test
 
