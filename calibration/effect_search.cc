@@ -59,6 +59,10 @@ class Search {
   // must do better by as much.
   double EffectAhead() const { return sets_.data.runs.size() == 1u ? 2.0 * kClock : 0.0; }
 
+  bool MaySeekClocks() const {
+    return options_.clocks_may_be_off && !sets_.data.clocks && !sets_.Cancelled();
+  }
+
   void UseClocks() {
     sets_.data.clocks = true;
     sets_.list.clear();
@@ -68,7 +72,7 @@ class Search {
   // numbers can take up: small errors of the clocks hide beside an effect that leaves little.
   bool ClocksAreOff(const SearchResult& result) const {
     const Fit& chosen = result.contenders[result.chosen].fit;
-    if (sets_.data.clocks || sets_.Cancelled() || !chosen.Usable()) return false;
+    if (!MaySeekClocks() || !chosen.Usable()) return false;
     FitData data = sets_.data;
     data.clocks = true;
     const Fit with = FitModel(data, chosen.state, sets_.Tight());
@@ -202,7 +206,7 @@ class Search {
   // BIC of a set with the runs' clocks fitted. kClocksAreAll where that leaves nothing, and one
   // effect more that acts in time does not do as well: there is no need to try all effects.
   double WithClocks(std::size_t set) {
-    if (sets_.data.clocks || sets_.Cancelled() || !sets_[set].fit.Usable()) return kNever;
+    if (!MaySeekClocks() || !sets_[set].fit.Usable()) return kNever;
     FitData data = sets_.data;
     data.clocks = true;
     FitOptions options = sets_.Further();
