@@ -123,8 +123,8 @@ class Diagnosing {
 
   bool Complete() const { return search_.complete && base_->fit.Usable() && Chosen().fit.Usable(); }
 
-  // In one run a clock that is off and strokes that are late are one. If several sets of effects do
-  // as well as the clock of the only run, the tie among them is the verdict.
+  // In one run a clock that is off and strokes that are late are one. If several effects that act
+  // in time do as well as the clock of the only run, the tie among them is the verdict.
   void ConsiderEffectsForTheClock(Evidence& evidence) {
     SearchResult with_clock = search_;
     SearchOptions options = options_;
@@ -139,7 +139,12 @@ class Diagnosing {
       Weigh(1.0, without);
     }
     const Fit& clock = with_clock.contenders[with_clock.base].fit;
-    if (Judge(without) == Verdict::kTie && Chosen().fit.bic < clock.bic + kClock) {
+    const auto in_time = [](const Contender* one) {
+      return std::all_of(one->effects.begin(), one->effects.end(),
+                         [](const model::EffectSpec* spec) { return ActsInTime(*spec); });
+    };
+    if (Judge(without) == Verdict::kTie && std::all_of(tied_.begin(), tied_.end(), in_time) &&
+        Chosen().fit.bic < clock.bic + kClock) {
       evidence = without;
       by_the_clock_ = clock;
       diagnosis_.verdict = Verdict::kTie;
