@@ -35,6 +35,7 @@ struct SearchOptions {
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   std::function<bool()> cancelled;                           // may be empty
   std::function<void(double, const std::string&)> progress;  // share done, what is under way
+  bool clocks_may_be_off = true;                             // each run's, by a part of a sample
 };
 
 // Two fits whose χ² or BIC are this close are of the same optimum.

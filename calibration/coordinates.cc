@@ -146,8 +146,8 @@ std::pair<double, double> Visible(const model::EffectSpec& effect, const model::
                                   const TypicalSizes& sizes) {
   std::pair<double, double> range = {spec.low, spec.high};
   if (effect.id == "sensor_lag")
-    range.first = std::max(spec.low, 0.2 * std::min(sizes.interval_s, 0.1 * sizes.stroke_s));
-  if (effect.id == "heat_transfer") range.first = std::max(spec.low, 0.01 * sizes.stroke_s);
+    range.first = std::max(spec.low, 0.05 * std::min(sizes.interval_s, 0.1 * sizes.stroke_s));
+  if (effect.id == "heat_transfer") range.first = std::max(spec.low, 0.003 * sizes.stroke_s);
   if (effect.id == "supply_droop" && spec.name == "volume_m3")
     range.first = std::max(spec.low, 0.03 * sizes.volume_m3);
   if (effect.id == "sensor_gain") range = {0.8, 1.25};  // beyond that a sensor is broken

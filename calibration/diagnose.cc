@@ -4,14 +4,13 @@
 #include <atomic>
 #include <chrono>
 
-#include "calibration/closeness.h"
 #include "calibration/discrepancy.h"
 #include "calibration/errors.h"
 #include "calibration/evidence.h"
-#include "calibration/experiment.h"
 #include "calibration/findings.h"
 #include "calibration/identifiability.h"
 #include "calibration/thresholds.h"
+#include "calibration/ties.h"
 #include "calibration/verdict.h"
 
 namespace plenum::calibration {
@@ -49,18 +48,13 @@ class Diagnosing {
   }
 
   Diagnosis Take() {
-    const auto enough = [this](const Fit& fit) {
-      return PriorsHold(fit) && IsNoise(LeftoverOf(bench_, fit, false));
-    };
     const FitData data = bench_.data;
     const bool on_grid = std::any_of(observed_.begin(), observed_.end(),
                                      [](const ObservedRun& run) { return run.noise.staircase; });
     if (on_grid) LearnReadings(FitModel(data, forward_.Declared(), bench_.tight));
     do {
-      search_ = SearchEffects(data, options_, enough);
-      bench_.data = search_.data;
+      Search(data, options_);
     } while (LearnReadings(Chosen().fit) && !Stopped());
-    base_ = &search_.contenders[search_.base];
     Assess();
     return std::move(diagnosis_);
   }
@@ -119,9 +113,54 @@ class Diagnosing {
     return TakeHiddenNoise(bench_.dataset, bench_.data.runs, predicted, observed_) || wild;
   }
 
+  void Search(const FitData& data, const SearchOptions& options) {
+    search_ = SearchEffects(data, options, [this](const Fit& fit) {
+      return PriorsHold(fit) && IsNoise(LeftoverOf(bench_, fit, false));
+    });
+    bench_.data = search_.data;
+    base_ = &search_.contenders[search_.base];
+  }
+
+  bool Complete() const { return search_.complete && base_->fit.Usable() && Chosen().fit.Usable(); }
+
+  // In one run a clock that is off and strokes that are late are one. If several effects that act
+  // in time do as well as the clock of the only run, the tie among them is the verdict.
+  void ConsiderEffectsForTheClock(Evidence& evidence) {
+    SearchResult with_clock = search_;
+    SearchOptions options = options_;
+    options.clocks_may_be_off = false;
+    FitData data = bench_.data;
+    data.clocks = false;
+    Search(data, options);
+    Evidence without;
+    without.complete = Complete();
+    if (without.complete) {
+      without.before = LeftoverOf(bench_, base_->fit, false);
+      Weigh(1.0, without);
+    }
+    const Fit& clock = with_clock.contenders[with_clock.base].fit;
+    const auto in_time = [](const Contender* one) {
+      return std::all_of(one->effects.begin(), one->effects.end(),
+                         [](const model::EffectSpec* spec) { return ActsInTime(*spec); });
+    };
+    if (Judge(without) == Verdict::kTie && std::all_of(tied_.begin(), tied_.end(), in_time) &&
+        Chosen().fit.bic < clock.bic + kClock) {
+      evidence = without;
+      by_the_clock_ = clock;
+      diagnosis_.verdict = Verdict::kTie;
+      diagnosis_.warnings.push_back(
+          "or none of them: the clock of readings and valve may be off in the only run");
+      return;
+    }
+    search_ = std::move(with_clock);
+    bench_.data = search_.data;
+    base_ = &search_.contenders[search_.base];
+    Weigh(1.0, evidence);
+  }
+
   void Assess() {
     Evidence evidence;
-    evidence.complete = search_.complete && base_->fit.Usable() && Chosen().fit.Usable();
+    evidence.complete = Complete();
     diagnosis_.noise_pa = NoiseOf(bench_, bench_.data.runs);
     diagnosis_.declared = ErrorOf(bench_, forward_.Declared());
     if (!base_->fit.Usable() && Stopped()) {
@@ -136,6 +175,9 @@ class Diagnosing {
     evidence.before = LeftoverOf(bench_, base_->fit, !Stopped());
     Weigh(1.0, evidence);
     diagnosis_.verdict = Judge(evidence);
+    if (diagnosis_.verdict == Verdict::kAdequate && bench_.data.clocks &&
+        bench_.data.runs.size() == 1u && !Stopped())
+      ConsiderEffectsForTheClock(evidence);
     const bool named =
         diagnosis_.verdict == Verdict::kExplained || diagnosis_.verdict == Verdict::kTie;
     if (named && Chosen().effects.size() > 1u && !Stopped()) {
@@ -195,12 +237,8 @@ class Diagnosing {
     diagnosis_.unexplained_fraction = UnexplainedFraction(evidence.before, evidence.after);
     if (open) {
       diagnosis_.effects.clear();
-      std::vector<TiedFit> fits;
-      for (const Contender* contender : tied_) {
-        diagnosis_.tied.push_back(IdsOf(*contender));
-        fits.push_back({IdsOf(*contender), &contender->fit});
-      }
-      Propose(DesignExperiment(bench_.data, fits, bench_.tight));
+      for (const Contender* contender : tied_) diagnosis_.tied.push_back(IdsOf(*contender));
+      Propose();
     }
     Progress(0.99, "report");
     AddSeries(bench_, base_->fit.state, shown->fit.state, diagnosis_);
@@ -221,7 +259,8 @@ class Diagnosing {
   }
 
   // A run is proposed only where it is expected to decide.
-  void Propose(std::optional<Experiment> found) {
+  void Propose() {
+    std::optional<Experiment> found = ExperimentFor(bench_, tied_, by_the_clock_);
     if (found && found->expected_delta_bic >= kDecisiveDeltaBic) {
       diagnosis_.next_experiment = std::move(found);
     } else if (!Stopped()) {
@@ -251,32 +290,10 @@ class Diagnosing {
     evidence.accepted = &Chosen() != base_;
     evidence.after =
         evidence.accepted ? LeftoverOf(bench_, Chosen().fit, !Stopped()) : evidence.before;
-    tied_ = Tied(Chosen(), memory, IsNoise(evidence.before) ? kTieInNoise : kTie);
+    tied_ = TiedWith(bench_, search_.contenders, Chosen(), memory,
+                     IsNoise(evidence.before) ? kTieInNoise : kTie);
     evidence.tied = static_cast<int>(tied_.size()) - 1;
     if (Stopped()) evidence.complete = false;
-  }
-
-  // The chosen set and those of its size that do as well, the best first, each set of ids once.
-  std::vector<const Contender*> Tied(const Contender& chosen, double memory, double reach) const {
-    std::vector<const Contender*> tied = {&chosen};
-    const bool alone = bench_.data.runs.size() == 1u && bench_.held_out.empty();
-    const double evidence = alone ? EvidenceOf(bench_, chosen.fit, memory) : 0.0;
-    const auto apart = [&](const Fit& other) {
-      const bool better = BicWith(other, memory) > BicWith(chosen.fit, memory) + reach;
-      if (!better || !alone) return better;
-      const Gap gap = GapTo(bench_, chosen.fit, other, memory);
-      return gap.size > kTieScatter * gap.scatter &&
-             EvidenceOf(bench_, other, memory) > evidence + reach;
-    };
-    for (const Contender& contender : search_.contenders) {
-      if (contender.effects.size() != chosen.effects.size() || !contender.fit.Usable()) continue;
-      if (apart(contender.fit)) continue;
-      const bool known = std::any_of(tied.begin(), tied.end(), [&](const Contender* other) {
-        return SameEffects(contender, *other);
-      });
-      if (!known) tied.push_back(&contender);
-    }
-    return tied;
   }
 
   DiagnoseOptions options_;  // asks Stopped
@@ -289,6 +306,7 @@ class Diagnosing {
   SearchResult search_;
   const Contender* base_ = nullptr;
   std::vector<const Contender*> tied_;  // the chosen set first
+  Fit by_the_clock_;                    // usable if the clock of the only run does as well as they
   Diagnosis diagnosis_;
 };
 

@@ -20,7 +20,10 @@ class Search {
  public:
   Search(const FitData& data, const SearchOptions& options,
          const std::function<bool(const Fit&)>& enough)
-      : options_(options), enough_(enough), sets_(data, options) {}
+      : options_(options),
+        enough_(enough),
+        sets_(data, options),
+        may_be_off_(options.clocks_may_be_off) {}
 
   SearchResult Run() {
     SearchResult result = Compare();
@@ -60,6 +63,8 @@ class Search {
   // must do better by as much.
   double EffectAhead() const { return sets_.data.runs.size() == 1u ? 2.0 * kClock : 0.0; }
 
+  bool MaySeekClocks() const { return may_be_off_ && !sets_.data.clocks && !sets_.Cancelled(); }
+
   void UseClocks(bool use) {
     sets_.data.clocks = use;
     sets_.list.clear();
@@ -69,7 +74,7 @@ class Search {
   // numbers can take up: small errors of the clocks hide beside an effect that leaves little.
   bool ClocksAreOff(const SearchResult& result) const {
     const Fit& chosen = result.contenders[result.chosen].fit;
-    if (sets_.data.clocks || sets_.Cancelled() || !chosen.Usable()) return false;
+    if (!MaySeekClocks() || !chosen.Usable()) return false;
     FitData data = sets_.data;
     data.clocks = true;
     Fit with = FitModel(data, chosen.state, sets_.Tight());
@@ -228,8 +233,7 @@ class Search {
   // BIC of a set with the runs' clocks fitted. kClocksAreAll where that leaves nothing, and one
   // effect more that acts in time does not do as well: there is no need to try all effects.
   double WithClocks(std::size_t set) {
-    if (sets_.data.clocks || !may_be_off_ || sets_.Cancelled() || !sets_[set].fit.Usable())
-      return kNever;
+    if (!MaySeekClocks() || !sets_[set].fit.Usable()) return kNever;
     FitData data = sets_.data;
     data.clocks = true;
     FitOptions options = sets_.Further();
@@ -291,7 +295,7 @@ class Search {
   const SearchOptions& options_;
   const std::function<bool(const Fit&)>& enough_;
   Contenders sets_;
-  bool may_be_off_ = true;  // the clocks, as far as is known
+  bool may_be_off_;  // the clocks, as far as is known
 };
 
 }  // namespace

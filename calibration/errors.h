@@ -53,8 +53,8 @@ Squares ErrorsOf(const Bench& bench, std::size_t run, const ModelState& state);
 
 // Of a run that it did not see. Its clock and its initial pressure, where unknown, and the pairs
 // (C, b) of a line that no fitted run has are its own: nothing that was learned from other runs can
-// tell them, so that they alone are fitted, the pairs within their uncertainties. Whether clocks are
-// off one fitted run does not show.
+// tell them, so that they alone are fitted, the pairs within their uncertainties. Whether clocks
+// are off one fitted run does not show.
 Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& state);
 
 // Of all runs; those held out as unseen.

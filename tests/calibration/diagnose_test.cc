@@ -47,6 +47,19 @@ TEST(Diagnose, ALeakIsNamedWithItsSizeAndHoldsOnTheRunNotSeen) {
   EXPECT_EQ(d.unexplained_fraction, 0.0);
 }
 
+// In one run a part of a sample may be the clock's or the valve's.
+TEST(Diagnose, ALateStrokeOfOneRunIsATieBesideTheClock) {
+  Dataset one;
+  one.runs = {test::DeclaredRun("only", 3e5, false)};
+  test::Measure([](EffectRig& rig) { rig.valve_delay_s = 0.008; }, 26, test::kBenchNoisePa,
+                one.runs[0]);
+  const Diagnosis d = Diagnose(one, {});
+  ASSERT_EQ(d.verdict, Verdict::kTie) << d.sentence;
+  EXPECT_THAT(d.tied, ::testing::Contains(std::vector<std::string>{"valve_delay"}));
+  EXPECT_THAT(d.warnings, ::testing::Contains(::testing::HasSubstr("the clock of readings")));
+  ASSERT_TRUE(d.next_experiment.has_value());
+}
+
 #ifndef PLENUM_SANITIZED
 TEST(Diagnose, InertiaIsNamedBesideABlockedRun) {
   const Diagnosis d = Of([](EffectRig& rig) { rig.inertia = {12.0, 0.2}; }, 23);

@@ -167,5 +167,18 @@ TEST(Fit, CancelledSaysSo) {
   EXPECT_EQ(FitModel(bench.data, bench.forward.Declared(), options).status, FitStatus::kCancelled);
 }
 
+// A lag or a wall that follows within an eighth or a third of a sample still shifts what is read.
+TEST(Fit, FastEffectsAreFoundWhereTheyAre) {
+  constexpr double kQuietPa = 10.0;
+  const auto fitted = [](const test::Change& change, const char* id) {
+    const Bench bench(MeasuredBench(change, 31, kQuietPa));
+    return FitModel(bench.data, StartOf(bench, id), {}).state.effects[0].parameters[0];
+  };
+  EXPECT_NEAR(fitted([](EffectRig& rig) { rig.sensor_lag_s = 0.0025; }, "sensor_lag"), 0.0025,
+              3e-4);
+  EXPECT_NEAR(fitted([](EffectRig& rig) { rig.heat_time_constant_s = 0.007; }, "heat_transfer"),
+              0.007, 7e-4);
+}
+
 }  // namespace
 }  // namespace plenum::calibration
