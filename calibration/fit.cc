@@ -52,10 +52,8 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
 
 // One run over all k coordinates as one block of k + 1 rows. The search needs of the residuals e
 // and their derivatives J only JᵀJ, Jᵀe and eᵀe, so that the rows are R of [J e] = Q·R, which has
-// the same products and none of the readings' number; without derivatives the one row |e|. A step
-// is asked for thrice at one point — by the search along it, for its cost, and for the derivatives
-// there — and simulated once. A run that turned out stiff is taken to stay so: the explicit method
-// is not tried again.
+// the same products and none of the readings' number; without derivatives the one row |e|. A run
+// that turned out stiff is taken to stay so: the explicit method is not tried again.
 class RunCost : public ceres::CostFunction {
  public:
   RunCost(const FitData& data, std::size_t run, const ModelState& start,
@@ -73,19 +71,9 @@ class RunCost : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
-    const Eigen::Map<const Eigen::VectorXd> u(blocks[0], size());
-    const bool derive = jacobians && jacobians[0];
     Eigen::Map<Eigen::VectorXd> rows(residuals, num_residuals());
-    if (known_.u.size() != size() || known_.u != u) {
-      if (!derive) return Evaluate(u.data(), rows);
-      known_.u.resize(0);
-      if (!Derive(u.data(), known_.root)) return false;
-      known_.u = u;
-    }
-    rows = known_.root.rightCols<1>();
-    if (derive)
-      Eigen::Map<Matrix>(jacobians[0], num_residuals(), size()) = known_.root.leftCols(size());
-    return true;
+    if (!jacobians || !jacobians[0]) return Evaluate(blocks[0], rows);
+    return Derive(blocks[0], rows, {jacobians[0], num_residuals(), size()});
   }
 
  private:
@@ -117,8 +105,8 @@ class RunCost : public ceres::CostFunction {
     return true;
   }
 
-  // R, its last column that of the residuals.
-  bool Derive(const double* u, Eigen::MatrixXd& root) const {
+  bool Derive(const double* u, Eigen::Map<Eigen::VectorXd> rows,
+              Eigen::Map<Matrix> jacobian) const {
     Prediction prediction = Predict(u, parameters_);
     if (prediction.status != model::SimulateStatus::kDone) return false;
     const std::vector<double> slopes =
@@ -138,7 +126,9 @@ class RunCost : public ceres::CostFunction {
     const Eigen::LDLT<Eigen::MatrixXd> factors(products);
     const Eigen::MatrixXd half = Eigen::MatrixXd(factors.matrixL()) *
                                  factors.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-    root = (factors.transpositionsP().transpose() * half).transpose();
+    const Eigen::MatrixXd root = (factors.transpositionsP().transpose() * half).transpose();
+    rows = root.rightCols<1>();
+    jacobian = root.leftCols(size());
     return true;
   }
 
@@ -152,19 +142,13 @@ class RunCost : public ceres::CostFunction {
     return {column.data(), static_cast<Eigen::Index>(column.size())};
   }
 
-  struct Known {
-    Eigen::VectorXd u;
-    Eigen::MatrixXd root;
-  };
-
   const FitData& data_;
   std::size_t run_;
   const ModelState& start_;
   const std::vector<Coordinate>& coordinates_;
   std::vector<Parameter> parameters_;
   mutable PredictOptions options_;
-  double scale_;         // of the residuals
-  mutable Known known_;  // the last point with derivatives
+  double scale_;  // of the residuals
 };
 
 // u of every coordinate that has a prior.
@@ -418,6 +402,9 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   solver.parameter_tolerance = kParameterTolerance;
   solver.gradient_tolerance = 0.0;
   solver.initial_trust_region_radius = 1e3;
+  // Steps are cut at the bounds. A search along each would cost more than the shorter steps that
+  // follow one in vain.
+  solver.max_num_line_search_step_size_iterations = 0;
   solver.num_threads = options.threads;
   solver.logging_type = ceres::SILENT;
   solver.callbacks.push_back(&stop);

@@ -20,19 +20,27 @@ struct DrivenSource {
   double factor = 1.0;              // on the gauge pressure
   bool operator==(const DrivenSource&) const = default;
 
-  // p(t) of the record, and its slope, 0 outside.
+  // p(t) of the record, and its slope, 0 outside. `near`: the point after the instant that was
+  // asked for last, which is tried first.
   struct Point {
     double pressure_pa, slope_pa_per_s;
   };
-  Point RecordedAt(double t_s) const {
+  Point RecordedAt(double t_s, std::size_t& near) const {
     if (t_s <= time_s.front()) return {pressure_pa.front(), 0.0};
     if (t_s >= time_s.back()) return {pressure_pa.back(), 0.0};
-    const auto next = std::upper_bound(time_s.begin(), time_s.end(), t_s);
-    const auto i = static_cast<std::size_t>(next - time_s.begin());
+    const bool known = near > 0 && time_s[near - 1] <= t_s && t_s < time_s[near];
+    if (!known) {
+      const auto next = std::upper_bound(time_s.begin(), time_s.end(), t_s);
+      near = static_cast<std::size_t>(next - time_s.begin());
+    }
+    const std::size_t i = near;
     const double slope = (pressure_pa[i] - pressure_pa[i - 1]) / (time_s[i] - time_s[i - 1]);
     return {pressure_pa[i - 1] + slope * (t_s - time_s[i - 1]), slope};
   }
-  double RecordedPressure(double t_s) const { return RecordedAt(t_s).pressure_pa; }
+  double RecordedPressure(double t_s) const {
+    std::size_t near = 0;
+    return RecordedAt(t_s, near).pressure_pa;
+  }
 };
 
 }  // namespace plenum::model

@@ -2,10 +2,11 @@
 // L-stable, with an embedded second-order error estimate and cubic dense output.
 //
 // Stages, with any approximation J of ∂f/∂y — a W-method keeps its order with a rough one:
-//   (I − γ·h·J)·k_i = h·f(t + α_i·h, y + Σ_j α_ij·k_j) + h·J·Σ_j γ_ij·k_j,  j < i,
-//   y₁ = y + Σ b_i·k_i.
-// J is taken at the start of a step, by differences or, with T = Dual, from derivatives; it stays a
-// matrix of values, so that one factorisation serves the state and all its derivatives.
+//   (I − γ·h·J)·k_i = h·f(t + α_i·h, y + Σ_j α_ij·k_j) + h·J·Σ_j γ_ij·k_j + h²·γ_i·f_t,  j < i,
+//   y₁ = y + Σ b_i·k_i,  γ_i = γ + Σ_j γ_ij.
+// J and f_t ≈ ∂f/∂t are taken at the start of a step, by differences or, with T = Dual, from
+// derivatives; they stay values, so that one factorisation serves the state and all its
+// derivatives. Without f_t a fast mode that follows what moves by itself would hold the steps down.
 //
 // Source: Rang, Angermann, New Rosenbrock W-methods of order 3 for partial differential algebraic
 // equations of index 1, BIT 45 (2005) 761; Hairer, Wanner, Solving Ordinary Differential
@@ -56,7 +57,7 @@ class RosenbrockOf {
     t0_ = t1_;
     y0_.swap(y1_);
     f0_.swap(f1_);
-    TakeJacobian(rhs);
+    TakeJacobian(rhs, std::min(next_step(), ValueOf(step_max)));
     const auto error_of = [&](double h) {
       h_ = h == ValueOf(step_max) ? step_max : T(h);
       Stages(rhs);
@@ -109,6 +110,7 @@ class RosenbrockOf {
  private:
   static constexpr double kGamma = 0.435866521508459;
   static constexpr double kDifference = 1e-7;  // of a state's size
+  static constexpr double kLater = 1e-4;       // of a step
 
   // How large state j is, or what it moves by in a step.
   double SizeOf(std::size_t j) const {
@@ -118,31 +120,41 @@ class RosenbrockOf {
                      1e-12 * largest, 1e-12});
   }
 
+  // `step_s`: within it f has no kink in time.
   template <class Rhs>
-  void TakeJacobian(Rhs&& rhs) {
+  void TakeJacobian(Rhs&& rhs, double step_s) {
     const auto size = static_cast<Eigen::Index>(y0_.size());
-    jacobian_.resize(size, size);
+    jacobian_.resize(size, size + 1);
+    std::copy(y0_.begin(), y0_.end(), stage_.begin());
     if constexpr (kIsDual<T>) {
-      for (std::size_t first = 0; first < y0_.size(); first += kDirections)
-        TakeColumns(rhs, first, std::min<std::size_t>(kDirections, y0_.size() - first));
+      for (std::size_t first = 0; first <= y0_.size(); first += kDirections)
+        TakeColumns(rhs, first, std::min<std::size_t>(kDirections, y0_.size() + 1 - first));
     } else {
-      std::copy(y0_.begin(), y0_.end(), stage_.begin());
+      const auto take = [&](double t, std::size_t j, double moved) {
+        rhs(t, std::span<const T>(stage_), std::span<T>(slope_));
+        for (std::size_t i = 0; i < y0_.size(); ++i) Entry(i, j) = (slope_[i] - f0_[i]) / moved;
+      };
       for (std::size_t j = 0; j < y0_.size(); ++j) {
         stage_[j] = y0_[j] + kDifference * SizeOf(j);
-        const double moved = stage_[j] - y0_[j];
-        rhs(t0_, std::span<const T>(stage_), std::span<T>(slope_));
-        for (std::size_t i = 0; i < y0_.size(); ++i) Entry(i, j) = (slope_[i] - f0_[i]) / moved;
+        take(t0_, j, stage_[j] - y0_[j]);
         stage_[j] = y0_[j];
+      }
+      const double later = t0_ + kLater * step_s;
+      if (later > t0_) {
+        take(later, y0_.size(), later - t0_);
+      } else {
+        jacobian_.col(size).setZero();
       }
     }
   }
 
-  // Derivatives are linear in those of the state: along each direction another state moves by `by`
-  // more. Of the size of what the direction moves already, so that little is lost in the
-  // difference.
+  // Derivatives are linear in those of the state and of the time: along each direction another of
+  // them moves by `by` more. Of the size of what the direction moves already, so that little is
+  // lost in the difference.
   template <class Rhs>
   void TakeColumns(Rhs&& rhs, std::size_t first, std::size_t count) {
     std::copy(y0_.begin(), y0_.end(), stage_.begin());
+    T time = t0_;
     std::array<double, kDirections> by{};
     for (std::size_t k = 0; k < count; ++k) {
       const auto direction = static_cast<Eigen::Index>(k);
@@ -152,10 +164,11 @@ class RosenbrockOf {
             std::abs(y0_[i].v[direction]) + next_step() * std::abs(f0_[i].v[direction]);
         share = std::max(share, moves / SizeOf(i));
       }
-      by[k] = share * SizeOf(first + k);
-      stage_[first + k].v[direction] += by[k];
+      const bool of_state = first + k < y0_.size();
+      by[k] = share * (of_state ? SizeOf(first + k) : next_step());
+      (of_state ? stage_[first + k] : time).v[direction] += by[k];
     }
-    rhs(t0_, std::span<const T>(stage_), std::span<T>(slope_));
+    rhs(time, std::span<const T>(stage_), std::span<T>(slope_));
     for (std::size_t i = 0; i < y0_.size(); ++i)
       for (std::size_t k = 0; k < count; ++k) {
         const auto direction = static_cast<Eigen::Index>(k);
@@ -163,6 +176,7 @@ class RosenbrockOf {
       }
   }
 
+  // ∂f_i/∂y_j; with j one beyond the last state ∂f_i/∂t.
   double& Entry(std::size_t i, std::size_t j) {
     return jacobian_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
@@ -182,10 +196,10 @@ class RosenbrockOf {
                                                         0.5, 0.2179332607542295};
     const auto size = jacobian_.rows();
     const double h = ValueOf(h_);
-    lu_.compute(Eigen::MatrixXd::Identity(size, size) - kGamma * h * jacobian_);
+    lu_.compute(Eigen::MatrixXd::Identity(size, size) - kGamma * h * jacobian_.leftCols(size));
     for (std::size_t s = 0; s < 4; ++s) {
-      double alpha = 0.0;
-      for (std::size_t j = 0; j < s; ++j) alpha += kAlpha[s][j];
+      double alpha = 0.0, gamma = kGamma;
+      for (std::size_t j = 0; j < s; ++j) alpha += kAlpha[s][j], gamma += kCoupling[s][j];
       for (std::size_t i = 0; i < y0_.size(); ++i) {
         stage_[i] = y0_[i];
         for (std::size_t j = 0; j < s; ++j)
@@ -200,7 +214,7 @@ class RosenbrockOf {
         for (std::size_t j = 0; j < s; ++j) stage_[i] += kCoupling[s][j] * k_[j][i];
       }
       for (std::size_t i = 0; i < y0_.size(); ++i) {
-        k_[s][i] = h_ * slope_[i];
+        k_[s][i] = h_ * slope_[i] + T(h * h * gamma * Entry(i, y0_.size()));
         for (std::size_t j = 0; s > 0 && j < y0_.size(); ++j) {
           if (Entry(i, j) != 0.0) k_[s][i] += h * Entry(i, j) * stage_[j];
         }
@@ -243,7 +257,7 @@ class RosenbrockOf {
   StepControl control_{{.exponent = 1.0 / 3.0, .memory = 0.0, .growth_max = 6.0}};
   std::vector<T> y0_, y1_, stage_, error_, f0_, f1_, slope_;
   std::array<std::vector<T>, 4> k_;
-  Eigen::MatrixXd jacobian_;
+  Eigen::MatrixXd jacobian_;  // ∂f/∂y, ∂f/∂t
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
 };
 

@@ -21,10 +21,10 @@ std::optional<T> System<T>::KinkRatio(const Group& group, std::size_t line, cons
                                       std::span<const T> y) const {
   const bool plain = group.units.empty();
   const T tail = plain ? y[group.at] : group.moment.tail_pa;
-  const T source = SourcePressure(t, y);
-  const T head = group.lines[kFeed].empty() ? source : group.moment.head_pa;
   const Line<T>& flow = group.lines[line];
   if (line == kExhaust) return flow.RatioOf(tail, ambient_pa_);
+  const T source = SourcePressure(t, y);
+  const T head = group.lines[kFeed].empty() ? source : group.moment.head_pa;
   if (line == kFeed) {
     if (!node_at_supply_ || !has_source()) return std::nullopt;
     return flow.RatioOf(source, head);
@@ -105,6 +105,11 @@ void System<T>::GuardValues(const T& t, std::span<const T> y, std::span<T> value
   const bool plain = std::all_of(groups_.begin(), groups_.end(),
                                  [](const Group& group) { return group.units.empty(); });
   if (!plain || pump_ == PumpState::kHolding) (*this)(t, y, scratch_);
+  GuardValuesOfMoment(t, y, values);
+}
+
+template <class T>
+void System<T>::GuardValuesOfMoment(const T& t, std::span<const T> y, std::span<T> values) const {
   for (std::size_t k = 0; k < guards_.size(); ++k) {
     const Guard<T>& guard = guards_[k];
     const Group& group = groups_[guard.group];
@@ -146,7 +151,8 @@ void System<T>::GuardValues(const T& t, std::span<const T> y, std::span<T> value
   template void System<T>::LookAhead(const T&, std::span<const T>);                   \
   template void System<T>::Settle(const T&, std::span<const T>);                      \
   template void System<T>::PassKink(const Guard<T>&);                                 \
-  template void System<T>::GuardValues(const T&, std::span<const T>, std::span<T>);
+  template void System<T>::GuardValues(const T&, std::span<const T>, std::span<T>);   \
+  template void System<T>::GuardValuesOfMoment(const T&, std::span<const T>, std::span<T>) const;
 PLENUM_MODES(double)
 PLENUM_MODES(Dual)
 #undef PLENUM_MODES

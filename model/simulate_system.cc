@@ -210,7 +210,7 @@ template <class T>
 T System<T>::DeclaredSource(const T& t, std::span<const T> y) const {
   if (regulated_) return regulated_pa_;
   if (driven_) {
-    const DrivenSource::Point at = driven_->RecordedAt(ValueOf(t));
+    const DrivenSource::Point at = driven_->RecordedAt(ValueOf(t), record_near_);
     return ambient_pa_ +
            driven_factor_ * (Chain(t, at.pressure_pa, at.slope_pa_per_s) - ambient_pa_);
   }
@@ -285,13 +285,12 @@ T System<T>::FinalPressure(std::size_t i, const T& source_pa) const {
 
 // Volume law and the effects on it.
 template <class T>
-void System<T>::FillMoment(Group& group, const T& t, std::span<const T> y) const {
+void System<T>::FillMoment(Group& group, const T& source_pa, std::span<const T> y) const {
   const GroupSetup<T>& setup = group.setup;
-  Moment<T>& m = group.moment;
-  m = Moment<T>();
+  Moment<T>& m = *std::construct_at(&group.moment);
   m.pressure_pa = y[group.at] > kLowestPressurePa ? y[group.at] : T(kLowestPressurePa);
   m.volume_pressure_pa = m.tail_pa = m.pressure_pa;
-  m.head_pa = SourcePressure(t, y);
+  m.head_pa = source_pa;
   m.temperature_k = m.tail_temperature_k = setup.ambient_temperature_k;
   for (std::size_t u = 0; u < group.units.size(); ++u) {
     group.units[u]->BeforeVolume(setup, y.data() + group.unit_at[u], m);
@@ -334,10 +333,11 @@ template <class T>
 void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
   using std::sqrt;
   outlets_.clear();
-  if (regulated_ && source_unit_) supply_.pressure_pa = SourcePressure(t, y);
+  const T source_pa = SourcePressure(t, y);
+  if (regulated_ && source_unit_) supply_.pressure_pa = source_pa;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
-    FillMoment(group, t, y);
+    FillMoment(group, source_pa, y);
     Moment<T>& m = group.moment;
     const T filling = group.settled ? T(0.0) : T(m.line_factor * group.filling.At(t));
     const T venting = group.settled ? T(0.0) : T(m.line_factor * group.venting.At(t));
@@ -361,7 +361,7 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
     }
   }
   if (outlets_.empty()) return;
-  T node_pa = SourcePressure(t, y);
+  T node_pa = source_pa;
   T in_series;
   bool solved = false;
   if (!node_at_supply_) {

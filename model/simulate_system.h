@@ -116,8 +116,9 @@ class System {
   void Settle(const T& t, std::span<const T> y);
   std::vector<Guard<T>>& guards() { return guards_; }
   const std::vector<Guard<T>>& guards() const { return guards_; }
-  // Values of all guards at a state.
+  // Values of all guards at a state, and at the one that the last call of () was of.
   void GuardValues(const T& t, std::span<const T> y, std::span<T> values);
+  void GuardValuesOfMoment(const T& t, std::span<const T> y, std::span<T> values) const;
   void PassKink(const Guard<T>& guard);  // the flow goes on in the regime beyond
 
   // One actuator of the group, as the last call of Look, Draw or () left it.
@@ -164,7 +165,7 @@ class System {
   Group MakeGroup(const GroupRig& rig, const Lift& lift, const T& factor,
                   double linear_ratio) const;
   void LayOut();
-  void FillMoment(Group& group, const T& t, std::span<const T> y) const;
+  void FillMoment(Group& group, const T& source_pa, std::span<const T> y) const;
   void UpdateFlows(const T& t, std::span<const T> y);
   void Balance(Group& group, std::span<const T> y, std::span<T> dydt) const;
   T DeclaredSource(const T& t, std::span<const T> y) const;  // without what effects do to it
@@ -185,6 +186,7 @@ class System {
   const RegulatedSource* regulated_ = nullptr;
   const ReservoirSource* reservoir_ = nullptr;
   const DrivenSource* driven_ = nullptr;
+  mutable std::size_t record_near_ = 0;         // point of its record
   const EffectUnit<T>* source_unit_ = nullptr;  // that acts on the source
   double linear_ratio_;
   NodeSupply<T> supply_;

@@ -73,6 +73,36 @@ TEST(Rosenbrock, StiffMotionDoesNotHoldTheStep) {
     EXPECT_NEAR(stepper.At(theta, 0), std::cos(1.9 + 0.1 * theta), 0.05);
 }
 
+// y' = −λ·(y − s·t): once the start has died out y lags s·t by s/λ, a straight line, on which no
+// step is too long.
+template <class T>
+void ExpectFewStepsAlongARamp(const T& rate) {
+  constexpr double kLambda = 1e7;
+  const auto rhs = [&](const T& t, std::span<const T> y, std::span<T> dydt) {
+    dydt[0] = -kLambda * (y[0] - rate * t);
+  };
+  const auto norm = [](auto, auto, std::span<const T> error) {
+    return std::abs(ValueOf(error[0]));  // of 1 Pa
+  };
+  RosenbrockOf<T> stepper(1);
+  stepper.Start(rhs, T(0.0), std::vector<T>{T(0.0)}, 1e-9);
+  int steps = 0;
+  while (ValueOf(stepper.time()) < 1.0 && steps < 1000) {
+    stepper.Step(rhs, T(1.0 - ValueOf(stepper.time())), norm);
+    ++steps;
+  }
+  EXPECT_LT(steps, 30);
+  EXPECT_NEAR(ValueOf(stepper.state()[0]), ValueOf(rate) * (1.0 - 1.0 / kLambda), 1e-3);
+  if constexpr (kIsDual<T>) {
+    EXPECT_NEAR(stepper.state()[0].v[2], 1.0 - 1.0 / kLambda, 1e-7);
+  }
+}
+
+TEST(Rosenbrock, FastModesFollowARampInLongSteps) {
+  ExpectFewStepsAlongARamp(1e5);
+  ExpectFewStepsAlongARamp(Dual(1e5, 2));
+}
+
 TEST(Rosenbrock, DenseOutputHasTheSlopesOfBothEnds) {
   RosenbrockOf<double> stepper(2);
   stepper.Start(kDriven, 0.3, std::vector<double>{0.7, -0.4}, 0.1);
