@@ -139,10 +139,10 @@ Bounds::LineParts Bounds::PartsOf(const LineKey& key) const {
 
 // The limits of fall and rise and what mates with what already rule out the lightest lines of a
 // box, each slot's lightest choice put together. A box's least objective is that of the part that
-// is looked at next when lines alone are searched best first; after so many divisions it is near
+// is looked at next when lines alone are searched best first; after so many divisions it mostly is
 // the true one.
 Constraint Bounds::FindLeastObjective(const LineKey& key, double& objective) {
-  constexpr int kDivisions = 50;
+  constexpr int kDivisions = 500;
   using Open = std::pair<double, LineKey>;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   open.push({objective, key});

@@ -1,16 +1,19 @@
 // Exact best-k by branch and bound over boxes.
 //
-// All configurations' boxes wait in one queue, the one with the lowest bound first. A box that
-// comes out is divided, and the corner of each part is assessed; a single combination is sized.
-// When the lowest bound lies above the last place of the list no box can improve it, and the list
-// is complete. Boxes that only tie with the last place are searched by part ids instead, since ids
-// order ties: that ends as soon as no box can hold an earlier combination.
+// All configurations' boxes wait in one queue, the one with the lowest bound first, and so does a
+// configuration that is not planted yet (configurations.h). A box that comes out is divided, and
+// the corner of each part is assessed; a single combination is sized. When the lowest bound lies
+// above the last place of the list no box can improve it, and the list is complete. Boxes that only
+// tie with the last place are searched by part ids instead, since ids order ties: that ends as soon
+// as no box can hold an earlier combination.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
 #include <queue>
 
+#include "optimizer/conclusion.h"
+#include "optimizer/configurations.h"
 #include "optimizer/conflict.h"
 #include "optimizer/dive.h"
 #include "optimizer/effect_strokes.h"
@@ -21,6 +24,7 @@
 #include "optimizer/recorder.h"
 #include "optimizer/report.h"
 #include "optimizer/revised_search.h"
+#include "optimizer/search_node.h"
 #include "optimizer/tree_search.h"
 
 namespace plenum::optimizer {
@@ -32,31 +36,6 @@ constexpr double kProgressIntervalS = 0.2;
 // After the end designs found before are still confirmed, one at least and others for so long.
 constexpr double kGraceS = 0.1;
 constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;  // of the time limit
-
-struct Node {
-  Box box;
-  Bounds* bounds = nullptr;
-  long long serial = 0;  // order of creation: the same search on every run
-  int depth = 0;
-  int record = -1;
-  std::unique_ptr<CustomSizing> sizing;  // a made-to-measure reservoir that is being sized
-  PartIds earliest;                      // while ties are searched
-};
-using NodePtr = std::unique_ptr<Node>;
-
-struct LowestBound {
-  bool operator()(const NodePtr& a, const NodePtr& b) const {
-    if (a->box.bound != b->box.bound) return a->box.bound > b->box.bound;
-    if (a->depth != b->depth) return a->depth < b->depth;  // among equals, the nearest to a design
-    return a->serial > b->serial;
-  }
-};
-
-struct EarliestIdsFirst {
-  bool operator()(const NodePtr& a, const NodePtr& b) const {
-    return a->earliest != b->earliest ? a->earliest > b->earliest : a->serial < b->serial;
-  }
-};
 
 // Where the objective is one of the limited amounts alone, its limit bounds the objective.
 double ObjectiveLimit(const Problem& problem) {
@@ -79,13 +58,12 @@ class BoxSearch {
         bench_{[this] { return Stopped() || Seconds() > dive_until_s_; }, options.periodic},
         report_bench_{
             [this] { return reported_ > 0 && Stopped() && Seconds() > stopped_s_ + kGraceS; },
-            options.periodic} {}
+            options.periodic},
+        configurations_(problem, bench_, options.record) {}
 
   Answer Run() {
-    if (Plant()) {
-      do Enumerate();
-      while (!stopped() && !ConfirmList());
-    }
+    do Enumerate();
+    while (!stopped() && !ConfirmList());
     if (stopped()) ConfirmList();
     return Conclude();
   }
@@ -102,29 +80,32 @@ class BoxSearch {
     return stopped();
   }
 
-  // The root box of every configuration. False if stopped on the way.
-  bool Plant() {
-    for (Configuration configuration : problem_.configurations) {
-      std::unique_ptr<Plan> plan =
-          MakePlan(problem_, configuration, options_.record, [this] { return Stopped(); });
-      if (!plan) return false;
-      plans_.push_back(std::move(plan));
-      bounds_.push_back(std::make_unique<Bounds>(problem_, *plans_.back(), &bench_));
-    }
-    planted_ = true;
-    for (const std::unique_ptr<Bounds>& bounds : bounds_) {
-      const Plan& plan = bounds->plan();
-      proof_.combinations += plan.combinations;
-      proof_.pruned.unpriced += plan.unpriced;
-      proof_.pruned.dominated += plan.dominated;
-      if (plan.empty()) continue;
-      auto node = std::make_unique<Node>();
-      node->bounds = bounds.get();
-      node->box = bounds->Root();
-      node->record = recorder_.Start(plan);
-      const Constraint missed = bounds->Assess(node->box, -1);
-      Keep(std::move(node), missed);
-    }
+  // Plants the configurations that the search has come to, or all where a record is wanted. False
+  // if stopped on the way.
+  bool PlantReached() {
+    const auto reached = [&] {
+      if (options_.record) return kUnlimited;
+      const double next = open_.empty() ? kUnlimited : open_.top()->box.bound;
+      return std::min(next < ranking_.run_begin() ? next : ranking_.run_end(), objective_limit_);
+    };
+    while (!configurations_.waiting().empty() && configurations_.LeastWaiting() <= reached())
+      if (!PlantNext()) return false;
+    return true;
+  }
+
+  bool PlantNext() {
+    Bounds* bounds = configurations_.PlantNext();
+    if (!bounds) return false;
+    const Plan& plan = bounds->plan();
+    proof_.pruned.unpriced += plan.unpriced;
+    proof_.pruned.dominated += plan.dominated;
+    if (plan.empty()) return true;
+    auto node = std::make_unique<Node>();
+    node->bounds = bounds;
+    node->box = bounds->Root();
+    node->record = recorder_.Start(plan);
+    const Constraint missed = bounds->Assess(node->box, -1);
+    Keep(std::move(node), missed);
     return true;
   }
 
@@ -150,8 +131,7 @@ class BoxSearch {
   }
 
   void Enumerate() {
-    while (!open_.empty()) {
-      if (Stopped()) return;
+    while (!Stopped() && PlantReached() && !open_.empty()) {
       Report();
       DiveIfSlow();
       const double lowest = open_.top()->box.bound;
@@ -253,9 +233,12 @@ class BoxSearch {
     const double from = options_.any_design ? 0.0 : kDiveFrom;
     if (dived_ || Seconds() < from * options_.time_limit_s) return;
     dived_ = true;
-    for (const std::unique_ptr<Bounds>& bounds : bounds_) {
+    while (!configurations_.waiting().empty())
+      if (!PlantNext()) return;
+    const auto& all = configurations_.planted();
+    for (const std::unique_ptr<Bounds>& bounds : all) {
       const double until_s =
-          Seconds() + kDiveShare * options_.time_limit_s / static_cast<double>(bounds_.size());
+          Seconds() + kDiveShare * options_.time_limit_s / static_cast<double>(all.size());
       dive_until_s_ = until_s;
       Dive(problem_, *bounds, options_.any_design, bench_.stop, ranking_);
       dive_until_s_ = kUnlimited;
@@ -308,9 +291,16 @@ class BoxSearch {
     options_.progress(progress);
   }
 
-  // Boxes that are still open are closed by their bound; the least of these, or +∞.
+  // Boxes that are still open, and configurations that still wait, are closed by their bound; the
+  // least of these, or +∞.
   double CloseRest() {
     double least = kUnlimited;
+    for (const Outline& outline : configurations_.waiting()) {
+      const bool over = outline.bound > objective_limit_;
+      (over ? proof_.pruned.infeasible : proof_.pruned.bound) += outline.priced;
+      proof_.pruned.unpriced += outline.combinations - outline.priced;
+      if (!over) least = std::min(least, outline.bound);
+    }
     for (const NodePtr& node : open_.items()) {
       const double bound = node->box.bound;
       const bool over = bound > objective_limit_;
@@ -327,46 +317,19 @@ class BoxSearch {
   }
 
   Answer Conclude() {
-    Answer answer;
-    double lower_bound = std::min({undecided_bound_, CloseRest(), ranking_.BoundBehind()});
-    for (Found& found : ranking_.list()) {
-      if (static_cast<int>(answer.designs.size()) == problem_.count || !found.design) break;
-      if (found.record >= 0)
-        recorder_.Close(found.record, {.kind = BoxKind::kDesign,
-                                       .design = static_cast<int>(answer.designs.size()),
-                                       .bound = found.leaf.objective});
-      answer.designs.push_back(std::move(*found.design));
-    }
-    // Designs with a choice that was left out are no better than the last of a full list.
-    if (proof_.pruned.dominated > 0 && static_cast<int>(answer.designs.size()) == problem_.count)
-      lower_bound = std::min(lower_bound, ranking_.last().leaf.objective);
-    proof_.lower_bound = planted_ ? lower_bound : 0.0;
-    if (!answer.designs.empty() && planted_) {
-      const double last = answer.designs.back().objective;
-      proof_.gap =
-          std::isfinite(lower_bound) && last > 0.0 ? std::max(0.0, 1.0 - lower_bound / last) : 0.0;
-    } else {
-      proof_.gap = answer.designs.empty() && (stopped() || proof_.undecided > 0) ? 1.0 : 0.0;
-    }
-    const bool ended = stopped() || (options_.any_design && !answer.designs.empty());
-    proof_.complete =
-        !ended && (answer.designs.empty() ? proof_.undecided == 0 : proof_.gap <= kTie);
-    answer.status = cancelled_               ? Status::kCancelled
-                    : !proof_.complete       ? Status::kFeasible
-                    : answer.designs.empty() ? Status::kInfeasible
-                                             : Status::kOptimal;
-    proof_.record = recorder_.Finish(problem_);
-    answer.proof = proof_;
-    answer.seconds = Seconds();
-    return answer;
+    proof_.combinations = configurations_.combinations();
+    proof_.lower_bound = std::min({undecided_bound_, CloseRest(), ranking_.BoundBehind()});
+    const Ending ending{.stopped = stopped(),
+                        .cancelled = cancelled_,
+                        .any_design = options_.any_design,
+                        .seconds = Seconds()};
+    return optimizer::Conclude(problem_, ending, std::move(proof_), ranking_, recorder_);
   }
 
   const Problem& problem_;
   const SearchOptions& options_;
   Clock::time_point start_;
   double objective_limit_;  // a bound above it breaks a limit
-  std::vector<std::unique_ptr<Plan>> plans_;
-  std::vector<std::unique_ptr<Bounds>> bounds_;
   Queue<NodePtr, LowestBound> open_;
   Queue<NodePtr, EarliestIdsFirst> ties_;
   bool ordering_ties_ = false;
@@ -375,10 +338,11 @@ class BoxSearch {
   Proof proof_;
   double undecided_bound_ = kUnlimited;
   Workbench bench_, report_bench_;  // for the search, for the designs of the list
+  Configurations configurations_;
   int reported_ = 0;
   double reported_s_ = 0.0, stopped_s_ = 0.0, dive_until_s_ = kUnlimited;
   long long serial_ = 0;
-  bool cancelled_ = false, late_ = false, planted_ = false, dived_ = false;
+  bool cancelled_ = false, late_ = false, dived_ = false;
 };
 
 }  // namespace

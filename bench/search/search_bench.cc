@@ -1,5 +1,6 @@
 // Processor time to the proof on synthetic catalogues; a search is one thread.
-//   search_bench [parts per family]… [--first I] [--requirements N] [--time-limit S] [--each]
+//   search_bench [parts per family]… [--seed S] [--first I] [--requirements N] [--time-limit S]
+//     [--each]
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -28,9 +29,9 @@ double PeakGigabytes() {
   return static_cast<double>(usage.ru_maxrss) / (1024.0 * 1024.0);
 }
 
-void Run(int size, int first, int requirements, double time_limit_s, bool each) {
+void Run(int size, int seed, int first, int requirements, double time_limit_s, bool each) {
   const auto start = std::chrono::steady_clock::now();
-  const model::Parts parts = SyntheticParts(1, size);
+  const model::Parts parts = SyntheticParts(static_cast<std::uint64_t>(seed), size);
   const double made_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::vector<double> seconds, boxes;
@@ -74,12 +75,14 @@ void Run(int size, int first, int requirements, double time_limit_s, bool each) 
 
 int main(int argc, char** argv) {
   std::vector<int> sizes;
-  int first = 0, requirements = 50;
+  int seed = 1, first = 0, requirements = 50;  // seed: of the catalogue
   bool each = false;
   double time_limit_s = 60.0;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--requirements") == 0 && i + 1 < argc)
       requirements = std::stoi(argv[++i]);
+    else if (std::strcmp(argv[i], "--seed") == 0 && i + 1 < argc)
+      seed = std::stoi(argv[++i]);
     else if (std::strcmp(argv[i], "--first") == 0 && i + 1 < argc)
       first = std::stoi(argv[++i]);
     else if (std::strcmp(argv[i], "--each") == 0)
@@ -90,5 +93,5 @@ int main(int argc, char** argv) {
       sizes.push_back(std::stoi(argv[i]));
   }
   if (sizes.empty()) sizes = {1000, 10000, 100000};
-  for (int size : sizes) plenum::bench::Run(size, first, requirements, time_limit_s, each);
+  for (int size : sizes) plenum::bench::Run(size, seed, first, requirements, time_limit_s, each);
 }

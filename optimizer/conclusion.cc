@@ -1,0 +1,42 @@
+#include "optimizer/conclusion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plenum::optimizer {
+
+Answer Conclude(const Problem& problem, const Ending& ending, Proof proof, Ranking& ranking,
+                Recorder& recorder) {
+  Answer answer;
+  for (Found& found : ranking.list()) {
+    if (static_cast<int>(answer.designs.size()) == problem.count || !found.design) break;
+    if (found.record >= 0)
+      recorder.Close(found.record, {.kind = BoxKind::kDesign,
+                                    .design = static_cast<int>(answer.designs.size()),
+                                    .bound = found.leaf.objective});
+    answer.designs.push_back(std::move(*found.design));
+  }
+  // Designs with a choice that was left out are no better than the last of a full list.
+  if (proof.pruned.dominated > 0 && static_cast<int>(answer.designs.size()) == problem.count)
+    proof.lower_bound = std::min(proof.lower_bound, ranking.last().leaf.objective);
+  if (!answer.designs.empty()) {
+    const double last = answer.designs.back().objective;
+    proof.gap = std::isfinite(proof.lower_bound) && last > 0.0
+                    ? std::max(0.0, 1.0 - proof.lower_bound / last)
+                    : 0.0;
+  } else {
+    proof.gap = ending.stopped || proof.undecided > 0 ? 1.0 : 0.0;
+  }
+  const bool ended = ending.stopped || (ending.any_design && !answer.designs.empty());
+  proof.complete = !ended && (answer.designs.empty() ? proof.undecided == 0 : proof.gap <= kTie);
+  answer.status = ending.cancelled         ? Status::kCancelled
+                  : !proof.complete        ? Status::kFeasible
+                  : answer.designs.empty() ? Status::kInfeasible
+                                           : Status::kOptimal;
+  proof.record = recorder.Finish(problem);
+  answer.proof = std::move(proof);
+  answer.seconds = ending.seconds;
+  return answer;
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,24 @@
+// What a search that has ended claims.
+#ifndef PLENUM_OPTIMIZER_CONCLUSION_H_
+#define PLENUM_OPTIMIZER_CONCLUSION_H_
+
+#include "optimizer/problem.h"
+#include "optimizer/ranking.h"
+#include "optimizer/recorder.h"
+
+namespace plenum::optimizer {
+
+struct Ending {
+  bool stopped = false, cancelled = false;
+  bool any_design = false;  // was enough
+  double seconds = 0.0;
+};
+
+// `proof`: complete but for gap and record, its lower bound that of all that is not in the list and
+// was not left out by dominance. Takes the designs out of the list.
+Answer Conclude(const Problem& problem, const Ending& ending, Proof proof, Ranking& ranking,
+                Recorder& recorder);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_CONCLUSION_H_
