@@ -6,6 +6,7 @@
 #include "api/proof_record.h"
 #include "api/text.h"
 #include "api/units.h"
+#include "optimizer/pareto.h"
 #include "optimizer/verify.h"
 
 namespace plenum::api {
@@ -118,6 +119,37 @@ optimizer::Answer ReadAnswer(Reader& reader, const Problem& problem) {
   return answer;
 }
 
+// The point of each design is that of its totals, and is left at that.
+optimizer::Front ReadFront(Reader& reader, const std::vector<optimizer::Amount>& amounts,
+                           optimizer::Answer answer) {
+  optimizer::Front front;
+  front.amounts = amounts;
+  const std::size_t size = answer.designs.size();
+  std::size_t rank = 0;
+  for (const Element& element : reader.List("front", size, size)) {
+    Reader point(element, reader.errors());
+    const Design& design = answer.designs[rank++];
+    if (point.Integer("rank", 1, 1'000'000) != static_cast<int>(rank))
+      point.Fail("rank", "must be " + std::to_string(rank) + ", the place of its design");
+    Reader objectives = point.Object("objectives");
+    for (const optimizer::Amount amount : amounts) {
+      const char* name = optimizer::Name(amount);
+      if (!optimizer::Near(objectives.Number(name, kAnyNumber), Of(amount, design.totals),
+                           optimizer::kSumTolerance))
+        objectives.Fail(name, "is not the total of its design");
+    }
+  }
+  Reader proof = reader.Object("front_proof");
+  front.resolution = proof.Number("resolution", {0, 1});
+  front.searches = static_cast<int>(proof.Integer("searches", 0, 2'000'000'000));
+  front.proved = static_cast<int>(proof.Integer("proved", 0, 2'000'000'000));
+  if (proof.Bool("complete", false) != answer.proof.complete)
+    proof.Fail("complete", "is not that of the proof");
+  front.unexplored.resize(proof.List("unexplored", 0, 2'000'000).size());
+  front.answer = std::move(answer);
+  return front;
+}
+
 std::string RevisionName(const Json& number, const std::string& hash) {
   return "revision " + number.dump() + " (" + Clip(hash, 12) + ")";
 }
@@ -152,9 +184,8 @@ Json RenderCounts(const optimizer::BruteForceCounts& counts) {
           {"undecided", counts.undecided.str()}};
 }
 
-// Adds checks, what they left open and counts to the document.
-void AddVerification(const Problem& problem, const optimizer::Answer& answer,
-                     const std::optional<BruteForce>& brute_force, Json& document) {
+optimizer::Verification VerifyList(const Problem& problem, const optimizer::Answer& answer,
+                                   const std::optional<BruteForce>& brute_force) {
   optimizer::BruteForceOptions options;
   if (brute_force) {
     const double all = optimizer::CombinationsOf(problem).convert_to<double>();
@@ -164,8 +195,11 @@ void AddVerification(const Problem& problem, const optimizer::Answer& answer,
         brute_force->progress(looked.convert_to<double>() / all);
       };
   }
-  const optimizer::Verification verification =
-      optimizer::Verify(problem, answer, brute_force ? &options : nullptr);
+  return optimizer::Verify(problem, answer, brute_force ? &options : nullptr);
+}
+
+// Adds checks, what they left open and counts to the document.
+void AddVerification(const optimizer::Verification& verification, Json& document) {
   for (const optimizer::Check& check : verification.checks)
     document["checks"].push_back(
         {{"check", check.name}, {"ok", check.ok}, {"detail", check.detail}});
@@ -188,8 +222,8 @@ Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& 
   document["not_rechecked"] = Json::array();
   const Json* request = reader.Raw("requirements");
   if (request == nullptr) reader.Fail("requirements", "is required, the request as it was given");
-  for (const char* other : {"front", "robust"})
-    if (reader.Has(other)) reader.Fail(other, "only a list by one objective can be verified");
+  if (reader.Has("robust"))
+    reader.Fail("robust", "only a list or a front without draws can be verified");
   if (!errors.empty()) return errors;
   if (document["checks"][0]["ok"].get<bool>()) {
     if (request->is_object() && request->value("model", Json("nominal")) != "nominal")
@@ -199,17 +233,26 @@ Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& 
       for (Error& error : *wrong) error.pointer.insert(0, "/requirements");
       return *wrong;
     }
-    const Problem& problem = std::get<DesignRequest>(parsed).problem;
+    const DesignRequest& asked = std::get<DesignRequest>(parsed);
+    const Problem& problem = asked.problem;
+    if (reader.Has("front") == asked.pareto.empty())
+      return Errors{{"/front", "must be there where a front was asked for, and only there"}};
+    if (brute_force && !asked.pareto.empty())
+      return Errors{{"/front", "only a list by one objective can be verified by brute force"}};
     const BigCount combinations = optimizer::CombinationsOf(problem);
     if (brute_force && combinations > brute_force->combinations_max)
       return Errors{{"/proof/combinations", "brute force would look at " + combinations.str() +
                                                 " combinations, the limit is " +
                                                 std::to_string(brute_force->combinations_max) +
                                                 " (--combinations-max raises it)"}};
-    const optimizer::Answer answer = ReadAnswer(reader, problem);
-    if (errors.empty())
-      AddVerification(problem, answer, brute_force, document);
-    else
+    optimizer::Answer answer = ReadAnswer(reader, problem);
+    if (!asked.pareto.empty()) {
+      const optimizer::Front front = ReadFront(reader, asked.pareto, std::move(answer));
+      if (errors.empty()) AddVerification(optimizer::VerifyFront(problem, front), document);
+    } else if (errors.empty()) {
+      AddVerification(VerifyList(problem, answer, brute_force), document);
+    }
+    if (!errors.empty())
       for (const Error& error : errors)
         document["checks"].push_back(Refused("form", error.pointer + ": " + error.detail));
   }

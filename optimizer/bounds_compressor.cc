@@ -78,8 +78,7 @@ double Bounds::RestAt(const Box& box, const VolumeNeed& volume) {
   }
   Amounts others = LeastBesidesBattery(box);
   const Amounts& counted = CornerAt(plan_.reservoirs, box, plan_.reservoir_slot).amounts;
-  const Amounts least = IsMade(volume) ? CustomReservoir(problem_, volume.need.low_m3)
-                                       : plan_.reservoirs.corners[volume.node].amounts;
+  const Amounts least = LeastOf(volume);
   others.mass_kg += least.mass_kg - counted.mass_kg;
   others.volume_m3 += least.volume_m3 - counted.volume_m3;
   others.cost_eur += least.cost_eur - counted.cost_eur;

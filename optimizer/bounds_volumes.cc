@@ -60,6 +60,28 @@ bool Bounds::IsMade(const VolumeNeed& volume) const {
          plan_.reservoirs.corners[volume.node].custom;
 }
 
+Amounts Bounds::LeastOf(const VolumeNeed& volume) const {
+  return IsMade(volume) ? CustomReservoir(problem_, volume.need.low_m3)
+                        : plan_.reservoirs.corners[volume.node].amounts;
+}
+
+Amounts Bounds::LeastAssessed(const Box& box) const {
+  Amounts all = LeastOfAll(box);
+  if (plan_.configuration != Configuration::kCompressor) return all;
+  Amounts least{kUnlimited, kUnlimited, kUnlimited};
+  for (const VolumeNeed& volume : *box.volumes) {
+    if (std::isinf(volume.rest)) continue;
+    const Amounts of = LeastOf(volume);
+    least = {std::min(least.mass_kg, of.mass_kg), std::min(least.volume_m3, of.volume_m3),
+             std::min(least.cost_eur, of.cost_eur)};
+  }
+  const Amounts& counted = CornerAt(plan_.reservoirs, box, plan_.reservoir_slot).amounts;
+  all.mass_kg += least.mass_kg - counted.mass_kg;
+  all.volume_m3 += least.volume_m3 - counted.volume_m3;
+  all.cost_eur += least.cost_eur - counted.cost_eur;
+  return all;
+}
+
 // How much more of the objective than the least a reservoir in it may take.
 double Bounds::Spread(const VolumeNeed& volume) const {
   const auto made = [&](double volume_m3) {

@@ -77,6 +77,8 @@ class Bounds {
   Constraint Reweigh(Box& box);
 
   Amounts LeastOfAll(const Box& box) const;  // sums of the least of each slot
+  // The same of an assessed box, with the least of the reservoirs that it may still have.
+  Amounts LeastAssessed(const Box& box) const;
 
   // What raises the bound of a box without dividing it, step by step: a look at the reservoirs that
   // its bound comes from; once all but bottle and battery are single choices their source pressure,
@@ -163,6 +165,7 @@ class Bounds {
   Constraint LookAtLowest(Box& box);
   std::optional<VolumeNeed> LookAt(const Box& box, VolumeNeed volume);
   bool IsMade(const VolumeNeed& volume) const;
+  Amounts LeastOf(const VolumeNeed& volume) const;
   double Spread(const VolumeNeed& volume) const;
   std::vector<VolumeNeed> Halves(const VolumeNeed& volume) const;
   double RestAt(const Box& box, const VolumeNeed& volume);

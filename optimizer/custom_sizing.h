@@ -31,6 +31,8 @@ class CustomSizing {
   // was stopped.
   bool Refine();
   const Leaf& leaf() const { return leaf_; }
+  // Before it is done, where energy does not count: the least volume that may still do.
+  double volume_least_m3() const { return open_.top().box.low_m3; }
 
  private:
   struct Region {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "optimizer/leaf_sizing.h"
 #include "optimizer/queue.h"
@@ -123,7 +124,7 @@ class FrontTree {
       root->bounds = bounds_.back().get();
       root->box = root->bounds->Root();
       if (root->bounds->Assess(root->box, -1) != Constraint::kNone) continue;
-      root->low = PairOf(root->bounds->LeastOfAll(root->box));
+      root->low = PairOf(root->bounds->LeastAssessed(root->box));
       roots.push_back(std::move(root));
     }
     return roots;
@@ -205,7 +206,7 @@ class FrontTree {
 
   void Keep(NodePtr node, Constraint missed) {
     if (missed != Constraint::kNone) return;
-    node->low = PairOf(node->bounds->LeastOfAll(node->box));
+    node->low = PairOf(node->bounds->LeastAssessed(node->box));
     const double bound = node->box.bound;
     Push(std::move(node), bound);
   }
@@ -251,10 +252,25 @@ class FrontTree {
     }
   }
 
+  // The least volume that does is the best under all weights, so a made-to-measure reservoir is
+  // sized by the first amount alone, and what is known of it holds for the next region.
+  std::optional<Leaf> SizeForAll(const Candidate& candidate, Node& node) {
+    Box box = node.box;
+    const Objective weighted = std::exchange(problem_.objective, ObjectiveOn(amounts_[0]));
+    const std::optional<Leaf> leaf = SizeLeaf(problem_, candidate, box, node.sizing);
+    problem_.objective = weighted;
+    return leaf;
+  }
+
   void Size(NodePtr node) {
     const Candidate candidate = node->bounds->CandidateOf(node->box);
-    const std::optional<Leaf> leaf = SizeLeaf(problem_, candidate, node->box, node->sizing);
-    if (!leaf || (leaf->status == LeafStatus::kUndecided && Stopped())) {
+    const std::optional<Leaf> leaf = SizeForAll(candidate, *node);
+    if (!leaf) {
+      node->low = PairOf(TotalAmounts(problem_, candidate, node->sizing->volume_least_m3()));
+      Push(std::move(node), 0.0);
+      return;
+    }
+    if (leaf->status == LeafStatus::kUndecided && Stopped()) {
       const double bound = node->box.bound;
       Push(std::move(node), bound);
       return;

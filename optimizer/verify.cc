@@ -4,6 +4,7 @@
 
 #include "optimizer/verify_box.h"
 #include "optimizer/verify_brute_force.h"
+#include "optimizer/verify_front.h"
 #include "optimizer/verify_record.h"
 
 namespace plenum::optimizer {
@@ -34,8 +35,7 @@ void CheckOrder(const Problem& problem, const std::vector<Design>& designs, Find
   }
 }
 
-void CheckProofNumbers(const Problem& problem, const Answer& answer, Findings& findings) {
-  const Proof& proof = answer.proof;
+void CheckCombinations(const Problem& problem, const Proof& proof, Findings& findings) {
   BigCount combinations = 0;
   for (Configuration configuration : problem.configurations)
     combinations += Combinations(problem, configuration);
@@ -47,7 +47,11 @@ void CheckProofNumbers(const Problem& problem, const Answer& answer, Findings& f
           proof.evaluated !=
       proof.combinations)
     findings.push_back({"combinations", "pruned and evaluated ones do not add up to them"});
+}
 
+void CheckProofNumbers(const Problem& problem, const Answer& answer, Findings& findings) {
+  const Proof& proof = answer.proof;
+  CheckCombinations(problem, proof, findings);
   const bool none = answer.designs.empty();
   const double last = none ? 0.0 : answer.designs.back().objective;
   const double gap = std::isfinite(proof.lower_bound) && last > 0.0
@@ -87,8 +91,18 @@ void CheckDesigns(const Problem& problem, const Answer& answer, Findings& findin
         {"listed designs whose periodic state the simulator did not reach", not_simulated});
 }
 
-std::vector<Check> Gather(const std::vector<std::pair<const char*, const char*>>& names,
-                          const Findings& findings) {
+using Names = std::vector<std::pair<const char*, const char*>>;
+const Names kOfDesigns{
+    {"parts", "every listed part is in the catalogue, allowed, and fits the others"},
+    {"amounts", "rows and totals are those of the parts"},
+    {"strokes", "times, air and energy are those of the simulated periodic state"},
+    {"supply", "every requirement is met, and no part is overstrained"},
+    {"margins", "margins are those of the simulated design"},
+    {"order", "designs are ordered by objective, ties by part ids"},
+    {"combinations", "their number is the catalogue's, and all are accounted for"},
+    {"status", "the status claims no more than was proved"}};
+
+std::vector<Check> Gather(const Names& names, const Findings& findings) {
   std::vector<Check> checks;
   for (const auto& [name, what] : names) {
     Check check{name, true, what};
@@ -116,16 +130,8 @@ Verification Verify(const Problem& problem, const Answer& answer,
   CheckDesigns(problem, answer, findings, result.not_rechecked);
   CheckOrder(problem, answer.designs, findings);
   CheckProofNumbers(problem, answer, findings);
-  std::vector<std::pair<const char*, const char*>> names{
-      {"parts", "every listed part is in the catalogue, allowed, and fits the others"},
-      {"amounts", "rows and totals are those of the parts"},
-      {"strokes", "times, air and energy are those of the simulated periodic state"},
-      {"supply", "every requirement is met, and no part is overstrained"},
-      {"margins", "margins are those of the simulated design"},
-      {"order", "designs are ordered by objective, ties by part ids"},
-      {"combinations", "their number is the catalogue's, and all are accounted for"},
-      {"bound", "the lower bound, the gap and the list agree"},
-      {"status", "the status claims no more than was proved"}};
+  Names names = kOfDesigns;
+  names.emplace_back("bound", "the lower bound, the gap and the list agree");
   if (answer.proof.record) {
     CheckRecord(problem, answer, findings, result.not_rechecked);
     names.insert(names.end(), {{"choices", "choices and those left out make up each family"},
@@ -144,6 +150,22 @@ Verification Verify(const Problem& problem, const Answer& answer,
     result.brute_force = CheckByBruteForce(problem, answer, *brute_force, findings);
     names.emplace_back("brute_force", "the list is that of all combinations, one by one");
   }
+  result.checks = Gather(names, findings);
+  return result;
+}
+
+Verification VerifyFront(const Problem& problem, const Front& front) {
+  Verification result;
+  Findings findings;
+  Problem uncut = problem;  // a front is not cut to the number of designs that was asked for
+  uncut.count = std::max(uncut.count, static_cast<int>(front.answer.designs.size()));
+  CheckDesigns(uncut, front.answer, findings, result.not_rechecked);
+  CheckOrder(uncut, front.answer.designs, findings);
+  CheckCombinations(problem, front.answer.proof, findings);
+  CheckFront(problem, front, findings, result.not_rechecked);
+  Names names = kOfDesigns;
+  names.emplace_back("front", "no point is matched or beaten by another");
+  names.emplace_back("rechecked", "no combination found that lies between points");
   result.checks = Gather(names, findings);
   return result;
 }

@@ -66,6 +66,10 @@ BigCount CombinationsOf(const Problem& problem);
 Verification Verify(const Problem& problem, const Answer& answer,
                     const BruteForceOptions* brute_force = nullptr);
 
+// Of a front its points are checked, and that none is missing as far as verify_front.h looks.
+struct Front;
+Verification VerifyFront(const Problem& problem, const Front& front);
+
 // Tolerances, relative. Sums of printed numbers (12 digits); times and duties of the simulator
 // against those of the answer.
 inline constexpr double kSumTolerance = 1e-9;

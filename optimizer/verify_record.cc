@@ -10,17 +10,6 @@
 namespace plenum::optimizer {
 namespace {
 
-bool FlowMustBeEqual(const Problem& problem, Configuration configuration) {
-  const std::size_t groups = problem.groups.size();
-  if (configuration != Configuration::kCompressor)
-    return groups > 1 && (problem.simultaneous || groups > 2);
-  return groups > 1 ||
-         !std::all_of(problem.parts.compressors.begin(), problem.parts.compressors.end(),
-                      [&](const model::Compressor& pump) {
-                        return EnergyPerAirRises(pump.curve, problem.ambient.pressure_pa);
-                      });
-}
-
 // Positions of a listed design's parts among the choices; none where one was left out.
 std::optional<std::vector<int>> PositionsOf(const Problem& problem, const ProofPlan& plan,
                                             const Design& design) {
@@ -231,6 +220,17 @@ class RecordCheck {
 };
 
 }  // namespace
+
+bool FlowMustBeEqual(const Problem& problem, Configuration configuration) {
+  const std::size_t groups = problem.groups.size();
+  if (configuration != Configuration::kCompressor)
+    return groups > 1 && (problem.simultaneous || groups > 2);
+  return groups > 1 ||
+         !std::all_of(problem.parts.compressors.begin(), problem.parts.compressors.end(),
+                      [&](const model::Compressor& pump) {
+                        return EnergyPerAirRises(pump.curve, problem.ambient.pressure_pa);
+                      });
+}
 
 void CheckRecord(const Problem& problem, const Answer& answer, Findings& findings,
                  std::vector<NotRechecked>& open) {

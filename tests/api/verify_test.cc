@@ -165,6 +165,80 @@ TEST(Verify, SaysWhatItDidNotRecheckWithoutARecord) {
   EXPECT_EQ(verified["not_rechecked"][0]["combinations"], others.str());
 }
 
+// The gripper, a little faster: three points of mass against volume.
+const Json& WholeFront() {
+  static const Json answer = [] {
+    std::ifstream file(kRoot / "examples" / "gripper.json");
+    Json request = Parse(std::string(std::istreambuf_iterator<char>(file), {}));
+    for (Json& group : request["actuators"])
+      for (const char* limit : {"rise_time_s_max", "fall_time_s_max"}) Scale(group[limit], 0.9);
+    request["objective"] = {{"pareto", {"mass_kg", "volume_l"}}};
+    const auto parsed = std::get<DesignRequest>(ParseRequirements(request, Project().parts));
+    Json front = AnswerRequest(parsed, {}, Project().parts);
+    front["catalogue_revision"] = RenderRevisionName(Project().revision);
+    return Parse(front.dump());
+  }();
+  return answer;
+}
+
+void Number(Json& answer) {
+  for (const char* list : {"designs", "front"})
+    for (std::size_t i = 0; i < answer[list].size(); ++i) answer[list][i]["rank"] = i + 1;
+}
+
+// The front without a point, and nothing else to be seen of it.
+Json WithoutPoint(Json answer, std::size_t index) {
+  for (const char* list : {"designs", "front"}) answer[list].erase(index);
+  Number(answer);
+  return answer;
+}
+
+TEST(Verify, AcceptsAFront) {
+  ASSERT_GE(WholeFront()["front"].size(), 3u);
+  EXPECT_EQ(Refusals(WholeFront()), "");
+  EXPECT_EQ(Verified(WholeFront())["not_rechecked"], Json::array());
+}
+
+TEST(Verify, FindsThePointThatAFrontLacks) {
+  for (std::size_t i = 0; i < WholeFront()["front"].size(); ++i)
+    EXPECT_NE(Refusals(WithoutPoint(WholeFront(), i)).find("rechecked: a "), std::string::npos)
+        << i;
+}
+
+TEST(Verify, RefusesAFrontThatWasTamperedWith) {
+  const Json& good = WholeFront();
+  const auto refused = [](const Json& answer, const std::string& check) {
+    const std::string refusals = Refusals(answer);
+    EXPECT_NE(refusals.find(check + ": "), std::string::npos) << check << "\n" << refusals;
+  };
+  Json bad = good;
+  Scale(bad["front"][1]["objectives"]["mass_kg"], 0.99);
+  refused(bad, "form");
+  Scale(bad["designs"][1]["totals"]["mass_kg"], 0.99);
+  refused(bad, "amounts");
+  refused(With(good, "/front/0/rank", 2), "form");
+  refused(With(good, "/front/0/objectives/volume_l", nullptr), "form");
+  refused(With(good, "/requirements/objective/pareto", Json::array({"mass_kg", "energy_wh"})),
+          "form");
+  refused(With(good, "/front_proof/resolution", 0.5), "front");
+  refused(With(good, "/front_proof/proved", 1), "status");
+  refused(With(good, "/front_proof/unexplored", Json::array({Json::object()})), "status");
+  refused(With(good, "/front_proof/complete", false), "form");
+  refused(With(good, "/status", "feasible"), "status");
+  refused(With(good, "/proof/combinations", "12345"), "combinations");
+  refused(With(good, "/requirements/actuators/0/rise_time_s_max", 0.01), "supply");
+  bad = good;
+  std::swap(bad["designs"][0], bad["designs"][1]);
+  std::swap(bad["front"][0], bad["front"][1]);
+  Number(bad);
+  refused(bad, "order");
+  bad = good;
+  bad["designs"][1] = bad["designs"][0];
+  bad["front"][1] = bad["front"][0];
+  Number(bad);
+  refused(bad, "front");
+}
+
 TEST(Verify, RefusesWhatIsNoAnswerOfOneList) {
   const auto errors = [](const Json& json) {
     return ErrorsOf(VerifyAnswer(json, Project().parts, Project().revision));
