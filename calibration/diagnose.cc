@@ -258,16 +258,15 @@ class Diagnosing {
     diagnosis_.sentence = Sentence(bench_, search_, diagnosis_);
   }
 
-  // A run is proposed only where it is expected to decide.
   void Propose() {
-    std::optional<Experiment> found = ExperimentFor(bench_, tied_, by_the_clock_);
-    if (found && found->expected_delta_bic >= kDecisiveDeltaBic) {
-      diagnosis_.next_experiment = std::move(found);
-    } else if (!Stopped()) {
-      std::string warning = "no run within the range of these data is expected to tell them apart";
-      if (found) warning += "; the best of those tried: " + found->why;
-      diagnosis_.warnings.push_back(std::move(warning));
-    }
+    diagnosis_.next_experiment = ExperimentFor(bench_, tied_, by_the_clock_);
+    if (Stopped()) return;
+    if (!diagnosis_.next_experiment)
+      diagnosis_.warnings.push_back("no run that could tell them apart can be simulated");
+    else if (diagnosis_.next_experiment->expected_delta_bic < kDecisiveDeltaBic)
+      diagnosis_.warnings.push_back(
+          "no run within the range of these data is expected to tell them apart for sure: the one "
+          "proposed comes nearest");
   }
 
   // Why the set that fits best is not taken for the explanation.

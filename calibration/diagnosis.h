@@ -113,7 +113,7 @@ struct Diagnosis {
   std::vector<FittedEffect> effects;
   std::vector<Candidate> candidates;  // by BIC
   std::vector<std::vector<std::string>> tied;
-  std::optional<Experiment> next_experiment;  // none where no run is expected to decide
+  std::optional<Experiment> next_experiment;  // none where no run can be simulated
   ResidualReport residual;
   std::vector<std::pair<Declared, Estimate>> fitted;  // factors times declared: see RenderDiagnosis
   // Of the effects' parameters, in their order, then of the learned term's and of the fitted

@@ -29,9 +29,8 @@ namespace plenum::calibration {
 // so that noise and wrong constants leave enough.
 inline constexpr double kDecisiveDeltaBic = 30.0;
 
-// The shortest run that reaches half of what the best one does, and is decisive if any is; else the
-// best, which is not to be proposed as one that decides. Empty with fewer than two fits, where no
-// run can be simulated, or when cancelled.
+// The shortest run that reaches half of what the best one does, and is decisive if any is. Empty
+// with fewer than two fits, where no run can be simulated, or when cancelled.
 std::optional<Experiment> DesignExperiment(const FitData& data, const std::vector<TiedFit>& tied,
                                            const FitOptions& options);
 
