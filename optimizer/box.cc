@@ -11,7 +11,7 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr std::size_t kLinesKept = 50000;
+constexpr std::size_t kLinesKept = 400000;
 
 }  // namespace
 
