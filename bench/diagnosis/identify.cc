@@ -3,7 +3,7 @@
 //   identify FOLDER [THREADS]
 // For each FOLDER/truth/NNNN.json with its perfect/NNNN.json (see make_cases) writes
 // FOLDER/identify/NNNN.json with the rival that comes nearest and its distance in BIC. A case is
-// identifiable if that is above 10; the first rival that is not ends the search. Clean cases, which
+// identifiable if that is above 10; the first pair that is not ends the search. Clean cases, which
 // every set contains, and those outside the list are left out.
 //
 // Rivals: no effect, every single one, pairs of the best singles; of a pair also either of its
