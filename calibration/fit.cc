@@ -433,25 +433,24 @@ double Penalty(const Fit& fit, double memory) {
 
 void Narrow(const FitData& data, const FitOptions& options, Fit& fit) {
   if (!fit.Usable()) return;
-  std::vector<Eigen::Index> numbers;
-  Eigen::VectorXd range(fit.u.size());
+  std::vector<Eigen::Index> ratios;
+  std::vector<double> ranges;
   for (Eigen::Index j = 0; j < fit.u.size(); ++j) {
     const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
-    range[j] = coordinate.high - coordinate.low;
-    if (coordinate.parameter.kind == Parameter::Kind::kEffect) numbers.push_back(j);
+    const Parameter& parameter = coordinate.parameter;
+    if (parameter.kind != Parameter::Kind::kEffect) continue;
+    const model::EffectSpec& spec = *fit.state.effects[parameter.effect].spec;
+    if (!spec.parameters[parameter.number].name.ends_with("_ratio")) continue;
+    ratios.push_back(j);
+    ranges.push_back(coordinate.high - coordinate.low);
   }
   fit.narrowed.clear();
-  if (numbers.size() > fit.state.effects.size()) {
-    const Eigen::VectorXd unit = range(numbers).cwiseInverse();
-    const Eigen::MatrixXd covariance = Covariance(data, fit, options)(numbers, numbers);
-    const Eigen::VectorXd spread =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
-            unit.asDiagonal() * covariance * unit.asDiagonal(), Eigen::EigenvaluesOnly)
-            .eigenvalues();  // ascending
-    for (Eigen::Index j = static_cast<Eigen::Index>(fit.state.effects.size()); j < spread.size();
-         ++j)
-      fit.narrowed.push_back(
-          -std::log(2.0 * std::numbers::pi * std::max(spread[j], kLeastCurvature)));
+  if (!ratios.empty()) {
+    const Eigen::MatrixXd covariance = Covariance(data, fit, options);
+    for (std::size_t k = 0; k < ratios.size(); ++k) {
+      const double share = covariance(ratios[k], ratios[k]) / (ranges[k] * ranges[k]);
+      fit.narrowed.push_back(-std::log(2.0 * std::numbers::pi * std::max(share, kLeastCurvature)));
+    }
   }
   fit.bic = Bic(fit);
 }

@@ -58,8 +58,7 @@ struct Fit {
   Eigen::VectorXd u;
   double chi2_data = 0.0, chi2_prior = 0.0;
   std::size_t rows = 0;  // residuals
-  // ln of by how much the readings narrow the range of each further number of the effects, along
-  // the axes of their covariance; empty until Narrow.
+  // ln of R²/(2π·σ²) of each ratio among the effects' numbers; empty until Narrow.
   std::vector<double> narrowed;
   double bic = 0.0;
   bool Usable() const {
@@ -72,14 +71,13 @@ struct Fit {
 Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& options);
 
 // What the free numbers of a fit cost beside n·ln(χ²/n), of readings that are worth 1/memory of
-// their number n: ln(n/memory) each, which is what a number costs that n readings fix. A further
-// number of an effect costs no more than its range is narrowed, R²/(2π·σ²) in the mean (Laplace's
-// marginal likelihood): one of which the readings say nothing, such as the critical ratio of a
+// their number n: ln(n/memory) each, which is what a number costs that n readings fix. A ratio that
+// only shapes an effect (critical, damping) costs no more than its range R is narrowed,
+// ln R²/(2π·σ²) (Laplace's marginal likelihood): one of which the readings say nothing, as of a
 // restriction that is never choked, is no reason against its effect.
 double Penalty(const Fit& fit, double memory);
 
-// Looks at how far the readings narrow each effect's numbers but one, and counts it in BIC. Costs
-// one evaluation.
+// Looks at how far the readings narrow such ratios, and counts it in BIC. Costs one evaluation.
 void Narrow(const FitData& data, const FitOptions& options, Fit& fit);
 
 // Whether the run's line has declared pairs (C, b) that no run of the data has.
