@@ -56,7 +56,9 @@ test('requirements are posted and the list is browsed', async () => {
   // One design: a faster source is tried, and everything asked is worked out for it.
   await rows(page).first().getByRole('link').click();
   const design = listed.result.designs[first - 1];
-  await page.getByRole('slider', { name: 'Source pressure' }).focus();
+  const source = page.getByRole('slider', { name: 'Source pressure' });
+  await source.and(page.locator(':enabled')).waitFor(); // once its range is known
+  await source.focus();
   for (let i = 0; i < 20; ++i) await page.keyboard.press('ArrowRight');
   const tried = page.getByRole('region', { name: 'Requirements with the change' });
   const rise = tried.getByRole('row', { name: /rise time/ });

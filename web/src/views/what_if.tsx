@@ -142,7 +142,8 @@ export function WhatIf({
             />
           )}
         </div>
-        <div class="sliders">
+        {/* Not before it is known how far they go: a source the design cannot have says nothing. */}
+        <fieldset class="sliders" disabled={base.value === null}>
           <Slider
             label="Source pressure"
             kind="pressure"
@@ -188,7 +189,7 @@ export function WhatIf({
               </button>
             )}
           </p>
-        </div>
+        </fieldset>
         {base.value && trial && (
           <Met base={base.value.evaluation} trial={trial.evaluation} requirements={requirements} />
         )}

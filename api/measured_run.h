@@ -1,0 +1,21 @@
+// One run of a measurement/1 document: schedule, samples, channels (contract.md).
+#ifndef PLENUM_API_MEASURED_RUN_H_
+#define PLENUM_API_MEASURED_RUN_H_
+
+#include <set>
+#include <string>
+
+#include "api/reader.h"
+#include "calibration/dataset.h"
+
+namespace plenum::api {
+
+// The run at `element` on the document's `shared` rig, in SI and absolute pressures. Its id joins
+// `ids`, in which it must be new. What the readings cannot be (too few, constant, far above all
+// that could cause them) and what the rig cannot do is an error.
+calibration::Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& ids,
+                         Errors& errors);
+
+}  // namespace plenum::api
+
+#endif  // PLENUM_API_MEASURED_RUN_H_
