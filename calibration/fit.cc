@@ -22,6 +22,7 @@ constexpr double kToleranceTightest = 1e-9, kToleranceLoosest = 1e-5;
 constexpr double kParameterTolerance = 1e-7;
 constexpr double kLeastCurvature = 1e-12;
 constexpr int kPhases = 8;  // in a round
+constexpr int kTries = 3;   // per step: one in vain costs no derivatives
 
 PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions& options) {
   const ObservedSignal& pressure = (*data.observed)[run].signals.front();
@@ -174,15 +175,22 @@ class PriorCost : public ceres::CostFunction {
   std::vector<std::size_t> with_prior_;
 };
 
-class StopWhenCancelled : public ceres::IterationCallback {
+// Ends a search when it is cancelled, and when it has taken so many steps that lower χ².
+class Stop : public ceres::IterationCallback {
  public:
-  explicit StopWhenCancelled(const std::function<bool()>& cancelled) : cancelled_(cancelled) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
-    return cancelled_ && cancelled_() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  explicit Stop(const FitOptions& options) : options_(options) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& at) override {
+    if (options_.cancelled && options_.cancelled()) return ceres::SOLVER_ABORT;
+    if (at.iteration > 0 && at.step_is_successful) ++steps_;
+    spent_ = steps_ >= options_.iterations_max;
+    return spent_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
+  bool spent() const { return spent_; }
 
  private:
-  const std::function<bool()>& cancelled_;
+  const FitOptions& options_;
+  int steps_ = 0;
+  bool spent_ = false;
 };
 
 bool HasPrior(const std::vector<Coordinate>& coordinates) {
@@ -394,10 +402,10 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   }
   AddCosts(data, start, options, fit.coordinates, fit.u.data(), problem);
 
-  StopWhenCancelled stop(options.cancelled);
+  Stop stop(options);
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  solver.max_num_iterations = options.iterations_max;
+  solver.max_num_iterations = kTries * options.iterations_max;
   solver.function_tolerance = options.function_tolerance;
   solver.parameter_tolerance = kParameterTolerance;
   solver.gradient_tolerance = 0.0;
@@ -405,13 +413,16 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   // Steps are cut at the bounds. A search along each would cost more than the shorter steps that
   // follow one in vain.
   solver.max_num_line_search_step_size_iterations = 0;
+  solver.max_num_consecutive_invalid_steps = solver.max_num_iterations;
   solver.num_threads = options.threads;
   solver.logging_type = ceres::SILENT;
   solver.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
 
-  fit.status = options.cancelled && options.cancelled() ? FitStatus::kCancelled : StatusOf(summary);
+  fit.status = options.cancelled && options.cancelled() ? FitStatus::kCancelled
+               : stop.spent()                           ? FitStatus::kIterationsSpent
+                                                        : StatusOf(summary);
   if (fit.status == FitStatus::kFailed) fit.detail = summary.message;
   fit.state = StateAt(start, fit.coordinates, fit.u.data());
   if (late && !options.nuisance_only) MeanLateness(fit.coordinates, fit.state);

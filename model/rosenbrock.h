@@ -113,14 +113,14 @@ class RosenbrockOf {
   static constexpr double kLater = 1e-4;       // of a step
 
   // How large state j is, or what it moves by in a step.
-  double SizeOf(std::size_t j) const {
+  double SizeOf(std::size_t j, double step_s) const {
     double largest = 0.0;
     for (const T& y : y0_) largest = std::max(largest, std::abs(ValueOf(y)));
-    return std::max({std::abs(ValueOf(y0_[j])), std::abs(ValueOf(f0_[j])) * next_step(),
-                     1e-12 * largest, 1e-12});
+    return std::max(
+        {std::abs(ValueOf(y0_[j])), std::abs(ValueOf(f0_[j])) * step_s, 1e-12 * largest, 1e-12});
   }
 
-  // `step_s`: within it f has no kink in time.
+  // `step_s`: the longest that is next; within it f has no kink in time.
   template <class Rhs>
   void TakeJacobian(Rhs&& rhs, double step_s) {
     const auto size = static_cast<Eigen::Index>(y0_.size());
@@ -128,14 +128,14 @@ class RosenbrockOf {
     std::copy(y0_.begin(), y0_.end(), stage_.begin());
     if constexpr (kIsDual<T>) {
       for (std::size_t first = 0; first <= y0_.size(); first += kDirections)
-        TakeColumns(rhs, first, std::min<std::size_t>(kDirections, y0_.size() + 1 - first));
+        TakeColumns(rhs, step_s, first, std::min<std::size_t>(kDirections, y0_.size() + 1 - first));
     } else {
       const auto take = [&](double t, std::size_t j, double moved) {
         rhs(t, std::span<const T>(stage_), std::span<T>(slope_));
         for (std::size_t i = 0; i < y0_.size(); ++i) Entry(i, j) = (slope_[i] - f0_[i]) / moved;
       };
       for (std::size_t j = 0; j < y0_.size(); ++j) {
-        stage_[j] = y0_[j] + kDifference * SizeOf(j);
+        stage_[j] = y0_[j] + kDifference * SizeOf(j, step_s);
         take(t0_, j, stage_[j] - y0_[j]);
         stage_[j] = y0_[j];
       }
@@ -152,7 +152,7 @@ class RosenbrockOf {
   // them moves by `by` more. Of the size of what the direction moves already, so that little is
   // lost in the difference.
   template <class Rhs>
-  void TakeColumns(Rhs&& rhs, std::size_t first, std::size_t count) {
+  void TakeColumns(Rhs&& rhs, double step_s, std::size_t first, std::size_t count) {
     std::copy(y0_.begin(), y0_.end(), stage_.begin());
     T time = t0_;
     std::array<double, kDirections> by{};
@@ -160,12 +160,11 @@ class RosenbrockOf {
       const auto direction = static_cast<Eigen::Index>(k);
       double share = 1.0;
       for (std::size_t i = 0; i < y0_.size(); ++i) {
-        const double moves =
-            std::abs(y0_[i].v[direction]) + next_step() * std::abs(f0_[i].v[direction]);
-        share = std::max(share, moves / SizeOf(i));
+        const double moves = std::abs(y0_[i].v[direction]) + step_s * std::abs(f0_[i].v[direction]);
+        share = std::max(share, moves / SizeOf(i, step_s));
       }
       const bool of_state = first + k < y0_.size();
-      by[k] = share * (of_state ? SizeOf(first + k) : next_step());
+      by[k] = share * (of_state ? SizeOf(first + k, step_s) : step_s);
       (of_state ? stage_[first + k] : time).v[direction] += by[k];
     }
     rhs(time, std::span<const T>(stage_), std::span<T>(slope_));

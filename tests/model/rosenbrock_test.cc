@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -101,6 +102,20 @@ void ExpectFewStepsAlongARamp(const T& rate) {
 TEST(Rosenbrock, FastModesFollowARampInLongSteps) {
   ExpectFewStepsAlongARamp(1e5);
   ExpectFewStepsAlongARamp(Dual(1e5, 2));
+}
+
+// At rest nothing tells how long a first step should be: all of what is left is tried.
+TEST(Rosenbrock, StartsFromRestWithoutAFirstStep) {
+  const auto rhs = [](const Dual& t, std::span<const Dual> y, std::span<Dual> dydt) {
+    dydt[0] = t * t - y[0] + y[1] * y[1];
+    dydt[1] = -y[1];
+  };
+  RosenbrockOf<Dual> stepper(2);
+  stepper.Start(rhs, Dual(0.0), std::vector<Dual>{Dual(0.0), Dual(0.0, 1)},
+                std::numeric_limits<double>::infinity());
+  ASSERT_EQ(stepper.Step(rhs, Dual(0.01), kAcceptAll), RosenbrockOf<Dual>::Outcome::kAccepted);
+  EXPECT_NEAR(stepper.state()[0].a, 3.3e-7, 1e-7);
+  EXPECT_NEAR(stepper.state()[1].v[1], std::exp(-0.01), 1e-6);
 }
 
 TEST(Rosenbrock, DenseOutputHasTheSlopesOfBothEnds) {
