@@ -4,8 +4,8 @@
 // For each FOLDER/truth/NNNN.json with its perfect/NNNN.json (see make_cases) writes
 // FOLDER/identify/NNNN.json with the rival that comes nearest and its distance in BIC
 // (`distance_bic`), that of no effect at all (`without_bic`), and the single effects within 10
-// (`near`). A case is identifiable if no rival is within 10; the first pair that is ends the search.
-// Clean cases, which every set contains, and those outside the list are left out.
+// (`near`). A case is identifiable if no rival is within 10; the first pair that is ends the
+// search. Clean cases, which every set contains, and those outside the list are left out.
 //
 // Rivals: no effect, every single one, pairs of the best singles; of a pair also either of its
 // effects with every other one. Never a set that contains the true one, and no learned term: it is
