@@ -34,7 +34,7 @@ class OneStepIntegrator {
   void Start(const T& t, std::span<const T> y, bool smooth) {
     stepper_.Start(system_, t, y, stepper_.next_step());
     if (!smooth) stepper_.set_next_step(FirstStep());
-    GuardsHere(before_);
+    Guards(t, y, before_);
   }
 
   // One step, to `boundary` at most. It ends where the first guard turns.
@@ -47,7 +47,7 @@ class OneStepIntegrator {
     const double stiffness = stepper_.StiffnessOfStep();
     if (stiffness > kStabilityBound) ++steps_at_stability_;
     if (stiffness > kFastMode) ++steps_in_fast_modes_;
-    GuardsHere(after_);
+    Guards(stepper_.time(), stepper_.state(), after_);
     const double theta = FirstTurn();
     if (event_) EndAtEvent(theta);
     before_.swap(after_);
@@ -107,12 +107,6 @@ class OneStepIntegrator {
   void Guards(const T& t, std::span<const T> y, std::vector<T>& values) {
     values.resize(system_.guards().size());
     system_.GuardValues(t, y, values);
-  }
-
-  // Where the stepper is: what it last asked the system for.
-  void GuardsHere(std::vector<T>& values) {
-    values.resize(system_.guards().size());
-    system_.GuardValuesOfMoment(stepper_.time(), stepper_.state(), values);
   }
 
   double GuardAt(std::size_t k, double theta) {

@@ -105,11 +105,6 @@ void System<T>::GuardValues(const T& t, std::span<const T> y, std::span<T> value
   const bool plain = std::all_of(groups_.begin(), groups_.end(),
                                  [](const Group& group) { return group.units.empty(); });
   if (!plain || pump_ == PumpState::kHolding) (*this)(t, y, scratch_);
-  GuardValuesOfMoment(t, y, values);
-}
-
-template <class T>
-void System<T>::GuardValuesOfMoment(const T& t, std::span<const T> y, std::span<T> values) const {
   for (std::size_t k = 0; k < guards_.size(); ++k) {
     const Guard<T>& guard = guards_[k];
     const Group& group = groups_[guard.group];
@@ -151,8 +146,7 @@ void System<T>::GuardValuesOfMoment(const T& t, std::span<const T> y, std::span<
   template void System<T>::LookAhead(const T&, std::span<const T>);                   \
   template void System<T>::Settle(const T&, std::span<const T>);                      \
   template void System<T>::PassKink(const Guard<T>&);                                 \
-  template void System<T>::GuardValues(const T&, std::span<const T>, std::span<T>);   \
-  template void System<T>::GuardValuesOfMoment(const T&, std::span<const T>, std::span<T>) const;
+  template void System<T>::GuardValues(const T&, std::span<const T>, std::span<T>);
 PLENUM_MODES(double)
 PLENUM_MODES(Dual)
 #undef PLENUM_MODES

@@ -116,9 +116,8 @@ class System {
   void Settle(const T& t, std::span<const T> y);
   std::vector<Guard<T>>& guards() { return guards_; }
   const std::vector<Guard<T>>& guards() const { return guards_; }
-  // Values of all guards at a state, and at the one that the last call of () was of.
+  // Values of all guards at a state.
   void GuardValues(const T& t, std::span<const T> y, std::span<T> values);
-  void GuardValuesOfMoment(const T& t, std::span<const T> y, std::span<T> values) const;
   void PassKink(const Guard<T>& guard);  // the flow goes on in the regime beyond
 
   // One actuator of the group, as the last call of Look, Draw or () left it.
