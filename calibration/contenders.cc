@@ -209,6 +209,27 @@ void Contenders::Refine(int size) {
   });
 }
 
+void Contenders::FitInStep(Contender& contender) {
+  FitOptions scan = Screening();
+  scan.threads = options_->threads;
+  FitOptions tight = Tight();
+  tight.threads = 1;
+  for (bool better = true; better && !Cancelled();) {
+    const std::vector<ModelState> starts = ScannedAgain(data, contender.fit, scan);
+    std::vector<Fit> fits(starts.size());
+    ForAll(starts.size(), options_->threads, [&](std::size_t i) {
+      fits[i] = FitModel(data, starts[i], tight);
+      Narrow(data, tight, fits[i]);
+    });
+    better = false;
+    for (Fit& fit : fits) {
+      if (!fit.Usable() || !(fit.bic < contender.fit.bic - kSameOptimum)) continue;
+      contender.fit = std::move(fit);
+      better = true;
+    }
+  }
+}
+
 void Contenders::Take(Job job) {
   Contender* contender = Find(job.set);
   if (!contender) {

@@ -72,6 +72,10 @@ class Contenders {
   // shares are of the whole work, for the progress.
   void RunJobs(std::vector<Job>& jobs, double from_share, double to_share, const std::string& what);
 
+  // Fits a set with an effect that rings again from other lengths of its line (start_scan.h), until
+  // none does better.
+  void FitInStep(Contender& contender);
+
   bool Cancelled() const { return options_->cancelled && options_->cancelled(); }
   void Report(double share, const std::string& what) const {
     if (options_->progress) options_->progress(share, what);

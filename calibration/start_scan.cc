@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "calibration/parallel.h"
@@ -13,7 +14,10 @@ namespace {
 constexpr double kShortest = 0.05, kLongest = 6.0, kLengthStep = 1.05;  // m
 constexpr double kBores[] = {2e-3, 3.5e-3};                             // m
 constexpr double kApart = 2.5;                                          // steps of length
-constexpr std::size_t kKept = 3;
+constexpr std::size_t kKept = 3, kKeptAgain = 5;
+constexpr double kAbout = 2.5;  // of the length
+constexpr double kBoresAbout[] = {0.92, 1.0, 1.09};
+constexpr const char* kRings = "line_dynamics";
 constexpr double kRidge = 1e-10;  // of a unit diagonal: numbers that nothing depends on
 
 std::vector<model::Effect> GridOf(const FitData& data, const model::EffectSpec& spec) {
@@ -86,18 +90,14 @@ double Chi2(const FitData& data, const Linear& linear, const ModelState& state,
   return squares - g.dot(linear.jj.ldlt().solve(g));
 }
 
-}  // namespace
-
-std::vector<model::Effect> ScannedStarts(const FitData& data, const Fit& without,
-                                         const model::EffectSpec& spec, const FitOptions& options) {
-  const Linear linear = spec.id == "line_dynamics" ? Linearised(data, without, options) : Linear{};
-  if (linear.j.empty()) return EffectStarts(spec, data.sizes);
-  const std::vector<model::Effect> grid = GridOf(data, spec);
+// The best few points of the grid, apart by more than neighbours are; `with`: the state with one.
+std::vector<model::Effect> BestOf(const FitData& data, const Linear& linear,
+                                  const std::vector<model::Effect>& grid, std::size_t kept_max,
+                                  const FitOptions& options,
+                                  const std::function<ModelState(const model::Effect&)>& with) {
   std::vector<std::pair<double, std::size_t>> ranked(grid.size());
   ForAll(grid.size(), options.threads, [&](std::size_t i) {
-    ModelState state = without.state;
-    state.effects.push_back(grid[i]);
-    ranked[i] = {Chi2(data, linear, state, options), i};
+    ranked[i] = {Chi2(data, linear, with(grid[i]), options), i};
   });
   std::sort(ranked.begin(), ranked.end());
   std::vector<model::Effect> kept;
@@ -107,9 +107,67 @@ std::vector<model::Effect> ScannedStarts(const FitData& data, const Fit& without
       return std::abs(std::log(ratio)) < kApart * std::log(kLengthStep);
     });
     if (!near) kept.push_back(grid[i]);
-    if (kept.size() == kKept) break;
+    if (kept.size() == kept_max) break;
   }
   return kept;
+}
+
+std::vector<model::Effect> GridAbout(const model::Effect& found) {
+  std::vector<model::Effect> grid;
+  for (double share = 1.0 / kAbout; share < kAbout; share *= kLengthStep)
+    for (const double bore : kBoresAbout)
+      grid.push_back({found.spec, {share * found.parameters[0], bore * found.parameters[1]}});
+  return grid;
+}
+
+// A fit without the numbers of its effect `at`, which stay as they are.
+Fit WithoutNumbersOf(Fit fit, std::size_t at) {
+  std::vector<Coordinate> coordinates;
+  std::vector<double> u;
+  for (std::size_t j = 0; j < fit.coordinates.size(); ++j) {
+    const Parameter& parameter = fit.coordinates[j].parameter;
+    if (parameter.kind == Parameter::Kind::kEffect && parameter.effect == at) continue;
+    coordinates.push_back(fit.coordinates[j]);
+    u.push_back(fit.u[static_cast<Eigen::Index>(j)]);
+  }
+  fit.coordinates = std::move(coordinates);
+  fit.u = Eigen::Map<const Eigen::VectorXd>(u.data(), static_cast<Eigen::Index>(u.size()));
+  return fit;
+}
+
+}  // namespace
+
+std::vector<model::Effect> ScannedStarts(const FitData& data, const Fit& without,
+                                         const model::EffectSpec& spec, const FitOptions& options) {
+  const Linear linear = spec.id == kRings ? Linearised(data, without, options) : Linear{};
+  if (linear.j.empty()) return EffectStarts(spec, data.sizes);
+  return BestOf(data, linear, GridOf(data, spec), kKept, options, [&](const model::Effect& line) {
+    ModelState state = without.state;
+    state.effects.push_back(line);
+    return state;
+  });
+}
+
+std::vector<ModelState> ScannedAgain(const FitData& data, const Fit& with,
+                                     const FitOptions& options) {
+  const std::vector<model::Effect>& effects = with.state.effects;
+  const auto rings = std::find_if(effects.begin(), effects.end(), [](const model::Effect& effect) {
+    return effect.spec->id == kRings;
+  });
+  if (rings == effects.end() || !with.Usable()) return {};
+  const auto at = static_cast<std::size_t>(rings - effects.begin());
+  const Linear linear = Linearised(data, WithoutNumbersOf(with, at), options);
+  if (linear.j.empty()) return {};
+  const auto replaced = [&](const model::Effect& line) {
+    ModelState state = with.state;
+    state.effects[at] = line;
+    return state;
+  };
+  std::vector<ModelState> starts;
+  for (const model::Effect& line :
+       BestOf(data, linear, GridAbout(*rings), kKeptAgain, options, replaced))
+    starts.push_back(replaced(line));
+  return starts;
 }
 
 }  // namespace plenum::calibration

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/calibration/bench.h"
@@ -50,6 +51,22 @@ TEST(StartScan, TheLengthThatRingsInStepIsFound) {
   EXPECT_EQ(starts.size(), 3u);
   EXPECT_NEAR(bench.BestChi2(starts), 1.0, 0.15);
   EXPECT_GT(bench.BestChi2(EffectStarts(line, bench.data.sizes)), 1.3);
+}
+
+TEST(StartScan, AFitOutOfStepIsFoundAgainInStep) {
+  const Ringing bench;
+  ModelState state = bench.base.state;
+  state.effects = {{model::FindEffect("line_dynamics"), {1.6 * kLengthM, 1.1 * kBoreM}}};
+  const Fit off = FitModel(bench.data, state, {});
+  ASSERT_TRUE(off.Usable());
+  ASSERT_GT(off.chi2_data / static_cast<double>(off.rows), 1.2);
+  double best = INFINITY;
+  for (const ModelState& start : ScannedAgain(bench.data, off, {})) {
+    const Fit fit = FitModel(bench.data, start, {});
+    if (fit.Usable()) best = std::min(best, fit.chi2_data / static_cast<double>(fit.rows));
+  }
+  EXPECT_NEAR(best, 1.0, 0.15);
+  EXPECT_TRUE(ScannedAgain(bench.data, bench.base, {}).empty());
 }
 
 TEST(StartScan, WhatDoesNotRingStartsAsUsual) {
