@@ -22,7 +22,6 @@ constexpr double kToleranceTightest = 1e-9, kToleranceLoosest = 1e-5;
 constexpr double kParameterTolerance = 1e-7;
 constexpr double kLeastCurvature = 1e-12;
 constexpr int kPhases = 8;  // in a round
-constexpr int kTries = 3;   // per step: one in vain costs no derivatives
 
 PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions& options) {
   const ObservedSignal& pressure = (*data.observed)[run].signals.front();
@@ -53,8 +52,10 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
 
 // One run over all k coordinates as one block of k + 1 rows. The search needs of the residuals e
 // and their derivatives J only JᵀJ, Jᵀe and eᵀe, so that the rows are R of [J e] = Q·R, which has
-// the same products and none of the readings' number; without derivatives the one row |e|. A run
-// that turned out stiff is taken to stay so: the explicit method is not tried again.
+// the same products and none of the readings' number; without derivatives the one row |e|. A step
+// is asked for thrice at one point — by the search along it, for its cost, and for the derivatives
+// there — and simulated once. A run that turned out stiff is taken to stay so: the explicit method
+// is not tried again.
 class RunCost : public ceres::CostFunction {
  public:
   RunCost(const FitData& data, std::size_t run, const ModelState& start,
@@ -72,9 +73,19 @@ class RunCost : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    const Eigen::Map<const Eigen::VectorXd> u(blocks[0], size());
+    const bool derive = jacobians && jacobians[0];
     Eigen::Map<Eigen::VectorXd> rows(residuals, num_residuals());
-    if (!jacobians || !jacobians[0]) return Evaluate(blocks[0], rows);
-    return Derive(blocks[0], rows, {jacobians[0], num_residuals(), size()});
+    if (known_.u.size() != size() || known_.u != u) {
+      if (!derive) return Evaluate(u.data(), rows);
+      known_.u.resize(0);
+      if (!Derive(u.data(), known_.root)) return false;
+      known_.u = u;
+    }
+    rows = known_.root.rightCols<1>();
+    if (derive)
+      Eigen::Map<Matrix>(jacobians[0], num_residuals(), size()) = known_.root.leftCols(size());
+    return true;
   }
 
  private:
@@ -106,8 +117,8 @@ class RunCost : public ceres::CostFunction {
     return true;
   }
 
-  bool Derive(const double* u, Eigen::Map<Eigen::VectorXd> rows,
-              Eigen::Map<Matrix> jacobian) const {
+  // R, its last column that of the residuals.
+  bool Derive(const double* u, Eigen::MatrixXd& root) const {
     Prediction prediction = Predict(u, parameters_);
     if (prediction.status != model::SimulateStatus::kDone) return false;
     const std::vector<double> slopes =
@@ -127,9 +138,7 @@ class RunCost : public ceres::CostFunction {
     const Eigen::LDLT<Eigen::MatrixXd> factors(products);
     const Eigen::MatrixXd half = Eigen::MatrixXd(factors.matrixL()) *
                                  factors.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-    const Eigen::MatrixXd root = (factors.transpositionsP().transpose() * half).transpose();
-    rows = root.rightCols<1>();
-    jacobian = root.leftCols(size());
+    root = (factors.transpositionsP().transpose() * half).transpose();
     return true;
   }
 
@@ -143,13 +152,19 @@ class RunCost : public ceres::CostFunction {
     return {column.data(), static_cast<Eigen::Index>(column.size())};
   }
 
+  struct Known {
+    Eigen::VectorXd u;
+    Eigen::MatrixXd root;
+  };
+
   const FitData& data_;
   std::size_t run_;
   const ModelState& start_;
   const std::vector<Coordinate>& coordinates_;
   std::vector<Parameter> parameters_;
   mutable PredictOptions options_;
-  double scale_;  // of the residuals
+  double scale_;         // of the residuals
+  mutable Known known_;  // the last point with derivatives
 };
 
 // u of every coordinate that has a prior.
@@ -175,22 +190,15 @@ class PriorCost : public ceres::CostFunction {
   std::vector<std::size_t> with_prior_;
 };
 
-// Ends a search when it is cancelled, and when it has taken so many steps that lower χ².
-class Stop : public ceres::IterationCallback {
+class StopWhenCancelled : public ceres::IterationCallback {
  public:
-  explicit Stop(const FitOptions& options) : options_(options) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& at) override {
-    if (options_.cancelled && options_.cancelled()) return ceres::SOLVER_ABORT;
-    if (at.iteration > 0 && at.step_is_successful) ++steps_;
-    spent_ = steps_ >= options_.iterations_max;
-    return spent_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  explicit StopWhenCancelled(const std::function<bool()>& cancelled) : cancelled_(cancelled) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    return cancelled_ && cancelled_() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
   }
-  bool spent() const { return spent_; }
 
  private:
-  const FitOptions& options_;
-  int steps_ = 0;
-  bool spent_ = false;
+  const std::function<bool()>& cancelled_;
 };
 
 bool HasPrior(const std::vector<Coordinate>& coordinates) {
@@ -402,27 +410,21 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   }
   AddCosts(data, start, options, fit.coordinates, fit.u.data(), problem);
 
-  Stop stop(options);
+  StopWhenCancelled stop(options.cancelled);
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  solver.max_num_iterations = kTries * options.iterations_max;
+  solver.max_num_iterations = options.iterations_max;
   solver.function_tolerance = options.function_tolerance;
   solver.parameter_tolerance = kParameterTolerance;
   solver.gradient_tolerance = 0.0;
   solver.initial_trust_region_radius = 1e3;
-  // Steps are cut at the bounds. A search along each would cost more than the shorter steps that
-  // follow one in vain.
-  solver.max_num_line_search_step_size_iterations = 0;
-  solver.max_num_consecutive_invalid_steps = solver.max_num_iterations;
   solver.num_threads = options.threads;
   solver.logging_type = ceres::SILENT;
   solver.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
 
-  fit.status = options.cancelled && options.cancelled() ? FitStatus::kCancelled
-               : stop.spent()                           ? FitStatus::kIterationsSpent
-                                                        : StatusOf(summary);
+  fit.status = options.cancelled && options.cancelled() ? FitStatus::kCancelled : StatusOf(summary);
   if (fit.status == FitStatus::kFailed) fit.detail = summary.message;
   fit.state = StateAt(start, fit.coordinates, fit.u.data());
   if (late && !options.nuisance_only) MeanLateness(fit.coordinates, fit.state);

@@ -2,8 +2,7 @@
 // numbers,
 //   χ² = Σ e² + Σ u²,
 // e the whitened residuals (observations.h), u the deviations of declared numbers in their standard
-// deviations. Minimised by Levenberg–Marquardt within bounds (Ceres) with exact derivatives; only
-// steps that lower χ² count as iterations.
+// deviations. Minimised by Levenberg–Marquardt within bounds (Ceres) with exact derivatives.
 //
 // Intervals: the curvature of χ² at the optimum gives the covariance of the coordinates
 // (coordinates.h), that of the readings inflated by χ²/(n − k) where that is above 1 and by the
