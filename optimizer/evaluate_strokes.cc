@@ -15,7 +15,7 @@ namespace {
 constexpr double kPeriodicTolerance = 1e-7;
 // Closer to equal pressures than the simulator's default, so that a source at the operating
 // pressure fills up to it, as the closed forms say.
-constexpr double kLinearRatio = 1.0 - 1e-7;
+constexpr double kLinearRatio = 1.0 - 1e-9;
 
 bool Regulated(Configuration configuration) { return configuration != Configuration::kCompressor; }
 

@@ -12,8 +12,9 @@ namespace {
 
 constexpr int kCyclesMax = 2000;
 constexpr double kPeriodic = 1e-8;  // relative change of the source from cycle to cycle
-// A source at the operating pressure fills up to it: closer to equal pressures than by default.
-constexpr double kLinear = 1.0 - 1e-7;
+// A source at the operating pressure fills up to it: much closer to equal pressures than by default.
+// A straight line from 1 − 1e-7 on would still delay the end of such a stroke by a thousandth.
+constexpr double kLinear = 1.0 - 1e-9;
 
 model::Chamber ChamberOf(const ActuatorGroup& group, const LineParts& line) {
   model::Chamber chamber = group.chamber;
@@ -50,6 +51,8 @@ model::GroupRig MakeGroup(const Problem& problem, const Assembly& assembly, int 
     rig.schedule.push_back(
         {0.0, rig.close_at_operating ? model::ValveState::kHold : model::ValveState::kInflate});
     rig.schedule.push_back({start_s - 0.5 * period_s, model::ValveState::kDeflate});
+  } else if (start_s > 0.0) {
+    rig.schedule.push_back({0.0, model::ValveState::kDeflate});
   }
   for (int i = 0; i < cycles; ++i) {
     rig.schedule.push_back({start_s + i * period_s, model::ValveState::kInflate});
