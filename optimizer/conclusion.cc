@@ -28,7 +28,11 @@ Answer Conclude(const Problem& problem, const Ending& ending, Proof proof, Ranki
     proof.gap = ending.stopped || proof.undecided > 0 ? 1.0 : 0.0;
   }
   const bool ended = ending.stopped || (ending.any_design && !answer.designs.empty());
-  proof.complete = !ended && (answer.designs.empty() ? proof.undecided == 0 : proof.gap <= kTie);
+  // An undecided leaf may be a further design of a list that is not full.
+  const bool full = static_cast<int>(answer.designs.size()) == problem.count;
+  const bool closed = full || !std::isfinite(proof.lower_bound);
+  proof.complete =
+      !ended && (answer.designs.empty() ? proof.undecided == 0 : closed && proof.gap <= kTie);
   answer.status = ending.cancelled         ? Status::kCancelled
                   : !proof.complete        ? Status::kFeasible
                   : answer.designs.empty() ? Status::kInfeasible
