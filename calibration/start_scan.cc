@@ -101,7 +101,8 @@ std::vector<model::Effect> BestOf(const FitData& data, const Linear& linear,
   });
   std::sort(ranked.begin(), ranked.end());
   std::vector<model::Effect> kept;
-  for (const auto& [chi2, i] : ranked) {
+  for (const auto& [chi2, at] : ranked) {
+    const std::size_t i = at;
     const bool near = std::any_of(kept.begin(), kept.end(), [&](const model::Effect& other) {
       const double ratio = grid[i].parameters[0] / other.parameters[0];
       return std::abs(std::log(ratio)) < kApart * std::log(kLengthStep);
