@@ -255,7 +255,7 @@ class FrontSearch {
                (point.size() == 2 &&
                 point[1 - minimised_] > kept.point[1 - minimised_] * (1.0 - resolution_));
       });
-      if (!beaten && !near) front.push_back(std::move(found_[i]));
+      if (!beaten && !near) front.push_back(found_[i]);
     }
     return front;
   }
