@@ -12,8 +12,9 @@ namespace {
 
 constexpr int kCyclesMax = 2000;
 constexpr double kPeriodic = 1e-8;  // relative change of the source from cycle to cycle
-// A source at the operating pressure fills up to it: much closer to equal pressures than by default.
-// A straight line from 1 − 1e-7 on would still delay the end of such a stroke by a thousandth.
+// A source at the operating pressure fills up to it, much closer to equal pressures than by
+// default: a straight line from 1 − 1e-7 on would still delay the end of such a stroke by a
+// thousandth.
 constexpr double kLinear = 1.0 - 1e-9;
 
 model::Chamber ChamberOf(const ActuatorGroup& group, const LineParts& line) {
