@@ -182,9 +182,8 @@ class Diagnosing {
       ConsiderEffectsForTheClock(evidence);
     const bool named =
         diagnosis_.verdict == Verdict::kExplained || diagnosis_.verdict == Verdict::kTie;
-    if (named && Chosen().effects.size() > 1u && !Stopped()) {
-      Progress(0.94, "what else would do as well");
-      evidence.imitated = TermRivals(bench_.data, base_->fit, Chosen().fit, bench_.tight);
+    if (named) {
+      evidence.imitated = IsImitated();
       diagnosis_.verdict = Judge(evidence);
     }
     if (diagnosis_.verdict == Verdict::kUnexplained && evidence.accepted) {
@@ -194,7 +193,10 @@ class Diagnosing {
       search_.chosen = Standing(search_.contenders, memory);
       Weigh(memory, evidence);
       search_.contenders[search_.base].fit = base;  // what it leaves is told of its least squares
-      if (evidence.complete && IsTieBesideStructure(evidence)) diagnosis_.verdict = Verdict::kTie;
+      if (evidence.complete && IsTieBesideStructure(evidence)) {
+        evidence.imitated = IsImitated();
+        if (!evidence.imitated) diagnosis_.verdict = Verdict::kTie;
+      }
     }
     const Contender& chosen = Chosen();
     diagnosis_.before = ErrorOf(bench_, base_->fit.state);
@@ -208,9 +210,9 @@ class Diagnosing {
     // without them does not do as well; which of several they are may still be open.
     bool established =
         evidence.accepted && UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
-    const bool open =
-        diagnosis_.verdict == Verdict::kTie ||
-        (diagnosis_.verdict == Verdict::kUnexplained && established && tied_.size() > 1u);
+    const bool open = diagnosis_.verdict == Verdict::kTie ||
+                      (diagnosis_.verdict == Verdict::kUnexplained && established &&
+                       !evidence.imitated && tied_.size() > 1u);
     const Contender* shown = &chosen;
     if (diagnosis_.verdict == Verdict::kUnexplained) {
       Progress(0.95, "what is left unexplained");
@@ -284,6 +286,13 @@ class Diagnosing {
   }
 
   const Contender& Chosen() const { return search_.contenders[search_.chosen]; }
+
+  // One learned term does as well as the several effects chosen.
+  bool IsImitated() const {
+    if (Chosen().effects.size() < 2u || Stopped()) return false;
+    Progress(0.94, "what else would do as well");
+    return TermRivals(bench_.data, base_->fit, Chosen().fit, bench_.tight);
+  }
 
   // What the chosen set leaves and what does as well, by residuals that are worth 1/memory of their
   // number.

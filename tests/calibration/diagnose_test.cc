@@ -61,6 +61,26 @@ TEST(Diagnose, ALateStrokeOfOneRunIsATieBesideTheClock) {
 }
 
 #ifndef PLENUM_SANITIZED
+// Several sets of effects come near a seam that opens above a pressure, and none to the noise. One
+// learned term does.
+TEST(Diagnose, WhatOneLearnedTermImitatesIsNoTieBesideStructure) {
+  constexpr double kNoisePa = 50.0;
+  Dataset one;
+  one.runs = {test::DeclaredRun("only", 3e5, false)};
+  test::Measure(
+      [](EffectRig& rig) {
+        rig.unlisted.gaping_seam = test::GapingSeam{1.5e5, 0.1e5, 0.01e-8, 0.3};
+      },
+      27, kNoisePa, one.runs[0]);
+  const Diagnosis d = Diagnose(one, {});
+  ASSERT_EQ(d.verdict, Verdict::kUnexplained) << d.sentence;
+  EXPECT_TRUE(d.tied.empty());
+  EXPECT_THAT(d.warnings, ::testing::Contains(::testing::HasSubstr("one learned term")));
+  ASSERT_TRUE(d.discrepancy.has_value());
+  EXPECT_EQ(d.discrepancy->equation, model::EffectPlace::kChamber);
+  EXPECT_LT(d.discrepancy->rms_after_pa, 1.5 * kNoisePa);
+}
+
 TEST(Diagnose, InertiaIsNamedBesideABlockedRun) {
   const Diagnosis d = Of([](EffectRig& rig) { rig.inertia = {12.0, 0.2}; }, 23);
   ASSERT_EQ(d.verdict, Verdict::kExplained) << d.sentence;
