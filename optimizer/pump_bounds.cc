@@ -213,7 +213,7 @@ class NeedOfBits {
 template <typename Step>
 double MarchDraw(const Problem& problem, int g, const Line& line, const PumpFacts& facts,
                  double start_pa, double low_m3, double high_m3, const Step& step) {
-  constexpr int kPanels = 16;
+  constexpr int kPanels = 8;
   const ActuatorGroup& group = problem.groups[g];
   const double ambient_pa = problem.ambient.pressure_pa;
   const double operating_pa = group.chamber.operating_pressure_pa;
