@@ -5,12 +5,6 @@
 namespace plenum::optimizer {
 namespace {
 
-// Looks at parts of boxes, sized combinations counted as many: some minutes.
-constexpr long long kLooksMax = 20'000'000;
-constexpr long long kLooksPerSize = 200;
-// A combination counts as feasible here only if it meets every requirement with this to spare.
-constexpr double kToSpare = 1e-6;
-
 // The order of a parts list.
 constexpr Family kOrder[] = {Family::kValve,      Family::kFitting,  Family::kTubing,
                              Family::kRegulator,  Family::kCylinder, Family::kCo2,
@@ -99,7 +93,12 @@ Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges&
 }
 
 BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claim& claim)
-    : problem_(problem), plan_(plan), claim_(claim), corners_(problem, plan), sizer_(problem) {}
+    : problem_(problem),
+      plan_(plan),
+      claim_(claim),
+      strokes_(problem, plan),
+      corners_(problem, plan, strokes_),
+      sizer_(problem) {}
 
 // Whether a combination with this objective, or more, bears out the claim.
 bool BoxCheck::Holds(double objective, const Ranges& single) const {
@@ -107,18 +106,17 @@ bool BoxCheck::Holds(double objective, const Ranges& single) const {
   return objective > claim_.tie_end || EarliestIds(problem_, plan_, single) > claim_.last;
 }
 
-// The slot whose choices differ most in their share of the objective; bottles and batteries, which
-// do not change the strokes, last.
-int BoxCheck::SlotToDivide(const Ranges& ranges) {
+int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges) {
   int widest = -1;
   std::pair<bool, double> most{false, -1.0};
   for (int s = 0; s < static_cast<int>(ranges.size()); ++s) {
     if (ranges[s].second - ranges[s].first < 2) continue;
-    const Family family = plan_.slots[s].family;
-    const LeastAmounts& amounts = corners_.Least(ranges, s);
-    const std::pair<bool, double> spread{
-        family != Family::kCylinder && family != Family::kCo2 && family != Family::kBattery,
-        amounts.objective_most - amounts.least.objective};
+    const Family family = plan.slots[s].family;
+    const LeastAmounts& amounts = corners.Least(ranges, s);
+    const std::pair<bool, double> spread{family != Family::kCylinder && family != Family::kCo2 &&
+                                             family != Family::kBattery &&
+                                             family != Family::kReservoir,
+                                         amounts.objective_most - amounts.least.objective};
     if (widest < 0 || spread > most) {
       widest = s;
       most = spread;
@@ -162,7 +160,7 @@ BigCount BoxCheck::Recheck(const Ranges& ranges, Findings& findings) {
       open += CountOf(part);
       continue;
     }
-    const int slot = SlotToDivide(part);
+    const int slot = SlotToDivide(plan_, corners_, part);
     if (slot < 0) {
       looks_ += kLooksPerSize;
       if (!IsSettled(part, findings)) open += 1;

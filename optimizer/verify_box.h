@@ -31,6 +31,17 @@ Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ran
 // The parts at one place of each slot.
 Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges& single);
 
+// Looks at parts of boxes that are tried, sized combinations counted as many: some minutes.
+inline constexpr long long kLooksMax = 20'000'000;
+inline constexpr long long kLooksPerSize = 200;
+// A combination counts as feasible only if it meets every requirement with this to spare.
+inline constexpr double kToSpare = 1e-6;
+
+// The slot whose choices differ most in their share of the objective; reservoirs, which bounds look
+// at one by one, bottles and batteries, which do not change the strokes, last. −1: a single
+// combination.
+int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges);
+
 class BoxCheck {
  public:
   BoxCheck(const Problem& problem, const ProofPlan& plan, const Claim& claim);
@@ -44,12 +55,12 @@ class BoxCheck {
  private:
   bool Holds(double objective, const Ranges& single) const;
   bool IsBeyond(const Ranges& ranges);
-  int SlotToDivide(const Ranges& ranges);
   bool IsSettled(const Ranges& single, Findings& findings);
 
   const Problem& problem_;
   const ProofPlan& plan_;
   const Claim& claim_;
+  KnownStrokes strokes_;
   Corners corners_;
   Sizer sizer_;
   long long looks_ = 0;

@@ -67,9 +67,10 @@ model::Regulator BestRegulator(const Problem& problem, const ProofPlan& plan,
 
 }  // namespace
 
-Corners::Corners(const Problem& problem, const ProofPlan& plan)
-    : problem_(problem), plan_(plan), amounts_(AmountsOfAll(problem, plan)) {
-  if (plan.configuration == Configuration::kCompressor) pumps_.emplace(problem, plan, amounts_);
+Corners::Corners(const Problem& problem, const ProofPlan& plan, KnownStrokes& strokes)
+    : problem_(problem), plan_(plan), strokes_(strokes), amounts_(AmountsOfAll(problem, plan)) {
+  if (plan.configuration == Configuration::kCompressor)
+    pumps_.emplace(problem, plan, amounts_, strokes);
 }
 
 const LeastAmounts& Corners::Least(const Ranges& ranges, int slot) {
@@ -87,16 +88,6 @@ const LeastAmounts& Corners::Least(const Ranges& ranges, int slot) {
     found.objective_most = std::max(found.objective_most, amounts.objective);
   }
   return found;
-}
-
-const BestLine& Corners::Line(const Ranges& ranges, int g) {
-  const auto& tubes = ranges[SlotOf(plan_, Family::kTubing, g)];
-  const auto& fittings = ranges[SlotOf(plan_, Family::kFitting, g)];
-  const auto& valves = ranges[SlotOf(plan_, Family::kValve, g)];
-  const auto [entry, fresh] = lines_.try_emplace(
-      {g, tubes.first, tubes.second, fittings.first, fittings.second, valves.first, valves.second});
-  if (fresh) entry->second = BestOf(problem_, plan_, ranges, g);
-  return entry->second;
 }
 
 bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
@@ -128,7 +119,7 @@ bool Corners::SourceMates(const Ranges& ranges) const {
 
 bool Corners::CannotMate(const Ranges& ranges) {
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
-    if (!Line(ranges, g).mates) return true;
+    if (!strokes_.Line(ranges, g).mates) return true;
   return !SourceMates(ranges);
 }
 
@@ -157,8 +148,8 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   }
   const int groups = static_cast<int>(problem_.groups.size());
   for (int g = 0; g < groups; ++g) {
-    low_pa = std::max(low_pa, Line(ranges, g).source_low_pa);
-    high_pa = std::min(high_pa, Line(ranges, g).source_high_pa);
+    low_pa = std::max(low_pa, strokes_.Line(ranges, g).source_low_pa);
+    high_pa = std::min(high_pa, strokes_.Line(ranges, g).source_high_pa);
   }
   if (!(low_pa <= high_pa)) return kUnlimited;
 
@@ -170,7 +161,7 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   const double half_s = 0.5 / problem_.frequency_hz;
   double air_m3 = 0.0, coil_j = 0.0, inflating_j = 0.0;  // per cycle
   for (int g = 0; g < groups; ++g) {
-    const BestLine& line = Line(ranges, g);
+    const BestLine& line = strokes_.Line(ranges, g);
     const ActuatorGroup& group = problem_.groups[g];
     std::vector<model::FlowElement> elements{regulator.flow};
     elements.front().sonic_conductance_m3_per_s_pa /= group.count;
@@ -238,7 +229,7 @@ double Corners::LeastObjective(const Ranges& ranges, double enough) {
   if (TooMuch(ranges)) return kUnlimited;
   std::vector<const BestLine*> lines;
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
-    lines.push_back(&Line(ranges, g));
+    lines.push_back(&strokes_.Line(ranges, g));
     if (!lines.back()->works) return kUnlimited;
   }
   if (!SourceMates(ranges)) return kUnlimited;

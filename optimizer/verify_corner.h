@@ -20,7 +20,7 @@ struct LeastAmounts {
 // Keeps what it found: boxes of one tree share most of their ranges.
 class Corners {
  public:
-  Corners(const Problem& problem, const ProofPlan& plan);
+  Corners(const Problem& problem, const ProofPlan& plan, KnownStrokes& strokes);
   Corners(const Corners&) = delete;  // its pumps look at its amounts
 
   // No choices in the box fit together.
@@ -34,9 +34,7 @@ class Corners {
 
  private:
   using SlotRange = std::array<int, 3>;  // slot, first, last
-  using LineRange = std::array<int, 7>;  // group, ranges of its slots
 
-  const BestLine& Line(const Ranges& ranges, int group);
   bool SourceMates(const Ranges& ranges) const;
   bool SourceMates(const Ranges& ranges, const ProofItem& pump_or_regulator) const;
   bool TooMuch(const Ranges& ranges);
@@ -44,9 +42,9 @@ class Corners {
 
   const Problem& problem_;
   const ProofPlan& plan_;
+  KnownStrokes& strokes_;
   std::vector<std::vector<ItemAmounts>> amounts_;  // per slot and choice
   std::map<SlotRange, LeastAmounts> least_;
-  std::map<LineRange, BestLine> lines_;
   std::optional<Pumps> pumps_;
 };
 

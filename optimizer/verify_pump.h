@@ -13,18 +13,34 @@
 #ifndef PLENUM_OPTIMIZER_VERIFY_PUMP_H_
 #define PLENUM_OPTIMIZER_VERIFY_PUMP_H_
 
+#include <array>
 #include <map>
-#include <optional>
-#include <tuple>
 #include <vector>
 
-#include "optimizer/verify_pump_choices.h"
+#include "optimizer/verify_dominance.h"
+#include "optimizer/verify_known_strokes.h"
 
 namespace plenum::optimizer {
 
+using SlotAmounts = std::vector<std::vector<ItemAmounts>>;  // per slot and choice
+
+// Batteries of a range by energy.
+class Packs {
+ public:
+  struct Pack {
+    double energy_j, objective;
+  };
+  explicit Packs(std::vector<Pack> packs);
+  double Least(double energy_j) const;  // share of the objective; +∞: none has the energy
+
+ private:
+  std::vector<Pack> packs_;  // by energy; objective: the least of this and all with more
+};
+
 class Pumps {
  public:
-  Pumps(const Problem& problem, const ProofPlan& plan, const SlotAmounts& amounts);
+  Pumps(const Problem& problem, const ProofPlan& plan, const SlotAmounts& amounts,
+        KnownStrokes& strokes);
 
   // Bound on the objective of the box whose lines and compressors come to `chosen` and whose parts
   // to `floor`, which is returned where the bound is not above `enough`.
@@ -32,25 +48,24 @@ class Pumps {
                double floor, double enough);
 
  private:
-  struct Case {  // one interval of volumes
+  struct Case {  // of reservoirs
     const PumpCells& pumps;
     const Packs& packs;
     const std::vector<const BestLine*>& lines;
+    // For each stroke that counts by itself the content, Pa·m³, that is drawn by the time that the
+    // reservoir is at the lower end of each cell; of all strokes together that of a cycle.
+    std::vector<std::vector<double>> drawn;
     double air_m3, coil_w, inflating_j;  // per cycle
     double chosen, enough;
     double reservoir_pa;  // most that it stands
   };
-  struct Volumes {
-    double low_m3, high_m3;
-  };
+  using Range = PumpChoices::Range;
 
-  bool TooSlow(const Case& c, int group, double start_pa, Volumes v) const;
-  std::optional<double> LeastStart(const Case& c, int group, double low_pa, double high_pa,
-                                   Volumes v);
-  std::optional<double> FindStart(const Case& c, int group, double low_pa, double high_pa,
-                                  Volumes v) const;
-  double LeastTogether(const Case& c, double enough, double low_pa, double high_pa,
-                       Volumes v) const;
+  const Packs& PacksIn(Range compressors, Range batteries);
+  std::vector<double> DrawnBy(const BestLine& line, int group) const;
+  double FirstFill(const Case& c, double stop_pa, Volumes v) const;
+  KnownStrokes::Query QueryOf(const Case& c, int group, Volumes v) const;
+  double LeastTogether(const Case& c, double enough, double low_pa, double high_pa, Volumes v);
   double LeastInTurns(const Case& c, double enough, double low_pa, double high_pa, Volumes v);
   double LeastAt(const Case& c, double reservoir, Volumes v);
   double LeastMade(const Case& c, Volumes v);
@@ -59,11 +74,11 @@ class Pumps {
   const Problem& problem_;
   const ProofPlan& plan_;
   const SlotAmounts& amounts_;
-  PumpChoices choices_;
+  KnownStrokes& strokes_;
+  PumpChoices& choices_;
   int compressor_, reservoir_, battery_;  // slots
   double content_per_m3_;                 // κ
-  using StartKey = std::tuple<const BestLine*, const PumpCells*, double, double, double, double>;
-  std::map<StartKey, std::optional<double>> starts_;  // found before
+  std::map<std::array<int, 4>, Packs> packs_;
 };
 
 }  // namespace plenum::optimizer

@@ -19,6 +19,7 @@ constexpr double kGap = 2e-7;  // of the objective
 constexpr int kLooksMax = 2000, kVolumesMax = 2000;
 constexpr double kFirstStep = 1e-4, kStepGrowth = 8.0;  // of the source pressure
 constexpr int kFirstVolumes = 12;
+constexpr double kNarrow = 1.01;  // ratio of volumes
 
 // Volumes of the reservoir: the smallest counts while its pressure rises and for all that it takes,
 // the largest while it falls.
@@ -77,8 +78,7 @@ class PressureSizing {
     Offer(*lowest, sizing);
     if (problem_.objective.energy_wh > 0.0) Offer(*highest, sizing);
     while (!open_.empty() && open_.top().bound < sizing.objective * (1.0 - kGap)) {
-      const double width = open_.top().high.source_pa / open_.top().low.source_pa - 1.0;
-      if (open_.top().bound > enough || looks_ > kLooksMax || width < resolution_) {
+      if (open_.top().bound > enough || looks_ > kLooksMax || open_.top().width() < resolution_) {
         sizing.status = Sized::kUnknown;
         break;
       }
@@ -100,7 +100,11 @@ class PressureSizing {
   struct Interval {
     Look low, high;
     double bound;
-    bool operator<(const Interval& other) const { return bound > other.bound; }  // lowest on top
+    // Lowest bound on top; of equal ones the narrowest, which tells soonest whether any is left.
+    bool operator<(const Interval& other) const {
+      return bound != other.bound ? bound > other.bound : width() > other.width();
+    }
+    double width() const { return high.source_pa / low.source_pa - 1.0; }
   };
 
   Settings SettingsAt(double source_pa, double volume_m3) const {
@@ -261,12 +265,14 @@ Sizing SizeMade(const Problem& problem, const Assembly& assembly, KnownCycles& c
       open.push(interval);
       continue;
     }
-    // A point that is no better than `enough` is of no use.
-    if (ObjectiveOf(problem, TotalsOf(problem, assembly, v.high_m3)) <= enough)
-      best.objective = std::min(
-          best.objective, PressureSizing(problem, assembly, cycles, {v.high_m3, v.high_m3}, slack)
-                              .Run(best.objective)
-                              .objective);
+    // A point that is no better than `enough` is of no use, and few of a wide interval are found.
+    if (v.high_m3 < kNarrow * v.low_m3 &&
+        ObjectiveOf(problem, TotalsOf(problem, assembly, v.high_m3)) <= enough)
+      best.objective =
+          std::min(best.objective, PressureSizing(problem, assembly, cycles, {v.high_m3, v.high_m3},
+                                                  slack, interval.floor_pa)
+                                       .Run(best.objective)
+                                       .objective);
     const double middle_m3 = std::sqrt(v.low_m3 * v.high_m3);
     add(v.low_m3, middle_m3, interval.bound, interval.floor_pa);
     add(middle_m3, v.high_m3, interval.bound, interval.floor_pa);

@@ -142,7 +142,8 @@ TEST(VerifyTest, BoundsLieBelowEveryDesignOfABox) {
     const BruteForce truth = Enumerate(problem);
     Random random(seed);
     for (const ProofPlan& plan : answer.proof.record->plans) {
-      optimizer::Corners corners(problem, plan);
+      optimizer::KnownStrokes strokes(problem, plan);
+      optimizer::Corners corners(problem, plan, strokes);
       for (const Enumerated& design : truth.designs) {
         if (design.configuration != plan.configuration) continue;
         const auto place = PlaceOf(problem, plan, design.key);
@@ -200,7 +201,8 @@ TEST(VerifyTest, SizesAsTheSearchDoes) {
       for (bool more = true; more;) {
         if (std::find(feasible_places.begin(), feasible_places.end(), place) ==
             feasible_places.end()) {
-          optimizer::Corners corners(problem, plan);
+          optimizer::KnownStrokes strokes(problem, plan);
+          optimizer::Corners corners(problem, plan, strokes);
           if (!corners.CannotMate(place)) {
             const optimizer::Sizing sizing = sizer.Size(optimizer::AssemblyAt(problem, plan, place),
                                                         -1e-6, optimizer::kUnlimited);
