@@ -46,7 +46,11 @@ class Builder {
       : items_(items), order_(items.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     keys_.reserve(items.size());
-    for (const Item<Corner>* item : items) keys_.push_back(SplitKeys(item->corner));
+    classes_.reserve(items.size());
+    for (const Item<Corner>* item : items) {
+      keys_.push_back(SplitKeys(item->corner));
+      classes_.push_back(MatingClass(item->corner));
+    }
   }
 
   BoxTree<Corner> Build() {
@@ -54,7 +58,7 @@ class Builder {
     tree_.nodes.reserve(2 * items_.size());
     tree_.corners.reserve(2 * items_.size());
     tree_.options.reserve(items_.size());
-    Grow(0, static_cast<int>(order_.size()));
+    Grow(0, static_cast<int>(order_.size()), true);
     for (int i : order_) tree_.options.push_back(items_[i]->option);
     return std::move(tree_);
   }
@@ -76,19 +80,19 @@ class Builder {
   }
 
   // Where [first, last) is divided: between two classes of parts that mate differently as long as
-  // there are several, else at the median of the attribute that is spread most.
-  int Divide(int first, int last) {
+  // there are several, else at the median of the attribute that is spread most. `several` is set to
+  // whether there are.
+  int Divide(int first, int last, bool& several) {
     const auto begin = order_.begin() + first, end = order_.begin() + last;
-    const auto class_of = [&](int i) { return MatingClass(items_[i]->corner); };
-    const auto by_class = [&](int a, int b) {
-      return class_of(a) != class_of(b) ? class_of(a) < class_of(b) : a < b;
-    };
-    const auto [least, most] = std::minmax_element(begin, end, by_class);
-    if (class_of(*least) != class_of(*most)) {
-      std::sort(begin, end, by_class);
+    several = several && std::any_of(begin + 1, end,
+                                     [&](int i) { return classes_[i] != classes_[order_[first]]; });
+    if (several) {
+      std::sort(begin, end, [&](int a, int b) {
+        return classes_[a] != classes_[b] ? classes_[a] < classes_[b] : a < b;
+      });
       int best = first;  // the border that is nearest to the middle
       for (int i = first + 1; i < last; ++i)
-        if (class_of(order_[i - 1]) != class_of(order_[i]) &&
+        if (classes_[order_[i - 1]] != classes_[order_[i]] &&
             (best == first || std::abs(2 * i - first - last) < std::abs(2 * best - first - last)))
           best = i;
       return best;
@@ -108,16 +112,17 @@ class Builder {
     return middle;
   }
 
-  int Grow(int first, int last) {
+  // `several`: classes there may be.
+  int Grow(int first, int last, bool several) {
     const int index = static_cast<int>(tree_.nodes.size());
     tree_.nodes.push_back({-1, -1, first, last});
     tree_.corners.push_back(items_[order_[first]]->corner);
     double low = tree_.corners[index].objective, high = low;
     int earliest = first;
     if (last - first > 1) {
-      const int middle = Divide(first, last);
-      const int left = Grow(first, middle);
-      const int right = Grow(middle, last);
+      const int middle = Divide(first, last, several);
+      const int left = Grow(first, middle, several);
+      const int right = Grow(middle, last, several);
       tree_.nodes[index].left = left;
       tree_.nodes[index].right = right;
       tree_.corners[index] = tree_.corners[left];
@@ -137,6 +142,7 @@ class Builder {
   const std::vector<const Item<Corner>*>& items_;
   std::vector<int> order_;
   std::vector<Keys> keys_;
+  std::vector<decltype(MatingClass(std::declval<Corner>()))> classes_;
   BoxTree<Corner> tree_;
 };
 

@@ -15,6 +15,12 @@
 
 namespace plenum::optimizer {
 
+// κ, Pa·m³ of content per m³ ANR.
+inline double ContentPerVolume(const Problem& problem) {
+  return model::kReferencePressurePa * problem.ambient.temperature_k /
+         model::kReferenceTemperatureK;
+}
+
 // D in Pa·m³, at most, for a line or a box of lines; `full_pa`: where chambers stop taking air.
 double MostDrawn(const Problem& problem, int group, const Line& line, double pressure_pa,
                  double full_pa);
@@ -27,8 +33,7 @@ template <typename Drawn, typename Step>
 void MarchPump(const Problem& problem, double start_pa, double reservoir_m3, double full_pa,
                double begun_m3, const Drawn& drawn, const Step& step) {
   constexpr int kSteps = 8, kBisections = 16;
-  const double content_per_m3 =
-      model::kReferencePressurePa * problem.ambient.temperature_k / model::kReferenceTemperatureK;
+  const double content_per_m3 = ContentPerVolume(problem);
   const auto pumped_m3 = [&](double p) {
     return (drawn(p) - reservoir_m3 * (start_pa - p)) / content_per_m3 - begun_m3;
   };

@@ -9,7 +9,7 @@
 
 namespace plenum::optimizer {
 
-inline constexpr int kStrokePanels = 20;     // up to the rise target
+inline constexpr int kStrokePanels = 12;     // up to the rise target
 inline constexpr int kLastStrokePanels = 4;  // from there to the operating pressure
 inline constexpr int kStrokeNodes = kStrokePanels + kLastStrokePanels + 1;
 

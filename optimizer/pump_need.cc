@@ -1,0 +1,168 @@
+// What pumps at least take for the air of a cycle and for the first fill, by pump_bounds.h.
+#include <algorithm>
+#include <cmath>
+
+#include "optimizer/evaluate_strokes.h"
+#include "optimizer/pump_bounds.h"
+#include "optimizer/pump_march.h"
+
+namespace plenum::optimizer {
+
+double MostDrawn(const Problem& problem, int group, const Line& line, double pressure_pa,
+                 double full_pa) {
+  const double p = std::min(pressure_pa, full_pa);
+  const double ambient_pa = problem.ambient.pressure_pa;
+  return problem.groups[group].count *
+         (model::Content(line.chamber, p) - model::Content(line.chamber, ambient_pa) +
+          line.dead_volume_spread_m3 * (p - ambient_pa));
+}
+
+namespace {
+
+// Air that the pumps deliver at pressures in between or above, the more of it the higher.
+struct PumpedAir {
+  double from_pa, to_pa, air_m3;
+
+  // No more than `air_m3` of it, the first.
+  PumpedAir First(double most_m3) const {
+    if (!(most_m3 < air_m3)) return *this;
+    return {from_pa, from_pa + (to_pa - from_pa) * most_m3 / air_m3, most_m3};
+  }
+  double On(const Minorant& per_m3) const { return air_m3 * per_m3.Mean(from_pa, to_pa); }
+};
+
+// What the first bits take that make up the air of a cycle.
+class NeedOfBits {
+ public:
+  NeedOfBits(const PumpFacts& facts, double air_m3)
+      : facts_(facts), enough_m3_(1e-9 * air_m3), left_m3_(air_m3) {}
+
+  bool enough() const { return left_m3_ <= enough_m3_; }
+  const PumpNeed& need() const { return need_; }
+
+  void Add(const PumpedAir& bit) {
+    const PumpedAir first = bit.First(left_m3_);
+    need_.on_s += first.On(facts_.seconds_per_m3);
+    need_.energy_j += first.On(facts_.energy_j_per_m3);
+    left_m3_ -= first.air_m3;
+  }
+
+ private:
+  const PumpFacts& facts_;
+  double enough_m3_, left_m3_;
+  PumpNeed need_;
+};
+
+// Air that is pumped while a group's chambers fill, at least, handed to step(from, to, m³ ANR) as
+// by MarchPump. With m pumped and D drawn, as content,
+//   dD/dm = n·q(s, p(D))/Q(s),  s = p_1 − (D − m)/V ≤ p_1,
+// does not fall with m nor rise with D, so that a curve D(m) that everywhere is at least as steep
+// as that lies above the true one: panel by panel of D the slope is taken where the panel begins in
+// D and ends in m. More flow, a wider tube and a larger volume only make it steeper. The reservoir
+// then is no lower than with that D and the smallest volume.
+template <typename Step>
+double MarchDraw(const Problem& problem, int g, const Line& line, const PumpFacts& facts,
+                 double start_pa, double low_m3, double high_m3, const Step& step) {
+  constexpr int kPanels = 8;
+  const ActuatorGroup& group = problem.groups[g];
+  const double ambient_pa = problem.ambient.pressure_pa;
+  const double operating_pa = group.chamber.operating_pressure_pa;
+  const double content_per_m3 = ContentPerVolume(problem);
+  double p = ambient_pa, drawn = 0.0, pumped = 0.0;
+  for (int i = 1; i <= kPanels; ++i) {
+    // Closer to each other towards the end, where the flow drops fastest.
+    const double rest = 1.0 - static_cast<double>(i) / kPanels;
+    const double next_pa = operating_pa - (operating_pa - ambient_pa) * rest * std::sqrt(rest);
+    const double next = MostDrawn(problem, g, line, next_pa, operating_pa);
+    const auto pumped_by = [&](double most) {
+      const double s = std::min(start_pa, start_pa - (drawn - most) / high_m3);
+      const double flow = group.count * s * line.fill_table(p / s);
+      return flow > 0.0 ? pumped + (next - drawn) / (flow * facts.seconds_per_m3.AtMost(s)) : most;
+    };
+    const double reached = std::min(pumped_by(std::min(pumped_by(pumped), next)), next);
+    if (reached > pumped) {
+      const auto reservoir_pa = [&](double m) {
+        return std::max(ambient_pa, start_pa - (next - m) / low_m3);
+      };
+      step(reservoir_pa(pumped), reservoir_pa(reached), (reached - pumped) / content_per_m3);
+      pumped = reached;
+    }
+    drawn = next;
+    p = next_pa;
+  }
+  return pumped / content_per_m3;
+}
+
+}  // namespace
+
+std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& facts,
+                                      const PumpLoad& load, const std::vector<double>& start_pa,
+                                      double low_m3, double high_m3) {
+  const bool apart = start_pa.size() == problem.groups.size();  // one group in each phase
+  const double phase_s = 1.0 / problem.frequency_hz / static_cast<double>(start_pa.size());
+  const double drawn_at_once = load.air_m3 * ContentPerVolume(problem);
+  // Calls take(bit) for what a phase gives, until it returns false.
+  const auto march = [&](int phase, const auto& take) {
+    const Line& line = *load.lines[phase];
+    const double full_pa = !apart          ? problem.ambient.pressure_pa
+                           : line.all_hold ? problem.groups[phase].chamber.operating_pressure_pa
+                                           : kUnlimited;
+    const double ambient_pa = problem.ambient.pressure_pa;
+    const double empty = model::Content(line.chamber, ambient_pa);
+    const double spread_m3 = line.dead_volume_spread_m3;
+    const int count = problem.groups[phase].count;
+    const auto drawn = [&](double pressure_pa) {  // as MostDrawn
+      const double p = std::min(pressure_pa, full_pa);
+      return apart
+                 ? count * (model::Content(line.chamber, p) - empty + spread_m3 * (p - ambient_pa))
+                 : drawn_at_once;
+    };
+    // A volume that follows a table may take more air at the lower pressures of a bit.
+    const bool even = line.chamber.volume_curve.empty();
+    double left_s = phase_s;
+    const auto add = [&](double from_pa, double to_pa, double air_m3) {
+      if (!(left_s > 0.0)) return false;
+      const PumpedAir bit{from_pa, to_pa, air_m3};
+      // At the speed of its begin, which is the highest, the time may be enough for more.
+      const PumpedAir first = bit.First(left_s / facts.seconds_per_m3.At(from_pa));
+      left_s -= first.On(facts.seconds_per_m3);
+      return take(first) && first.air_m3 == air_m3;
+    };
+    double begun_m3 = 0.0;
+    if (apart && facts.exact)
+      begun_m3 = MarchDraw(problem, phase, line, facts, start_pa[phase], low_m3, high_m3, add);
+    MarchPump(problem, start_pa[phase], low_m3, full_pa, begun_m3, drawn,
+              [&](double from_pa, double to_pa, double air_m3) {
+                return add(from_pa, even || from_pa >= full_pa ? to_pa : from_pa, air_m3);
+              });
+  };
+
+  NeedOfBits sum(facts, load.air_m3);
+  if (start_pa.size() == 1) {
+    march(0, [&](const PumpedAir& bit) {
+      sum.Add(bit);
+      return !sum.enough();
+    });
+  } else {
+    std::vector<PumpedAir> bits;
+    for (int phase = 0; phase < static_cast<int>(start_pa.size()); ++phase)
+      march(phase, [&](const PumpedAir& bit) {
+        bits.push_back(bit);
+        return true;
+      });
+    std::stable_sort(bits.begin(), bits.end(),
+                     [](const PumpedAir& a, const PumpedAir& b) { return a.from_pa < b.from_pa; });
+    for (const PumpedAir& bit : bits) sum.Add(bit);
+  }
+  if (!sum.enough()) return std::nullopt;
+  return sum.need();
+}
+
+double LeastFirstFill(const Problem& problem, const PumpFacts& facts, double source_pa,
+                      double reservoir_m3) {
+  const double ambient_pa = problem.ambient.pressure_pa;
+  return reservoir_m3 / ContentPerVolume(problem) * (source_pa - ambient_pa) *
+         facts.energy_j_per_m3.Mean(ambient_pa, source_pa);
+}
+
+}  // namespace plenum::optimizer
