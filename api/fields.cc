@@ -53,6 +53,8 @@ model::Ambient ReadAmbient(Reader& request) {
   ambient.pressure_pa = PaFromKpaAbs(reader->Number("pressure_kpa_abs", {20, 200}, 100));
   ambient.temperature_k = reader->Number("temperature_k", {200, 350}, ambient.temperature_k);
   reader->Finish();
+  // Told of once: what is gauge is read beside the usual one.
+  if (std::isnan(ambient.pressure_pa)) ambient.pressure_pa = model::Ambient{}.pressure_pa;
   return ambient;
 }
 

@@ -9,6 +9,7 @@
 #include "calibration/evidence.h"
 #include "calibration/findings.h"
 #include "calibration/identifiability.h"
+#include "calibration/slips.h"
 #include "calibration/thresholds.h"
 #include "calibration/ties.h"
 #include "calibration/verdict.h"
@@ -48,6 +49,7 @@ class Diagnosing {
   }
 
   Diagnosis Take() {
+    diagnosis_.warnings = SuspectedSlips(bench_.dataset, options_.cancelled);
     const FitData data = bench_.data;
     const bool on_grid = std::any_of(observed_.begin(), observed_.end(),
                                      [](const ObservedRun& run) { return run.noise.staircase; });

@@ -11,9 +11,11 @@ namespace {
 
 constexpr double kRise = 3.841;  // 95 % quantile of χ² with one degree of freedom
 constexpr double kNearLow = 0.75, kNearHigh = 1.3;  // of kRise: a parabola does for the rest
-constexpr double kStepLeast = 0.25, kStepMost = 3.0;
-constexpr int kTries = 6;
-constexpr int kIterations = 12;
+constexpr double kStepMost = 3.0;                   // times the one before
+constexpr double kShareLeast = 0.1;                 // of what is between two steps
+constexpr int kTries = 8;
+constexpr int kIterations = 12;      // from the ridge
+constexpr int kIterationsFrom = 40;  // from a fit nearby
 constexpr double kFunctionTolerance = 1e-6;
 
 // One side of one coordinate's interval.
@@ -29,20 +31,34 @@ class Side {
     options_.fixed = Of(j).parameter;
   }
 
-  // The coordinate where Q has risen by kRise.
+  // The coordinate where Q has risen by kRise. The root of a parabola's rise is straight: steps
+  // grow along it until they rise by more, then come to √kRise from both sides (Illinois method).
   std::optional<double> Edge() const {
     const double most = sign_ > 0.0 ? Of(j_).high - fit_.u[j_] : fit_.u[j_] - Of(j_).low;
-    double step = std::min(std::sqrt(kRise * covariance_(j_, j_)), most);
-    double below = 0.0, above = most;  // steps known to rise by less, by more
+    const double goal = std::sqrt(kRise);
+    double step = std::min(goal * std::sqrt(covariance_(j_, j_)), most);
+    double below = 0.0, lack = goal, above = 0.0, excess = 0.0;  // steps, and the roots beside goal
+    ModelState nearest = fit_.state;                             // at the step below
     for (int k = 0; k < kTries && step > 0.0; ++k) {
-      const std::optional<double> rise = Rise(step);
-      if (!rise) return {};
-      if (*rise < kRise && step >= most) return fit_.u[j_] + sign_ * most;
-      const double ratio = std::sqrt(kRise / std::max(*rise, 1e-6));
-      const bool near = *rise > kNearLow * kRise && *rise < kNearHigh * kRise;
-      (*rise < kRise ? below : above) = step;
-      step = std::clamp(step * std::clamp(ratio, kStepLeast, kStepMost), below, above);
-      if (near) break;
+      const Fit moved = Moved(step, nearest);
+      if (!moved.Usable()) return {};
+      const double rise = std::max(0.0, Rise(moved)), root = std::sqrt(rise);
+      if (rise > kNearLow * kRise && rise < kNearHigh * kRise)
+        return fit_.u[j_] + sign_ * std::min(step * goal / root, most);
+      if (rise < kRise) {
+        if (step >= most) return fit_.u[j_] + sign_ * most;
+        if (below > 0.0) excess *= 0.5;
+        below = step, lack = goal - root;
+        nearest = moved.state;
+      } else {
+        if (above > 0.0) lack *= 0.5;
+        above = step, excess = root - goal;
+      }
+      if (above > 0.0)
+        step = below +
+               (above - below) * std::clamp(lack / (lack + excess), kShareLeast, 1.0 - kShareLeast);
+      else
+        step = std::min(step * std::min(goal / std::max(root, 1e-3), kStepMost), most);
     }
     return fit_.u[j_] + sign_ * step;
   }
@@ -52,19 +68,33 @@ class Side {
     return fit_.coordinates[static_cast<std::size_t>(j)];
   }
 
-  double Q(const Fit& fit) const { return options_.weight * fit.chi2_data + fit.chi2_prior; }
+  double Rise(const Fit& moved) const {
+    const auto q = [&](const Fit& fit) { return options_.weight * fit.chi2_data + fit.chi2_prior; };
+    return q(moved) - q(fit_);
+  }
 
-  // From the others' place along the ridge of the parabola.
-  std::optional<double> Rise(double step) const {
+  // The least over the others, from their place along the ridge of the parabola. A parabola may
+  // point where the others have no effect left and no way back: a fit that rises by more than the
+  // interval allows is made again from the nearest one known.
+  Fit Moved(double step, const ModelState& nearest) const {
+    Fit moved = FitModel(data_, OnRidge(step), options_);
+    if (moved.Usable() && Rise(moved) < kNearHigh * kRise) return moved;
+    ModelState start = nearest;
+    NumberOf(start, Of(j_).parameter) = Of(j_).Number(fit_.u[j_] + sign_ * step);
+    FitOptions patient = options_;
+    patient.iterations_max = kIterationsFrom;
+    Fit near = FitModel(data_, start, patient);
+    return near.Usable() && !(moved.Usable() && Rise(moved) < Rise(near)) ? near : moved;
+  }
+
+  ModelState OnRidge(double step) const {
     ModelState start = fit_.state;
     for (Eigen::Index i = 0; i < fit_.u.size(); ++i) {
       const double along = i == j_ ? 1.0 : covariance_(i, j_) / covariance_(j_, j_);
       const double u = std::clamp(fit_.u[i] + sign_ * step * along, Of(i).low, Of(i).high);
       NumberOf(start, Of(i).parameter) = Of(i).Number(u);
     }
-    const Fit moved = FitModel(data_, start, options_);
-    if (!moved.Usable()) return {};
-    return Q(moved) - Q(fit_);
+    return start;
   }
 
   const FitData& data_;

@@ -69,7 +69,7 @@ Constraint Bounds::NeedOfCompressor(Box& box) const {
 }
 
 // Objective of reservoir, battery and energy with a volume in the interval, at least.
-double Bounds::RestAt(const Box& box, const VolumeNeed& volume) {
+double Bounds::RestAt(const Box& box, VolumeNeed& volume) {
   double beyond_j = volume.need.energy_j;  // what the shares of the lines do not count
   double current_a = 0.0;
   if (volume.need.energy_j > 0.0) {
@@ -82,7 +82,8 @@ double Bounds::RestAt(const Box& box, const VolumeNeed& volume) {
   others.mass_kg += least.mass_kg - counted.mass_kg;
   others.volume_m3 += least.volume_m3 - counted.volume_m3;
   others.cost_eur += least.cost_eur - counted.cost_eur;
-  return volume.objective + LeastBattery(box, volume.need.energy_j, current_a, others) +
+  return volume.objective +
+         LeastBattery(box, volume.need.energy_j, current_a, others, volume.battery) +
          EnergyShare(std::max(0.0, beyond_j));
 }
 

@@ -126,7 +126,9 @@ Constraint Bounds::RestOfRegulated(Box& box) {
     if (std::isinf(bottle)) return Constraint::kGas;
     bound += bottle;
   }
-  const double battery = LeastBattery(box, box.energy_j / kRounding, 0.0, LeastBesidesBattery(box));
+  int unknown = -1;
+  const double battery =
+      LeastBattery(box, box.energy_j / kRounding, 0.0, LeastBesidesBattery(box), unknown);
   if (std::isinf(battery)) return Constraint::kBattery;
   box.bound = std::max(box.bound, bound + battery);
   return Constraint::kNone;

@@ -151,10 +151,14 @@ std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
                           CornerAt(plan_.batteries, box, plan_.battery_slot).energy_j};
   const bool single = CoreIsSingle(box, plan_.reservoir_slot);
   if (volume.look == box.look) {
+    volume.energy_known = true;
+    VolumeNeed most = volume;
+    most.need.energy_j = MissionEnergyAtLeastPressure(problem_, pump, load, volume.need);
+    if (most.need.energy_j <= limits.energy_max_j && RestAt(box, most) <= volume.rest)
+      return volume;
     volume.need.energy_j = LeastMissionEnergy(problem_, pump, load, volume.need,
                                               single ? kSingleDivisions : kBoxDivisions);
     if (!(volume.need.energy_j <= limits.energy_max_j)) return std::nullopt;
-    volume.energy_known = true;
   } else {
     volume.need.source_max_pa =
         std::min(volume.need.source_max_pa, plan_.reservoirs.corners[volume.node].pressure_max_pa);

@@ -270,6 +270,7 @@ Constraint Bounds::Reweigh(Box& box) {
     volume.objective = IsMade(volume) ? ObjectiveOf(problem_.objective,
                                                     CustomReservoir(problem_, volume.need.low_m3))
                                       : plan_.reservoirs.corners[volume.node].objective;
+    volume.battery = -1;
     volume.rest = RestAt(box, volume);
   }
   return RestOfCompressor(box);
@@ -310,17 +311,24 @@ double Bounds::EnergyShare(double energy_j) const {
 }
 
 double Bounds::LeastBattery(const Box& box, double energy_j, double pump_current_a,
-                            const Amounts& others) const {
+                            const Amounts& others, int& known) const {
   if (plan_.battery_slot < 0) return 0.0;
   const Kinds pump = plan_.compressor_slot < 0
                          ? ~Kinds{0}
                          : CornerAt(plan_.compressors, box, plan_.compressor_slot).voltages;
-  return LeastObjective(
-      plan_.batteries, box.nodes[plan_.battery_slot], [&](const BatteryCorner& c) {
-        return (c.voltages & pump) && energy_j <= c.energy_j &&
-               pump_current_a + box.coil_power_w / c.voltage_v <= c.current_max_a &&
-               WithinLimits(others, c.amounts);
-      });
+  const BoxTree<BatteryCorner>& tree = plan_.batteries;
+  const auto will_do = [&](const BatteryCorner& c) {
+    return (c.voltages & pump) && energy_j <= c.energy_j &&
+           pump_current_a + box.coil_power_w / c.voltage_v <= c.current_max_a &&
+           WithinLimits(others, c.amounts);
+  };
+  const BoxNode& allowed = Node(box, plan_.battery_slot);
+  const auto is_allowed = [&](const BoxNode& node) {
+    return allowed.first <= node.first && node.last <= allowed.last;
+  };
+  if (known < 0 || !is_allowed(tree.nodes[known]) || !will_do(tree.corners[known]))
+    known = LeastChoice(tree, box.nodes[plan_.battery_slot], will_do);
+  return known < 0 ? kUnlimited : tree.corners[known].objective;
 }
 
 Candidate Bounds::CandidateOf(const Box& box) const {

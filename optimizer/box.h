@@ -30,6 +30,7 @@ struct VolumeNeed {
   double rest = 0.0;       // of reservoir, battery and energy, at least
   int look = -1;           // Box::look when it was looked at; less: in a larger box, still a bound
   bool energy_known = false;  // by LeastMissionEnergy(), in that look
+  int battery = -1;  // node of one that was the least that will do, here or in a larger box
 };
 
 struct Box {
@@ -168,7 +169,7 @@ class Bounds {
   Amounts LeastOf(const VolumeNeed& volume) const;
   double Spread(const VolumeNeed& volume) const;
   std::vector<VolumeNeed> Halves(const VolumeNeed& volume) const;
-  double RestAt(const Box& box, const VolumeNeed& volume);
+  double RestAt(const Box& box, VolumeNeed& volume);
   Constraint RestOfCompressor(Box& box);
   const PumpFacts& PumpOf(const Box& box);
   Constraint FindStockSource(Box& box);
@@ -179,9 +180,10 @@ class Bounds {
   Constraint SizeCore(Box& box);
 
   // The least share of the objective of a battery that bears so much; `others`: what the rest of
-  // the design at least amounts to.
-  double LeastBattery(const Box& box, double energy_j, double pump_current_a,
-                      const Amounts& others) const;
+  // the design at least amounts to. `known`: a battery that was the least in a larger box, as a
+  // node, and is so here if it still will do; −1 where none is known.
+  double LeastBattery(const Box& box, double energy_j, double pump_current_a, const Amounts& others,
+                      int& known) const;
   double EnergyShare(double energy_j) const;
 
   const Problem& problem_;

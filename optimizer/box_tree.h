@@ -148,19 +148,27 @@ BoxTree<Corner> MakeBoxTree(const std::vector<const Item<Corner>*>& items) {
   return box_tree_internal::Builder<Corner>(items).Build();
 }
 
-// Least objective of a choice below `node` that `could` accepts; it must accept the corner of every
-// box that holds an accepted choice. `limit` (+∞ at first) where there is none below it.
+// The choice below `node` with the least objective of those that `could` accepts, as a node; it
+// must accept the corner of every box that holds an accepted choice. `best` (none at first) where
+// none below it has less.
 template <typename Corner, typename Could>
-double LeastObjective(const BoxTree<Corner>& tree, int node, const Could& could,
-                      double limit = kUnlimited) {
+int LeastChoice(const BoxTree<Corner>& tree, int node, const Could& could, int best = -1) {
   const Corner& corner = tree.corners[node];
-  if (corner.objective >= limit || !could(corner)) return limit;
+  if ((best >= 0 && corner.objective >= tree.corners[best].objective) || !could(corner))
+    return best;
   const BoxNode& box = tree.nodes[node];
-  if (box.single()) return corner.objective;
+  if (box.single()) return node;
   int near = box.left, far = box.right;
   if (tree.corners[far].objective < tree.corners[near].objective) std::swap(near, far);
-  limit = LeastObjective(tree, near, could, limit);
-  return LeastObjective(tree, far, could, limit);
+  best = LeastChoice(tree, near, could, best);
+  return LeastChoice(tree, far, could, best);
+}
+
+// Its objective; +∞ without one.
+template <typename Corner, typename Could>
+double LeastObjective(const BoxTree<Corner>& tree, int node, const Could& could) {
+  const int least = LeastChoice(tree, node, could);
+  return least < 0 ? kUnlimited : tree.corners[least].objective;
 }
 
 }  // namespace plenum::optimizer

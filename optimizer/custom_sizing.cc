@@ -14,6 +14,8 @@ namespace {
 constexpr double kTolerance = 1e-7, kEnergyTolerance = 4e-7, kLateTolerance = 8e-7;
 constexpr int kLateSteps = 1000;
 constexpr int kStepsPerRefine = 4;
+constexpr int kOfferEvaluationsMax = 300;  // a point is wanted; rectangles prove it
+constexpr int kFirstOfferSteps = 100;
 constexpr int kStepsMax = 40000, kEnergyStepsMax = 2500;
 constexpr double kPressureShare = 0.1;  // of the width of the volumes, to which p1 is raised
 constexpr double kFinest = 1e-10;       // relative width that is not divided any more
@@ -141,7 +143,7 @@ bool CustomSizing::Judge(Region& region, double tolerance) {
     if (failed_) return true;
     if (!(room_low > 0.0)) return false;
     region.bound = std::max(region.bound, objective);
-    region.coils_differ = bounds.coil_gap_j > bounds.pump_gap_j;
+    region.pressures_differ = bounds.pressures_gap_j > bounds.volumes_gap_j;
     if (!(Width(box.low_pa, box.high_pa) > tolerance)) return true;
     const double room_high = room(box.high_pa);
     if (room_high > 0.0 || failed_) return true;
@@ -159,7 +161,7 @@ void CustomSizing::Divide(const Region& region) {
   Region lower = region, upper = region;
   lower.examined = upper.examined = false;
   if (pressures > kFinest &&
-      ((region.coils_differ && pressures > kPressureShare * volumes) || !(volumes > kFinest))) {
+      ((region.pressures_differ && pressures > kPressureShare * volumes) || !(volumes > kFinest))) {
     lower.box.high_pa = upper.box.low_pa = 0.5 * (box.low_pa + box.high_pa);
   } else if (volumes > kFinest) {
     lower.box.high_m3 = upper.box.low_m3 = std::sqrt(box.low_m3 * box.high_m3);
@@ -174,7 +176,10 @@ void CustomSizing::Divide(const Region& region) {
 
 void CustomSizing::OfferIfNarrow(const Region& region) {
   const double width = Width(region.box.low_m3, region.box.high_m3);
-  if (width > kFirstNarrow || (width > narrow_ && steps_ < next_offer_)) return;
+  const bool narrow = width <= kFirstNarrow && (width <= narrow_ || steps_ >= next_offer_);
+  const bool empty_handed =
+      std::isinf(leaf_.objective) && steps_ >= std::max(kFirstOfferSteps, next_offer_);
+  if (!narrow && !empty_handed) return;
   narrow_ = kNarrower * width;
   next_offer_ = 2 * steps_;
   if (Offer(ALittleMore(region.box.high_m3))) Polish();
@@ -197,8 +202,7 @@ bool CustomSizing::Offer(double volume_m3) {
   if (ObjectiveOf(problem_.objective, TotalAmounts(problem_, candidate_, volume_m3)) >=
       leaf_.objective)
     return false;
-  const Leaf leaf = SizeAtVolume(problem_, candidate_, volume_m3);
-  failed_ = failed_ || leaf.status == LeafStatus::kUndecided;
+  const Leaf leaf = SizeAtVolume(problem_, candidate_, volume_m3, kOfferEvaluationsMax);
   if (leaf.status != LeafStatus::kFeasible || leaf.objective >= leaf_.objective) return false;
   leaf_.point = leaf.point;
   leaf_.objective = leaf.objective;

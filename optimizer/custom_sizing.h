@@ -3,8 +3,8 @@
 //
 // A rectangle is closed where the bounds that hold for all of it (settings_bounds.h) break a
 // requirement or lie above the best point found. Points come from the sizing at one volume, once a
-// rectangle that is still open is narrow, and from there by Ipopt: a leaf that its bounds rule out
-// is never handed to a solver.
+// rectangle that is still open is narrow or so many have been looked at that some point should be
+// known, and from there by Ipopt: a leaf that its bounds rule out is never handed to a solver.
 #ifndef PLENUM_OPTIMIZER_CUSTOM_SIZING_H_
 #define PLENUM_OPTIMIZER_CUSTOM_SIZING_H_
 
@@ -39,7 +39,7 @@ class CustomSizing {
     SettingsBox box;
     double bound = 0.0;  // of the objective
     bool examined = false;
-    bool coils_differ = false;  // more than the pumps
+    bool pressures_differ = false;  // and cost more of the bound than its volumes
     bool operator<(const Region& other) const { return bound > other.bound; }  // lowest on top
   };
   bool Decided() const;

@@ -34,33 +34,39 @@ struct PumpTables {
   std::vector<double> energy_j_per_m3, seconds_per_m3, current_a;
 };
 
-// `low_w`, `high_w`: power at the ends.
-double LeastPower(const model::CompressorCurve& curve, double low_pa, double low_w, double high_pa,
-                  double high_w) {
-  double least_w = std::min(low_w, high_w);
-  for (double knot : curve.current_a.x())
-    if (knot > low_pa && knot < high_pa)
-      least_w = std::min(least_w, model::ElectricalPower(curve, knot));
-  return least_w;
-}
-
 void MakeNonFalling(std::vector<double>& values) {
   for (std::size_t i = values.size() - 1; i-- > 0;) values[i] = std::min(values[i], values[i + 1]);
 }
 
 PumpTables MakeTables(const model::CompressorCurve& curve, int pumps,
                       const std::vector<double>& edges) {
+  const model::MonotoneCurve& current = curve.current_a;
+  const auto current_at = [&](double pressure_pa) {
+    return current.empty() ? 0.0
+                           : current(std::clamp(pressure_pa, current.front(), current.back()));
+  };
   PumpTables tables;
-  double high_w = model::ElectricalPower(curve, edges.front());
+  for (std::vector<double>* table :
+       {&tables.energy_j_per_m3, &tables.seconds_per_m3, &tables.current_a})
+    table->reserve(edges.size() - 1);
+  std::size_t knot = 0;
+  while (knot < current.x().size() && current.x()[knot] <= edges.front()) ++knot;
+  double high_a = current_at(edges.front()), largest_a = high_a;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    const double delivery = model::FreeAirDelivery(curve, edges[i]);
-    const double low_w = high_w;
-    high_w = model::ElectricalPower(curve, edges[i + 1]);
-    const double power_w = LeastPower(curve, edges[i], low_w, edges[i + 1], high_w);
+    tables.current_a.push_back(pumps * largest_a);
+    const double low_a = high_a;
+    high_a = current_at(edges[i + 1]);
+    double least_a = std::min(low_a, high_a);
+    for (; knot < current.x().size() && current.x()[knot] < edges[i + 1]; ++knot) {
+      least_a = std::min(least_a, current.y()[knot]);
+      largest_a = std::max(largest_a, current.y()[knot]);
+    }
+    largest_a = std::max(largest_a, high_a);
     // Past the last delivery nothing can be pumped; a large number keeps integrals finite.
+    const double delivery = model::FreeAirDelivery(curve, edges[i]);
+    const double power_w = curve.voltage_v * least_a;
     tables.energy_j_per_m3.push_back(delivery > 0.0 ? power_w / delivery : kNoDelivery);
     tables.seconds_per_m3.push_back(delivery > 0.0 ? 1.0 / (pumps * delivery) : kNoDelivery);
-    tables.current_a.push_back(pumps * model::LargestCurrent(curve, edges.front(), edges[i]));
   }
   MakeNonFalling(tables.energy_j_per_m3);
   MakeNonFalling(tables.seconds_per_m3);
@@ -367,6 +373,34 @@ bool EnergyMayGrow(const Problem& problem, const PumpLoad& load) {
                                [](const Line* line) { return line->all_hold; });
 }
 
+namespace {
+
+// Coils of the mission at a stop pressure, at least.
+double CoilEnergyAt(const Problem& problem, const PumpFacts& facts, const PumpLoad& load,
+                    const ReservoirNeed& need, double source_pa) {
+  double energy_j = 0.0;
+  for (int g = 0; g < static_cast<int>(load.lines.size()); ++g) {
+    const Line& line = *load.lines[g];
+    const double inflate_s =
+        line.all_hold
+            ? std::max(line.inflate_time_least_s,
+                       LeastInflateTime(problem, g, line, facts,
+                                        {source_pa, source_pa, need.low_m3, need.high_m3}))
+            : 0.0;
+    energy_j += CoilEnergyPerCycle(problem, line, inflate_s);
+  }
+  return problem.actuations * energy_j;
+}
+
+}  // namespace
+
+double MissionEnergyAtLeastPressure(const Problem& problem, const PumpFacts& facts,
+                                    const PumpLoad& load, const ReservoirNeed& need) {
+  if (!EnergyMayGrow(problem, load)) return need.energy_j;
+  return need.energy_j - problem.actuations * load.coil_j +
+         CoilEnergyAt(problem, facts, load, need, need.source_pa);
+}
+
 // The pumps take no less at a higher stop pressure while coils that are energised only for the
 // strokes take no more: of each interval of pressures the lower end counts for the pumps and the
 // upper end for the coils. The interval with the least energy is divided.
@@ -385,18 +419,7 @@ double LeastMissionEnergy(const Problem& problem, const PumpFacts& facts, const 
                 : kUnlimited;
   };
   const auto coils_j = [&](double source_pa) {
-    double energy_j = 0.0;
-    for (int g = 0; g < static_cast<int>(load.lines.size()); ++g) {
-      const Line& line = *load.lines[g];
-      const double inflate_s =
-          line.all_hold
-              ? std::max(line.inflate_time_least_s,
-                         LeastInflateTime(problem, g, line, facts,
-                                          {source_pa, source_pa, need.low_m3, need.high_m3}))
-              : 0.0;
-      energy_j += CoilEnergyPerCycle(problem, line, inflate_s);
-    }
-    return problem.actuations * energy_j;
+    return CoilEnergyAt(problem, facts, load, need, source_pa);
   };
   const double pump_j = need.energy_j - least_coils_j;
   if (!(coils_j(need.source_pa) > least_coils_j + kWorthwhile * need.energy_j))

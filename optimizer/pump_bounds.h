@@ -129,9 +129,12 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
 // raises it, where all strokes begin at once.
 bool EnergyMayGrow(const Problem& problem, const PumpLoad& load);
 // Energy of the mission at any stop pressure in between, at least, by so many divisions of the
-// pressures; `need` as LeastReservoirNeed gave it for the same load.
+// pressures, and no less than that: what is counted at the lowest of them. `need` as
+// LeastReservoirNeed gave it for the same load.
 double LeastMissionEnergy(const Problem& problem, const PumpFacts& facts, const PumpLoad& load,
                           const ReservoirNeed& need, int divisions);
+double MissionEnergyAtLeastPressure(const Problem& problem, const PumpFacts& facts,
+                                    const PumpLoad& load, const ReservoirNeed& need);
 
 // Both for a candidate whose compressor and lines are chosen, by intervals of volumes that
 // divide [low, high]; intervals that will not do are left out.

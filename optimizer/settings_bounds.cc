@@ -65,9 +65,10 @@ double MostAbove(const Problem& problem, const Candidate& candidate, const Setti
   return box.high_pa - box.low_pa + (1.0 / box.low_m3 - 1.0 / box.high_m3) * content;
 }
 
-// Sets the time and energy that the pumps at least take in a cycle, from the low run.
-void BoundPumps(const Problem& problem, const Candidate& candidate, const PumpTrend& trend,
-                const SettingsBox& box, const Strokes& low, Strokes& least) {
+// Sets the time and energy that the pumps at least take in a cycle, from the low run, and returns
+// what of the energy is left out since the pressures of the box lie apart.
+double BoundPumps(const Problem& problem, const Candidate& candidate, const PumpTrend& trend,
+                  const SettingsBox& box, const Strokes& low, Strokes& least) {
   const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
   const double excess_m3 =
       low.from_full || AllHold(candidate)
@@ -79,12 +80,14 @@ void BoundPumps(const Problem& problem, const Candidate& candidate, const PumpTr
   const double excess_s = excess_m3 > 0.0 ? excess_m3 / delivery : 0.0;
   const double power_w = curve.voltage_v * candidate.compressor.quantity *
                          model::LargestCurrent(curve, problem.ambient.pressure_pa, box.low_pa);
+  const double fall_j_per_pa =
+      trend.rises ? 0.0 : trend.fall.EnergyPerAir(box.high_pa) * low.pump_air_m3;
   double energy_j = low.pump_energy_j - excess_s * power_w;
-  if (!trend.rises)
-    energy_j -= trend.fall.EnergyPerAir(box.high_pa) * low.pump_air_m3 *
-                MostAbove(problem, candidate, box, low);
+  if (fall_j_per_pa > 0.0) energy_j -= fall_j_per_pa * MostAbove(problem, candidate, box, low);
   least.pump_on_s = std::max(0.0, low.pump_on_s - excess_s);
   least.pump_energy_j = std::max(0.0, energy_j);
+  return std::min(fall_j_per_pa * (box.high_pa - box.low_pa),
+                  low.pump_energy_j - least.pump_energy_j);
 }
 
 }  // namespace
@@ -111,10 +114,11 @@ LeastEvaluation LeastOver(const Problem& problem, const Candidate& candidate,
   least.pump_on_s = least.pump_energy_j = 0.0;
   least.failed = low.failed;
   if (low.works) {
-    BoundPumps(problem, candidate, trend, box, low, least);
-    result.coil_gap_j =
-        CoilEnergy(problem, candidate, low) - CoilEnergy(problem, candidate, fastest);
-    result.pump_gap_j = problem.actuations * (low.pump_energy_j - least.pump_energy_j);
+    const double pumps_j =
+        problem.actuations * BoundPumps(problem, candidate, trend, box, low, least);
+    result.pressures_gap_j =
+        CoilEnergy(problem, candidate, low) - CoilEnergy(problem, candidate, fastest) + pumps_j;
+    result.volumes_gap_j = problem.actuations * (low.pump_energy_j - least.pump_energy_j) - pumps_j;
   }
   const OperatingPoint judged{box.low_pa, box.low_m3, box.low_m3};
   result.least = EvaluateWith(least, problem, candidate, judged);

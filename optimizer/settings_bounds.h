@@ -51,8 +51,10 @@ struct LeastEvaluation {
   // Each number at its best: to be judged at p1 and V1. Energy counts no pumps where no bound on
   // them is known.
   Evaluation least;
-  // About how much less energy of the mission is counted than a pair of settings takes, J.
-  double coil_gap_j = 0.0, pump_gap_j = 0.0;
+  // About how much less energy of the mission is counted than a pair of settings takes, J: because
+  // the pressures of the box lie apart, which coils and pumps that take less at higher pressure
+  // ask about, and because its volumes do.
+  double pressures_gap_j = 0.0, volumes_gap_j = 0.0;
 };
 // `fastest`: FastestStrokes, that work, of the box or of one that holds it. Without effects.
 LeastEvaluation LeastOver(const Problem& problem, const Candidate& candidate,

@@ -14,7 +14,6 @@ namespace plenum::optimizer {
 namespace {
 
 constexpr double kFirstStep = 1e-3, kStepGrowth = 8.0;  // of the source pressure
-constexpr int kEvaluationsMax = 20000;
 constexpr double kObjectiveTolerance = 4e-7;
 
 // Coils of all cycles at any source pressure, at least.
@@ -48,10 +47,12 @@ SteepestFall PumpFall(const Problem& problem, const Candidate& candidate) {
 // (pump_slope.h).
 class PressureSearch {
  public:
-  PressureSearch(const Problem& problem, const Candidate& candidate, double reservoir_m3)
+  PressureSearch(const Problem& problem, const Candidate& candidate, double reservoir_m3,
+                 int evaluations_max)
       : problem_(problem),
         candidate_(candidate),
         reservoir_m3_(reservoir_m3),
+        evaluations_max_(evaluations_max),
         rises_(PumpEnergyRises(problem, candidate)),
         pump_fall_(PumpFall(problem, candidate)),
         least_coils_j_(LeastCoilEnergy(problem, candidate)),
@@ -64,7 +65,7 @@ class PressureSearch {
     // Without energy in the objective the lowest pressure that works is as good as any.
     if (std::isfinite(leaf_.objective) && problem_.objective.energy_wh == 0.0) return Done();
     if (high_pa > low_pa) Open(low_pa, low, high_pa, Try(high_pa));
-    while (!open_.empty() && evaluations_ < kEvaluationsMax && !failed_ && !candidate_.stopped()) {
+    while (!open_.empty() && evaluations_ < evaluations_max_ && !failed_ && !candidate_.stopped()) {
       if (open_.top().bound >= leaf_.objective * (1.0 - kObjectiveTolerance)) return Done();
       const Interval interval = open_.top();
       open_.pop();
@@ -154,6 +155,7 @@ class PressureSearch {
   const Problem& problem_;
   const Candidate& candidate_;
   double reservoir_m3_;
+  int evaluations_max_;
   bool rises_;  // so do duty and energy of the pumps
   SteepestFall pump_fall_;
   double least_coils_j_;
@@ -213,11 +215,12 @@ NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& can
   return {failed ? LeafStatus::kUndecided : LeafStatus::kFeasible, needed.high, needed.low};
 }
 
-Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3) {
+Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
+                  int evaluations_max) {
   const NeededPressure needed =
       NeededSourcePressure(problem, candidate, {0.0, reservoir_m3, reservoir_m3});
   if (needed.status == LeafStatus::kFeasible)
-    return PressureSearch(problem, candidate, reservoir_m3)
+    return PressureSearch(problem, candidate, reservoir_m3, evaluations_max)
         .Run(needed.source_pa, SourceWindow(problem, candidate).high_pa);
   Leaf leaf;
   leaf.status = needed.status;

@@ -21,8 +21,11 @@ struct Leaf {
 };
 
 // Settings with the volume given (stock reservoir; 0 where the configuration has none). Where the
-// solver fails or is stopped: the best so far with a bound that holds, or kUndecided.
-Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3);
+// solver fails or is stopped, or after so many evaluations: the best so far with a bound that
+// holds, or kUndecided.
+inline constexpr int kSizingEvaluationsMax = 20000;
+Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
+                  int evaluations_max = kSizingEvaluationsMax);
 
 // All relative margins of an evaluation that works, strokes first and limited to 1: what a solver
 // keeps ≥ 0. The smallest of them, or −∞ where nothing works.

@@ -113,6 +113,14 @@ TEST(Measurement, EveryErrorIsNamedAtOnceWithItsPlace) {
   EXPECT_EQ(Bad(document).size(), 4u);
 }
 
+TEST(Measurement, AnAmbientPressureOfTheWrongUnitIsTheOnlyErrorItMakes) {
+  Json document = Example();
+  document["rig"]["ambient"]["pressure_kpa_abs"] = 0.98;
+  const Errors errors = Bad(document);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].pointer, "/rig/ambient/pressure_kpa_abs");
+}
+
 TEST(Measurement, FilesThatTellNothingAreRefused) {
   Json unsorted = Example();
   unsorted["runs"][0]["t_s"][5] = 0.1;

@@ -248,7 +248,7 @@ TEST(BruteForceTest, AllConfigurationsTogether) {
 
 // Everything at once: sources, objectives, one to three groups, numbers of designs, parts in
 // parallel, parts that are required or excluded. PLENUM_BRUTE_FORCE sets the number of problems
-// (1000 take some minutes).
+// (1000 take some minutes), PLENUM_BRUTE_FORCE_FIRST the first seed.
 
 Problem DrawnAtRandom(std::uint64_t seed) {
   constexpr optimizer::Objective kObjectives[] = {{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0},
@@ -294,11 +294,12 @@ Problem DrawnAtRandom(std::uint64_t seed) {
 TEST(BruteForceTest, EverythingAtRandom) {
   const char* wanted = std::getenv("PLENUM_BRUTE_FORCE");
   const int problems = wanted != nullptr ? std::atoi(wanted) : kSanitized ? 10 : 60;
+  const char* first = std::getenv("PLENUM_BRUTE_FORCE_FIRST");
+  const std::uint64_t begin = first != nullptr ? std::strtoull(first, nullptr, 10) : 1;
   Tally tally;
-  for (int seed = 1; seed <= problems; ++seed) {
-    const Problem problem = DrawnAtRandom(static_cast<std::uint64_t>(seed));
-    SCOPED_TRACE(Trace(static_cast<std::uint64_t>(seed), problem) + " groups " +
-                 std::to_string(problem.groups.size()) +
+  for (std::uint64_t seed = begin; seed < begin + static_cast<std::uint64_t>(problems); ++seed) {
+    const Problem problem = DrawnAtRandom(seed);
+    SCOPED_TRACE(Trace(seed, problem) + " groups " + std::to_string(problem.groups.size()) +
                  (problem.simultaneous ? " together" : " in turns") + ", " +
                  std::to_string(problem.count) + " wanted");
     Compare(problem, tally);
