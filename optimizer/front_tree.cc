@@ -1,12 +1,12 @@
 #include "optimizer/front_tree.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "optimizer/front_clock.h"
 #include "optimizer/leaf_sizing.h"
 #include "optimizer/queue.h"
 #include "optimizer/report.h"
@@ -16,9 +16,6 @@
 namespace plenum::optimizer {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr double kProgressIntervalS = 0.2;
 constexpr double kNoLimit = 1e12;  // finite: dominance compares what is limited
 // A point so far below the line through a region's ends divides it; of the distance from the line
 // to the region's corner.
@@ -39,14 +36,6 @@ struct Node {
 using NodePtr = std::unique_ptr<Node>;
 using Nodes = std::vector<NodePtr>;
 
-struct LowestKey {
-  bool operator()(const NodePtr& a, const NodePtr& b) const {
-    if (a->key != b->key) return a->key > b->key;
-    if (a->depth != b->depth) return a->depth < b->depth;
-    return a->serial > b->serial;
-  }
-};
-
 // Between two points of the front, and the boxes that it may need.
 struct Region {
   Pair left, right;
@@ -60,8 +49,8 @@ class FrontTree {
       : problem_(problem),
         amounts_(amounts),
         first_(first),
-        options_(options),
-        bench_{[this] { return Stopped(); }, options.periodic},
+        clock_(options),
+        bench_{[this] { return clock_.Stopped(); }, options.periodic},
         stairs_(first) {
     for (Amount amount : amounts) {
       double& limit = LimitOn(amount, problem_);
@@ -74,24 +63,18 @@ class FrontTree {
     Weigh({inverse(first_[0]), inverse(first_[1])});
     Region whole{first_, {kUnlimited, 0.0}, Plant()};
     FindFarEnd(whole);
-    if (stairs_.points().size() > 1 || Stopped()) regions_.push_back(std::move(whole));
-    while (!regions_.empty() && !Stopped()) {
+    if (stairs_.points().size() > 1 || clock_.Stopped()) regions_.push_back(std::move(whole));
+    while (!regions_.empty() && !clock_.Stopped()) {
       Region region = std::move(regions_.back());
       regions_.pop_back();
       Explore(std::move(region));
     }
     for (const Region& region : regions_) LeaveOpen(region);
+    part_.cancelled = clock_.cancelled();
     return std::move(part_);
   }
 
  private:
-  double Seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
-  bool Stopped() {
-    part_.cancelled = part_.cancelled || (options_.cancelled && options_.cancelled());
-    return part_.cancelled || Seconds() > options_.time_limit_s;
-  }
-
   void Weigh(const Pair& weights) {
     weights_ = weights;
     ++weighing_;
@@ -134,7 +117,7 @@ class FrontTree {
   void FindFarEnd(Region& whole) {
     Weigh({0.0, 1.0});
     Open(whole);
-    while (!open_.empty() && !Stopped())
+    while (!open_.empty() && !clock_.Stopped())
       if (const std::optional<Pair> point = Next()) {
         whole.right = *point;
         break;
@@ -151,14 +134,14 @@ class FrontTree {
     Weigh({1.0 / sides[0], 1.0 / sides[1]});
     Open(region);
     bool alone = true;  // no point of the region is found yet
-    while (!open_.empty() && !Stopped()) {
+    while (!open_.empty() && !clock_.Stopped()) {
       const std::optional<Pair> point = Next();
       const Pair corner{region.left[0], region.right[1]};
       if (point && alone && Weighted(*point) - Weighted(corner) < 1.0 - kHullDepth)
         return Divide(region, *point);
       alone = alone && !point;
     }
-    if (Stopped()) return regions_.push_back(std::move(region));
+    if (clock_.Stopped()) return regions_.push_back(std::move(region));
     PassOn(parked_);
   }
 
@@ -270,7 +253,7 @@ class FrontTree {
       Push(std::move(node), 0.0);
       return;
     }
-    if (leaf->status == LeafStatus::kUndecided && Stopped()) {
+    if (leaf->status == LeafStatus::kUndecided && clock_.Stopped()) {
       const double bound = node->box.bound;
       Push(std::move(node), bound);
       return;
@@ -291,7 +274,7 @@ class FrontTree {
     const Candidate candidate = node->bounds->CandidateOf(node->box);
     std::optional<Design> design = MakeDesign(problem_, candidate, *node->leaf);
     if (!design) {
-      if (!Stopped()) LeaveOpen(node->low);
+      if (!clock_.Stopped()) LeaveOpen(node->low);
       return std::nullopt;
     }
     const Pair point{Of(amounts_[0], design->totals), Of(amounts_[1], design->totals)};
@@ -318,22 +301,17 @@ class FrontTree {
   }
 
   void Report() {
-    const double seconds = Seconds();
-    if (!options_.progress || seconds - reported_s_ < kProgressIntervalS) return;
-    reported_s_ = seconds;
     Progress progress;
-    progress.seconds = seconds;
     progress.evaluated = static_cast<long long>(part_.designs.size());
     progress.open = static_cast<long long>(open_.size());
     progress.lower_bound = first_[0];
-    options_.progress(progress);
+    clock_.Report(progress);
   }
 
   Problem problem_;
   const std::array<Amount, 2> amounts_;
   const Pair first_;
-  const SearchOptions& options_;
-  const Clock::time_point start_ = Clock::now();
+  FrontClock clock_;
   Workbench bench_;
   Stairs stairs_;
   std::vector<std::unique_ptr<Plan>> plans_;
@@ -345,7 +323,6 @@ class FrontTree {
   Nodes parked_;  // that the region does not admit
   FrontPart part_;
   long long serial_ = 0;
-  double reported_s_ = 0.0;
 };
 
 }  // namespace

@@ -1,21 +1,17 @@
 #include "optimizer/front_walk.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
 
+#include "optimizer/front_clock.h"
 #include "optimizer/leaf_sizing.h"
 #include "optimizer/queue.h"
 #include "optimizer/report.h"
 
 namespace plenum::optimizer {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-constexpr double kProgressIntervalS = 0.2;
 
 struct Node {
   Box box;
@@ -29,14 +25,6 @@ struct Node {
 };
 using NodePtr = std::unique_ptr<Node>;
 
-struct LowestKey {
-  bool operator()(const NodePtr& a, const NodePtr& b) const {
-    if (a->key != b->key) return a->key > b->key;
-    if (a->depth != b->depth) return a->depth < b->depth;
-    return a->serial > b->serial;
-  }
-};
-
 class Walker {
  public:
   Walker(const Problem& problem, Amount limited, double resolution, const SearchOptions& options)
@@ -44,27 +32,21 @@ class Walker {
         limited_(limited),
         limit_(LimitOn(limited, problem_)),
         resolution_(resolution),
-        options_(options),
-        bench_{[this] { return Stopped(); }, options.periodic} {}
+        clock_(options),
+        bench_{[this] { return clock_.Stopped(); }, options.periodic} {}
 
   FrontPart Run() {
     const bool planted = Plant();
-    while (!open_.empty() && !Stopped()) {
+    while (!open_.empty() && !clock_.Stopped()) {
       Report();
       Step(open_.Pop());
     }
     if (!planted || !open_.empty()) LeaveOpen(planted ? open_.top()->key : 0.0);
+    walk_.cancelled = clock_.cancelled();
     return std::move(walk_);
   }
 
  private:
-  double Seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
-  bool Stopped() {
-    walk_.cancelled = walk_.cancelled || (options_.cancelled && options_.cancelled());
-    return walk_.cancelled || Seconds() > options_.time_limit_s;
-  }
-
   void LeaveOpen(double least) { walk_.open.push_back({{kUnlimited, limit_}, least}); }
 
   // False if stopped on the way.
@@ -136,7 +118,7 @@ class Walker {
     node->sizing.reset();
     const Leaf leaf = *sized;
     const double bound = std::max(node->box.bound, leaf.lower_bound);
-    if (leaf.status == LeafStatus::kUndecided && Stopped()) {
+    if (leaf.status == LeafStatus::kUndecided && clock_.Stopped()) {
       Push(std::move(node), bound);
       return;
     }
@@ -161,7 +143,7 @@ class Walker {
     }
     std::optional<Design> design = MakeDesign(problem_, candidate, leaf);
     if (!design) {
-      if (Stopped())
+      if (clock_.Stopped())
         Push(std::move(node), leaf.objective);
       else
         LeaveOpen(leaf.objective);
@@ -182,29 +164,23 @@ class Walker {
   }
 
   void Report() {
-    const double seconds = Seconds();
-    if (!options_.progress || seconds - reported_s_ < kProgressIntervalS) return;
-    reported_s_ = seconds;
     Progress progress;
-    progress.seconds = seconds;
     progress.open = static_cast<long long>(open_.size());
     progress.lower_bound = open_.top()->key;
-    options_.progress(progress);
+    clock_.Report(progress);
   }
 
   Problem problem_;
   const Amount limited_;
   double& limit_;  // in problem_
   const double resolution_;
-  const SearchOptions& options_;
-  const Clock::time_point start_ = Clock::now();
+  FrontClock clock_;
   Workbench bench_;
   std::vector<std::unique_ptr<Plan>> plans_;
   std::vector<std::unique_ptr<Bounds>> bounds_;
   Queue<NodePtr, LowestKey> open_;
   FrontPart walk_;
   long long serial_ = 0;
-  double reported_s_ = 0.0;
 };
 
 }  // namespace

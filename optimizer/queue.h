@@ -32,6 +32,15 @@ class Queue {
   std::vector<Item> items_;
 };
 
+// Lowest key first; of equal ones the deepest, of these the one that was pushed first.
+struct LowestKey {
+  bool operator()(const auto& a, const auto& b) const {
+    if (a->key != b->key) return a->key > b->key;
+    if (a->depth != b->depth) return a->depth < b->depth;
+    return a->serial > b->serial;
+  }
+};
+
 }  // namespace plenum::optimizer
 
 #endif  // PLENUM_OPTIMIZER_QUEUE_H_

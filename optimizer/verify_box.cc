@@ -148,6 +148,24 @@ bool BoxCheck::IsBeyond(const Ranges& ranges) {
          corners_.LeastObjective(ranges, claim_.least) > claim_.least;
 }
 
+// Whether what no battery changes, the energy that strokes take, is too much already. The parts
+// beside the batteries are sized once, without limits that a battery sets.
+bool BoxCheck::IsCoreBeyond(const Ranges& ranges, int battery_slot) {
+  if (!(problem_.objective.energy_wh > 0.0)) return false;
+  const double enough = std::max(claim_.least, claim_.tie_end);
+  Ranges core = ranges;
+  core[battery_slot] = {0, 1};
+  if (CountOf(core) > 1) return false;
+  if (core != core_) {
+    Assembly assembly = AssemblyAt(problem_, plan_, core);
+    assembly.battery = nullptr;
+    looks_ += kLooksPerSize;
+    core_ = core;
+    core_least_ = sizer_.Size(assembly, -kToSpare, enough).lower_bound;
+  }
+  return core_least_ > enough;
+}
+
 BigCount BoxCheck::Recheck(const Ranges& ranges, Findings& findings) {
   BigCount open = 0;
   std::vector<Ranges> waiting{ranges};
@@ -161,6 +179,8 @@ BigCount BoxCheck::Recheck(const Ranges& ranges, Findings& findings) {
       continue;
     }
     const int slot = SlotToDivide(plan_, corners_, part);
+    if (slot >= 0 && plan_.slots[slot].family == Family::kBattery && IsCoreBeyond(part, slot))
+      continue;
     if (slot < 0) {
       looks_ += kLooksPerSize;
       if (!IsSettled(part, findings)) open += 1;

@@ -55,6 +55,7 @@ class BoxCheck {
  private:
   bool Holds(double objective, const Ranges& single) const;
   bool IsBeyond(const Ranges& ranges);
+  bool IsCoreBeyond(const Ranges& ranges, int battery_slot);
   bool IsSettled(const Ranges& single, Findings& findings);
 
   const Problem& problem_;
@@ -63,6 +64,8 @@ class BoxCheck {
   KnownStrokes strokes_;
   Corners corners_;
   Sizer sizer_;
+  Ranges core_;  // the last one that was sized, and its objective at least
+  double core_least_ = 0.0;
   long long looks_ = 0;
 };
 

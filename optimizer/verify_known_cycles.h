@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "optimizer/verify_cycle.h"
+#include "optimizer/verify_pump_curve.h"
 
 namespace plenum::optimizer {
 
@@ -14,7 +15,7 @@ namespace plenum::optimizer {
 class KnownCycles {
  public:
   KnownCycles(const Problem& problem, const Assembly& assembly)
-      : assembly_(assembly), quick_(problem, assembly_) {}
+      : problem_(problem), assembly_(assembly), quick_(problem, assembly_) {}
   KnownCycles(const KnownCycles&) = delete;
   KnownCycles& operator=(const KnownCycles&) = delete;
 
@@ -22,6 +23,17 @@ class KnownCycles {
     return other.configuration == assembly_.configuration && other.lines == assembly_.lines &&
            other.regulator == assembly_.regulator && other.co2 == assembly_.co2 &&
            other.compressor == assembly_.compressor && other.compressors == assembly_.compressors;
+  }
+
+  // By energy per air, or by power where groups take turns (verify_size.h); of all the pressures
+  // up to the source's.
+  double PumpHeld(double high_pa) {
+    const auto [entry, fresh] = held_.try_emplace(high_pa);
+    if (!fresh) return entry->second;
+    const model::CompressorCurve& curve = assembly_.compressor->curve;
+    const bool together = problem_.simultaneous || problem_.groups.size() == 1;
+    return entry->second = (together ? EnergyPerAirHeld : PowerHeld)(
+               curve, problem_.ambient.pressure_pa, high_pa);
   }
 
   const std::optional<Cycle>& At(const Settings& settings, double rising_m3) {
@@ -32,9 +44,11 @@ class KnownCycles {
   }
 
  private:
+  const Problem& problem_;
   const Assembly assembly_;
   const QuickCycles quick_;
   std::map<std::array<double, 3>, std::optional<Cycle>> known_;
+  std::map<double, double> held_;
 };
 
 }  // namespace plenum::optimizer

@@ -10,39 +10,29 @@ namespace {
 constexpr int kGrid = 500;
 
 template <typename Value>
-bool Rises(const model::CompressorCurve& curve, double ambient_pa, const Value& value) {
-  double before = 0.0;
-  for (int i = 0; i < kGrid; ++i) {
-    const double pa = ambient_pa + (model::HighestPressure(curve) - ambient_pa) * i / kGrid;
-    if (!(model::FreeAirDelivery(curve, pa) > 0.0)) return true;
+double Held(const model::CompressorCurve& curve, double low_pa, double high_pa,
+            const Value& value) {
+  double most = 0.0, held = 1.0;
+  for (int i = 0; i <= kGrid; ++i) {
+    const double pa = low_pa + (high_pa - low_pa) * i / kGrid;
+    if (!(model::FreeAirDelivery(curve, pa) > 0.0)) break;
     const double now = value(pa);
-    if (now < before * (1.0 - kSumTolerance)) return false;
-    before = now;
+    if (now < most * (1.0 - kSumTolerance)) held = std::min(held, now / most);
+    most = std::max(most, now);
   }
-  return true;
-}
-
-double EnergyPerAir(const model::CompressorCurve& curve, double pressure_pa) {
-  return model::ElectricalPower(curve, pressure_pa) / model::FreeAirDelivery(curve, pressure_pa);
+  return held;
 }
 
 }  // namespace
 
-bool EnergyPerAirRises(const model::CompressorCurve& curve, double ambient_pa) {
-  return Rises(curve, ambient_pa, [&](double pa) { return EnergyPerAir(curve, pa); });
+double EnergyPerAirHeld(const model::CompressorCurve& curve, double low_pa, double high_pa) {
+  return Held(curve, low_pa, high_pa, [&](double pa) {
+    return model::ElectricalPower(curve, pa) / model::FreeAirDelivery(curve, pa);
+  });
 }
 
-bool PowerRises(const model::CompressorCurve& curve, double ambient_pa) {
-  return Rises(curve, ambient_pa, [&](double pa) { return model::ElectricalPower(curve, pa); });
-}
-
-double LeastEnergyPerAir(const model::CompressorCurve& curve, double ambient_pa) {
-  double least = kUnlimited;
-  for (int i = 0; i < kGrid; ++i) {
-    const double pa = ambient_pa + (model::HighestPressure(curve) - ambient_pa) * i / kGrid;
-    if (model::FreeAirDelivery(curve, pa) > 0.0) least = std::min(least, EnergyPerAir(curve, pa));
-  }
-  return least;
+double PowerHeld(const model::CompressorCurve& curve, double low_pa, double high_pa) {
+  return Held(curve, low_pa, high_pa, [&](double pa) { return model::ElectricalPower(curve, pa); });
 }
 
 }  // namespace plenum::optimizer

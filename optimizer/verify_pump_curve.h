@@ -1,4 +1,4 @@
-// What a pump's table says of energy and air, on a fine grid. Internal to verify*.cc.
+// How what a pump takes changes with pressure, on a fine grid. Internal to verify*.cc.
 #ifndef PLENUM_OPTIMIZER_VERIFY_PUMP_CURVE_H_
 #define PLENUM_OPTIMIZER_VERIFY_PUMP_CURVE_H_
 
@@ -6,12 +6,10 @@
 
 namespace plenum::optimizer {
 
-// Whether energy per air, or power alone, rises with pressure.
-bool EnergyPerAirRises(const model::CompressorCurve& curve, double ambient_pa);
-bool PowerRises(const model::CompressorCurve& curve, double ambient_pa);
-
-// J/m³ ANR, at the pressure where it is least.
-double LeastEnergyPerAir(const model::CompressorCurve& curve, double ambient_pa);
+// The least that energy per air, or power alone, at some pressure up to `high_pa` is of what it is
+// at a lower one, as a ratio: 1 where it rises all the way.
+double EnergyPerAirHeld(const model::CompressorCurve& curve, double low_pa, double high_pa);
+double PowerHeld(const model::CompressorCurve& curve, double low_pa, double high_pa);
 
 }  // namespace plenum::optimizer
 

@@ -228,7 +228,8 @@ bool FlowMustBeEqual(const Problem& problem, Configuration configuration) {
   return groups > 1 ||
          !std::all_of(problem.parts.compressors.begin(), problem.parts.compressors.end(),
                       [&](const model::Compressor& pump) {
-                        return EnergyPerAirRises(pump.curve, problem.ambient.pressure_pa);
+                        return EnergyPerAirHeld(pump.curve, problem.ambient.pressure_pa,
+                                                model::HighestPressure(pump.curve)) == 1.0;
                       });
 }
 

@@ -5,7 +5,6 @@
 #include <queue>
 
 #include "model/storage.h"
-#include "optimizer/verify_pump_curve.h"
 #include "optimizer/verify_supply.h"
 
 namespace plenum::optimizer {
@@ -49,13 +48,7 @@ class PressureSizing {
     if (volumes.high_m3 > volumes.low_m3)
       resolution_ =
           std::clamp(kPressureShare * (volumes.high_m3 / volumes.low_m3 - 1.0), kFinest, kCoarsest);
-    const double ambient_pa = problem.ambient.pressure_pa;
-    if (!assembly.compressor) return;
-    const model::CompressorCurve& curve = assembly.compressor->curve;
-    const bool together = problem.simultaneous || problem.groups.size() == 1;
-    rises_ = together ? EnergyPerAirRises(curve, ambient_pa) : PowerRises(curve, ambient_pa);
-    if (rises_) return;
-    least_j_per_m3_ = LeastEnergyPerAir(curve, ambient_pa);
+    if (assembly.compressor) held_ = cycles.PumpHeld(stood_.high_pa);
   }
 
   // Known after Run: no lower source pressure is fast enough.
@@ -119,7 +112,7 @@ class PressureSizing {
     std::optional<Cycle> cycle =
         cycles_.At(SettingsAt(source_pa, volumes_.high_m3), volumes_.low_m3);
     if (!cycle) return std::nullopt;
-    const double pump_j = cycle->pump_j;
+    const double pump_j = held_ * cycle->pump_j;
     if (!(volumes_.high_m3 > volumes_.low_m3)) return Look{source_pa, std::move(*cycle), pump_j};
     const auto low = cycles_.At(SettingsAt(source_pa, volumes_.low_m3), volumes_.high_m3);
     if (!low) return std::nullopt;
@@ -129,20 +122,23 @@ class PressureSizing {
   // With the smallest volume while the reservoir falls and the largest while it rises its pressure
   // is at every time below that of each volume, and the pumps deliver no less. Where energy per air
   // rises with pressure the air of a cycle thus takes at least what the cheapest bits of that run
-  // take; what it pumps beyond takes at most the greatest power at the least delivery.
+  // take; what it pumps beyond takes at most the greatest power at the least delivery. Where it
+  // falls on the way the same holds for the largest curve below it that does rise, of which the run
+  // takes at least the share `held_`.
   double LeastPumpEnergy(double source_pa, const Cycle& low) const {
-    if (!rises_ || !std::isfinite(*std::max_element(low.inflate_s.begin(), low.inflate_s.end())))
+    // One group that is filled up to the stop pressure ends there without end, and takes its air.
+    const bool alone = problem_.groups.size() == 1;
+    if (!alone && !std::isfinite(*std::max_element(low.inflate_s.begin(), low.inflate_s.end())))
       return 0.0;
     const model::CompressorCurve& curve = assembly_.compressor->curve;
-    const double beyond_m3 = problem_.groups.size() == 1
-                                 ? low.pump_air_m3 - low.air_m3
-                                 : (1.0 - volumes_.low_m3 / volumes_.high_m3) * low.pump_air_m3;
-    if (!(beyond_m3 > 0.0)) return low.pump_j;
+    const double beyond_m3 = alone ? low.pump_air_m3 - low.air_m3
+                                   : (1.0 - volumes_.low_m3 / volumes_.high_m3) * low.pump_air_m3;
+    if (!(beyond_m3 > 0.0)) return held_ * low.pump_j;
     const double delivery =
         curve.free_air_m3_per_s(std::min(source_pa, model::HighestPressure(curve)));
     const double power_w =
         curve.voltage_v * model::LargestCurrent(curve, problem_.ambient.pressure_pa, source_pa);
-    return std::max(0.0, low.pump_j - beyond_m3 * power_w / delivery);
+    return std::max(0.0, held_ * low.pump_j - beyond_m3 * power_w / delivery);
   }
 
   double StrokeExcess(const Cycle& cycle) const {
@@ -210,7 +206,7 @@ class PressureSizing {
     least.inflate_s = high.cycle.inflate_s;
     least.rise_s = high.cycle.rise_s;
     least.inflating_j = std::min(least.inflating_j, high.cycle.inflating_j);
-    least.pump_j = rises_ ? low.least_pump_j : least.air_m3 * least_j_per_m3_;
+    least.pump_j = low.least_pump_j;
     const auto [excess, objective] = Judge(low.source_pa, least);
     if (excess <= slack_) open_.push({low, high, objective});
   }
@@ -224,8 +220,7 @@ class PressureSizing {
   Pressures stood_;
   double floor_pa_ = 0.0;
   double resolution_ = 0.0;  // of pressures, relative; 0 where there is one volume
-  bool rises_ = true;
-  double least_j_per_m3_ = 0.0;
+  double held_ = 1.0;        // of the pump's energy per air, or of its power, on the way up
   int looks_ = 0;
   std::priority_queue<Interval> open_;
 };

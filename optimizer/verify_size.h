@@ -4,8 +4,8 @@
 // it but for the coils, which strokes shorten. So an interval of source pressures is closed by the
 // strokes at its upper end, and by air, pumps and current at its lower end with the coils of its
 // upper end. For the pumps' energy that holds where their energy per air rises with pressure (where
-// groups take turns: their power); elsewhere every litre counts at the pressure where it takes
-// least. Volumes of made-to-measure reservoirs are divided in the same way.
+// groups take turns: their power); where it falls on the way up, for the share that is held
+// (verify_pump_curve.h). Volumes of made-to-measure reservoirs are divided in the same way.
 #ifndef PLENUM_OPTIMIZER_VERIFY_SIZE_H_
 #define PLENUM_OPTIMIZER_VERIFY_SIZE_H_
 

@@ -259,6 +259,21 @@ TEST(ParetoTest, TiesLeaveNoWeaklyDominatedPoint) {
   EXPECT_EQ(tally.points, 1u);
 }
 
+// The first valve ties with the second in mass and comes before it by its id, so it is found first,
+// but the second, a little lighter, is smaller. It does not make the first superfluous, since its
+// coil takes more; and only one of the regions beside the first point holds it.
+TEST(ParetoTest, ThreeAmountsWithoutAPointThatALaterOneBeats) {
+  Problem problem = LongFront();
+  std::vector<model::Valve>& valves = problem.parts.valves;
+  ASSERT_LT(valves[0].basics.id, valves[1].basics.id);
+  valves[0].basics.mass_kg = valves[1].basics.mass_kg * (1.0 + 1e-7);
+  valves[1].coil_power_w *= 1.1;
+  Tally tally;
+  Compare(problem, {Amount::kMass, Amount::kVolume, Amount::kCost}, tally);
+  EXPECT_EQ(tally.whole, 1);
+  EXPECT_GT(tally.points, 2u);
+}
+
 TEST(ParetoTest, LimitsOfTheProblemStay) {
   Problem problem = LongFront();
   const std::vector<Amount> amounts{Amount::kMass, Amount::kVolume};
