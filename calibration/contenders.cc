@@ -1,6 +1,7 @@
 #include "calibration/contenders.h"
 
 #include <atomic>
+#include <cmath>
 #include <mutex>
 
 #include "calibration/parallel.h"
@@ -18,6 +19,7 @@ constexpr int kScreeningIterations = 12;
 // After so many steps only those go on that explain at least this share of what the best one does
 // beyond the smaller set, and the very best.
 constexpr int kFirstLook = 5;
+constexpr double kLoosely = 1e-4;  // of the operating pressure
 constexpr double kHopeful = 0.5;
 constexpr std::size_t kAlwaysOn = 6;
 constexpr double kNear = 20.0;       // of BIC
@@ -51,6 +53,19 @@ FitOptions Contenders::Screening() const {
   options.cancelled = options_->cancelled;
   options.function_tolerance = kScreening;
   options.iterations_max = kScreeningIterations;
+  return options;
+}
+
+// Integrates as exactly as the best smaller set fits, since much is yet to be explained.
+FitOptions Contenders::FirstLook(std::size_t size) const {
+  FitOptions options = Screening();
+  options.iterations_max = kFirstLook;
+  options.coarse = true;
+  const std::optional<std::size_t> smaller = Best(static_cast<int>(size) - 1);
+  if (!smaller) return options;
+  const Fit& fit = list[*smaller].fit;
+  options.noise_share *= std::sqrt(std::max(1.0, fit.chi2_data / static_cast<double>(fit.rows)));
+  options.tolerance_loosest = kLoosely;
   return options;
 }
 
@@ -144,15 +159,13 @@ void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_sh
   std::vector<Job*> all;
   for (Job& job : jobs) all.push_back(&job);
   const double middle = 0.5 * (from_share + to_share);
-  FitOptions first = Screening();
-  first.iterations_max = kFirstLook;
-  Continue(all, first, from_share, middle, what);
+  const std::size_t size = jobs.front().set.size();
+  Continue(all, FirstLook(size), from_share, middle, what);
   FitOptions rest = Screening();
   rest.iterations_max -= kFirstLook;
   Continue(Hopeful(all), rest, middle, to_share, what);
-  const int size = static_cast<int>(jobs.front().set.size());
   for (Job& job : jobs) Take(std::move(job));
-  Refine(size);
+  Refine(static_cast<int>(size));
 }
 
 void Contenders::Continue(const std::vector<Job*>& jobs, const FitOptions& options,
@@ -218,7 +231,9 @@ void Contenders::FitInStep(Contender& contender) {
     const std::vector<ModelState> starts = ScannedAgain(data, contender.fit, scan);
     std::vector<Fit> fits(starts.size());
     ForAll(starts.size(), options_->threads, [&](std::size_t i) {
-      fits[i] = FitModel(data, starts[i], tight);
+      fits[i] = FitModel(data, starts[i], Further());
+      if (!fits[i].Usable() || fits[i].bic > contender.fit.bic + kNear) return;
+      fits[i] = FitModel(data, fits[i].state, tight);
       Narrow(data, tight, fits[i]);
     });
     better = false;

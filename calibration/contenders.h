@@ -80,7 +80,9 @@ class Contenders {
   void Report(double share, const std::string& what) const {
     if (options_->progress) options_->progress(share, what);
   }
-  // Fits that only have to be compared, those that come near the best, and those that decide.
+  // A few steps of sets of a size; fits that only have to be compared, those that come near the
+  // best, and those that decide.
+  FitOptions FirstLook(std::size_t size) const;
   FitOptions Screening() const;
   FitOptions Further() const;
   FitOptions Tight() const;

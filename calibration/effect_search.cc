@@ -23,6 +23,7 @@ class Search {
       : options_(options),
         enough_(enough),
         sets_(data, options),
+        other_sets_(data, options),
         may_be_off_(options.clocks_may_be_off) {}
 
   SearchResult Run() {
@@ -41,10 +42,9 @@ class Search {
   SearchResult Compare() {
     std::optional<std::size_t> chosen = Grow();
     if (!chosen) {  // again, with each run's clock fitted
-      const Contenders without = sets_;
       UseClocks(true);
       chosen = Grow();
-      if (sets_.Cancelled()) sets_ = without, chosen = 0;
+      if (sets_.Cancelled()) UseClocks(false), chosen = 0;
     }
     const EffectSet set = sets_[*chosen].effects;
     const int size = static_cast<int>(set.size());
@@ -65,9 +65,10 @@ class Search {
 
   bool MaySeekClocks() const { return may_be_off_ && !sets_.data.clocks && !sets_.Cancelled(); }
 
+  // Sets fitted the other way are kept: a search that comes back to it goes on from them.
   void UseClocks(bool use) {
+    std::swap(sets_, other_sets_);
     sets_.data.clocks = use;
-    sets_.list.clear();
   }
 
   // Whether the chosen set, fitted to the end, gains by the runs' clocks what none of its own
@@ -108,7 +109,7 @@ class Search {
 
   // Sets forwards from the base model, and the best of them; none where the clocks are found off.
   std::optional<std::size_t> Grow() {
-    sets_.FitBase();
+    if (sets_.list.empty()) sets_.FitBase();
     std::size_t chosen = 0;
     for (int size = 1; size <= kEffectsMax && !sets_.Cancelled(); ++size) {
       if (size > 1 && enough_(sets_[chosen].fit)) break;
@@ -295,8 +296,8 @@ class Search {
 
   const SearchOptions& options_;
   const std::function<bool(const Fit&)>& enough_;
-  Contenders sets_;
-  bool may_be_off_;  // the clocks, as far as is known
+  Contenders sets_, other_sets_;  // as the clocks are taken, and the other way
+  bool may_be_off_;               // the clocks, as far as is known
 };
 
 }  // namespace

@@ -18,17 +18,18 @@ namespace plenum::calibration {
 namespace {
 
 constexpr double kTwoSided95 = 1.96;
-constexpr double kToleranceTightest = 1e-9, kToleranceLoosest = 1e-5;
+constexpr double kToleranceTightest = 1e-9;
 constexpr double kParameterTolerance = 1e-7;
 constexpr double kLeastCurvature = 1e-12;
-constexpr int kPhases = 8;  // in a round
+constexpr int kPhases = 8;             // in a round
+constexpr double kContraction = 0.25;  // of a step, at most: what is left of it must not look done
 
 PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions& options) {
   const ObservedSignal& pressure = (*data.observed)[run].signals.front();
   const double size_pa = data.forward->dataset().runs[run].chamber.operating_pressure_pa;
   PredictOptions predict;
   predict.relative_tolerance = std::clamp(options.noise_share * pressure.sigma / size_pa,
-                                          kToleranceTightest, kToleranceLoosest);
+                                          kToleranceTightest, options.tolerance_loosest);
   predict.steps_max = options.steps_max;
   predict.cancelled = options.cancelled;
   predict.recorded_alone = true;
@@ -54,8 +55,8 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
 // and their derivatives J only JᵀJ, Jᵀe and eᵀe, so that the rows are R of [J e] = Q·R, which has
 // the same products and none of the readings' number; without derivatives the one row |e|. A step
 // is asked for thrice at one point — by the search along it, for its cost, and for the derivatives
-// there — and simulated once. A run that turned out stiff is taken to stay so: the explicit method
-// is not tried again.
+// there — and simulated once, or once without derivatives and once with them. A run that turned out
+// stiff is taken to stay so: the explicit method is not tried again.
 class RunCost : public ceres::CostFunction {
  public:
   RunCost(const FitData& data, std::size_t run, const ModelState& start,
@@ -75,16 +76,19 @@ class RunCost : public ceres::CostFunction {
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
     const Eigen::Map<const Eigen::VectorXd> u(blocks[0], size());
     const bool derive = jacobians && jacobians[0];
+    if (known_.u.size() != size() || known_.u != u) known_ = {u, {}, {}};
+    if (derive && !known_.root) known_.root = RootAt(blocks[0]);
+    if (!derive && !known_.root && !known_.norm) known_.norm = NormAt(blocks[0]);
     Eigen::Map<Eigen::VectorXd> rows(residuals, num_residuals());
-    if (known_.u.size() != size() || known_.u != u) {
-      if (!derive) return Evaluate(u.data(), rows);
-      known_.u.resize(0);
-      if (!Derive(u.data(), known_.root)) return false;
-      known_.u = u;
+    if (!known_.root) {
+      rows.setZero();
+      rows[0] = *known_.norm;
+      return std::isfinite(rows[0]);
     }
-    rows = known_.root.rightCols<1>();
+    if (known_.root->size() == 0) return false;
+    rows = known_.root->rightCols<1>();
     if (derive)
-      Eigen::Map<Matrix>(jacobians[0], num_residuals(), size()) = known_.root.leftCols(size());
+      Eigen::Map<Matrix>(jacobians[0], num_residuals(), size()) = known_.root->leftCols(size());
     return true;
   }
 
@@ -107,20 +111,20 @@ class RunCost : public ceres::CostFunction {
     return e;
   }
 
-  bool Evaluate(const double* u, Eigen::Map<Eigen::VectorXd> rows) const {
+  // |e|; infinite where the run cannot be simulated.
+  double NormAt(const double* u) const {
     const Prediction prediction = Predict(u, {});
-    if (prediction.status != model::SimulateStatus::kDone) return false;
+    if (prediction.status != model::SimulateStatus::kDone)
+      return std::numeric_limits<double>::infinity();
     double squares = 0.0;
     for (const double e : ResidualsOf(prediction)) squares += e * e;
-    rows.setZero();
-    rows[0] = scale_ * std::sqrt(squares);
-    return true;
+    return scale_ * std::sqrt(squares);
   }
 
-  // R, its last column that of the residuals.
-  bool Derive(const double* u, Eigen::MatrixXd& root) const {
+  // R, its last column that of the residuals; empty where the run cannot be simulated.
+  Eigen::MatrixXd RootAt(const double* u) const {
     Prediction prediction = Predict(u, parameters_);
-    if (prediction.status != model::SimulateStatus::kDone) return false;
+    if (prediction.status != model::SimulateStatus::kDone) return {};
     const std::vector<double> slopes =
         GridSlopes(data_.forward->dataset().runs[run_], Observed(), prediction.reading);
     std::vector<std::vector<double>> columns;
@@ -134,12 +138,11 @@ class RunCost : public ceres::CostFunction {
       for (Eigen::Index i = 0; i <= j; ++i)
         products(j, i) = scale_ * scale_ * SlopeOf(i, u) * SlopeOf(j, u) *
                          Column(columns, i).dot(Column(columns, j));
-    if (!products.triangularView<Eigen::Lower>().toDenseMatrix().allFinite()) return false;
+    if (!products.triangularView<Eigen::Lower>().toDenseMatrix().allFinite()) return {};
     const Eigen::LDLT<Eigen::MatrixXd> factors(products);
     const Eigen::MatrixXd half = Eigen::MatrixXd(factors.matrixL()) *
                                  factors.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-    root = (factors.transpositionsP().transpose() * half).transpose();
-    return true;
+    return (factors.transpositionsP().transpose() * half).transpose();
   }
 
   // Of the coordinate's number by u; the residuals' column has none.
@@ -154,7 +157,8 @@ class RunCost : public ceres::CostFunction {
 
   struct Known {
     Eigen::VectorXd u;
-    Eigen::MatrixXd root;
+    std::optional<double> norm;
+    std::optional<Eigen::MatrixXd> root;
   };
 
   const FitData& data_;
@@ -164,7 +168,7 @@ class RunCost : public ceres::CostFunction {
   std::vector<Parameter> parameters_;
   mutable PredictOptions options_;
   double scale_;         // of the residuals
-  mutable Known known_;  // the last point with derivatives
+  mutable Known known_;  // the last point
 };
 
 // u of every coordinate that has a prior.
@@ -418,6 +422,10 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   solver.parameter_tolerance = kParameterTolerance;
   solver.gradient_tolerance = 0.0;
   solver.initial_trust_region_radius = 1e3;
+  if (options.coarse) {
+    solver.line_search_interpolation_type = ceres::QUADRATIC;
+    solver.max_line_search_step_contraction = kContraction;
+  }
   solver.num_threads = options.threads;
   solver.logging_type = ceres::SILENT;
   solver.callbacks.push_back(&stop);

@@ -18,7 +18,8 @@ constexpr std::size_t kKept = 3, kKeptAgain = 5;
 constexpr double kAbout = 2.5;  // of the length
 constexpr double kBoresAbout[] = {0.92, 1.0, 1.09};
 constexpr const char* kRings = "line_dynamics";
-constexpr double kRidge = 1e-10;  // of a unit diagonal: numbers that nothing depends on
+constexpr double kTolerance = 1e-5;  // as of the fits that start there
+constexpr double kRidge = 1e-10;     // of a unit diagonal: numbers that nothing depends on
 
 std::vector<model::Effect> GridOf(const FitData& data, const model::EffectSpec& spec) {
   std::vector<model::Effect> grid;
@@ -38,7 +39,10 @@ struct Linear {
 };
 
 PredictOptions Rough(const FitOptions& options) {
-  return {.cancelled = options.cancelled, .steps_max = options.steps_max, .recorded_alone = true};
+  return {.relative_tolerance = kTolerance,
+          .cancelled = options.cancelled,
+          .steps_max = options.steps_max,
+          .recorded_alone = true};
 }
 
 // Empty where a run cannot be simulated.
