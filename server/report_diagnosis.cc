@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "server/html.h"
+#include "server/residual_plots.h"
 #include "server/svg_plot.h"
 #include "server/text_diagnosis.h"
 #include "server/text_table.h"
@@ -19,94 +16,6 @@ namespace plenum::server {
 namespace {
 
 using api::Json;
-
-constexpr std::string_view kStyle = R"(<style>
-:root { color-scheme: light dark; --ink: #1c2128; --faint: #667080; --paper: #ffffff;
-  --line: #d8dde4; --phase: #f1f4f8; --band: #dfe5ec; --measured: #8b95a3; --declared: #8a5fbf;
-  --before: #d06a1c; --after: #1f6fc4; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e4e8ee; --faint: #98a2b0; --paper: #14181d;
-  --line: #333b45; --phase: #1c222a; --band: #2b333d; --measured: #8b95a3; --declared: #b08ae0;
-  --before: #f0964a; --after: #5ea8f2; } }
-body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--paper);
-  max-width: 900px; margin: 2rem auto; padding: 0 1rem; }
-h1 { font-size: 1.3rem; margin-bottom: .2rem; } h2 { font-size: 1.1rem; margin-top: 2.2rem; }
-.verdict { font-size: 1.25rem; border-left: 4px solid var(--after); padding: .3rem 0 .3rem 1rem; }
-.faint { color: var(--faint); } .wide { overflow-x: auto; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: .6rem 0; }
-th, td { padding: .2rem .8rem .2rem 0; text-align: right; border-bottom: 1px solid var(--line); }
-th { font-weight: 600; } th.text, td.text { text-align: left; }
-code { font-size: .85em; overflow-wrap: anywhere; }
-figure { margin: 1rem 0; }
-svg { width: 100%; height: auto; margin: .6rem 0; font: 12px system-ui, sans-serif; }
-svg text { fill: var(--ink); } svg text.title { font-size: 14px; font-weight: 600; }
-svg text.faint { fill: var(--faint); }
-svg path { fill: none; stroke-width: 1.4; stroke-linejoin: round; }
-svg .grid { stroke: var(--line); stroke-width: .6; } svg .tick { stroke: var(--faint); }
-svg .phase { fill: var(--phase); } svg .band { fill: var(--band); }
-svg path.measured, svg line.measured { stroke: var(--measured); stroke-width: 3.5; }
-svg path.declared, svg line.declared { stroke: var(--declared); stroke-dasharray: 2 3; }
-svg path.before, svg line.before { stroke: var(--before); stroke-dasharray: 7 3; }
-svg path.after, svg line.after { stroke: var(--after); }
-svg path.solid, svg line.solid { stroke-dasharray: none; stroke-width: 1; }
-svg line.declared, svg line.before, svg line.after { stroke-width: 2; }
-svg rect.before { fill: var(--before); } svg rect.after { fill: var(--after); }
-svg line.noise { stroke: var(--ink); stroke-dasharray: 4 3; }
-</style>
-)";
-
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-
-struct Column {
-  std::string title;
-  bool text = false;
-};
-
-std::string HtmlTable(const std::vector<Column>& columns,
-                      const std::vector<std::vector<std::string>>& rows) {
-  if (rows.empty()) return "";
-  std::string html = "<div class=\"wide\"><table><tr>";
-  const auto cell = [&](std::string_view tag, std::size_t i, const std::string& content) {
-    html += fmt::format("<{}{}>{}</{}>", tag, columns[i].text ? " class=\"text\"" : "",
-                        Escaped(content), tag);
-  };
-  for (std::size_t i = 0; i < columns.size(); ++i) cell("th", i, columns[i].title);
-  html += "</tr>\n";
-  for (const std::vector<std::string>& row : rows) {
-    html += "<tr>";
-    for (std::size_t i = 0; i < row.size(); ++i) cell("td", i, row[i]);
-    html += "</tr>\n";
-  }
-  return html + "</table></div>\n";
-}
-
-std::string Paragraph(std::string_view text, std::string_view css_class = "") {
-  return fmt::format("<p{}>{}</p>\n",
-                     css_class.empty() ? "" : fmt::format(" class=\"{}\"", css_class),
-                     Escaped(text));
-}
-
-std::string Heading(std::string_view text) { return fmt::format("<h2>{}</h2>\n", Escaped(text)); }
-
-std::vector<double> Numbers(const Json& list) {
-  std::vector<double> values;
-  for (const Json& value : list)
-    values.push_back(value.is_number() ? value.get<double>() : kMissing);
-  return values;
-}
-
-std::vector<double> Difference(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<double> difference(std::min(a.size(), b.size()));
-  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] = a[i] - b[i];
-  return difference;
-}
-
-bool Same(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double one, double other) {
-    return one == other || (std::isnan(one) && std::isnan(other));
-  });
-}
-
-// --- The sections ------------------------------------------------------------------------------
 
 std::string Errors(const Json& answer) {
   std::vector<std::vector<std::string>> rows;
@@ -183,87 +92,6 @@ std::string NextRun(const Json& answer) {
                                measure, Short(next.at("expected_difference_kpa")),
                                Short(next.at("expected_delta_bic")))) +
          HtmlTable({{"time, s"}, {"valve", true}}, rows);
-}
-
-std::vector<Stretch> Phases(const Json& series, const std::vector<double>& t_s) {
-  std::vector<Stretch> stretches;
-  const Json& phases = series.at("phase");
-  for (std::size_t i = 0; i < phases.size() && i < t_s.size(); ++i) {
-    if (!std::isfinite(t_s[i])) continue;
-    const std::string phase = phases[i];
-    if (!stretches.empty()) stretches.back().to = t_s[i];
-    if (stretches.empty() || stretches.back().label != phase)
-      stretches.push_back({phase, t_s[i], t_s[i], stretches.size() % 2 == 0});
-  }
-  return stretches;
-}
-
-std::string RunPlots(const Json& series, double noise_kpa) {
-  const std::vector<double> t_s = Numbers(series.at("t_s"));
-  const std::vector<double> measured = Numbers(series.at("measured_kpa"));
-  const std::vector<double> before = Numbers(series.at("before_kpa"));
-  const std::vector<double> after = Numbers(series.at("after_kpa"));
-  const std::string run = series.at("run");
-  const std::string name =
-      "Run " + run + (series.at("held_out") == true ? " (held out of every fit)" : "");
-  const bool apart = !Same(before, after);
-
-  LinePlot pressure{
-      name + ": measured and model", "time, s", "pressure, kPa gauge", {}, {}, {}, ""};
-  pressure.stretches = Phases(series, t_s);
-  pressure.curves = {{"measured", "measured", t_s, measured},
-                     {"as declared", "declared", t_s, Numbers(series.at("declared_kpa"))},
-                     {"before (refitted)", "before", t_s, before}};
-  if (apart) pressure.curves.push_back({"after (with effects)", "after", t_s, after});
-
-  LinePlot residual{name + ": measured less model", "time, s", "residual, kPa", {}, {}, {}, ""};
-  residual.stretches = pressure.stretches;
-  residual.curves = {{"before", "before solid", t_s, Difference(measured, before)}};
-  if (apart) residual.curves.push_back({"after", "after solid", t_s, Difference(measured, after)});
-  if (std::isfinite(noise_kpa)) {
-    residual.band = 2.0 * noise_kpa;
-    residual.band_label = "±2 standard deviations of the noise";
-  }
-  for (LinePlot* plot : {&pressure, &residual})
-    for (Curve& curve : plot->curves) {
-      curve.x.resize(std::min(curve.x.size(), curve.y.size()));
-      curve.y.resize(curve.x.size());
-    }
-  return "<figure>\n" + Svg(pressure) + Svg(residual) + "</figure>\n";
-}
-
-// RMS of the residual over all samples of each phase, before and after; runs held out too.
-std::string PhasePlot(const Json& answer, double noise_kpa) {
-  static constexpr std::array<const char*, 4> kPhases = {"rest", "rise", "hold", "fall"};
-  struct Sum {
-    double squares = 0.0, count = 0.0;
-    double Rms() const { return count > 0.0 ? std::sqrt(squares / count) : kMissing; }
-  };
-  std::map<std::pair<std::string, std::string>, Sum> sums;  // phase, before or after
-  for (const Json& series : answer.at("series")) {
-    const std::vector<double> measured = Numbers(series.at("measured_kpa"));
-    for (const std::string which : {"before", "after"}) {
-      const std::vector<double> off = Difference(measured, Numbers(series.at(which + "_kpa")));
-      const Json& phases = series.at("phase");
-      for (std::size_t i = 0; i < off.size() && i < phases.size(); ++i) {
-        if (!std::isfinite(off[i])) continue;
-        Sum& sum = sums[{phases[i].get<std::string>(), which}];
-        sum.squares += off[i] * off[i];
-        sum.count += 1.0;
-      }
-    }
-  }
-  BarPlot plot{"Error by phase, all runs", "residual, RMS, kPa", {}, {}, {}, "noise"};
-  plot.series = {{"before", "before", {}}, {"after", "after", {}}};
-  for (const char* phase : kPhases) {
-    if (!sums.contains({phase, "before"}) && !sums.contains({phase, "after"})) continue;
-    plot.groups.emplace_back(phase);
-    plot.series[0].values.push_back(sums[{phase, "before"}].Rms());
-    plot.series[1].values.push_back(sums[{phase, "after"}].Rms());
-  }
-  if (plot.groups.empty()) return "";
-  if (std::isfinite(noise_kpa)) plot.line = noise_kpa;
-  return "<figure>\n" + Svg(plot) + "</figure>\n";
 }
 
 std::string Residual(const Json& answer, double noise_kpa) {
@@ -369,19 +197,15 @@ std::string DiagnosisReport(const Json& answer) {
   const std::string name = answer.at("name");
   const std::string title = name.empty() ? "Diagnosis" : "Diagnosis of " + name;
   const Json& noise = answer.at("noise_kpa");
-  const double noise_kpa = noise.is_number() ? noise.get<double>() : kMissing;
-  std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n";
-  html += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
-  html += fmt::format("<title>{}</title>\n{}</head><body>\n<h1>{}</h1>\n", Escaped(title), kStyle,
-                      Escaped(title));
-  html += Paragraph("Verdict: " + answer.at("verdict").get<std::string>(), "faint");
+  const double noise_kpa = noise.is_number() ? noise.get<double>() : std::nan("");
+  std::string html = Paragraph("Verdict: " + answer.at("verdict").get<std::string>(), "faint");
   html += Paragraph(VerdictText(answer), "verdict");
   html += Errors(answer) + Estimates(answer) + NextRun(answer);
   if (!answer.at("series").empty()) html += Heading("Measured and model");
   for (const Json& series : answer.at("series")) html += RunPlots(series, noise_kpa);
   html += Residual(answer, noise_kpa) + Candidates(answer) + Discrepancy(answer) +
           Warnings(answer) + Provenance(answer);
-  return html + "</body></html>\n";
+  return HtmlDocument(title, html);
 }
 
 }  // namespace plenum::server

@@ -11,21 +11,9 @@
 
 #include "optimizer/candidate.h"
 #include "optimizer/problem.h"
+#include "tests/support/random_parts.h"
 
 namespace plenum::test {
-
-using Random = std::mt19937_64;
-
-double Uniform(Random& random, double low, double high);
-double LogUniform(Random& random, double low, double high);
-int Pick(Random& random, int low, int high);  // both ends included
-bool Chance(Random& random, double share);
-
-// How many parts of each family a catalogue gets.
-struct CatalogueSize {
-  int tubing = 2, fittings = 2, valves = 3, regulators = 2, cylinders = 2, co2 = 2, compressors = 2,
-      batteries = 2, reservoirs = 1;
-};
 
 struct Draw {
   std::uint64_t seed = 0;
@@ -35,11 +23,6 @@ struct Draw {
   double severity = 0.5;  // 0: limits that nearly everything meets; 1: that hardly anything does
   CatalogueSize size;
 };
-
-model::Parts RandomParts(Random& random, const CatalogueSize& size);
-
-// Makes a pump draw less the higher the pressure, so that energy per air may fall with it.
-void MakePowerFall(Random& random, model::CompressorCurve& curve);
 
 // Parts, actuators, duty, limits and a mass objective. Same draw, same problem.
 optimizer::Problem RandomProblem(const Draw& draw);

@@ -1,0 +1,152 @@
+// The catalogue over HTTP.
+#include <map>
+
+#include "http_client.h"
+#include "server/http.h"
+
+namespace plenum::server {
+namespace {
+
+using api::Json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST_F(Http, AddsGetsReplacesAndDeletesAPart) {
+  const std::string name = "bench-f1", path = "/v1/parts/" + name;
+  ASSERT_EQ(client_->Post("/v1/parts", NewFitting(name).dump(), kJson)->status, 201);
+  ExpectProblem(client_->Post("/v1/parts", NewFitting(name).dump(), kJson), 409);
+
+  const auto got = client_->Get(path);
+  ASSERT_EQ(got->status, 200);
+  const auto etag = got->get_header_value("ETag");
+  EXPECT_EQ(client_->Get(path, {{"If-None-Match", etag}})->status, 304);
+
+  auto heavier = NewFitting(name);
+  heavier["mass_kg"] = 0.004;
+  ExpectProblem(client_->Put(path, heavier.dump(), kJson), 412);
+  ExpectProblem(client_->Put(path, {{"If-Match", "\"old\""}}, heavier.dump(), kJson), 412);
+  const auto put = client_->Put(path, {{"If-Match", etag}}, heavier.dump(), kJson);
+  ASSERT_EQ(put->status, 200) << put->body;
+  EXPECT_NE(put->get_header_value("ETag"), etag);
+  EXPECT_EQ(Body(client_->Get(path))["mass_kg"], 0.004);
+  ExpectProblem(client_->Put(path, {{"If-Match", etag}}, heavier.dump(), kJson), 412);
+  ExpectProblem(client_->Put("/v1/parts/other", {{"If-Match", "*"}}, heavier.dump(), kJson), 422,
+                "/id");
+
+  ExpectProblem(client_->Delete(path, {{"If-Match", etag}}), 412);
+  ExpectProblem(client_->Delete(path), 412);
+  const auto now = put->get_header_value("ETag");
+  EXPECT_EQ(client_->Delete(path, {{"If-Match", now}})->status, 204);
+  ExpectProblem(client_->Get(path), 404);
+  ExpectProblem(client_->Delete(path, {{"If-Match", now}}), 404);
+}
+
+TEST_F(Http, GivesTheLocationOfAnAddedPart) {
+  const auto added = client_->Post("/v1/parts", NewFitting("bench-f1").dump(), kJson);
+  ASSERT_EQ(added->status, 201);
+  EXPECT_EQ(added->get_header_value("Location"), "/v1/parts/bench-f1");
+  EXPECT_EQ(Body(client_->Get("/v1/parts/bench-f1"))["origin"], "user");
+}
+
+TEST_F(Http, RefusesABadPart) {
+  auto part = NewFitting("bench-f1");
+  part["mass_kg"] = -1;
+  ExpectProblem(client_->Post("/v1/parts", part.dump(), kJson), 422, "/mass_kg");
+}
+
+TEST_F(Http, PagesThroughAllPartsOnce) {
+  std::vector<std::string> ids;
+  std::string cursor;
+  for (int pages = 0; pages < 100; ++pages) {
+    const auto page = Body(client_->Get("/v1/parts?family=valve&limit=7&cursor=" + cursor));
+    ASSERT_LE(page["parts"].size(), 7u);
+    for (const auto& part : page["parts"]) {
+      EXPECT_EQ(part["family"], "valve");
+      ids.push_back(part["id"]);
+    }
+    if (page["next_cursor"].is_null()) break;
+    cursor = page["next_cursor"];
+  }
+  EXPECT_TRUE(std::is_sorted(ids.begin(), ids.end()));
+  EXPECT_EQ(std::adjacent_find(ids.begin(), ids.end()), ids.end());
+  const auto all = Body(client_->Get("/v1/parts?family=valve&limit=1000"));
+  EXPECT_EQ(ids.size(), all["parts"].size());
+  EXPECT_GT(ids.size(), 7u);
+}
+
+TEST_F(Http, RefusesBadQueries) {
+  ExpectProblem(client_->Get("/v1/parts?family=wheels"), 422, "/family");
+  for (const char* limit : {"0", "1001", "-1", "ten", "1e2", ""}) {
+    ExpectProblem(client_->Get(std::string("/v1/parts?limit=") + limit), 422, "/limit");
+  }
+  ExpectProblem(client_->Get("/v1/parts?colour=red"), 422, "/colour");
+  ExpectProblem(client_->Get("/v1/parts/export"), 422, "/family");
+}
+
+TEST_F(Http, ExportGoesBackInUnchanged) {
+  const auto csv = client_->Get("/v1/parts/export?family=battery");
+  ASSERT_EQ(csv->status, 200);
+  EXPECT_THAT(csv->get_header_value("Content-Type"), StartsWith("text/csv"));
+  const auto imported = client_->Post("/v1/parts/import?family=battery", csv->body, "text/csv");
+  ASSERT_EQ(imported->status, 200) << imported->body;
+  EXPECT_TRUE(Body(imported)["added"].empty());
+  EXPECT_TRUE(Body(imported)["replaced"].empty());
+  EXPECT_GT(Body(imported)["unchanged"].size(), 0u);
+}
+
+TEST_F(Http, ImportRefusesAFileWithABadRowAltogether) {
+  client_->Post("/v1/parts", NewFitting("bench-f1").dump(), kJson);
+  auto csv = client_->Get("/v1/parts/export?family=fitting")->body;
+  ASSERT_EQ(client_->Delete("/v1/parts/bench-f1", {{"If-Match", "*"}})->status, 204);
+  csv += "only-an-id\n";
+  ExpectProblem(client_->Post("/v1/parts/import?family=fitting", csv, "text/csv"), 422, "/");
+  ExpectProblem(client_->Get("/v1/parts/bench-f1"), 404);
+}
+
+TEST_F(Http, FamiliesNameTheirFields) {
+  const Json families = Body(client_->Get("/v1/families"))["families"];
+  EXPECT_EQ(families.size(), 9u);
+  for (const Json& family : families) {
+    const auto page =
+        Body(client_->Get("/v1/parts?limit=1&family=" + family["name"].get<std::string>()));
+    std::map<std::string, Json> fields;
+    for (const char* kind : {"numbers", "texts"})
+      for (const Json& field : family[kind]) fields[field["name"]] = field;
+    for (const auto& [name, origin] : page["parts"][0]["provenance"].items())
+      EXPECT_TRUE(fields.contains(name) ||
+                  (family["has_curve"] && page["parts"][0].contains("curve")))
+          << family["name"] << " " << name;
+    for (const auto& [name, field] : fields) {
+      EXPECT_FALSE(field["meaning"].get<std::string>().empty()) << name;
+      if (field["required"].get<bool>()) {
+        EXPECT_TRUE(page["parts"][0].contains(name)) << name;
+      }
+    }
+  }
+}
+
+TEST_F(Http, APostedPartChangesTheRankingUntilItIsDeleted) {
+  int revision = 0;  // of the catalogue that the last answer names
+  const auto rank_one = [&] {
+    const auto result =
+        client_->Post("/v1/designs", {{"Prefer", "wait=60"}}, Exosuit(30.0).dump(), kJson);
+    revision = Body(result)["catalogue_revision"]["number"];
+    const auto parts = Body(result)["designs"][0]["parts"];
+    std::map<std::string, std::string> ids;
+    for (const auto& part : parts) ids[part["family"]] = part["id"];
+    return ids;
+  };
+  const auto before = rank_one();
+  const int first = revision;
+  auto lighter = Body(client_->Get("/v1/parts/" + before.at("battery")));
+  lighter["id"] = "bench-light-pack";
+  lighter["mass_kg"] = 0.5 * lighter["mass_kg"].get<double>();
+  ASSERT_EQ(client_->Post("/v1/parts", lighter.dump(), kJson)->status, 201);
+  EXPECT_EQ(rank_one().at("battery"), "bench-light-pack");
+  EXPECT_EQ(revision, first + 1);
+  ASSERT_EQ(client_->Delete("/v1/parts/bench-light-pack", {{"If-Match", "*"}})->status, 204);
+  EXPECT_EQ(rank_one(), before);
+}
+
+}  // namespace
+}  // namespace plenum::server
