@@ -15,7 +15,8 @@ namespace plenum::calibration {
 namespace {
 
 constexpr double kSpread = 0.5;  // a shorter run may be worth this share of the best
-constexpr int kRehearsals = 3;
+constexpr std::size_t kRehearsals = 3;
+constexpr double kBends = 4.0;  // Δχ² to first order over that of a full fit, at the most
 constexpr double kRates[] = {1.0, 4.0};  // of sampling, against that of the data
 constexpr const char* kPressure = "pressure_kpa_gauge";
 constexpr int kProbeSamples = 400;
@@ -78,7 +79,7 @@ class Designer {
       if (keep(Choose(rated.back(), kPressure, rate))) return best;
     }
     for (std::size_t i = 0; i < rated.size(); ++i)
-      if (keep(Choose(rated[i], BestChannel(rated[i]), kRates[i]))) return best;
+      if (keep(Choose(rated[i], BestChannel(rated[i]), kRates[i]))) break;
     return best;
   }
 
@@ -136,8 +137,8 @@ class Designer {
     const std::vector<std::string>& names = rated.worth.names;
     const auto found = std::find(names.begin(), names.end(), signal);
     if (found == names.end()) return 0.0;
-    const auto index = static_cast<std::size_t>(found - names.begin());
-    return DeltaBic(rated.worth.delta_chi2[index], rated.proposal.run);
+    return DeltaBic(rated.worth.pairs[found - names.begin()].front().delta_chi2,
+                    rated.proposal.run);
   }
 
   double Best(const std::vector<Rated>& rated, const std::string& signal) const {
@@ -158,7 +159,7 @@ class Designer {
     return Rehearse(ShortestNear(rated, signal, Best(rated, signal)), signal, rate);
   }
 
-  // Those worth at least kSpread of the best, short before long, a few.
+  // Those worth at least kSpread of the best, short before long: a few, and the best.
   std::vector<const Rated*> ShortestNear(const std::vector<Rated>& rated, const std::string& signal,
                                          double best) const {
     std::vector<const Rated*> near;
@@ -167,39 +168,66 @@ class Designer {
     std::stable_sort(near.begin(), near.end(), [](const Rated* a, const Rated* b) {
       return a->proposal.run.t_s.back() < b->proposal.run.t_s.back();
     });
-    if (near.size() > kRehearsals) near.resize(kRehearsals);
+    if (near.size() > kRehearsals) {
+      const auto worth_less = [&](const Rated* a, const Rated* b) {
+        return WorthWith(*a, signal) < WorthWith(*b, signal);
+      };
+      const Rated* largest = *std::max_element(near.begin(), near.end(), worth_less);
+      near.resize(kRehearsals);
+      if (std::find(near.begin(), near.end(), largest) == near.end()) near.back() = largest;
+    }
     return near;
   }
 
-  // Fits the rival in full to one after the other, until one decides; the best otherwise.
+  // One after the other, until one decides; the best otherwise.
   std::optional<Experiment> Rehearse(const std::vector<const Rated*>& order,
                                      const std::string& signal, double rate) const {
     std::optional<Experiment> best;
     for (const Rated* one : order) {
       if (Cancelled()) break;
-      std::optional<Experiment> experiment = Refitted(*one, signal, rate);
-      if (experiment && (!best || experiment->expected_delta_bic > best->expected_delta_bic))
-        best = std::move(experiment);
+      const double least_bic = best ? best->expected_delta_bic : -1.0;
+      std::optional<Experiment> experiment = Rehearsed(*one, signal, rate, least_bic);
+      if (experiment && experiment->expected_delta_bic > least_bic) best = std::move(experiment);
       if (best && best->expected_delta_bic >= kDecisiveDeltaBic) break;
     }
     return best;
   }
 
-  std::optional<Experiment> Refitted(const Rated& rated, const std::string& signal,
-                                     double rate) const {
-    const std::vector<std::string>& names = rated.worth.names;
-    const auto chosen =
-        static_cast<std::size_t>(std::find(names.begin(), names.end(), signal) - names.begin());
-    const auto [truth, rival] = rated.worth.least_pair[chosen];
-    ExtendedData extended(dataset(), rated.proposal.run, true);
-    Run& run = extended.dataset.runs.back();
-    std::vector<Prediction> shown;  // a channel that stands still in one may move in the other
-    for (const std::size_t side : {truth, rival}) {
-      const ForwardModel forward(extended.dataset);
-      shown.push_back(forward.Predict(extended.run(), extended.With(tied_[side].fit->state), {},
+  // The pair that a run parts least, the rivals fitted in full: one that bends further than the
+  // first order sees may come nearer than the one that seemed nearest. Ends with the first pair
+  // that it parts by less than `enough_bic`.
+  std::optional<Experiment> Rehearsed(const Rated& rated, const std::string& signal, double rate,
+                                      double enough_bic) const {
+    const ExtendedData extended(dataset(), rated.proposal.run, false);
+    const ForwardModel forward(extended.dataset);
+    std::vector<Prediction> shown;
+    for (const TiedFit& one : tied_) {
+      shown.push_back(forward.Predict(extended.run(), extended.With(one.fit->state), {},
                                       {.cancelled = options_.cancelled}));
       if (shown.back().status != model::SimulateStatus::kDone) return {};
     }
+    const std::vector<std::string>& names = rated.worth.names;
+    const auto found = std::find(names.begin(), names.end(), signal);
+    std::optional<Experiment> least;
+    double least_chi2 = std::numeric_limits<double>::infinity();
+    for (const PairWorth& pair : rated.worth.pairs[found - names.begin()]) {
+      if (Cancelled() || pair.delta_chi2 > kBends * least_chi2) break;
+      least_chi2 = std::min(least_chi2, pair.delta_chi2);
+      std::optional<Experiment> experiment = Refitted(rated, pair, shown, signal, rate);
+      if (!experiment) return {};
+      if (!least || experiment->expected_delta_bic < least->expected_delta_bic)
+        least = std::move(experiment);
+      if (least->expected_delta_bic < enough_bic) break;
+    }
+    return least;
+  }
+
+  std::optional<Experiment> Refitted(const Rated& rated, const PairWorth& pair,
+                                     const std::vector<Prediction>& shown,
+                                     const std::string& signal, double rate) const {
+    const std::size_t truth = pair.truth, rival = pair.rival;
+    ExtendedData extended(dataset(), rated.proposal.run, true);
+    Run& run = extended.dataset.runs.back();
     std::vector<std::string> seen;
     ObservedRun would = WouldObserve((*data_.observed)[data_.runs.front()], run, shown, seen);
     Experiment experiment;
@@ -209,8 +237,8 @@ class Designer {
       else
         would.signals.erase(would.signals.begin() + static_cast<std::ptrdiff_t>(s));
     }
-    run.pressure_pa = shown.front().reading.pressure_pa;
-    run.channels = shown.front().reading.channels;
+    run.pressure_pa = shown[truth].reading.pressure_pa;
+    run.channels = shown[truth].reading.channels;
     std::vector<ObservedRun> observed = *data_.observed;
     observed.push_back(std::move(would));
 
@@ -220,7 +248,7 @@ class Designer {
     data.observed = &observed;
     data.runs.push_back(extended.run());
     const Fit& before = *tied_[rival].fit;
-    const Fit refit = FitModel(data, extended.With(before.state), options_);
+    const Fit refit = LeastOf(data, StartsOf(extended.With(before.state)));
     if (!refit.Usable()) return {};
     const Reading answer = Predicted(data, refit.state, extended.run(), options_);
     if (answer.pressure_pa.size() != run.pressure_pa.size()) return {};
@@ -229,7 +257,8 @@ class Designer {
       squares += std::pow(run.pressure_pa[i] - answer.pressure_pa[i], 2);
     const double left = refit.chi2_data + refit.chi2_prior - before.chi2_data - before.chi2_prior;
     experiment.run = rated.proposal.run;
-    experiment.expected_delta_bic = DeltaBic(std::max(0.0, left), run);
+    const double ahead = before.bic - tied_[truth].fit->bic;
+    experiment.expected_delta_bic = std::max(0.0, DeltaBic(std::max(0.0, left), run) + ahead);
     experiment.expected_difference_pa =
         std::sqrt(squares / static_cast<double>(run.pressure_pa.size()));
     std::vector<double> rows(observed.back().rows());
@@ -242,6 +271,28 @@ class Designer {
     parts.earlier = left - parts.pressure - parts.channels;
     experiment.why = Why(rated.proposal, experiment, parts, truth, rival, rate);
     return experiment;
+  }
+
+  // From where a rival is fitted again: where it is, and where its only effect is usually sought,
+  // because with a run more another optimum may be its best.
+  std::vector<ModelState> StartsOf(const ModelState& state) const {
+    std::vector<ModelState> starts = {state};
+    if (state.effects.size() != 1u) return starts;
+    for (const model::Effect& effect : EffectStarts(*state.effects.front().spec, data_.sizes)) {
+      starts.push_back(state);
+      starts.back().effects = {effect};
+    }
+    return starts;
+  }
+
+  Fit LeastOf(const FitData& data, const std::vector<ModelState>& starts) const {
+    const auto chi2 = [](const Fit& fit) { return fit.chi2_data + fit.chi2_prior; };
+    Fit least;
+    for (const ModelState& start : starts) {
+      Fit fit = FitModel(data, start, options_);
+      if (fit.Usable() && (!least.Usable() || chi2(fit) < chi2(least))) least = std::move(fit);
+    }
+    return least;
   }
 
   // Where the χ² is that the rival is left with: in the proposed run's pressure, in its channels,

@@ -6,13 +6,16 @@
 //   Δχ² = min_δ |r − J·δ|² + δᵀ·H·δ = rᵀr − (Jᵀr)ᵀ(H + JᵀJ)⁻¹(Jᵀr),
 // r the difference of the whitened predictions, J the rival's whitened Jacobian in the proposed
 // run, H its curvature over all data so far with priors. A run is worth the least Δχ² over the
-// pairs and over which of a pair is true. The best runs are then rehearsed: the rival is fitted in
-// full to the data and the proposed run with A's readings in it, and the least left over counts.
-// Bounds on parameters are not seen by the first order, which makes it err to the low side.
+// pairs and over which of a pair is true. The best runs are then rehearsed: the rivals that come
+// nearest are fitted in full to the data and the proposed run with A's readings in it, from where
+// they are and from their usual starts. The least by which A is then ahead counts, with what it is
+// ahead or behind by now. Bounds on parameters are not seen by the first order, which makes it err
+// to the low side; other optima make it err to the high side.
 //
 // Faster sampling is asked for only if the pressure (and the channels that the data have) does not
 // decide as it was sampled, and a second channel only if that does not either. A channel's σ is 1 %
-// of its range in the run, a temperature's at least 0.5 K.
+// of its range in the run, a temperature's at least 0.5 K, a volume's at least 1 % of what the
+// actuator takes up.
 #ifndef PLENUM_CALIBRATION_EXPERIMENT_H_
 #define PLENUM_CALIBRATION_EXPERIMENT_H_
 

@@ -19,7 +19,7 @@ constexpr double kEmptied = 0.05;      // of the gauge pressure before
 constexpr double kHoldInRises = 6.0;   // where the data have no hold
 constexpr double kRestSamples = 20.0;  // before the first command
 constexpr double kLongest = 10.0;      // of the data's longest run
-constexpr int kShortStrokes = 10;
+constexpr int kShortStrokes = 10, kStepsDown = 4;
 
 std::string Short(double value) {
   char text[32];
@@ -180,7 +180,7 @@ class Strokes {
 };
 
 void ProposeWithoutSource(const Bench& bench, const Run& run, double spacing_s,
-                          std::vector<Proposal>& proposals) {
+                          const StrokeTime& stroke_time, std::vector<Proposal>& proposals) {
   const double ambient_pa = run.ambient.pressure_pa;
   for (const double share : {1.0, 0.5}) {
     Run from = run;
@@ -196,6 +196,18 @@ void ProposeWithoutSource(const Bench& bench, const Run& run, double spacing_s,
           {Schedule(rest_s).Then(ValveState::kDeflate, duration_s).On(from, spacing_s),
            start + "emptying for " + Short(duration_s) + " s"});
     }
+    if (run.line.empty()) continue;
+    const double empty_pa = ambient_pa + kEmptied * (*from.initial_pressure_pa - ambient_pa);
+    from.valve = {{0.0, ValveState::kDeflate}};
+    const double fall_s = stroke_time(from, empty_pa);
+    if (!std::isfinite(fall_s)) continue;
+    const double hold_s = bench.longest_run_s / kStepsDown;
+    Schedule stairs(hold_s);
+    for (int i = 0; i < kStepsDown; ++i)
+      stairs.Then(ValveState::kDeflate, fall_s / (kStepsDown + 2)).Then(ValveState::kHold, hold_s);
+    stairs.Then(ValveState::kDeflate, fall_s);
+    proposals.push_back({stairs.On(from, spacing_s),
+                         start + "emptying in four steps, each held " + Short(hold_s) + " s"});
   }
 }
 
@@ -220,7 +232,8 @@ std::vector<Proposal> ProposeRuns(const Dataset& dataset, const std::vector<std:
     if (blocked && !gives) continue;
     Run run = bench.pattern;
     run.blocked = blocked;
-    if (run.supply == Supply::kNone) ProposeWithoutSource(bench, run, spacing_s, proposals);
+    if (run.supply == Supply::kNone)
+      ProposeWithoutSource(bench, run, spacing_s, stroke_time, proposals);
     for (const double source_pa : sources_pa) {
       run.source_pressure_pa = source_pa;
       Strokes(bench, run, spacing_s, stroke_time).Propose(proposals);

@@ -5,9 +5,10 @@
 // that and at kLowerSource of it; the actuator goes at most to its operating pressure. Per source,
 // blocked and free (where that differs): a stroke with a long hold and with a four times longer
 // one, to half of the pressure too; three full cycles with a rest after; stairs up and down; ten
-// short strokes. Without a source: closed or emptying from the highest initial pressure of the data
-// and from half of it. The commands follow from how long the strokes take in a simulation given by
-// the caller. Samples are as dense as in the data times `rate`, kProposalSamples at most.
+// short strokes. Without a source: closed, emptying or emptying in steps, from the highest initial
+// pressure of the data and from half of it. The commands follow from how long the strokes take in a
+// simulation given by the caller. Samples are as dense as in the data times `rate`,
+// kProposalSamples at most.
 #ifndef PLENUM_CALIBRATION_PROPOSALS_H_
 #define PLENUM_CALIBRATION_PROPOSALS_H_
 

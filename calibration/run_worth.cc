@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace plenum::calibration {
 namespace {
@@ -45,6 +44,12 @@ Eigen::MatrixXd Jacobian(const Prediction& prediction, const ObservedRun& observ
 double RangeOf(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return *high - *low;
+}
+
+// Of a sensor that is right for the rig: a volume that all but stands still is not read finer.
+double FullScale(const Run& run, std::vector<double> Channels::*channel, double range) {
+  if (channel != &Channels::volume_m3) return range;
+  return std::max(range, run.chamber.rest_volume_m3 * (run.chamber.expansion_ratio - 1.0));
 }
 
 // A signal's share of Δχ²: rᵀr, Jᵀr, JᵀJ. Signals add.
@@ -125,7 +130,7 @@ ObservedRun WouldObserve(const ObservedRun& pattern, const Run& run,
     ObservedSignal signal = pressure;
     signal.channel = channel.values;
     signal.steps.assign(run.t_s.size(), {});
-    signal.sigma = kChannelAccuracy * range;
+    signal.sigma = kChannelAccuracy * FullScale(run, channel.values, range);
     if (channel.values == &Channels::temperature_k)
       signal.sigma = std::max(signal.sigma, kTemperatureErrorK);
     if (channel.values == &Channels::source_pressure_pa ||
@@ -180,8 +185,7 @@ std::optional<RunWorth> WorthOf(const FitData& data, std::span<const TiedFit> ti
   std::vector<std::size_t> always = {0};
   for (std::size_t s = 1; s < count; ++s)
     if (InData(data, worth.names[s])) always.push_back(s);
-  worth.delta_chi2.assign(count, std::numeric_limits<double>::infinity());
-  worth.least_pair.assign(count, {0, 1});
+  worth.pairs.resize(count);
   for (std::size_t truth = 0; truth < tied.size(); ++truth) {
     for (std::size_t rival = 0; rival < tied.size(); ++rival) {
       if (truth == rival) continue;
@@ -195,13 +199,14 @@ std::optional<RunWorth> WorthOf(const FitData& data, std::span<const TiedFit> ti
       for (std::size_t s = 0; s < count; ++s) {
         std::vector<std::size_t> signals = always;
         if (std::find(always.begin(), always.end(), s) == always.end()) signals.push_back(s);
-        const double left = Left(pieces, curvatures[rival], signals);
-        if (left >= worth.delta_chi2[s]) continue;
-        worth.delta_chi2[s] = left;
-        worth.least_pair[s] = {truth, rival};
+        worth.pairs[s].push_back({truth, rival, Left(pieces, curvatures[rival], signals)});
       }
     }
   }
+  for (std::vector<PairWorth>& pairs : worth.pairs)
+    std::stable_sort(pairs.begin(), pairs.end(), [](const PairWorth& a, const PairWorth& b) {
+      return a.delta_chi2 < b.delta_chi2;
+    });
   return worth;
 }
 

@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "calibration/fit.h"
@@ -44,12 +43,16 @@ ObservedRun WouldObserve(const ObservedRun& pattern, const Run& run,
 std::optional<Eigen::MatrixXd> Curvature(const FitData& data, const Fit& fit,
                                          const FitOptions& options);
 
+struct PairWorth {
+  std::size_t truth = 0, rival = 0;
+  double delta_chi2 = 0.0;
+};
+
 struct RunWorth {
   std::vector<std::string> names;  // of the signals, the pressure first
-  // By signal: least Δχ² with it, the pressure and the channels that the data have; and the pair
-  // (truth, rival) that it is of.
-  std::vector<double> delta_chi2;
-  std::vector<std::pair<std::size_t, std::size_t>> least_pair;
+  // By signal: Δχ² with it, the pressure and the channels that the data have, of every pair, the
+  // least first.
+  std::vector<std::vector<PairWorth>> pairs;
 };
 
 // `curvatures` by tied fit. None where a simulation failed.

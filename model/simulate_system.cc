@@ -6,12 +6,14 @@
 #include <variant>
 
 #include "model/effects/registry.h"
+#include "model/simulate_root.h"
 
 namespace plenum::model {
 namespace {
 
 // A trial stage may leave the physical range; the step is then rejected for its error.
 constexpr double kLowestPressurePa = 1e-3;
+constexpr double kInletTolerancePa = 1e-5, kInletStepPa = 1.0;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class T>
@@ -24,6 +26,21 @@ std::vector<LineElement<T>> Lifted(std::span<const FlowElement> elements, const 
                       lift.operator()<T>(element.cracking_pressure_pa), element.subsonic_index});
   }
   return lifted;
+}
+
+// Where between two pressures a monotone flow is this one; by a step of Newton's method with the
+// derivatives of T.
+template <class T, class Flow>
+T PressureAt(const Flow& flow_at, const T& flow, const T& low_pa, const T& high_pa) {
+  const auto above = [&](double pressure_pa) { return ValueOf(T(flow_at(T(pressure_pa)) - flow)); };
+  const double low = ValueOf(low_pa), high = ValueOf(high_pa);
+  const double above_low = above(low), above_high = above(high);
+  if ((above_low > 0.0) == (above_high > 0.0))
+    return std::abs(above_low) < std::abs(above_high) ? low_pa : high_pa;
+  const double root = RootBetween(above, low, above_low, high, above_high, kInletTolerancePa);
+  const double slope =
+      (above(root + kInletStepPa) - above(root - kInletStepPa)) / (2.0 * kInletStepPa);
+  return slope == 0.0 ? T(root) : T(root - (flow_at(T(root)) - flow) / slope);
 }
 
 }  // namespace
@@ -488,18 +505,32 @@ T System<T>::PressureBehind(std::vector<LineElement<T>> elements, std::size_t co
   return NodePressure<T>(before, {&outlet, 1});
 }
 
+// While the valve is partly open the tube alone, which conducts as ever, tells what its flow does.
 template <class T>
 T System<T>::InletPressure(std::size_t i, const T& t) const {
+  using std::sqrt;
   const Group& group = groups_[i];
   const GroupSetup<T>& setup = group.setup;
   const Moment<T>& m = group.moment;
+  const std::span<const LineElement<T>> fill = setup.fill, exhaust = setup.exhaust;
   if (m.line_in_m3_per_s > 0.0) {
-    return PressureBehind(setup.fill, group.fill_before_inlet, T(1.0), 0, m.head_pa, m.tail_pa);
+    if (!(group.filling.At(t) < 1.0))
+      return PressureBehind(setup.fill, group.fill_before_inlet, T(1.0), 0, m.head_pa, m.tail_pa);
+    const Line<T> tube(fill.subspan(group.fill_before_inlet), linear_ratio_);
+    if (tube.empty()) return m.tail_pa;
+    const auto into = [&](const T& inlet_pa) { return tube.Flow(inlet_pa, m.tail_pa); };
+    return PressureAt<T>(into, m.line_in_m3_per_s / m.line_factor, m.tail_pa, m.head_pa);
   }
   if (m.line_out_m3_per_s > 0.0) {
-    return PressureBehind(setup.exhaust, group.exhaust_before_inlet,
-                          m.line_factor * group.venting.At(t), setup.exhaust_fixed, m.tail_pa,
-                          ambient_pa_);
+    if (!(group.venting.At(t) < 1.0))
+      return PressureBehind(setup.exhaust, group.exhaust_before_inlet, m.line_factor,
+                            setup.exhaust_fixed, m.tail_pa, ambient_pa_);
+    const Line<T> tube(exhaust.first(group.exhaust_before_inlet), linear_ratio_);
+    if (tube.empty()) return m.tail_pa;
+    T flow = m.line_out_m3_per_s / m.line_factor;
+    if (group.heated) flow /= sqrt(ambient_k_ / m.tail_temperature_k);
+    const auto out = [&](const T& inlet_pa) { return tube.Flow(m.tail_pa, inlet_pa); };
+    return PressureAt<T>(out, flow, ambient_pa_, m.tail_pa);
   }
   return m.tail_pa;
 }

@@ -1,6 +1,10 @@
 // A case of the bench (bench/diagnosis), made small, through the diagnosis from end to end.
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+#include <vector>
+
 #include "calibration/diagnose.h"
 #include "tests/support/bench_dataset.h"
 
@@ -29,6 +33,37 @@ TEST(BenchDiagnosis, CleanCaseIsAdequate) {
   const Diagnosis diagnosis = Diagnosed(Small(DrawCase(1, CaseKind::kClean)));
   EXPECT_EQ(diagnosis.verdict, Verdict::kAdequate) << diagnosis.sentence;
   EXPECT_TRUE(diagnosis.effects.empty());
+}
+
+std::set<std::set<std::string>> SetsOf(const Diagnosis& diagnosis) {
+  std::set<std::set<std::string>> sets;
+  for (const auto& tied : diagnosis.tied) sets.emplace(tied.begin(), tied.end());
+  std::set<std::string> named;
+  for (const calibration::FittedEffect& effect : diagnosis.effects)
+    named.emplace(effect.effect.spec->id);
+  if (!named.empty()) sets.insert(named);
+  return sets;
+}
+
+// A supply that droops and a conductance of its own differ in the source's pressure alone, which
+// says nothing of other pairs of the tie: it is to be measured all the same.
+TEST(BenchDiagnosis, ATieAsksForTheChannelThatAnyOfItsPairsNeeds) {
+  const Diagnosis diagnosis = Diagnosed(TieOfSeries(44, 88));
+  ASSERT_EQ(diagnosis.verdict, Verdict::kTie) << diagnosis.sentence;
+  const std::set<std::set<std::string>> sets = SetsOf(diagnosis);
+  ASSERT_TRUE(sets.contains({"supply_droop"}) && sets.contains({"directional_conductance"}));
+  ASSERT_TRUE(diagnosis.next_experiment.has_value());
+  EXPECT_EQ(diagnosis.next_experiment->measure,
+            std::vector<std::string>{"source_pressure_kpa_gauge"});
+}
+
+// Heat to a wall that stays warm is a limit of heat to any wall: where the second fits, the first
+// is found too.
+TEST(BenchDiagnosis, ALimitOfAnEffectIsFoundWithIt) {
+  const BenchCase bench = TieOfSeries(44, 5);
+  ASSERT_EQ(bench.effects.front().id, "heat_transfer");
+  const Diagnosis diagnosis = Diagnosed(bench);
+  EXPECT_TRUE(SetsOf(diagnosis).contains({"heat_transfer"})) << diagnosis.sentence;
 }
 
 }  // namespace

@@ -86,13 +86,18 @@ TEST(ProposeRuns, ARigidChamberNeedsNoBlockingAndOneWithoutSourceIsClosedOrEmpti
   dataset.runs = {MakeRun(Supply::kNone, 0.0)};
   dataset.runs[0].chamber.expansion_ratio = 1.0;
   const std::vector<Proposal> proposals = ProposeRuns(dataset, {0}, 1.0, kHalfASecond);
-  EXPECT_EQ(proposals.size(), 8u);
+  EXPECT_EQ(proposals.size(), 10u);
+  std::set<std::size_t> strokes;
   for (const auto& [run, what] : proposals) {
+    strokes.insert(static_cast<std::size_t>(
+        std::count_if(run.valve.begin(), run.valve.end(),
+                      [](const auto& command) { return command.state == ValveState::kDeflate; })));
     EXPECT_FALSE(run.blocked) << what;
     EXPECT_LE(*run.initial_pressure_pa, 1.8e5) << what;
     for (const model::ValveCommand& command : run.valve)
       EXPECT_NE(command.state, ValveState::kInflate) << what;
   }
+  EXPECT_EQ(strokes, (std::set<std::size_t>{0, 1, 5}));  // closed, emptying, in steps
 }
 
 TEST(ProposeRuns, StrokesThatNeverEndAreNotProposed) {

@@ -194,6 +194,15 @@ TEST(Sensitivity, OfADrivenSourceAndTheInletPressure) {
   EXPECT_LT(worst.error, 1e-5) << worst.where;
 }
 
+// The pressure behind a valve that is partly open follows from the tube's flow.
+TEST(Sensitivity, OfTheInletPressureWhileTheValveOpens) {
+  GroupRig group = TwoElements();
+  group.inlet_after = 1;
+  group.effects = {{FindEffect("valve_ramp"), {0.4}}};
+  const Worst worst = AgainstDifferences(RigOf(RegulatedSource{3e5}, {group}), Tight(), 1e-4, Any);
+  EXPECT_LT(worst.error, 1e-5) << worst.where;
+}
+
 // One parameter that moves the volume, both ways through the valve and the source together.
 TEST(Sensitivity, AlongADirectionAgreesWithDifferences) {
   Rig rig = RigOf(DrivenSource{{0.0, 0.5, 2.0}, {3e5, 2.7e5, 2.9e5}, 1.0}, {TwoElements()});
