@@ -60,7 +60,6 @@ FitOptions Contenders::Screening() const {
 FitOptions Contenders::FirstLook(std::size_t size) const {
   FitOptions options = Screening();
   options.iterations_max = kFirstLook;
-  options.coarse = true;
   const std::optional<std::size_t> smaller = Best(static_cast<int>(size) - 1);
   if (!smaller) return options;
   const Fit& fit = list[*smaller].fit;

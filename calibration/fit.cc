@@ -21,8 +21,7 @@ constexpr double kTwoSided95 = 1.96;
 constexpr double kToleranceTightest = 1e-9;
 constexpr double kParameterTolerance = 1e-7;
 constexpr double kLeastCurvature = 1e-12;
-constexpr int kPhases = 8;             // in a round
-constexpr double kContraction = 0.25;  // of a step, at most: what is left of it must not look done
+constexpr int kPhases = 8;  // in a round
 
 PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions& options) {
   const ObservedSignal& pressure = (*data.observed)[run].signals.front();
@@ -422,10 +421,6 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   solver.parameter_tolerance = kParameterTolerance;
   solver.gradient_tolerance = 0.0;
   solver.initial_trust_region_radius = 1e3;
-  if (options.coarse) {
-    solver.line_search_interpolation_type = ceres::QUADRATIC;
-    solver.max_line_search_step_contraction = kContraction;
-  }
   solver.num_threads = options.threads;
   solver.logging_type = ceres::SILENT;
   solver.callbacks.push_back(&stop);

@@ -41,7 +41,6 @@ struct FitOptions {
   double function_tolerance = 1e-6;  // relative change of χ² that ends the search
   int iterations_max = 40;
   std::size_t steps_max = 3'000;        // of one run's integration; beyond, a step is not taken
-  bool coarse = false;                  // searches along its steps without derivatives
   bool nuisance_only = false;           // only what each run has of its own moves
   bool own_pairs = false;               // with nuisance_only: and the declared pairs (C, b)
   std::optional<Parameter> fixed = {};  // stays where it starts
