@@ -165,6 +165,10 @@ TEST_F(Diagnoses, SaysWhatCannotBeToldApartAndWhichRunWouldTell) {
 
 // A leak that opens above a pressure is none of the effects listed; the term that is learned is.
 TEST_F(Diagnoses, LearnsWhatNoEffectExplainsAndPredictsWithIt) {
+#ifdef PLENUM_SANITIZED
+  GTEST_SKIP() << "takes minutes; Discrepancy.ASeamThatGapesIsLearnedAsALeakThatOpens goes the "
+                  "same way";
+#endif
   const auto gaping = [](int run, double t_s) {
     double kpa = std::array{100.0, 75.0, 50.0, 90.0}[static_cast<std::size_t>(run % 4)];
     for (double t = 0.0; t < t_s; t += 0.01)
