@@ -78,6 +78,9 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
 // restriction that is never choked, is no reason against its effect.
 double Penalty(const Fit& fit, double memory);
 
+// n·ln(χ²/n) + χ²_prior + the penalty, of readings without memory.
+double Bic(const Fit& fit);
+
 // Looks at how far the readings narrow such ratios, and counts it in BIC. Costs one evaluation.
 void Narrow(const FitData& data, const FitOptions& options, Fit& fit);
 

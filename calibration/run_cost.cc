@@ -1,0 +1,149 @@
+#include "calibration/run_cost.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plenum::calibration {
+namespace {
+
+constexpr double kToleranceTightest = 1e-9;
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+Eigen::Map<const Eigen::VectorXd> Column(const std::vector<std::vector<double>>& columns,
+                                         Eigen::Index j) {
+  const std::vector<double>& column = columns[static_cast<std::size_t>(j)];
+  return {column.data(), static_cast<Eigen::Index>(column.size())};
+}
+
+}  // namespace
+
+PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions& options) {
+  const ObservedSignal& pressure = (*data.observed)[run].signals.front();
+  const double size_pa = data.forward->dataset().runs[run].chamber.operating_pressure_pa;
+  PredictOptions predict;
+  predict.relative_tolerance = std::clamp(options.noise_share * pressure.sigma / size_pa,
+                                          kToleranceTightest, options.tolerance_loosest);
+  predict.steps_max = options.steps_max;
+  predict.cancelled = options.cancelled;
+  predict.recorded_alone = true;
+  return predict;
+}
+
+ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coordinates,
+                   const double* u) {
+  ModelState state = start;
+  for (std::size_t j = 0; j < coordinates.size(); ++j) {
+    double& number = NumberOf(state, coordinates[j].parameter);
+    number = coordinates[j].Number(u[j]);
+    if (coordinates[j].parameter.kind != Parameter::Kind::kEffect) continue;
+    const Parameter& parameter = coordinates[j].parameter;
+    const model::ParameterSpec& spec =
+        state.effects[parameter.effect].spec->parameters[parameter.number];
+    number = std::clamp(number, spec.low, spec.high);
+  }
+  return state;
+}
+
+RunCost::RunCost(const FitData& data, std::size_t run, const ModelState& start,
+                 const std::vector<Coordinate>& coordinates, const PredictOptions& options,
+                 double weight)
+    : data_(data),
+      run_(run),
+      start_(start),
+      coordinates_(coordinates),
+      options_(options),
+      scale_(std::sqrt(weight)) {
+  for (const Coordinate& coordinate : coordinates) parameters_.push_back(coordinate.parameter);
+  mutable_parameter_block_sizes()->push_back(static_cast<int>(coordinates.size()));
+  set_num_residuals(static_cast<int>(coordinates.size()) + 1);
+}
+
+bool RunCost::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
+  const Eigen::Map<const Eigen::VectorXd> u(blocks[0], size());
+  const bool derive = jacobians && jacobians[0];
+  if (known_.u.size() != size() || known_.u != u) known_ = {u, {}, {}};
+  if (derive && !known_.root) known_.root = RootAt(blocks[0]);
+  if (!derive && !known_.root && !known_.norm) known_.norm = NormAt(blocks[0]);
+  Eigen::Map<Eigen::VectorXd> rows(residuals, num_residuals());
+  if (!known_.root) {
+    rows.setZero();
+    rows[0] = *known_.norm;
+    return std::isfinite(rows[0]);
+  }
+  if (known_.root->size() == 0) return false;
+  rows = known_.root->rightCols<1>();
+  if (derive)
+    Eigen::Map<Matrix>(jacobians[0], num_residuals(), size()) = known_.root->leftCols(size());
+  return true;
+}
+
+Prediction RunCost::Predict(const double* u, std::span<const Parameter> parameters) const {
+  Prediction prediction =
+      data_.forward->Predict(run_, StateAt(start_, coordinates_, u), parameters, options_);
+  if (prediction.stiff) options_.stiff = true;
+  return prediction;
+}
+
+std::vector<double> RunCost::ResidualsOf(const Prediction& prediction) const {
+  std::vector<double> e(Observed().rows());
+  Residuals(data_.forward->dataset().runs[run_], Observed(), prediction.reading, e);
+  return e;
+}
+
+// |e|; infinite where the run cannot be simulated.
+double RunCost::NormAt(const double* u) const {
+  const Prediction prediction = Predict(u, {});
+  if (prediction.status != model::SimulateStatus::kDone)
+    return std::numeric_limits<double>::infinity();
+  double squares = 0.0;
+  for (const double e : ResidualsOf(prediction)) squares += e * e;
+  return scale_ * std::sqrt(squares);
+}
+
+// R, its last column that of the residuals; empty where the run cannot be simulated.
+Eigen::MatrixXd RunCost::RootAt(const double* u) const {
+  Prediction prediction = Predict(u, parameters_);
+  if (prediction.status != model::SimulateStatus::kDone) return {};
+  const std::vector<double> slopes =
+      GridSlopes(data_.forward->dataset().runs[run_], Observed(), prediction.reading);
+  std::vector<std::vector<double>> columns;
+  for (Reading& derivative : prediction.derivatives) {
+    Whitened(Observed(), derivative, slopes, columns.emplace_back(Observed().rows()));
+    derivative = {};  // a long run's take much memory
+  }
+  columns.push_back(ResidualsOf(prediction));
+  Eigen::MatrixXd products(size() + 1, size() + 1);
+  for (Eigen::Index j = 0; j <= size(); ++j)
+    for (Eigen::Index i = 0; i <= j; ++i)
+      products(j, i) = scale_ * scale_ * SlopeOf(i, u) * SlopeOf(j, u) *
+                       Column(columns, i).dot(Column(columns, j));
+  if (!products.triangularView<Eigen::Lower>().toDenseMatrix().allFinite()) return {};
+  const Eigen::LDLT<Eigen::MatrixXd> factors(products);
+  const Eigen::MatrixXd half =
+      Eigen::MatrixXd(factors.matrixL()) * factors.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  return (factors.transpositionsP().transpose() * half).transpose();
+}
+
+// Of the coordinate's number by u; the residuals' column has none.
+double RunCost::SlopeOf(Eigen::Index j, const double* u) const {
+  return j == size() ? 1.0 : coordinates_[static_cast<std::size_t>(j)].Slope(u[j]);
+}
+PriorCost::PriorCost(const std::vector<Coordinate>& coordinates) : size_(coordinates.size()) {
+  for (std::size_t j = 0; j < size_; ++j)
+    if (coordinates[j].prior) with_prior_.push_back(j);
+  mutable_parameter_block_sizes()->push_back(static_cast<int>(size_));
+  set_num_residuals(static_cast<int>(with_prior_.size()));
+}
+bool PriorCost::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
+  for (std::size_t k = 0; k < with_prior_.size(); ++k) residuals[k] = blocks[0][with_prior_[k]];
+  if (!jacobians || !jacobians[0]) return true;
+  std::fill_n(jacobians[0], with_prior_.size() * size_, 0.0);
+  for (std::size_t k = 0; k < with_prior_.size(); ++k)
+    jacobians[0][k * size_ + with_prior_[k]] = 1.0;
+  return true;
+}
+
+}  // namespace plenum::calibration

@@ -1,0 +1,74 @@
+// The terms of a fit's χ² (fit.h) as cost functions of Ceres.
+#ifndef PLENUM_CALIBRATION_RUN_COST_H_
+#define PLENUM_CALIBRATION_RUN_COST_H_
+
+#include <ceres/cost_function.h>
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "calibration/fit.h"
+
+namespace plenum::calibration {
+
+PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions& options);
+
+// The start with its coordinates at u; numbers of effects are held within their physical range.
+ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coordinates,
+                   const double* u);
+
+// One run over all k coordinates as one block of k + 1 rows. The search needs of the residuals e
+// and their derivatives J only JᵀJ, Jᵀe and eᵀe, so that the rows are R of [J e] = Q·R, which has
+// the same products and none of the readings' number; without derivatives the one row |e|. A step
+// is asked for thrice at one point — by the search along it, for its cost, and for the derivatives
+// there — and simulated once, or once without derivatives and once with them. A run that turned out
+// stiff is taken to stay so: the explicit method is not tried again.
+class RunCost : public ceres::CostFunction {
+ public:
+  // References must outlive it.
+  RunCost(const FitData& data, std::size_t run, const ModelState& start,
+          const std::vector<Coordinate>& coordinates, const PredictOptions& options,
+          double weight = 1.0);
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override;
+
+ private:
+  struct Known {
+    Eigen::VectorXd u;
+    std::optional<double> norm;
+    std::optional<Eigen::MatrixXd> root;
+  };
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(coordinates_.size()); }
+  const ObservedRun& Observed() const { return (*data_.observed)[run_]; }
+  Prediction Predict(const double* u, std::span<const Parameter> parameters) const;
+  std::vector<double> ResidualsOf(const Prediction& prediction) const;
+  double NormAt(const double* u) const;
+  Eigen::MatrixXd RootAt(const double* u) const;
+  double SlopeOf(Eigen::Index j, const double* u) const;
+
+  const FitData& data_;
+  std::size_t run_;
+  const ModelState& start_;
+  const std::vector<Coordinate>& coordinates_;
+  std::vector<Parameter> parameters_;
+  mutable PredictOptions options_;
+  double scale_;         // of the residuals
+  mutable Known known_;  // the last point
+};
+
+// u of every coordinate that has a prior.
+class PriorCost : public ceres::CostFunction {
+ public:
+  explicit PriorCost(const std::vector<Coordinate>& coordinates);
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override;
+
+ private:
+  std::size_t size_;
+  std::vector<std::size_t> with_prior_;
+};
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_RUN_COST_H_
