@@ -1,4 +1,4 @@
-// Processor time to whole fronts in two amounts on synthetic catalogues, one thread.
+// Processor time to whole fronts in two and three amounts on synthetic catalogues, one thread.
 //   front_bench [parts per family]… [--first I] [--requirements N] [--time-limit S] [--each]
 #include <algorithm>
 #include <cstdio>
@@ -14,6 +14,12 @@ namespace plenum::bench {
 namespace {
 
 using optimizer::Amount;
+
+std::string Names(const std::vector<Amount>& amounts) {
+  std::string names;
+  for (Amount amount : amounts) names += (names.empty() ? "" : ", ") + std::string(Name(amount));
+  return names;
+}
 
 void Run(int size, int first, int requirements, double time_limit_s, bool each,
          const std::vector<Amount>& amounts) {
@@ -39,9 +45,9 @@ void Run(int size, int first, int requirements, double time_limit_s, bool each,
   }
   std::sort(seconds.begin(), seconds.end());
   std::printf(
-      "%7d parts per family, %s and %s: median %.3f s, max %.3f s; %d of %d whole; %zu points, "
+      "%7d parts per family, %s: median %.3f s, max %.3f s; %d of %d whole; %zu points, "
       "largest front %zu\n",
-      size, Name(amounts[0]), Name(amounts[1]), seconds[seconds.size() / 2], seconds.back(), whole,
+      size, Names(amounts).c_str(), seconds[seconds.size() / 2], seconds.back(), whole,
       requirements, points, largest);
   std::fflush(stdout);
 }
@@ -68,7 +74,10 @@ int main(int argc, char** argv) {
       sizes.push_back(std::stoi(argv[i]));
   }
   if (sizes.empty()) sizes = {1000, 10000};
+  const std::vector<std::vector<Amount>> fronts = {{Amount::kMass, Amount::kCost},
+                                                   {Amount::kMass, Amount::kVolume},
+                                                   {Amount::kMass, Amount::kVolume, Amount::kCost}};
   for (int size : sizes)
-    for (Amount other : {Amount::kCost, Amount::kVolume})
-      plenum::bench::Run(size, first, requirements, time_limit_s, each, {Amount::kMass, other});
+    for (const std::vector<Amount>& amounts : fronts)
+      plenum::bench::Run(size, first, requirements, time_limit_s, each, amounts);
 }
