@@ -28,12 +28,15 @@ class OneStepIntegrator {
         rtol_(relative_tolerance),
         atol_pa_(absolute_tolerance_pa),
         stepper_(system.size()),
-        trial_(system.size()) {}
+        trial_(system.size()) {
+    if constexpr (kIsDual<T>) largest_.resize(system.size(), Derivatives::Zero());
+  }
 
   // Takes up the state after a switch, or after a cut that changes nothing at once (`smooth`).
   void Start(const T& t, std::span<const T> y, bool smooth) {
     stepper_.Start(system_, t, y, stepper_.next_step());
     if (!smooth) stepper_.set_next_step(FirstStep());
+    if constexpr (kIsDual<T>) NoteDerivatives();
     Guards(t, y, before_);
   }
 
@@ -44,6 +47,7 @@ class OneStepIntegrator {
         system_, boundary - stepper_.time(),
         [&](auto before, auto after, auto error) { return Norm(before, after, error); });
     if (outcome == Stepper::Outcome::kNotFinite) return StepOutcome::kNotFinite;
+    if constexpr (kIsDual<T>) NoteDerivatives();
     const double stiffness = stepper_.StiffnessOfStep();
     if (stiffness > kStabilityBound) ++steps_at_stability_;
     if (stiffness > kFastMode) ++steps_in_fast_modes_;
@@ -80,6 +84,11 @@ class OneStepIntegrator {
   static constexpr double kStabilityBound = 3.25;  // on the real axis
   static constexpr double kFastMode = 0.6;         // a radian of a ringing one is about the bound
 
+  // Values at rest ask for no step, however long; derivatives that are not at rest would then grow
+  // beyond the bound of an explicit method's stability, with nothing in the values to tell.
+  static constexpr double kAtRest = 1e-4;
+  static constexpr double kDerivativeShare = 1e-4;  // of the largest so far, that a step may err by
+
   double Norm(std::span<const T> before, std::span<const T> after, std::span<const T> error) const {
     double norm = 0.0;
     for (std::size_t i = 0; i < error.size(); ++i) {
@@ -90,7 +99,24 @@ class OneStepIntegrator {
       if (!std::isfinite(share)) return std::numeric_limits<double>::infinity();
       norm = std::max(norm, share);
     }
+    if constexpr (kIsDual<T> && !Stepper::kStable) {
+      if (norm < kAtRest) norm = std::max(norm, DerivativeNorm(error));
+    }
     return norm;
+  }
+
+  double DerivativeNorm(std::span<const T> error) const {
+    double norm = 0.0;
+    for (std::size_t i = 0; i < error.size(); ++i)
+      for (int k = 0; k < kDirections; ++k)
+        if (largest_[i][k] > 0.0)
+          norm = std::max(norm, std::abs(error[i].v[k]) / (kDerivativeShare * largest_[i][k]));
+    return norm;
+  }
+
+  void NoteDerivatives() {
+    for (std::size_t i = 0; i < largest_.size(); ++i)
+      largest_[i] = largest_[i].cwiseMax(stepper_.state()[i].v.cwiseAbs());
   }
 
   // So short that no state moves by more than a hundredth of its size.
@@ -163,11 +189,14 @@ class OneStepIntegrator {
     stepper_.MoveEnd(shift);
   }
 
+  using Derivatives = Eigen::Matrix<double, kDirections, 1>;
+
   System<T>& system_;
   double rtol_, atol_pa_;
   Stepper stepper_;
   std::optional<std::size_t> event_;
   std::vector<T> before_, after_, during_, trial_;
+  std::vector<Derivatives> largest_;  // seen of each state, in size; of dual numbers only
   long long steps_at_stability_ = 0, steps_in_fast_modes_ = 0;
 };
 

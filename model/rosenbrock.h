@@ -32,6 +32,8 @@ namespace plenum::model {
 template <class T>
 class RosenbrockOf {
  public:
+  // Whether steps of any length leave at rest what rests.
+  static constexpr bool kStable = true;
   // By how much more the states that no sensor sees may be off: what rings in them too fast to move
   // the pressures is damped, not followed.
   static constexpr double kHiddenRoom = 1e2;

@@ -459,5 +459,30 @@ TEST(Sensitivity, OfATargetNeverReachedIsZeroBesideAnInfiniteTime) {
   EXPECT_EQ(r.derivatives[0].strokes[0].to_target_s, 0.0);
 }
 
+// Where all values rest no step is too long for them, but the derivatives still move.
+TEST(Sensitivity, OfALaggingReadingAtRestDecaysWithThePressure) {
+  for (const double lag_s : {0.002, 0.02, 0.2}) {
+    GroupRig group = TwoElements();
+    group.effects = {{FindEffect("leak", "porous"), {7e15, 0.0}},
+                     {FindEffect("sensor_lag"), {lag_s}}};
+    group.initial_pressure_pa = group.chamber.ambient_pressure_pa;
+    group.schedule = {};
+    Rig rig = RigOf(Regulated(3e5), {group});
+    const SimulateOptions options = Until(300.0, 0.1);
+    const double* by = &rig.groups[0].initial_pressure_pa;
+    const SensitivityResponse r = SimulateWithSensitivities(rig, options, {&by, 1});
+    ASSERT_EQ(r.response.status, SimulateStatus::kDone) << r.response.detail;
+    constexpr double kShiftPa = 10.0;
+    rig.groups[0].initial_pressure_pa += kShiftPa;
+    const Response shifted = Simulate(rig, options);
+    for (std::size_t i = 0; i < r.response.t_s.size(); ++i) {
+      const double rest_pa = r.response.groups[0].reading_pa[i];
+      const double difference = (shifted.groups[0].reading_pa[i] - rest_pa) / kShiftPa;
+      EXPECT_NEAR(r.derivatives[0].groups[0].reading_pa[i], difference, 1e-3)
+          << "lag " << lag_s << " s, t " << r.response.t_s[i] << " s";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plenum::model
