@@ -43,12 +43,17 @@ bool Bounds::CoreIsSingle(const Box& box, int except) const {
 }
 
 int Bounds::WidestSlot(const Box& box) const {
-  // What a pump or a reservoir adds to the others of its source is not in its own share.
-  constexpr double kSourceWeight = 300.0;
+  // What a pump or a reservoir adds to the others of its source is not in its own share. Fittings
+  // hold back less than valves and tubes do, and by how much they weigh the bound on lines alone
+  // (FindLeastObjective) divides them already.
+  constexpr double kSourceWeight = 300.0, kFittingWeight = 0.125;
+  const auto weight = [&](int s) {
+    if (plan_.slots[s].family == Family::kFitting) return kFittingWeight;
+    return DecidesSource(s) && plan_.slots[s].group < 0 ? kSourceWeight : 1.0;
+  };
   const auto spread = [&](int s) {
     const BoxNode& node = Node(box, s);
-    return (node.objective_high - node.objective_low) *
-           (DecidesSource(s) && plan_.slots[s].group < 0 ? kSourceWeight : 1.0);
+    return (node.objective_high - node.objective_low) * weight(s);
   };
   const auto wider = [&](int a, int b) {
     return spread(a) != spread(b) ? spread(a) > spread(b)

@@ -126,7 +126,8 @@ double LeastMissionEnergy(const Problem& problem, const PumpFacts& facts, const 
     double low_pa, high_pa, pump_j, coils_j;
     double energy_j() const { return pump_j + coils_j; }
   };
-  std::vector<Interval> intervals{{need.source_pa, need.source_max_pa, pump_j, least_coils_j}};
+  std::vector<Interval> intervals{
+      {need.source_pa, need.source_max_pa, pump_j, coils_j(need.source_max_pa)}};
   const auto lowest = [&]() -> Interval& {
     return *std::min_element(
         intervals.begin(), intervals.end(),

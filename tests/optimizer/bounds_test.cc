@@ -121,6 +121,23 @@ void ExpectPumpNeedHolds(const Problem& problem, const Candidate& candidate, con
     }
 }
 
+// At the one stop pressure that is left coils take as long as the strokes there.
+void ExpectMissionEnergyHolds(const Problem& problem, const Candidate& candidate,
+                              const Leaf& leaf) {
+  const optimizer::PumpFacts facts =
+      optimizer::MakePumpFacts(problem, problem.parts.compressors[candidate.compressor.index].curve,
+                               candidate.compressor.quantity);
+  const double source_pa = leaf.point.source_pa, volume_m3 = leaf.point.reservoir_m3;
+  const optimizer::PumpLoad load = optimizer::MakePumpLoad(problem, candidate.lines, source_pa);
+  const std::optional<optimizer::ReservoirNeed> need =
+      optimizer::LeastReservoirNeed(problem, facts, load, {}, {source_pa, source_pa},
+                                    {.low_m3 = volume_m3, .high_m3 = volume_m3}, 1e-3);
+  ASSERT_TRUE(need.has_value());
+  const double energy_j = optimizer::LeastMissionEnergy(problem, facts, load, *need, 8);
+  EXPECT_GE(energy_j, 0.999 * optimizer::MissionEnergyAtLeastPressure(problem, facts, load, *need));
+  EXPECT_LE(energy_j, optimizer::Evaluate(problem, candidate, leaf.point).energy_total_j * 1.0001);
+}
+
 void CheckAll(const Problem& problem, Random& random, double share, int& checked) {
   const Configuration configuration = *problem.configurations.begin();
   const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, configuration);
@@ -146,8 +163,10 @@ void CheckAll(const Problem& problem, Random& random, double share, int& checked
     for (const auto& line : reached.lines)
       EXPECT_LE(line->source_min_pa, needed.source_pa * (1.0 + 1e-8));
     EXPECT_NEAR(reached.source_floor_pa, needed.source_pa, 1e-6 * needed.source_pa);
-    if (configuration == Configuration::kCompressor && problem.groups.size() == 1)
+    if (configuration == Configuration::kCompressor && problem.groups.size() == 1) {
       ExpectPumpNeedHolds(problem, candidate, leaf);
+      ExpectMissionEnergyHolds(problem, bounds.CandidateOf(reached), leaf);
+    }
   });
 }
 
