@@ -17,13 +17,18 @@ constexpr std::size_t kFinalSteps = 30'000;
 constexpr double kScreening = 1e-4;
 constexpr int kScreeningIterations = 12;
 // After so many steps only those go on that explain at least this share of what the best one does
-// beyond the smaller set, and the very best.
+// beyond the smaller set, the very best, and those that do worse than the smaller set, which they
+// can all but be: their steps so far say nothing of them, and they are given more.
 constexpr int kFirstLook = 5;
 constexpr double kLoosely = 1e-4;  // of the operating pressure
 constexpr double kHopeful = 0.5;
 constexpr std::size_t kAlwaysOn = 6;
 constexpr double kNear = 20.0;       // of BIC
 constexpr double kNearShare = 0.02;  // of what the best set gains over the base model
+
+bool IsLost(const Contenders::Job& job) {
+  return job.fit.status == FitStatus::kIterationsSpent && job.fit.bic > job.bic_before + kNear;
+}
 
 }  // namespace
 
@@ -163,6 +168,8 @@ void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_sh
   FitOptions rest = Screening();
   rest.iterations_max -= kFirstLook;
   Continue(Hopeful(all), rest, middle, to_share, what);
+  std::erase_if(all, [](const Job* job) { return !IsLost(*job); });
+  Continue(all, Screening(), to_share, to_share, what);
   for (Job& job : jobs) Take(std::move(job));
   Refine(static_cast<int>(size));
 }
@@ -192,7 +199,9 @@ std::vector<Contenders::Job*> Contenders::Hopeful(std::vector<Job*> jobs) const 
   const double gain = std::max(0.0, jobs.front()->bic_before - best);
   std::vector<Job*> hopeful;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
-    const bool may_matter = k < kAlwaysOn || jobs[k]->fit.bic < best + kNear + kHopeful * gain;
+    const double bic = jobs[k]->fit.bic;
+    const bool may_matter =
+        k < kAlwaysOn || bic < best + kNear + kHopeful * gain || IsLost(*jobs[k]);
     if (may_matter && jobs[k]->fit.status == FitStatus::kIterationsSpent)
       hopeful.push_back(jobs[k]);
   }

@@ -6,6 +6,7 @@
 #include "calibration/evidence.h"
 #include "calibration/findings.h"
 #include "calibration/thresholds.h"
+#include "calibration/wider_laws.h"
 
 namespace plenum::calibration {
 
@@ -29,6 +30,12 @@ std::vector<const Contender*> TiedWith(const Bench& bench, std::span<const Conte
     });
     if (!known) tied.push_back(&contender);
   }
+  const std::vector<const Contender*> all = tied;
+  std::erase_if(tied, [&](const Contender* wide) {
+    return wide != &chosen && std::any_of(all.begin(), all.end(), [&](const Contender* narrow) {
+             return StandsAtLimitAlone(bench, *wide, *narrow, memory);
+           });
+  });
   return tied;
 }
 

@@ -1,0 +1,67 @@
+// What a first look at a set must not be taken for.
+#include "calibration/contenders.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/calibration/bench.h"
+
+namespace plenum::calibration {
+namespace {
+
+// A chamber that empties through a clogged exhaust. Without it the declared numbers fit only beyond
+// their uncertainties, so that fits with an effect start from what was declared, far off.
+Dataset Emptied() {
+  Dataset dataset;
+  for (const double initial_pa : {1.9e5, 1.6e5}) {
+    Run run = test::DeclaredRun("emptied", 1e5, true);
+    run.supply = Supply::kNone;
+    run.initial_pressure_pa = initial_pa;
+    run.valve = {{0.0, model::ValveState::kHold}, {0.2, model::ValveState::kDeflate}};
+    run.t_s.clear();
+    for (int i = 0; i <= 80; ++i) run.t_s.push_back(0.02 * i);
+    test::Measure(
+        [&](test::EffectRig& rig) {
+          rig.source = test::EffectRig::Source::kNone;
+          rig.initial_pa = initial_pa;
+          rig.exhaust_restriction = test::ExhaustRestriction{0.6 * test::kBenchConductance, 0.25};
+        },
+        3, 150.0, run);
+    dataset.runs.push_back(run);
+  }
+  dataset.runs[1].id = "emptied again";
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kRestVolume)] = 0.01;
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kSonicConductance)] = 0.1;
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kCriticalRatio)] = 0.1;
+  return dataset;
+}
+
+TEST(Contenders, NoneIsGivenUpWhileWorseThanWhatItContains) {
+  const Dataset dataset = Emptied();
+  const ForwardModel forward(dataset);
+  const std::vector<ObservedRun> observed = Observe(dataset);
+  FitData data;
+  data.forward = &forward;
+  data.observed = &observed;
+  data.runs = {0, 1};
+  data.sizes = SizesOf(dataset);
+  const SearchOptions options;
+  Contenders sets(data, options);
+  sets.FitBase();
+  EXPECT_FALSE(PriorsHold(sets.Base().fit));
+  std::vector<Contenders::Job> jobs;
+  const EffectSet named = NamedEffects(dataset.runs);
+  for (const model::EffectSpec* spec : named) sets.AddJobs(sets.Base(), spec, jobs);
+  sets.RunJobs(jobs, 0.0, 1.0, "single effects");
+  const double base = sets.Base().fit.bic;
+  for (const model::EffectSpec* spec : named) {
+    for (const char* id : {"exhaust_restriction", "dead_volume", "sensor_offset", "sensor_gain"})
+      if (spec->id == id) {
+        EXPECT_LT(sets.Find({spec})->fit.bic, base + 20.0) << id;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace plenum::calibration
