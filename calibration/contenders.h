@@ -7,11 +7,11 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "calibration/effect_sets.h"
 #include "calibration/fit.h"
+#include "calibration/parallel.h"
 
 namespace plenum::calibration {
 
@@ -32,7 +32,7 @@ bool Contains(const Contender& outer, const Contender& inner);
 ModelState StateOf(const Contender& contender, const EffectSet& rest);
 
 struct SearchOptions {
-  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  int threads = UsableCores();
   std::function<bool()> cancelled;                           // may be empty
   std::function<void(double, const std::string&)> progress;  // share done, what is under way
   bool clocks_may_be_off = true;                             // each run's, by a part of a sample

@@ -2,12 +2,23 @@
 #ifndef PLENUM_CALIBRATION_PARALLEL_H_
 #define PLENUM_CALIBRATION_PARALLEL_H_
 
+#include <sched.h>
+
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <thread>
 #include <vector>
 
 namespace plenum::calibration {
+
+// Cores that this process may run on, which may be fewer than the machine has (taskset,
+// containers).
+inline int UsableCores() {
+  cpu_set_t usable;
+  if (sched_getaffinity(0, sizeof usable, &usable) == 0) return CPU_COUNT(&usable);
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
 
 // Runs work(i) for all i below count, each once, in no fixed order.
 template <class Work>
