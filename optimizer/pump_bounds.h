@@ -19,6 +19,7 @@
 #define PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -129,12 +130,12 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
 // raises it, where all strokes begin at once.
 bool EnergyMayGrow(const Problem& problem, const PumpLoad& load);
 // Energy of the mission at any stop pressure in between, at least, by so many divisions of the
-// pressures, and no less than that: what is counted at the lowest of them. `need` as
-// LeastReservoirNeed gave it for the same load.
+// pressures. `need` as LeastReservoirNeed gave it for the same load. As divisions go on the bound
+// rises from low_j towards high_j at most: `matters(low_j, high_j)`, if given, tells whether it is
+// to be raised.
 double LeastMissionEnergy(const Problem& problem, const PumpFacts& facts, const PumpLoad& load,
-                          const ReservoirNeed& need, int divisions);
-double MissionEnergyAtLeastPressure(const Problem& problem, const PumpFacts& facts,
-                                    const PumpLoad& load, const ReservoirNeed& need);
+                          const ReservoirNeed& need, int divisions,
+                          const std::function<bool(double, double)>& matters = {});
 
 // Both for a candidate whose compressor and lines are chosen, by intervals of volumes that
 // divide [low, high]; intervals that will not do are left out.
