@@ -18,6 +18,7 @@
 #ifndef PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 #define PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -34,6 +35,7 @@ class Minorant {
   Minorant() = default;
   Minorant(double low_pa, double high_pa, std::vector<double> value);
   double At(double pressure_pa) const { return value_[Cell(pressure_pa)]; }
+  double InverseAt(double pressure_pa) const { return inverse_[Cell(pressure_pa)]; }
   // Of a function that does not fall, tabulated by its values where cells begin: no less than it.
   double AtMost(double pressure_pa) const {
     const std::size_t cell = Cell(pressure_pa);
@@ -45,11 +47,11 @@ class Minorant {
   std::size_t Cell(double pressure_pa) const {
     const double position = (pressure_pa - low_pa_) * cells_per_pa_;
     if (!(position > 0.0)) return 0;
-    return position < last_ ? static_cast<std::size_t>(position) : value_.size() - 1;
+    return static_cast<std::size_t>(static_cast<int>(std::min(position, last_)));
   }
   double Integral(double pressure_pa) const;
-  double low_pa_ = 0.0, cells_per_pa_ = 0.0, last_ = 0.0;
-  std::vector<double> value_, integral_;
+  double low_pa_ = 0.0, cells_per_pa_ = 0.0, pa_per_cell_ = 0.0, last_ = 0.0;
+  std::vector<double> value_, inverse_, integral_;
 };
 
 // What the bounds need of the pumps of a choice, all that run in parallel together. From a single
