@@ -37,13 +37,14 @@ FlowTable::FlowTable(const Series& series)
   value_[kCells] = 1.0;
   slope_[0] = -SlopeAtEqualPressures(series) / cells_per_ratio_;
   slope_[kCells] = -SlopeWhereChoked(series) / cells_per_ratio_;
-  double cosine = 1.0 - slope_[0];  // a guess, from the slope where the curve begins
+  double value = slope_[0];  // a guess, from the slope where the curve begins
   for (int i = 1; i < kCells; ++i) {
     const CosineAndSlope exact =
-        CosineNear(series, 1.0 - i / cells_per_ratio_, std::max(cosine, 0.5 / kCells));
+        CosineNear(series, 1.0 - i / cells_per_ratio_, std::max(1.0 - value, 0.5 / kCells));
     value_[i] = 1.0 - exact.cosine;
     slope_[i] = exact.slope / cells_per_ratio_;
-    cosine = exact.cosine - slope_[i];
+    // The next one lies about where the cubic of this cell goes on to.
+    value = 5.0 * value_[i - 1] - 4.0 * value_[i] + 2.0 * slope_[i - 1] + 4.0 * slope_[i];
   }
   // Fritsch and Carlson's condition: three times the secant at most keeps each piece monotone.
   for (int i = 0; i < kCells; ++i) {

@@ -62,11 +62,14 @@ class Stroke {
     const double least_s = (after + Taken(nodes_.pressure_pa[at_ + 1], false) - pumped_) / delivery;
     const double left_s = limit_s - time_s_;
     if (!(least_s <= left_s)) return false;
-    // The more is pumped the shorter the panel: from too long a one comes too short a one.
-    const double long_s = std::min(std::max(least_s, FlowTime(pumped_)), left_s);
+    // The more is pumped the shorter the panel: from too long a one comes too short a one. What was
+    // pumped a panel ago will do for the long one, and that does not wait for the panel before.
+    const double fewer = pumped_ <= after ? earlier_ : pumped_;
+    const double long_s = std::min(std::max(least_s, FlowTime(fewer)), left_s);
     const double seconds = std::max({0.0, least_s, FlowTime(pumped_ + long_s * delivery)});
     if (!(seconds <= left_s)) return false;
     time_s_ += seconds;
+    earlier_ = pumped_;
     pumped_ = std::min(pumped_ + seconds * delivery,
                        after + start_.high_m3 * (start_.stop_pa - start_.start_pa));
     ++at_;
@@ -107,7 +110,7 @@ class Stroke {
   double kappa_, per_flow_, per_low_m3_, per_high_m3_;
   int at_ = 0;     // node
   int floor_ = 0;  // node that the reservoir does not fall below
-  double pumped_ = 0.0, time_s_ = 0.0;
+  double pumped_ = 0.0, earlier_ = 0.0, time_s_ = 0.0;
 };
 
 // A guess for a stroke that has drawn a share of its air when time is up.
