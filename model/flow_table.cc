@@ -34,22 +34,29 @@ double SlopeWhereChoked(const Series& series) {
 FlowTable::FlowTable(const Series& series)
     : choked_flow_(series.choked_flow_m3_per_s_pa), choked_ratio_(series.choked_ratio) {
   cells_per_ratio_ = kCells / (1.0 - choked_ratio_);
-  value_[kCells] = 1.0;
-  slope_[0] = -SlopeAtEqualPressures(series) / cells_per_ratio_;
-  slope_[kCells] = -SlopeWhereChoked(series) / cells_per_ratio_;
-  double cosine = 1.0 - slope_[0];  // a guess, from the slope where the curve begins
+  std::array<double, kCells + 1> value{}, slope{};  // slope: per cell
+  value[kCells] = 1.0;
+  slope[0] = -SlopeAtEqualPressures(series) / cells_per_ratio_;
+  slope[kCells] = -SlopeWhereChoked(series) / cells_per_ratio_;
+  double next = slope[0];  // a guess, from the slope where the curve begins
   for (int i = 1; i < kCells; ++i) {
     const CosineAndSlope exact =
-        CosineNear(series, 1.0 - i / cells_per_ratio_, std::max(cosine, 0.5 / kCells));
-    value_[i] = 1.0 - exact.cosine;
-    slope_[i] = exact.slope / cells_per_ratio_;
-    cosine = exact.cosine - slope_[i];
+        CosineNear(series, 1.0 - i / cells_per_ratio_, std::max(1.0 - next, 0.5 / kCells));
+    value[i] = 1.0 - exact.cosine;
+    slope[i] = exact.slope / cells_per_ratio_;
+    // The next one lies about where the cubic of this cell goes on to.
+    next = 5.0 * value[i - 1] - 4.0 * value[i] + 2.0 * slope[i - 1] + 4.0 * slope[i];
   }
   // Fritsch and Carlson's condition: three times the secant at most keeps each piece monotone.
   for (int i = 0; i < kCells; ++i) {
-    const double most = 3.0 * (value_[i + 1] - value_[i]);
-    slope_[i] = std::min(slope_[i], most);
-    slope_[i + 1] = std::min(slope_[i + 1], most);
+    const double most = 3.0 * (value[i + 1] - value[i]);
+    slope[i] = std::min(slope[i], most);
+    slope[i + 1] = std::min(slope[i + 1], most);
+  }
+  for (int i = 0; i < kCells; ++i) {
+    const double rise = value[i + 1] - value[i];
+    cubic_[i] = {value[i], slope[i], 3.0 * rise - 2.0 * slope[i] - slope[i + 1],
+                 slope[i] + slope[i + 1] - 2.0 * rise};
   }
 }
 

@@ -24,8 +24,8 @@ class FlowTable {
  private:
   static constexpr int kCells = 48;
   double choked_flow_ = 0.0, choked_ratio_ = 0.0, cells_per_ratio_ = 0.0;
-  // 1 − c from equal pressures to the choked ratio, and its slope per cell.
-  std::array<double, kCells + 1> value_{}, slope_{};
+  // 1 − c by cells from equal pressures to the choked ratio: a cubic each, in shares of the cell.
+  std::array<std::array<double, 4>, kCells> cubic_{};
 };
 
 inline double FlowTable::operator()(double ratio) const {
@@ -34,9 +34,8 @@ inline double FlowTable::operator()(double ratio) const {
   const double position = (1.0 - ratio) * cells_per_ratio_;
   const int cell = std::min(static_cast<int>(position), kCells - 1);
   const double t = position - cell;
-  const double s = 1.0 - t;
-  const double u = s * s * ((1.0 + 2.0 * t) * value_[cell] + t * slope_[cell]) +
-                   t * t * ((1.0 + 2.0 * s) * value_[cell + 1] - s * slope_[cell + 1]);
+  const std::array<double, 4>& cubic = cubic_[cell];
+  const double u = cubic[0] + t * (cubic[1] + t * (cubic[2] + t * cubic[3]));
   return choked_flow_ * std::sqrt(u * (2.0 - u));
 }
 

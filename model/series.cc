@@ -67,11 +67,13 @@ double SolveCosine(double flow_max, double start, const Function& f) {
     (value.pressure > 0.0 ? high : low) = c;
     const double slope = -value.slope * flow_max * flow_max * c / flow;
     double next = c - value.pressure / slope;
-    const bool inside = std::isfinite(slope) && next > low && next < high;
-    if (!inside) next = 0.5 * (low + high);
+    // Also where rounding leaves nothing to move by, at the end of the bracket.
+    if (std::isfinite(slope) &&
+        std::abs(next - c) <= 1e-8 * std::min(1.0, 10.0 * next) * (1.0 - next))
+      return next;
+    if (!(std::isfinite(slope) && next > low && next < high)) next = 0.5 * (low + high);
     const double step = std::abs(next - c);
     c = next;
-    if (inside && step <= 1e-8 * std::min(1.0, 10.0 * c) * (1.0 - c)) break;
     if (step <= 1e-16 || high - low <= 2e-16 * high) break;
   }
   return c;

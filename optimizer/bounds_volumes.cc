@@ -152,12 +152,16 @@ std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
   const bool single = CoreIsSingle(box, plan_.reservoir_slot);
   if (volume.look == box.look) {
     volume.energy_known = true;
-    VolumeNeed most = volume;
-    most.need.energy_j = MissionEnergyAtLeastPressure(problem_, pump, load, volume.need);
-    if (most.need.energy_j <= limits.energy_max_j && RestAt(box, most) <= volume.rest)
-      return volume;
-    volume.need.energy_j = LeastMissionEnergy(problem_, pump, load, volume.need,
-                                              single ? kSingleDivisions : kBoxDivisions);
+    const auto rest_with = [&](double energy_j) {
+      VolumeNeed at = volume;
+      at.need.energy_j = energy_j;
+      return std::max(volume.rest, RestAt(box, at));
+    };
+    volume.need.energy_j = LeastMissionEnergy(
+        problem_, pump, load, volume.need, single ? kSingleDivisions : kBoxDivisions,
+        [&](double low_j, double high_j) {
+          return high_j > limits.energy_max_j || rest_with(high_j) > rest_with(low_j);
+        });
     if (!(volume.need.energy_j <= limits.energy_max_j)) return std::nullopt;
   } else {
     volume.need.source_max_pa =

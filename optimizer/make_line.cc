@@ -134,12 +134,11 @@ void FinishLine(const Problem& problem, int g, model::Gas gas, const ValveCorner
   const double operating_pa = group.chamber.operating_pressure_pa;
   const double factor = FlowFactor(problem, gas);
   Filling filling(problem, g, line.fill, factor, line.chamber, exact ? 1.0 : kBoxSlack);
+  const bool found = exact && with_curve;
   const auto late = [&](double source_pa) {
-    const std::optional<double> least =
-        with_curve ? std::nullopt : filling.LatenessAtLeast(source_pa);
+    const std::optional<double> least = found ? std::nullopt : filling.LatenessAtLeast(source_pa);
     return least ? *least : filling.Lateness(source_pa);
   };
-  const bool found = exact && with_curve;
   const Bracket least =
       FeasibleBracket(late, operating_pa, line.source_max_pa, found ? 1e-9 : kBoxTolerance);
   line.source_min_pa = std::max(valve.pressure_min_pa, found ? least.high : least.low);

@@ -92,18 +92,12 @@ double CoilEnergyAt(const Problem& problem, const PumpFacts& facts, const PumpLo
 
 }  // namespace
 
-double MissionEnergyAtLeastPressure(const Problem& problem, const PumpFacts& facts,
-                                    const PumpLoad& load, const ReservoirNeed& need) {
-  if (!EnergyMayGrow(problem, load)) return need.energy_j;
-  return need.energy_j - problem.actuations * load.coil_j +
-         CoilEnergyAt(problem, facts, load, need, need.source_pa);
-}
-
 // The pumps take no less at a higher stop pressure while coils that are energised only for the
 // strokes take no more: of each interval of pressures the lower end counts for the pumps and the
 // upper end for the coils. The interval with the least energy is divided.
 double LeastMissionEnergy(const Problem& problem, const PumpFacts& facts, const PumpLoad& load,
-                          const ReservoirNeed& need, int divisions) {
+                          const ReservoirNeed& need, int divisions,
+                          const std::function<bool(double, double)>& matters) {
   if (!EnergyMayGrow(problem, load)) return need.energy_j;
   constexpr double kNarrow = 1e-3;      // of a pressure
   constexpr double kShare = 0.4;        // energy mostly changes fastest next to the lowest pressure
@@ -120,8 +114,9 @@ double LeastMissionEnergy(const Problem& problem, const PumpFacts& facts, const 
     return CoilEnergyAt(problem, facts, load, need, source_pa);
   };
   const double pump_j = need.energy_j - least_coils_j;
-  if (!(coils_j(need.source_pa) > least_coils_j + kWorthwhile * need.energy_j))
-    return need.energy_j;
+  const double coils_at_least_pa_j = coils_j(need.source_pa);
+  if (!(coils_at_least_pa_j > least_coils_j + kWorthwhile * need.energy_j)) return need.energy_j;
+  double most_j = pump_j + coils_at_least_pa_j;
   struct Interval {
     double low_pa, high_pa, pump_j, coils_j;
     double energy_j() const { return pump_j + coils_j; }
@@ -136,10 +131,12 @@ double LeastMissionEnergy(const Problem& problem, const PumpFacts& facts, const 
   for (int i = 0; i < divisions; ++i) {
     Interval& low = lowest();
     if (low.high_pa - low.low_pa < kNarrow * low.low_pa) break;
+    if (matters && !matters(low.energy_j(), most_j)) break;
     Interval high = low;
     low.high_pa = high.low_pa = low.low_pa + kShare * (low.high_pa - low.low_pa);
     low.coils_j = coils_j(low.high_pa);
     high.pump_j = pumps_j(high.low_pa);
+    most_j = std::min(most_j, high.pump_j + low.coils_j);
     intervals.push_back(high);
   }
   return lowest().energy_j();

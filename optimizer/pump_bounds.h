@@ -18,7 +18,9 @@
 #ifndef PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 #define PLENUM_OPTIMIZER_PUMP_BOUNDS_H_
 
+#include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -33,6 +35,7 @@ class Minorant {
   Minorant() = default;
   Minorant(double low_pa, double high_pa, std::vector<double> value);
   double At(double pressure_pa) const { return value_[Cell(pressure_pa)]; }
+  double InverseAt(double pressure_pa) const { return inverse_[Cell(pressure_pa)]; }
   // Of a function that does not fall, tabulated by its values where cells begin: no less than it.
   double AtMost(double pressure_pa) const {
     const std::size_t cell = Cell(pressure_pa);
@@ -44,11 +47,11 @@ class Minorant {
   std::size_t Cell(double pressure_pa) const {
     const double position = (pressure_pa - low_pa_) * cells_per_pa_;
     if (!(position > 0.0)) return 0;
-    return position < last_ ? static_cast<std::size_t>(position) : value_.size() - 1;
+    return static_cast<std::size_t>(static_cast<int>(std::min(position, last_)));
   }
   double Integral(double pressure_pa) const;
-  double low_pa_ = 0.0, cells_per_pa_ = 0.0, last_ = 0.0;
-  std::vector<double> value_, integral_;
+  double low_pa_ = 0.0, cells_per_pa_ = 0.0, pa_per_cell_ = 0.0, last_ = 0.0;
+  std::vector<double> value_, inverse_, integral_;
 };
 
 // What the bounds need of the pumps of a choice, all that run in parallel together. From a single
@@ -129,12 +132,12 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
 // raises it, where all strokes begin at once.
 bool EnergyMayGrow(const Problem& problem, const PumpLoad& load);
 // Energy of the mission at any stop pressure in between, at least, by so many divisions of the
-// pressures, and no less than that: what is counted at the lowest of them. `need` as
-// LeastReservoirNeed gave it for the same load.
+// pressures. `need` as LeastReservoirNeed gave it for the same load. As divisions go on the bound
+// rises from low_j towards high_j at most: `matters(low_j, high_j)`, if given, tells whether it is
+// to be raised.
 double LeastMissionEnergy(const Problem& problem, const PumpFacts& facts, const PumpLoad& load,
-                          const ReservoirNeed& need, int divisions);
-double MissionEnergyAtLeastPressure(const Problem& problem, const PumpFacts& facts,
-                                    const PumpLoad& load, const ReservoirNeed& need);
+                          const ReservoirNeed& need, int divisions,
+                          const std::function<bool(double, double)>& matters = {});
 
 // Both for a candidate whose compressor and lines are chosen, by intervals of volumes that
 // divide [low, high]; intervals that will not do are left out.

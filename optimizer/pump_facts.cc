@@ -84,17 +84,20 @@ PumpFacts MakeFacts(const Problem& problem, double highest_pa, PumpTables tables
 Minorant::Minorant(double low_pa, double high_pa, std::vector<double> value)
     : low_pa_(low_pa),
       cells_per_pa_(static_cast<double>(value.size()) / (high_pa - low_pa)),
+      pa_per_cell_(1.0 / cells_per_pa_),
       last_(static_cast<double>(value.size() - 1)),
       value_(std::move(value)),
+      inverse_(value_.size()),
       integral_(value_.size(), 0.0) {
+  for (std::size_t i = 0; i < value_.size(); ++i) inverse_[i] = 1.0 / value_[i];
   for (std::size_t i = 0; i + 1 < value_.size(); ++i)
-    integral_[i + 1] = integral_[i] + value_[i] / cells_per_pa_;
+    integral_[i + 1] = integral_[i] + value_[i] * pa_per_cell_;
 }
 
 double Minorant::Integral(double pressure_pa) const {
   const std::size_t cell = Cell(pressure_pa);
   return integral_[cell] +
-         value_[cell] * (pressure_pa - low_pa_ - static_cast<double>(cell) / cells_per_pa_);
+         value_[cell] * (pressure_pa - low_pa_ - static_cast<double>(cell) * pa_per_cell_);
 }
 
 double Minorant::Mean(double low_pa, double high_pa) const {

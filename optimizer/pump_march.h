@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "optimizer/candidate.h"
+#include "optimizer/root.h"
 
 namespace plenum::optimizer {
 
@@ -32,7 +33,8 @@ double MostDrawn(const Problem& problem, int group, const Line& line, double pre
 template <typename Drawn, typename Step>
 void MarchPump(const Problem& problem, double start_pa, double reservoir_m3, double full_pa,
                double begun_m3, const Drawn& drawn, const Step& step) {
-  constexpr int kSteps = 8, kBisections = 16;
+  constexpr int kSteps = 8;
+  constexpr double kTolerance = 1e-5;  // of the pressure from which on they pump
   const double content_per_m3 = ContentPerVolume(problem);
   const auto pumped_m3 = [&](double p) {
     return (drawn(p) - reservoir_m3 * (start_pa - p)) / content_per_m3 - begun_m3;
@@ -44,11 +46,13 @@ void MarchPump(const Problem& problem, double start_pa, double reservoir_m3, dou
   } else if (full_pa < start_pa && pumped_m3(full_pa) <= 0.0) {
     from_pa = start_pa - (drawn(start_pa) - begun_m3 * content_per_m3) / reservoir_m3;
   } else {
-    double high_pa = std::min(full_pa, start_pa);
-    for (int i = 0; i < kBisections; ++i) {
-      const double middle_pa = 0.5 * (from_pa + high_pa);
-      (pumped_m3(middle_pa) <= 0.0 ? from_pa : high_pa) = middle_pa;
-    }
+    const double high_pa = std::min(full_pa, start_pa);
+    const auto missing = [&](double p) { return -pumped_m3(p); };
+    const double least = missing(from_pa), most = missing(high_pa);
+    if (most > 0.0)
+      from_pa = high_pa;
+    else if (least > 0.0)
+      from_pa = NarrowBracket(missing, from_pa, least, high_pa, most, kTolerance).low;
   }
   const auto march = [&](double end_pa, int steps) {
     const double begin_pa = from_pa;

@@ -21,14 +21,16 @@ namespace {
 
 // Air that the pumps deliver at pressures in between or above, the more of it the higher.
 struct PumpedAir {
-  double from_pa, to_pa, air_m3;
+  double from_pa, to_pa, air_m3, seconds;
 
-  // No more than `air_m3` of it, the first.
-  PumpedAir First(double most_m3) const {
+  PumpedAir(const PumpFacts& facts, double from, double to, double air)
+      : from_pa(from), to_pa(to), air_m3(air), seconds(air * facts.seconds_per_m3.Mean(from, to)) {}
+
+  // No more than `most_m3` of it, the first.
+  PumpedAir First(const PumpFacts& facts, double most_m3) const {
     if (!(most_m3 < air_m3)) return *this;
-    return {from_pa, from_pa + (to_pa - from_pa) * most_m3 / air_m3, most_m3};
+    return {facts, from_pa, from_pa + (to_pa - from_pa) * most_m3 / air_m3, most_m3};
   }
-  double On(const Minorant& per_m3) const { return air_m3 * per_m3.Mean(from_pa, to_pa); }
 };
 
 // What the first bits take that make up the air of a cycle.
@@ -41,9 +43,9 @@ class NeedOfBits {
   const PumpNeed& need() const { return need_; }
 
   void Add(const PumpedAir& bit) {
-    const PumpedAir first = bit.First(left_m3_);
-    need_.on_s += first.On(facts_.seconds_per_m3);
-    need_.energy_j += first.On(facts_.energy_j_per_m3);
+    const PumpedAir first = bit.First(facts_, left_m3_);
+    need_.on_s += first.seconds;
+    need_.energy_j += first.air_m3 * facts_.energy_j_per_m3.Mean(first.from_pa, first.to_pa);
     left_m3_ -= first.air_m3;
   }
 
@@ -111,21 +113,23 @@ std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& f
     const double empty = model::Content(line.chamber, ambient_pa);
     const double spread_m3 = line.dead_volume_spread_m3;
     const int count = problem.groups[phase].count;
-    const auto drawn = [&](double pressure_pa) {  // as MostDrawn
-      const double p = std::min(pressure_pa, full_pa);
-      return apart
-                 ? count * (model::Content(line.chamber, p) - empty + spread_m3 * (p - ambient_pa))
-                 : drawn_at_once;
-    };
     // A volume that follows a table may take more air at the lower pressures of a bit.
     const bool even = line.chamber.volume_curve.empty();
+    const double volume_m3 = even ? model::Volume(line.chamber, 0.0) : 0.0;
+    const double slope = even ? model::VolumeSlope(line.chamber, 0.0) : 0.0;
+    const auto drawn = [&](double pressure_pa) {  // as MostDrawn
+      if (!apart) return drawn_at_once;
+      const double p = std::min(pressure_pa, full_pa);
+      const double content = even ? p * (volume_m3 + slope * p) : model::Content(line.chamber, p);
+      return count * (content - empty + spread_m3 * (p - ambient_pa));
+    };
     double left_s = phase_s;
     const auto add = [&](double from_pa, double to_pa, double air_m3) {
       if (!(left_s > 0.0)) return false;
-      const PumpedAir bit{from_pa, to_pa, air_m3};
+      const PumpedAir bit(facts, from_pa, to_pa, air_m3);
       // At the speed of its begin, which is the highest, the time may be enough for more.
-      const PumpedAir first = bit.First(left_s / facts.seconds_per_m3.At(from_pa));
-      left_s -= first.On(facts.seconds_per_m3);
+      const PumpedAir first = bit.First(facts, left_s * facts.seconds_per_m3.InverseAt(from_pa));
+      left_s -= first.seconds;
       return take(first) && first.air_m3 == air_m3;
     };
     double begun_m3 = 0.0;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "optimizer/evaluate_strokes.h"
 #include "optimizer/root.h"
@@ -28,14 +29,13 @@ class Freedom {
     return point;
   }
 
-  double SmallestMarginAt(double share) const {
-    const OperatingPoint point = At(share);
-    return SmallestMargin(problem_, candidate_, point, Evaluate(problem_, candidate_, point));
+  double SmallestMarginAt(double share) {
+    return SmallestMargin(problem_, candidate_, At(share), EvaluationAt(share));
   }
 
   // Strokes gain by pressure and the supply loses: of the margins that the pressure moves the
   // smallest is largest where those that rise meet those that fall.
-  double Balance() const {
+  double Balance() {
     const std::vector<double> low = MarginsAt(0.0), high = MarginsAt(1.0);
     if (low.empty() || low.size() != high.size()) return 0.0;
     const auto excess = [&](double share) {
@@ -53,8 +53,15 @@ class Freedom {
   }
 
  private:
-  std::vector<double> MarginsAt(double share) const {
-    const Evaluation evaluation = Evaluate(problem_, candidate_, At(share));
+  // Each share is evaluated once.
+  const Evaluation& EvaluationAt(double share) {
+    const auto [known, fresh] = evaluations_.try_emplace(share);
+    if (fresh) known->second = Evaluate(problem_, candidate_, At(share));
+    return known->second;
+  }
+
+  std::vector<double> MarginsAt(double share) {
+    const Evaluation& evaluation = EvaluationAt(share);
     return evaluation.works ? SolverMargins(problem_, candidate_, At(share), evaluation)
                             : std::vector<double>();
   }
@@ -63,6 +70,7 @@ class Freedom {
   const Candidate& candidate_;
   const Leaf& leaf_;
   double span_pa_;
+  std::map<double, Evaluation> evaluations_;
 };
 
 }  // namespace
@@ -71,7 +79,7 @@ OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const 
   // An objective that the pressure moves leaves no freedom, nor does a made-to-measure reservoir at
   // its smallest volume.
   if (problem.objective.energy_wh > 0.0 || candidate.reservoir.index == kCustom) return leaf.point;
-  const Freedom freedom(problem, candidate, leaf);
+  Freedom freedom(problem, candidate, leaf);
   if (freedom.empty()) return leaf.point;
   const double share = freedom.Balance();
   return freedom.SmallestMarginAt(share) >= freedom.SmallestMarginAt(0.0) ? freedom.At(share)

@@ -23,7 +23,10 @@ class Stroke {
         nodes_(line.panels),
         count_(problem.groups[g].count),
         kappa_(model::kReferencePressurePa * problem.ambient.temperature_k /
-               model::kReferenceTemperatureK) {}
+               model::kReferenceTemperatureK),
+        per_flow_(1.0 / (count_ * kappa_)),
+        per_low_m3_(1.0 / start.low_m3),
+        per_high_m3_(1.0 / start.high_m3) {}
 
   // To a node; false if that takes until after `limit_s`.
   bool Reach(int node, double limit_s) {
@@ -39,7 +42,8 @@ class Stroke {
     const double drawn = nodes_.drawn[at_];
     const double most = drawn + start_.high_m3 * (start_.stop_pa - start_.start_pa);
     for (int i = 0; i < kSteps && pumped_ < most; ++i)
-      pumped_ += step_s * kappa_ / pumps_.seconds_per_m3.At(Reservoir(pumped_ - drawn, true));
+      pumped_ +=
+          step_s * kappa_ * pumps_.seconds_per_m3.InverseAt(Reservoir(pumped_ - drawn, true));
     return std::min(Reservoir(pumped_ - drawn, false), start_.stop_pa);
   }
 
@@ -53,16 +57,19 @@ class Stroke {
            nodes_.drawn[floor_ + 1] <= pumped_ - Taken(nodes_.pressure_pa[at_], true))
       ++floor_;
     const double lowest_pa = std::max(nodes_.pressure_pa[floor_], Reservoir(pumped_ - after, true));
-    const double delivery = kappa_ / pumps_.seconds_per_m3.At(lowest_pa);
+    const double delivery = kappa_ * pumps_.seconds_per_m3.InverseAt(lowest_pa);
     // At the end the reservoir is no lower than the chambers.
     const double least_s = (after + Taken(nodes_.pressure_pa[at_ + 1], false) - pumped_) / delivery;
     const double left_s = limit_s - time_s_;
     if (!(least_s <= left_s)) return false;
-    // The more is pumped the shorter the panel: from too long a one comes too short a one.
-    const double long_s = std::min(std::max(least_s, FlowTime(pumped_)), left_s);
+    // The more is pumped the shorter the panel: from too long a one comes too short a one. What was
+    // pumped a panel ago will do for the long one, and that does not wait for the panel before.
+    const double fewer = pumped_ <= after ? earlier_ : pumped_;
+    const double long_s = std::min(std::max(least_s, FlowTime(fewer)), left_s);
     const double seconds = std::max({0.0, least_s, FlowTime(pumped_ + long_s * delivery)});
     if (!(seconds <= left_s)) return false;
     time_s_ += seconds;
+    earlier_ = pumped_;
     pumped_ = std::min(pumped_ + seconds * delivery,
                        after + start_.high_m3 * (start_.stop_pa - start_.start_pa));
     ++at_;
@@ -81,14 +88,14 @@ class Stroke {
         drawn = nodes_.middle_drawn[at_];
     }
     const double source_pa = std::min(Reservoir(pumped - drawn, false), start_.stop_pa);
-    const double flow = source_pa * line_.fill_table(p / source_pa);
-    return (after - before) / (count_ * kappa_ * flow);
+    const double per_pa = 1.0 / source_pa;
+    return (after - before) * per_flow_ * per_pa / line_.fill_table(p * per_pa);
   }
 
   // Over the interval of volumes: the pressure of the reservoir with so much more content, and the
   // content that brings it to a pressure.
   double Reservoir(double more, bool least) const {
-    return start_.start_pa + more / ((more < 0.0) == least ? start_.low_m3 : start_.high_m3);
+    return start_.start_pa + more * ((more < 0.0) == least ? per_low_m3_ : per_high_m3_);
   }
   double Taken(double pressure_pa, bool most) const {
     const double rise_pa = pressure_pa - start_.start_pa;
@@ -100,10 +107,10 @@ class Stroke {
   const StrokeStart& start_;
   const StrokePanels& nodes_;
   int count_;
-  double kappa_;
+  double kappa_, per_flow_, per_low_m3_, per_high_m3_;
   int at_ = 0;     // node
   int floor_ = 0;  // node that the reservoir does not fall below
-  double pumped_ = 0.0, time_s_ = 0.0;
+  double pumped_ = 0.0, earlier_ = 0.0, time_s_ = 0.0;
 };
 
 // A guess for a stroke that has drawn a share of its air when time is up.
