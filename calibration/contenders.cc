@@ -17,8 +17,8 @@ constexpr std::size_t kFinalSteps = 30'000;
 constexpr double kScreening = 1e-4;
 constexpr int kScreeningIterations = 12;
 // After so many steps only those go on that explain at least this share of what the best one does
-// beyond the smaller set, the very best, and those that do worse than the smaller set, which they
-// can all but be: their steps so far say nothing of them, and they are given more.
+// beyond the smaller set, the very best, and single effects that do worse than the base model,
+// which they can all but be: their steps so far say nothing of them, and they are given more.
 constexpr int kFirstLook = 5;
 constexpr double kLoosely = 1e-4;  // of the operating pressure
 constexpr double kHopeful = 0.5;
@@ -27,7 +27,8 @@ constexpr double kNear = 20.0;       // of BIC
 constexpr double kNearShare = 0.02;  // of what the best set gains over the base model
 
 bool IsLost(const Contenders::Job& job) {
-  return job.fit.status == FitStatus::kIterationsSpent && job.fit.bic > job.bic_before + kNear;
+  return job.set.size() == 1u && job.fit.status == FitStatus::kIterationsSpent &&
+         job.fit.bic > job.bic_before + kNear;
 }
 
 }  // namespace
