@@ -152,7 +152,7 @@ const std::vector<model::Effect>& Contenders::StartsBeside(const Contender& from
                                                            const model::EffectSpec* spec) {
   for (const Starts& known : starts_)
     if (known.size == from.effects.size() && known.starts.front().spec == spec) return known.starts;
-  FitOptions options = Screening();
+  FitOptions options = FirstLook(from.effects.size() + 1);
   options.threads = options_->threads;
   starts_.push_back({from.effects.size(), ScannedStarts(data, from.fit, *spec, options)});
   return starts_.back().starts;

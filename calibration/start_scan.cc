@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "calibration/parallel.h"
+#include "calibration/run_cost.h"
+#include "calibration/thresholds.h"
 
 namespace plenum::calibration {
 namespace {
@@ -15,11 +17,14 @@ constexpr double kShortest = 0.05, kLongest = 6.0, kLengthStep = 1.05;  // m
 constexpr double kBores[] = {2e-3, 3.5e-3};                             // m
 constexpr double kApart = 2.5;                                          // steps of length
 constexpr std::size_t kKept = 3, kKeptAgain = 5;
-constexpr double kAbout = 2.5;  // of the length
+// The whole grid is tried on every so many-th run, the best share of it on the others.
+constexpr std::size_t kFirstRuns = 3, kOthersShare = 5;
+constexpr double kHopeful = 0.5;  // of what the best point explains
+constexpr double kAbout = 2.5;    // of the length
 constexpr double kBoresAbout[] = {0.92, 1.0, 1.09};
 constexpr const char* kRings = "line_dynamics";
-constexpr double kTolerance = 1e-5;  // as of the fits that start there
-constexpr double kRidge = 1e-10;     // of a unit diagonal: numbers that nothing depends on
+constexpr double kTolerance = 1e-5;  // at the tightest
+constexpr double kRidge = 1e-10;     // of the diagonal: numbers that nothing depends on
 
 std::vector<model::Effect> GridOf(const FitData& data, const model::EffectSpec& spec) {
   std::vector<model::Effect> grid;
@@ -31,18 +36,39 @@ std::vector<model::Effect> GridOf(const FitData& data, const model::EffectSpec& 
   return grid;
 }
 
-// The fit's derivatives by run, and the priors' part of JᵀJ and Jᵀe.
-struct Linear {
-  std::vector<Eigen::MatrixXd> j;
-  Eigen::MatrixXd jj;
+// What a run, or the priors, has of a χ²: |e|², Jᵀe and JᵀJ.
+struct Terms {
+  double squares;
   Eigen::VectorXd je;
+  Eigen::MatrixXd jj;
 };
 
-PredictOptions Rough(const FitOptions& options) {
-  return {.relative_tolerance = kTolerance,
-          .cancelled = options.cancelled,
-          .steps_max = options.steps_max,
-          .recorded_alone = true};
+// χ² at the best of the numbers that J is of, to first order.
+double AtBest(const Terms& terms) {
+  Eigen::MatrixXd jj = terms.jj;
+  jj.diagonal() *= 1.0 + kRidge;
+  return terms.squares - terms.je.dot(jj.ldlt().solve(terms.je));
+}
+
+// The fit's residuals and derivatives by run, and the priors' part.
+struct Linear {
+  std::vector<Eigen::MatrixXd> j;
+  std::vector<Terms> terms;
+  Terms priors;
+};
+
+PredictOptions Rough(const FitData& data, std::size_t run, const FitOptions& options) {
+  PredictOptions rough = OptionsOf(data, run, options);
+  rough.relative_tolerance = std::max(rough.relative_tolerance, kTolerance);
+  return rough;
+}
+
+Eigen::VectorXd ResidualsOf(const FitData& data, std::size_t run, const Prediction& prediction) {
+  const ObservedRun& observed = (*data.observed)[run];
+  Eigen::VectorXd e(static_cast<Eigen::Index>(observed.rows()));
+  Residuals(data.forward->dataset().runs[run], observed, prediction.reading,
+            {e.data(), observed.rows()});
+  return e;
 }
 
 // Empty where a run cannot be simulated.
@@ -50,15 +76,17 @@ Linear Linearised(const FitData& data, const Fit& fit, const FitOptions& options
   const Eigen::Index size = fit.u.size();
   std::vector<Parameter> parameters;
   for (const Coordinate& coordinate : fit.coordinates) parameters.push_back(coordinate.parameter);
-  Linear linear{{}, Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
+  Linear linear{{}, {}, {0.0, Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)}};
   for (Eigen::Index k = 0; k < size; ++k) {
     if (!fit.coordinates[static_cast<std::size_t>(k)].prior) continue;
-    linear.jj(k, k) = 1.0;
-    linear.je[k] = fit.u[k];
+    linear.priors.squares += fit.u[k] * fit.u[k];
+    linear.priors.je[k] = fit.u[k];
+    linear.priors.jj(k, k) = 1.0;
   }
   for (const std::size_t run : data.runs) {
     const ObservedRun& observed = (*data.observed)[run];
-    const Prediction prediction = data.forward->Predict(run, fit.state, parameters, Rough(options));
+    const Prediction prediction =
+        data.forward->Predict(run, fit.state, parameters, Rough(data, run, options));
     if (prediction.status != model::SimulateStatus::kDone) return {};
     const std::vector<double> slopes =
         GridSlopes(data.forward->dataset().runs[run], observed, prediction.reading);
@@ -68,50 +96,97 @@ Linear Linearised(const FitData& data, const Fit& fit, const FitOptions& options
       Whitened(observed, prediction.derivatives[at], slopes, {j.col(k).data(), observed.rows()});
       j.col(k) *= fit.coordinates[at].Slope(fit.u[k]);
     }
-    linear.jj += j.transpose() * j;
+    const Eigen::VectorXd e = ResidualsOf(data, run, prediction);
+    linear.terms.push_back({e.squaredNorm(), j.transpose() * e, j.transpose() * j});
   }
-  const Eigen::VectorXd ridge = kRidge * linear.jj.diagonal();
-  linear.jj += ridge.asDiagonal();
   return linear;
 }
 
-double Chi2(const FitData& data, const Linear& linear, const ModelState& state,
-            const FitOptions& options) {
-  double squares = 0.0;
-  Eigen::VectorXd g = linear.je;
-  for (std::size_t r = 0; r < data.runs.size(); ++r) {
-    const std::size_t run = data.runs[r];
-    const ObservedRun& observed = (*data.observed)[run];
-    const Prediction prediction = data.forward->Predict(run, state, {}, Rough(options));
-    if (prediction.status != model::SimulateStatus::kDone)
-      return std::numeric_limits<double>::infinity();
-    Eigen::VectorXd e(static_cast<Eigen::Index>(observed.rows()));
-    Residuals(data.forward->dataset().runs[run], observed, prediction.reading,
-              {e.data(), observed.rows()});
-    squares += e.squaredNorm();
-    g += linear.j[r].transpose() * e;
+// Tries states on some runs at a time.
+class Scan {
+ public:
+  Scan(const FitData& data, const Linear& linear, const FitOptions& options)
+      : data_(data), linear_(linear), options_(options) {}
+
+  std::size_t runs() const { return data_.runs.size(); }
+  const FitOptions& options() const { return options_; }
+
+  // Adds the terms of the runs first, first + step, ...; false where one cannot be simulated.
+  bool Add(const ModelState& state, std::size_t first, std::size_t step, Terms& terms) const {
+    for (std::size_t r = first; r < runs(); r += step) {
+      const std::size_t run = data_.runs[r];
+      const Prediction prediction =
+          data_.forward->Predict(run, state, {}, Rough(data_, run, options_));
+      if (prediction.status != model::SimulateStatus::kDone) return false;
+      const Eigen::VectorXd e = ResidualsOf(data_, run, prediction);
+      terms.squares += e.squaredNorm();
+      terms.je += linear_.j[r].transpose() * e;
+      terms.jj += linear_.terms[r].jj;
+    }
+    return true;
   }
-  return squares - g.dot(linear.jj.ldlt().solve(g));
+
+  const Terms& priors() const { return linear_.priors; }
+  // Of the fit itself.
+  double Chi2() const {
+    Terms all = linear_.priors;
+    for (const Terms& run : linear_.terms)
+      all.squares += run.squares, all.je += run.je, all.jj += run.jj;
+    return AtBest(all);
+  }
+
+ private:
+  const FitData& data_;
+  const Linear& linear_;
+  const FitOptions& options_;
+};
+
+struct Point {
+  std::size_t at;  // of the grid
+  Terms terms;
+  double chi2;
+};
+
+// The points of the grid, best first: on the first runs alone, and the best share of them on all.
+std::vector<Point> Ranked(const Scan& scan, std::size_t size,
+                          const std::function<ModelState(std::size_t)>& state_of) {
+  std::vector<Point> points(size);
+  for (std::size_t i = 0; i < size; ++i) points[i] = {i, scan.priors(), 0.0};
+  const auto take = [&](std::size_t first, std::size_t step) {
+    ForAll(points.size(), scan.options().threads, [&](std::size_t i) {
+      Point& point = points[i];
+      point.chi2 = scan.Add(state_of(point.at), first, step, point.terms)
+                       ? AtBest(point.terms)
+                       : std::numeric_limits<double>::infinity();
+    });
+    std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
+      return std::pair(a.chi2, a.at) < std::pair(b.chi2, b.at);
+    });
+  };
+  take(0, kFirstRuns);
+  points.resize((size + kOthersShare - 1) / kOthersShare);
+  for (std::size_t first = 1; first < std::min(kFirstRuns, scan.runs()); ++first)
+    take(first, kFirstRuns);
+  return points;
 }
 
-// The best few points of the grid, apart by more than neighbours are; `with`: the state with one.
-std::vector<model::Effect> BestOf(const FitData& data, const Linear& linear,
-                                  const std::vector<model::Effect>& grid, std::size_t kept_max,
-                                  const FitOptions& options,
+// The best few points of the grid, apart by more than neighbours are, with a χ² of at most
+// `chi2_max` that may depend on the best one's; `with`: the state with one.
+std::vector<model::Effect> BestOf(const Scan& scan, const std::vector<model::Effect>& grid,
+                                  std::size_t kept_max,
+                                  const std::function<double(double)>& chi2_max,
                                   const std::function<ModelState(const model::Effect&)>& with) {
-  std::vector<std::pair<double, std::size_t>> ranked(grid.size());
-  ForAll(grid.size(), options.threads, [&](std::size_t i) {
-    ranked[i] = {Chi2(data, linear, with(grid[i]), options), i};
-  });
-  std::sort(ranked.begin(), ranked.end());
   std::vector<model::Effect> kept;
-  for (const auto& [chi2, at] : ranked) {
-    const std::size_t i = at;
+  const std::vector<Point> points =
+      Ranked(scan, grid.size(), [&](std::size_t i) { return with(grid[i]); });
+  for (const Point& point : points) {
+    if (point.chi2 > chi2_max(points.front().chi2)) break;
+    const model::Effect& effect = grid[point.at];
     const bool near = std::any_of(kept.begin(), kept.end(), [&](const model::Effect& other) {
-      const double ratio = grid[i].parameters[0] / other.parameters[0];
+      const double ratio = effect.parameters[0] / other.parameters[0];
       return std::abs(std::log(ratio)) < kApart * std::log(kLengthStep);
     });
-    if (!near) kept.push_back(grid[i]);
+    if (!near) kept.push_back(effect);
     if (kept.size() == kept_max) break;
   }
   return kept;
@@ -146,7 +221,13 @@ std::vector<model::Effect> ScannedStarts(const FitData& data, const Fit& without
                                          const model::EffectSpec& spec, const FitOptions& options) {
   const Linear linear = spec.id == kRings ? Linearised(data, without, options) : Linear{};
   if (linear.j.empty()) return EffectStarts(spec, data.sizes);
-  return BestOf(data, linear, GridOf(data, spec), kKept, options, [&](const model::Effect& line) {
+  const Scan scan(data, linear, options);
+  // One is enough where none explains what would be accepted.
+  const auto hopeful = [&](double best) {
+    const double gain = scan.Chi2() - best;
+    return gain > kAccept ? best + (1.0 - kHopeful) * gain : best;
+  };
+  return BestOf(scan, GridOf(data, spec), kKept, hopeful, [&](const model::Effect& line) {
     ModelState state = without.state;
     state.effects.push_back(line);
     return state;
@@ -168,9 +249,10 @@ std::vector<ModelState> ScannedAgain(const FitData& data, const Fit& with,
     state.effects[at] = line;
     return state;
   };
+  const auto any = [](double) { return std::numeric_limits<double>::infinity(); };
   std::vector<ModelState> starts;
   for (const model::Effect& line :
-       BestOf(data, linear, GridAbout(*rings), kKeptAgain, options, replaced))
+       BestOf(Scan(data, linear, options), GridAbout(*rings), kKeptAgain, any, replaced))
     starts.push_back(replaced(line));
   return starts;
 }

@@ -6,7 +6,8 @@
 // that fit's numbers at their best to first order,
 //   χ²(θ) = |e|² − gᵀ·(JᵀJ)⁻¹·g,  g = Jᵀe,
 // e the whitened residuals with the line θ, J their derivatives without it, both with the priors.
-// The grid: kLengthStep from kShortest to kLongest, and the tubes as declared.
+// The grid: kLengthStep from kShortest to kLongest, and the tubes as declared; the whole of it on
+// some of the runs, and what does best there on all.
 #ifndef PLENUM_CALIBRATION_START_SCAN_H_
 #define PLENUM_CALIBRATION_START_SCAN_H_
 
@@ -16,8 +17,9 @@
 
 namespace plenum::calibration {
 
-// Of an effect that rings the best few points of its grid, apart by more than neighbours are; of
-// any other, and where the fit cannot be simulated, its usual starts.
+// Of an effect that rings the best few points of its grid, apart by more than neighbours are, that
+// explain about as much as the best of them does; of any other, and where the fit cannot be
+// simulated, its usual starts.
 std::vector<model::Effect> ScannedStarts(const FitData& data, const Fit& without,
                                          const model::EffectSpec& spec, const FitOptions& options);
 
