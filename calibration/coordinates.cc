@@ -16,6 +16,7 @@ constexpr double kLeastFactor = 0.05, kMostFactor = 20.0;  // of a number known 
 constexpr double kUnknownSpan = 14.0;                      // e-folds either way
 constexpr double kSeriesLow = 1e-3, kSeriesHigh = 1e6;     // of u
 constexpr double kClockIntervals = 2.0;                    // most that a clock may be off
+constexpr double kClockRoom = 1.0;                         // intervals before the first stroke
 constexpr double kStroked = 0.05;        // gauge, of the operating pressure: a stroke came before
 constexpr double kRoomOfStroke = 0.9;    // of the time to the next command
 constexpr double kPressureStepPa = 1e3;  // scale of an initial pressure
@@ -225,12 +226,11 @@ double IntervalOf(const Run& run) {
   return (run.t_s.back() - run.t_s.front()) / static_cast<double>(run.t_s.size() - 1);
 }
 
-// The valve opens only after the run has begun, so that its commands can be late or early.
-bool StartsClosed(const Run& run) {
+// From a run's start to its first stroke, by which its commands can be early; 0 without a stroke.
+double FirstStrokeAfter(const Run& run) {
   for (const model::ValveCommand& command : run.valve)
-    if (command.state != model::ValveState::kHold)
-      return command.time_s > StartOf(run) + kClockIntervals * IntervalOf(run);
-  return false;
+    if (command.state != model::ValveState::kHold) return command.time_s - StartOf(run);
+  return 0.0;
 }
 
 // A declared pressure that is the first reading itself was read, not set.
@@ -330,11 +330,13 @@ std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
     coordinates.push_back(coordinate);
   }
   for (const std::size_t i : runs) {
-    if (!clocks || !StartsClosed(dataset.runs[i])) continue;
+    const double interval_s = IntervalOf(dataset.runs[i]);
+    const double room_s = FirstStrokeAfter(dataset.runs[i]);
+    if (!clocks || !(room_s >= kClockRoom * interval_s)) continue;
     Coordinate coordinate;
     coordinate.parameter = {.kind = Parameter::Kind::kClock, .run = i};
-    coordinate.scale = IntervalOf(dataset.runs[i]) / std::sqrt(12.0);
-    coordinate.low = -kClockIntervals * std::sqrt(12.0);
+    coordinate.scale = interval_s / std::sqrt(12.0);
+    coordinate.low = -std::min(kClockIntervals * interval_s, room_s) / coordinate.scale;
     coordinate.high = kClockIntervals * std::sqrt(12.0);
     coordinate.prior = true;
     coordinates.push_back(coordinate);

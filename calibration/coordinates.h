@@ -43,7 +43,7 @@ TypicalSizes SizesOf(const Dataset& dataset);
 // The declared numbers that may move, and the initial pressures that are not known better than by a
 // reading: of the runs given. A declared number that no such run has is left out. With `clocks`,
 // each run's clock too: commands fall between samples, so that the prior is that of a time rounded
-// to the sampling, 1/√12 of the interval.
+// to the sampling, 1/√12 of the interval. Not of a run that begins with a stroke within a sample.
 std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
                                         const std::vector<std::size_t>& runs, bool clocks);
 

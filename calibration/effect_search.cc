@@ -73,15 +73,41 @@ class Search {
   }
 
   // Whether the chosen set, fitted to the end, gains by the runs' clocks what none of its own
-  // numbers can take up: small errors of the clocks hide beside an effect that leaves little.
+  // numbers can take up: small errors of the clocks hide beside an effect that leaves little. Or
+  // whether the clocks do instead of its effects that act in time: those may have come to the set
+  // before the clocks were tried beside the others.
   bool ClocksAreOff(const SearchResult& result) const {
-    const Fit& chosen = result.contenders[result.chosen].fit;
-    if (!MaySeekClocks() || !chosen.Usable()) return false;
+    const Contender& chosen = result.contenders[result.chosen];
+    if (!MaySeekClocks() || !chosen.fit.Usable()) return false;
+    const double bic = chosen.fit.bic;
+    if (BicByClocks(chosen, chosen.effects) < bic - kClock) return true;
+    EffectSet timeless = chosen.effects;
+    std::erase_if(timeless, [](Spec spec) { return ActsInTime(*spec); });
+    if (timeless.empty() || timeless.size() == chosen.effects.size()) return false;
+    const double ahead = AnyTimingDoes(result, timeless) ? kTie : EffectAhead() - kClock;
+    return BicByClocks(chosen, timeless) < bic + ahead;
+  }
+
+  // Of that part of a set, with the clocks fitted.
+  double BicByClocks(const Contender& contender, const EffectSet& part) const {
     FitData data = sets_.data;
     data.clocks = true;
-    Fit with = FitModel(data, chosen.state, sets_.Tight());
+    Fit with = FitModel(data, StateOf(contender, part), sets_.Tight());
     Narrow(data, sets_.Tight(), with);
-    return with.Usable() && with.bic + ClocksCost(data, with, sets_.Tight()) < chosen.bic - kClock;
+    return with.Usable() ? with.bic + ClocksCost(data, with, sets_.Tight()) : kNever;
+  }
+
+  // Whether several sets do as well that differ from the chosen one in effects that act in time
+  // alone: then no more is seen of any of them than that strokes are late.
+  static bool AnyTimingDoes(const SearchResult& result, const EffectSet& timeless) {
+    const Contender& chosen = result.contenders[result.chosen];
+    return std::any_of(
+        result.contenders.begin(), result.contenders.end(), [&](const Contender& other) {
+          EffectSet rest = other.effects;
+          std::erase_if(rest, [](Spec spec) { return ActsInTime(*spec); });
+          return other.effects.size() == chosen.effects.size() && !SameEffects(other, chosen) &&
+                 rest == timeless && other.fit.Usable() && other.fit.bic < chosen.fit.bic + kTie;
+        });
   }
 
   // Whether an effect that acts in time does better than the clocks beside the chosen set: clocks

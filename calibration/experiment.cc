@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kSpread = 0.5;  // a shorter run may be worth this share of the best
 constexpr std::size_t kRehearsals = 3;
-constexpr double kBends = 4.0;  // Δχ² to first order over that of a full fit, at the most
+constexpr double kWorthMore = 0.5;  // of a pair: faster samples and a further channel
+constexpr double kBends = 4.0;      // Δχ² to first order over that of a full fit, at the most
 constexpr double kRates[] = {1.0, 4.0};  // of sampling, against that of the data
 constexpr const char* kPressure = "pressure_kpa_gauge";
 constexpr int kProbeSamples = 400;
@@ -79,7 +80,8 @@ class Designer {
       if (keep(Choose(rated.back(), kPressure, rate))) return best;
     }
     for (std::size_t i = 0; i < rated.size(); ++i)
-      if (keep(Choose(rated[i], BestChannel(rated[i]), kRates[i]))) break;
+      if (keep(Choose(rated[i], BestChannel(rated[i]), kRates[i]))) return best;
+    if (std::optional<Experiment> found = ThatPartsMost(rated)) best = std::move(found);
     return best;
   }
 
@@ -157,6 +159,32 @@ class Designer {
   std::optional<Experiment> Choose(const std::vector<Rated>& rated, const std::string& signal,
                                    double rate) const {
     return Rehearse(ShortestNear(rated, signal, Best(rated, signal)), signal, rate);
+  }
+
+  // Where no run parts all pairs: the one that parts most of them, rather than the one that comes
+  // nearest to parting two that nothing does.
+  std::optional<Experiment> ThatPartsMost(const std::vector<std::vector<Rated>>& rated) const {
+    const Rated* most = nullptr;
+    std::string signal;
+    double rate = 1.0, parted = 0.0;
+    for (std::size_t i = 0; i < rated.size(); ++i) {
+      for (const Rated& one : rated[i]) {
+        for (std::size_t s = 0; s < one.worth.names.size(); ++s) {
+          const double pairs = PairsParted(one, s);
+          if (!(pairs > parted + kWorthMore)) continue;
+          parted = pairs, most = &one, signal = one.worth.names[s], rate = kRates[i];
+        }
+      }
+    }
+    return most && tied_.size() > 2 ? Rehearsed(*most, signal, rate, -1.0) : std::nullopt;
+  }
+
+  // Each counts by how far it is parted, those that are for sure alike.
+  double PairsParted(const Rated& rated, std::size_t signal) const {
+    double parted = 0.0;
+    for (const PairWorth& pair : rated.worth.pairs[signal])
+      parted += std::min(1.0, DeltaBic(pair.delta_chi2, rated.proposal.run) / kDecisiveDeltaBic);
+    return parted;
   }
 
   // Those worth at least kSpread of the best, short before long: a few, and the best.

@@ -10,7 +10,8 @@
 // nearest are fitted in full to the data and the proposed run with A's readings in it, from where
 // they are and from their usual starts. The least by which A is then ahead counts, with what it is
 // ahead or behind by now. Bounds on parameters are not seen by the first order, which makes it err
-// to the low side; other optima make it err to the high side.
+// to the low side; other optima make it err to the high side. Where no run is decisive for all
+// pairs, the one that parts most of them is taken: two sets may be all but one.
 //
 // Faster sampling is asked for only if the pressure (and the channels that the data have) does not
 // decide as it was sampled, and a second channel only if that does not either. A channel's σ is 1 %

@@ -192,11 +192,16 @@ std::vector<model::Effect> BestOf(const Scan& scan, const std::vector<model::Eff
   return kept;
 }
 
+// Other lengths, of about the same bore near by, and everywhere of about the same volume, which
+// strokes fix however the line rings.
 std::vector<model::Effect> GridAbout(const model::Effect& found) {
+  const double length_m = found.parameters[0], bore_m = found.parameters[1];
   std::vector<model::Effect> grid;
   for (double share = 1.0 / kAbout; share < kAbout; share *= kLengthStep)
     for (const double bore : kBoresAbout)
-      grid.push_back({found.spec, {share * found.parameters[0], bore * found.parameters[1]}});
+      grid.push_back({found.spec, {share * length_m, bore * bore_m}});
+  for (double other_m = kShortest; other_m < kLongest; other_m *= kLengthStep)
+    grid.push_back({found.spec, {other_m, std::sqrt(length_m / other_m) * bore_m}});
   return grid;
 }
 

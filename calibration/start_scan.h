@@ -24,9 +24,10 @@ std::vector<model::Effect> ScannedStarts(const FitData& data, const Fit& without
                                          const model::EffectSpec& spec, const FitOptions& options);
 
 // Of a fit with an effect that rings, from where to fit again: its state with other lengths, up to
-// kAbout times longer and shorter, and bores about its own. Beside numbers that were fitted without
-// the line the best length may rank low; beside those that were fitted with one near it, it does
-// not. Empty where no effect of the fit rings.
+// kAbout times longer and shorter with bores about its own, and all of the grid with the bores that
+// keep the volume of its gas, which strokes fix whatever the length. Beside numbers that were
+// fitted without the line the best length may rank low; beside those that were fitted with one near
+// it, or of its volume, it does not. Empty where no effect of the fit rings.
 std::vector<ModelState> ScannedAgain(const FitData& data, const Fit& with,
                                      const FitOptions& options);
 

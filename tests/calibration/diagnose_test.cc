@@ -60,6 +60,26 @@ TEST(Diagnose, ALateStrokeOfOneRunIsATieBesideTheClock) {
   ASSERT_TRUE(d.next_experiment.has_value());
 }
 
+// Both clocks are late by a sixth of a sample: any effect that makes strokes late would do instead.
+TEST(Diagnose, ClocksThatAreLateAlikeMakeNoEffect) {
+  Dataset two;
+  two.runs = {test::DeclaredRun("low", 2.6e5, false), test::DeclaredRun("high", 3.4e5, false)};
+  two.relative_uncertainty = test::MeasuredBench({}, 1).relative_uncertainty;
+  for (std::size_t i = 0; i < 2; ++i) {
+    calibration::Run& run = two.runs[i];
+    run.t_s.clear();
+    for (int k = 0; k <= 100; ++k) run.t_s.push_back(0.05 * k);
+    test::Measure([](EffectRig& rig) { rig.sensor_gain = 1.04; }, 28 + i, 2.0 * test::kBenchNoisePa,
+                  run);
+    for (double& t_s : run.t_s) t_s += 0.008;
+  }
+  const Diagnosis d = Diagnose(two, {});
+  ASSERT_EQ(d.verdict, Verdict::kExplained) << d.sentence;
+  ASSERT_EQ(d.effects.size(), 1u) << d.sentence;
+  EXPECT_EQ(d.effects[0].effect.spec->id, "sensor_gain");
+  EXPECT_THAT(d.warnings, ::testing::Contains(::testing::HasSubstr("the clocks of readings")));
+}
+
 #ifndef PLENUM_SANITIZED
 // Several sets of effects come near a seam that opens above a pressure, and none to the noise. One
 // learned term does.

@@ -180,6 +180,25 @@ std::vector<Tie> Ties() {
 
 INSTANTIATE_TEST_SUITE_P(Ties, NaturalTie, ::testing::ValuesIn(Ties()));
 
+// Two sets that no run parts must not hide which run parts the third from both.
+TEST(DesignExperiment, PartsWhatCanBeParted) {
+  const Tie tie = Ties().front();
+  Dataset dataset;
+  dataset.relative_uncertainty = tie.uncertainty;
+  dataset.runs = {MakeRun("r1", 3e5, tie), MakeRun("r2", 2.6e5, tie)};
+  for (std::size_t i = 0; i < 2; ++i) Measure(dataset.runs[i], tie.sides[0], i);
+  const Fitted before(dataset, tie);
+  const std::vector<TiedFit> tied = {
+      {{"leak"}, &before.fits[0]}, {{"creep"}, &before.fits[1]}, {{"twin"}, &before.fits[1]}};
+  const auto experiment = DesignExperiment(before.data, tied, {});
+  ASSERT_TRUE(experiment.has_value());
+  EXPECT_LT(experiment->expected_delta_bic, kDecisiveDeltaBic) << experiment->why;
+  dataset.runs.push_back(experiment->run);
+  Measure(dataset.runs.back(), tie.sides[0], 77);
+  const Fitted after(dataset, tie);
+  EXPECT_GT(after.fits[1].bic - after.fits[0].bic, kDecisiveDeltaBic) << experiment->why;
+}
+
 TEST(DesignExperiment, NeedsTwoFits) {
   const Tie tie = Ties().front();
   Dataset dataset;

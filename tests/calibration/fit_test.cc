@@ -114,6 +114,27 @@ TEST(Fit, ClocksThatAreOffAreFound) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(fit.state.clock_s[i], late_s[i], 1e-3) << i;
 }
 
+// A stroke cannot come before the run, and a clock that is off by most of a sample makes it.
+TEST(BaseCoordinates, AClockIsEarlyByNoMoreThanThereIsBeforeTheFirstStroke) {
+  Dataset dataset = MeasuredBench({}, 6);
+  const auto clock_of = [&](double first_s) {
+    dataset.runs[0].valve[1].time_s = first_s;
+    const ForwardModel forward(dataset);
+    std::vector<Coordinate> clocks = BaseCoordinates(forward, {0}, true);
+    std::erase_if(clocks, [](const Coordinate& coordinate) {
+      return coordinate.parameter.kind != Parameter::Kind::kClock;
+    });
+    return clocks;
+  };
+  for (const double intervals : {1.5, 2.0, 9.0}) {
+    const std::vector<Coordinate> clocks = clock_of(0.02 * intervals);
+    ASSERT_EQ(clocks.size(), 1u) << intervals;
+    EXPECT_NEAR(clocks[0].low * clocks[0].scale, -0.02 * std::min(intervals, 2.0), 1e-12);
+    EXPECT_NEAR(clocks[0].high * clocks[0].scale, 0.04, 1e-12);
+  }
+  EXPECT_TRUE(clock_of(0.01).empty());
+}
+
 // The critical ratio of a leak that is not there costs nothing, of one that is plain most of what
 // any number does.
 TEST(Fit, ARatioCostsWhatTheReadingsTellOfIt) {
