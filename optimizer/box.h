@@ -45,6 +45,7 @@ struct Box {
   double energy_j = 0.0;                    // of the mission; regulated configurations
   double energy_beyond_j = 0.0;             // what of it the shares of the choices do not count
   Shared<std::vector<VolumeNeed>> volumes;  // compressor
+  std::size_t lowest = 0;                   // of them: whose bound is that of the box
   int look = 0;                             // grows where the needs of volumes may have grown
   double volume_ratio_max = 0.0;            // of the ends of an interval of made-to-measure volumes
   bool source_bounded = false;              // from below, for the real parts; regulated
@@ -162,7 +163,6 @@ class Bounds {
   void RestrictVolumes(Box& box) const;
   bool IsWide(const Box& box, const VolumeNeed& volume) const;
   bool IsSettled(const Box& box, const VolumeNeed& volume) const;
-  static std::size_t Lowest(const Box& box);
   Constraint LookAtLowest(Box& box);
   std::optional<VolumeNeed> LookAt(const Box& box, VolumeNeed volume);
   bool IsMade(const VolumeNeed& volume) const;

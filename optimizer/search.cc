@@ -19,7 +19,6 @@
 #include "optimizer/effect_strokes.h"
 #include "optimizer/leaf_sizing.h"
 #include "optimizer/problem.h"
-#include "optimizer/queue.h"
 #include "optimizer/ranking.h"
 #include "optimizer/recorder.h"
 #include "optimizer/report.h"
@@ -301,7 +300,7 @@ class BoxSearch {
       proof_.pruned.unpriced += outline.combinations - outline.priced;
       if (!over) least = std::min(least, outline.bound);
     }
-    for (const NodePtr& node : open_.items()) {
+    open_.ForEach([&](const NodePtr& node) {
       const double bound = node->box.bound;
       const bool over = bound > objective_limit_;
       (over ? proof_.pruned.infeasible : proof_.pruned.bound) += node->bounds->Count(node->box);
@@ -312,7 +311,7 @@ class BoxSearch {
                                                     : BoxKind::kBound,
                                      .constraint = over ? Constraint::kAmounts : Constraint::kNone,
                                      .bound = bound});
-    }
+    });
     return least;
   }
 

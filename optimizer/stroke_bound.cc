@@ -42,8 +42,7 @@ class Stroke {
     const double drawn = nodes_.drawn[at_];
     const double most = drawn + start_.high_m3 * (start_.stop_pa - start_.start_pa);
     for (int i = 0; i < kSteps && pumped_ < most; ++i)
-      pumped_ +=
-          step_s * kappa_ * pumps_.seconds_per_m3.InverseAt(Reservoir(pumped_ - drawn, true));
+      pumped_ += step_s * kappa_ * pumps_.rates.Delivery(Reservoir(pumped_ - drawn, true));
     return std::min(Reservoir(pumped_ - drawn, false), start_.stop_pa);
   }
 
@@ -57,7 +56,7 @@ class Stroke {
            nodes_.drawn[floor_ + 1] <= pumped_ - Taken(nodes_.pressure_pa[at_], true))
       ++floor_;
     const double lowest_pa = std::max(nodes_.pressure_pa[floor_], Reservoir(pumped_ - after, true));
-    const double delivery = kappa_ * pumps_.seconds_per_m3.InverseAt(lowest_pa);
+    const double delivery = kappa_ * pumps_.rates.Delivery(lowest_pa);
     // At the end the reservoir is no lower than the chambers.
     const double least_s = (after + Taken(nodes_.pressure_pa[at_ + 1], false) - pumped_) / delivery;
     const double left_s = limit_s - time_s_;
