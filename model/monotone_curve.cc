@@ -56,7 +56,11 @@ double MonotoneCurve::operator()(double x) const {
   if (!(x > x_.front())) return y_.front() + slope_.front() * (x - x_.front());
   if (x >= x_.back()) return y_.back() + slope_.back() * (x - x_.back());
   const auto i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
-  return Inside(x, i);
+  const double h = x_[i] - x_[i - 1];
+  const double t = (x - x_[i - 1]) / h;
+  const double s = 1.0 - t;
+  return s * s * ((1.0 + 2.0 * t) * y_[i - 1] + t * h * slope_[i - 1]) +
+         t * t * ((1.0 + 2.0 * s) * y_[i] - s * h * slope_[i]);
 }
 
 double MonotoneCurve::Slope(double x) const {

@@ -67,7 +67,11 @@ class PumpRates {
   PumpRates(double low_pa, double high_pa, PumpTables tables);
   PerAir At(double pressure_pa) const { return sums_[cells_.Cell(pressure_pa)].value; }
   double CurrentAt(double pressure_pa) const { return current_a_[cells_.Cell(pressure_pa)]; }
-  double Delivery(double pressure_pa) const { return delivery_[cells_.Cell(pressure_pa)]; }
+  double Delivery(double pressure_pa) const { return PaceAt(pressure_pa).delivery_m3_per_s; }
+  struct Pace {
+    double seconds_per_m3, delivery_m3_per_s;
+  };
+  const Pace& PaceAt(double pressure_pa) const { return paces_[cells_.Cell(pressure_pa)]; }
   // No less than the true time, which does not fall with pressure.
   double SecondsAtMost(double pressure_pa) const {
     const std::size_t cell = cells_.Cell(pressure_pa);
@@ -99,7 +103,8 @@ class PumpRates {
   };
   EvenCells cells_;
   std::vector<Sums> sums_;
-  std::vector<double> delivery_, current_a_;
+  std::vector<Pace> paces_;
+  std::vector<double> current_a_;
 };
 
 // What the bounds need of the pumps of a choice, all that run in parallel together. From a single

@@ -78,12 +78,12 @@ PumpRates::PumpRates(double low_pa, double high_pa, PumpTables tables)
     : cells_(low_pa, high_pa, tables.seconds_per_m3.size()),
       current_a_(std::move(tables.current_a)) {
   sums_.reserve(current_a_.size());
-  delivery_.reserve(current_a_.size());
+  paces_.reserve(current_a_.size());
   PerAir sum;
   for (std::size_t i = 0; i < current_a_.size(); ++i) {
     const PerAir value{tables.seconds_per_m3[i], tables.energy_j_per_m3[i]};
     sums_.push_back({value, sum});
-    delivery_.push_back(1.0 / value.seconds);
+    paces_.push_back({value.seconds, 1.0 / value.seconds});
     sum.seconds += value.seconds * cells_.width_pa();
     sum.energy_j += value.energy_j * cells_.width_pa();
   }
