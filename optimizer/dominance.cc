@@ -93,8 +93,8 @@ class KeptLosses {
       const std::size_t chunk = (last - 1) / kChunk;
       if (!MayLoseNoMore(chunk, losses)) continue;
       for (std::size_t row = (last - 1) / kLanes + 1; row-- > chunk * kRows;) {
-        const Masks worse = WhereWorse(lanes_.data() + row * width_, losses);
-        if (Sum(worse) == -static_cast<std::int64_t>(kLanes)) continue;
+        Masks worse{};
+        if (AllWorse(lanes_.data() + row * width_, losses, worse)) continue;
         for (std::size_t i = kLanes; i-- > 0;)
           if (worse[i] == 0 && row * kLanes + i < size_ && !found(row * kLanes + i)) return;
       }
@@ -113,17 +113,12 @@ class KeptLosses {
     return true;
   }
 
-  // −1 in the lanes of those that lose more somewhere.
-  static Masks WhereWorse(const Lanes* row, std::span<const double> losses) {
-    Masks worse{};
+  // `worse`: 0 before, −1 in the lanes of those that lose more somewhere.
+  static bool AllWorse(const Lanes* row, std::span<const double> losses, Masks& worse) {
     for (std::size_t k = 0; k < losses.size(); ++k) worse |= row[k] > losses[k];
-    return worse;
-  }
-
-  static std::int64_t Sum(const Masks& masks) {
     std::int64_t sum = 0;
-    for (std::size_t i = 0; i < kLanes; ++i) sum += masks[i];
-    return sum;
+    for (std::size_t i = 0; i < kLanes; ++i) sum += worse[i];
+    return sum == -static_cast<std::int64_t>(kLanes);
   }
 
   std::size_t width_, size_ = 0;
