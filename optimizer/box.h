@@ -8,6 +8,7 @@
 #define PLENUM_OPTIMIZER_BOX_H_
 
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -34,11 +35,13 @@ struct VolumeNeed {
 };
 
 struct Box {
-  std::vector<int> nodes;                          // per slot
-  std::vector<std::shared_ptr<const Line>> lines;  // per group; empty before the first Assess()
-  bool lines_finished = false;                     // by FinishLine()
-  double bound = 0.0;                              // of the objective
-  Window window{0.0, 0.0};                         // source pressures
+  // Without a place of their own in memory for one group, since boxes are many.
+  boost::container::small_vector<int, kSlotsPerGroup + 3> nodes;  // per slot
+  // Per group; empty before the first Assess().
+  boost::container::small_vector<std::shared_ptr<const Line>, 1> lines;
+  bool lines_finished = false;                               // by FinishLine()
+  double bound = 0.0;                                        // of the objective
+  Window window{0.0, 0.0};                                   // source pressures
   double source_floor_pa = 0.0, source_cap_pa = kUnlimited;  // as in Candidate
   double air_m3 = 0.0;                                       // per cycle
   double coil_power_w = 0.0;                                 // with the regulator's

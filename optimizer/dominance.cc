@@ -10,7 +10,8 @@ namespace plenum::optimizer {
 namespace {
 
 bool ListedFirst(const Contender& a, const Contender& b) {
-  return a.id != b.id ? a.id < b.id : a.item.quantity < b.item.quantity;
+  const bool same = a.id.data() == b.id.data() || a.id == b.id;
+  return same ? a.item.quantity < b.item.quantity : a.id < b.id;
 }
 
 // The contenders by id and quantity. Most ids differ in their first characters, which are kept with
