@@ -14,6 +14,14 @@ namespace {
 
 constexpr double kFoundTolerance = 5e-7;
 
+// The reservoirs whose bound is that of the box.
+std::size_t Lowest(const std::vector<VolumeNeed>& volumes) {
+  const auto lowest =
+      std::min_element(volumes.begin(), volumes.end(),
+                       [](const VolumeNeed& a, const VolumeNeed& b) { return a.rest < b.rest; });
+  return static_cast<std::size_t>(lowest - volumes.begin());
+}
+
 }  // namespace
 
 Constraint Bounds::AssessCompressor(Box& box, int changed) {
@@ -37,8 +45,8 @@ Constraint Bounds::RestOfCompressor(Box& box) {
   if (box.volumes->empty()) return Constraint::kPump;
   double chosen = CornerAt(plan_.compressors, box, plan_.compressor_slot).objective;
   for (const std::shared_ptr<const Line>& line : box.lines) chosen += line->objective;
-  double rest = kUnlimited;
-  for (const VolumeNeed& volume : *box.volumes) rest = std::min(rest, volume.rest);
+  box.lowest = Lowest(*box.volumes);
+  const double rest = (*box.volumes)[box.lowest].rest;
   if (std::isinf(rest)) return Constraint::kBattery;
   box.bound = std::max(box.bound, chosen + rest);
   return Constraint::kNone;
@@ -74,7 +82,7 @@ double Bounds::RestAt(const Box& box, VolumeNeed& volume) {
   double current_a = 0.0;
   if (volume.need.energy_j > 0.0) {
     beyond_j -= problem_.actuations * HalfPeriod(problem_) * box.coil_power_w;
-    current_a = PumpOf(box).current_a.At(std::max(box.window.low_pa, volume.need.source_pa));
+    current_a = PumpOf(box).rates.CurrentAt(std::max(box.window.low_pa, volume.need.source_pa));
   }
   Amounts others = LeastBesidesBattery(box);
   const Amounts& counted = CornerAt(plan_.reservoirs, box, plan_.reservoir_slot).amounts;
@@ -89,7 +97,7 @@ double Bounds::RestAt(const Box& box, VolumeNeed& volume) {
 
 bool Bounds::CanFindSource(const Box& box) const {
   if (plan_.configuration == Configuration::kCompressor &&
-      !(box.lines_finished && IsSettled(box, (*box.volumes)[Lowest(box)])))
+      !(box.lines_finished && IsSettled(box, (*box.volumes)[box.lowest])))
     return true;
   return CoreIsSingle(box) && (!box.source_known || CanSizeCore(box));
 }
@@ -102,7 +110,7 @@ Constraint Bounds::FindSource(Box& box) {
         return missed;
       return RestOfCompressor(box);
     }
-    const VolumeNeed& lowest = (*box.volumes)[Lowest(box)];
+    const VolumeNeed& lowest = (*box.volumes)[box.lowest];
     if (!IsSettled(box, lowest)) return LookAtLowest(box);
     if (box.source_known) return SizeCore(box);
     return IsMade(lowest) ? RefineVolumes(box) : FindStockSource(box);

@@ -132,14 +132,6 @@ bool Bounds::IsSettled(const Box& box, const VolumeNeed& volume) const {
   return volume.look == box.look && volume.energy_known && !IsWide(box, volume);
 }
 
-// The reservoirs whose bound is that of the box.
-std::size_t Bounds::Lowest(const Box& box) {
-  const auto lowest =
-      std::min_element(box.volumes->begin(), box.volumes->end(),
-                       [](const VolumeNeed& a, const VolumeNeed& b) { return a.rest < b.rest; });
-  return static_cast<std::size_t>(lowest - box.volumes->begin());
-}
-
 // What these reservoirs need in this box: their source pressure and what it takes, and where that
 // is known the energy of coils; none where none of them will do.
 std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
@@ -182,9 +174,8 @@ std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
 // done.
 Constraint Bounds::LookAtLowest(Box& box) {
   std::vector<VolumeNeed>& volumes = box.volumes.Own();
-  const std::size_t lowest = Lowest(box);
-  const VolumeNeed volume = volumes[lowest];
-  volumes.erase(volumes.begin() + static_cast<std::ptrdiff_t>(lowest));
+  const VolumeNeed volume = volumes[box.lowest];
+  volumes.erase(volumes.begin() + static_cast<std::ptrdiff_t>(box.lowest));
   if (volume.look == box.look && (volume.energy_known || IsWide(box, volume))) {
     // What is known of both holds for each half, which is looked at once it is the lowest.
     for (VolumeNeed half : Halves(volume)) {

@@ -8,6 +8,7 @@
 #define PLENUM_OPTIMIZER_BOX_H_
 
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -34,17 +35,20 @@ struct VolumeNeed {
 };
 
 struct Box {
-  std::vector<int> nodes;                          // per slot
-  std::vector<std::shared_ptr<const Line>> lines;  // per group; empty before the first Assess()
-  bool lines_finished = false;                     // by FinishLine()
-  double bound = 0.0;                              // of the objective
-  Window window{0.0, 0.0};                         // source pressures
+  // Without a place of their own in memory for one group, since boxes are many.
+  boost::container::small_vector<int, kSlotsPerGroup + 3> nodes;  // per slot
+  // Per group; empty before the first Assess().
+  boost::container::small_vector<std::shared_ptr<const Line>, 1> lines;
+  bool lines_finished = false;                               // by FinishLine()
+  double bound = 0.0;                                        // of the objective
+  Window window{0.0, 0.0};                                   // source pressures
   double source_floor_pa = 0.0, source_cap_pa = kUnlimited;  // as in Candidate
   double air_m3 = 0.0;                                       // per cycle
   double coil_power_w = 0.0;                                 // with the regulator's
   double energy_j = 0.0;                    // of the mission; regulated configurations
   double energy_beyond_j = 0.0;             // what of it the shares of the choices do not count
   Shared<std::vector<VolumeNeed>> volumes;  // compressor
+  std::size_t lowest = 0;                   // of them: whose bound is that of the box
   int look = 0;                             // grows where the needs of volumes may have grown
   double volume_ratio_max = 0.0;            // of the ends of an interval of made-to-measure volumes
   bool source_bounded = false;              // from below, for the real parts; regulated
@@ -162,7 +166,6 @@ class Bounds {
   void RestrictVolumes(Box& box) const;
   bool IsWide(const Box& box, const VolumeNeed& volume) const;
   bool IsSettled(const Box& box, const VolumeNeed& volume) const;
-  static std::size_t Lowest(const Box& box);
   Constraint LookAtLowest(Box& box);
   std::optional<VolumeNeed> LookAt(const Box& box, VolumeNeed volume);
   bool IsMade(const VolumeNeed& volume) const;

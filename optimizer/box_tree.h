@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "optimizer/candidate.h"
@@ -43,7 +44,7 @@ template <typename Corner>
 class Builder {
  public:
   explicit Builder(const std::vector<const Item<Corner>*>& items)
-      : items_(items), order_(items.size()) {
+      : items_(items), order_(items.size()), by_key_(items.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     keys_.reserve(items.size());
     classes_.reserve(items.size());
@@ -106,9 +107,10 @@ class Builder {
         widest = k;
       }
     const int middle = first + (last - first) / 2;
-    std::nth_element(begin, order_.begin() + middle, end, [&](int a, int b) {
-      return keys_[a][widest] != keys_[b][widest] ? keys_[a][widest] < keys_[b][widest] : a < b;
-    });
+    const auto begin_key = by_key_.begin() + first, end_key = by_key_.begin() + last;
+    for (int i = first; i < last; ++i) by_key_[i] = {keys_[order_[i]][widest], order_[i]};
+    std::nth_element(begin_key, by_key_.begin() + middle, end_key);
+    std::transform(begin_key, end_key, begin, [](const auto& pair) { return pair.second; });
     return middle;
   }
 
@@ -116,10 +118,13 @@ class Builder {
   int Grow(int first, int last, bool several) {
     const int index = static_cast<int>(tree_.nodes.size());
     tree_.nodes.push_back({-1, -1, first, last});
-    tree_.corners.push_back(items_[order_[first]]->corner);
-    double low = tree_.corners[index].objective, high = low;
+    tree_.corners.emplace_back();
+    double low, high;
     int earliest = first;
-    if (last - first > 1) {
+    if (last - first == 1) {
+      tree_.corners[index] = items_[order_[first]]->corner;
+      low = high = tree_.corners[index].objective;
+    } else {
       const int middle = Divide(first, last, several);
       const int left = Grow(first, middle, several);
       const int right = Grow(middle, last, several);
@@ -142,6 +147,7 @@ class Builder {
   const std::vector<const Item<Corner>*>& items_;
   std::vector<int> order_;
   std::vector<Keys> keys_;
+  std::vector<std::pair<double, int>> by_key_;  // of what is being divided, in the same order
   std::vector<decltype(MatingClass(std::declval<Corner>()))> classes_;
   BoxTree<Corner> tree_;
 };

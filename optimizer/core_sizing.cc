@@ -17,7 +17,8 @@ Constraint Bounds::SizeCore(Box& box) {
     Candidate candidate = CandidateOf(box);
     candidate.battery = {};
     box.core = std::make_shared<CoreSizing>(
-        CoreSizing{box.lines, CustomSizing(problem_, std::move(candidate), NeedsOf(box))});
+        CoreSizing{{box.lines.begin(), box.lines.end()},
+                   CustomSizing(problem_, std::move(candidate), NeedsOf(box))});
   }
   CustomSizing& sizing = box.core->sizing;
   box.core->done = sizing.Refine();

@@ -12,7 +12,7 @@
 
 #include <boost/container/static_vector.hpp>
 #include <functional>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "optimizer/proof.h"
@@ -25,14 +25,14 @@ using Losses = boost::container::static_vector<double, 18>;
 // A choice as dominance sees it.
 struct Contender {
   ProofItem item;
-  std::string id;
+  std::string_view id;     // of the part, which outlives this
   double objective = 0.0;  // its share
-  std::string mates;       // equal for parts that mate with the same parts and behave alike
+  int mates = 0;           // from 0; equal for parts that mate with the same parts and behave alike
   Losses losses;           // smaller is better, as many for each choice of a family
 };
 
 struct Skyband {
-  std::vector<int> kept;  // indices into the contenders
+  std::vector<int> kept;  // indices into the contenders, by id and quantity
   std::vector<ProofDominated> left_out;
 };
 

@@ -8,6 +8,8 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "model/storage.h"
@@ -45,11 +47,22 @@ inline double EnergyWeight(const Problem& problem) {
   return problem.objective.energy_wh / kJoulePerWattHour;
 }
 
+// Numbers distinct values from 0.
+template <typename Value>
+class NumbersOf {
+ public:
+  int Of(const Value& value) { return number_.try_emplace(value, size()).first->second; }
+  int size() const { return static_cast<int>(number_.size()); }
+
+ private:
+  std::map<Value, int> number_;
+};
+
 // The choices of a family and what dominance compares; PlantSlot adds what holds for all.
 template <typename Corner>
 struct Entry {
-  Item<Corner> item;
-  Contender contender;
+  Item<Corner>& item;
+  Contender& contender;
 };
 template <typename Corner>
 struct Entries {
@@ -60,28 +73,13 @@ struct Entries {
     items.reserve(size);
     contenders.reserve(size);
   }
-  void Add(Entry<Corner> entry) {
-    items.push_back(entry.item);
-    contenders.push_back(std::move(entry.contender));
-  }
+  Entry<Corner> Add() { return {items.emplace_back(), contenders.emplace_back()}; }
 };
 
 template <typename Corner>
-Corner CornerOf(const Problem& problem, const Amounts& amounts) {
-  Corner corner;
+void SetShare(const Problem& problem, const Amounts& amounts, Corner& corner) {
   corner.amounts = amounts;
   corner.objective = ObjectiveOf(problem.objective, amounts);
-  return corner;
-}
-
-inline std::string Bytes(std::initializer_list<double> values) {
-  std::string bytes;
-  for (double value : values) bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  return bytes;
-}
-
-inline std::string Bytes(std::span<const double> values) {
-  return std::string(reinterpret_cast<const char*>(values.data()), values.size_bytes());
 }
 
 class Planter {
@@ -234,10 +232,6 @@ class Planter {
     }
     Skyband skyband = KeepBest(contenders, problem_.count, plan_->tie, name_left_out_, stop_);
     if (stopped()) return -1;
-    std::sort(skyband.kept.begin(), skyband.kept.end(), [&](int a, int b) {
-      const Contender &x = contenders[a], &y = contenders[b];
-      return x.id != y.id ? x.id < y.id : x.item.quantity < y.item.quantity;
-    });
     std::vector<const Item<Corner>*> items;
     items.reserve(skyband.kept.size());
     for (int i : skyband.kept) items.push_back(&entries.items[i]);
@@ -280,11 +274,10 @@ class Planter {
       if (i % kBetweenLooks == 0 && stopped()) break;
       if (!Priced(parts[i].basics)) continue;
       for (int quantity = 1; quantity <= quantity_max; ++quantity) {
-        Entry<Corner> entry;
+        const Entry<Corner> entry = entries.Add();
         entry.item.option = {i, quantity, static_cast<double>(quantity) * parts[i].basics};
         entry.contender.id = parts[i].basics.id;
         make(parts[i], quantity, entry);
-        entries.Add(std::move(entry));
       }
     }
     return entries;
@@ -292,13 +285,15 @@ class Planter {
 
   // `full_m3`: gas down to an inlet pressure of nothing; `water_m3`: what holds gas back.
   void SetBottle(double gas_kg, double full_m3, double water_m3, double fill_pa,
-                 double flow_m3_per_s, Entry<BottleCorner>& entry) const;
+                 double flow_m3_per_s, const Entry<BottleCorner>& entry) const;
 
   int PlantCylinders();
 
   int PlantCo2();
 
   int PlantCompressors();
+
+  void AddMadeReservoir(int mates, const Entry<ReservoirCorner>& entry) const;
 
   int PlantReservoirs();
 

@@ -9,24 +9,19 @@ namespace {
 constexpr int kCells = 1024;
 constexpr double kNoDelivery = 1e12;
 
-std::vector<double> EvenCells(double low_pa, double high_pa, int cells) {
-  std::vector<double> edges;
-  for (int i = 0; i <= cells; ++i) edges.push_back(low_pa + (high_pa - low_pa) * i / cells);
-  return edges;
-}
-
-// Tables of a pump over cells of pressure, as minorants: delivery falls with pressure, so that a
-// cell's lower edge has the most; the least power is at an edge or at a point of the table.
-struct PumpTables {
-  std::vector<double> energy_j_per_m3, seconds_per_m3, current_a;
+struct Division {
+  double low_pa, high_pa;
+  int count;
+  double Edge(int i) const { return low_pa + (high_pa - low_pa) * i / count; }
 };
 
 void MakeNonFalling(std::vector<double>& values) {
   for (std::size_t i = values.size() - 1; i-- > 0;) values[i] = std::min(values[i], values[i + 1]);
 }
 
-PumpTables MakeTables(const model::CompressorCurve& curve, int pumps,
-                      const std::vector<double>& edges) {
+// Delivery falls with pressure, so that a cell's lower edge has the most; the least power is at an
+// edge or at a point of the table.
+PumpTables MakeTables(const model::CompressorCurve& curve, int pumps, const Division& cells) {
   const model::MonotoneCurve& current = curve.current_a;
   const auto current_at = [&](double pressure_pa) {
     return current.empty() ? 0.0
@@ -35,22 +30,25 @@ PumpTables MakeTables(const model::CompressorCurve& curve, int pumps,
   PumpTables tables;
   for (std::vector<double>* table :
        {&tables.energy_j_per_m3, &tables.seconds_per_m3, &tables.current_a})
-    table->reserve(edges.size() - 1);
+    table->reserve(static_cast<std::size_t>(cells.count));
+  double edge_pa = cells.low_pa;
   std::size_t knot = 0;
-  while (knot < current.x().size() && current.x()[knot] <= edges.front()) ++knot;
-  double high_a = current_at(edges.front()), largest_a = high_a;
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+  while (knot < current.x().size() && current.x()[knot] <= edge_pa) ++knot;
+  double high_a = current_at(edge_pa), largest_a = high_a;
+  for (int i = 0; i < cells.count; ++i) {
+    const double low_pa = edge_pa;
+    edge_pa = cells.Edge(i + 1);
     tables.current_a.push_back(pumps * largest_a);
     const double low_a = high_a;
-    high_a = current_at(edges[i + 1]);
+    high_a = current_at(edge_pa);
     double least_a = std::min(low_a, high_a);
-    for (; knot < current.x().size() && current.x()[knot] < edges[i + 1]; ++knot) {
+    for (; knot < current.x().size() && current.x()[knot] < edge_pa; ++knot) {
       least_a = std::min(least_a, current.y()[knot]);
       largest_a = std::max(largest_a, current.y()[knot]);
     }
     largest_a = std::max(largest_a, high_a);
     // Past the last delivery nothing can be pumped; a large number keeps integrals finite.
-    const double delivery = model::FreeAirDelivery(curve, edges[i]);
+    const double delivery = model::FreeAirDelivery(curve, low_pa);
     const double power_w = curve.voltage_v * least_a;
     tables.energy_j_per_m3.push_back(delivery > 0.0 ? power_w / delivery : kNoDelivery);
     tables.seconds_per_m3.push_back(delivery > 0.0 ? 1.0 / (pumps * delivery) : kNoDelivery);
@@ -70,47 +68,32 @@ PumpFacts MakeFacts(const Problem& problem, double highest_pa, PumpTables tables
     rising_s = problem.simultaneous ? std::max(rising_s, rise_s) : rising_s + rise_s;
   }
   facts.early_m3 = rising_s / tables.seconds_per_m3.front();
-  const auto minorant = [&](std::vector<double>& values) {
-    return Minorant(problem.ambient.pressure_pa, highest_pa, std::move(values));
-  };
-  facts.energy_j_per_m3 = minorant(tables.energy_j_per_m3);
-  facts.seconds_per_m3 = minorant(tables.seconds_per_m3);
-  facts.current_a = minorant(tables.current_a);
+  facts.rates = {problem.ambient.pressure_pa, highest_pa, std::move(tables)};
   return facts;
 }
 
 }  // namespace
 
-Minorant::Minorant(double low_pa, double high_pa, std::vector<double> value)
-    : low_pa_(low_pa),
-      cells_per_pa_(static_cast<double>(value.size()) / (high_pa - low_pa)),
-      pa_per_cell_(1.0 / cells_per_pa_),
-      last_(static_cast<double>(value.size() - 1)),
-      value_(std::move(value)),
-      inverse_(value_.size()),
-      integral_(value_.size(), 0.0) {
-  for (std::size_t i = 0; i < value_.size(); ++i) inverse_[i] = 1.0 / value_[i];
-  for (std::size_t i = 0; i + 1 < value_.size(); ++i)
-    integral_[i + 1] = integral_[i] + value_[i] * pa_per_cell_;
-}
-
-double Minorant::Integral(double pressure_pa) const {
-  const std::size_t cell = Cell(pressure_pa);
-  return integral_[cell] +
-         value_[cell] * (pressure_pa - low_pa_ - static_cast<double>(cell) * pa_per_cell_);
-}
-
-double Minorant::Mean(double low_pa, double high_pa) const {
-  constexpr double kNarrow = 1e-6;  // where the difference of integrals would lose digits
-  if (!(high_pa - low_pa > kNarrow * high_pa)) return At(low_pa);
-  return (Integral(high_pa) - Integral(low_pa)) / (high_pa - low_pa);
+PumpRates::PumpRates(double low_pa, double high_pa, PumpTables tables)
+    : cells_(low_pa, high_pa, tables.seconds_per_m3.size()),
+      current_a_(std::move(tables.current_a)) {
+  sums_.reserve(current_a_.size());
+  paces_.reserve(current_a_.size());
+  PerAir sum;
+  for (std::size_t i = 0; i < current_a_.size(); ++i) {
+    const PerAir value{tables.seconds_per_m3[i], tables.energy_j_per_m3[i]};
+    sums_.push_back({value, sum});
+    paces_.push_back({value.seconds, 1.0 / value.seconds});
+    sum.seconds += value.seconds * cells_.width_pa();
+    sum.energy_j += value.energy_j * cells_.width_pa();
+  }
 }
 
 PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps) {
   const double ambient_pa = problem.ambient.pressure_pa;
   const double highest_pa = std::max(model::HighestPressure(curve), 1.01 * ambient_pa);
-  PumpFacts facts = MakeFacts(problem, highest_pa,
-                              MakeTables(curve, pumps, EvenCells(ambient_pa, highest_pa, kCells)));
+  PumpFacts facts =
+      MakeFacts(problem, highest_pa, MakeTables(curve, pumps, {ambient_pa, highest_pa, kCells}));
   facts.exact = true;
   return facts;
 }
@@ -125,7 +108,7 @@ double HighestPumpPressure(const Problem& problem) {
 CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,
                           const model::CompressorCurve& curve) {
   const PumpTables tables =
-      MakeTables(curve, 1, EvenCells(problem.ambient.pressure_pa, highest_pa, kCoarseCells));
+      MakeTables(curve, 1, {problem.ambient.pressure_pa, highest_pa, kCoarseCells});
   CoarsePump coarse;
   std::copy_n(tables.energy_j_per_m3.begin(), kCoarseCells, coarse.energy_j_per_m3.begin());
   std::copy_n(tables.seconds_per_m3.begin(), kCoarseCells, coarse.seconds_per_m3.begin());

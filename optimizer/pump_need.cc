@@ -21,36 +21,57 @@ namespace {
 
 // Air that the pumps deliver at pressures in between or above, the more of it the higher.
 struct PumpedAir {
-  double from_pa, to_pa, air_m3, seconds;
+  double from_pa, to_pa, air_m3;
+  PerAir per_m3;
 
-  PumpedAir(const PumpFacts& facts, double from, double to, double air)
-      : from_pa(from), to_pa(to), air_m3(air), seconds(air * facts.seconds_per_m3.Mean(from, to)) {}
+  double seconds() const { return air_m3 * per_m3.seconds; }
+  double energy_j() const { return air_m3 * per_m3.energy_j; }
 
   // No more than `most_m3` of it, the first.
-  PumpedAir First(const PumpFacts& facts, double most_m3) const {
+  PumpedAir First(const PumpRates& rates, double most_m3) const {
     if (!(most_m3 < air_m3)) return *this;
-    return {facts, from_pa, from_pa + (to_pa - from_pa) * most_m3 / air_m3, most_m3};
+    const double end_pa = from_pa + (to_pa - from_pa) * most_m3 / air_m3;
+    return {from_pa, end_pa, most_m3, rates.Mean(from_pa, end_pa)};
   }
+};
+
+// Integrals up to pressures that mostly come in turn, each bit of air beginning where the one
+// before ends.
+class Bits {
+ public:
+  explicit Bits(const PumpRates& rates) : rates_(rates) {}
+
+  PumpedAir Make(double from_pa, double to_pa, double air_m3) {
+    const PerAir from = from_pa == last_pa_ ? last_ : rates_.Integral(from_pa);
+    last_pa_ = to_pa;
+    last_ = rates_.Integral(to_pa);
+    return {from_pa, to_pa, air_m3, rates_.Mean(from_pa, from, to_pa, last_)};
+  }
+
+ private:
+  const PumpRates& rates_;
+  double last_pa_ = -1.0;
+  PerAir last_{};
 };
 
 // What the first bits take that make up the air of a cycle.
 class NeedOfBits {
  public:
   NeedOfBits(const PumpFacts& facts, double air_m3)
-      : facts_(facts), enough_m3_(1e-9 * air_m3), left_m3_(air_m3) {}
+      : rates_(facts.rates), enough_m3_(1e-9 * air_m3), left_m3_(air_m3) {}
 
   bool enough() const { return left_m3_ <= enough_m3_; }
   const PumpNeed& need() const { return need_; }
 
   void Add(const PumpedAir& bit) {
-    const PumpedAir first = bit.First(facts_, left_m3_);
-    need_.on_s += first.seconds;
-    need_.energy_j += first.air_m3 * facts_.energy_j_per_m3.Mean(first.from_pa, first.to_pa);
+    const PumpedAir first = bit.First(rates_, left_m3_);
+    need_.on_s += first.seconds();
+    need_.energy_j += first.energy_j();
     left_m3_ -= first.air_m3;
   }
 
  private:
-  const PumpFacts& facts_;
+  const PumpRates& rates_;
   double enough_m3_, left_m3_;
   PumpNeed need_;
 };
@@ -79,7 +100,7 @@ double MarchDraw(const Problem& problem, int g, const Line& line, const PumpFact
     const auto pumped_by = [&](double most) {
       const double s = std::min(start_pa, start_pa - (drawn - most) / high_m3);
       const double flow = group.count * s * line.fill_table(p / s);
-      return flow > 0.0 ? pumped + (next - drawn) / (flow * facts.seconds_per_m3.AtMost(s)) : most;
+      return flow > 0.0 ? pumped + (next - drawn) / (flow * facts.rates.SecondsAtMost(s)) : most;
     };
     const double reached = std::min(pumped_by(std::min(pumped_by(pumped), next)), next);
     if (reached > pumped) {
@@ -124,12 +145,13 @@ std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& f
       return count * (content - empty + spread_m3 * (p - ambient_pa));
     };
     double left_s = phase_s;
+    Bits bits_of(facts.rates);
     const auto add = [&](double from_pa, double to_pa, double air_m3) {
       if (!(left_s > 0.0)) return false;
-      const PumpedAir bit(facts, from_pa, to_pa, air_m3);
+      const PumpedAir bit = bits_of.Make(from_pa, to_pa, air_m3);
       // At the speed of its begin, which is the highest, the time may be enough for more.
-      const PumpedAir first = bit.First(facts, left_s * facts.seconds_per_m3.InverseAt(from_pa));
-      left_s -= first.seconds;
+      const PumpedAir first = bit.First(facts.rates, left_s * facts.rates.Delivery(from_pa));
+      left_s -= first.seconds();
       return take(first) && first.air_m3 == air_m3;
     };
     double begun_m3 = 0.0;
@@ -166,7 +188,7 @@ double LeastFirstFill(const Problem& problem, const PumpFacts& facts, double sou
                       double reservoir_m3) {
   const double ambient_pa = problem.ambient.pressure_pa;
   return reservoir_m3 / ContentPerVolume(problem) * (source_pa - ambient_pa) *
-         facts.energy_j_per_m3.Mean(ambient_pa, source_pa);
+         facts.rates.Mean(ambient_pa, source_pa).energy_j;
 }
 
 }  // namespace plenum::optimizer

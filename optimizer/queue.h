@@ -9,36 +9,51 @@
 
 namespace plenum::optimizer {
 
-// `Later(a, b)`: a comes out after b.
-template <typename Item, typename Later>
+// `PlaceOf()(item)`: an ordered value that does not change while the item waits; the least comes
+// out first. Kept beside the items, so that the heap need not look into them.
+template <typename Item, typename PlaceOf>
 class Queue {
  public:
-  bool empty() const { return items_.empty(); }
-  std::size_t size() const { return items_.size(); }
-  const Item& top() const { return items_.front(); }
-  const std::vector<Item>& items() const { return items_; }
+  bool empty() const { return waiting_.empty(); }
+  std::size_t size() const { return waiting_.size(); }
+  const Item& top() const { return waiting_.front().item; }
   void Push(Item item) {
-    items_.push_back(std::move(item));
-    std::push_heap(items_.begin(), items_.end(), Later());
+    const auto place = PlaceOf()(item);
+    waiting_.push_back({place, std::move(item)});
+    std::push_heap(waiting_.begin(), waiting_.end());
   }
   Item Pop() {
-    std::pop_heap(items_.begin(), items_.end(), Later());
-    Item item = std::move(items_.back());
-    items_.pop_back();
+    std::pop_heap(waiting_.begin(), waiting_.end());
+    Item item = std::move(waiting_.back().item);
+    waiting_.pop_back();
     return item;
+  }
+  void ForEach(const auto& visit) const {
+    for (const Waiting& waiting : waiting_) visit(waiting.item);
   }
 
  private:
-  std::vector<Item> items_;
+  struct Waiting {
+    decltype(PlaceOf()(std::declval<Item>())) place;
+    Item item;
+    bool operator<(const Waiting& other) const { return other.place < place; }
+  };
+  std::vector<Waiting> waiting_;
 };
 
-// Lowest key first; of equal ones the deepest, of these the one that was pushed first.
-struct LowestKey {
-  bool operator()(const auto& a, const auto& b) const {
-    if (a->key != b->key) return a->key > b->key;
-    if (a->depth != b->depth) return a->depth < b->depth;
-    return a->serial > b->serial;
+// The lowest first; of equal ones the deepest, of these the one that was pushed first.
+struct LowestFirst {
+  double value;
+  int depth;
+  long long serial;
+  bool operator<(const LowestFirst& other) const {
+    if (value != other.value) return value < other.value;
+    if (depth != other.depth) return depth > other.depth;
+    return serial < other.serial;
   }
+};
+struct LowestKey {
+  LowestFirst operator()(const auto& item) const { return {item->key, item->depth, item->serial}; }
 };
 
 }  // namespace plenum::optimizer

@@ -19,7 +19,6 @@
 #include "optimizer/effect_strokes.h"
 #include "optimizer/leaf_sizing.h"
 #include "optimizer/problem.h"
-#include "optimizer/queue.h"
 #include "optimizer/ranking.h"
 #include "optimizer/recorder.h"
 #include "optimizer/report.h"
@@ -75,8 +74,9 @@ class BoxSearch {
   bool Stopped() {
     if (stopped()) return true;
     cancelled_ = options_.cancelled && options_.cancelled();
-    late_ = Seconds() > options_.time_limit_s;
-    if (stopped()) stopped_s_ = Seconds();
+    looked_s_ = Seconds();
+    late_ = looked_s_ > options_.time_limit_s;
+    if (stopped()) stopped_s_ = looked_s_;
     return stopped();
   }
 
@@ -231,7 +231,7 @@ class BoxSearch {
   // far if time runs out.
   void DiveIfSlow() {
     const double from = options_.any_design ? 0.0 : kDiveFrom;
-    if (dived_ || Seconds() < from * options_.time_limit_s) return;
+    if (dived_ || looked_s_ < from * options_.time_limit_s) return;
     dived_ = true;
     while (!configurations_.waiting().empty())
       if (!PlantNext()) return;
@@ -301,7 +301,7 @@ class BoxSearch {
       proof_.pruned.unpriced += outline.combinations - outline.priced;
       if (!over) least = std::min(least, outline.bound);
     }
-    for (const NodePtr& node : open_.items()) {
+    open_.ForEach([&](const NodePtr& node) {
       const double bound = node->box.bound;
       const bool over = bound > objective_limit_;
       (over ? proof_.pruned.infeasible : proof_.pruned.bound) += node->bounds->Count(node->box);
@@ -312,7 +312,7 @@ class BoxSearch {
                                                     : BoxKind::kBound,
                                      .constraint = over ? Constraint::kAmounts : Constraint::kNone,
                                      .bound = bound});
-    }
+    });
     return least;
   }
 
@@ -340,6 +340,7 @@ class BoxSearch {
   Workbench bench_, report_bench_;  // for the search, for the designs of the list
   Configurations configurations_;
   int reported_ = 0;
+  double looked_s_ = 0.0;  // at the clock
   double reported_s_ = 0.0, stopped_s_ = 0.0, dive_until_s_ = kUnlimited;
   long long serial_ = 0;
   bool cancelled_ = false, late_ = false, dived_ = false;

@@ -10,17 +10,17 @@ namespace plenum::optimizer {
 template <typename Value>
 class Shared {
  public:
-  Shared() : value_(std::make_shared<Value>()) {}
-  const Value& operator*() const { return *value_; }
-  const Value* operator->() const { return value_.get(); }
+  const Value& operator*() const { return value_ ? *value_ : kFirst; }
+  const Value* operator->() const { return &**this; }
   // To change it: of this copy alone.
   Value& Own() {
-    if (value_.use_count() > 1) value_ = std::make_shared<Value>(*value_);
+    if (value_.use_count() != 1) value_ = std::make_shared<Value>(**this);
     return *value_;
   }
 
  private:
-  std::shared_ptr<Value> value_;
+  inline static const Value kFirst{};
+  std::shared_ptr<Value> value_;  // none: kFirst
 };
 
 }  // namespace plenum::optimizer

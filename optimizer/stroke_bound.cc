@@ -24,6 +24,7 @@ class Stroke {
         count_(problem.groups[g].count),
         kappa_(model::kReferencePressurePa * problem.ambient.temperature_k /
                model::kReferenceTemperatureK),
+        per_kappa_(1.0 / kappa_),
         per_flow_(1.0 / (count_ * kappa_)),
         per_low_m3_(1.0 / start.low_m3),
         per_high_m3_(1.0 / start.high_m3) {}
@@ -42,8 +43,7 @@ class Stroke {
     const double drawn = nodes_.drawn[at_];
     const double most = drawn + start_.high_m3 * (start_.stop_pa - start_.start_pa);
     for (int i = 0; i < kSteps && pumped_ < most; ++i)
-      pumped_ +=
-          step_s * kappa_ * pumps_.seconds_per_m3.InverseAt(Reservoir(pumped_ - drawn, true));
+      pumped_ += step_s * kappa_ * pumps_.rates.Delivery(Reservoir(pumped_ - drawn, true));
     return std::min(Reservoir(pumped_ - drawn, false), start_.stop_pa);
   }
 
@@ -57,9 +57,11 @@ class Stroke {
            nodes_.drawn[floor_ + 1] <= pumped_ - Taken(nodes_.pressure_pa[at_], true))
       ++floor_;
     const double lowest_pa = std::max(nodes_.pressure_pa[floor_], Reservoir(pumped_ - after, true));
-    const double delivery = kappa_ * pumps_.seconds_per_m3.InverseAt(lowest_pa);
+    const PumpRates::Pace& pace = pumps_.rates.PaceAt(lowest_pa);
+    const double delivery = kappa_ * pace.delivery_m3_per_s;
     // At the end the reservoir is no lower than the chambers.
-    const double least_s = (after + Taken(nodes_.pressure_pa[at_ + 1], false) - pumped_) / delivery;
+    const double least_s = (after + Taken(nodes_.pressure_pa[at_ + 1], false) - pumped_) *
+                           per_kappa_ * pace.seconds_per_m3;
     const double left_s = limit_s - time_s_;
     if (!(least_s <= left_s)) return false;
     // The more is pumped the shorter the panel: from too long a one comes too short a one. What was
@@ -107,7 +109,7 @@ class Stroke {
   const StrokeStart& start_;
   const StrokePanels& nodes_;
   int count_;
-  double kappa_, per_flow_, per_low_m3_, per_high_m3_;
+  double kappa_, per_kappa_, per_flow_, per_low_m3_, per_high_m3_;
   int at_ = 0;     // node
   int floor_ = 0;  // node that the reservoir does not fall below
   double pumped_ = 0.0, earlier_ = 0.0, time_s_ = 0.0;

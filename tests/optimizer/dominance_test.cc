@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <deque>
+#include <string>
+#include <vector>
 
 #include "tests/support/small_catalogue.h"
 
@@ -21,19 +24,24 @@ bool Dominates(const Contender& a, const Contender& b, double tie) {
   return a.objective < b.objective - tie || a.id < b.id;
 }
 
-std::vector<Contender> Random(std::uint64_t seed, int count) {
-  test::Random random(seed);
+struct Family {
+  std::deque<std::string> ids;
   std::vector<Contender> contenders;
+};
+
+Family Random(std::uint64_t seed, int count) {
+  test::Random random(seed);
+  Family family;
   for (int i = 0; i < count; ++i) {
     Contender c;
     c.item = {i, 1};
-    c.id = "part-" + std::to_string(Pick(random, 100000, 999999));
-    c.mates = Chance(random, 0.5) ? "a" : "b";
+    c.id = family.ids.emplace_back("part-" + std::to_string(Pick(random, 100000, 999999)));
+    c.mates = Chance(random, 0.5) ? 0 : 1;
     c.objective = 0.1 * Pick(random, 1, 20);
     for (int k = 0; k < 2; ++k) c.losses.push_back(Pick(random, 0, 8));
-    contenders.push_back(c);
+    family.contenders.push_back(c);
   }
-  return contenders;
+  return family;
 }
 
 // Against the definition: left out is what k others dominate, and only that.
@@ -41,9 +49,13 @@ TEST(DominanceTest, LeavesOutWhatKOthersDominate) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed)
     for (int k : {1, 2, 5}) {
       const double tie = seed % 3 == 0 ? 0.15 : 0.01;
-      const std::vector<Contender> contenders = Random(seed, 400);
+      const Family family = Random(seed, 400);
+      const std::vector<Contender>& contenders = family.contenders;
       const Skyband skyband = KeepBest(contenders, k, tie, true);
       EXPECT_EQ(skyband.kept.size() + skyband.left_out.size(), contenders.size());
+      EXPECT_TRUE(std::is_sorted(skyband.kept.begin(), skyband.kept.end(), [&](int a, int b) {
+        return contenders[a].id < contenders[b].id;
+      }));
       for (const auto& left_out : skyband.left_out) {
         ASSERT_EQ(static_cast<int>(left_out.dominators.size()), k);
         for (const auto& dominator : left_out.dominators) {
