@@ -20,6 +20,7 @@ constexpr double kClockRoom = 1.0;                         // intervals before t
 constexpr double kStroked = 0.05;        // gauge, of the operating pressure: a stroke came before
 constexpr double kRoomOfStroke = 0.9;    // of the time to the next command
 constexpr double kPressureStepPa = 1e3;  // scale of an initial pressure
+constexpr double kSoundMPerS = 290.0;    // isothermal
 
 enum class Size {
   kOne,
@@ -146,8 +147,10 @@ double InUnit(Size size, const TypicalSizes& sizes) {
 std::pair<double, double> Visible(const model::EffectSpec& effect, const model::ParameterSpec& spec,
                                   const TypicalSizes& sizes) {
   std::pair<double, double> range = {spec.low, spec.high};
-  if (effect.id == "sensor_lag")
-    range.first = std::max(spec.low, 0.05 * std::min(sizes.interval_s, 0.1 * sizes.stroke_s));
+  const double shortest_s = std::min(sizes.interval_s, 0.1 * sizes.stroke_s);
+  if (effect.id == "sensor_lag") range.first = std::max(spec.low, 0.05 * shortest_s);
+  if (effect.id == "line_dynamics" && spec.name == "length_m")  // rings at a/L
+    range.first = std::clamp(0.02 * shortest_s * kSoundMPerS, spec.low, 0.05);
   if (effect.id == "heat_transfer") range.first = std::max(spec.low, 0.003 * sizes.stroke_s);
   if (effect.id == "supply_droop" && spec.name == "volume_m3")
     range.first = std::max(spec.low, 0.03 * sizes.volume_m3);
