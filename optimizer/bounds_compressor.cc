@@ -27,7 +27,7 @@ Constraint Bounds::AssessCompressor(Box& box, int changed) {
     return Constraint::kMating;
   if (all || changed == plan_.reservoir_slot) RestrictVolumes(box);
   if (changed == plan_.battery_slot)
-    for (VolumeNeed& volume : box.volumes.Own()) volume.rest = RestAt(box, volume);
+    for (VolumeNeed& volume : box.volumes.Own()) BoundRest(box, volume);
   else if (changed != plan_.reservoir_slot)
     ++box.look;
   return RestOfCompressor(box);
@@ -35,12 +35,12 @@ Constraint Bounds::AssessCompressor(Box& box, int changed) {
 
 Constraint Bounds::RestOfCompressor(Box& box) {
   if (box.volumes->empty()) return Constraint::kPump;
-  double chosen = CornerAt(plan_.compressors, box, plan_.compressor_slot).objective;
-  for (const std::shared_ptr<const Line>& line : box.lines) chosen += line->objective;
-  double rest = kUnlimited;
-  for (const VolumeNeed& volume : *box.volumes) rest = std::min(rest, volume.rest);
-  if (std::isinf(rest)) return Constraint::kBattery;
-  box.bound = std::max(box.bound, chosen + rest);
+  double least = kUnlimited;
+  const double lines = LinesObjective(box);
+  for (const VolumeNeed& volume : *box.volumes) least = std::min(least, BoundOf(lines, volume));
+  if (std::isinf(least)) return Constraint::kBattery;
+  box.bound = std::max(box.bound,
+                       CornerAt(plan_.compressors, box, plan_.compressor_slot).objective + least);
   return Constraint::kNone;
 }
 
@@ -68,23 +68,26 @@ Constraint Bounds::NeedOfCompressor(Box& box) const {
   return box.window.empty() ? Constraint::kPressure : Constraint::kNone;
 }
 
-// Objective of reservoir, battery and energy with a volume in the interval, at least.
-double Bounds::RestAt(const Box& box, VolumeNeed& volume) {
+// Raises the objective of reservoir, battery and energy with a volume in the interval, at least,
+// and the same with the lines.
+void Bounds::BoundRest(const Box& box, VolumeNeed& volume) {
   double beyond_j = volume.need.energy_j;  // what the shares of the lines do not count
-  double current_a = 0.0;
+  BatteryLoad load{volume.need.energy_j, 0.0, box.coil_power_w, LeastBesidesBattery(box)};
   if (volume.need.energy_j > 0.0) {
     beyond_j -= problem_.actuations * HalfPeriod(problem_) * box.coil_power_w;
-    current_a = PumpOf(box).current_a.At(std::max(box.window.low_pa, volume.need.source_pa));
+    load.pump_current_a =
+        PumpOf(box).current_a.At(std::max(box.window.low_pa, volume.need.source_pa));
   }
-  Amounts others = LeastBesidesBattery(box);
   const Amounts& counted = CornerAt(plan_.reservoirs, box, plan_.reservoir_slot).amounts;
   const Amounts least = LeastOf(volume);
-  others.mass_kg += least.mass_kg - counted.mass_kg;
-  others.volume_m3 += least.volume_m3 - counted.volume_m3;
-  others.cost_eur += least.cost_eur - counted.cost_eur;
-  return volume.objective +
-         LeastBattery(box, volume.need.energy_j, current_a, others, volume.battery) +
-         EnergyShare(std::max(0.0, beyond_j));
+  load.others.mass_kg += least.mass_kg - counted.mass_kg;
+  load.others.volume_m3 += least.volume_m3 - counted.volume_m3;
+  load.others.cost_eur += least.cost_eur - counted.cost_eur;
+  const double battery = LeastBattery(box, load, volume.battery);
+  const double other = volume.objective + EnergyShare(std::max(0.0, beyond_j));
+  volume.rest = std::max(volume.rest, other + battery);
+  if (box.choices && volume.need.energy_j > 0.0 && std::isfinite(battery))
+    volume.with_lines = std::max(volume.with_lines, other + LeastWithLines(box, load, battery));
 }
 
 bool Bounds::CanFindSource(const Box& box) const {
@@ -167,7 +170,7 @@ Constraint Bounds::FindStockSource(Box& box) {
     volume.need.energy_j = std::max(
         volume.need.energy_j, cheap ? LeastEnergy(candidate, point, least) : least.energy_total_j);
   }
-  volume.rest = RestAt(box, volume);
+  BoundRest(box, volume);
   return RestOfCompressor(box);
 }
 
