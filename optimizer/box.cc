@@ -71,6 +71,13 @@ int Bounds::WidestSlot(const Box& box) const {
   return widest;
 }
 
+bool Bounds::IsOutdone(const Box& box) const {
+  long long as_good = 1;  // the combination itself and those that are better
+  for (int s = 0; s < static_cast<int>(box.nodes.size()) && as_good <= problem_.count; ++s)
+    as_good *= 1 + Node(box, s).outdone;
+  return as_good > problem_.count;
+}
+
 BigCount Bounds::Count(const Box& box) const {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
   BigCount count = 1;

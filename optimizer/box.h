@@ -96,6 +96,9 @@ class Bounds {
   // in their share of the objective, then bottles and batteries.
   int WidestSlot(const Box& box) const;
   BigCount Count(const Box& box) const;
+  // Whether each combination comes behind as many better ones as are wanted, by the choices that
+  // dominate its own (dominance.h).
+  bool IsOutdone(const Box& box) const;
 
   Candidate CandidateOf(const Box& box) const;
 

@@ -97,7 +97,7 @@ Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie, bo
   std::vector<ProofItem> dominators;
   for (const std::vector<int>& members : classes) {
     KeptLosses kept_losses(contenders[members.front()].losses.size());
-    std::vector<int> kept;
+    std::vector<int> kept, outdone;
     for (std::size_t member = 0; member < members.size(); ++member) {
       if (stop && member % kBetweenLooks == 0 && stop()) return {};
       const Contender& contender = contenders[members[member]];
@@ -114,8 +114,10 @@ Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie, bo
       }
       kept_losses.Add(contender.losses);
       kept.push_back(members[member]);
+      outdone.push_back(static_cast<int>(dominators.size()));
     }
     result.kept.insert(result.kept.end(), kept.begin(), kept.end());
+    result.outdone.insert(result.outdone.end(), outdone.begin(), outdone.end());
   }
   return result;
 }

@@ -234,6 +234,8 @@ class Planter {
     }
     Skyband skyband = KeepBest(contenders, problem_.count, plan_->tie, name_left_out_, stop_);
     if (stopped()) return -1;
+    for (std::size_t i = 0; i < skyband.kept.size(); ++i)
+      entries.items[skyband.kept[i]].outdone = skyband.outdone[i];
     std::sort(skyband.kept.begin(), skyband.kept.end(), [&](int a, int b) {
       const Contender &x = contenders[a], &y = contenders[b];
       return x.id != y.id ? x.id < y.id : x.item.quantity < y.item.quantity;
