@@ -45,13 +45,15 @@ Constraint Bounds::RestOfCompressor(Box& box) {
 }
 
 const PumpFacts& Bounds::PumpOf(const Box& box) {
+  constexpr int kBoxCells = 256;  // while lines are not chosen: there may be many compressors
+  const bool fine = CoreIsSingle(box, plan_.reservoir_slot);
   const int node = box.nodes[plan_.compressor_slot];
-  const auto [entry, fresh] = pumps_.try_emplace(node);
+  const auto [entry, fresh] = (fine ? chosen_pumps_ : pumps_).try_emplace(node);
   if (fresh) {
     if (Node(box, plan_.compressor_slot).single()) {
       const Option& option = OptionOf(box, plan_.compressor_slot);
-      entry->second =
-          MakePumpFacts(problem_, problem_.parts.compressors[option.index].curve, option.quantity);
+      entry->second = MakePumpFacts(problem_, problem_.parts.compressors[option.index].curve,
+                                    option.quantity, fine ? kPumpTableCells : kBoxCells);
     } else {
       entry->second = MakePumpFacts(problem_, plan_.highest_pump_pa,
                                     CornerAt(plan_.compressors, box, plan_.compressor_slot).pump);

@@ -208,7 +208,8 @@ class Bounds {
   model::Gas gas_;
   int weights_ = 0;
   std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;  // screened before
-  std::unordered_map<int, PumpFacts> pumps_;  // per node of the compressors' tree
+  // Per node of the compressors' tree: with boxes of lines, with single lines.
+  std::unordered_map<int, PumpFacts> pumps_, chosen_pumps_;
 };
 
 }  // namespace plenum::optimizer
