@@ -132,11 +132,6 @@ bool Bounds::IsSettled(const Box& box, const VolumeNeed& volume) const {
   return volume.look == box.look && volume.energy_known && !IsWide(box, volume);
 }
 
-// Of the objective of all but the compressor, with these reservoirs.
-double Bounds::BoundOf(double lines, const VolumeNeed& volume) {
-  return std::max(lines + volume.rest, volume.with_lines);
-}
-
 // The reservoirs whose bound is that of the box.
 std::size_t Bounds::Lowest(const Box& box) {
   const double lines = LinesObjective(box);

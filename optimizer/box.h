@@ -7,6 +7,7 @@
 #ifndef PLENUM_OPTIMIZER_BOX_H_
 #define PLENUM_OPTIMIZER_BOX_H_
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -169,7 +170,10 @@ class Bounds {
   bool IsWide(const Box& box, const VolumeNeed& volume) const;
   bool IsSettled(const Box& box, const VolumeNeed& volume) const;
   static double LinesObjective(const Box& box);
-  static double BoundOf(double lines, const VolumeNeed& volume);
+  // Of the objective of all but the compressor, with these reservoirs.
+  static double BoundOf(double lines, const VolumeNeed& volume) {
+    return std::max(lines + volume.rest, volume.with_lines);
+  }
   static std::size_t Lowest(const Box& box);
   Constraint LookAtLowest(Box& box);
   std::optional<VolumeNeed> LookAt(const Box& box, VolumeNeed volume);

@@ -1,4 +1,5 @@
-// A heap whose top can be taken out: std::priority_queue cannot give up what only moves.
+// A heap whose top can be taken out, which std::priority_queue cannot give up where it only moves,
+// and whose keys lie next to each other: a large one is mostly waits for memory.
 #ifndef PLENUM_OPTIMIZER_QUEUE_H_
 #define PLENUM_OPTIMIZER_QUEUE_H_
 
@@ -9,36 +10,54 @@
 
 namespace plenum::optimizer {
 
-// `Later(a, b)`: a comes out after b.
-template <typename Item, typename Later>
+// `Key`: made of what an item points to; a < b: a comes out after b.
+template <typename Item, typename Key>
 class Queue {
  public:
-  bool empty() const { return items_.empty(); }
-  std::size_t size() const { return items_.size(); }
-  const Item& top() const { return items_.front(); }
-  const std::vector<Item>& items() const { return items_; }
+  bool empty() const { return entries_.empty(); }
+  std::size_t size() const { return entries_.size(); }
+  const Item& top() const { return entries_.front().item; }
+  template <typename Visit>
+  void ForEach(const Visit& visit) const {
+    for (const Entry& entry : entries_) visit(entry.item);
+  }
   void Push(Item item) {
-    items_.push_back(std::move(item));
-    std::push_heap(items_.begin(), items_.end(), Later());
+    const Key key(*item);
+    entries_.push_back({key, std::move(item)});
+    std::push_heap(entries_.begin(), entries_.end());
   }
   Item Pop() {
-    std::pop_heap(items_.begin(), items_.end(), Later());
-    Item item = std::move(items_.back());
-    items_.pop_back();
+    std::pop_heap(entries_.begin(), entries_.end());
+    Item item = std::move(entries_.back().item);
+    entries_.pop_back();
     return item;
   }
 
  private:
-  std::vector<Item> items_;
+  struct Entry {
+    Key key;
+    Item item;
+    bool operator<(const Entry& other) const { return key < other.key; }
+  };
+  std::vector<Entry> entries_;
 };
 
-// Lowest key first; of equal ones the deepest, of these the one that was pushed first.
-struct LowestKey {
-  bool operator()(const auto& a, const auto& b) const {
-    if (a->key != b->key) return a->key > b->key;
-    if (a->depth != b->depth) return a->depth < b->depth;
-    return a->serial > b->serial;
+// The lowest first; of equal ones the deepest, the nearest to a design, of these the one that was
+// pushed first.
+struct LowestFirst {
+  double lowest;
+  int depth;
+  long long serial;
+  bool operator<(const LowestFirst& other) const {
+    if (lowest != other.lowest) return lowest > other.lowest;
+    if (depth != other.depth) return depth < other.depth;
+    return serial > other.serial;
   }
+};
+
+struct LowestKey : LowestFirst {
+  template <typename Node>
+  explicit LowestKey(const Node& node) : LowestFirst{node.key, node.depth, node.serial} {}
 };
 
 }  // namespace plenum::optimizer

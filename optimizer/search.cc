@@ -160,13 +160,22 @@ class BoxSearch {
     ++proof_.boxes;
     Bounds& bounds = *node->bounds;
     if (bounds.CanFindSource(node->box)) {
-      const Constraint missed = bounds.FindSource(node->box);
+      Constraint missed = bounds.FindSource(node->box);
+      while (missed == Constraint::kNone && IsNext(*node) && bounds.CanFindSource(node->box)) {
+        ++proof_.boxes;
+        missed = bounds.FindSource(node->box);
+      }
       Keep(std::move(node), missed);
     } else if (bounds.IsSingle(node->box)) {
       Size(std::move(node));
     } else {
       Divide(*node);
     }
+  }
+
+  // Whether a box that has come out would be the next to do so.
+  bool IsNext(const Node& node) const {
+    return !ordering_ties_ && !open_.empty() && node.box.bound < open_.top()->box.bound;
   }
 
   void Divide(Node& node) {
@@ -316,7 +325,7 @@ class BoxSearch {
       proof_.pruned.unpriced += outline.combinations - outline.priced;
       if (!over) least = std::min(least, outline.bound);
     }
-    for (const NodePtr& node : open_.items()) {
+    open_.ForEach([&](const NodePtr& node) {
       const double bound = node->box.bound;
       const bool over = bound > objective_limit_;
       (over ? proof_.pruned.infeasible : proof_.pruned.bound) += node->bounds->Count(node->box);
@@ -327,7 +336,7 @@ class BoxSearch {
                                                     : BoxKind::kBound,
                                      .constraint = over ? Constraint::kAmounts : Constraint::kNone,
                                      .bound = bound});
-    }
+    });
     return least;
   }
 

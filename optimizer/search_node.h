@@ -6,6 +6,7 @@
 
 #include "optimizer/box.h"
 #include "optimizer/custom_sizing.h"
+#include "optimizer/queue.h"
 #include "optimizer/ranking.h"
 
 namespace plenum::optimizer {
@@ -21,17 +22,16 @@ struct Node {
 };
 using NodePtr = std::unique_ptr<Node>;
 
-struct LowestBound {
-  bool operator()(const NodePtr& a, const NodePtr& b) const {
-    if (a->box.bound != b->box.bound) return a->box.bound > b->box.bound;
-    if (a->depth != b->depth) return a->depth < b->depth;  // among equals, the nearest to a design
-    return a->serial > b->serial;
-  }
+struct LowestBound : LowestFirst {
+  explicit LowestBound(const Node& node) : LowestFirst{node.box.bound, node.depth, node.serial} {}
 };
 
 struct EarliestIdsFirst {
-  bool operator()(const NodePtr& a, const NodePtr& b) const {
-    return a->earliest != b->earliest ? a->earliest > b->earliest : a->serial < b->serial;
+  const Node* node;
+  explicit EarliestIdsFirst(const Node& waits) : node(&waits) {}
+  bool operator<(const EarliestIdsFirst& other) const {
+    return node->earliest != other.node->earliest ? node->earliest > other.node->earliest
+                                                  : node->serial < other.node->serial;
   }
 };
 
