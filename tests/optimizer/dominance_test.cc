@@ -51,11 +51,14 @@ TEST(DominanceTest, LeavesOutWhatKOthersDominate) {
           EXPECT_EQ(std::count(skyband.kept.begin(), skyband.kept.end(), dominator.part), 1);
         }
       }
-      for (int i : skyband.kept) {
+      ASSERT_EQ(skyband.outdone.size(), skyband.kept.size());
+      for (std::size_t place = 0; place < skyband.kept.size(); ++place) {
+        const int i = skyband.kept[place];
         const auto dominators = std::count_if(
             contenders.begin(), contenders.end(),
             [&](const Contender& other) { return Dominates(other, contenders[i], tie); });
         EXPECT_LT(dominators, k);
+        EXPECT_EQ(skyband.outdone[place], dominators);
       }
     }
 }
