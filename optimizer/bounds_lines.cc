@@ -186,7 +186,9 @@ Constraint Bounds::FinishLines(Box& box) {
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
     const LineKey key = KeyOf(box, g);
     KnownLine& known = KnowLine(key);
-    if (known.missed == Constraint::kNone && !known.finished) {
+    // Choices are of the weights that they were found with.
+    if (known.missed == Constraint::kNone && !(known.finished && known.least)) {
+      const bool finished = known.finished;
       known.finished = known.least = true;
       std::vector<LineChoice> choices;
       known.missed = FindChoices(key, known.objective, choices);
@@ -194,10 +196,12 @@ Constraint Bounds::FinishLines(Box& box) {
       if (known.missed == Constraint::kNone) {
         if (!known.line) known.line = Assemble(key);
         known.line->objective = known.objective;
-        known.line->coil_power_w = choices.back().coil_power_w;
+        // What boxes have of it already was no more.
+        known.line->coil_power_w = std::max(known.line->coil_power_w, choices.back().coil_power_w);
         known.line->choices = std::move(choices);
-        FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
-                   plan_.configuration == Configuration::kCompressor, *known.line);
+        if (!finished)
+          FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
+                     plan_.configuration == Configuration::kCompressor, *known.line);
       } else {
         known.line = nullptr;
       }
