@@ -272,7 +272,24 @@ TEST(BoundsTest, LeastObjectiveOfLines) {
 TEST(BoundsTest, CoilsCountWithTheirLines) {
   int raised = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-    const Problem problem = Drawn(seed, Configuration::kCompressor, 1);
+    Problem problem = Drawn(seed, Configuration::kCompressor, 1);
+    const std::vector<model::Valve> valves = problem.parts.valves;
+    for (model::Valve valve : valves) {  // the same with weaker coils, but heavier
+      valve.basics.id += "-w";
+      valve.basics.mass_kg += 0.3;
+      valve.basics.body_volume_m3 += 3e-4;
+      valve.coil_power_w *= 0.1;
+      problem.parts.valves.push_back(valve);
+    }
+    const model::Battery whole = problem.parts.batteries.front();
+    for (int i = 1; i < 60; ++i) {  // of any size
+      model::Battery battery = whole;
+      battery.basics.id += "-" + std::to_string(i);
+      battery.basics.mass_kg *= 0.05 * i;
+      battery.basics.body_volume_m3 *= 0.05 * i;
+      battery.capacity_ah *= 0.05 * i;
+      problem.parts.batteries.push_back(battery);
+    }
     const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, Configuration::kCompressor);
     if (plan->empty()) continue;
     Bounds bounds(problem, *plan);
@@ -294,8 +311,21 @@ TEST(BoundsTest, OutdoneCombinations) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Problem problem = Drawn(seed, Configuration::kCylinder, 1);
-    problem.limits = {1, 1, 2, 1, 1};
+    problem.limits = {1, 1, 1, 1, 1};
     problem.count = 3;
+    const auto add_heavier = [](auto parts) {
+      const std::size_t size = parts.size();
+      for (std::size_t i = 0; i < size; ++i) {
+        parts.push_back(parts[i]);
+        parts.back().basics.id += "-h";
+        parts.back().basics.mass_kg *= 1.2;
+        parts.back().basics.body_volume_m3 *= 1.2;
+        if (parts.back().basics.cost_eur) *parts.back().basics.cost_eur *= 1.2;
+      }
+      return parts;
+    };
+    problem.parts.valves = add_heavier(problem.parts.valves);
+    problem.parts.regulators = add_heavier(problem.parts.regulators);
     const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, Configuration::kCylinder);
     if (plan->empty()) continue;
     const Bounds bounds(problem, *plan);
