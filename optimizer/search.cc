@@ -173,9 +173,11 @@ class BoxSearch {
     }
   }
 
-  // Whether a box that has come out would be the next to do so.
-  bool IsNext(const Node& node) const {
-    return !ordering_ties_ && !open_.empty() && node.box.bound < open_.top()->box.bound;
+  // Whether a box that has come out would be the next to do so. Told to stop, a look at a box need
+  // not get it any further.
+  bool IsNext(const Node& node) {
+    return !Stopped() && !ordering_ties_ && !open_.empty() &&
+           node.box.bound < open_.top()->box.bound;
   }
 
   void Divide(Node& node) {
