@@ -14,14 +14,6 @@ namespace {
 
 constexpr double kFoundTolerance = 5e-7;
 
-// The reservoirs whose bound is that of the box.
-std::size_t Lowest(const std::vector<VolumeNeed>& volumes) {
-  const auto lowest =
-      std::min_element(volumes.begin(), volumes.end(),
-                       [](const VolumeNeed& a, const VolumeNeed& b) { return a.rest < b.rest; });
-  return static_cast<std::size_t>(lowest - volumes.begin());
-}
-
 }  // namespace
 
 Constraint Bounds::AssessCompressor(Box& box, int changed) {
@@ -35,7 +27,7 @@ Constraint Bounds::AssessCompressor(Box& box, int changed) {
     return Constraint::kMating;
   if (all || changed == plan_.reservoir_slot) RestrictVolumes(box);
   if (changed == plan_.battery_slot)
-    for (VolumeNeed& volume : box.volumes.Own()) volume.rest = RestAt(box, volume);
+    for (VolumeNeed& volume : box.volumes.Own()) BoundRest(box, volume);
   else if (changed != plan_.reservoir_slot)
     ++box.look;
   return RestOfCompressor(box);
@@ -43,23 +35,24 @@ Constraint Bounds::AssessCompressor(Box& box, int changed) {
 
 Constraint Bounds::RestOfCompressor(Box& box) {
   if (box.volumes->empty()) return Constraint::kPump;
-  double chosen = CornerAt(plan_.compressors, box, plan_.compressor_slot).objective;
-  for (const std::shared_ptr<const Line>& line : box.lines) chosen += line->objective;
-  box.lowest = Lowest(*box.volumes);
-  const double rest = (*box.volumes)[box.lowest].rest;
-  if (std::isinf(rest)) return Constraint::kBattery;
-  box.bound = std::max(box.bound, chosen + rest);
+  box.lowest = Lowest(box);
+  const double least = BoundOf(LinesObjective(box), (*box.volumes)[box.lowest]);
+  if (std::isinf(least)) return Constraint::kBattery;
+  box.bound = std::max(box.bound,
+                       CornerAt(plan_.compressors, box, plan_.compressor_slot).objective + least);
   return Constraint::kNone;
 }
 
 const PumpFacts& Bounds::PumpOf(const Box& box) {
+  constexpr int kBoxCells = 256;  // while lines are not chosen: there may be many compressors
+  const bool fine = CoreIsSingle(box, plan_.reservoir_slot);
   const int node = box.nodes[plan_.compressor_slot];
-  const auto [entry, fresh] = pumps_.try_emplace(node);
+  const auto [entry, fresh] = (fine ? chosen_pumps_ : pumps_).try_emplace(node);
   if (fresh) {
     if (Node(box, plan_.compressor_slot).single()) {
       const Option& option = OptionOf(box, plan_.compressor_slot);
-      entry->second =
-          MakePumpFacts(problem_, problem_.parts.compressors[option.index].curve, option.quantity);
+      entry->second = MakePumpFacts(problem_, problem_.parts.compressors[option.index].curve,
+                                    option.quantity, fine ? kPumpTableCells : kBoxCells);
     } else {
       entry->second = MakePumpFacts(problem_, plan_.highest_pump_pa,
                                     CornerAt(plan_.compressors, box, plan_.compressor_slot).pump);
@@ -76,23 +69,26 @@ Constraint Bounds::NeedOfCompressor(Box& box) const {
   return box.window.empty() ? Constraint::kPressure : Constraint::kNone;
 }
 
-// Objective of reservoir, battery and energy with a volume in the interval, at least.
-double Bounds::RestAt(const Box& box, VolumeNeed& volume) {
+// Raises the objective of reservoir, battery and energy with a volume in the interval, at least,
+// and the same with the lines.
+void Bounds::BoundRest(const Box& box, VolumeNeed& volume) {
   double beyond_j = volume.need.energy_j;  // what the shares of the lines do not count
-  double current_a = 0.0;
+  BatteryLoad load{volume.need.energy_j, 0.0, box.coil_power_w, LeastBesidesBattery(box)};
   if (volume.need.energy_j > 0.0) {
     beyond_j -= problem_.actuations * HalfPeriod(problem_) * box.coil_power_w;
-    current_a = PumpOf(box).rates.CurrentAt(std::max(box.window.low_pa, volume.need.source_pa));
+    load.pump_current_a =
+        PumpOf(box).rates.CurrentAt(std::max(box.window.low_pa, volume.need.source_pa));
   }
-  Amounts others = LeastBesidesBattery(box);
   const Amounts& counted = CornerAt(plan_.reservoirs, box, plan_.reservoir_slot).amounts;
   const Amounts least = LeastOf(volume);
-  others.mass_kg += least.mass_kg - counted.mass_kg;
-  others.volume_m3 += least.volume_m3 - counted.volume_m3;
-  others.cost_eur += least.cost_eur - counted.cost_eur;
-  return volume.objective +
-         LeastBattery(box, volume.need.energy_j, current_a, others, volume.battery) +
-         EnergyShare(std::max(0.0, beyond_j));
+  load.others.mass_kg += least.mass_kg - counted.mass_kg;
+  load.others.volume_m3 += least.volume_m3 - counted.volume_m3;
+  load.others.cost_eur += least.cost_eur - counted.cost_eur;
+  const double battery = LeastBattery(box, load, volume.battery);
+  const double other = volume.objective + EnergyShare(std::max(0.0, beyond_j));
+  volume.rest = std::max(volume.rest, other + battery);
+  if (box.choices && volume.need.energy_j > 0.0 && std::isfinite(battery))
+    volume.with_lines = std::max(volume.with_lines, other + LeastWithLines(box, load, battery));
 }
 
 bool Bounds::CanFindSource(const Box& box) const {
@@ -175,7 +171,7 @@ Constraint Bounds::FindStockSource(Box& box) {
     volume.need.energy_j = std::max(
         volume.need.energy_j, cheap ? LeastEnergy(candidate, point, least) : least.energy_total_j);
   }
-  volume.rest = RestAt(box, volume);
+  BoundRest(box, volume);
   return RestOfCompressor(box);
 }
 

@@ -66,21 +66,54 @@ Bounds::LineParts Bounds::PartsOf(const LineKey& key) const {
           trees};
 }
 
+namespace {
+
+// As many as are worth a look each: those that differ least are put together.
+void Thin(std::vector<LineChoice>& choices) {
+  constexpr std::size_t kMost = 8;
+  while (choices.size() > kMost) {
+    std::size_t least = 0;
+    double least_loss = kUnlimited;
+    for (std::size_t i = 0; i + 1 < choices.size(); ++i) {
+      const double loss = (choices[i + 1].objective - choices[i].objective) *
+                          (choices[i].coil_power_w - choices[i + 1].coil_power_w);
+      if (loss < least_loss) {
+        least_loss = loss;
+        least = i;
+      }
+    }
+    choices[least].coil_power_w = choices[least + 1].coil_power_w;
+    choices.erase(choices.begin() + static_cast<std::ptrdiff_t>(least) + 1);
+  }
+}
+
+}  // namespace
+
 // The limits of fall and rise and what mates with what already rule out the lightest lines of a
-// box, each slot's lightest choice put together. A box's least objective is that of the part that
-// is looked at next when lines alone are searched best first; after so many divisions it mostly is
-// the true one.
-Constraint Bounds::FindLeastObjective(const LineKey& key, double& objective) {
-  constexpr int kDivisions = 500;
+// box, each slot's lightest choice put together. So lines alone are searched best first, each found
+// only if its coils take less than those of the lines before. After so many divisions parts of the
+// box are taken for lines, those that would be looked at next first.
+Constraint Bounds::FindChoices(const LineKey& key, double& objective,
+                               std::vector<LineChoice>& choices) {
+  constexpr int kDivisions = 500, kMoreDivisions = 60;  // for the first line, after it
+  int divisions_max = kDivisions;
   using Open = std::pair<double, LineKey>;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   open.push({objective, key});
   Constraint missed = Constraint::kNone;
-  for (int division = 0; division < kDivisions && !open.empty(); ++division) {
+  choices.clear();
+  for (int divisions = 0; !open.empty();) {
     const auto [above, lowest] = open.top();
-    const LineParts parts = PartsOf(lowest);
-    if (parts.single()) break;
     open.pop();
+    const LineParts parts = PartsOf(lowest);
+    const double coil_power_w = parts.corners.valve.coil_power_w;
+    if (!choices.empty() && coil_power_w >= choices.back().coil_power_w) continue;
+    if (parts.single() || divisions == divisions_max) {
+      if (choices.empty()) divisions_max = std::min(divisions + kMoreDivisions, kDivisions);
+      choices.push_back({above, coil_power_w});
+      continue;
+    }
+    ++divisions;
     const int widest = parts.widest();
     for (int child : {parts.nodes[widest]->left, parts.nodes[widest]->right}) {
       LineKey part = lowest;
@@ -92,9 +125,33 @@ Constraint Bounds::FindLeastObjective(const LineKey& key, double& objective) {
         missed = known.missed;
     }
   }
-  if (open.empty()) return missed;
-  objective = open.top().first;
+  if (choices.empty()) return missed;
+  Thin(choices);
+  objective = choices.front().objective;
   return Constraint::kNone;
+}
+
+void Bounds::CombineChoices(Box& box) {
+  if (box.lines.size() == 1) {
+    box.choices = {box.lines.front(), &box.lines.front()->choices};
+    return;
+  }
+  std::vector<LineChoice> all{{}};
+  for (const std::shared_ptr<const Line>& line : box.lines) {
+    std::vector<LineChoice> sums, kept;
+    for (const LineChoice& a : all)
+      for (const LineChoice& b : line->choices)
+        sums.push_back({a.objective + b.objective, a.coil_power_w + b.coil_power_w});
+    std::sort(sums.begin(), sums.end(), [](const LineChoice& a, const LineChoice& b) {
+      return a.objective != b.objective ? a.objective < b.objective
+                                        : a.coil_power_w < b.coil_power_w;
+    });
+    for (const LineChoice& sum : sums)
+      if (kept.empty() || sum.coil_power_w < kept.back().coil_power_w) kept.push_back(sum);
+    Thin(kept);
+    all = std::move(kept);
+  }
+  box.choices = std::make_shared<const std::vector<LineChoice>>(std::move(all));
 }
 
 Bounds::LineKey Bounds::KeyOf(const Box& box, int group) {
@@ -120,6 +177,7 @@ Constraint Bounds::RemakeLine(Box& box, int group) {
   if (known.missed == Constraint::kNone && !known.line) known.line = Assemble(key);
   box.lines[group] = known.line;
   box.lines_finished = false;
+  box.choices = nullptr;
   return known.missed;
 }
 
@@ -128,15 +186,22 @@ Constraint Bounds::FinishLines(Box& box) {
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
     const LineKey key = KeyOf(box, g);
     KnownLine& known = KnowLine(key);
-    if (known.missed == Constraint::kNone && !known.finished) {
+    // Choices are of the weights that they were found with.
+    if (known.missed == Constraint::kNone && !(known.finished && known.least)) {
+      const bool finished = known.finished;
       known.finished = known.least = true;
-      known.missed = FindLeastObjective(key, known.objective);
+      std::vector<LineChoice> choices;
+      known.missed = FindChoices(key, known.objective, choices);
       const LineParts parts = PartsOf(key);
       if (known.missed == Constraint::kNone) {
         if (!known.line) known.line = Assemble(key);
         known.line->objective = known.objective;
-        FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
-                   plan_.configuration == Configuration::kCompressor, *known.line);
+        // What boxes have of it already was no more.
+        known.line->coil_power_w = std::max(known.line->coil_power_w, choices.back().coil_power_w);
+        known.line->choices = std::move(choices);
+        if (!finished)
+          FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
+                     plan_.configuration == Configuration::kCompressor, *known.line);
       } else {
         known.line = nullptr;
       }
@@ -144,6 +209,7 @@ Constraint Bounds::FinishLines(Box& box) {
     box.lines[g] = known.line;
     if (known.missed != Constraint::kNone) return known.missed;
   }
+  CombineChoices(box);
   return Constraint::kNone;
 }
 

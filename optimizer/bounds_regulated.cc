@@ -104,7 +104,6 @@ double Bounds::RegulatedFloor(const Box& box) const {
 Constraint Bounds::RestOfRegulated(Box& box) {
   const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
   double bound = regulator.objective + EnergyShare(box.energy_beyond_j);
-  for (const std::shared_ptr<const Line>& line : box.lines) bound += line->objective;
   if (plan_.bottle_slot >= 0) {
     const double inlet_pa = std::max(box.window.low_pa, regulator.inlet_min_pa);
     const double air_m3 = problem_.actuations * box.air_m3;
@@ -127,10 +126,10 @@ Constraint Bounds::RestOfRegulated(Box& box) {
     bound += bottle;
   }
   int unknown = -1;
-  const double battery =
-      LeastBattery(box, box.energy_j / kRounding, 0.0, LeastBesidesBattery(box), unknown);
+  const BatteryLoad load{box.energy_j / kRounding, 0.0, box.coil_power_w, LeastBesidesBattery(box)};
+  const double battery = LeastBattery(box, load, unknown);
   if (std::isinf(battery)) return Constraint::kBattery;
-  box.bound = std::max(box.bound, bound + battery);
+  box.bound = std::max(box.bound, bound + LeastWithLines(box, load, battery));
   return Constraint::kNone;
 }
 

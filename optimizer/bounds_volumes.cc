@@ -132,6 +132,16 @@ bool Bounds::IsSettled(const Box& box, const VolumeNeed& volume) const {
   return volume.look == box.look && volume.energy_known && !IsWide(box, volume);
 }
 
+// The reservoirs whose bound is that of the box.
+std::size_t Bounds::Lowest(const Box& box) {
+  const double lines = LinesObjective(box);
+  const auto lowest = std::min_element(box.volumes->begin(), box.volumes->end(),
+                                       [&](const VolumeNeed& a, const VolumeNeed& b) {
+                                         return BoundOf(lines, a) < BoundOf(lines, b);
+                                       });
+  return static_cast<std::size_t>(lowest - box.volumes->begin());
+}
+
 // What these reservoirs need in this box: their source pressure and what it takes, and where that
 // is known the energy of coils; none where none of them will do.
 std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
@@ -147,7 +157,8 @@ std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
     const auto rest_with = [&](double energy_j) {
       VolumeNeed at = volume;
       at.need.energy_j = energy_j;
-      return std::max(volume.rest, RestAt(box, at));
+      BoundRest(box, at);
+      return BoundOf(LinesObjective(box), at);
     };
     volume.need.energy_j = LeastMissionEnergy(
         problem_, pump, load, volume.need, single ? kSingleDivisions : kBoxDivisions,
@@ -166,7 +177,7 @@ std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
     volume.look = box.look;
     volume.energy_known = !EnergyMayGrow(problem_, load);
   }
-  volume.rest = std::max(volume.rest, RestAt(box, volume));
+  BoundRest(box, volume);
   return volume;
 }
 
@@ -180,7 +191,7 @@ Constraint Bounds::LookAtLowest(Box& box) {
     // What is known of both holds for each half, which is looked at once it is the lowest.
     for (VolumeNeed half : Halves(volume)) {
       half.look = -1;
-      half.rest = std::max(half.rest, RestAt(box, half));
+      BoundRest(box, half);
       volumes.push_back(half);
     }
   } else if (const std::optional<VolumeNeed> looked = LookAt(box, volume)) {

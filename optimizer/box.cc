@@ -45,7 +45,7 @@ bool Bounds::CoreIsSingle(const Box& box, int except) const {
 int Bounds::WidestSlot(const Box& box) const {
   // What a pump or a reservoir adds to the others of its source is not in its own share. Fittings
   // hold back less than valves and tubes do, and by how much they weigh the bound on lines alone
-  // (FindLeastObjective) divides them already.
+  // (FindChoices) divides them already.
   constexpr double kSourceWeight = 300.0, kFittingWeight = 0.125;
   const auto weight = [&](int s) {
     if (plan_.slots[s].family == Family::kFitting) return kFittingWeight;
@@ -69,6 +69,13 @@ int Bounds::WidestSlot(const Box& box) const {
     if (widest >= 0) break;
   }
   return widest;
+}
+
+bool Bounds::IsOutdone(const Box& box) const {
+  long long as_good = 1;  // the combination itself and those that are better
+  for (int s = 0; s < static_cast<int>(box.nodes.size()) && as_good <= problem_.count; ++s)
+    as_good *= 1 + Node(box, s).outdone;
+  return as_good > problem_.count;
 }
 
 BigCount Bounds::Count(const Box& box) const {
@@ -109,7 +116,7 @@ bool Bounds::WithinLimits(Amounts amounts, const Amounts& more) const {
 Constraint Bounds::Reassess(Box& box) {
   if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
   if (plan_.configuration != Configuration::kCompressor) return RestOfRegulated(box);
-  for (VolumeNeed& volume : box.volumes.Own()) volume.rest = RestAt(box, volume);
+  for (VolumeNeed& volume : box.volumes.Own()) BoundRest(box, volume);
   return RestOfCompressor(box);
 }
 
@@ -125,19 +132,21 @@ Constraint Bounds::Reweigh(Box& box) {
     }
     if (known.finished && !known.least) {
       known.least = true;
-      known.missed = FindLeastObjective(key, known.objective);
+      known.missed = FindChoices(key, known.objective, known.line->choices);
       if (known.missed != Constraint::kNone) return known.missed;
       known.line->objective = known.objective;
     }
     box.lines[g] = known.line;
   }
+  if (box.lines_finished) CombineChoices(box);
   if (plan_.configuration != Configuration::kCompressor) return RestOfRegulated(box);
   for (VolumeNeed& volume : box.volumes.Own()) {
     volume.objective = IsMade(volume) ? ObjectiveOf(problem_.objective,
                                                     CustomReservoir(problem_, volume.need.low_m3))
                                       : plan_.reservoirs.corners[volume.node].objective;
     volume.battery = -1;
-    volume.rest = RestAt(box, volume);
+    volume.rest = volume.with_lines = 0.0;
+    BoundRest(box, volume);
   }
   return RestOfCompressor(box);
 }
@@ -176,17 +185,16 @@ double Bounds::EnergyShare(double energy_j) const {
   return problem_.objective.energy_wh * energy_j / 3600.0;
 }
 
-double Bounds::LeastBattery(const Box& box, double energy_j, double pump_current_a,
-                            const Amounts& others, int& known) const {
+double Bounds::LeastBattery(const Box& box, const BatteryLoad& load, int& known) const {
   if (plan_.battery_slot < 0) return 0.0;
   const Kinds pump = plan_.compressor_slot < 0
                          ? ~Kinds{0}
                          : CornerAt(plan_.compressors, box, plan_.compressor_slot).voltages;
   const BoxTree<BatteryCorner>& tree = plan_.batteries;
   const auto will_do = [&](const BatteryCorner& c) {
-    return (c.voltages & pump) && energy_j <= c.energy_j &&
-           pump_current_a + box.coil_power_w / c.voltage_v <= c.current_max_a &&
-           WithinLimits(others, c.amounts);
+    return (c.voltages & pump) && load.energy_j <= c.energy_j &&
+           load.pump_current_a + load.coil_power_w / c.voltage_v <= c.current_max_a &&
+           WithinLimits(load.others, c.amounts);
   };
   const BoxNode& allowed = Node(box, plan_.battery_slot);
   const auto is_allowed = [&](const BoxNode& node) {
@@ -195,6 +203,32 @@ double Bounds::LeastBattery(const Box& box, double energy_j, double pump_current
   if (known < 0 || !is_allowed(tree.nodes[known]) || !will_do(tree.corners[known]))
     known = LeastChoice(tree, box.nodes[plan_.battery_slot], will_do);
   return known < 0 ? kUnlimited : tree.corners[known].objective;
+}
+
+double Bounds::LeastWithLines(const Box& box, const BatteryLoad& load, double battery) const {
+  const std::vector<LineChoice>& choices = *box.choices;
+  double coil_power_w = 0.0;
+  for (const std::shared_ptr<const Line>& line : box.lines) coil_power_w += line->coil_power_w;
+  double least = kUnlimited;
+  for (auto choice = choices.rbegin(); choice != choices.rend(); ++choice) {
+    const double more_w = choice->coil_power_w - coil_power_w;
+    // More power never makes do with less of a battery.
+    if (more_w > 0.0 && choice->objective + battery < least) {
+      BatteryLoad more = load;
+      more.energy_j += problem_.actuations * HalfPeriod(problem_) * more_w;
+      more.coil_power_w += more_w;
+      int unknown = -1;
+      battery = LeastBattery(box, more, unknown);
+    }
+    least = std::min(least, choice->objective + battery);
+  }
+  return least;
+}
+
+double Bounds::LinesObjective(const Box& box) {
+  double objective = 0.0;
+  for (const std::shared_ptr<const Line>& line : box.lines) objective += line->objective;
+  return objective;
 }
 
 Candidate Bounds::CandidateOf(const Box& box) const {

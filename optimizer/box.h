@@ -7,6 +7,7 @@
 #ifndef PLENUM_OPTIMIZER_BOX_H_
 #define PLENUM_OPTIMIZER_BOX_H_
 
+#include <algorithm>
 #include <array>
 #include <boost/container/small_vector.hpp>
 #include <memory>
@@ -27,9 +28,10 @@ struct CoreSizing;
 struct VolumeNeed {
   int node = 0;
   ReservoirNeed need;
-  double objective = 0.0;  // of a reservoir in it, at least
-  double rest = 0.0;       // of reservoir, battery and energy, at least
-  int look = -1;           // Box::look when it was looked at; less: in a larger box, still a bound
+  double objective = 0.0;   // of a reservoir in it, at least
+  double rest = 0.0;        // of reservoir, battery and energy, at least
+  double with_lines = 0.0;  // the same with the lines, whose coils the battery feeds
+  int look = -1;            // Box::look when it was looked at; less: in a larger box, still a bound
   bool energy_known = false;  // by LeastMissionEnergy(), in that look
   int battery = -1;  // node of one that was the least that will do, here or in a larger box
 };
@@ -40,6 +42,7 @@ struct Box {
   // Per group; empty before the first Assess().
   boost::container::small_vector<std::shared_ptr<const Line>, 1> lines;
   bool lines_finished = false;                               // by FinishLine()
+  std::shared_ptr<const std::vector<LineChoice>> choices;    // of all lines together, once finished
   double bound = 0.0;                                        // of the objective
   Window window{0.0, 0.0};                                   // source pressures
   double source_floor_pa = 0.0, source_cap_pa = kUnlimited;  // as in Candidate
@@ -98,6 +101,9 @@ class Bounds {
   // in their share of the objective, then bottles and batteries.
   int WidestSlot(const Box& box) const;
   BigCount Count(const Box& box) const;
+  // Whether each combination comes behind as many better ones as are wanted, by the choices that
+  // dominate its own (dominance.h).
+  bool IsOutdone(const Box& box) const;
 
   Candidate CandidateOf(const Box& box) const;
 
@@ -142,12 +148,13 @@ class Bounds {
     double objective = 0.0;      // the corner's, at most that of the finished line
     std::shared_ptr<Line> line;  // of the corner; none before a box has it
     bool finished = false;       // by FinishLine()
-    bool least = false;          // the objective is by FindLeastObjective()
+    bool least = false;          // the objective is by FindChoices()
     int weights = 0;             // that the objective has
   };
   KnownLine& KnowLine(const LineKey& key);
   std::shared_ptr<Line> Assemble(const LineKey& key) const;
-  Constraint FindLeastObjective(const LineKey& key, double& objective);
+  Constraint FindChoices(const LineKey& key, double& objective, std::vector<LineChoice>& choices);
+  static void CombineChoices(Box& box);
   static LineKey KeyOf(const Box& box, int group);
   Constraint RemakeLine(Box& box, int group);
   Constraint FinishLines(Box& box);
@@ -166,13 +173,19 @@ class Bounds {
   void RestrictVolumes(Box& box) const;
   bool IsWide(const Box& box, const VolumeNeed& volume) const;
   bool IsSettled(const Box& box, const VolumeNeed& volume) const;
+  static double LinesObjective(const Box& box);
+  // Of the objective of all but the compressor, with these reservoirs.
+  static double BoundOf(double lines, const VolumeNeed& volume) {
+    return std::max(lines + volume.rest, volume.with_lines);
+  }
+  static std::size_t Lowest(const Box& box);
   Constraint LookAtLowest(Box& box);
   std::optional<VolumeNeed> LookAt(const Box& box, VolumeNeed volume);
   bool IsMade(const VolumeNeed& volume) const;
   Amounts LeastOf(const VolumeNeed& volume) const;
   double Spread(const VolumeNeed& volume) const;
   std::vector<VolumeNeed> Halves(const VolumeNeed& volume) const;
-  double RestAt(const Box& box, VolumeNeed& volume);
+  void BoundRest(const Box& box, VolumeNeed& volume);
   Constraint RestOfCompressor(Box& box);
   const PumpFacts& PumpOf(const Box& box);
   Constraint FindStockSource(Box& box);
@@ -182,11 +195,18 @@ class Bounds {
   bool CanSizeCore(const Box& box) const;
   Constraint SizeCore(Box& box);
 
-  // The least share of the objective of a battery that bears so much; `others`: what the rest of
-  // the design at least amounts to. `known`: a battery that was the least in a larger box, as a
-  // node, and is so here if it still will do; −1 where none is known.
-  double LeastBattery(const Box& box, double energy_j, double pump_current_a, const Amounts& others,
-                      int& known) const;
+  // What batteries must bear; `others`: what the rest of the design at least amounts to.
+  struct BatteryLoad {
+    double energy_j = 0.0, pump_current_a = 0.0, coil_power_w = 0.0;
+    Amounts others;
+  };
+  // The least share of the objective of a battery that bears so much. `known`: a battery that was
+  // the least in a larger box, as a node, and is so here if it still will do; −1 where none is
+  // known.
+  double LeastBattery(const Box& box, const BatteryLoad& load, int& known) const;
+  // The least of a battery and the lines, whose coils it feeds. `load`: with the coils of the box
+  // at their least, for which `battery` is the least.
+  double LeastWithLines(const Box& box, const BatteryLoad& load, double battery) const;
   double EnergyShare(double energy_j) const;
 
   const Problem& problem_;
@@ -196,7 +216,8 @@ class Bounds {
   model::Gas gas_;
   int weights_ = 0;
   std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;  // screened before
-  std::unordered_map<int, PumpFacts> pumps_;  // per node of the compressors' tree
+  // Per node of the compressors' tree: with boxes of lines, with single lines.
+  std::unordered_map<int, PumpFacts> pumps_, chosen_pumps_;
 };
 
 }  // namespace plenum::optimizer

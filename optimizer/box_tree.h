@@ -19,6 +19,7 @@ template <typename Corner>
 struct Item {
   Option option;
   Corner corner;
+  int outdone = 0;  // by how many choices of the family it is dominated
 };
 
 struct BoxNode {
@@ -26,6 +27,7 @@ struct BoxNode {
   int first = 0, last = 0;    // the choices [first, last) of the tree's order
   double objective_low = 0.0, objective_high = 0.0;
   int earliest = 0;  // the choice of the lowest rank
+  int outdone = 0;   // each choice is dominated by so many others at least
   bool single() const { return left < 0; }
   int size() const { return last - first; }
 };
@@ -120,10 +122,11 @@ class Builder {
     tree_.nodes.push_back({-1, -1, first, last});
     tree_.corners.emplace_back();
     double low, high;
-    int earliest = first;
+    int earliest = first, outdone;
     if (last - first == 1) {
       tree_.corners[index] = items_[order_[first]]->corner;
       low = high = tree_.corners[index].objective;
+      outdone = items_[order_[first]]->outdone;
     } else {
       const int middle = Divide(first, last, several);
       const int left = Grow(first, middle, several);
@@ -134,6 +137,7 @@ class Builder {
       Widen(tree_.corners[index], tree_.corners[right]);
       low = std::min(tree_.nodes[left].objective_low, tree_.nodes[right].objective_low);
       high = std::max(tree_.nodes[left].objective_high, tree_.nodes[right].objective_high);
+      outdone = std::min(tree_.nodes[left].outdone, tree_.nodes[right].outdone);
       earliest = tree_.nodes[left].earliest;
       if (Rank(tree_.nodes[right].earliest) < Rank(earliest))
         earliest = tree_.nodes[right].earliest;
@@ -141,6 +145,7 @@ class Builder {
     tree_.nodes[index].objective_low = low;
     tree_.nodes[index].objective_high = high;
     tree_.nodes[index].earliest = earliest;
+    tree_.nodes[index].outdone = outdone;
     return index;
   }
 

@@ -145,6 +145,7 @@ Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie, bo
   const std::vector<Share> order = InOrder(contenders);
 
   Skyband result;
+  result.outdone.resize(contenders.size());
   std::vector<ProofItem> dominators;
   KeptLosses kept_losses(width);
   std::vector<Share> kept;  // of one class
@@ -173,6 +174,7 @@ Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie, bo
     kept_losses.Add(losses_of(share.contender));
     kept.push_back(share);
     result.kept.push_back(share.contender);
+    result.outdone[share.contender] = dominated;
   }
   SortById(contenders, result.kept);
   return result;

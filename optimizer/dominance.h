@@ -6,7 +6,9 @@
 // a tie, or no larger with the earlier id. Any design with B then has k better designs, one with
 // each of B's dominators in its place: each meets what that design meets, at the same settings,
 // with an objective that is no larger. The relation is a strict order, so that dominators which are
-// left out themselves have k dominators that stay.
+// left out themselves have k dominators that stay. Of a design whose choices are dominated by
+// a, b, c… others each, any of them can take the place of any of its choices: (1 + a)(1 + b)… − 1
+// designs are better.
 #ifndef PLENUM_OPTIMIZER_DOMINANCE_H_
 #define PLENUM_OPTIMIZER_DOMINANCE_H_
 
@@ -32,7 +34,8 @@ struct Contender {
 };
 
 struct Skyband {
-  std::vector<int> kept;  // indices into the contenders, by id and quantity
+  std::vector<int> kept;     // indices into the contenders, by id and quantity
+  std::vector<int> outdone;  // of each contender that is kept: by how many others it is dominated
   std::vector<ProofDominated> left_out;
 };
 

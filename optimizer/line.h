@@ -37,6 +37,12 @@ T ObjectiveOf(const Objective& objective, const AmountsOf<T>& amounts) {
 }
 bool CostMatters(const Problem& problem);
 
+// Of a box of lines those with no more coil power, at least. Coils ask for more of the battery, so
+// that the lightest lines need not make the lightest design.
+struct LineChoice {
+  double objective = 0.0, coil_power_w = 0.0;
+};
+
 struct Line {
   int tubing = -1, fitting = -1,
       valve = -1;                        // indices into Problem::parts; fitting −1: none needed
@@ -61,6 +67,9 @@ struct Line {
   bool all_hold = false;
   double dead_volume_spread_m3 = 0.0;
   double coil_power_w = 0.0;  // whole group, while energised
+  // For a finished box: each with less coil power and more objective than the one before; any line
+  // of the box has no less of both than one of them.
+  std::vector<LineChoice> choices;
 };
 
 // Tubes and fittings mate when their diameters agree to 0.05 mm, fittings and valves when thread

@@ -234,7 +234,10 @@ class Planter {
     if (stopped()) return -1;
     std::vector<const Item<Corner>*> items;
     items.reserve(skyband.kept.size());
-    for (int i : skyband.kept) items.push_back(&entries.items[i]);
+    for (int i : skyband.kept) {
+      entries.items[i].outdone = skyband.outdone[i];
+      items.push_back(&entries.items[i]);
+    }
     tree = MakeBoxTree(items);
     plan_->slots.push_back(
         {family, group, &tree.nodes, &tree.options, std::move(skyband.left_out)});

@@ -35,7 +35,8 @@
 //                     (more is not better: both ends), misses `constraint`;
 //      kBound         no design in the box has an objective below `bound`;
 //      kOrder         as kBound, and every design in it whose objective ties with the last one
-//                     listed comes after it by ids;
+//                     listed comes after it by ids; also where the choices that dominate those of
+//                     the box make as many better combinations of each in it as are wanted;
 //      kDesign        a single combination that is listed; `design` is its index in the answer;
 //      kNotListed     a single combination that is feasible, with its objective as `bound`;
 //      kRefuted       a single combination for which no setting meets the requirements;

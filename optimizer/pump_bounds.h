@@ -115,7 +115,9 @@ struct PumpFacts {
   PumpRates rates;
   bool exact = false;  // of a single choice
 };
-PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps);
+inline constexpr int kPumpTableCells = 2048;  // of pressure
+PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps,
+                        int cells = kPumpTableCells);
 
 // The same tables over an even division of the pressures from ambient to the highest that any
 // compressor of the problem may reach, small enough to be kept for every box.

@@ -6,7 +6,6 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr int kCells = 1024;
 constexpr double kNoDelivery = 1e12;
 
 struct Division {
@@ -89,11 +88,12 @@ PumpRates::PumpRates(double low_pa, double high_pa, PumpTables tables)
   }
 }
 
-PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps) {
+PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps,
+                        int cells) {
   const double ambient_pa = problem.ambient.pressure_pa;
   const double highest_pa = std::max(model::HighestPressure(curve), 1.01 * ambient_pa);
   PumpFacts facts =
-      MakeFacts(problem, highest_pa, MakeTables(curve, pumps, {ambient_pa, highest_pa, kCells}));
+      MakeFacts(problem, highest_pa, MakeTables(curve, pumps, {ambient_pa, highest_pa, cells}));
   facts.exact = true;
   return facts;
 }

@@ -82,7 +82,7 @@ class NeedOfBits {
 // does not fall with m nor rise with D, so that a curve D(m) that everywhere is at least as steep
 // as that lies above the true one: panel by panel of D the slope is taken where the panel begins in
 // D and ends in m. More flow, a wider tube and a larger volume only make it steeper. The reservoir
-// then is no lower than with that D and the smallest volume.
+// then is no lower than with that D and the smallest volume, which is linear in m within a panel.
 template <typename Step>
 double MarchDraw(const Problem& problem, int g, const Line& line, const PumpFacts& facts,
                  double start_pa, double low_m3, double high_m3, const Step& step) {
@@ -104,10 +104,10 @@ double MarchDraw(const Problem& problem, int g, const Line& line, const PumpFact
     };
     const double reached = std::min(pumped_by(std::min(pumped_by(pumped), next)), next);
     if (reached > pumped) {
-      const auto reservoir_pa = [&](double m) {
-        return std::max(ambient_pa, start_pa - (next - m) / low_m3);
-      };
-      step(reservoir_pa(pumped), reservoir_pa(reached), (reached - pumped) / content_per_m3);
+      const double begin_pa = std::max(ambient_pa, start_pa - (drawn - pumped) / low_m3);
+      const double end_pa = std::max(ambient_pa, start_pa - (next - reached) / low_m3);
+      step(std::min(begin_pa, end_pa), std::max(begin_pa, end_pa),
+           (reached - pumped) / content_per_m3);
       pumped = reached;
     }
     drawn = next;

@@ -1,4 +1,5 @@
-// A heap whose top can be taken out: std::priority_queue cannot give up what only moves.
+// A heap whose top can be taken out, which std::priority_queue cannot give up where it only moves,
+// and whose keys lie next to each other: a large one is mostly waits for memory.
 #ifndef PLENUM_OPTIMIZER_QUEUE_H_
 #define PLENUM_OPTIMIZER_QUEUE_H_
 

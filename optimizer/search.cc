@@ -160,13 +160,24 @@ class BoxSearch {
     ++proof_.boxes;
     Bounds& bounds = *node->bounds;
     if (bounds.CanFindSource(node->box)) {
-      const Constraint missed = bounds.FindSource(node->box);
+      Constraint missed = bounds.FindSource(node->box);
+      while (missed == Constraint::kNone && IsNext(*node) && bounds.CanFindSource(node->box)) {
+        ++proof_.boxes;
+        missed = bounds.FindSource(node->box);
+      }
       Keep(std::move(node), missed);
     } else if (bounds.IsSingle(node->box)) {
       Size(std::move(node));
     } else {
       Divide(*node);
     }
+  }
+
+  // Whether a box that has come out would be the next to do so. Told to stop, a look at a box need
+  // not get it any further.
+  bool IsNext(const Node& node) {
+    return !Stopped() && !ordering_ties_ && !open_.empty() &&
+           node.box.bound < open_.top()->box.bound;
   }
 
   void Divide(Node& node) {
@@ -178,6 +189,11 @@ class BoxSearch {
       part->box = std::move(halves.boxes[half]);
       part->depth = node.depth + 1;
       part->record = half == 0 ? left : right;
+      if (part->bounds->IsOutdone(part->box)) {
+        proof_.pruned.bound += part->bounds->Count(part->box);
+        outdone_.push_back(part->record);
+        continue;
+      }
       const Constraint missed = part->bounds->Assess(part->box, halves.slot);
       Keep(std::move(part), missed);
     }
@@ -291,6 +307,16 @@ class BoxSearch {
     options_.progress(progress);
   }
 
+  // Boxes whose combinations are outdone hold none that is better than the last of a full list, and
+  // none that is feasible where the list is not full. `rest`: the least objective of all others
+  // that are not listed, which may be better than those.
+  double CloseOutdone(double rest) {
+    if (outdone_.empty()) return rest;
+    const double least = ranking_.full() ? std::min(rest, ranking_.last().leaf.objective) : rest;
+    for (int record : outdone_) recorder_.Close(record, {.kind = BoxKind::kOrder, .bound = least});
+    return least;
+  }
+
   // Boxes that are still open, and configurations that still wait, are closed by their bound; the
   // least of these, or +∞.
   double CloseRest() {
@@ -318,7 +344,8 @@ class BoxSearch {
 
   Answer Conclude() {
     proof_.combinations = configurations_.combinations();
-    proof_.lower_bound = std::min({undecided_bound_, CloseRest(), ranking_.BoundBehind()});
+    proof_.lower_bound =
+        CloseOutdone(std::min({undecided_bound_, CloseRest(), ranking_.BoundBehind()}));
     const Ending ending{.stopped = stopped(),
                         .cancelled = cancelled_,
                         .any_design = options_.any_design,
@@ -337,6 +364,7 @@ class BoxSearch {
   Recorder recorder_;
   Proof proof_;
   double undecided_bound_ = kUnlimited;
+  std::vector<int> outdone_;        // boxes, as recorded
   Workbench bench_, report_bench_;  // for the search, for the designs of the list
   Configurations configurations_;
   int reported_ = 0;

@@ -60,14 +60,32 @@ int PositionOf(const optimizer::Slot& slot, const Candidate& to) {
   }
 }
 
+// That what boxes knew of their lines holds for those of the single combination that they held.
+void ExpectAmongChoices(
+    const std::vector<std::shared_ptr<const std::vector<optimizer::LineChoice>>>& seen,
+    const Box& single) {
+  double objective = 0.0, coil_power_w = 0.0;
+  for (const auto& line : single.lines) {
+    objective += line->objective;
+    coil_power_w += line->coil_power_w;
+  }
+  for (const auto& choices : seen)
+    EXPECT_TRUE(std::any_of(choices->begin(), choices->end(), [&](const auto& choice) {
+      return choice.objective <= objective * (1.0 + 1e-12) &&
+             choice.coil_power_w <= coil_power_w * (1.0 + 1e-12);
+    }));
+}
+
 // Divides boxes on the way to a feasible design, now the widest slot and now any: none of them may
 // be closed, and no bound may lie above its objective. Gives the box of the single combination.
 Box Descend(Random& random, const Plan& plan, Bounds& bounds, const std::vector<int>& positions,
             const Candidate& to, double objective) {
   Box box = bounds.Root();
   EXPECT_EQ(bounds.Assess(box, -1), Constraint::kNone);
+  std::vector<std::shared_ptr<const std::vector<optimizer::LineChoice>>> seen;
   const auto check = [&](Constraint missed) {
     EXPECT_EQ(missed, Constraint::kNone);
+    if (box.choices) seen.push_back(box.choices);
     EXPECT_LE(box.bound, objective * (1.0 + 1e-6));
     for (std::size_t g = 0; g < box.lines.size() && missed == Constraint::kNone; ++g) {
       EXPECT_LE(box.lines[g]->fall_time_s, to.lines[g]->fall_time_s * (1.0 + 1e-9));
@@ -90,6 +108,7 @@ Box Descend(Random& random, const Plan& plan, Bounds& bounds, const std::vector<
   }
   while (bounds.CanFindSource(box))
     if (!check(bounds.FindSource(box))) return box;
+  ExpectAmongChoices(seen, box);
   return box;
 }
 
@@ -247,6 +266,93 @@ TEST(BoundsTest, LeastObjectiveOfLines) {
     }
   }
   EXPECT_GT(above_corner, 5);
+}
+
+// The lightest lines and the battery that makes do with the least coils are not of one design.
+TEST(BoundsTest, CoilsCountWithTheirLines) {
+  int raised = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    Problem problem = Drawn(seed, Configuration::kCompressor, 1);
+    const std::vector<model::Valve> valves = problem.parts.valves;
+    for (model::Valve valve : valves) {  // the same with weaker coils, but heavier
+      valve.basics.id += "-w";
+      valve.basics.mass_kg += 0.3;
+      valve.basics.body_volume_m3 += 3e-4;
+      valve.coil_power_w *= 0.1;
+      problem.parts.valves.push_back(valve);
+    }
+    const model::Battery whole = problem.parts.batteries.front();
+    for (int i = 1; i < 60; ++i) {  // of any size
+      model::Battery battery = whole;
+      battery.basics.id += "-" + std::to_string(i);
+      battery.basics.mass_kg *= 0.05 * i;
+      battery.basics.body_volume_m3 *= 0.05 * i;
+      battery.capacity_ah *= 0.05 * i;
+      problem.parts.batteries.push_back(battery);
+    }
+    const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, Configuration::kCompressor);
+    if (plan->empty()) continue;
+    Bounds bounds(problem, *plan);
+    Box root = bounds.Root();
+    Constraint missed = bounds.Assess(root, -1);
+    while (missed == Constraint::kNone && bounds.CanFindSource(root))
+      missed = bounds.FindSource(root);
+    if (missed != Constraint::kNone) continue;
+    raised += std::any_of(root.volumes->begin(), root.volumes->end(), [&](const auto& volume) {
+      return volume.with_lines > (root.lines[0]->objective + volume.rest) * (1.0 + 1e-9);
+    });
+  }
+  EXPECT_GT(raised, 0);
+}
+
+// A combination that is outdone comes behind as many feasible ones as are wanted.
+TEST(BoundsTest, OutdoneCombinations) {
+  int outdone = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Problem problem = Drawn(seed, Configuration::kCylinder, 1);
+    problem.limits = {1, 1, 1, 1, 1};
+    problem.count = 3;
+    const auto add_heavier = [](auto parts) {
+      const std::size_t size = parts.size();
+      for (std::size_t i = 0; i < size; ++i) {
+        parts.push_back(parts[i]);
+        parts.back().basics.id += "-h";
+        parts.back().basics.mass_kg *= 1.2;
+        parts.back().basics.body_volume_m3 *= 1.2;
+        if (parts.back().basics.cost_eur) *parts.back().basics.cost_eur *= 1.2;
+      }
+      return parts;
+    };
+    problem.parts.valves = add_heavier(problem.parts.valves);
+    problem.parts.regulators = add_heavier(problem.parts.regulators);
+    const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, Configuration::kCylinder);
+    if (plan->empty()) continue;
+    const Bounds bounds(problem, *plan);
+    std::vector<double> objectives, of_outdone;
+    ForEachCombination(problem, [&](const Candidate& candidate) {
+      Box box = bounds.Root();
+      for (std::size_t s = 0; s < plan->slots.size(); ++s) {
+        const int position = PositionOf(plan->slots[s], candidate);
+        if (position < 0) return;
+        const std::vector<BoxNode>& tree = *plan->slots[s].nodes;
+        while (!tree[box.nodes[s]].single()) {
+          const BoxNode& node = tree[box.nodes[s]];
+          box.nodes[s] = position < tree[node.right].first ? node.left : node.right;
+        }
+      }
+      const Leaf leaf = SizeAlone(problem, candidate);
+      if (leaf.status != LeafStatus::kFeasible) return;
+      objectives.push_back(leaf.objective);
+      if (bounds.IsOutdone(box)) of_outdone.push_back(leaf.objective);
+    });
+    outdone += static_cast<int>(of_outdone.size());
+    for (double objective : of_outdone)
+      EXPECT_GT(std::count_if(objectives.begin(), objectives.end(),
+                              [&](double other) { return other <= objective * (1.0 + 1e-9); }),
+                problem.count);
+  }
+  EXPECT_GT(outdone, 0);
 }
 
 TEST(BoundsTest, RegulatedTwoGroups) {

@@ -63,11 +63,13 @@ TEST(DominanceTest, LeavesOutWhatKOthersDominate) {
           EXPECT_EQ(std::count(skyband.kept.begin(), skyband.kept.end(), dominator.part), 1);
         }
       }
+      ASSERT_EQ(skyband.outdone.size(), contenders.size());
       for (int i : skyband.kept) {
         const auto dominators = std::count_if(
             contenders.begin(), contenders.end(),
             [&](const Contender& other) { return Dominates(other, contenders[i], tie); });
         EXPECT_LT(dominators, k);
+        EXPECT_EQ(skyband.outdone[i], dominators);
       }
     }
 }
