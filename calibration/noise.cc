@@ -287,7 +287,7 @@ void FindEnds(std::span<const Readings> all, std::vector<Noise>& noises) {
     for (const double y : all[j].y)
       if (std::isfinite(y)) least = std::min(least, y), most = std::max(most, y);
     lowest = std::min(lowest, least), highest = std::max(highest, most);
-    noises[j].clipped = Clipped(all[j].y);
+    noises[j].clipped = Clipped(all[j]);
     for (const std::size_t i : noises[j].clipped) {
       const bool upper = all[j].y[i] > 0.5 * (least + most);
       if (upper)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace plenum::calibration {
 namespace {
@@ -13,6 +14,8 @@ constexpr double kSameValue = 1e-9;      // of the range: rounding of unit conve
 constexpr std::size_t kDistinctMin = 8;  // values on a grid by chance: 0.2^6
 constexpr std::size_t kClipLengthMin = 4;
 constexpr double kClipChance = 1e-3;
+constexpr double kCrowdChance = 1e-6;
+constexpr int kQuietPairsMin = 30;
 constexpr double kStillShareMax = 0.5;      // more: a staircase that stands by itself
 constexpr double kReversalShareMin = 0.02;  // less: a smooth signal that may well stand still
 constexpr std::size_t kNeighbours = 5;
@@ -47,6 +50,48 @@ double ReversalShare(const std::vector<double>& values) {
   return reversals / static_cast<double>(values.size());
 }
 
+// Share p of the readings strictly between the two ends that repeat the one before: over all, or
+// over those of the quiet spans where it is higher, because a signal that moves does not repeat.
+double RepeatShare(const Readings& readings, double low, double high) {
+  struct Pairs {
+    int all = 0, repeated = 0;
+    double Share() const { return (repeated + 1.0) / (all + 2.0); }
+  } anywhere, quiet;
+  auto span = readings.quiet.begin();
+  std::size_t last = readings.y.size();  // the finite reading before; none yet
+  for (std::size_t i = 0; i < readings.y.size(); ++i) {
+    const double y = readings.y[i];
+    if (!std::isfinite(y)) continue;
+    const std::size_t before = std::exchange(last, i);
+    if (before == readings.y.size() || y <= low || y >= high) continue;
+    const double previous = readings.y[before];
+    if (previous <= low || previous >= high) continue;
+    const bool repeated = std::abs(y - previous) <= kSameValue * (high - low);
+    ++anywhere.all, anywhere.repeated += repeated;
+    while (span != readings.quiet.end() && span->end_s < readings.t_s[i]) ++span;
+    if (span == readings.quiet.end() || span->start_s > readings.t_s[before]) continue;
+    ++quiet.all, quiet.repeated += repeated;
+  }
+  if (quiet.all < kQuietPairsMin) return anywhere.Share();
+  return std::max(anywhere.Share(), quiet.Share());
+}
+
+// Whether readings at an end are followed by another there more often than a share p allows:
+// Chernoff's bound on the binomial tail.
+bool Crowded(const std::vector<std::vector<std::size_t>>& stretches, double p) {
+  double readings = 0.0, repeated = 0.0;
+  for (const std::vector<std::size_t>& stretch : stretches) {
+    if (stretch.empty()) continue;
+    readings += static_cast<double>(stretch.size());
+    repeated += static_cast<double>(stretch.size() - 1);
+  }
+  const double seen = repeated / readings;
+  if (!(seen > p) || repeated == 0.0) return false;
+  const double left =
+      repeated == readings ? 0.0 : (1.0 - seen) * std::log((1.0 - seen) / (1.0 - p));
+  return readings * (seen * std::log(seen / p) + left) > -std::log(kCrowdChance);
+}
+
 }  // namespace
 
 double Quantum(std::span<const double> y) {
@@ -69,39 +114,32 @@ double Quantum(std::span<const double> y) {
   return total / count;
 }
 
-std::vector<std::size_t> Clipped(std::span<const double> y) {
+std::vector<std::size_t> Clipped(const Readings& readings) {
+  const std::span<const double> y = readings.y;
   const std::vector<double> values = Finite(y);
   if (values.size() < 2 * kClipLengthMin) return {};
   if (ReversalShare(values) < kReversalShareMin) return {};
   const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
   const double same = kSameValue * (*highest - *lowest);
+  const double share = RepeatShare(readings, *lowest + same, *highest - same);
+  if (share > kStillShareMax) return {};
   std::vector<std::size_t> clipped;
   for (const double end : {*lowest, *highest}) {
-    const auto at_end = [&](double value) { return std::abs(value - end) <= same; };
-    int pairs = 0, repeated = 0;  // away from this end
-    for (std::size_t i = 1; i < values.size(); ++i) {
-      if (at_end(values[i]) || at_end(values[i - 1])) continue;
-      ++pairs;
-      if (std::abs(values[i] - values[i - 1]) <= same) ++repeated;
-    }
-    const double share = (repeated + 1.0) / (pairs + 2.0);
-    if (share > kStillShareMax) continue;
-    std::vector<std::size_t> stretch;
-    const auto judge = [&] {
-      const double length = static_cast<double>(stretch.size());
-      const double chance = static_cast<double>(values.size()) * std::pow(share, length - 1.0);
-      if (stretch.size() >= kClipLengthMin && chance < kClipChance)
-        clipped.insert(clipped.end(), stretch.begin(), stretch.end());
-      stretch.clear();
-    };
+    std::vector<std::vector<std::size_t>> stretches(1);
     for (std::size_t i = 0; i < y.size(); ++i) {
       if (!std::isfinite(y[i])) continue;
-      if (at_end(y[i]))
-        stretch.push_back(i);
-      else
-        judge();
+      if (std::abs(y[i] - end) <= same)
+        stretches.back().push_back(i);
+      else if (!stretches.back().empty())
+        stretches.emplace_back();
     }
-    judge();
+    const bool crowded = Crowded(stretches, share);
+    for (const std::vector<std::size_t>& stretch : stretches) {
+      const double length = static_cast<double>(stretch.size());
+      const double chance = static_cast<double>(values.size()) * std::pow(share, length - 1.0);
+      if (crowded || (stretch.size() >= kClipLengthMin && chance < kClipChance))
+        clipped.insert(clipped.end(), stretch.begin(), stretch.end());
+    }
   }
   std::sort(clipped.begin(), clipped.end());
   return clipped;

@@ -7,17 +7,22 @@
 #include <span>
 #include <vector>
 
+#include "calibration/noise.h"
+
 namespace plenum::calibration {
 
 // Step q of the grid that the finite values lie on, each within q/10; 0 if they lie on none. Asked
 // of at least eight distinct values, or of fewer where most readings recur.
 double Quantum(std::span<const double> y);
 
-// Indices of readings at an end of the sensor's range: unbroken stretches of the run's highest or
-// lowest value, so long that the readings elsewhere, which repeat their neighbour with a share p,
-// would hold still that long with a chance n·p^(length−1) below 1e-3. None where that cannot be
-// told: p above one half (a coarse grid) or a signal without visible noise.
-std::vector<std::size_t> Clipped(std::span<const double> y);
+// Indices of readings at an end of the sensor's range: of the run's highest or lowest value,
+// (a) in unbroken stretches so long that the readings elsewhere, which repeat the one before with a
+// share p, would hold still that long with a chance n·p^(length−1) below 1e-3, or
+// (b) all of them, where they repeat more often than with a share p, at a chance below 1e-6: at the
+// floor of a converter half the noise or more is cut off, while an extreme that nothing cuts off is
+// the tail of the noise and hardly ever repeats.
+// None where that cannot be told: p above one half (a coarse grid) or no visible noise.
+std::vector<std::size_t> Clipped(const Readings& readings);
 
 // Indices of readings whose median with five neighbours on either side comes within `margin` of an
 // end of the range, low or high (infinite where there is none).

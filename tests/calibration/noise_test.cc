@@ -206,6 +206,32 @@ TEST(Noise, ReadingsThatStandAtTheEndOfTheRangeAreClipped) {
   EXPECT_TRUE(OfHold(t_s, std::vector<double>(t_s.size(), 1e5)).clipped.empty());
 }
 
+// A chamber that is filled, held and emptied, read through a converter of step q = 1 and `noise`;
+// at rest the level lies `rest` above its floor (no floor: -1e9).
+Noise OfConverter(int seed, double noise, double rest, double floor) {
+  const std::vector<double> t_s = EvenTimes(600, 0.01), e = WhiteNoise(seed, t_s.size(), noise);
+  std::vector<double> y;
+  for (std::size_t i = 0; i < t_s.size(); ++i) {
+    const double t = t_s[i];
+    const double filled = 100.0 * (1.0 - std::exp(-(t - 1.0) / 0.1));
+    const double signal = t < 1.0 ? 0.0 : t < 3.0 ? filled : 100.0 * std::exp(-(t - 3.0) / 0.2);
+    y.push_back(std::max(RoundTo(rest + signal + e[i], 1.0), floor));
+  }
+  return EstimateNoise({t_s, y, {{0.0, 1.0}, {1.8, 3.0}, {5.0, 6.0}}, {{1.0, 1.8}, {3.0, 5.0}}});
+}
+
+TEST(Noise, TheFloorOfAConverterIsSeenThroughNoiseAsLargeAsItsStep) {
+  int cut = 0, whole = 0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const double noise = 0.6 + 0.05 * (seed % 20);
+    const double level = 0.137 * (seed % 5) - 0.4;
+    cut += OfConverter(seed, noise, level, 0.0).clip_low_pa == 0.0;
+    whole += OfConverter(seed, noise, level, -1e9).clipped.empty();
+  }
+  EXPECT_GE(cut, 0.9 * kSeeds);
+  EXPECT_EQ(whole, kSeeds);
+}
+
 TEST(Noise, OverlaidSamplesGiveTheScatterOfRepeats) {
   std::vector<double> ratios;
   for (int seed = 0; seed < kSeeds / 4; ++seed) {
