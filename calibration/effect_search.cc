@@ -139,7 +139,12 @@ class Search {
     if (sets_.list.empty()) sets_.FitBase();
     std::size_t chosen = 0;
     for (int size = 1; size <= kEffectsMax && !sets_.Cancelled(); ++size) {
-      if (size > 1 && enough_(sets_[chosen].fit)) break;
+      if (size > 1 && enough_(sets_[chosen].fit)) {
+        TryMoreOfFewerNumbers(sets_[chosen].effects);
+        const std::size_t other = sets_.Best(size).value_or(chosen);
+        if (sets_[other].fit.bic < sets_[chosen].fit.bic - kAccept) chosen = other;
+        break;
+      }
       const double clocks_bic = WithClocks(chosen);
       if (clocks_bic == kClocksAreAll) return {};
       if (size > 2 && sets_.LeftShare(sets_[chosen]) > kEstablished) break;
@@ -205,6 +210,26 @@ class Search {
       for (const Spec spec : BestLaws()) sets_.AddJobs(*sets_.Find(seed), spec, jobs);
     const double from = size == 2 ? 0.4 : 0.7;
     sets_.RunJobs(jobs, from, from + 0.2, size == 2 ? "pairs of effects" : "triples of effects");
+  }
+
+  // One effect of several numbers imitates two of fewer: where a set leaves nothing, those of one
+  // effect more but no more numbers must not do better. They are grown from the others that explain
+  // most.
+  void TryMoreOfFewerNumbers(const EffectSet& set) {
+    std::vector<Job> jobs;
+    for (const EffectSet& seed : Seeds(static_cast<int>(set.size()))) {
+      if (seed == set || sets_.LeftShare(*sets_.Find(seed)) > kEstablished) continue;
+      for (const Spec spec : BestLaws())
+        if (NumbersOf(With(seed, spec)) <= NumbersOf(set))
+          sets_.AddJobs(*sets_.Find(seed), spec, jobs);
+    }
+    sets_.RunJobs(jobs, 0.4, 0.6, "more effects of fewer numbers");
+  }
+
+  static std::size_t NumbersOf(const EffectSet& set) {
+    std::size_t numbers = 0;
+    for (const Spec spec : set) numbers += spec->parameters.size();
+    return numbers;
   }
 
   // The other laws of each member of the best set of a size: which law stands shows only once the

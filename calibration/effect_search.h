@@ -4,10 +4,10 @@
 // Selection is by BIC: a larger set must be better by kAccept than the best smaller one
 // (thresholds.h). Pairs are all effects added to each of the best kSeeds singles, then each member
 // of the best set exchanged for every other effect, so that a set that does as well a step away is
-// seen too; triples are all effects added to the best pairs. Fits start from the optimum of the
-// smaller set and from every start of the added effect (coordinates.h); where that optimum
-// stretches the declared numbers beyond their uncertainties, which makes long valleys, from those
-// as declared.
+// seen too; triples are all effects added to the best pairs. Where a set leaves nothing, sets of
+// one effect more but no more numbers are still tried. Fits start from the optimum of the smaller
+// set and from every start of the added effect (coordinates.h); where that optimum stretches the
+// declared numbers beyond their uncertainties, which makes long valleys, from those as declared.
 #ifndef PLENUM_CALIBRATION_EFFECT_SEARCH_H_
 #define PLENUM_CALIBRATION_EFFECT_SEARCH_H_
 

@@ -66,5 +66,16 @@ TEST(BenchDiagnosis, ALimitOfAnEffectIsFoundWithIt) {
   EXPECT_TRUE(SetsOf(diagnosis).contains({"heat_transfer"})) << diagnosis.sentence;
 }
 
+#ifndef PLENUM_SANITIZED
+// A supply that droops has three numbers and comes to the noise; an opened valve's conductance and
+// the sensor's gain have one each and do better.
+TEST(BenchDiagnosis, TwoEffectsOfFewerNumbersAreTriedBesideOne) {
+  const Diagnosis diagnosis = Diagnosed(CaseOfSeries(24, 58));
+  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence;
+  const std::set<std::set<std::string>> named = {{"directional_conductance", "sensor_gain"}};
+  EXPECT_EQ(SetsOf(diagnosis), named);
+}
+#endif
+
 }  // namespace
 }  // namespace plenum::test
