@@ -362,7 +362,8 @@ class Search {
         Narrow(sets_.data, sets_.Tight(), fit);
         if (fit.Usable() && fit.bic < contender.fit.bic + kSameOptimum)
           contender.fit = std::move(fit);
-        if (size == size_max) sets_.FitInStep(contender);
+        const bool may_stand = size == size_max && sets_.LeftShare(contender) <= kEstablished;
+        if (may_stand) sets_.FitInStep(contender);
       }
     }
     std::stable_sort(sets_.list.begin(), sets_.list.end(),
