@@ -44,10 +44,12 @@ bool HoldsId(const EffectSet& set, std::string_view id) {
                      [&](const model::EffectSpec* spec) { return spec->id == id; });
 }
 
+bool IsLearned(const model::EffectSpec& spec) { return spec.id.starts_with("learned"); }
+
 EffectSet NamedEffects(const std::vector<Run>& runs) {
   EffectSet named;
   for (const model::EffectSpec* spec : model::Effects())
-    if (!spec->id.starts_with("learned") && Exercised(*spec, runs)) named.push_back(spec);
+    if (!IsLearned(*spec) && Exercised(*spec, runs)) named.push_back(spec);
   return named;
 }
 

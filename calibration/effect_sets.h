@@ -20,9 +20,11 @@ EffectSet Without(EffectSet set, const model::EffectSpec* out);
 
 bool HoldsId(const EffectSet& set, std::string_view id);
 
+// A term that stands for what has no name (discrepancy.h).
+bool IsLearned(const model::EffectSpec& spec);
+
 // The effects that have a name, of which the runs can tell: a valve that never opens tells nothing
-// of itself, of its line and of what feeds it. Learned terms stand for what has no name
-// (discrepancy.h).
+// of itself, of its line and of what feeds it.
 EffectSet NamedEffects(const std::vector<Run>& runs);
 
 // Effects that shift strokes in time, as a clock does.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "calibration/effect_sets.h"
 #include "calibration/parallel.h"
 
 namespace plenum::calibration {
@@ -111,8 +112,12 @@ void ProfileIntervals(const FitData& data, const Fit& fit, const Eigen::MatrixXd
                       double inflation, const FitOptions& options,
                       std::vector<Estimate>& estimates) {
   std::vector<std::size_t> profiled;
-  for (std::size_t j = 0; j < fit.coordinates.size(); ++j)
-    if (fit.coordinates[j].parameter.kind == Parameter::Kind::kEffect) profiled.push_back(j);
+  for (std::size_t j = 0; j < fit.coordinates.size(); ++j) {
+    const Parameter& parameter = fit.coordinates[j].parameter;
+    const bool named = parameter.kind == Parameter::Kind::kEffect &&
+                       !IsLearned(*fit.state.effects[parameter.effect].spec);
+    if (named) profiled.push_back(j);
+  }
   std::vector<std::optional<double>> edges(2 * profiled.size());
   ForAll(edges.size(), options.threads, [&](std::size_t k) {
     const auto j = static_cast<Eigen::Index>(profiled[k / 2]);

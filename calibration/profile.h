@@ -15,8 +15,8 @@
 
 namespace plenum::calibration {
 
-// Replaces the intervals of the effects' numbers; `covariance` is of the coordinates, `inflation`
-// is s. An interval stays where a fit fails or is stopped.
+// Replaces the intervals of the named effects' numbers (effect_sets.h); `covariance` is of the
+// coordinates, `inflation` is s. An interval stays where a fit fails or is stopped.
 void ProfileIntervals(const FitData& data, const Fit& fit, const Eigen::MatrixXd& covariance,
                       double inflation, const FitOptions& options,
                       std::vector<Estimate>& estimates);
