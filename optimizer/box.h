@@ -15,6 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "optimizer/line_verdicts.h"
 #include "optimizer/make_line.h"
 #include "optimizer/plan.h"
 #include "optimizer/shared.h"
@@ -111,7 +112,7 @@ class Bounds {
   // A box of lines: a node of each of the group's trees.
   struct LineKey {
     int group = 0;
-    std::array<int, kSlotsPerGroup> nodes{};
+    LineVerdicts::Nodes nodes{};
     auto operator<=>(const LineKey&) const = default;
     struct Hash {
       std::size_t operator()(const LineKey& key) const;
@@ -121,6 +122,7 @@ class Bounds {
     std::array<const BoxNode*, kSlotsPerGroup> nodes;
     LineCorners corners;
     const GroupTrees& trees;
+    double objective() const;
     bool single() const;
     int widest() const;  // of a box that is not single: by the share of the objective
     std::array<int, kSlotsPerGroup> choices() const;  // indices of parts, of a single one
@@ -142,15 +144,15 @@ class Bounds {
   }
   bool CoreIsSingle(const Box& box, int except = -1) const;
 
-  // What is known of a box of lines, whatever the source.
+  // What is known of a box of lines that misses nothing, whatever the source.
   struct KnownLine {
-    Constraint missed = Constraint::kNone;
     double objective = 0.0;      // the corner's, at most that of the finished line
     std::shared_ptr<Line> line;  // of the corner; none before a box has it
     bool finished = false;       // by FinishLine()
     bool least = false;          // the objective is by FindChoices()
     int weights = 0;             // that the objective has
   };
+  Constraint Screen(const LineKey& key);
   KnownLine& KnowLine(const LineKey& key);
   std::shared_ptr<Line> Assemble(const LineKey& key) const;
   Constraint FindChoices(const LineKey& key, double& objective, std::vector<LineChoice>& choices);
@@ -215,7 +217,8 @@ class Bounds {
   std::function<bool(const Amounts&)> useful_;
   model::Gas gas_;
   int weights_ = 0;
-  std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;  // screened before
+  std::vector<LineVerdicts> verdicts_;  // per group
+  std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;
   // Per node of the compressors' tree: with boxes of lines, with single lines.
   std::unordered_map<int, PumpFacts> pumps_, chosen_pumps_;
 };
