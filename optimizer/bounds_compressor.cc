@@ -34,12 +34,13 @@ Constraint Bounds::AssessCompressor(Box& box, int changed) {
 }
 
 Constraint Bounds::RestOfCompressor(Box& box) {
-  if (box.volumes->empty()) return Constraint::kPump;
-  box.lowest = Lowest(box);
-  const double least = BoundOf(LinesObjective(box), (*box.volumes)[box.lowest]);
-  if (std::isinf(least)) return Constraint::kBattery;
-  box.bound = std::max(box.bound,
-                       CornerAt(plan_.compressors, box, plan_.compressor_slot).objective + least);
+  double least = box.forgotten;
+  if (!box.volumes->empty()) {
+    box.lowest = Lowest(box);
+    least = std::min(least, TotalOf(box, (*box.volumes)[box.lowest]));
+  }
+  if (std::isinf(least)) return box.volumes->empty() ? Constraint::kPump : Constraint::kBattery;
+  box.bound = std::max(box.bound, least);
   return Constraint::kNone;
 }
 
@@ -92,6 +93,7 @@ void Bounds::BoundRest(const Box& box, VolumeNeed& volume) {
 }
 
 bool Bounds::CanFindSource(const Box& box) const {
+  if (IsForgotten(box)) return true;
   if (plan_.configuration == Configuration::kCompressor &&
       !(box.lines_finished && IsSettled(box, (*box.volumes)[box.lowest])))
     return true;
@@ -99,6 +101,11 @@ bool Bounds::CanFindSource(const Box& box) const {
 }
 
 Constraint Bounds::FindSource(Box& box) {
+  if (IsForgotten(box)) {
+    box.volumes = {};
+    box.forgotten = kUnlimited;
+    return Assess(box, -1);
+  }
   if (plan_.configuration == Configuration::kCompressor) {
     if (!box.lines_finished) {
       if (const Constraint missed = FinishLines(box); missed != Constraint::kNone) return missed;

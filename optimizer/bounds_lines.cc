@@ -10,7 +10,7 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr std::size_t kLinesKept = 400000;
+constexpr std::size_t kLinesKept = 50000;
 
 }  // namespace
 
@@ -20,23 +20,32 @@ std::size_t Bounds::LineKey::Hash::operator()(const LineKey& key) const {
   return hash ^ (hash >> 32);
 }
 
+Constraint Bounds::Screen(const LineKey& key) {
+  LineVerdicts& verdicts = verdicts_[key.group];
+  if (const Constraint* known = verdicts.Find(key.nodes)) return *known;
+  const LineParts parts = PartsOf(key);
+  Constraint missed = ScreenLine(problem_, key.group, gas_, parts.corners, parts.single());
+  if (missed == Constraint::kNone && parts.single()) {
+    const auto [tubing, fitting, valve] = parts.choices();
+    if (!PartsMate(problem_, tubing, fitting, valve)) missed = Constraint::kMating;
+  }
+  verdicts.Set(key.nodes, missed);
+  return missed;
+}
+
 Bounds::KnownLine& Bounds::KnowLine(const LineKey& key) {
   const auto [entry, fresh] = lines_.try_emplace(key);
   KnownLine& known = entry->second;
   if (!fresh && known.weights == weights_) return known;
-  const LineParts parts = PartsOf(key);
-  const auto& [tube, fitting, valve] = parts.corners;
-  known.objective = tube.objective + valve.objective + fitting.objective;
+  known.objective = PartsOf(key).objective();
   known.weights = weights_;
   known.least = false;
   if (known.line) known.line->objective = known.objective;
-  if (!fresh) return known;
-  known.missed = ScreenLine(problem_, key.group, gas_, parts.corners, parts.single());
-  if (known.missed == Constraint::kNone && parts.single()) {
-    const auto [tubing, fittings, valves] = parts.choices();
-    if (!PartsMate(problem_, tubing, fittings, valves)) known.missed = Constraint::kMating;
-  }
   return known;
+}
+
+double Bounds::LineParts::objective() const {
+  return corners.tube.objective + corners.valve.objective + corners.fitting.objective;
 }
 
 bool Bounds::LineParts::single() const {
@@ -118,14 +127,17 @@ Constraint Bounds::FindChoices(const LineKey& key, double& objective,
     for (int child : {parts.nodes[widest]->left, parts.nodes[widest]->right}) {
       LineKey part = lowest;
       part.nodes[widest] = child;
-      const KnownLine& known = KnowLine(part);
-      if (known.missed == Constraint::kNone)
-        open.push({std::max(above, known.objective), part});
+      const Constraint why = Screen(part);
+      if (why == Constraint::kNone)
+        open.push({std::max(above, PartsOf(part).objective()), part});
       else if (missed == Constraint::kNone || missed == Constraint::kMating)
-        missed = known.missed;
+        missed = why;
     }
   }
-  if (choices.empty()) return missed;
+  if (choices.empty()) {
+    verdicts_[key.group].Set(key.nodes, missed);
+    return missed;
+  }
   Thin(choices);
   objective = choices.front().objective;
   return Constraint::kNone;
@@ -171,43 +183,41 @@ std::shared_ptr<Line> Bounds::Assemble(const LineKey& key) const {
 }
 
 Constraint Bounds::RemakeLine(Box& box, int group) {
-  if (lines_.size() > kLinesKept) lines_.clear();
   const LineKey key = KeyOf(box, group);
+  if (const Constraint missed = Screen(key); missed != Constraint::kNone) return missed;
+  if (lines_.size() > kLinesKept) lines_.clear();
   KnownLine& known = KnowLine(key);
-  if (known.missed == Constraint::kNone && !known.line) known.line = Assemble(key);
+  if (!known.line) known.line = Assemble(key);
   box.lines[group] = known.line;
   box.lines_finished = false;
   box.choices = nullptr;
-  return known.missed;
+  return Constraint::kNone;
 }
 
 Constraint Bounds::FinishLines(Box& box) {
   box.lines_finished = true;
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
     const LineKey key = KeyOf(box, g);
+    if (const Constraint missed = Screen(key); missed != Constraint::kNone) return missed;
     KnownLine& known = KnowLine(key);
     // Choices are of the weights that they were found with.
-    if (known.missed == Constraint::kNone && !(known.finished && known.least)) {
-      const bool finished = known.finished;
-      known.finished = known.least = true;
+    if (!(known.finished && known.least)) {
       std::vector<LineChoice> choices;
-      known.missed = FindChoices(key, known.objective, choices);
+      if (const Constraint missed = FindChoices(key, known.objective, choices);
+          missed != Constraint::kNone)
+        return missed;
+      if (!known.line) known.line = Assemble(key);
+      known.line->objective = known.objective;
+      // What boxes have of it already was no more.
+      known.line->coil_power_w = std::max(known.line->coil_power_w, choices.back().coil_power_w);
+      known.line->choices = std::move(choices);
       const LineParts parts = PartsOf(key);
-      if (known.missed == Constraint::kNone) {
-        if (!known.line) known.line = Assemble(key);
-        known.line->objective = known.objective;
-        // What boxes have of it already was no more.
-        known.line->coil_power_w = std::max(known.line->coil_power_w, choices.back().coil_power_w);
-        known.line->choices = std::move(choices);
-        if (!finished)
-          FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
-                     plan_.configuration == Configuration::kCompressor, *known.line);
-      } else {
-        known.line = nullptr;
-      }
+      if (!known.finished)
+        FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
+                   plan_.configuration == Configuration::kCompressor, *known.line);
+      known.finished = known.least = true;
     }
     box.lines[g] = known.line;
-    if (known.missed != Constraint::kNone) return known.missed;
   }
   CombineChoices(box);
   return Constraint::kNone;

@@ -132,6 +132,43 @@ bool Bounds::IsSettled(const Box& box, const VolumeNeed& volume) const {
   return volume.look == box.look && volume.energy_known && !IsWide(box, volume);
 }
 
+double Bounds::TotalOf(const Box& box, const VolumeNeed& volume) const {
+  return CornerAt(plan_.compressors, box, plan_.compressor_slot).objective +
+         BoundOf(LinesObjective(box), volume);
+}
+
+// Those made to measure stay: they are sized together.
+void Bounds::Forget(Box& box, double objective) const {
+  if (box.bound > objective) {
+    box.volumes = {};
+    box.lines.clear();
+    box.choices = nullptr;
+    return;
+  }
+  const std::vector<VolumeNeed>& volumes = *box.volumes;
+  const auto stays = [&](const VolumeNeed& volume) {
+    return TotalOf(box, volume) <= objective || IsMade(volume);
+  };
+  const auto count = static_cast<std::size_t>(std::count_if(volumes.begin(), volumes.end(), stays));
+  if (volumes.empty() || 4 * count > 3 * volumes.capacity()) return;  // hardly worth it
+  std::vector<VolumeNeed> kept;
+  kept.reserve(count);
+  for (const VolumeNeed& volume : volumes)
+    if (stays(volume))
+      kept.push_back(volume);
+    else
+      box.forgotten = std::min(box.forgotten, TotalOf(box, volume));
+  box.volumes = {};
+  box.volumes.Own() = std::move(kept);
+  box.lowest = Lowest(box);
+}
+
+bool Bounds::IsForgotten(const Box& box) const {
+  if (box.lines.empty()) return true;
+  return std::isfinite(box.forgotten) &&
+         (box.volumes->empty() || TotalOf(box, (*box.volumes)[box.lowest]) > box.forgotten);
+}
+
 // The reservoirs whose bound is that of the box.
 std::size_t Bounds::Lowest(const Box& box) {
   const double lines = LinesObjective(box);

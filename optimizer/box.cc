@@ -22,7 +22,8 @@ Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
       plan_(plan),
       bench_(bench),
       useful_(std::move(useful)),
-      gas_(GasOf(plan.configuration)) {}
+      gas_(GasOf(plan.configuration)),
+      verdicts_(plan.groups.size()) {}
 
 Box Bounds::Root() const {
   Box box;
@@ -131,9 +132,10 @@ Constraint Bounds::Reweigh(Box& box) {
       known.finished = box.lines_finished;
     }
     if (known.finished && !known.least) {
+      if (const Constraint missed = FindChoices(key, known.objective, known.line->choices);
+          missed != Constraint::kNone)
+        return missed;
       known.least = true;
-      known.missed = FindChoices(key, known.objective, known.line->choices);
-      if (known.missed != Constraint::kNone) return known.missed;
       known.line->objective = known.objective;
     }
     box.lines[g] = known.line;

@@ -15,6 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "optimizer/line_verdicts.h"
 #include "optimizer/make_line.h"
 #include "optimizer/plan.h"
 #include "optimizer/shared.h"
@@ -39,7 +40,7 @@ struct VolumeNeed {
 struct Box {
   // Without a place of their own in memory for one group, since boxes are many.
   boost::container::small_vector<int, kSlotsPerGroup + 3> nodes;  // per slot
-  // Per group; empty before the first Assess().
+  // Per group; empty before the first Assess() and once forgotten.
   boost::container::small_vector<std::shared_ptr<const Line>, 1> lines;
   bool lines_finished = false;                               // by FinishLine()
   std::shared_ptr<const std::vector<LineChoice>> choices;    // of all lines together, once finished
@@ -52,6 +53,7 @@ struct Box {
   double energy_beyond_j = 0.0;             // what of it the shares of the choices do not count
   Shared<std::vector<VolumeNeed>> volumes;  // compressor
   std::size_t lowest = 0;                   // of them: whose bound is that of the box
+  double forgotten = kUnlimited;            // least bound of those that the list lacks
   int look = 0;                             // grows where the needs of volumes may have grown
   double volume_ratio_max = 0.0;            // of the ends of an interval of made-to-measure volumes
   bool source_bounded = false;              // from below, for the real parts; regulated
@@ -92,9 +94,13 @@ class Bounds {
   // its bound comes from; once all but bottle and battery are single choices their source pressure,
   // bounded by enclosures of the strokes and then found for good at a hundred times the cost, or
   // finer intervals of made-to-measure volumes, and where energy counts the best settings of those
-  // with any battery (core_sizing.h).
+  // with any battery (core_sizing.h). What was forgotten is found anew first.
   bool CanFindSource(const Box& box) const;
   Constraint FindSource(Box& box);
+
+  // To save room: lets go of reservoirs whose bound is above `objective`, and of all but the bound
+  // where that of the box is. The bound stays one; LeastAssessed() must not be asked any more.
+  void Forget(Box& box, double objective) const;
 
   bool IsSingle(const Box& box) const;
   // The slot to divide: of those that decide the source pressure the one whose choices differ most
@@ -111,7 +117,7 @@ class Bounds {
   // A box of lines: a node of each of the group's trees.
   struct LineKey {
     int group = 0;
-    std::array<int, kSlotsPerGroup> nodes{};
+    LineVerdicts::Nodes nodes{};
     auto operator<=>(const LineKey&) const = default;
     struct Hash {
       std::size_t operator()(const LineKey& key) const;
@@ -121,6 +127,7 @@ class Bounds {
     std::array<const BoxNode*, kSlotsPerGroup> nodes;
     LineCorners corners;
     const GroupTrees& trees;
+    double objective() const;
     bool single() const;
     int widest() const;  // of a box that is not single: by the share of the objective
     std::array<int, kSlotsPerGroup> choices() const;  // indices of parts, of a single one
@@ -142,15 +149,15 @@ class Bounds {
   }
   bool CoreIsSingle(const Box& box, int except = -1) const;
 
-  // What is known of a box of lines, whatever the source.
+  // What is known of a box of lines that misses nothing, whatever the source.
   struct KnownLine {
-    Constraint missed = Constraint::kNone;
     double objective = 0.0;      // the corner's, at most that of the finished line
     std::shared_ptr<Line> line;  // of the corner; none before a box has it
     bool finished = false;       // by FinishLine()
     bool least = false;          // the objective is by FindChoices()
     int weights = 0;             // that the objective has
   };
+  Constraint Screen(const LineKey& key);
   KnownLine& KnowLine(const LineKey& key);
   std::shared_ptr<Line> Assemble(const LineKey& key) const;
   Constraint FindChoices(const LineKey& key, double& objective, std::vector<LineChoice>& choices);
@@ -181,6 +188,8 @@ class Bounds {
   static std::size_t Lowest(const Box& box);
   Constraint LookAtLowest(Box& box);
   std::optional<VolumeNeed> LookAt(const Box& box, VolumeNeed volume);
+  double TotalOf(const Box& box, const VolumeNeed& volume) const;
+  bool IsForgotten(const Box& box) const;
   bool IsMade(const VolumeNeed& volume) const;
   Amounts LeastOf(const VolumeNeed& volume) const;
   double Spread(const VolumeNeed& volume) const;
@@ -215,7 +224,8 @@ class Bounds {
   std::function<bool(const Amounts&)> useful_;
   model::Gas gas_;
   int weights_ = 0;
-  std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;  // screened before
+  std::vector<LineVerdicts> verdicts_;  // per group
+  std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;
   // Per node of the compressors' tree: with boxes of lines, with single lines.
   std::unordered_map<int, PumpFacts> pumps_, chosen_pumps_;
 };

@@ -26,6 +26,8 @@ class Diver {
     }
   }
 
+  void From(Box box, int turns) { Below(std::move(box), turns); }
+
  private:
   bool Done() const { return stop_() || (any_ && !ranking_.list().empty()); }
 
@@ -75,6 +77,11 @@ class Diver {
 void Dive(const Problem& problem, Bounds& bounds, bool any, const std::function<bool()>& stop,
           Ranking& ranking) {
   Diver(problem, bounds, any, stop, ranking).Run();
+}
+
+void DiveFrom(Box box, int turns, const Problem& problem, Bounds& bounds,
+              const std::function<bool()>& stop, Ranking& ranking) {
+  Diver(problem, bounds, false, stop, ranking).From(std::move(box), turns);
 }
 
 }  // namespace plenum::optimizer

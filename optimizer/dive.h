@@ -12,6 +12,10 @@ namespace plenum::optimizer {
 void Dive(const Problem& problem, Bounds& bounds, bool any, const std::function<bool()>& stop,
           Ranking& ranking);
 
+// The same from a box on: along the lower bounds but for so many turns.
+void DiveFrom(Box box, int turns, const Problem& problem, Bounds& bounds,
+              const std::function<bool()>& stop, Ranking& ranking);
+
 }  // namespace plenum::optimizer
 
 #endif  // PLENUM_OPTIMIZER_DIVE_H_

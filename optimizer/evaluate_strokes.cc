@@ -50,7 +50,7 @@ void RegulatedStroke(const Problem& problem, const Candidate& candidate, double 
 model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candidate& candidate,
                                             const OperatingPoint& point, int g) {
   model::ReservoirStrokeInput input;
-  input.fill = &candidate.lines[g]->fill_table;
+  input.fill = &candidate.lines[g]->curve->flow;
   input.chamber = &candidate.lines[g]->chamber;
   input.count = problem.groups[g].count;
   input.compressor = &problem.parts.compressors[candidate.compressor.index].curve;

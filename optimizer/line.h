@@ -3,6 +3,7 @@
 #ifndef PLENUM_OPTIMIZER_LINE_H_
 #define PLENUM_OPTIMIZER_LINE_H_
 
+#include <memory>
 #include <vector>
 
 #include "model/chamber.h"
@@ -43,6 +44,12 @@ struct LineChoice {
   double objective = 0.0, coil_power_w = 0.0;
 };
 
+// How a line fills from a reservoir.
+struct FillCurve {
+  model::FlowTable flow;  // of its elements as crossed, with gas and temperature factor
+  StrokePanels panels;    // of its chamber
+};
+
 struct Line {
   int tubing = -1, fitting = -1,
       valve = -1;                        // indices into Problem::parts; fitting −1: none needed
@@ -50,10 +57,8 @@ struct Line {
   double objective = 0.0;                // their share, with what they take of energy at any speed
   std::vector<model::FlowElement> fill;  // elements as crossed from source to actuator
   std::vector<model::FlowElement> exhaust;  // and from actuator to ambient
-  model::Series fill_series;                // with gas and temperature factor
-  model::FlowTable fill_table;              // the same, tabulated
   model::Chamber chamber;                   // with the tube's bore as dead volume
-  StrokePanels panels;                      // of this chamber
+  std::shared_ptr<const FillCurve> curve;   // of a finished line, where reservoirs feed it
   double fall_time_s = 0.0;
   // Pressure of an unlimited source at which the rise time is just met (no source does it with
   // less: droop, regulator and neighbours only slow the rise) and at which the valve switches, and

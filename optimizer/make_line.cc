@@ -147,9 +147,8 @@ void FinishLine(const Problem& problem, int g, model::Gas gas, const ValveCorner
     line.inflate_time_least_s = filling.InflateTime(line.source_max_pa);
   if (exact) line.fall_time_s = FallTime(problem, group, line.exhaust, factor, line.chamber);
   if (!with_curve) return;
-  line.fill_series = filling.series();
-  line.fill_table = model::FlowTable(line.fill_series);
-  line.panels = MakeStrokePanels(problem, g, line.chamber);
+  line.curve = std::make_shared<const FillCurve>(
+      FillCurve{model::FlowTable(filling.series()), MakeStrokePanels(problem, g, line.chamber)});
 }
 
 Constraint MakeLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,

@@ -3,6 +3,7 @@
 #define PLENUM_OPTIMIZER_PROBLEM_H_
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <map>
@@ -107,6 +108,7 @@ struct SearchOptions {
   std::function<void(const Progress&)>
       progress;  // called at most a few times a second; may be empty
   PeriodicSolver periodic = model::FindPeriodicState;
+  std::size_t crowd = 16384;  // boxes that wait from which on room is saved
 };
 
 // One row of the parts list.

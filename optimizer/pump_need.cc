@@ -99,7 +99,7 @@ double MarchDraw(const Problem& problem, int g, const Line& line, const PumpFact
     const double next = MostDrawn(problem, g, line, next_pa, operating_pa);
     const auto pumped_by = [&](double most) {
       const double s = std::min(start_pa, start_pa - (drawn - most) / high_m3);
-      const double flow = group.count * s * line.fill_table(p / s);
+      const double flow = group.count * s * line.curve->flow(p / s);
       return flow > 0.0 ? pumped + (next - drawn) / (flow * facts.rates.SecondsAtMost(s)) : most;
     };
     const double reached = std::min(pumped_by(std::min(pumped_by(pumped), next)), next);

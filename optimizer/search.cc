@@ -35,6 +35,7 @@ constexpr double kProgressIntervalS = 0.2;
 // After the end designs found before are still confirmed, one at least and others for so long.
 constexpr double kGraceS = 0.1;
 constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;  // of the time limit
+constexpr int kCrowdDives = 20;                      // for each design that is wanted
 
 // Where the objective is one of the limited amounts alone, its limit bounds the objective.
 double ObjectiveLimit(const Problem& problem) {
@@ -126,6 +127,7 @@ class BoxSearch {
       node->earliest = EarliestIds(problem_, node->bounds->plan(), node->box);
       ties_.Push(std::move(node));
     } else {
+      SaveRoom(*node);
       open_.Push(std::move(node));
     }
   }
@@ -134,6 +136,7 @@ class BoxSearch {
     while (!Stopped() && PlantReached() && !open_.empty()) {
       Report();
       DiveIfSlow();
+      SaveRoomIfCrowded();
       const double lowest = open_.top()->box.bound;
       if (lowest > objective_limit_ || lowest > ranking_.run_end()) return;
       if (options_.any_design && !ranking_.list().empty()) return;
@@ -261,6 +264,34 @@ class BoxSearch {
     }
   }
 
+  // What boxes know takes room, and most of it would only be asked if their bounds came up. Designs
+  // below those that come out next, found by depth first, tell which bounds surely will not; where
+  // they are taken back (ConfirmList) what was forgotten is found anew.
+  void SaveRoomIfCrowded() {
+    if (open_.size() < crowd_) return;
+    crowd_ += crowd_ / 2 + 1;
+    const auto improves = [&](const Node& node, int turns) {
+      const double before = ranking_.run_end();
+      DiveFrom(node.box, turns, problem_, *node.bounds, bench_.stop, ranking_);
+      return ranking_.run_end() < before;
+    };
+    std::vector<NodePtr> first;
+    std::vector<const Node*> led;  // to better designs, the best last
+    while (!open_.empty() && static_cast<int>(first.size()) < kCrowdDives * problem_.count) {
+      first.push_back(open_.Pop());
+      if (improves(*first.back(), 0)) led.push_back(first.back().get());
+    }
+    for (int i = 0; i < problem_.count && !led.empty(); ++i, led.pop_back())
+      improves(*led.back(), 1);
+    for (NodePtr& node : first) open_.Push(std::move(node));
+    open_.ForEach([&](const NodePtr& node) { SaveRoom(*node); });
+  }
+
+  void SaveRoom(Node& node) const {
+    if (ranking_.full() && !node.sizing)  // which points to the box's lines
+      node.bounds->Forget(node.box, ranking_.run_end());
+  }
+
   // Makes the designs of the list. One that the simulator does not confirm is taken out, and the
   // search has to go on: false.
   bool ConfirmList() {
@@ -368,7 +399,8 @@ class BoxSearch {
   Workbench bench_, report_bench_;  // for the search, for the designs of the list
   Configurations configurations_;
   int reported_ = 0;
-  double looked_s_ = 0.0;  // at the clock
+  std::size_t crowd_ = options_.crowd;  // boxes that wait when room is saved next
+  double looked_s_ = 0.0;               // at the clock
   double reported_s_ = 0.0, stopped_s_ = 0.0, dive_until_s_ = kUnlimited;
   long long serial_ = 0;
   bool cancelled_ = false, late_ = false, dived_ = false;

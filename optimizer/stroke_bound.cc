@@ -20,7 +20,7 @@ class Stroke {
       : line_(line),
         pumps_(pumps),
         start_(start),
-        nodes_(line.panels),
+        nodes_(line.curve->panels),
         count_(problem.groups[g].count),
         kappa_(model::kReferencePressurePa * problem.ambient.temperature_k /
                model::kReferenceTemperatureK),
@@ -91,7 +91,7 @@ class Stroke {
     }
     const double source_pa = std::min(Reservoir(pumped - drawn, false), start_.stop_pa);
     const double per_pa = 1.0 / source_pa;
-    return (after - before) * per_flow_ * per_pa / line_.fill_table(p * per_pa);
+    return (after - before) * per_flow_ * per_pa / line_.curve->flow(p * per_pa);
   }
 
   // Over the interval of volumes: the pressure of the reservoir with so much more content, and the

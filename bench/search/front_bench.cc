@@ -1,5 +1,6 @@
 // Processor time to whole fronts in two and three amounts on synthetic catalogues, one thread.
 //   front_bench [parts per family]… [--first I] [--requirements N] [--time-limit S] [--each]
+//     [--pairs]
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -59,7 +60,7 @@ int main(int argc, char** argv) {
   using plenum::optimizer::Amount;
   std::vector<int> sizes;
   int first = 0, requirements = 10;
-  bool each = false;
+  bool each = false, pairs = false;
   double time_limit_s = 60.0;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--requirements") == 0 && i + 1 < argc)
@@ -68,6 +69,8 @@ int main(int argc, char** argv) {
       first = std::stoi(argv[++i]);
     else if (std::strcmp(argv[i], "--each") == 0)
       each = true;
+    else if (std::strcmp(argv[i], "--pairs") == 0)
+      pairs = true;
     else if (std::strcmp(argv[i], "--time-limit") == 0 && i + 1 < argc)
       time_limit_s = std::stod(argv[++i]);
     else
@@ -79,5 +82,6 @@ int main(int argc, char** argv) {
                                                    {Amount::kMass, Amount::kVolume, Amount::kCost}};
   for (int size : sizes)
     for (const std::vector<Amount>& amounts : fronts)
-      plenum::bench::Run(size, first, requirements, time_limit_s, each, amounts);
+      if (!pairs || amounts.size() == 2)
+        plenum::bench::Run(size, first, requirements, time_limit_s, each, amounts);
 }

@@ -94,7 +94,13 @@ Box Descend(Random& random, const Plan& plan, Bounds& bounds, const std::vector<
     }
     return missed == Constraint::kNone;
   };
+  const auto forget_some = [&] {
+    const double bound = box.bound;
+    if (Chance(random, 0.2)) bounds.Forget(box, Uniform(random, 0.8, 1.1) * objective);
+    EXPECT_EQ(box.bound, bound);
+  };
   while (!bounds.IsSingle(box)) {
+    forget_some();
     while (bounds.CanFindSource(box))
       if (!check(bounds.FindSource(box))) return box;
     int slot = bounds.WidestSlot(box);
@@ -106,6 +112,7 @@ Box Descend(Random& random, const Plan& plan, Bounds& bounds, const std::vector<
     box.nodes[slot] = positions[slot] < tree[node.right].first ? node.left : node.right;
     if (!check(bounds.Assess(box, slot))) return box;
   }
+  forget_some();
   while (bounds.CanFindSource(box))
     if (!check(bounds.FindSource(box))) return box;
   ExpectAmongChoices(seen, box);

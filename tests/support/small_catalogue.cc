@@ -163,15 +163,16 @@ optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing
                                  tubing.inner_diameter_m * group.tube_length_m;
   const double temperature_k = problem.ambient.temperature_k;
   const double factor = (gas == model::Gas::kCo2 ? 0.79 : 1.0) * std::sqrt(293.15 / temperature_k);
-  line.fill_series = model::MakeSeries(line.fill, factor);
-  line.fill_table = model::FlowTable(line.fill_series);
-  line.panels = optimizer::MakeStrokePanels(problem, group_index, line.chamber);
+  const model::Series fill_series = model::MakeSeries(line.fill, factor);
+  line.curve = std::make_shared<const optimizer::FillCurve>(
+      optimizer::FillCurve{model::FlowTable(fill_series),
+                           optimizer::MakeStrokePanels(problem, group_index, line.chamber)});
   const double ambient_pa = problem.ambient.pressure_pa;
   const double operating_pa = group.chamber.operating_pressure_pa;
   line.fall_time_s = model::EmptyTime(
       model::MakeSeries(line.exhaust, factor), line.chamber, operating_pa,
       ambient_pa + problem.fall_fraction * (operating_pa - ambient_pa), temperature_k);
-  line.inflate_time_least_s = model::FillTime(line.fill_series, line.chamber, line.source_max_pa,
+  line.inflate_time_least_s = model::FillTime(fill_series, line.chamber, line.source_max_pa,
                                               ambient_pa, operating_pa, temperature_k);
   return line;
 }

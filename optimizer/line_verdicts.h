@@ -1,0 +1,73 @@
+// What boxes of lines are known to miss. Searches ask this of millions of boxes, far more often
+// than of anything else that is kept, so that it is packed: 16 bytes each, next to each other.
+#ifndef PLENUM_OPTIMIZER_LINE_VERDICTS_H_
+#define PLENUM_OPTIMIZER_LINE_VERDICTS_H_
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "optimizer/plan.h"
+#include "optimizer/proof.h"
+
+namespace plenum::optimizer {
+
+class LineVerdicts {
+ public:
+  using Nodes = std::array<int, kSlotsPerGroup>;  // one of each of a group's trees
+
+  // Null where nothing is known of the box.
+  const Constraint* Find(const Nodes& nodes) const {
+    if (places_.empty()) return nullptr;
+    const Place& place = places_[PlaceOf(nodes)];
+    return Same(place.nodes, nodes) ? &place.missed : nullptr;
+  }
+
+  // Of a box of which nothing is known, or more than was. Beyond so many all are forgotten.
+  void Set(const Nodes& nodes, Constraint missed) {
+    if (known_ == kMost) *this = {};
+    if (4 * (known_ + 1) > 3 * places_.size()) Grow();
+    Place& place = places_[PlaceOf(nodes)];
+    known_ += !Same(place.nodes, nodes);
+    place = {nodes, missed};
+  }
+
+ private:
+  static constexpr std::size_t kMost = 12'000'000, kFirst = 1024;
+  struct Place {
+    Nodes nodes{-1, -1, -1};
+    Constraint missed = Constraint::kNone;
+    bool free() const { return nodes[0] < 0; }
+  };
+
+  // Without a call of memcmp().
+  static bool Same(const Nodes& a, const Nodes& b) {
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+  }
+
+  // Where the box is, or would be put.
+  std::size_t PlaceOf(const Nodes& nodes) const {
+    std::size_t hash = 0;
+    for (int node : nodes) hash = (hash ^ static_cast<std::size_t>(node)) * 0x9e3779b97f4a7c15u;
+    const std::size_t last = places_.size() - 1;  // a power of 2 less 1
+    std::size_t at = (hash ^ (hash >> 32)) & last;
+    while (!Same(places_[at].nodes, nodes) && !places_[at].free()) at = (at + 1) & last;
+    return at;
+  }
+
+  void Grow() {
+    std::vector<Place> before =
+        std::exchange(places_, std::vector<Place>(std::max(kFirst, 2 * places_.size())));
+    for (const Place& place : before)
+      if (!place.free()) places_[PlaceOf(place.nodes)] = place;
+  }
+
+  std::vector<Place> places_;
+  std::size_t known_ = 0;
+};
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_LINE_VERDICTS_H_
