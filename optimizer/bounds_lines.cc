@@ -20,23 +20,41 @@ std::size_t Bounds::LineKey::Hash::operator()(const LineKey& key) const {
   return hash ^ (hash >> 32);
 }
 
-Bounds::KnownLine& Bounds::KnowLine(const LineKey& key) {
+Bounds::KnownLine& Bounds::KnowLine(const LineKey& key, const LineParts* whole) {
   const auto [entry, fresh] = lines_.try_emplace(key);
   KnownLine& known = entry->second;
   if (!fresh && known.weights == weights_) return known;
   const LineParts parts = PartsOf(key);
-  const auto& [tube, fitting, valve] = parts.corners;
-  known.objective = tube.objective + valve.objective + fitting.objective;
-  known.weights = weights_;
-  known.least = false;
-  if (known.line) known.line->objective = known.objective;
+  Weigh(parts, known);
   if (!fresh) return known;
-  known.missed = ScreenLine(problem_, key.group, gas_, parts.corners, parts.single());
+  known.missed = ScreenLine(problem_, key.group, gas_, parts.corners, parts.single(),
+                            whole ? &whole->corners : nullptr);
   if (known.missed == Constraint::kNone && parts.single()) {
     const auto [tubing, fittings, valves] = parts.choices();
     if (!PartsMate(problem_, tubing, fittings, valves)) known.missed = Constraint::kMating;
   }
   return known;
+}
+
+void Bounds::Weigh(const LineParts& parts, KnownLine& known) const {
+  const auto& [tube, fitting, valve] = parts.corners;
+  known.objective = tube.objective + valve.objective + fitting.objective;
+  known.weights = weights_;
+  known.least = false;
+  if (known.line) known.line->objective = known.objective;
+}
+
+// Kept with the whole, since most are asked for again and again.
+Bounds::KnownLine& Bounds::KnowHalf(KnownLine& whole, const LineParts& parts, int slot, int half,
+                                    const LineKey& key) {
+  if (whole.divided != slot) {
+    whole.divided = slot;
+    whole.halves = {};
+  }
+  KnownLine*& known = whole.halves[half];
+  if (known == nullptr) known = &KnowLine(key, &parts);
+  if (known->weights != weights_) Weigh(PartsOf(key), *known);
+  return *known;
 }
 
 bool Bounds::LineParts::single() const {
@@ -51,6 +69,18 @@ int Bounds::LineParts::widest() const {
       std::max_element(nodes.begin(), nodes.end(),
                        [&](const BoxNode* a, const BoxNode* b) { return spread(a) < spread(b); }) -
       nodes.begin());
+}
+
+std::array<int, kSlotsPerGroup> Bounds::LineParts::places() const {
+  return {nodes[0]->first, nodes[1]->first, nodes[2]->first};
+}
+
+bool Bounds::LineParts::HoldAll(const std::vector<LineChoice>& choices) const {
+  return std::all_of(choices.begin(), choices.end(), [&](const LineChoice& choice) {
+    for (int s = 0; s < kSlotsPerGroup; ++s)
+      if (choice.places[s] < nodes[s]->first || choice.places[s] >= nodes[s]->last) return false;
+    return true;
+  });
 }
 
 std::array<int, kSlotsPerGroup> Bounds::LineParts::choices() const {
@@ -83,6 +113,7 @@ void Thin(std::vector<LineChoice>& choices) {
       }
     }
     choices[least].coil_power_w = choices[least + 1].coil_power_w;
+    choices[least].places = {-1, -1, -1};
     choices.erase(choices.begin() + static_cast<std::ptrdiff_t>(least) + 1);
   }
 }
@@ -93,17 +124,24 @@ void Thin(std::vector<LineChoice>& choices) {
 // box, each slot's lightest choice put together. So lines alone are searched best first, each found
 // only if its coils take less than those of the lines before. After so many divisions parts of the
 // box are taken for lines, those that would be looked at next first.
-Constraint Bounds::FindChoices(const LineKey& key, double& objective,
+Constraint Bounds::FindChoices(const LineKey& key, KnownLine& whole,
                                std::vector<LineChoice>& choices) {
   constexpr int kDivisions = 500, kMoreDivisions = 60;  // for the first line, after it
   int divisions_max = kDivisions;
-  using Open = std::pair<double, LineKey>;
-  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  open.push({objective, key});
+  struct Open {
+    double above;
+    LineKey key;
+    KnownLine* known;
+    bool operator<(const Open& other) const {  // lowest on top
+      return above != other.above ? above > other.above : key > other.key;
+    }
+  };
+  std::priority_queue<Open> open;
+  open.push({whole.objective, key, &whole});
   Constraint missed = Constraint::kNone;
   choices.clear();
   for (int divisions = 0; !open.empty();) {
-    const auto [above, lowest] = open.top();
+    const auto [above, lowest, lowest_known] = open.top();
     open.pop();
     const LineParts parts = PartsOf(lowest);
     const double coil_power_w = parts.corners.valve.coil_power_w;
@@ -111,24 +149,33 @@ Constraint Bounds::FindChoices(const LineKey& key, double& objective,
     if (parts.single() || divisions == divisions_max) {
       if (choices.empty()) divisions_max = std::min(divisions + kMoreDivisions, kDivisions);
       choices.push_back({above, coil_power_w});
+      if (parts.single()) choices.back().places = parts.places();
       continue;
     }
     ++divisions;
     const int widest = parts.widest();
-    for (int child : {parts.nodes[widest]->left, parts.nodes[widest]->right}) {
+    for (int half : {0, 1}) {
       LineKey part = lowest;
-      part.nodes[widest] = child;
-      const KnownLine& known = KnowLine(part);
+      part.nodes[widest] = half == 0 ? parts.nodes[widest]->left : parts.nodes[widest]->right;
+      KnownLine& known = KnowHalf(*lowest_known, parts, widest, half, part);
       if (known.missed == Constraint::kNone)
-        open.push({std::max(above, known.objective), part});
+        open.push({std::max(above, known.objective), part, &known});
       else if (missed == Constraint::kNone || missed == Constraint::kMating)
         missed = known.missed;
     }
   }
   if (choices.empty()) return missed;
   Thin(choices);
-  objective = choices.front().objective;
   return Constraint::kNone;
+}
+
+void Bounds::TakeChoices(KnownLine& known, std::vector<LineChoice> choices) const {
+  known.least = true;
+  known.objective = known.line->objective = choices.front().objective;
+  // What boxes have of it already was no more.
+  known.line->coil_power_w = std::max(known.line->coil_power_w, choices.back().coil_power_w);
+  known.line->choices = std::move(choices);
+  known.line->weights = weights_;
 }
 
 void Bounds::CombineChoices(Box& box) {
@@ -175,6 +222,11 @@ Constraint Bounds::RemakeLine(Box& box, int group) {
   const LineKey key = KeyOf(box, group);
   KnownLine& known = KnowLine(key);
   if (known.missed == Constraint::kNone && !known.line) known.line = Assemble(key);
+  // The lines that a larger box comes down to are those of each part that has all of them.
+  if (const Line* whole = box.lines[group].get();
+      whole && known.line && !known.least && whole->weights == weights_ &&
+      !whole->choices.empty() && PartsOf(key).HoldAll(whole->choices))
+    TakeChoices(known, whole->choices);
   box.lines[group] = known.line;
   box.lines_finished = false;
   box.choices = nullptr;
@@ -187,24 +239,22 @@ Constraint Bounds::FinishLines(Box& box) {
     const LineKey key = KeyOf(box, g);
     KnownLine& known = KnowLine(key);
     // Choices are of the weights that they were found with.
-    if (known.missed == Constraint::kNone && !(known.finished && known.least)) {
-      const bool finished = known.finished;
-      known.finished = known.least = true;
+    if (known.missed == Constraint::kNone && !known.least) {
       std::vector<LineChoice> choices;
-      known.missed = FindChoices(key, known.objective, choices);
-      const LineParts parts = PartsOf(key);
-      if (known.missed == Constraint::kNone) {
-        if (!known.line) known.line = Assemble(key);
-        known.line->objective = known.objective;
-        // What boxes have of it already was no more.
-        known.line->coil_power_w = std::max(known.line->coil_power_w, choices.back().coil_power_w);
-        known.line->choices = std::move(choices);
-        if (!finished)
-          FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
-                     plan_.configuration == Configuration::kCompressor, *known.line);
-      } else {
+      known.missed = FindChoices(key, known, choices);
+      if (known.missed != Constraint::kNone) {
+        known.least = true;
         known.line = nullptr;
+      } else {
+        if (!known.line) known.line = Assemble(key);
+        TakeChoices(known, std::move(choices));
       }
+    }
+    if (known.missed == Constraint::kNone && !known.finished) {
+      const LineParts parts = PartsOf(key);
+      known.finished = true;
+      FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
+                 plan_.configuration == Configuration::kCompressor, *known.line);
     }
     box.lines[g] = known.line;
     if (known.missed != Constraint::kNone) return known.missed;

@@ -131,10 +131,11 @@ Constraint Bounds::Reweigh(Box& box) {
       known.finished = box.lines_finished;
     }
     if (known.finished && !known.least) {
+      std::vector<LineChoice> choices;
       known.least = true;
-      known.missed = FindChoices(key, known.objective, known.line->choices);
+      known.missed = FindChoices(key, known, choices);
       if (known.missed != Constraint::kNone) return known.missed;
-      known.line->objective = known.objective;
+      TakeChoices(known, std::move(choices));
     }
     box.lines[g] = known.line;
   }

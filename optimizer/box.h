@@ -124,6 +124,8 @@ class Bounds {
     bool single() const;
     int widest() const;  // of a box that is not single: by the share of the objective
     std::array<int, kSlotsPerGroup> choices() const;  // indices of parts, of a single one
+    std::array<int, kSlotsPerGroup> places() const;   // the same, as in LineChoice
+    bool HoldAll(const std::vector<LineChoice>& choices) const;
   };
   LineParts PartsOf(const LineKey& key) const;
 
@@ -150,10 +152,18 @@ class Bounds {
     bool finished = false;       // by FinishLine()
     bool least = false;          // the objective is by FindChoices()
     int weights = 0;             // that the objective has
+    // Where FindChoices() divided it, and what is known of its halves.
+    int divided = -1;
+    std::array<KnownLine*, 2> halves{};
   };
-  KnownLine& KnowLine(const LineKey& key);
+  // `whole`: one that misses nothing and of which it is a part; null where none is at hand.
+  KnownLine& KnowLine(const LineKey& key, const LineParts* whole = nullptr);
+  void Weigh(const LineParts& parts, KnownLine& known) const;
+  KnownLine& KnowHalf(KnownLine& whole, const LineParts& parts, int slot, int half,
+                      const LineKey& key);
+  void TakeChoices(KnownLine& known, std::vector<LineChoice> choices) const;
   std::shared_ptr<Line> Assemble(const LineKey& key) const;
-  Constraint FindChoices(const LineKey& key, double& objective, std::vector<LineChoice>& choices);
+  Constraint FindChoices(const LineKey& key, KnownLine& known, std::vector<LineChoice>& choices);
   static void CombineChoices(Box& box);
   static LineKey KeyOf(const Box& box, int group);
   Constraint RemakeLine(Box& box, int group);

@@ -16,9 +16,10 @@ struct LineCorners {
 };
 
 // kNone, or why no source makes the line meet its group's limits: rise and fall time, half of the
-// period, pressure ratings.
+// period, pressure ratings. `wider`: of a box that passed and holds this one; strokes that are the
+// same are not looked at again.
 Constraint ScreenLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
-                      bool exact);
+                      bool exact, const LineCorners* wider = nullptr);
 
 // Without what FinishLine() adds.
 Line AssembleLine(const Problem& problem, int group, const LineCorners& corners);
