@@ -217,19 +217,25 @@ std::shared_ptr<Line> Bounds::Assemble(const LineKey& key) const {
   return line;
 }
 
+// From a larger box: the lines that it comes down to are those of each part that has all of them.
+void Bounds::TakeOver(const Line& whole, const LineParts& parts, KnownLine& known) const {
+  if (!known.least && whole.weights == weights_ && parts.HoldAll(whole.choices))
+    TakeChoices(known, whole.choices);
+  if (!known.finished && !parts.single())
+    known.finished = FinishLike(whole, parts.corners.valve, *known.line);
+}
+
 Constraint Bounds::RemakeLine(Box& box, int group) {
   if (lines_.size() > kLinesKept) lines_.clear();
   const LineKey key = KeyOf(box, group);
   KnownLine& known = KnowLine(key);
   if (known.missed == Constraint::kNone && !known.line) known.line = Assemble(key);
-  // The lines that a larger box comes down to are those of each part that has all of them.
-  if (const Line* whole = box.lines[group].get();
-      whole && known.line && !known.least && whole->weights == weights_ &&
-      !whole->choices.empty() && PartsOf(key).HoldAll(whole->choices))
-    TakeChoices(known, whole->choices);
+  const bool divided = box.lines_finished;  // a finished box, of which this is a part
+  if (divided && known.line) TakeOver(*box.lines[group], PartsOf(key), known);
   box.lines[group] = known.line;
-  box.lines_finished = false;
+  box.lines_finished = divided && known.line && known.least && known.finished;
   box.choices = nullptr;
+  if (box.lines_finished) CombineChoices(box);
   return known.missed;
 }
 
@@ -255,6 +261,7 @@ Constraint Bounds::FinishLines(Box& box) {
       known.finished = true;
       FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
                  plan_.configuration == Configuration::kCompressor, *known.line);
+      known.line->strokes = ++strokes_;
     }
     box.lines[g] = known.line;
     if (known.missed != Constraint::kNone) return known.missed;

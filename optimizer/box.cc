@@ -22,7 +22,9 @@ Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
       plan_(plan),
       bench_(bench),
       useful_(std::move(useful)),
-      gas_(GasOf(plan.configuration)) {}
+      gas_(GasOf(plan.configuration)),
+      limited_(useful_ || std::isfinite(problem.mass_max_kg) ||
+               std::isfinite(problem.volume_max_l) || std::isfinite(problem.cost_max_eur)) {}
 
 Box Bounds::Root() const {
   Box box;

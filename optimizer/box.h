@@ -32,6 +32,7 @@ struct VolumeNeed {
   double rest = 0.0;        // of reservoir, battery and energy, at least
   double with_lines = 0.0;  // the same with the lines, whose coils the battery feeds
   int look = -1;            // Box::look when it was looked at; less: in a larger box, still a bound
+  int rest_look = -1;       // the same of Box::rest_look, for rest and with_lines
   bool energy_known = false;  // by LeastMissionEnergy(), in that look
   int battery = -1;  // node of one that was the least that will do, here or in a larger box
 };
@@ -53,6 +54,8 @@ struct Box {
   Shared<std::vector<VolumeNeed>> volumes;  // compressor
   std::size_t lowest = 0;                   // of them: whose bound is that of the box
   int look = 0;                             // grows where the needs of volumes may have grown
+  int rest_look = 0;                        // grows where what is added to these may have
+  std::size_t needs_of = 0, rest_of = 0;    // hashes of what the two depend on
   double volume_ratio_max = 0.0;            // of the ends of an interval of made-to-measure volumes
   bool source_bounded = false;              // from below, for the real parts; regulated
   bool source_known = false;                // the least source pressure is that of the real parts
@@ -162,6 +165,7 @@ class Bounds {
   KnownLine& KnowHalf(KnownLine& whole, const LineParts& parts, int slot, int half,
                       const LineKey& key);
   void TakeChoices(KnownLine& known, std::vector<LineChoice> choices) const;
+  void TakeOver(const Line& whole, const LineParts& parts, KnownLine& known) const;
   std::shared_ptr<Line> Assemble(const LineKey& key) const;
   Constraint FindChoices(const LineKey& key, KnownLine& known, std::vector<LineChoice>& choices);
   static void CombineChoices(Box& box);
@@ -180,8 +184,12 @@ class Bounds {
 
   Constraint AssessCompressor(Box& box, int changed);
   Constraint NeedOfCompressor(Box& box) const;
+  void RenewLooks(Box& box) const;
   void RestrictVolumes(Box& box) const;
   bool IsWide(const Box& box, const VolumeNeed& volume) const;
+  static bool IsLookedAt(const Box& box, const VolumeNeed& volume) {
+    return volume.look == box.look && volume.rest_look == box.rest_look;
+  }
   bool IsSettled(const Box& box, const VolumeNeed& volume) const;
   static double LinesObjective(const Box& box);
   // Of the objective of all but the compressor, with these reservoirs.
@@ -224,7 +232,8 @@ class Bounds {
   const Workbench* bench_;
   std::function<bool(const Amounts&)> useful_;
   model::Gas gas_;
-  int weights_ = 0;
+  bool limited_;  // in amounts
+  int weights_ = 0, strokes_ = 0;
   std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;  // screened before
   // Per node of the compressors' tree: with boxes of lines, with single lines.
   std::unordered_map<int, PumpFacts> pumps_, chosen_pumps_;

@@ -70,6 +70,7 @@ struct Line {
   bool all_hold = false;
   double dead_volume_spread_m3 = 0.0;
   double coil_power_w = 0.0;  // whole group, while energised
+  int strokes = 0;            // the same for lines that a source fills alike, as Bounds counts them
   // For a finished box: each with less coil power and more objective than the one before; any line
   // of the box has no less of both than one of them.
   std::vector<LineChoice> choices;

@@ -168,6 +168,20 @@ void FinishLine(const Problem& problem, int g, model::Gas gas, const ValveCorner
   line.panels = MakeStrokePanels(problem, g, line.chamber);
 }
 
+bool FinishLike(const Line& wider, const ValveCorner& valve, Line& line) {
+  if (line.fill != wider.fill || line.chamber != wider.chamber ||
+      line.dead_volume_spread_m3 != wider.dead_volume_spread_m3 || line.holds != wider.holds ||
+      line.all_hold != wider.all_hold || line.source_max_pa != wider.source_max_pa)
+    return false;
+  line.source_min_pa = std::max(valve.pressure_min_pa, wider.source_min_pa);
+  line.inflate_time_least_s = wider.inflate_time_least_s;
+  line.fill_series = wider.fill_series;
+  line.fill_table = wider.fill_table;
+  line.panels = wider.panels;
+  line.strokes = wider.strokes;
+  return true;
+}
+
 Constraint MakeLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
                     bool exact, bool with_curve, Line& line) {
   const Constraint missed = ScreenLine(problem, g, gas, corners, exact);

@@ -30,6 +30,10 @@ Line AssembleLine(const Problem& problem, int group, const LineCorners& corners)
 void FinishLine(const Problem& problem, int group, model::Gas gas, const ValveCorner& valve,
                 bool exact, bool with_curve, Line& line);
 
+// What FinishLine() would add to a box of lines, from a larger box that has the same fill strokes;
+// false where they are not the same.
+bool FinishLike(const Line& wider, const ValveCorner& valve, Line& line);
+
 // All of it.
 Constraint MakeLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
                     bool exact, bool with_curve, Line& line);
