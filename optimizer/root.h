@@ -54,15 +54,24 @@ Bracket FeasibleBracket(Excess&& excess, double low, double high, double toleran
 }
 
 // Raises a floor below which the excess is known to be > 0 as far as it is, to the tolerance; none
-// where it still is at `high`. Cheap where the floor is already close.
+// where it still is at `high`. Cheap where the floor is already close: it is looked for in ever
+// longer steps.
 template <typename Excess>
 std::optional<double> RaisedFloor(Excess&& excess, double floor, double high, double tolerance) {
-  const double low = std::min(floor + tolerance * high, high);
-  const double f_low = excess(low);
+  constexpr double kGrowth = 4.0;
+  double step = tolerance * high;
+  double low = std::min(floor + step, high);
+  double f_low = excess(low);
   if (f_low <= 0.0) return floor;
-  const double f_high = low < high ? excess(high) : f_low;
-  if (f_high > 0.0) return std::nullopt;
-  return NarrowBracket(excess, low, f_low, high, f_high, tolerance).low;
+  while (low < high) {
+    step *= kGrowth;
+    const double next = std::min(floor + step, high);
+    const double f_next = excess(next);
+    if (f_next <= 0.0) return NarrowBracket(excess, low, f_low, next, f_next, tolerance).low;
+    low = next;
+    f_low = f_next;
+  }
+  return std::nullopt;
 }
 
 // Smallest x in [low, high] at which the excess was seen to be ≤ 0, to the tolerance.
