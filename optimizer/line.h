@@ -44,6 +44,7 @@ bool CostMatters(const Problem& problem);
 struct LineChoice {
   double objective = 0.0, coil_power_w = 0.0;
   std::array<int, 3> places{-1, -1, -1};
+  bool operator==(const LineChoice&) const = default;
 };
 
 struct Line {
