@@ -131,6 +131,7 @@ Constraint Bounds::Reweigh(Box& box) {
       known.line = std::make_shared<Line>(*box.lines[g]);
       known.line->objective = known.objective;
       known.finished = box.lines_finished;
+      known.least = false;
     }
     if (known.finished && !known.least) {
       std::vector<LineChoice> choices;
