@@ -109,6 +109,22 @@ struct ContentLaw {
   double a, b;
 };
 
+// 1/√(Σ C_i⁻²), the choked flow without critical ratios; 0 where elements are not enclosed.
+double LeastConductance(std::span<const FlowElement> elements, double flow_factor) {
+  if (!std::all_of(elements.begin(), elements.end(), Enclosed)) return 0.0;
+  double squares = 0.0;
+  for (const FlowElement& element : elements) {
+    const double c = element.sonic_conductance_m3_per_s_pa;
+    squares += 1.0 / (c * c);
+  }
+  return flow_factor / std::sqrt(squares);
+}
+
+double Longest(double integral, double conductance, double temperature_k) {
+  if (!(conductance > 0.0)) return std::numeric_limits<double>::infinity();
+  return Times({0.0, integral / conductance}, temperature_k).high_s;
+}
+
 }  // namespace
 
 CurveNodes MarchNodes(std::span<const FlowElement> elements, double flow_factor, double ratio_to,
@@ -186,6 +202,33 @@ Enclosure EncloseEmptyTime(const CurveNodes& nodes, const Chamber& chamber, doub
                                                          law.a * (b - a) + slope * log};
                                       }),
                temperature_k);
+}
+
+double FillTimeAtMost(std::span<const FlowElement> elements, double flow_factor,
+                      const Chamber& chamber, double source_pa, double from_pa, double to_pa,
+                      double temperature_k, double flow_max_m3_per_s) {
+  const double conductance = LeastConductance(elements, flow_factor);
+  if (!chamber.volume_curve.empty() || !(from_pa < to_pa && to_pa < source_pa) ||
+      flow_max_m3_per_s < conductance * source_pa)
+    return std::numeric_limits<double>::infinity();
+  // ∫ W(p) dp/√(p_s² − p²)
+  const ContentLaw law(chamber);
+  const auto root = [&](double p) { return std::sqrt((source_pa - p) * (source_pa + p)); };
+  const double angle = std::asin(to_pa / source_pa) - std::asin(from_pa / source_pa);
+  return Longest(law.a * angle + law.b * (root(from_pa) - root(to_pa)), conductance, temperature_k);
+}
+
+double EmptyTimeAtMost(std::span<const FlowElement> elements, double flow_factor,
+                       const Chamber& chamber, double from_pa, double to_pa, double temperature_k) {
+  const double ambient_pa = chamber.ambient_pressure_pa;
+  if (!chamber.volume_curve.empty() || !(ambient_pa < to_pa && to_pa < from_pa))
+    return std::numeric_limits<double>::infinity();
+  // ∫ W(p) dp/√(p² − p_a²)
+  const ContentLaw law(chamber);
+  const auto root = [&](double p) { return std::sqrt((p - ambient_pa) * (p + ambient_pa)); };
+  const double log = std::log((from_pa + root(from_pa)) / (to_pa + root(to_pa)));
+  return Longest(law.a * log + law.b * (root(from_pa) - root(to_pa)),
+                 LeastConductance(elements, flow_factor), temperature_k);
 }
 
 }  // namespace plenum::model

@@ -1,6 +1,7 @@
 // Boxes of the compressor configuration, whose families share one source pressure: it rises as the
 // reservoir shrinks, and the battery grows with it.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "model/storage.h"
@@ -29,7 +30,7 @@ Constraint Bounds::AssessCompressor(Box& box, int changed) {
   if (changed == plan_.battery_slot)
     for (VolumeNeed& volume : box.volumes.Own()) BoundRest(box, volume);
   else if (changed != plan_.reservoir_slot)
-    ++box.look;
+    RenewLooks(box);
   return RestOfCompressor(box);
 }
 
@@ -70,9 +71,54 @@ Constraint Bounds::NeedOfCompressor(Box& box) const {
   return box.window.empty() ? Constraint::kPressure : Constraint::kNone;
 }
 
+namespace {
+
+class Hash {
+ public:
+  template <typename Value>
+  void Add(Value value) {
+    static_assert(sizeof(Value) <= sizeof(value_));
+    if constexpr (sizeof(Value) == sizeof(value_))
+      value_ = (value_ ^ std::bit_cast<std::size_t>(value)) * 0x9e3779b97f4a7c15u;
+    else
+      Add(static_cast<std::size_t>(value));
+  }
+  std::size_t value() const { return value_; }
+
+ private:
+  std::size_t value_ = 1;
+};
+
+}  // namespace
+
+// What volumes need is found anew where it may have grown, not where lines and pumps fill them as
+// those of the larger box do. What hides a change, as an equal hash might, leaves bounds that hold.
+void Bounds::RenewLooks(Box& box) const {
+  if (!box.lines_finished) return;
+  Hash needs, rest;
+  needs.Add(box.nodes[plan_.compressor_slot]);
+  needs.Add(CoreIsSingle(box, plan_.reservoir_slot));
+  for (const std::shared_ptr<const Line>& line : box.lines) needs.Add(line->strokes);
+  for (double value : {box.coil_power_w, box.window.low_pa, box.window.high_pa}) needs.Add(value);
+  rest.Add(needs.value());
+  for (const LineChoice& choice : *box.choices) {
+    rest.Add(choice.objective);
+    rest.Add(choice.coil_power_w);
+  }
+  if (limited_) {
+    const Amounts amounts = LeastBesidesBattery(box);
+    for (double value : {amounts.mass_kg, amounts.volume_m3, amounts.cost_eur}) rest.Add(value);
+  }
+  if (needs.value() != box.needs_of) ++box.look;
+  if (rest.value() != box.rest_of) ++box.rest_look;
+  box.needs_of = needs.value();
+  box.rest_of = rest.value();
+}
+
 // Raises the objective of reservoir, battery and energy with a volume in the interval, at least,
 // and the same with the lines.
 void Bounds::BoundRest(const Box& box, VolumeNeed& volume) {
+  volume.rest_look = box.rest_look;
   double beyond_j = volume.need.energy_j;  // what the shares of the lines do not count
   BatteryLoad load{volume.need.energy_j, 0.0, box.coil_power_w, LeastBesidesBattery(box)};
   if (volume.need.energy_j > 0.0) {
@@ -111,6 +157,7 @@ Constraint Bounds::FindSource(Box& box) {
       if (const Constraint missed = FinishLines(box); missed != Constraint::kNone) return missed;
       if (const Constraint missed = NeedOfCompressor(box); missed != Constraint::kNone)
         return missed;
+      RenewLooks(box);
       return RestOfCompressor(box);
     }
     const VolumeNeed& lowest = (*box.volumes)[box.lowest];

@@ -10,7 +10,9 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr std::size_t kLinesKept = 50000;
+// Of lines that are only known to miss nothing, or something, many are kept: they take 0.1 kB each,
+// a line that was made 2.7 kB.
+constexpr std::size_t kLinesKept = 500'000, kLinesMade = 50'000;
 
 }  // namespace
 
@@ -20,11 +22,11 @@ std::size_t Bounds::LineKey::Hash::operator()(const LineKey& key) const {
   return hash ^ (hash >> 32);
 }
 
-Constraint Bounds::Screen(const LineKey& key) {
+Constraint Bounds::Screen(const LineKey& key, const LineParts& parts, const LineParts* whole) {
   LineVerdicts& verdicts = verdicts_[key.group];
   if (const Constraint* known = verdicts.Find(key.nodes)) return *known;
-  const LineParts parts = PartsOf(key);
-  Constraint missed = ScreenLine(problem_, key.group, gas_, parts.corners, parts.single());
+  Constraint missed = ScreenLine(problem_, key.group, gas_, parts.corners, parts.single(),
+                                 whole ? &whole->corners : nullptr);
   if (missed == Constraint::kNone && parts.single()) {
     const auto [tubing, fitting, valve] = parts.choices();
     if (!PartsMate(problem_, tubing, fitting, valve)) missed = Constraint::kMating;
@@ -33,15 +35,34 @@ Constraint Bounds::Screen(const LineKey& key) {
   return missed;
 }
 
-Bounds::KnownLine& Bounds::KnowLine(const LineKey& key) {
+Bounds::KnownLine& Bounds::KnowLine(const LineKey& key, const LineParts* whole) {
   const auto [entry, fresh] = lines_.try_emplace(key);
   KnownLine& known = entry->second;
   if (!fresh && known.weights == weights_) return known;
-  known.objective = PartsOf(key).objective();
+  const LineParts parts = PartsOf(key);
+  Weigh(parts, known);
+  if (fresh) known.missed = Screen(key, parts, whole);
+  return known;
+}
+
+void Bounds::Weigh(const LineParts& parts, KnownLine& known) const {
+  known.objective = parts.objective();
   known.weights = weights_;
   known.least = false;
   if (known.line) known.line->objective = known.objective;
-  return known;
+}
+
+// Kept with the whole, since most are asked for again and again.
+Bounds::KnownLine& Bounds::KnowHalf(KnownLine& whole, const LineParts& parts, int slot, int half,
+                                    const LineKey& key) {
+  if (whole.divided != slot) {
+    whole.divided = slot;
+    whole.halves = {};
+  }
+  KnownLine*& known = whole.halves[half];
+  if (known == nullptr) known = &KnowLine(key, &parts);
+  if (known->weights != weights_) Weigh(PartsOf(key), *known);
+  return *known;
 }
 
 double Bounds::LineParts::objective() const {
@@ -60,6 +81,18 @@ int Bounds::LineParts::widest() const {
       std::max_element(nodes.begin(), nodes.end(),
                        [&](const BoxNode* a, const BoxNode* b) { return spread(a) < spread(b); }) -
       nodes.begin());
+}
+
+std::array<int, kSlotsPerGroup> Bounds::LineParts::places() const {
+  return {nodes[0]->first, nodes[1]->first, nodes[2]->first};
+}
+
+bool Bounds::LineParts::HoldAll(const std::vector<LineChoice>& choices) const {
+  return std::all_of(choices.begin(), choices.end(), [&](const LineChoice& choice) {
+    for (int s = 0; s < kSlotsPerGroup; ++s)
+      if (choice.places[s] < nodes[s]->first || choice.places[s] >= nodes[s]->last) return false;
+    return true;
+  });
 }
 
 std::array<int, kSlotsPerGroup> Bounds::LineParts::choices() const {
@@ -92,6 +125,7 @@ void Thin(std::vector<LineChoice>& choices) {
       }
     }
     choices[least].coil_power_w = choices[least + 1].coil_power_w;
+    choices[least].places = {-1, -1, -1};
     choices.erase(choices.begin() + static_cast<std::ptrdiff_t>(least) + 1);
   }
 }
@@ -102,17 +136,24 @@ void Thin(std::vector<LineChoice>& choices) {
 // box, each slot's lightest choice put together. So lines alone are searched best first, each found
 // only if its coils take less than those of the lines before. After so many divisions parts of the
 // box are taken for lines, those that would be looked at next first.
-Constraint Bounds::FindChoices(const LineKey& key, double& objective,
+Constraint Bounds::FindChoices(const LineKey& key, KnownLine& whole,
                                std::vector<LineChoice>& choices) {
   constexpr int kDivisions = 500, kMoreDivisions = 60;  // for the first line, after it
   int divisions_max = kDivisions;
-  using Open = std::pair<double, LineKey>;
-  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  open.push({objective, key});
+  struct Open {
+    double above;
+    LineKey key;
+    KnownLine* known;
+    bool operator<(const Open& other) const {  // lowest on top
+      return above != other.above ? above > other.above : key > other.key;
+    }
+  };
+  std::priority_queue<Open> open;
+  open.push({whole.objective, key, &whole});
   Constraint missed = Constraint::kNone;
   choices.clear();
   for (int divisions = 0; !open.empty();) {
-    const auto [above, lowest] = open.top();
+    const auto [above, lowest, lowest_known] = open.top();
     open.pop();
     const LineParts parts = PartsOf(lowest);
     const double coil_power_w = parts.corners.valve.coil_power_w;
@@ -120,18 +161,19 @@ Constraint Bounds::FindChoices(const LineKey& key, double& objective,
     if (parts.single() || divisions == divisions_max) {
       if (choices.empty()) divisions_max = std::min(divisions + kMoreDivisions, kDivisions);
       choices.push_back({above, coil_power_w});
+      if (parts.single()) choices.back().places = parts.places();
       continue;
     }
     ++divisions;
     const int widest = parts.widest();
-    for (int child : {parts.nodes[widest]->left, parts.nodes[widest]->right}) {
+    for (int half : {0, 1}) {
       LineKey part = lowest;
-      part.nodes[widest] = child;
-      const Constraint why = Screen(part);
-      if (why == Constraint::kNone)
-        open.push({std::max(above, PartsOf(part).objective()), part});
+      part.nodes[widest] = half == 0 ? parts.nodes[widest]->left : parts.nodes[widest]->right;
+      KnownLine& known = KnowHalf(*lowest_known, parts, widest, half, part);
+      if (known.missed == Constraint::kNone)
+        open.push({std::max(above, known.objective), part, &known});
       else if (missed == Constraint::kNone || missed == Constraint::kMating)
-        missed = why;
+        missed = known.missed;
     }
   }
   if (choices.empty()) {
@@ -139,8 +181,16 @@ Constraint Bounds::FindChoices(const LineKey& key, double& objective,
     return missed;
   }
   Thin(choices);
-  objective = choices.front().objective;
   return Constraint::kNone;
+}
+
+void Bounds::TakeChoices(KnownLine& known, std::vector<LineChoice> choices) const {
+  known.least = true;
+  known.objective = known.line->objective = choices.front().objective;
+  // What boxes have of it already was no more.
+  known.line->coil_power_w = std::max(known.line->coil_power_w, choices.back().coil_power_w);
+  known.line->choices = std::move(choices);
+  known.line->weights = weights_;
 }
 
 void Bounds::CombineChoices(Box& box) {
@@ -182,42 +232,64 @@ std::shared_ptr<Line> Bounds::Assemble(const LineKey& key) const {
   return line;
 }
 
+void Bounds::Make(const LineKey& key, KnownLine& known) {
+  if (known.line) return;
+  known.line = Assemble(key);
+  ++lines_made_;
+}
+
+// From a larger box: the lines that it comes down to are those of each part that has all of them.
+void Bounds::TakeOver(const Line& whole, const LineParts& parts, KnownLine& known) const {
+  if (!known.least && whole.weights == weights_ && parts.HoldAll(whole.choices))
+    TakeChoices(known, whole.choices);
+  if (!known.finished && !parts.single())
+    known.finished = FinishLike(whole, parts.corners.valve, *known.line);
+}
+
 Constraint Bounds::RemakeLine(Box& box, int group) {
+  if (lines_.size() > kLinesKept || lines_made_ > kLinesMade) {
+    lines_.clear();
+    lines_made_ = 0;
+  }
   const LineKey key = KeyOf(box, group);
-  if (const Constraint missed = Screen(key); missed != Constraint::kNone) return missed;
-  if (lines_.size() > kLinesKept) lines_.clear();
   KnownLine& known = KnowLine(key);
-  if (!known.line) known.line = Assemble(key);
+  if (known.missed == Constraint::kNone) Make(key, known);
+  // A part of a finished box, if that has not forgotten its lines.
+  const bool divided = box.lines_finished && box.lines[group];
+  if (divided && known.line) TakeOver(*box.lines[group], PartsOf(key), known);
   box.lines[group] = known.line;
-  box.lines_finished = false;
+  box.lines_finished = divided && known.line && known.least && known.finished;
   box.choices = nullptr;
-  return Constraint::kNone;
+  if (box.lines_finished) CombineChoices(box);
+  return known.missed;
 }
 
 Constraint Bounds::FinishLines(Box& box) {
   box.lines_finished = true;
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
     const LineKey key = KeyOf(box, g);
-    if (const Constraint missed = Screen(key); missed != Constraint::kNone) return missed;
     KnownLine& known = KnowLine(key);
     // Choices are of the weights that they were found with.
-    if (!(known.finished && known.least)) {
+    if (known.missed == Constraint::kNone && !known.least) {
       std::vector<LineChoice> choices;
-      if (const Constraint missed = FindChoices(key, known.objective, choices);
-          missed != Constraint::kNone)
-        return missed;
-      if (!known.line) known.line = Assemble(key);
-      known.line->objective = known.objective;
-      // What boxes have of it already was no more.
-      known.line->coil_power_w = std::max(known.line->coil_power_w, choices.back().coil_power_w);
-      known.line->choices = std::move(choices);
+      known.missed = FindChoices(key, known, choices);
+      if (known.missed != Constraint::kNone) {
+        known.least = true;
+        known.line = nullptr;
+      } else {
+        Make(key, known);
+        TakeChoices(known, std::move(choices));
+      }
+    }
+    if (known.missed == Constraint::kNone && !known.finished) {
       const LineParts parts = PartsOf(key);
-      if (!known.finished)
-        FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
-                   plan_.configuration == Configuration::kCompressor, *known.line);
-      known.finished = known.least = true;
+      known.finished = true;
+      FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
+                 plan_.configuration == Configuration::kCompressor, *known.line);
+      known.line->strokes = ++strokes_;
     }
     box.lines[g] = known.line;
+    if (known.missed != Constraint::kNone) return known.missed;
   }
   CombineChoices(box);
   return Constraint::kNone;

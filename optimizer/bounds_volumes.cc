@@ -129,7 +129,7 @@ bool Bounds::IsWide(const Box& box, const VolumeNeed& volume) const {
 
 // Looked at for this box, and no longer to be halved.
 bool Bounds::IsSettled(const Box& box, const VolumeNeed& volume) const {
-  return volume.look == box.look && volume.energy_known && !IsWide(box, volume);
+  return IsLookedAt(box, volume) && volume.energy_known && !IsWide(box, volume);
 }
 
 double Bounds::TotalOf(const Box& box, const VolumeNeed& volume) const {
@@ -222,6 +222,10 @@ std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
 // done.
 Constraint Bounds::LookAtLowest(Box& box) {
   std::vector<VolumeNeed>& volumes = box.volumes.Own();
+  if (volumes[box.lowest].look == box.look && !IsLookedAt(box, volumes[box.lowest])) {
+    BoundRest(box, volumes[box.lowest]);
+    return RestOfCompressor(box);
+  }
   const VolumeNeed volume = volumes[box.lowest];
   volumes.erase(volumes.begin() + static_cast<std::ptrdiff_t>(box.lowest));
   if (volume.look == box.look && (volume.energy_known || IsWide(box, volume))) {

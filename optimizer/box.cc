@@ -23,7 +23,9 @@ Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
       bench_(bench),
       useful_(std::move(useful)),
       gas_(GasOf(plan.configuration)),
-      verdicts_(plan.groups.size()) {}
+      verdicts_(plan.groups.size()),
+      limited_(useful_ || std::isfinite(problem.mass_max_kg) ||
+               std::isfinite(problem.volume_max_l) || std::isfinite(problem.cost_max_eur)) {}
 
 Box Bounds::Root() const {
   Box box;
@@ -130,13 +132,14 @@ Constraint Bounds::Reweigh(Box& box) {
       known.line = std::make_shared<Line>(*box.lines[g]);
       known.line->objective = known.objective;
       known.finished = box.lines_finished;
+      known.least = false;
     }
     if (known.finished && !known.least) {
-      if (const Constraint missed = FindChoices(key, known.objective, known.line->choices);
-          missed != Constraint::kNone)
-        return missed;
+      std::vector<LineChoice> choices;
       known.least = true;
-      known.line->objective = known.objective;
+      known.missed = FindChoices(key, known, choices);
+      if (known.missed != Constraint::kNone) return known.missed;
+      TakeChoices(known, std::move(choices));
     }
     box.lines[g] = known.line;
   }

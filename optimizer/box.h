@@ -33,6 +33,7 @@ struct VolumeNeed {
   double rest = 0.0;        // of reservoir, battery and energy, at least
   double with_lines = 0.0;  // the same with the lines, whose coils the battery feeds
   int look = -1;            // Box::look when it was looked at; less: in a larger box, still a bound
+  int rest_look = -1;       // the same of Box::rest_look, for rest and with_lines
   bool energy_known = false;  // by LeastMissionEnergy(), in that look
   int battery = -1;  // node of one that was the least that will do, here or in a larger box
 };
@@ -55,6 +56,8 @@ struct Box {
   std::size_t lowest = 0;                   // of them: whose bound is that of the box
   double forgotten = kUnlimited;            // least bound of those that the list lacks
   int look = 0;                             // grows where the needs of volumes may have grown
+  int rest_look = 0;                        // grows where what is added to these may have
+  std::size_t needs_of = 0, rest_of = 0;    // hashes of what the two depend on
   double volume_ratio_max = 0.0;            // of the ends of an interval of made-to-measure volumes
   bool source_bounded = false;              // from below, for the real parts; regulated
   bool source_known = false;                // the least source pressure is that of the real parts
@@ -131,6 +134,8 @@ class Bounds {
     bool single() const;
     int widest() const;  // of a box that is not single: by the share of the objective
     std::array<int, kSlotsPerGroup> choices() const;  // indices of parts, of a single one
+    std::array<int, kSlotsPerGroup> places() const;   // the same, as in LineChoice
+    bool HoldAll(const std::vector<LineChoice>& choices) const;
   };
   LineParts PartsOf(const LineKey& key) const;
 
@@ -149,18 +154,29 @@ class Bounds {
   }
   bool CoreIsSingle(const Box& box, int except = -1) const;
 
-  // What is known of a box of lines that misses nothing, whatever the source.
+  // What is known of a box of lines, whatever the source.
   struct KnownLine {
+    Constraint missed = Constraint::kNone;
     double objective = 0.0;      // the corner's, at most that of the finished line
     std::shared_ptr<Line> line;  // of the corner; none before a box has it
     bool finished = false;       // by FinishLine()
     bool least = false;          // the objective is by FindChoices()
     int weights = 0;             // that the objective has
+    // Where FindChoices() divided it, and what is known of its halves.
+    int divided = -1;
+    std::array<KnownLine*, 2> halves{};
   };
-  Constraint Screen(const LineKey& key);
-  KnownLine& KnowLine(const LineKey& key);
+  // Both: `whole` is one that misses nothing and of which it is a part; null where none is at hand.
+  Constraint Screen(const LineKey& key, const LineParts& parts, const LineParts* whole);
+  KnownLine& KnowLine(const LineKey& key, const LineParts* whole = nullptr);
+  void Weigh(const LineParts& parts, KnownLine& known) const;
+  KnownLine& KnowHalf(KnownLine& whole, const LineParts& parts, int slot, int half,
+                      const LineKey& key);
+  void TakeChoices(KnownLine& known, std::vector<LineChoice> choices) const;
+  void TakeOver(const Line& whole, const LineParts& parts, KnownLine& known) const;
+  void Make(const LineKey& key, KnownLine& known);
   std::shared_ptr<Line> Assemble(const LineKey& key) const;
-  Constraint FindChoices(const LineKey& key, double& objective, std::vector<LineChoice>& choices);
+  Constraint FindChoices(const LineKey& key, KnownLine& known, std::vector<LineChoice>& choices);
   static void CombineChoices(Box& box);
   static LineKey KeyOf(const Box& box, int group);
   Constraint RemakeLine(Box& box, int group);
@@ -177,8 +193,12 @@ class Bounds {
 
   Constraint AssessCompressor(Box& box, int changed);
   Constraint NeedOfCompressor(Box& box) const;
+  void RenewLooks(Box& box) const;
   void RestrictVolumes(Box& box) const;
   bool IsWide(const Box& box, const VolumeNeed& volume) const;
+  static bool IsLookedAt(const Box& box, const VolumeNeed& volume) {
+    return volume.look == box.look && volume.rest_look == box.rest_look;
+  }
   bool IsSettled(const Box& box, const VolumeNeed& volume) const;
   static double LinesObjective(const Box& box);
   // Of the objective of all but the compressor, with these reservoirs.
@@ -223,9 +243,11 @@ class Bounds {
   const Workbench* bench_;
   std::function<bool(const Amounts&)> useful_;
   model::Gas gas_;
-  int weights_ = 0;
   std::vector<LineVerdicts> verdicts_;  // per group
+  bool limited_;                        // in amounts
+  int weights_ = 0, strokes_ = 0;
   std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;
+  std::size_t lines_made_ = 0;  // of them with a line
   // Per node of the compressors' tree: with boxes of lines, with single lines.
   std::unordered_map<int, PumpFacts> pumps_, chosen_pumps_;
 };

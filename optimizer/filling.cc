@@ -65,6 +65,14 @@ std::optional<double> Filling::LatenessAtLeast(double source_pa) {
 double Filling::InflateTimeAtLeast(double source_pa) { return Enclose(source_pa).inflate.low_s; }
 
 bool Filling::InTime(double source_pa) {
+  const auto most_s = [&](double to_pa) {
+    return model::FillTimeAtMost(elements_, flow_factor_, chamber_, source_pa,
+                                 problem_.ambient.pressure_pa, to_pa,
+                                 problem_.ambient.temperature_k, flow_max_m3_per_s_);
+  };
+  if (const double inflate_s = most_s(operating_pa_);
+      inflate_s <= half_period_s_ && (inflate_s <= rise_max_s_ || most_s(rise_pa_) <= rise_max_s_))
+    return true;
   const auto& [known, inflate, rise] = Enclose(source_pa);
   if (inflate.low_s > half_period_s_ || rise.low_s > rise_max_s_) return false;
   if (inflate.high_s <= half_period_s_ &&

@@ -3,6 +3,7 @@
 #ifndef PLENUM_OPTIMIZER_LINE_H_
 #define PLENUM_OPTIMIZER_LINE_H_
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -39,9 +40,12 @@ T ObjectiveOf(const Objective& objective, const AmountsOf<T>& amounts) {
 bool CostMatters(const Problem& problem);
 
 // Of a box of lines those with no more coil power, at least. Coils ask for more of the battery, so
-// that the lightest lines need not make the lightest design.
+// that the lightest lines need not make the lightest design. `places`: of a single line its tube,
+// fitting and valve in the orders of their trees; else −1.
 struct LineChoice {
   double objective = 0.0, coil_power_w = 0.0;
+  std::array<int, 3> places{-1, -1, -1};
+  bool operator==(const LineChoice&) const = default;
 };
 
 // How a line fills from a reservoir.
@@ -72,9 +76,11 @@ struct Line {
   bool all_hold = false;
   double dead_volume_spread_m3 = 0.0;
   double coil_power_w = 0.0;  // whole group, while energised
+  int strokes = 0;            // the same for lines that a source fills alike, as Bounds counts them
   // For a finished box: each with less coil power and more objective than the one before; any line
   // of the box has no less of both than one of them.
   std::vector<LineChoice> choices;
+  int weights = 0;  // that their objectives have, as Bounds counts them
 };
 
 // Tubes and fittings mate when their diameters agree to 0.05 mm, fittings and valves when thread

@@ -75,6 +75,9 @@ bool FallsInTime(const Problem& problem, const ActuatorGroup& group,
                  std::span<const model::FlowElement> exhaust, double factor,
                  const model::Chamber& chamber, double limit_s) {
   const double to_pa = FallTarget(problem, group);
+  if (model::EmptyTimeAtMost(exhaust, factor, chamber, group.chamber.operating_pressure_pa, to_pa,
+                             problem.ambient.temperature_k) <= limit_s)
+    return true;
   const model::Enclosure enclosure = model::EncloseEmptyTime(
       model::MarchNodes(exhaust, factor, chamber.ambient_pressure_pa / to_pa), chamber,
       group.chamber.operating_pressure_pa, to_pa, problem.ambient.temperature_k);
@@ -83,10 +86,15 @@ bool FallsInTime(const Problem& problem, const ActuatorGroup& group,
          FallTime(problem, group, exhaust, factor, chamber) <= limit_s;
 }
 
+bool SamePath(const LineCorners& a, const LineCorners& b) {
+  return a.tube.inner_low_m == b.tube.inner_low_m && a.tube.inner_high_m == b.tube.inner_high_m &&
+         a.fitting.flow == b.fitting.flow;
+}
+
 }  // namespace
 
 Constraint ScreenLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
-                      bool exact) {
+                      bool exact, const LineCorners* wider) {
   const ActuatorGroup& group = problem.groups[g];
   if (!(corners.tube.diameters & corners.fitting.diameters) ||
       !(corners.fitting.threads & corners.valve.threads))
@@ -95,14 +103,22 @@ Constraint ScreenLine(const Problem& problem, int g, model::Gas gas, const LineC
   if (source_max_pa < std::max(group.chamber.operating_pressure_pa, corners.valve.pressure_min_pa))
     return Constraint::kPressure;
 
+  const bool same = !exact && wider && SamePath(corners, *wider);
+  const bool falls = same && corners.valve.exhaust == wider->valve.exhaust;
+  const bool rises = same && corners.valve.fill == wider->valve.fill &&
+                     source_max_pa == SourceMax(problem, group, *wider);
+  if (falls && rises) return Constraint::kNone;
+
   const double factor = FlowFactor(problem, gas);
   const double slack = exact ? 1.0 : kBoxSlack;
   const model::Chamber chamber = ChamberWith(group, corners.tube);
   const Crossed elements = ElementsOf(group, corners);
   const double fall_max_s = std::min(group.fall_time_max_s, HalfPeriod(problem));
-  if (!FallsInTime(problem, group, elements.exhaust.span(), factor, chamber, fall_max_s * slack))
+  if (!falls &&
+      !FallsInTime(problem, group, elements.exhaust.span(), factor, chamber, fall_max_s * slack))
     return Constraint::kFall;
-  if (!Filling(problem, g, elements.fill.span(), factor, chamber, slack).InTime(source_max_pa))
+  if (!rises &&
+      !Filling(problem, g, elements.fill.span(), factor, chamber, slack).InTime(source_max_pa))
     return Constraint::kRise;
   return Constraint::kNone;
 }
@@ -149,6 +165,18 @@ void FinishLine(const Problem& problem, int g, model::Gas gas, const ValveCorner
   if (!with_curve) return;
   line.curve = std::make_shared<const FillCurve>(
       FillCurve{model::FlowTable(filling.series()), MakeStrokePanels(problem, g, line.chamber)});
+}
+
+bool FinishLike(const Line& wider, const ValveCorner& valve, Line& line) {
+  if (line.fill != wider.fill || line.chamber != wider.chamber ||
+      line.dead_volume_spread_m3 != wider.dead_volume_spread_m3 || line.holds != wider.holds ||
+      line.all_hold != wider.all_hold || line.source_max_pa != wider.source_max_pa)
+    return false;
+  line.source_min_pa = std::max(valve.pressure_min_pa, wider.source_min_pa);
+  line.inflate_time_least_s = wider.inflate_time_least_s;
+  line.curve = wider.curve;
+  line.strokes = wider.strokes;
+  return true;
 }
 
 Constraint MakeLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,

@@ -16,9 +16,10 @@ struct LineCorners {
 };
 
 // kNone, or why no source makes the line meet its group's limits: rise and fall time, half of the
-// period, pressure ratings.
+// period, pressure ratings. `wider`: of a box that passed and holds this one; strokes that are the
+// same are not looked at again.
 Constraint ScreenLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
-                      bool exact);
+                      bool exact, const LineCorners* wider = nullptr);
 
 // Without what FinishLine() adds.
 Line AssembleLine(const Problem& problem, int group, const LineCorners& corners);
@@ -28,6 +29,10 @@ Line AssembleLine(const Problem& problem, int group, const LineCorners& corners)
 // time; `with_curve`, for reservoirs, its curve and the panels of its strokes.
 void FinishLine(const Problem& problem, int group, model::Gas gas, const ValveCorner& valve,
                 bool exact, bool with_curve, Line& line);
+
+// What FinishLine() would add to a box of lines, from a larger box that has the same fill strokes;
+// false where they are not the same.
+bool FinishLike(const Line& wider, const ValveCorner& valve, Line& line);
 
 // All of it.
 Constraint MakeLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,

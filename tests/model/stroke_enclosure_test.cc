@@ -92,6 +92,43 @@ TEST(StrokeEnclosure, HoldsTheTimesOfRandomLines) {
   }
 }
 
+// Without critical ratios they are the times.
+TEST(StrokeEnclosure, ClosedFormsHoldTheTimesFromAbove) {
+  Draw draw;
+  double fills = 0.0, empties = 0.0;
+  const auto add = [](double most_s, double seconds, bool exact, double& above) {
+    ASSERT_GE(most_s, seconds);
+    ASSERT_LE(most_s, exact ? seconds * (1.0 + 1e-5) : kNever);
+    above += most_s / seconds - 1.0;
+  };
+  for (int i = 0; i < kDraws && !HasFatalFailure(); ++i) {
+    SCOPED_TRACE(i);
+    std::vector<FlowElement> elements = draw.Elements();
+    const bool exact = i % 4 == 0;
+    if (exact)
+      for (FlowElement& element : elements) element.critical_ratio = 0.0;
+    const double factor = draw.Between(0.7, 1.1), temperature_k = draw.Between(270.0, 320.0);
+    const Chamber chamber = draw.Room();
+    const Series series = MakeSeries(elements, factor);
+    const double from_pa = chamber.ambient_pressure_pa, top_pa = chamber.operating_pressure_pa;
+    const double source_pa = top_pa * draw.Log(1.0005, 5.0);
+    const double to_pa = draw.Between(1.001 * from_pa, top_pa);
+    add(FillTimeAtMost(elements, factor, chamber, source_pa, from_pa, to_pa, temperature_k),
+        FillTime(series, chamber, source_pa, from_pa, to_pa, temperature_k), exact, fills);
+    const double low_pa = from_pa + (top_pa - from_pa) * draw.Log(0.02, 0.9);
+    add(EmptyTimeAtMost(elements, factor, chamber, top_pa, low_pa, temperature_k),
+        EmptyTime(series, chamber, top_pa, low_pa, temperature_k), exact, empties);
+    // A limit that the line may come to.
+    const double limit_m3_per_s =
+        series.choked_flow_m3_per_s_pa * source_pa * draw.Between(0.3, 1.2);
+    ASSERT_GE(FillTimeAtMost(elements, factor, chamber, source_pa, from_pa, to_pa, temperature_k,
+                             limit_m3_per_s),
+              FillTime(series, chamber, source_pa, from_pa, to_pa, temperature_k, limit_m3_per_s));
+  }
+  EXPECT_LT(fills, 0.3 * kDraws);
+  EXPECT_LT(empties, 0.3 * kDraws);
+}
+
 TEST(StrokeEnclosure, KnowsNothingOfOtherCurvesAndTables) {
   FlowElement element{.sonic_conductance_m3_per_s_pa = 1e-8, .critical_ratio = 0.3};
   Chamber chamber;
@@ -100,7 +137,11 @@ TEST(StrokeEnclosure, KnowsNothingOfOtherCurvesAndTables) {
   chamber.operating_pressure_pa = 2e5;
   const auto known = [&] {
     const CurveNodes nodes = MarchNodes({{element}}, 1.0, 2.0 / 3.0);
-    return std::isfinite(EncloseFillTime(nodes, chamber, 3e5, 1e5, 2e5, 293.15).high_s);
+    const bool above =
+        std::isfinite(FillTimeAtMost({{element}}, 1.0, chamber, 3e5, 1e5, 2e5, 293.15));
+    EXPECT_EQ(std::isfinite(EmptyTimeAtMost({{element}}, 1.0, chamber, 2e5, 1.2e5, 293.15)), above);
+    EXPECT_EQ(std::isfinite(EncloseFillTime(nodes, chamber, 3e5, 1e5, 2e5, 293.15).high_s), above);
+    return above;
   };
   EXPECT_TRUE(known());
   element.subsonic_index = 0.6;

@@ -275,6 +275,55 @@ TEST(BoundsTest, LeastObjectiveOfLines) {
   EXPECT_GT(above_corner, 5);
 }
 
+// A part of a box with the same strokes has its lines and looks from it, and they are those that it
+// would have found itself.
+TEST(BoundsTest, PartsTakeOverWhatHoldsForThem) {
+  int taken_over = 0, not_looked_at_anew = 0;
+  const auto find = [](Bounds& bounds, Box& box) {
+    while (bounds.CanFindSource(box))
+      if (bounds.FindSource(box) != Constraint::kNone) return false;
+    return true;
+  };
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Problem problem = Drawn(seed, Configuration::kCompressor, 1);
+    const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, Configuration::kCompressor);
+    if (plan->empty()) continue;
+    Bounds bounds(problem, *plan);
+    Box root = bounds.Root();
+    if (bounds.Assess(root, -1) != Constraint::kNone || !find(bounds, root)) continue;
+    for (int slot = 0; slot < optimizer::kSlotsPerGroup; ++slot) {
+      const BoxNode& node = (*plan->slots[slot].nodes)[0];
+      if (node.single()) continue;
+      for (int child : {node.left, node.right}) {
+        Box part = root;
+        part.nodes[slot] = child;
+        if (bounds.Assess(part, slot) != Constraint::kNone || !part.lines_finished) continue;
+        ++taken_over;
+        Bounds alone(problem, *plan);
+        Box same = alone.Root();
+        same.nodes = part.nodes;
+        ASSERT_EQ(alone.Assess(same, -1), Constraint::kNone);
+        while (!same.lines_finished) ASSERT_EQ(alone.FindSource(same), Constraint::kNone);
+        const Line& line = *part.lines[0];
+        const Line& expected = *same.lines[0];
+        EXPECT_EQ(line.objective, expected.objective);
+        EXPECT_EQ(line.coil_power_w, expected.coil_power_w);
+        EXPECT_EQ(line.choices, expected.choices);
+        EXPECT_EQ(line.source_min_pa, expected.source_min_pa);
+        EXPECT_EQ(line.inflate_time_least_s, expected.inflate_time_least_s);
+        EXPECT_EQ(line.fill, expected.fill);
+        EXPECT_EQ(line.chamber, expected.chamber);
+        not_looked_at_anew += part.look == root.look;
+        ASSERT_EQ(find(alone, same), find(bounds, part));
+        EXPECT_GE(part.bound, same.bound * (1.0 - 1e-9));
+      }
+    }
+  }
+  EXPECT_GT(taken_over, 20);
+  EXPECT_GT(not_looked_at_anew, 10);
+}
+
 // The lightest lines and the battery that makes do with the least coils are not of one design.
 TEST(BoundsTest, CoilsCountWithTheirLines) {
   int raised = 0;

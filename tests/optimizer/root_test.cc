@@ -26,23 +26,40 @@ void ExpectRoot(Excess&& excess, double low, double high, double root, int calls
 }
 
 TEST(SmallestFeasibleTest, SmoothFunctionsTakeFewCalls) {
-  ExpectRoot([](double x) { return 1.0 / x - 0.25; }, 1.0, 10.0, 4.0, 20);
+  ExpectRoot([](double x) { return 1.0 / x - 0.25; }, 1.0, 10.0, 4.0, 12);
   ExpectRoot([](double x) { return 3.0 - x; }, 1.0, 10.0, 3.0, 12);
-  ExpectRoot([](double x) { return std::exp(-x) - 1e-3; }, 0.5, 50.0, std::log(1e3), 40);
+  ExpectRoot([](double x) { return std::exp(-x) - 1e-3; }, 0.5, 50.0, std::log(1e3), 20);
 }
 
 TEST(SmallestFeasibleTest, StepsAndInfinitiesAreBisected) {
   ExpectRoot([](double x) { return x < 2.7 ? 1.0 : -1.0; }, 1.0, 8.0, 2.7, 80);
   ExpectRoot([](double x) { return x < 2.7 ? kInfinity : -1.0; }, 1.0, 8.0, 2.7, 80);
   ExpectRoot([](double x) { return x < 2.0 ? kInfinity : 1.0 / (x - 1.99) - 10.0; }, 1.0, 8.0, 2.09,
-             60);
+             16);
   ExpectRoot([](double x) { return x < 2.0 ? kInfinity : -kInfinity; }, 1.0, 8.0, 2.0, 80);
 }
 
 TEST(SmallestFeasibleTest, FlatPartsAreCrossed) {
   ExpectRoot([](double x) { return x < 3.0 ? 1.0 : 4.0 - x; }, 1.0, 10.0, 4.0, 80);
-  // Zero from the root on: only every fourth step, the halving, makes way.
-  ExpectRoot([](double x) { return std::max(0.0, 5.0 - x); }, 1.0, 10.0, 5.0, 4 * 31);
+  // Zero from the root on: only every third step, the halving, makes way.
+  ExpectRoot([](double x) { return std::max(0.0, 5.0 - x); }, 1.0, 10.0, 5.0, 3 * 31 + 2);
+}
+
+TEST(RaisedFloorTest, NearRootsTakeFewCalls) {
+  for (double root : {1.7, 2.0, 2.5, 3.0, 7.0}) {
+    int calls = 0;
+    const auto excess = [&](double x) {
+      ++calls;
+      return 1.0 / x - 1.0 / root;
+    };
+    const std::optional<double> floor = RaisedFloor(excess, 1.5, 100.0, 1e-3);
+    ASSERT_TRUE(floor.has_value());
+    EXPECT_GT(1.0 / *floor, 1.0 / root);
+    EXPECT_LE(root - *floor, 1e-3 * 100.0);
+    EXPECT_LE(calls, 8) << root;
+  }
+  EXPECT_FALSE(RaisedFloor([](double) { return 1.0; }, 1.5, 100.0, 1e-3).has_value());
+  EXPECT_EQ(RaisedFloor([](double x) { return 1.55 - x; }, 1.5, 100.0, 1e-3), 1.5);
 }
 
 TEST(SmallestFeasibleTest, LowEndThatIsFeasibleComesBackAtOnce) {
