@@ -23,15 +23,13 @@ std::size_t Bounds::LineKey::Hash::operator()(const LineKey& key) const {
 }
 
 Constraint Bounds::Screen(const LineKey& key, const LineParts& parts, const LineParts* whole) {
-  LineVerdicts& verdicts = verdicts_[key.group];
-  if (const Constraint* known = verdicts.Find(key.nodes)) return *known;
+  if (const Constraint* known = verdicts_[key.group].Find(key.nodes)) return *known;
   Constraint missed = ScreenLine(problem_, key.group, gas_, parts.corners, parts.single(),
                                  whole ? &whole->corners : nullptr);
   if (missed == Constraint::kNone && parts.single()) {
     const auto [tubing, fitting, valve] = parts.choices();
     if (!PartsMate(problem_, tubing, fitting, valve)) missed = Constraint::kMating;
   }
-  verdicts.Set(key.nodes, missed);
   return missed;
 }
 
@@ -176,10 +174,7 @@ Constraint Bounds::FindChoices(const LineKey& key, KnownLine& whole,
         missed = known.missed;
     }
   }
-  if (choices.empty()) {
-    verdicts_[key.group].Set(key.nodes, missed);
-    return missed;
-  }
+  if (choices.empty()) return missed;
   Thin(choices);
   return Constraint::kNone;
 }
@@ -246,11 +241,15 @@ void Bounds::TakeOver(const Line& whole, const LineParts& parts, KnownLine& know
     known.finished = FinishLike(whole, parts.corners.valve, *known.line);
 }
 
+// All but what they miss, which is asked far more often than of anything else.
+void Bounds::ForgetLines() {
+  for (const auto& [key, known] : lines_) verdicts_[key.group].Set(key.nodes, known.missed);
+  lines_.clear();
+  lines_made_ = 0;
+}
+
 Constraint Bounds::RemakeLine(Box& box, int group) {
-  if (lines_.size() > kLinesKept || lines_made_ > kLinesMade) {
-    lines_.clear();
-    lines_made_ = 0;
-  }
+  if (lines_.size() > kLinesKept || lines_made_ > kLinesMade) ForgetLines();
   const LineKey key = KeyOf(box, group);
   KnownLine& known = KnowLine(key);
   if (known.missed == Constraint::kNone) Make(key, known);

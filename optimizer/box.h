@@ -175,6 +175,7 @@ class Bounds {
   void TakeChoices(KnownLine& known, std::vector<LineChoice> choices) const;
   void TakeOver(const Line& whole, const LineParts& parts, KnownLine& known) const;
   void Make(const LineKey& key, KnownLine& known);
+  void ForgetLines();
   std::shared_ptr<Line> Assemble(const LineKey& key) const;
   Constraint FindChoices(const LineKey& key, KnownLine& known, std::vector<LineChoice>& choices);
   static void CombineChoices(Box& box);
@@ -243,7 +244,7 @@ class Bounds {
   const Workbench* bench_;
   std::function<bool(const Amounts&)> useful_;
   model::Gas gas_;
-  std::vector<LineVerdicts> verdicts_;  // per group
+  std::vector<LineVerdicts> verdicts_;  // per group, of lines that were forgotten
   bool limited_;                        // in amounts
   int weights_ = 0, strokes_ = 0;
   std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;
