@@ -269,7 +269,7 @@ class BoxSearch {
   // they are taken back (ConfirmList) what was forgotten is found anew.
   void SaveRoomIfCrowded() {
     if (open_.size() < crowd_) return;
-    crowd_ += crowd_ / 2 + 1;
+    crowd_ += crowd_ / 4 + 1;
     const auto improves = [&](const Node& node, int turns) {
       const double before = ranking_.run_end();
       DiveFrom(node.box, turns, problem_, *node.bounds, bench_.stop, ranking_);
