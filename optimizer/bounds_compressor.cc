@@ -1,12 +1,12 @@
 // Boxes of the compressor configuration, whose families share one source pressure: it rises as the
 // reservoir shrinks, and the battery grows with it.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "model/storage.h"
 #include "optimizer/box.h"
 #include "optimizer/evaluate_strokes.h"
+#include "optimizer/hash.h"
 #include "optimizer/line.h"
 #include "optimizer/sizing.h"
 
@@ -70,26 +70,6 @@ Constraint Bounds::NeedOfCompressor(Box& box) const {
        CornerAt(plan_.reservoirs, box, plan_.reservoir_slot).pressure_max_pa});
   return box.window.empty() ? Constraint::kPressure : Constraint::kNone;
 }
-
-namespace {
-
-class Hash {
- public:
-  template <typename Value>
-  void Add(Value value) {
-    static_assert(sizeof(Value) <= sizeof(value_));
-    if constexpr (sizeof(Value) == sizeof(value_))
-      value_ = (value_ ^ std::bit_cast<std::size_t>(value)) * 0x9e3779b97f4a7c15u;
-    else
-      Add(static_cast<std::size_t>(value));
-  }
-  std::size_t value() const { return value_; }
-
- private:
-  std::size_t value_ = 1;
-};
-
-}  // namespace
 
 // What volumes need is found anew where it may have grown, not where lines and pumps fill them as
 // those of the larger box do. What hides a change, as an equal hash might, leaves bounds that hold.

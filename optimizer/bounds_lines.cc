@@ -4,6 +4,7 @@
 #include <queue>
 
 #include "optimizer/box.h"
+#include "optimizer/hash.h"
 #include "optimizer/line.h"
 #include "optimizer/make_line.h"
 
@@ -17,9 +18,10 @@ constexpr std::size_t kLinesKept = 150'000, kLinesMade = 50'000;
 }  // namespace
 
 std::size_t Bounds::LineKey::Hash::operator()(const LineKey& key) const {
-  std::size_t hash = static_cast<std::size_t>(key.group);
-  for (int node : key.nodes) hash = (hash ^ static_cast<std::size_t>(node)) * 0x9e3779b97f4a7c15u;
-  return hash ^ (hash >> 32);
+  optimizer::Hash hash;
+  hash.Add(key.group);
+  for (int node : key.nodes) hash.Add(node);
+  return hash.place();
 }
 
 Constraint Bounds::Screen(const LineKey& key, const LineParts& parts, const LineParts* whole) {

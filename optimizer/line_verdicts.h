@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "optimizer/hash.h"
 #include "optimizer/plan.h"
 #include "optimizer/proof.h"
 
@@ -49,10 +50,10 @@ class LineVerdicts {
 
   // Where the box is, or would be put.
   std::size_t PlaceOf(const Nodes& nodes) const {
-    std::size_t hash = 0;
-    for (int node : nodes) hash = (hash ^ static_cast<std::size_t>(node)) * 0x9e3779b97f4a7c15u;
+    Hash hash;
+    for (int node : nodes) hash.Add(node);
     const std::size_t last = places_.size() - 1;  // a power of 2 less 1
-    std::size_t at = (hash ^ (hash >> 32)) & last;
+    std::size_t at = hash.place() & last;
     while (!Same(places_[at].nodes, nodes) && !places_[at].free()) at = (at + 1) & last;
     return at;
   }

@@ -275,15 +275,17 @@ TEST(BoundsTest, LeastObjectiveOfLines) {
   EXPECT_GT(above_corner, 5);
 }
 
+// All that can be found of a box; whether it misses nothing.
+bool FindAll(Bounds& bounds, Box& box) {
+  while (bounds.CanFindSource(box))
+    if (bounds.FindSource(box) != Constraint::kNone) return false;
+  return true;
+}
+
 // A part of a box with the same strokes has its lines and looks from it, and they are those that it
 // would have found itself.
 TEST(BoundsTest, PartsTakeOverWhatHoldsForThem) {
   int taken_over = 0, not_looked_at_anew = 0;
-  const auto find = [](Bounds& bounds, Box& box) {
-    while (bounds.CanFindSource(box))
-      if (bounds.FindSource(box) != Constraint::kNone) return false;
-    return true;
-  };
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Problem problem = Drawn(seed, Configuration::kCompressor, 1);
@@ -291,7 +293,7 @@ TEST(BoundsTest, PartsTakeOverWhatHoldsForThem) {
     if (plan->empty()) continue;
     Bounds bounds(problem, *plan);
     Box root = bounds.Root();
-    if (bounds.Assess(root, -1) != Constraint::kNone || !find(bounds, root)) continue;
+    if (bounds.Assess(root, -1) != Constraint::kNone || !FindAll(bounds, root)) continue;
     for (int slot = 0; slot < optimizer::kSlotsPerGroup; ++slot) {
       const BoxNode& node = (*plan->slots[slot].nodes)[0];
       if (node.single()) continue;
@@ -315,7 +317,7 @@ TEST(BoundsTest, PartsTakeOverWhatHoldsForThem) {
         EXPECT_EQ(line.fill, expected.fill);
         EXPECT_EQ(line.chamber, expected.chamber);
         not_looked_at_anew += part.look == root.look;
-        ASSERT_EQ(find(alone, same), find(bounds, part));
+        ASSERT_EQ(FindAll(alone, same), FindAll(bounds, part));
         EXPECT_GE(part.bound, same.bound * (1.0 - 1e-9));
       }
     }
@@ -350,10 +352,7 @@ TEST(BoundsTest, CoilsCountWithTheirLines) {
     if (plan->empty()) continue;
     Bounds bounds(problem, *plan);
     Box root = bounds.Root();
-    Constraint missed = bounds.Assess(root, -1);
-    while (missed == Constraint::kNone && bounds.CanFindSource(root))
-      missed = bounds.FindSource(root);
-    if (missed != Constraint::kNone) continue;
+    if (bounds.Assess(root, -1) != Constraint::kNone || !FindAll(bounds, root)) continue;
     raised += std::any_of(root.volumes->begin(), root.volumes->end(), [&](const auto& volume) {
       return volume.with_lines > (root.lines[0]->objective + volume.rest) * (1.0 + 1e-9);
     });
