@@ -88,6 +88,9 @@ class OneStepIntegrator {
   // beyond the bound of an explicit method's stability, with nothing in the values to tell.
   static constexpr double kAtRest = 1e-4;
   static constexpr double kDerivativeShare = 1e-4;  // of the largest so far, that a step may err by
+  // Below this share of what moves most along a direction, each by its size, derivatives are
+  // rounding: no step, however short, makes their errors smaller.
+  static constexpr double kRounding = 1e-9;
 
   double Norm(std::span<const T> before, std::span<const T> after, std::span<const T> error) const {
     double norm = 0.0;
@@ -106,12 +109,20 @@ class OneStepIntegrator {
   }
 
   double DerivativeNorm(std::span<const T> error) const {
+    Derivatives moves = Derivatives::Zero();
+    for (std::size_t i = 0; i < error.size(); ++i) moves = moves.cwiseMax(largest_[i] / Size(i));
     double norm = 0.0;
-    for (std::size_t i = 0; i < error.size(); ++i)
+    for (std::size_t i = 0; i < error.size(); ++i) {
+      const Derivatives size = largest_[i].cwiseMax(kRounding * Size(i) * moves);
       for (int k = 0; k < kDirections; ++k)
         if (largest_[i][k] > 0.0)
-          norm = std::max(norm, std::abs(error[i].v[k]) / (kDerivativeShare * largest_[i][k]));
+          norm = std::max(norm, std::abs(error[i].v[k]) / (kDerivativeShare * size[k]));
+    }
     return norm;
+  }
+
+  double Size(std::size_t i) const {
+    return std::max(std::abs(ValueOf(stepper_.state()[i])), system_.sizes()[i]);
   }
 
   void NoteDerivatives() {
@@ -124,7 +135,7 @@ class OneStepIntegrator {
     double step_s = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < system_.dynamic_size(); ++i) {
       const double slope = std::abs(ValueOf(stepper_.derivative()[i]));
-      const double size = std::max(std::abs(ValueOf(stepper_.state()[i])), system_.sizes()[i]);
+      const double size = Size(i);
       if (slope > 0.0) step_s = std::min(step_s, 1e-2 * size / slope);
     }
     return step_s;

@@ -484,5 +484,30 @@ TEST(Sensitivity, OfALaggingReadingAtRestDecaysWithThePressure) {
   }
 }
 
+// A closed chamber keeps its pressures at any size: their derivatives by it are rounding, which no
+// step, however short, makes smaller.
+TEST(Sensitivity, OfWhatIsNothingButRoundingAsksForNoShorterSteps) {
+  for (int draw = 0; draw < 200; ++draw) {
+    GroupRig group = OneActuator(2e5, 1.55, kValve);
+    group.chamber.rest_volume_m3 = 1e-6 * (20.0 + 7.3 * (draw % 25));
+    group.effects = {{FindEffect("creep"), {0.0744, 1.54 + 0.013 * (draw % 11)}}};
+    group.schedule = {};
+    group.initial_pressure_pa = group.chamber.ambient_pressure_pa + 11.1 * (draw - 100) + 1.1;
+    const Rig rig = RigOf(Regulated(3e5), {group});
+    SimulateOptions options = Until(2.0, 100.0);
+    options.relative_tolerance = 5e-7;
+    options.absolute_tolerance_pa = 5e-3;
+    const double* volume = &rig.groups[0].chamber.rest_volume_m3;
+    const std::vector<Direction> size = {{{volume, 0.97 * *volume}}};
+    const SensitivityResponse r = SimulateAlongDirections(rig, options, size);
+    ASSERT_EQ(r.response.status, SimulateStatus::kDone) << r.response.detail;
+    EXPECT_LT(r.response.steps, 100u) << draw;
+    const std::vector<double>& pressure_pa = r.response.groups[0].pressure_pa;
+    EXPECT_NE(pressure_pa.back(), pressure_pa.front());
+    for (const double derivative_pa : r.derivatives[0].groups[0].pressure_pa)
+      EXPECT_NEAR(derivative_pa, 0.0, 1e-9 * pressure_pa.front());
+  }
+}
+
 }  // namespace
 }  // namespace plenum::model
