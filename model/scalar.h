@@ -15,7 +15,7 @@
 
 namespace plenum::model {
 
-inline constexpr int kDirections = 8;
+inline constexpr int kDirections = 10;  // most fits have 7 to 10 numbers that move a run
 using Dual = ceres::Jet<double, kDirections>;
 
 template <class T>
