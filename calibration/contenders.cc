@@ -25,6 +25,7 @@ constexpr double kHopeful = 0.5;
 constexpr std::size_t kAlwaysOn = 6;
 constexpr double kNear = 20.0;       // of BIC
 constexpr double kNearShare = 0.02;  // of what the best set gains over the base model
+constexpr std::size_t kLeadingLengths = 3;
 
 bool IsLost(const Contenders::Job& job) {
   return job.set.size() == 1u && job.fit.status == FitStatus::kIterationsSpent &&
@@ -231,27 +232,38 @@ void Contenders::Refine(int size) {
   });
 }
 
+// The lengths at which the line may ring in step race: some steps of each, more of those that lead,
+// and the best one to the last digit. Where that is clearly better there may be more.
 void Contenders::FitInStep(Contender& contender) {
   FitOptions scan = Screening();
   scan.threads = options_->threads;
-  FitOptions tight = Tight();
-  tight.threads = 1;
-  for (bool better = true; better && !Cancelled();) {
-    const std::vector<ModelState> starts = ScannedAgain(data, contender.fit, scan);
-    std::vector<Fit> fits(starts.size());
-    ForAll(starts.size(), options_->threads, [&](std::size_t i) {
-      fits[i] = FitModel(data, starts[i], Further());
-      if (!fits[i].Usable() || fits[i].bic > contender.fit.bic + kNear) return;
-      fits[i] = FitModel(data, fits[i].state, tight);
-      Narrow(data, tight, fits[i]);
-    });
-    better = false;
-    for (Fit& fit : fits) {
-      if (!fit.Usable() || !(fit.bic < contender.fit.bic - kSameOptimum)) continue;
-      contender.fit = std::move(fit);
-      better = true;
+  const std::pair<FitOptions, std::size_t> laps[] = {
+      {Screening(), kLeadingLengths}, {Further(), 1}, {Tight(), 1}};
+  for (bool again = true; again && !Cancelled();) {
+    std::vector<Fit> fits;
+    for (ModelState& start : ScannedAgain(data, contender.fit, scan))
+      fits.emplace_back().state = std::move(start);
+    for (const auto& [options, left] : laps) {
+      FitModels(options, fits);
+      fits.resize(std::min(fits.size(), left));
     }
+    if (fits.empty() || !fits.front().Usable()) return;
+    Narrow(data, Tight(), fits.front());
+    const double gain = contender.fit.bic - fits.front().bic;
+    if (gain > kSameOptimum) contender.fit = std::move(fits.front());
+    again = gain > kTie;
   }
+}
+
+// Goes on with each; the best comes first.
+void Contenders::FitModels(const FitOptions& options, std::vector<Fit>& fits) const {
+  FitOptions each = options;
+  if (fits.size() > 1u) each.threads = 1;
+  ForAll(fits.size(), options_->threads,
+         [&](std::size_t i) { fits[i] = FitModel(data, fits[i].state, each); });
+  std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
+    return a.Usable() != b.Usable() ? a.Usable() : a.bic < b.bic;
+  });
 }
 
 void Contenders::Take(Job job) {

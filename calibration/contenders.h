@@ -73,7 +73,7 @@ class Contenders {
   void RunJobs(std::vector<Job>& jobs, double from_share, double to_share, const std::string& what);
 
   // Fits a set with an effect that rings again from other lengths of its line (start_scan.h), until
-  // none does better.
+  // none does clearly better.
   void FitInStep(Contender& contender);
 
   bool Cancelled() const { return options_->cancelled && options_->cancelled(); }
@@ -92,6 +92,7 @@ class Contenders {
                 double to_share, const std::string& what);
   std::vector<Job*> Hopeful(std::vector<Job*> jobs) const;
   void Refine(int size);
+  void FitModels(const FitOptions& options, std::vector<Fit>& fits) const;
   void Take(Job job);
   struct Starts {
     std::size_t size = 0;  // of the sets

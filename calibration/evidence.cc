@@ -6,12 +6,14 @@
 #include <complex>
 #include <unsupported/Eigen/FFT>
 
+#include "calibration/parallel.h"
 #include "calibration/thresholds.h"
 
 namespace plenum::calibration {
 namespace {
 
 constexpr std::size_t kReweighed = 6;
+constexpr double kFixedBic = 0.01;  // by how much less the last step may change it
 
 // Σ e_i·e_{i−k} by lag k: the inverse transform of |ê|², with as many zeros behind e that no lag
 // wraps around.
@@ -61,15 +63,21 @@ void Reweigh(const FitData& data, const FitOptions& options, double memory,
       return BicWith(a->fit, memory) < BicWith(b->fit, memory);
     });
     best.resize(std::min(best.size(), kReweighed));
-    for (Contender* contender : best) {
+    ForAll(best.size(), options.threads, [&](std::size_t i) {
+      Contender& contender = *best[i];
       FitOptions weighed = options;
-      weighed.weight = 1.0 / (memory * std::max(1.0, contender->fit.chi2_data /
-                                                         static_cast<double>(contender->fit.rows)));
-      Fit fit = FitModel(data, contender->fit.state, weighed);
-      Narrow(data, options, fit);
-      if (fit.Usable() && BicWith(fit, memory) < BicWith(contender->fit, memory))
-        contender->fit = std::move(fit);
-    }
+      weighed.threads = 1;
+      weighed.weight = 1.0 / (memory * std::max(1.0, contender.fit.chi2_data /
+                                                         static_cast<double>(contender.fit.rows)));
+      // Readings of less worth need less.
+      weighed.noise_share /= std::sqrt(weighed.weight);
+      weighed.function_tolerance = std::max(
+          options.function_tolerance, kFixedBic * memory / static_cast<double>(contender.fit.rows));
+      Fit fit = FitModel(data, contender.fit.state, weighed);
+      Narrow(data, weighed, fit);
+      if (fit.Usable() && BicWith(fit, memory) < BicWith(contender.fit, memory))
+        contender.fit = std::move(fit);
+    });
   }
 }
 
