@@ -1,7 +1,8 @@
-// What boxes of lines are known to miss. Searches ask this of millions of boxes, far more often
-// than of anything else that is kept, so that it is packed: 16 bytes each, next to each other.
-#ifndef PLENUM_OPTIMIZER_LINE_VERDICTS_H_
-#define PLENUM_OPTIMIZER_LINE_VERDICTS_H_
+// What is known of boxes of lines of one group: what they miss, or where their line is. Searches
+// ask this of millions of boxes, far more often than of anything else that is kept, so that it is
+// packed: 16 bytes each, next to each other.
+#ifndef PLENUM_OPTIMIZER_KNOWN_LINES_H_
+#define PLENUM_OPTIMIZER_KNOWN_LINES_H_
 
 #include <algorithm>
 #include <array>
@@ -15,31 +16,47 @@
 
 namespace plenum::optimizer {
 
-class LineVerdicts {
+class KnownLines {
  public:
   using Nodes = std::array<int, kSlotsPerGroup>;  // one of each of a group's trees
 
-  // Null where nothing is known of the box.
-  const Constraint* Find(const Nodes& nodes) const {
+  class Known {
+   public:
+    Known() = default;
+    static Known Missing(Constraint missed) { return Known(~static_cast<int>(missed)); }
+    static Known Made(int line) { return Known(line); }
+    Constraint missed() const {
+      return value_ < 0 ? static_cast<Constraint>(~value_) : Constraint::kNone;
+    }
+    int line() const { return std::max(value_, -1); }  // that was made of it; −1: none
+    bool operator==(const Known&) const = default;
+
+   private:
+    explicit Known(int value) : value_(value) {}
+    int value_ = -1;  // the line or, inverted, what is missed
+  };
+
+  // Null where nothing is known of the box. Until the next Set().
+  const Known* Find(const Nodes& nodes) const {
     if (places_.empty()) return nullptr;
     const Place& place = places_[PlaceOf(nodes)];
-    return Same(place.nodes, nodes) ? &place.missed : nullptr;
+    return place.free() ? nullptr : &place.known;
   }
 
-  // Of a box of which nothing is known, or more than was. Beyond so many all are forgotten.
-  void Set(const Nodes& nodes, Constraint missed) {
-    if (known_ == kMost) *this = {};
-    if (4 * (known_ + 1) > 3 * places_.size()) Grow();
+  // Beyond so many all are forgotten.
+  void Set(const Nodes& nodes, Known known) {
+    if (size_ == kMost) *this = {};
+    if (4 * (size_ + 1) > 3 * places_.size()) Grow();
     Place& place = places_[PlaceOf(nodes)];
-    known_ += !Same(place.nodes, nodes);
-    place = {nodes, missed};
+    size_ += place.free();
+    place = {nodes, known};
   }
 
  private:
   static constexpr std::size_t kMost = 12'000'000, kFirst = 1024;
   struct Place {
     Nodes nodes{-1, -1, -1};
-    Constraint missed = Constraint::kNone;
+    Known known;
     bool free() const { return nodes[0] < 0; }
   };
 
@@ -66,9 +83,9 @@ class LineVerdicts {
   }
 
   std::vector<Place> places_;
-  std::size_t known_ = 0;
+  std::size_t size_ = 0;
 };
 
 }  // namespace plenum::optimizer
 
-#endif  // PLENUM_OPTIMIZER_LINE_VERDICTS_H_
+#endif  // PLENUM_OPTIMIZER_KNOWN_LINES_H_
