@@ -238,11 +238,8 @@ void Bounds::TakeOver(const Line& whole, const LineParts& parts, MadeLine& made)
 
 // All but what they miss, which is asked far more often than of anything else.
 void Bounds::ForgetLines() {
-  for (int i = 0; i < static_cast<int>(made_.size()); ++i) {
-    const LineKey& key = made_[i].key;
-    const KnownLines::Known* known = lines_[key.group].Find(key.nodes);
-    if (known && known->line() == i) lines_[key.group].Set(key.nodes, {});
-  }
+  for (int i = 0; i < static_cast<int>(made_.size()); ++i)
+    lines_[made_[i].key.group].ForgetLine(made_[i].key.nodes, i);
   made_.clear();
 }
 

@@ -52,6 +52,13 @@ class KnownLines {
     place = {nodes, known};
   }
 
+  // That a line was made of the box; it misses nothing all the same.
+  void ForgetLine(const Nodes& nodes, int line) {
+    if (places_.empty()) return;
+    Place& place = places_[PlaceOf(nodes)];
+    if (place.known == Known::Made(line)) place.known = {};
+  }
+
  private:
   static constexpr std::size_t kMost = 12'000'000, kFirst = 1024;
   struct Place {

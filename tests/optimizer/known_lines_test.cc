@@ -36,6 +36,22 @@ TEST(KnownLinesTest, KnowsWhatWasSetAndNothingElse) {
   }
 }
 
+TEST(KnownLinesTest, ForgetsOnlyTheLineThatIsKnown) {
+  const KnownLines::Nodes made{1, 2, 3}, remade{1, 2, 4}, missing{1, 2, 5}, unknown{1, 2, 6};
+  KnownLines lines;
+  lines.ForgetLine(made, 0);
+  EXPECT_EQ(lines.Find(made), nullptr);
+  lines.Set(made, Known::Made(0));
+  lines.Set(remade, Known::Made(7));
+  lines.Set(missing, Known::Missing(Constraint::kRise));
+  for (const KnownLines::Nodes& nodes : {made, remade, missing, unknown})
+    lines.ForgetLine(nodes, 0);
+  EXPECT_EQ(*lines.Find(made), Known::Missing(Constraint::kNone));
+  EXPECT_EQ(*lines.Find(remade), Known::Made(7));
+  EXPECT_EQ(*lines.Find(missing), Known::Missing(Constraint::kRise));
+  EXPECT_EQ(lines.Find(unknown), nullptr);
+}
+
 TEST(KnownLinesTest, ABoxMissesSomethingOrMayHaveItsLine) {
   for (Constraint missed : {Constraint::kNone, Constraint::kMating, Constraint::kAmounts}) {
     EXPECT_EQ(Known::Missing(missed).missed(), missed);
