@@ -177,7 +177,11 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
     if (limits.find_most)
       need.source_max_pa = MostBearable(need, need.source_max_pa, tolerance, bearable);
     const std::optional<double> least_pa =
-        RaisedFloor(excess, need.source_pa, need.source_max_pa, tolerance);
+        RaisedFloor(excess, need.source_pa, need.source_max_pa, tolerance, [&](double source_pa) {
+          ReservoirNeed at = need;
+          at.source_pa = source_pa;
+          return bearable(at);
+        });
     if (!least_pa) return std::nullopt;
     if (*least_pa == need.source_pa) return need;
     need.source_pa = *least_pa;
