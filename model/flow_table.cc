@@ -34,29 +34,22 @@ double SlopeWhereChoked(const Series& series) {
 FlowTable::FlowTable(const Series& series)
     : choked_flow_(series.choked_flow_m3_per_s_pa), choked_ratio_(series.choked_ratio) {
   cells_per_ratio_ = kCells / (1.0 - choked_ratio_);
-  std::array<double, kCells + 1> value{}, slope{};  // slope: per cell
-  value[kCells] = 1.0;
-  slope[0] = -SlopeAtEqualPressures(series) / cells_per_ratio_;
-  slope[kCells] = -SlopeWhereChoked(series) / cells_per_ratio_;
-  double next = slope[0];  // a guess, from the slope where the curve begins
+  knots_[0] = {0.0, -SlopeAtEqualPressures(series) / cells_per_ratio_};
+  knots_[kCells] = {1.0, -SlopeWhereChoked(series) / cells_per_ratio_};
+  double next = knots_[0].slope;  // a guess, from the slope where the curve begins
   for (int i = 1; i < kCells; ++i) {
     const CosineAndSlope exact =
         CosineNear(series, 1.0 - i / cells_per_ratio_, std::max(1.0 - next, 0.5 / kCells));
-    value[i] = 1.0 - exact.cosine;
-    slope[i] = exact.slope / cells_per_ratio_;
+    knots_[i] = {1.0 - exact.cosine, exact.slope / cells_per_ratio_};
     // The next one lies about where the cubic of this cell goes on to.
-    next = 5.0 * value[i - 1] - 4.0 * value[i] + 2.0 * slope[i - 1] + 4.0 * slope[i];
+    const Knot &before = knots_[i - 1], &here = knots_[i];
+    next = 5.0 * before.value - 4.0 * here.value + 2.0 * before.slope + 4.0 * here.slope;
   }
   // Fritsch and Carlson's condition: three times the secant at most keeps each piece monotone.
   for (int i = 0; i < kCells; ++i) {
-    const double most = 3.0 * (value[i + 1] - value[i]);
-    slope[i] = std::min(slope[i], most);
-    slope[i + 1] = std::min(slope[i + 1], most);
-  }
-  for (int i = 0; i < kCells; ++i) {
-    const double rise = value[i + 1] - value[i];
-    cubic_[i] = {value[i], slope[i], 3.0 * rise - 2.0 * slope[i] - slope[i + 1],
-                 slope[i] + slope[i + 1] - 2.0 * rise};
+    const double most = 3.0 * (knots_[i + 1].value - knots_[i].value);
+    knots_[i].slope = std::min(knots_[i].slope, most);
+    knots_[i + 1].slope = std::min(knots_[i + 1].slope, most);
   }
 }
 

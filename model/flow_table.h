@@ -24,8 +24,12 @@ class FlowTable {
  private:
   static constexpr int kCells = 48;
   double choked_flow_ = 0.0, choked_ratio_ = 0.0, cells_per_ratio_ = 0.0;
-  // 1 − c by cells from equal pressures to the choked ratio: a cubic each, in shares of the cell.
-  std::array<std::array<double, 4>, kCells> cubic_{};
+  // 1 − c and its slope per cell where cells begin, from equal pressures to the choked ratio: each
+  // cell is the cubic that both ends have in common.
+  struct Knot {
+    double value, slope;
+  };
+  std::array<Knot, kCells + 1> knots_{};
 };
 
 inline double FlowTable::operator()(double ratio) const {
@@ -34,8 +38,11 @@ inline double FlowTable::operator()(double ratio) const {
   const double position = (1.0 - ratio) * cells_per_ratio_;
   const int cell = std::min(static_cast<int>(position), kCells - 1);
   const double t = position - cell;
-  const std::array<double, 4>& cubic = cubic_[cell];
-  const double u = cubic[0] + t * (cubic[1] + t * (cubic[2] + t * cubic[3]));
+  const Knot &from = knots_[cell], &to = knots_[cell + 1];
+  const double rise = to.value - from.value;
+  const double square = 3.0 * rise - 2.0 * from.slope - to.slope;
+  const double cube = from.slope + to.slope - 2.0 * rise;
+  const double u = from.value + t * (from.slope + t * (square + t * cube));
   return choked_flow_ * std::sqrt(u * (2.0 - u));
 }
 

@@ -4,69 +4,58 @@
 #include <queue>
 
 #include "optimizer/box.h"
-#include "optimizer/hash.h"
 #include "optimizer/line.h"
 #include "optimizer/make_line.h"
 
 namespace plenum::optimizer {
 namespace {
 
-// Of lines that are only known to miss nothing, or something, many are kept: they take 0.1 kB each,
-// a line that was made 2.7 kB.
-constexpr std::size_t kLinesKept = 150'000, kLinesMade = 50'000;
+constexpr std::size_t kLinesMade = 50'000;  // are kept, of 2.7 kB each
 
 }  // namespace
 
-std::size_t Bounds::LineKey::Hash::operator()(const LineKey& key) const {
-  optimizer::Hash hash;
-  hash.Add(key.group);
-  for (int node : key.nodes) hash.Add(node);
-  return hash.place();
+Constraint Bounds::Screen(const LineKey& key, const LineParts& parts,
+                          const LineParts* whole) const {
+  const Constraint missed = ScreenLine(problem_, key.group, gas_, parts.corners, parts.single(),
+                                       whole ? &whole->corners : nullptr);
+  if (missed != Constraint::kNone || !parts.single()) return missed;
+  const auto [tubing, fitting, valve] = parts.choices();
+  return PartsMate(problem_, tubing, fitting, valve) ? Constraint::kNone : Constraint::kMating;
 }
 
-Constraint Bounds::Screen(const LineKey& key, const LineParts& parts, const LineParts* whole) {
-  if (const Constraint* known = verdicts_[key.group].Find(key.nodes)) return *known;
-  Constraint missed = ScreenLine(problem_, key.group, gas_, parts.corners, parts.single(),
-                                 whole ? &whole->corners : nullptr);
-  if (missed == Constraint::kNone && parts.single()) {
-    const auto [tubing, fitting, valve] = parts.choices();
-    if (!PartsMate(problem_, tubing, fitting, valve)) missed = Constraint::kMating;
+KnownLines::Known Bounds::Know(const LineKey& key, const LineParts* whole) {
+  KnownLines& lines = lines_[key.group];
+  if (const KnownLines::Known* known = lines.Find(key.nodes)) return *known;
+  const auto screened = KnownLines::Known::Missing(Screen(key, PartsOf(key), whole));
+  lines.Set(key.nodes, screened);
+  return screened;
+}
+
+Bounds::MadeLine& Bounds::LineOf(const LineKey& key, KnownLines::Known known) {
+  if (known.line() < 0) return Keep(key, Assemble(key));
+  MadeLine& made = made_[known.line()];
+  if (made.weights != weights_) {
+    made.line->objective = PartsOf(key).objective();
+    made.least = false;
+    made.weights = weights_;
   }
-  return missed;
+  return made;
 }
 
-Bounds::KnownLine& Bounds::KnowLine(const LineKey& key, const LineParts* whole) {
-  const auto [entry, fresh] = lines_.try_emplace(key);
-  KnownLine& known = entry->second;
-  if (!fresh && known.weights == weights_) return known;
-  const LineParts parts = PartsOf(key);
-  Weigh(parts, known);
-  if (fresh) known.missed = Screen(key, parts, whole);
-  return known;
+Bounds::MadeLine& Bounds::Keep(const LineKey& key, std::shared_ptr<Line> line) {
+  lines_[key.group].Set(key.nodes, KnownLines::Known::Made(static_cast<int>(made_.size())));
+  return made_.emplace_back(MadeLine{.key = key, .line = std::move(line), .weights = weights_});
 }
 
-void Bounds::Weigh(const LineParts& parts, KnownLine& known) const {
-  known.objective = parts.objective();
-  known.weights = weights_;
-  known.least = false;
-  if (known.line) known.line->objective = known.objective;
-}
-
-// Kept with the whole, since most are asked for again and again.
-Bounds::KnownLine& Bounds::KnowHalf(KnownLine& whole, const LineParts& parts, int slot, int half,
-                                    const LineKey& key) {
-  if (whole.divided != slot) {
-    whole.divided = slot;
-    whole.halves = {};
-  }
-  KnownLine*& known = whole.halves[half];
-  if (known == nullptr) known = &KnowLine(key, &parts);
-  if (known->weights != weights_) Weigh(PartsOf(key), *known);
-  return *known;
+double Bounds::ObjectiveKnown(const LineParts& parts, KnownLines::Known known) const {
+  if (known.line() >= 0)
+    if (const MadeLine& made = made_[known.line()]; made.least && made.weights == weights_)
+      return made.line->objective;
+  return parts.objective();
 }
 
 double Bounds::LineParts::objective() const {
-  return corners.tube.objective + corners.valve.objective + corners.fitting.objective;
+  return nodes[0]->objective_low + nodes[2]->objective_low + nodes[1]->objective_low;
 }
 
 bool Bounds::LineParts::single() const {
@@ -136,24 +125,22 @@ void Thin(std::vector<LineChoice>& choices) {
 // box, each slot's lightest choice put together. So lines alone are searched best first, each found
 // only if its coils take less than those of the lines before. After so many divisions parts of the
 // box are taken for lines, those that would be looked at next first.
-Constraint Bounds::FindChoices(const LineKey& key, KnownLine& whole,
-                               std::vector<LineChoice>& choices) {
+Constraint Bounds::FindChoices(const LineKey& key, std::vector<LineChoice>& choices) {
   constexpr int kDivisions = 500, kMoreDivisions = 60;  // for the first line, after it
   int divisions_max = kDivisions;
   struct Open {
     double above;
     LineKey key;
-    KnownLine* known;
     bool operator<(const Open& other) const {  // lowest on top
       return above != other.above ? above > other.above : key > other.key;
     }
   };
   std::priority_queue<Open> open;
-  open.push({whole.objective, key, &whole});
+  open.push({PartsOf(key).objective(), key});
   Constraint missed = Constraint::kNone;
   choices.clear();
   for (int divisions = 0; !open.empty();) {
-    const auto [above, lowest, lowest_known] = open.top();
+    const auto [above, lowest] = open.top();
     open.pop();
     const LineParts parts = PartsOf(lowest);
     const double coil_power_w = parts.corners.valve.coil_power_w;
@@ -169,11 +156,11 @@ Constraint Bounds::FindChoices(const LineKey& key, KnownLine& whole,
     for (int half : {0, 1}) {
       LineKey part = lowest;
       part.nodes[widest] = half == 0 ? parts.nodes[widest]->left : parts.nodes[widest]->right;
-      KnownLine& known = KnowHalf(*lowest_known, parts, widest, half, part);
-      if (known.missed == Constraint::kNone)
-        open.push({std::max(above, known.objective), part, &known});
+      const KnownLines::Known known = Know(part, &parts);
+      if (known.missed() == Constraint::kNone)
+        open.push({std::max(above, ObjectiveKnown(PartsOf(part), known)), part});
       else if (missed == Constraint::kNone || missed == Constraint::kMating)
-        missed = known.missed;
+        missed = known.missed();
     }
   }
   if (choices.empty()) return missed;
@@ -181,13 +168,25 @@ Constraint Bounds::FindChoices(const LineKey& key, KnownLine& whole,
   return Constraint::kNone;
 }
 
-void Bounds::TakeChoices(KnownLine& known, std::vector<LineChoice> choices) const {
-  known.least = true;
-  known.objective = known.line->objective = choices.front().objective;
+Constraint Bounds::FindLeast(const LineKey& key, MadeLine& made) {
+  if (made.least) return Constraint::kNone;
+  std::vector<LineChoice> choices;
+  const Constraint missed = FindChoices(key, choices);
+  if (missed == Constraint::kNone)
+    TakeChoices(made, std::move(choices));
+  else
+    lines_[key.group].Set(key.nodes, KnownLines::Known::Missing(missed));
+  return missed;
+}
+
+void Bounds::TakeChoices(MadeLine& made, std::vector<LineChoice> choices) const {
+  made.least = true;
+  Line& line = *made.line;
+  line.objective = choices.front().objective;
   // What boxes have of it already was no more.
-  known.line->coil_power_w = std::max(known.line->coil_power_w, choices.back().coil_power_w);
-  known.line->choices = std::move(choices);
-  known.line->weights = weights_;
+  line.coil_power_w = std::max(line.coil_power_w, choices.back().coil_power_w);
+  line.choices = std::move(choices);
+  line.weights = weights_;
 }
 
 void Bounds::CombineChoices(Box& box) {
@@ -229,68 +228,53 @@ std::shared_ptr<Line> Bounds::Assemble(const LineKey& key) const {
   return line;
 }
 
-void Bounds::Make(const LineKey& key, KnownLine& known) {
-  if (known.line) return;
-  known.line = Assemble(key);
-  ++lines_made_;
-}
-
 // From a larger box: the lines that it comes down to are those of each part that has all of them.
-void Bounds::TakeOver(const Line& whole, const LineParts& parts, KnownLine& known) const {
-  if (!known.least && whole.weights == weights_ && parts.HoldAll(whole.choices))
-    TakeChoices(known, whole.choices);
-  if (!known.finished && !parts.single())
-    known.finished = FinishLike(whole, parts.corners.valve, *known.line);
+void Bounds::TakeOver(const Line& whole, const LineParts& parts, MadeLine& made) const {
+  if (!made.least && whole.weights == weights_ && parts.HoldAll(whole.choices))
+    TakeChoices(made, whole.choices);
+  if (!made.finished && !parts.single())
+    made.finished = FinishLike(whole, parts.corners.valve, *made.line);
 }
 
 // All but what they miss, which is asked far more often than of anything else.
 void Bounds::ForgetLines() {
-  for (const auto& [key, known] : lines_) verdicts_[key.group].Set(key.nodes, known.missed);
-  lines_.clear();
-  lines_made_ = 0;
+  for (int i = 0; i < static_cast<int>(made_.size()); ++i)
+    lines_[made_[i].key.group].ForgetLine(made_[i].key.nodes, i);
+  made_.clear();
 }
 
 Constraint Bounds::RemakeLine(Box& box, int group) {
-  if (lines_.size() > kLinesKept || lines_made_ > kLinesMade) ForgetLines();
+  if (made_.size() > kLinesMade) ForgetLines();
   const LineKey key = KeyOf(box, group);
-  KnownLine& known = KnowLine(key);
-  if (known.missed == Constraint::kNone) Make(key, known);
+  const KnownLines::Known known = Know(key);
+  if (known.missed() != Constraint::kNone) return known.missed();
+  MadeLine& made = LineOf(key, known);
   // A part of a finished box, if that has not forgotten its lines.
   const bool divided = box.lines_finished && box.lines[group];
-  if (divided && known.line) TakeOver(*box.lines[group], PartsOf(key), known);
-  box.lines[group] = known.line;
-  box.lines_finished = divided && known.line && known.least && known.finished;
+  if (divided) TakeOver(*box.lines[group], PartsOf(key), made);
+  box.lines[group] = made.line;
+  box.lines_finished = divided && made.least && made.finished;
   box.choices = nullptr;
   if (box.lines_finished) CombineChoices(box);
-  return known.missed;
+  return Constraint::kNone;
 }
 
 Constraint Bounds::FinishLines(Box& box) {
   box.lines_finished = true;
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
     const LineKey key = KeyOf(box, g);
-    KnownLine& known = KnowLine(key);
-    // Choices are of the weights that they were found with.
-    if (known.missed == Constraint::kNone && !known.least) {
-      std::vector<LineChoice> choices;
-      known.missed = FindChoices(key, known, choices);
-      if (known.missed != Constraint::kNone) {
-        known.least = true;
-        known.line = nullptr;
-      } else {
-        Make(key, known);
-        TakeChoices(known, std::move(choices));
-      }
-    }
-    if (known.missed == Constraint::kNone && !known.finished) {
+    const KnownLines::Known known = Know(key);
+    if (known.missed() != Constraint::kNone) return known.missed();
+    MadeLine& made = LineOf(key, known);
+    if (const Constraint missed = FindLeast(key, made); missed != Constraint::kNone) return missed;
+    if (!made.finished) {
       const LineParts parts = PartsOf(key);
-      known.finished = true;
+      made.finished = true;
       FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
-                 plan_.configuration == Configuration::kCompressor, *known.line);
-      known.line->strokes = ++strokes_;
+                 plan_.configuration == Configuration::kCompressor, *made.line);
+      made.line->strokes = ++strokes_;
     }
-    box.lines[g] = known.line;
-    if (known.missed != Constraint::kNone) return known.missed;
+    box.lines[g] = made.line;
   }
   CombineChoices(box);
   return Constraint::kNone;

@@ -23,7 +23,7 @@ Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
       bench_(bench),
       useful_(std::move(useful)),
       gas_(GasOf(plan.configuration)),
-      verdicts_(plan.groups.size()),
+      lines_(plan.groups.size()),
       limited_(useful_ || std::isfinite(problem.mass_max_kg) ||
                std::isfinite(problem.volume_max_l) || std::isfinite(problem.cost_max_eur)) {}
 
@@ -127,21 +127,18 @@ Constraint Bounds::Reweigh(Box& box) {
   box.bound = 0.0;
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
     const LineKey key = KeyOf(box, g);
-    KnownLine& known = KnowLine(key);
-    if (!known.line || known.finished < box.lines_finished) {  // forgotten
-      known.line = std::make_shared<Line>(*box.lines[g]);
-      known.line->objective = known.objective;
-      known.finished = box.lines_finished;
-      known.least = false;
+    const KnownLines::Known known = Know(key);
+    if (known.missed() != Constraint::kNone) return known.missed();
+    MadeLine* made = known.line() < 0 ? nullptr : &LineOf(key, known);
+    if (!made || made->finished < box.lines_finished) {  // forgotten
+      made = &Keep(key, std::make_shared<Line>(*box.lines[g]));
+      made->line->objective = PartsOf(key).objective();
+      made->finished = box.lines_finished;
     }
-    if (known.finished && !known.least) {
-      std::vector<LineChoice> choices;
-      known.least = true;
-      known.missed = FindChoices(key, known, choices);
-      if (known.missed != Constraint::kNone) return known.missed;
-      TakeChoices(known, std::move(choices));
-    }
-    box.lines[g] = known.line;
+    if (made->finished)
+      if (const Constraint missed = FindLeast(key, *made); missed != Constraint::kNone)
+        return missed;
+    box.lines[g] = made->line;
   }
   if (box.lines_finished) CombineChoices(box);
   if (plan_.configuration != Configuration::kCompressor) return RestOfRegulated(box);

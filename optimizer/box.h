@@ -15,7 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "optimizer/line_verdicts.h"
+#include "optimizer/known_lines.h"
 #include "optimizer/make_line.h"
 #include "optimizer/plan.h"
 #include "optimizer/shared.h"
@@ -120,11 +120,8 @@ class Bounds {
   // A box of lines: a node of each of the group's trees.
   struct LineKey {
     int group = 0;
-    LineVerdicts::Nodes nodes{};
+    KnownLines::Nodes nodes{};
     auto operator<=>(const LineKey&) const = default;
-    struct Hash {
-      std::size_t operator()(const LineKey& key) const;
-    };
   };
   struct LineParts {
     std::array<const BoxNode*, kSlotsPerGroup> nodes;
@@ -154,30 +151,28 @@ class Bounds {
   }
   bool CoreIsSingle(const Box& box, int except = -1) const;
 
-  // What is known of a box of lines, whatever the source.
-  struct KnownLine {
-    Constraint missed = Constraint::kNone;
-    double objective = 0.0;      // the corner's, at most that of the finished line
-    std::shared_ptr<Line> line;  // of the corner; none before a box has it
-    bool finished = false;       // by FinishLine()
-    bool least = false;          // the objective is by FindChoices()
-    int weights = 0;             // that the objective has
-    // Where FindChoices() divided it, and what is known of its halves.
-    int divided = -1;
-    std::array<KnownLine*, 2> halves{};
+  // The line of a box of lines, for all boxes that have it.
+  struct MadeLine {
+    LineKey key;
+    std::shared_ptr<Line> line;
+    bool finished = false;  // by FinishLine()
+    bool least = false;     // its objective is by FindChoices(), else that of its corner
+    int weights = 0;        // that the objective has
   };
-  // Both: `whole` is one that misses nothing and of which it is a part; null where none is at hand.
-  Constraint Screen(const LineKey& key, const LineParts& parts, const LineParts* whole);
-  KnownLine& KnowLine(const LineKey& key, const LineParts* whole = nullptr);
-  void Weigh(const LineParts& parts, KnownLine& known) const;
-  KnownLine& KnowHalf(KnownLine& whole, const LineParts& parts, int slot, int half,
-                      const LineKey& key);
-  void TakeChoices(KnownLine& known, std::vector<LineChoice> choices) const;
-  void TakeOver(const Line& whole, const LineParts& parts, KnownLine& known) const;
-  void Make(const LineKey& key, KnownLine& known);
+  // What is known of a box of lines, whatever the source. `whole`: one that misses nothing and of
+  // which it is a part; null where none is at hand.
+  KnownLines::Known Know(const LineKey& key, const LineParts* whole = nullptr);
+  Constraint Screen(const LineKey& key, const LineParts& parts, const LineParts* whole) const;
+  // Of one that misses nothing; until the next call.
+  MadeLine& LineOf(const LineKey& key, KnownLines::Known known);
+  MadeLine& Keep(const LineKey& key, std::shared_ptr<Line> line);
+  double ObjectiveKnown(const LineParts& parts, KnownLines::Known known) const;
+  Constraint FindLeast(const LineKey& key, MadeLine& made);
+  void TakeChoices(MadeLine& made, std::vector<LineChoice> choices) const;
+  void TakeOver(const Line& whole, const LineParts& parts, MadeLine& made) const;
   void ForgetLines();
   std::shared_ptr<Line> Assemble(const LineKey& key) const;
-  Constraint FindChoices(const LineKey& key, KnownLine& known, std::vector<LineChoice>& choices);
+  Constraint FindChoices(const LineKey& key, std::vector<LineChoice>& choices);
   static void CombineChoices(Box& box);
   static LineKey KeyOf(const Box& box, int group);
   Constraint RemakeLine(Box& box, int group);
@@ -244,11 +239,10 @@ class Bounds {
   const Workbench* bench_;
   std::function<bool(const Amounts&)> useful_;
   model::Gas gas_;
-  std::vector<LineVerdicts> verdicts_;  // per group, of lines that were forgotten
-  bool limited_;                        // in amounts
+  std::vector<KnownLines> lines_;  // per group
+  std::vector<MadeLine> made_;     // of them
+  bool limited_;                   // in amounts
   int weights_ = 0, strokes_ = 0;
-  std::unordered_map<LineKey, KnownLine, LineKey::Hash> lines_;
-  std::size_t lines_made_ = 0;  // of them with a line
   // Per node of the compressors' tree: with boxes of lines, with single lines.
   std::unordered_map<int, PumpFacts> pumps_, chosen_pumps_;
 };

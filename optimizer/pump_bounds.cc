@@ -172,13 +172,18 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
                              {p, turns ? need.source_max_pa : p, need.low_m3, need.high_m3});
   };
   if (!turns) {
-    if (limits.find_most) {
-      if (!bearable(need)) return std::nullopt;
+    // More pressure is no easier to bear, and this is cheaper than the strokes.
+    if (!bearable(need)) return std::nullopt;
+    if (limits.find_most)
       need.source_max_pa = MostBearable(need, need.source_max_pa, tolerance, bearable);
-    }
     const std::optional<double> least_pa =
-        RaisedFloor(excess, need.source_pa, need.source_max_pa, tolerance);
+        RaisedFloor(excess, need.source_pa, need.source_max_pa, tolerance, [&](double source_pa) {
+          ReservoirNeed at = need;
+          at.source_pa = source_pa;
+          return bearable(at);
+        });
     if (!least_pa) return std::nullopt;
+    if (*least_pa == need.source_pa) return need;
     need.source_pa = *least_pa;
   } else if (groups == 2) {
     if (!RaiseStarts(problem, load.lines, facts, need.source_max_pa, need.low_m3, need.high_m3,

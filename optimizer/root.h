@@ -61,16 +61,17 @@ Bracket FeasibleBracket(Excess&& excess, double low, double high, double toleran
 }
 
 // Raises a floor below which the excess is known to be > 0 as far as it is, to the tolerance; none
-// where it still is at `high`. Cheap where the floor is already close: it is looked for in ever
-// longer steps.
-template <typename Excess>
-std::optional<double> RaisedFloor(Excess&& excess, double floor, double high, double tolerance) {
+// where it still is at `high`, or once a floor that is reached is not `bearable`, as none above is.
+// Cheap where the floor is already close: it is looked for in ever longer steps.
+template <typename Excess, typename Bearable>
+std::optional<double> RaisedFloor(Excess&& excess, double floor, double high, double tolerance,
+                                  Bearable&& bearable) {
   constexpr double kGrowth = 4.0;
   double step = tolerance * high;
   double low = std::min(floor + step, high);
   double f_low = excess(low);
   if (f_low <= 0.0) return floor;
-  while (low < high) {
+  while (low < high && bearable(low)) {
     step *= kGrowth;
     const double next = std::min(floor + step, high);
     const double f_next = excess(next);
@@ -79,6 +80,11 @@ std::optional<double> RaisedFloor(Excess&& excess, double floor, double high, do
     f_low = f_next;
   }
   return std::nullopt;
+}
+
+template <typename Excess>
+std::optional<double> RaisedFloor(Excess&& excess, double floor, double high, double tolerance) {
+  return RaisedFloor(excess, floor, high, tolerance, [](double) { return true; });
 }
 
 // Smallest x in [low, high] at which the excess was seen to be ≤ 0, to the tolerance.

@@ -265,18 +265,28 @@ class BoxSearch {
   }
 
   // What boxes know takes room, and most of it would only be asked if their bounds came up. Designs
-  // below those that come out next, found by depth first, tell which bounds surely will not; where
-  // they are taken back (ConfirmList) what was forgotten is found anew.
+  // found by depth first tell which bounds surely will not; where they are taken back (ConfirmList)
+  // what was forgotten is found anew. To look for designs takes longer than to forget, and is worth
+  // it less often.
   void SaveRoomIfCrowded() {
+    if (open_.size() >= crowd_to_dive_) {
+      crowd_to_dive_ += crowd_to_dive_;
+      DiveFromNext();
+    }
     if (open_.size() < crowd_) return;
     crowd_ += crowd_ / 4 + 1;
+    open_.ForEach([&](const NodePtr& node) { SaveRoom(*node); });
+  }
+
+  // From the boxes that come out next, then off the way from those that led to better designs.
+  void DiveFromNext() {
     const auto improves = [&](const Node& node, int turns) {
       const double before = ranking_.run_end();
       DiveFrom(node.box, turns, problem_, *node.bounds, bench_.stop, ranking_);
       return ranking_.run_end() < before;
     };
     std::vector<NodePtr> first;
-    std::vector<const Node*> led;  // to better designs, the best last
+    std::vector<const Node*> led;  // the best last
     while (!open_.empty() && static_cast<int>(first.size()) < kCrowdDives * problem_.count) {
       first.push_back(open_.Pop());
       if (improves(*first.back(), 0)) led.push_back(first.back().get());
@@ -284,7 +294,6 @@ class BoxSearch {
     for (int i = 0; i < problem_.count && !led.empty(); ++i, led.pop_back())
       improves(*led.back(), 1);
     for (NodePtr& node : first) open_.Push(std::move(node));
-    open_.ForEach([&](const NodePtr& node) { SaveRoom(*node); });
   }
 
   void SaveRoom(Node& node) const {
@@ -399,8 +408,9 @@ class BoxSearch {
   Workbench bench_, report_bench_;  // for the search, for the designs of the list
   Configurations configurations_;
   int reported_ = 0;
-  std::size_t crowd_ = options_.crowd;  // boxes that wait when room is saved next
-  double looked_s_ = 0.0;               // at the clock
+  // Boxes that wait when room is saved next, and when designs are sought for it.
+  std::size_t crowd_ = options_.crowd, crowd_to_dive_ = options_.crowd;
+  double looked_s_ = 0.0;  // at the clock
   double reported_s_ = 0.0, stopped_s_ = 0.0, dive_until_s_ = kUnlimited;
   long long serial_ = 0;
   bool cancelled_ = false, late_ = false, dived_ = false;

@@ -62,6 +62,20 @@ TEST(RaisedFloorTest, NearRootsTakeFewCalls) {
   EXPECT_EQ(RaisedFloor([](double x) { return 1.55 - x; }, 1.5, 100.0, 1e-3), 1.5);
 }
 
+TEST(RaisedFloorTest, EndsWhereAFloorThatIsReachedIsTooMuch) {
+  int calls = 0;
+  const auto excess = [&](double x) {
+    ++calls;
+    return 7.0 - x;
+  };
+  const auto floor = [&](double most) {
+    return RaisedFloor(excess, 1.5, 100.0, 1e-3, [&](double x) { return x <= most; });
+  };
+  EXPECT_EQ(floor(1.5), std::nullopt);
+  EXPECT_EQ(calls, 1);
+  EXPECT_EQ(floor(10.0), RaisedFloor(excess, 1.5, 100.0, 1e-3));
+}
+
 TEST(SmallestFeasibleTest, LowEndThatIsFeasibleComesBackAtOnce) {
   int calls = 0;
   EXPECT_EQ(SmallestFeasible(
