@@ -67,7 +67,7 @@ const std::vector<Search>& Searches() {
       {"creep", "time_constant_s", kLog, Size::kDuration, 0.0, {0.15, 0.02}},
       {"inertia", "natural_frequency_rad_per_s", kLog, Size::kRate, 0.0, {15.0, 50.0}},
       {"inertia", "damping_ratio", kLinear, Size::kOne, 0.0, {0.3, 0.3}},
-      {"heat_transfer", "time_constant_s", kLog, Size::kStroke, 0.0, {0.3, 5.0}},
+      {"heat_transfer", "time_constant_s", kLog, Size::kStroke, 0.0, {0.3, 5.0, 0.02}},
       {"supply_droop", "volume_m3", kLog, Size::kVolume, 0.0, {6.0, 2.0}},
       {"supply_droop",
        "sonic_conductance_m3_per_s_pa",

@@ -74,18 +74,27 @@ class Search {
 
   // Whether the chosen set, fitted to the end, gains by the runs' clocks what none of its own
   // numbers can take up: small errors of the clocks hide beside an effect that leaves little. Or
-  // whether the clocks do instead of its effects that act in time: those may have come to the set
-  // before the clocks were tried beside the others.
+  // whether it leaves nothing, and does better with the clocks in the place of one of its effects.
+  // Or whether the clocks do instead of its effects that act in time: those may have come to the
+  // set before the clocks were tried beside the others.
   bool ClocksAreOff(const SearchResult& result) const {
     const Contender& chosen = result.contenders[result.chosen];
     if (!MaySeekClocks() || !chosen.fit.Usable()) return false;
     const double bic = chosen.fit.bic;
     if (BicByClocks(chosen, chosen.effects) < bic - kClock) return true;
+    if (enough_(chosen.fit) && ClocksReplaceOne(chosen)) return true;
     EffectSet timeless = chosen.effects;
     std::erase_if(timeless, [](Spec spec) { return ActsInTime(*spec); });
     if (timeless.empty() || timeless.size() == chosen.effects.size()) return false;
     const double ahead = AnyTimingDoes(result, timeless) ? kTie : EffectAhead() - kClock;
     return BicByClocks(chosen, timeless) < bic + ahead;
+  }
+
+  // While sets grew the clocks were compared by fits cut short.
+  bool ClocksReplaceOne(const Contender& chosen) const {
+    return std::any_of(chosen.effects.begin(), chosen.effects.end(), [&](Spec out) {
+      return BicByClocks(chosen, Without(chosen.effects, out)) < chosen.fit.bic - kClock;
+    });
   }
 
   // Of that part of a set, with the clocks fitted.

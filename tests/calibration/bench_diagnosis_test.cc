@@ -57,6 +57,20 @@ TEST(BenchDiagnosis, ATieAsksForTheChannelThatAnyOfItsPairsNeeds) {
             std::vector<std::string>{"source_pressure_kpa_gauge"});
 }
 
+// Gas that follows the wall within a hundredth of a stroke: from slower starts a fit ends where no
+// heat is exchanged at all, far worse than the base model.
+TEST(BenchDiagnosis, FastHeatTransferIsFound) {
+  const Diagnosis diagnosis = Diagnosed(TieOfSeries(50, 73));
+  EXPECT_TRUE(SetsOf(diagnosis).contains({"heat_transfer"})) << diagnosis.sentence;
+}
+
+// Clocks that are off by parts of a sample, with which the restriction alone does better than with
+// an effect that imitates them.
+TEST(BenchDiagnosis, ClocksAreTriedInThePlaceOfEachEffect) {
+  const Diagnosis diagnosis = Diagnosed(TieOfSeries(50, 89));
+  EXPECT_TRUE(SetsOf(diagnosis).contains({"exhaust_restriction"})) << diagnosis.sentence;
+}
+
 // Heat to a wall that stays warm is a limit of heat to any wall: where the second fits, the first
 // is found too.
 TEST(BenchDiagnosis, ALimitOfAnEffectIsFoundWithIt) {
