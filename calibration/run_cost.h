@@ -23,8 +23,8 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
 // and their derivatives J only JᵀJ, Jᵀe and eᵀe, so that the rows are R of [J e] = Q·R, which has
 // the same products and none of the readings' number; without derivatives the one row |e|. A step
 // is asked for thrice at one point — by the search along it, for its cost, and for the derivatives
-// there — and simulated once, or once without derivatives and once with them. A run that turned out
-// stiff is taken to stay so: the explicit method is not tried again.
+// there — and simulated once without derivatives, and once with them where it is taken. A run that
+// turned out stiff is taken to stay so: the explicit method is not tried again.
 class RunCost : public ceres::CostFunction {
  public:
   // References must outlive it.
