@@ -235,7 +235,7 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   solver.gradient_tolerance = 0.0;
   solver.initial_trust_region_radius = 1e3;
   // Steps are tried by their values alone: many are shortened, and derivatives cost far more.
-  solver.line_search_interpolation_type = ceres::QUADRATIC;
+  solver.line_search_interpolation_type = ceres::BISECTION;
   solver.num_threads = options.threads;
   solver.logging_type = ceres::SILENT;
   solver.callbacks.push_back(&stop);
