@@ -154,7 +154,12 @@ std::pair<double, double> Visible(const model::EffectSpec& effect, const model::
   if (effect.id == "heat_transfer") range.first = std::max(spec.low, 0.003 * sizes.stroke_s);
   if (effect.id == "supply_droop" && spec.name == "volume_m3")
     range.first = std::max(spec.low, 0.03 * sizes.volume_m3);
-  if (effect.id == "sensor_gain") range = {0.8, 1.25};  // beyond that a sensor is broken
+  // Beyond these a sensor is broken; an offset far above all pressures and a loss of as much in the
+  // line would take each other back.
+  if (effect.id == "sensor_gain") range = {0.8, 1.25};
+  if (effect.id == "sensor_offset")
+    range = {std::max(spec.low, -0.25 * sizes.gauge_pa),
+             std::min(spec.high, 0.25 * sizes.gauge_pa)};
   if (spec.name.ends_with("_rad_per_s")) range.second = std::min(spec.high, 150.0 / sizes.stroke_s);
   return range;
 }

@@ -49,6 +49,17 @@ TEST(Fit, FindsTheTrueEffectAndLeavesTheNoise) {
   EXPECT_NEAR(fit.state.effects[0].parameters[0], 4e-12, 2e-13);
 }
 
+// Far above all pressures an offset and a loss in the line take each other back.
+TEST(Fit, ASensorIsOffByNoMoreThanAWorkingOne) {
+  const Bench bench(MeasuredBench({}, 4));
+  ModelState start = bench.forward.Declared();
+  start.effects = {{model::FindEffect("cracking_pressure"), {5e5}},
+                   {model::FindEffect("sensor_offset"), {-5e5}}};
+  const Fit fit = FitModel(bench.data, start, {});
+  ASSERT_TRUE(fit.Usable()) << fit.detail;
+  EXPECT_LE(std::abs(fit.state.effects[1].parameters[0]), 0.25 * bench.data.sizes.gauge_pa + 1e-6);
+}
+
 // What the bench does not have goes to its bound at zero, or as near as noise lets it.
 TEST(Fit, AnAbsentEffectVanishes) {
   const Bench bench(MeasuredBench({}, 4));
