@@ -256,7 +256,8 @@ void JobStore::AskToCancel(const std::string& id) {
   });
 }
 
-void JobStore::End(const JobRecord& record) {
+std::string JobStore::End(const JobRecord& record) {
+  std::string ended_at;
   impl_->Do([&] {
     SQLite::Transaction transaction(impl_->db, SQLite::TransactionBehavior::IMMEDIATE);
     Execute(impl_->db,
@@ -266,9 +267,13 @@ void JobStore::End(const JobRecord& record) {
                 kNow + " WHERE id = ?",
             std::string(Name(record.status)), record.progress, record.result, record.failure,
             static_cast<std::int64_t>(record.result.size()), record.id);
+    SQLite::Statement when(impl_->db, "SELECT ended_at FROM job WHERE id = ?");
+    when.bind(1, record.id);
+    if (when.executeStep()) ended_at = when.getColumn(0).getString();
     impl_->DropOld(record.order.kind);
     transaction.commit();
   });
+  return ended_at;
 }
 
 std::optional<JobRecord> JobStore::Find(const std::string& kind, const std::string& id) const {

@@ -76,8 +76,8 @@ class JobStore {
   void Requeue(const std::string& id);
   void AskToCancel(const std::string& id);
   // Writes `status`, `progress`, `result` and `failure` of the record, and drops what ended long
-  // ago.
-  void End(const JobRecord& record);
+  // ago. Returns `ended_at`.
+  std::string End(const JobRecord& record);
 
   std::optional<JobRecord> Find(const std::string& kind, const std::string& id) const;
   std::optional<JobRecord> FindKey(const std::string& kind, const std::string& key) const;

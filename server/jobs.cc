@@ -178,9 +178,11 @@ void Jobs::End(Entry& entry, JobStatus status, api::Json result, const std::stri
   record.status = status;
   record.result = TextOf(result);
   record.failure = failure;
-  const bool kept = Try(record.id, [&] { store_.End(record); });
+  std::string ended_at;
+  const bool kept = Try(record.id, [&] { ended_at = store_.End(record); });
   const std::lock_guard lock(mutex_);
   entry.job.status = status;
+  entry.job.ended_at = ended_at;  // for those who found the entry before it goes
   entry.job.result = std::move(result);
   entry.job.failure = failure;
   ++entry.job.revision;

@@ -34,6 +34,7 @@ TEST_F(JobFile, GivesBackWhatWasWritten) {
   order.model_version = 3;
   order.model_hash = std::string(64, 'f');
   JobRecord ended;
+  std::string ended_at;
   {
     JobStore store(path_, {});
     const JobRecord added = store.Add("one", order);
@@ -45,11 +46,12 @@ TEST_F(JobFile, GivesBackWhatWasWritten) {
     ended.failure = "why";
     store.Start("one");
     EXPECT_EQ(store.Unfinished("design").size(), 1u);
-    store.End(ended);
+    ended_at = store.End(ended);
     EXPECT_TRUE(store.Unfinished("design").empty());
   }
   const JobStore store(path_, {});
   const JobRecord found = store.Find("design", "one").value();
+  EXPECT_EQ(found.ended_at, ended_at);
   EXPECT_EQ(found.order.name, order.name);
   EXPECT_EQ(found.order.by.who, "me");
   EXPECT_TRUE(found.order.request == order.request);

@@ -67,6 +67,8 @@ TEST_F(JobsTest, GivesTheResult) {
   const auto job = jobs->WaitForEnd(jobs->Submit(Order("ready")).id, 10s);
   EXPECT_EQ(job->status, JobStatus::kDone);
   EXPECT_EQ(job->result["answer"], 42);
+  EXPECT_NE(job->ended_at, "");
+  EXPECT_EQ(job->ended_at, jobs->Get(job->id)->ended_at);
 }
 
 TEST_F(JobsTest, FailuresEndTheJobOnly) {
