@@ -38,6 +38,8 @@ ListAnswer AnswerList(const DesignRequest& request, const optimizer::SearchOptio
     robust.answer = optimizer::Search(request.problem, options);
   Json document = RenderAnswer(request, robust.answer, parts);
   if (request.robust) AddRobustness(*request.robust, robust, document);
+  if (request.proof && robust.searched)
+    document["robust"]["searched"] = RenderSearched(request.problem, *robust.searched, parts);
   if (request.explain)
     AddExplanation(*request.explain, request.problem, robust.answer, options, document);
   return {std::move(robust.answer), std::move(document)};

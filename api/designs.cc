@@ -19,6 +19,12 @@ constexpr double kBinding = 0.01;
 
 using Rows = std::map<std::string, const catalog::Part*>;
 
+Rows RowsOf(const std::vector<catalog::Part>& parts) {
+  Rows rows;
+  for (const catalog::Part& part : parts) rows[part.id] = &part;
+  return rows;
+}
+
 Json Numbers(const std::vector<double>& values, auto&& convert) {
   Json list = Json::array();
   for (const double value : values) list.push_back(Number(convert(value)));
@@ -153,8 +159,9 @@ Json RenderResponse(const optimizer::Design::Trace& trace, const optimizer::Prob
           {"source_pressure_kpa_gauge", Numbers(trace.source_pressure_pa, gauge)}};
 }
 
-Json RenderDesign(const optimizer::Design& design, int rank, const Quality& quality,
-                  const optimizer::Problem& problem, const Rows& rows) {
+// What `verify` reads of a design.
+Json RenderClaim(const optimizer::Design& design, int rank, const optimizer::Problem& problem,
+                 const Rows& rows) {
   Json parts = Json::array();
   for (const optimizer::Choice& choice : design.parts)
     parts.push_back(RenderChoice(choice, problem, rows));
@@ -163,6 +170,12 @@ Json RenderDesign(const optimizer::Design& design, int rank, const Quality& qual
                {"objective", Number(design.objective)},
                {"parts", parts}};
   json.update(RenderFigures(design, problem));
+  return json;
+}
+
+Json RenderDesign(const optimizer::Design& design, int rank, const Quality& quality,
+                  const optimizer::Problem& problem, const Rows& rows) {
+  Json json = RenderClaim(design, rank, problem, rows);
   json["data_quality"] = RenderQuality(quality, design.totals.mass_kg);
   json["response"] = RenderResponse(design.response, problem);
   return json;
@@ -216,9 +229,7 @@ Json RenderFigures(const optimizer::Design& design, const optimizer::Problem& pr
 
 Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
                   const std::vector<catalog::Part>& parts) {
-  Rows rows;
-  for (const catalog::Part& part : parts) rows[part.id] = &part;
-
+  const Rows rows = RowsOf(parts);
   Json designs = Json::array();
   Json best_on_measured_flow = nullptr;
   for (std::size_t i = 0; i < answer.designs.size(); ++i) {
@@ -239,6 +250,24 @@ Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
   document["seconds"] = Number(answer.seconds);
   document["requirements"] = request.request;
   return document;
+}
+
+Json RenderSearched(const optimizer::Problem& problem, const optimizer::Searched& searched,
+                    const std::vector<catalog::Part>& parts) {
+  const Rows rows = RowsOf(parts);
+  Json designs = Json::array();
+  for (std::size_t i = 0; i < searched.place.size(); ++i) {
+    const int rank = static_cast<int>(i) + 1;
+    if (searched.place[i] >= 0)
+      designs.push_back({{"rank", rank}, {"listed", searched.place[i] + 1}});
+    else
+      designs.push_back(RenderClaim(searched.answer.designs[i], rank, problem, rows));
+  }
+  return {{"count", searched.count},
+          {"status", optimizer::Name(searched.answer.status)},
+          {"lower_bound", Number(searched.answer.proof.lower_bound)},
+          {"gap", Number(searched.answer.proof.gap)},
+          {"designs", std::move(designs)}};
 }
 
 }  // namespace plenum::api

@@ -21,6 +21,8 @@ constexpr std::size_t kKeyBytes = 2 * sizeof(std::string) + 40;
 // own tree so that depth, duplicate keys and the digits of a number are seen as they are read.
 class TreeBuilder : public nlohmann::json_sax<Json> {
  public:
+  explicit TreeBuilder(std::size_t bytes_max) : bytes_max_(bytes_max) {}
+
   bool null() override { return Put(nullptr); }
   bool boolean(bool value) override { return Put(value); }
   bool number_integer(number_integer_t value) override { return Put(value); }
@@ -69,8 +71,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
 
   bool Put(Json value) {
     bytes_ += sizeof(Json);
-    if (bytes_ > kJsonBytesMax)
-      return Fail("the document takes more than " + std::to_string(kJsonBytesMax) +
+    if (bytes_ > bytes_max_)
+      return Fail("the document takes more than " + std::to_string(bytes_max_) +
                   " bytes of memory (json_memory_bytes_max)");
     if (levels_.empty()) {
       root_ = std::move(value);
@@ -125,6 +127,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   std::vector<Level> levels_;
   std::optional<Error> error_;
   std::optional<std::size_t> position_;
+  const std::size_t bytes_max_;
   std::size_t bytes_ = 0;
 };
 
@@ -138,11 +141,13 @@ std::string Place(std::string_view text, std::size_t position) {
 
 }  // namespace
 
-Parsed<Json> ParseJson(std::string_view text) {
+Parsed<Json> ParseJson(std::string_view text) { return ParseJson(text, kJsonBytesMax); }
+
+Parsed<Json> ParseJson(std::string_view text, std::size_t bytes_max) {
   // The library takes a NUL for the end of the text and ignores what follows.
   if (const auto nul = text.find('\0'); nul != std::string_view::npos)
     return Errors{{"", "not JSON: byte 0 at " + Place(text, nul + 1)}};
-  TreeBuilder builder;
+  TreeBuilder builder(bytes_max);
   if (Json::sax_parse(text.begin(), text.end(), &builder)) return builder.Take();
   Error error = builder.error().value_or(Error{"", "not JSON"});
   if (builder.position()) error.detail += " at " + Place(text, *builder.position());

@@ -26,8 +26,10 @@ template <typename T>
 using Parsed = std::variant<T, Errors>;
 
 // Strict parse: depth ≤ 64, no duplicate keys, no bytes after the document (NUL included), numbers
-// finite; integers that do not fit are errors. NaN and Infinity are not JSON and are refused.
+// finite; integers that do not fit are errors. NaN and Infinity are not JSON and are refused, and
+// so is what takes more than `bytes_max` of memory; kJsonBytesMax (limits.h) without it.
 Parsed<Json> ParseJson(std::string_view text);
+Parsed<Json> ParseJson(std::string_view text, std::size_t bytes_max);
 
 // To 12 significant digits, so that unit conversion leaves no noise; no minus zero.
 double Rounded(double value);

@@ -12,6 +12,7 @@ namespace plenum::api {
 inline constexpr std::size_t kJsonDepthMax = 64;
 // What the values of a document take in memory, about sixteen bytes a number.
 inline constexpr std::size_t kJsonBytesMax = 16 << 20;
+inline constexpr std::size_t kResultBytesMax = 1 << 30;   // of an answer with its record, on a disk
 inline constexpr std::size_t kErrorsCollectedMax = 1000;  // of one request
 inline constexpr std::size_t kErrorsReportedMax = 100;    // of those, with a count of the rest
 inline constexpr int kDiagnosisSecondsMax = 3600;

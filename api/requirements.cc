@@ -281,8 +281,10 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   const std::optional<double> probability_min = ReadRanking(reader, parsed);
   parsed.robust = ReadRobust(reader, probability_min);
   parsed.explain = ReadExplain(reader);
-  if (parsed.proof && (parsed.robust || !parsed.pareto.empty()))
-    reader.FailAt("ranking/proof", "is for a list by one objective, without robust");
+  if (!parsed.pareto.empty() && parsed.proof)
+    reader.FailAt("ranking/proof", "is for a list by one objective");
+  if (!parsed.pareto.empty() && probability_min)
+    reader.FailAt("ranking/probability_min", "is for a list by one objective");
   if (parsed.explain && !parsed.pareto.empty())
     reader.Fail("explain", "explains a list by one objective, not a front");
   if (parsed.explain && parsed.explain->ranks > 0 && probability_min)

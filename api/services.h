@@ -46,6 +46,10 @@ Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions option
 // The answer as JSON. `parts` are the rows the problem was made of: makers, provenance.
 Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
                   const std::vector<catalog::Part>& parts);
+// What a list that asks for a probability was chosen from: { count, status, lower_bound, gap,
+// designs: [{ rank, listed } or a design that is not listed] }.
+Json RenderSearched(const optimizer::Problem& problem, const optimizer::Searched& searched,
+                    const std::vector<catalog::Part>& parts);
 // Settings, totals, performance and margins of a design.
 Json RenderFigures(const optimizer::Design& design, const optimizer::Problem& problem);
 

@@ -5,6 +5,10 @@
 
 namespace plenum::optimizer {
 
+double GapOf(double lower_bound, double last) {
+  return std::isfinite(lower_bound) && last > 0.0 ? std::max(0.0, 1.0 - lower_bound / last) : 0.0;
+}
+
 Answer Conclude(const Problem& problem, const Ending& ending, Proof proof, Ranking& ranking,
                 Recorder& recorder) {
   Answer answer;
@@ -19,14 +23,10 @@ Answer Conclude(const Problem& problem, const Ending& ending, Proof proof, Ranki
   // Designs with a choice that was left out are no better than the last of a full list.
   if (proof.pruned.dominated > 0 && static_cast<int>(answer.designs.size()) == problem.count)
     proof.lower_bound = std::min(proof.lower_bound, ranking.last().leaf.objective);
-  if (!answer.designs.empty()) {
-    const double last = answer.designs.back().objective;
-    proof.gap = std::isfinite(proof.lower_bound) && last > 0.0
-                    ? std::max(0.0, 1.0 - proof.lower_bound / last)
-                    : 0.0;
-  } else {
+  if (!answer.designs.empty())
+    proof.gap = GapOf(proof.lower_bound, answer.designs.back().objective);
+  else
     proof.gap = ending.stopped || proof.undecided > 0 ? 1.0 : 0.0;
-  }
   const bool ended = ending.stopped || (ending.any_design && !answer.designs.empty());
   // An undecided leaf may be a further design of a list that is not full.
   const bool full = static_cast<int>(answer.designs.size()) == problem.count;

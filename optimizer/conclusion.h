@@ -14,6 +14,10 @@ struct Ending {
   double seconds = 0.0;
 };
 
+// The share by which the last design of a list may be too large: 1 − lower bound / last, at least
+// 0.
+double GapOf(double lower_bound, double last);
+
 // `proof`: complete but for gap and record, its lower bound that of all that is not in the list and
 // was not left out by dominance. Takes the designs out of the list.
 Answer Conclude(const Problem& problem, const Ending& ending, Proof proof, Ranking& ranking,

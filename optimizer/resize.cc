@@ -199,6 +199,18 @@ Leaf Resize(const Problem& problem, const Design& design, const std::function<bo
   return sizing.leaf();
 }
 
+std::optional<Design> WithSettingsAnew(const Problem& problem, const Design& design,
+                                       const std::function<bool()>& stop) {
+  Rebuilt rebuilt;
+  if (!Rebuild(problem, problem, design, rebuilt)) return std::nullopt;
+  const Workbench bench{.stop = stop};
+  rebuilt.candidate.bench = &bench;
+  const Leaf leaf =
+      SizeAtVolume(problem, rebuilt.candidate, design.settings.reservoir_volume_m3.value_or(0.0));
+  if (leaf.status != LeafStatus::kFeasible) return std::nullopt;
+  return MakeDesign(problem, rebuilt.candidate, leaf);
+}
+
 Remade Remake(const Problem& problem, const Problem& relaxed, const Design& design,
               const std::function<bool()>& stop) {
   Rebuilt rebuilt;

@@ -21,6 +21,11 @@ Problem WithPartsOf(const Problem& problem, const Design& design);
 // again.
 Leaf Resize(const Problem& problem, const Design& design, const std::function<bool()>& stop = {});
 
+// The design with its parts as bought, volume of a made-to-measure reservoir included, and its
+// settings sized anew; made by MakeDesign (report.h). None where that is not proved feasible.
+std::optional<Design> WithSettingsAnew(const Problem& problem, const Design& design,
+                                       const std::function<bool()>& stop);
+
 // The design's parts under a revised model: sized by SizeWithEffects (effect_sizing.h) and made
 // anew. `relaxed` (relaxation.h) says what a line can do at best, the design comes from there.
 struct Remade {

@@ -26,11 +26,19 @@ struct Robustness {
   int first = 0;  // draws in which it meets them and no listed design is better (ties: by rank)
 };
 
+// What a list that asks for a probability was chosen from.
+struct Searched {
+  int count = 0;  // designs asked of the search
+  Answer answer;
+  std::vector<int> place;  // in the list, of each of its designs; −1: not listed
+};
+
 struct RobustAnswer {
   Answer answer;
   int draws = 0;                       // done
   std::vector<Robustness> robustness;  // per design of the answer
   int below = 0;                       // designs left out for probability_min
+  std::optional<Searched> searched;    // with probability_min
 };
 
 // Monte Carlo with common random numbers. The parts of each design are bought: they stay, and so
@@ -38,15 +46,17 @@ struct RobustAnswer {
 // pressure and duties are sized anew in each draw, with the evaluation that ranks. A draw is met
 // where sizing proves it feasible. Compared are the listed designs; the search is not repeated.
 //
-// With `probability_min` p a design stays in the list if at least p of its draws are met; the
-// search goes deeper until Problem::count designs stay, 500 were looked at, or time is up. Every
-// design that is not listed then has an objective of at least the proof's lower bound, or was
-// looked at and left out: `optimal` says that. If none stays the status is `feasible` without
-// designs.
+// With `probability_min` p a design is listed if at least p of its draws are met. The search goes
+// deeper until nothing that it did not list can be among the Problem::count best of these, 500 were
+// looked at, or time is up. Designs beyond, found where every requirement is tightened, fill the
+// list; they may have a larger made-to-measure reservoir than the search would give them. Every
+// other design, sized by the search, has an objective of at least the proof's lower bound or was
+// looked at and left out. `optimal`: no other belongs on the list. Else `feasible`, with the gap of
+// the last design, 1 where there is none.
 RobustAnswer SearchRobust(const Problem& problem, const SearchOptions& search_options,
                           const RobustOptions& options, const DrawParts& draw_parts);
 
-// The draws for a given list, such as a Pareto front.
+// The draws for a given list, such as a Pareto front; without probability_min.
 RobustAnswer AssessRobustness(const Problem& problem, Answer answer,
                               const SearchOptions& search_options, const RobustOptions& options,
                               const DrawParts& draw_parts);

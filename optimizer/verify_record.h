@@ -6,11 +6,11 @@
 
 namespace plenum::optimizer {
 
-// Replays the boxes of an answer that has a record, recounts them, looks at each closed one again,
-// and finds the box of each listed design.
 // Whether dominance may compare only equal flows (proof.h).
 bool FlowMustBeEqual(const Problem& problem, Configuration configuration);
 
+// Replays the boxes of an answer that has a record, recounts them, looks at each closed one again,
+// and finds the box of each listed design.
 void CheckRecord(const Problem& problem, const Answer& answer, Findings& findings,
                  std::vector<NotRechecked>& open);
 

@@ -68,7 +68,7 @@ std::string VerificationText(const api::Json& json) {
 
 // A refused result gives a failing status, so that scripts see it; why is on standard error.
 int Verify(const VerifyOptions& options) {
-  const auto result = ReadJson(options.file);
+  const auto result = ReadJson(options.file, api::kResultBytesMax);
   const auto [revision, parts] =
       OpenCatalog(options.catalog, catalog::Access::kRead).ListWithHead();
   std::optional<api::BruteForce> brute_force;

@@ -22,8 +22,8 @@ std::string ReadText(const std::string& path) {
   return {Iterator(file), Iterator()};
 }
 
-api::Json ReadJson(const std::string& path) {
-  return ValueOrRefuse(api::ParseJson(ReadText(path)));
+api::Json ReadJson(const std::string& path, std::size_t bytes_max) {
+  return ValueOrRefuse(api::ParseJson(ReadText(path), bytes_max));
 }
 
 catalog::Store OpenCatalog(const std::string& path, catalog::Access access) {

@@ -7,12 +7,13 @@
 #include <variant>
 
 #include "api/json.h"
+#include "api/limits.h"
 #include "api/services.h"
 
 namespace plenum::server {
 
 std::string ReadText(const std::string& path);  // "-" is standard input
-api::Json ReadJson(const std::string& path);
+api::Json ReadJson(const std::string& path, std::size_t bytes_max = api::kJsonBytesMax);
 
 // An existing catalogue.
 catalog::Store OpenCatalog(const std::string& path, catalog::Access access);

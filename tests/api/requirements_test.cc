@@ -210,6 +210,12 @@ TEST(Requirements, ReadsAFront) {
   EXPECT_THAT(OnlyError(objective(R"({"pareto": ["mass_kg", "mass_kg"]})"), "/objective/pareto/1"),
               HasSubstr("listed twice"));
   EXPECT_TRUE(Good(Requirements()).pareto.empty());
+  Json front = Requirements();
+  front["objective"] = Parse(R"({"pareto": ["mass_kg", "volume_l"]})");
+  EXPECT_THAT(OnlyError(With(front, "/ranking/proof", true), "/ranking/proof"),
+              HasSubstr("is for a list by one objective"));
+  EXPECT_THAT(OnlyError(With(front, "/ranking/probability_min", 0.5), "/ranking/probability_min"),
+              HasSubstr("is for a list by one objective"));
 }
 
 TEST(Requirements, ExplanationsNeedAPlainList) {

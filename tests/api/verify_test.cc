@@ -5,63 +5,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 
 #include "tests/api/support.h"
+#include "tests/api/verified.h"
 
 namespace plenum::api {
 namespace {
 
-const std::filesystem::path kRoot = PLENUM_SOURCE_DIR;
-
-struct Catalogue {
-  catalog::Revision revision;
-  std::vector<catalog::Part> parts;
-};
-
-const Catalogue& Project() {
-  static const Catalogue catalogue = [] {
-    const catalog::Store store(kRoot / "catalog.db", catalog::Access::kRead);
-    auto [revision, parts] = store.ListWithHead();
-    return Catalogue{revision, parts};
-  }();
-  return catalogue;
-}
-
-Json Answered(const std::string& example, int count) {
-  std::ifstream file(kRoot / "examples" / (example + ".json"));
-  Json request = Parse(std::string(std::istreambuf_iterator<char>(file), {}));
+Json Listed(const std::string& example, int count) {
+  Json request = Example(example);
   request["ranking"] = {{"count", count}, {"time_limit_s", 300}, {"proof", true}};
-  const auto parsed = std::get<DesignRequest>(ParseRequirements(request, Project().parts));
-  Json answer = AnswerRequest(parsed, {}, Project().parts);
-  answer["catalogue_revision"] = RenderRevisionName(Project().revision);
-  return Parse(answer.dump());
+  return Answered(request);
 }
 
 const Json& Exosuit() {
-  static const Json answer = Answered("exosuit", 4);
+  static const Json answer = Listed("exosuit", 4);
   return answer;
-}
-
-Json Verified(const Json& answer) {
-  const auto verified = VerifyAnswer(answer, Project().parts, Project().revision);
-  for (const Error& error : ErrorsOf(verified)) ADD_FAILURE() << error.pointer << error.detail;
-  return std::get<Json>(verified);
-}
-
-// Names of the checks that refuse, and what they say.
-std::string Refusals(const Json& answer) {
-  std::string refusals;
-  const Json verified = Verified(answer);
-  for (const Json& check : verified["checks"])
-    if (!check["ok"])
-      refusals +=
-          check["check"].get<std::string>() + ": " + check["detail"].get<std::string>() + "\n";
-  EXPECT_EQ(verified["accepted"], refusals.empty());
-  return refusals;
 }
 
 void Scale(Json& number, double factor) { number = number.get<double>() * factor; }
@@ -106,13 +66,13 @@ TEST(Verify, AcceptsTheAnswersOfTheSearch) {
   EXPECT_EQ(verified["schema"], "verification/1");
   EXPECT_EQ(verified["accepted"], true);
   EXPECT_EQ(verified["not_rechecked"], Json::array());
-  const Json gripper = Answered("gripper", 3);
+  const Json gripper = Listed("gripper", 3);
   EXPECT_EQ(Refusals(gripper), "");
   EXPECT_EQ(Verified(gripper)["not_rechecked"], Json::array());
 }
 
 TEST(Verify, EnumeratesEveryCombinationWhereThatEnds) {
-  const Json gripper = Answered("gripper", 5);
+  const Json gripper = Listed("gripper", 5);
   double shown = 0.0;
   const BruteForce all{optimizer::kBruteForceMax, {}, [&](double share) { shown = share; }};
   const Json verified =
@@ -149,7 +109,7 @@ TEST(Verify, RefusesToEnumerateMoreThanTheLimit) {
       DetailAt(errors(Exosuit(), optimizer::kBruteForceMax), "/proof/combinations");
   EXPECT_NE(detail.find(Exosuit()["proof"]["combinations"].get<std::string>()), std::string::npos);
   EXPECT_NE(detail.find("--combinations-max"), std::string::npos);
-  const Json gripper = Answered("gripper", 3);
+  const Json gripper = Listed("gripper", 3);
   EXPECT_NE(DetailAt(errors(gripper, 1000), "/proof/combinations"), "");
 }
 
@@ -167,15 +127,11 @@ TEST(Verify, SaysWhatItDidNotRecheckWithoutARecord) {
 
 // The gripper, a little faster.
 Json FrontOf(const Json& amounts) {
-  std::ifstream file(kRoot / "examples" / "gripper.json");
-  Json request = Parse(std::string(std::istreambuf_iterator<char>(file), {}));
+  Json request = Example("gripper");
   for (Json& group : request["actuators"])
     for (const char* limit : {"rise_time_s_max", "fall_time_s_max"}) Scale(group[limit], 0.9);
   request["objective"] = {{"pareto", amounts}};
-  const auto parsed = std::get<DesignRequest>(ParseRequirements(request, Project().parts));
-  Json front = AnswerRequest(parsed, {}, Project().parts);
-  front["catalogue_revision"] = RenderRevisionName(Project().revision);
-  return Parse(front.dump());
+  return Answered(request);
 }
 
 // Three points.

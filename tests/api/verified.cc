@@ -1,0 +1,58 @@
+#include "tests/api/verified.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "api/verify.h"
+#include "tests/api/support.h"
+
+namespace plenum::api {
+namespace {
+
+const std::filesystem::path kRoot = PLENUM_SOURCE_DIR;
+
+}  // namespace
+
+const Catalogue& Project() {
+  static const Catalogue catalogue = [] {
+    const catalog::Store store(kRoot / "catalog.db", catalog::Access::kRead);
+    auto [revision, parts] = store.ListWithHead();
+    return Catalogue{revision, parts};
+  }();
+  return catalogue;
+}
+
+Json Example(const std::string& name) {
+  std::ifstream file(kRoot / "examples" / (name + ".json"));
+  return Parse(std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
+Json Answered(const Json& request) {
+  const auto parsed = std::get<DesignRequest>(ParseRequirements(request, Project().parts));
+  Json answer = AnswerRequest(parsed, {}, Project().parts);
+  answer["catalogue_revision"] = RenderRevisionName(Project().revision);
+  return Parse(answer.dump());
+}
+
+Json Verified(const Json& answer) {
+  const auto verified = VerifyAnswer(answer, Project().parts, Project().revision);
+  for (const Error& error : ErrorsOf(verified)) ADD_FAILURE() << error.pointer << error.detail;
+  return std::get<Json>(verified);
+}
+
+// Names of the checks that refuse, and what they say.
+std::string Refusals(const Json& answer) {
+  std::string refusals;
+  const Json verified = Verified(answer);
+  for (const Json& check : verified["checks"])
+    if (!check["ok"])
+      refusals +=
+          check["check"].get<std::string>() + ": " + check["detail"].get<std::string>() + "\n";
+  EXPECT_EQ(verified["accepted"], refusals.empty());
+  return refusals;
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,27 @@
+// Answers out of the project's catalogue, and what `verify` says of them.
+#ifndef PLENUM_TESTS_API_VERIFIED_H_
+#define PLENUM_TESTS_API_VERIFIED_H_
+
+#include <string>
+#include <vector>
+
+#include "api/services.h"
+
+namespace plenum::api {
+
+struct Catalogue {
+  catalog::Revision revision;
+  std::vector<catalog::Part> parts;
+};
+const Catalogue& Project();
+
+Json Example(const std::string& name);  // a request
+Json Answered(const Json& request);     // as it is read back from a file
+
+Json Verified(const Json& answer);
+// Names of the checks that refuse, and what they say.
+std::string Refusals(const Json& answer);
+
+}  // namespace plenum::api
+
+#endif  // PLENUM_TESTS_API_VERIFIED_H_
