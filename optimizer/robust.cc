@@ -119,9 +119,11 @@ class DesignsWithRoom {
     Problem tight = Tightened(problem_, room);
     tight.count = count;
     std::vector<Design> bought;
-    for (const Design& design : Search(tight, options_).designs)
+    for (const Design& design : Search(tight, options_).designs) {
+      if (draws_.stopped()) break;
       if (auto own = WithSettingsAnew(problem_, design, options_.cancelled))
         bought.push_back(std::move(*own));
+    }
     return bought;
   }
 
@@ -155,7 +157,7 @@ void Order(std::vector<Entry>& entries) {
 
 // Lists the best designs that reach the probability: of the searched ones, and of those with room.
 RobustAnswer Choose(const Problem& problem, Searched searched, const std::vector<Design>& with_room,
-                    const Draws& draws, int draws_done) {
+                    const Draws& draws, int draws_done, bool all) {
   const std::vector<Design>& designs = searched.answer.designs;
   RobustAnswer result;
   result.draws = draws_done;
@@ -191,7 +193,7 @@ RobustAnswer Choose(const Problem& problem, Searched searched, const std::vector
     proof.gap = none ? 1.0 : GapOf(proof.lower_bound, answer.designs.back().objective);
     const bool full = static_cast<int>(answer.designs.size()) == problem.count;
     const bool exhausted = static_cast<int>(designs.size()) < searched.count;
-    proof.complete = !none && proof.gap <= kTie && (full || exhausted);
+    proof.complete = all && !none && proof.gap <= kTie && (full || exhausted);
     if (!proof.complete) answer.status = Status::kFeasible;
   } else if (!answer.designs.empty()) {
     proof.gap = GapOf(proof.lower_bound, answer.designs.back().objective);
@@ -232,19 +234,22 @@ RobustAnswer SearchRobust(const Problem& problem, const SearchOptions& search_op
     const int drawn = draws.Run(searched.answer.designs);
     // A list that is proved and drawn to the end is not given up for one that is not.
     if (!first && (!proved || drawn < options.draws)) break;
-    result = Choose(problem, searched, with_room, draws, drawn);
-    const bool open = proved && drawn == options.draws &&
-                      result.answer.status == Status::kFeasible &&
+    const bool all = drawn == options.draws;
+    result = Choose(problem, searched, with_room, draws, drawn, all);
+    const bool open = proved && all && result.answer.status == Status::kFeasible &&
                       static_cast<int>(searched.answer.designs.size()) == deeper.count;
     if (open && first) {
       with_room = DesignsWithRoom(problem, search_options, start, options, draws).Find();
-      result = Choose(problem, std::move(searched), with_room, draws, drawn);
+      result = Choose(problem, std::move(searched), with_room, draws, drawn, all);
     }
     if (!open || deeper.count >= kDepthMax || draws.stopped() ||
         SecondsSince(start) > search_options.time_limit_s)
       break;
     deeper.count = std::min(kDepthMax, kDepthFactor * deeper.count);
   }
+  if (result.answer.status == Status::kFeasible && search_options.cancelled &&
+      search_options.cancelled())
+    result.answer.status = Status::kCancelled;
   result.answer.seconds = SecondsSince(start);
   return result;
 }

@@ -51,8 +51,8 @@ struct RobustAnswer {
 // looked at, or time is up. Designs beyond, found where every requirement is tightened, fill the
 // list; they may have a larger made-to-measure reservoir than the search would give them. Every
 // other design, sized by the search, has an objective of at least the proof's lower bound or was
-// looked at and left out. `optimal`: no other belongs on the list. Else `feasible`, with the gap of
-// the last design, 1 where there is none.
+// looked at and left out. `optimal`: all draws were made and no other belongs on the list. Else
+// `feasible`, with the gap of the last design, 1 where there is none.
 RobustAnswer SearchRobust(const Problem& problem, const SearchOptions& search_options,
                           const RobustOptions& options, const DrawParts& draw_parts);
 

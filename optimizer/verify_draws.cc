@@ -189,9 +189,12 @@ class DrawsAgain {
     const bool exhausted = static_cast<int>(searched.answer.designs.size()) < searched.count;
     const bool full = static_cast<int>(answer.designs.size()) == problem_.count;
     const bool optimal = searched.answer.status == Status::kOptimal && !answer.designs.empty() &&
-                         gap <= kTieTolerance && (full || exhausted);
+                         gap <= kTieTolerance && (full || exhausted) &&
+                         answer_.draws == options_.draws;
     const bool same = answer.status == searched.answer.status;
-    if (answer.status == Status::kOptimal ? !optimal : !same && answer.status != Status::kFeasible)
+    const bool modest =
+        same || answer.status == Status::kFeasible || answer.status == Status::kCancelled;
+    if (answer.status == Status::kOptimal ? !optimal : !modest)
       Add("probability", std::string(Name(answer.status)) + " is more than follows");
     if (proof.complete !=
         (answer.status == Status::kOptimal || answer.status == Status::kInfeasible))

@@ -197,5 +197,22 @@ TEST(RobustTest, StopsInTimeWithTheDrawsItHas) {
     EXPECT_LE(robustness.met, result.draws);
 }
 
+TEST(RobustTest, SaysThatItWasCancelledBeforeTheListWasWhole) {
+  Problem problem = Drawn(3101, kAll);
+  problem.count = 3;
+  const optimizer::DrawParts parts = Shaking(problem);
+  bool cancelled = false;
+  const optimizer::DrawParts cancelling = [&](const Design& design, int draw) {
+    cancelled = draw > 1;
+    return parts(design, draw);
+  };
+  optimizer::SearchOptions options = Within(60.0);
+  options.cancelled = [&] { return cancelled; };
+  const RobustAnswer result = SearchRobust(problem, options, {kDraws, 60.0, 1.0}, cancelling);
+  EXPECT_EQ(result.answer.status, Status::kCancelled);
+  EXPECT_LT(result.draws, kDraws);
+  EXPECT_FALSE(result.answer.proof.complete);
+}
+
 }  // namespace
 }  // namespace plenum::test
