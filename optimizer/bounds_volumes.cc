@@ -21,7 +21,7 @@ constexpr double kBoxRatio = 2.0;
 constexpr double kRatioSteps[] = {1.25, 1.06, 1.015};
 constexpr double kFinestRatio = 1.004;
 // Of the least source pressure, whose lower end is used.
-constexpr double kBoxTolerance = 1e-2;
+constexpr double kBoxTolerance = 3e-3;
 constexpr double kSingleTolerance = 1e-3;
 // Of the range of source pressures, for the energy.
 constexpr int kBoxDivisions = 8;
