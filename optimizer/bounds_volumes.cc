@@ -21,11 +21,10 @@ constexpr double kBoxRatio = 2.0;
 constexpr double kRatioSteps[] = {1.25, 1.06, 1.015};
 constexpr double kFinestRatio = 1.004;
 // Of the least source pressure, whose lower end is used.
-constexpr double kBoxTolerance = 1e-2;
+constexpr double kBoxTolerance = 3e-3;
 constexpr double kSingleTolerance = 1e-3;
-// Of the range of source pressures, for the energy.
-constexpr int kBoxDivisions = 8;
-constexpr int kSingleDivisions = 16;
+// Of the range of source pressures, for the energy, at most: as long as it matters.
+constexpr int kDivisions = 32;
 
 }  // namespace
 
@@ -198,8 +197,7 @@ std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
       return BoundOf(LinesObjective(box), at);
     };
     volume.need.energy_j = LeastMissionEnergy(
-        problem_, pump, load, volume.need, single ? kSingleDivisions : kBoxDivisions,
-        [&](double low_j, double high_j) {
+        problem_, pump, load, volume.need, kDivisions, [&](double low_j, double high_j) {
           return high_j > limits.energy_max_j || rest_with(high_j) > rest_with(low_j);
         });
     if (!(volume.need.energy_j <= limits.energy_max_j)) return std::nullopt;

@@ -1,6 +1,7 @@
 #include "optimizer/dive.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "optimizer/leaf_sizing.h"
 
@@ -8,12 +9,19 @@ namespace plenum::optimizer {
 namespace {
 
 constexpr int kTurnsMax = 12;
+constexpr int kStepsPerRefine = 32;  // CustomSizing::Refine() takes the time of so many looks
+constexpr long long kUnlimitedSteps = std::numeric_limits<long long>::max();
 
 class Diver {
  public:
   Diver(const Problem& problem, Bounds& bounds, bool any, const std::function<bool()>& stop,
-        Ranking& ranking)
-      : problem_(problem), bounds_(bounds), any_(any), stop_(stop), ranking_(ranking) {}
+        DiveSteps& steps, Ranking& ranking)
+      : problem_(problem),
+        bounds_(bounds),
+        any_(any),
+        stop_(stop),
+        steps_(steps),
+        ranking_(ranking) {}
 
   // Follows the lower bound at every division but for a few, first none of them, then one, and so
   // on: the first choices, made on the weakest bounds, are the likeliest to be wrong.
@@ -29,13 +37,18 @@ class Diver {
   void From(Box box, int turns) { Below(std::move(box), turns); }
 
  private:
-  bool Done() const { return stop_() || (any_ && !ranking_.list().empty()); }
+  bool Done() const { return steps_.left <= 0 || stop_() || (any_ && !ranking_.list().empty()); }
+  // Whether a box may still improve the list; its bound rises and that of the list falls.
+  bool IsWanted(const Box& box) const { return !Done() && box.bound <= ranking_.run_end(); }
 
   // `turns`: how often the part with the higher bound is taken below the box.
   void Below(Box box, int turns) {
-    if (Done() || box.bound > ranking_.run_end()) return;
-    while (bounds_.CanFindSource(box))
-      if (stop_() || bounds_.FindSource(box) != Constraint::kNone) return;
+    while (IsWanted(box) && bounds_.CanFindSource(box)) {
+      const Constraint missed = bounds_.FindSource(box);
+      steps_.left -= box.core ? kStepsPerRefine : 1;
+      if (missed != Constraint::kNone) return;
+    }
+    if (!IsWanted(box)) return;
     if (bounds_.IsSingle(box)) {
       if (turns == 0) Try(std::move(box));
       return;
@@ -44,6 +57,7 @@ class Diver {
     const BoxNode& divided = (*bounds_.plan().slots[slot].nodes)[box.nodes[slot]];
     std::vector<Box> parts;
     for (int child : {divided.left, divided.right}) {
+      --steps_.left;
       Box part = box;
       part.nodes[slot] = child;
       if (bounds_.Assess(part, slot) == Constraint::kNone) parts.push_back(std::move(part));
@@ -60,7 +74,9 @@ class Diver {
     const Candidate candidate = bounds_.CandidateOf(box);
     std::unique_ptr<CustomSizing> sizing;
     std::optional<Leaf> sized;
-    while (!stop_() && !sized) sized = SizeLeaf(problem_, candidate, box, sizing);
+    for (long long steps = 0; !sized && IsWanted(box) && steps < steps_.of_design;
+         steps += kStepsPerRefine, steps_.left -= kStepsPerRefine)
+      sized = SizeLeaf(problem_, candidate, box, sizing);
     if (sized && sized->status == LeafStatus::kFeasible)
       ranking_.Add({std::move(box), &bounds_, *sized, std::move(ids), -1, nullptr});
   }
@@ -69,6 +85,7 @@ class Diver {
   Bounds& bounds_;
   bool any_;
   const std::function<bool()>& stop_;
+  DiveSteps& steps_;
   Ranking& ranking_;
 };
 
@@ -76,12 +93,13 @@ class Diver {
 
 void Dive(const Problem& problem, Bounds& bounds, bool any, const std::function<bool()>& stop,
           Ranking& ranking) {
-  Diver(problem, bounds, any, stop, ranking).Run();
+  DiveSteps unlimited{kUnlimitedSteps, kUnlimitedSteps};
+  Diver(problem, bounds, any, stop, unlimited, ranking).Run();
 }
 
 void DiveFrom(Box box, int turns, const Problem& problem, Bounds& bounds,
-              const std::function<bool()>& stop, Ranking& ranking) {
-  Diver(problem, bounds, false, stop, ranking).From(std::move(box), turns);
+              const std::function<bool()>& stop, DiveSteps& steps, Ranking& ranking) {
+  Diver(problem, bounds, false, stop, steps, ranking).From(std::move(box), turns);
 }
 
 }  // namespace plenum::optimizer

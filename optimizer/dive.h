@@ -12,9 +12,15 @@ namespace plenum::optimizer {
 void Dive(const Problem& problem, Bounds& bounds, bool any, const std::function<bool()>& stop,
           Ranking& ranking);
 
-// The same from a box on: along the lower bounds but for so many turns.
+// Work of a dive: a look at a box is one step, a step of sizing a design as many as take its time.
+struct DiveSteps {
+  long long left;       // are taken off
+  long long of_design;  // at most; one that is harder to size is left to the search
+};
+
+// The same from a box on: along the lower bounds but for so many turns, until no steps are left.
 void DiveFrom(Box box, int turns, const Problem& problem, Bounds& bounds,
-              const std::function<bool()>& stop, Ranking& ranking);
+              const std::function<bool()>& stop, DiveSteps& steps, Ranking& ranking);
 
 }  // namespace plenum::optimizer
 

@@ -36,6 +36,8 @@ constexpr double kProgressIntervalS = 0.2;
 constexpr double kGraceS = 0.1;
 constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;  // of the time limit
 constexpr int kCrowdDives = 20;                      // for each design that is wanted
+constexpr int kBoxesPerDiveStep = 2, kDiveStepsLeast = 10'000;
+constexpr int kHardDesigns = 16;  // no design takes more than this part of the steps of dives
 
 // Where the objective is one of the limited amounts alone, its limit bounds the objective.
 double ObjectiveLimit(const Problem& problem) {
@@ -278,11 +280,14 @@ class BoxSearch {
     open_.ForEach([&](const NodePtr& node) { SaveRoom(*node); });
   }
 
-  // From the boxes that come out next, then off the way from those that led to better designs.
+  // From the boxes that come out next, then off the way from those that led to better designs; not
+  // for longer than a share of what the search has done.
   void DiveFromNext() {
+    DiveSteps steps{static_cast<long long>(proof_.boxes) / kBoxesPerDiveStep + kDiveStepsLeast, 0};
+    steps.of_design = steps.left / kHardDesigns;
     const auto improves = [&](const Node& node, int turns) {
       const double before = ranking_.run_end();
-      DiveFrom(node.box, turns, problem_, *node.bounds, bench_.stop, ranking_);
+      DiveFrom(node.box, turns, problem_, *node.bounds, bench_.stop, steps, ranking_);
       return ranking_.run_end() < before;
     };
     std::vector<NodePtr> first;
