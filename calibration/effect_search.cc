@@ -51,9 +51,12 @@ class Search {
     if (size > 1 && sets_.LeftShare(sets_[*chosen]) < kEstablished && !sets_.Cancelled()) {
       Shrink(set);
       Exchange(set);
-      // An exchange may have come to an optimum that a smaller set missed.
+      // An exchange may have come to an optimum that a smaller set missed, and that to one that a
+      // still smaller set missed.
       const EffectSet better = sets_[*sets_.Best(size)].effects;
       if (better != set) Shrink(better);
+      for (int smaller = size - 1; smaller > 1; --smaller)
+        Shrink(sets_[*sets_.Best(smaller)].effects);
     }
     if (size > 0) CarryNumbers(sets_[*sets_.Best(size)].effects);
     return Finish(size);
@@ -150,6 +153,7 @@ class Search {
     for (int size = 1; size <= kEffectsMax && !sets_.Cancelled(); ++size) {
       if (size > 1 && enough_(sets_[chosen].fit)) {
         TryMoreOfFewerNumbers(sets_[chosen].effects);
+        if (sets_.data.clocks) TryTiming(chosen);
         const std::size_t other = sets_.Best(size).value_or(chosen);
         if (sets_[other].fit.bic < sets_[chosen].fit.bic - kAccept) chosen = other;
         break;
@@ -233,6 +237,17 @@ class Search {
           sets_.AddJobs(*sets_.Find(seed), spec, jobs);
     }
     sets_.RunJobs(jobs, 0.4, 0.6, "more effects of fewer numbers");
+  }
+
+  // Clocks take up most of what effects do that act in time: what these leave are a few readings at
+  // the start of each stroke, too few to show among all.
+  void TryTiming(std::size_t set) {
+    std::vector<Job> jobs;
+    const Contender from = sets_[set];
+    for (const Spec spec : Named())
+      if (ActsInTime(*spec)) sets_.AddJobs(from, spec, jobs);
+    const double share = from.effects.empty() ? 0.05 : 0.6;
+    sets_.RunJobs(jobs, share, share, "clocks");
   }
 
   static std::size_t NumbersOf(const EffectSet& set) {
@@ -342,11 +357,8 @@ class Search {
     if (!with.Usable()) return kNever;
     const double bic = with.bic + ClocksCost(data, with, options);
     if (!(bic < sets_[set].fit.bic) || !enough_(with)) return bic;
-    std::vector<Job> jobs;
+    TryTiming(set);
     const Contender from = sets_[set];
-    for (const Spec spec : Named())
-      if (ActsInTime(*spec)) sets_.AddJobs(from, spec, jobs);
-    sets_.RunJobs(jobs, 0.05, 0.1, "clocks");
     const bool rivalled =
         std::any_of(sets_.list.begin(), sets_.list.end(), [&](const Contender& other) {
           return other.effects.size() == from.effects.size() + 1 && other.fit.Usable() &&
