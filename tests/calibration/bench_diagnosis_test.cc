@@ -99,6 +99,15 @@ TEST(BenchDiagnosis, AnOptimumThatAPairFindsIsTriedWithEachOfItsEffects) {
   EXPECT_EQ(SetsOf(diagnosis), named);
 }
 
+// A line imitates a cracking pressure beside an opened valve's conductance better than either of
+// them does alone.
+TEST(BenchDiagnosis, PairsAreMadeOfMoreEffectsBeforeAThirdIsAdded) {
+  const Diagnosis diagnosis = Diagnosed(CaseOfSeries(25, 238));
+  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence;
+  const std::set<std::set<std::string>> named = {{"cracking_pressure", "directional_conductance"}};
+  EXPECT_EQ(SetsOf(diagnosis), named);
+}
+
 // A supply that droops has three numbers and comes to the noise; an opened valve's conductance and
 // the sensor's gain have one each and do better.
 TEST(BenchDiagnosis, TwoEffectsOfFewerNumbersAreTriedBesideOne) {
