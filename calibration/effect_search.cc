@@ -15,6 +15,7 @@ using Spec = const model::EffectSpec*;
 
 constexpr double kNever = std::numeric_limits<double>::infinity(), kClocksAreAll = -kNever;
 constexpr std::size_t kTriplesFrom = 1;  // best pairs
+constexpr std::size_t kMoreSeeds = 6;    // singles that pairs are built on before triples are
 
 class Search {
  public:
@@ -51,9 +52,12 @@ class Search {
     if (size > 1 && sets_.LeftShare(sets_[*chosen]) < kEstablished && !sets_.Cancelled()) {
       Shrink(set);
       Exchange(set);
-      // An exchange may have come to an optimum that a smaller set missed.
+      // An exchange may have come to an optimum that a smaller set missed, and that to one that a
+      // still smaller set missed.
       const EffectSet better = sets_[*sets_.Best(size)].effects;
       if (better != set) Shrink(better);
+      for (int smaller = size - 1; smaller > 1; --smaller)
+        Shrink(sets_[*sets_.Best(smaller)].effects);
     }
     if (size > 0) CarryNumbers(sets_[*sets_.Best(size)].effects);
     return Finish(size);
@@ -148,8 +152,10 @@ class Search {
     if (sets_.list.empty()) sets_.FitBase();
     std::size_t chosen = 0;
     for (int size = 1; size <= kEffectsMax && !sets_.Cancelled(); ++size) {
+      if (size > 2) chosen = OfMorePairs(chosen);
       if (size > 1 && enough_(sets_[chosen].fit)) {
         TryMoreOfFewerNumbers(sets_[chosen].effects);
+        if (sets_.data.clocks) TryTiming(chosen);
         const std::size_t other = sets_.Best(size).value_or(chosen);
         if (sets_[other].fit.bic < sets_[chosen].fit.bic - kAccept) chosen = other;
         break;
@@ -160,7 +166,7 @@ class Search {
       if (size == 1) {
         FitSingles();
       } else {
-        ExtendSets(size);
+        ExtendSets(size, SeedsOf(size - 1));
         TryLaws(size);
       }
       const std::optional<std::size_t> best = sets_.Best(size);
@@ -181,9 +187,18 @@ class Search {
     sets_.RunJobs(jobs, 0.05, 0.4, "single effects");
   }
 
+  // The best pair, where it leaves structure after pairs with further singles: an effect that other
+  // effects imitate better than it does alone may do with the right one beside it.
+  std::size_t OfMorePairs(std::size_t pair) {
+    if (sets_.LeftShare(sets_[pair]) > kEstablished || enough_(sets_[pair].fit)) return pair;
+    ExtendSets(2, kMoreSeeds);
+    return sets_.Best(2).value_or(pair);
+  }
+
+  static std::size_t SeedsOf(int size) { return size == 1 ? kSeeds : kTriplesFrom; }
+
   // The best sets of a size, of each id the best law alone.
-  std::vector<EffectSet> Seeds(int size) const {
-    const std::size_t count = size == 1 ? kSeeds : kTriplesFrom;
+  std::vector<EffectSet> Seeds(int size, std::size_t count) const {
     std::vector<std::size_t> kept;
     for (const std::size_t i : sets_.Sorted(size)) {
       const bool known = std::any_of(kept.begin(), kept.end(), [&](std::size_t other) {
@@ -213,9 +228,9 @@ class Search {
     return best;
   }
 
-  void ExtendSets(int size) {
+  void ExtendSets(int size, std::size_t seeds) {
     std::vector<Job> jobs;
-    for (const EffectSet& seed : Seeds(size - 1))
+    for (const EffectSet& seed : Seeds(size - 1, seeds))
       for (const Spec spec : BestLaws()) sets_.AddJobs(*sets_.Find(seed), spec, jobs);
     const double from = size == 2 ? 0.4 : 0.7;
     sets_.RunJobs(jobs, from, from + 0.2, size == 2 ? "pairs of effects" : "triples of effects");
@@ -225,14 +240,26 @@ class Search {
   // effect more but no more numbers must not do better. They are grown from the others that explain
   // most.
   void TryMoreOfFewerNumbers(const EffectSet& set) {
+    const int size = static_cast<int>(set.size());
     std::vector<Job> jobs;
-    for (const EffectSet& seed : Seeds(static_cast<int>(set.size()))) {
+    for (const EffectSet& seed : Seeds(size, SeedsOf(size))) {
       if (seed == set || sets_.LeftShare(*sets_.Find(seed)) > kEstablished) continue;
       for (const Spec spec : BestLaws())
         if (NumbersOf(With(seed, spec)) <= NumbersOf(set))
           sets_.AddJobs(*sets_.Find(seed), spec, jobs);
     }
     sets_.RunJobs(jobs, 0.4, 0.6, "more effects of fewer numbers");
+  }
+
+  // Clocks take up most of what effects do that act in time: what these leave are a few readings at
+  // the start of each stroke, too few to show among all.
+  void TryTiming(std::size_t set) {
+    std::vector<Job> jobs;
+    const Contender from = sets_[set];
+    for (const Spec spec : Named())
+      if (ActsInTime(*spec)) sets_.AddJobs(from, spec, jobs);
+    const double share = from.effects.empty() ? 0.05 : 0.6;
+    sets_.RunJobs(jobs, share, share, "clocks");
   }
 
   static std::size_t NumbersOf(const EffectSet& set) {
@@ -342,11 +369,8 @@ class Search {
     if (!with.Usable()) return kNever;
     const double bic = with.bic + ClocksCost(data, with, options);
     if (!(bic < sets_[set].fit.bic) || !enough_(with)) return bic;
-    std::vector<Job> jobs;
+    TryTiming(set);
     const Contender from = sets_[set];
-    for (const Spec spec : Named())
-      if (ActsInTime(*spec)) sets_.AddJobs(from, spec, jobs);
-    sets_.RunJobs(jobs, 0.05, 0.1, "clocks");
     const bool rivalled =
         std::any_of(sets_.list.begin(), sets_.list.end(), [&](const Contender& other) {
           return other.effects.size() == from.effects.size() + 1 && other.fit.Usable() &&

@@ -178,6 +178,33 @@ void TurnPhases(const FitData& data, const FitOptions& options, ModelState& stat
   }
 }
 
+std::vector<int> AtBounds(const Fit& fit) {
+  std::vector<int> at;
+  for (std::size_t j = 0; j < fit.coordinates.size(); ++j) {
+    const double u = fit.u[static_cast<Eigen::Index>(j)];
+    if (u <= fit.coordinates[j].low || u >= fit.coordinates[j].high)
+      at.push_back(static_cast<int>(j));
+  }
+  return at;
+}
+
+// Where a number is at its bound a step is cut there, and what it does with the others goes with
+// the part that was cut off: they stop short of their best. So they go on without it, and if that
+// was worth while all do.
+void GoOnAtBounds(const ceres::Solver::Options& solver, Fit& fit, ceres::Problem& problem,
+                  ceres::Solver::Summary& summary) {
+  const std::vector<int> held = AtBounds(fit);
+  const int size = static_cast<int>(fit.u.size());
+  if (held.empty() || static_cast<int>(held.size()) == size) return;
+  const double before = summary.final_cost;
+  problem.SetManifold(fit.u.data(), new ceres::SubsetManifold(size, held));
+  ceres::Solve(solver, &problem, &summary);
+  problem.SetManifold(fit.u.data(), nullptr);
+  if (summary.termination_type != ceres::CONVERGENCE) return;
+  if (summary.final_cost < (1.0 - solver.function_tolerance) * before)
+    ceres::Solve(solver, &problem, &summary);
+}
+
 // The declared pairs of a line: what a tube adds follows from its size.
 std::vector<model::FlowElement> PairsOf(const Run& run) {
   std::vector<model::FlowElement> pairs;
@@ -241,6 +268,7 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   solver.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
+  if (summary.termination_type == ceres::CONVERGENCE) GoOnAtBounds(solver, fit, problem, summary);
 
   fit.status = options.cancelled && options.cancelled() ? FitStatus::kCancelled : StatusOf(summary);
   if (fit.status == FitStatus::kFailed) fit.detail = summary.message;

@@ -310,17 +310,26 @@ void FindEnds(std::span<const Readings> all, std::vector<Noise>& noises) {
   }
 }
 
+// An end of the range need not lie on the grid.
+double QuantumWithin(const Readings& readings, const Noise& noise) {
+  std::vector<double> within;
+  for (const double y : readings.y)
+    if (y > noise.clip_low_pa && y < noise.clip_high_pa) within.push_back(y);
+  return Quantum(within);
+}
+
 }  // namespace
 
 std::vector<Noise> EstimateNoise(std::span<const Readings> all) {
   std::vector<Noise> noises(all.size());
-  for (std::size_t j = 0; j < all.size(); ++j) noises[j].quantum_pa = Quantum(all[j].y);
   FindEnds(all, noises);
+  for (std::size_t j = 0; j < all.size(); ++j)
+    noises[j].quantum_pa = QuantumWithin(all[j], noises[j]);
   std::vector<Record> records;
   for (std::size_t j = 0; j < all.size(); ++j) {
     Noise& noise = noises[j];
     records.push_back(RecordOf(all[j], noise));
-    if (noise.staircase || !(noise.sigma_pa > 0.0)) continue;
+    if (!(noise.sigma_pa > 0.0)) continue;
     noise.near_end =
         NearEnds(all[j].y, noise.clip_low_pa, noise.clip_high_pa, kClipSigmas * noise.sigma_pa);
     if (noise.near_end.size() > noise.clipped.size()) records.back() = RecordOf(all[j], noise);

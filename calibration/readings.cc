@@ -92,6 +92,21 @@ bool Crowded(const std::vector<std::vector<std::size_t>>& stretches, double p) {
   return readings * (seen * std::log(seen / p) + left) > -std::log(kCrowdChance);
 }
 
+// Whether the value, the highest or lowest, is read several times and lies between the lines of the
+// grid that all the others lie on.
+bool IsOffGrid(const std::vector<double>& values, double end, double same) {
+  std::vector<double> others;
+  for (const double value : values)
+    if (std::abs(value - end) > same) others.push_back(value);
+  const double quantum = Quantum(others);
+  if (quantum == 0.0 || values.size() - others.size() < kClipLengthMin) return false;
+  const double nearest = *std::min_element(others.begin(), others.end(), [&](double a, double b) {
+    return std::abs(a - end) < std::abs(b - end);
+  });
+  const double steps = std::abs(nearest - end) / quantum;
+  return std::abs(steps - std::round(steps)) > kGridTolerance;
+}
+
 }  // namespace
 
 double Quantum(std::span<const double> y) {
@@ -118,13 +133,14 @@ std::vector<std::size_t> Clipped(const Readings& readings) {
   const std::span<const double> y = readings.y;
   const std::vector<double> values = Finite(y);
   if (values.size() < 2 * kClipLengthMin) return {};
-  if (ReversalShare(values) < kReversalShareMin) return {};
   const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
   const double same = kSameValue * (*highest - *lowest);
   const double share = RepeatShare(readings, *lowest + same, *highest - same);
-  if (share > kStillShareMax) return {};
+  const bool tells = ReversalShare(values) >= kReversalShareMin && share <= kStillShareMax;
   std::vector<std::size_t> clipped;
   for (const double end : {*lowest, *highest}) {
+    const bool off_grid = IsOffGrid(values, end, same);
+    if (!tells && !off_grid) continue;
     std::vector<std::vector<std::size_t>> stretches(1);
     for (std::size_t i = 0; i < y.size(); ++i) {
       if (!std::isfinite(y[i])) continue;
@@ -133,11 +149,11 @@ std::vector<std::size_t> Clipped(const Readings& readings) {
       else if (!stretches.back().empty())
         stretches.emplace_back();
     }
-    const bool crowded = Crowded(stretches, share);
+    const bool all = off_grid || Crowded(stretches, share);
     for (const std::vector<std::size_t>& stretch : stretches) {
       const double length = static_cast<double>(stretch.size());
       const double chance = static_cast<double>(values.size()) * std::pow(share, length - 1.0);
-      if (crowded || (stretch.size() >= kClipLengthMin && chance < kClipChance))
+      if (all || (stretch.size() >= kClipLengthMin && chance < kClipChance))
         clipped.insert(clipped.end(), stretch.begin(), stretch.end());
     }
   }

@@ -21,7 +21,9 @@ double Quantum(std::span<const double> y);
 // (b) all of them, where they repeat more often than with a share p, at a chance below 1e-6: at the
 // floor of a converter half the noise or more is cut off, while an extreme that nothing cuts off is
 // the tail of the noise and hardly ever repeats.
-// None where that cannot be told: p above one half (a coarse grid) or no visible noise.
+// None where that cannot be told: p above one half (a coarse grid) or no visible noise. But
+// (c) whatever the noise, where four or more are at that value and it lies between the lines of the
+// grid that all others lie on, by more than a tenth of its step.
 std::vector<std::size_t> Clipped(const Readings& readings);
 
 // Indices of readings whose median with five neighbours on either side comes within `margin` of an

@@ -9,8 +9,9 @@
 //
 // Rivals: no effect, every single one, pairs of the best singles; of a pair also either of its
 // effects with every other one. Never a set that contains the true one, and no learned term: it is
-// no name, and follows many laws. Every start of an effect is tried. Runs are thinned to kSamples
-// each with the noise scaled so that they say as much.
+// no name, and follows many laws. Every start of an effect is tried, of a line alone also the
+// lengths that ring in step with the best. Runs are thinned to kSamples each with the noise scaled
+// so that they say as much.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -27,7 +28,9 @@
 #include <vector>
 
 #include "api/measurement.h"
+#include "calibration/contenders.h"
 #include "calibration/fit.h"
+#include "calibration/start_scan.h"
 #include "tests/support/bench_dataset.h"
 #include "tests/support/bench_json.h"
 
@@ -95,6 +98,7 @@ class Judge {
     Consider({});
     const double without = nearest_.bic - true_bic_;
     for (const model::EffectSpec* spec : NamedEffects()) ConsiderFrom({}, *spec);
+    ConsiderInStep();
     std::sort(singles_.begin(), singles_.end(),
               [](const Tried& a, const Tried& b) { return a.bic < b.bic; });
     for (std::size_t i = 0; i < std::min(kBestSingles, singles_.size()); ++i) {
@@ -123,6 +127,7 @@ class Judge {
   struct Tried {
     Effects effects;
     double bic = INFINITY;
+    ModelState state = {};
   };
 
   // The single effects that do as well.
@@ -193,8 +198,8 @@ class Judge {
       score = Bic(start, kIterations);
     }
     if (score.bic == INFINITY) return;
-    const Tried tried = {score.state.effects, score.bic};
-    if (effects.size() == 1) singles_.push_back(tried);
+    const Tried tried = {score.state.effects, score.bic, score.state};
+    if (effects.size() == 1) TakeSingle(tried);
     if (tried.bic < nearest_.bic) nearest_ = tried;
   }
 
@@ -208,6 +213,32 @@ class Judge {
       Effects effects = kept;
       effects.push_back(start);
       if (IdsOf(effects).size() == effects.size()) Consider(effects);
+    }
+  }
+
+  void TakeSingle(const Tried& tried) {
+    const auto same = std::find_if(singles_.begin(), singles_.end(), [&](const Tried& other) {
+      return other.effects[0].spec == tried.effects[0].spec;
+    });
+    if (same == singles_.end())
+      singles_.push_back(tried);
+    else if (tried.bic < same->bic)
+      *same = tried;
+  }
+
+  // A line rings in step with another one at many lengths, as the diagnosis knows: from the best
+  // one again, as long as that does better.
+  void ConsiderInStep() {
+    double before = INFINITY;
+    while (true) {
+      const auto line = std::find_if(singles_.begin(), singles_.end(), [](const Tried& tried) {
+        return tried.effects[0].spec->id == "line_dynamics";
+      });
+      if (line == singles_.end() || !(line->bic < before - calibration::kSameOptimum)) return;
+      before = line->bic;
+      const calibration::Fit fit = calibration::FitModel(data_, line->state, {});
+      for (const ModelState& start : calibration::ScannedAgain(data_, fit, {}))
+        Consider(start.effects);
     }
   }
 

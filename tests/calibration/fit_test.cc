@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/calibration/bench.h"
+#include "tests/support/bench_dataset.h"
 
 namespace plenum::calibration {
 namespace {
@@ -193,6 +194,24 @@ TEST(Fit, TheWeightOfReadingsIsBesideThePriors) {
   ASSERT_TRUE(full.Usable() && light.Usable());
   EXPECT_LT(light.chi2_prior, full.chi2_prior);
   EXPECT_GT(light.chi2_data, full.chi2_data);
+}
+
+// A supply whose critical ratio wants to be below zero: with that at its bound the declared numbers
+// must come as near to what was stated of them as they can.
+TEST(Fit, ANumberAtItsBoundHoldsNoOtherBack) {
+  Bench bench(test::ToDataset(test::CaseOfSeries(25, 71)));
+  bench.data.runs = {0, 1, 2, 3, 4};
+  FitOptions options;
+  options.noise_share = 1e-3;
+  options.function_tolerance = 1e-9;
+  options.iterations_max = 100;
+  const Fit fit = FitModel(bench.data, StartOf(bench, "supply_droop"), options);
+  ASSERT_TRUE(fit.Usable());
+  ASSERT_EQ(fit.state.effects[0].parameters[2], 0.0);
+  options.fixed = fit.coordinates.back().parameter;
+  const Fit held = FitModel(bench.data, fit.state, options);
+  ASSERT_TRUE(held.Usable());
+  EXPECT_LT(fit.chi2_data + fit.chi2_prior, held.chi2_data + held.chi2_prior + 0.1);
 }
 
 TEST(Fit, CancelledSaysSo) {

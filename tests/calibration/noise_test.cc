@@ -202,13 +202,21 @@ TEST(Noise, ReadingsThatStandAtTheEndOfTheRangeAreClipped) {
   // The same signal on a coarse grid stands still by itself, at its ends as elsewhere.
   for (double& value : y) value = RoundTo(value, 2e3);
   EXPECT_TRUE(OfHold(t_s, y).clipped.empty());
+  // Unless what cuts it off lies between the lines of the grid.
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] = std::min(y[i], 1.99e5);
+  const Noise coarse = OfHold(t_s, y);
+  EXPECT_EQ(coarse.clip_high_pa, 1.99e5);
+  for (const std::size_t i : cut)
+    EXPECT_TRUE(std::find(coarse.clipped.begin(), coarse.clipped.end(), i) != coarse.clipped.end());
+  EXPECT_NEAR(coarse.quantum_pa, 2e3, 1.0);
   // Neither noise nor grid: a signal at rest.
   EXPECT_TRUE(OfHold(t_s, std::vector<double>(t_s.size(), 1e5)).clipped.empty());
 }
 
 // A chamber that is filled, held and emptied, read through a converter of step q = 1 and `noise`;
 // at rest the level lies `rest` above its floor (no floor: -1e9).
-Noise OfConverter(int seed, double noise, double rest, double floor) {
+Noise OfConverter(int seed, double noise, double rest, double floor,
+                  const std::vector<TimeSpan>& quiet = {{0.0, 1.0}, {1.8, 3.0}, {5.0, 6.0}}) {
   const std::vector<double> t_s = EvenTimes(600, 0.01), e = WhiteNoise(seed, t_s.size(), noise);
   std::vector<double> y;
   for (std::size_t i = 0; i < t_s.size(); ++i) {
@@ -217,7 +225,7 @@ Noise OfConverter(int seed, double noise, double rest, double floor) {
     const double signal = t < 1.0 ? 0.0 : t < 3.0 ? filled : 100.0 * std::exp(-(t - 3.0) / 0.2);
     y.push_back(std::max(RoundTo(rest + signal + e[i], 1.0), floor));
   }
-  return EstimateNoise({t_s, y, {{0.0, 1.0}, {1.8, 3.0}, {5.0, 6.0}}, {{1.0, 1.8}, {3.0, 5.0}}});
+  return EstimateNoise({t_s, y, quiet, {{1.0, 1.8}, {3.0, 5.0}}});
 }
 
 TEST(Noise, TheFloorOfAConverterIsSeenThroughNoiseAsLargeAsItsStep) {
@@ -230,6 +238,16 @@ TEST(Noise, TheFloorOfAConverterIsSeenThroughNoiseAsLargeAsItsStep) {
   }
   EXPECT_GE(cut, 0.9 * kSeeds);
   EXPECT_EQ(whole, kSeeds);
+}
+
+// At rest half the noise is cut off: that it is less than half a step there says nothing.
+TEST(Noise, WhatTheFloorCutsOffIsNoStaircase) {
+  for (int seed = 0; seed < 20; ++seed) {
+    const Noise noise = OfConverter(seed, 0.7, -0.4, 0.0, {{0.0, 1.0}, {5.0, 6.0}});
+    ASSERT_EQ(noise.clip_low_pa, 0.0) << seed;
+    EXPECT_FALSE(noise.staircase) << seed;
+    EXPECT_NEAR(noise.sigma_pa, std::hypot(0.7, 1.0 / std::sqrt(12.0)), 0.25) << seed;
+  }
 }
 
 TEST(Noise, OverlaidSamplesGiveTheScatterOfRepeats) {
