@@ -13,6 +13,7 @@ namespace {
 constexpr double kVarianceMin = 0.02;                       // of the squared quantum
 constexpr double kNoiseLowest = 1e-3, kNoiseHighest = 1e3;  // quanta
 constexpr double kChanceMin = 1e-300;
+constexpr double kNegligible = 1e-15;  // of a quantum
 
 double Normal(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
@@ -38,18 +39,21 @@ double LogLikelihood(std::span<const double> readings, std::span<const double> m
 
 Grid::Grid(double quantum, double noise) : quantum_(quantum), noise_(noise) {
   const double width = std::numbers::pi * std::max(noise / quantum, kLeastGridNoise);
-  for (int k = 1; k <= kHarmonics; ++k)
-    size_[static_cast<std::size_t>(k - 1)] =
-        (k % 2 == 0 ? 1.0 : -1.0) * std::exp(-2.0 * std::pow(k * width, 2));
+  for (int k = 1; k <= kHarmonics; ++k) {
+    const double size = std::exp(-2.0 * std::pow(k * width, 2));
+    if (size < kNegligible) break;
+    size_[static_cast<std::size_t>(k - 1)] = k % 2 == 0 ? size : -size;
+    harmonics_ = k;
+  }
 }
 
 Grid::Shift Grid::At(double off) const {
-  if (quantum_ == 0.0) return {};
+  if (harmonics_ == 0) return {};
   const double phase = -2.0 * std::numbers::pi * off / quantum_;  // of the model from the reading
   const std::complex<double> turn(std::cos(phase), std::sin(phase));
   std::complex<double> turned = 1.0;
   Shift result;
-  for (int k = 1; k <= kHarmonics; ++k) {
+  for (int k = 1; k <= harmonics_; ++k) {
     turned *= turn;
     const double size = size_[static_cast<std::size_t>(k - 1)];
     result.mean += quantum_ / (std::numbers::pi * k) * size * turned.imag();

@@ -41,6 +41,7 @@ class Grid {
  private:
   double quantum_ = 0.0, noise_ = 0.0;
   std::array<double, kHarmonics> size_{};
+  int harmonics_ = 0;  // that are more than rounding
 };
 
 // s of readings on a grid, of finite readings and models.
