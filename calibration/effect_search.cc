@@ -63,8 +63,16 @@ class Search {
       for (int smaller = size - 1; smaller > 1; --smaller)
         Shrink(sets_[*sets_.Best(smaller)].effects);
     }
+    if (size > 1 && !sets_.Cancelled()) FitAlone(sets_[*sets_.Best(size)].effects);
     if (size > 0) CarryNumbers(sets_[*sets_.Best(size)].effects);
     return Finish(size);
+  }
+
+  // A line of the wrong length leaves what other effects beside it may take up: before it is called
+  // in need of them, its lengths are tried without.
+  void FitAlone(const EffectSet& set) {
+    for (const Spec spec : set)
+      if (Contender* alone = sets_.Find({spec})) sets_.FitInStep(*alone);
   }
 
   // Where runs confirm each other the clocks must do better than effects by kClock. In a single run

@@ -99,6 +99,15 @@ TEST(BenchDiagnosis, AnOptimumThatAPairFindsIsTriedWithEachOfItsEffects) {
   EXPECT_EQ(SetsOf(diagnosis), named);
 }
 
+// A line whose fit alone ended at a wrong length; a lagging sensor beside it takes up some of what
+// that leaves.
+TEST(BenchDiagnosis, LengthsOfALineAreTriedWithoutTheEffectsBesideIt) {
+  const Diagnosis diagnosis = Diagnosed(CaseOfSeries(26, 131));
+  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence;
+  const std::set<std::set<std::string>> named = {{"line_dynamics"}};
+  EXPECT_EQ(SetsOf(diagnosis), named);
+}
+
 // A line imitates a cracking pressure beside an opened valve's conductance better than either of
 // them does alone.
 TEST(BenchDiagnosis, PairsAreMadeOfMoreEffectsBeforeAThirdIsAdded) {
