@@ -116,12 +116,9 @@ class Diagnosing {
   }
 
   void Search(const FitData& data, const SearchOptions& options) {
-    search_ = SearchEffects(
-        data, options,
-        [this](const Fit& fit) {
-          return PriorsHold(fit) && IsNoise(LeftoverOf(bench_, fit, false));
-        },
-        std::move(search_.contenders));
+    search_ = SearchEffects(data, options, [this](const Fit& fit) {
+      return PriorsHold(fit) && IsNoise(LeftoverOf(bench_, fit, false));
+    });
     bench_.data = search_.data;
     base_ = &search_.contenders[search_.base];
   }
