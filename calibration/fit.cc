@@ -15,23 +15,17 @@ namespace plenum::calibration {
 namespace {
 
 constexpr double kParameterTolerance = 1e-7;
-constexpr int kTriesOfAStep = 5;  // on average
-constexpr int kPhases = 8;        // in a round
+constexpr int kPhases = 8;  // in a round
 
-// Counts the steps that are taken: one that is only tried costs no derivatives.
-class StepCount : public ceres::IterationCallback {
+class StopWhenCancelled : public ceres::IterationCallback {
  public:
-  explicit StepCount(const FitOptions& options) : options_(options) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
-    if (options_.cancelled && options_.cancelled()) return ceres::SOLVER_ABORT;
-    if (step.iteration > 0 && step.step_is_successful) ++taken_;
-    return Spent() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  explicit StopWhenCancelled(const std::function<bool()>& cancelled) : cancelled_(cancelled) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    return cancelled_ && cancelled_() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
   }
-  bool Spent() const { return taken_ == options_.iterations_max; }
 
  private:
-  const FitOptions& options_;
-  int taken_ = 0;
+  const std::function<bool()>& cancelled_;
 };
 
 bool HasPrior(const std::vector<Coordinate>& coordinates) {
@@ -76,8 +70,7 @@ void AddCosts(const FitData& data, const ModelState& start, const FitOptions& op
               const std::vector<Coordinate>& coordinates, double* u, ceres::Problem& problem) {
   for (const std::size_t run : data.runs)
     problem.AddResidualBlock(
-        new RunCost(data, run, start, coordinates, OptionsOf(data, run, options), options.weight,
-                    options.iterations_max),
+        new RunCost(data, run, start, coordinates, OptionsOf(data, run, options), options.weight),
         nullptr, u);
   if (HasPrior(coordinates)) problem.AddResidualBlock(new PriorCost(coordinates), nullptr, u);
 }
@@ -260,26 +253,24 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   }
   AddCosts(data, start, options, fit.coordinates, fit.u.data(), problem);
 
-  StepCount steps(options);
+  StopWhenCancelled stop(options.cancelled);
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  solver.max_num_iterations = kTriesOfAStep * options.iterations_max;
+  solver.max_num_iterations = options.iterations_max;
   solver.function_tolerance = options.function_tolerance;
   solver.parameter_tolerance = kParameterTolerance;
   solver.gradient_tolerance = 0.0;
   solver.initial_trust_region_radius = 1e3;
-  // A step that does not do is not sought along its line but turned, by a smaller region of trust:
-  // at a bound, and in a valley, no length of it does.
-  solver.max_num_line_search_step_size_iterations = 0;
+  // Steps are tried by their values alone: many are shortened, and derivatives cost far more.
+  solver.line_search_interpolation_type = ceres::BISECTION;
   solver.num_threads = options.threads;
   solver.logging_type = ceres::SILENT;
-  solver.callbacks.push_back(&steps);
+  solver.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   if (summary.termination_type == ceres::CONVERGENCE) GoOnAtBounds(solver, fit, problem, summary);
 
-  fit.status = steps.Spent() ? FitStatus::kIterationsSpent : StatusOf(summary);
-  if (options.cancelled && options.cancelled()) fit.status = FitStatus::kCancelled;
+  fit.status = options.cancelled && options.cancelled() ? FitStatus::kCancelled : StatusOf(summary);
   if (fit.status == FitStatus::kFailed) fit.detail = summary.message;
   fit.state = StateAt(start, fit.coordinates, fit.u.data());
   if (late && !options.nuisance_only) MeanLateness(fit.coordinates, fit.state);

@@ -49,14 +49,13 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
 
 RunCost::RunCost(const FitData& data, std::size_t run, const ModelState& start,
                  const std::vector<Coordinate>& coordinates, const PredictOptions& options,
-                 double weight, int derivatives_max)
+                 double weight)
     : data_(data),
       run_(run),
       start_(start),
       coordinates_(coordinates),
       options_(options),
-      scale_(std::sqrt(weight)),
-      derivatives_left_(derivatives_max) {
+      scale_(std::sqrt(weight)) {
   for (const Coordinate& coordinate : coordinates) parameters_.push_back(coordinate.parameter);
   mutable_parameter_block_sizes()->push_back(static_cast<int>(coordinates.size()));
   set_num_residuals(static_cast<int>(coordinates.size()) + 1);
@@ -64,13 +63,11 @@ RunCost::RunCost(const FitData& data, std::size_t run, const ModelState& start,
 
 bool RunCost::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
   const Eigen::Map<const Eigen::VectorXd> u(blocks[0], size());
-  const bool asked = jacobians && jacobians[0];
-  const bool derive = asked && derivatives_left_ > 0;
+  const bool derive = jacobians && jacobians[0];
   if (known_.u.size() != size() || known_.u != u) known_ = {u, {}, {}};
-  if (derive && !known_.root) known_.root = RootAt(blocks[0]), --derivatives_left_;
+  if (derive && !known_.root) known_.root = RootAt(blocks[0]);
   if (!derive && !known_.root && !known_.norm) known_.norm = NormAt(blocks[0]);
   Eigen::Map<Eigen::VectorXd> rows(residuals, num_residuals());
-  if (asked && !derive) std::fill_n(jacobians[0], num_residuals() * size(), 0.0);
   if (!known_.root) {
     rows.setZero();
     rows[0] = *known_.norm;

@@ -5,7 +5,6 @@
 #include <ceres/cost_function.h>
 
 #include <Eigen/Core>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,16 +22,15 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
 // One run over all k coordinates as one block of k + 1 rows. The search needs of the residuals e
 // and their derivatives J only JᵀJ, Jᵀe and eᵀe, so that the rows are R of [J e] = Q·R, which has
 // the same products and none of the readings' number; without derivatives the one row |e|. A step
-// is asked for twice at one point — for its cost, and for the derivatives there — and simulated
-// once without derivatives, and once with them where it is taken. A run that turned out stiff is
-// taken to stay so: the explicit method is not tried again. Derivatives given `derivatives_max`
-// times are zero from then on: the last step needs none.
+// is asked for thrice at one point — by the search along it, for its cost, and for the derivatives
+// there — and simulated once without derivatives, and once with them where it is taken. A run that
+// turned out stiff is taken to stay so: the explicit method is not tried again.
 class RunCost : public ceres::CostFunction {
  public:
   // References must outlive it.
   RunCost(const FitData& data, std::size_t run, const ModelState& start,
           const std::vector<Coordinate>& coordinates, const PredictOptions& options,
-          double weight = 1.0, int derivatives_max = std::numeric_limits<int>::max());
+          double weight = 1.0);
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override;
 
  private:
@@ -56,8 +54,7 @@ class RunCost : public ceres::CostFunction {
   const std::vector<Coordinate>& coordinates_;
   std::vector<Parameter> parameters_;
   mutable PredictOptions options_;
-  double scale_;  // of the residuals
-  mutable int derivatives_left_;
+  double scale_;         // of the residuals
   mutable Known known_;  // the last point
 };
 

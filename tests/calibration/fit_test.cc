@@ -3,10 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <vector>
 
-#include "calibration/run_cost.h"
 #include "tests/calibration/bench.h"
 #include "tests/support/bench_dataset.h"
 
@@ -215,50 +212,6 @@ TEST(Fit, ANumberAtItsBoundHoldsNoOtherBack) {
   const Fit held = FitModel(bench.data, fit.state, options);
   ASSERT_TRUE(held.Usable());
   EXPECT_LT(fit.chi2_data + fit.chi2_prior, held.chi2_data + held.chi2_prior + 0.1);
-}
-
-TEST(Fit, ThatEndsByItsStepsIsWhereTheLastLed) {
-  const Bench bench(MeasuredBench([](EffectRig& rig) { rig.leak = test::LaminarLeak{4e-12}; }, 3));
-  ModelState start = bench.forward.Declared();
-  start.effects = EffectStarts(*model::FindEffect("leak", "laminar"), bench.data.sizes);
-  FitOptions options;
-  double chi2 = std::numeric_limits<double>::infinity();
-  for (const int steps : {1, 2}) {
-    options.iterations_max = steps;
-    const Fit fit = FitModel(bench.data, start, options);
-    EXPECT_EQ(fit.status, FitStatus::kIterationsSpent);
-    EXPECT_LT(fit.chi2_data, chi2);
-    chi2 = 0.0;
-    for (const std::size_t run : bench.data.runs) {
-      const RunCost cost(bench.data, run, fit.state, fit.coordinates,
-                         OptionsOf(bench.data, run, options));
-      std::vector<double> rows(static_cast<std::size_t>(cost.num_residuals()));
-      const double* blocks[] = {fit.u.data()};
-      ASSERT_TRUE(cost.Evaluate(blocks, rows.data(), nullptr));
-      chi2 += rows[0] * rows[0];
-    }
-    EXPECT_NEAR(fit.chi2_data, chi2, 1e-6 * chi2);
-  }
-}
-
-TEST(RunCost, GivesDerivativesAsOftenAsTheyServe) {
-  const Bench bench(MeasuredBench({}, 4));
-  const Fit fit = FitModel(bench.data, StartOf(bench, "sensor_gain"), {});
-  const RunCost cost(bench.data, 0, fit.state, fit.coordinates, OptionsOf(bench.data, 0, {}), 1.0,
-                     1);
-  Eigen::VectorXd u = fit.u, rows(cost.num_residuals());
-  Eigen::MatrixXd jacobian(fit.u.size(), cost.num_residuals());
-  const double* blocks[] = {u.data()};
-  double* jacobians[] = {jacobian.data()};
-  ASSERT_TRUE(cost.Evaluate(blocks, rows.data(), jacobians));
-  EXPECT_GT(jacobian.norm(), 0.0);
-  u *= 0.9;
-  ASSERT_TRUE(cost.Evaluate(blocks, rows.data(), jacobians));
-  EXPECT_EQ(jacobian.norm(), 0.0);
-  const RunCost other(bench.data, 0, fit.state, fit.coordinates, OptionsOf(bench.data, 0, {}));
-  Eigen::VectorXd values(rows.size());
-  ASSERT_TRUE(other.Evaluate(blocks, values.data(), nullptr));
-  EXPECT_EQ(rows, values);
 }
 
 TEST(Fit, CancelledSaysSo) {
