@@ -261,8 +261,9 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   solver.parameter_tolerance = kParameterTolerance;
   solver.gradient_tolerance = 0.0;
   solver.initial_trust_region_radius = 1e3;
-  // Steps are tried by their values alone: many are shortened, and derivatives cost far more.
-  solver.line_search_interpolation_type = ceres::BISECTION;
+  // A step that does not do is not sought along its line but turned, by a smaller region of trust:
+  // at a bound, and in a valley, no length of it does.
+  solver.max_num_line_search_step_size_iterations = 0;
   solver.num_threads = options.threads;
   solver.logging_type = ceres::SILENT;
   solver.callbacks.push_back(&stop);

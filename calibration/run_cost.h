@@ -22,9 +22,9 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
 // One run over all k coordinates as one block of k + 1 rows. The search needs of the residuals e
 // and their derivatives J only JᵀJ, Jᵀe and eᵀe, so that the rows are R of [J e] = Q·R, which has
 // the same products and none of the readings' number; without derivatives the one row |e|. A step
-// is asked for thrice at one point — by the search along it, for its cost, and for the derivatives
-// there — and simulated once without derivatives, and once with them where it is taken. A run that
-// turned out stiff is taken to stay so: the explicit method is not tried again.
+// is asked for twice at one point — for its cost, and for the derivatives there — and simulated
+// once without derivatives, and once with them where it is taken. A run that turned out stiff is
+// taken to stay so: the explicit method is not tried again.
 class RunCost : public ceres::CostFunction {
  public:
   // References must outlive it.
