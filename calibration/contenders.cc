@@ -139,6 +139,12 @@ void Contenders::AddJobs(const Contender& from, const model::EffectSpec* added,
   const EffectSet set = With(from.effects, added);
   const auto planned = [&](const Job& job) { return job.set == set; };
   if (Find(set) || std::any_of(jobs.begin(), jobs.end(), planned)) return;
+  if (const Contender* known = Earlier(set)) {
+    Job job{set, known->fit.state, from.fit.bic};
+    job.start.clock_s = from.fit.state.clock_s;
+    jobs.push_back(std::move(job));
+    return;
+  }
   for (const model::Effect& start : StartsBeside(from, added)) {
     Job job{set, from.fit.state, from.fit.bic};
     if (!PriorsHold(from.fit)) job.start.factor = data.forward->Declared().factor;
@@ -147,6 +153,18 @@ void Contenders::AddJobs(const Contender& from, const model::EffectSpec* added,
               [](const auto& a, const auto& b) { return Precedes(a.spec, b.spec); });
     jobs.push_back(std::move(job));
   }
+}
+
+const Contender* Contenders::Earlier(const EffectSet& set) const {
+  const auto known = std::find_if(earlier.begin(), earlier.end(), [&](const Contender& contender) {
+    return contender.effects == set;
+  });
+  if (known == earlier.end() || !known->fit.Usable()) return nullptr;
+  const bool idle = std::any_of(earlier.begin(), earlier.end(), [&](const Contender& part) {
+    return part.effects.size() + 1 == set.size() && Contains(*known, part) && part.fit.Usable() &&
+           part.fit.bic <= known->fit.bic;
+  });
+  return idle ? nullptr : &*known;
 }
 
 const std::vector<model::Effect>& Contenders::StartsBeside(const Contender& from,

@@ -55,6 +55,8 @@ class Contenders {
 
   FitData data;
   std::vector<Contender> list;  // the base model first
+  // Of a search before this one, which took the clocks or the readings otherwise.
+  std::vector<Contender> earlier;
 
   const Contender& operator[](std::size_t i) const { return list[i]; }
   const Contender& Base() const { return list.front(); }
@@ -66,7 +68,8 @@ class Contenders {
   double LeftShare(const Contender& contender) const;
 
   void FitBase();
-  // The set of `from` with one more effect, from each of its starts; none if it has been fitted.
+  // The set of `from` with one more effect, from each of its starts, or from where an earlier
+  // search came to; none if it has been fitted.
   void AddJobs(const Contender& from, const model::EffectSpec* added, std::vector<Job>& jobs);
   // Fits all from their starts: a few steps each at first, and to the end what may matter. The
   // shares are of the whole work, for the progress.
@@ -94,6 +97,9 @@ class Contenders {
   void Refine(int size);
   void FitModels(const FitOptions& options, std::vector<Fit>& fits) const;
   void Take(Job job);
+  // Its fit of the set where that did better than without any one of the effects: one that ended
+  // idle says nothing of where to start.
+  const Contender* Earlier(const EffectSet& set) const;
   struct Starts {
     std::size_t size = 0;  // of the sets
     std::vector<model::Effect> starts;

@@ -116,9 +116,12 @@ class Diagnosing {
   }
 
   void Search(const FitData& data, const SearchOptions& options) {
-    search_ = SearchEffects(data, options, [this](const Fit& fit) {
-      return PriorsHold(fit) && IsNoise(LeftoverOf(bench_, fit, false));
-    });
+    search_ = SearchEffects(
+        data, options,
+        [this](const Fit& fit) {
+          return PriorsHold(fit) && IsNoise(LeftoverOf(bench_, fit, false));
+        },
+        std::move(search_.contenders));
     bench_.data = search_.data;
     base_ = &search_.contenders[search_.base];
   }

@@ -20,18 +20,21 @@ constexpr std::size_t kMoreSeeds = 6;    // singles that pairs are built on befo
 class Search {
  public:
   Search(const FitData& data, const SearchOptions& options,
-         const std::function<bool(const Fit&)>& enough)
+         const std::function<bool(const Fit&)>& enough, std::vector<Contender> earlier)
       : options_(options),
         enough_(enough),
         sets_(data, options),
         other_sets_(data, options),
-        may_be_off_(options.clocks_may_be_off) {}
+        may_be_off_(options.clocks_may_be_off) {
+    sets_.earlier = std::move(earlier);
+  }
 
   SearchResult Run() {
     SearchResult result = Compare();
     if (sets_.data.clocks ? !ActsInTimeInstead(result) : !ClocksAreOff(result)) return result;
     may_be_off_ = !sets_.data.clocks;
     UseClocks(may_be_off_);
+    sets_.earlier = result.contenders;
     SearchResult other = Compare();
     if (!sets_.Cancelled()) return other;
     result.complete = false;
@@ -44,6 +47,7 @@ class Search {
     std::optional<std::size_t> chosen = Grow();
     if (!chosen) {  // again, with each run's clock fitted
       UseClocks(true);
+      sets_.earlier = other_sets_.list;
       chosen = Grow();
       if (sets_.Cancelled()) UseClocks(false), chosen = 0;
     }
@@ -434,8 +438,9 @@ class Search {
 }  // namespace
 
 SearchResult SearchEffects(const FitData& data, const SearchOptions& options,
-                           const std::function<bool(const Fit&)>& enough) {
-  return Search(data, options, enough).Run();
+                           const std::function<bool(const Fit&)>& enough,
+                           std::vector<Contender> earlier) {
+  return Search(data, options, enough, std::move(earlier)).Run();
 }
 
 }  // namespace plenum::calibration

@@ -7,7 +7,9 @@
 // seen too; triples are all effects added to the best pairs. Where a set leaves nothing, sets of
 // one effect more but no more numbers are still tried. Fits start from the optimum of the smaller
 // set and from every start of the added effect (coordinates.h); where that optimum stretches the
-// declared numbers beyond their uncertainties, which makes long valleys, from those as declared.
+// declared numbers beyond their uncertainties, which makes long valleys, from those as declared. A
+// set in which an earlier search of the same runs, with the clocks or the readings taken otherwise,
+// found all effects at work starts from there.
 #ifndef PLENUM_CALIBRATION_EFFECT_SEARCH_H_
 #define PLENUM_CALIBRATION_EFFECT_SEARCH_H_
 
@@ -27,8 +29,10 @@ struct SearchResult {
 };
 
 // `enough` says whether a fit leaves nothing to explain; the search grows sets until it does.
+// `earlier`: the contenders of a search of the same runs with readings taken otherwise, if any.
 SearchResult SearchEffects(const FitData& data, const SearchOptions& options,
-                           const std::function<bool(const Fit&)>& enough);
+                           const std::function<bool(const Fit&)>& enough,
+                           std::vector<Contender> earlier = {});
 
 }  // namespace plenum::calibration
 

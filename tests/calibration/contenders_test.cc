@@ -37,21 +37,28 @@ Dataset Emptied() {
   return dataset;
 }
 
-TEST(Contenders, NoneIsGivenUpWhileWorseThanWhatItContains) {
+struct Bench {
+  Bench() {
+    data.forward = &forward;
+    data.observed = &observed;
+    data.runs = {0, 1};
+    data.sizes = SizesOf(dataset);
+  }
+  Bench(const Bench&) = delete;
   const Dataset dataset = Emptied();
-  const ForwardModel forward(dataset);
+  const ForwardModel forward{dataset};
   const std::vector<ObservedRun> observed = Observe(dataset);
   FitData data;
-  data.forward = &forward;
-  data.observed = &observed;
-  data.runs = {0, 1};
-  data.sizes = SizesOf(dataset);
+};
+
+TEST(Contenders, NoneIsGivenUpWhileWorseThanWhatItContains) {
+  const Bench bench;
   const SearchOptions options;
-  Contenders sets(data, options);
+  Contenders sets(bench.data, options);
   sets.FitBase();
   EXPECT_FALSE(PriorsHold(sets.Base().fit));
   std::vector<Contenders::Job> jobs;
-  const EffectSet named = NamedEffects(dataset.runs);
+  const EffectSet named = NamedEffects(bench.dataset.runs);
   for (const model::EffectSpec* spec : named) sets.AddJobs(sets.Base(), spec, jobs);
   sets.RunJobs(jobs, 0.0, 1.0, "single effects");
   const double base = sets.Base().fit.bic;
@@ -61,6 +68,31 @@ TEST(Contenders, NoneIsGivenUpWhileWorseThanWhatItContains) {
         EXPECT_LT(sets.Find({spec})->fit.bic, base + 20.0) << id;
       }
   }
+}
+
+TEST(Contenders, GoOnFromAnEarlierSearchWhereItFoundSomething) {
+  const Bench bench;
+  const SearchOptions options;
+  Contenders before(bench.data, options);
+  before.FitBase();
+  std::vector<Contenders::Job> jobs;
+  const EffectSet specs = {model::FindEffect("exhaust_restriction"), model::FindEffect("creep")};
+  for (const model::EffectSpec* spec : specs) before.AddJobs(before.Base(), spec, jobs);
+  const std::size_t starts = jobs.size() - 1;
+  ASSERT_GT(starts, 1u) << "creep has several";
+  before.RunJobs(jobs, 0.0, 1.0, "single effects");
+  before.Find({specs[1]})->fit.bic = before.Base().fit.bic;
+
+  Contenders sets(bench.data, options);
+  sets.earlier = before.list;
+  sets.FitBase();
+  std::vector<Contenders::Job> again;
+  sets.AddJobs(sets.Base(), specs[0], again);
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(again[0].start.effects[0].parameters,
+            before.Find({specs[0]})->fit.state.effects[0].parameters);
+  sets.AddJobs(sets.Base(), specs[1], again);
+  EXPECT_EQ(again.size(), 1u + starts);
 }
 
 }  // namespace
