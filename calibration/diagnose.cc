@@ -266,6 +266,7 @@ class Diagnosing {
   }
 
   void Propose() {
+    Progress(0.96, "a run that would decide");
     diagnosis_.next_experiment = ExperimentFor(bench_, tied_, by_the_clock_);
     if (Stopped()) return;
     if (!diagnosis_.next_experiment)
