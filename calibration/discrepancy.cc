@@ -19,7 +19,7 @@ constexpr std::size_t kTones = 3;      // frequencies from which a swinging term
 constexpr std::size_t kFinalists = 3;  // families that compete on runs left out
 constexpr std::size_t kFolds = 4;      // runs left out, at most
 // Fits are compared, and only the answer is polished.
-constexpr int kIterations = 20, kPolish = 25;
+constexpr int kIterations = 40, kPolish = 50;
 constexpr double kFunctionTolerance = 1e-4, kPolishTolerance = 1e-6;
 constexpr double kNoiseShare = 1e-2;
 constexpr std::size_t kStepsMax = 5'000;  // of a run: a term on its way may be stiff
