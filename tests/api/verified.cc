@@ -55,4 +55,16 @@ std::string Refusals(const Json& answer) {
   return refusals;
 }
 
+void ExpectRefused(const Json& answer, std::span<const Tampering> tamperings) {
+  for (const Tampering& tampering : tamperings) {
+    Json tampered = answer;
+    tampering.tamper(tampered);
+    ASSERT_NE(tampered, answer) << tampering.name;
+    const std::string refusals = Refusals(tampered);
+    EXPECT_NE(("\n" + refusals).find(std::string("\n") + tampering.check + ": "), std::string::npos)
+        << tampering.name << " is refused by\n"
+        << refusals;
+  }
+}
+
 }  // namespace plenum::api

@@ -2,6 +2,8 @@
 #ifndef PLENUM_TESTS_API_VERIFIED_H_
 #define PLENUM_TESTS_API_VERIFIED_H_
 
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,14 @@ Json Answered(const Json& request);     // as it is read back from a file
 Json Verified(const Json& answer);
 // Names of the checks that refuse, and what they say.
 std::string Refusals(const Json& answer);
+
+struct Tampering {
+  const char* name;
+  const char* check;  // that must refuse
+  std::function<void(Json&)> tamper;
+};
+// Each changes the answer and is refused by its check.
+void ExpectRefused(const Json& answer, std::span<const Tampering> tamperings);
 
 }  // namespace plenum::api
 
