@@ -57,7 +57,7 @@ std::span<const FlowElement> Elements(const Series& series) {
 // and slope. In c the curves of a line are smooth up to q_max and nearly straight, so Newton's
 // method takes few steps; bisection steps in where it leaves the bracket.
 template <class Function>
-double SolveCosine(double flow_max, double start, const Function& f) {
+double SolveCosine(double flow_max, double start, double step_max, const Function& f) {
   double low = 0.0;
   double high = 1.0;
   double c = std::clamp(start, 1e-12, 1.0 - 1e-16);
@@ -69,7 +69,7 @@ double SolveCosine(double flow_max, double start, const Function& f) {
     double next = c - value.pressure / slope;
     // Also where rounding leaves nothing to move by, at the end of the bracket.
     if (std::isfinite(slope) &&
-        std::abs(next - c) <= 1e-8 * std::min(1.0, 10.0 * next) * (1.0 - next))
+        std::abs(next - c) <= step_max * std::min(1.0, 10.0 * next) * (1.0 - next))
       return next;
     if (!(std::isfinite(slope) && next > low && next < high)) next = 0.5 * (low + high);
     const double step = std::abs(next - c);
@@ -107,7 +107,7 @@ Choke FindChoke(std::span<const FlowElement> elements) {
     const double flow_max = std::min(choke.flow, conductance);
     const double quotient = flow_max / std::max(choke.flow, conductance);
     const double start = quotient / std::sqrt(1.0 + quotient * quotient);
-    const double c = SolveCosine(flow_max, start, [&](double flow) {
+    const double c = SolveCosine(flow_max, start, kLastStep, [&](double flow) {
       const MarchPoint point = March(before, flow);
       return MarchPoint{point.pressure - flow / conductance, point.slope - 1.0 / conductance};
     });
@@ -171,16 +171,16 @@ double CosineAtRatio(const Series& series, double ratio) {
   // Exact where the line is one ellipse.
   const double start = (ratio - series.choked_ratio) / (1.0 - series.choked_ratio);
   if (start < 1e-12) return start;  // q* to the last digit
-  return SolveCosine(series.choked_flow_m3_per_s_pa, start, [&](double flow) {
+  return SolveCosine(series.choked_flow_m3_per_s_pa, start, kLastStep, [&](double flow) {
     const MarchPoint point = March(Elements(series), flow);
     return MarchPoint{point.pressure - ratio, point.slope};
   });
 }
 
-CosineAndSlope CosineNear(const Series& series, double ratio, double guess) {
+CosineAndSlope CosineNear(const Series& series, double ratio, double guess, double step_max) {
   const double flow_max = series.choked_flow_m3_per_s_pa;
   double slope = 1.0;  // d ratio / dc at the last point
-  const double c = SolveCosine(flow_max, guess, [&](double flow) {
+  const double c = SolveCosine(flow_max, guess, step_max, [&](double flow) {
     const MarchPoint point = March(Elements(series), flow);
     const double q = flow / flow_max;
     slope = -point.slope * flow_max * std::sqrt((1.0 - q) * (1.0 + q)) / q;

@@ -57,7 +57,10 @@ struct CosineAndSlope {
   double cosine;
   double slope;
 };
-CosineAndSlope CosineNear(const Series& series, double ratio, double guess);
+// Of the cosine: the last step of Newton's method, whose square is about the error that is left.
+inline constexpr double kLastStep = 1e-8;
+CosineAndSlope CosineNear(const Series& series, double ratio, double guess,
+                          double step_max = kLastStep);
 
 // FlowAtRatio with the straight line to zero from ratio `linear_ratio` to 1, for the simulator.
 double RegularisedFlowAtRatio(const Series& series, double ratio,

@@ -12,6 +12,8 @@ using std::sqrt;
 
 // A ratio this close to the border of two regimes is on it.
 constexpr double kBorderWidth = 1e-9;
+constexpr double kCosineStep = 1e-5;      // of Newton's method; leaves 1e-11 of the flow
+constexpr double kSurelySubsonic = 1e-3;  // cosine
 
 // b + (1−b)·√(1 − z^{1/m}): pressure behind an element per pressure in front of it.
 template <class T>
@@ -65,8 +67,10 @@ typename Line<T>::MarchPoint Line<T>::March(const T& upstream_pa, const T& flow,
     const double zv = ValueOf(z);
     const double b = ValueOf(element.critical_ratio);
     const double exponent = 1.0 / element.subsonic_index;
+    const double power_slope =
+        element.subsonic_index == 0.5 ? 2.0 * zv : exponent * std::pow(zv, exponent - 1.0);
     const double root = (ValueOf(ratio) - b) / (1.0 - b);
-    const double ratio_slope = -0.5 * (1.0 - b) * exponent * std::pow(zv, exponent - 1.0) / root;
+    const double ratio_slope = -0.5 * (1.0 - b) * power_slope / root;
     const double z_slope = zv / ValueOf(flow) - zv * point.slope / ValueOf(front);
     point.slope = point.slope * ValueOf(ratio) + ValueOf(front) * ratio_slope * z_slope;
     point.pressure = front * ratio;
@@ -90,24 +94,31 @@ typename Line<T>::Bottleneck Line<T>::FindBottleneck(double upstream_pa, double 
 }
 
 // The solved flow with derivatives: one Newton step in dual numbers on the equation that sets it,
-// q = C·p(q) at the element that chokes, else the pressure at the end of the line.
+// the pressure at the end of the line.
+template <class T>
+T Line<T>::LiftSubsonicFlow(double flow, const T& upstream_pa, const T& downstream_pa) const {
+  if constexpr (kIsDual<T>) {
+    const MarchPoint end = March(upstream_pa, T(flow), elements_.size());
+    const T residual = end.pressure - downstream_pa;
+    return T(flow) - (residual - ValueOf(residual)) / end.slope;
+  }
+  return T(flow);
+}
+
+// The same where an element may be choked: then q = C·p(q) there.
 template <class T>
 T Line<T>::LiftFlow(double flow, const T& upstream_pa, const T& downstream_pa) const {
   if constexpr (kIsDual<T>) {
     if (!(flow > 0.0)) return T(flow);
     const Bottleneck bottleneck = FindBottleneck(ValueOf(upstream_pa), flow);
     const bool choked = bottleneck.share > 1.0 - 1e-12;
-    const MarchPoint end =
-        March(upstream_pa, T(flow), choked ? bottleneck.element : elements_.size());
-    T residual = end.pressure - downstream_pa;
-    double slope = end.slope;
-    if (choked) {
-      const LineElement<T>& element = elements_[bottleneck.element];
-      residual =
-          element.sonic_conductance_m3_per_s_pa * (end.pressure - element.cracking_pressure_pa) -
-          flow;
-      slope = ValueOf(element.sonic_conductance_m3_per_s_pa) * end.slope - 1.0;
-    }
+    if (!choked) return LiftSubsonicFlow(flow, upstream_pa, downstream_pa);
+    const MarchPoint end = March(upstream_pa, T(flow), bottleneck.element);
+    const LineElement<T>& element = elements_[bottleneck.element];
+    const T residual =
+        element.sonic_conductance_m3_per_s_pa * (end.pressure - element.cracking_pressure_pa) -
+        flow;
+    const double slope = ValueOf(element.sonic_conductance_m3_per_s_pa) * end.slope - 1.0;
     return T(flow) - (residual - ValueOf(residual)) / slope;
   }
   return T(flow);
@@ -125,7 +136,7 @@ T Line<T>::SubsonicFlow(const T& ratio) const {
   const double r = ValueOf(ratio);
   const double guess = last_.cosine + last_.slope * (r - last_ratio_);
   if (guess > 1e-3 && guess < 1.0) {
-    last_ = CosineNear(series_, r, guess);
+    last_ = CosineNear(series_, r, guess, kCosineStep);
   } else {
     const double c = CosineAtRatio(series_, r);
     last_ = {c, 1.0 / (1.0 - choked_ratio_)};
@@ -133,7 +144,8 @@ T Line<T>::SubsonicFlow(const T& ratio) const {
   last_ratio_ = r;
   const double flow =
       series_.choked_flow_m3_per_s_pa * std::sqrt((1.0 - last_.cosine) * (1.0 + last_.cosine));
-  return LiftFlow(flow, T(1.0), ratio);
+  return last_.cosine > kSurelySubsonic ? LiftSubsonicFlow(flow, T(1.0), ratio)
+                                        : LiftFlow(flow, T(1.0), ratio);
 }
 
 template <class T>

@@ -71,6 +71,7 @@ class Line {
     double share;
   };
   Bottleneck FindBottleneck(double upstream_pa, double flow) const;
+  T LiftSubsonicFlow(double flow, const T& upstream_pa, const T& downstream_pa) const;
   T LiftFlow(double flow, const T& upstream_pa, const T& downstream_pa) const;
 
   boost::container::static_vector<LineElement<T>, kMaxSeriesElements> elements_;

@@ -304,7 +304,7 @@ T System<T>::FinalPressure(std::size_t i, const T& source_pa) const {
 template <class T>
 void System<T>::FillMoment(Group& group, const T& source_pa, std::span<const T> y) const {
   const GroupSetup<T>& setup = group.setup;
-  Moment<T>& m = *std::construct_at(&group.moment);
+  Moment<T>& m = *::new (&group.moment) Moment<T>;  // without (), which would set zeros twice
   m.pressure_pa = y[group.at] > kLowestPressurePa ? y[group.at] : T(kLowestPressurePa);
   m.volume_pressure_pa = m.tail_pa = m.pressure_pa;
   m.head_pa = source_pa;

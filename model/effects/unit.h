@@ -59,14 +59,14 @@ struct GroupSetup {
 template <class T>
 struct Moment {
   T pressure_pa;
-  T volume_pressure_pa;             // at which the volume law is taken
-  bool volume_follows = true;       // whether that moves with the pressure
-  T head_pa, tail_pa;               // at the ends of the line
-  T quasi_static_volume_m3;         // without dead volume
-  T volume_m3;                      // of the gas, dead volume included
-  T followed_volume_m3;             // that inertia strives for, without dead volume
-  T volume_slope_m3_per_pa;         // V'
-  T volume_rate_m3_per_s = T(0.0);  // V̇
+  T volume_pressure_pa;               // at which the volume law is taken
+  bool volume_follows = true;         // whether that moves with the pressure
+  T head_pa, tail_pa;                 // at the ends of the line
+  T quasi_static_volume_m3;           // without dead volume
+  T volume_m3;                        // of the gas, dead volume included
+  T followed_volume_m3 = T(0.0);      // that inertia strives for, without dead volume
+  T volume_slope_m3_per_pa = T(0.0);  // V'
+  T volume_rate_m3_per_s = T(0.0);    // V̇
   T temperature_k, tail_temperature_k;
   double heat_capacity_ratio = 1.0;  // κ
   T wall_heat_w = T(0.0);
