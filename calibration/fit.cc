@@ -67,11 +67,14 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
 }
 
 void AddCosts(const FitData& data, const ModelState& start, const FitOptions& options,
-              const std::vector<Coordinate>& coordinates, double* u, ceres::Problem& problem) {
-  for (const std::size_t run : data.runs)
-    problem.AddResidualBlock(
-        new RunCost(data, run, start, coordinates, OptionsOf(data, run, options), options.weight),
-        nullptr, u);
+              const std::vector<Coordinate>& coordinates, double* u, RunsAtOnce& runs,
+              ceres::Problem& problem) {
+  for (const std::size_t run : data.runs) {
+    auto* cost =
+        new RunCost(data, run, start, coordinates, OptionsOf(data, run, options), options.weight);
+    runs.Add(cost);
+    problem.AddResidualBlock(cost, nullptr, u);
+  }
   if (HasPrior(coordinates)) problem.AddResidualBlock(new PriorCost(coordinates), nullptr, u);
 }
 
@@ -244,14 +247,17 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
     fit.u[j] = std::clamp(coordinate.At(NumberOf(start, coordinate.parameter)), coordinate.low,
                           coordinate.high);
   }
-  ceres::Problem problem;
+  RunsAtOnce runs(fit.u.data(), options.threads);
+  ceres::Problem::Options shared;
+  shared.evaluation_callback = &runs;
+  ceres::Problem problem(shared);
   problem.AddParameterBlock(fit.u.data(), static_cast<int>(size));
   for (Eigen::Index j = 0; j < size; ++j) {
     const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
     problem.SetParameterLowerBound(fit.u.data(), static_cast<int>(j), coordinate.low);
     problem.SetParameterUpperBound(fit.u.data(), static_cast<int>(j), coordinate.high);
   }
-  AddCosts(data, start, options, fit.coordinates, fit.u.data(), problem);
+  AddCosts(data, start, options, fit.coordinates, fit.u.data(), runs, problem);
 
   StopWhenCancelled stop(options.cancelled);
   ceres::Solver::Options solver;
@@ -264,7 +270,6 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   // A step that does not do is not sought along its line but turned, by a smaller region of trust:
   // at a bound, and in a valley, no length of it does.
   solver.max_num_line_search_step_size_iterations = 0;
-  solver.num_threads = options.threads;
   solver.logging_type = ceres::SILENT;
   solver.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;

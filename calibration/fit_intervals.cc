@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "calibration/fit.h"
+#include "calibration/parallel.h"
 #include "calibration/run_cost.h"
 #include "calibration/whiteness.h"
 
@@ -78,8 +79,9 @@ double Inflation(const Fit& fit, double memory) {
 Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options,
                            double memory) {
   const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
-  Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(size, size);
-  for (const std::size_t run : data.runs) {
+  std::vector<Eigen::MatrixXd> of_runs(data.runs.size(), Eigen::MatrixXd::Zero(size, size));
+  ForAll(data.runs.size(), options.threads, [&](std::size_t i) {
+    const std::size_t run = data.runs[i];
     const RunCost cost(data, run, fit.state, fit.coordinates, OptionsOf(data, run, options));
     const Eigen::Index rows = cost.num_residuals();
     Eigen::VectorXd residuals(rows);
@@ -87,8 +89,10 @@ Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions
     const double* blocks[] = {fit.u.data()};
     double* jacobians[] = {jacobian.data()};
     if (cost.Evaluate(blocks, residuals.data(), jacobians))
-      curvature += jacobian.transpose() * jacobian;
-  }
+      of_runs[i] = jacobian.transpose() * jacobian;
+  });
+  Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(size, size);
+  for (const Eigen::MatrixXd& of_run : of_runs) curvature += of_run;
   curvature /= Inflation(fit, memory);
   for (Eigen::Index j = 0; j < size; ++j) {
     const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calibration/parallel.h"
+
 namespace plenum::calibration {
 namespace {
 
@@ -61,12 +63,16 @@ RunCost::RunCost(const FitData& data, std::size_t run, const ModelState& start,
   set_num_residuals(static_cast<int>(coordinates.size()) + 1);
 }
 
-bool RunCost::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
-  const Eigen::Map<const Eigen::VectorXd> u(blocks[0], size());
-  const bool derive = jacobians && jacobians[0];
+void RunCost::Prepare(const double* at, bool derive) const {
+  const Eigen::Map<const Eigen::VectorXd> u(at, size());
   if (known_.u.size() != size() || known_.u != u) known_ = {u, {}, {}};
-  if (derive && !known_.root) known_.root = RootAt(blocks[0]);
-  if (!derive && !known_.root && !known_.norm) known_.norm = NormAt(blocks[0]);
+  if (derive && !known_.root) known_.root = RootAt(at);
+  if (!derive && !known_.root && !known_.norm) known_.norm = NormAt(at);
+}
+
+bool RunCost::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
+  const bool derive = jacobians && jacobians[0];
+  Prepare(blocks[0], derive);
   Eigen::Map<Eigen::VectorXd> rows(residuals, num_residuals());
   if (!known_.root) {
     rows.setZero();
@@ -131,6 +137,10 @@ Eigen::MatrixXd RunCost::RootAt(const double* u) const {
 double RunCost::SlopeOf(Eigen::Index j, const double* u) const {
   return j == size() ? 1.0 : coordinates_[static_cast<std::size_t>(j)].Slope(u[j]);
 }
+void RunsAtOnce::PrepareForEvaluation(bool derive, bool) {
+  ForAll(runs_.size(), threads_, [&](std::size_t i) { runs_[i]->Prepare(u_, derive); });
+}
+
 PriorCost::PriorCost(const std::vector<Coordinate>& coordinates) : size_(coordinates.size()) {
   for (std::size_t j = 0; j < size_; ++j)
     if (coordinates[j].prior) with_prior_.push_back(j);

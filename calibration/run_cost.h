@@ -3,6 +3,7 @@
 #define PLENUM_CALIBRATION_RUN_COST_H_
 
 #include <ceres/cost_function.h>
+#include <ceres/evaluation_callback.h>
 
 #include <Eigen/Core>
 #include <optional>
@@ -32,6 +33,8 @@ class RunCost : public ceres::CostFunction {
           const std::vector<Coordinate>& coordinates, const PredictOptions& options,
           double weight = 1.0);
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override;
+  // Simulates the run there, unless that is known.
+  void Prepare(const double* u, bool derive) const;
 
  private:
   struct Known {
@@ -56,6 +59,20 @@ class RunCost : public ceres::CostFunction {
   mutable PredictOptions options_;
   double scale_;         // of the residuals
   mutable Known known_;  // the last point
+};
+
+// Prepares the runs on several threads: they take unlike long, and Ceres would give each thread as
+// many of them in a row.
+class RunsAtOnce : public ceres::EvaluationCallback {
+ public:
+  RunsAtOnce(const double* u, int threads) : u_(u), threads_(threads) {}
+  void Add(const RunCost* run) { runs_.push_back(run); }
+  void PrepareForEvaluation(bool derive, bool new_point) override;
+
+ private:
+  const double* u_;  // where Ceres has the point
+  int threads_;
+  std::vector<const RunCost*> runs_;
 };
 
 // u of every coordinate that has a prior.
