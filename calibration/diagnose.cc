@@ -121,7 +121,7 @@ class Diagnosing {
         [this](const Fit& fit) {
           return PriorsHold(fit) && IsNoise(LeftoverOf(bench_, fit, false));
         },
-        std::move(search_.contenders));
+        search_);
     bench_.data = search_.data;
     base_ = &search_.contenders[search_.base];
   }

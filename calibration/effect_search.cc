@@ -16,32 +16,64 @@ using Spec = const model::EffectSpec*;
 constexpr double kNever = std::numeric_limits<double>::infinity(), kClocksAreAll = -kNever;
 constexpr std::size_t kTriplesFrom = 1;  // best pairs
 constexpr std::size_t kMoreSeeds = 6;    // singles that pairs are built on before triples are
+constexpr std::size_t kLeaders = 10;     // of each size
 
 class Search {
  public:
   Search(const FitData& data, const SearchOptions& options,
-         const std::function<bool(const Fit&)>& enough, std::vector<Contender> earlier)
+         const std::function<bool(const Fit&)>& enough)
       : options_(options),
         enough_(enough),
         sets_(data, options),
         other_sets_(data, options),
-        may_be_off_(options.clocks_may_be_off) {
-    sets_.earlier = std::move(earlier);
-  }
+        may_be_off_(options.clocks_may_be_off) {}
 
-  SearchResult Run() {
-    SearchResult result = Compare();
+  SearchResult Run(const SearchResult& earlier) {
+    SearchResult result = CompareAfter(earlier);
     if (sets_.data.clocks ? !ActsInTimeInstead(result) : !ClocksAreOff(result)) return result;
     may_be_off_ = !sets_.data.clocks;
     UseClocks(may_be_off_);
-    sets_.earlier = result.contenders;
-    SearchResult other = Compare();
+    SearchResult other = CompareAfter(result);
     if (!sets_.Cancelled()) return other;
     result.complete = false;
     return result;
   }
 
  private:
+  SearchResult CompareAfter(const SearchResult& earlier) {
+    sets_.earlier = earlier.contenders;
+    if (earlier.complete && !earlier.enough) {
+      SearchResult leaders = CompareLeaders();
+      if (!leaders.enough || sets_.Cancelled()) return leaders;
+    }
+    return Compare();
+  }
+
+  // The leading sets of the search before, and the choice among them.
+  SearchResult CompareLeaders() {
+    if (sets_.list.empty()) sets_.FitBase();
+    std::size_t chosen = 0;
+    for (int size = 1; size <= kEffectsMax && !sets_.Cancelled(); ++size) {
+      std::vector<Job> jobs = LeadersOf(size);
+      sets_.RunJobs(jobs, 0.05, 0.9, "leading sets of effects");
+      const std::optional<std::size_t> best = sets_.Best(size);
+      if (!best || !(sets_[*best].fit.bic < sets_[chosen].fit.bic - kAccept)) break;
+      chosen = *best;
+    }
+    return Finish(static_cast<int>(sets_[chosen].effects.size()));
+  }
+
+  std::vector<Job> LeadersOf(int size) const {
+    std::vector<Job> jobs;
+    for (const Contender& known : sets_.earlier) {  // by BIC
+      if (known.effects.size() != static_cast<std::size_t>(size) || !known.fit.Usable()) continue;
+      jobs.push_back({known.effects, known.fit.state, sets_.Base().fit.bic});
+      jobs.back().start.clock_s = sets_.Base().fit.state.clock_s;
+      if (jobs.size() == kLeaders) break;
+    }
+    return jobs;
+  }
+
   // All sets as deep as need be, and the choice among them.
   SearchResult Compare() {
     std::optional<std::size_t> chosen = Grow();
@@ -98,7 +130,7 @@ class Search {
     if (!MaySeekClocks() || !chosen.fit.Usable()) return false;
     const double bic = chosen.fit.bic;
     if (BicByClocks(chosen, chosen.effects) < bic - kClock) return true;
-    if (enough_(chosen.fit) && ClocksReplaceOne(chosen)) return true;
+    if (result.enough && ClocksReplaceOne(chosen)) return true;
     EffectSet timeless = chosen.effects;
     std::erase_if(timeless, [](Spec spec) { return ActsInTime(*spec); });
     if (timeless.empty() || timeless.size() == chosen.effects.size()) return false;
@@ -416,7 +448,7 @@ class Search {
                        if (a.fit.Usable() != b.fit.Usable()) return a.fit.Usable();
                        return a.fit.bic < b.fit.bic;
                      });
-    SearchResult result{sets_.data, {}, 0, 0, !sets_.Cancelled()};
+    SearchResult result{sets_.data, {}, 0, 0, !sets_.Cancelled(), false};
     for (std::size_t i = 0; i < sets_.list.size(); ++i)
       if (sets_[i].effects.empty()) result.base = i;
     result.chosen = result.base;
@@ -425,6 +457,7 @@ class Search {
       if (best && sets_[*best].fit.bic < sets_[result.chosen].fit.bic - kAccept)
         result.chosen = *best;
     }
+    result.enough = enough_(sets_[result.chosen].fit);
     result.contenders = std::move(sets_.list);
     return result;
   }
@@ -439,8 +472,8 @@ class Search {
 
 SearchResult SearchEffects(const FitData& data, const SearchOptions& options,
                            const std::function<bool(const Fit&)>& enough,
-                           std::vector<Contender> earlier) {
-  return Search(data, options, enough, std::move(earlier)).Run();
+                           const SearchResult& earlier) {
+  return Search(data, options, enough).Run(earlier);
 }
 
 }  // namespace plenum::calibration

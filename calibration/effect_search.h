@@ -9,7 +9,8 @@
 // set and from every start of the added effect (coordinates.h); where that optimum stretches the
 // declared numbers beyond their uncertainties, which makes long valleys, from those as declared. A
 // set in which an earlier search of the same runs, with the clocks or the readings taken otherwise,
-// found all effects at work starts from there.
+// found all effects at work starts from there. Where nothing that the earlier search found leaves
+// nothing, its leading sets are fitted first; if none of them does now, all is not tried again.
 #ifndef PLENUM_CALIBRATION_EFFECT_SEARCH_H_
 #define PLENUM_CALIBRATION_EFFECT_SEARCH_H_
 
@@ -26,13 +27,14 @@ struct SearchResult {
   std::size_t chosen = 0;             // index of the chosen set
   std::size_t base = 0;               // index of the base model
   bool complete = false;              // nothing was cut short
+  bool enough = false;                // the chosen set leaves nothing to explain
 };
 
 // `enough` says whether a fit leaves nothing to explain; the search grows sets until it does.
-// `earlier`: the contenders of a search of the same runs with readings taken otherwise, if any.
+// `earlier`: a search of the same runs with readings taken otherwise, or one without contenders.
 SearchResult SearchEffects(const FitData& data, const SearchOptions& options,
                            const std::function<bool(const Fit&)>& enough,
-                           std::vector<Contender> earlier = {});
+                           const SearchResult& earlier = {});
 
 }  // namespace plenum::calibration
 

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
 #include <vector>
 
+#include "calibration/effect_search.h"
 #include "tests/calibration/bench.h"
 
 namespace plenum::calibration {
@@ -93,6 +96,34 @@ TEST(Contenders, GoOnFromAnEarlierSearchWhereItFoundSomething) {
             before.Find({specs[0]})->fit.state.effects[0].parameters);
   sets.AddJobs(sets.Base(), specs[1], again);
   EXPECT_EQ(again.size(), 1u + starts);
+}
+
+// All effects are tried again only where the leading sets of the search before hold the answer.
+TEST(Contenders, LeadBeforeAllAreTriedAgain) {
+  const Bench bench;
+  std::set<std::string> stages;
+  SearchOptions options;
+  options.clocks_may_be_off = false;
+  options.progress = [&](double, const std::string& stage) { stages.insert(stage); };
+  const auto never = [](const Fit&) { return false; };
+  const auto clogged = [](const Fit& fit) {
+    return !fit.state.effects.empty() && fit.state.effects[0].spec->id == "exhaust_restriction";
+  };
+  const SearchResult first = SearchEffects(bench.data, options, never);
+  ASSERT_TRUE(first.complete);
+  EXPECT_FALSE(first.enough);
+  EXPECT_TRUE(stages.contains("single effects"));
+
+  stages.clear();
+  const SearchResult in_vain = SearchEffects(bench.data, options, never, first);
+  EXPECT_FALSE(stages.contains("single effects"));
+  EXPECT_FALSE(in_vain.enough);
+  EXPECT_EQ(in_vain.contenders[in_vain.chosen].effects, first.contenders[first.chosen].effects);
+
+  stages.clear();
+  const SearchResult again = SearchEffects(bench.data, options, clogged, first);
+  EXPECT_TRUE(stages.contains("single effects"));
+  EXPECT_TRUE(again.enough);
 }
 
 }  // namespace
