@@ -267,7 +267,7 @@ BenchCase WithoutFaults(BenchCase bench) {
   return bench;
 }
 
-BenchCase DrawCase(std::uint64_t seed, CaseKind kind, const std::string& effect) {
+BenchCase DrawCase(std::uint64_t seed, CaseKind kind, const std::string& effect, bool five) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const bool tie = kind == CaseKind::kTie;
     Random random(seed, static_cast<std::uint64_t>(attempt) + (tie ? kTieStream : 0));
@@ -280,7 +280,9 @@ BenchCase DrawCase(std::uint64_t seed, CaseKind kind, const std::string& effect)
       continue;
     }
     bench.declared = DrawRig(supply, random);
-    bench.runs = tie ? DrawNarrowRuns(bench.declared, random) : DrawRuns(bench.declared, random);
+    bench.runs = tie    ? DrawNarrowRuns(bench.declared, random)
+                 : five ? DrawFiveRuns(bench.declared, random)
+                        : DrawRuns(bench.declared, random);
     bench.holdout_recorded = !tie || random.Coin();
     bench.uncertainty = DrawUncertainty(bench.declared, random);
     bench.factors = DrawFactors(bench.uncertainty, random);
@@ -297,12 +299,12 @@ BenchCase DrawCase(std::uint64_t seed, CaseKind kind, const std::string& effect)
 
 CaseKind KindOfSeries(int index) { return static_cast<CaseKind>(index % kKinds); }
 
-BenchCase CaseOfSeries(std::uint64_t series, int index) {
+BenchCase CaseOfSeries(std::uint64_t series, int index, bool five) {
   const CaseKind kind = KindOfSeries(index);
   const auto turn = static_cast<std::size_t>(index / kKinds);
   const auto& ids = kind == CaseKind::kOutside ? OutsideEffects() : ListedEffects();
   const std::uint64_t seed = series * 1'000'003 + static_cast<std::uint64_t>(index);
-  return DrawCase(seed, kind, ids[turn % ids.size()]);
+  return DrawCase(seed, kind, ids[turn % ids.size()], five);
 }
 
 BenchCase TieOfSeries(std::uint64_t series, int index) {

@@ -64,11 +64,13 @@ struct BenchCase {
 
 // Draws until the effect is visible as its kind asks for. `effect` names it; for a pair and for a
 // clean case it is not used. `supply_free`: any supply on which the effect shows.
-BenchCase DrawCase(std::uint64_t seed, CaseKind kind, const std::string& effect = {});
+// With `five`, of runs as DrawFiveRuns draws them.
+BenchCase DrawCase(std::uint64_t seed, CaseKind kind, const std::string& effect = {},
+                   bool five = false);
 
 // The `index`-th case of a series: the kinds in turn, in each kind the effects in turn.
 CaseKind KindOfSeries(int index);
-BenchCase CaseOfSeries(std::uint64_t series, int index);
+BenchCase CaseOfSeries(std::uint64_t series, int index, bool five = false);
 
 // The same of kTie, which is none of these kinds: the effects in turn.
 BenchCase TieOfSeries(std::uint64_t series, int index);

@@ -261,8 +261,9 @@ BenchRig DrawRig(BenchSupply supply, Random& random) {
   return rig;
 }
 
-std::vector<BenchRun> DrawRuns(const BenchRig& rig, Random& random) {
-  const int fitted = random.Integer(4, 7);
+namespace {
+
+std::vector<BenchRun> DrawRuns(const BenchRig& rig, int fitted, Random& random) {
   const int levels = random.Integer(2, 4);
   const double low = random.Uniform(1.25, 1.5), high = random.Uniform(2.2, 3.0);
   const bool some_blocked = random.Coin(0.85);
@@ -293,7 +294,21 @@ std::vector<BenchRun> DrawRuns(const BenchRig& rig, Random& random) {
     }
     runs.push_back(std::move(run));
   }
+  return runs;
+}
+
+}  // namespace
+
+std::vector<BenchRun> DrawRuns(const BenchRig& rig, Random& random) {
+  std::vector<BenchRun> runs = DrawRuns(rig, random.Integer(4, 7), random);
   DrawSampleTimes(runs, random);
+  return runs;
+}
+
+std::vector<BenchRun> DrawFiveRuns(const BenchRig& rig, Random& random) {
+  std::vector<BenchRun> runs = DrawRuns(rig, 5, random);
+  for (BenchRun& run : runs)
+    for (int i = 0; i < 1000; ++i) run.t_s.push_back(run.end_s * i / 999.0);
   return runs;
 }
 

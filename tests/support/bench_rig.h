@@ -85,6 +85,9 @@ BenchRig DrawRig(BenchSupply supply, Random& random);
 // uneven.
 std::vector<BenchRun> DrawRuns(const BenchRig& rig, Random& random);
 
+// The same with five runs and one to hold out, of 1,000 even samples each.
+std::vector<BenchRun> DrawFiveRuns(const BenchRig& rig, Random& random);
+
 // What a hasty experimenter records: one or two runs that are all alike and one to hold out that
 // repeats them, from one source (initial) pressure, free or blocked, with one way to move the
 // valve: a rise alone, with a hold, with a fall, or all of these; without a source closed, emptying
