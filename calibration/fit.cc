@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "calibration/run_cost.h"
+#include "calibration/within_bounds.h"
 #include "model/effects/learned.h"
 
 namespace plenum::calibration {
@@ -108,8 +109,8 @@ void EvaluateStart(const FitData& data, const FitOptions& options, Fit& fit) {
   fit.bic = Bic(fit);
 }
 
-FitStatus StatusOf(const ceres::Solver::Summary& summary) {
-  switch (summary.termination_type) {
+FitStatus StatusOf(ceres::TerminationType termination) {
+  switch (termination) {
     case ceres::CONVERGENCE:
     case ceres::USER_SUCCESS:
       return FitStatus::kConverged;
@@ -181,33 +182,6 @@ void TurnPhases(const FitData& data, const FitOptions& options, ModelState& stat
   }
 }
 
-std::vector<int> AtBounds(const Fit& fit) {
-  std::vector<int> at;
-  for (std::size_t j = 0; j < fit.coordinates.size(); ++j) {
-    const double u = fit.u[static_cast<Eigen::Index>(j)];
-    if (u <= fit.coordinates[j].low || u >= fit.coordinates[j].high)
-      at.push_back(static_cast<int>(j));
-  }
-  return at;
-}
-
-// Where a number is at its bound a step is cut there, and what it does with the others goes with
-// the part that was cut off: they stop short of their best. So they go on without it, and if that
-// was worth while all do.
-void GoOnAtBounds(const ceres::Solver::Options& solver, Fit& fit, ceres::Problem& problem,
-                  ceres::Solver::Summary& summary) {
-  const std::vector<int> held = AtBounds(fit);
-  const int size = static_cast<int>(fit.u.size());
-  if (held.empty() || static_cast<int>(held.size()) == size) return;
-  const double before = summary.final_cost;
-  problem.SetManifold(fit.u.data(), new ceres::SubsetManifold(size, held));
-  ceres::Solve(solver, &problem, &summary);
-  problem.SetManifold(fit.u.data(), nullptr);
-  if (summary.termination_type != ceres::CONVERGENCE) return;
-  if (summary.final_cost < (1.0 - solver.function_tolerance) * before)
-    ceres::Solve(solver, &problem, &summary);
-}
-
 // The declared pairs of a line: what a tube adds follows from its size.
 std::vector<model::FlowElement> PairsOf(const Run& run) {
   std::vector<model::FlowElement> pairs;
@@ -272,16 +246,15 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   solver.max_num_line_search_step_size_iterations = 0;
   solver.logging_type = ceres::SILENT;
   solver.callbacks.push_back(&stop);
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  if (summary.termination_type == ceres::CONVERGENCE) GoOnAtBounds(solver, fit, problem, summary);
+  const BoundedSolution solution = SolveWithinBounds(solver, problem, fit.u);
 
-  fit.status = options.cancelled && options.cancelled() ? FitStatus::kCancelled : StatusOf(summary);
-  if (fit.status == FitStatus::kFailed) fit.detail = summary.message;
+  const bool cancelled = options.cancelled && options.cancelled();
+  fit.status = cancelled ? FitStatus::kCancelled : StatusOf(solution.termination);
+  if (fit.status == FitStatus::kFailed) fit.detail = solution.message;
   fit.state = StateAt(start, fit.coordinates, fit.u.data());
   if (late && !options.nuisance_only) MeanLateness(fit.coordinates, fit.state);
   fit.chi2_prior = Chi2Prior(fit);
-  fit.chi2_data = (2.0 * summary.final_cost - fit.chi2_prior) / options.weight;
+  fit.chi2_data = (2.0 * solution.cost - fit.chi2_prior) / options.weight;
   fit.bic = Bic(fit);
   return fit;
 }

@@ -65,24 +65,26 @@ RunCost::RunCost(const FitData& data, std::size_t run, const ModelState& start,
 
 void RunCost::Prepare(const double* at, bool derive) const {
   const Eigen::Map<const Eigen::VectorXd> u(at, size());
-  if (known_.u.size() != size() || known_.u != u) known_ = {u, {}, {}};
-  if (derive && !known_.root) known_.root = RootAt(at);
-  if (!derive && !known_.root && !known_.norm) known_.norm = NormAt(at);
+  if (root_.At(u)) return;
+  if (derive)
+    root_ = {u, RootAt(at)};
+  else if (!norm_.At(u))
+    norm_ = {u, NormAt(at)};
 }
 
 bool RunCost::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
   const bool derive = jacobians && jacobians[0];
   Prepare(blocks[0], derive);
   Eigen::Map<Eigen::VectorXd> rows(residuals, num_residuals());
-  if (!known_.root) {
+  if (!root_.At({blocks[0], size()})) {
     rows.setZero();
-    rows[0] = *known_.norm;
+    rows[0] = norm_.value;
     return std::isfinite(rows[0]);
   }
-  if (known_.root->size() == 0) return false;
-  rows = known_.root->rightCols<1>();
+  if (root_.value.size() == 0) return false;
+  rows = root_.value.rightCols<1>();
   if (derive)
-    Eigen::Map<Matrix>(jacobians[0], num_residuals(), size()) = known_.root->leftCols(size());
+    Eigen::Map<Matrix>(jacobians[0], num_residuals(), size()) = root_.value.leftCols(size());
   return true;
 }
 

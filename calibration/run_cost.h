@@ -6,7 +6,6 @@
 #include <ceres/evaluation_callback.h>
 
 #include <Eigen/Core>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,10 +36,13 @@ class RunCost : public ceres::CostFunction {
   void Prepare(const double* u, bool derive) const;
 
  private:
+  template <class Value>
   struct Known {
     Eigen::VectorXd u;
-    std::optional<double> norm;
-    std::optional<Eigen::MatrixXd> root;
+    Value value;
+    bool At(const Eigen::Map<const Eigen::VectorXd>& v) const {
+      return u.size() == v.size() && u == v;
+    }
   };
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(coordinates_.size()); }
@@ -57,8 +59,9 @@ class RunCost : public ceres::CostFunction {
   const std::vector<Coordinate>& coordinates_;
   std::vector<Parameter> parameters_;
   mutable PredictOptions options_;
-  double scale_;         // of the residuals
-  mutable Known known_;  // the last point
+  double scale_;                         // of the residuals
+  mutable Known<double> norm_;           // at the last point tried
+  mutable Known<Eigen::MatrixXd> root_;  // at the last point with derivatives
 };
 
 // Prepares the runs on several threads: they take unlike long, and Ceres would give each thread as

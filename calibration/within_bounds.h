@@ -1,0 +1,29 @@
+// Least squares within bounds by Levenberg–Marquardt (Ceres) with an active set. Ceres cuts a step
+// at the bounds, and what the step does with the other numbers then goes with the part that was cut
+// off: they stop short of their best, or creep. So a number that is pressed against its bound, by
+// the sum of squares falling beyond it, is held there while the others go on, and let go when it is
+// not pressed any more.
+#ifndef PLENUM_CALIBRATION_WITHIN_BOUNDS_H_
+#define PLENUM_CALIBRATION_WITHIN_BOUNDS_H_
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Core>
+#include <string>
+
+namespace plenum::calibration {
+
+struct BoundedSolution {
+  ceres::TerminationType termination = ceres::FAILURE;
+  std::string message;
+  double cost = 0.0;  // half of the sum of squares
+};
+
+// Moves u, the one parameter block of the problem, whose bounds are set. Iterations count together,
+// and end at `solver`'s number of them with NO_CONVERGENCE.
+BoundedSolution SolveWithinBounds(ceres::Solver::Options solver, ceres::Problem& problem,
+                                  Eigen::VectorXd& u);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_WITHIN_BOUNDS_H_
