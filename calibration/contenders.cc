@@ -16,9 +16,14 @@ constexpr std::size_t kFinalSteps = 30'000;
 // many steps; those near the best are then taken further.
 constexpr double kScreening = 1e-4;
 constexpr int kScreeningIterations = 12;
-// After so many steps only those go on that explain at least this share of what the best one does
-// beyond the smaller set, the very best, and single effects that do worse than the base model,
-// which they can all but be: their steps so far say nothing of them, and they are given more.
+// After so many steps of a first look those wait that are by less than this share on their way from
+// the smaller set to the best one, but for the very best.
+constexpr int kGlance = 2;
+constexpr double kOnTheWay = 0.1;
+constexpr std::size_t kAlwaysFirst = 12;
+// After so many only those go on that explain at least this share of what the best one does beyond
+// the smaller set, the very best, and single effects that do worse than the base model, which they
+// can all but be: their steps so far say nothing of them, and they are given more.
 constexpr int kFirstLook = 5;
 constexpr double kLoosely = 1e-4;  // of the operating pressure
 constexpr double kHopeful = 0.5;
@@ -27,9 +32,10 @@ constexpr double kNear = 20.0;       // of BIC
 constexpr double kNearShare = 0.02;  // of what the best set gains over the base model
 constexpr std::size_t kLeadingLengths = 3;
 
+bool Goes(const Contenders::Job& job) { return job.fit.status == FitStatus::kIterationsSpent; }
+
 bool IsLost(const Contenders::Job& job) {
-  return job.set.size() == 1u && job.fit.status == FitStatus::kIterationsSpent &&
-         job.fit.bic > job.bic_before + kNear;
+  return job.set.size() == 1u && Goes(job) && job.fit.bic > job.bic_before + kNear;
 }
 
 }  // namespace
@@ -184,7 +190,11 @@ void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_sh
   for (Job& job : jobs) all.push_back(&job);
   const double middle = 0.5 * (from_share + to_share);
   const std::size_t size = jobs.front().set.size();
-  Continue(all, FirstLook(size), from_share, middle, what);
+  FitOptions look = FirstLook(size);
+  look.iterations_max = kGlance;
+  Continue(all, look, from_share, middle, what);
+  look.iterations_max = kFirstLook - kGlance;
+  Continue(OnTheWay(all), look, middle, middle, what);
   FitOptions rest = Screening();
   rest.iterations_max -= kFirstLook;
   Continue(Hopeful(all), rest, middle, to_share, what);
@@ -209,6 +219,20 @@ void Contenders::Continue(const std::vector<Job*>& jobs, const FitOptions& optio
   });
 }
 
+std::vector<Contenders::Job*> Contenders::OnTheWay(std::vector<Job*> jobs) const {
+  std::erase_if(jobs, [](const Job* job) { return !job->fit.Usable(); });
+  std::stable_sort(jobs.begin(), jobs.end(),
+                   [](const Job* a, const Job* b) { return a->fit.bic < b->fit.bic; });
+  std::vector<Job*> going;
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    const double before = jobs[k]->bic_before, come = before - jobs[k]->fit.bic;
+    const double way = before - jobs.front()->fit.bic;
+    const bool first = k < kAlwaysFirst || come > kOnTheWay * way || IsLost(*jobs[k]);
+    if (first && Goes(*jobs[k])) going.push_back(jobs[k]);
+  }
+  return going;
+}
+
 // Those that have not converged but may still matter.
 std::vector<Contenders::Job*> Contenders::Hopeful(std::vector<Job*> jobs) const {
   std::erase_if(jobs, [](const Job* job) { return !job->fit.Usable(); });
@@ -222,8 +246,7 @@ std::vector<Contenders::Job*> Contenders::Hopeful(std::vector<Job*> jobs) const 
     const double bic = jobs[k]->fit.bic;
     const bool may_matter =
         k < kAlwaysOn || bic < best + kNear + kHopeful * gain || IsLost(*jobs[k]);
-    if (may_matter && jobs[k]->fit.status == FitStatus::kIterationsSpent)
-      hopeful.push_back(jobs[k]);
+    if (may_matter && Goes(*jobs[k])) hopeful.push_back(jobs[k]);
   }
   return hopeful;
 }

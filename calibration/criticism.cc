@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calibration/parallel.h"
 #include "model/effects/learned.h"
 
 namespace plenum::calibration {
@@ -119,10 +120,11 @@ double LearnableGain(const FitData& data, const Fit& fit, double memory,
                      const FitOptions& options) {
   const auto fitted = static_cast<Eigen::Index>(fit.coordinates.size());
   const double worth = static_cast<double>(fit.rows) / memory;
-  double most = 0.0;
-  for (const Term& term : Terms()) {
-    if (options.cancelled && options.cancelled()) break;
-    const auto numbers = static_cast<Eigen::Index>(term.sizes.size());
+  const std::vector<Term> terms = Terms();
+  std::vector<double> bics(terms.size(), 0.0);
+  ForAll(terms.size(), options.threads, [&](std::size_t i) {
+    if (options.cancelled && options.cancelled()) return;
+    const auto numbers = static_cast<Eigen::Index>(terms[i].sizes.size());
     Sums sums{Eigen::MatrixXd::Zero(fitted, fitted), Eigen::MatrixXd::Zero(fitted, numbers),
               Eigen::MatrixXd::Zero(numbers, numbers), Eigen::VectorXd::Zero(fitted),
               Eigen::VectorXd::Zero(numbers)};
@@ -132,15 +134,14 @@ double LearnableGain(const FitData& data, const Fit& fit, double memory,
       sums.je[j] = fit.u[j];
     }
     const bool done = std::all_of(data.runs.begin(), data.runs.end(), [&](std::size_t run) {
-      return AddRun(data, fit, term, run, options, sums);
+      return AddRun(data, fit, terms[i], run, options, sums);
     });
-    if (!done) continue;
+    if (!done) return;
     const double gain = std::min(Gain(sums), 0.5 * fit.chi2_data);
-    const double bic = worth * std::log(fit.chi2_data / (fit.chi2_data - gain)) -
-                       static_cast<double>(numbers) * std::log(std::max(1.0, worth));
-    most = std::max(most, bic);
-  }
-  return most;
+    bics[i] = worth * std::log(fit.chi2_data / (fit.chi2_data - gain)) -
+              static_cast<double>(numbers) * std::log(std::max(1.0, worth));
+  });
+  return std::max(0.0, *std::max_element(bics.begin(), bics.end()));
 }
 
 }  // namespace plenum::calibration

@@ -1,9 +1,14 @@
 #include "calibration/within_bounds.h"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace plenum::calibration {
 namespace {
+
+constexpr double kRidge = 1e-10;  // of the diagonal: numbers that nothing depends on
 
 bool AtBound(const ceres::Problem& problem, const Eigen::VectorXd& u, int j) {
   return u[j] <= problem.GetParameterLowerBound(u.data(), j) ||
@@ -17,18 +22,55 @@ std::vector<int> AtBounds(const ceres::Problem& problem, const Eigen::VectorXd& 
   return at;
 }
 
-// Of those at a bound the ones beyond which the sum of squares would fall.
+// J and e of the problem where u is; empty where it cannot be evaluated.
+std::pair<Eigen::MatrixXd, Eigen::VectorXd> Linearised(ceres::Problem& problem, Eigen::Index size) {
+  std::vector<double> e;
+  ceres::CRSMatrix rows;
+  if (!problem.Evaluate({}, nullptr, &e, nullptr, &rows)) return {};
+  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(rows.num_rows, size);
+  for (int i = 0; i < rows.num_rows; ++i)
+    for (auto k = static_cast<std::size_t>(rows.rows[static_cast<std::size_t>(i)]);
+         k < static_cast<std::size_t>(rows.rows[static_cast<std::size_t>(i) + 1]); ++k)
+      j(i, rows.cols[k]) = rows.values[k];
+  return {j, Eigen::Map<const Eigen::VectorXd>(e.data(), static_cast<Eigen::Index>(e.size()))};
+}
+
+// The step of Gauss and Newton; of those held none.
+Eigen::VectorXd StepOf(const Eigen::MatrixXd& jj, const Eigen::VectorXd& je,
+                       const std::vector<int>& held) {
+  Eigen::MatrixXd free = jj;
+  Eigen::VectorXd down = -je;
+  free.diagonal() *= 1.0 + kRidge;
+  for (const int j : held) {
+    free.row(j).setZero();
+    free.col(j).setZero();
+    free(j, j) = 1.0;
+    down[j] = 0.0;
+  }
+  return free.ldlt().solve(down);
+}
+
+// Of those at a bound the ones beyond which the sum of squares would fall, or to beyond which a
+// step would take them with the others.
 std::vector<int> Pressed(ceres::Problem& problem, const Eigen::VectorXd& u) {
-  std::vector<int> pressed = AtBounds(problem, u);
-  if (pressed.empty()) return pressed;
-  std::vector<double> slope;
-  if (!problem.Evaluate({}, nullptr, nullptr, &slope, nullptr)) return {};
-  std::erase_if(pressed, [&](int j) {
-    const bool low = u[j] <= problem.GetParameterLowerBound(u.data(), j);
-    return low ? slope[static_cast<std::size_t>(j)] < 0.0
-               : slope[static_cast<std::size_t>(j)] > 0.0;
-  });
-  return pressed;
+  const std::vector<int> at = AtBounds(problem, u);
+  if (at.empty()) return {};
+  const auto [j, e] = Linearised(problem, u.size());
+  if (e.size() == 0) return {};
+  const Eigen::MatrixXd jj = j.transpose() * j;
+  const Eigen::VectorXd je = j.transpose() * e;
+  Eigen::VectorXd step = -je;
+  std::vector<int> held;
+  for (bool more = true; more; step = StepOf(jj, je, held)) {
+    more = false;
+    for (const int k : at) {
+      const bool low = u[k] <= problem.GetParameterLowerBound(u.data(), k);
+      const bool beyond = low ? step[k] < 0.0 : step[k] > 0.0;
+      if (beyond) held.push_back(k), more = true;
+    }
+  }
+  std::sort(held.begin(), held.end());
+  return held;
 }
 
 // Ends a lap where a step has come to a bound at which the lap did not begin.
