@@ -16,14 +16,9 @@ constexpr std::size_t kFinalSteps = 30'000;
 // many steps; those near the best are then taken further.
 constexpr double kScreening = 1e-4;
 constexpr int kScreeningIterations = 12;
-// After so many steps of a first look those wait that are by less than this share on their way from
-// the smaller set to the best one, but for the very best.
-constexpr int kGlance = 2;
-constexpr double kOnTheWay = 0.1;
-constexpr std::size_t kAlwaysFirst = 12;
-// After so many only those go on that explain at least this share of what the best one does beyond
-// the smaller set, the very best, and single effects that do worse than the base model, which they
-// can all but be: their steps so far say nothing of them, and they are given more.
+// After so many steps only those go on that explain at least this share of what the best one does
+// beyond the smaller set, the very best, and single effects that do worse than the base model,
+// which they can all but be: their steps so far say nothing of them, and they are given more.
 constexpr int kFirstLook = 5;
 constexpr double kLoosely = 1e-4;  // of the operating pressure
 constexpr double kHopeful = 0.5;
@@ -32,10 +27,9 @@ constexpr double kNear = 20.0;       // of BIC
 constexpr double kNearShare = 0.02;  // of what the best set gains over the base model
 constexpr std::size_t kLeadingLengths = 3;
 
-bool Goes(const Contenders::Job& job) { return job.fit.status == FitStatus::kIterationsSpent; }
-
 bool IsLost(const Contenders::Job& job) {
-  return job.set.size() == 1u && Goes(job) && job.fit.bic > job.bic_before + kNear;
+  return job.set.size() == 1u && job.fit.status == FitStatus::kIterationsSpent &&
+         job.fit.bic > job.bic_before + kNear;
 }
 
 }  // namespace
@@ -190,11 +184,7 @@ void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_sh
   for (Job& job : jobs) all.push_back(&job);
   const double middle = 0.5 * (from_share + to_share);
   const std::size_t size = jobs.front().set.size();
-  FitOptions look = FirstLook(size);
-  look.iterations_max = kGlance;
-  Continue(all, look, from_share, middle, what);
-  look.iterations_max = kFirstLook - kGlance;
-  Continue(OnTheWay(all), look, middle, middle, what);
+  Continue(all, FirstLook(size), from_share, middle, what);
   FitOptions rest = Screening();
   rest.iterations_max -= kFirstLook;
   Continue(Hopeful(all), rest, middle, to_share, what);
@@ -210,27 +200,15 @@ void Contenders::Continue(const std::vector<Job*>& jobs, const FitOptions& optio
   std::mutex reporting;
   ForAll(jobs.size(), options_->threads, [&](std::size_t i) {
     if (Cancelled()) return;
-    Fit fit = FitModel(data, jobs[i]->start, options);
+    FitOptions each = options;
+    each.threads = ThreadsWithin(i, jobs.size(), options_->threads);
+    Fit fit = FitModel(data, jobs[i]->start, each);
     if (fit.Usable()) jobs[i]->start = fit.state;
     if (fit.Usable() || !jobs[i]->fit.Usable()) jobs[i]->fit = std::move(fit);
     const double share = static_cast<double>(++done) / static_cast<double>(jobs.size());
     const std::lock_guard lock(reporting);
     Report(from_share + share * (to_share - from_share), what);
   });
-}
-
-std::vector<Contenders::Job*> Contenders::OnTheWay(std::vector<Job*> jobs) const {
-  std::erase_if(jobs, [](const Job* job) { return !job->fit.Usable(); });
-  std::stable_sort(jobs.begin(), jobs.end(),
-                   [](const Job* a, const Job* b) { return a->fit.bic < b->fit.bic; });
-  std::vector<Job*> going;
-  for (std::size_t k = 0; k < jobs.size(); ++k) {
-    const double before = jobs[k]->bic_before, come = before - jobs[k]->fit.bic;
-    const double way = before - jobs.front()->fit.bic;
-    const bool first = k < kAlwaysFirst || come > kOnTheWay * way || IsLost(*jobs[k]);
-    if (first && Goes(*jobs[k])) going.push_back(jobs[k]);
-  }
-  return going;
 }
 
 // Those that have not converged but may still matter.
@@ -246,7 +224,8 @@ std::vector<Contenders::Job*> Contenders::Hopeful(std::vector<Job*> jobs) const 
     const double bic = jobs[k]->fit.bic;
     const bool may_matter =
         k < kAlwaysOn || bic < best + kNear + kHopeful * gain || IsLost(*jobs[k]);
-    if (may_matter && Goes(*jobs[k])) hopeful.push_back(jobs[k]);
+    if (may_matter && jobs[k]->fit.status == FitStatus::kIterationsSpent)
+      hopeful.push_back(jobs[k]);
   }
   return hopeful;
 }
@@ -266,7 +245,9 @@ void Contenders::Refine(int size) {
     if (!contender.refined && (unfinished || close)) near.push_back(&contender);
   }
   ForAll(near.size(), options_->threads, [&](std::size_t i) {
-    Fit fit = FitModel(data, near[i]->fit.state, Further());
+    FitOptions each = Further();
+    each.threads = ThreadsWithin(i, near.size(), options_->threads);
+    Fit fit = FitModel(data, near[i]->fit.state, each);
     near[i]->refined = fit.status != FitStatus::kIterationsSpent;
     if (fit.Usable() && fit.bic < near[i]->fit.bic) near[i]->fit = std::move(fit);
     Narrow(data, Further(), near[i]->fit);
@@ -298,10 +279,11 @@ void Contenders::FitInStep(Contender& contender) {
 
 // Goes on with each; the best comes first.
 void Contenders::FitModels(const FitOptions& options, std::vector<Fit>& fits) const {
-  FitOptions each = options;
-  if (fits.size() > 1u) each.threads = 1;
-  ForAll(fits.size(), options_->threads,
-         [&](std::size_t i) { fits[i] = FitModel(data, fits[i].state, each); });
+  ForAll(fits.size(), options_->threads, [&](std::size_t i) {
+    FitOptions each = options;
+    each.threads = ThreadsWithin(i, fits.size(), options_->threads);
+    fits[i] = FitModel(data, fits[i].state, each);
+  });
   std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
     return a.Usable() != b.Usable() ? a.Usable() : a.bic < b.bic;
   });

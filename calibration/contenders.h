@@ -93,7 +93,6 @@ class Contenders {
  private:
   void Continue(const std::vector<Job*>& jobs, const FitOptions& options, double from_share,
                 double to_share, const std::string& what);
-  std::vector<Job*> OnTheWay(std::vector<Job*> jobs) const;
   std::vector<Job*> Hopeful(std::vector<Job*> jobs) const;
   void Refine(int size);
   void FitModels(const FitOptions& options, std::vector<Fit>& fits) const;

@@ -298,14 +298,14 @@ ModelState BaseOf(const FitData& data, const Fit& established) {
 // Of each family that is not there yet, those that could be fitted; a family goes on to finer laws
 // below `hopeful`.
 std::vector<Attempt> FitFamilies(const FitData& data, const ModelState& base,
-                                 const ModelState& established, FitOptions options,
+                                 const ModelState& established, const FitOptions& options,
                                  double hopeful = kNone) {
   std::vector<Attempt> attempts(Families().size());
-  const int threads = options.threads;
-  options.threads = 1;
-  ForAll(attempts.size(), threads, [&](std::size_t i) {
+  ForAll(attempts.size(), options.threads, [&](std::size_t i) {
+    FitOptions each = options;
+    each.threads = ThreadsWithin(i, attempts.size(), options.threads);
     if (!Holds(established, Families()[i].id))
-      attempts[i] = FitFamily(data, Families()[i], base, established, options, hopeful);
+      attempts[i] = FitFamily(data, Families()[i], base, established, each, hopeful);
   });
   std::erase_if(attempts, [](const Attempt& attempt) { return !attempt.fit.Usable(); });
   return attempts;

@@ -66,7 +66,7 @@ void Reweigh(const FitData& data, const FitOptions& options, double memory,
     ForAll(best.size(), options.threads, [&](std::size_t i) {
       Contender& contender = *best[i];
       FitOptions weighed = options;
-      weighed.threads = 1;
+      weighed.threads = ThreadsWithin(i, best.size(), options.threads);
       weighed.weight = 1.0 / (memory * std::max(1.0, contender.fit.chi2_data /
                                                          static_cast<double>(contender.fit.rows)));
       // Readings of less worth need less.

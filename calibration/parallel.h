@@ -33,6 +33,11 @@ void ForAll(std::size_t count, int threads, const Work& work) {
   for (std::thread& thread : pool) thread.join();
 }
 
+// How many threads item i of those may use within itself: the last ones leave no others to begin.
+inline int ThreadsWithin(std::size_t i, std::size_t count, int threads) {
+  return i + 2 * static_cast<std::size_t>(threads) >= count ? threads : 1;
+}
+
 }  // namespace plenum::calibration
 
 #endif  // PLENUM_CALIBRATION_PARALLEL_H_

@@ -18,7 +18,7 @@ constexpr double kBores[] = {2e-3, 3.5e-3};                             // m
 constexpr double kApart = 2.5;                                          // steps of length
 constexpr std::size_t kKept = 3, kKeptAgain = 5;
 // The whole grid is tried on every so many-th run, the best share of it on the others.
-constexpr std::size_t kFirstRuns = 4, kOthersShare = 5;
+constexpr std::size_t kFirstRuns = 3, kOthersShare = 5;
 constexpr double kHopeful = 0.5;  // of what the best point explains
 constexpr double kAbout = 2.5;    // of the length
 constexpr double kBoresAbout[] = {0.92, 1.0, 1.09};
