@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "calibration/parallel.h"
@@ -149,6 +150,22 @@ struct Attempt {
   Unseen left_out = {};
 };
 
+// The coarser law's curve on the knots of the finer one, which hold its own; none where they do
+// not.
+std::optional<ModelState> OnFinerKnots(const Fit& coarser, const model::EffectSpec& finer) {
+  ModelState state = coarser.state;
+  std::vector<double>& values = state.effects.back().parameters;
+  while (values.size() > 2u && values.size() < finer.parameters.size()) {
+    std::vector<double> both = {values.front()};
+    for (std::size_t k = 1; k < values.size(); ++k)
+      both.insert(both.end(), {0.5 * (values[k - 1] + values[k]), values[k]});
+    values = std::move(both);
+  }
+  if (values.size() != finer.parameters.size()) return {};
+  state.effects.back().spec = &finer;
+  return state;
+}
+
 // A finer law is tried where the coarser one has come below `hopeful`.
 Attempt FitFamily(const FitData& data, const Family& family, const ModelState& base,
                   const ModelState& established, const FitOptions& options, double hopeful) {
@@ -156,7 +173,11 @@ Attempt FitFamily(const FitData& data, const Family& family, const ModelState& b
   for (const char* law : family.laws) {
     if (attempt.fit.Usable() && !(attempt.score < hopeful)) break;
     const model::EffectSpec* spec = model::FindEffect(family.id, law);
-    Fit fit = FitTerm(data, data.runs, Starts(data, *spec, base, established, options), options);
+    std::optional<ModelState> finer;
+    if (attempt.fit.Usable()) finer = OnFinerKnots(attempt.fit, *spec);
+    const std::vector<ModelState> starts =
+        finer ? std::vector{*finer} : Starts(data, *spec, base, established, options);
+    Fit fit = FitTerm(data, data.runs, starts, options);
     if (!fit.Usable() || !(Score(fit) < attempt.score - (attempt.fit.Usable() ? kGain : 0.0))) {
       continue;
     }
