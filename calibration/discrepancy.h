@@ -4,9 +4,10 @@
 // The effects established stay, and are fitted again together with each learned term in turn
 // (model/effects/learned.h): leak, line conductance, volume law, supply, valve or sensor. Where the
 // established fit stretches the declared numbers beyond their uncertainties, these start as
-// declared. Each family of terms is tried from coarse to fine; the finer one stays if the BIC says
-// so. The families with the best BIC then compete on whole runs that the fit does not see: each run
-// is left out once, the term is learned from the others, and the family with the least
+// declared. Each family of terms is tried from coarse to fine, the curve on more knots from the one
+// found on fewer; the finer one stays if the BIC says so. The families with the best BIC then
+// compete on whole runs that the fit does not see: each run is left out once, the term is learned
+// from the others, and the family with the least
 //   Σ n·ln max(χ²/n, 1) + k·ln n   over the runs left out, n readings each,
 // is the answer, if it beats the model without a term there; of those within kGain the one that
 // fits better. With one run only, the BIC decides.
