@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -106,29 +107,24 @@ TEST(WithinBounds, FindsTheLeastSquaresOfABox) {
   }
 }
 
-TEST(WithinBounds, LetsGoWhatIsNotPressedAnyMore) {
-  // Starts at a bound that it has to leave again once the radius has come to its own.
-  Eigen::VectorXd u(2);
-  u << 0.1, 1.9;
+BoundedSolution SolveArc(int iterations_max, Eigen::VectorXd& u) {
   ceres::Problem problem;
   problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Arc, 2, 2>(new Arc), nullptr, u.data());
   Bound(problem, u, 0.1, 1.9);
-  const BoundedSolution solution = SolveWithinBounds(Options(100), problem, u);
-  EXPECT_EQ(solution.termination, ceres::CONVERGENCE);
+  return SolveWithinBounds(Options(iterations_max), problem, u);
+}
+
+TEST(WithinBounds, LetsGoWhatIsNotPressedAnyMore) {
+  Eigen::VectorXd u = Eigen::Vector2d(0.1, 1.9);  // both at a bound, the angle not for good
+  EXPECT_EQ(SolveArc(100, u).termination, ceres::CONVERGENCE);
   EXPECT_NEAR(u[0], std::atan2(2.0, 0.5), 1e-5);  // the nearest point of the circle
   EXPECT_EQ(u[1], 1.9);
 }
 
 TEST(WithinBounds, StepsCountTogether) {
-  Eigen::VectorXd u(2);
-  u << 0.1, 1.9;
-  ceres::Problem problem;
-  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Arc, 2, 2>(new Arc), nullptr, u.data());
-  Bound(problem, u, 0.1, 1.9);
-  const double before = u[0];
-  const BoundedSolution solution = SolveWithinBounds(Options(1), problem, u);
-  EXPECT_EQ(solution.termination, ceres::NO_CONVERGENCE);
-  EXPECT_NE(u[0], before);
+  Eigen::VectorXd u = Eigen::Vector2d(0.1, 1.9);
+  EXPECT_EQ(SolveArc(1, u).termination, ceres::NO_CONVERGENCE);
+  EXPECT_NE(u[0], 0.1);
 }
 
 TEST(WithinBounds, StaysWhereAllArePressed) {
