@@ -150,8 +150,7 @@ struct Attempt {
   Unseen left_out = {};
 };
 
-// The coarser law's curve on the knots of the finer one, which hold its own; none where they do
-// not.
+// The coarser law's curve on the knots of the finer one; none where its own are not among them.
 std::optional<ModelState> OnFinerKnots(const Fit& coarser, const model::EffectSpec& finer) {
   ModelState state = coarser.state;
   std::vector<double>& values = state.effects.back().parameters;

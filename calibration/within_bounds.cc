@@ -10,15 +10,12 @@ namespace {
 
 constexpr double kRidge = 1e-10;  // of the diagonal: numbers that nothing depends on
 
-bool AtBound(const ceres::Problem& problem, const Eigen::VectorXd& u, int j) {
-  return u[j] <= problem.GetParameterLowerBound(u.data(), j) ||
-         u[j] >= problem.GetParameterUpperBound(u.data(), j);
-}
-
 std::vector<int> AtBounds(const ceres::Problem& problem, const Eigen::VectorXd& u) {
   std::vector<int> at;
   for (int j = 0; j < u.size(); ++j)
-    if (AtBound(problem, u, j)) at.push_back(j);
+    if (u[j] <= problem.GetParameterLowerBound(u.data(), j) ||
+        u[j] >= problem.GetParameterUpperBound(u.data(), j))
+      at.push_back(j);
   return at;
 }
 
@@ -50,8 +47,7 @@ Eigen::VectorXd StepOf(const Eigen::MatrixXd& jj, const Eigen::VectorXd& je,
   return free.ldlt().solve(down);
 }
 
-// Of those at a bound the ones beyond which the sum of squares would fall, or to beyond which a
-// step would take them with the others.
+// The numbers to be held at their bounds.
 std::vector<int> Pressed(ceres::Problem& problem, const Eigen::VectorXd& u) {
   const std::vector<int> at = AtBounds(problem, u);
   if (at.empty()) return {};
