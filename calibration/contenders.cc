@@ -273,7 +273,7 @@ void Contenders::FitInStep(Contender& contender) {
     Narrow(data, Tight(), fits.front());
     const double gain = contender.fit.bic - fits.front().bic;
     if (gain > kSameOptimum) contender.fit = std::move(fits.front());
-    again = gain > kTie;
+    again = gain > kAccept;
   }
 }
 

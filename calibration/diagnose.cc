@@ -304,8 +304,7 @@ class Diagnosing {
     evidence.accepted = &Chosen() != base_;
     evidence.after =
         evidence.accepted ? LeftoverOf(bench_, Chosen().fit, !Stopped()) : evidence.before;
-    tied_ = TiedWith(bench_, search_.contenders, Chosen(), memory,
-                     IsNoise(evidence.before) ? kTieInNoise : kTie);
+    tied_ = TiedWith(bench_, search_.contenders, Chosen(), memory, kTie);
     evidence.tied = static_cast<int>(tied_.size()) - 1;
     if (Stopped()) evidence.complete = false;
   }

@@ -431,7 +431,7 @@ class Search {
       const std::optional<std::size_t> leader = sets_.Best(size);
       if (!leader) continue;
       const double best = sets_[*leader].fit.bic;
-      const double reach = size == size_max ? 2.0 * kTie : kSameOptimum;
+      const double reach = size == size_max ? 1.5 * kTie : kSameOptimum;
       for (const std::size_t i : sets_.Sorted(size)) {
         Contender& contender = sets_.list[i];
         if (contender.fit.bic > best + reach) continue;

@@ -10,13 +10,10 @@ namespace plenum::calibration {
 // effects one in a thousand.
 inline constexpr double kAccept = 10.0;
 
-// Sets of effects of one size whose BIC is within this of the best are not told apart: below 6 the
-// evidence is positive, not strong (same source).
-inline constexpr double kTie = 6.0;
-
-// The same where the base model leaves noise alone: what is then named rests on how far the
-// declared numbers are from what was stated of them, and those statements are rough.
-inline constexpr double kTieInNoise = 10.0;
+// Sets of effects of one size whose BIC is within this of the best are not told apart: what is
+// named alone has very strong evidence against all else (same source), for noise that is not quite
+// as assumed and declared numbers whose stated uncertainties are rough shift BIC by several units.
+inline constexpr double kTie = 10.0;
 
 // In a single run, where no other confirms what it shows, the better set must also be better by
 // this many standard deviations of the difference (closeness.h): by chance one in a hundred.

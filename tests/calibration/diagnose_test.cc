@@ -69,7 +69,7 @@ TEST(Diagnose, ClocksThatAreLateAlikeMakeNoEffect) {
     calibration::Run& run = two.runs[i];
     run.t_s.clear();
     for (int k = 0; k <= 100; ++k) run.t_s.push_back(0.05 * k);
-    test::Measure([](EffectRig& rig) { rig.sensor_gain = 1.04; }, 28 + i, 2.0 * test::kBenchNoisePa,
+    test::Measure([](EffectRig& rig) { rig.sensor_gain = 1.04; }, 28 + i, 1.5 * test::kBenchNoisePa,
                   run);
     for (double& t_s : run.t_s) t_s += 0.008;
   }
