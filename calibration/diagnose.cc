@@ -111,6 +111,9 @@ class Diagnosing {
     if (!fit.Usable()) return false;
     std::vector<Reading> predicted(observed_.size());
     for (const std::size_t run : bench_.data.runs) predicted[run] = Shown(bench_, fit.state, run);
+    for (const std::size_t run : bench_.held_out)
+      predicted[run] = Shown(bench_, Aligned(bench_, run, fit.state), run);
+    LeaveOutWild(bench_.dataset, bench_.held_out, predicted, observed_);
     const bool wild = LeaveOutWild(bench_.dataset, bench_.data.runs, predicted, observed_);
     return TakeHiddenNoise(bench_.dataset, bench_.data.runs, predicted, observed_) || wild;
   }

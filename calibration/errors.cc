@@ -95,7 +95,7 @@ ErrorReport ErrorOf(const Bench& bench, const ModelState& state) {
   return report;
 }
 
-Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& state) {
+ModelState Aligned(const Bench& bench, std::size_t run, const ModelState& state) {
   FitData data = bench.data;
   data.runs = {run};
   data.clocks = data.clocks || bench.data.runs.size() == 1u;
@@ -103,7 +103,11 @@ Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& stat
   options.nuisance_only = true;
   options.own_pairs = HasOwnPairs(bench.data, run);
   const Fit aligned = FitModel(data, state, options);
-  return ErrorsOf(bench, run, aligned.Usable() ? aligned.state : state);
+  return aligned.Usable() ? aligned.state : state;
+}
+
+Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& state) {
+  return ErrorsOf(bench, run, Aligned(bench, run, state));
 }
 
 double NoiseOf(const Bench& bench, const std::vector<std::size_t>& runs) {

@@ -121,7 +121,8 @@ void AddSeries(const Bench& bench, const ModelState& before, const ModelState& a
     const std::vector<PhaseSpan> phases = PhasesOf(run);
     for (const double t_s : series.t_s) series.phase.push_back(phases[PhaseAt(phases, t_s)].phase);
     const auto predict = [&](const ModelState& state) {
-      std::vector<double> pressure_pa = Shown(bench, state, i).pressure_pa;
+      const ModelState shown = series.held_out ? Aligned(bench, i, state) : state;
+      std::vector<double> pressure_pa = Shown(bench, shown, i).pressure_pa;
       pressure_pa.resize(run.t_s.size(), std::numeric_limits<double>::quiet_NaN());
       return chosen(pressure_pa);
     };

@@ -47,6 +47,26 @@ TEST(Diagnose, ALeakIsNamedWithItsSizeAndHoldsOnTheRunNotSeen) {
   EXPECT_EQ(d.unexplained_fraction, 0.0);
 }
 
+// Beside a gap, where a stroke begins, the readings alone do not show it as wild.
+TEST(Diagnose, AWildReadingOfTheRunNotSeenDoesNotSpeakAgainstTheEffect) {
+  Dataset dataset = test::MeasuredBench(
+      [](EffectRig& rig) {
+        rig.leak = test::OrificeLeak{6e-12, 0.3};
+      },
+      22);
+  const auto held_out =
+      std::find_if(dataset.runs.begin(), dataset.runs.end(),
+                   [&](const calibration::Run& run) { return run.id == dataset.holdout.front(); });
+  ASSERT_NE(held_out, dataset.runs.end());
+  held_out->pressure_pa[12] += 20.0 * test::kBenchNoisePa;
+  held_out->pressure_pa[13] = held_out->pressure_pa[14] = std::nan("");
+  const Diagnosis d = Diagnose(dataset, {});
+  ASSERT_EQ(d.verdict, Verdict::kExplained) << d.sentence;
+  EXPECT_EQ(d.effects[0].effect.spec->id, "leak");
+  EXPECT_LT(*d.after.holdout_rms_pa, 1.1 * test::kBenchNoisePa);
+  EXPECT_THAT(d.warnings, ::testing::Contains("1 wild readings were left out"));
+}
+
 // In one run a part of a sample may be the clock's or the valve's.
 TEST(Diagnose, ALateStrokeOfOneRunIsATieBesideTheClock) {
   Dataset one;
