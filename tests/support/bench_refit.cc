@@ -106,7 +106,9 @@ BaseFit BaseFitter::Fit(const Readings& data, double noise_pa) const {
     for (std::size_t j = 0; j < free_.size(); ++j) {
       double& factor = next.factors[free_[j]];
       factor += share * move[static_cast<Eigen::Index>(j)] * scale_[j];
-      factor = std::clamp(factor, kFactorLow, kFactorHigh);
+      double low = kFactorLow;
+      if (free_[j] == kExpansionRatio) low = std::max(low, 1.0 / declared_.expansion_ratio);
+      factor = std::clamp(factor, low, kFactorHigh);
     }
     next.predicted = BaseReadings(declared_, runs_, next.factors);
     Normal there = NormalAt(next, data, noise_pa);
