@@ -108,9 +108,9 @@ class Designer {
   }
 
   std::vector<Rated> RateAll(double rate) const {
-    const std::vector<Proposal> proposals =
-        ProposeRuns(dataset(), data_.runs, rate,
-                    [&](const Run& stroke, double level) { return TimeOfStroke(stroke, level); });
+    const std::vector<Proposal> proposals = ProposeRuns(
+        dataset(), data_.runs, rate, (*data_.observed)[data_.runs.front()].noise.clip_high_pa,
+        [&](const Run& stroke, double level) { return TimeOfStroke(stroke, level); });
     std::vector<std::optional<RunWorth>> worths(proposals.size());
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {

@@ -14,7 +14,7 @@ namespace {
 
 using model::ValveState;
 
-constexpr double kReached = 0.97;      // of what a source can reach
+constexpr double kReached = 0.97;      // of what a source can reach, and a sensor read
 constexpr double kEmptied = 0.05;      // of the gauge pressure before
 constexpr double kHoldInRises = 6.0;   // where the data have no hold
 constexpr double kRestSamples = 20.0;  // before the first command
@@ -34,6 +34,7 @@ struct Bench {
   Run pattern;
   double spacing_s = 0.0, longest_run_s = 0.0, longest_hold_s = 0.0;
   double initial_pa = 0.0;  // the highest
+  double highest_pa = 0.0;  // that the sensor reads
   std::set<double> sources_pa;
 };
 
@@ -59,8 +60,14 @@ double SourcePressure(const Run& run) {
   return count > 0.0 ? sum / count : run.source_pressure_pa;
 }
 
-Bench BenchOf(const Dataset& dataset, const std::vector<std::size_t>& runs) {
+// How far one comes towards a pressure that cannot be passed.
+double Reached(double below_pa, double ambient_pa) {
+  return ambient_pa + kReached * (below_pa - ambient_pa);
+}
+
+Bench BenchOf(const Dataset& dataset, const std::vector<std::size_t>& runs, double highest_pa) {
   Bench bench;
+  bench.highest_pa = highest_pa;
   for (const std::size_t i : runs) {
     const Run& run = dataset.runs[i];
     if (run.t_s.size() < 2) continue;
@@ -81,6 +88,7 @@ Bench BenchOf(const Dataset& dataset, const std::vector<std::size_t>& runs) {
       bench.initial_pa = std::max(bench.initial_pa, *first);
   }
   Run& pattern = bench.pattern;
+  bench.initial_pa = std::min(bench.initial_pa, Reached(highest_pa, pattern.ambient.pressure_pa));
   pattern.id = "next";
   if (pattern.supply == Supply::kMeasured) pattern.supply = Supply::kRegulated;
   pattern.channels = {};
@@ -122,9 +130,9 @@ class Strokes {
   }
 
   void Propose(std::vector<Proposal>& proposals) {
+    const double end_pa = std::min(run_.source_pressure_pa, bench_.highest_pa);
     const double full_pa =
-        std::min(run_.chamber.operating_pressure_pa,
-                 ambient_pa_ + kReached * (run_.source_pressure_pa - ambient_pa_));
+        std::min(run_.chamber.operating_pressure_pa, Reached(end_pa, ambient_pa_));
     if (!(full_pa > ambient_pa_)) return;
     const double half_pa = 0.5 * (full_pa + ambient_pa_);
     const double rise_s = Time(ValveState::kInflate, ambient_pa_, full_pa);
@@ -214,9 +222,9 @@ void ProposeWithoutSource(const Bench& bench, const Run& run, double spacing_s,
 }  // namespace
 
 std::vector<Proposal> ProposeRuns(const Dataset& dataset, const std::vector<std::size_t>& runs,
-                                  double rate, const StrokeTime& stroke_time) {
+                                  double rate, double highest_pa, const StrokeTime& stroke_time) {
   std::vector<Proposal> proposals;
-  Bench bench = BenchOf(dataset, runs);
+  Bench bench = BenchOf(dataset, runs, highest_pa);
   if (!(bench.spacing_s > 0.0)) return proposals;
   const double spacing_s = bench.spacing_s / rate;
   const bool gives =

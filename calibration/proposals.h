@@ -8,7 +8,8 @@
 // short strokes. Without a source: closed, emptying or emptying in steps, from the highest initial
 // pressure of the data and from half of it. The commands follow from how long the strokes take in a
 // simulation given by the caller. Samples are as dense as in the data times `rate`,
-// kProposalSamples at most.
+// kProposalSamples at most. A sensor that reads to `highest_pa`, which may be infinite, is given
+// less than that to read.
 #ifndef PLENUM_CALIBRATION_PROPOSALS_H_
 #define PLENUM_CALIBRATION_PROPOSALS_H_
 
@@ -34,7 +35,7 @@ using StrokeTime = std::function<double(const Run& stroke, double level_pa)>;
 
 // For the runs given, whose first is the pattern. Empty where no run has samples.
 std::vector<Proposal> ProposeRuns(const Dataset& dataset, const std::vector<std::size_t>& runs,
-                                  double rate, const StrokeTime& stroke_time);
+                                  double rate, double highest_pa, const StrokeTime& stroke_time);
 
 }  // namespace plenum::calibration
 

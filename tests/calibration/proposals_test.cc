@@ -31,13 +31,16 @@ calibration::Run MakeRun(Supply supply, double source_pa) {
   return run;
 }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 const StrokeTime kHalfASecond = [](const calibration::Run&, double) { return 0.5; };
 
 TEST(ProposeRuns, StayWithinWhatTheBenchHasShown) {
   Dataset dataset;
   dataset.runs = {MakeRun(Supply::kRegulated, 2.6e5), MakeRun(Supply::kRegulated, 3.2e5),
                   MakeRun(Supply::kRegulated, 4e5)};
-  const std::vector<Proposal> proposals = ProposeRuns(dataset, {0, 1}, 1.0, kHalfASecond);
+  const std::vector<Proposal> proposals =
+      ProposeRuns(dataset, {0, 1}, 1.0, kInfinity, kHalfASecond);
   ASSERT_FALSE(proposals.empty());
   bool free = false, blocked = false;
   for (const auto& [run, what] : proposals) {
@@ -65,7 +68,7 @@ TEST(ProposeRuns, OneSourceAloneIsLoweredToo) {
   Dataset dataset;
   dataset.runs = {MakeRun(Supply::kRegulated, 3e5), MakeRun(Supply::kRegulated, 3e5)};
   std::set<double> sources_pa;
-  for (const Proposal& proposal : ProposeRuns(dataset, {0, 1}, 1.0, kHalfASecond))
+  for (const Proposal& proposal : ProposeRuns(dataset, {0, 1}, 1.0, kInfinity, kHalfASecond))
     sources_pa.insert(proposal.run.source_pressure_pa);
   EXPECT_EQ(sources_pa, (std::set<double>{1e5 + kLowerSource * 2e5, 3e5}));
 }
@@ -74,7 +77,8 @@ TEST(ProposeRuns, FasterSamplingIsFaster) {
   Dataset dataset;
   dataset.runs = {MakeRun(Supply::kRegulated, 3e5)};
   const auto spacing = [&](double rate) {
-    const std::vector<double> t_s = ProposeRuns(dataset, {0}, rate, kHalfASecond).back().run.t_s;
+    const std::vector<double> t_s =
+        ProposeRuns(dataset, {0}, rate, kInfinity, kHalfASecond).back().run.t_s;
     return t_s[1] - t_s[0];
   };
   EXPECT_NEAR(spacing(1.0), 0.01, 1e-4);
@@ -85,7 +89,7 @@ TEST(ProposeRuns, ARigidChamberNeedsNoBlockingAndOneWithoutSourceIsClosedOrEmpti
   Dataset dataset;
   dataset.runs = {MakeRun(Supply::kNone, 0.0)};
   dataset.runs[0].chamber.expansion_ratio = 1.0;
-  const std::vector<Proposal> proposals = ProposeRuns(dataset, {0}, 1.0, kHalfASecond);
+  const std::vector<Proposal> proposals = ProposeRuns(dataset, {0}, 1.0, kInfinity, kHalfASecond);
   EXPECT_EQ(proposals.size(), 10u);
   std::set<std::size_t> strokes;
   for (const auto& [run, what] : proposals) {
@@ -100,15 +104,29 @@ TEST(ProposeRuns, ARigidChamberNeedsNoBlockingAndOneWithoutSourceIsClosedOrEmpti
   EXPECT_EQ(strokes, (std::set<std::size_t>{0, 1, 5}));  // closed, emptying, in steps
 }
 
+TEST(ProposeRuns, NoPressureIsBeyondWhatTheSensorReads) {
+  for (const Supply supply : {Supply::kRegulated, Supply::kNone}) {
+    Dataset dataset;
+    dataset.runs = {MakeRun(supply, 2.6e5)};
+    double highest_pa = 0.0;
+    const StrokeTime noting = [&](const calibration::Run& stroke, double level_pa) {
+      highest_pa = std::max({highest_pa, *stroke.initial_pressure_pa, level_pa});
+      return 0.5;
+    };
+    for (const Proposal& proposal : ProposeRuns(dataset, {0}, 1.0, 1.5e5, noting))
+      highest_pa = std::max(highest_pa, *proposal.run.initial_pressure_pa);
+    EXPECT_LT(highest_pa, 1.5e5);
+    EXPECT_GT(highest_pa, 1.4e5);
+  }
+}
+
 TEST(ProposeRuns, StrokesThatNeverEndAreNotProposed) {
   Dataset dataset;
   dataset.runs = {MakeRun(Supply::kRegulated, 3e5)};
-  const StrokeTime never = [](const calibration::Run&, double) {
-    return std::numeric_limits<double>::infinity();
-  };
-  EXPECT_TRUE(ProposeRuns(dataset, {0}, 1.0, never).empty());
-  EXPECT_TRUE(ProposeRuns(dataset, {}, 1.0, kHalfASecond).empty());
-  EXPECT_TRUE(ProposeRuns(Dataset{}, {}, 1.0, kHalfASecond).empty());
+  const StrokeTime never = [](const calibration::Run&, double) { return kInfinity; };
+  EXPECT_TRUE(ProposeRuns(dataset, {0}, 1.0, kInfinity, never).empty());
+  EXPECT_TRUE(ProposeRuns(dataset, {}, 1.0, kInfinity, kHalfASecond).empty());
+  EXPECT_TRUE(ProposeRuns(Dataset{}, {}, 1.0, kInfinity, kHalfASecond).empty());
 }
 
 }  // namespace
