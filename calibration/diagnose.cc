@@ -70,7 +70,8 @@ class Diagnosing {
     bench_.held_out.clear();
     FitOptions options = bench_.tight;
     options.nuisance_only = true;
-    const Fit aligned = FitModel(bench_.data, state, options);
+    Fit aligned = FitModel(bench_.data, state, options);
+    if (LearnReadings(aligned)) aligned = FitModel(bench_.data, aligned.state, options);
     diagnosis_.noise_pa = NoiseOf(bench_, bench_.data.runs);
     diagnosis_.declared = ErrorOf(bench_, forward_.Declared());
     if (!aligned.Usable()) {
