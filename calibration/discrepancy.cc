@@ -200,18 +200,6 @@ double SquaresOf(const FitData& data, const ModelState& state, const std::vector
   return sum;
 }
 
-// The state with the run's own initial pressure and clock, where they are unknown: nothing learned
-// from other runs can tell them.
-ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run,
-                   FitOptions options) {
-  FitData alone = data;
-  alone.runs = {run};
-  options.nuisance_only = true;
-  options.own_pairs = HasOwnPairs(data, run);
-  const Fit aligned = FitModel(alone, state, options);
-  return aligned.Usable() ? aligned.state : state;
-}
-
 // How many numbers the term leaves to a run. Its own readings tell them, at ln n each as in the
 // BIC.
 double OwnNumbers(const FitData& data, const Fit& fit, std::size_t run) {

@@ -97,13 +97,8 @@ ErrorReport ErrorOf(const Bench& bench, const ModelState& state) {
 
 ModelState Aligned(const Bench& bench, std::size_t run, const ModelState& state) {
   FitData data = bench.data;
-  data.runs = {run};
-  data.clocks = data.clocks || bench.data.runs.size() == 1u;
-  FitOptions options = bench.tight;
-  options.nuisance_only = true;
-  options.own_pairs = HasOwnPairs(bench.data, run);
-  const Fit aligned = FitModel(data, state, options);
-  return aligned.Usable() ? aligned.state : state;
+  data.clocks = data.clocks || data.runs.size() == 1u;
+  return Aligned(data, state, run, bench.tight);
 }
 
 Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& state) {

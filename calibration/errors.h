@@ -51,10 +51,8 @@ Reading Shown(const Bench& bench, const ModelState& state, std::size_t run);
 // Pressure residuals of a run that the fit saw.
 Squares ErrorsOf(const Bench& bench, std::size_t run, const ModelState& state);
 
-// The state with what a run that the fit did not see has of its own: its clock and its initial
-// pressure, where unknown, and the pairs (C, b) of a line that no fitted run has. Nothing that was
-// learned from other runs can tell them, so that they alone are fitted, the pairs within their
-// uncertainties. Whether clocks are off one fitted run does not show.
+// The state aligned to a run that the fit did not see (fit.h). Whether clocks are off one fitted
+// run does not show.
 ModelState Aligned(const Bench& bench, std::size_t run, const ModelState& state);
 
 // Of a run that it did not see, by the aligned state.

@@ -259,6 +259,16 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   return fit;
 }
 
+ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run,
+                   FitOptions options) {
+  FitData alone = data;
+  alone.runs = {run};
+  options.nuisance_only = true;
+  options.own_pairs = HasOwnPairs(data, run);
+  const Fit aligned = FitModel(alone, state, options);
+  return aligned.Usable() ? aligned.state : state;
+}
+
 Reading Predicted(const FitData& data, const ModelState& state, std::size_t run,
                   const FitOptions& options) {
   Prediction prediction = data.forward->Predict(run, state, {}, OptionsOf(data, run, options));

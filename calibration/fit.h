@@ -87,6 +87,13 @@ void Narrow(const FitData& data, const FitOptions& options, Fit& fit);
 // Whether the run's line has declared pairs (C, b) that no run of the data has.
 bool HasOwnPairs(const FitData& data, std::size_t run);
 
+// The state with what a run that a fit to the data did not see has of its own: its clock and its
+// initial pressure, where unknown, and the pairs (C, b) of a line that no run of the data has.
+// Nothing that was learned from other runs can tell them, so that they alone are fitted, the pairs
+// within their uncertainties.
+ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run,
+                   FitOptions options);
+
 // Whether the declared numbers are where their uncertainties let them be, but for a chance of
 // kFalseAlarm (whiteness.h): what is missing may hide in them and leave nothing but noise.
 bool PriorsHold(const Fit& fit);
