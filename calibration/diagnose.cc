@@ -85,6 +85,7 @@ class Diagnosing {
     diagnosis_.unexplained_fraction =
         diagnosis_.verdict == Verdict::kAdequate ? 0.0 : UnexplainedFraction(left, left);
     AddSeries(bench_, aligned.state, aligned.state, diagnosis_);
+    AddWarnings(bench_, diagnosis_);
     diagnosis_.sentence = diagnosis_.verdict == Verdict::kAdequate
                               ? "The saved model predicts these runs to within their noise."
                               : "The saved model leaves structure in these runs.";

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -75,6 +76,7 @@ TEST(Predict, AWildReadingDoesNotSpeakAgainstTheModel) {
   const Diagnosis d = Predict(LeakingBenchWithAWildReadingHeldOut(), leaks, {});
   EXPECT_EQ(d.verdict, Verdict::kAdequate) << d.sentence;
   EXPECT_LT(*d.after.holdout_rms_pa, 1.1 * test::kBenchNoisePa);
+  EXPECT_THAT(d.warnings, ::testing::Contains("1 wild readings were left out"));
 }
 
 // In one run a part of a sample may be the clock's or the valve's.
