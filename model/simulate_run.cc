@@ -13,7 +13,7 @@ constexpr std::size_t kStepsBetweenQuestions = 64, kSamplesBetweenQuestions = 40
 constexpr double kSettledShare = 1e-3;
 // Steps at the border of stability after which CVODE is the better integrator.
 constexpr std::size_t kStiffSteps = 5000;
-constexpr std::size_t kStiffShare = 10;  // of steps_max: a run to be damped starts anew early
+constexpr std::size_t kStiffShare = 20;  // of steps_max: a run to be damped starts anew early
 // Pressures this close have arrived at the same instant.
 constexpr double kTogetherShare = 1e-9;
 // Nothing moves by more than this share of its size until the end: the state is steady.
