@@ -14,8 +14,10 @@ namespace plenum::calibration {
 namespace {
 
 constexpr double kShortest = 0.05, kLongest = 6.0, kLengthStep = 1.05;  // m
-constexpr double kBores[] = {2e-3, 3.5e-3};                             // m
-constexpr double kApart = 2.5;                                          // steps of length
+// Shorter lines ring so often before they rest that no grid keeps in step; they also take longest.
+constexpr double kInStepFrom = 0.3, kShortStep = 1.16;  // m
+constexpr double kBores[] = {2e-3, 3.5e-3};             // m
+constexpr double kApart = 2.5;                          // steps of length
 constexpr std::size_t kKept = 3, kKeptAgain = 5;
 // The whole grid is tried on every so many-th run, the best share of it on the others.
 constexpr std::size_t kFirstRuns = 3, kOthersShare = 5;
@@ -26,9 +28,16 @@ constexpr const char* kRings = "line_dynamics";
 constexpr double kTolerance = 1e-5;  // at the tightest
 constexpr double kRidge = 1e-10;     // of the diagonal: numbers that nothing depends on
 
+std::vector<double> Lengths() {
+  std::vector<double> lengths_m;
+  for (double m = kShortest; m < kLongest; m *= m < kInStepFrom ? kShortStep : kLengthStep)
+    lengths_m.push_back(m);
+  return lengths_m;
+}
+
 std::vector<model::Effect> GridOf(const FitData& data, const model::EffectSpec& spec) {
   std::vector<model::Effect> grid;
-  for (double length_m = kShortest; length_m < kLongest; length_m *= kLengthStep)
+  for (const double length_m : Lengths())
     for (const double bore_m : kBores) grid.push_back({&spec, {length_m, bore_m}});
   for (const std::size_t run : data.runs)
     for (const LinePiece& piece : data.forward->dataset().runs[run].line)
@@ -200,7 +209,7 @@ std::vector<model::Effect> GridAbout(const model::Effect& found) {
   for (double share = 1.0 / kAbout; share < kAbout; share *= kLengthStep)
     for (const double bore : kBoresAbout)
       grid.push_back({found.spec, {share * length_m, bore * bore_m}});
-  for (double other_m = kShortest; other_m < kLongest; other_m *= kLengthStep)
+  for (const double other_m : Lengths())
     grid.push_back({found.spec, {other_m, std::sqrt(length_m / other_m) * bore_m}});
   return grid;
 }

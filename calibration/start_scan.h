@@ -6,7 +6,7 @@
 // that fit's numbers at their best to first order,
 //   χ²(θ) = |e|² − gᵀ·(JᵀJ)⁻¹·g,  g = Jᵀe,
 // e the whitened residuals with the line θ, J their derivatives without it, both with the priors.
-// The grid: kLengthStep from kShortest to kLongest, and the tubes as declared; the whole of it on
+// The grid: lengths from kShortest to kLongest, and the tubes as declared; the whole of it on
 // some of the runs, and what does best there on all.
 #ifndef PLENUM_CALIBRATION_START_SCAN_H_
 #define PLENUM_CALIBRATION_START_SCAN_H_
