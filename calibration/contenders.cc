@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "calibration/parallel.h"
@@ -26,6 +27,7 @@ constexpr std::size_t kAlwaysOn = 6;
 constexpr double kNear = 20.0;       // of BIC
 constexpr double kNearShare = 0.02;  // of what the best set gains over the base model
 constexpr std::size_t kLeadingLengths = 3;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 bool IsLost(const Contenders::Job& job) {
   return job.set.size() == 1u && job.fit.status == FitStatus::kIterationsSpent &&
@@ -42,6 +44,10 @@ bool Contains(const Contender& outer, const Contender& inner) {
 
 bool SameEffects(const Contender& a, const Contender& b) {
   return a.effects.size() == b.effects.size() && Contains(a, b);
+}
+
+bool MayComeTo(double goal, const Fit& cut_short, double bic_before) {
+  return cut_short.bic < goal + kNear + kHopeful * std::max(0.0, bic_before - goal);
 }
 
 ModelState StateOf(const Contender& contender, const EffectSet& rest) {
@@ -77,7 +83,7 @@ FitOptions Contenders::FirstLook(std::size_t size) const {
 
 FitOptions Contenders::Further() const {
   FitOptions options = Screening();
-  options.function_tolerance = 0.01 * kScreening;
+  options.function_tolerance = 0.1 * kScreening;
   options.iterations_max = 3 * kScreeningIterations;
   return options;
 }
@@ -178,7 +184,7 @@ const std::vector<model::Effect>& Contenders::StartsBeside(const Contender& from
 }
 
 void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_share,
-                         const std::string& what) {
+                         const std::string& what, std::optional<double> goal) {
   if (jobs.empty()) return;
   std::vector<Job*> all;
   for (Job& job : jobs) all.push_back(&job);
@@ -187,11 +193,11 @@ void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_sh
   Continue(all, FirstLook(size), from_share, middle, what);
   FitOptions rest = Screening();
   rest.iterations_max -= kFirstLook;
-  Continue(Hopeful(all), rest, middle, to_share, what);
+  Continue(Hopeful(all, goal), rest, middle, to_share, what);
   std::erase_if(all, [](const Job* job) { return !IsLost(*job); });
   Continue(all, Screening(), to_share, to_share, what);
   for (Job& job : jobs) Take(std::move(job));
-  Refine(static_cast<int>(size));
+  Refine(static_cast<int>(size), goal);
 }
 
 void Contenders::Continue(const std::vector<Job*>& jobs, const FitOptions& options,
@@ -212,18 +218,18 @@ void Contenders::Continue(const std::vector<Job*>& jobs, const FitOptions& optio
 }
 
 // Those that have not converged but may still matter.
-std::vector<Contenders::Job*> Contenders::Hopeful(std::vector<Job*> jobs) const {
+std::vector<Contenders::Job*> Contenders::Hopeful(std::vector<Job*> jobs,
+                                                  std::optional<double> goal) const {
   std::erase_if(jobs, [](const Job* job) { return !job->fit.Usable(); });
   if (jobs.empty()) return jobs;
   std::stable_sort(jobs.begin(), jobs.end(),
                    [](const Job* a, const Job* b) { return a->fit.bic < b->fit.bic; });
-  const double best = jobs.front()->fit.bic;
-  const double gain = std::max(0.0, jobs.front()->bic_before - best);
+  const double best = std::min(jobs.front()->fit.bic, goal.value_or(kNever));
+  const double before = jobs.front()->bic_before;
   std::vector<Job*> hopeful;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
-    const double bic = jobs[k]->fit.bic;
     const bool may_matter =
-        k < kAlwaysOn || bic < best + kNear + kHopeful * gain || IsLost(*jobs[k]);
+        (k < kAlwaysOn && !goal) || IsLost(*jobs[k]) || MayComeTo(best, jobs[k]->fit, before);
     if (may_matter && jobs[k]->fit.status == FitStatus::kIterationsSpent)
       hopeful.push_back(jobs[k]);
   }
@@ -232,15 +238,16 @@ std::vector<Contenders::Job*> Contenders::Hopeful(std::vector<Job*> jobs) const 
 
 // Takes the fits of sets of a size further that come near the best one, or are among the best and
 // have not ended.
-void Contenders::Refine(int size) {
+void Contenders::Refine(int size, std::optional<double> goal) {
   const std::vector<std::size_t> sorted = Sorted(size);
   if (sorted.empty()) return;
-  const double best = list[sorted.front()].fit.bic;
+  const double best = std::min(list[sorted.front()].fit.bic, goal.value_or(kNever));
   const double reach = std::max(kNear, kNearShare * std::max(0.0, Base().fit.bic - best));
   std::vector<Contender*> near;
   for (std::size_t k = 0; k < sorted.size(); ++k) {
     Contender& contender = list[sorted[k]];
-    const bool unfinished = k < kAlwaysOn && contender.fit.status == FitStatus::kIterationsSpent;
+    const bool unfinished =
+        k < kAlwaysOn && !goal && contender.fit.status == FitStatus::kIterationsSpent;
     const bool close = contender.fit.bic < best + reach;
     if (!contender.refined && (unfinished || close)) near.push_back(&contender);
   }

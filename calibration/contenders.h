@@ -28,6 +28,10 @@ bool SameEffects(const Contender& a, const Contender& b);
 // Every id of `inner` is in `outer`.
 bool Contains(const Contender& outer, const Contender& inner);
 
+// Whether a fit cut short may still come to a BIC: where it has come by a good share of the way
+// there from the BIC of the set without its last effect.
+bool MayComeTo(double goal, const Fit& cut_short, double bic_before);
+
 // The fitted state with only the effects of `rest`.
 ModelState StateOf(const Contender& contender, const EffectSet& rest);
 
@@ -71,9 +75,11 @@ class Contenders {
   // The set of `from` with one more effect, from each of its starts, or from where an earlier
   // search came to; none if it has been fitted.
   void AddJobs(const Contender& from, const model::EffectSpec* added, std::vector<Job>& jobs);
-  // Fits all from their starts: a few steps each at first, and to the end what may matter. The
-  // shares are of the whole work, for the progress.
-  void RunJobs(std::vector<Job>& jobs, double from_share, double to_share, const std::string& what);
+  // Fits all from their starts: a few steps each at first, and to the end what may matter: sets
+  // that may come to the best one's BIC or, if that is less, to `goal`. The shares are of the whole
+  // work, for the progress.
+  void RunJobs(std::vector<Job>& jobs, double from_share, double to_share, const std::string& what,
+               std::optional<double> goal = {});
 
   // Fits a set with an effect that rings again from other lengths of its line (start_scan.h), until
   // none does clearly better.
@@ -93,8 +99,8 @@ class Contenders {
  private:
   void Continue(const std::vector<Job*>& jobs, const FitOptions& options, double from_share,
                 double to_share, const std::string& what);
-  std::vector<Job*> Hopeful(std::vector<Job*> jobs) const;
-  void Refine(int size);
+  std::vector<Job*> Hopeful(std::vector<Job*> jobs, std::optional<double> goal) const;
+  void Refine(int size, std::optional<double> goal);
   void FitModels(const FitOptions& options, std::vector<Fit>& fits) const;
   void Take(Job job);
   // Its fit of the set where that did better than without any one of the effects: one that ended

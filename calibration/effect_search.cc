@@ -172,19 +172,23 @@ class Search {
   bool ActsInTimeInstead(const SearchResult& result) const {
     const Fit& chosen = result.contenders[result.chosen].fit;
     if (sets_.Cancelled() || !chosen.Usable()) return false;
-    FitOptions options = sets_.Further();
-    options.threads = options_.threads;
+    FitOptions look = sets_.Screening(), options = sets_.Further();
+    look.threads = options.threads = options_.threads;
     FitData data = sets_.data;
     data.clocks = false;
     const double bic = chosen.bic + ClocksCost(sets_.data, chosen, options) - EffectAhead();
     ModelState start = chosen.state;
     std::fill(start.clock_s.begin(), start.clock_s.end(), 0.0);
+    const Fit without = FitModel(data, start, options);
+    const double before = without.Usable() ? without.bic : kNever;
     for (const Spec spec : Named()) {
       if (!ActsInTime(*spec) || HoldsId(result.contenders[result.chosen].effects, spec->id))
         continue;
       ModelState late = start;
       late.effects.push_back(EffectStarts(*spec, data.sizes).front());
-      Fit fit = FitModel(data, late, options);
+      Fit fit = FitModel(data, late, look);
+      if (!fit.Usable() || !MayComeTo(bic, fit, before)) continue;
+      fit = FitModel(data, fit.state, options);
       Narrow(data, options, fit);
       if (fit.Usable() && fit.bic < bic) return true;
     }
@@ -196,15 +200,20 @@ class Search {
     if (sets_.list.empty()) sets_.FitBase();
     std::size_t chosen = 0;
     for (int size = 1; size <= kEffectsMax && !sets_.Cancelled(); ++size) {
+      // The clocks before more pairs: they are one fit, those are many.
+      const std::size_t before = chosen;
+      const bool done = size > 1 && enough_(sets_[chosen].fit);
+      double clocks_bic = done ? kNever : WithClocks(chosen);
+      if (clocks_bic == kClocksAreAll) return {};
       if (size > 2) chosen = OfMorePairs(chosen);
       if (size > 1 && enough_(sets_[chosen].fit)) {
         TryMoreOfFewerNumbers(sets_[chosen].effects);
-        if (sets_.data.clocks) TryTiming(chosen);
+        if (sets_.data.clocks) TryTiming(chosen, sets_[chosen].fit.bic - kAccept);
         const std::size_t other = sets_.Best(size).value_or(chosen);
         if (sets_[other].fit.bic < sets_[chosen].fit.bic - kAccept) chosen = other;
         break;
       }
-      const double clocks_bic = WithClocks(chosen);
+      if (chosen != before) clocks_bic = WithClocks(chosen);
       if (clocks_bic == kClocksAreAll) return {};
       if (size > 2 && sets_.LeftShare(sets_[chosen]) > kEstablished) break;
       if (size == 1) {
@@ -297,13 +306,13 @@ class Search {
 
   // Clocks take up most of what effects do that act in time: what these leave are a few readings at
   // the start of each stroke, too few to show among all.
-  void TryTiming(std::size_t set) {
+  void TryTiming(std::size_t set, double goal) {
     std::vector<Job> jobs;
     const Contender from = sets_[set];
     for (const Spec spec : Named())
       if (ActsInTime(*spec)) sets_.AddJobs(from, spec, jobs);
     const double share = from.effects.empty() ? 0.05 : 0.6;
-    sets_.RunJobs(jobs, share, share, "clocks");
+    sets_.RunJobs(jobs, share, share, "clocks", goal);
   }
 
   static std::size_t NumbersOf(const EffectSet& set) {
@@ -413,7 +422,7 @@ class Search {
     if (!with.Usable()) return kNever;
     const double bic = with.bic + ClocksCost(data, with, options);
     if (!(bic < sets_[set].fit.bic) || !enough_(with)) return bic;
-    TryTiming(set);
+    TryTiming(set, bic - EffectAhead());
     const Contender from = sets_[set];
     const bool rivalled =
         std::any_of(sets_.list.begin(), sets_.list.end(), [&](const Contender& other) {
