@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibration/effect_search.h"
@@ -41,14 +43,14 @@ Dataset Emptied() {
 }
 
 struct Bench {
-  Bench() {
+  explicit Bench(Dataset measured = Emptied()) : dataset(std::move(measured)) {
     data.forward = &forward;
     data.observed = &observed;
     data.runs = {0, 1};
     data.sizes = SizesOf(dataset);
   }
   Bench(const Bench&) = delete;
-  const Dataset dataset = Emptied();
+  const Dataset dataset;
   const ForwardModel forward{dataset};
   const std::vector<ObservedRun> observed = Observe(dataset);
   FitData data;
@@ -71,6 +73,40 @@ TEST(Contenders, NoneIsGivenUpWhileWorseThanWhatItContains) {
         EXPECT_LT(sets.Find({spec})->fit.bic, base + 20.0) << id;
       }
   }
+}
+
+// With the BIC known that a set must come to, those near it are fitted as well as without; of the
+// others some are left before they converge.
+TEST(Contenders, WhatCannotComeToItsGoalIsNotTakenFurther) {
+  const Bench bench(test::MeasuredBench(
+      [](test::EffectRig& rig) {
+        rig.leak = test::OrificeLeak{6e-12, 0.3};
+      },
+      22));
+  const SearchOptions options;
+  Contenders without(bench.data, options), with(bench.data, options);
+  const EffectSet named = NamedEffects(bench.dataset.runs);
+  for (Contenders* sets : {&without, &with}) {
+    std::vector<Contenders::Job> jobs;
+    sets->FitBase();
+    for (const model::EffectSpec* spec : named) sets->AddJobs(sets->Base(), spec, jobs);
+    std::optional<double> goal;
+    if (sets == &with) goal = without[*without.Best(1)].fit.bic;
+    sets->RunJobs(jobs, 0.0, 1.0, "single effects", goal);
+  }
+  const Contender& found = without[*without.Best(1)];
+  ASSERT_LT(found.fit.bic, without.Base().fit.bic - 100.0);
+  EXPECT_EQ(with[*with.Best(1)].effects, found.effects);
+  int left = 0;
+  for (const Contender& contender : without.list) {
+    const Fit& fit = with.Find(contender.effects)->fit;
+    if (contender.fit.bic < found.fit.bic + 20.0) {
+      EXPECT_NEAR(fit.bic, contender.fit.bic, 0.1);
+    } else if (fit.status == FitStatus::kIterationsSpent) {
+      left += contender.fit.status == FitStatus::kConverged;
+    }
+  }
+  EXPECT_GT(left, 0);
 }
 
 TEST(Contenders, GoOnFromAnEarlierSearchWhereItFoundSomething) {
