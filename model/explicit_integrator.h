@@ -114,7 +114,7 @@ class OneStepIntegrator {
     double norm = 0.0;
     for (std::size_t i = 0; i < error.size(); ++i) {
       const Derivatives size = largest_[i].cwiseMax(kRounding * Size(i) * moves);
-      for (int k = 0; k < kDirections; ++k)
+      for (int k = 0; k < kDirectionsOf<T>; ++k)
         if (largest_[i][k] > 0.0)
           norm = std::max(norm, std::abs(error[i].v[k]) / (kDerivativeShare * size[k]));
     }
@@ -200,7 +200,7 @@ class OneStepIntegrator {
     stepper_.MoveEnd(shift);
   }
 
-  using Derivatives = Eigen::Matrix<double, kDirections, 1>;
+  using Derivatives = Eigen::Matrix<double, kDirectionsOf<T>, 1>;
 
   System<T>& system_;
   double rtol_, atol_pa_;

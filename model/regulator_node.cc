@@ -42,5 +42,6 @@ T NodePressure(const NodeSupply<T>& supply, std::span<const NodeOutlet<T>> outle
 
 template double NodePressure(const NodeSupply<double>&, std::span<const NodeOutlet<double>>);
 template Dual NodePressure(const NodeSupply<Dual>&, std::span<const NodeOutlet<Dual>>);
+template WideDual NodePressure(const NodeSupply<WideDual>&, std::span<const NodeOutlet<WideDual>>);
 
 }  // namespace plenum::model

@@ -36,6 +36,8 @@ T NodePressure(const NodeSupply<T>& supply, std::span<const NodeOutlet<T>> outle
 
 extern template double NodePressure(const NodeSupply<double>&, std::span<const NodeOutlet<double>>);
 extern template Dual NodePressure(const NodeSupply<Dual>&, std::span<const NodeOutlet<Dual>>);
+extern template WideDual NodePressure(const NodeSupply<WideDual>&,
+                                      std::span<const NodeOutlet<WideDual>>);
 
 }  // namespace plenum::model
 

@@ -4,7 +4,7 @@
 // Stages, with any approximation J of ∂f/∂y — a W-method keeps its order with a rough one:
 //   (I − γ·h·J)·k_i = h·f(t + α_i·h, y + Σ_j α_ij·k_j) + h·J·Σ_j γ_ij·k_j + h²·γ_i·f_t,  j < i,
 //   y₁ = y + Σ b_i·k_i,  γ_i = γ + Σ_j γ_ij.
-// J and f_t ≈ ∂f/∂t are taken at the start of a step, by differences or, with T = Dual, from
+// J and f_t ≈ ∂f/∂t are taken at the start of a step, by differences or, with dual numbers, from
 // derivatives; they stay values, so that one factorisation serves the state and all its
 // derivatives. Without f_t a fast mode that follows what moves by itself would hold the steps down.
 //
@@ -129,8 +129,9 @@ class RosenbrockOf {
     jacobian_.resize(size, size + 1);
     std::copy(y0_.begin(), y0_.end(), stage_.begin());
     if constexpr (kIsDual<T>) {
-      for (std::size_t first = 0; first <= y0_.size(); first += kDirections)
-        TakeColumns(rhs, step_s, first, std::min<std::size_t>(kDirections, y0_.size() + 1 - first));
+      for (std::size_t first = 0; first <= y0_.size(); first += kDirectionsOf<T>)
+        TakeColumns(rhs, step_s, first,
+                    std::min<std::size_t>(kDirectionsOf<T>, y0_.size() + 1 - first));
     } else {
       const auto take = [&](double t, std::size_t j, double moved) {
         rhs(t, std::span<const T>(stage_), std::span<T>(slope_));
@@ -157,7 +158,7 @@ class RosenbrockOf {
   void TakeColumns(Rhs&& rhs, double step_s, std::size_t first, std::size_t count) {
     std::copy(y0_.begin(), y0_.end(), stage_.begin());
     T time = t0_;
-    std::array<double, kDirections> by{};
+    std::array<double, kDirectionsOf<T>> by{};
     for (std::size_t k = 0; k < count; ++k) {
       const auto direction = static_cast<Eigen::Index>(k);
       double share = 1.0;

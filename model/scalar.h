@@ -1,7 +1,7 @@
 // Numbers of the simulator: double, or a dual number that carries derivatives through the run.
 //
-// The equations, the integrator and the events are templates over the number T. With T = Dual each
-// number is value + Σ (∂/∂θ_j)·ε_j for up to kDirections parameters θ at once (forward mode;
+// The equations, the integrator and the events are templates over the number T. With T = DualOf<N>
+// each number is value + Σ (∂/∂θ_j)·ε_j for up to N parameters θ at once (forward mode;
 // ceres::Jet). Comparisons see the values alone.
 #ifndef PLENUM_MODEL_SCALAR_H_
 #define PLENUM_MODEL_SCALAR_H_
@@ -9,28 +9,47 @@
 #include <ceres/jet.h>
 
 #include <span>
-#include <type_traits>
 
 #include "model/monotone_curve.h"
 
 namespace plenum::model {
 
-inline constexpr int kDirections = 10;  // most fits have 7 to 10 numbers that move a run
-using Dual = ceres::Jet<double, kDirections>;
+template <int N>
+using DualOf = ceres::Jet<double, N>;
+
+// Most fits have 7 to 10 numbers that move a run; two effects and a clock make them 11 or 12, for
+// which one run in wide numbers takes the place of two.
+inline constexpr int kDirections = 10, kWideDirections = 12;
+using Dual = DualOf<kDirections>;
+using WideDual = DualOf<kWideDirections>;
 
 template <class T>
-inline constexpr bool kIsDual = !std::is_same_v<T, double>;
+inline constexpr int kDirectionsOf = 0;
+template <int N>
+inline constexpr int kDirectionsOf<DualOf<N>> = N;
+
+template <class T>
+inline constexpr bool kIsDual = kDirectionsOf<T> > 0;
 
 inline double ValueOf(double x) { return x; }
-inline double ValueOf(const Dual& x) { return x.a; }
+template <int N>
+double ValueOf(const DualOf<N>& x) {
+  return x.a;
+}
 
 // Zero, and no parameter moves it from there.
 inline bool IsZero(double x) { return x == 0.0; }
-inline bool IsZero(const Dual& x) { return x.a == 0.0 && x.v.isZero(0.0); }
+template <int N>
+bool IsZero(const DualOf<N>& x) {
+  return x.a == 0.0 && x.v.isZero(0.0);
+}
 
 // f(x) with its derivative df/dx, both taken at the value of x.
 inline double Chain(double, double f, double) { return f; }
-inline Dual Chain(const Dual& x, double f, double slope) { return Dual(f, slope * x.v); }
+template <int N>
+DualOf<N> Chain(const DualOf<N>& x, double f, double slope) {
+  return DualOf<N>(f, slope * x.v);
+}
 
 template <class T>
 T CurveAt(const MonotoneCurve& curve, const T& x) {
@@ -47,7 +66,7 @@ T CurveSlopeAt(const MonotoneCurve& curve, const T& x) {
 // One number of a rig that moves with one direction, by `weight` per unit of it.
 struct Seed {
   const double* number = nullptr;
-  int direction = 0;  // below kDirections
+  int direction = 0;  // below kDirectionsOf<T>
   double weight = 1.0;
 };
 

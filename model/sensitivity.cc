@@ -11,8 +11,6 @@
 namespace plenum::model {
 namespace {
 
-using DualResponse = ResponseOf<Dual>;
-
 class Collector {
  public:
   void Add(std::string name, const double& number) {
@@ -120,7 +118,8 @@ class Projection {
  public:
   explicit Projection(Part part) : part_(part) {}
 
-  Response operator()(const DualResponse& dual) const {
+  template <class T>
+  Response operator()(const ResponseOf<T>& dual) const {
     Response response;
     response.status = dual.status;
     response.detail = dual.detail;
@@ -139,12 +138,14 @@ class Projection {
   }
 
  private:
-  std::vector<double> Of(const std::vector<Dual>& numbers) const {
+  template <class T>
+  std::vector<double> Of(const std::vector<T>& numbers) const {
     std::vector<double> parts(numbers.size());
     std::transform(numbers.begin(), numbers.end(), parts.begin(), part_);
     return parts;
   }
-  GroupResponse OfGroup(const GroupResponseOf<Dual>& group) const {
+  template <class T>
+  GroupResponse OfGroup(const GroupResponseOf<T>& group) const {
     return {.name = group.name,
             .pressure_pa = Of(group.pressure_pa),
             .reading_pa = Of(group.reading_pa),
@@ -166,7 +167,8 @@ class Projection {
             .wall_heat_j = part_(group.wall_heat_j),
             .work_j = part_(group.work_j)};
   }
-  Stroke OfStroke(const StrokeOf<Dual>& stroke) const {
+  template <class T>
+  Stroke OfStroke(const StrokeOf<T>& stroke) const {
     return {.group = stroke.group,
             .state = stroke.state,
             .command_s = part_(stroke.command_s),
@@ -179,6 +181,30 @@ class Projection {
   Part part_;
 };
 
+// The rig's run in numbers T. `stiff`: by the implicit method; set where it turned out to be
+// needed.
+template <class T>
+ResponseOf<T> RunAlong(const Rig& rig, const SimulateOptions& options, RunUntil until,
+                       const Lift& lift, bool& stiff) {
+  if (!stiff) {
+    Run<T, ExplicitIntegrator<T>> run(rig, options, until, lift);
+    ResponseOf<T> response = run.Execute();
+    stiff = run.stiff();
+    if (!stiff) return response;
+  }
+  const SimulateOptions damped = DampedOptions(options);
+  Run<T, ImplicitIntegrator<T>> run(rig, damped, until, lift);
+  ResponseOf<T> response = run.Execute();
+  response.stiff = true;
+  return response;
+}
+
+// How many parameters the next run takes of those that are left.
+std::size_t NextWidth(std::size_t left) {
+  const auto runs = [&](std::size_t width) { return (left + width - 1) / width; };
+  return runs(kWideDirections) < runs(kDirections) ? kWideDirections : kDirections;
+}
+
 // Runs the rig with the seeds of one chunk of parameters after the other. `take` sees each chunk's
 // response, with the first parameter of the chunk and how many there are.
 template <class SeedsOf, class Take>
@@ -186,28 +212,26 @@ void ForEachChunk(const Rig& rig, const SimulateOptions& options, RunUntil until
                   std::size_t parameters, const SeedsOf& seeds_of, const Take& take) {
   bool stiff =
       options.integrator == Integrator::kCvode || options.integrator == Integrator::kImplicit;
-  for (std::size_t first = 0; first == 0 || first < parameters; first += kDirections) {
-    const std::size_t count = std::min<std::size_t>(kDirections, parameters - first);
+  std::size_t first = 0;
+  do {
+    const std::size_t width = NextWidth(parameters - first);
+    const std::size_t count = std::min(width, parameters - first);
     std::vector<Seed> seeds;
     for (std::size_t j = 0; j < count; ++j) {
       for (const WeightedNumber& moved : seeds_of(first + j)) {
         seeds.push_back({moved.number, static_cast<int>(j), moved.weight});
       }
     }
-    DualResponse response;
-    if (!stiff) {
-      Run<Dual, ExplicitIntegrator<Dual>> run(rig, options, until, Lift(seeds));
-      response = run.Execute();
-      stiff = run.stiff();
-    }
-    if (stiff) {
-      const SimulateOptions damped = DampedOptions(options);
-      response = Run<Dual, ImplicitIntegrator<Dual>>(rig, damped, until, Lift(seeds)).Execute();
-      response.stiff = true;
-    }
-    take(response, first, count);
-    if (response.status != SimulateStatus::kDone) return;
-  }
+    const auto done = [&](const auto& response) {
+      take(response, first, count);
+      return response.status == SimulateStatus::kDone;
+    };
+    const Lift lift(seeds);
+    if (!(width == kDirections ? done(RunAlong<Dual>(rig, options, until, lift, stiff))
+                               : done(RunAlong<WideDual>(rig, options, until, lift, stiff))))
+      return;
+    first += width;
+  } while (first < parameters);
 }
 
 bool Finite(const std::vector<double>& numbers) {
@@ -254,6 +278,24 @@ Direction MovedInStroke(const Rig& rig, const double* parameter, const Rig& stro
   return moved;
 }
 
+// By group until its target, never unless it is taken, and the derivatives by parameter and group.
+struct StrokeTimes {
+  StrokeTimes(std::size_t groups, std::size_t parameters)
+      : s(groups, std::numeric_limits<double>::infinity()),
+        derivatives(parameters, std::vector<double>(groups, 0.0)) {}
+
+  template <class T>
+  void Take(const StrokeOf<T>& stroke, std::size_t first, std::size_t count) {
+    const auto group = static_cast<std::size_t>(stroke.group);
+    s[group] = stroke.to_target_s.a;
+    for (std::size_t j = 0; j < count; ++j)
+      derivatives[first + j][group] = stroke.to_target_s.v[static_cast<Eigen::Index>(j)];
+  }
+
+  std::vector<double> s;
+  std::vector<std::vector<double>> derivatives;
+};
+
 }  // namespace
 
 std::vector<RigNumber> DifferentiableNumbers(const Rig& rig) {
@@ -287,13 +329,13 @@ SensitivityResponse SimulateAlongDirections(const Rig& rig, const SimulateOption
     return result;
   }
   const auto seeds_of = [&](std::size_t j) -> const Direction& { return directions[j]; };
-  const auto take = [&](const DualResponse& dual, std::size_t first, std::size_t count) {
+  const auto take = [&](const auto& dual, std::size_t first, std::size_t count) {
     if (first == 0 || dual.status != SimulateStatus::kDone) {
-      result.response = Projection([](const Dual& x) { return x.a; })(dual);
+      result.response = Projection([](const auto& x) { return x.a; })(dual);
     }
     for (std::size_t j = 0; j < count; ++j) {
       result.derivatives.push_back(
-          Projection([j](const Dual& x) { return x.v[static_cast<Eigen::Index>(j)]; })(dual));
+          Projection([j](const auto& x) { return x.v[static_cast<Eigen::Index>(j)]; })(dual));
     }
   };
   ForEachChunk(rig, options, RunUntil::kEnd, directions.size(), seeds_of, take);
@@ -313,10 +355,7 @@ SensitivityStrokes FullStrokesWithSensitivities(const Rig& rig, const SimulateOp
   SensitivityStrokes result;
   std::string reason = WhyInvalid(stroke_options);
   const std::size_t groups = rig.groups.size();
-  std::vector<Dual> never(groups, Dual(std::numeric_limits<double>::infinity()));
-  const std::size_t chunks =
-      std::max<std::size_t>(1, (parameters.size() + kDirections - 1) / kDirections);
-  std::vector<std::vector<Dual>> rise(chunks, never), fall(chunks, never);
+  StrokeTimes rise(groups, parameters.size()), fall = rise;
   result.status = SimulateStatus::kDone;
   for (const ValveState state : {ValveState::kInflate, ValveState::kDeflate}) {
     const Rig stroke = StrokeRig(rig, state);
@@ -327,25 +366,19 @@ SensitivityStrokes FullStrokesWithSensitivities(const Rig& rig, const SimulateOp
     const auto moved = [&](std::size_t j) {
       return MovedInStroke(rig, parameters[j], stroke, state);
     };
-    const auto take = [&](const DualResponse& dual, std::size_t first, std::size_t) {
-      for (const auto& done : dual.strokes) {
-        times[first / kDirections][static_cast<std::size_t>(done.group)] = done.to_target_s;
-      }
+    const auto take = [&](const auto& dual, std::size_t first, std::size_t count) {
+      for (const auto& done : dual.strokes) times.Take(done, first, count);
       if (dual.status != SimulateStatus::kDone)
         result.status = dual.status, result.detail = dual.detail;
     };
     ForEachChunk(stroke, stroke_options, RunUntil::kTargets, parameters.size(), moved, take);
   }
-  for (std::size_t i = 0; i < groups; ++i) {
-    const double period_s = rise[0][i].a + fall[0][i].a;
-    result.strokes.push_back({rise[0][i].a, fall[0][i].a, 1.0 / period_s});
-  }
+  for (std::size_t i = 0; i < groups; ++i)
+    result.strokes.push_back({rise.s[i], fall.s[i], 1.0 / (rise.s[i] + fall.s[i])});
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     auto& of_parameter = result.derivatives.emplace_back();
     for (std::size_t i = 0; i < groups; ++i) {
-      const auto direction = static_cast<Eigen::Index>(j % kDirections);
-      const double up = rise[j / kDirections][i].v[direction];
-      const double down = fall[j / kDirections][i].v[direction];
+      const double up = rise.derivatives[j][i], down = fall.derivatives[j][i];
       const double frequency_hz = result.strokes[i].frequency_max_hz;
       of_parameter.push_back({up, down, -frequency_hz * frequency_hz * (up + down)});
     }

@@ -1,6 +1,6 @@
 // Derivatives of a simulated response with respect to numbers of the rig, exact along the steps
 // that the simulator takes: the whole run, its flow laws, switches and event times included, is
-// computed in dual numbers (model/scalar.h), kDirections parameters at a time.
+// computed in dual numbers (model/scalar.h), a dozen parameters at a time.
 //
 // A parameter is the address of a number inside the given rig; DifferentiableNumbers lists all of
 // them. Only that number moves, or along a direction several numbers together, by its weights:

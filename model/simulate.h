@@ -124,7 +124,8 @@ struct SimulateOptions {
 };
 
 // One inflating or deflating command and what came of it. Times are from the command; +∞ where not
-// reached before the next command or the end. T is double, or Dual inside model/sensitivity.h.
+// reached before the next command or the end. T is double, or a dual number inside
+// model/sensitivity.h.
 template <class T>
 struct StrokeOf {
   int group = 0;

@@ -211,5 +211,6 @@ T Line<T>::FlowWithCracking(const T& upstream_pa, const T& downstream_pa) const 
 
 template class Line<double>;
 template class Line<Dual>;
+template class Line<WideDual>;
 
 }  // namespace plenum::model

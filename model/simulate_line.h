@@ -22,7 +22,7 @@ struct LineElement {
   double subsonic_index = 0.5;
 };
 
-// T is double or Dual (model/scalar.h).
+// T is double, Dual or WideDual (model/scalar.h).
 template <class T>
 class Line {
  public:
@@ -89,6 +89,7 @@ class Line {
 
 extern template class Line<double>;
 extern template class Line<Dual>;
+extern template class Line<WideDual>;
 
 }  // namespace plenum::model
 

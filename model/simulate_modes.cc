@@ -149,6 +149,7 @@ void System<T>::GuardValues(const T& t, std::span<const T> y, std::span<T> value
   template void System<T>::GuardValues(const T&, std::span<const T>, std::span<T>);
 PLENUM_MODES(double)
 PLENUM_MODES(Dual)
+PLENUM_MODES(WideDual)
 #undef PLENUM_MODES
 
 }  // namespace plenum::model

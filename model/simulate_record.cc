@@ -122,8 +122,10 @@ void Run<T, Stepper>::RecordEnd() {
 PLENUM_RECORD(double, ExplicitIntegrator<double>)
 PLENUM_RECORD(double, CvodeIntegrator)
 PLENUM_RECORD(Dual, ExplicitIntegrator<Dual>)
+PLENUM_RECORD(WideDual, ExplicitIntegrator<WideDual>)
 PLENUM_RECORD(double, ImplicitIntegrator<double>)
 PLENUM_RECORD(Dual, ImplicitIntegrator<Dual>)
+PLENUM_RECORD(WideDual, ImplicitIntegrator<WideDual>)
 #undef PLENUM_RECORD
 
 }  // namespace plenum::model

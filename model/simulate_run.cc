@@ -125,7 +125,7 @@ template <class Change>
 void Run<T, Stepper>::SwitchAt(std::size_t group, const T& at_s, const Change& change) {
   if constexpr (kIsDual<T>) {
     if (at_s.v != t_s_.v) {
-      const Dual apart_s(0.0, at_s.v - t_s_.v);
+      const T apart_s(0.0, at_s.v - t_s_.v);
       std::vector<T> before(y_.size()), after(y_.size());
       system_(t_s_, y_, before);
       change();
@@ -399,7 +399,7 @@ T Run<T, Stepper>::CrossingTime(std::size_t group, const T& level_pa) const {
     const T left_pa = level_pa - y_[at];
     const double rate = stepper_.slope()[at].a;
     if (rate != 0.0 && std::abs(left_pa.a) <= kTogetherShare * level_pa.a) {
-      return t_s_ + Dual(0.0, left_pa.v / rate);
+      return t_s_ + T(0.0, left_pa.v / rate);
     }
   }
   return t_s_;
@@ -488,7 +488,9 @@ bool Run<T, Stepper>::Stalled() const {
 template class Run<double, ExplicitIntegrator<double>>;
 template class Run<double, CvodeIntegrator>;
 template class Run<Dual, ExplicitIntegrator<Dual>>;
+template class Run<WideDual, ExplicitIntegrator<WideDual>>;
 template class Run<double, ImplicitIntegrator<double>>;
 template class Run<Dual, ImplicitIntegrator<Dual>>;
+template class Run<WideDual, ImplicitIntegrator<WideDual>>;
 
 }  // namespace plenum::model

@@ -37,7 +37,8 @@ struct ValveProgress {
   Opening<T> filling, venting;  // where a run ended, and where another goes on
 };
 
-// T is double or Dual, Stepper ExplicitIntegrator<T>, ImplicitIntegrator<T> or CvodeIntegrator.
+// T is double, Dual or WideDual, Stepper ExplicitIntegrator<T>, ImplicitIntegrator<T> or
+// CvodeIntegrator.
 template <class T, class Stepper>
 class Run {
  public:
@@ -126,8 +127,10 @@ inline SimulateOptions DampedOptions(SimulateOptions options) {
 extern template class Run<double, ExplicitIntegrator<double>>;
 extern template class Run<double, CvodeIntegrator>;
 extern template class Run<Dual, ExplicitIntegrator<Dual>>;
+extern template class Run<WideDual, ExplicitIntegrator<WideDual>>;
 extern template class Run<double, ImplicitIntegrator<double>>;
 extern template class Run<Dual, ImplicitIntegrator<Dual>>;
+extern template class Run<WideDual, ImplicitIntegrator<WideDual>>;
 
 }  // namespace plenum::model
 

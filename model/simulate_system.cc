@@ -568,7 +568,9 @@ T System<T>::Of(PumpAccount account, std::span<const T> y) const {
 
 template struct Opening<double>;
 template struct Opening<Dual>;
+template struct Opening<WideDual>;
 template class System<double>;
 template class System<Dual>;
+template class System<WideDual>;
 
 }  // namespace plenum::model

@@ -207,6 +207,7 @@ class System {
 
 extern template class System<double>;
 extern template class System<Dual>;
+extern template class System<WideDual>;
 
 }  // namespace plenum::model
 

@@ -42,17 +42,17 @@ struct Entry {
   const EffectSpec* spec;
   Maker<double> make;
   Maker<Dual> make_dual;
+  Maker<WideDual> make_wide;
 };
+
+template <template <class> class Unit, class T>
+std::unique_ptr<EffectUnit<T>> Make(std::span<const T> parameters) {
+  return std::make_unique<Unit<T>>(parameters);
+}
 
 template <template <class> class Unit>
 constexpr Entry MakeEntry() {
-  return {&Unit<double>::kSpec,
-          [](std::span<const double> p) -> std::unique_ptr<EffectUnit<double>> {
-            return std::make_unique<Unit<double>>(p);
-          },
-          [](std::span<const Dual> p) -> std::unique_ptr<EffectUnit<Dual>> {
-            return std::make_unique<Unit<Dual>>(p);
-          }};
+  return {&Unit<double>::kSpec, Make<Unit, double>, Make<Unit, Dual>, Make<Unit, WideDual>};
 }
 
 // The units of one number of knots.
@@ -197,7 +197,9 @@ std::vector<std::unique_ptr<EffectUnit<T>>> MakeUnits(std::span<const Effect> ef
       std::vector<T> parameters;
       for (const double& number : effect.parameters)
         parameters.push_back(lift.operator()<T>(number));
-      if constexpr (kIsDual<T>) {
+      if constexpr (std::is_same_v<T, WideDual>) {
+        units.push_back(entry.make_wide(parameters));
+      } else if constexpr (kIsDual<T>) {
         units.push_back(entry.make_dual(parameters));
       } else {
         units.push_back(entry.make(parameters));
@@ -211,5 +213,7 @@ template std::vector<std::unique_ptr<EffectUnit<double>>> MakeUnits(std::span<co
                                                                     const Lift&);
 template std::vector<std::unique_ptr<EffectUnit<Dual>>> MakeUnits(std::span<const Effect>,
                                                                   const Lift&);
+template std::vector<std::unique_ptr<EffectUnit<WideDual>>> MakeUnits(std::span<const Effect>,
+                                                                      const Lift&);
 
 }  // namespace plenum::model

@@ -20,6 +20,8 @@ extern template std::vector<std::unique_ptr<EffectUnit<double>>> MakeUnits(std::
                                                                            const Lift&);
 extern template std::vector<std::unique_ptr<EffectUnit<Dual>>> MakeUnits(std::span<const Effect>,
                                                                          const Lift&);
+extern template std::vector<std::unique_ptr<EffectUnit<WideDual>>> MakeUnits(
+    std::span<const Effect>, const Lift&);
 
 }  // namespace plenum::model
 

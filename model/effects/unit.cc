@@ -50,5 +50,6 @@ T GroupSetup<T>::OperatingVolume() const {
 
 template struct GroupSetup<double>;
 template struct GroupSetup<Dual>;
+template struct GroupSetup<WideDual>;
 
 }  // namespace plenum::model

@@ -22,7 +22,7 @@
 
 namespace plenum::model {
 
-// The numbers of a group that effects may change before the run. T: double or Dual.
+// The numbers of a group that effects may change before the run. T: double, Dual or WideDual.
 template <class T>
 struct GroupSetup {
   T ambient_pressure_pa, ambient_temperature_k;

@@ -434,6 +434,37 @@ TEST(Sensitivity, ValuesAreThoseOfSimulateInAnyNumberOfChunks) {
   EXPECT_TRUE(none.derivatives.empty());
 }
 
+// However many run at once, and in numbers of whatever width.
+TEST(Sensitivity, ManyAtOnceAreThoseOfEachAlone) {
+  Rig rig = RigOf(Regulated(3e5), {TwoElements()});
+  rig.groups[0].effects = {{FindEffect("heat_transfer"), {0.5}}};
+  std::vector<const double*> all;
+  for (const RigNumber& n : DifferentiableNumbers(rig)) all.push_back(n.number);
+  SimulateOptions options = Until(2.5, 17.3);
+  for (const Integrator integrator : {Integrator::kDamped, Integrator::kImplicit}) {
+    options.integrator = integrator;
+    std::vector<std::map<std::string, double>> alone;
+    for (const double*& number : all)
+      alone.push_back(Flat(SimulateWithSensitivities(rig, options, {&number, 1}).derivatives[0]));
+    for (const std::size_t count : {10u, 11u, 12u, 13u, 18u}) {
+      ASSERT_LE(count, all.size());
+      const SensitivityResponse together =
+          SimulateWithSensitivities(rig, options, {all.data(), count});
+      ASSERT_EQ(together.response.status, SimulateStatus::kDone);
+      ASSERT_EQ(together.derivatives.size(), count);
+      for (std::size_t j = 0; j < count; ++j) {
+        double largest = 0.0;
+        for (const auto& [name, value] : alone[j])
+          if (name.starts_with("group0.pressure")) largest = std::max(largest, std::abs(value));
+        for (const auto& [name, value] : Flat(together.derivatives[j])) {
+          if (!name.starts_with("group0.pressure")) continue;
+          EXPECT_NEAR(value, alone[j].at(name), 1e-4 * largest) << count << " " << j << name;
+        }
+      }
+    }
+  }
+}
+
 TEST(Sensitivity, RefusesWhatIsNoNumberOfTheRig) {
   const Rig rig = RigOf(Regulated(3e5), {TwoElements()});
   const double stranger = 1.0;
