@@ -4,6 +4,7 @@
 
 #include "calibration/criticism.h"
 #include "calibration/evidence.h"
+#include "calibration/parallel.h"
 #include "calibration/residual.h"
 
 namespace plenum::calibration {
@@ -49,6 +50,14 @@ struct UnseenSum {
   }
 };
 
+// Of the fitted runs.
+std::vector<Reading> ReadingsOf(const Bench& bench, const ModelState& state) {
+  std::vector<Reading> readings(bench.data.runs.size());
+  ForAll(readings.size(), bench.tight.threads,
+         [&](std::size_t k) { readings[k] = Shown(bench, state, bench.data.runs[k]); });
+  return readings;
+}
+
 }  // namespace
 
 bool Stopped(const Bench& bench) { return bench.tight.cancelled && bench.tight.cancelled(); }
@@ -79,13 +88,15 @@ Squares ErrorsOf(const Bench& bench, std::size_t run, const ModelState& state) {
 }
 
 ErrorReport ErrorOf(const Bench& bench, const ModelState& state) {
+  std::vector<Squares> of_runs(bench.dataset.runs.size());
+  ForAll(of_runs.size(), bench.tight.threads, [&](std::size_t i) {
+    of_runs[i] = HeldOut(bench, i) ? ErrorsUnseen(bench, i, state) : ErrorsOf(bench, i, state);
+  });
   ErrorReport report;
   Squares fitted, held_out;
-  for (std::size_t i = 0; i < bench.dataset.runs.size(); ++i) {
-    const Squares squares =
-        HeldOut(bench, i) ? ErrorsUnseen(bench, i, state) : ErrorsOf(bench, i, state);
-    report.run_rms_pa.emplace_back(bench.dataset.runs[i].id, squares.Rms());
-    (HeldOut(bench, i) ? held_out : fitted).Add(squares);
+  for (std::size_t i = 0; i < of_runs.size(); ++i) {
+    report.run_rms_pa.emplace_back(bench.dataset.runs[i].id, of_runs[i].Rms());
+    (HeldOut(bench, i) ? held_out : fitted).Add(of_runs[i]);
   }
   const model::Chamber& chamber = bench.dataset.runs.front().chamber;
   report.rms_pa = fitted.Rms();
@@ -144,8 +155,10 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
   if (!fit.Usable()) return leftover;
   std::vector<FittedRun> runs;
   Squares squares;
-  for (const std::size_t i : bench.data.runs) {
-    const Reading reading = Shown(bench, fit.state, i);
+  const std::vector<Reading> readings = ReadingsOf(bench, fit.state);
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    const std::size_t i = bench.data.runs[k];
+    const Reading& reading = readings[k];
     if (reading.pressure_pa.empty()) return leftover;
     runs.push_back({&bench.dataset.runs[i], reading.pressure_pa, bench.observed[i].noise});
     for (const double r : PressureResidual(bench.dataset.runs[i], bench.observed[i], reading))
@@ -174,9 +187,11 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
 
 std::vector<std::vector<double>> WhitenedOf(const Bench& bench, const Fit& fit) {
   std::vector<std::vector<double>> series;
-  for (const std::size_t i : bench.data.runs) {
+  const std::vector<Reading> readings = ReadingsOf(bench, fit.state);
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    const std::size_t i = bench.data.runs[k];
     std::vector<double>& rows = series.emplace_back(bench.observed[i].rows());
-    Residuals(bench.dataset.runs[i], bench.observed[i], Shown(bench, fit.state, i), rows);
+    Residuals(bench.dataset.runs[i], bench.observed[i], readings[k], rows);
     rows.resize(bench.observed[i].signals.front().samples.size());
   }
   return series;

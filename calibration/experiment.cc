@@ -1,14 +1,13 @@
 #include "calibration/experiment.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <numeric>
-#include <thread>
 #include <utility>
 
+#include "calibration/parallel.h"
 #include "calibration/proposals.h"
 
 namespace plenum::calibration {
@@ -112,15 +111,9 @@ class Designer {
         dataset(), data_.runs, rate, (*data_.observed)[data_.runs.front()].noise.clip_high_pa,
         [&](const Run& stroke, double level) { return TimeOfStroke(stroke, level); });
     std::vector<std::optional<RunWorth>> worths(proposals.size());
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-      for (std::size_t i = next++; i < proposals.size() && !Cancelled(); i = next++)
-        worths[i] = WorthOf(data_, tied_, curvatures_, proposals[i].run, options_);
-    };
-    std::vector<std::jthread> threads;
-    for (int i = 1; i < options_.threads; ++i) threads.emplace_back(work);
-    work();
-    threads.clear();
+    ForAll(proposals.size(), options_.threads, [&](std::size_t i) {
+      if (!Cancelled()) worths[i] = WorthOf(data_, tied_, curvatures_, proposals[i].run, options_);
+    });
     std::vector<Rated> rated;
     for (std::size_t i = 0; i < proposals.size(); ++i)
       if (worths[i]) rated.push_back({proposals[i], std::move(*worths[i])});
@@ -318,13 +311,16 @@ class Designer {
     const auto chi2 = [](const Fit& fit) { return fit.chi2_data + fit.chi2_prior; };
     FitOptions enough;
     enough.steps_max = options_.steps_max;
-    enough.threads = options_.threads;
     enough.cancelled = options_.cancelled;
+    std::vector<Fit> fits(starts.size());
+    ForAll(starts.size(), options_.threads, [&](std::size_t i) {
+      FitOptions each = enough;
+      each.threads = ThreadsWithin(i, starts.size(), options_.threads);
+      fits[i] = FitModel(data, starts[i], each);
+    });
     Fit least;
-    for (const ModelState& start : starts) {
-      Fit fit = FitModel(data, start, enough);
+    for (Fit& fit : fits)
       if (fit.Usable() && (!least.Usable() || chi2(fit) < chi2(least))) least = std::move(fit);
-    }
     return least;
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "calibration/evidence.h"
 #include "calibration/parallel.h"
@@ -17,6 +18,34 @@ constexpr std::size_t kFinalists = 5;  // whose held-out error is found by leavi
 std::string TitleOf(const model::EffectSpec& spec) {
   return spec.law.empty() ? std::string(spec.id)
                           : std::string(spec.id) + ":" + std::string(spec.law);
+}
+
+Candidate CandidateOf(const Bench& bench, const Contender& contender, bool finalist,
+                      const HoldoutByFit& known) {
+  Candidate candidate;
+  for (const model::EffectSpec* spec : contender.effects)
+    candidate.effects.push_back(TitleOf(*spec));
+  const Fit& fit = contender.fit;
+  candidate.bic = fit.bic;
+  candidate.converged = fit.status == FitStatus::kConverged;
+  candidate.starts = contender.starts;
+  candidate.found_again = contender.found_again;
+  candidate.parameters = static_cast<int>(fit.coordinates.size());
+  if (!fit.Usable()) return candidate;
+  Squares fitted, held_out;
+  for (const std::size_t run : bench.data.runs) fitted.Add(ErrorsOf(bench, run, fit.state));
+  candidate.rms_pa = fitted.Rms();
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.first == &fit; });
+  if (found != known.end()) candidate.holdout_rms_pa = found->second;
+  if (candidate.holdout_rms_pa || Stopped(bench)) return candidate;
+  for (const std::size_t run : bench.held_out) held_out.Add(ErrorsUnseen(bench, run, fit.state));
+  if (bench.held_out.empty() && finalist) {
+    if (const auto unseen = LeaveOneOut(bench, fit)) candidate.holdout_rms_pa = unseen->rms_pa;
+  } else if (held_out.count > 0 && !Stopped(bench)) {
+    candidate.holdout_rms_pa = held_out.Rms();
+  }
+  return candidate;
 }
 
 }  // namespace
@@ -65,39 +94,18 @@ void AddEstimates(const Bench& bench, const Fit& fit, Diagnosis& diagnosis) {
 void AddCandidates(const Bench& bench, const SearchResult& search, const HoldoutByFit& known,
                    Diagnosis& diagnosis) {
   const double best = search.contenders.front().fit.bic;
-  for (std::size_t i = 0; i < search.contenders.size(); ++i) {
-    const Contender& contender = search.contenders[i];
+  std::vector<std::optional<Candidate>> candidates(search.contenders.size());
+  const int threads = bench.tight.threads;
+  ForAll(candidates.size(), threads, [&](std::size_t i) {
     const std::size_t shown = Stopped(bench) ? kStoppedShown : kCandidatesShown;
-    if (i >= shown && i != search.base) continue;
-    Candidate candidate;
-    for (const model::EffectSpec* spec : contender.effects)
-      candidate.effects.push_back(TitleOf(*spec));
-    candidate.bic = contender.fit.bic;
-    candidate.delta_bic = contender.fit.bic - best;
-    candidate.converged = contender.fit.status == FitStatus::kConverged;
-    candidate.starts = contender.starts;
-    candidate.found_again = contender.found_again;
-    candidate.parameters = static_cast<int>(contender.fit.coordinates.size());
-    if (contender.fit.Usable()) {
-      Squares fitted, held_out;
-      for (const std::size_t run : bench.data.runs)
-        fitted.Add(ErrorsOf(bench, run, contender.fit.state));
-      candidate.rms_pa = fitted.Rms();
-      const auto found = std::find_if(known.begin(), known.end(),
-                                      [&](const auto& one) { return one.first == &contender.fit; });
-      if (found != known.end()) candidate.holdout_rms_pa = found->second;
-      const bool due = !candidate.holdout_rms_pa && !Stopped(bench);
-      for (const std::size_t run : bench.held_out)
-        if (due) held_out.Add(ErrorsUnseen(bench, run, contender.fit.state));
-      if (due && bench.held_out.empty() && i < kFinalists) {
-        if (const auto unseen = LeaveOneOut(bench, contender.fit))
-          candidate.holdout_rms_pa = unseen->rms_pa;
-      } else if (held_out.count > 0 && !Stopped(bench)) {
-        candidate.holdout_rms_pa = held_out.Rms();
-      }
-    }
-    diagnosis.candidates.push_back(std::move(candidate));
-  }
+    if (i >= shown && i != search.base) return;
+    Bench each = bench;
+    each.tight.threads = 1;
+    candidates[i] = CandidateOf(each, search.contenders[i], i < kFinalists, known);
+    candidates[i]->delta_bic = candidates[i]->bic - best;
+  });
+  for (std::optional<Candidate>& candidate : candidates)
+    if (candidate) diagnosis.candidates.push_back(std::move(*candidate));
 }
 
 void AddSeries(const Bench& bench, const ModelState& before, const ModelState& after,

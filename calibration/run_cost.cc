@@ -139,8 +139,16 @@ Eigen::MatrixXd RunCost::RootAt(const double* u) const {
 double RunCost::SlopeOf(Eigen::Index j, const double* u) const {
   return j == size() ? 1.0 : coordinates_[static_cast<std::size_t>(j)].Slope(u[j]);
 }
+
 void RunsAtOnce::PrepareForEvaluation(bool derive, bool) {
-  ForAll(runs_.size(), threads_, [&](std::size_t i) { runs_[i]->Prepare(u_, derive); });
+  using Clock = std::chrono::steady_clock;
+  ForAll(runs_.size(), threads_, [&](std::size_t i) {
+    const Clock::time_point start = Clock::now();
+    runs_[i].cost->Prepare(u_, derive);
+    runs_[i].longest = std::max(runs_[i].longest, Clock::now() - start);
+  });
+  std::stable_sort(runs_.begin(), runs_.end(),
+                   [](const Timed& a, const Timed& b) { return a.longest > b.longest; });
 }
 
 PriorCost::PriorCost(const std::vector<Coordinate>& coordinates) : size_(coordinates.size()) {

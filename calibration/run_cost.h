@@ -6,6 +6,7 @@
 #include <ceres/evaluation_callback.h>
 
 #include <Eigen/Core>
+#include <chrono>
 #include <span>
 #include <vector>
 
@@ -64,18 +65,22 @@ class RunCost : public ceres::CostFunction {
   mutable Known<Eigen::MatrixXd> root_;  // at the last point with derivatives
 };
 
-// Prepares the runs on several threads: they take unlike long, and Ceres would give each thread as
-// many of them in a row.
+// Prepares the runs on several threads, those first that took longest: they take unlike long, and
+// Ceres would give each thread as many of them in a row.
 class RunsAtOnce : public ceres::EvaluationCallback {
  public:
   RunsAtOnce(const double* u, int threads) : u_(u), threads_(threads) {}
-  void Add(const RunCost* run) { runs_.push_back(run); }
+  void Add(const RunCost* run) { runs_.push_back({run}); }
   void PrepareForEvaluation(bool derive, bool new_point) override;
 
  private:
   const double* u_;  // where Ceres has the point
   int threads_;
-  std::vector<const RunCost*> runs_;
+  struct Timed {
+    const RunCost* cost;
+    std::chrono::steady_clock::duration longest = {};
+  };
+  std::vector<Timed> runs_;
 };
 
 // u of every coordinate that has a prior.
