@@ -242,7 +242,8 @@ void Contenders::Refine(int size, std::optional<double> goal) {
   const std::vector<std::size_t> sorted = Sorted(size);
   if (sorted.empty()) return;
   const double best = std::min(list[sorted.front()].fit.bic, goal.value_or(kNever));
-  const double reach = std::max(kNear, kNearShare * std::max(0.0, Base().fit.bic - best));
+  const double gain = std::max(0.0, Base().fit.bic - best);
+  const double reach = goal ? kNear : std::max(kNear, kNearShare * gain);
   std::vector<Contender*> near;
   for (std::size_t k = 0; k < sorted.size(); ++k) {
     Contender& contender = list[sorted[k]];
@@ -258,6 +259,17 @@ void Contenders::Refine(int size, std::optional<double> goal) {
     near[i]->refined = fit.status != FitStatus::kIterationsSpent;
     if (fit.Usable() && fit.bic < near[i]->fit.bic) near[i]->fit = std::move(fit);
     Narrow(data, Further(), near[i]->fit);
+  });
+}
+
+void Contenders::FitTight(const std::vector<Contender*>& contenders) const {
+  ForAll(contenders.size(), options_->threads, [&](std::size_t i) {
+    FitOptions each = Tight();
+    each.threads = ThreadsWithin(i, contenders.size(), options_->threads);
+    Fit fit = FitModel(data, contenders[i]->fit.state, each);
+    Narrow(data, each, fit);
+    if (fit.Usable() && fit.bic < contenders[i]->fit.bic + kSameOptimum)
+      contenders[i]->fit = std::move(fit);
   });
 }
 

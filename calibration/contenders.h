@@ -81,6 +81,9 @@ class Contenders {
   void RunJobs(std::vector<Job>& jobs, double from_share, double to_share, const std::string& what,
                std::optional<double> goal = {});
 
+  // Fits each to the last digit.
+  void FitTight(const std::vector<Contender*>& contenders) const;
+
   // Fits a set with an effect that rings again from other lengths of its line (start_scan.h), until
   // none does clearly better.
   void FitInStep(Contender& contender);

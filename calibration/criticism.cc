@@ -44,6 +44,12 @@ std::vector<Term> Terms() {
   return terms;
 }
 
+// A run at the fit: its residuals, and their derivatives along the fit's coordinates.
+struct AtFit {
+  Eigen::VectorXd e;
+  Eigen::MatrixXd j;
+};
+
 // JᵀJ, JᵀA, AᵀA, Jᵀe and Aᵀe over all runs.
 struct Sums {
   Eigen::MatrixXd jj, ja, aa;
@@ -57,37 +63,54 @@ PredictOptions OptionsOf(const FitOptions& options) {
   return predict;
 }
 
-bool AddRun(const FitData& data, const Fit& fit, const Term& term, std::size_t run,
+// Of the run's whitened readings, by parameter; with the residuals as one column more. Empty where
+// the run cannot be simulated.
+Eigen::MatrixXd Derivatives(const FitData& data, const ModelState& state,
+                            const std::vector<Parameter>& parameters, std::size_t run,
+                            const FitOptions& options) {
+  const Prediction prediction = data.forward->Predict(run, state, parameters, OptionsOf(options));
+  if (prediction.status != model::SimulateStatus::kDone) return {};
+  const ObservedRun& observed = (*data.observed)[run];
+  const auto count = static_cast<Eigen::Index>(parameters.size());
+  Eigen::MatrixXd columns(static_cast<Eigen::Index>(observed.rows()), count + 1);
+  const auto column = [&](Eigen::Index k) {
+    return std::span<double>(columns.col(k).data(), observed.rows());
+  };
+  const Run& measured = data.forward->dataset().runs[run];
+  const std::vector<double> slopes = GridSlopes(measured, observed, prediction.reading);
+  for (Eigen::Index k = 0; k < count; ++k)
+    Whitened(observed, prediction.derivatives[static_cast<std::size_t>(k)], slopes, column(k));
+  Residuals(measured, observed, prediction.reading, column(count));
+  return columns;
+}
+
+// Without derivatives where the run cannot be simulated.
+AtFit RunAtFit(const FitData& data, const Fit& fit, std::size_t run, const FitOptions& options) {
+  std::vector<Parameter> parameters;
+  for (const Coordinate& coordinate : fit.coordinates) parameters.push_back(coordinate.parameter);
+  const Eigen::MatrixXd columns = Derivatives(data, fit.state, parameters, run, options);
+  if (columns.size() == 0) return {};
+  const auto count = static_cast<Eigen::Index>(parameters.size());
+  AtFit at{columns.col(count), columns.leftCols(count)};
+  for (Eigen::Index k = 0; k < count; ++k)
+    at.j.col(k) *= fit.coordinates[static_cast<std::size_t>(k)].Slope(fit.u[k]);
+  return at;
+}
+
+bool AddRun(const FitData& data, const Fit& fit, const AtFit& at, const Term& term, std::size_t run,
             const FitOptions& options, Sums& sums) {
   ModelState state = fit.state;
   state.effects.push_back(term.absent);
   std::vector<Parameter> parameters;
-  for (const Coordinate& coordinate : fit.coordinates) parameters.push_back(coordinate.parameter);
   for (const std::size_t number : term.sizes)
     parameters.push_back(
         {.kind = Parameter::Kind::kEffect, .effect = state.effects.size() - 1, .number = number});
-  const Prediction prediction = data.forward->Predict(run, state, parameters, OptionsOf(options));
-  if (prediction.status != model::SimulateStatus::kDone) return false;
-  const ObservedRun& observed = (*data.observed)[run];
-  const auto rows = static_cast<Eigen::Index>(observed.rows());
-  const auto fitted = static_cast<Eigen::Index>(fit.coordinates.size());
-  Eigen::MatrixXd all(rows, static_cast<Eigen::Index>(parameters.size()));
-  const std::vector<double> slopes =
-      GridSlopes(data.forward->dataset().runs[run], observed, prediction.reading);
-  for (Eigen::Index j = 0; j < all.cols(); ++j) {
-    const auto k = static_cast<std::size_t>(j);
-    Whitened(observed, prediction.derivatives[k], slopes, {all.col(j).data(), observed.rows()});
-    if (j < fitted) all.col(j) *= fit.coordinates[k].Slope(fit.u[j]);
-  }
-  Eigen::VectorXd e(rows);
-  Residuals(data.forward->dataset().runs[run], observed, prediction.reading,
-            {e.data(), observed.rows()});
-  const auto j = all.leftCols(fitted), a = all.rightCols(all.cols() - fitted);
-  sums.jj += j.transpose() * j;
-  sums.ja += j.transpose() * a;
+  const Eigen::MatrixXd columns = Derivatives(data, state, parameters, run, options);
+  if (columns.size() == 0) return false;
+  const auto a = columns.leftCols(columns.cols() - 1);
+  sums.ja += at.j.transpose() * a;
   sums.aa += a.transpose() * a;
-  sums.je += j.transpose() * e;
-  sums.ae += a.transpose() * e;
+  sums.ae += a.transpose() * at.e;
   return true;
 }
 
@@ -119,24 +142,32 @@ double Gain(const Sums& sums) {
 double LearnableGain(const FitData& data, const Fit& fit, double memory,
                      const FitOptions& options) {
   const auto fitted = static_cast<Eigen::Index>(fit.coordinates.size());
+  std::vector<AtFit> runs(data.runs.size());
+  ForAll(runs.size(), options.threads,
+         [&](std::size_t i) { runs[i] = RunAtFit(data, fit, data.runs[i], options); });
+  Eigen::MatrixXd jj = Eigen::MatrixXd::Zero(fitted, fitted);
+  Eigen::VectorXd je = Eigen::VectorXd::Zero(fitted);
+  for (const AtFit& at : runs) {
+    if (at.e.size() == 0) return 0.0;
+    jj += at.j.transpose() * at.j;
+    je += at.j.transpose() * at.e;
+  }
+  for (Eigen::Index j = 0; j < fitted; ++j) {
+    if (!fit.coordinates[static_cast<std::size_t>(j)].prior) continue;
+    jj(j, j) += 1.0;
+    je[j] += fit.u[j];
+  }
   const double worth = static_cast<double>(fit.rows) / memory;
   const std::vector<Term> terms = Terms();
   std::vector<double> bics(terms.size(), 0.0);
   ForAll(terms.size(), options.threads, [&](std::size_t i) {
-    if (options.cancelled && options.cancelled()) return;
     const auto numbers = static_cast<Eigen::Index>(terms[i].sizes.size());
-    Sums sums{Eigen::MatrixXd::Zero(fitted, fitted), Eigen::MatrixXd::Zero(fitted, numbers),
-              Eigen::MatrixXd::Zero(numbers, numbers), Eigen::VectorXd::Zero(fitted),
-              Eigen::VectorXd::Zero(numbers)};
-    for (Eigen::Index j = 0; j < fitted; ++j) {
-      if (!fit.coordinates[static_cast<std::size_t>(j)].prior) continue;
-      sums.jj(j, j) = 1.0;
-      sums.je[j] = fit.u[j];
+    Sums sums{jj, Eigen::MatrixXd::Zero(fitted, numbers), Eigen::MatrixXd::Zero(numbers, numbers),
+              je, Eigen::VectorXd::Zero(numbers)};
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      if (options.cancelled && options.cancelled()) return;
+      if (!AddRun(data, fit, runs[k], terms[i], data.runs[k], options, sums)) return;
     }
-    const bool done = std::all_of(data.runs.begin(), data.runs.end(), [&](std::size_t run) {
-      return AddRun(data, fit, terms[i], run, options, sums);
-    });
-    if (!done) return;
     const double gain = std::min(Gain(sums), 0.5 * fit.chi2_data);
     bics[i] = worth * std::log(fit.chi2_data / (fit.chi2_data - gain)) -
               static_cast<double>(numbers) * std::log(std::max(1.0, worth));

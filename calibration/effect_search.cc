@@ -168,8 +168,10 @@ class Search {
   }
 
   // Whether an effect that acts in time does better than the clocks beside the chosen set: clocks
-  // may have been taken to be off while much else was still unexplained.
-  bool ActsInTimeInstead(const SearchResult& result) const {
+  // may have been taken to be off while much else was still unexplained. What the search without
+  // them has compared is not fitted anew.
+  bool ActsInTimeInstead(const SearchResult& result) {
+    const EffectSet& effects = result.contenders[result.chosen].effects;
     const Fit& chosen = result.contenders[result.chosen].fit;
     if (sets_.Cancelled() || !chosen.Usable()) return false;
     FitOptions look = sets_.Screening(), options = sets_.Further();
@@ -179,15 +181,19 @@ class Search {
     const double bic = chosen.bic + ClocksCost(sets_.data, chosen, options) - EffectAhead();
     ModelState start = chosen.state;
     std::fill(start.clock_s.begin(), start.clock_s.end(), 0.0);
-    const Fit without = FitModel(data, start, options);
-    const double before = without.Usable() ? without.bic : kNever;
+    std::optional<Fit> without;
     for (const Spec spec : Named()) {
-      if (!ActsInTime(*spec) || HoldsId(result.contenders[result.chosen].effects, spec->id))
+      if (!ActsInTime(*spec) || HoldsId(effects, spec->id)) continue;
+      if (const Contender* known = other_sets_.Find(With(effects, spec))) {
+        if (known->fit.Usable() && known->fit.bic < bic) return true;
         continue;
+      }
+      if (!without) without = FitModel(data, start, options);
       ModelState late = start;
       late.effects.push_back(EffectStarts(*spec, data.sizes).front());
       Fit fit = FitModel(data, late, look);
-      if (!fit.Usable() || !MayComeTo(bic, fit, before)) continue;
+      if (!fit.Usable() || !MayComeTo(bic, fit, without->Usable() ? without->bic : kNever))
+        continue;
       fit = FitModel(data, fit.state, options);
       Narrow(data, options, fit);
       if (fit.Usable() && fit.bic < bic) return true;
@@ -202,18 +208,20 @@ class Search {
     for (int size = 1; size <= kEffectsMax && !sets_.Cancelled(); ++size) {
       // The clocks before more pairs: they are one fit, those are many.
       const std::size_t before = chosen;
+      const double bic_before = sets_[chosen].fit.bic;
       const bool done = size > 1 && enough_(sets_[chosen].fit);
       double clocks_bic = done ? kNever : WithClocks(chosen);
       if (clocks_bic == kClocksAreAll) return {};
-      if (size > 2) chosen = OfMorePairs(chosen);
-      if (size > 1 && enough_(sets_[chosen].fit)) {
+      if (size > 2 && !done) chosen = OfMorePairs(chosen);
+      const bool better = chosen != before || sets_[chosen].fit.bic < bic_before;
+      if (done || (better && enough_(sets_[chosen].fit))) {
         TryMoreOfFewerNumbers(sets_[chosen].effects);
         if (sets_.data.clocks) TryTiming(chosen, sets_[chosen].fit.bic - kAccept);
         const std::size_t other = sets_.Best(size).value_or(chosen);
         if (sets_[other].fit.bic < sets_[chosen].fit.bic - kAccept) chosen = other;
         break;
       }
-      if (chosen != before) clocks_bic = WithClocks(chosen);
+      if (better) clocks_bic = WithClocks(chosen);
       if (clocks_bic == kClocksAreAll) return {};
       if (size > 2 && sets_.LeftShare(sets_[chosen]) > kEstablished) break;
       if (size == 1) {
@@ -243,7 +251,7 @@ class Search {
   // The best pair, where it leaves structure after pairs with further singles: an effect that other
   // effects imitate better than it does alone may do with the right one beside it.
   std::size_t OfMorePairs(std::size_t pair) {
-    if (sets_.LeftShare(sets_[pair]) > kEstablished || enough_(sets_[pair].fit)) return pair;
+    if (sets_.LeftShare(sets_[pair]) > kEstablished) return pair;
     ExtendSets(2, kMoreSeeds);
     return sets_.Best(2).value_or(pair);
   }
@@ -436,22 +444,19 @@ class Search {
   // then the choice is made again, because a fit cut short may have made a larger set look needed.
   SearchResult Finish(int size_max) {
     sets_.Report(0.92, "final fits");
+    std::vector<Contender*> leading, standing;
     for (int size = 0; size <= size_max; ++size) {
-      const std::optional<std::size_t> leader = sets_.Best(size);
-      if (!leader) continue;
-      const double best = sets_[*leader].fit.bic;
       const double reach = size == size_max ? 1.5 * kTie : kSameOptimum;
-      for (const std::size_t i : sets_.Sorted(size)) {
-        Contender& contender = sets_.list[i];
-        if (contender.fit.bic > best + reach) continue;
-        Fit fit = FitModel(sets_.data, contender.fit.state, sets_.Tight());
-        Narrow(sets_.data, sets_.Tight(), fit);
-        if (fit.Usable() && fit.bic < contender.fit.bic + kSameOptimum)
-          contender.fit = std::move(fit);
-        const bool may_stand = size == size_max && sets_.LeftShare(contender) <= kEstablished;
-        if (may_stand) sets_.FitInStep(contender);
+      const std::vector<std::size_t> sorted = sets_.Sorted(size);
+      for (const std::size_t i : sorted) {
+        if (sets_[i].fit.bic > sets_[sorted.front()].fit.bic + reach) break;
+        leading.push_back(&sets_.list[i]);
+        if (size == size_max) standing.push_back(leading.back());
       }
     }
+    sets_.FitTight(leading);
+    for (Contender* contender : standing)
+      if (sets_.LeftShare(*contender) <= kEstablished) sets_.FitInStep(*contender);
     std::stable_sort(sets_.list.begin(), sets_.list.end(),
                      [](const Contender& a, const Contender& b) {
                        if (a.fit.Usable() != b.fit.Usable()) return a.fit.Usable();

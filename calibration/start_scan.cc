@@ -16,8 +16,10 @@ namespace {
 constexpr double kShortest = 0.05, kLongest = 6.0, kLengthStep = 1.05;  // m
 // Shorter lines ring so often before they rest that no grid keeps in step; they also take longest.
 constexpr double kInStepFrom = 0.3, kShortStep = 1.16;  // m
-constexpr double kBores[] = {2e-3, 3.5e-3};             // m
-constexpr double kApart = 2.5;                          // steps of length
+// Beside several effects: a set that comes to explain the runs is scanned again (ScannedAgain).
+constexpr double kCoarseStep = kLengthStep * kLengthStep;
+constexpr double kBores[] = {2e-3, 3.5e-3};  // m
+constexpr double kApart = 2.5;               // steps of length
 constexpr std::size_t kKept = 3, kKeptAgain = 5;
 // The whole grid is tried on every so many-th run, the best share of it on the others.
 constexpr std::size_t kFirstRuns = 3, kOthersShare = 5;
@@ -28,16 +30,16 @@ constexpr const char* kRings = "line_dynamics";
 constexpr double kTolerance = 1e-5;  // at the tightest
 constexpr double kRidge = 1e-10;     // of the diagonal: numbers that nothing depends on
 
-std::vector<double> Lengths() {
+std::vector<double> Lengths(double step) {
   std::vector<double> lengths_m;
-  for (double m = kShortest; m < kLongest; m *= m < kInStepFrom ? kShortStep : kLengthStep)
+  for (double m = kShortest; m < kLongest; m *= m < kInStepFrom ? kShortStep : step)
     lengths_m.push_back(m);
   return lengths_m;
 }
 
-std::vector<model::Effect> GridOf(const FitData& data, const model::EffectSpec& spec) {
+std::vector<model::Effect> GridOf(const FitData& data, const model::EffectSpec& spec, double step) {
   std::vector<model::Effect> grid;
-  for (const double length_m : Lengths())
+  for (const double length_m : Lengths(step))
     for (const double bore_m : kBores) grid.push_back({&spec, {length_m, bore_m}});
   for (const std::size_t run : data.runs)
     for (const LinePiece& piece : data.forward->dataset().runs[run].line)
@@ -209,7 +211,7 @@ std::vector<model::Effect> GridAbout(const model::Effect& found) {
   for (double share = 1.0 / kAbout; share < kAbout; share *= kLengthStep)
     for (const double bore : kBoresAbout)
       grid.push_back({found.spec, {share * length_m, bore * bore_m}});
-  for (const double other_m : Lengths())
+  for (const double other_m : Lengths(kLengthStep))
     grid.push_back({found.spec, {other_m, std::sqrt(length_m / other_m) * bore_m}});
   return grid;
 }
@@ -241,7 +243,8 @@ std::vector<model::Effect> ScannedStarts(const FitData& data, const Fit& without
     const double gain = scan.Chi2() - best;
     return gain > kAccept ? best + (1.0 - kHopeful) * gain : best;
   };
-  return BestOf(scan, GridOf(data, spec), kKept, hopeful, [&](const model::Effect& line) {
+  const double step = without.state.effects.size() < 2 ? kLengthStep : kCoarseStep;
+  return BestOf(scan, GridOf(data, spec, step), kKept, hopeful, [&](const model::Effect& line) {
     ModelState state = without.state;
     state.effects.push_back(line);
     return state;

@@ -7,7 +7,7 @@
 //   χ²(θ) = |e|² − gᵀ·(JᵀJ)⁻¹·g,  g = Jᵀe,
 // e the whitened residuals with the line θ, J their derivatives without it, both with the priors.
 // The grid: lengths from kShortest to kLongest, and the tubes as declared; the whole of it on
-// some of the runs, and what does best there on all.
+// some of the runs, and what does best there on all. Beside several effects it is coarser.
 #ifndef PLENUM_CALIBRATION_START_SCAN_H_
 #define PLENUM_CALIBRATION_START_SCAN_H_
 
