@@ -138,7 +138,9 @@ class RosenbrockOf {
         for (std::size_t i = 0; i < y0_.size(); ++i) Entry(i, j) = (slope_[i] - f0_[i]) / moved;
       };
       for (std::size_t j = 0; j < y0_.size(); ++j) {
-        stage_[j] = y0_[j] + kDifference * SizeOf(j, step_s);
+        // Against the motion: what flows towards equal pressures would be shut beyond them.
+        const double by = kDifference * SizeOf(j, step_s);
+        stage_[j] = y0_[j] + (f0_[j] < 0.0 ? by : -by);
         take(t0_, j, stage_[j] - y0_[j]);
         stage_[j] = y0_[j];
       }
