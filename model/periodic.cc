@@ -45,7 +45,7 @@ class CycleMap {
   CycleMap(const Rig& rig, double period_s, const SimulateOptions& options)
       : rig_(rig), period_s_(period_s), options_(options) {
     options_.end_s = period_s;
-    System<double> system(rig, options.linear_ratio, Lift(), false);
+    System<double> system(rig, {.linear_ratio = options.linear_ratio}, Lift(), false);
     const std::vector<double> initial = system.InitialState();
     initial_ = Eigen::Map<const Eigen::VectorXd>(initial.data(),
                                                  static_cast<Eigen::Index>(system.dynamic_size()));

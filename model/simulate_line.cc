@@ -14,6 +14,7 @@ using std::sqrt;
 constexpr double kBorderWidth = 1e-9;
 constexpr double kCosineStep = 1e-5;      // of Newton's method; leaves 1e-11 of the flow
 constexpr double kSurelySubsonic = 1e-3;  // cosine
+constexpr int kSolvedOneByOne = 64;       // before a curve is worth its points
 
 // b + (1−b)·√(1 − z^{1/m}): pressure behind an element per pressure in front of it.
 template <class T>
@@ -33,8 +34,8 @@ LineElement<double> ValuesOf(const LineElement<T>& element) {
 }  // namespace
 
 template <class T>
-Line<T>::Line(std::span<const LineElement<T>> elements, double linear_ratio)
-    : elements_(elements.begin(), elements.end()), linear_ratio_(linear_ratio) {
+Line<T>::Line(std::span<const LineElement<T>> elements, const LineOptions& options)
+    : elements_(elements.begin(), elements.end()), options_(options) {
   if (elements_.empty()) return;
   std::array<FlowElement, kMaxSeriesElements> values;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
@@ -51,7 +52,7 @@ Line<T>::Line(std::span<const LineElement<T>> elements, double linear_ratio)
   series_ = MakeSeries(std::span(values.data(), elements_.size()));
   choked_ratio_ = series_.choked_ratio;
   choked_flow_ = LiftFlow(series_.choked_flow_m3_per_s_pa, T(1.0), T(series_.choked_ratio));
-  flow_at_linear_ratio_ = SubsonicFlow(T(linear_ratio));
+  flow_at_linear_ratio_ = SubsonicFlow(T(options.linear_ratio));
 }
 
 // Pressure behind the first `count` elements at flow q, and how it falls with q.
@@ -124,6 +125,21 @@ T Line<T>::LiftFlow(double flow, const T& upstream_pa, const T& downstream_pa) c
   return T(flow);
 }
 
+// c = √(1 − (q/q*)²) at a ratio above choked_ratio_.
+template <class T>
+double Line<T>::CosineOf(double ratio) const {
+  if (curve_) return curve_->CosineAt(ratio);
+  if (options_.tolerance >= kCurveError && ++solved_ == kSolvedOneByOne) curve_.emplace(series_);
+  // The ratio moves little from call to call: the last solution leads to the next.
+  const double guess = last_.cosine + last_.slope * (ratio - last_ratio_);
+  if (guess > 1e-3 && guess < 1.0)
+    last_ = CosineNear(series_, ratio, guess, kCosineStep);
+  else
+    last_ = {CosineAtRatio(series_, ratio), 1.0 / (1.0 - choked_ratio_)};
+  last_ratio_ = ratio;
+  return last_.cosine;
+}
+
 // Flow per upstream pressure at a ratio above choked_ratio_.
 template <class T>
 T Line<T>::SubsonicFlow(const T& ratio) const {
@@ -132,20 +148,10 @@ T Line<T>::SubsonicFlow(const T& ratio) const {
     const T share = (1.0 - ratio) / width;
     return choked_flow_ * sqrt(share * (2.0 - share));
   }
-  // The ratio moves little from call to call: the last solution leads to the next.
-  const double r = ValueOf(ratio);
-  const double guess = last_.cosine + last_.slope * (r - last_ratio_);
-  if (guess > 1e-3 && guess < 1.0) {
-    last_ = CosineNear(series_, r, guess, kCosineStep);
-  } else {
-    const double c = CosineAtRatio(series_, r);
-    last_ = {c, 1.0 / (1.0 - choked_ratio_)};
-  }
-  last_ratio_ = r;
-  const double flow =
-      series_.choked_flow_m3_per_s_pa * std::sqrt((1.0 - last_.cosine) * (1.0 + last_.cosine));
-  return last_.cosine > kSurelySubsonic ? LiftSubsonicFlow(flow, T(1.0), ratio)
-                                        : LiftFlow(flow, T(1.0), ratio);
+  const double cosine = CosineOf(ValueOf(ratio));
+  const double flow = series_.choked_flow_m3_per_s_pa * std::sqrt((1.0 - cosine) * (1.0 + cosine));
+  return cosine > kSurelySubsonic ? LiftSubsonicFlow(flow, T(1.0), ratio)
+                                  : LiftFlow(flow, T(1.0), ratio);
 }
 
 template <class T>
@@ -153,14 +159,15 @@ T Line<T>::Flow(const T& upstream_pa, const T& downstream_pa, int regime) const 
   const T head_pa = upstream_pa - cracking_pressure_pa_;
   if (elements_.empty() || !(head_pa > 0.0) || head_pa <= downstream_pa) return T(0.0);
   const T ratio = downstream_pa / head_pa;
-  bool linear = ratio > linear_ratio_;
+  bool linear = ratio > options_.linear_ratio;
   // The flow is the same on both sides, but its derivatives are not.
-  if (kIsDual<T> && regime != kUnknown && std::abs(ValueOf(ratio) - linear_ratio_) < kBorderWidth) {
+  if (kIsDual<T> && regime != kUnknown &&
+      std::abs(ValueOf(ratio) - options_.linear_ratio) < kBorderWidth) {
     linear = regime > 1;
   }
-  const T share = (1.0 - ratio) / (1.0 - linear_ratio_);
+  const T share = (1.0 - ratio) / (1.0 - options_.linear_ratio);
   if (cracks_inside_) {
-    return linear ? T(share * FlowWithCracking(upstream_pa, linear_ratio_ * head_pa))
+    return linear ? T(share * FlowWithCracking(upstream_pa, options_.linear_ratio * head_pa))
                   : FlowWithCracking(upstream_pa, downstream_pa);
   }
   if (linear) return head_pa * share * flow_at_linear_ratio_;
@@ -178,8 +185,7 @@ T Line<T>::ThrottledFlow(const T& opening, std::size_t fixed, const T& upstream_
   if (!cracks_inside_ && !elements.empty()) {
     elements[0].cracking_pressure_pa = cracking_pressure_pa_;
   }
-  return Line<T>({elements.data(), elements.size()}, linear_ratio_)
-      .Flow(upstream_pa, downstream_pa);
+  return Line<T>({elements.data(), elements.size()}, options_).Flow(upstream_pa, downstream_pa);
 }
 
 // The largest flow with which every element can be crossed and the end pressure is not below

@@ -6,11 +6,13 @@
 #include <array>
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "model/iso6358.h"
 #include "model/scalar.h"
 #include "model/series.h"
+#include "model/series_curve.h"
 
 namespace plenum::model {
 
@@ -22,13 +24,19 @@ struct LineElement {
   double subsonic_index = 0.5;
 };
 
+struct LineOptions {
+  double linear_ratio = kLinearRatio;
+  double tolerance =
+      0.0;  // of the flow, relative; from kCurveError (series_curve.h) on a curve is used
+};
+
 // T is double, Dual or WideDual (model/scalar.h).
 template <class T>
 class Line {
  public:
   Line() = default;  // passes nothing
   // At most kMaxSeriesElements, in the order crossed.
-  Line(std::span<const LineElement<T>> elements, double linear_ratio);
+  Line(std::span<const LineElement<T>> elements, const LineOptions& options);
 
   // m³/s ANR from `upstream_pa` to `downstream_pa`, 0 where Σ Δp_c or more of the upstream pressure
   // is needed to get there. Above `linear_ratio` of the highest downstream pressure that flow can
@@ -46,7 +54,7 @@ class Line {
   // Between these values of downstream_pa / (upstream_pa − Σ Δp_c) the flow is smooth: choked below
   // the first, none above the last.
   static constexpr std::size_t kKinks = 3;
-  std::array<double, kKinks> kinks() const { return {choked_ratio_, linear_ratio_, 1.0}; }
+  std::array<double, kKinks> kinks() const { return {choked_ratio_, options_.linear_ratio, 1.0}; }
   T RatioOf(const T& upstream_pa, const T& downstream_pa) const {
     return downstream_pa / (upstream_pa - cracking_pressure_pa_);
   }
@@ -64,6 +72,7 @@ class Line {
     double slope;  // d pressure / dq
   };
   T SubsonicFlow(const T& ratio) const;
+  double CosineOf(double ratio) const;
   T FlowWithCracking(const T& upstream_pa, const T& downstream_pa) const;
   MarchPoint March(const T& upstream_pa, const T& flow, std::size_t count) const;
   struct Bottleneck {
@@ -81,10 +90,12 @@ class Line {
   T choked_flow_ = T(0.0);           // of series_, per upstream pressure
   T flow_at_linear_ratio_ = T(0.0);  // the same at linear_ratio
   double choked_ratio_ = 0.0;
-  double linear_ratio_ = kLinearRatio;
+  LineOptions options_;
   // The last solution of the march, where the next one starts: an object serves one run at a time.
   mutable double last_ratio_ = 0.0;
   mutable CosineAndSlope last_ = {0.0, 0.0};
+  mutable int solved_ = 0;
+  mutable std::optional<SeriesCurve> curve_;
 };
 
 extern template class Line<double>;

@@ -28,7 +28,7 @@ Run<T, Stepper>::Run(const Rig& rig, const SimulateOptions& options, RunUntil un
       options_(options),
       until_(until),
       lift_(lift),
-      system_(rig, options.linear_ratio, lift,
+      system_(rig, {options.linear_ratio, options.relative_tolerance}, lift,
               until == RunUntil::kEnd && options.record == Record::kAll),
       stepper_(system_, options.relative_tolerance, options.absolute_tolerance_pa),
       y_(system_.InitialState()),

@@ -58,14 +58,14 @@ T Opening<T>::EndTime() const {
 }
 
 template <class T>
-System<T>::System(const Rig& rig, double linear_ratio, const Lift& lift, bool account)
+System<T>::System(const Rig& rig, const LineOptions& lines, const Lift& lift, bool account)
     : rig_(rig),
       ambient_pa_(lift.operator()<T>(rig.ambient.pressure_pa)),
       ambient_k_(lift.operator()<T>(rig.ambient.temperature_k)),
       regulated_(std::get_if<RegulatedSource>(&rig.source)),
       reservoir_(std::get_if<ReservoirSource>(&rig.source)),
       driven_(std::get_if<DrivenSource>(&rig.source)),
-      linear_ratio_(linear_ratio),
+      line_options_(lines),
       pump_limit_pa_(-kInfinity),
       account_(account) {
   using std::sqrt;
@@ -78,7 +78,7 @@ System<T>::System(const Rig& rig, double linear_ratio, const Lift& lift, bool ac
     supply_.flow_max_m3_per_s = regulated_->flow_max_m3_per_s;
     if (regulated_->regulator) {
       supply_.regulator.emplace(Lifted<T>({&*regulated_->regulator, 1}, factor, lift),
-                                linear_ratio);
+                                line_options_);
     }
     node_at_supply_ = !supply_.regulator && std::isinf(supply_.flow_max_m3_per_s);
   }
@@ -103,7 +103,7 @@ System<T>::System(const Rig& rig, double linear_ratio, const Lift& lift, bool ac
   }
   groups_.reserve(rig.groups.size());
   for (const GroupRig& group : rig.groups) {
-    groups_.push_back(MakeGroup(group, lift, factor, linear_ratio));
+    groups_.push_back(MakeGroup(group, lift, factor));
     for (const auto& unit : groups_.back().units)
       if (!source_unit_ && unit->acts_on_source()) source_unit_ = unit.get();
   }
@@ -112,7 +112,7 @@ System<T>::System(const Rig& rig, double linear_ratio, const Lift& lift, bool ac
 
 template <class T>
 typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& lift,
-                                               const T& factor, double linear_ratio) const {
+                                               const T& factor) const {
   Group group;
   group.count = rig.count;
   GroupSetup<T>& setup = group.setup;
@@ -153,13 +153,13 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
     const bool cracks = std::any_of(both.begin(), both.end(), [](const LineElement<T>& e) {
       return e.cracking_pressure_pa > 0.0;
     });
-    if (!cracks) group.with_regulator.emplace(both, linear_ratio);
+    if (!cracks) group.with_regulator.emplace(both, line_options_);
   }
 
   group.fill_before_inlet = rig.inlet_after;
   if (!rig.exhaust.empty()) group.exhaust_before_inlet = rig.exhaust.size() - rig.inlet_after;
-  group.lines = {Line<T>(setup.fill, linear_ratio), Line<T>(setup.exhaust, linear_ratio),
-                 Line<T>(setup.feed, linear_ratio)};
+  group.lines = {Line<T>(setup.fill, line_options_), Line<T>(setup.exhaust, line_options_),
+                 Line<T>(setup.feed, line_options_)};
   return group;
 }
 
@@ -499,8 +499,8 @@ T System<T>::PressureBehind(std::vector<LineElement<T>> elements, std::size_t co
   if (count == elements.size()) return downstream_pa;
   NodeSupply<T> before;
   before.pressure_pa = upstream_pa;
-  before.regulator.emplace(all.first(count), linear_ratio_);
-  const Line<T> behind(all.subspan(count), linear_ratio_);
+  before.regulator.emplace(all.first(count), line_options_);
+  const Line<T> behind(all.subspan(count), line_options_);
   const NodeOutlet<T> outlet = {&behind, T(1.0), downstream_pa};
   return NodePressure<T>(before, {&outlet, 1});
 }
@@ -516,7 +516,7 @@ T System<T>::InletPressure(std::size_t i, const T& t) const {
   if (m.line_in_m3_per_s > 0.0) {
     if (!(group.filling.At(t) < 1.0))
       return PressureBehind(setup.fill, group.fill_before_inlet, T(1.0), 0, m.head_pa, m.tail_pa);
-    const Line<T> tube(fill.subspan(group.fill_before_inlet), linear_ratio_);
+    const Line<T> tube(fill.subspan(group.fill_before_inlet), line_options_);
     if (tube.empty()) return m.tail_pa;
     const auto into = [&](const T& inlet_pa) { return tube.Flow(inlet_pa, m.tail_pa); };
     return PressureAt<T>(into, m.line_in_m3_per_s / m.line_factor, m.tail_pa, m.head_pa);
@@ -525,7 +525,7 @@ T System<T>::InletPressure(std::size_t i, const T& t) const {
     if (!(group.venting.At(t) < 1.0))
       return PressureBehind(setup.exhaust, group.exhaust_before_inlet, m.line_factor,
                             setup.exhaust_fixed, m.tail_pa, ambient_pa_);
-    const Line<T> tube(exhaust.first(group.exhaust_before_inlet), linear_ratio_);
+    const Line<T> tube(exhaust.first(group.exhaust_before_inlet), line_options_);
     if (tube.empty()) return m.tail_pa;
     T flow = m.line_out_m3_per_s / m.line_factor;
     if (group.heated) flow /= sqrt(ambient_k_ / m.tail_temperature_k);

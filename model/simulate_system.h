@@ -60,7 +60,7 @@ template <class T>
 class System {
  public:
   // The rig must be valid and outlive the system.
-  System(const Rig& rig, double linear_ratio, const Lift& lift, bool account);
+  System(const Rig& rig, const LineOptions& lines, const Lift& lift, bool account);
 
   std::size_t size() const { return sizes_.size(); }
   std::size_t dynamic_size() const { return dynamic_size_; }  // without the accounts
@@ -161,8 +161,7 @@ class System {
   };
   enum LineIndex : std::size_t { kFill, kExhaust, kFeed };
 
-  Group MakeGroup(const GroupRig& rig, const Lift& lift, const T& factor,
-                  double linear_ratio) const;
+  Group MakeGroup(const GroupRig& rig, const Lift& lift, const T& factor) const;
   void LayOut();
   void FillMoment(Group& group, const T& source_pa, std::span<const T> y) const;
   void UpdateFlows(const T& t, std::span<const T> y);
@@ -187,7 +186,7 @@ class System {
   const DrivenSource* driven_ = nullptr;
   mutable std::size_t record_near_ = 0;         // point of its record
   const EffectUnit<T>* source_unit_ = nullptr;  // that acts on the source
-  double linear_ratio_;
+  LineOptions line_options_;
   NodeSupply<T> supply_;
   T reservoir_volume_m3_, reservoir_rising_m3_, duty_, driven_factor_, source_initial_pa_,
       regulated_pa_;
