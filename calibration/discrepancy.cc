@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "calibration/parallel.h"
@@ -207,40 +208,37 @@ double OwnNumbers(const FitData& data, const Fit& fit, std::size_t run) {
       RunCoordinates(*data.forward, {run}, fit.state.effects, data.sizes).size());
 }
 
-// Each of at most kFolds runs left out in turn; `fit_on` fits the others.
+// What one of at most kFolds runs, left out, makes of the score; `fit_on` fits the others.
+struct Fold {
+  double score = kNone, squares_pa2 = kNone, samples = 0.0;
+};
+
+std::size_t Folds(const FitData& data) { return std::min(kFolds, data.runs.size()); }
+
 template <class FitOn>
-Unseen LeftOut(const FitData& data, const FitOn& fit_on, const FitOptions& options) {
-  const std::size_t folds = std::min(kFolds, data.runs.size());
-  double score = 0.0, squares_pa2 = 0.0, samples = 0.0;
-  for (std::size_t k = 0; k < folds; ++k) {
-    std::vector<std::size_t> others = data.runs;
-    const std::size_t at = k * data.runs.size() / folds;
-    const std::size_t left_out = others[at];
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(at));
-    const Fit fit = fit_on(others);
-    if (!fit.Usable()) return {};
-    ModelState state = fit.state;
-    CopyRun(data.forward->Declared(), left_out, state);
-    state = Aligned(data, state, left_out, options);
-    const double squares = SquaresOf(data, state, {left_out}, options);
-    const auto n = static_cast<double>((*data.observed)[left_out].rows());
-    score +=
-        n * std::log(std::max(squares / n, 1.0)) + OwnNumbers(data, fit, left_out) * std::log(n);
-    squares_pa2 += n * std::pow(PressureRms(data, state, {left_out}, options), 2);
-    samples += n;
-  }
-  return {score, std::sqrt(squares_pa2 / samples)};
+Fold LeftOut(const FitData& data, std::size_t k, const FitOn& fit_on, const FitOptions& options) {
+  FitData others = data;
+  const std::size_t at = k * data.runs.size() / Folds(data);
+  const std::size_t left_out = others.runs[at];
+  others.runs.erase(others.runs.begin() + static_cast<std::ptrdiff_t>(at));
+  const Fit fit = fit_on(others);
+  if (!fit.Usable()) return {};
+  ModelState state = fit.state;
+  CopyRun(data.forward->Declared(), left_out, state);
+  state = Aligned(data, state, left_out, options);
+  const double squares = SquaresOf(data, state, {left_out}, options);
+  const auto n = static_cast<double>((*data.observed)[left_out].rows());
+  return {n * std::log(std::max(squares / n, 1.0)) + OwnNumbers(data, fit, left_out) * std::log(n),
+          n * std::pow(PressureRms(data, state, {left_out}, options), 2), n};
 }
 
-Unseen LeftOutWithout(const FitData& data, const ModelState& base, const FitOptions& options) {
-  return LeftOut(
-      data,
-      [&](const std::vector<std::size_t>& runs) {
-        FitData others = data;
-        others.runs = runs;
-        return FitModel(others, base, options);
-      },
-      options);
+Unseen Together(std::span<const Fold> folds) {
+  Fold sum{0.0, 0.0, 0.0};
+  for (const Fold& fold : folds) {
+    if (!std::isfinite(fold.score)) return {};
+    sum.score += fold.score, sum.squares_pa2 += fold.squares_pa2, sum.samples += fold.samples;
+  }
+  return {sum.score, std::sqrt(sum.squares_pa2 / sum.samples)};
 }
 
 void Polish(const FitData& data, const FitOptions& quick, Attempt& attempt) {
@@ -253,37 +251,56 @@ void Polish(const FitData& data, const FitOptions& quick, Attempt& attempt) {
   attempt.fit = std::move(fit);
 }
 
+// How the model without a term and each finalist predict runs that are left out, in this order.
+std::vector<Unseen> JudgeUnseen(const FitData& data, const ModelState& base,
+                                std::span<const Attempt> finalists, const FitOptions& options) {
+  const std::size_t folds = Folds(data);
+  std::vector<Fold> found((1 + finalists.size()) * folds);
+  ForAll(found.size(), options.threads, [&](std::size_t i) {
+    FitOptions each = options;
+    each.threads = ThreadsWithin(i, found.size(), options.threads);
+    ModelState start = base;
+    if (i >= folds) {
+      const ModelState& with_term = finalists[i / folds - 1].fit.state;
+      start.effects.push_back(with_term.effects.back());
+      start.phase_rad = with_term.phase_rad;
+      start.late_s = with_term.late_s;
+    }
+    found[i] = LeftOut(
+        data, i % folds, [&](const FitData& others) { return FitModel(others, start, each); },
+        each);
+  });
+  std::vector<Unseen> unseen;
+  for (std::size_t i = 0; i < found.size(); i += folds)
+    unseen.push_back(Together(std::span(found).subspan(i, folds)));
+  return unseen;
+}
+
 // Candidates by BIC, the finalists among them judged on runs left out, as the model `without`.
 const Attempt* Choose(const FitData& data, const Fit& established, const ModelState& base,
                       std::vector<Attempt>& attempts, const FitOptions& options, Unseen& without) {
   std::stable_sort(attempts.begin(), attempts.end(),
                    [](const Attempt& a, const Attempt& b) { return a.score < b.score; });
-  const auto gains = [&](const Attempt& attempt) {
-    return attempt.score < Score(established) - kGain;
-  };
-  if (attempts.empty() || !gains(attempts.front())) return nullptr;
-  if (data.runs.size() < 2) {
-    Polish(data, options, attempts.front());
-    return &attempts.front();
-  }
+  const auto first_without_gain = std::find_if(
+      attempts.begin(), attempts.end(),
+      [&](const Attempt& attempt) { return !(attempt.score < Score(established) - kGain); });
+  attempts.erase(first_without_gain, attempts.end());
+  attempts.resize(std::min(data.runs.size() < 2 ? 1 : kFinalists, attempts.size()));
+  ForAll(attempts.size(), options.threads, [&](std::size_t k) {
+    FitOptions each = options;
+    each.threads = ThreadsWithin(k, attempts.size(), options.threads);
+    Polish(data, each, attempts[k]);
+  });
+  if (attempts.empty() || data.runs.size() < 2) return attempts.empty() ? nullptr : &attempts[0];
+  const std::vector<Unseen> unseen = JudgeUnseen(data, base, attempts, options);
+  without = unseen[0];
   const Attempt* best = nullptr;
-  without = LeftOutWithout(data, base, options);
   double least = without.score;
-  for (std::size_t k = 0; k < std::min(kFinalists, attempts.size()); ++k) {
-    Attempt& attempt = attempts[k];
-    if (!gains(attempt)) break;
-    Polish(data, options, attempt);
-    ModelState start = base;
-    start.effects.push_back(attempt.fit.state.effects.back());
-    start.phase_rad = attempt.fit.state.phase_rad;
-    start.late_s = attempt.fit.state.late_s;
-    attempt.left_out = LeftOut(
-        data,
-        [&](const std::vector<std::size_t>& runs) { return FitTerm(data, runs, {start}, options); },
-        options);
+  for (std::size_t k = 0; k < attempts.size(); ++k) {
+    attempts[k].left_out = unseen[k + 1];
     // Of those that predict alike the first, which fits better.
-    if (attempt.left_out.score < least - (best ? kGain : 0.0))
-      least = attempt.left_out.score, best = &attempt;
+    if (unseen[k + 1].score < least - (best ? kGain : 0.0))
+      least = unseen[k + 1].score, best = &attempts[k];
   }
   return best;
 }

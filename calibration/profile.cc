@@ -25,7 +25,6 @@ class Side {
   Side(const FitData& data, const Fit& fit, const Eigen::MatrixXd& covariance, double inflation,
        const FitOptions& options, Eigen::Index j, double sign)
       : data_(data), fit_(fit), covariance_(covariance), options_(options), j_(j), sign_(sign) {
-    options_.threads = 1;
     options_.weight = 1.0 / inflation;
     options_.iterations_max = kIterations;
     options_.function_tolerance = kFunctionTolerance;
@@ -120,8 +119,10 @@ void ProfileIntervals(const FitData& data, const Fit& fit, const Eigen::MatrixXd
   }
   std::vector<std::optional<double>> edges(2 * profiled.size());
   ForAll(edges.size(), options.threads, [&](std::size_t k) {
+    FitOptions each = options;
+    each.threads = ThreadsWithin(k, edges.size(), options.threads);
     const auto j = static_cast<Eigen::Index>(profiled[k / 2]);
-    edges[k] = Side(data, fit, covariance, inflation, options, j, k % 2 == 0 ? -1.0 : 1.0).Edge();
+    edges[k] = Side(data, fit, covariance, inflation, each, j, k % 2 == 0 ? -1.0 : 1.0).Edge();
   });
   for (std::size_t k = 0; k < profiled.size(); ++k) {
     const Coordinate& coordinate = fit.coordinates[profiled[k]];
