@@ -13,6 +13,7 @@ namespace plenum::calibration {
 namespace {
 
 constexpr std::size_t kReweighed = 6;
+constexpr double kNear = 20.0;      // of BIC, were the priors free
 constexpr double kFixedBic = 0.01;  // by how much less the last step may change it
 
 // Σ e_i·e_{i−k} by lag k: the inverse transform of |ê|², with as many zeros behind e that no lag
@@ -63,6 +64,10 @@ void Reweigh(const FitData& data, const FitOptions& options, double memory,
       return BicWith(a->fit, memory) < BicWith(b->fit, memory);
     });
     best.resize(std::min(best.size(), kReweighed));
+    std::erase_if(best, [goal = best.empty() ? 0.0 : BicWith(best.front()->fit, memory),
+                         memory](const Contender* contender) {
+      return BicWith(contender->fit, memory) - contender->fit.chi2_prior > goal + kNear;
+    });
     ForAll(best.size(), options.threads, [&](std::size_t i) {
       Contender& contender = *best[i];
       FitOptions weighed = options;

@@ -26,7 +26,8 @@ double MemoryOf(std::span<const std::vector<double>> series);
 // BIC of a fit whose residuals are worth 1/memory of their number.
 double BicWith(const Fit& fit, double memory);
 
-// Fits the base model and the best few of each size again with that weight.
+// Fits the base model and the best few of each size again with that weight, where less weight may
+// make one the best.
 void Reweigh(const FitData& data, const FitOptions& options, double memory,
              std::vector<Contender>& contenders);
 
