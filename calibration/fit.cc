@@ -68,11 +68,11 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
 }
 
 void AddCosts(const FitData& data, const ModelState& start, const FitOptions& options,
-              const std::vector<Coordinate>& coordinates, double* u, RunsAtOnce& runs,
-              ceres::Problem& problem) {
+              const std::vector<Coordinate>& coordinates, const StepsLeft& steps, double* u,
+              RunsAtOnce& runs, ceres::Problem& problem) {
   for (const std::size_t run : data.runs) {
-    auto* cost =
-        new RunCost(data, run, start, coordinates, OptionsOf(data, run, options), options.weight);
+    auto* cost = new RunCost(data, run, start, coordinates, OptionsOf(data, run, options),
+                             options.weight, &steps);
     runs.Add(cost);
     problem.AddResidualBlock(cost, nullptr, u);
   }
@@ -231,7 +231,8 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
     problem.SetParameterLowerBound(fit.u.data(), static_cast<int>(j), coordinate.low);
     problem.SetParameterUpperBound(fit.u.data(), static_cast<int>(j), coordinate.high);
   }
-  AddCosts(data, start, options, fit.coordinates, fit.u.data(), runs, problem);
+  StepsLeft steps(options.iterations_max);
+  AddCosts(data, start, options, fit.coordinates, steps, fit.u.data(), runs, problem);
 
   StopWhenCancelled stop(options.cancelled);
   ceres::Solver::Options solver;
@@ -245,7 +246,7 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   // at a bound, and in a valley, no length of it does.
   solver.max_num_line_search_step_size_iterations = 0;
   solver.logging_type = ceres::SILENT;
-  solver.callbacks.push_back(&stop);
+  solver.callbacks = {&stop, &steps};
   const BoundedSolution solution = SolveWithinBounds(solver, problem, fit.u);
 
   const bool cancelled = options.cancelled && options.cancelled();

@@ -51,11 +51,12 @@ ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coord
 
 RunCost::RunCost(const FitData& data, std::size_t run, const ModelState& start,
                  const std::vector<Coordinate>& coordinates, const PredictOptions& options,
-                 double weight)
+                 double weight, const StepsLeft* steps)
     : data_(data),
       run_(run),
       start_(start),
       coordinates_(coordinates),
+      steps_(steps),
       options_(options),
       scale_(std::sqrt(weight)) {
   for (const Coordinate& coordinate : coordinates) parameters_.push_back(coordinate.parameter);
@@ -66,7 +67,8 @@ RunCost::RunCost(const FitData& data, std::size_t run, const ModelState& start,
 void RunCost::Prepare(const double* at, bool derive) const {
   const Eigen::Map<const Eigen::VectorXd> u(at, size());
   if (root_.At(u)) return;
-  if (derive)
+  const bool unused = steps_ && steps_->Last() && root_.value.size() > 0;
+  if (derive && !unused)
     root_ = {u, RootAt(at)};
   else if (!norm_.At(u))
     norm_ = {u, NormAt(at)};
@@ -76,16 +78,16 @@ bool RunCost::Evaluate(double const* const* blocks, double* residuals, double** 
   const bool derive = jacobians && jacobians[0];
   Prepare(blocks[0], derive);
   Eigen::Map<Eigen::VectorXd> rows(residuals, num_residuals());
-  if (!root_.At({blocks[0], size()})) {
+  if (root_.At({blocks[0], size()})) {
+    if (root_.value.size() == 0) return false;
+    rows = root_.value.rightCols<1>();
+  } else {
     rows.setZero();
     rows[0] = norm_.value;
-    return std::isfinite(rows[0]);
   }
-  if (root_.value.size() == 0) return false;
-  rows = root_.value.rightCols<1>();
   if (derive)
     Eigen::Map<Matrix>(jacobians[0], num_residuals(), size()) = root_.value.leftCols(size());
-  return true;
+  return std::isfinite(rows[0]);
 }
 
 Prediction RunCost::Predict(const double* u, std::span<const Parameter> parameters) const {

@@ -4,6 +4,7 @@
 
 #include <ceres/cost_function.h>
 #include <ceres/evaluation_callback.h>
+#include <ceres/iteration_callback.h>
 
 #include <Eigen/Core>
 #include <chrono>
@@ -20,18 +21,34 @@ PredictOptions OptionsOf(const FitData& data, std::size_t run, const FitOptions&
 ModelState StateAt(const ModelState& start, const std::vector<Coordinate>& coordinates,
                    const double* u);
 
+// Counts the steps that a search has made, over all its laps.
+class StepsLeft : public ceres::IterationCallback {
+ public:
+  explicit StepsLeft(int steps_max) : left_(steps_max) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
+    if (step.iteration > 0) --left_;
+    return ceres::SOLVER_CONTINUE;
+  }
+  // Of a step that is being made: whether none may follow.
+  bool Last() const { return left_ <= 1; }
+
+ private:
+  int left_;
+};
+
 // One run over all k coordinates as one block of k + 1 rows. The search needs of the residuals e
 // and their derivatives J only JᵀJ, Jᵀe and eᵀe, so that the rows are R of [J e] = Q·R, which has
 // the same products and none of the readings' number; without derivatives the one row |e|. A step
 // is asked for twice at one point — for its cost, and for the derivatives there — and simulated
-// once without derivatives, and once with them where it is taken. A run that turned out stiff is
-// taken to stay so: the explicit method is not tried again.
+// once without derivatives, and once with them where it is taken: unless no step is to follow, when
+// Ceres gets those of the point before, and uses none. A run that turned out stiff is taken to stay
+// so: the explicit method is not tried again.
 class RunCost : public ceres::CostFunction {
  public:
   // References must outlive it.
   RunCost(const FitData& data, std::size_t run, const ModelState& start,
           const std::vector<Coordinate>& coordinates, const PredictOptions& options,
-          double weight = 1.0);
+          double weight = 1.0, const StepsLeft* steps = nullptr);
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override;
   // Simulates the run there, unless that is known.
   void Prepare(const double* u, bool derive) const;
@@ -58,6 +75,7 @@ class RunCost : public ceres::CostFunction {
   std::size_t run_;
   const ModelState& start_;
   const std::vector<Coordinate>& coordinates_;
+  const StepsLeft* steps_;
   std::vector<Parameter> parameters_;
   mutable PredictOptions options_;
   double scale_;                         // of the residuals

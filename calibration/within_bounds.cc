@@ -111,6 +111,8 @@ BoundedSolution SolveWithinBounds(ceres::Solver::Options solver, ceres::Problem&
     const bool at_bound = lap.termination_type == ceres::USER_SUCCESS;
     if (!at_bound && lap.termination_type != ceres::CONVERGENCE) return solution;
     solver.max_num_iterations -= static_cast<int>(lap.iterations.size()) - 1;
+    if (at_bound && solver.max_num_iterations <= 0)
+      return {ceres::NO_CONVERGENCE, solution.message, solution.cost};
     std::vector<int> pressed = Pressed(problem, u);
     const bool gained =
         lap.initial_cost - lap.final_cost > solver.function_tolerance * lap.final_cost;
