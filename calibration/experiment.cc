@@ -1,6 +1,7 @@
 #include "calibration/experiment.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -16,7 +17,8 @@ namespace {
 constexpr double kSpread = 0.5;  // a shorter run may be worth this share of the best
 constexpr std::size_t kRehearsals = 3;
 constexpr double kWorthMore = 0.5;  // of a pair: faster samples and a further channel
-constexpr double kBends = 4.0;      // Δχ² to first order over that of a full fit, at the most
+constexpr double kEnough = 1e-5;  // change of χ² that ends a rival's fit: a twentieth of BIC or so
+constexpr double kBends = 4.0;    // Δχ² to first order over that of a full fit, at the most
 constexpr double kRates[] = {1.0, 4.0};  // of sampling, against that of the data
 constexpr const char* kPressure = "pressure_kpa_gauge";
 constexpr int kProbeSamples = 400;
@@ -215,8 +217,8 @@ class Designer {
   }
 
   // The pair that a run parts least, the rivals fitted in full: one that bends further than the
-  // first order sees may come nearer than the one that seemed nearest. Ends with the first pair
-  // that it parts by less than `enough_bic`.
+  // first order sees may come nearer than the one that seemed nearest. None where it parts
+  // one by less than `enough_bic`.
   std::optional<Experiment> Rehearsed(const Rated& rated, const std::string& signal, double rate,
                                       double enough_bic) const {
     const ExtendedData extended(dataset(), rated.proposal.run, false);
@@ -229,23 +231,29 @@ class Designer {
     }
     const std::vector<std::string>& names = rated.worth.names;
     const auto found = std::find(names.begin(), names.end(), signal);
-    std::optional<Experiment> least;
-    double least_chi2 = std::numeric_limits<double>::infinity();
-    for (const PairWorth& pair : rated.worth.pairs[found - names.begin()]) {
-      if (Cancelled() || pair.delta_chi2 > kBends * least_chi2) break;
-      least_chi2 = std::min(least_chi2, pair.delta_chi2);
-      std::optional<Experiment> experiment = Refitted(rated, pair, shown, signal, rate);
-      if (!experiment) return {};
-      if (!least || experiment->expected_delta_bic < least->expected_delta_bic)
-        least = std::move(experiment);
-      if (least->expected_delta_bic < enough_bic) break;
-    }
-    return least;
+    const std::vector<PairWorth>& pairs = rated.worth.pairs[found - names.begin()];
+    const auto far = std::find_if(pairs.begin(), pairs.end(), [&](const PairWorth& pair) {
+      return pair.delta_chi2 > kBends * pairs.front().delta_chi2;
+    });
+    std::vector<std::optional<Experiment>> refitted(far - pairs.begin());
+    std::atomic<bool> ended = false;
+    ForAll(refitted.size(), options_.threads, [&](std::size_t i) {
+      if (ended || Cancelled()) return;
+      const int threads = ThreadsWithin(i, refitted.size(), options_.threads);
+      refitted[i] = Refitted(rated, pairs[i], shown, signal, rate, threads);
+      if (!refitted[i] || refitted[i]->expected_delta_bic < enough_bic) ended = true;
+    });
+    if (ended || std::find(refitted.begin(), refitted.end(), std::nullopt) != refitted.end())
+      return {};
+    return std::move(
+        *std::min_element(refitted.begin(), refitted.end(), [](const auto& a, const auto& b) {
+          return a->expected_delta_bic < b->expected_delta_bic;
+        }));
   }
 
   std::optional<Experiment> Refitted(const Rated& rated, const PairWorth& pair,
                                      const std::vector<Prediction>& shown,
-                                     const std::string& signal, double rate) const {
+                                     const std::string& signal, double rate, int threads) const {
     const std::size_t truth = pair.truth, rival = pair.rival;
     ExtendedData extended(dataset(), rated.proposal.run, true);
     Run& run = extended.dataset.runs.back();
@@ -269,7 +277,7 @@ class Designer {
     data.observed = &observed;
     data.runs.push_back(extended.run());
     const Fit& before = *tied_[rival].fit;
-    const Fit refit = LeastOf(data, StartsOf(extended.With(before.state)));
+    const Fit refit = LeastOf(data, StartsOf(extended.With(before.state)), threads);
     if (!refit.Usable()) return {};
     const Reading answer = Predicted(data, refit.state, extended.run(), options_);
     if (answer.pressure_pa.size() != run.pressure_pa.size()) return {};
@@ -307,15 +315,16 @@ class Designer {
   }
 
   // As exactly as a ΔBIC needs.
-  Fit LeastOf(const FitData& data, const std::vector<ModelState>& starts) const {
+  Fit LeastOf(const FitData& data, const std::vector<ModelState>& starts, int threads) const {
     const auto chi2 = [](const Fit& fit) { return fit.chi2_data + fit.chi2_prior; };
     FitOptions enough;
+    enough.function_tolerance = kEnough;
     enough.steps_max = options_.steps_max;
     enough.cancelled = options_.cancelled;
     std::vector<Fit> fits(starts.size());
-    ForAll(starts.size(), options_.threads, [&](std::size_t i) {
+    ForAll(starts.size(), threads, [&](std::size_t i) {
       FitOptions each = enough;
-      each.threads = ThreadsWithin(i, starts.size(), options_.threads);
+      each.threads = ThreadsWithin(i, starts.size(), threads);
       fits[i] = FitModel(data, starts[i], each);
     });
     Fit least;
