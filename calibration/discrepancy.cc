@@ -291,7 +291,8 @@ const Attempt* Choose(const FitData& data, const Fit& established, const ModelSt
     each.threads = ThreadsWithin(k, attempts.size(), options.threads);
     Polish(data, each, attempts[k]);
   });
-  if (attempts.empty() || data.runs.size() < 2) return attempts.empty() ? nullptr : &attempts[0];
+  if (attempts.empty()) return nullptr;
+  if (data.runs.size() < 2) return &attempts.front();
   const std::vector<Unseen> unseen = JudgeUnseen(data, base, attempts, options);
   without = unseen[0];
   const Attempt* best = nullptr;

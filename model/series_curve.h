@@ -7,25 +7,29 @@
 #define PLENUM_MODEL_SERIES_CURVE_H_
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "model/series.h"
 
 namespace plenum::model {
 
-// Of the flow, relative, of lines of 2 to 5 elements with conductances within 1 : 100; a hundredth
-// of it in nine lines of ten.
+// Of the flow, relative, at most; a hundredth of it in nine lines of ten.
 inline constexpr double kCurveError = 1e-6;
 
 class SeriesCurve {
  public:
-  explicit SeriesCurve(const Series& series);
+  // None where it would be off by more, halfway between its points: rare, with high critical
+  // ratios.
+  static std::optional<SeriesCurve> Of(const Series& series);
 
   // c at a ratio from the choked one to 1. Remembers the place: ratios that follow each other are
   // found at once, and an object serves one run at a time.
   double CosineAt(double ratio);
 
  private:
+  explicit SeriesCurve(const Series& series);
+
   struct Point {
     double ratio, slope;  // dc/dr
   };

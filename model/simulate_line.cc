@@ -129,7 +129,8 @@ T Line<T>::LiftFlow(double flow, const T& upstream_pa, const T& downstream_pa) c
 template <class T>
 double Line<T>::CosineOf(double ratio) const {
   if (curve_) return curve_->CosineAt(ratio);
-  if (options_.tolerance >= kCurveError && ++solved_ == kSolvedOneByOne) curve_.emplace(series_);
+  if (options_.tolerance >= kCurveError && ++solved_ == kSolvedOneByOne)
+    curve_ = SeriesCurve::Of(series_);
   // The ratio moves little from call to call: the last solution leads to the next.
   const double guess = last_.cosine + last_.slope * (ratio - last_ratio_);
   if (guess > 1e-3 && guess < 1.0)
