@@ -9,7 +9,7 @@
 //   while (…) stepper.Step(rhs, step_max, norm);  // norm(y0, y1, error) ≤ 1 accepts
 //
 // Memory is taken once, by the constructor. A norm that is not finite counts as a rejection. With
-// T = Dual time and state carry derivatives; the sizes of the steps are chosen by the values alone.
+// T = Dual time and state carry derivatives; the norm sees them, too.
 #ifndef PLENUM_MODEL_DORMAND_PRINCE_H_
 #define PLENUM_MODEL_DORMAND_PRINCE_H_
 

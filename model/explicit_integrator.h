@@ -84,10 +84,12 @@ class OneStepIntegrator {
   static constexpr double kStabilityBound = 3.25;  // on the real axis
   static constexpr double kFastMode = 0.6;         // a radian of a ringing one is about the bound
 
-  // Values at rest ask for no step, however long; derivatives that are not at rest would then grow
-  // beyond the bound of an explicit method's stability, with nothing in the values to tell.
+  // Values at rest ask for no step, however long, and values that move slowly for long ones:
+  // derivatives would then grow beyond the bound of an explicit method's stability, with nothing in
+  // the values to tell. So much a step may err by, as a share of the largest so far; less where the
+  // values rest, since then they alone choose the steps.
   static constexpr double kAtRest = 1e-4;
-  static constexpr double kDerivativeShare = 1e-4;  // of the largest so far, that a step may err by
+  static constexpr double kDerivativeShare = 1e-2, kDerivativeShareAtRest = 1e-4;
   // Below this share of what moves most along a direction, each by its size, derivatives are
   // rounding: no step, however short, makes their errors smaller.
   static constexpr double kRounding = 1e-9;
@@ -103,11 +105,13 @@ class OneStepIntegrator {
       norm = std::max(norm, share);
     }
     if constexpr (kIsDual<T> && !Stepper::kStable) {
-      if (norm < kAtRest) norm = std::max(norm, DerivativeNorm(error));
+      const double share = norm < kAtRest ? kDerivativeShareAtRest : kDerivativeShare;
+      norm = std::max(norm, DerivativeNorm(error) / share);
     }
     return norm;
   }
 
+  // The largest error of a derivative, as a share of the largest so far.
   double DerivativeNorm(std::span<const T> error) const {
     Derivatives moves = Derivatives::Zero();
     for (std::size_t i = 0; i < error.size(); ++i) moves = moves.cwiseMax(largest_[i] / Size(i));
@@ -115,8 +119,7 @@ class OneStepIntegrator {
     for (std::size_t i = 0; i < error.size(); ++i) {
       const Derivatives size = largest_[i].cwiseMax(kRounding * Size(i) * moves);
       for (int k = 0; k < kDirectionsOf<T>; ++k)
-        if (largest_[i][k] > 0.0)
-          norm = std::max(norm, std::abs(error[i].v[k]) / (kDerivativeShare * size[k]));
+        if (largest_[i][k] > 0.0) norm = std::max(norm, std::abs(error[i].v[k]) / size[k]);
     }
     return norm;
   }

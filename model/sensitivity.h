@@ -19,11 +19,12 @@
 //   * a number on the border of two behaviours (a reservoir that starts at the stop pressure, b on
 //     a choked ratio at the very start): the derivative of the behaviour taken.
 //   * samples at the instant of an event: the derivative of one side.
-// The error control sees the values alone: the derivatives are those of the computed solution, and
-// come to the true ones with the tolerance. Measured against CVODES, as a share of the largest
-// derivative in the run: 1e-5 at a relative tolerance of 1e-11, up to 1e-3 at the default 1e-8
-// where a leak or creep goes on at equal pressures. Stiff rigs go on with a linearly implicit
-// method of order 3 (model/rosenbrock.h), whose steps are more for the same tolerance.
+// The error control sees the values, and of the derivatives only that none grows where a step is
+// too long for the explicit method: they are those of the computed solution, and come to the true
+// ones with the tolerance. Measured against CVODES, as a share of the largest derivative in the
+// run: 1e-5 at a relative tolerance of 1e-11, up to 1e-3 at the default 1e-8 where a leak or creep
+// goes on at equal pressures. Stiff rigs go on with a linearly implicit method of order 3
+// (model/rosenbrock.h), whose steps are more for the same tolerance.
 #ifndef PLENUM_MODEL_SENSITIVITY_H_
 #define PLENUM_MODEL_SENSITIVITY_H_
 

@@ -515,6 +515,33 @@ TEST(Sensitivity, OfALaggingReadingAtRestDecaysWithThePressure) {
   }
 }
 
+// While the chamber vents to its end, loose tolerances ask for steps that are too long for what a
+// line does within them. No derivative may grow there.
+TEST(Sensitivity, OfALineAtALooseToleranceStaysAtThoseOfATightOne) {
+  for (int draw = 0; draw < 20; ++draw) {
+    GroupRig group = TwoElements();
+    group.effects = {{FindEffect("line_dynamics"), {0.3 + 0.04 * draw, 2.3e-3}}};
+    group.schedule = {{0.5, ValveState::kInflate},
+                      {1.0, ValveState::kHold},
+                      {2.0, ValveState::kDeflate},
+                      {6.5, ValveState::kHold}};
+    const Rig rig = RigOf(Regulated(3.8e5), {group});
+    SimulateOptions options = Until(7.0, 50.0);
+    options.integrator = Integrator::kDamped;
+    const double* by = &rig.groups[0].initial_pressure_pa;
+    options.relative_tolerance = 1e-8;
+    const SensitivityResponse tight = SimulateWithSensitivities(rig, options, {&by, 1});
+    options.relative_tolerance = 3e-5;
+    options.absolute_tolerance_pa = 0.3;
+    const SensitivityResponse loose = SimulateWithSensitivities(rig, options, {&by, 1});
+    ASSERT_EQ(loose.response.status, SimulateStatus::kDone) << loose.response.detail;
+    for (std::size_t i = 0; i < loose.response.t_s.size(); ++i)
+      ASSERT_NEAR(loose.derivatives[0].groups[0].pressure_pa[i],
+                  tight.derivatives[0].groups[0].pressure_pa[i], 0.03)
+          << "draw " << draw << ", t " << loose.response.t_s[i] << " s";
+  }
+}
+
 // A closed chamber keeps its pressures at any size: their derivatives by it are rounding, which no
 // step, however short, makes smaller.
 TEST(Sensitivity, OfWhatIsNothingButRoundingAsksForNoShorterSteps) {
