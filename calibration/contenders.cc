@@ -21,7 +21,8 @@ constexpr int kScreeningIterations = 12;
 // beyond the smaller set, the very best, and single effects that do worse than the base model,
 // which they can all but be: their steps so far say nothing of them, and they are given more.
 constexpr int kFirstLook = 5;
-constexpr double kLoosely = 1e-4;  // of the operating pressure
+constexpr double kRoughly = 3.0;   // and so much less, what does not ring
+constexpr double kLoosely = 1e-4;  // of the operating pressure, at the most
 constexpr double kHopeful = 0.5;
 constexpr std::size_t kAlwaysOn = 6;
 constexpr double kNear = 20.0;       // of BIC
@@ -69,14 +70,15 @@ FitOptions Contenders::Screening() const {
   return options;
 }
 
-// Integrates as exactly as the best smaller set fits, since much is yet to be explained.
-FitOptions Contenders::FirstLook(std::size_t size) const {
+// Integrates only as exactly as the best smaller set fits, since much is yet to be explained.
+FitOptions Contenders::FirstLook(const EffectSet& set) const {
   FitOptions options = Screening();
   options.iterations_max = kFirstLook;
-  const std::optional<std::size_t> smaller = Best(static_cast<int>(size) - 1);
+  const std::optional<std::size_t> smaller = Best(static_cast<int>(set.size()) - 1);
   if (!smaller) return options;
   const Fit& fit = list[*smaller].fit;
   options.noise_share *= std::sqrt(std::max(1.0, fit.chi2_data / static_cast<double>(fit.rows)));
+  if (!AnyRings(set)) options.noise_share *= kRoughly;
   options.tolerance_loosest = kLoosely;
   return options;
 }
@@ -177,7 +179,7 @@ const std::vector<model::Effect>& Contenders::StartsBeside(const Contender& from
                                                            const model::EffectSpec* spec) {
   for (const Starts& known : starts_)
     if (known.size == from.effects.size() && known.starts.front().spec == spec) return known.starts;
-  FitOptions options = FirstLook(from.effects.size() + 1);
+  FitOptions options = FirstLook(With(from.effects, spec));
   options.threads = options_->threads;
   starts_.push_back({from.effects.size(), ScannedStarts(data, from.fit, *spec, options)});
   return starts_.back().starts;
@@ -190,23 +192,27 @@ void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_sh
   for (Job& job : jobs) all.push_back(&job);
   const double middle = 0.5 * (from_share + to_share);
   const std::size_t size = jobs.front().set.size();
-  Continue(all, FirstLook(size), from_share, middle, what);
+  Continue(
+      all, [&](const Job& job) { return FirstLook(job.set); }, from_share, middle, what);
   FitOptions rest = Screening();
   rest.iterations_max -= kFirstLook;
-  Continue(Hopeful(all, goal), rest, middle, to_share, what);
+  Continue(
+      Hopeful(all, goal), [&](const Job&) { return rest; }, middle, to_share, what);
   std::erase_if(all, [](const Job* job) { return !IsLost(*job); });
-  Continue(all, Screening(), to_share, to_share, what);
+  Continue(
+      all, [&](const Job&) { return Screening(); }, to_share, to_share, what);
   for (Job& job : jobs) Take(std::move(job));
   Refine(static_cast<int>(size), goal);
 }
 
-void Contenders::Continue(const std::vector<Job*>& jobs, const FitOptions& options,
+void Contenders::Continue(const std::vector<Job*>& jobs,
+                          const std::function<FitOptions(const Job&)>& options_of,
                           double from_share, double to_share, const std::string& what) {
   std::atomic<std::size_t> done = 0;
   std::mutex reporting;
   ForAll(jobs.size(), options_->threads, [&](std::size_t i) {
     if (Cancelled()) return;
-    FitOptions each = options;
+    FitOptions each = options_of(*jobs[i]);
     each.threads = ThreadsWithin(i, jobs.size(), options_->threads);
     Fit fit = FitModel(data, jobs[i]->start, each);
     if (fit.Usable()) jobs[i]->start = fit.state;
@@ -275,7 +281,7 @@ void Contenders::FitTight(const std::vector<Contender*>& contenders) const {
 
 // The lengths at which the line may ring in step race: some steps of each, more of those that lead,
 // and the best one to the last digit. Where that is clearly better there may be more.
-void Contenders::FitInStep(Contender& contender) {
+void Contenders::FitInStep(Contender& contender, double goal) {
   FitOptions scan = Screening();
   scan.threads = options_->threads;
   const std::pair<FitOptions, std::size_t> laps[] = {
@@ -284,15 +290,18 @@ void Contenders::FitInStep(Contender& contender) {
     std::vector<Fit> fits;
     for (ModelState& start : ScannedAgain(data, contender.fit, scan))
       fits.emplace_back().state = std::move(start);
+    bool hopeful = true;
     for (const auto& [options, left] : laps) {
+      if (!hopeful) break;
       FitModels(options, fits);
+      if (fits.empty() || !fits.front().Usable()) return;
+      hopeful = MayComeTo(goal, fits.front(), contender.fit.bic);
       fits.resize(std::min(fits.size(), left));
     }
-    if (fits.empty() || !fits.front().Usable()) return;
     Narrow(data, Tight(), fits.front());
     const double gain = contender.fit.bic - fits.front().bic;
     if (gain > kSameOptimum) contender.fit = std::move(fits.front());
-    again = gain > kAccept;
+    again = hopeful && gain > kAccept;
   }
 }
 

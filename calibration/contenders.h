@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ struct SearchOptions {
   std::function<void(double, const std::string&)> progress;  // share done, what is under way
   bool clocks_may_be_off = true;                             // each run's, by a part of a sample
 };
+
+inline constexpr double kAnyBic = std::numeric_limits<double>::infinity();
 
 // Two fits whose χ² or BIC are this close are of the same optimum.
 inline constexpr double kSameOptimum = 1.0;
@@ -85,22 +88,23 @@ class Contenders {
   void FitTight(const std::vector<Contender*>& contenders) const;
 
   // Fits a set with an effect that rings again from other lengths of its line (start_scan.h), until
-  // none does clearly better.
-  void FitInStep(Contender& contender);
+  // none does clearly better, or may come to the BIC `goal`.
+  void FitInStep(Contender& contender, double goal = kAnyBic);
 
   bool Cancelled() const { return options_->cancelled && options_->cancelled(); }
   void Report(double share, const std::string& what) const {
     if (options_->progress) options_->progress(share, what);
   }
-  // A few steps of sets of a size; fits that only have to be compared, those that come near the
-  // best, and those that decide.
-  FitOptions FirstLook(std::size_t size) const;
+  // A few steps of a set; fits that only have to be compared, those that come near the best, and
+  // those that decide.
+  FitOptions FirstLook(const EffectSet& set) const;
   FitOptions Screening() const;
   FitOptions Further() const;
   FitOptions Tight() const;
 
  private:
-  void Continue(const std::vector<Job*>& jobs, const FitOptions& options, double from_share,
+  void Continue(const std::vector<Job*>& jobs,
+                const std::function<FitOptions(const Job&)>& options_of, double from_share,
                 double to_share, const std::string& what);
   std::vector<Job*> Hopeful(std::vector<Job*> jobs, std::optional<double> goal) const;
   void Refine(int size, std::optional<double> goal);

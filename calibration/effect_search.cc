@@ -103,8 +103,9 @@ class Search {
   // A line of the wrong length leaves what other effects beside it may take up: before it is called
   // in need of them, its lengths are tried without.
   void FitAlone(const EffectSet& set) {
+    const double goal = sets_.Find(set)->fit.bic;
     for (const Spec spec : set)
-      if (Contender* alone = sets_.Find({spec})) sets_.FitInStep(*alone);
+      if (Contender* alone = sets_.Find({spec})) sets_.FitInStep(*alone, goal);
   }
 
   // Where runs confirm each other the clocks must do better than effects by kClock. In a single run

@@ -59,4 +59,11 @@ bool ActsInTime(const model::EffectSpec& spec) {
   return false;
 }
 
+bool Rings(const model::EffectSpec& spec) { return spec.id == "line_dynamics"; }
+
+bool AnyRings(const EffectSet& set) {
+  return std::any_of(set.begin(), set.end(),
+                     [](const model::EffectSpec* spec) { return Rings(*spec); });
+}
+
 }  // namespace plenum::calibration

@@ -30,6 +30,11 @@ EffectSet NamedEffects(const std::vector<Run>& runs);
 // Effects that shift strokes in time, as a clock does.
 bool ActsInTime(const model::EffectSpec& spec);
 
+// Effects that ring: a simulation less exact damps them, and where they ring in step is all that
+// tells them.
+bool Rings(const model::EffectSpec& spec);
+bool AnyRings(const EffectSet& set);
+
 }  // namespace plenum::calibration
 
 #endif  // PLENUM_CALIBRATION_EFFECT_SETS_H_

@@ -41,8 +41,9 @@ class StepsLeft : public ceres::IterationCallback {
 // the same products and none of the readings' number; without derivatives the one row |e|. A step
 // is asked for twice at one point — for its cost, and for the derivatives there — and simulated
 // once without derivatives, and once with them where it is taken: unless no step is to follow, when
-// Ceres gets those of the point before, and uses none. A run that turned out stiff is taken to stay
-// so: the explicit method is not tried again.
+// Ceres gets those of the point before, and uses none. Derivatives only lead the search and are
+// simulated less exactly; e never is. A run that turned out stiff is taken to stay so: the explicit
+// method is not tried again.
 class RunCost : public ceres::CostFunction {
  public:
   // References must outlive it.
@@ -66,8 +67,7 @@ class RunCost : public ceres::CostFunction {
   Eigen::Index size() const { return static_cast<Eigen::Index>(coordinates_.size()); }
   const ObservedRun& Observed() const { return (*data_.observed)[run_]; }
   Prediction Predict(const double* u, std::span<const Parameter> parameters) const;
-  std::vector<double> ResidualsOf(const Prediction& prediction) const;
-  double NormAt(const double* u) const;
+  std::vector<double> ResidualsAt(const double* u) const;
   Eigen::MatrixXd RootAt(const double* u) const;
   double SlopeOf(Eigen::Index j, const double* u) const;
 
@@ -78,9 +78,10 @@ class RunCost : public ceres::CostFunction {
   const StepsLeft* steps_;
   std::vector<Parameter> parameters_;
   mutable PredictOptions options_;
-  double scale_;                         // of the residuals
-  mutable Known<double> norm_;           // at the last point tried
-  mutable Known<Eigen::MatrixXd> root_;  // at the last point with derivatives
+  double scale_;  // of the residuals
+  // At the last point tried, and at the last with derivatives; empty where the run failed.
+  mutable Known<std::vector<double>> residuals_;
+  mutable Known<Eigen::MatrixXd> root_;
 };
 
 // Prepares the runs on several threads, those first that took longest: they take unlike long, and

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "calibration/effect_sets.h"
 #include "calibration/parallel.h"
 #include "calibration/run_cost.h"
 #include "calibration/thresholds.h"
@@ -26,7 +27,6 @@ constexpr std::size_t kFirstRuns = 3, kOthersShare = 5;
 constexpr double kHopeful = 0.5;  // of what the best point explains
 constexpr double kAbout = 2.5;    // of the length
 constexpr double kBoresAbout[] = {0.92, 1.0, 1.09};
-constexpr const char* kRings = "line_dynamics";
 constexpr double kTolerance = 1e-5;  // at the tightest
 constexpr double kRidge = 1e-10;     // of the diagonal: numbers that nothing depends on
 
@@ -126,8 +126,9 @@ class Scan {
   bool Add(const ModelState& state, std::size_t first, std::size_t step, Terms& terms) const {
     for (std::size_t r = first; r < runs(); r += step) {
       const std::size_t run = data_.runs[r];
-      const Prediction prediction =
-          data_.forward->Predict(run, state, {}, Rough(data_, run, options_));
+      PredictOptions rough = Rough(data_, run, options_);
+      rough.stiff = true;
+      const Prediction prediction = data_.forward->Predict(run, state, {}, rough);
       if (prediction.status != model::SimulateStatus::kDone) return false;
       const Eigen::VectorXd e = ResidualsOf(data_, run, prediction);
       terms.squares += e.squaredNorm();
@@ -235,7 +236,7 @@ Fit WithoutNumbersOf(Fit fit, std::size_t at) {
 
 std::vector<model::Effect> ScannedStarts(const FitData& data, const Fit& without,
                                          const model::EffectSpec& spec, const FitOptions& options) {
-  const Linear linear = spec.id == kRings ? Linearised(data, without, options) : Linear{};
+  const Linear linear = Rings(spec) ? Linearised(data, without, options) : Linear{};
   if (linear.j.empty()) return EffectStarts(spec, data.sizes);
   const Scan scan(data, linear, options);
   // One is enough where none explains what would be accepted.
@@ -254,9 +255,8 @@ std::vector<model::Effect> ScannedStarts(const FitData& data, const Fit& without
 std::vector<ModelState> ScannedAgain(const FitData& data, const Fit& with,
                                      const FitOptions& options) {
   const std::vector<model::Effect>& effects = with.state.effects;
-  const auto rings = std::find_if(effects.begin(), effects.end(), [](const model::Effect& effect) {
-    return effect.spec->id == kRings;
-  });
+  const auto rings = std::find_if(effects.begin(), effects.end(),
+                                  [](const model::Effect& effect) { return Rings(*effect.spec); });
   if (rings == effects.end() || !with.Usable()) return {};
   const auto at = static_cast<std::size_t>(rings - effects.begin());
   const Linear linear = Linearised(data, WithoutNumbersOf(with, at), options);

@@ -80,9 +80,9 @@ TEST(Contenders, NoneIsGivenUpWhileWorseThanWhatItContains) {
 TEST(Contenders, WhatCannotComeToItsGoalIsNotTakenFurther) {
   const Bench bench(test::MeasuredBench(
       [](test::EffectRig& rig) {
-        rig.leak = test::OrificeLeak{6e-12, 0.3};
+        rig.leak = test::OrificeLeak{3e-11, 0.3};
       },
-      22));
+      29));
   const SearchOptions options;
   Contenders without(bench.data, options), with(bench.data, options);
   const EffectSet named = NamedEffects(bench.dataset.runs);
