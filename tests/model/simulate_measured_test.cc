@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "model/sensitivity.h"
@@ -82,6 +83,31 @@ TEST(DrivenSource, ABriefRiseLongAfterTheValveSettledIsNotPassedOver) {
   EXPECT_GT(p[60] - p[49], 0.1 * 1e5 * 0.1e-8 / 50e-6 * 1.5e5 * 0.02);
   EXPECT_LT(p[60] - p[49], 1e5 * 0.1e-8 / 50e-6 * 1.8e5 * 0.02);
   EXPECT_NEAR(p[100], p[60], 1e-3);
+}
+
+// A record that follows its sensor's noise, with a dip at each stroke.
+TEST(DrivenSource, BendsOfNoiseDoNotHoldTheStepsOfARoughRun) {
+  GroupRig group = ValveAndTube();
+  group.schedule = {{0.5, kInflate}, {3.0, kDeflate}, {5.0, kInflate}};
+  DrivenSource source;
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise_pa(0.0, 40.0);
+  for (int k = 0; k < 400; ++k) {
+    const double t_s = 0.02 * k, since_s = std::fmod(t_s + 4.0, 4.5);
+    source.time_s.push_back(t_s);
+    source.pressure_pa.push_back(3e5 - 1e4 * std::exp(-since_s / 0.4) + noise_pa(random));
+  }
+  const Rig rig = RigOf(source, {group});
+  SimulateOptions options = Until(7.9, 100.0);
+  const Response exact = Simulate(rig, options);
+  options.relative_tolerance = 1e-4;
+  options.absolute_tolerance_pa = 1.0;
+  const Response rough = Simulate(rig, options);
+  ASSERT_EQ(rough.status, SimulateStatus::kDone) << rough.detail;
+  EXPECT_GT(exact.steps, 300u);
+  EXPECT_LT(rough.steps, 150u);
+  for (std::size_t k = 0; k < exact.t_s.size(); ++k)
+    EXPECT_NEAR(rough.groups[0].pressure_pa[k], exact.groups[0].pressure_pa[k], 40.0) << k;
 }
 
 TEST(SimulateSamples, MayBeUnevenAndShareAnInstant) {
