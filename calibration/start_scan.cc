@@ -28,7 +28,9 @@ constexpr double kHopeful = 0.5;  // of what the best point explains
 constexpr double kAbout = 2.5;    // of the length
 constexpr double kBoresAbout[] = {0.92, 1.0, 1.09};
 constexpr double kTolerance = 1e-5;  // at the tightest
-constexpr double kRidge = 1e-10;     // of the diagonal: numbers that nothing depends on
+// Of one run: what rings faster than its readings show takes most, and no length keeps it in step.
+constexpr std::size_t kStepsMax = 1'000;
+constexpr double kRidge = 1e-10;  // of the diagonal: numbers that nothing depends on
 
 std::vector<double> Lengths(double step) {
   std::vector<double> lengths_m;
@@ -128,6 +130,7 @@ class Scan {
       const std::size_t run = data_.runs[r];
       PredictOptions rough = Rough(data_, run, options_);
       rough.stiff = true;
+      rough.steps_max = kStepsMax;
       const Prediction prediction = data_.forward->Predict(run, state, {}, rough);
       if (prediction.status != model::SimulateStatus::kDone) return false;
       const Eigen::VectorXd e = ResidualsOf(data_, run, prediction);
@@ -192,7 +195,7 @@ std::vector<model::Effect> BestOf(const Scan& scan, const std::vector<model::Eff
   const std::vector<Point> points =
       Ranked(scan, grid.size(), [&](std::size_t i) { return with(grid[i]); });
   for (const Point& point : points) {
-    if (point.chi2 > chi2_max(points.front().chi2)) break;
+    if (!std::isfinite(point.chi2) || point.chi2 > chi2_max(points.front().chi2)) break;
     const model::Effect& effect = grid[point.at];
     const bool near = std::any_of(kept.begin(), kept.end(), [&](const model::Effect& other) {
       const double ratio = effect.parameters[0] / other.parameters[0];
