@@ -35,6 +35,12 @@ bool IsLost(const Contenders::Job& job) {
          job.fit.bic > job.bic_before + kNear;
 }
 
+// Whether a fit that is near its end may come to a better optimum than the one known.
+bool MayBeat(const Fit& known, const Fit& fit) {
+  const double room = fit.status == FitStatus::kIterationsSpent ? kNear : -kSameOptimum;
+  return fit.bic < known.bic + room;
+}
+
 }  // namespace
 
 bool Contains(const Contender& outer, const Contender& inner) {
@@ -280,24 +286,24 @@ void Contenders::FitTight(const std::vector<Contender*>& contenders) const {
 }
 
 // The lengths at which the line may ring in step race: some steps of each, more of those that lead,
-// and the best one to the last digit. Where that is clearly better there may be more.
+// and the best one to the last digit if it is another optimum. Where that is clearly better there
+// may be more.
 void Contenders::FitInStep(Contender& contender, double goal) {
   FitOptions scan = Screening();
   scan.threads = options_->threads;
-  const std::pair<FitOptions, std::size_t> laps[] = {
-      {Screening(), kLeadingLengths}, {Further(), 1}, {Tight(), 1}};
   for (bool again = true; again && !Cancelled();) {
     std::vector<Fit> fits;
     for (ModelState& start : ScannedAgain(data, contender.fit, scan))
       fits.emplace_back().state = std::move(start);
-    bool hopeful = true;
-    for (const auto& [options, left] : laps) {
-      if (!hopeful) break;
+    const auto race = [&](const FitOptions& options, std::size_t left) {
       FitModels(options, fits);
-      if (fits.empty() || !fits.front().Usable()) return;
-      hopeful = MayComeTo(goal, fits.front(), contender.fit.bic);
       fits.resize(std::min(fits.size(), left));
-    }
+      return !fits.empty() && fits.front().Usable();
+    };
+    if (!race(Screening(), kLeadingLengths)) return;
+    const bool hopeful = MayComeTo(goal, fits.front(), contender.fit.bic);
+    if (hopeful && !race(Further(), 1)) return;
+    if (hopeful && MayBeat(contender.fit, fits.front()) && !race(Tight(), 1)) return;
     Narrow(data, Tight(), fits.front());
     const double gain = contender.fit.bic - fits.front().bic;
     if (gain > kSameOptimum) contender.fit = std::move(fits.front());
