@@ -2,7 +2,8 @@
 // numbers,
 //   χ² = Σ e² + Σ u²,
 // e the whitened residuals (observations.h), u the deviations of declared numbers in their standard
-// deviations. Minimised by Levenberg–Marquardt within bounds (Ceres) with exact derivatives.
+// deviations. Minimised by Levenberg–Marquardt within bounds (Ceres), with derivatives of the
+// simulated steps, which are coarser ones than those of the residuals (run_cost.h).
 //
 // Intervals: the curvature of χ² at the optimum gives the covariance of the coordinates
 // (coordinates.h), that of the readings inflated by χ²/(n − k) where that is above 1 and by the

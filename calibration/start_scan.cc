@@ -248,11 +248,13 @@ std::vector<model::Effect> ScannedStarts(const FitData& data, const Fit& without
     return gain > kAccept ? best + (1.0 - kHopeful) * gain : best;
   };
   const double step = without.state.effects.size() < 2 ? kLengthStep : kCoarseStep;
-  return BestOf(scan, GridOf(data, spec, step), kKept, hopeful, [&](const model::Effect& line) {
+  const auto with = [&](const model::Effect& line) {
     ModelState state = without.state;
     state.effects.push_back(line);
     return state;
-  });
+  };
+  std::vector<model::Effect> starts = BestOf(scan, GridOf(data, spec, step), kKept, hopeful, with);
+  return starts.empty() ? EffectStarts(spec, data.sizes) : starts;  // none can be simulated
 }
 
 std::vector<ModelState> ScannedAgain(const FitData& data, const Fit& with,

@@ -18,7 +18,7 @@
 namespace plenum::calibration {
 
 // Of an effect that rings the best few points of its grid, apart by more than neighbours are, that
-// explain about as much as the best of them does; of any other, and where the fit cannot be
+// explain about as much as the best of them does; of any other, and where neither can be
 // simulated, its usual starts.
 std::vector<model::Effect> ScannedStarts(const FitData& data, const Fit& without,
                                          const model::EffectSpec& spec, const FitOptions& options);
