@@ -28,9 +28,7 @@ constexpr double kHopeful = 0.5;  // of what the best point explains
 constexpr double kAbout = 2.5;    // of the length
 constexpr double kBoresAbout[] = {0.92, 1.0, 1.09};
 constexpr double kTolerance = 1e-5;  // at the tightest
-// Of one run: what rings faster than its readings show takes most, and no length keeps it in step.
-constexpr std::size_t kStepsMax = 1'000;
-constexpr double kRidge = 1e-10;  // of the diagonal: numbers that nothing depends on
+constexpr double kRidge = 1e-10;     // of the diagonal: numbers that nothing depends on
 
 std::vector<double> Lengths(double step) {
   std::vector<double> lengths_m;
@@ -130,7 +128,6 @@ class Scan {
       const std::size_t run = data_.runs[r];
       PredictOptions rough = Rough(data_, run, options_);
       rough.stiff = true;
-      rough.steps_max = kStepsMax;
       const Prediction prediction = data_.forward->Predict(run, state, {}, rough);
       if (prediction.status != model::SimulateStatus::kDone) return false;
       const Eigen::VectorXd e = ResidualsOf(data_, run, prediction);

@@ -86,10 +86,10 @@ class OneStepIntegrator {
 
   // Values at rest ask for no step, however long, and values that move slowly for long ones:
   // derivatives would then grow beyond the bound of an explicit method's stability, with nothing in
-  // the values to tell. So much a step may err by, as a share of the largest so far; where the
-  // values rest the derivatives alone choose the steps, and the share goes with the tolerance.
+  // the values to tell. So much a step may err by, as a share of the largest so far; less where
+  // the values rest, since then they alone choose the steps.
   static constexpr double kAtRest = 1e-4;
-  static constexpr double kDerivativeShare = 1e-2, kLeastShare = 1e-4, kSharePerTolerance = 1e2;
+  static constexpr double kDerivativeShare = 1e-2, kDerivativeShareAtRest = 1e-4;
   // Below this share of what moves most along a direction, each by its size, derivatives are
   // rounding: no step, however short, makes their errors smaller.
   static constexpr double kRounding = 1e-9;
@@ -105,9 +105,7 @@ class OneStepIntegrator {
       norm = std::max(norm, share);
     }
     if constexpr (kIsDual<T> && !Stepper::kStable) {
-      const double share =
-          norm < kAtRest ? std::clamp(kSharePerTolerance * rtol_, kLeastShare, kDerivativeShare)
-                         : kDerivativeShare;
+      const double share = norm < kAtRest ? kDerivativeShareAtRest : kDerivativeShare;
       norm = std::max(norm, DerivativeNorm(error) / share);
     }
     return norm;
