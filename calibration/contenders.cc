@@ -160,8 +160,7 @@ void Contenders::AddJobs(const Contender& from, const model::EffectSpec* added,
     return;
   }
   for (const model::Effect& start : StartsBeside(from, added)) {
-    Job job{set, from.fit.state, from.fit.bic};
-    if (!PriorsHold(from.fit)) job.start.factor = data.forward->Declared().factor;
+    Job job{set, Unstretched(data, from.fit), from.fit.bic};
     job.start.effects.push_back(start);
     std::sort(job.start.effects.begin(), job.start.effects.end(),
               [](const auto& a, const auto& b) { return Precedes(a.spec, b.spec); });

@@ -315,6 +315,20 @@ TypicalSizes SizesOf(const Dataset& dataset) {
   return sizes;
 }
 
+TypicalSizes SizesOf(const Dataset& dataset, const ModelState& fitted) {
+  const auto factor = [&](Declared number) {
+    const auto at = static_cast<std::size_t>(number);
+    return dataset.relative_uncertainty[at] == kUnknown ? fitted.factor[at] : 1.0;
+  };
+  const double conductance = factor(Declared::kSonicConductance);
+  const double volume = factor(Declared::kRestVolume);
+  TypicalSizes sizes = SizesOf(dataset);
+  sizes.conductance_m3_per_s_pa *= conductance;
+  sizes.volume_m3 *= volume;
+  sizes.stroke_s *= volume / conductance;
+  return sizes;
+}
+
 std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
                                         const std::vector<std::size_t>& runs, bool clocks) {
   const Dataset& dataset = forward.dataset();

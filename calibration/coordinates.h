@@ -39,6 +39,8 @@ struct TypicalSizes {
   double conductance_m3_per_s_pa = 1e-9;  // of the narrowest pair
 };
 TypicalSizes SizesOf(const Dataset& dataset);
+// With what was fitted of declared numbers of unknown uncertainty.
+TypicalSizes SizesOf(const Dataset& dataset, const ModelState& fitted);
 
 // The declared numbers that may move, and the initial pressures that are not known better than by a
 // reading: of the runs given. A declared number that no such run has is left out. With `clocks`,

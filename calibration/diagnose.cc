@@ -50,10 +50,8 @@ class Diagnosing {
 
   Diagnosis Take() {
     diagnosis_.warnings = SuspectedSlips(bench_.dataset, options_.cancelled);
+    TakeFirstLook();
     const FitData data = bench_.data;
-    const bool on_grid = std::any_of(observed_.begin(), observed_.end(),
-                                     [](const ObservedRun& run) { return run.noise.staircase; });
-    if (on_grid) LearnReadings(FitModel(data, forward_.Declared(), bench_.tight));
     do {
       Search(data, options_);
     } while (LearnReadings(Chosen().fit) && !Stopped());
@@ -105,6 +103,18 @@ class Diagnosing {
 
   void Progress(double share, const std::string& what) const {
     if (options_.progress) options_.progress(share, what);
+  }
+
+  // What readings on a grid, and sizes that are not known, are to be taken for at first.
+  void TakeFirstLook() {
+    const auto& uncertainty = bench_.dataset.relative_uncertainty;
+    const bool unknown = std::count(uncertainty.begin(), uncertainty.end(), kUnknown) > 0;
+    const bool on_grid = std::any_of(observed_.begin(), observed_.end(),
+                                     [](const ObservedRun& run) { return run.noise.staircase; });
+    if (!on_grid && !unknown) return;
+    const Fit first = FitModel(bench_.data, forward_.Declared(), bench_.tight);
+    if (on_grid) LearnReadings(first);
+    if (first.Usable()) bench_.data.sizes = SizesOf(bench_.dataset, first.state);
   }
 
   // What a fit shows of the readings: wild ones, and how much noise is behind their grid. True

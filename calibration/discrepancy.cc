@@ -314,13 +314,6 @@ FitOptions Quick(FitOptions options) {
   return options;
 }
 
-// Numbers that were stretched in place of what is missing are in a term's way.
-ModelState BaseOf(const FitData& data, const Fit& established) {
-  ModelState base = established.state;
-  if (!PriorsHold(established)) base.factor = data.forward->Declared().factor;
-  return base;
-}
-
 // Of each family that is not there yet, those that could be fitted; a family goes on to finer laws
 // below `hopeful`.
 std::vector<Attempt> FitFamilies(const FitData& data, const ModelState& base,
@@ -387,7 +380,8 @@ double UnseenRms(const FitData& data, const ModelState& state, const std::vector
 bool TermRivals(const FitData& data, const Fit& base, const Fit& set, const FitOptions& options) {
   const FitOptions quick = Quick(options);
   const double hopeful = Score(set) + kHopeful * std::max(0.0, Score(base) - Score(set));
-  std::vector<Attempt> attempts = FitFamilies(data, BaseOf(data, base), base.state, quick, hopeful);
+  std::vector<Attempt> attempts =
+      FitFamilies(data, Unstretched(data, base), base.state, quick, hopeful);
   return std::any_of(attempts.begin(), attempts.end(), [&](Attempt& attempt) {
     if (attempt.score < hopeful) Polish(data, quick, attempt);
     const bool holds_set = OfOnePlace(set.state.effects, attempt.fit.state.effects.back());
@@ -407,7 +401,7 @@ LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
     discrepancy.holdout_after_pa = discrepancy.holdout_before_pa;
   }
   FitOptions quick = Quick(options);
-  const ModelState base = BaseOf(data, established);
+  const ModelState base = Unstretched(data, established);
   std::vector<Attempt> attempts = FitFamilies(data, base, established.state, quick);
   if (options.cancelled && options.cancelled()) return learned;
   Unseen without;

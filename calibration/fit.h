@@ -99,6 +99,11 @@ ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run
 // kFalseAlarm (whiteness.h): what is missing may hide in them and leave nothing but noise.
 bool PriorsHold(const Fit& fit);
 
+// The state to fit anew from with what the fit lacks: declared numbers that were stretched in its
+// place are in its way and stand as declared again, unless the priors hold. Those of unknown
+// uncertainty stay fitted: as declared they say nothing.
+ModelState Unstretched(const FitData& data, const Fit& fit);
+
 inline constexpr double kUnidentified = 0.9;
 
 // What χ² of the readings is divided by before it is weighed against priors: χ²/(n − k) where that

@@ -70,6 +70,16 @@ bool PriorsHold(const Fit& fit) {
   return fit.chi2_prior <= boost::math::quantile(boost::math::complement(law, kFalseAlarm));
 }
 
+ModelState Unstretched(const FitData& data, const Fit& fit) {
+  ModelState state = fit.state;
+  if (PriorsHold(fit)) return state;
+  const ModelState declared = data.forward->Declared();
+  for (const Coordinate& coordinate : fit.coordinates)
+    if (coordinate.parameter.kind == Parameter::Kind::kDeclared && coordinate.prior)
+      NumberOf(state, coordinate.parameter) = NumberOf(declared, coordinate.parameter);
+  return state;
+}
+
 double Inflation(const Fit& fit, double memory) {
   const double freedom =
       static_cast<double>(fit.rows) - static_cast<double>(fit.coordinates.size());

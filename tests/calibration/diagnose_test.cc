@@ -170,6 +170,49 @@ TEST(Diagnose, AValveThatNeverOpensTellsNothingOfItsLine) {
     }
 }
 
+// Tanks that empty through a bleed of which the declared conductance says nothing, and the ratio
+// little.
+Dataset EmptyingTanks(const Change& change) {
+  Dataset dataset;
+  dataset.name = "bleed";
+  const double initial_pa[] = {1.17e5, 1.2e5, 1.3e5, 1.31e5, 1.35e5, 1.36e5};
+  for (std::uint64_t i = 0; i < std::size(initial_pa); ++i) {
+    Run run = test::DeclaredRun("tank_" + std::to_string(i + 1), 1e5, false);
+    run.chamber.rest_volume_m3 = 66e-6, run.chamber.expansion_ratio = 1.0;
+    run.chamber.operating_pressure_pa = 1.4e5;
+    const model::FlowElement pair{0.3e-10, 0.3};
+    run.line = {{pair, pair, {}}};
+    run.supply = Supply::kNone;
+    run.valve = {{0.0, model::ValveState::kDeflate}};
+    run.t_s.resize(160);
+    for (std::size_t k = 0; k < run.t_s.size(); ++k) run.t_s[k] = 0.025 * static_cast<double>(k);
+    const auto emptying = [&](EffectRig& rig) {
+      rig.source = EffectRig::Source::kNone;
+      rig.rest_volume_m3 = 66e-6, rig.expansion_ratio = 1.0;
+      rig.operating_pa = 1.4e5, rig.initial_pa = initial_pa[i];
+      rig.exhaust = {{1.3e-10, 0.85}};
+      change(rig);
+    };
+    test::Measure(emptying, 100 + i, 1.0, run);
+    run.initial_pressure_pa = run.pressure_pa.front();
+    dataset.runs.push_back(run);
+  }
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kSonicConductance)] = kUnknown;
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kCriticalRatio)] = 0.3;
+  return dataset;
+}
+
+TEST(Diagnose, HeatIsFoundBesideAConductanceThatNobodyKnows) {
+  const Diagnosis d = Diagnose(EmptyingTanks([](EffectRig& rig) {
+                                 rig.heat_time_constant_s = 1.7;
+                                 rig.initial_k = 265.0;
+                               }),
+                               {});
+  ASSERT_EQ(d.effects.size(), 1u) << d.sentence;
+  EXPECT_EQ(d.effects[0].effect.spec->id, "heat_transfer");
+  EXPECT_NEAR(d.effects[0].effect.parameters[0], 1.7, 0.1);
+}
+
 TEST(Diagnose, CancelledIsUndecided) {
   DiagnoseOptions options;
   std::atomic<int> asked = 0;
