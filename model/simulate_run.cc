@@ -17,6 +17,8 @@ constexpr double kRough = 1e-5;
 constexpr std::size_t kPointsAStep = 8, kPointsKept = 32;
 // Steps at the border of stability after which CVODE is the better integrator.
 constexpr std::size_t kStiffSteps = 5000;
+// The steps of the method that damps, of order 3, are as many times the tolerance's −1/3rd power.
+constexpr double kDampedSteps = 5.0;
 constexpr std::size_t kStiffShare = 20;  // of steps_max: a run to be damped starts anew early
 // Pressures this close have arrived at the same instant.
 constexpr double kTogetherShare = 1e-9;
@@ -247,8 +249,11 @@ bool Run<T, Stepper>::StepsLeft() {
   const bool damped = options_.integrator == Integrator::kDamped;
   const auto held_down = static_cast<std::size_t>(damped ? stepper_.steps_in_fast_modes()
                                                          : stepper_.steps_at_stability());
-  const std::size_t bound =
-      damped ? std::min(kStiffSteps, options_.steps_max / kStiffShare) : kStiffSteps;
+  std::size_t bound = kStiffSteps;
+  if (damped) {
+    const double worth = kDampedSteps / std::cbrt(options_.relative_tolerance);
+    bound = std::min({bound, options_.steps_max / kStiffShare, static_cast<std::size_t>(worth)});
+  }
   if (options_.integrator != Integrator::kDormandPrince && held_down > bound) {
     stiff_ = true;
     return Fail(SimulateStatus::kTooManySteps, "steps held down by stability");
