@@ -150,7 +150,7 @@ std::pair<double, double> Visible(const model::EffectSpec& effect, const model::
   const double shortest_s = std::min(sizes.interval_s, 0.1 * sizes.stroke_s);
   if (effect.id == "sensor_lag") range.first = std::max(spec.low, 0.05 * shortest_s);
   if (effect.id == "line_dynamics" && spec.name == "length_m")  // rings at a/L
-    range.first = std::clamp(0.02 * shortest_s * kSoundMPerS, spec.low, 0.05);
+    range.first = std::clamp(0.06 * shortest_s * kSoundMPerS, spec.low, 0.1);
   if (effect.id == "heat_transfer") range.first = std::max(spec.low, 0.003 * sizes.stroke_s);
   if (effect.id == "supply_droop" && spec.name == "volume_m3")
     range.first = std::max(spec.low, 0.03 * sizes.volume_m3);

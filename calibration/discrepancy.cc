@@ -166,6 +166,20 @@ std::optional<ModelState> OnFinerKnots(const Fit& coarser, const model::EffectSp
   return state;
 }
 
+// From the base, and where that leaves stretched numbers to their priors but keeps one that has
+// none, from that as declared, too: it may have been fitted in place of the term.
+std::vector<ModelState> StartsBeside(const FitData& data, const model::EffectSpec& spec,
+                                     const ModelState& base, const ModelState& established,
+                                     const FitOptions& options) {
+  std::vector<ModelState> starts = Starts(data, spec, base, established, options);
+  ModelState declared = base;
+  declared.factor = data.forward->Declared().factor;
+  if (base.factor == established.factor || base.factor == declared.factor) return starts;
+  for (ModelState& start : Starts(data, spec, declared, established, options))
+    starts.push_back(std::move(start));
+  return starts;
+}
+
 // A finer law is tried where the coarser one has come below `hopeful`.
 Attempt FitFamily(const FitData& data, const Family& family, const ModelState& base,
                   const ModelState& established, const FitOptions& options, double hopeful) {
@@ -176,7 +190,7 @@ Attempt FitFamily(const FitData& data, const Family& family, const ModelState& b
     std::optional<ModelState> finer;
     if (attempt.fit.Usable()) finer = OnFinerKnots(attempt.fit, *spec);
     const std::vector<ModelState> starts =
-        finer ? std::vector{*finer} : Starts(data, *spec, base, established, options);
+        finer ? std::vector{*finer} : StartsBeside(data, *spec, base, established, options);
     Fit fit = FitTerm(data, data.runs, starts, options);
     if (!fit.Usable() || !(Score(fit) < attempt.score - (attempt.fit.Usable() ? kGain : 0.0))) {
       continue;

@@ -30,16 +30,23 @@ constexpr double kBoresAbout[] = {0.92, 1.0, 1.09};
 constexpr double kTolerance = 1e-5;  // at the tightest
 constexpr double kRidge = 1e-10;     // of the diagonal: numbers that nothing depends on
 
-std::vector<double> Lengths(double step) {
+// The shortest that fits search.
+double ShortestOf(const FitData& data, const model::EffectSpec& spec) {
+  const Coordinate length = EffectCoordinates(spec, 0, data.sizes).front();
+  return length.Number(length.low);
+}
+
+std::vector<double> Lengths(double shortest_m, double step) {
   std::vector<double> lengths_m;
-  for (double m = kShortest; m < kLongest; m *= m < kInStepFrom ? kShortStep : step)
+  for (double m = std::max(kShortest, shortest_m); m < kLongest;
+       m *= m < kInStepFrom ? kShortStep : step)
     lengths_m.push_back(m);
   return lengths_m;
 }
 
 std::vector<model::Effect> GridOf(const FitData& data, const model::EffectSpec& spec, double step) {
   std::vector<model::Effect> grid;
-  for (const double length_m : Lengths(step))
+  for (const double length_m : Lengths(ShortestOf(data, spec), step))
     for (const double bore_m : kBores) grid.push_back({&spec, {length_m, bore_m}});
   for (const std::size_t run : data.runs)
     for (const LinePiece& piece : data.forward->dataset().runs[run].line)
@@ -206,13 +213,14 @@ std::vector<model::Effect> BestOf(const Scan& scan, const std::vector<model::Eff
 
 // Other lengths, of about the same bore near by, and everywhere of about the same volume, which
 // strokes fix however the line rings.
-std::vector<model::Effect> GridAbout(const model::Effect& found) {
+std::vector<model::Effect> GridAbout(const model::Effect& found, double shortest_m) {
   const double length_m = found.parameters[0], bore_m = found.parameters[1];
   std::vector<model::Effect> grid;
-  for (double share = 1.0 / kAbout; share < kAbout; share *= kLengthStep)
+  const double nearest = std::max(1.0 / kAbout, shortest_m / length_m);
+  for (double share = nearest; share < kAbout; share *= kLengthStep)
     for (const double bore : kBoresAbout)
       grid.push_back({found.spec, {share * length_m, bore * bore_m}});
-  for (const double other_m : Lengths(kLengthStep))
+  for (const double other_m : Lengths(shortest_m, kLengthStep))
     grid.push_back({found.spec, {other_m, std::sqrt(length_m / other_m) * bore_m}});
   return grid;
 }
@@ -271,7 +279,8 @@ std::vector<ModelState> ScannedAgain(const FitData& data, const Fit& with,
   const auto any = [](double) { return std::numeric_limits<double>::infinity(); };
   std::vector<ModelState> starts;
   for (const model::Effect& line :
-       BestOf(Scan(data, linear, options), GridAbout(*rings), kKeptAgain, any, replaced))
+       BestOf(Scan(data, linear, options), GridAbout(*rings, ShortestOf(data, *rings->spec)),
+              kKeptAgain, any, replaced))
     starts.push_back(replaced(line));
   return starts;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/calibration/bench.h"
 
@@ -79,6 +80,19 @@ TEST(StartScan, AFitFarOffIsFoundAgainByItsVolume) {
   ASSERT_LT(off.state.effects[0].parameters[0], kLengthM / 3.0);
   ASSERT_GT(off.chi2_data / static_cast<double>(off.rows), 1.2);
   EXPECT_NEAR(bench.BestChi2(ScannedAgain(bench.data, off, {})), 1.0, 0.15);
+}
+
+// A line of 0.05 m rings eighteen times between two of the bench's samples.
+TEST(StartScan, LinesShorterThanSamplesShowAreNotTried) {
+  const Ringing bench;
+  const model::EffectSpec& line = *model::FindEffect("line_dynamics");
+  const Coordinate length = EffectCoordinates(line, 0, bench.data.sizes).front();
+  const double period_s = 2.0 * std::numbers::pi * length.Number(length.low) / 290.0;
+  EXPECT_LT(period_s, bench.data.sizes.interval_s);
+  const Fit shortest = bench.FitFrom(length.Number(length.low), kBoreM);
+  ASSERT_TRUE(shortest.Usable());
+  for (const ModelState& start : ScannedAgain(bench.data, shortest, {}))
+    EXPECT_GE(start.effects.front().parameters.front(), 0.999 * length.Number(length.low));
 }
 
 TEST(StartScan, WhatDoesNotRingStartsAsUsual) {
