@@ -17,8 +17,8 @@ constexpr double kRough = 1e-5;
 constexpr std::size_t kPointsAStep = 8, kPointsKept = 32;
 // Steps at the border of stability after which CVODE is the better integrator.
 constexpr std::size_t kStiffSteps = 5000;
-// The steps of the method that damps, of order 3, are as many times the tolerance's −1/3rd power.
-constexpr double kDampedSteps = 5.0;
+// Times the tolerance to the −1/3 about twice the steps of the method that damps, of order 3.
+constexpr double kDampedSteps = 10.0;
 constexpr std::size_t kStiffShare = 20;  // of steps_max: a run to be damped starts anew early
 // Pressures this close have arrived at the same instant.
 constexpr double kTogetherShare = 1e-9;

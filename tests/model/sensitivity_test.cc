@@ -527,7 +527,7 @@ TEST(Sensitivity, OfALineAtALooseToleranceStaysAtThoseOfATightOne) {
                       {6.5, ValveState::kHold}};
     const Rig rig = RigOf(Regulated(3.8e5), {group});
     SimulateOptions options = Until(7.0, 50.0);
-    options.integrator = Integrator::kDamped;
+    options.integrator = Integrator::kDormandPrince;
     const double* by = &rig.groups[0].initial_pressure_pa;
     options.relative_tolerance = 1e-8;
     const SensitivityResponse tight = SimulateWithSensitivities(rig, options, {&by, 1});
