@@ -30,8 +30,6 @@ class DormandPrinceOf {
  public:
   // Whether steps of any length leave at rest what rests.
   static constexpr bool kStable = false;
-  // By how much more the states that no sensor sees may be off.
-  static constexpr double kHiddenRoom = 1.0;
 
   using Outcome = StepResult;
 

@@ -98,7 +98,7 @@ class OneStepIntegrator {
     double norm = 0.0;
     for (std::size_t i = 0; i < error.size(); ++i) {
       const double size = std::max(std::abs(ValueOf(before[i])), std::abs(ValueOf(after[i])));
-      const double allowed = system_.hidden(i) ? Stepper::kHiddenRoom : 1.0;
+      const double allowed = Stepper::kStable ? system_.room(i) : 1.0;
       const double share = std::abs(ValueOf(error[i])) /
                            (allowed * ErrorBound(size, system_.sizes()[i], rtol_, atol_pa_));
       if (!std::isfinite(share)) return std::numeric_limits<double>::infinity();

@@ -34,12 +34,6 @@ class RosenbrockOf {
  public:
   // Whether steps of any length leave at rest what rests.
   static constexpr bool kStable = true;
-  // By how much more the states that no sensor sees may be off: what rings in them too fast to move
-  // the pressures is damped, not followed. With this much the pressures of short lines come out as
-  // exactly as those of long ones, whose steps they hold down themselves; with 100 a line of 0.05 m
-  // takes four times the steps.
-  static constexpr double kHiddenRoom = 1e3;
-
   using Outcome = StepResult;
 
   explicit RosenbrockOf(std::size_t size)

@@ -15,6 +15,11 @@ namespace {
 constexpr double kLowestPressurePa = 1e-3;
 constexpr double kInletTolerancePa = 1e-5, kInletStepPa = 1.0;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// By how much more the states of what may ring too fast to move the pressures may be off. So the
+// pressures of short lines come out as exactly as those of long ones, whose steps they hold down
+// themselves; with 100 a line of 0.05 m takes four times the steps. An inlet sensor sees such
+// states: a tenth of the room keeps a line of 0.1 m within 0.1 % RMS there at a tolerance of 1e-6.
+constexpr double kHiddenRoom = 1e3, kInletRoom = 1e2;
 
 template <class T>
 std::vector<LineElement<T>> Lifted(std::span<const FlowElement> elements, const T& factor,
@@ -156,6 +161,7 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
     if (!cracks) group.with_regulator.emplace(both, line_options_);
   }
 
+  group.inlet_sensor = rig.inlet_after > 0;
   group.fill_before_inlet = rig.inlet_after;
   if (!rig.exhaust.empty()) group.exhaust_before_inlet = rig.exhaust.size() - rig.inlet_after;
   group.lines = {Line<T>(setup.fill, line_options_), Line<T>(setup.exhaust, line_options_),
@@ -167,16 +173,17 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
 template <class T>
 void System<T>::LayOut() {
   sizes_.clear();
-  hidden_.clear();
+  room_.clear();
   for (Group& group : groups_) {
     group.at = sizes_.size();
     sizes_.push_back(0.0);
     for (const auto& unit : group.units) {
       has_modes_ = has_modes_ || unit->guards() > 0;
       group.unit_at.push_back(sizes_.size());
-      hidden_.resize(sizes_.size(), false);
+      room_.resize(sizes_.size(), 1.0);
       sizes_.resize(sizes_.size() + static_cast<std::size_t>(unit->states()), 0.0);
-      hidden_.resize(sizes_.size(), unit->hidden_states());
+      const double hidden = group.inlet_sensor ? kInletRoom : kHiddenRoom;
+      room_.resize(sizes_.size(), unit->hidden_states() ? hidden : 1.0);
     }
   }
   source_ = sizes_.size();
@@ -194,7 +201,7 @@ void System<T>::LayOut() {
   if (account_) sizes_.resize(sizes_.size() + 3, kInfinity);
   outlets_.reserve(groups_.size());
   scratch_.resize(sizes_.size());
-  hidden_.resize(sizes_.size(), false);
+  room_.resize(sizes_.size(), 1.0);
 }
 
 template <class T>

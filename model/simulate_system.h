@@ -65,8 +65,10 @@ class System {
   std::size_t size() const { return sizes_.size(); }
   std::size_t dynamic_size() const { return dynamic_size_; }  // without the accounts
   std::size_t groups() const { return groups_.size(); }
-  bool hidden(std::size_t state) const { return hidden_[state]; }  // effects/unit.h
-  std::span<const double> sizes() const { return sizes_; }         // typical sizes; 0: a pressure
+  // By how much more a state may be off than the pressures that sensors see, for a method that
+  // damps what rings in it too fast to move them.
+  double room(std::size_t state) const { return room_[state]; }
+  std::span<const double> sizes() const { return sizes_; }  // typical sizes; 0: a pressure
 
   std::vector<T> InitialState();
   void operator()(const T& t, std::span<const T> y, std::span<T> dydt);
@@ -154,6 +156,7 @@ class System {
     bool settled = false;
     bool settles = true;
     bool measured = false, heated = false;
+    bool inlet_sensor = false;
     std::size_t fill_before_inlet = 0, exhaust_before_inlet = 0;  // elements
     std::size_t at = 0;                                           // of the pressure
     std::size_t accounts = 0;                                     // of the first account
@@ -197,7 +200,7 @@ class System {
   std::size_t source_ = 0, pump_accounts_ = 0, dynamic_size_ = 0;
   bool account_;
   bool has_modes_ = false;    // some effect has
-  std::vector<char> hidden_;  // by state
+  std::vector<double> room_;  // by state
   std::vector<double> sizes_;
   std::vector<NodeOutlet<T>> outlets_;
   std::vector<Guard<T>> guards_;

@@ -180,6 +180,32 @@ TEST(Rosenbrock, DampsAShortLineThatRings) {
   }
 }
 
+// Where a sensor is at the inlet it shows the ringing, which is followed then.
+TEST(Rosenbrock, FollowsTheRingsThatAnInletSensorSees) {
+  GroupRig group =
+      OneActuator(2e5, 1.8, {.sonic_conductance_m3_per_s_pa = 0.05e-8, .critical_ratio = 0.3});
+  group.schedule = {{0.2, ValveState::kInflate},
+                    {0.8, ValveState::kHold},
+                    {1.2, ValveState::kDeflate},
+                    {2.0, ValveState::kHold}};
+  group.effects = {{FindEffect("line_dynamics"), {0.1, 2e-3}}};
+  group.inlet_after = 1;
+  const Rig rig = RigOf(Regulated(3e5), {group});
+  SimulateOptions exact = Until(2.5, 400.0), damped = exact;
+  exact.integrator = Integrator::kCvode;
+  exact.relative_tolerance = 1e-9;
+  damped.integrator = Integrator::kImplicit;
+  damped.relative_tolerance = 1e-6;
+  damped.absolute_tolerance_pa = 0.01;
+  const Response r = Simulate(rig, damped), reference = Simulate(rig, exact);
+  ASSERT_EQ(r.status, SimulateStatus::kDone) << r.detail;
+  double squares = 0.0;
+  for (std::size_t k = 0; k < r.t_s.size(); ++k)
+    squares +=
+        std::pow(r.groups[0].inlet_pressure_pa[k] - reference.groups[0].inlet_pressure_pa[k], 2);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(r.t_s.size())), 150.0);
+}
+
 // A sensor's lag of a third of a millisecond is nothing that a rough run follows, however many
 // steps it may take.
 TEST(Rosenbrock, ARoughRunIsNotHeldDownByAFastMode) {
