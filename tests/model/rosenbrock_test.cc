@@ -131,9 +131,8 @@ TEST(Rosenbrock, DenseOutputHasTheSlopesOfBothEnds) {
                 stepper.SlopeAt(theta, 1), 1e-8);
 }
 
-// A short tube rings a thousand times a second. Its pressures and what they do as the conductance
-// changes are those of a run that follows every turn.
-TEST(Rosenbrock, DampsAShortLineThatRings) {
+// It rings a thousand times a second.
+Rig ShortLine() {
   GroupRig group =
       OneActuator(2e5, 1.8, {.sonic_conductance_m3_per_s_pa = 0.05e-8, .critical_ratio = 0.3});
   group.schedule = {{0.2, ValveState::kInflate},
@@ -141,7 +140,13 @@ TEST(Rosenbrock, DampsAShortLineThatRings) {
                     {1.2, ValveState::kDeflate},
                     {2.0, ValveState::kHold}};
   group.effects = {{FindEffect("line_dynamics"), {0.1, 2e-3}}};
-  const Rig rig = RigOf(Regulated(3e5), {group});
+  return RigOf(Regulated(3e5), {group});
+}
+
+// The pressures of a short tube, and what they do as the conductance changes, are those of a run
+// that follows every turn.
+TEST(Rosenbrock, DampsAShortLineThatRings) {
+  const Rig rig = ShortLine();
   SimulateOptions exact = Until(2.5, 100.0), damped = exact;
   exact.integrator = Integrator::kCvode;
   exact.relative_tolerance = 1e-9;
@@ -182,15 +187,8 @@ TEST(Rosenbrock, DampsAShortLineThatRings) {
 
 // Where a sensor is at the inlet it shows the ringing, which is followed then.
 TEST(Rosenbrock, FollowsTheRingsThatAnInletSensorSees) {
-  GroupRig group =
-      OneActuator(2e5, 1.8, {.sonic_conductance_m3_per_s_pa = 0.05e-8, .critical_ratio = 0.3});
-  group.schedule = {{0.2, ValveState::kInflate},
-                    {0.8, ValveState::kHold},
-                    {1.2, ValveState::kDeflate},
-                    {2.0, ValveState::kHold}};
-  group.effects = {{FindEffect("line_dynamics"), {0.1, 2e-3}}};
-  group.inlet_after = 1;
-  const Rig rig = RigOf(Regulated(3e5), {group});
+  Rig rig = ShortLine();
+  rig.groups[0].inlet_after = 1;
   SimulateOptions exact = Until(2.5, 400.0), damped = exact;
   exact.integrator = Integrator::kCvode;
   exact.relative_tolerance = 1e-9;
