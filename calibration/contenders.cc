@@ -159,8 +159,9 @@ void Contenders::AddJobs(const Contender& from, const model::EffectSpec* added,
     jobs.push_back(std::move(job));
     return;
   }
+  const ModelState beside = Unstretched(data, from.fit);
   for (const model::Effect& start : StartsBeside(from, added)) {
-    Job job{set, Unstretched(data, from.fit), from.fit.bic};
+    Job job{set, beside, from.fit.bic};
     job.start.effects.push_back(start);
     std::sort(job.start.effects.begin(), job.start.effects.end(),
               [](const auto& a, const auto& b) { return Precedes(a.spec, b.spec); });

@@ -161,7 +161,6 @@ typename System<T>::Group System<T>::MakeGroup(const GroupRig& rig, const Lift& 
     if (!cracks) group.with_regulator.emplace(both, line_options_);
   }
 
-  group.inlet_sensor = rig.inlet_after > 0;
   group.fill_before_inlet = rig.inlet_after;
   if (!rig.exhaust.empty()) group.exhaust_before_inlet = rig.exhaust.size() - rig.inlet_after;
   group.lines = {Line<T>(setup.fill, line_options_), Line<T>(setup.exhaust, line_options_),
@@ -182,7 +181,7 @@ void System<T>::LayOut() {
       group.unit_at.push_back(sizes_.size());
       room_.resize(sizes_.size(), 1.0);
       sizes_.resize(sizes_.size() + static_cast<std::size_t>(unit->states()), 0.0);
-      const double hidden = group.inlet_sensor ? kInletRoom : kHiddenRoom;
+      const double hidden = group.fill_before_inlet > 0 ? kInletRoom : kHiddenRoom;
       room_.resize(sizes_.size(), unit->hidden_states() ? hidden : 1.0);
     }
   }

@@ -156,7 +156,6 @@ class System {
     bool settled = false;
     bool settles = true;
     bool measured = false, heated = false;
-    bool inlet_sensor = false;
     std::size_t fill_before_inlet = 0, exhaust_before_inlet = 0;  // elements
     std::size_t at = 0;                                           // of the pressure
     std::size_t accounts = 0;                                     // of the first account
