@@ -7,12 +7,13 @@
 
 #include "api/services.h"
 #include "tests/api/support.h"
+#include "tests/support/places.h"
 
 namespace plenum::api {
 namespace {
 
 TEST(Crawler, IsProvedOptimal) {
-  const std::filesystem::path root = PLENUM_SOURCE_DIR;
+  const std::filesystem::path root = test::SourceDir();
   const auto parts = catalog::Store(root / "catalog.db", catalog::Access::kRead).List();
   std::ifstream file(root / "examples/crawler.json");
   Json request = Parse(std::string(std::istreambuf_iterator<char>(file), {}));

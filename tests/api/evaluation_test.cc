@@ -8,6 +8,7 @@
 
 #include "api/services.h"
 #include "tests/api/support.h"
+#include "tests/support/places.h"
 
 namespace plenum::api {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 class Evaluation : public testing::TestWithParam<const char*> {
  protected:
   Evaluation() {
-    const std::filesystem::path root = PLENUM_SOURCE_DIR;
+    const std::filesystem::path root = test::SourceDir();
     parts_ = catalog::Store(root / "catalog.db", catalog::Access::kRead).List();
     std::ifstream file(root / "examples" / (std::string(GetParam()) + ".json"));
     requirements_ = Parse(std::string(std::istreambuf_iterator<char>(file), {}));

@@ -10,6 +10,7 @@
 
 #include "api/services.h"
 #include "tests/support/mass_form.h"
+#include "tests/support/places.h"
 
 namespace plenum::api {
 namespace {
@@ -44,7 +45,7 @@ double Crossing(const MassResult& result, double target_pa) {
 }
 
 TEST(Exosuit, FirstDesignRisesAndFallsAsTheMassesSay) {
-  const std::filesystem::path root = PLENUM_SOURCE_DIR;
+  const std::filesystem::path root = test::SourceDir();
   std::ifstream file(root / "examples/exosuit.json");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const catalog::Store store(root / "catalog.db", catalog::Access::kRead);

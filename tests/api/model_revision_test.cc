@@ -12,6 +12,7 @@
 #include "api/services.h"
 #include "api/verify.h"
 #include "tests/api/support.h"
+#include "tests/support/places.h"
 
 namespace plenum::api {
 namespace {
@@ -78,7 +79,7 @@ TEST(ModelRevision, ARankingNamesOne) {
 }
 
 TEST(ModelRevision, TheAnswerComparesWithTheNominalOne) {
-  const std::filesystem::path root = PLENUM_SOURCE_DIR;
+  const std::filesystem::path root = test::SourceDir();
   const auto parts = catalog::Store(root / "catalog.db", catalog::Access::kRead).List();
   std::ifstream file(root / "examples/gripper.json");
   Json request = Parse(std::string(std::istreambuf_iterator<char>(file), {}));

@@ -10,6 +10,7 @@
 #include "catalog/csv.h"
 #include "catalog/fields.h"
 #include "tests/api/support.h"
+#include "tests/support/places.h"
 
 namespace plenum::api {
 namespace {
@@ -36,8 +37,8 @@ TEST(Parts, RoundTripKeepsEveryNumberAndItsSource) {
 TEST(Parts, EverySeedPartRoundTripsAndConverts) {
   std::vector<catalog::Part> all;
   for (const catalog::Family& family : catalog::Families()) {
-    std::ifstream file(std::string(PLENUM_SOURCE_DIR) + "/catalog/data/" +
-                       std::string(family.name) + ".csv");
+    std::ifstream file(test::SourceDir().string() + "/catalog/data/" + std::string(family.name) +
+                       ".csv");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     const catalog::CsvParts csv = catalog::ReadCsv(family.name, text);
     ASSERT_TRUE(csv.errors.empty()) << family.name << " " << csv.errors.front().detail;

@@ -10,6 +10,7 @@
 #include "api/effects.h"
 #include "api/services.h"
 #include "tests/api/support.h"
+#include "tests/support/places.h"
 
 namespace plenum::api {
 namespace {
@@ -201,7 +202,7 @@ TEST(SimulationEffects, RenderAndReadBackEveryEffect) {
 }
 
 TEST(SimulationEffects, TheExampleRuns) {
-  std::ifstream file(std::string(PLENUM_SOURCE_DIR) + "/examples/simulation_effects.json");
+  std::ifstream file(test::SourceDir().string() + "/examples/simulation_effects.json");
   const Json answer = Answer(Json::parse(file));
   EXPECT_EQ(answer["status"], "done");
   EXPECT_TRUE(answer["groups"][1].contains("temperature_k"));

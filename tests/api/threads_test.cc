@@ -10,12 +10,13 @@
 
 #include "api/services.h"
 #include "tests/api/support.h"
+#include "tests/support/places.h"
 
 namespace plenum::api {
 namespace {
 
 Json Example(const std::string& name) {
-  const std::filesystem::path root = PLENUM_SOURCE_DIR;
+  const std::filesystem::path root = test::SourceDir();
   std::ifstream file(root / "examples" / (name + ".json"));
   Json request = Parse(std::string(std::istreambuf_iterator<char>(file), {}));
   request["ranking"] = {{"count", 4}, {"time_limit_s", 300}, {"proof", true}};
@@ -23,7 +24,7 @@ Json Example(const std::string& name) {
 }
 
 TEST(Threads, GiveTheSameDocumentsHoweverManyThereAre) {
-  const std::filesystem::path root = PLENUM_SOURCE_DIR;
+  const std::filesystem::path root = test::SourceDir();
   const auto parts = catalog::Store(root / "catalog.db", catalog::Access::kRead).List();
   std::vector<Json> requests{Example("gripper"), Example("exosuit"), Example("exosuit")};
   // Made-to-measure reservoirs, so that the solvers run too.

@@ -8,11 +8,12 @@
 
 #include "api/verify.h"
 #include "tests/api/support.h"
+#include "tests/support/places.h"
 
 namespace plenum::api {
 namespace {
 
-const std::filesystem::path kRoot = PLENUM_SOURCE_DIR;
+const std::filesystem::path kRoot = test::SourceDir();
 
 }  // namespace
 

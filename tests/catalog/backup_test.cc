@@ -9,6 +9,7 @@
 
 #include "folder.h"
 #include "samples.h"
+#include "tests/support/places.h"
 
 namespace plenum::catalog {
 namespace {
@@ -141,7 +142,7 @@ TEST_F(Backups, RefusesForeignEmptyNewerAndMissingFiles) {
 
 TEST_F(Backups, TakesACopyOfAnOlderSchema) {
   path_.swap(copy_);
-  Sql(Bytes(fs::path(PLENUM_SOURCE_DIR) / "tests/catalog/schema_1.sql"));
+  Sql(Bytes(test::SourceDir() / "tests/catalog/schema_1.sql"));
   path_.swap(copy_);
   const std::string old = Bytes(copy_);
   Restore(path_, copy_);

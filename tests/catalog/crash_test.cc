@@ -15,6 +15,7 @@
 #include "catalog/backup.h"
 #include "folder.h"
 #include "samples.h"
+#include "tests/support/places.h"
 
 namespace plenum::catalog {
 namespace {
@@ -170,7 +171,7 @@ TEST_F(Crash, RestoringIsAllOrNothing) {
 
 // The old or the new schema, nothing between: the old one is migrated by the next to open it.
 TEST_F(Crash, MigratingIsAllOrNothing) {
-  Sql(Bytes(fs::path(PLENUM_SOURCE_DIR) / "tests/catalog/schema_1.sql"));
+  Sql(Bytes(test::SourceDir() / "tests/catalog/schema_1.sql"));
   int old = 0;
   KillEverywhere([&]() -> std::function<void()> { return [&] { Write(); }; },
                  [&](bool ended) {

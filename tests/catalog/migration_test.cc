@@ -5,6 +5,7 @@
 #include "catalog/migrations.h"
 #include "folder.h"
 #include "samples.h"
+#include "tests/support/places.h"
 
 namespace plenum::catalog {
 namespace {
@@ -17,8 +18,7 @@ class Migrating : public InFolder {
  protected:
   // The file as the release with that schema left it.
   void MakeOld(int schema) const {
-    Sql(Bytes(std::filesystem::path(PLENUM_SOURCE_DIR) / "tests/catalog" /
-              ("schema_" + std::to_string(schema) + ".sql")));
+    Sql(Bytes(test::SourceDir() / "tests/catalog" / ("schema_" + std::to_string(schema) + ".sql")));
   }
   int Count(const std::string& what) const {
     SQLite::Database db(path_.string());
@@ -40,7 +40,7 @@ class Migrating : public InFolder {
 
 TEST_F(Migrating, EverySchemaButTheNewestHasAnOldFile) {
   for (std::size_t schema = 1; schema < Migrations().size(); ++schema)
-    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(PLENUM_SOURCE_DIR) / "tests/catalog" /
+    EXPECT_TRUE(std::filesystem::exists(test::SourceDir() / "tests/catalog" /
                                         ("schema_" + std::to_string(schema) + ".sql")))
         << "keep an old file of schema " << schema;
 }

@@ -11,11 +11,12 @@
 #include "catalog/csv.h"
 #include "catalog/fields.h"
 #include "catalog/store.h"
+#include "tests/support/places.h"
 
 namespace plenum::catalog {
 namespace {
 
-const std::filesystem::path kSource = PLENUM_SOURCE_DIR;
+const std::filesystem::path kSource = test::SourceDir();
 
 CsvParts ReadFamily(const Family& family) {
   std::ifstream file(kSource / "catalog/data" / (std::string(family.name) + ".csv"),

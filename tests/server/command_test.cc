@@ -4,6 +4,7 @@
 
 #include <csignal>
 
+#include "tests/support/places.h"
 #include "workbench.h"
 
 namespace plenum::server {
@@ -130,8 +131,7 @@ TEST(Command, DesignFromStandardInputGivesOneDocument) {
 
 TEST(Command, DesignPrintsAFrontAndItsRobustness) {
   const Workbench bench;
-  Json request =
-      OneDocument(ReadAll(std::filesystem::path(PLENUM_SOURCE_DIR) / "examples/gripper.json"));
+  Json request = OneDocument(ReadAll(test::SourceDir() / "examples/gripper.json"));
   request["objective"] = {{"pareto", {"mass_kg", "volume_l"}}};
   request["robust"] = {{"draws", 20}};
   const auto text = bench.Run("design -", request.dump());
@@ -150,8 +150,7 @@ TEST(Command, DesignPrintsAFrontAndItsRobustness) {
 
 TEST(Command, DesignExplainsWhatIsAsked) {
   const Workbench bench;
-  Json request =
-      OneDocument(ReadAll(std::filesystem::path(PLENUM_SOURCE_DIR) / "examples/gripper.json"));
+  Json request = OneDocument(ReadAll(test::SourceDir() / "examples/gripper.json"));
   request["explain"] = {{"prices", true}, {"ranks", 3}};
   request["ranking"] = {{"count", 3}};
   const auto text = bench.Run("design -", request.dump());

@@ -5,13 +5,14 @@
 #include <filesystem>
 
 #include "../fuzz/targets.h"
+#include "tests/support/places.h"
 #include "workbench.h"
 
 namespace plenum::fuzz {
 namespace {
 
 void Replay(const std::string& name, void (*target)(std::string_view)) {
-  const auto folder = std::filesystem::path(PLENUM_SOURCE_DIR) / "tests/fuzz/corpus" / name;
+  const auto folder = test::SourceDir() / "tests/fuzz/corpus" / name;
   int files = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder)) {
     target(server::ReadAll(file.path()));

@@ -16,6 +16,7 @@
 #include "api/descriptions.h"
 #include "server/limits.h"
 #include "service.h"
+#include "tests/support/places.h"
 
 namespace plenum::server {
 namespace {
@@ -159,12 +160,10 @@ TEST_F(Described, ItsExamplesAreValidAndTaken) {
 
 TEST_F(Described, TheProjectsExamplesFit) {
   for (const char* name : {"exosuit", "crawler", "gripper"}) {
-    const auto file =
-        std::filesystem::path(PLENUM_SOURCE_DIR) / "examples" / (std::string(name) + ".json");
+    const auto file = test::SourceDir() / "examples" / (std::string(name) + ".json");
     EXPECT_EQ(Violations(SchemaOf("Requirements"), JsonOf(ReadAll(file))), "") << name;
   }
-  const auto file =
-      std::filesystem::path(PLENUM_SOURCE_DIR) / "examples" / "simulation_effects.json";
+  const auto file = test::SourceDir() / "examples" / "simulation_effects.json";
   EXPECT_EQ(Violations(SchemaOf("Simulation"), JsonOf(ReadAll(file))), "");
 }
 

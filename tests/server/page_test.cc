@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "server/http.h"
+#include "tests/support/places.h"
 #include "workbench.h"
 
 namespace plenum::server {
@@ -17,7 +18,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::filesystem::path kDist = std::filesystem::path(PLENUM_SOURCE_DIR) / "web" / "dist";
+const std::filesystem::path kDist = test::SourceDir() / "web" / "dist";
 
 class Page : public testing::Test {
  protected:

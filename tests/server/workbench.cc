@@ -12,6 +12,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "tests/support/places.h"
+
 namespace plenum::server {
 
 namespace fs = std::filesystem;
@@ -25,7 +27,7 @@ Workbench::Workbench() {
   std::string pattern = fs::temp_directory_path() / "plenum-XXXXXX";
   if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
   folder_ = pattern;
-  fs::copy_file(fs::path(PLENUM_SOURCE_DIR) / "catalog.db", catalog());
+  fs::copy_file(test::SourceDir() / "catalog.db", catalog());
 }
 
 Workbench::~Workbench() { fs::remove_all(folder_); }
@@ -84,7 +86,7 @@ int ServeProcess::End(int signal) {
 }
 
 api::Json Example(const std::string& name, double time_limit_s) {
-  const auto text = ReadAll(fs::path(PLENUM_SOURCE_DIR) / "examples" / (name + ".json"));
+  const auto text = ReadAll(test::SourceDir() / "examples" / (name + ".json"));
   auto json = std::get<api::Json>(api::ParseJson(text));
   json["ranking"] = {{"count", 2}, {"time_limit_s", time_limit_s}};
   return json;
