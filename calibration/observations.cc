@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace plenum::calibration {
 namespace {
@@ -30,6 +32,23 @@ const std::vector<double>& Predicted(const Reading& reading, const ObservedSigna
   return signal.channel ? reading.channels.*signal.channel : reading.pressure_pa;
 }
 
+bool Jumps(std::vector<double> Channels::*channel) {
+  return channel == &Channels::inlet_pressure_pa || channel == &Channels::flow_m3_per_s;
+}
+
+// Whether the valve turns between the neighbours of a sample.
+bool BesideACommand(const Run& run, std::size_t i) {
+  const auto [first, last] = std::equal_range(run.t_s.begin(), run.t_s.end(), run.t_s[i]);
+  const double before_s = first == run.t_s.begin() ? run.t_s[i] : *std::prev(first);
+  const double after_s = last == run.t_s.end() ? run.t_s[i] : *last;
+  model::ValveState state = model::ValveState::kHold;
+  for (const model::ValveCommand& command : run.valve) {
+    const bool turns = std::exchange(state, command.state) != command.state;
+    if (turns && command.time_s >= before_s && command.time_s <= after_s) return true;
+  }
+  return false;
+}
+
 ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
                         const Noise& noise) {
   ObservedSignal signal;
@@ -39,7 +58,8 @@ ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const bool dropped = std::binary_search(noise.outliers.begin(), noise.outliers.end(), i) ||
                          std::binary_search(noise.near_end.begin(), noise.near_end.end(), i);
-    if (std::isfinite(measured[i]) && !dropped) signal.samples.push_back(i);
+    const bool either_side = Jumps(channel) && BesideACommand(run, i);
+    if (std::isfinite(measured[i]) && !dropped && !either_side) signal.samples.push_back(i);
   }
   if (noise.staircase && !channel) signal.grid = Grid(noise.quantum_pa, noise.quantum_pa);
   std::vector<double> t_s;

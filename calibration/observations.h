@@ -3,7 +3,9 @@
 // Sample i of a signal counts as r_i/σ, with r = model − measured. Noise that remembers is
 // whitened (noise_memory.h) over the usable samples. Left out: missing, wild and clipped readings.
 // A second channel supports the pressure; its σ is at least kChannelAccuracy of its range, because
-// its sensor and its place are less certain than its noise. Where noise is below half of the
+// its sensor and its place are less certain than its noise; of one that jumps with the valve (inlet
+// pressure, flow) the samples next to a command do not count, as clocks may be off by a part of a
+// sample, and the jump may lie on either side. Where noise is below half of the
 // readings' quantum the model's mean reading on that grid takes the model's place (rounding.h);
 // until TakeHiddenNoise is told of a fit, the noise behind the grid counts as a quantum, which
 // shifts nothing.

@@ -47,6 +47,25 @@ TEST(Observations, StructureIsNotLeftOut) {
   EXPECT_FALSE(LeaveOutWild(dataset, {0, 1, 2}, DeclaredReadings(forward, 4), observed));
 }
 
+TEST(Observations, WhatJumpsDoesNotCountBesideACommand) {
+  Dataset dataset = MeasuredBench({}, 14);
+  Run& run = dataset.runs[0];
+  run.t_s = {0.0, 0.1, 0.2, 0.3, 0.3, 0.4, 0.5, 0.6, 0.7};
+  run.pressure_pa = {1.0e5, 1.0e5, 1.1e5, 1.2e5, 1.2e5, 1.3e5, 1.3e5, 1.3e5, 1.3e5};
+  run.channels.inlet_pressure_pa = {1.0e5, 1.0e5, 1.8e5, 1.8e5, 1.8e5, 1.9e5, 1.3e5, 1.3e5, 1.3e5};
+  run.channels.volume_m3 = {1.0, 1.0, 1.1, 1.2, 1.2, 1.3, 1.3, 1.3, 1.3};
+  run.valve = {{0.0, model::ValveState::kHold},
+               {0.15, model::ValveState::kInflate},
+               {0.45, model::ValveState::kHold},
+               {0.6, model::ValveState::kHold}};
+  const ObservedRun observed = Observe(dataset)[0];
+  ASSERT_EQ(observed.signals.size(), 3u);
+  EXPECT_EQ(observed.signals[0].samples.size(), 9u);
+  EXPECT_EQ(observed.signals[1].samples, (std::vector<std::size_t>{0, 3, 4, 7, 8}));
+  EXPECT_EQ(observed.signals[1].steps.size(), 5u);
+  EXPECT_EQ(observed.signals[2].samples.size(), 9u);
+}
+
 TEST(Observations, BehindAGridIsTheNoiseThatATrueModelLeaves) {
   constexpr double kQuantum = 600.0, kNoise = 90.0;
   Dataset dataset = MeasuredBench({}, 13, kNoise);
