@@ -36,17 +36,22 @@ bool Jumps(std::vector<double> Channels::*channel) {
   return channel == &Channels::inlet_pressure_pa || channel == &Channels::flow_m3_per_s;
 }
 
-// Whether the valve turns between the neighbours of a sample.
-bool BesideACommand(const Run& run, std::size_t i) {
-  const auto [first, last] = std::equal_range(run.t_s.begin(), run.t_s.end(), run.t_s[i]);
-  const double before_s = first == run.t_s.begin() ? run.t_s[i] : *std::prev(first);
-  const double after_s = last == run.t_s.end() ? run.t_s[i] : *last;
+// When the valve turns, rising.
+std::vector<double> TurnsOf(const Run& run) {
+  std::vector<double> turns_s;
   model::ValveState state = model::ValveState::kHold;
-  for (const model::ValveCommand& command : run.valve) {
-    const bool turns = std::exchange(state, command.state) != command.state;
-    if (turns && command.time_s >= before_s && command.time_s <= after_s) return true;
-  }
-  return false;
+  for (const model::ValveCommand& command : run.valve)
+    if (std::exchange(state, command.state) != command.state) turns_s.push_back(command.time_s);
+  return turns_s;
+}
+
+// Whether one of them lies between the neighbours of a sample.
+bool Beside(const std::vector<double>& turns_s, const std::vector<double>& t_s, std::size_t i) {
+  const auto [first, last] = std::equal_range(t_s.begin(), t_s.end(), t_s[i]);
+  const double before_s = first == t_s.begin() ? t_s[i] : *std::prev(first);
+  const double after_s = last == t_s.end() ? t_s[i] : *last;
+  const auto turn = std::lower_bound(turns_s.begin(), turns_s.end(), before_s);
+  return turn != turns_s.end() && *turn <= after_s;
 }
 
 ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
@@ -55,10 +60,11 @@ ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
   signal.channel = channel;
   signal.sigma = noise.sigma_pa;
   const std::vector<double>& measured = Measured(run, signal);
+  const std::vector<double> turns_s = Jumps(channel) ? TurnsOf(run) : std::vector<double>();
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const bool dropped = std::binary_search(noise.outliers.begin(), noise.outliers.end(), i) ||
                          std::binary_search(noise.near_end.begin(), noise.near_end.end(), i);
-    const bool either_side = Jumps(channel) && BesideACommand(run, i);
+    const bool either_side = !turns_s.empty() && Beside(turns_s, run.t_s, i);
     if (std::isfinite(measured[i]) && !dropped && !either_side) signal.samples.push_back(i);
   }
   if (noise.staircase && !channel) signal.grid = Grid(noise.quantum_pa, noise.quantum_pa);
@@ -151,7 +157,9 @@ std::vector<ObservedRun> Observe(const Dataset& dataset) {
       const std::vector<double>& measured = run.channels.*channel;
       if (drives || measured.empty()) continue;
       const Noise noise = NoiseOfChannel(run, measured);
-      if (noise.sigma_pa > 0.0) of_run.signals.push_back(SignalOf(run, channel, noise));
+      if (!(noise.sigma_pa > 0.0)) continue;
+      ObservedSignal signal = SignalOf(run, channel, noise);
+      if (!signal.samples.empty()) of_run.signals.push_back(std::move(signal));
     }
   }
   return observed;

@@ -64,6 +64,12 @@ TEST(Observations, WhatJumpsDoesNotCountBesideACommand) {
   EXPECT_EQ(observed.signals[1].samples, (std::vector<std::size_t>{0, 3, 4, 7, 8}));
   EXPECT_EQ(observed.signals[1].steps.size(), 5u);
   EXPECT_EQ(observed.signals[2].samples.size(), 9u);
+  // Turned at every sample it counts nowhere.
+  run.valve.clear();
+  for (std::size_t i = 0; i < run.t_s.size(); ++i)
+    run.valve.push_back(
+        {run.t_s[i], i % 2 ? model::ValveState::kHold : model::ValveState::kInflate});
+  EXPECT_EQ(Observe(dataset)[0].signals.size(), 2u);
 }
 
 TEST(Observations, BehindAGridIsTheNoiseThatATrueModelLeaves) {
