@@ -49,7 +49,7 @@ TEST(Observations, StructureIsNotLeftOut) {
 
 TEST(Observations, WhatJumpsDoesNotCountBesideACommand) {
   Dataset dataset = MeasuredBench({}, 14);
-  Run& run = dataset.runs[0];
+  calibration::Run& run = dataset.runs[0];
   run.t_s = {0.0, 0.1, 0.2, 0.3, 0.3, 0.4, 0.5, 0.6, 0.7};
   run.pressure_pa = {1.0e5, 1.0e5, 1.1e5, 1.2e5, 1.2e5, 1.3e5, 1.3e5, 1.3e5, 1.3e5};
   run.channels.inlet_pressure_pa = {1.0e5, 1.0e5, 1.8e5, 1.8e5, 1.8e5, 1.9e5, 1.3e5, 1.3e5, 1.3e5};
