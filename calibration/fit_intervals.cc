@@ -89,6 +89,8 @@ double Inflation(const Fit& fit, double memory) {
 Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions& options,
                            double memory) {
   const auto size = static_cast<Eigen::Index>(fit.coordinates.size());
+  if (size == 0)
+    return Eigen::MatrixXd(0, 0);  // nothing was fitted; Eigen decomposes no empty matrix
   std::vector<Eigen::MatrixXd> of_runs(data.runs.size(), Eigen::MatrixXd::Zero(size, size));
   ForAll(data.runs.size(), options.threads, [&](std::size_t i) {
     const std::size_t run = data.runs[i];
