@@ -1,5 +1,6 @@
 #include "api/design_reader.h"
 
+#include "api/fields.h"
 #include "api/units.h"
 
 namespace plenum::api {
@@ -9,7 +10,7 @@ using optimizer::Configuration;
 using optimizer::Family;
 using optimizer::Problem;
 
-const Range kAnyNumber{-1e300, 1e300};
+const Range kReservoirMl{1e-3, 1e9};
 
 int GroupNamed(const Problem& problem, const std::string& name) {
   for (std::size_t g = 0; g < problem.groups.size(); ++g)
@@ -42,9 +43,9 @@ optimizer::Choice ReadChoice(Reader& row, const Problem& problem) {
 
 optimizer::Settings ReadPoint(Reader& reader, const Problem& problem) {
   optimizer::Settings settings;
-  settings.source_pressure_pa =
-      PaFromKpaGauge(reader.Number("source_pressure_kpa_gauge", kAnyNumber), problem.ambient);
-  if (const auto ml = reader.OptionalNumber("reservoir_volume_ml", kAnyNumber))
+  settings.source_pressure_pa = PaFromKpaGauge(
+      reader.Number("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}), problem.ambient);
+  if (const auto ml = reader.OptionalNumber("reservoir_volume_ml", kReservoirMl))
     settings.reservoir_volume_m3 = M3FromMl(*ml);
   return settings;
 }

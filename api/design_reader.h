@@ -28,7 +28,7 @@ optimizer::Configuration ReadConfiguration(Reader& design);
 // "family", "id", "group" and "quantity" of a row of "parts".
 optimizer::Choice ReadChoice(Reader& row, const optimizer::Problem& problem);
 
-// "source_pressure_kpa_gauge" and "reservoir_volume_ml" of "settings".
+// "source_pressure_kpa_gauge" and "reservoir_volume_ml" of "settings": positive and finite.
 optimizer::Settings ReadPoint(Reader& settings, const optimizer::Problem& problem);
 
 // The three together: a design that is to be evaluated.

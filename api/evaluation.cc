@@ -1,3 +1,4 @@
+#include "api/combination.h"
 #include "api/design_reader.h"
 #include "api/services.h"
 #include "api/units.h"
@@ -20,9 +21,11 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
     return *wrong;
   }
   const optimizer::Problem& problem = std::get<DesignRequest>(parsed).problem;
-  const optimizer::Design given = ReadGivenDesign(reader.Object("design"), problem);
+  optimizer::Design given = ReadGivenDesign(reader.Object("design"), problem);
   reader.Finish();
+  if (errors.empty()) CheckCombination(given, problem, parts, "/design", errors);
   if (!errors.empty()) return errors;
+  given = WithReservoirVolume(std::move(given), problem);
   const auto [source, design] =
       optimizer::EvaluateAtSettings(optimizer::WithPartsOf(problem, given), given);
   Json answer = {{"schema", "evaluation_answer/1"}, {"works", design.has_value()}};

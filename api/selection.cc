@@ -18,26 +18,6 @@ constexpr std::array kFamilies{Family::kTubing,     Family::kFitting,   Family::
                                Family::kCompressor, Family::kCylinder,  Family::kCo2,
                                Family::kBattery,    Family::kRegulator, Family::kReservoir};
 
-std::vector<Family> SourceFamilies(Configuration configuration) {
-  switch (configuration) {
-    case Configuration::kCylinder:
-      return {Family::kCylinder, Family::kRegulator, Family::kBattery};
-    case Configuration::kCo2:
-      return {Family::kCo2, Family::kRegulator, Family::kBattery};
-    case Configuration::kCompressor:
-      return {Family::kCompressor, Family::kReservoir, Family::kBattery};
-    case Configuration::kMains:
-      return {Family::kRegulator};
-  }
-  return {};
-}
-
-bool IsAllowed(const optimizer::Problem& problem, Family family, const std::string& id) {
-  const auto required = problem.require.find(family);
-  return !problem.exclude.contains(id) &&
-         (required == problem.require.end() || required->second.contains(id));
-}
-
 // Whether the request leaves a part of the family to choose.
 bool HasChoice(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
                Family family) {
@@ -58,6 +38,26 @@ std::string PointerFor(const std::vector<catalog::Part>& parts, const optimizer:
 }
 
 }  // namespace
+
+std::vector<Family> SourceFamilies(Configuration configuration) {
+  switch (configuration) {
+    case Configuration::kCylinder:
+      return {Family::kCylinder, Family::kRegulator, Family::kBattery};
+    case Configuration::kCo2:
+      return {Family::kCo2, Family::kRegulator, Family::kBattery};
+    case Configuration::kCompressor:
+      return {Family::kCompressor, Family::kReservoir, Family::kBattery};
+    case Configuration::kMains:
+      return {Family::kRegulator};
+  }
+  return {};
+}
+
+bool IsAllowed(const optimizer::Problem& problem, Family family, const std::string& id) {
+  const auto required = problem.require.find(family);
+  return !problem.exclude.contains(id) &&
+         (required == problem.require.end() || required->second.contains(id));
+}
 
 void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
                    optimizer::Problem& problem) {

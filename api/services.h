@@ -54,9 +54,9 @@ Json RenderSearched(const optimizer::Problem& problem, const optimizer::Searched
 Json RenderFigures(const optimizer::Design& design, const optimizer::Problem& problem);
 
 // ── evaluation/1 → evaluation_answer/1 ──
-// How given parts do at given settings against requirements, met or not: no search. `works` is
-// false, and there are no figures, where the parts do not stand the source pressure (its range is
-// given, null where a part is missing) or where a stroke takes longer than half of the period.
+// How a combination of parts (combination.h) does at given settings, whatever it meets: no search.
+// `works` is false, without figures, where the parts do not stand the source pressure (its range is
+// given, null where there is none) or where a stroke takes longer than half of the period.
 Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>& parts,
                            const std::vector<catalog::ModelRevision>& models);
 

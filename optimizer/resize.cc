@@ -243,7 +243,12 @@ AtSettings EvaluateAtSettings(const Problem& problem, const Design& design) {
   const OperatingPoint point = PointOf(design);
   if (point.source_pa < found.source.low_pa || point.source_pa > found.source.high_pa) return found;
   const Evaluation evaluation = Evaluate(free, rebuilt.candidate, point);
-  if (evaluation.works) found.design = Describe(problem, rebuilt.candidate, point, evaluation);
+  if (!evaluation.works) return found;
+  found.design = Describe(problem, rebuilt.candidate, point, evaluation);
+  if (found.design->totals.cost_eur) return found;
+  for (Margin& margin : found.design->margins)  // of a part without a price no cost is known
+    if (margin.requirement == "/supply/cost_eur_max")
+      margin.achieved = kUnlimited, margin.relative_margin = -kUnlimited;
   return found;
 }
 
