@@ -15,6 +15,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   try {
     AddDesignCommand(app, status);
     AddVerifyCommand(app, status);
+    AddEvaluateCommand(app, status);
     AddSimulateCommand(app, status);
     AddMapCommand(app, status);
     AddDiagnoseCommand(app, status);

@@ -6,6 +6,7 @@
 #include "server/commands.h"
 #include "server/input.h"
 #include "server/reply.h"
+#include "server/text_design.h"
 #include "server/text_response.h"
 
 namespace plenum::server {
@@ -35,6 +36,13 @@ void Simulate(const FileOptions& options) {
              stdout);
 }
 
+void Evaluate(const FileOptions& options) {
+  const auto request = ReadJson(options.file);
+  const catalog::Store store = OpenCatalog(options.catalog, catalog::Access::kRead);
+  const auto answer = ValueOrRefuse(api::RunEvaluation(request, store.List(), store.Models()));
+  std::fputs(options.json ? (Dump(answer) + "\n").c_str() : EvaluationText(answer).c_str(), stdout);
+}
+
 void Map(const FileOptions& options) {
   const auto answer = ValueOrRefuse(api::RunMap(ReadJson(options.file)));
   std::fputs(options.json ? (Dump(answer) + "\n").c_str() : MapText(answer).c_str(), stdout);
@@ -54,6 +62,10 @@ void AddFileCommand(CLI::App& app, const char* name, const char* description,
 
 void AddSimulateCommand(CLI::App& app, int&) {
   AddFileCommand(app, "simulate", "Pressures of one given design over time", Simulate);
+}
+
+void AddEvaluateCommand(CLI::App& app, int&) {
+  AddFileCommand(app, "evaluate", "A given design against requirements", Evaluate);
 }
 
 void AddMapCommand(CLI::App& app, int&) {

@@ -11,6 +11,7 @@ namespace plenum::server {
 
 void AddDesignCommand(CLI::App& app, int& status);
 void AddVerifyCommand(CLI::App& app, int& status);
+void AddEvaluateCommand(CLI::App& app, int& status);
 void AddSimulateCommand(CLI::App& app, int& status);
 void AddMapCommand(CLI::App& app, int& status);
 void AddDiagnoseCommand(CLI::App& app, int& status);

@@ -245,6 +245,22 @@ std::string DesignText(const Json& answer) {
   return text + ProofText(answer);
 }
 
+std::string EvaluationText(const Json& answer) {
+  const auto& range = answer.at("source_pressure_range_kpa_gauge");
+  if (range.is_null()) {
+    return "It does not work: at no source pressure that the parts stand does every stroke end "
+           "within half of the period.\n";
+  }
+  std::string text = fmt::format("The parts stand source pressures from {} to {} kPa gauge.\n",
+                                 Short(range[0]), Short(range[1]));
+  if (!answer.at("works").get<bool>()) {
+    return text +
+           "It does not work: the source pressure is none of these, or a stroke does not "
+           "end within half of the period.\n";
+  }
+  return text + SettingsText(answer) + TotalsText(answer) + "\n" + MarginsTable(answer);
+}
+
 std::string ProgressText(const optimizer::Progress& progress) {
   return fmt::format("{:.0f} s  {} evaluated  {} boxes open  best {}  bound {}", progress.seconds,
                      progress.evaluated, progress.open, progress.best ? Short(*progress.best) : "–",

@@ -1,4 +1,4 @@
-// designs/1 for a person.
+// designs/1 and evaluation_answer/1 for a person.
 #ifndef PLENUM_SERVER_TEXT_DESIGN_H_
 #define PLENUM_SERVER_TEXT_DESIGN_H_
 
@@ -12,6 +12,9 @@ namespace plenum::server {
 // The ranked table, the best design in full, the proof in words; for an infeasible problem the
 // conflict in words.
 std::string DesignText(const api::Json& answer);
+
+// evaluation_answer/1: what the parts stand and, where the design works, its figures and margins.
+std::string EvaluationText(const api::Json& answer);
 
 // One line without its end.
 std::string ProgressText(const optimizer::Progress& progress);
