@@ -9,6 +9,7 @@
 
 #include "api/explanation.h"
 #include "api/json.h"
+#include "api/limits.h"
 #include "api/model_revision.h"
 #include "api/robustness.h"
 #include "catalog/backup.h"
@@ -61,8 +62,9 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
                            const std::vector<catalog::ModelRevision>& models);
 
 // ── simulation/1 → response/1, map/1 → map_answer/1 ──
-// At most 200,000 samples and 60 s of work; what stops early says so in `status` and `detail`.
-Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>& parts);
+// At most 200,000 samples and so much work; what stops early says so in `status` and `detail`.
+Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>& parts,
+                           double seconds_max = kSimulationSecondsMax);
 // At most 100,000 grid points, 2,000 with a compressor; an error if they take more than 60 s.
 Parsed<Json> RunMap(const Json& request);
 

@@ -17,7 +17,6 @@ namespace {
 constexpr double kSamplesMax = kSimulationSamplesMax;
 constexpr double kSampleHzDefault = 100;
 constexpr double kEndMaxS = 1e6;
-constexpr auto kTimeLimit = std::chrono::seconds(kSimulationSecondsMax);
 
 struct Simulation {
   model::Rig rig;
@@ -183,12 +182,14 @@ Json RenderResponse(const model::Response& response, const std::vector<model::Fu
 
 }  // namespace
 
-Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>& parts) {
+Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>& parts,
+                           double seconds_max) {
   Parsed<Simulation> parsed = ParseSimulation(request, parts);
   if (auto* errors = std::get_if<Errors>(&parsed)) return std::move(*errors);
   auto& [rig, options] = std::get<Simulation>(parsed);
-  const auto deadline = std::chrono::steady_clock::now() + kTimeLimit;
-  options.cancelled = [deadline] { return std::chrono::steady_clock::now() > deadline; };
+  using Clock = std::chrono::steady_clock;
+  const auto limit = std::chrono::duration<double>(seconds_max);
+  options.cancelled = [start = Clock::now(), limit] { return Clock::now() - start > limit; };
   model::Response response = model::Simulate(rig, options);
   if (response.status == model::SimulateStatus::kInvalid) return Errors{{"", response.detail}};
   const std::vector<model::FullStroke> strokes = model::FullStrokes(rig, options);

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "computations.h"
 #include "targets.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

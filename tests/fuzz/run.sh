@@ -2,6 +2,7 @@
 # Fuzzes each target for SECONDS, as many at a time as there are cores, and fails at the first crash,
 # leak, hang or more than 2 GB; what did it lies in build/fuzz then.
 # usage: tests/fuzz/run.sh [--keep] [SECONDS=60] [TARGET…]     needs Debian's clang-14
+# Words of a target's documents are in tests/fuzz/words.
 # --keep: adds what is interesting to tests/fuzz/corpus, as the smallest set that covers as much.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -13,7 +14,8 @@ fi
 seconds=${1:-60}
 shift || true
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(requirements measurement csv query frame)
+[ ${#targets[@]} -gt 0 ] || targets=(requirements measurement csv query frame
+  design evaluation simulation diagnosis import verify)
 
 [ -f build/fuzz/build.ninja ] || cmake --preset fuzz >&2
 cmake --build --preset fuzz -j "$(nproc)" >&2
@@ -22,7 +24,9 @@ fuzz() {  # fuzz TARGET: what it finds goes to build/fuzz/found/TARGET
   local target=$1 found=build/fuzz/found/$1
   rm -rf "$found"
   mkdir -p "$found"
-  if ! "build/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len=20000 -timeout=10 \
+  local words=()
+  [ ! -f "tests/fuzz/words/$target.dict" ] || words=(-dict="tests/fuzz/words/$target.dict")
+  if ! "build/fuzz/fuzz_$target" "${words[@]}" -max_total_time="$seconds" -max_len=20000 -timeout=10 \
     -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="build/fuzz/$target-" \
     "$found" "tests/fuzz/corpus/$target" >"build/fuzz/$target.log" 2>&1; then
     tail -n 60 "build/fuzz/$target.log"

@@ -1,6 +1,5 @@
 #include "targets.h"
 
-#include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,14 +12,6 @@
 #include "server/request_frame.h"
 
 namespace plenum::fuzz {
-namespace {
-
-// What must hold in a fuzzer, where no test library listens.
-void Require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
 
 void Requirements(std::string_view text) {
   const auto json = api::ParseJson(text);
