@@ -201,6 +201,9 @@ export interface Job<Result = Answer, Report = Progress> {
   name: string;
   status: JobStatus;
   submitted_at: string;
+  attempts: number;
+  crashes: number; // times that its computation ended the service
+  last_crash: string | null;
   progress: Report | null;
   result?: Result | null;
   detail?: string;
