@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "model/signal_stack.h"
+
 namespace plenum::calibration {
 
 // Cores that this process may run on, which may be fewer than the machine has (taskset,
@@ -20,7 +22,8 @@ inline int UsableCores() {
   return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-// Runs work(i) for all i below count, each once, in no fixed order.
+// Runs work(i) for all i below count, each once, in no fixed order. The threads have the name and
+// the niceness of the one that calls, by which the service knows what they work for.
 template <class Work>
 void ForAll(std::size_t count, int threads, const Work& work) {
   std::atomic<std::size_t> next = 0;
@@ -28,7 +31,11 @@ void ForAll(std::size_t count, int threads, const Work& work) {
     for (std::size_t i = next++; i < count; i = next++) work(i);
   };
   std::vector<std::thread> pool;
-  for (int k = 1; k < threads && static_cast<std::size_t>(k) < count; ++k) pool.emplace_back(run);
+  for (int k = 1; k < threads && static_cast<std::size_t>(k) < count; ++k)
+    pool.emplace_back([&run] {
+      const model::SignalStack stack;
+      run();
+    });
   run();
   for (std::thread& thread : pool) thread.join();
 }

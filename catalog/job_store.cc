@@ -11,10 +11,10 @@ namespace plenum::catalog {
 namespace {
 
 constexpr int kBusyTimeoutMs = 2'000;
-constexpr int kSchema = 1;
+constexpr int kSchema = 2;
 constexpr int kApplicationId = 1886154346;  // "plnj"
 
-constexpr char kTables[] = R"sql(
+constexpr char kSchema1[] = R"sql(
 CREATE TABLE job (
   number INTEGER NOT NULL PRIMARY KEY CHECK (number BETWEEN 1 AND 9007199254740991),
   id TEXT NOT NULL UNIQUE CHECK (length(id) BETWEEN 1 AND 100),
@@ -44,6 +44,14 @@ CREATE TABLE job (
   CHECK ((ended IS NULL) = (status IN ('queued', 'running')) AND (ended IS NULL) = (ended_at IS NULL))
 ) STRICT;
 )sql";
+constexpr char kSchema2[] = R"sql(
+ALTER TABLE job ADD COLUMN crashes INTEGER NOT NULL DEFAULT 0
+  CHECK (crashes BETWEEN 0 AND 1000000);
+ALTER TABLE job ADD COLUMN crashes_max INTEGER NOT NULL DEFAULT 2
+  CHECK (crashes_max BETWEEN 1 AND 1000001);
+ALTER TABLE job ADD COLUMN crash TEXT NOT NULL DEFAULT '' CHECK (length(crash) <= 1000);
+ALTER TABLE job ADD COLUMN alone INTEGER NOT NULL DEFAULT 0 CHECK (alone IN (0, 1));
+)sql";
 
 constexpr char kNow[] = "strftime('%Y-%m-%dT%H:%M:%SZ', 'now')";
 
@@ -51,16 +59,20 @@ constexpr char kNow[] = "strftime('%Y-%m-%dT%H:%M:%SZ', 'now')";
 constexpr char kColumns[] =
     "id, kind, name, who, coalesce(key, ''), coalesce(digest, ''), revision, hash, model, "
     "model_version, model_hash, status, starts, cancel_asked, submitted_at, "
-    "coalesce(ended_at, ''), progress, failure, number";
-constexpr int kRequestColumn = 19;
+    "coalesce(ended_at, ''), progress, failure, number, crashes, crashes_max, crash, alone";
+constexpr int kRequestColumn = 23;
 
 constexpr std::array kStatuses = {JobStatus::kQueued, JobStatus::kRunning, JobStatus::kDone,
                                   JobStatus::kCancelled, JobStatus::kFailed};
 
-JobStatus StatusFromName(const std::string& name) {
-  for (const JobStatus status : kStatuses)
-    if (name == Name(status)) return status;
-  throw SQLite::Exception("a job has the unknown status " + name);
+void SetStatus(JobRecord& job, const std::string& name) {
+  for (const JobStatus status : kStatuses) {
+    if (name != Name(status)) continue;
+    job.status = status;
+    return;
+  }
+  job.status = JobStatus::kFailed;
+  job.failure = "its record is damaged: it has the unknown status \"" + name + "\"";
 }
 
 JobRecord ReadRow(const SQLite::Statement& row) {
@@ -69,7 +81,6 @@ JobRecord ReadRow(const SQLite::Statement& row) {
   job.id = text(0);
   job.order = {text(1), text(2), {text(3), text(4), text(5)}, "",      row.getColumn(6).getInt64(),
                text(7), text(8), row.getColumn(9).getInt64(), text(10)};
-  job.status = StatusFromName(text(11));
   job.starts = row.getColumn(12).getInt();
   job.cancel_asked = row.getColumn(13).getInt() != 0;
   job.submitted_at = text(14);
@@ -77,6 +88,11 @@ JobRecord ReadRow(const SQLite::Statement& row) {
   job.progress = text(16);
   job.failure = text(17);
   job.number = row.getColumn(18).getInt64();
+  job.crashes = row.getColumn(19).getInt();
+  job.crashes_max = row.getColumn(20).getInt();
+  job.crash = text(21);
+  job.alone = row.getColumn(22).getInt() != 0;
+  SetStatus(job, text(11));
   if (row.getColumnCount() > kRequestColumn) {
     job.order.request = text(kRequestColumn);
     job.result = text(kRequestColumn + 1);
@@ -99,8 +115,11 @@ SQLite::Database Open(const std::string& path) {
   db.exec("PRAGMA synchronous = FULL");
   SQLite::Transaction transaction(db, SQLite::TransactionBehavior::EXCLUSIVE);
   if (empty) {
-    db.exec(kTables);
+    db.exec(kSchema1);
     db.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
+  }
+  if (empty || schema < kSchema) {
+    db.exec(kSchema2);
     db.exec("PRAGMA user_version = " + std::to_string(kSchema));
   }
   transaction.commit();
@@ -154,11 +173,11 @@ struct JobStore::Impl {
   }
 
   std::vector<JobRecord> Select(const std::string& columns, const std::string& where,
-                                const std::string& kind, const std::string& argument) {
+                                const std::vector<std::string>& arguments) {
     return Do([&] {
-      SQLite::Statement query(db, "SELECT " + columns + " FROM job WHERE kind = ?1 AND " + where);
-      query.bind(1, kind);
-      if (!argument.empty()) query.bind(2, argument);
+      SQLite::Statement query(db, "SELECT " + columns + " FROM job WHERE " + where);
+      int place = 0;
+      for (const std::string& argument : arguments) query.bind(++place, argument);
       std::vector<JobRecord> jobs;
       while (query.executeStep()) jobs.push_back(ReadRow(query));
       return jobs;
@@ -166,7 +185,8 @@ struct JobStore::Impl {
   }
   std::optional<JobRecord> SelectOne(const std::string& where, const std::string& kind,
                                      const std::string& argument) {
-    auto found = Select(std::string(kColumns) + ", request, result", where, kind, argument);
+    auto found = Select(std::string(kColumns) + ", request, result", "kind = ? AND " + where,
+                        {kind, argument});
     return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
   }
 
@@ -239,7 +259,9 @@ JobRecord JobStore::Add(const std::string& id, const JobOrder& order) {
 
 void JobStore::Start(const std::string& id) {
   impl_->Do([&] {
-    Execute(impl_->db, "UPDATE job SET status = 'running', starts = starts + 1 WHERE id = ?", id);
+    Execute(impl_->db,
+            "UPDATE job SET status = 'running', starts = min(starts + 1, 1000000) WHERE id = ?",
+            id);
   });
 }
 
@@ -253,6 +275,31 @@ void JobStore::Requeue(const std::string& id) {
 void JobStore::AskToCancel(const std::string& id) {
   impl_->Do([&] {
     Execute(impl_->db, "UPDATE job SET cancel_asked = 1 WHERE id = ? AND ended IS NULL", id);
+  });
+}
+
+void JobStore::RequeueInterrupted(const std::vector<JobCrash>& crashes) {
+  impl_->Do([&] {
+    SQLite::Transaction transaction(impl_->db, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const JobCrash& crash : crashes)
+      Execute(impl_->db,
+              "UPDATE OR IGNORE job SET crashes = min(crashes + 1, 1000000), crash = substr(?, 1, "
+              "1000) "
+              "WHERE number = ? AND status = 'running'",
+              crash.what, crash.number);
+    impl_->db.exec(
+        "UPDATE OR IGNORE job SET status = 'queued', alone = 1 WHERE status = 'running'");
+    transaction.commit();
+  });
+}
+
+void JobStore::Again(const std::string& id) {
+  impl_->Do([&] {
+    Execute(impl_->db,
+            "UPDATE job SET status = 'queued', ended = NULL, ended_at = NULL, cancel_asked = 0, "
+            "progress = '', failure = '', result = '', bytes = length(CAST(request AS BLOB)), "
+            "alone = crashes > 0, crashes_max = max(2, crashes + 1) WHERE id = ?",
+            id);
   });
 }
 
@@ -277,19 +324,23 @@ std::string JobStore::End(const JobRecord& record) {
 }
 
 std::optional<JobRecord> JobStore::Find(const std::string& kind, const std::string& id) const {
-  return impl_->SelectOne("id = ?2", kind, id);
+  return impl_->SelectOne("id = ?", kind, id);
 }
 
 std::optional<JobRecord> JobStore::FindKey(const std::string& kind, const std::string& key) const {
-  return impl_->SelectOne("key = ?2", kind, key);
+  return impl_->SelectOne("key = ?", kind, key);
 }
 
 std::vector<JobRecord> JobStore::Unfinished(const std::string& kind) const {
-  return impl_->Select(kColumns, "ended IS NULL ORDER BY number", kind, "");
+  return impl_->Select(kColumns, "kind = ? AND ended IS NULL ORDER BY number", {kind});
 }
 
 std::vector<JobRecord> JobStore::Ended(const std::string& kind) const {
-  return impl_->Select(kColumns, "ended IS NOT NULL ORDER BY number DESC", kind, "");
+  return impl_->Select(kColumns, "kind = ? AND ended IS NOT NULL ORDER BY number DESC", {kind});
+}
+
+std::vector<JobRecord> JobStore::List() const {
+  return impl_->Select(kColumns, "true ORDER BY number DESC", {});
 }
 
 }  // namespace plenum::catalog

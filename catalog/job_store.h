@@ -45,9 +45,19 @@ struct JobRecord {
   std::string submitted_at;  // UTC, ISO 8601
   std::string ended_at;      // empty until then
   int starts = 0;            // how often it was begun and not stopped in an orderly way
+  int crashes = 0;           // how often its own computation ended the program
+  int crashes_max = 2;       // after so many it has failed
+  std::string crash;         // what is known of the last one; empty: none
+  bool alone = false;        // it ran when the program ended: no other may run beside it
   bool cancel_asked = false;
   std::string progress, result;  // JSON, empty where there is none
   std::string failure;           // of a failed job: what a client is told
+};
+
+// A crash of the program in a thread that worked for a job.
+struct JobCrash {
+  std::int64_t number = 0;  // of the job
+  std::string what;         // for people
 };
 
 // How much of the jobs that ended is kept, of each kind: the newest.
@@ -75,15 +85,23 @@ class JobStore {
   // Puts a job that was stopped in an orderly way back as it was before its start.
   void Requeue(const std::string& id);
   void AskToCancel(const std::string& id);
+  // For who opened the file, so that no job can be under way: those that were when the last service
+  // ended are queued again, to run alone, and those that crashed it have a crash more.
+  void RequeueInterrupted(const std::vector<JobCrash>& crashes);
+  // Queues a job that ended as if it was new, without its outcome. One that crashed gets one more
+  // try, alone.
+  void Again(const std::string& id);
   // Writes `status`, `progress`, `result` and `failure` of the record, and drops what ended long
   // ago. Returns `ended_at`.
   std::string End(const JobRecord& record);
 
   std::optional<JobRecord> Find(const std::string& kind, const std::string& id) const;
   std::optional<JobRecord> FindKey(const std::string& kind, const std::string& key) const;
-  // Without request and result: in the order in which they were added, and newest first.
+  // Without request and result: in the order in which they were added, and newest first. A record
+  // that makes no sense is given as failed, with the reason.
   std::vector<JobRecord> Unfinished(const std::string& kind) const;
   std::vector<JobRecord> Ended(const std::string& kind) const;
+  std::vector<JobRecord> List() const;  // of all kinds, newest first
 
  private:
   struct Impl;

@@ -21,6 +21,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddDiagnoseCommand(app, status);
     AddCatalogCommand(app, status);
     AddServeCommand(app, status);
+    AddJobsCommand(app, status);
     AddTokenCommand(app, status);
     app.parse(argc, argv);
     return status;

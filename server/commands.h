@@ -17,6 +17,7 @@ void AddMapCommand(CLI::App& app, int& status);
 void AddDiagnoseCommand(CLI::App& app, int& status);
 void AddCatalogCommand(CLI::App& app, int& status);
 void AddServeCommand(CLI::App& app, int& status);
+void AddJobsCommand(CLI::App& app, int& status);
 void AddTokenCommand(CLI::App& app, int& status);
 
 // The whole command line; gives the exit status.

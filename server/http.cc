@@ -9,8 +9,10 @@
 
 #include "api/problem.h"
 #include "server/connections.h"
+#include "server/crash_marks.h"
 #include "server/designs_resource.h"
 #include "server/diagnoses_resource.h"
+#include "server/job_recovery.h"
 #include "server/limits.h"
 #include "server/protocol.h"
 #include "server/request_log.h"
@@ -119,8 +121,9 @@ struct HttpService::Impl {
         tokens(TokenFile(given.catalog)),
         catalog(given.catalog),
         jobs(given.catalog.string() + "-jobs", given.kept),
-        designs(jobs, "design", DesignWork(catalog), given.jobs),
-        diagnoses(jobs, "diagnosis", DiagnosisWork(catalog), given.jobs),
+        marks(Recovered(CrashFile(given.catalog))),
+        designs(jobs, turns, "design", DesignWork(catalog), given.jobs),
+        diagnoses(jobs, turns, "diagnosis", DiagnosisWork(catalog), given.jobs),
         routes(Routes({catalog, designs, diagnoses, metrics, given.jobs, given.kept, given.catalog,
                        [this] { MeasureConnections(); }})),
         connections([this](Incoming request,
@@ -137,6 +140,12 @@ struct HttpService::Impl {
     if (options.host != "localhost" && !IsLoopback(options.host))
       options.allow_hosts.push_back(options.host);
     SetHandlers();
+  }
+
+  // The file of crash marks, once the jobs know what it says.
+  std::filesystem::path Recovered(const std::filesystem::path& crash_file) {
+    RecoverJobs(jobs, crash_file);
+    return crash_file;
   }
 
   int Bind() {
@@ -318,6 +327,8 @@ struct HttpService::Impl {
   Metrics metrics;
   SharedCatalog catalog;
   catalog::JobStore jobs;
+  CrashMarks marks;
+  JobTurns turns;
   Jobs designs, diagnoses;
   const std::vector<Route> routes;
   Gate large_requests{kLargeMax, kLargeWaitingMax};

@@ -8,12 +8,16 @@
 #include <random>
 #include <utility>
 
+#include "api/signal_stack.h"
+#include "server/crash_marks.h"
 #include "server/reply.h"
 
 namespace plenum::server {
 namespace {
 
 constexpr int kNiceness = 10;
+// Between two looks whether a job's turn has come, while jobs run alone.
+constexpr std::chrono::milliseconds kTurnPause{20};
 
 // 64 random bits.
 std::string RandomId() {
@@ -26,8 +30,12 @@ std::string RandomId() {
 
 std::string TextOf(const api::Json& json) { return json.is_null() ? "" : Dump(json); }
 
-api::Json FromText(const std::string& text) {
-  return text.empty() ? api::Json() : api::Json::parse(text);
+// Null where there is none.
+api::Json FromText(const std::string& text, bool& damaged) {
+  if (text.empty()) return {};
+  api::Json json = api::Json::parse(text, nullptr, false);
+  damaged = json.is_discarded();
+  return damaged ? api::Json() : json;
 }
 
 Job ToJob(const catalog::JobRecord& record) {
@@ -36,9 +44,18 @@ Job ToJob(const catalog::JobRecord& record) {
   job.id = record.id;
   job.name = record.order.name;
   job.status = record.status;
-  job.progress = FromText(record.progress);
-  job.result = FromText(record.result);
+  bool no_progress = false, no_result = false;
+  job.progress = FromText(record.progress, no_progress);
+  job.result = FromText(record.result, no_result);
   job.failure = record.failure;
+  if (no_result) {
+    job.status = JobStatus::kFailed;
+    job.failure = "its stored result is damaged and cannot be read";
+  }
+  job.attempts = record.starts;
+  job.crashes = record.crashes;
+  job.crash = record.crash;
+  job.alone = record.alone;
   job.submitted_at = record.submitted_at;
   job.ended_at = record.ended_at;
   job.catalogue_revision = record.order.revision;
@@ -68,24 +85,21 @@ std::string ListOf(const api::Errors& errors) {
 
 }  // namespace
 
-Jobs::Jobs(catalog::JobStore& store, std::string kind, Work work, const JobOptions& options)
-    : store_(store), kind_(std::move(kind)), work_(std::move(work)), options_(options) {
-  for (const catalog::JobRecord& record : store_.Unfinished(kind_)) TakeUp(record);
+Jobs::Jobs(catalog::JobStore& store, JobTurns& turns, std::string kind, Work work,
+           const JobOptions& options)
+    : store_(store),
+      turns_(turns),
+      kind_(std::move(kind)),
+      work_(std::move(work)),
+      options_(options) {
+  for (const catalog::JobRecord& record : store_.Unfinished(kind_)) {
+    Enqueue(record);
+    if (record.cancel_asked) Cancel(record.id);
+  }
   for (int i = 0; i < options_.workers; ++i) workers_.emplace_back([this] { WorkLoop(); });
 }
 
 Jobs::~Jobs() { Stop(); }
-
-void Jobs::TakeUp(const catalog::JobRecord& record) {
-  const EntryPtr entry = Enqueue(record);
-  if (record.cancel_asked) {
-    Cancel(record.id);
-  } else if (record.starts >= options_.starts_max) {
-    queue_.pop_back();
-    End(*entry, JobStatus::kFailed, nullptr,
-        "the service was killed " + std::to_string(record.starts) + " times while the job ran");
-  }
-}
 
 // With the lock held, or before there are workers.
 Jobs::EntryPtr Jobs::Enqueue(const catalog::JobRecord& record) {
@@ -93,7 +107,12 @@ Jobs::EntryPtr Jobs::Enqueue(const catalog::JobRecord& record) {
   entry->job = ToJob(record);
   entry->job.status = JobStatus::kQueued;
   entries_[record.id] = entry;
-  queue_.push_back(entry);
+  if (record.alone) turns_.Announce();
+  const auto after = record.alone
+                         ? std::find_if(queue_.begin(), queue_.end(),
+                                        [](const auto& other) { return !other->job.alone; })
+                         : queue_.end();
+  queue_.insert(after, entry);
   work_ready_.notify_one();
   return entry;
 }
@@ -115,6 +134,24 @@ Submitted Jobs::Submit(catalog::JobOrder order) {
   const std::lock_guard lock(mutex_);
   Enqueue(record);
   return {Submitted::kAccepted, record.id};
+}
+
+Asked Jobs::Again(const std::string& id) {
+  const std::lock_guard submitting(submitting_);
+  const auto job = Get(id);
+  if (!job) return Asked::kUnknown;
+  if (!Ended(job->status)) return Asked::kUnderWay;
+  if (job->status == JobStatus::kDone) return Asked::kDone;
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_ || queue_.size() >= options_.queued_max) return Asked::kRefused;
+  }
+  store_.Again(id);
+  const auto record = store_.Find(kind_, id);
+  if (!record) return Asked::kUnknown;  // dropped as old meanwhile
+  const std::lock_guard lock(mutex_);
+  Enqueue(*record);
+  return Asked::kQueued;
 }
 
 Jobs::EntryPtr Jobs::Find(const std::string& id) const {
@@ -158,10 +195,12 @@ bool Jobs::Cancel(const std::string& id) {
     entry->cancelled = true;
     was_queued = std::erase(queue_, entry) > 0;
   }
-  if (was_queued)
-    End(*entry, JobStatus::kCancelled, nullptr, "");
-  else
+  if (!was_queued) {
     Try(id, [&] { store_.AskToCancel(id); });
+    return true;
+  }
+  if (entry->job.alone) turns_.Withdraw();
+  End(*entry, JobStatus::kCancelled, nullptr, "");
   return true;
 }
 
@@ -226,27 +265,38 @@ void Jobs::Stop() {
 
 bool Jobs::Stopping() const { return stopping_; }
 
+// The job that begins now; none when the service stops.
+Jobs::EntryPtr Jobs::Next() {
+  std::unique_lock lock(mutex_);
+  while (!stopping_ && (queue_.empty() || !turns_.Enter(queue_.front()->job.alone))) {
+    if (queue_.empty())
+      work_ready_.wait(lock);
+    else
+      work_ready_.wait_for(lock, kTurnPause);
+  }
+  if (stopping_) return nullptr;
+  const EntryPtr entry = queue_.front();
+  queue_.pop_front();
+  entry->job.status = JobStatus::kRunning;
+  ++entry->job.attempts;
+  ++entry->job.revision;
+  changed_.notify_all();
+  return entry;
+}
+
 void Jobs::WorkLoop() {
+  const api::SignalStack stack;  // a crash by overflow of the thread's own stack is marked, too
   // Requests go first, however nice the service itself is: on Linux the niceness is the thread's.
   setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNiceness);
-  for (;;) {
-    EntryPtr entry;
-    {
-      std::unique_lock lock(mutex_);
-      work_ready_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
-      if (stopping_) return;
-      entry = queue_.front();
-      queue_.pop_front();
-      entry->job.status = JobStatus::kRunning;
-      ++entry->job.revision;
-      changed_.notify_all();
-    }
+  while (const EntryPtr entry = Next()) {
     Run(*entry);
+    turns_.Leave(entry->job.alone);
   }
 }
 
 void Jobs::Run(Entry& entry) {
   const std::string id = entry.job.id;
+  const WorksFor job(entry.job.number);
   Try(id, [&] { store_.Start(id); });
   auto outcome = Outcome(entry);
   if (entry.interrupted && !entry.cancelled) {

@@ -1,8 +1,9 @@
 // Long work off the request threads: a bounded queue, a few workers, progress, cancel.
 //
 // A job is on disk from before its id is given out until it is old (catalog/job_store.h). One that
-// was queued or running when the service ended, in whatever way, is done again by the next; one
-// that ended stays readable. Only the progress of a running job is kept in memory alone.
+// was queued or running when the service ended, in whatever way, is done again by the next, unless
+// its own computation crashed the service twice (server/job_recovery.h); one that ended stays
+// readable. Only the progress of a running job is kept in memory alone.
 #ifndef PLENUM_SERVER_JOBS_H_
 #define PLENUM_SERVER_JOBS_H_
 
@@ -21,6 +22,7 @@
 
 #include "api/json.h"
 #include "api/services.h"
+#include "server/job_turns.h"
 
 namespace plenum::server {
 
@@ -35,6 +37,10 @@ struct Job {
   api::Json progress;  // null until the first report
   api::Json result;    // null until there is one; a cancelled job may have one
   std::string failure;
+  int attempts = 0;        // how often it was begun and not stopped in an orderly way
+  int crashes = 0;         // how often its computation ended the program
+  std::string crash;       // what is known of the last one
+  bool alone = false;      // no other job may run beside it
   long long revision = 0;  // grows with every change
   std::string submitted_at, ended_at;
   std::int64_t catalogue_revision = 0;
@@ -53,9 +59,6 @@ using Work =
 struct JobOptions {
   int workers = 2;
   std::size_t queued_max = 32;
-  // A job that was running this often when the service was killed is not begun again: it may be
-  // why.
-  int starts_max = 5;
 };
 
 struct Submitted {
@@ -63,10 +66,20 @@ struct Submitted {
   std::string id;  // kAccepted; kRepeated: of the job that has the key
 };
 
+// What became of a request to do a job again.
+enum class Asked {
+  kQueued,
+  kUnknown,   // there is no such job
+  kUnderWay,  // it has not ended
+  kDone,      // its result stands
+  kRefused    // the queue is full or the service is stopping
+};
+
 class Jobs {
  public:
-  // Takes up what is unfinished of `kind` in the store.
-  Jobs(catalog::JobStore& store, std::string kind, Work work, const JobOptions& options);
+  // Takes up what is unfinished of `kind` in the store. `turns` are those of all kinds.
+  Jobs(catalog::JobStore& store, JobTurns& turns, std::string kind, Work work,
+       const JobOptions& options);
   ~Jobs();
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
@@ -78,6 +91,9 @@ class Jobs {
   std::vector<Job> List() const;  // newest first, without results
   // Asks the job to stop; no effect on one that has ended. False if there is none.
   bool Cancel(const std::string& id);
+  // Queues a job that failed or was cancelled once more, as it was ordered, without its outcome.
+  // Throws StoreError when that cannot be written to disk.
+  Asked Again(const std::string& id);
 
   // Waits until the job has ended or passed `revision`, at most `timeout`; then the job as it is.
   std::optional<Job> WaitForChange(const std::string& id, long long revision,
@@ -99,8 +115,8 @@ class Jobs {
   };
   using EntryPtr = std::shared_ptr<Entry>;
 
-  void TakeUp(const catalog::JobRecord& record);
   EntryPtr Enqueue(const catalog::JobRecord& record);
+  EntryPtr Next();
   void WorkLoop();
   void Run(Entry& entry);
   api::Parsed<api::Json> Outcome(Entry& entry);
@@ -111,6 +127,7 @@ class Jobs {
                                Predicate done) const;
 
   catalog::JobStore& store_;
+  JobTurns& turns_;
   const std::string kind_;
   const Work work_;
   const JobOptions options_;
@@ -119,7 +136,7 @@ class Jobs {
   mutable std::condition_variable changed_;
   std::condition_variable work_ready_;
   std::map<std::string, EntryPtr> entries_;  // unfinished, or not on disk as ended
-  std::deque<EntryPtr> queue_;
+  std::deque<EntryPtr> queue_;               // those that run alone first
   std::atomic<bool> stopping_ = false;
   std::vector<std::thread> workers_;
 };

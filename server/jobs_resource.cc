@@ -40,6 +40,9 @@ api::Json Long(const JobsResource& resource, const Job& job) {
       {"status", Name(job.status)},
       {"submitted_at", job.submitted_at},
       {"ended_at", job.ended_at.empty() ? api::Json() : api::Json(job.ended_at)},
+      {"attempts", job.attempts},
+      {"crashes", job.crashes},
+      {"last_crash", job.crash.empty() ? api::Json() : api::Json(job.crash)},
       {"catalogue_revision", {{"number", job.catalogue_revision}, {"hash", job.catalogue_hash}}},
       {"progress", job.progress}};
   if (job.status == JobStatus::kFailed) json["detail"] = WhyFailed(resource, job);
@@ -84,6 +87,11 @@ Reply NoJob(const JobsResource& resource, const std::string& id) {
                                "; of those that ended only the newest are kept");
 }
 
+Reply FullQueue(const JobsResource& resource) {
+  return BusyReply("jobs_queued_max", resource.jobs->options().queued_max,
+                   "the queue of " + resource.noun + " jobs is full; try again later", 10);
+}
+
 std::string Event(const char* name, const api::Json& data) {
   return std::string("event: ") + name + "\ndata: " + Dump(data) + "\n\n";
 }
@@ -93,10 +101,7 @@ std::string Event(const char* name, const api::Json& data) {
 Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder order) {
   const auto [status, id] = resource.jobs->Submit(std::move(order));
   if (status == Submitted::kKeyReused) return KeyReused();
-  if (status == Submitted::kRefused) {
-    return BusyReply("jobs_queued_max", resource.jobs->options().queued_max,
-                     "the queue of " + resource.noun + " jobs is full; try again later", 10);
-  }
+  if (status == Submitted::kRefused) return FullQueue(resource);
   auto reply = WaitForResult(resource, id, WaitSeconds(call));
   if (!reply) {
     const auto job = resource.jobs->Get(id);
@@ -119,6 +124,29 @@ Reply ListJobs(const JobsResource& resource) {
 Reply GetJob(const JobsResource& resource, const Call& call) {
   const auto job = resource.jobs->Get(call.argument);
   return job ? JsonReply(200, Full(resource, *job)) : NoJob(resource, call.argument);
+}
+
+Reply DoJobAgain(const JobsResource& resource, const Call& call) {
+  const std::string& id = call.argument;
+  switch (resource.jobs->Again(id)) {
+    case Asked::kUnknown:
+      return NoJob(resource, id);
+    case Asked::kUnderWay:
+      return ProblemReply(409, "the job is queued or running; it need not be asked for again");
+    case Asked::kDone:
+      return ProblemReply(409,
+                          "the job is done and its result stands; post the request again for "
+                          "the catalogue as it is now");
+    case Asked::kRefused:
+      return FullQueue(resource);
+    case Asked::kQueued:
+      break;
+  }
+  const auto job = resource.jobs->Get(id);
+  if (!job) return NoJob(resource, id);
+  auto reply = JsonReply(202, Short(resource, *job));
+  reply.headers.emplace_back("Location", SelfOf(resource, id));
+  return reply;
 }
 
 Reply CancelJob(const JobsResource& resource, const Call& call) {

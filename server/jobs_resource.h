@@ -21,9 +21,12 @@ struct JobsResource {
 // key stands for another request.
 Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder order);
 Reply ListJobs(const JobsResource& resource);
-// { id, name, status, submitted_at, ended_at, catalogue_revision, progress, result, links }, and
-// `detail` where it failed.
+// { id, name, status, submitted_at, ended_at, attempts, crashes, last_crash, catalogue_revision,
+// progress, result, links }, and `detail` where it failed.
 Reply GetJob(const JobsResource& resource, const Call& call);
+// 202 with { id, status, links } and Location; 409 for a job that is under way or done, 429 when
+// the queue is full.
+Reply DoJobAgain(const JobsResource& resource, const Call& call);
 Reply CancelJob(const JobsResource& resource, const Call& call);
 // Server-sent events: `progress` at every change, `end` when the job has ended. 429 when too many
 // streams are open.

@@ -49,6 +49,8 @@ void AddJobRoutes(const JobsResource& jobs, std::vector<Route>& routes) {
                     Access::kRead, [jobs](const Call& call) { return GetJob(jobs, call); }});
   routes.push_back({"DELETE", one, "cancels the job", Access::kWrite,
                     [jobs](const Call& call) { return CancelJob(jobs, call); }});
+  routes.push_back({"POST", one + "/again", "does a job again that failed or was cancelled",
+                    Access::kWrite, [jobs](const Call& call) { return DoJobAgain(jobs, call); }});
   routes.push_back({"GET", one + "/events", "progress as server-sent events", Access::kRead,
                     [jobs](const Call& call) { return JobEvents(jobs, call); }});
 }

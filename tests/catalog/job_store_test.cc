@@ -91,9 +91,105 @@ TEST_F(JobFile, RefusesWhatIsNoneOfIts) {
   std::filesystem::remove(path_);
   JobStore(path_, {});
   Sql("PRAGMA user_version = 9");
-  EXPECT_THAT(Refused(), HasSubstr("has schema 9, this program knows up to 1"));
+  EXPECT_THAT(Refused(), HasSubstr("has schema 9, this program knows up to 2"));
   EXPECT_THAT(Refusal([&] { JobStore(folder_ / "missing" / "jobs", {}); }),
               HasSubstr("the jobs cannot be kept"));
+}
+
+// What the program before schema 2 made, with a job that ran five times and one that ended.
+constexpr char kSchema1[] = R"sql(
+CREATE TABLE job (
+  number INTEGER NOT NULL PRIMARY KEY CHECK (number BETWEEN 1 AND 9007199254740991),
+  id TEXT NOT NULL UNIQUE CHECK (length(id) BETWEEN 1 AND 100),
+  kind TEXT NOT NULL CHECK (length(kind) BETWEEN 1 AND 100),
+  name TEXT NOT NULL CHECK (length(name) <= 1000000),
+  who TEXT NOT NULL CHECK (length(who) <= 200),
+  key TEXT CHECK (length(key) BETWEEN 1 AND 255),
+  digest TEXT CHECK (length(digest) BETWEEN 1 AND 100),
+  revision INTEGER NOT NULL CHECK (revision BETWEEN 0 AND 9007199254740991),
+  hash TEXT NOT NULL CHECK (length(hash) = 64 AND hash NOT GLOB '*[^0-9a-f]*'),
+  model TEXT NOT NULL CHECK (length(model) <= 100),
+  model_version INTEGER NOT NULL CHECK (model_version BETWEEN 0 AND 9007199254740991),
+  model_hash TEXT NOT NULL CHECK (length(model_hash) IN (0, 64)),
+  status TEXT NOT NULL
+    CHECK (status IN ('queued', 'running', 'done', 'cancelled', 'failed')),
+  starts INTEGER NOT NULL DEFAULT 0 CHECK (starts BETWEEN 0 AND 1000000),
+  cancel_asked INTEGER NOT NULL DEFAULT 0 CHECK (cancel_asked IN (0, 1)),
+  submitted_at TEXT NOT NULL CHECK (length(submitted_at) = 20),
+  ended_at TEXT CHECK (length(ended_at) = 20),
+  ended INTEGER UNIQUE CHECK (ended BETWEEN 1 AND 9007199254740991),
+  bytes INTEGER NOT NULL CHECK (bytes BETWEEN 0 AND 2147483647),
+  progress TEXT NOT NULL DEFAULT '',
+  failure TEXT NOT NULL DEFAULT '',
+  request TEXT NOT NULL,
+  result TEXT NOT NULL DEFAULT '',
+  UNIQUE (kind, key),
+  CHECK ((ended IS NULL) = (status IN ('queued', 'running')) AND (ended IS NULL) = (ended_at IS NULL))
+) STRICT;
+INSERT INTO job (number, id, kind, name, who, revision, hash, model, model_version, model_hash,
+  status, starts, submitted_at, ended_at, ended, bytes, request, result) VALUES
+  (1, 'ran', 'design', 'a', 'me', 3, printf('%064d', 0), '', 0, '', 'running', 5,
+   '2026-01-31T12:00:00Z', NULL, NULL, 2, '{}', ''),
+  (2, 'done', 'diagnosis', 'b', 'me', 3, printf('%064d', 0), '', 0, '', 'done', 1,
+   '2026-01-31T12:00:01Z', '2026-01-31T12:00:02Z', 1, 5, '{}', '[1]');
+PRAGMA application_id = 1886154346;
+PRAGMA user_version = 1;
+)sql";
+
+TEST_F(JobFile, OfTheFormerSchemaOpens) {
+  Sql(kSchema1);
+  {
+    JobStore store(path_, {});
+    store.RequeueInterrupted({});
+  }
+  const JobStore store(path_, {});  // as its own schema now
+  const JobRecord ran = store.Find("design", "ran").value();
+  EXPECT_EQ(ran.status, JobStatus::kQueued);
+  EXPECT_EQ(ran.starts, 5);
+  EXPECT_EQ(ran.crashes, 0);
+  EXPECT_EQ(ran.crashes_max, 2);
+  EXPECT_TRUE(ran.alone);
+  EXPECT_EQ(store.Find("diagnosis", "done")->result, "[1]");
+  EXPECT_FALSE(store.Find("diagnosis", "done")->alone);
+}
+
+TEST_F(JobFile, CountsCrashesOfJobsThatRan) {
+  JobStore store(path_, {});
+  for (const char* id : {"crashed", "ran", "waits"}) store.Add(id, Order("{}"));
+  store.Start("crashed");
+  store.Start("ran");
+  const std::int64_t crashed = store.Find("design", "crashed")->number;
+  store.RequeueInterrupted({{crashed, "a signal"}, {crashed + 2, "of a job that waits"}});
+  store.RequeueInterrupted({{crashed, "the same mark, read twice"}});
+  const auto jobs = store.List();  // newest first
+  ASSERT_EQ(jobs.size(), 3u);
+  EXPECT_EQ(jobs[2].crashes, 1);
+  EXPECT_EQ(jobs[2].crash, "a signal");
+  EXPECT_EQ(jobs[1].crashes, 0);
+  EXPECT_TRUE(jobs[1].alone);
+  EXPECT_EQ(jobs[0].crashes, 0);
+  EXPECT_FALSE(jobs[0].alone);
+  for (const JobRecord& job : jobs) EXPECT_EQ(job.status, JobStatus::kQueued);
+}
+
+TEST_F(JobFile, QueuesAJobAgainWithoutItsOutcome) {
+  JobStore store(path_, {});
+  JobRecord job = store.Add("one", Order("{\"ü\":1}"));
+  store.Start("one");
+  store.AskToCancel("one");
+  job.status = JobStatus::kCancelled;
+  job.result = "[1]";
+  job.progress = "{}";
+  store.End(job);
+  store.Again("one");
+  const JobRecord again = store.Find("design", "one").value();
+  EXPECT_EQ(again.status, JobStatus::kQueued);
+  EXPECT_EQ(again.result + again.progress + again.failure + again.ended_at, "");
+  EXPECT_FALSE(again.cancel_asked);
+  EXPECT_FALSE(again.alone);
+  EXPECT_EQ(again.starts, 1);
+  EXPECT_EQ(again.order.request, "{\"ü\":1}");
+  EXPECT_EQ(store.Unfinished("design").size(), 1u);
 }
 
 TEST_F(JobFile, RefusesARecordThatMakesNoSense) {

@@ -1,11 +1,15 @@
 #include "server/jobs.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <future>
+#include <set>
 #include <stdexcept>
 
+#include "server/job_recovery.h"
 #include "workbench.h"
 
 namespace plenum::server {
@@ -13,6 +17,8 @@ namespace {
 
 using namespace std::chrono_literals;
 using catalog::JobOrder;
+using testing::HasSubstr;
+using testing::StartsWith;
 
 // Until it is cancelled; then what it has.
 api::Json BestSoFar(const JobControl& control) {
@@ -43,7 +49,7 @@ class JobsTest : public testing::Test {
 
   std::unique_ptr<Jobs> Open(JobOptions options = {}, const Work& work = Do) {
     if (!store_) store_ = std::make_unique<catalog::JobStore>(bench_.Path("jobs"), kept_);
-    return std::make_unique<Jobs>(*store_, "design", work, options);
+    return std::make_unique<Jobs>(*store_, turns_, "design", work, options);
   }
   // As after the process is gone: nothing but the file stays.
   void Forget(std::unique_ptr<Jobs>& jobs) {
@@ -60,6 +66,7 @@ class JobsTest : public testing::Test {
   const Workbench bench_;
   catalog::JobsKept kept_;
   std::unique_ptr<catalog::JobStore> store_;
+  JobTurns turns_;
 };
 
 TEST_F(JobsTest, GivesTheResult) {
@@ -222,28 +229,152 @@ TEST_F(JobsTest, ACancelThatWasAskedForOutlastsAKill) {
   EXPECT_EQ(Open()->Get("one")->status, JobStatus::kCancelled);
 }
 
-TEST_F(JobsTest, AJobThatTheServiceDiedOfIsNotBegunForEver) {
-  const auto begin = [&](int starts) {
+// Which jobs ran at the same time.
+struct Together {
+  std::mutex mutex;
+  std::set<std::string> running;
+  std::set<std::pair<std::string, std::string>> pairs;
+
+  api::Json Run(const std::string& name) {
+    {
+      const std::lock_guard lock(mutex);
+      for (const std::string& other : running) pairs.insert(std::minmax(name, other));
+      running.insert(name);
+    }
+    std::this_thread::sleep_for(50ms);
+    const std::lock_guard lock(mutex);
+    running.erase(name);
+    return {{"name", name}};
+  }
+};
+
+TEST_F(JobsTest, WhatRanWhenTheServiceDiedGoesOneAtATimeHoweverOftenItDied) {
+  {
     catalog::JobStore store(bench_.Path("jobs"), kept_);
-    JobOrder order = Order("ready");
-    order.kind = "design";
-    const std::string id = "after-" + std::to_string(starts);
-    store.Add(id, order);
-    for (int i = 0; i < starts; ++i) store.Start(id);
-    return id;
+    for (const char* kind : {"design", "diagnosis"})
+      for (const char* name : {"ran", "ran too", "waits", "waits too"}) {
+        JobOrder order = Order(std::string(name) + ", " + kind);
+        order.kind = kind;
+        store.Add(order.request, order);
+      }
+  }
+  for (int death = 0; death < 20; ++death) {
+    catalog::JobStore store(bench_.Path("jobs"), kept_);
+    RecoverJobs(store, bench_.Path("no marks"));
+    for (const char* id :
+         {"ran, design", "ran too, design", "ran, diagnosis", "ran too, diagnosis"})
+      store.Start(id);
+  }
+  store_ = std::make_unique<catalog::JobStore>(bench_.Path("jobs"), kept_);
+  RecoverJobs(*store_, bench_.Path("no marks"));
+  Together together;
+  const Work work = [&](const JobOrder& order, const JobControl&) {
+    return together.Run(order.request);
   };
-  const std::string unlucky = begin(4), deadly = begin(5);
+  Jobs designs(*store_, turns_, "design", work, {}),
+      diagnoses(*store_, turns_, "diagnosis", work, {});
+  for (Jobs* jobs : {&designs, &diagnoses})
+    for (const Job& job : jobs->List())
+      EXPECT_EQ(jobs->WaitForEnd(job.id, 10s)->status, JobStatus::kDone);
+  EXPECT_EQ(designs.Get("ran, design")->attempts, 21);
+  EXPECT_EQ(designs.Get("waits, design")->attempts, 1);
+  EXPECT_TRUE(together.pairs.contains({"waits too, design", "waits, design"}));
+  for (const auto& [one, other] : together.pairs) {
+    EXPECT_THAT(one, StartsWith("waits"));
+    EXPECT_THAT(other, StartsWith("waits"));
+  }
+}
+
+TEST_F(JobsTest, AJobThatWaitsToRunAloneCanBeCancelled) {
+  {
+    catalog::JobStore store(bench_.Path("jobs"), kept_);
+    JobOrder order = Order("long");
+    order.kind = "design";
+    for (const char* id : {"one", "two"}) {
+      store.Add(id, order);
+      store.Start(id);
+    }
+    RecoverJobs(store, bench_.Path("no marks"));
+  }
+  const auto jobs = Open();
+  EXPECT_EQ(jobs->WaitForChange("one", 0, 10s)->status, JobStatus::kRunning);
+  jobs->Cancel("two");
+  const std::string normal = jobs->Submit(Order("ready")).id;
+  EXPECT_EQ(jobs->WaitForEnd(normal, 100ms)->status, JobStatus::kQueued);
+  jobs->Cancel("one");
+  EXPECT_EQ(jobs->WaitForEnd(normal, 10s)->status, JobStatus::kDone);
+}
+
+TEST_F(JobsTest, OrderlyStopsAreNoAttempts) {
   auto jobs = Open({.workers = 1});
-  EXPECT_EQ(jobs->WaitForEnd(unlucky, 10s)->status, JobStatus::kDone);
-  EXPECT_EQ(jobs->Get(deadly)->status, JobStatus::kFailed);
-  EXPECT_EQ(jobs->Get(deadly)->failure, "the service was killed 5 times while the job ran");
-  // Stops in an orderly way do not count.
   const std::string patient = Begin(*jobs);
   for (int i = 0; i < 7; ++i) {
     Forget(jobs);
     jobs = Open({.workers = 1});
-    EXPECT_EQ(jobs->WaitForChange(patient, 0, 10s)->status, JobStatus::kRunning);
+    const auto job = jobs->WaitForChange(patient, 0, 10s);
+    EXPECT_EQ(job->status, JobStatus::kRunning);
+    EXPECT_EQ(job->attempts, 1);
+    EXPECT_FALSE(job->alone);
   }
+}
+
+TEST_F(JobsTest, WhatFailedOrWasCancelledCanBeAskedForAgain) {
+  std::atomic<bool> mended = false;
+  const auto jobs =
+      Open({.workers = 1, .queued_max = 2}, [&](const JobOrder& order, const JobControl& control) {
+        return mended ? api::Parsed<api::Json>(api::Json{{"now", "fine"}}) : Do(order, control);
+      });
+  const std::string fault = jobs->Submit(Order("fault")).id, done = jobs->Submit(Order("ready")).id;
+  jobs->WaitForEnd(fault, 10s);
+  jobs->WaitForEnd(done, 10s);
+  const std::string running = Begin(*jobs), waiting = jobs->Submit(Order("ready")).id;
+  EXPECT_EQ(jobs->Again("none"), Asked::kUnknown);
+  EXPECT_EQ(jobs->Again(done), Asked::kDone);
+  EXPECT_EQ(jobs->Again(running), Asked::kUnderWay);
+  EXPECT_EQ(jobs->Again(waiting), Asked::kUnderWay);
+  EXPECT_EQ(jobs->Again(fault), Asked::kQueued);
+  EXPECT_EQ(jobs->Again(fault), Asked::kUnderWay);
+  EXPECT_EQ(jobs->Get(fault)->failure, "");
+  jobs->Cancel(waiting);
+  jobs->Submit(Order("ready"));
+  EXPECT_EQ(jobs->Again(waiting), Asked::kRefused);  // the queue is full
+  mended = true;
+  jobs->Cancel(running);
+  const auto ended = jobs->WaitForEnd(fault, 10s);
+  EXPECT_EQ(ended->status, JobStatus::kDone);
+  EXPECT_EQ(ended->result["now"], "fine");
+  EXPECT_EQ(ended->attempts, 2);
+  EXPECT_EQ(jobs->Again(running), Asked::kQueued);
+  EXPECT_EQ(jobs->WaitForEnd(running, 10s)->result["now"], "fine");
+}
+
+TEST_F(JobsTest, DamagedRecordsFailAndKeepNothingElseFromStarting) {
+  {
+    catalog::JobStore store(bench_.Path("jobs"), kept_);
+    JobOrder order = Order("ready");
+    order.kind = "design";
+    for (const char* id : {"progress", "result", "status", "sound"}) store.Add(id, order);
+    auto ended = store.Find("design", "result").value();
+    ended.status = JobStatus::kDone;
+    ended.result = "{";
+    store.End(ended);
+  }
+  {
+    SQLite::Database db(bench_.Path("jobs").string(), SQLite::OPEN_READWRITE);
+    db.exec("PRAGMA ignore_check_constraints = ON");
+    db.exec("UPDATE job SET progress = '[1,' WHERE id = 'progress'");
+    db.exec("UPDATE job SET status = 'odd' WHERE id = 'status'");
+  }
+  store_ = std::make_unique<catalog::JobStore>(bench_.Path("jobs"), kept_);
+  RecoverJobs(*store_, bench_.Path("no marks"));
+  const auto jobs = Open();
+  EXPECT_EQ(jobs->WaitForEnd("progress", 10s)->status, JobStatus::kDone);
+  EXPECT_EQ(jobs->WaitForEnd("sound", 10s)->status, JobStatus::kDone);
+  EXPECT_EQ(jobs->Get("status")->status, JobStatus::kFailed);
+  EXPECT_THAT(jobs->Get("status")->failure, HasSubstr("unknown status \"odd\""));
+  EXPECT_EQ(jobs->Get("result")->status, JobStatus::kFailed);
+  EXPECT_THAT(jobs->Get("result")->failure, HasSubstr("damaged"));
+  EXPECT_EQ(jobs->List().size(), 4u);
 }
 
 TEST_F(JobsTest, StopInterruptsAndReleases) {
@@ -258,7 +389,7 @@ TEST_F(JobsTest, StopInterruptsAndReleases) {
 
 TEST_F(JobsTest, KindsDoNotMix) {
   const auto designs = Open();
-  Jobs diagnoses(*store_, "diagnosis", Do, {});
+  Jobs diagnoses(*store_, turns_, "diagnosis", Do, {});
   const std::string id = designs->Submit(Order("ready", "k")).id;
   designs->WaitForEnd(id, 10s);
   EXPECT_FALSE(diagnoses.Get(id));

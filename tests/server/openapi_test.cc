@@ -191,6 +191,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
     Get(path, "", 200);
     Get(path + "/{id}", "", 404, {}, "none");
     Get(path + "/{id}/events", "", 404, {}, "none");
+    Post(path + "/{id}/again", "", 404, {}, "none");
     Check(client_.Delete(path + "/none"), "delete", path + "/{id}", 404);
   }
   // At once.
@@ -297,6 +298,21 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
       Check(client.Get(one), "get", path + "/{id}", 200);
       Check(client.Delete(one), "delete", path + "/{id}", 200);
       Check(client.Get(one + "/events"), "get", path + "/{id}/events", 200);
+      // A job that is cancelled before it is done can be asked for again, one that is done not.
+      const auto again = [&](const std::string& job_path, int expected) {
+        Check(client.Post(job_path + "/again", "", kJson), "post", path + "/{id}/again", expected);
+      };
+      for (std::string ended = one;;) {
+        client.Get(ended + "/events");  // until the job has ended
+        if (JsonOf(client.Get(ended)->body)["status"] == "cancelled") {
+          again(ended, 202);
+          client.Get(ended + "/events");
+          again(ended, 409);
+          break;
+        }
+        ended = client.Post(path, example.dump(), kJson)->get_header_value("Location");
+        client.Delete(ended);
+      }
     }
   }
 
