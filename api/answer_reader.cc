@@ -23,12 +23,11 @@ const Range kShare{0, 1};
 BigCount ReadCount(Reader& reader, const char* field) {
   const Json* value = reader.Raw(field);
   if (value != nullptr && value->is_number_integer() && *value >= 0)
-    return value->get<std::int64_t>();
+    return value->get<std::uint64_t>();
   if (value != nullptr && value->is_string()) {
     const std::string& digits = value->get_ref<const std::string&>();
-    if (!digits.empty() && digits.size() <= 1000 &&
-        digits.find_first_not_of("0123456789") == std::string::npos)
-      return BigCount(digits.substr(std::min(digits.find_first_not_of('0'), digits.size() - 1)));
+    if (digits.size() <= 1000)
+      if (const auto count = BigCount::FromDecimal(digits)) return *count;
   }
   reader.Fail(field, "must be a count");
   return 0;

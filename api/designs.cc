@@ -183,7 +183,7 @@ Json RenderDesign(const optimizer::Design& design, int rank, const Quality& qual
 
 // A count that is a number in the contract: a decimal string only past 2⁵³.
 Json Count(const optimizer::BigCount& count) {
-  if (count <= (optimizer::BigCount(1) << 53)) return static_cast<std::int64_t>(count);
+  if (count <= std::uint64_t{1} << 53) return static_cast<std::int64_t>(count.ToDouble());
   return count.str();
 }
 

@@ -48,11 +48,11 @@ optimizer::Verification VerifyList(const Problem& problem, const optimizer::Answ
                                    const std::optional<BruteForce>& brute_force) {
   optimizer::BruteForceOptions options;
   if (brute_force) {
-    const double all = optimizer::CombinationsOf(problem).convert_to<double>();
+    const double all = optimizer::CombinationsOf(problem).ToDouble();
     options.cancelled = brute_force->cancelled;
     if (brute_force->progress)
       options.progress = [&brute_force, all](const BigCount& looked) {
-        brute_force->progress(looked.convert_to<double>() / all);
+        brute_force->progress(looked.ToDouble() / all);
       };
   }
   return optimizer::Verify(problem, answer, brute_force ? &options : nullptr);

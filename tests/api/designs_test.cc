@@ -37,7 +37,7 @@ optimizer::Answer HandMadeAnswer() {
   optimizer::Answer answer;
   answer.status = optimizer::Status::kOptimal;
   answer.designs = {HandMadeDesign()};
-  answer.proof.combinations = optimizer::BigCount("1203849216000000000000000000007");
+  answer.proof.combinations = *optimizer::BigCount::FromDecimal("1203849216000000000000000000007");
   answer.proof.complete = true;
   answer.proof.lower_bound = 2.31;
   answer.proof.evaluated = 812;

@@ -55,7 +55,7 @@ void Withhold(Json& answer, const Json& end) {
   if (end[0] == 6) return;
   Json& proof = answer["proof"];
   Json& count = proof["pruned"][end[0] == 1 ? "infeasible" : "bound"];
-  count = optimizer::BigCount(optimizer::BigCount(count.get<std::string>()) + 1).str();
+  count = (*optimizer::BigCount::FromDecimal(count.get<std::string>()) + 1).str();
   proof["evaluated"] = proof["evaluated"].get<int>() - 1;
 }
 
@@ -119,7 +119,7 @@ TEST(Verify, SaysWhatItDidNotRecheckWithoutARecord) {
   EXPECT_EQ(verified["accepted"], true);
   ASSERT_EQ(verified["not_rechecked"].size(), 1u);
   const optimizer::BigCount others =
-      optimizer::BigCount(answer["proof"]["combinations"].get<std::string>()) -
+      *optimizer::BigCount::FromDecimal(answer["proof"]["combinations"].get<std::string>()) -
       answer["designs"].size();
   EXPECT_EQ(verified["not_rechecked"][0]["combinations"], others.str());
 }
