@@ -10,6 +10,7 @@
 #include "api/selection.h"
 #include "api/services.h"
 #include "api/units.h"
+#include "api/version.h"
 
 namespace plenum::api {
 namespace {
@@ -239,7 +240,7 @@ Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
     designs.push_back(RenderDesign(answer.designs[i], rank, quality, request.problem, rows));
   }
 
-  Json document = {{"schema", "designs/1"}};
+  Json document = AnswerDocument("designs/1");
   if (!request.name.empty()) document["name"] = request.name;
   document["status"] = optimizer::Name(answer.status);
   document["designs"] = std::move(designs);

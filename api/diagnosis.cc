@@ -7,6 +7,7 @@
 
 #include "api/effects.h"
 #include "api/units.h"
+#include "api/version.h"
 #include "calibration/phases.h"
 
 namespace plenum::api {
@@ -309,14 +310,14 @@ Json List(const std::vector<T>& values, Render render) {
 
 Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
                      const Provenance& provenance) {
-  Json document = {{"schema", "diagnosis/1"},
-                   {"name", dataset.name},
+  Json document = AnswerDocument("diagnosis/1");
+  document.update({{"name", dataset.name},
                    {"verdict", Name(diagnosis.verdict)},
                    {"sentence", diagnosis.sentence},
                    {"noise_kpa", Kpa(diagnosis.noise_pa)},
                    {"declared", RenderError(diagnosis.declared)},
                    {"before", RenderError(diagnosis.before)},
-                   {"after", RenderError(diagnosis.after)}};
+                   {"after", RenderError(diagnosis.after)}});
   document["effects"] = List(diagnosis.effects, RenderEffect);
   document["candidates"] = List(diagnosis.candidates, RenderCandidate);
   document["tied"] = List(diagnosis.tied, Ids);

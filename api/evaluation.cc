@@ -2,6 +2,7 @@
 #include "api/design_reader.h"
 #include "api/services.h"
 #include "api/units.h"
+#include "api/version.h"
 #include "optimizer/resize.h"
 
 namespace plenum::api {
@@ -28,7 +29,8 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
   given = WithReservoirVolume(std::move(given), problem);
   const auto [source, design] =
       optimizer::EvaluateAtSettings(optimizer::WithPartsOf(problem, given), given);
-  Json answer = {{"schema", "evaluation_answer/1"}, {"works", design.has_value()}};
+  Json answer = AnswerDocument("evaluation_answer/1");
+  answer["works"] = design.has_value();
   const auto gauge = [&](double pa) { return Number(KpaGaugeFromPa(pa, problem.ambient)); };
   answer["source_pressure_range_kpa_gauge"] =
       source.empty() ? Json(nullptr) : Json{gauge(source.low_pa), gauge(source.high_pa)};

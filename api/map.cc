@@ -6,6 +6,7 @@
 #include "api/fields.h"
 #include "api/services.h"
 #include "api/text.h"
+#include "api/version.h"
 #include "model/closed_form.h"
 #include "model/simulate.h"
 
@@ -176,7 +177,9 @@ Parsed<Json> RunMap(const Json& request) {
   });
   // The last point may have been cut short, so nothing of the grid is given.
   if (IsPast(deadline)) return Errors{{"", "the grid takes longer than 60 s; give fewer points"}};
-  return Json{{"schema", "map_answer/1"}, {"rows", std::move(rows)}};
+  Json answer = AnswerDocument("map_answer/1");
+  answer["rows"] = std::move(rows);
+  return answer;
 }
 
 }  // namespace plenum::api

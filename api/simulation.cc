@@ -10,6 +10,7 @@
 #include "api/services.h"
 #include "api/text.h"
 #include "api/units.h"
+#include "api/version.h"
 
 namespace plenum::api {
 namespace {
@@ -171,7 +172,8 @@ Json RenderResponse(const model::Response& response, const std::vector<model::Fu
       rendered["temperature_k"] = Numbers(group.temperature_k, std::identity());
     groups.push_back(std::move(rendered));
   }
-  Json document = {{"schema", "response/1"}, {"status", StatusName(response.status)}};
+  Json document = AnswerDocument("response/1");
+  document["status"] = StatusName(response.status);
   if (response.status != model::SimulateStatus::kDone) document["detail"] = response.detail;
   document["t_s"] = Numbers(response.t_s, [](double t) { return t; });
   document["groups"] = std::move(groups);

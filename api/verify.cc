@@ -2,6 +2,7 @@
 
 #include "api/answer_reader.h"
 #include "api/text.h"
+#include "api/version.h"
 #include "optimizer/verify_draws.h"
 
 namespace plenum::api {
@@ -108,7 +109,8 @@ Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& 
   Errors errors;
   Reader reader(result, "", errors);
   reader.Schema("designs/1");
-  Json document = {{"schema", "verification/1"}, {"accepted", false}};
+  Json document = AnswerDocument("verification/1");
+  document["accepted"] = false;
   document["checks"] = Json::array({CheckCatalogue(reader, revision)});
   document["not_rechecked"] = Json::array();
   const Json* request = reader.Raw("requirements");

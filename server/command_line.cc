@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
 
+#include "api/version.h"
 #include "server/commands.h"
 #include "server/exit_status.h"
 
@@ -11,6 +13,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   int status = kAnswered;
   CLI::App app("Chooses the parts of a pneumatic supply for soft robots from a catalogue.",
                "plenum");
+  app.set_version_flag("--version", std::string(api::Version()));
   app.require_subcommand(1);
   try {
     AddDesignCommand(app, status);

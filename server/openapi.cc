@@ -153,8 +153,8 @@ Json AnswerSchemas() {
   const Json links = Object({{"self", text}, {"events", text}});
   const auto versioned = [&](const char* schema) {
     return Json{{"type", "object"},
-                {"properties", {{"schema", {{"const", schema}}}}},
-                {"required", {"schema"}}};
+                {"properties", {{"schema", {{"const", schema}}}, {"plenum", text}}},
+                {"required", {"schema", "plenum"}}};
   };
   Json schemas = {
       {"Problem",

@@ -63,11 +63,18 @@ TEST(Verify, AcceptsTheAnswersOfTheSearch) {
   EXPECT_EQ(Refusals(Exosuit()), "");
   const Json verified = Verified(Exosuit());
   EXPECT_EQ(verified["schema"], "verification/1");
+  EXPECT_EQ(verified["plenum"], Version());
   EXPECT_EQ(verified["accepted"], true);
   EXPECT_EQ(verified["not_rechecked"], Json::array());
   const Json gripper = Listed("gripper", 3);
   EXPECT_EQ(Refusals(gripper), "");
   EXPECT_EQ(Verified(gripper)["not_rechecked"], Json::array());
+}
+
+TEST(Verify, AcceptsAnAnswerSavedBeforeAnswersCarriedTheVersion) {
+  Json answer = Exosuit();
+  ASSERT_EQ(answer.erase("plenum"), 1u);
+  EXPECT_EQ(Refusals(answer), "");
 }
 
 TEST(Verify, EnumeratesEveryCombinationWhereThatEnds) {

@@ -55,6 +55,15 @@ TEST(Command, HelpIsAnAnswer) {
   }
 }
 
+TEST(Command, TheVersionIsThatOfTheAnswers) {
+  const Workbench bench;
+  const auto outcome = bench.Run("--version");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out, "0.2.0\n");
+  bench.Write("map.json", kMap);
+  EXPECT_EQ(OneDocument(bench.Run("map map.json --json").out)["plenum"], "0.2.0");
+}
+
 TEST(Command, VerifyAcceptsAnAnswerAndRefusesAChangedOne) {
   const Workbench bench;
   bench.Write("request.json", Exosuit(120.0).dump());
