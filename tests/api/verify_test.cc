@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "api/version.h"
 #include "tests/api/support.h"
 #include "tests/api/verified.h"
 
