@@ -12,14 +12,14 @@
 //
 // Only + − × ÷ √, in the same order in every variant and without contraction to FMA: all variants
 // give the same bits, and a candidate's time does not depend on its place in the batch.
-#ifndef PLENUM_MODEL_CLOSED_FORM_BATCH_H_
-#define PLENUM_MODEL_CLOSED_FORM_BATCH_H_
+#ifndef PLENUM_BENCH_BATCH_CLOSED_FORM_BATCH_H_
+#define PLENUM_BENCH_BATCH_CLOSED_FORM_BATCH_H_
 
 #include <span>
 
 #include "model/air.h"
 
-namespace plenum::model {
+namespace plenum::bench {
 
 // One entry per candidate in every array that the function reads. Pressures > 0, absolute.
 struct StrokeBatch {
@@ -42,15 +42,15 @@ Instructions WidestSupported();
 // fall: from ≤ to), else +∞ where the target is out of reach (rise: above the source or the
 // pressure common to reservoir and chamber; fall: below ambient).
 void RiseTimes(const StrokeBatch& batch, std::span<double> time_s,
-               double temperature_k = kReferenceTemperatureK,
+               double temperature_k = model::kReferenceTemperatureK,
                Instructions instructions = WidestSupported());
 void FallTimes(const StrokeBatch& batch, std::span<double> time_s,
-               double temperature_k = kReferenceTemperatureK,
+               double temperature_k = model::kReferenceTemperatureK,
                Instructions instructions = WidestSupported());
 void RiseTimesFromReservoir(const StrokeBatch& batch, std::span<double> time_s,
-                            double temperature_k = kReferenceTemperatureK,
+                            double temperature_k = model::kReferenceTemperatureK,
                             Instructions instructions = WidestSupported());
 
-}  // namespace plenum::model
+}  // namespace plenum::bench
 
-#endif  // PLENUM_MODEL_CLOSED_FORM_BATCH_H_
+#endif  // PLENUM_BENCH_BATCH_CLOSED_FORM_BATCH_H_

@@ -1,4 +1,4 @@
-#include "model/closed_form_batch.h"
+#include "bench/batch/closed_form_batch.h"
 
 #include <bit>
 #include <boost/math/quadrature/gauss.hpp>
@@ -10,9 +10,9 @@
 #include <numbers>
 #include <utility>
 
-#include "model/vector_kernel.h"
+#include "bench/batch/vector_kernel.h"
 
-namespace plenum::model {
+namespace plenum::bench {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -230,7 +230,8 @@ void Run(const StrokeBatch& batch, std::span<double> time_s, double temperature_
         batch.volume_slope_m3_per_pa, batch.outer_pa, batch.from_pa, batch.to_pa}) {
     assert(array.size() == time_s.size());
   }
-  const double per_content = kReferenceTemperatureK / (kReferencePressurePa * temperature_k);
+  const double per_content =
+      model::kReferenceTemperatureK / (model::kReferencePressurePa * temperature_k);
   switch (instructions) {
     case Instructions::kBaseline:
       return LoopBaseline<kIntegral>(batch, time_s, per_content);
@@ -272,4 +273,4 @@ void RiseTimesFromReservoir(const StrokeBatch& batch, std::span<double> time_s,
   Run<ReservoirIntegral>(batch, time_s, temperature_k, instructions);
 }
 
-}  // namespace plenum::model
+}  // namespace plenum::bench

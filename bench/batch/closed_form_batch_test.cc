@@ -1,4 +1,4 @@
-#include "model/closed_form_batch.h"
+#include "bench/batch/closed_form_batch.h"
 
 #include <gtest/gtest.h>
 
@@ -13,14 +13,10 @@
 #include "model/closed_form.h"
 #include "model/stroke.h"
 
-namespace plenum::model {
+namespace plenum::bench {
 namespace {
 
-#ifdef PLENUM_SANITIZED
-constexpr int kDraws = 300;
-#else
 constexpr int kDraws = 6000;
-#endif
 
 struct Case {
   double c = 1e-8, b = 0.3, v0 = 1e-4, v1 = 0.0, outer = 3e5, from = 1e5, to = 2e5,
@@ -31,7 +27,7 @@ using Times = void (*)(const StrokeBatch&, std::span<double>, double, Instructio
 
 std::vector<double> Seconds(Times times, const std::vector<Case>& cases,
                             Instructions instructions = WidestSupported(),
-                            double temperature_k = kReferenceTemperatureK) {
+                            double temperature_k = model::kReferenceTemperatureK) {
   const auto column = [&](double Case::*field) {
     std::vector<double> values;
     for (const Case& one : cases) values.push_back(one.*field);
@@ -72,7 +68,7 @@ long double ExactRise(const Case& k) {
     const long double p = ps - y * y, x = (p / ps - k.b) / a;
     return Slope(k, p) / ps * 2.0L * std::sqrt(ps * a / (1.0L + x));
   });
-  return (choked + subsonic) / k.c / kReferencePressurePa;
+  return (choked + subsonic) / k.c / model::kReferencePressurePa;
 }
 
 long double ExactFall(const Case& k) {
@@ -85,7 +81,7 @@ long double ExactFall(const Case& k) {
     const long double p = pa + y * y, x = (pa / p - k.b) / a;
     return Slope(k, p) / p * 2.0L * std::sqrt(p * a / (1.0L + x));
   });
-  return (choked + subsonic) / k.c / kReferencePressurePa;
+  return (choked + subsonic) / k.c / model::kReferencePressurePa;
 }
 
 long double ExactFromReservoir(const Case& k) {
@@ -110,7 +106,7 @@ long double ExactFromReservoir(const Case& k) {
     const long double excess = 1.0L + (k.v0 + k.v1 * (common + p)) / vr;  // (p_s − p)/y²
     return Slope(k, p) / ps * 2.0L * std::sqrt(ps * a / (excess * (1.0L + x)));
   });
-  return (choked + subsonic) / k.c / kReferencePressurePa;
+  return (choked + subsonic) / k.c / model::kReferencePressurePa;
 }
 
 class Draw {
@@ -135,8 +131,8 @@ class Draw {
         return Uniform(0.0, 0.95);
     }
   }
-  Chamber AnyChamber() {
-    Chamber chamber;
+  model::Chamber AnyChamber() {
+    model::Chamber chamber;
     chamber.rest_volume_m3 = LogUniform(1e-7, 1e-2);
     chamber.expansion_ratio = Uniform(0.0, 1.0) < 0.2 ? 1.0 : Uniform(1.0, 4.0);
     chamber.operating_pressure_pa = 1e5 * (1.0 + LogUniform(0.05, 9.0));
@@ -144,7 +140,7 @@ class Draw {
     return chamber;
   }
   Case AnyCase() {
-    const Chamber chamber = AnyChamber();
+    const model::Chamber chamber = AnyChamber();
     Case k;
     k.c = LogUniform(1e-11, 1e-6);
     k.b = CriticalRatio();
@@ -229,7 +225,7 @@ TEST(ClosedFormBatch, ReproducesTheTable) {
       {6.0, 5.0, 1.5, 0.30, 1.225728, 2.328377}, {2.0, 1.7, 1.5, 0.60, 0.826105, 1.297414},
   };
   for (const auto& [source, operating, expansion, b, rise, fall] : kRows) {
-    const Chamber chamber{1e-4, expansion, operating * 1e5, 1e5, 0.0, {}};
+    const model::Chamber chamber{1e-4, expansion, operating * 1e5, 1e5, 0.0, {}};
     Case k{1e-9, b, Volume(chamber, 0.0), VolumeSlope(chamber, 0.0)};  // c = C·P0/V0 = 1/s
     k.outer = source * 1e5, k.from = 1e5, k.to = operating * 1e5;
     EXPECT_NEAR(Seconds(RiseTimes, {k})[0], rise, 1e-6);
@@ -241,28 +237,28 @@ TEST(ClosedFormBatch, ReproducesTheTable) {
 TEST(ClosedFormBatch, AgreesWithTheScalarFunctions) {
   Draw random;
   for (int i = 0; i < kDraws; ++i) {
-    const Chamber chamber = random.AnyChamber();
+    const model::Chamber chamber = random.AnyChamber();
     const double b = random.Uniform(0.0, 0.9);
     const double volume = Volume(chamber, 1e5), operating = chamber.operating_pressure_pa / 1e5;
     const double k1 = VolumeSlope(chamber, 0.0) * 1e5 / volume;
-    const NormalisedStroke stroke{operating, 1.0 + k1 * (operating - 1.0), b};
+    const model::NormalisedStroke stroke{operating, 1.0 + k1 * (operating - 1.0), b};
     Case k{1e-9, b, Volume(chamber, 0.0), VolumeSlope(chamber, 0.0)};
     const double tau = volume * 1e4;  // seconds per τ
     k.from = 1e5, k.to = operating * 1e5, k.outer = k.to * random.Uniform(1.01, 4.0);
-    const double rise = tau * NormalisedRiseTime(stroke, k.outer / 1e5, 1.0, operating);
+    const double rise = tau * model::NormalisedRiseTime(stroke, k.outer / 1e5, 1.0, operating);
     EXPECT_NEAR(Seconds(RiseTimes, {k})[0], rise, 1e-13 * rise);
-    const FlowElement element{.sonic_conductance_m3_per_s_pa = k.c, .critical_ratio = b};
-    const Series series = MakeSeries({&element, 1});
+    const model::FlowElement element{.sonic_conductance_m3_per_s_pa = k.c, .critical_ratio = b};
+    const model::Series series = model::MakeSeries({&element, 1});
     k.reservoir = 20.0 * volume * random.Uniform(1.0, 10.0);
-    const double from_reservoir =
-        FillTimeFromReservoir(series, chamber, 3, 3.0 * k.reservoir, k.outer, k.from, k.to, 280.0);
+    const double from_reservoir = model::FillTimeFromReservoir(
+        series, chamber, 3, 3.0 * k.reservoir, k.outer, k.from, k.to, 280.0);
     const double batch = Seconds(RiseTimesFromReservoir, {k}, WidestSupported(), 280.0)[0];
     if (std::isinf(from_reservoir))
       EXPECT_EQ(batch, from_reservoir);
     else
       EXPECT_NEAR(batch, from_reservoir, 1e-8 * from_reservoir);
     k.outer = 1e5, k.from = operating * 1e5, k.to = 1e5 * (1.0 + 0.1 * (operating - 1.0));
-    const double fall = tau * NormalisedFallTime(stroke, operating, k.to / 1e5);
+    const double fall = tau * model::NormalisedFallTime(stroke, operating, k.to / 1e5);
     EXPECT_NEAR(Seconds(FallTimes, {k})[0], fall, 1e-13 * fall);
   }
 }
@@ -290,10 +286,10 @@ TEST(ClosedFormBatch, EveryVariantGivesTheSameBitsWhateverTheCount) {
 TEST(ClosedFormBatch, StrokesThatGoNowhereOrTooFar) {
   Case k;
   k.to = std::nextafter(k.outer, 1e9);
-  EXPECT_EQ(Seconds(RiseTimes, {k})[0], kNever);
+  EXPECT_EQ(Seconds(RiseTimes, {k})[0], model::kNever);
   k.to = k.outer;
   EXPECT_TRUE(std::isfinite(Seconds(RiseTimes, {k})[0]));
-  EXPECT_EQ(Seconds(RiseTimesFromReservoir, {k})[0], kNever);
+  EXPECT_EQ(Seconds(RiseTimesFromReservoir, {k})[0], model::kNever);
   k.to = k.from;
   EXPECT_EQ(Seconds(RiseTimes, {k})[0], 0.0);
   EXPECT_EQ(Seconds(RiseTimesFromReservoir, {k})[0], 0.0);
@@ -301,8 +297,8 @@ TEST(ClosedFormBatch, StrokesThatGoNowhereOrTooFar) {
   EXPECT_EQ(Seconds(RiseTimes, {k})[0], 0.0);
   EXPECT_EQ(Seconds(FallTimes, {k})[0], 0.0);
   k.to = 0.9e5;
-  EXPECT_EQ(Seconds(FallTimes, {k})[0], kNever);
+  EXPECT_EQ(Seconds(FallTimes, {k})[0], model::kNever);
 }
 
 }  // namespace
-}  // namespace plenum::model
+}  // namespace plenum::bench

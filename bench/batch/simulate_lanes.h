@@ -1,4 +1,4 @@
-// The vector loop of model/simulate_batch.h: Dormand–Prince 5(4) on many strokes at once.
+// The vector loop of bench/batch/simulate_batch.h: Dormand–Prince 5(4) on many strokes at once.
 //
 // One actuator behind one ISO 6358 element (m = ½) has a single state, its pressure p:
 //   dp/dt = g·q/W(p),   W = V(0) + 2·V'·p,   z = (p2 − b·p1)/(1 − b)
@@ -11,15 +11,15 @@
 // last step is aimed at the leg's end by the trapezoidal rule for ∫ dp/(dp/dt), and what is then
 // missing, of either sign, is added by the same rule, if its error is a small share of the
 // tolerance; otherwise the lane goes on from there, or takes the step again if it went too far.
-#ifndef PLENUM_MODEL_SIMULATE_LANES_H_
-#define PLENUM_MODEL_SIMULATE_LANES_H_
+#ifndef PLENUM_BENCH_BATCH_SIMULATE_LANES_H_
+#define PLENUM_BENCH_BATCH_SIMULATE_LANES_H_
 
 #include <cstddef>
 #include <span>
 
-#include "model/closed_form_batch.h"
+#include "bench/batch/closed_form_batch.h"
 
-namespace plenum::model {
+namespace plenum::bench {
 
 enum class LegStroke { kRise, kRiseFromReservoir, kFall };
 enum class LegFlow { kChoked, kSubsonic, kLinear };
@@ -47,6 +47,6 @@ void LegTimes(LegStroke stroke, LegFlow flow, std::span<const Leg> legs,
               const LegTolerance& tolerance, std::span<double> time_s,
               Instructions instructions = WidestSupported());
 
-}  // namespace plenum::model
+}  // namespace plenum::bench
 
-#endif  // PLENUM_MODEL_SIMULATE_LANES_H_
+#endif  // PLENUM_BENCH_BATCH_SIMULATE_LANES_H_

@@ -1,4 +1,4 @@
-#include "model/simulate_batch.h"
+#include "bench/batch/simulate_batch.h"
 
 #include <algorithm>
 #include <array>
@@ -12,10 +12,10 @@
 #include <variant>
 #include <vector>
 
-#include "model/simulate_lanes.h"
+#include "bench/batch/simulate_lanes.h"
 #include "model/simulate_validate.h"
 
-namespace plenum::model {
+namespace plenum::bench {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -26,36 +26,36 @@ constexpr std::size_t kRigsAtOnce = 1024;
 bool Positive(double value) { return value > 0.0 && value < kInfinity; }
 bool NotNegative(double value) { return value >= 0.0 && value < kInfinity; }
 
-bool LaneTakes(const std::vector<FlowElement>& line, double linear_ratio) {
+bool LaneTakes(const std::vector<model::FlowElement>& line, double linear_ratio) {
   if (line.empty()) return true;
-  const FlowElement& element = line[0];
+  const model::FlowElement& element = line[0];
   return line.size() == 1 && Positive(element.sonic_conductance_m3_per_s_pa) &&
          element.critical_ratio >= 0.0 && element.critical_ratio < linear_ratio &&
          element.subsonic_index == 0.5 && element.cracking_pressure_pa == 0.0;
 }
 
-bool LaneTakes(const Chamber& chamber, double ambient_pa) {
+bool LaneTakes(const model::Chamber& chamber, double ambient_pa) {
   return chamber.volume_curve.empty() && Positive(chamber.rest_volume_m3) &&
          chamber.expansion_ratio >= 1.0 && chamber.expansion_ratio < kInfinity &&
          chamber.operating_pressure_pa > ambient_pa && chamber.operating_pressure_pa < kInfinity &&
          chamber.ambient_pressure_pa == ambient_pa && NotNegative(chamber.dead_volume_m3);
 }
 
-bool LaneTakes(const NoSource&) { return true; }
-bool LaneTakes(const RegulatedSource& source) {
+bool LaneTakes(const model::NoSource&) { return true; }
+bool LaneTakes(const model::RegulatedSource& source) {
   return Positive(source.pressure_pa) && !source.regulator && source.flow_max_m3_per_s == kInfinity;
 }
-bool LaneTakes(const ReservoirSource& source) {
+bool LaneTakes(const model::ReservoirSource& source) {
   return Positive(source.volume_m3) && NotNegative(source.volume_rising_m3) &&
          Positive(source.initial_pressure_pa) && source.compressor.free_air_m3_per_s.empty();
 }
 
-bool LaneTakes(const DrivenSource&) { return false; }
+bool LaneTakes(const model::DrivenSource&) { return false; }
 
 // Only rigs that FullStrokes would find valid.
-bool LaneTakes(const Rig& rig, double linear_ratio) {
+bool LaneTakes(const model::Rig& rig, double linear_ratio) {
   if (rig.groups.size() != 1) return false;
-  const GroupRig& group = rig.groups[0];
+  const model::GroupRig& group = rig.groups[0];
   return Positive(rig.ambient.pressure_pa) && Positive(rig.ambient.temperature_k) &&
          group.count >= 1 && group.effects.empty() && NotNegative(group.initial_temperature_k) &&
          LaneTakes(group.fill, linear_ratio) && LaneTakes(group.exhaust, linear_ratio) &&
@@ -78,10 +78,10 @@ Reach ReachOf(double target_pa, double final_pa, bool rise) {
 
 class Batch {
  public:
-  Batch(const SimulateOptions& options, Instructions instructions)
+  Batch(const model::SimulateOptions& options, Instructions instructions)
       : options_(options), instructions_(instructions) {}
 
-  void Run(std::span<const Rig> rigs, std::span<FullStroke> strokes) {
+  void Run(std::span<const model::Rig> rigs, std::span<model::FullStroke> strokes) {
     scalar_.assign(rigs.size(), false);
     seconds_.assign(2 * rigs.size(), 0.0);
     for (std::size_t i = 0; i < rigs.size(); ++i) {
@@ -98,7 +98,7 @@ class Batch {
     for (std::size_t i = 0; i < rigs.size(); ++i) {
       const double rise_s = seconds_[2 * i], fall_s = seconds_[2 * i + 1];
       if (scalar_[i] || std::isnan(rise_s + fall_s)) {
-        const std::vector<FullStroke> own = FullStrokes(rigs[i], options_);
+        const std::vector<model::FullStroke> own = model::FullStrokes(rigs[i], options_);
         std::copy(own.begin(), own.end(), strokes.begin() + static_cast<std::ptrdiff_t>(at));
       } else {
         strokes[at] = {rise_s, fall_s, 1.0 / (rise_s + fall_s)};
@@ -113,13 +113,14 @@ class Batch {
   }
 
   // What all legs of a stroke share.
-  static Leg LegOf(const Rig& rig, const FlowElement& element) {
-    const GroupRig& group = rig.groups[0];
-    const Chamber& chamber = group.chamber;
-    const double heat = rig.ambient.temperature_k / kReferenceTemperatureK;
+  static Leg LegOf(const model::Rig& rig, const model::FlowElement& element) {
+    const model::GroupRig& group = rig.groups[0];
+    const model::Chamber& chamber = group.chamber;
+    const double heat = rig.ambient.temperature_k / model::kReferenceTemperatureK;
     Leg leg{};
     // P0·(T/T0)·C·√(T0/T)
-    leg.conductance_pa_m3_per_s_pa = kReferencePressurePa * std::sqrt(heat) * FlowFactor(rig.gas) *
+    leg.conductance_pa_m3_per_s_pa = model::kReferencePressurePa * std::sqrt(heat) *
+                                     model::FlowFactor(rig.gas) *
                                      element.sonic_conductance_m3_per_s_pa;
     leg.critical_ratio = element.critical_ratio;
     const double growth = group.blocked ? 0.0 : chamber.expansion_ratio - 1.0;
@@ -130,7 +131,7 @@ class Batch {
     return leg;
   }
 
-  double Target(const Rig& rig, double fraction) const {
+  double Target(const model::Rig& rig, double fraction) const {
     const double ambient_pa = rig.ambient.pressure_pa;
     return ambient_pa + fraction * (rig.groups[0].chamber.operating_pressure_pa - ambient_pa);
   }
@@ -163,10 +164,10 @@ class Batch {
   }
 
   // False: not for the lanes.
-  bool AddRise(const Rig& rig, std::size_t index) {
-    const GroupRig& group = rig.groups[0];
-    const auto* regulated = std::get_if<RegulatedSource>(&rig.source);
-    const auto* reservoir = std::get_if<ReservoirSource>(&rig.source);
+  bool AddRise(const model::Rig& rig, std::size_t index) {
+    const model::GroupRig& group = rig.groups[0];
+    const auto* regulated = std::get_if<model::RegulatedSource>(&rig.source);
+    const auto* reservoir = std::get_if<model::ReservoirSource>(&rig.source);
     seconds_[index] = kInfinity;
     if (group.fill.empty() || !(regulated || reservoir)) return true;
     Leg leg = LegOf(rig, group.fill[0]);
@@ -200,8 +201,8 @@ class Batch {
     return true;
   }
 
-  bool AddFall(const Rig& rig, std::size_t index) {
-    const GroupRig& group = rig.groups[0];
+  bool AddFall(const model::Rig& rig, std::size_t index) {
+    const model::GroupRig& group = rig.groups[0];
     seconds_[index] = kInfinity;
     if (group.exhaust.empty()) return true;
     Leg leg = LegOf(rig, group.exhaust[0]);
@@ -227,41 +228,43 @@ class Batch {
     for (std::size_t i = 0; i < times_.size(); ++i) {
       double& seconds = seconds_[list.stroke[i]];
       seconds += times_[i];
-      if (seconds > kFullStrokeHorizonS) seconds = kInfinity;
+      if (seconds > model::kFullStrokeHorizonS) seconds = kInfinity;
     }
     list.legs.clear();
     list.stroke.clear();
   }
 
-  const SimulateOptions& options_;
+  const model::SimulateOptions& options_;
   Instructions instructions_;
   std::array<LegList, 9> lists_;
   std::vector<double> times_, seconds_;  // of legs; of the rise and the fall of each rig
   std::vector<bool> scalar_;
 };
 
-std::size_t GroupsOf(std::span<const Rig> rigs) {
+std::size_t GroupsOf(std::span<const model::Rig> rigs) {
   std::size_t groups = 0;
-  for (const Rig& rig : rigs) groups += rig.groups.size();
+  for (const model::Rig& rig : rigs) groups += rig.groups.size();
   return groups;
 }
 
 struct Piece {
-  std::span<const Rig> rigs;
-  std::span<FullStroke> strokes;
+  std::span<const model::Rig> rigs;
+  std::span<model::FullStroke> strokes;
 };
 
 }  // namespace
 
-void FullStrokesOfMany(std::span<const Rig> rigs, const SimulateOptions& options,
-                       std::span<FullStroke> strokes, int threads, Instructions instructions) {
+void FullStrokesOfMany(std::span<const model::Rig> rigs, const model::SimulateOptions& options,
+                       std::span<model::FullStroke> strokes, int threads,
+                       Instructions instructions) {
   assert(strokes.size() == GroupsOf(rigs));
-  SimulateOptions checked = options;
+  model::SimulateOptions checked = options;
   checked.end_s = checked.sample_hz = 0.0;
-  const bool valid = WhyInvalid(checked).empty();
+  const bool valid = model::WhyInvalid(checked).empty();
   std::fill(strokes.begin(), strokes.end(),
-            FullStroke{kInfinity, kInfinity, 0.0,
-                       valid ? SimulateStatus::kCancelled : SimulateStatus::kInvalid});
+            model::FullStroke{
+                kInfinity, kInfinity, 0.0,
+                valid ? model::SimulateStatus::kCancelled : model::SimulateStatus::kInvalid});
   if (!valid) return;
 
   // Every thread takes the next piece of the list until none is left.
@@ -285,4 +288,4 @@ void FullStrokesOfMany(std::span<const Rig> rigs, const SimulateOptions& options
   work();
 }
 
-}  // namespace plenum::model
+}  // namespace plenum::bench

@@ -1,4 +1,4 @@
-#include "model/simulate_lanes.h"
+#include "bench/batch/simulate_lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "model/vector_kernel.h"
+#include "bench/batch/vector_kernel.h"
 
-namespace plenum::model {
+namespace plenum::bench {
 namespace {
 
 constexpr std::size_t kLanes = 64;
@@ -259,4 +259,4 @@ void LegTimes(LegStroke stroke, LegFlow flow, std::span<const Leg> legs,
   }
 }
 
-}  // namespace plenum::model
+}  // namespace plenum::bench

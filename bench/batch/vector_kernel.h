@@ -1,6 +1,6 @@
 // For loops that become vector loops in several sets of instructions, chosen at run time.
-#ifndef PLENUM_MODEL_VECTOR_KERNEL_H_
-#define PLENUM_MODEL_VECTOR_KERNEL_H_
+#ifndef PLENUM_BENCH_BATCH_VECTOR_KERNEL_H_
+#define PLENUM_BENCH_BATCH_VECTOR_KERNEL_H_
 
 // Kernels are free of branches and calls, so that the loops over them become vector loops.
 #define PLENUM_KERNEL [[gnu::always_inline]] inline
@@ -11,11 +11,11 @@
 #define PLENUM_TARGET(name)
 #endif
 
-namespace plenum::model {
+namespace plenum::bench {
 
 PLENUM_KERNEL double Min(double a, double b) { return a < b ? a : b; }
 PLENUM_KERNEL double Max(double a, double b) { return a > b ? a : b; }
 
-}  // namespace plenum::model
+}  // namespace plenum::bench
 
-#endif  // PLENUM_MODEL_VECTOR_KERNEL_H_
+#endif  // PLENUM_BENCH_BATCH_VECTOR_KERNEL_H_
