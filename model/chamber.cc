@@ -85,10 +85,4 @@ double ContentSlope(const Chamber& chamber, double pressure_pa) {
   return Volume(chamber, pressure_pa) + pressure_pa * VolumeSlope(chamber, pressure_pa);
 }
 
-double AirPerActuation(const Chamber& chamber, double temperature_k) {
-  return StandardVolume(Content(chamber, chamber.operating_pressure_pa) -
-                            Content(chamber, chamber.ambient_pressure_pa),
-                        temperature_k);
-}
-
 }  // namespace plenum::model

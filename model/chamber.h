@@ -36,9 +36,6 @@ double VolumeSlope(const Chamber& chamber, double pressure_pa);  // dV/dp, m³/P
 double Content(const Chamber& chamber, double pressure_pa);
 double ContentSlope(const Chamber& chamber, double pressure_pa);
 
-// Gas admitted from ambient to operating pressure, m³ ANR: the paper's air per actuation.
-double AirPerActuation(const Chamber& chamber, double temperature_k);
-
 }  // namespace plenum::model
 
 #endif  // PLENUM_MODEL_CHAMBER_H_

@@ -11,8 +11,6 @@
 namespace plenum::model {
 namespace {
 
-constexpr double kIsothermalEfficiency = 0.17;
-
 // Curves are tables: outside them the end values hold.
 double Clamped(const MonotoneCurve& curve, double x) {
   return curve(std::clamp(x, curve.front(), curve.back()));
@@ -75,18 +73,6 @@ double EnergyToFill(const CompressorCurve& curve, double volume_m3, double low_p
     integral += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
         energy_per_gas, pieces[i - 1], pieces[i], 10, 1e-9);
   return StandardVolume(volume_m3, temperature_k) * integral;
-}
-
-double EstimatedElectricalPower(double free_air_m3_per_s, double pressure_pa) {
-  const double ratio = std::max(pressure_pa / kReferencePressurePa, 1.0);
-  return kReferencePressurePa * free_air_m3_per_s * std::log(ratio) / kIsothermalEfficiency;
-}
-
-double ThermalDutyLimit(double temperature_rise_max_k, double thermal_resistance_k_per_w,
-                        double electrical_power_w, double efficiency) {
-  const double loss_w = (1.0 - efficiency) * electrical_power_w;
-  if (loss_w <= 0.0) return 1.0;
-  return std::clamp(temperature_rise_max_k / (thermal_resistance_k_per_w * loss_w), 0.0, 1.0);
 }
 
 }  // namespace plenum::model

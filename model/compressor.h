@@ -35,14 +35,6 @@ double LargestCurrent(const CompressorCurve& curve, double low_pa, double high_p
 double EnergyToFill(const CompressorCurve& curve, double volume_m3, double low_pa, double high_pa,
                     double temperature_k);
 
-// Electrical power of a pump without a current curve, W: isothermal compression p_a·Q·ln(p/p_a)
-// over an efficiency of 0.17, which is what the one measured 12 V pump shows above 20 psi.
-double EstimatedElectricalPower(double free_air_m3_per_s, double pressure_pa);
-
-// Share of time a pump may run, D = (T_max − T_a)/(R_th·(1−η)·P_el), limited to [0, 1].
-double ThermalDutyLimit(double temperature_rise_max_k, double thermal_resistance_k_per_w,
-                        double electrical_power_w, double efficiency = 0.17);
-
 }  // namespace plenum::model
 
 #endif  // PLENUM_MODEL_COMPRESSOR_H_

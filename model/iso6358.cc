@@ -30,13 +30,4 @@ double FlowFunctionSlope(double ratio, double critical_ratio, double subsonic_in
          std::pow(square, subsonic_index - 1.0);
 }
 
-double VolumeFlow(const FlowElement& element, double upstream_pa, double downstream_pa,
-                  double upstream_temperature_k) {
-  const double effective_pa = upstream_pa - element.cracking_pressure_pa;
-  if (!(effective_pa > 0.0) || effective_pa <= downstream_pa) return 0.0;
-  return element.sonic_conductance_m3_per_s_pa * effective_pa *
-         std::sqrt(kReferenceTemperatureK / upstream_temperature_k) *
-         FlowFunction(downstream_pa / effective_pa, element.critical_ratio, element.subsonic_index);
-}
-
 }  // namespace plenum::model

@@ -27,12 +27,6 @@ double FlowFunction(double ratio, double critical_ratio, double subsonic_index =
 // dΨ/dr; 0 where choked, −∞ at r = 1 for m < 1.
 double FlowFunctionSlope(double ratio, double critical_ratio, double subsonic_index = 0.5);
 
-// Standard volume flow (m³/s ANR) of air from p1 to p2 ≤ p1, both absolute:
-//   Q = C · p1' · √(T0/T1) · Ψ(p2/p1'),  p1' = p1 − Δp_c,
-// zero where p1' ≤ p2. Source: ISO 6358-1:2013; the cracking pressure as lost head.
-double VolumeFlow(const FlowElement& element, double upstream_pa, double downstream_pa,
-                  double upstream_temperature_k = kReferenceTemperatureK);
-
 }  // namespace plenum::model
 
 #endif  // PLENUM_MODEL_ISO6358_H_

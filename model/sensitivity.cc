@@ -82,13 +82,6 @@ std::vector<RigNumber> NumbersOfParts(const Rig& rig) {
   return all.numbers;
 }
 
-// A parameter that moves alone.
-std::vector<Direction> Alone(std::span<const double* const> parameters) {
-  std::vector<Direction> directions;
-  for (const double* number : parameters) directions.push_back({{number, 1.0}});
-  return directions;
-}
-
 std::string WhyRefused(const Rig& rig, std::span<const Direction> directions) {
   const std::vector<RigNumber> numbers = DifferentiableNumbers(rig);
   for (std::size_t j = 0; j < directions.size(); ++j) {
@@ -184,16 +177,16 @@ class Projection {
 // The rig's run in numbers T. `stiff`: by the implicit method; set where it turned out to be
 // needed.
 template <class T>
-ResponseOf<T> RunAlong(const Rig& rig, const SimulateOptions& options, RunUntil until,
-                       const Lift& lift, bool& stiff) {
+ResponseOf<T> RunAlong(const Rig& rig, const SimulateOptions& options, const Lift& lift,
+                       bool& stiff) {
   if (!stiff) {
-    Run<T, ExplicitIntegrator<T>> run(rig, options, until, lift);
+    Run<T, ExplicitIntegrator<T>> run(rig, options, RunUntil::kEnd, lift);
     ResponseOf<T> response = run.Execute();
     stiff = run.stiff();
     if (!stiff) return response;
   }
   const SimulateOptions damped = DampedOptions(options);
-  Run<T, ImplicitIntegrator<T>> run(rig, damped, until, lift);
+  Run<T, ImplicitIntegrator<T>> run(rig, damped, RunUntil::kEnd, lift);
   ResponseOf<T> response = run.Execute();
   response.stiff = true;
   return response;
@@ -205,33 +198,33 @@ std::size_t NextWidth(std::size_t left) {
   return runs(kWideDirections) < runs(kDirections) ? kWideDirections : kDirections;
 }
 
-// Runs the rig with the seeds of one chunk of parameters after the other. `take` sees each chunk's
-// response, with the first parameter of the chunk and how many there are.
-template <class SeedsOf, class Take>
-void ForEachChunk(const Rig& rig, const SimulateOptions& options, RunUntil until,
-                  std::size_t parameters, const SeedsOf& seeds_of, const Take& take) {
+// Runs the rig with the seeds of one chunk of directions after the other. `take` sees each chunk's
+// response and how many directions it has.
+template <class Take>
+void ForEachChunk(const Rig& rig, const SimulateOptions& options,
+                  std::span<const Direction> directions, const Take& take) {
   bool stiff =
       options.integrator == Integrator::kCvode || options.integrator == Integrator::kImplicit;
   std::size_t first = 0;
   do {
-    const std::size_t width = NextWidth(parameters - first);
-    const std::size_t count = std::min(width, parameters - first);
+    const std::size_t width = NextWidth(directions.size() - first);
+    const std::size_t count = std::min(width, directions.size() - first);
     std::vector<Seed> seeds;
     for (std::size_t j = 0; j < count; ++j) {
-      for (const WeightedNumber& moved : seeds_of(first + j)) {
+      for (const WeightedNumber& moved : directions[first + j]) {
         seeds.push_back({moved.number, static_cast<int>(j), moved.weight});
       }
     }
     const auto done = [&](const auto& response) {
-      take(response, first, count);
+      take(response, count);
       return response.status == SimulateStatus::kDone;
     };
     const Lift lift(seeds);
-    if (!(width == kDirections ? done(RunAlong<Dual>(rig, options, until, lift, stiff))
-                               : done(RunAlong<WideDual>(rig, options, until, lift, stiff))))
+    if (!(width == kDirections ? done(RunAlong<Dual>(rig, options, lift, stiff))
+                               : done(RunAlong<WideDual>(rig, options, lift, stiff))))
       return;
     first += width;
-  } while (first < parameters);
+  } while (first < directions.size());
 }
 
 bool Finite(const std::vector<double>& numbers) {
@@ -257,45 +250,6 @@ bool AllFinite(const Response& r) {
                  r.compressor_energy_j});
 }
 
-// What a parameter moves in the rig of a full stroke: the same number, and the initial pressures
-// that stand for it.
-Direction MovedInStroke(const Rig& rig, const double* parameter, const Rig& stroke,
-                        ValveState state) {
-  Direction moved;
-  const std::vector<RigNumber> numbers = NumbersOfParts(stroke);
-  for (const RigNumber& original : NumbersOfParts(rig)) {
-    if (original.number != parameter) continue;
-    for (const RigNumber& copy : numbers) {
-      if (copy.name == original.name) moved.push_back({copy.number, 1.0});
-    }
-  }
-  for (std::size_t i = 0; i < rig.groups.size(); ++i) {
-    const double* start = state == ValveState::kInflate
-                              ? &rig.ambient.pressure_pa
-                              : &rig.groups[i].chamber.operating_pressure_pa;
-    if (parameter == start) moved.push_back({&stroke.groups[i].initial_pressure_pa, 1.0});
-  }
-  return moved;
-}
-
-// By group until its target, never unless it is taken, and the derivatives by parameter and group.
-struct StrokeTimes {
-  StrokeTimes(std::size_t groups, std::size_t parameters)
-      : s(groups, std::numeric_limits<double>::infinity()),
-        derivatives(parameters, std::vector<double>(groups, 0.0)) {}
-
-  template <class T>
-  void Take(const StrokeOf<T>& stroke, std::size_t first, std::size_t count) {
-    const auto group = static_cast<std::size_t>(stroke.group);
-    s[group] = stroke.to_target_s.a;
-    for (std::size_t j = 0; j < count; ++j)
-      derivatives[first + j][group] = stroke.to_target_s.v[static_cast<Eigen::Index>(j)];
-  }
-
-  std::vector<double> s;
-  std::vector<std::vector<double>> derivatives;
-};
-
 }  // namespace
 
 std::vector<RigNumber> DifferentiableNumbers(const Rig& rig) {
@@ -312,11 +266,6 @@ std::vector<RigNumber> DifferentiableNumbers(const Rig& rig) {
   return all.numbers;
 }
 
-SensitivityResponse SimulateWithSensitivities(const Rig& rig, const SimulateOptions& options,
-                                              std::span<const double* const> parameters) {
-  return SimulateAlongDirections(rig, options, Alone(parameters));
-}
-
 SensitivityResponse SimulateAlongDirections(const Rig& rig, const SimulateOptions& options,
                                             std::span<const Direction> directions) {
   SensitivityResponse result;
@@ -328,9 +277,8 @@ SensitivityResponse SimulateAlongDirections(const Rig& rig, const SimulateOption
     result.response.detail = reason;
     return result;
   }
-  const auto seeds_of = [&](std::size_t j) -> const Direction& { return directions[j]; };
-  const auto take = [&](const auto& dual, std::size_t first, std::size_t count) {
-    if (first == 0 || dual.status != SimulateStatus::kDone) {
+  const auto take = [&](const auto& dual, std::size_t count) {
+    if (result.derivatives.empty() || dual.status != SimulateStatus::kDone) {
       result.response = Projection([](const auto& x) { return x.a; })(dual);
     }
     for (std::size_t j = 0; j < count; ++j) {
@@ -338,50 +286,13 @@ SensitivityResponse SimulateAlongDirections(const Rig& rig, const SimulateOption
           Projection([j](const auto& x) { return x.v[static_cast<Eigen::Index>(j)]; })(dual));
     }
   };
-  ForEachChunk(rig, options, RunUntil::kEnd, directions.size(), seeds_of, take);
+  ForEachChunk(rig, options, directions, take);
   for (std::size_t j = 0; j < result.derivatives.size(); ++j) {
     if (result.response.status != SimulateStatus::kDone || AllFinite(result.derivatives[j]))
       continue;
     result.response.status = SimulateStatus::kNotFinite;
     result.response.detail =
         "a derivative with respect to parameters[" + std::to_string(j) + "] is not finite";
-  }
-  return result;
-}
-
-SensitivityStrokes FullStrokesWithSensitivities(const Rig& rig, const SimulateOptions& options,
-                                                std::span<const double* const> parameters) {
-  const SimulateOptions stroke_options = StrokeOptions(options);
-  SensitivityStrokes result;
-  std::string reason = WhyInvalid(stroke_options);
-  const std::size_t groups = rig.groups.size();
-  StrokeTimes rise(groups, parameters.size()), fall = rise;
-  result.status = SimulateStatus::kDone;
-  for (const ValveState state : {ValveState::kInflate, ValveState::kDeflate}) {
-    const Rig stroke = StrokeRig(rig, state);
-    if (reason.empty()) reason = WhyInvalid(stroke);
-    if (reason.empty()) reason = WhyRefused(rig, Alone(parameters));
-    if (!reason.empty()) return {SimulateStatus::kInvalid, reason, {}, {}};
-    auto& times = state == ValveState::kInflate ? rise : fall;
-    const auto moved = [&](std::size_t j) {
-      return MovedInStroke(rig, parameters[j], stroke, state);
-    };
-    const auto take = [&](const auto& dual, std::size_t first, std::size_t count) {
-      for (const auto& done : dual.strokes) times.Take(done, first, count);
-      if (dual.status != SimulateStatus::kDone)
-        result.status = dual.status, result.detail = dual.detail;
-    };
-    ForEachChunk(stroke, stroke_options, RunUntil::kTargets, parameters.size(), moved, take);
-  }
-  for (std::size_t i = 0; i < groups; ++i)
-    result.strokes.push_back({rise.s[i], fall.s[i], 1.0 / (rise.s[i] + fall.s[i])});
-  for (std::size_t j = 0; j < parameters.size(); ++j) {
-    auto& of_parameter = result.derivatives.emplace_back();
-    for (std::size_t i = 0; i < groups; ++i) {
-      const double up = rise.derivatives[j][i], down = fall.derivatives[j][i];
-      const double frequency_hz = result.strokes[i].frequency_max_hz;
-      of_parameter.push_back({up, down, -frequency_hz * frequency_hz * (up + down)});
-    }
   }
   return result;
 }

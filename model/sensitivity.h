@@ -59,26 +59,12 @@ struct SensitivityResponse {
   std::vector<Response> derivatives;
 };
 
-// kInvalid, with the parameter's place in the list, where an address is no differentiable number of
-// the rig; kNotFinite where a derivative is not finite. Integrator::kCvode and
-// kImplicit take the implicit method from the start.
-SensitivityResponse SimulateWithSensitivities(const Rig& rig, const SimulateOptions& options,
-                                              std::span<const double* const> parameters);
-
-// The same along directions; an empty one moves nothing.
+// The response and its derivatives along directions; an empty one moves nothing. kInvalid, with the
+// direction's place in the list, where an address is no differentiable number of the rig;
+// kNotFinite where a derivative is not finite. Integrator::kCvode and kImplicit take the implicit
+// method from the start.
 SensitivityResponse SimulateAlongDirections(const Rig& rig, const SimulateOptions& options,
                                             std::span<const Direction> directions);
-
-// FullStrokes and its derivatives. The initial pressures follow the ambient and the operating
-// pressure that they stand for; initial_pressure_pa and command times of the rig play no part.
-struct SensitivityStrokes {
-  SimulateStatus status = SimulateStatus::kNotRun;
-  std::string detail;                                // for any status but kDone
-  std::vector<FullStroke> strokes;                   // by group
-  std::vector<std::vector<FullStroke>> derivatives;  // by parameter, by group; 0 where never
-};
-SensitivityStrokes FullStrokesWithSensitivities(const Rig& rig, const SimulateOptions& options,
-                                                std::span<const double* const> parameters);
 
 }  // namespace plenum::model
 

@@ -116,22 +116,6 @@ Choke FindChoke(std::span<const FlowElement> elements) {
   return choke;
 }
 
-// Conductance under the rule ΣC_i^−n = C^−n, with pressure losses (1−b_i)/C_i² added.
-FlowElement PowerLawSeries(std::span<const FlowElement> elements, double n) {
-  double power_sum = 0.0;
-  double loss_sum = 0.0;
-  for (const FlowElement& element : elements) {
-    const double c = element.sonic_conductance_m3_per_s_pa;
-    power_sum += std::pow(c, -n);
-    loss_sum += (1.0 - element.critical_ratio) / (c * c);
-  }
-  FlowElement line;
-  line.sonic_conductance_m3_per_s_pa = std::pow(power_sum, -1.0 / n);
-  line.critical_ratio =
-      1.0 - line.sonic_conductance_m3_per_s_pa * line.sonic_conductance_m3_per_s_pa * loss_sum;
-  return line;
-}
-
 }  // namespace
 
 Series MakeSeries(std::span<const FlowElement> elements, double flow_factor) {
@@ -192,50 +176,6 @@ CosineAndSlope CosineNear(const Series& series, double ratio, double guess, doub
 double FlowAtRatio(const Series& series, double ratio) {
   const double c = CosineAtRatio(series, ratio);
   return series.choked_flow_m3_per_s_pa * std::sqrt((1.0 - c) * (1.0 + c));
-}
-
-double RegularisedFlowAtRatio(const Series& series, double ratio, double linear_ratio) {
-  if (ratio <= linear_ratio) return FlowAtRatio(series, ratio);
-  if (ratio >= 1.0) return 0.0;
-  return FlowAtRatio(series, linear_ratio) * (1.0 - ratio) / (1.0 - linear_ratio);
-}
-
-FlowElement Equivalent(const Series& series) {
-  // With x = √(1 − (q/q*)²) the ellipse reads r − x = b·(1 − x): linear in b.
-  double numerator = 0.0;
-  double denominator = 0.0;
-  for (const double share : {0.8, 0.6, 0.4, 0.2}) {
-    const double x = std::sqrt(1.0 - share * share);
-    const double ratio = RatioAtFlow(series, share * series.choked_flow_m3_per_s_pa);
-    numerator += (ratio - x) * (1.0 - x);
-    denominator += (1.0 - x) * (1.0 - x);
-  }
-  FlowElement line;
-  line.sonic_conductance_m3_per_s_pa = series.choked_flow_m3_per_s_pa;
-  line.critical_ratio = numerator / denominator;
-  return line;
-}
-
-FlowElement SquareLawSeries(std::span<const FlowElement> elements) {
-  return PowerLawSeries(elements, 2.0);
-}
-
-FlowElement CubeLawSeries(std::span<const FlowElement> elements) {
-  return PowerLawSeries(elements, 3.0);
-}
-
-FlowElement Parallel(std::span<const FlowElement> elements) {
-  double sum = 0.0;
-  double weighted = 0.0;
-  for (const FlowElement& element : elements) {
-    const double c = element.sonic_conductance_m3_per_s_pa;
-    sum += c;
-    weighted += c / std::sqrt(1.0 - element.critical_ratio);
-  }
-  FlowElement joint;
-  joint.sonic_conductance_m3_per_s_pa = sum;
-  joint.critical_ratio = 1.0 - (sum / weighted) * (sum / weighted);
-  return joint;
 }
 
 }  // namespace plenum::model

@@ -62,23 +62,6 @@ inline constexpr double kLastStep = 1e-8;
 CosineAndSlope CosineNear(const Series& series, double ratio, double guess,
                           double step_max = kLastStep);
 
-// FlowAtRatio with the straight line to zero from ratio `linear_ratio` to 1, for the simulator.
-double RegularisedFlowAtRatio(const Series& series, double ratio,
-                              double linear_ratio = kLinearRatio);
-
-// A single (C, b) that stands for the line: C = q*, and b fitted by least squares to the subsonic
-// points at 80, 60, 40 and 20 % of q* (the procedure of ISO 6358-3). May be negative for long tubes
-// behind wide valves.
-FlowElement Equivalent(const Series& series);
-
-// Closed forms, as bounds and starts only: they miss the exact C by up to 10 %.
-// SquareLaw: 1/C² = Σ1/C_i²   CubeLaw: 1/C³ = Σ1/C_i³   both with b = 1 − C²·Σ(1−b_i)/C_i².
-FlowElement SquareLawSeries(std::span<const FlowElement> elements);
-FlowElement CubeLawSeries(std::span<const FlowElement> elements);
-
-// Same end pressures, flows add: C = ΣC_i, b = 1 − (ΣC_i / ΣC_i·(1−b_i)^−½)².
-FlowElement Parallel(std::span<const FlowElement> elements);
-
 }  // namespace plenum::model
 
 #endif  // PLENUM_MODEL_SERIES_H_

@@ -36,25 +36,8 @@ Response RunRig(const Rig& rig, const SimulateOptions& options, RunUntil until) 
   return response;
 }
 
-struct StrokeTimes {
-  std::vector<double> to_target_s;  // by group
-  SimulateStatus status;
-};
-
-StrokeTimes RunStrokes(const Rig& rig, const SimulateOptions& options, ValveState state) {
-  StrokeTimes times = {std::vector<double>(rig.groups.size(), kInfinity), SimulateStatus::kInvalid};
-  const Rig stroke_rig = StrokeRig(rig, state);
-  if (!WhyInvalid(stroke_rig).empty()) return times;
-  const Response response = RunRig(stroke_rig, options, RunUntil::kTargets);
-  for (const Stroke& stroke : response.strokes) {
-    times.to_target_s[static_cast<std::size_t>(stroke.group)] = stroke.to_target_s;
-  }
-  times.status = response.status;
-  return times;
-}
-
-}  // namespace
-
+// The rig and the options of a full stroke (simulate.h): all groups obey one command at time 0,
+// from ambient pressure when they inflate and from the operating pressure when they deflate.
 Rig StrokeRig(Rig rig, ValveState state) {
   const bool inflate = state == ValveState::kInflate;
   if (!inflate) rig.source = NoSource{};
@@ -73,6 +56,25 @@ SimulateOptions StrokeOptions(SimulateOptions options) {
   options.record = Record::kAll;
   return options;
 }
+
+struct StrokeTimes {
+  std::vector<double> to_target_s;  // by group
+  SimulateStatus status;
+};
+
+StrokeTimes RunStrokes(const Rig& rig, const SimulateOptions& options, ValveState state) {
+  StrokeTimes times = {std::vector<double>(rig.groups.size(), kInfinity), SimulateStatus::kInvalid};
+  const Rig stroke_rig = StrokeRig(rig, state);
+  if (!WhyInvalid(stroke_rig).empty()) return times;
+  const Response response = RunRig(stroke_rig, options, RunUntil::kTargets);
+  for (const Stroke& stroke : response.strokes) {
+    times.to_target_s[static_cast<std::size_t>(stroke.group)] = stroke.to_target_s;
+  }
+  times.status = response.status;
+  return times;
+}
+
+}  // namespace
 
 std::vector<ValveCommand> CycleSchedule(double frequency_hz, double inflate_fraction, int cycles,
                                         double phase) {

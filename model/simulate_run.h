@@ -19,11 +19,6 @@ namespace plenum::model {
 // runs to the end keep the accounts of gas and energy.
 enum class RunUntil { kEnd, kTargets };
 
-// The rig and the options of a full stroke (simulate.h): all groups obey one command at time 0,
-// from ambient pressure when they inflate and from the operating pressure when they deflate.
-Rig StrokeRig(Rig rig, ValveState state);
-SimulateOptions StrokeOptions(SimulateOptions options);
-
 // What the valve of a group is doing, on the clock of its run.
 template <class T>
 struct ValveProgress {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace plenum::model {
 namespace {
@@ -28,18 +27,8 @@ constexpr std::array<Saturation, 8> kSaturation{{{243.15, 1.4278e6},
                                                  {303.15, 7.2137e6},
                                                  {304.13, 7.3773e6}}};
 
-constexpr double kEvaporationJPerM3 = 274e3;  // per m³ ANR, at 20 °C
-constexpr double kWallHeatTransfer = 10.0;    // W/(m²K), still air
-constexpr double kWallCoolingK = 20.0;
-
 double EffectivePressure(double pressure_pa) {
   return pressure_pa / CompressibilityOfAir(pressure_pa);
-}
-
-// Area of a closed cylinder three diameters long: 3·π·d² of wall and two ends of π·d²/4.
-double SurfaceOfBottle(double volume_m3) {
-  const double diameter = std::cbrt(volume_m3 / (0.75 * std::numbers::pi));
-  return 3.5 * std::numbers::pi * diameter * diameter;
 }
 
 }  // namespace
@@ -83,10 +72,6 @@ double Co2SaturationPressure(double temperature_k) {
   const double share =
       (1.0 / low.temperature_k - 1.0 / t) / (1.0 / low.temperature_k - 1.0 / high.temperature_k);
   return low.pressure_pa * std::pow(high.pressure_pa / low.pressure_pa, share);
-}
-
-double Co2SustainedFlow(double body_volume_m3) {
-  return kWallHeatTransfer * SurfaceOfBottle(body_volume_m3) * kWallCoolingK / kEvaporationJPerM3;
 }
 
 MadeReservoir MakeReservoir(double volume_m3, double pressure_gauge_pa) {

@@ -37,12 +37,6 @@ double Co2UsableVolume(double co2_mass_kg, double water_volume_m3, double inlet_
 // between reference points; outside the range the end value.
 double Co2SaturationPressure(double temperature_k);
 
-// Sustained draw a CO2 bottle stands without heating: evaporation takes 274 J per standard litre,
-// which the bottle must take up from the surroundings through its own wall,
-//   Q = h·A·ΔT / 274 kJ/m³, with h = 10 W/(m²K), ΔT = 20 K (20 °C down to 0 °C, 3.5 MPa),
-// A = that of a cylinder three diameters long with the bottle's volume. An estimate.
-double Co2SustainedFlow(double body_volume_m3);
-
 // Made-to-measure reservoir (welded or wound to the volume wanted): mass and outer volume by rule,
 //   mass = 0.030 kg + V·(0.15 kg/L + 0.09 kg/L per MPa of gauge pressure)
 //   body = 1.08·V + 10 mL

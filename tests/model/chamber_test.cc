@@ -26,6 +26,13 @@ Chamber CurvedChamber() {
   return chamber;
 }
 
+// Gas admitted from ambient to operating pressure, m³ ANR: the paper's air per actuation.
+double AirPerActuation(const Chamber& chamber, double temperature_k) {
+  return StandardVolume(Content(chamber, chamber.operating_pressure_pa) -
+                            Content(chamber, chamber.ambient_pressure_pa),
+                        temperature_k);
+}
+
 TEST(Chamber, AirPerActuationOfTheExosuit) {
   // 6 actuators × 1000 strokes × 50 mL·(2·2 − 1) = 900 standard litres.
   const double air = AirPerActuation(ExosuitChamber(), kReferenceTemperatureK);

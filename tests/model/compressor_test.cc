@@ -155,31 +155,5 @@ TEST(Compressor, EnergyToFillIsInfiniteWhereTheTableEndsInNoFlow) {
   EXPECT_LT(EnergyToFill(pump, 1e-3, 1e5, 2.9e5, 293.15), kInfinity);
 }
 
-TEST(Compressor, EstimatedPowerIsIsothermalWorkOverItsEfficiency) {
-  // Isothermal work to raise 1 m³/s of ambient air to e times ambient is p_a·1 m³/s: 100 kW.
-  EXPECT_NEAR(EstimatedElectricalPower(1.0, kAmbientPa * std::exp(1.0)), 1e5 / 0.17, 1e-6);
-  EXPECT_EQ(EstimatedElectricalPower(1e-4, kAmbientPa), 0.0);
-  EXPECT_EQ(EstimatedElectricalPower(1e-4, 0.5 * kAmbientPa), 0.0);
-  // The measured pump lies within a seventh of the estimate above 20 psi.
-  const CompressorCurve pump = Viair();
-  for (double psi = 20; psi <= 110; psi += 10) {
-    const double p = AbsolutePa(psi);
-    EXPECT_NEAR(EstimatedElectricalPower(FreeAirDelivery(pump, p), p) / ElectricalPower(pump, p),
-                1.0, 0.15)
-        << psi << " psi";
-  }
-}
-
-TEST(Compressor, ThermalDutyBalancesLossAndCooling) {
-  // At the limit the mean loss heats the motor by just the allowed rise.
-  const double duty = ThermalDutyLimit(60.0, 3.0, 96.0, 0.17);
-  EXPECT_GT(duty, 0.0);
-  EXPECT_LT(duty, 1.0);
-  EXPECT_NEAR(duty * 96.0 * (1 - 0.17) * 3.0, 60.0, 1e-12);
-  EXPECT_EQ(ThermalDutyLimit(60.0, 3.0, 5.0), 1.0);
-  EXPECT_EQ(ThermalDutyLimit(-5.0, 3.0, 96.0), 0.0);
-  EXPECT_EQ(ThermalDutyLimit(60.0, 3.0, 0.0), 1.0);
-}
-
 }  // namespace
 }  // namespace plenum::model

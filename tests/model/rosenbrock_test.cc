@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "model/sensitivity.h"
 #include "tests/model/simulate_rigs.h"
+#include "tests/support/sensitivities.h"
 
 namespace plenum::model {
 namespace {

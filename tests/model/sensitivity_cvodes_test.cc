@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
-#include "model/sensitivity.h"
 #include "tests/model/cvodes_plant.h"
 #include "tests/model/effects_rigs.h"
+#include "tests/support/sensitivities.h"
 
 namespace plenum::model {
 namespace {

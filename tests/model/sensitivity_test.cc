@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/model/simulate_rigs.h"
+#include "tests/support/sensitivities.h"
 
 namespace plenum::model {
 namespace {
@@ -354,60 +355,29 @@ TEST(Sensitivity, OfASwingingSupply) {
   EXPECT_LT(worst.error, 1e-5) << worst.where;
 }
 
-TEST(Sensitivity, OfFullStrokesFollowsTheScalingOfTime) {
-  GroupRig group = OneActuator(2e5, 1.7, kValve);
-  const Rig rig = RigOf(Regulated(3e5), {group});
-  const GroupRig& g = rig.groups[0];
-  const double* parameters[] = {&g.chamber.rest_volume_m3, &g.fill[0].sonic_conductance_m3_per_s_pa,
-                                &g.exhaust[0].sonic_conductance_m3_per_s_pa,
-                                &rig.ambient.temperature_k};
-  const SensitivityStrokes s = FullStrokesWithSensitivities(rig, Tight(), parameters);
-  ASSERT_EQ(s.status, SimulateStatus::kDone) << s.detail;
-  const double rise = s.strokes[0].rise_time_s, fall = s.strokes[0].fall_time_s;
-  const FullStroke plain = FullStrokes(rig, Tight())[0];
-  EXPECT_NEAR(rise, plain.rise_time_s, 1e-10 * rise);
-  EXPECT_NEAR(fall, plain.fall_time_s, 1e-10 * fall);
-  // t ∝ V0, t ∝ 1/C and t ∝ T^−½ (Pa·m³ per m³ ANR times the flow's √(T0/T)).
-  EXPECT_NEAR(s.derivatives[0][0].rise_time_s * *parameters[0], rise, 1e-8 * rise);
-  EXPECT_NEAR(s.derivatives[0][0].fall_time_s * *parameters[0], fall, 1e-8 * fall);
-  EXPECT_NEAR(s.derivatives[1][0].rise_time_s * *parameters[1], -rise, 1e-8 * rise);
-  EXPECT_EQ(s.derivatives[1][0].fall_time_s, 0.0);
-  EXPECT_EQ(s.derivatives[2][0].rise_time_s, 0.0);
-  EXPECT_NEAR(s.derivatives[2][0].fall_time_s * *parameters[2], -fall, 1e-8 * fall);
-  EXPECT_NEAR(s.derivatives[3][0].rise_time_s * *parameters[3], -0.5 * rise, 1e-8 * rise);
-  const double f = plain.frequency_max_hz;
-  EXPECT_NEAR(s.derivatives[0][0].frequency_max_hz * *parameters[0], -f, 1e-8 * f);
-}
-
-TEST(Sensitivity, OfFullStrokesAgreesWithDifferences) {
-  Rig rig = RigOf(Regulated(3e5), {TwoElements()});
-  rig.groups[0].effects = {{FindEffect("hysteresis"), {3000.0}},
-                           {FindEffect("valve_ramp"), {0.03}}};
-  const auto numbers = DifferentiableNumbers(rig);
-  for (const RigNumber& n : numbers) {
-    if (*n.number == 0.0) continue;
-    const SensitivityStrokes s = FullStrokesWithSensitivities(rig, Tight(), {&n.number, 1});
-    ASSERT_EQ(s.status, SimulateStatus::kDone) << s.detail;
-    double& number = const_cast<double&>(*n.number);
-    const double value = number;
-    const double h = 1e-4 * value;
-    const auto at = [&](double shift) {
-      number = value + shift * h;
-      rig.groups[0].chamber.ambient_pressure_pa = rig.ambient.pressure_pa;
-      return FullStrokes(rig, Tight())[0];
+// t ∝ V0, t ∝ 1/C and t ∝ T^−½ (Pa·m³ per m³ ANR times the flow's √(T0/T)).
+TEST(Sensitivity, OfAFullStrokeFollowsTheScalingOfTime) {
+  for (const ValveState state : {ValveState::kInflate, ValveState::kDeflate}) {
+    GroupRig group = OneActuator(2e5, 1.7, kValve);
+    const bool rises = state == ValveState::kInflate;
+    group.initial_pressure_pa = rises ? group.chamber.ambient_pressure_pa : 2e5;
+    group.schedule = {{0.0, state}};
+    const Rig rig = RigOf(Regulated(3e5), {group});
+    const GroupRig& g = rig.groups[0];
+    const auto conductance = [](const std::vector<FlowElement>& line) {
+      return &line[0].sonic_conductance_m3_per_s_pa;
     };
-    const FullStroke up = at(1), down = at(-1), up2 = at(2), down2 = at(-2);
-    number = value;
-    rig.groups[0].chamber.ambient_pressure_pa = rig.ambient.pressure_pa;
-    const auto compare = [&](double FullStroke::*part) {
-      const double difference =
-          (8.0 * (up.*part - down.*part) - (up2.*part - down2.*part)) / (12.0 * h);
-      const double size = std::max(std::abs(difference), 1e-6 * (s.strokes[0].*part) / h);
-      EXPECT_NEAR(s.derivatives[0][0].*part, difference, 1e-5 * size) << n.name;
-    };
-    compare(&FullStroke::rise_time_s);
-    compare(&FullStroke::fall_time_s);
-    compare(&FullStroke::frequency_max_hz);
+    const double* parameters[] = {&g.chamber.rest_volume_m3, conductance(g.fill),
+                                  conductance(g.exhaust), &rig.ambient.temperature_k};
+    const SensitivityResponse r = SimulateWithSensitivities(rig, Tight(), parameters);
+    ASSERT_EQ(r.response.status, SimulateStatus::kDone) << r.response.detail;
+    const double time_s = r.response.strokes[0].to_target_s;
+    const FullStroke plain = FullStrokes(rig, Tight())[0];
+    EXPECT_NEAR(time_s, rises ? plain.rise_time_s : plain.fall_time_s, 1e-10 * time_s);
+    const double powers[] = {1.0, rises ? -1.0 : 0.0, rises ? 0.0 : -1.0, -0.5};
+    for (std::size_t j = 0; j < 4; ++j)
+      EXPECT_NEAR(r.derivatives[j].strokes[0].to_target_s * *parameters[j], powers[j] * time_s,
+                  1e-8 * time_s);
   }
 }
 
@@ -476,9 +446,9 @@ TEST(Sensitivity, RefusesWhatIsNoNumberOfTheRig) {
   EXPECT_EQ(SimulateAlongDirections(rig, Tight(), infinite).response.status,
             SimulateStatus::kInvalid);
   const double* copy = &rig.groups[0].chamber.ambient_pressure_pa;
-  const SensitivityStrokes s = FullStrokesWithSensitivities(rig, Tight(), {&copy, 1});
-  EXPECT_EQ(s.status, SimulateStatus::kInvalid);
-  EXPECT_THAT(s.detail, ::testing::HasSubstr("ambient.pressure_pa itself"));
+  const Response refused = SimulateWithSensitivities(rig, Tight(), {&copy, 1}).response;
+  EXPECT_EQ(refused.status, SimulateStatus::kInvalid);
+  EXPECT_THAT(refused.detail, ::testing::HasSubstr("ambient.pressure_pa itself"));
 }
 
 TEST(Sensitivity, OfATargetNeverReachedIsZeroBesideAnInfiniteTime) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace plenum::model {
 namespace {
@@ -98,16 +97,6 @@ TEST(Co2, SaturationPressureKeepsItsEndValuesOutside) {
   EXPECT_EQ(Co2SaturationPressure(200.0), Co2SaturationPressure(243.15));
   EXPECT_EQ(Co2SaturationPressure(320.0), Co2SaturationPressure(304.13));
   EXPECT_NEAR(Co2SaturationPressure(320.0), 7.377e6, 1e3);  // critical point
-}
-
-TEST(Co2, SustainedFlowIsWhatTheWallCanEvaporate) {
-  // 10 L/min takes 46 W; so does the wall of the bottle that sustains it, at 200 W/m².
-  const double area_m2 = 46.0 / 200.0;
-  const double diameter = std::sqrt(area_m2 / (std::numbers::pi * (3.0 + 0.5)));
-  const double volume = std::numbers::pi / 4 * diameter * diameter * (3.0 * diameter);
-  EXPECT_NEAR(Co2SustainedFlow(volume) * 60.0 / kLitre, 10.0, 0.1);
-  // Flow goes with area.
-  EXPECT_NEAR(Co2SustainedFlow(8 * volume) / Co2SustainedFlow(volume), 4.0, 1e-12);
 }
 
 TEST(MadeReservoir, AgreesWithAThinWall) {
