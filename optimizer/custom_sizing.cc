@@ -209,11 +209,11 @@ bool CustomSizing::Offer(double volume_m3) {
   return true;
 }
 
-// From a volume that works Ipopt finds the best pair of pressure and volume near it.
+// From a volume that works a solver finds the best pair of pressure and volume near it.
 void CustomSizing::Polish() {
   const std::optional<SizingProgram> program = SizingProgram::At(problem_, candidate_, leaf_.point);
   if (!program) return;
-  const NlpResult result = SolveWithIpopt(program->MakeNlp());
+  const NlpResult result = Solve(program->MakeNlp());
   if (result.status != NlpStatus::kSolved) return;
   Offer(ALittleMore(program->PointOf(result.x).reservoir_m3));
 }

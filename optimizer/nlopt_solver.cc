@@ -88,4 +88,11 @@ NlpResult SolveWithNlopt(const Nlp& nlp) {
   return result;
 }
 
+NlpResult Solve(const Nlp& nlp) {
+  NlpResult result = SolveWithIpopt(nlp);
+  if (result.status == NlpStatus::kSolved) return result;
+  NlpResult second = SolveWithNlopt(nlp);
+  return second.status == NlpStatus::kSolved ? second : result;
+}
+
 }  // namespace plenum::optimizer

@@ -41,6 +41,8 @@ struct NlpResult {
   int evaluations = 0;
 };
 
+// Ipopt, and NLopt where Ipopt does not converge: of the two the one that is solved.
+NlpResult Solve(const Nlp& nlp);
 NlpResult SolveWithIpopt(const Nlp& nlp);  // interior point, limited-memory BFGS for the Hessian
 NlpResult SolveWithNlopt(const Nlp& nlp);  // SLSQP
 

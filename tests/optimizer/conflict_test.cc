@@ -54,8 +54,9 @@ bool Feasible(const Problem& problem) {
 void ExpectMinimal(const Problem& problem, const std::vector<Conflict>& conflict) {
   Problem only = problem;
   for (const auto& [pointer, set] : Fields()) {
-    const bool kept = std::any_of(conflict.begin(), conflict.end(),
-                                  [&](const Conflict& c) { return c.requirement == pointer; });
+    const bool kept =
+        std::any_of(conflict.begin(), conflict.end(),
+                    [&, &named = pointer](const Conflict& c) { return c.requirement == named; });
     if (!kept) Loosen(only, pointer);
   }
   EXPECT_FALSE(Feasible(only));
@@ -108,9 +109,10 @@ TEST_P(OneImpossibleRequirement, IsNamedWithWhatCanBeReached) {
     Fields().at(pointer)(problem, value);
     SCOPED_TRACE(optimizer::Name(configuration));
     const std::vector<Conflict> conflict = Analyse(problem);
-    EXPECT_TRUE(std::any_of(conflict.begin(), conflict.end(), [&](const Conflict& c) {
-      return c.requirement == pointer && c.required == value;
-    }));
+    EXPECT_TRUE(std::any_of(conflict.begin(), conflict.end(),
+                            [&, &named = pointer, &required = value](const Conflict& c) {
+                              return c.requirement == named && c.required == required;
+                            }));
     ExpectMinimal(problem, conflict);
     for (const Conflict& c : conflict) ExpectTight(problem, c);
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <thread>
@@ -96,6 +97,21 @@ Nlp Infeasible() {
   });
 }
 
+// The smaller of two margins as one constraint, which has a kink where it is largest: Ipopt's steps
+// come to no end there.
+Nlp KinkedMargin() {
+  Nlp nlp{{0.0, -10.0}, {1.0, 10.0}, {0.1, 0.0}, 1, {}, {}, {}};
+  nlp.evaluate = [](const std::vector<double>& x, NlpValues& values) {
+    values = {-x[1], {std::min(x[0], 2.0 * (1.0 - x[0])) - x[1]}};
+    return true;
+  };
+  nlp.differentiate = [](const std::vector<double>& x, NlpDerivatives& derivatives) {
+    derivatives = {{0.0, -1.0}, {{x[0] < 2.0 * (1.0 - x[0]) ? 1.0 : -2.0, -1.0}}};
+    return true;
+  };
+  return nlp;
+}
+
 void ExpectSolved(const NlpResult& result, const std::vector<double>& answer,
                   const std::string& name) {
   EXPECT_EQ(result.status, NlpStatus::kSolved) << name;
@@ -143,6 +159,16 @@ TEST(NlpTest, NloptClaimsNothingWrongWhereTheModelIsNotDefined) {
 TEST(NlpTest, NoSolverClaimsToHaveSolvedAnInfeasibleProgram) {
   EXPECT_NE(SolveWithIpopt(Infeasible()).status, NlpStatus::kSolved);
   EXPECT_NE(SolveWithNlopt(Infeasible()).status, NlpStatus::kSolved);
+}
+
+TEST(NlpTest, NloptTakesOverWhereIpoptDoesNotConverge) {
+  ASSERT_NE(SolveWithIpopt(KinkedMargin()).status, NlpStatus::kSolved);
+  ExpectSolved(Solve(KinkedMargin()), {2.0 / 3.0, 2.0 / 3.0}, "kinked margin");
+}
+
+TEST(NlpTest, IpoptIsEnoughWhereItConverges) {
+  for (const Sample& sample : Zoo()) EXPECT_EQ(Solve(sample.nlp).x, SolveWithIpopt(sample.nlp).x);
+  EXPECT_NE(Solve(Infeasible()).status, NlpStatus::kSolved);
 }
 
 // What is stopped is not solved.
