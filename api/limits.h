@@ -5,8 +5,6 @@
 
 #include <cstddef>
 
-#include "api/json.h"
-
 namespace plenum::api {
 
 inline constexpr std::size_t kJsonDepthMax = 64;
@@ -33,9 +31,6 @@ inline constexpr int kDesignsMax = 500;
 inline constexpr double kDesignSecondsMax = 3600;
 inline constexpr std::size_t kExcludedMax = 100'000;
 inline constexpr int kPageMax = 1000;
-
-// All of them by name.
-Json RenderRequestLimits();
 
 }  // namespace plenum::api
 

@@ -8,7 +8,6 @@
 
 #include "api/fields.h"
 #include "api/measured_rig.h"
-#include "api/measurement.h"
 #include "api/rig.h"
 #include "api/schema_recorder.h"
 #include "api/text.h"

@@ -2,6 +2,7 @@
 #ifndef PLENUM_API_MEASURED_RUN_H_
 #define PLENUM_API_MEASURED_RUN_H_
 
+#include <cstddef>
 #include <set>
 #include <string>
 
@@ -9,6 +10,8 @@
 #include "calibration/dataset.h"
 
 namespace plenum::api {
+
+inline constexpr std::size_t kSeriesErrors = 5;  // at most, of one list of samples
 
 // The run at `element` on the document's `shared` rig, in SI and absolute pressures. Its id joins
 // `ids`, in which it must be new. What the readings cannot be (too few, constant, far above all

@@ -4,18 +4,20 @@
 // what differs. Long CSV has one row a sample with columns run, t_s, valve (hold, inflate, deflate)
 // and pressure_kpa_gauge, and the channels by name; an empty cell is a missing sample. Its rig file
 // is either a rig, or a measurement whose runs, by id, hold everything but samples and schedule.
+//
+// measurement_csv.cc: from CSV.
 #ifndef PLENUM_API_MEASUREMENT_H_
 #define PLENUM_API_MEASUREMENT_H_
 
 #include <string_view>
 
 #include "api/json.h"
+#include "api/measured_run.h"
 #include "calibration/dataset.h"
 
 namespace plenum::api {
 
 // Every error at once, each with its pointer; at most kSeriesErrors of one list of samples.
-inline constexpr std::size_t kSeriesErrors = 5;
 Parsed<calibration::Dataset> ParseMeasurement(const Json& document);
 
 // The same document from CSV and its rig file. Errors of the table point at its line: "line 7".

@@ -13,19 +13,9 @@
 #include <vector>
 
 #include "api/json.h"
+#include "api/range.h"
 
 namespace plenum::api {
-
-// Allowed range of a number; bounds are inclusive unless open.
-struct Range {
-  double low = 0.0, high = 0.0;
-  bool low_open = false, high_open = false;
-
-  bool Contains(double value) const;
-  std::string Text() const;  // "> 0 and ≤ 1e6"
-};
-inline Range Above(double low, double high) { return {low, high, true, false}; }
-inline Range Below(double low, double high) { return {low, high, false, true}; }
 
 class Reader;
 

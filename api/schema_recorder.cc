@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "api/reader.h"
-
 namespace plenum::api {
 namespace {
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "api/json.h"
+#include "api/range.h"
 
 namespace plenum::api {
 
@@ -64,7 +65,6 @@ class SchemaRecorder {
 };
 
 // Forms of single values, with bounds as ranges of the reader have them.
-struct Range;
 Json NumberForm(const Range& range);
 
 }  // namespace plenum::api

@@ -17,6 +17,8 @@
 // only as far as these numbers of a run are known.
 // Sources: discrepancies inside equations keep the physics identifiable (Kennedy & O'Hagan 2001;
 // Brynjarsdóttir & O'Hagan 2014); leave-one-out over runs.
+//
+// discrepancy_places.cc: where the residual lives.
 #ifndef PLENUM_CALIBRATION_DISCREPANCY_H_
 #define PLENUM_CALIBRATION_DISCREPANCY_H_
 

@@ -21,6 +21,7 @@
 
 #include "calibration/dataset.h"
 #include "calibration/noise_memory.h"
+#include "calibration/readings.h"
 
 namespace plenum::calibration {
 
@@ -54,15 +55,6 @@ struct Noise {
   double clip_high_pa = std::numeric_limits<double>::infinity();
 };
 
-// Readings y at times t (rising, NaN where missing); `quiet` are the spans to look at first and
-// `strokes` the others.
-struct TimeSpan {
-  double start_s = 0.0, end_s = 0.0;
-};
-struct Readings {
-  std::span<const double> t_s, y;
-  std::vector<TimeSpan> quiet, strokes;
-};
 Noise EstimateNoise(const Readings& readings);
 
 // Of runs recorded with one sensor: σ of each, the ends of its range and the noise's memory from

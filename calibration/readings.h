@@ -7,9 +7,17 @@
 #include <span>
 #include <vector>
 
-#include "calibration/noise.h"
-
 namespace plenum::calibration {
+
+// Readings y at times t (rising, NaN where missing); `quiet` are the spans to look at first and
+// `strokes` the others.
+struct TimeSpan {
+  double start_s = 0.0, end_s = 0.0;
+};
+struct Readings {
+  std::span<const double> t_s, y;
+  std::vector<TimeSpan> quiet, strokes;
+};
 
 // Step q of the grid that the finite values lie on, each within q/10; 0 if they lie on none. Asked
 // of at least eight distinct values, or of fewer where most readings recur.

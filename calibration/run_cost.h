@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "calibration/fit.h"
+#include "calibration/fit_data.h"
 
 namespace plenum::calibration {
 

@@ -5,8 +5,9 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <string>
+#include <vector>
 
-#include "catalog/store.h"
+#include "catalog/store_error.h"
 
 namespace plenum::catalog {
 

@@ -15,20 +15,10 @@
 #include <string_view>
 #include <vector>
 
+#include "catalog/csv_table.h"
 #include "catalog/part.h"
 
 namespace plenum::catalog {
-
-inline constexpr std::size_t kCsvColumnsMax = 1'000;
-inline constexpr std::size_t kCsvCellBytesMax = 64 << 10;
-inline constexpr std::size_t kCsvErrorsMax = 1'000;
-
-struct CsvError {
-  int row = 0;  // counts records; 1 is the header
-  std::string column;
-  std::string detail;
-  bool operator==(const CsvError&) const = default;
-};
 
 // Not empty: nothing of the file may be used.
 struct CsvErrors {

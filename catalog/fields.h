@@ -1,5 +1,6 @@
 // The vocabulary of the catalogue: families, their fields, units (in the name) and allowed ranges.
-// One table serves validation, the database's checks, CSV columns, JSON and filters.
+// validate.cc checks a part against them. One table serves validation, the database's checks, CSV
+// columns, JSON and filters.
 #ifndef PLENUM_CATALOG_FIELDS_H_
 #define PLENUM_CATALOG_FIELDS_H_
 

@@ -11,7 +11,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -19,26 +18,9 @@
 #include "catalog/model_revision.h"
 #include "catalog/part.h"
 #include "catalog/revision.h"
+#include "catalog/store_error.h"
 
 namespace plenum::catalog {
-
-enum class Access { kRead, kWrite };
-
-// kStorage: the disk is full or fails, or the file cannot be written; kBusy: another process holds
-// it for longer than ten seconds. In all cases nothing of the write was done.
-enum class StoreFault { kOther, kStorage, kBusy };
-
-// Thrown when the database cannot be opened, read or written; the message names the file and what
-// to do. (I/O is the one place of plenum where exceptions carry an outcome.)
-class StoreError : public std::runtime_error {
- public:
-  explicit StoreError(const std::string& what, StoreFault fault = StoreFault::kOther)
-      : std::runtime_error(what), fault_(fault) {}
-  StoreFault fault() const { return fault_; }
-
- private:
-  StoreFault fault_;
-};
 
 enum class WriteStatus {
   kDone,

@@ -76,17 +76,6 @@ StrokeTimes RunStrokes(const Rig& rig, const SimulateOptions& options, ValveStat
 
 }  // namespace
 
-std::vector<ValveCommand> CycleSchedule(double frequency_hz, double inflate_fraction, int cycles,
-                                        double phase) {
-  std::vector<ValveCommand> schedule;
-  for (int i = 0; i < cycles; ++i) {
-    const double start = i + phase;
-    schedule.push_back({start / frequency_hz, ValveState::kInflate});
-    schedule.push_back({(start + inflate_fraction) / frequency_hz, ValveState::kDeflate});
-  }
-  return schedule;
-}
-
 Response Simulate(const Rig& rig, const SimulateOptions& options) {
   std::string reason = WhyInvalid(options);
   if (reason.empty()) reason = WhyInvalid(rig);

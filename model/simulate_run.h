@@ -1,4 +1,6 @@
 // One run of the simulator: integrates from switch to switch and keeps the record.
+//
+// simulate_record.cc: what a run writes down.
 #ifndef PLENUM_MODEL_SIMULATE_RUN_H_
 #define PLENUM_MODEL_SIMULATE_RUN_H_
 
@@ -10,7 +12,7 @@
 
 #include "model/cvode_integrator.h"
 #include "model/explicit_integrator.h"
-#include "model/simulate.h"
+#include "model/simulate_rig.h"
 #include "model/simulate_system.h"
 
 namespace plenum::model {

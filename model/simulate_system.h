@@ -1,4 +1,6 @@
 // The equations that the simulator integrates, between two switches.
+//
+// simulate_modes.cc: where the equations change, and the guards that watch it.
 #ifndef PLENUM_MODEL_SIMULATE_SYSTEM_H_
 #define PLENUM_MODEL_SIMULATE_SYSTEM_H_
 
@@ -12,8 +14,8 @@
 
 #include "model/effects/unit.h"
 #include "model/regulator_node.h"
-#include "model/simulate.h"
 #include "model/simulate_line.h"
+#include "model/simulate_rig.h"
 
 namespace plenum::model {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "model/simulate.h"
+#include "model/simulate_rig.h"
 
 namespace plenum::model {
 

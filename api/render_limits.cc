@@ -1,3 +1,5 @@
+#include "api/render_limits.h"
+
 #include "api/limits.h"
 
 namespace plenum::api {
