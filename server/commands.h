@@ -1,5 +1,7 @@
 // The subcommands of `plenum`. Each adds itself to the application; its work runs as the CLI11
 // callback and leaves the exit status in `status`.
+//
+// One file each: command_*.cc.
 #ifndef PLENUM_SERVER_COMMANDS_H_
 #define PLENUM_SERVER_COMMANDS_H_
 

@@ -92,7 +92,7 @@ bool IsLarge(const Route& route, const Call& call) {
 
 // What a refusal by RequestFrame is worth in numbers.
 api::Json ValueOf(const std::string& limit, const HttpOptions& options) {
-  return RenderLimits(options.jobs, options.kept).value(limit, api::Json());
+  return RenderLimits(QuotaOf(options.jobs), options.kept).value(limit, api::Json());
 }
 
 }  // namespace

@@ -23,6 +23,7 @@
 #include "api/json.h"
 #include "api/services.h"
 #include "server/job_turns.h"
+#include "server/limits.h"
 
 namespace plenum::server {
 
@@ -60,6 +61,8 @@ struct JobOptions {
   int workers = 2;
   std::size_t queued_max = 32;
 };
+
+inline JobQuota QuotaOf(const JobOptions& options) { return {options.workers, options.queued_max}; }
 
 struct Submitted {
   enum { kAccepted, kRepeated, kKeyReused, kRefused } status = kAccepted;

@@ -1,12 +1,11 @@
 #include "server/limits.h"
 
-#include "api/limits.h"
 #include "api/problem.h"
-#include "api/services.h"
+#include "api/render_limits.h"
 
 namespace plenum::server {
 
-api::Json RenderLimits(const JobOptions& jobs, const catalog::JobsKept& kept) {
+api::Json RenderLimits(const JobQuota& jobs, const catalog::JobsKept& kept) {
   api::Json limits = {{"head_bytes_max", kHeadBytesMax},
                       {"headers_max", kHeadersMax},
                       {"path_bytes_max", kPathBytesMax},
@@ -35,7 +34,7 @@ api::Json RenderLimits(const JobOptions& jobs, const catalog::JobsKept& kept) {
                       {"event_streams_max", kStreamsMax},
                       {"large_diagnosis_samples", kLargeDiagnosisSamples},
                       {"large_diagnoses_running_max", kLargeDiagnosesMax},
-                      {"jobs_running_max", jobs.workers},
+                      {"jobs_running_max", jobs.running_max},
                       {"jobs_queued_max", jobs.queued_max},
                       {"jobs_kept_max", kept.jobs},
                       {"jobs_kept_bytes_max", kept.bytes}};

@@ -11,7 +11,7 @@
 #include <mutex>
 
 #include "api/json.h"
-#include "server/jobs.h"
+#include "api/services.h"
 #include "server/reply.h"
 
 namespace plenum::server {
@@ -50,7 +50,11 @@ inline constexpr std::size_t kLargeDiagnosisSamples = 50'000;
 inline constexpr int kLargeDiagnosesMax = 1;
 
 // Everything that limits a request, by name: { "body_bytes_max": 8388608, … }.
-api::Json RenderLimits(const JobOptions& jobs, const catalog::JobsKept& kept);
+struct JobQuota {  // of one kind
+  int running_max = 0;
+  std::size_t queued_max = 0;
+};
+api::Json RenderLimits(const JobQuota& jobs, const catalog::JobsKept& kept);
 
 // A refusal that names its limit: a problem document with "limit": { "name", "value" }.
 Reply LimitReply(int status, const std::string& name, const api::Json& value,

@@ -1,12 +1,14 @@
 // The description of the service (OpenAPI 3.1) and a page that shows it. Requests are described by
 // what validates them (api/descriptions.h), paths and summaries by the table of routes.
+//
+// docs_page.cc: the page.
 #ifndef PLENUM_SERVER_OPENAPI_H_
 #define PLENUM_SERVER_OPENAPI_H_
 
 #include <vector>
 
 #include "server/reply.h"
-#include "server/routes.h"
+#include "server/route.h"
 
 namespace plenum::server {
 

@@ -3,7 +3,7 @@
 #define PLENUM_SERVER_OPERATION_RESOURCE_H_
 
 #include "server/reply.h"
-#include "server/routes.h"
+#include "server/route.h"
 
 namespace plenum::server {
 

@@ -129,7 +129,7 @@ std::vector<Route> Routes(const Services& services) {
       {"GET", "/metrics", "what it did and holds, for Prometheus", Access::kRead,
        [services](const Call& call) { return GetMetrics(services, call); }},
       {"GET", "/v1/limits", "how much a request may ask for", Access::kRead,
-       [limits = RenderLimits(services.job_options, services.jobs_kept)](const Call&) {
+       [limits = RenderLimits(QuotaOf(services.job_options), services.jobs_kept)](const Call&) {
          return JsonReply(200, {{"limits", limits}});
        }},
   };
