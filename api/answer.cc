@@ -1,6 +1,8 @@
 #include "api/front.h"
 #include "api/revised_ranking.h"
 #include "api/services.h"
+#include "optimizer/conflict.h"
+#include "optimizer/explained_search.h"
 
 namespace plenum::api {
 
@@ -8,7 +10,8 @@ namespace {
 
 Json AnswerFront(const DesignRequest& request, const optimizer::SearchOptions& options,
                  const std::vector<catalog::Part>& parts) {
-  optimizer::Front front = optimizer::ParetoFront(request.problem, request.pareto, options);
+  optimizer::Front front =
+      optimizer::ParetoFront(request.problem, request.pareto, options, optimizer::FindConflict);
   if (!request.robust) {
     Json document = RenderAnswer(request, front.answer, parts);
     AddFront(front, document);

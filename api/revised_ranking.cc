@@ -6,6 +6,7 @@
 
 #include "api/effects.h"
 #include "api/units.h"
+#include "optimizer/explained_search.h"
 #include "optimizer/relaxation.h"
 #include "optimizer/resize.h"
 

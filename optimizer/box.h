@@ -4,6 +4,10 @@
 // numbers that its choices have: if that misses a requirement so does every combination in the box,
 // and its objective bounds theirs from below. As a box is divided its corner comes closer to real
 // combinations, up to a single one.
+//
+// box.cc: boxes and their division. bounds_lines.cc: lines, whatever the source.
+// bounds_regulated.cc: cylinder, CO2 and mains. bounds_compressor.cc: compressor.
+// bounds_volumes.cc: reservoirs. core_sizing.cc: made-to-measure reservoirs.
 #ifndef PLENUM_OPTIMIZER_BOX_H_
 #define PLENUM_OPTIMIZER_BOX_H_
 
@@ -15,6 +19,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "optimizer/evaluate.h"
 #include "optimizer/known_lines.h"
 #include "optimizer/make_line.h"
 #include "optimizer/plan.h"

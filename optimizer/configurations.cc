@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "optimizer/make_plan.h"
+
 namespace plenum::optimizer {
 
 Configurations::Configurations(const Problem& problem, const Workbench& bench, bool record)

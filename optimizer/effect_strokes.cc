@@ -65,20 +65,6 @@ bool AllFinite(const std::vector<double>& times) {
 
 }  // namespace
 
-bool HasEffects(const Problem& problem) {
-  return std::any_of(problem.groups.begin(), problem.groups.end(),
-                     [](const ActuatorGroup& group) { return !group.effects.empty(); });
-}
-
-std::vector<model::Effect> ActingEffects(const ActuatorGroup& group, Configuration configuration) {
-  std::vector<model::Effect> acting;
-  for (const model::Effect& effect : group.effects)
-    if (effect.spec->place != model::EffectPlace::kSupply ||
-        configuration != Configuration::kCompressor)
-      acting.push_back(effect);
-  return acting;
-}
-
 Strokes SimulateWithEffects(const Problem& problem, const Candidate& candidate,
                             const OperatingPoint& point) {
   const std::size_t groups = problem.groups.size();

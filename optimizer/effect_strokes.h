@@ -2,18 +2,9 @@
 #ifndef PLENUM_OPTIMIZER_EFFECT_STROKES_H_
 #define PLENUM_OPTIMIZER_EFFECT_STROKES_H_
 
-#include <vector>
-
-#include "optimizer/evaluate_strokes.h"
+#include "optimizer/stroke_rig.h"
 
 namespace plenum::optimizer {
-
-// Whether any group's model is revised.
-bool HasEffects(const Problem& problem);
-
-// The effects of a group that act in a configuration: a droop measured behind a regulator is no
-// property of a compressor with its own reservoir.
-std::vector<model::Effect> ActingEffects(const ActuatorGroup& group, Configuration configuration);
 
 // Worst strokes, air and highest pressures of the periodic state (model/periodic.h). Where the rig
 // has none with the period of the duty, of the second half of forty cycles from rest.

@@ -7,6 +7,7 @@
 
 #include "optimizer/front_clock.h"
 #include "optimizer/leaf_sizing.h"
+#include "optimizer/make_plan.h"
 #include "optimizer/queue.h"
 #include "optimizer/report.h"
 

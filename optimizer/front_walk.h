@@ -11,7 +11,7 @@
 #include <array>
 #include <vector>
 
-#include "optimizer/pareto.h"
+#include "optimizer/pareto_front.h"
 
 namespace plenum::optimizer {
 

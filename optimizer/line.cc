@@ -32,16 +32,6 @@ bool CostMatters(const Problem& problem) {
   return problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur);
 }
 
-double RiseTarget(const Problem& problem, const ActuatorGroup& group) {
-  const double ambient_pa = problem.ambient.pressure_pa;
-  return ambient_pa + problem.rise_fraction * (group.chamber.operating_pressure_pa - ambient_pa);
-}
-
-double FallTarget(const Problem& problem, const ActuatorGroup& group) {
-  const double ambient_pa = problem.ambient.pressure_pa;
-  return ambient_pa + problem.fall_fraction * (group.chamber.operating_pressure_pa - ambient_pa);
-}
-
 double FlowFactor(const Problem& problem, model::Gas gas) {
   return model::FlowFactor(gas) *
          std::sqrt(model::kReferenceTemperatureK / problem.ambient.temperature_k);

@@ -88,10 +88,6 @@ struct Line {
 bool DiametersMate(double tube_outer_m, double fitting_outer_m);
 bool PartsMate(const Problem& problem, int tubing, int fitting, int valve);  // as in Line
 
-// Target pressures of a group.
-double RiseTarget(const Problem& problem, const ActuatorGroup& group);
-double FallTarget(const Problem& problem, const ActuatorGroup& group);
-
 // Most time that inflating to p_op may take: half of the period.
 inline double HalfPeriod(const Problem& problem) { return 0.5 / problem.frequency_hz; }
 

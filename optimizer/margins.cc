@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "model/scalar.h"
-#include "optimizer/candidate.h"
+#include "optimizer/evaluate.h"
 
 namespace plenum::optimizer {
 namespace {

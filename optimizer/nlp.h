@@ -4,6 +4,8 @@
 //
 // Both are local: `kSolved` says that a point met the first-order conditions, never that it is the
 // best or that a failure means infeasible. Callers re-check every point.
+//
+// The solvers: ipopt_solver.cc, nlopt_solver.cc.
 #ifndef PLENUM_OPTIMIZER_NLP_H_
 #define PLENUM_OPTIMIZER_NLP_H_
 

@@ -68,10 +68,11 @@ bool Inside(const Caps& inner, const Caps& outer) { return Within(inner, outer);
 class FrontSearch {
  public:
   FrontSearch(const Problem& problem, const std::vector<Amount>& amounts,
-              const SearchOptions& options)
+              const SearchOptions& options, const FindConflictFunction& explain)
       : problem_(problem),
         amounts_(amounts),
         options_(options),
+        explain_(explain),
         minimised_(Minimised(amounts)),
         resolution_(Resolution(problem, amounts)) {}
 
@@ -152,9 +153,10 @@ class FrontSearch {
         options_.progress(progress);
       };
     ++searches_;
+    Answer answer = SearchTrees(limited, options);
     // The first search alone explains why there is nothing.
-    Answer answer =
-        searches_ == 1 ? optimizer::Search(limited, options) : SearchTrees(limited, options);
+    if (searches_ == 1 && answer.status == Status::kInfeasible && explain_)
+      answer.conflict = explain_(limited, options, answer.seconds);
     cancelled_ = cancelled_ || answer.status == Status::kCancelled;
     const bool proved = answer.status == Status::kOptimal || answer.status == Status::kInfeasible;
     proved_ += proved;
@@ -306,6 +308,7 @@ class FrontSearch {
   const Problem& problem_;
   const std::vector<Amount>& amounts_;
   const SearchOptions& options_;
+  const FindConflictFunction& explain_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   const std::size_t minimised_;
   const double resolution_;
@@ -320,57 +323,9 @@ class FrontSearch {
 
 }  // namespace
 
-Objective ObjectiveOn(Amount amount) {
-  switch (amount) {
-    case Amount::kMass:
-      return {.mass_kg = 1.0};
-    case Amount::kVolume:
-      return {.volume_l = 1.0};
-    case Amount::kCost:
-      return {.cost_eur = 1.0};
-    case Amount::kEnergy:
-      return {.energy_wh = 1.0};
-  }
-  return {};
-}
-
-double& LimitOn(Amount amount, Problem& problem) {
-  return amount == Amount::kMass     ? problem.mass_max_kg
-         : amount == Amount::kVolume ? problem.volume_max_l
-                                     : problem.cost_max_eur;
-}
-
-const char* Name(Amount amount) {
-  switch (amount) {
-    case Amount::kMass:
-      return "mass_kg";
-    case Amount::kVolume:
-      return "volume_l";
-    case Amount::kCost:
-      return "cost_eur";
-    case Amount::kEnergy:
-      return "energy_wh";
-  }
-  return "";
-}
-
-double Of(Amount amount, const Totals& totals) {
-  switch (amount) {
-    case Amount::kMass:
-      return totals.mass_kg;
-    case Amount::kVolume:
-      return totals.volume_m3 * 1e3;
-    case Amount::kCost:
-      return totals.cost_eur.value_or(std::nan(""));
-    case Amount::kEnergy:
-      return totals.energy_j / kJoulePerWattHour;
-  }
-  return std::nan("");
-}
-
 Front ParetoFront(const Problem& problem, const std::vector<Amount>& amounts,
-                  const SearchOptions& options) {
-  return FrontSearch(problem, amounts, options).Run();
+                  const SearchOptions& options, const FindConflictFunction& explain) {
+  return FrontSearch(problem, amounts, options, explain).Run();
 }
 
 }  // namespace plenum::optimizer

@@ -1,4 +1,8 @@
-#include "optimizer/planter.h"
+#include "optimizer/plan.h"
+
+#include <algorithm>
+
+#include "model/storage.h"
 
 namespace plenum::optimizer {
 
@@ -11,11 +15,6 @@ double GasLeft(const Problem& problem, Configuration configuration, double inlet
   const double compressibility =
       configuration == Configuration::kCylinder ? model::CompressibilityOfAir(inlet_pa) : 1.0;
   return model::StandardVolume(inlet_pa / compressibility, problem.ambient.temperature_k);
-}
-
-std::unique_ptr<Plan> MakePlan(const Problem& problem, Configuration configuration,
-                               bool name_left_out, const std::function<bool()>& stop) {
-  return Planter(problem, configuration, name_left_out, stop).Plant();
 }
 
 }  // namespace plenum::optimizer

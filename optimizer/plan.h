@@ -6,8 +6,6 @@
 #ifndef PLENUM_OPTIMIZER_PLAN_H_
 #define PLENUM_OPTIMIZER_PLAN_H_
 
-#include <functional>
-#include <memory>
 #include <vector>
 
 #include "optimizer/corner.h"
@@ -61,10 +59,6 @@ struct Plan {
   BigCount combinations, unpriced, dominated;  // the trees hold what is left of them
   bool empty() const;                          // some slot has no choice
 };
-
-// Null where `stop` said so. `name_left_out`: fill Slot::dominated.
-std::unique_ptr<Plan> MakePlan(const Problem& problem, Configuration configuration,
-                               bool name_left_out = false, const std::function<bool()>& stop = {});
 
 // Gas left in 1 m³ of a bottle at an inlet pressure, m³ ANR.
 double GasLeft(const Problem& problem, Configuration configuration, double inlet_pa);

@@ -4,17 +4,20 @@
 namespace plenum::optimizer {
 
 void Planter::PlantGroup(int g) {
+  FittingKinds mates;
+  for (const model::Fitting& fitting : problem_.parts.fittings) {
+    mates.diameters.Bit(fitting.tube_outer_diameter_m);
+    mates.threads.Bit(fitting.thread);
+  }
+  PlantTubes(g, mates);
+  PlantFittings(g, mates);
+  PlantValves(g, mates);
+}
+
+void Planter::PlantTubes(int g, const FittingKinds& mates) {
   const ActuatorGroup& group = problem_.groups[g];
   const model::Parts& parts = problem_.parts;
-  GroupTrees& trees = plan_->groups[g];
   const bool needs_fittings = group.fittings_per_line > 0;
-  KindsOf<double> diameters;
-  KindsOf<std::string> threads;
-  for (const model::Fitting& fitting : parts.fittings) {
-    diameters.Bit(fitting.tube_outer_diameter_m);
-    threads.Bit(fitting.thread);
-  }
-
   std::map<double, Kinds> diameters_of;  // by outer diameter of the tube
   NumbersOf<std::pair<double, double>> bores;
   Entries<TubeCorner> tubes;
@@ -25,7 +28,7 @@ void Planter::PlantGroup(int g) {
     const double outer_m = part.outer_diameter_m;
     const auto [kinds, fresh] = diameters_of.try_emplace(outer_m, ~Kinds{0});
     if (fresh && needs_fittings)
-      kinds->second = diameters.Where([&](double d) { return DiametersMate(outer_m, d); });
+      kinds->second = mates.diameters.Where([&](double d) { return DiametersMate(outer_m, d); });
     const Entry<TubeCorner> entry = tubes.Add();
     entry.item.option = {i, 1, group.count * group.tube_length_m * part.per_metre};
     SetShare(problem_, entry.item.option.amounts, entry.item.corner);
@@ -37,8 +40,13 @@ void Planter::PlantGroup(int g) {
     entry.contender.losses = {-part.pressure_max_pa};
   }
   PlantSlot(Family::kTubing, g, static_cast<long long>(parts.tubing.size()), std::move(tubes),
-            trees.tubes);
+            plan_->groups[g].tubes);
+}
 
+void Planter::PlantFittings(int g, FittingKinds& mates) {
+  const ActuatorGroup& group = problem_.groups[g];
+  const model::Parts& parts = problem_.parts;
+  const bool needs_fittings = group.fittings_per_line > 0;
   NumbersOf<std::pair<double, std::string>> ends;
   Entries<FittingCorner> fittings;
   fittings.Reserve(parts.fittings.size() + 1);
@@ -55,8 +63,8 @@ void Planter::PlantGroup(int g) {
     entry.item.option = {i, 1,
                          static_cast<double>(group.count * group.fittings_per_line) * part.basics};
     SetShare(problem_, entry.item.option.amounts, entry.item.corner);
-    entry.item.corner.diameters = diameters.Bit(part.tube_outer_diameter_m);
-    entry.item.corner.threads = threads.Bit(part.thread);
+    entry.item.corner.diameters = mates.diameters.Bit(part.tube_outer_diameter_m);
+    entry.item.corner.threads = mates.threads.Bit(part.thread);
     entry.item.corner.flow = part.flow;
     entry.item.corner.pressure_max_pa = std::min(part.pressure_max_pa, useful_max_pa_);
     entry.contender.id = part.basics.id;
@@ -65,8 +73,13 @@ void Planter::PlantGroup(int g) {
     AddFlow(part.flow, entry.contender.losses);
   }
   PlantSlot(Family::kFitting, g, needs_fittings ? static_cast<long long>(parts.fittings.size()) : 1,
-            std::move(fittings), trees.fittings);
+            std::move(fittings), plan_->groups[g].fittings);
+}
 
+void Planter::PlantValves(int g, const FittingKinds& mates) {
+  const ActuatorGroup& group = problem_.groups[g];
+  const model::Parts& parts = problem_.parts;
+  const bool needs_fittings = group.fittings_per_line > 0;
   NumbersOf<std::pair<bool, std::string>> ports;
   std::map<std::string, Kinds> threads_of;  // by port
   Entries<ValveCorner> valves;
@@ -81,7 +94,8 @@ void Planter::PlantGroup(int g) {
     SetShare(problem_, entry.item.option.amounts, corner);
     const auto [kinds, fresh] = threads_of.try_emplace(part.port, ~Kinds{0});
     if (fresh && needs_fittings)
-      kinds->second = threads.Where([&](const std::string& thread) { return thread == part.port; });
+      kinds->second =
+          mates.threads.Where([&](const std::string& thread) { return thread == part.port; });
     corner.threads = kinds->second;
     corner.some_hold = corner.all_hold = model::Holds(part.kind);
     corner.fill = part.fill;
@@ -98,7 +112,7 @@ void Planter::PlantGroup(int g) {
     AddFlow(part.exhaust, entry.contender.losses);
   }
   PlantSlot(Family::kValve, g, static_cast<long long>(parts.valves.size()), std::move(valves),
-            trees.valves);
+            plan_->groups[g].valves);
 }
 
 }  // namespace plenum::optimizer

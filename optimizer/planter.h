@@ -1,4 +1,5 @@
-// Makes a plan: parts become choices with corners, slot by slot. Internal to plan*.cc.
+// Makes a plan: parts become choices with corners, slot by slot. Internal to
+// make_plan.cc, plan_lines.cc and plan_source.cc.
 #ifndef PLENUM_OPTIMIZER_PLANTER_H_
 #define PLENUM_OPTIMIZER_PLANTER_H_
 
@@ -262,7 +263,14 @@ class Planter {
     losses.push_back(-flow.subsonic_index);
   }
 
+  struct FittingKinds {  // of all fittings, which tubes and valves mate with
+    KindsOf<double> diameters;
+    KindsOf<std::string> threads;
+  };
   void PlantGroup(int g);
+  void PlantTubes(int g, const FittingKinds& mates);
+  void PlantFittings(int g, FittingKinds& mates);
+  void PlantValves(int g, const FittingKinds& mates);
 
   int PlantRegulators();
 

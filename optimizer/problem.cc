@@ -54,4 +54,14 @@ const char* Name(Status status) {
   return "";
 }
 
+double RiseTarget(const Problem& problem, const ActuatorGroup& group) {
+  const double ambient_pa = problem.ambient.pressure_pa;
+  return ambient_pa + problem.rise_fraction * (group.chamber.operating_pressure_pa - ambient_pa);
+}
+
+double FallTarget(const Problem& problem, const ActuatorGroup& group) {
+  const double ambient_pa = problem.ambient.pressure_pa;
+  return ambient_pa + problem.fall_fraction * (group.chamber.operating_pressure_pa - ambient_pa);
+}
+
 }  // namespace plenum::optimizer

@@ -87,6 +87,10 @@ struct Problem {
   model::Parts parts;
 };
 
+// Target pressures of a group.
+double RiseTarget(const Problem& problem, const ActuatorGroup& group);
+double FallTarget(const Problem& problem, const ActuatorGroup& group);
+
 struct Progress {
   double seconds = 0.0;
   long long evaluated = 0;
@@ -203,6 +207,10 @@ struct Conflict {
   bool proved = true;  // without it a design was found; false: time ran out before that was known
 };
 
+// As FindConflict (conflict.h): of an infeasible problem, with so much of the time limit used.
+using FindConflictFunction = std::function<std::vector<Conflict>(
+    const Problem& problem, const SearchOptions& options, double used_s)>;
+
 struct Answer {
   Status status = Status::kCancelled;
   std::vector<Design> designs;
@@ -210,9 +218,6 @@ struct Answer {
   std::vector<Conflict> conflict;
   double seconds = 0.0;
 };
-
-// Exact best-k over all compatible combinations. Same problem, same answer.
-Answer Search(const Problem& problem, const SearchOptions& options);
 
 }  // namespace plenum::optimizer
 

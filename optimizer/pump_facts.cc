@@ -1,7 +1,7 @@
 // Tables of pumps for the bounds of pump_bounds.h.
-#include <algorithm>
+#include "optimizer/pump_facts.h"
 
-#include "optimizer/pump_bounds.h"
+#include <algorithm>
 
 namespace plenum::optimizer {
 namespace {

@@ -116,6 +116,30 @@ double MarchDraw(const Problem& problem, int g, const Line& line, const PumpFact
   return pumped / content_per_m3;
 }
 
+// The bits of all phases, those at the lowest pressures first. march(phase, take) calls take(bit)
+// for the bits of a phase in that order, until it returns false.
+template <class March>
+std::optional<PumpNeed> SumPhases(NeedOfBits sum, int phases, const March& march) {
+  if (phases == 1) {
+    march(0, [&](const PumpedAir& bit) {
+      sum.Add(bit);
+      return !sum.enough();
+    });
+  } else {
+    std::vector<PumpedAir> bits;
+    for (int phase = 0; phase < phases; ++phase)
+      march(phase, [&](const PumpedAir& bit) {
+        bits.push_back(bit);
+        return true;
+      });
+    std::stable_sort(bits.begin(), bits.end(),
+                     [](const PumpedAir& a, const PumpedAir& b) { return a.from_pa < b.from_pa; });
+    for (const PumpedAir& bit : bits) sum.Add(bit);
+  }
+  if (!sum.enough()) return std::nullopt;
+  return sum.need();
+}
+
 }  // namespace
 
 std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& facts,
@@ -162,26 +186,7 @@ std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& f
                 return add(from_pa, even || from_pa >= full_pa ? to_pa : from_pa, air_m3);
               });
   };
-
-  NeedOfBits sum(facts, load.air_m3);
-  if (start_pa.size() == 1) {
-    march(0, [&](const PumpedAir& bit) {
-      sum.Add(bit);
-      return !sum.enough();
-    });
-  } else {
-    std::vector<PumpedAir> bits;
-    for (int phase = 0; phase < static_cast<int>(start_pa.size()); ++phase)
-      march(phase, [&](const PumpedAir& bit) {
-        bits.push_back(bit);
-        return true;
-      });
-    std::stable_sort(bits.begin(), bits.end(),
-                     [](const PumpedAir& a, const PumpedAir& b) { return a.from_pa < b.from_pa; });
-    for (const PumpedAir& bit : bits) sum.Add(bit);
-  }
-  if (!sum.enough()) return std::nullopt;
-  return sum.need();
+  return SumPhases(NeedOfBits(facts, load.air_m3), static_cast<int>(start_pa.size()), march);
 }
 
 double LeastFirstFill(const Problem& problem, const PumpFacts& facts, double source_pa,

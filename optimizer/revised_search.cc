@@ -7,10 +7,10 @@
 #include <set>
 #include <tuple>
 
+#include "optimizer/box_search.h"
 #include "optimizer/candidate.h"
 #include "optimizer/relaxation.h"
 #include "optimizer/resize.h"
-#include "optimizer/tree_search.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -105,7 +105,7 @@ class Revision {
     options.any_design = false;
     options.progress = nullptr;
     options.time_limit_s = std::max(0.0, seconds);
-    return SearchTrees(deep, options);
+    return SearchBoxes(deep, options);
   }
 
   bool Settled(double bound) const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "optimizer/conclusion.h"
+#include "optimizer/explained_search.h"
 #include "optimizer/resize.h"
 #include "optimizer/robust_draws.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "optimizer/robust.h"
+#include "optimizer/robust_answer.h"
 
 namespace plenum::optimizer {
 

@@ -27,6 +27,7 @@
 #ifndef PLENUM_OPTIMIZER_SETTINGS_BOUNDS_H_
 #define PLENUM_OPTIMIZER_SETTINGS_BOUNDS_H_
 
+#include "optimizer/evaluate.h"
 #include "optimizer/evaluate_strokes.h"
 #include "optimizer/pump_slope.h"
 

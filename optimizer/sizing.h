@@ -4,12 +4,15 @@
 // Feasibility is decided by bracketing on quantities that keep their order, not by a solver that
 // may fail: the strokes only get faster with the source pressure, and what the supply must bear
 // (air, energy, duty, current) only grows with it, but for coils, which are bounded from below.
+//
+// settle.cc: the settings at which a listed design is run.
 #ifndef PLENUM_OPTIMIZER_SIZING_H_
 #define PLENUM_OPTIMIZER_SIZING_H_
 
 #include <vector>
 
 #include "optimizer/candidate.h"
+#include "optimizer/evaluate.h"
 
 namespace plenum::optimizer {
 

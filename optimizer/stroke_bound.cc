@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "optimizer/pump_bounds.h"
+#include "optimizer/pump_facts.h"
 #include "optimizer/root.h"
 
 namespace plenum::optimizer {

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "optimizer/line.h"
-
 namespace plenum::optimizer {
 
 StrokePanels MakeStrokePanels(const Problem& problem, int g, const model::Chamber& chamber) {

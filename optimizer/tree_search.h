@@ -1,4 +1,4 @@
-// The search without the analysis of conflicts that follows an infeasible one.
+// The search: exact best-k over all compatible combinations.
 #ifndef PLENUM_OPTIMIZER_TREE_SEARCH_H_
 #define PLENUM_OPTIMIZER_TREE_SEARCH_H_
 
@@ -6,6 +6,7 @@
 
 namespace plenum::optimizer {
 
+// Same problem, same answer. Without the conflict of an infeasible problem (explained_search.h).
 Answer SearchTrees(const Problem& problem, const SearchOptions& options);
 
 }  // namespace plenum::optimizer

@@ -1,7 +1,6 @@
 #include "optimizer/verify.h"
 
-#include "optimizer/verify_box.h"
-#include "optimizer/verify_brute_force.h"
+#include "optimizer/verify_families.h"
 #include "optimizer/verify_front.h"
 #include "optimizer/verify_list.h"
 #include "optimizer/verify_record.h"

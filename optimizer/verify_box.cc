@@ -1,5 +1,6 @@
 #include "optimizer/verify_box.h"
 
+#include "optimizer/verify_families.h"
 #include "optimizer/verify_size.h"
 
 namespace plenum::optimizer {
@@ -15,23 +16,6 @@ std::string IdOf(const Problem& problem, Family family, const ProofItem& item) {
 }
 
 }  // namespace
-
-Ids IdsOf(const Design& design) {
-  Ids ids;
-  for (const Choice& choice : design.parts)
-    ids.emplace_back(choice.id, choice.group < 0 ? static_cast<int>(choice.quantity) : 1);
-  return ids;
-}
-
-std::string Text(const Ids& ids) {
-  std::string text;
-  for (const auto& [id, quantity] : ids) {
-    if (!text.empty()) text += ", ";
-    if (quantity > 1) text += std::to_string(quantity) + " × ";
-    text += id;
-  }
-  return text;
-}
 
 Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
   Ids ids;

@@ -2,20 +2,12 @@
 #ifndef PLENUM_OPTIMIZER_VERIFY_BOX_H_
 #define PLENUM_OPTIMIZER_VERIFY_BOX_H_
 
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "optimizer/verify_corner.h"
 #include "optimizer/verify_design.h"
+#include "optimizer/verify_ids.h"
 #include "optimizer/verify_size.h"
 
 namespace plenum::optimizer {
-
-// Ids in the order of a parts list, with pieces where parts of the source stand in parallel.
-using Ids = std::vector<std::pair<std::string, int>>;
-Ids IdsOf(const Design& design);
-std::string Text(const Ids& ids);
 
 // What an answer says of every combination that is not listed: its objective is `least` or more,
 // and past `tie_end` unless its ids come after `last`.

@@ -5,6 +5,7 @@
 
 #include "optimizer/verify_box.h"
 #include "optimizer/verify_dominance.h"
+#include "optimizer/verify_families.h"
 #include "optimizer/verify_size.h"
 
 namespace plenum::optimizer {

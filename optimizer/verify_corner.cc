@@ -188,6 +188,11 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   const double energy_j =
       beyond_j + problem_.actuations * coil_j +
       regulator.electrical_power_w * problem_.actuations / problem_.frequency_hz;
+  return LeastStores(ranges, regulator, low_pa, {air_m3, energy_j}, sum);
+}
+
+double Corners::LeastStores(const Ranges& ranges, const model::Regulator& regulator, double low_pa,
+                            const Stored& stored, double sum) {
   const double inlet_pa = std::max(low_pa, regulator.inlet_pressure_min_pa);
   const bool cylinder = plan_.configuration == Configuration::kCylinder;
   const Family family = cylinder ? Family::kCylinder : Family::kCo2;
@@ -203,14 +208,15 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
     const bool fits =
         cylinder ? parts.cylinders[item.part].fill_pressure_pa <= regulator.inlet_pressure_max_pa
                  : item.quantity * parts.co2[item.part].flow_sustained_m3_per_s * kSlack >=
-                       air_m3 * problem_.frequency_hz;
-    return fits && GasOf(problem_, family, item, inlet_pa) * kSlack >= problem_.actuations * air_m3;
+                       stored.air_m3 * problem_.frequency_hz;
+    return fits &&
+           GasOf(problem_, family, item, inlet_pa) * kSlack >= problem_.actuations * stored.air_m3;
   });
   return sum + least(SlotOf(plan_, Family::kBattery, -1), [&](const ProofItem& item) {
            const model::Battery& pack = problem_.parts.batteries[item.part];
            return item.quantity * model::UsableEnergy(pack.capacity_ah, pack.nominal_voltage_v) *
                       kSlack >=
-                  energy_j;
+                  stored.energy_j;
          });
 }
 

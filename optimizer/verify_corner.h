@@ -39,6 +39,13 @@ class Corners {
   bool SourceMates(const Ranges& ranges, const ProofItem& pump_or_regulator) const;
   bool TooMuch(const Ranges& ranges);
   double LeastRegulated(const Ranges& ranges, double chosen);
+  struct Stored {
+    double air_m3;    // per cycle
+    double energy_j;  // of the mission
+  };
+  // `sum` with the least of the bottles and batteries that hold so much.
+  double LeastStores(const Ranges& ranges, const model::Regulator& regulator, double low_pa,
+                     const Stored& stored, double sum);
 
   const Problem& problem_;
   const ProofPlan& plan_;

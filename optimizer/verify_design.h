@@ -1,11 +1,14 @@
 // One listed design, put together again from the raw parts. Internal to verify*.cc.
+//
+// verify_assemble.cc: its parts and amounts. verify_performance.cc: against a simulation.
 #ifndef PLENUM_OPTIMIZER_VERIFY_DESIGN_H_
 #define PLENUM_OPTIMIZER_VERIFY_DESIGN_H_
 
 #include <optional>
 #include <vector>
 
-#include "optimizer/verify.h"
+#include "optimizer/problem.h"
+#include "optimizer/verify_finding.h"
 
 namespace plenum::optimizer {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "model/storage.h"
-#include "optimizer/verify.h"
-#include "optimizer/verify_tree.h"
+#include "optimizer/verify_families.h"
+#include "optimizer/verify_finding.h"
 
 namespace plenum::optimizer {
 namespace {

@@ -3,7 +3,7 @@
 #ifndef PLENUM_OPTIMIZER_VERIFY_DRAWS_H_
 #define PLENUM_OPTIMIZER_VERIFY_DRAWS_H_
 
-#include "optimizer/robust.h"
+#include "optimizer/robust_answer.h"
 #include "optimizer/verify.h"
 
 namespace plenum::optimizer {

@@ -2,8 +2,9 @@
 #ifndef PLENUM_OPTIMIZER_VERIFY_FRONT_H_
 #define PLENUM_OPTIMIZER_VERIFY_FRONT_H_
 
-#include "optimizer/pareto.h"
-#include "optimizer/verify.h"
+#include "optimizer/pareto_front.h"
+#include "optimizer/problem.h"
+#include "optimizer/verify_finding.h"
 
 namespace plenum::optimizer {
 

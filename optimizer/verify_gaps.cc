@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "optimizer/verify_box.h"
+#include "optimizer/verify_families.h"
 #include "optimizer/verify_record.h"
 
 namespace plenum::optimizer {

@@ -4,8 +4,9 @@
 
 #include <vector>
 
-#include "optimizer/pareto.h"
-#include "optimizer/verify.h"
+#include "optimizer/pareto_front.h"
+#include "optimizer/problem.h"
+#include "optimizer/verify_finding.h"
 
 namespace plenum::optimizer {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "model/stroke.h"
-#include "optimizer/verify.h"
+#include "optimizer/verify_finding.h"
 
 namespace plenum::optimizer {
 namespace {

@@ -2,7 +2,8 @@
 
 #include <set>
 
-#include "optimizer/verify_box.h"
+#include "optimizer/verify_design.h"
+#include "optimizer/verify_ids.h"
 
 namespace plenum::optimizer {
 namespace {

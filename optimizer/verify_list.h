@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "optimizer/verify.h"
+#include "optimizer/problem.h"
+#include "optimizer/verify_finding.h"
 
 namespace plenum::optimizer {
 

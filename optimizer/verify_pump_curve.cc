@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "optimizer/verify.h"
+#include "optimizer/verify_finding.h"
 
 namespace plenum::optimizer {
 namespace {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "optimizer/verify_box.h"
+#include "optimizer/verify_families.h"
 #include "optimizer/verify_pump_curve.h"
 
 namespace plenum::optimizer {

@@ -2,7 +2,8 @@
 #ifndef PLENUM_OPTIMIZER_VERIFY_RECORD_H_
 #define PLENUM_OPTIMIZER_VERIFY_RECORD_H_
 
-#include "optimizer/verify.h"
+#include "optimizer/problem.h"
+#include "optimizer/verify_finding.h"
 
 namespace plenum::optimizer {
 

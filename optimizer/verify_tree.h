@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "optimizer/verify.h"
+#include "optimizer/problem.h"
+#include "optimizer/verify_finding.h"
 
 namespace plenum::optimizer {
 
@@ -21,19 +22,6 @@ struct ClosedBox {
 std::vector<ClosedBox> Replay(const ProofPlan& plan, Findings& findings);
 
 BigCount CountOf(const Ranges& ranges);
-
-// Parts of a family, as many as there are of them in parallel at most.
-int FamilySize(const Problem& problem, Family family);
-int QuantityMax(const Problem& problem, Family family);
-std::vector<Family> SourceFamilies(Configuration configuration);
-bool MadeReservoirAllowed(const Problem& problem);
-const model::PartBasics* BasicsOf(const Problem& problem, Family family, int part);
-
-// What a slot can be filled with: every part in every number, priced ones alone where cost matters.
-std::vector<ProofItem> EntriesOf(const Problem& problem, const ProofSlot& slot);
-
-// By the contract: of one configuration, from the catalogue alone.
-BigCount Combinations(const Problem& problem, Configuration configuration);
 
 // Whether choices, dominated and unpriced ones make up each family, and dominators dominate by the
 // rule of proof.h. Adds to the counts.

@@ -8,6 +8,7 @@
 #include "optimizer/box.h"
 #include "optimizer/evaluate_strokes.h"
 #include "optimizer/make_line.h"
+#include "optimizer/make_plan.h"
 #include "optimizer/sizing.h"
 #include "optimizer/stroke_bound.h"
 #include "tests/optimizer/brute_force.h"

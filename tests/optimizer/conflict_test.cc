@@ -7,6 +7,7 @@
 #include <cctype>
 #include <map>
 
+#include "optimizer/explained_search.h"
 #include "optimizer/tree_search.h"
 #include "tests/optimizer/brute_force.h"
 #include "tests/support/small_catalogue.h"

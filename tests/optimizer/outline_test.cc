@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "optimizer/plan.h"
+#include "optimizer/make_plan.h"
 #include "tests/optimizer/brute_force.h"
 #include "tests/support/small_catalogue.h"
 

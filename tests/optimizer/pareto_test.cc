@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <random>
 
+#include "optimizer/conflict.h"
 #include "tests/optimizer/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
@@ -295,7 +296,8 @@ TEST(ParetoTest, LimitsOfTheProblemStay) {
 TEST(ParetoTest, ConflictsNameOnlyRequirements) {
   Problem problem = LongFront();
   problem.groups[0].rise_time_max_s = 1e-6;
-  const Front front = ParetoFront(problem, {Amount::kMass, Amount::kCost}, Within(20.0));
+  const Front front =
+      ParetoFront(problem, {Amount::kMass, Amount::kCost}, Within(20.0), optimizer::FindConflict);
   EXPECT_EQ(front.answer.status, Status::kInfeasible);
   ASSERT_EQ(front.answer.conflict.size(), 1u);
   EXPECT_EQ(front.answer.conflict[0].requirement, "/actuators/0/rise_time_s_max");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "optimizer/explained_search.h"
 #include "optimizer/requirements.h"
 #include "tests/optimizer/brute_force.h"
 #include "tests/support/small_catalogue.h"

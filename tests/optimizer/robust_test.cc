@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <map>
 
+#include "optimizer/explained_search.h"
 #include "optimizer/resize.h"
 #include "tests/optimizer/brute_force.h"
 #include "tests/support/small_catalogue.h"

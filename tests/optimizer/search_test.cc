@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "optimizer/explained_search.h"
 #include "optimizer/tree_search.h"
 #include "tests/optimizer/brute_force.h"
 #include "tests/support/small_catalogue.h"

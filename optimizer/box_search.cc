@@ -1,11 +1,5 @@
-// Exact best-k by branch and bound over boxes.
-//
-// All configurations' boxes wait in one queue, the one with the lowest bound first, and so does a
-// configuration that is not planted yet (configurations.h). A box that comes out is divided, and
-// the corner of each part is assessed; a single combination is sized. When the lowest bound lies
-// above the last place of the list no box can improve it, and the list is complete. Boxes that only
-// tie with the last place are searched by part ids instead, since ids order ties: that ends as soon
-// as no box can hold an earlier combination.
+#include "optimizer/box_search.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,17 +8,13 @@
 
 #include "optimizer/conclusion.h"
 #include "optimizer/configurations.h"
-#include "optimizer/conflict.h"
 #include "optimizer/dive.h"
-#include "optimizer/effect_strokes.h"
 #include "optimizer/leaf_sizing.h"
 #include "optimizer/problem.h"
 #include "optimizer/ranking.h"
 #include "optimizer/recorder.h"
 #include "optimizer/report.h"
-#include "optimizer/revised_search.h"
 #include "optimizer/search_node.h"
-#include "optimizer/tree_search.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -423,18 +413,8 @@ class BoxSearch {
 
 }  // namespace
 
-Answer SearchTrees(const Problem& problem, const SearchOptions& options) {
-  if (HasEffects(problem)) return SearchRevised(problem, options);
+Answer SearchBoxes(const Problem& problem, const SearchOptions& options) {
   return BoxSearch(problem, options, Clock::now()).Run();
-}
-
-Answer Search(const Problem& problem, const SearchOptions& options) {
-  const Clock::time_point start = Clock::now();
-  Answer answer = SearchTrees(problem, options);
-  if (answer.status == Status::kInfeasible)
-    answer.conflict = FindConflict(problem, options, answer.seconds);
-  answer.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  return answer;
 }
 
 }  // namespace plenum::optimizer
