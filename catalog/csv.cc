@@ -1,6 +1,7 @@
 #include "catalog/csv.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -8,6 +9,8 @@
 
 #include "catalog/csv_table.h"
 #include "catalog/fields.h"
+#include "catalog/part_lists.h"
+#include "catalog/price.h"
 #include "catalog/quantity.h"
 #include "catalog/text.h"
 
@@ -17,8 +20,12 @@ namespace {
 constexpr std::size_t kIdCompared = 200;
 constexpr std::string_view kProvenance = ".provenance";
 constexpr std::string_view kSource = ".source";
+constexpr std::string_view kUncertainty = ".uncertainty";
 // Names whose ends give the units of a curve point.
 constexpr std::string_view kPointUnits[] = {"_kpa_gauge", "_l_per_min", "_a"};
+
+// What a curve gives, each with an origin of its own.
+constexpr std::string_view kCurveNumbers[] = {"free_air", "current"};
 
 std::string Column(std::string_view field, std::string_view suffix) {
   return std::string(field) + std::string(suffix);
@@ -26,21 +33,27 @@ std::string Column(std::string_view field, std::string_view suffix) {
 
 // Every column of the family, in the order in which they are written.
 std::vector<std::string> Columns(const Family& family) {
-  std::vector<std::string> columns{"id", "manufacturer", "part_number", "notes"};
-  const auto with_origin = [&](std::string_view name) {
+  std::vector<std::string> columns{"id",        "manufacturer", "part_number", "notes",    "series",
+                                   "orderable", "aliases",      "offers",      "documents"};
+  const auto add_origin = [&](std::string_view name) {
     columns.push_back(Column(name, kProvenance));
     columns.push_back(Column(name, kSource));
   };
-  const auto add_field = [&](std::string_view name) {
-    columns.emplace_back(name);
-    with_origin(name);
-  };
-  for (const NumberField& field : family.numbers) add_field(field.name);
-  for (const TextField& field : family.texts) add_field(field.name);
+  for (const NumberField& field : family.numbers) {
+    columns.emplace_back(field.name);
+    add_origin(field.name);
+    columns.push_back(Column(field.name, kUncertainty));
+  }
+  for (const TextField& field : family.texts) {
+    columns.emplace_back(field.name);
+    add_origin(field.name);
+  }
   if (family.has_curve) {
     columns.emplace_back("curve");
-    with_origin("free_air");
-    with_origin("current");
+    for (const std::string_view name : kCurveNumbers) {
+      add_origin(name);
+      columns.push_back(Column(name, kUncertainty));
+    }
   }
   return columns;
 }
@@ -71,9 +84,15 @@ class RowReader {
     part.manufacturer = Cell("manufacturer");
     part.part_number = Cell("part_number");
     part.notes = Cell("notes");
+    part.series = Cell("series");
+    ReadOrderable(part);
+    ReadList("aliases", ReadAliases, part);
+    ReadList("offers", ReadOffers, part);
+    ReadList("documents", ReadDocuments, part);
     for (const NumberField& field : family_.numbers) ReadNumber(field.name, part);
     for (const TextField& field : family_.texts) ReadText(field.name, part);
     if (family_.has_curve) ReadCurve(part);
+    DerivePrice(part);
 
     // A cell that could not be read is reported once, not as a missing field as well.
     std::set<std::string> reported;
@@ -99,17 +118,47 @@ class RowReader {
     const std::string name = Cell(Column(field, kProvenance));
     if (name.empty()) return Provenance::kThirdParty;
     const auto provenance = ProvenanceFromName(name);
-    if (!provenance)
-      Fail(Column(field, kProvenance),
-           "must be one of: datasheet, third_party, derived, estimated; is \"" + name + "\"");
+    if (!provenance) {
+      std::string names;
+      for (const std::string_view known : ProvenanceNames())
+        names += (names.empty() ? "" : ", ") + std::string(known);
+      Fail(Column(field, kProvenance), "must be one of: " + names + "; is \"" + name + "\"");
+    }
     return provenance.value_or(Provenance::kThirdParty);
   }
 
   // Where a value comes from says nothing without the value.
   void CheckNoOrigin(std::string_view field) {
-    for (std::string_view suffix : {kProvenance, kSource})
+    for (std::string_view suffix : {kProvenance, kSource, kUncertainty})
       if (!Cell(Column(field, suffix)).empty())
         Fail(Column(field, suffix), "is given, but there is no value");
+  }
+
+  // A share, 0.05 or 5 %.
+  std::optional<double> ReadUncertainty(std::string_view field) {
+    const std::string column = Column(field, kUncertainty);
+    const std::string cell = Cell(column);
+    if (cell.empty()) return std::nullopt;
+    const Quantity quantity = ParseQuantity(cell, "uncertainty");
+    if (!quantity.value) Fail(column, quantity.error);
+    return quantity.value;
+  }
+
+  void ReadOrderable(Part& part) {
+    std::string cell = Cell("orderable");
+    for (char& c : cell) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (cell == "true" || cell == "yes")
+      part.orderable = true;
+    else if (cell == "false" || cell == "no")
+      part.orderable = false;
+    else if (!cell.empty())
+      Fail("orderable", "must be true, false or empty; is \"" + Cell("orderable") + "\"");
+  }
+
+  void ReadList(const char* column, std::string (*read)(std::string_view, Part&), Part& part) {
+    const std::string cell = Cell(column);
+    if (cell.empty()) return;
+    if (std::string error = read(cell, part); !error.empty()) Fail(column, std::move(error));
   }
 
   void ReadNumber(std::string_view field, Part& part) {
@@ -118,8 +167,8 @@ class RowReader {
     const Quantity quantity = ParseQuantity(cell, field);
     const Provenance provenance = ReadProvenance(field);
     if (quantity.value)
-      part.numbers[std::string(field)] = {*quantity.value, provenance,
-                                          Cell(Column(field, kSource))};
+      part.numbers[std::string(field)] = {*quantity.value, provenance, Cell(Column(field, kSource)),
+                                          ReadUncertainty(field)};
     else
       Fail(std::string(field), quantity.error);
   }
@@ -133,8 +182,7 @@ class RowReader {
   void ReadCurve(Part& part) {
     const std::string cell = Cell("curve");
     if (cell.empty()) {
-      CheckNoOrigin("free_air");
-      CheckNoOrigin("current");
+      for (const std::string_view name : kCurveNumbers) CheckNoOrigin(name);
       return;
     }
     Curve curve;
@@ -142,6 +190,8 @@ class RowReader {
     curve.free_air_source = Cell("free_air.source");
     curve.current_provenance = ReadProvenance("current");
     curve.current_source = Cell("current.source");
+    curve.free_air_uncertainty = ReadUncertainty("free_air");
+    curve.current_uncertainty = ReadUncertainty("current");
     for (std::string_view point : Split(cell, ';')) {
       const auto numbers = Split(point, ':');
       std::vector<double> values;
@@ -193,28 +243,46 @@ std::string FormatCurve(const Curve& curve) {
 }
 
 CsvRow ToRow(const Family& family, const Part& part) {
-  CsvRow row{part.id, part.manufacturer, part.part_number, part.notes};
-  const auto add = [&](std::string cell) { row.push_back(std::move(cell)); };
-  const auto add_field = [&](const auto& fields, std::string_view name, const auto& format) {
-    const auto found = fields.find(std::string(name));
-    const bool given = found != fields.end();
-    add(given ? format(found->second.value) : std::string());
-    add(given ? std::string(Name(found->second.provenance)) : std::string());
-    add(given ? found->second.source : std::string());
+  const std::string orderable = part.orderable ? (*part.orderable ? "true" : "false") : "";
+  CsvRow row{part.id,   part.manufacturer,   part.part_number,   part.notes,           part.series,
+             orderable, FormatAliases(part), FormatOffers(part), FormatDocuments(part)};
+  const auto add_origin = [&](Provenance provenance, const std::string& source) {
+    row.emplace_back(Name(provenance));
+    row.push_back(source);
   };
-  for (const NumberField& field : family.numbers) add_field(part.numbers, field.name, FormatNumber);
-  for (const TextField& field : family.texts)
-    add_field(part.texts, field.name, [](const std::string& value) { return value; });
+  const auto add_uncertainty = [&](const std::optional<double>& uncertainty) {
+    row.push_back(uncertainty ? FormatNumber(*uncertainty) : std::string());
+  };
+  for (const NumberField& field : family.numbers) {
+    const auto found = part.numbers.find(std::string(field.name));
+    if (found == part.numbers.end()) {
+      row.resize(row.size() + 4);
+      continue;
+    }
+    row.push_back(FormatNumber(found->second.value));
+    add_origin(found->second.provenance, found->second.source);
+    add_uncertainty(found->second.uncertainty);
+  }
+  for (const TextField& field : family.texts) {
+    const auto found = part.texts.find(std::string(field.name));
+    if (found == part.texts.end()) {
+      row.resize(row.size() + 3);
+      continue;
+    }
+    row.push_back(found->second.value);
+    add_origin(found->second.provenance, found->second.source);
+  }
   if (!family.has_curve) return row;
   if (!part.curve) {
-    row.resize(row.size() + 5);
+    row.resize(row.size() + 7);
     return row;
   }
-  add(FormatCurve(*part.curve));
-  add(std::string(Name(part.curve->free_air_provenance)));
-  add(part.curve->free_air_source);
-  add(std::string(Name(part.curve->current_provenance)));
-  add(part.curve->current_source);
+  const Curve& curve = *part.curve;
+  row.push_back(FormatCurve(curve));
+  add_origin(curve.free_air_provenance, curve.free_air_source);
+  add_uncertainty(curve.free_air_uncertainty);
+  add_origin(curve.current_provenance, curve.current_source);
+  add_uncertainty(curve.current_uncertainty);
   return row;
 }
 

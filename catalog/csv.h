@@ -1,11 +1,13 @@
 // Parts as CSV (RFC 4180, UTF-8, header row), one family per file.
 //
-// Columns: id, manufacturer, part_number, notes, then for each field F of the family F,
-// F.provenance, F.source; for families with a curve also `curve` (points
-// "kPa_gauge:L/min:A" joined by ';'), free_air.provenance, free_air.source, current.provenance,
-// current.source. A column may be missing; an empty cell means no value. Without a provenance a
-// number counts as third_party. A number may carry a unit of its own (catalog/quantity.h), also in
-// a curve. What WriteCsv writes is read back exactly and written again byte for byte.
+// Columns: id, manufacturer, part_number, notes, series, orderable (true, false, empty: not known),
+// aliases, offers, documents (lists, see catalog/part_lists.h), then for each field F of the family
+// F, F.provenance, F.source and, for a number, F.uncertainty; for families with a curve also
+// `curve` (points "kPa_gauge:L/min:A" joined by ';') and .provenance, .source, .uncertainty of
+// free_air and current. A column may be missing; an empty cell means no value. Without a provenance
+// a number counts as third_party. A number may carry a unit of its own (catalog/quantity.h), also
+// in a curve. A part with offers has the price of the newest (catalog/price.h). What WriteCsv
+// writes is read back exactly and written again byte for byte.
 #ifndef PLENUM_CATALOG_CSV_H_
 #define PLENUM_CATALOG_CSV_H_
 

@@ -5,28 +5,22 @@
 namespace plenum::catalog {
 namespace {
 
-struct Naming {
-  Provenance provenance;
-  std::string_view name;
-};
-
-constexpr std::array<Naming, 4> kNames{{{Provenance::kDatasheet, "datasheet"},
-                                        {Provenance::kThirdParty, "third_party"},
-                                        {Provenance::kDerived, "derived"},
-                                        {Provenance::kEstimated, "estimated"}}};
+// In the order of Provenance.
+constexpr std::array<std::string_view, 5> kNames{"datasheet", "third_party", "derived", "estimated",
+                                                 "measured"};
 
 }  // namespace
 
 std::string_view Name(Provenance provenance) {
-  for (const Naming& naming : kNames)
-    if (naming.provenance == provenance) return naming.name;
-  return {};
+  return kNames.at(static_cast<std::size_t>(provenance));
 }
 
 std::optional<Provenance> ProvenanceFromName(std::string_view name) {
-  for (const Naming& naming : kNames)
-    if (naming.name == name) return naming.provenance;
+  for (std::size_t i = 0; i < kNames.size(); ++i)
+    if (kNames[i] == name) return static_cast<Provenance>(i);
   return std::nullopt;
 }
+
+std::span<const std::string_view> ProvenanceNames() { return kNames; }
 
 }  // namespace plenum::catalog

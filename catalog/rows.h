@@ -20,7 +20,7 @@ class PartWriter {
   void Delete(const std::string& id);
 
  private:
-  SQLite::Statement part_, number_, text_, curve_, point_, delete_;
+  SQLite::Statement part_, number_, text_, curve_, point_, alias_, offer_, document_, delete_;
 };
 
 // Reads parts through statements prepared once: all, or those whose `column` (id or family) equals
@@ -33,11 +33,13 @@ class PartReader {
   std::optional<Part> One(const std::string& value);
 
  private:
+  void ReadBasics(std::vector<Part>& parts);
+  void ReadLists(std::vector<Part>& parts);
   static std::string Select(const std::string& what, const std::string& order,
                             const std::optional<std::string>& column);
 
   bool filtered_;
-  SQLite::Statement part_, number_, text_, curve_, point_;
+  SQLite::Statement part_, number_, text_, curve_, point_, alias_, offer_, document_;
 };
 
 // All parts in order of id.

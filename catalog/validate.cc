@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "catalog/fields.h"
+#include "catalog/price.h"
 #include "catalog/text.h"
 
 namespace plenum::catalog {
@@ -16,6 +18,12 @@ constexpr std::size_t kCurvePointsMost = 64;
 constexpr double kCurvePressureMax = 5e4;
 constexpr double kCurveFlowMax = 1e6;
 constexpr double kCurveCurrentMax = 1e3;
+// With these the longest list still fits a cell of a CSV file (kCsvCellBytesMax).
+constexpr std::size_t kListedMost = 16;
+constexpr std::size_t kLinkLongest = 1000;
+constexpr double kPriceMax = 1e9;
+constexpr double kPackMax = 1e6;
+constexpr double kUncertaintyMin = 1e-6, kUncertaintyMax = 1;
 
 using Errors = std::vector<FieldError>;
 
@@ -50,6 +58,14 @@ void CheckText(std::string field, const std::string& value, std::size_t shortest
     errors.push_back({std::move(field), "must have " + std::to_string(shortest) + " to " +
                                             std::to_string(longest) + " characters, has " +
                                             std::to_string(length)});
+}
+
+void CheckUncertainty(const std::string& field, const std::optional<double>& uncertainty,
+                      Errors& errors) {
+  if (uncertainty && !(*uncertainty >= kUncertaintyMin && *uncertainty <= kUncertaintyMax))
+    errors.push_back({field + ".uncertainty",
+                      "must be a share " + Range(kUncertaintyMin, kUncertaintyMax) +
+                          " (one standard deviation), is " + FormatNumber(*uncertainty)});
 }
 
 void CheckId(const std::string& id, Errors& errors) {
@@ -107,6 +123,7 @@ void CheckNumbers(const Family& family, const Part& part, Errors& errors) {
       errors.push_back(
           {std::string(field.name), "must be a whole number, is " + FormatNumber(value)});
     CheckText(std::string(field.name) + ".source", found->second.source, 0, kRemarkLongest, errors);
+    CheckUncertainty(std::string(field.name), found->second.uncertainty, errors);
   }
   for (const auto& [name, number] : part.numbers)
     if (!Contains(family.numbers, name)) errors.push_back(UnknownField(family, name, "number"));
@@ -175,6 +192,93 @@ void CheckCurve(const Family& family, const Part& part, Errors& errors) {
     for (std::size_t i = 0; i < count; ++i) CheckPoint(*part.curve, i, errors);
   CheckText("free_air.source", part.curve->free_air_source, 0, kRemarkLongest, errors);
   CheckText("current.source", part.curve->current_source, 0, kRemarkLongest, errors);
+  CheckUncertainty("free_air", part.curve->free_air_uncertainty, errors);
+  CheckUncertainty("current", part.curve->current_uncertainty, errors);
+}
+
+// "2024", "2024-05" or "2024-05-31", a day that there is.
+bool IsDate(std::string_view text) {
+  const std::string_view form = "dddd-dd-dd";
+  if (text.size() != 4 && text.size() != 7 && text.size() != 10) return false;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (form[i] == 'd' ? text[i] < '0' || text[i] > '9' : text[i] != '-') return false;
+  const auto part = [&](std::size_t at, std::size_t size, unsigned absent) {
+    if (text.size() < at + size) return absent;
+    return static_cast<unsigned>(ParseNumber(text.substr(at, size)).value());
+  };
+  using namespace std::chrono;
+  return year_month_day{year{static_cast<int>(part(0, 4, 0))}, month{part(5, 2, 1)},
+                        day{part(8, 2, 1)}}
+      .ok();
+}
+
+void CheckOffer(const Offer& offer, const std::string& which, Errors& errors) {
+  const auto fail = [&](std::string detail) { errors.push_back({"offers", which + detail}); };
+  const auto check_text = [&](const char* what, const std::string& text, std::size_t shortest,
+                              std::size_t longest) {
+    Errors found;
+    CheckText("", text, shortest, longest, found);
+    for (const FieldError& error : found) fail(std::string(what) + " " + error.detail);
+  };
+  check_text("supplier", offer.supplier, 1, kNameLongest);
+  if (!(offer.price >= 0 && offer.price <= kPriceMax))
+    fail("price must be " + Range(0, kPriceMax) + ", is " + FormatNumber(offer.price));
+  if (!UnitsPerEuro(offer.currency, offer.date))
+    fail("currency must be one of: " + Joined(Currencies()) + "; is " + Quoted(offer.currency));
+  if (!(offer.pack > 0 && offer.pack <= kPackMax))
+    fail("pack must be > 0 and at most " + FormatNumber(kPackMax) + ", is " +
+         FormatNumber(offer.pack));
+  if (!offer.date.empty() && !IsDate(offer.date))
+    fail("date must be like 2024, 2024-05 or 2024-05-31, or empty; is " + Quoted(offer.date));
+  if (offer.link.size() > kLinkLongest)
+    fail("link must have at most " + std::to_string(kLinkLongest) + " bytes, has " +
+         std::to_string(offer.link.size()));
+  else
+    check_text("link", offer.link, 0, kLinkLongest);
+}
+
+void CheckDocument(const Document& document, const std::string& which, Errors& errors) {
+  const auto fail = [&](std::string detail) { errors.push_back({"documents", which + detail}); };
+  const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  const std::string& digest = document.sha256;
+  if (document.link.empty() && digest.empty()) fail("needs a link or a sha256");
+  if (document.link.size() > kLinkLongest)
+    fail("link must have at most " + std::to_string(kLinkLongest) + " bytes, has " +
+         std::to_string(document.link.size()));
+  else if (!IsCleanText(document.link))
+    fail("link must be UTF-8 without control characters");
+  if (!digest.empty() &&
+      (digest.size() != 64 || !std::all_of(digest.begin(), digest.end(), is_digit)))
+    fail("sha256 must be 64 digits of 0-9 and a-f, or empty; is " + Quoted(digest));
+}
+
+template <class Items, class Check>
+void CheckList(const char* field, const Items& items, const std::string& what, const Check& check,
+               Errors& errors) {
+  if (items.size() > kListedMost)
+    errors.push_back({field, "must have at most " + std::to_string(kListedMost) + " items, has " +
+                                 std::to_string(items.size())});
+  else
+    for (std::size_t i = 0; i < items.size(); ++i)
+      check(items[i], what + " " + std::to_string(i + 1) + ": ", errors);
+}
+
+void CheckAlias(const std::string& alias, const std::string& which, Errors& errors) {
+  Errors found;
+  CheckText("aliases", alias, 1, kNameLongest, found);
+  for (FieldError& error : found) errors.push_back({error.field, which + error.detail});
+}
+
+// Series, orderable and the lists.
+void CheckDetails(const Part& part, Errors& errors) {
+  CheckText("series", part.series, 0, kNameLongest, errors);
+  if (part.manufacturer == "generic" && part.orderable.value_or(false))
+    errors.push_back({"orderable",
+                      "must not be true for manufacturer \"generic\": a class of parts is no "
+                      "product; name the maker or leave it empty"});
+  CheckList("aliases", part.aliases, "alias", CheckAlias, errors);
+  CheckList("offers", part.offers, "offer", CheckOffer, errors);
+  CheckList("documents", part.documents, "document", CheckDocument, errors);
 }
 
 // `low` must not exceed `high` (or must be below it, if `strict`).
@@ -195,6 +299,7 @@ std::vector<FieldError> Validate(const Part& part) {
   CheckText("manufacturer", part.manufacturer, 1, kNameLongest, errors);
   CheckText("part_number", part.part_number, 1, kNameLongest, errors);
   CheckText("notes", part.notes, 0, kRemarkLongest, errors);
+  CheckDetails(part, errors);
   if (part.origin != "seed" && part.origin != "user")
     errors.push_back({"origin", "must be one of: seed, user; is " + Quoted(part.origin)});
 
