@@ -8,6 +8,7 @@
 #include "api/limits.h"
 #include "api/measurement.h"
 #include "api/model_revision.h"
+#include "api/part_details.h"
 #include "api/reader.h"
 #include "api/schema_recorder.h"
 #include "api/services.h"
@@ -46,7 +47,8 @@ Json AllRequirements() {
     "objective": { "minimize": { "mass_kg": 1 }, "pareto": ["mass_kg", "volume_l"] },
     "ranking": { "count": 1, "time_limit_s": 1, "probability_min": 0, "proof": false },
     "robust": { "draws": 1, "time_limit_s": 1, "seed": 0,
-                "tolerance": { "datasheet": 0, "third_party": 0, "derived": 0, "estimated": 0 } },
+                "tolerance": { "datasheet": 0, "third_party": 0, "derived": 0, "estimated": 0,
+                               "measured": 0 } },
     "explain": { "prices": false, "ranks": 0, "time_limit_s": 1 },
     "limits": { "compressors_max": 1, "batteries_max": 1, "cylinders_max": 1, "co2_max": 1,
                 "reservoirs_max": 1 },
@@ -107,11 +109,16 @@ Json InParts(Json schema) {
 
 Json Text(std::size_t most) { return {{"type", "string"}, {"maxLength", most}}; }
 
-Json ProvenanceForm() {
+Json ProvenanceForm(bool of_number) {
+  Json properties = {{"kind", {{"enum", catalog::ProvenanceNames()}}},
+                     {"source", {{"type", "string"}}}};
+  if (of_number)
+    properties["uncertainty"] = {{"type", {"number", "null"}},
+                                 {"minimum", 1e-6},
+                                 {"maximum", 1},
+                                 {"description", "relative, one standard deviation"}};
   return {{"type", {"object", "null"}},
-          {"properties",
-           {{"kind", {{"enum", {"datasheet", "third_party", "derived", "estimated"}}}},
-            {"source", {{"type", "string"}}}}},
+          {"properties", std::move(properties)},
           {"additionalProperties", false}};
 }
 
@@ -133,28 +140,29 @@ Json PartOf(const catalog::Family& family) {
                      {"part_number", Text(kTextCharactersMax)},
                      {"origin", {{"description", "set by the service"}}},
                      {"notes", {{"type", {"string", "null"}}, {"maxLength", 4000}}}};
+  properties.update(DetailForms());
   Json required = {"family", "manufacturer", "part_number"};
   Json provenance = Json::object();
-  const auto add = [&](std::string_view name, Json form, bool is_required,
+  const auto add = [&](std::string_view name, Json form, bool is_required, bool is_number,
                        std::string_view meaning) {
     const std::string field(name);
     form["description"] = meaning;
     if (is_required) required.push_back(field);
     if (!is_required) form = {{"anyOf", {form, {{"type", "null"}}}}};
     properties[field] = std::move(form);
-    provenance[field] = ProvenanceForm();
+    provenance[field] = ProvenanceForm(is_number);
   };
   for (const catalog::NumberField& field : family.numbers)
-    add(field.name, NumberForm({field.min, field.max}), field.required, field.meaning);
+    add(field.name, NumberForm({field.min, field.max}), field.required, true, field.meaning);
   for (const catalog::TextField& field : family.texts) {
     Json form = Text(kTextCharactersMax);
     if (!field.allowed.empty()) form["enum"] = field.allowed;
-    add(field.name, std::move(form), field.required, field.meaning);
+    add(field.name, std::move(form), field.required, false, field.meaning);
   }
   if (family.has_curve) {
     properties["curve"] = CurveForm();
     required.push_back("curve");
-    for (const char* name : {"free_air", "current"}) provenance[name] = ProvenanceForm();
+    for (const char* name : {"free_air", "current"}) provenance[name] = ProvenanceForm(true);
   }
   properties["provenance"] = {{"type", {"object", "null"}},
                               {"properties", std::move(provenance)},
@@ -235,8 +243,10 @@ Json DescribePartFilters() {
   Json families = Json::array();
   for (const catalog::Family& family : catalog::Families()) families.push_back(family.name);
   filters.push_back(Parameter("family", {{"enum", families}}, "only parts of this family"));
-  for (const char* name : {"manufacturer", "part_number", "origin"})
+  for (const char* name : {"manufacturer", "part_number", "origin", "series"})
     filters.push_back(Parameter(name, {{"type", "string"}}, "exactly this"));
+  filters.push_back(Parameter("orderable", {{"enum", {"true", "false"}}},
+                              "known to be a product that one can order, or known not to be"));
   for (const catalog::Family& family : catalog::Families()) {
     for (const catalog::NumberField& field : family.numbers) {
       if (!is_new(field.name)) continue;

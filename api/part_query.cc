@@ -15,8 +15,9 @@
 namespace plenum::api {
 namespace {
 
-// Texts that every part has, beside its id.
-const char* const kCommonTexts[] = {"family", "manufacturer", "part_number", "origin"};
+// Texts that parts of every family may have, beside their id; orderable is "true" or "false".
+const char* const kCommonTexts[] = {"family", "manufacturer", "part_number",
+                                    "origin", "series",       "orderable"};
 // Which no facet counts: part numbers are all different.
 constexpr std::string_view kUncounted = "part_number";
 

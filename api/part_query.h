@@ -3,10 +3,11 @@
 //   family=valve  mass_kg_min=0.01  mass_kg_max=0.1  port=M5  sort=-mass_kg  limit=20  cursor=…
 //
 // Every number field F has F_min and F_max (inclusive, in the unit of its name) and F itself
-// (equal); every text field, manufacturer, part_number and origin match exactly. A part without the
-// field does not match. `sort` takes any of these fields or id, "-" before it turns the order
-// round; parts without the field come last, equal ones in order of id. `facets=true` adds what the
-// matching parts hold: parts a value, and count, least and greatest of every number.
+// (equal); every text field, manufacturer, part_number, origin, series and orderable (true, false)
+// match exactly. A part without the field does not match. `sort` takes any of these fields or id,
+// "-" before it turns the order round; parts without the field come last, equal ones in order of
+// id. `facets=true` adds what the matching parts hold: parts a value, and count, least and greatest
+// of every number.
 #ifndef PLENUM_API_PART_QUERY_H_
 #define PLENUM_API_PART_QUERY_H_
 

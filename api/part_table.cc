@@ -60,6 +60,8 @@ PartTable::PartTable(const std::vector<catalog::Part>& parts) : parts_(parts) {
     set_text("manufacturer", i, part.manufacturer);
     set_text("part_number", i, part.part_number);
     set_text("origin", i, part.origin);
+    if (!part.series.empty()) set_text("series", i, part.series);
+    if (part.orderable) set_text("orderable", i, *part.orderable ? "true" : "false");
     for (const auto& [field, text] : part.texts) set_text(field, i, text.value);
     for (const auto& [field, number] : part.numbers) {
       std::vector<double>*& column = numbers[field];

@@ -28,7 +28,7 @@ class PartTable {
   const std::vector<catalog::Part>& parts() const { return parts_; }
   // A number a part, NaN where it has none; nullptr where no part has the field.
   const std::vector<double>* Numbers(const std::string& field) const;
-  // Also family, manufacturer, part_number and origin.
+  // Also family, manufacturer, part_number and origin; series and orderable where a part has them.
   const TextColumn* Texts(const std::string& field) const;
   // By name of the field.
   const std::map<std::string, std::vector<double>, std::less<>>& numbers() const {

@@ -3,21 +3,27 @@
 #include <string>
 
 #include "api/limits.h"
+#include "api/part_details.h"
 #include "api/reader.h"
 #include "api/services.h"
 #include "api/text.h"
 #include "catalog/fields.h"
+#include "catalog/price.h"
 
 namespace plenum::api {
 namespace {
 
 constexpr std::size_t kIdMax = 100;
 constexpr std::size_t kNotesMax = 4000;
+constexpr double kUncertaintyMin = 1e-6;
 
 const char* const kCurveProvenances[] = {"free_air", "current"};
 
-Json RenderProvenance(catalog::Provenance provenance, const std::string& source) {
-  return {{"kind", std::string(Name(provenance))}, {"source", source}};
+Json RenderProvenance(catalog::Provenance provenance, const std::string& source,
+                      const std::optional<double>& uncertainty = {}) {
+  Json json = {{"kind", std::string(Name(provenance))}, {"source", source}};
+  if (uncertainty) json["uncertainty"] = *uncertainty;
+  return json;
 }
 
 // Lower case letters and digits of manufacturer and part number, joined by single hyphens.
@@ -38,16 +44,6 @@ const catalog::Family* ReadFamily(Reader& reader) {
   std::vector<std::string> names;
   for (const catalog::Family& family : catalog::Families()) names.emplace_back(family.name);
   return catalog::FindFamily(reader.Choice("family", names));
-}
-
-// Free text that may be empty.
-std::string ReadNotes(Reader& reader) {
-  const Json* notes = reader.Raw("notes");
-  if (notes == nullptr || notes->is_null()) return "";
-  if (notes->is_string() && CountCharacters(notes->get_ref<const std::string&>()) <= kNotesMax)
-    return notes->get<std::string>();
-  reader.Fail("notes", "must be a text of at most " + std::to_string(kNotesMax) + " characters");
-  return "";
 }
 
 void ReadNumbers(Reader& reader, const catalog::Family& family, catalog::Part& part) {
@@ -83,21 +79,40 @@ void ReadCurve(Reader& reader, catalog::Part& part) {
   part.curve = std::move(curve);
 }
 
-// Provenance and source of a field of the part, null if it has no such field.
+// Provenance, source and uncertainty of a field of the part, null where it has none.
 struct Origin {
   catalog::Provenance* provenance = nullptr;
   std::string* source = nullptr;
+  std::optional<double>* uncertainty = nullptr;  // null for texts
 };
 Origin OriginOf(catalog::Part& part, const std::string& field) {
-  if (const auto number = part.numbers.find(field); number != part.numbers.end())
-    return {&number->second.provenance, &number->second.source};
+  if (const auto found = part.numbers.find(field); found != part.numbers.end()) {
+    catalog::Number& number = found->second;
+    return {&number.provenance, &number.source, &number.uncertainty};
+  }
   if (const auto text = part.texts.find(field); text != part.texts.end())
     return {&text->second.provenance, &text->second.source};
-  if (part.curve && field == "free_air")
-    return {&part.curve->free_air_provenance, &part.curve->free_air_source};
-  if (part.curve && field == "current")
-    return {&part.curve->current_provenance, &part.curve->current_source};
+  if (!part.curve) return {};
+  catalog::Curve& curve = *part.curve;
+  if (field == "free_air")
+    return {&curve.free_air_provenance, &curve.free_air_source, &curve.free_air_uncertainty};
+  if (field == "current")
+    return {&curve.current_provenance, &curve.current_source, &curve.current_uncertainty};
   return {};
+}
+
+void ReadOrigin(Reader& given, const Origin& origin) {
+  const auto known = catalog::ProvenanceNames();
+  const std::string kind = given.Choice("kind", {known.begin(), known.end()}, "third_party");
+  const Json* source = given.Raw("source");
+  if (source != nullptr && !source->is_string())
+    given.Fail("source", "must be a text, not " + KindOf(*source));
+  if (origin.uncertainty != nullptr)
+    *origin.uncertainty = given.OptionalNumber("uncertainty", {kUncertaintyMin, 1});
+  given.Finish();
+  if (origin.source == nullptr) return;
+  *origin.provenance = catalog::ProvenanceFromName(kind).value_or(catalog::Provenance::kThirdParty);
+  *origin.source = source != nullptr && source->is_string() ? source->get<std::string>() : "user";
 }
 
 void ReadProvenance(Reader& reader, const catalog::Family& family, catalog::Part& part) {
@@ -111,31 +126,23 @@ void ReadProvenance(Reader& reader, const catalog::Family& family, catalog::Part
   for (const std::string& field : fields) {
     auto given = provenance->OptionalObject(field);
     if (!given) continue;
-    const std::string kind =
-        given->Choice("kind", {"datasheet", "third_party", "derived", "estimated"}, "third_party");
-    const Json* source = given->Raw("source");
-    if (source != nullptr && !source->is_string())
-      given->Fail("source", "must be a text, not " + KindOf(*source));
-    given->Finish();
     const Origin origin = OriginOf(part, field);
-    if (origin.source == nullptr) {
-      provenance->Fail(field, "the part has no value of " + field);
-      continue;
-    }
-    *origin.provenance =
-        catalog::ProvenanceFromName(kind).value_or(catalog::Provenance::kThirdParty);
-    *origin.source = source != nullptr && source->is_string() ? source->get<std::string>() : "user";
+    ReadOrigin(*given, origin);
+    if (origin.source == nullptr) provenance->Fail(field, "the part has no value of " + field);
   }
   provenance->Finish();
 }
 
-// Where a field of Validate is in the document: "x" is a value, "x.source" its provenance.
+// Where a field of Validate is in the document: "x" is a value, "x.source" and
+// "x.uncertainty" belong to its provenance.
 std::string PointerTo(std::string_view field) {
   if (field.empty()) return "";
-  constexpr std::string_view kSource = ".source";
-  if (!field.ends_with(kSource)) return "/" + EscapePointer(field);
-  field.remove_suffix(kSource.size());
-  return "/provenance/" + EscapePointer(field) + "/source";
+  for (const std::string_view suffix : {".source", ".uncertainty"}) {
+    if (!field.ends_with(suffix)) continue;
+    field.remove_suffix(suffix.size());
+    return "/provenance/" + EscapePointer(field) + "/" + std::string(suffix.substr(1));
+  }
+  return "/" + EscapePointer(field);
 }
 
 // What Validate finds beyond what reading has reported for the same field.
@@ -160,10 +167,11 @@ Json RenderPart(const catalog::Part& part) {
                    {"part_number", part.part_number},
                    {"origin", part.origin},
                    {"notes", part.notes}};
+  RenderDetails(part, document);
   Json provenance = Json::object();
   for (const auto& [field, number] : part.numbers) {
     document[field] = number.value;
-    provenance[field] = RenderProvenance(number.provenance, number.source);
+    provenance[field] = RenderProvenance(number.provenance, number.source, number.uncertainty);
   }
   for (const auto& [field, text] : part.texts) {
     document[field] = text.value;
@@ -176,9 +184,11 @@ Json RenderPart(const catalog::Part& part) {
                         {"free_air_l_per_min", point.free_air_l_per_min},
                         {"current_a", point.current_a}});
     provenance["free_air"] =
-        RenderProvenance(part.curve->free_air_provenance, part.curve->free_air_source);
+        RenderProvenance(part.curve->free_air_provenance, part.curve->free_air_source,
+                         part.curve->free_air_uncertainty);
     provenance["current"] =
-        RenderProvenance(part.curve->current_provenance, part.curve->current_source);
+        RenderProvenance(part.curve->current_provenance, part.curve->current_source,
+                         part.curve->current_uncertainty);
   }
   document["provenance"] = std::move(provenance);
   return document;
@@ -196,12 +206,14 @@ Parsed<catalog::Part> ParsePart(const Json& request) {
   part.part_number = reader.Text("part_number");
   part.id = reader.Text("id", Slug(part.manufacturer + "-" + part.part_number));
   reader.Raw("origin");
-  part.notes = ReadNotes(reader);
+  part.notes = ReadFreeText(reader, "notes", kNotesMax);
+  ReadDetails(reader, part);
   ReadNumbers(reader, *family, part);
   ReadTexts(reader, *family, part);
   if (family->has_curve) ReadCurve(reader, part);
   ReadProvenance(reader, *family, part);
   reader.Finish();
+  catalog::DerivePrice(part);
   AddFieldErrors(part, errors);
   if (!errors.empty()) return errors;
   return part;

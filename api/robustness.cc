@@ -17,6 +17,7 @@ Tolerance ReadTolerance(Reader& robust) {
   read("third_party", tolerance.third_party);
   read("derived", tolerance.derived);
   read("estimated", tolerance.estimated);
+  read("measured", tolerance.measured);
   reader->Finish();
   return tolerance;
 }
@@ -70,7 +71,8 @@ void AddRobustness(const RobustRequest& request, const optimizer::RobustAnswer& 
        {{"datasheet", tolerance.datasheet},
         {"third_party", tolerance.third_party},
         {"derived", tolerance.derived},
-        {"estimated", tolerance.estimated}}},
+        {"estimated", tolerance.estimated},
+        {"measured", tolerance.measured}}},
       {"probability_min",
        request.options.probability_min ? Json(*request.options.probability_min) : Json(nullptr)},
       {"left_out", result.below}};

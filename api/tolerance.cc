@@ -74,8 +74,16 @@ double Tolerance::Of(catalog::Provenance provenance) const {
       return derived;
     case catalog::Provenance::kEstimated:
       return estimated;
+    case catalog::Provenance::kMeasured:
+      return measured;
   }
   return estimated;
+}
+
+double Tolerance::Of(catalog::Provenance provenance,
+                     const std::optional<double>& uncertainty) const {
+  constexpr double kWidest = 0.95;
+  return uncertainty ? std::min(2.0 * *uncertainty, kWidest) : Of(provenance);
 }
 
 double Factor(std::uint64_t seed, int draw, const std::string& id, const std::string& field,
@@ -88,16 +96,20 @@ double Factor(std::uint64_t seed, int draw, const std::string& id, const std::st
 
 catalog::Part Perturbed(catalog::Part row, const Tolerance& tolerance, std::uint64_t seed,
                         int draw) {
-  const auto factor = [&](const std::string& field, catalog::Provenance provenance) {
-    return Factor(seed, draw, row.id, field, tolerance.Of(provenance));
+  const auto factor = [&](const std::string& field, catalog::Provenance provenance,
+                          const std::optional<double>& uncertainty) {
+    return Factor(seed, draw, row.id, field, tolerance.Of(provenance, uncertainty));
   };
   for (auto& [field, number] : row.numbers)
     if (!IsExact(field))
-      number.value = WithinRange(row, field, number.value * factor(field, number.provenance));
+      number.value = WithinRange(
+          row, field, number.value * factor(field, number.provenance, number.uncertainty));
   if (row.curve) {
-    const double delivery = factor("free_air", row.curve->free_air_provenance);
-    const double current = factor("current", row.curve->current_provenance);
-    for (catalog::CurvePoint& point : row.curve->points) {
+    catalog::Curve& curve = *row.curve;
+    const double delivery =
+        factor("free_air", curve.free_air_provenance, curve.free_air_uncertainty);
+    const double current = factor("current", curve.current_provenance, curve.current_uncertainty);
+    for (catalog::CurvePoint& point : curve.points) {
       point.free_air_l_per_min *= delivery;
       point.current_a *= current;
     }

@@ -3,6 +3,7 @@
 #define PLENUM_API_TOLERANCE_H_
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "catalog/part.h"
@@ -12,10 +13,14 @@ namespace plenum::api {
 
 // Half-widths, as shares of the number, by provenance. Defaults: data sheets of pneumatic parts
 // give flow and mass within a few per cent; another's measurement or bill of materials is coarser;
-// what is computed inherits; and the rules of catalog/data/README.md miss by a quarter.
+// what is computed inherits; the rules of catalog/data/README.md miss by a quarter; and what was
+// fitted to measurements of the part itself is as good as a data sheet.
 struct Tolerance {
-  double datasheet = 0.02, third_party = 0.05, derived = 0.10, estimated = 0.25;
+  double datasheet = 0.02, third_party = 0.05, derived = 0.10, estimated = 0.25, measured = 0.02;
   double Of(catalog::Provenance provenance) const;
+  // Of a number that says how uncertain it is: twice that, at most 0.95 of the number; else that of
+  // its provenance.
+  double Of(catalog::Provenance provenance, const std::optional<double>& uncertainty) const;
   bool operator==(const Tolerance&) const = default;
 };
 

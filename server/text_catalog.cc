@@ -45,6 +45,36 @@ std::string DifferenceText(const api::Json& before, const api::Json& after) {
   return text;
 }
 
+std::string Uncertainty(const std::optional<double>& share) {
+  return share ? fmt::format("{} %", Short(100.0 * *share)) : "–";
+}
+
+// A list may be long; nothing of it is cut.
+std::string OffersText(const Part& part) {
+  using enum Table::Align;
+  if (part.offers.empty()) return "";
+  Table table({{"supplier", kLeft}, {"price"}, {"pack"}, {"date", kLeft}, {"link", kLeft}}, 2);
+  for (const auto& offer : part.offers) {
+    table.Add({offer.supplier, Short(offer.price) + " " + offer.currency, Short(offer.pack),
+               offer.date.empty() ? "–" : offer.date, offer.link});
+  }
+  return "\n" + table.Text();
+}
+
+// What a part has beside its fields, a line each.
+std::string DetailsText(const Part& part) {
+  std::string text;
+  if (!part.series.empty()) text += "  series: " + part.series + "\n";
+  if (part.orderable) text += *part.orderable ? "  can be ordered\n" : "  cannot be ordered\n";
+  for (const auto& alias : part.aliases) text += "  also: " + alias + "\n";
+  for (const auto& document : part.documents) {
+    text += "  document: " + document.link;
+    if (!document.sha256.empty()) text += " (sha256 " + document.sha256 + ")";
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string PartsText(const std::vector<Part>& parts) {
@@ -68,25 +98,32 @@ std::string PartText(const Part& part) {
   std::string text = fmt::format("{}\n  {}, {} {}, {} row\n", part.id, part.family,
                                  part.manufacturer, part.part_number, part.origin);
   if (!part.notes.empty()) text += "  " + part.notes + "\n";
-  Table table({{"field", kLeft}, {"value"}, {"data", kLeft}, {"source", kLeft}}, 2);
+  text += DetailsText(part);
+  Table table({{"field", kLeft}, {"value"}, {"±"}, {"data", kLeft}, {"source", kLeft}}, 2);
   for (const auto& [name, value] : part.texts) {
-    table.Add({name, value.value, std::string(Name(value.provenance)), Cut(value.source, 60)});
+    table.Add({name, value.value, "", std::string(Name(value.provenance)), Cut(value.source, 60)});
   }
   for (const auto& [name, value] : part.numbers) {
-    table.Add({name, fmt::format("{:.10g}", value.value), std::string(Name(value.provenance)),
-               Cut(value.source, 60)});
+    table.Add({name, fmt::format("{:.10g}", value.value), Uncertainty(value.uncertainty),
+               std::string(Name(value.provenance)), Cut(value.source, 60)});
   }
-  text += "\n" + table.Text();
+  text += "\n" + table.Text() + OffersText(part);
   if (!part.curve) return text;
   Table curve({{"kPa gauge"}, {"free air L/min"}, {"current A"}}, 2);
   for (const auto& point : part.curve->points) {
     curve.Add(
         {Short(point.pressure_kpa_gauge), Short(point.free_air_l_per_min), Short(point.current_a)});
   }
+  const auto origin = [](const char* what, catalog::Provenance provenance,
+                         const std::string& source, const std::optional<double>& uncertainty) {
+    return fmt::format("  {}: {} {}{}\n", what, Name(provenance), source,
+                       uncertainty ? ", ± " + Uncertainty(uncertainty) : "");
+  };
   return text + "\n" + curve.Text() +
-         fmt::format("  flow: {} {}\n  current: {} {}\n", Name(part.curve->free_air_provenance),
-                     part.curve->free_air_source, Name(part.curve->current_provenance),
-                     part.curve->current_source);
+         origin("flow", part.curve->free_air_provenance, part.curve->free_air_source,
+                part.curve->free_air_uncertainty) +
+         origin("current", part.curve->current_provenance, part.curve->current_source,
+                part.curve->current_uncertainty);
 }
 
 std::string RevisionsText(const std::vector<catalog::Revision>& revisions) {
