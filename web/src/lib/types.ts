@@ -217,8 +217,23 @@ export interface CurvePoint {
 }
 
 export interface Provenance {
-  kind: 'datasheet' | 'third_party' | 'derived' | 'estimated';
+  kind: 'datasheet' | 'third_party' | 'derived' | 'estimated' | 'measured';
   source: string;
+  uncertainty?: number; // relative, one standard deviation
+}
+
+export interface Offer {
+  supplier: string;
+  price: number; // of a pack, net of tax
+  currency: string;
+  pack: number;
+  date: string;
+  link: string;
+}
+
+export interface Document {
+  link: string;
+  sha256: string;
 }
 
 export interface Part {
@@ -228,6 +243,11 @@ export interface Part {
   part_number: string;
   origin: string;
   notes: string;
+  series: string;
+  orderable: boolean | null; // null: not known
+  aliases: string[];
+  offers: Offer[];
+  documents: Document[];
   curve?: CurvePoint[];
   provenance: Record<string, Provenance>;
   [field: string]: unknown;
