@@ -95,6 +95,8 @@ class QueryReader {
       for (const catalog::Family& known : catalog::Families()) names.emplace_back(known.name);
       return Fail(name, "must be " + OneOf(names) + ", not " + Quoted(value));
     }
+    if (name == "orderable" && value != "true" && value != "false")
+      return Fail(name, "must be true or false, not " + Quoted(value));
     if (vocabulary_.texts.contains(name)) {
       result_.texts[name] = value;
       return;

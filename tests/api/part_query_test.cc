@@ -59,6 +59,24 @@ TEST(PartQuery, FiltersByRangesAndTexts) {
   EXPECT_THAT(Ids({{"family", "valve"}}, shelf), ElementsAre());
 }
 
+TEST(PartQuery, FiltersAndCountsBySeriesAndOrderable) {
+  auto shelf = Shelf();
+  shelf[0].series = shelf[3].series = "Even E";
+  shelf[1].orderable = true;
+  shelf[2].orderable = shelf[3].orderable = false;
+  EXPECT_THAT(Ids({{"series", "Even E"}}, shelf), ElementsAre(shelf[0].id, shelf[3].id));
+  EXPECT_THAT(Ids({{"series", ""}}, shelf), ElementsAre());  // a part without one does not match
+  EXPECT_THAT(Ids({{"orderable", "true"}}, shelf), ElementsAre(shelf[1].id));
+  EXPECT_THAT(Ids({{"orderable", "false"}}, shelf), ElementsAre(shelf[2].id, shelf[3].id));
+  const auto query = std::get<PartQuery>(ParsePartQuery({{"facets", "true"}}));
+  const auto page = RenderPage(query, {5, "abc", "", "", ""}, PartTable(shelf));
+  const Json texts = Json::parse(std::get<std::string>(page))["facets"]["texts"];
+  EXPECT_EQ(texts["series"], Parse(R"({"Even E": 2})"));
+  EXPECT_EQ(texts["orderable"], Parse(R"({"false": 2, "true": 1})"));
+  EXPECT_THAT(DetailAt(ErrorsOf(ParsePartQuery({{"orderable", "maybe"}})), "/orderable"),
+              HasSubstr("true or false"));
+}
+
 TEST(PartQuery, SortsBothWaysWithMissingValuesLast) {
   const auto shelf = Shelf();
   EXPECT_THAT(Ids({{"sort", "-mass_kg"}, {"mass_kg_max", "3"}}, shelf),

@@ -78,6 +78,14 @@ TEST(Perturbed, KeepsToTheToleranceOfEachNumber) {
   }
 }
 
+TEST(Tolerance, AnUncertaintyComesBeforeTheProvenance) {
+  const Tolerance tolerance{0.01, 0.02, 0.04, 0.08, 0.03};
+  EXPECT_EQ(tolerance.Of(Provenance::kMeasured), 0.03);
+  EXPECT_EQ(tolerance.Of(Provenance::kMeasured, std::nullopt), 0.03);
+  EXPECT_EQ(tolerance.Of(Provenance::kMeasured, 0.1), 0.2);
+  EXPECT_EQ(tolerance.Of(Provenance::kEstimated, 0.7), 0.95);  // a factor stays above 0
+}
+
 TEST(Perturbed, ScalesAPumpsCurveAsAWholeAndStaysInRange) {
   catalog::Part row = PartOf("compressor");
   row.numbers["duty_max"] = {1.0, Provenance::kEstimated, ""};
@@ -143,7 +151,8 @@ TEST(Robust, RequestsAreReadAndAnswered) {
   EXPECT_NEAR(robustness["probability_ci95"][0].get<double>(), 0.6087, 1e-4);
   EXPECT_NEAR(robustness["probability_ci95"][1].get<double>(), 0.9114, 1e-4);
   EXPECT_EQ(document["robust"], Parse(R"({"draws": 25, "draws_asked": 30, "seed": 4,
-    "tolerance": {"datasheet": 0.02, "third_party": 0.05, "derived": 0.1, "estimated": 0.4},
+    "tolerance": {"datasheet": 0.02, "third_party": 0.05, "derived": 0.1, "estimated": 0.4,
+                  "measured": 0.02},
     "probability_min": 0.5, "left_out": 3})"));
 }
 

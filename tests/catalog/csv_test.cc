@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "catalog/fields.h"
 #include "samples.h"
 
 namespace plenum::catalog {
@@ -62,6 +63,77 @@ TEST(Csv, ReadsACurve) {
   EXPECT_EQ(read.parts[0].curve->current_provenance, Provenance::kEstimated);
 }
 
+TEST(Csv, ReadsSeriesListsAndUncertainty) {
+  const std::string header = kHeader.substr(0, kHeader.size() - 1) +
+                             ",series,orderable,aliases,offers,documents,mass_kg.uncertainty\n";
+  const CsvParts read = ReadCsv(
+      "reservoir",
+      header +
+          "r,M,P,500,0.2,600,1000,M P,TRUE,\"[\"\"P1\"\", \"\"\\u00b5\\ud83d\\ude00\"\"]\","
+          "\"[{\"\"supplier\"\":\"\"Shop\"\",\"\"price\"\":12.5,\"\"currency\"\":\"\"EUR\"\","
+          "\"\"pack\"\":10,\"\"date\"\":\"\"2024-05\"\"}]\","
+          "\"[{\"\"link\"\":\"\"https://example.org\"\",\"\"sha256\"\":null}]\",5 %\n"
+          "s,M,P,500,0.2,600,1000,,no,,,,\n");
+  ASSERT_THAT(read.errors, ElementsAre());
+  const Part& part = read.parts.at(0);
+  EXPECT_EQ(part.series, "M P");
+  EXPECT_EQ(part.orderable, true);
+  EXPECT_THAT(part.aliases, ElementsAre("P1", "µ😀"));
+  EXPECT_THAT(part.offers, ElementsAre(Offer{"Shop", 12.5, "EUR", 10, "2024-05", ""}));
+  EXPECT_THAT(part.documents, ElementsAre(Document{"https://example.org", ""}));
+  EXPECT_EQ(part.numbers.at("mass_kg").uncertainty, 0.05);
+  EXPECT_EQ(part.numbers.at("price_eur").value, 1.25);
+  EXPECT_EQ(part.numbers.at("price_eur").provenance, Provenance::kDerived);
+  EXPECT_EQ(read.parts.at(1).orderable, false);
+  EXPECT_FALSE(read.parts.at(1).numbers.contains("price_eur"));
+}
+
+TEST(Csv, RefusesBrokenListsAndUncertainties) {
+  const std::string header = kHeader.substr(0, kHeader.size() - 1);
+  const struct {
+    const char* column;
+    const char* cell;
+    const char* detail;
+  } cases[] = {
+      {"orderable", "maybe", "\"maybe\""},
+      {"aliases", "P1", "list of texts"},
+      {"aliases", "\"[\"\"P1\"\"\"", "list of texts"},
+      {"aliases", "\"[\"\"P1\"\"]x\"", "list of texts"},
+      {"aliases", "\"[\"\"\\ud83d\"\"]\"", "list of texts"},
+      {"aliases", "\"[\"\"\"\"]\"", "alias 1"},
+      {"offers", "[1]", "list of objects"},
+      {"offers", "[{}]", "offer 1: price is required"},
+      {"offers", "\"[{\"\"price\"\":\"\"much\"\"}]\"", "price must be a number, is \"much\""},
+      {"offers", "\"[{\"\"price\"\":1,\"\"curency\"\":\"\"EUR\"\"}]\"", "nearest: currency"},
+      {"offers", "\"[{\"\"price\"\":1,\"\"price\"\":2}]\"", "list of objects"},
+      {"documents", "[{}]", "needs a link or a sha256"},
+      {"mass_kg.uncertainty", "0", "between 1e-06 and 1"},
+      {"mass_kg.uncertainty", "120 %", "is 1.2"},
+      {"mass_kg.uncertainty", "small", "\"small\""},
+      {"price_eur.uncertainty", "0.1", "there is no value"},
+  };
+  for (const auto& [column, cell, detail] : cases) {
+    const CsvParts read =
+        ReadCsv("reservoir", header + "," + column + "\nr,M,P,500,0.2,600,1000," + cell + "\n");
+    EXPECT_THAT(read.errors, ElementsAre(Error(2, column, detail))) << column << " " << cell;
+  }
+}
+
+TEST(Csv, TheLongestListsFitTheirCells) {
+  Part part = Reservoir("r");
+  std::string quotes;
+  for (int i = 0; i < 200; ++i) quotes += '"';
+  part.aliases.assign(16, quotes);
+  part.offers.assign(16, {quotes, 1, "EUR", 1, "2024-02-29", std::string(1000, '"')});
+  part.documents.assign(16, {std::string(1000, '\\'), std::string(64, 'f')});
+  part.numbers["price_eur"] = {1, Provenance::kDerived,
+                               "offer of " + quotes + ", 2024-02-29: 1 EUR"};
+  ASSERT_THAT(Validate(part), ElementsAre());
+  const CsvParts read = ReadCsv("reservoir", WriteCsv("reservoir", {part}));
+  EXPECT_THAT(read.errors, ElementsAre());
+  EXPECT_THAT(read.parts, ElementsAre(part));
+}
+
 TEST(Csv, TakesUnitsInCells) {
   const CsvParts read = ReadCsv("reservoir", kHeader + "r,M,P,0.5 L,350 g,600 cm³,6 bar\n");
   ASSERT_THAT(read.errors, ElementsAre());
@@ -108,7 +180,7 @@ TEST(Csv, SuggestsTheNearestColumnAndRefusesTwins) {
               ElementsAre(Error(1, "mass_kgs", "nearest: mass_kg"), Error(1, "id", "twice")));
 }
 
-TEST(Csv, RefusesAProvenanceWithoutValueOrOutsideTheFour) {
+TEST(Csv, RefusesAProvenanceWithoutValueOrOutsideTheFive) {
   const std::string header = kHeader.substr(0, kHeader.size() - 1) +
                              ",price_eur,price_eur.provenance,mass_kg.provenance\n";
   const CsvParts read = ReadCsv("reservoir", header + "r,M,P,500,1,600,1000,,datasheet,guess\n");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -98,6 +99,61 @@ TEST(Validate, ChecksTexts) {
   EXPECT_THAT(Validate(part),
               ElementsAre(Error("manufacturer", "has 0"), Error("part_number", "has 201"),
                           Error("notes", "UTF-8")));
+}
+
+TEST(Validate, ChecksSeriesListsAndUncertainty) {
+  const Part good = Reservoir("r");
+  const Offer offer{"Shop", 1.0, "EUR", 1.0, "2024-02-29", "https://example.org"};
+  const auto with_offer = [&](auto change) {
+    Part part = good;
+    part.offers = {offer, offer};
+    change(part.offers[1]);
+    return Validate(part);
+  };
+  EXPECT_THAT(with_offer([](Offer&) {}), ElementsAre());
+  for (const char* date : {"", "2024", "2024-12", "1999-12-31"})
+    EXPECT_THAT(with_offer([&](Offer& o) { o.date = date; }), ElementsAre()) << date;
+  for (const char* date : {"2023-02-29", "2024-13", "24", "2024-1-1", "2024/01/01", "2024-", "now"})
+    EXPECT_THAT(with_offer([&](Offer& o) { o.date = date; }),
+                ElementsAre(Error("offers", std::string("offer 2: date must be like 2024"))))
+        << date;
+  EXPECT_THAT(with_offer([](Offer& o) { o.currency = "XYZ"; }),
+              ElementsAre(Error("offers", "offer 2: currency must be one of: EUR, AUD")));
+  for (const double bad : {-1.0, 1e10, std::nan("")})
+    EXPECT_THAT(with_offer([&](Offer& o) { o.price = bad; }),
+                ElementsAre(Error("offers", "price must be between 0 and 1e+09")));
+  for (const double bad : {0.0, -1.0, 1e7, std::nan("")})
+    EXPECT_THAT(with_offer([&](Offer& o) { o.pack = bad; }),
+                ElementsAre(Error("offers", "pack must be > 0")));
+  EXPECT_THAT(with_offer([](Offer& o) { o.supplier = ""; }),
+              ElementsAre(Error("offers", "offer 2: supplier must have 1 to 200")));
+  EXPECT_THAT(with_offer([](Offer& o) { o.link = std::string(1001, 'x'); }),
+              ElementsAre(Error("offers", "has 1001")));
+
+  Part part = good;
+  part.documents = {{"", ""}};
+  EXPECT_THAT(Validate(part), ElementsAre(Error("documents", "document 1: needs a link")));
+  part.documents = {{"", "ABC"}};
+  EXPECT_THAT(Validate(part), ElementsAre(Error("documents", "64 digits")));
+  part = good;
+  part.aliases.assign(17, "a");
+  EXPECT_THAT(Validate(part), ElementsAre(Error("aliases", "at most 16 items, has 17")));
+  part = good;
+  part.series = std::string(201, 's');
+  EXPECT_THAT(Validate(part), ElementsAre(Error("series", "has 201")));
+  part = good;
+  part.manufacturer = "generic";
+  EXPECT_THAT(Validate(part), ElementsAre());
+  part.orderable = true;
+  EXPECT_THAT(Validate(part), ElementsAre(Error("orderable", "generic")));
+  part = good;
+  for (const double bad : {0.0, -0.1, 1.1, std::nan("")}) {
+    part.numbers["mass_kg"].uncertainty = bad;
+    EXPECT_THAT(Validate(part), ElementsAre(Error("mass_kg.uncertainty", "between 1e-06 and 1")));
+  }
+  Part pump = Pump();
+  pump.curve->current_uncertainty = 2;
+  EXPECT_THAT(Validate(pump), ElementsAre(Error("current.uncertainty", "is 2")));
 }
 
 TEST(Validate, ReportsUnknownFamilyAndOrigin) {

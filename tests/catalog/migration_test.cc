@@ -24,6 +24,10 @@ class Migrating : public InFolder {
     SQLite::Database db(path_.string());
     return db.execAndGet("SELECT " + what).getInt();
   }
+  std::string Text(const std::string& what) const {
+    SQLite::Database db(path_.string());
+    return db.execAndGet("SELECT " + what).getString();
+  }
   void ExpectPartsOfSchema1(const Store& store) const {
     std::vector<std::string> ids;
     for (const Part& part : store.List()) ids.push_back(part.id);
@@ -67,6 +71,43 @@ TEST_F(Migrating, AFileOfSchema2KeepsItsPartsAndHistoryAndTakesModels) {
   EXPECT_EQ(store.Changes(store.Head()).size(), 1u);
   EXPECT_THAT(store.Models(), IsEmpty());
   EXPECT_EQ(store.SaveModel("bench", "{}", "me").version, 1);
+}
+
+TEST_F(Migrating, AFileOfSchema3KeepsEveryHashAndItsModels) {
+  MakeOld(3);
+  const std::string head = Text("hash FROM revision ORDER BY number DESC LIMIT 1");
+  Store store = Write();
+  ExpectPartsOfSchema1(store);
+  EXPECT_EQ(store.Head().number, 9);
+  EXPECT_EQ(store.Head().hash, head);  // what the older program computed of the same parts
+  EXPECT_TRUE(store.FindModel("bench"));
+  const Part mine = store.Get("mine").value();
+  EXPECT_EQ(mine.series, "");
+  EXPECT_FALSE(mine.orderable);
+  EXPECT_THAT(mine.aliases, IsEmpty());
+  EXPECT_THAT(mine.offers, IsEmpty());
+  EXPECT_THAT(mine.documents, IsEmpty());
+}
+
+TEST_F(Migrating, AMigratedPartTakesTheNewFieldsAndGivesThemBack) {
+  MakeOld(3);
+  Store store = Write();
+  const Part before = store.Get("mine").value();
+  Part after = before;
+  after.series = "Maker S";
+  after.orderable = true;
+  after.aliases = {"S-1"};
+  after.offers = {{"Shop", 12.0, "EUR", 2.0, "2024-05", "https://example.org"}};
+  after.documents = {{"https://example.org/s.pdf", ""}};
+  after.numbers.at("mass_kg").provenance = Provenance::kMeasured;
+  after.numbers.at("mass_kg").uncertainty = 0.05;
+  ASSERT_EQ(store.Replace(after).status, WriteStatus::kDone);
+  EXPECT_EQ(store.Get("mine"), after);
+  const std::int64_t number = store.Head().number;
+  ASSERT_EQ(store.Undo(number, {}).status, WriteStatus::kDone);
+  EXPECT_EQ(store.Get("mine"), before);
+  EXPECT_EQ(store.GetAt("mine", number), after);  // read back from its record
+  EXPECT_THAT(store.Check(), IsEmpty());
 }
 
 TEST_F(Migrating, ReadingMigratesToo) {

@@ -172,9 +172,17 @@ TEST_F(StoreTest, SqlItselfRefusesWhatIsNotANumberInRange) {
     return "UPDATE number SET value = " + value + " WHERE field = 'mass_kg'";
   };
   EXPECT_NO_THROW(Sql(set("0.5")));
-  for (const char* bad : {"9e999", "-9e999", "9e999 - 9e999", "NULL", "-1", "'heavy'", "1e7"})
+  for (const char* bad : {"9e999", "-9e999", "9e999 - 9e999", "NULL", "-1e7", "'heavy'", "1e7"})
     EXPECT_THROW(Sql(set(bad)), SQLite::Exception) << bad;
   EXPECT_THROW(Sql("UPDATE number SET provenance = 'guess'"), SQLite::Exception);
+  for (const char* bad : {"0", "-0.1", "1.5", "9e999"})
+    EXPECT_THROW(Sql(std::string("UPDATE number SET uncertainty = ") + bad), SQLite::Exception)
+        << bad;
+  EXPECT_NO_THROW(Sql("UPDATE number SET uncertainty = 0.05, provenance = 'measured'"));
+  EXPECT_THROW(Sql("UPDATE part SET orderable = 2"), SQLite::Exception);
+  EXPECT_THROW(Sql("INSERT INTO offer VALUES ('r', 0, 'Shop', 1, 'euro', 1, '', '')"),
+               SQLite::Exception);
+  EXPECT_THROW(Sql("INSERT INTO document VALUES ('r', 0, '', 'abc')"), SQLite::Exception);
   EXPECT_THROW(Sql("UPDATE part SET origin = 'me'"), SQLite::Exception);
   EXPECT_THROW(Sql("UPDATE part SET id = 'custom'"), SQLite::Exception);
   EXPECT_THROW(Sql("UPDATE part SET id = 'A b'"), SQLite::Exception);
@@ -184,12 +192,16 @@ TEST_F(StoreTest, SqlItselfRefusesWhatIsNotANumberInRange) {
 TEST_F(StoreTest, ForeignKeysHold) {
   std::mt19937 random(2);
   Store store = Write();
-  store.Add(AnyPart(*FindFamily("compressor"), "c", random));
-  EXPECT_THROW(Sql("INSERT INTO number VALUES ('nobody', 'mass_kg', 1, 'derived', '')"),
+  Part pump = AnyPart(*FindFamily("compressor"), "c", random);
+  pump.aliases = {"d"};
+  pump.offers = {{"Shop", 1.0, "EUR", 1.0, "", ""}};
+  pump.documents = {{"sheet", ""}};
+  store.Add(pump);
+  EXPECT_THROW(Sql("INSERT INTO number VALUES ('nobody', 'mass_kg', 1, 'derived', '', NULL)"),
                SQLite::Exception);
   store.Remove("c");
   SQLite::Database db(path_.string());
-  for (const char* table : {"number", "text", "curve", "curve_point"})
+  for (const char* table : {"number", "text", "curve", "curve_point", "alias", "offer", "document"})
     EXPECT_EQ(db.execAndGet(std::string("SELECT count(*) FROM ") + table).getInt(), 0) << table;
 }
 
