@@ -220,9 +220,9 @@ TEST_F(StoreTest, MigratesFromNothingAndRecordsIt) {
   Write();
   Write();
   SQLite::Database db(path_.string());
-  EXPECT_EQ(db.execAndGet("PRAGMA user_version").getInt(), 3);
+  EXPECT_EQ(db.execAndGet("PRAGMA user_version").getInt(), 4);
   EXPECT_EQ(db.execAndGet("SELECT group_concat(name) FROM migration").getString(),
-            "0001_parts,0002_history,0003_models");
+            "0001_parts,0002_history,0003_models,0004_series_and_offers");
   EXPECT_EQ(db.execAndGet("SELECT min(unixepoch(applied)) > 1.7e9 FROM migration").getInt(), 1);
   EXPECT_EQ(db.execAndGet("SELECT count(*) FROM pragma_table_list WHERE schema = 'main' AND "
                           "type = 'table' AND name NOT LIKE 'sqlite%' AND NOT strict")
@@ -313,7 +313,7 @@ TEST_F(StoreTest, OpeningForReadingRollsBackADeadWriter) {
     db.exec("PRAGMA cache_size = 1; PRAGMA cache_spill = 1; BEGIN IMMEDIATE");
     for (int i = 0; i < 2000; ++i)
       db.exec("INSERT INTO part VALUES ('half" + std::to_string(i) +
-              "', 'reservoir', 'm', 'p', 'user', hex(randomblob(100)))");
+              "', 'reservoir', 'm', 'p', 'user', hex(randomblob(100)), '', NULL)");
     raise(SIGKILL);
   }
   int status = 0;
