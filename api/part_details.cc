@@ -87,11 +87,13 @@ std::string ReadFreeText(Reader& reader, std::string_view name, std::size_t long
 void ReadDetails(Reader& reader, catalog::Part& part) {
   part.series = ReadFreeText(reader, "series", kTextCharactersMax);
   part.orderable = ReadOrderable(reader);
-  part.aliases = reader.Texts("aliases", 0, kListedMax);
-  for (const Element& element : reader.List("offers", 0, kListedMax))
-    part.offers.push_back(ReadOffer({element, reader.errors()}));
-  for (const Element& element : reader.List("documents", 0, kListedMax))
-    part.documents.push_back(ReadDocument({element, reader.errors()}));
+  if (reader.Has("aliases")) part.aliases = reader.Texts("aliases", 0, kListedMax);
+  if (reader.Has("offers"))
+    for (const Element& element : reader.List("offers", 0, kListedMax))
+      part.offers.push_back(ReadOffer({element, reader.errors()}));
+  if (reader.Has("documents"))
+    for (const Element& element : reader.List("documents", 0, kListedMax))
+      part.documents.push_back(ReadDocument({element, reader.errors()}));
 }
 
 void RenderDetails(const catalog::Part& part, Json& document) {

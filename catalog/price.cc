@@ -20,7 +20,7 @@ std::vector<Rate> ReadRates() {
 
 std::optional<double> EuroAPiece(const Offer& offer) {
   const auto units = UnitsPerEuro(offer.currency, offer.date);
-  if (!units || !(offer.pack > 0)) return std::nullopt;
+  if (!units || !(offer.price >= 0) || !(offer.pack > 0)) return std::nullopt;
   return offer.price / (*units * offer.pack);
 }
 

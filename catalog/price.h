@@ -29,7 +29,8 @@ std::vector<std::string_view> Currencies();
 std::optional<double> UnitsPerEuro(std::string_view currency, std::string_view date);
 
 // The offer of the latest date; of several, the one with the cheapest piece. Offers whose currency
-// is not known or whose pack is not > 0 do not count; nullptr: there is none.
+// is not known, whose price is not ≥ 0 or whose pack is not > 0 do not count; nullptr: there is
+// none.
 const Offer* NewestOffer(const std::vector<Offer>& offers);
 
 // Makes the part's price that of its newest offer,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -277,6 +278,8 @@ void CheckDetails(const Part& part, Errors& errors) {
                       "must not be true for manufacturer \"generic\": a class of parts is no "
                       "product; name the maker or leave it empty"});
   CheckList("aliases", part.aliases, "alias", CheckAlias, errors);
+  if (const auto& names = part.aliases; std::set(names.begin(), names.end()).size() < names.size())
+    errors.push_back({"aliases", "must be different from each other"});
   CheckList("offers", part.offers, "offer", CheckOffer, errors);
   CheckList("documents", part.documents, "document", CheckDocument, errors);
 }

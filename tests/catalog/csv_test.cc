@@ -123,7 +123,7 @@ TEST(Csv, TheLongestListsFitTheirCells) {
   Part part = Reservoir("r");
   std::string quotes;
   for (int i = 0; i < 200; ++i) quotes += '"';
-  part.aliases.assign(16, quotes);
+  for (int i = 0; i < 16; ++i) part.aliases.push_back(quotes.substr(1) + char('a' + i));
   part.offers.assign(16, {quotes, 1, "EUR", 1, "2024-02-29", std::string(1000, '"')});
   part.documents.assign(16, {std::string(1000, '\\'), std::string(64, 'f')});
   part.numbers["price_eur"] = {1, Provenance::kDerived,

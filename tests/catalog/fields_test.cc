@@ -136,7 +136,10 @@ TEST(Validate, ChecksSeriesListsAndUncertainty) {
   part.documents = {{"", "ABC"}};
   EXPECT_THAT(Validate(part), ElementsAre(Error("documents", "64 digits")));
   part = good;
-  part.aliases.assign(17, "a");
+  part.aliases = {"a", "b", "a"};
+  EXPECT_THAT(Validate(part), ElementsAre(Error("aliases", "different from each other")));
+  for (int i = 0; i < 14; ++i) part.aliases.push_back(std::to_string(i));
+  part.aliases[2] = "c";
   EXPECT_THAT(Validate(part), ElementsAre(Error("aliases", "at most 16 items, has 17")));
   part = good;
   part.series = std::string(201, 's');

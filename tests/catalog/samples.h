@@ -70,7 +70,7 @@ inline void AddAnyDetails(Part& part, std::mt19937& random) {
   const auto some = [&] { return std::uniform_int_distribution(0, 2)(random); };
   if (some() > 0) part.series = AnyText(random);
   if (const int known = some(); known > 0) part.orderable = known == 1;
-  for (int i = some(); i > 0; --i) part.aliases.push_back(AnyText(random));
+  for (int i = some(); i > 0; --i) part.aliases.push_back(std::to_string(i) + AnyText(random));
   static const char* const kDates[] = {"", "1999", "2024-02", "2024-02-29"};
   for (int i = some(); i > 0; --i) {
     const auto currencies = Currencies();
