@@ -269,7 +269,7 @@ test('a part shows its offers and documents; only addresses of the web are links
   await dialog.getByText('can be ordered').waitFor();
   await dialog.getByText(valve.series, { exact: true }).waitFor();
   await dialog.getByText('± 5 %').waitFor();
-  await dialog.getByText('12.5 EUR').waitFor();
+  await dialog.getByRole('cell', { name: '12.5 EUR', exact: true }).waitFor();
   await dialog.getByRole('link', { name: 'https://example.org/valve.pdf' }).waitFor();
   assert.equal(await dialog.locator('a[href^="javascript" i]').count(), 0);
   assert.equal(await dialog.getByText(script).count(), 2);
