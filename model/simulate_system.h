@@ -144,7 +144,7 @@ class System {
   static constexpr std::size_t kLines = 3;  // fill, exhaust, feed
   struct Group {
     Group() = default;
-    Group(Group&&) = default;
+    Group(Group&&) noexcept = default;
 
     double count = 1.0;
     GroupSetup<T> setup;

@@ -41,7 +41,7 @@ std::vector<ReservoirNeed> NeedsOfCandidate(const Problem& problem, const Candid
                         model::kMadeReservoirLargestM3);
 }
 
-CustomSizing::CustomSizing(const Problem& problem, Candidate candidate)
+CustomSizing::CustomSizing(const Problem& problem, const Candidate& candidate)
     : CustomSizing(problem, candidate, NeedsOfCandidate(problem, candidate)) {}
 
 CustomSizing::CustomSizing(const Problem& problem, Candidate candidate,

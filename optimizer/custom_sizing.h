@@ -23,7 +23,7 @@ class CustomSizing {
   CustomSizing(const Problem& problem, Candidate candidate,
                const std::vector<ReservoirNeed>& needs);
   // All volumes that can be made.
-  CustomSizing(const Problem& problem, Candidate candidate);
+  CustomSizing(const Problem& problem, const Candidate& candidate);
 
   // A few rectangles more. True when done: leaf() is feasible with lower_bound within 1e-7 of the
   // objective (4e-7 where energy counts, 8e-7 where it is hard to prove), or infeasible; or

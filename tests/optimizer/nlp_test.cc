@@ -128,6 +128,7 @@ TEST(NlpTest, IpoptSolvesTheZoo) {
 // As when several jobs of a service size their reservoirs.
 TEST(NlpTest, IpoptSolvesTheZooInManyThreadsAtATime) {
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int i = 0; i < 4; ++i)
     threads.emplace_back([] {
       for (int round = 0; round < 20; ++round)
