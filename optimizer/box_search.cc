@@ -335,7 +335,7 @@ class BoxSearch {
     reported_s_ = seconds;
     Progress progress;
     progress.seconds = seconds;
-    progress.evaluated = static_cast<long long>(proof_.evaluated);
+    progress.evaluated = static_cast<long long>(proof_.evaluated.ToDouble());
     progress.open = static_cast<long long>(open_.size());
     if (!ranking_.list().empty()) progress.best = ranking_.list().front().leaf.objective;
     progress.lower_bound = open_.top()->box.bound;
