@@ -7,19 +7,19 @@
 #include <string>
 #include <vector>
 
-#include "api/explanation.h"
-#include "api/json.h"
-#include "api/limits.h"
-#include "api/model_revision.h"
-#include "api/robustness.h"
-#include "catalog/backup.h"
-#include "catalog/content_hash.h"
-#include "catalog/csv.h"
-#include "catalog/job_store.h"
-#include "catalog/plausibility.h"
-#include "catalog/store.h"
-#include "optimizer/pareto.h"
-#include "optimizer/problem.h"
+#include "api/design/explanation.h"
+#include "api/design/robustness.h"
+#include "api/json/json.h"
+#include "api/json/request_limits.h"
+#include "api/measure/model_document.h"
+#include "catalog/fields/csv.h"
+#include "catalog/fields/plausibility.h"
+#include "catalog/store/backup.h"
+#include "catalog/store/content_hash.h"
+#include "catalog/store/job_store.h"
+#include "catalog/store/store.h"
+#include "optimizer/front/pareto.h"
+#include "optimizer/problem/problem.h"
 
 namespace plenum::api {
 

@@ -1,11 +1,11 @@
-#include "model/closed_form.h"
+#include "model/strokes/closed_form.h"
 
 #include <array>
 #include <vector>
 
 #include "bench/batch/closed_form_batch.h"
 #include "bench/method.h"
-#include "model/stroke.h"
+#include "model/strokes/stroke.h"
 
 namespace plenum::bench {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "bench/batch/simulate_batch.h"
 #include "bench/method.h"
-#include "model/simulate.h"
+#include "model/simulate/simulate.h"
 
 namespace plenum::bench {
 namespace {

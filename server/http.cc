@@ -7,16 +7,16 @@
 #include <chrono>
 #include <thread>
 
-#include "api/problem.h"
-#include "server/connections.h"
-#include "server/crash_marks.h"
-#include "server/designs_resource.h"
-#include "server/diagnoses_resource.h"
-#include "server/job_recovery.h"
-#include "server/limits.h"
-#include "server/protocol.h"
-#include "server/request_log.h"
-#include "server/routes.h"
+#include "api/json/problem_document.h"
+#include "server/call/request_log.h"
+#include "server/call/service_limits.h"
+#include "server/jobs/crash_marks.h"
+#include "server/jobs/job_recovery.h"
+#include "server/resources/designs_resource.h"
+#include "server/resources/diagnoses_resource.h"
+#include "server/resources/routes.h"
+#include "server/wire/connections.h"
+#include "server/wire/protocol.h"
 
 namespace plenum::server {
 namespace {

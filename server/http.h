@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "server/jobs.h"
+#include "server/jobs/jobs.h"
 
 namespace plenum::server {
 

@@ -64,7 +64,7 @@ check() {
   stays_in SUNDIALS 'cvode|nvector/|sun(dials|linsol|matrix)' model
   stays_in Ceres 'ceres/' model calibration
   includes 'httplib' server | grep -v '^server/protocol\.h:' |
-    complain "only server/protocol.h includes cpp-httplib"
+    complain "only server/wire/protocol.h includes cpp-httplib"
 }
 
 complaints=$(check)

@@ -17,7 +17,7 @@
 
 #include <span>
 
-#include "model/air.h"
+#include "model/physics/air.h"
 
 namespace plenum::bench {
 

@@ -9,9 +9,9 @@
 #include <random>
 #include <vector>
 
-#include "model/chamber.h"
-#include "model/closed_form.h"
-#include "model/stroke.h"
+#include "model/physics/chamber.h"
+#include "model/strokes/closed_form.h"
+#include "model/strokes/stroke.h"
 
 namespace plenum::bench {
 namespace {

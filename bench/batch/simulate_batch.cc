@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bench/batch/simulate_lanes.h"
-#include "model/simulate_validate.h"
+#include "model/simulate/simulate_validate.h"
 
 namespace plenum::bench {
 namespace {

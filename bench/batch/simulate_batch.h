@@ -13,7 +13,7 @@
 #include <span>
 
 #include "bench/batch/closed_form_batch.h"
-#include "model/simulate.h"
+#include "model/simulate/simulate.h"
 
 namespace plenum::bench {
 

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "bench/batch/simulate_lanes.h"
-#include "model/closed_form.h"
 #include "model/effects/effect.h"
-#include "model/stroke.h"
-#include "tests/model/simulate_rigs.h"
+#include "model/strokes/closed_form.h"
+#include "model/strokes/stroke.h"
+#include "tests/model/simulate/simulate_rigs.h"
 
 namespace plenum::bench {
 namespace {

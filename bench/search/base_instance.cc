@@ -7,9 +7,9 @@
 #include <string>
 
 #include "bench/search/synthetic.h"
-#include "model/storage.h"
-#include "model/stroke.h"
-#include "model/tube.h"
+#include "model/flow/tube.h"
+#include "model/physics/storage.h"
+#include "model/strokes/stroke.h"
 
 namespace plenum::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "api/services.h"
-#include "optimizer/explained_search.h"
+#include "optimizer/explain/explained_search.h"
 #include "tests/support/mass_form.h"
 #include "tests/support/places.h"
 

@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
-#include "catalog/fields.h"
-#include "catalog/price.h"
+#include "catalog/fields/fields.h"
+#include "catalog/fields/price.h"
 
 namespace plenum::catalog {
 

@@ -9,9 +9,9 @@
 #include <map>
 #include <set>
 
-#include "catalog/csv.h"
-#include "catalog/fields.h"
-#include "catalog/store.h"
+#include "catalog/fields/csv.h"
+#include "catalog/fields/fields.h"
+#include "catalog/store/store.h"
 #include "tests/support/places.h"
 
 namespace plenum::catalog {

@@ -4,11 +4,11 @@
 #include <memory>
 #include <optional>
 
-#include "api/diagnose.h"
+#include "api/design/verification.h"
+#include "api/measure/diagnose_request.h"
 #include "api/services.h"
-#include "api/verify.h"
-#include "catalog/csv.h"
-#include "catalog/fields.h"
+#include "catalog/fields/csv.h"
+#include "catalog/fields/fields.h"
 #include "targets.h"
 #include "tests/api/support.h"
 

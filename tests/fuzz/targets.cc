@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "api/measurement.h"
-#include "api/part_query.h"
+#include "api/catalogue/part_query.h"
+#include "api/measure/measurement.h"
 #include "api/services.h"
-#include "catalog/csv.h"
-#include "catalog/fields.h"
-#include "server/request_frame.h"
+#include "catalog/fields/csv.h"
+#include "catalog/fields/fields.h"
+#include "server/wire/request_frame.h"
 
 namespace plenum::fuzz {
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "api/descriptions.h"
+#include "api/describe/descriptions.h"
 #include "service.h"
 
 namespace plenum::server {

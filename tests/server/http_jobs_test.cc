@@ -1,7 +1,7 @@
 // Designs and models over HTTP.
 #include <thread>
 
-#include "catalog/store.h"
+#include "catalog/store/store.h"
 #include "http_client.h"
 #include "server/http.h"
 

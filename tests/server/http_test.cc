@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "http_client.h"
-#include "server/protection.h"
+#include "server/call/protection.h"
 
 namespace plenum::server {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/bench_effects.h"
+#include "tests/support/bench/bench_effects.h"
 
 namespace plenum::test {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/problem.h"
+#include "optimizer/problem/problem.h"
 
 namespace plenum::test {
 namespace {

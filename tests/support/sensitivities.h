@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "model/sensitivity.h"
+#include "model/simulate/sensitivity.h"
 
 namespace plenum::model {
 
