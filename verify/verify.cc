@@ -5,7 +5,7 @@
 #include "verify/tree/verify_front.h"
 #include "verify/tree/verify_record.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 void CheckCombinations(const Problem& problem, const Proof& proof, Findings& findings) {
@@ -103,4 +103,4 @@ Verification VerifyFront(const Problem& problem, const Front& front) {
   return result;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

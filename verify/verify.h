@@ -11,12 +11,11 @@
 #include <optional>
 #include <vector>
 
-#include "optimizer/problem/pareto_front.h"
-#include "optimizer/problem/problem.h"
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_values.h"
 #include "verify/tree/verify_brute_force.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 struct Verification {
   std::vector<Check> checks;
@@ -32,6 +31,6 @@ Verification Verify(const Problem& problem, const Answer& answer,
 // Of a front its points are checked, and that none is missing as far as verify_front.h looks.
 Verification VerifyFront(const Problem& problem, const Front& front);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_VERIFY_H_

@@ -3,7 +3,7 @@
 #include "verify/design/verify_list.h"
 #include "verify/design/verify_size.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 constexpr double kToSpare = 1e-6;       // of each requirement
@@ -222,4 +222,4 @@ Verification VerifyDraws(const Problem& problem, const RobustAnswer& answer,
   return DrawsAgain(problem, answer, options, draw_parts).Run();
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -3,10 +3,10 @@
 #ifndef PLENUM_VERIFY_VERIFY_DRAWS_H_
 #define PLENUM_VERIFY_VERIFY_DRAWS_H_
 
-#include "optimizer/problem/robust_answer.h"
+#include "verify/design/verify_values.h"
 #include "verify/verify.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 // Sizes every listed design again in each of RobustAnswer::draws draws. `met` and `first` must lie
 // between what holds with 1e-6 to spare and what holds if 1e-6 may be missed, relative.
@@ -18,6 +18,6 @@ namespace plenum::optimizer {
 Verification VerifyDraws(const Problem& problem, const RobustAnswer& answer,
                          const RobustOptions& options, const DrawParts& draw_parts);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_VERIFY_DRAWS_H_

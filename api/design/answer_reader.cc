@@ -193,8 +193,8 @@ optimizer::Front ReadFront(Reader& reader, const std::vector<optimizer::Amount>&
     Reader objectives = point.Object("objectives");
     for (const optimizer::Amount amount : amounts) {
       const char* name = optimizer::Name(amount);
-      if (!optimizer::Near(objectives.Number(name, kAnyNumber), Of(amount, design.totals),
-                           optimizer::kSumTolerance))
+      if (!verify::Near(objectives.Number(name, kAnyNumber), Of(amount, design.totals),
+                        verify::kSumTolerance))
         objectives.Fail(name, "is not the total of its design");
     }
   }

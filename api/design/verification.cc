@@ -34,7 +34,7 @@ Json Refused(const std::string& check, const std::string& detail) {
   return {{"check", check}, {"ok", false}, {"detail", detail}};
 }
 
-Json RenderCounts(const optimizer::BruteForceCounts& counts) {
+Json RenderCounts(const verify::BruteForceCounts& counts) {
   return {{"cancelled", counts.cancelled},
           {"combinations", counts.combinations.str()},
           {"incompatible", counts.incompatible.str()},
@@ -45,26 +45,26 @@ Json RenderCounts(const optimizer::BruteForceCounts& counts) {
           {"undecided", counts.undecided.str()}};
 }
 
-optimizer::Verification VerifyList(const Problem& problem, const optimizer::Answer& answer,
-                                   const std::optional<BruteForce>& brute_force) {
-  optimizer::BruteForceOptions options;
+verify::Verification VerifyList(const Problem& problem, const optimizer::Answer& answer,
+                                const std::optional<BruteForce>& brute_force) {
+  verify::BruteForceOptions options;
   if (brute_force) {
-    const double all = optimizer::CombinationsOf(problem).ToDouble();
+    const double all = verify::CombinationsOf(problem).ToDouble();
     options.cancelled = brute_force->cancelled;
     if (brute_force->progress)
       options.progress = [&brute_force, all](const BigCount& looked) {
         brute_force->progress(looked.ToDouble() / all);
       };
   }
-  return optimizer::Verify(problem, answer, brute_force ? &options : nullptr);
+  return verify::Verify(problem, answer, brute_force ? &options : nullptr);
 }
 
 // Adds checks, what they left open and counts to the document.
-void AddVerification(const optimizer::Verification& verification, Json& document) {
-  for (const optimizer::Check& check : verification.checks)
+void AddVerification(const verify::Verification& verification, Json& document) {
+  for (const verify::Check& check : verification.checks)
     document["checks"].push_back(
         {{"check", check.name}, {"ok", check.ok}, {"detail", check.detail}});
-  for (const optimizer::NotRechecked& open : verification.not_rechecked)
+  for (const verify::NotRechecked& open : verification.not_rechecked)
     document["not_rechecked"].push_back(
         {{"what", open.what}, {"combinations", open.combinations.str()}});
   if (verification.brute_force) document["brute_force"] = RenderCounts(*verification.brute_force);
@@ -85,7 +85,7 @@ void VerifyAsked(const DesignRequest& asked, Reader& reader,
     front = ReadFront(reader, asked.pareto, robust.answer);
   if (!reader.errors().empty()) return;
   if (front) {
-    AddVerification(optimizer::VerifyFront(problem, *front), document);
+    AddVerification(verify::VerifyFront(problem, *front), document);
   } else if (robust.searched) {
     Problem deeper = problem;
     deeper.count = robust.searched->count;
@@ -94,11 +94,10 @@ void VerifyAsked(const DesignRequest& asked, Reader& reader,
     AddVerification(VerifyList(problem, robust.answer, brute_force), document);
   }
   if (asked.robust)
-    AddVerification(
-        optimizer::VerifyDraws(problem, robust, asked.robust->options,
-                               MakeDraws(parts, problem, asked.robust->tolerance,
-                                         static_cast<std::uint64_t>(asked.robust->seed))),
-        document);
+    AddVerification(verify::VerifyDraws(problem, robust, asked.robust->options,
+                                        MakeDraws(parts, problem, asked.robust->tolerance,
+                                                  static_cast<std::uint64_t>(asked.robust->seed))),
+                    document);
 }
 
 }  // namespace
@@ -136,7 +135,7 @@ Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& 
       return Errors{{"/front", "must be there where a front was asked for, and only there"}};
     if (brute_force && !asked.pareto.empty())
       return Errors{{"/front", "only a list by one objective can be verified by brute force"}};
-    const BigCount combinations = optimizer::CombinationsOf(problem);
+    const BigCount combinations = verify::CombinationsOf(problem);
     if (brute_force && combinations > brute_force->combinations_max)
       return Errors{{"/proof/combinations", "brute force would look at " + combinations.str() +
                                                 " combinations, the limit is " +

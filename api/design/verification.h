@@ -16,7 +16,7 @@ namespace plenum::api {
 // With `brute_force` every combination is looked at, and "brute_force" counts them by outcome;
 // "cancelled" where that was stopped. An error where there are more than `combinations_max`.
 struct BruteForce {
-  long long combinations_max = optimizer::kBruteForceMax;
+  long long combinations_max = verify::kBruteForceMax;
   std::function<bool()> cancelled;
   std::function<void(double share)> progress;
 };

@@ -20,7 +20,7 @@ struct VerifyOptions {
   std::string catalog = "catalog.db";
   bool json = false;
   bool brute_force = false;
-  long long combinations_max = optimizer::kBruteForceMax;
+  long long combinations_max = verify::kBruteForceMax;
 };
 
 // One line on the terminal, written over and over; nothing when errors go to a file.

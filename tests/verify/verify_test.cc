@@ -62,16 +62,16 @@ Answer Recorded(const Problem& problem) {
 }
 
 // "check: why" of all that is refused.
-std::string Refusals(const optimizer::Verification& verification) {
+std::string Refusals(const verify::Verification& verification) {
   std::string refusals;
-  for (const optimizer::Check& check : verification.checks)
+  for (const verify::Check& check : verification.checks)
     if (!check.ok) refusals += check.name + ": " + check.detail + "\n";
   return refusals;
 }
 
 std::string Refusals(const Problem& problem, const Answer& answer) {
-  const optimizer::BruteForceOptions brute_force;
-  return Refusals(optimizer::Verify(problem, answer, &brute_force));
+  const verify::BruteForceOptions brute_force;
+  return Refusals(verify::Verify(problem, answer, &brute_force));
 }
 
 bool Refuses(const std::string& refusals, const std::string& check) {
@@ -85,10 +85,10 @@ TEST(VerifyTest, AcceptsWhatTheSearchFoundAndLeavesNothingOpen) {
     SCOPED_TRACE(seed);
     const Problem problem = Drawn(seed);
     const Answer answer = Recorded(problem);
-    const optimizer::BruteForceOptions brute_force;
-    const optimizer::Verification verification = optimizer::Verify(problem, answer, &brute_force);
+    const verify::BruteForceOptions brute_force;
+    const verify::Verification verification = verify::Verify(problem, answer, &brute_force);
     EXPECT_EQ(Refusals(verification), "");
-    for (const optimizer::NotRechecked& left : verification.not_rechecked) {
+    for (const verify::NotRechecked& left : verification.not_rechecked) {
       std::printf("seed %d: %s × %s\n", static_cast<int>(seed), left.combinations.str().c_str(),
                   left.what.c_str());
       ++open;
@@ -312,15 +312,15 @@ TEST(VerifyTest, FindsAnObjectiveThatIsNotThatOfTheParts) {
 TEST(VerifyTest, BruteForceStopsWhenItIsToldTo) {
   const auto lists = FullLists(8);  // some of which take long enough to be asked
   int asked = 0, shown = 0;
-  const optimizer::BruteForceOptions options{[&asked] { return ++asked > 0; },
-                                             [&shown](const optimizer::BigCount&) { ++shown; }};
+  const verify::BruteForceOptions options{[&asked] { return ++asked > 0; },
+                                          [&shown](const optimizer::BigCount&) { ++shown; }};
   bool stopped = false;
   for (const auto& [problem, answer] : lists) {
     Problem all = problem;
     all.count = 1'000'000;  // nothing is beyond the list
     Answer without = answer;
     without.proof.record.reset();
-    const auto verification = optimizer::Verify(all, without, &options);
+    const auto verification = verify::Verify(all, without, &options);
     ASSERT_TRUE(verification.brute_force);
     if (verification.brute_force->cancelled) {
       stopped = true;

@@ -4,7 +4,7 @@
 #include "model/physics/storage.h"
 #include "verify/design/verify_design.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 const model::PartBasics& BasicsOf(const model::Tubing& tube) { return tube.per_metre; }
@@ -264,4 +264,4 @@ void CheckAmounts(const Problem& problem, const Design& design, const Assembly& 
     findings.push_back({"amounts", "a part without a price where cost matters"});
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

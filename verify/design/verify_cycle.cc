@@ -7,7 +7,7 @@
 #include "model/strokes/reservoir_stroke.h"
 #include "model/strokes/stroke.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 constexpr int kCyclesMax = 2000;
@@ -320,4 +320,4 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
   return cycle;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -9,8 +9,9 @@
 #include "model/flow/series.h"
 #include "model/simulate/simulate.h"
 #include "verify/design/verify_design.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 struct Cycle {
   std::vector<double> rise_s, inflate_s, fall_s;  // per group; +∞: never reached
@@ -51,6 +52,6 @@ class QuickCycles {
   std::vector<double> fall_s_;
 };
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_DESIGN_VERIFY_CYCLE_H_

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "optimizer/problem/problem.h"
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 struct LineParts {
   const model::Tubing* tube = nullptr;
@@ -52,6 +52,6 @@ bool Fit(const model::Tubing& tube, const model::Fitting& fitting);
 bool Fit(const model::Fitting& fitting, const model::Valve& valve);
 bool Fit(const Problem& problem, const Assembly& source);  // regulator and bottle, pump and pack
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_DESIGN_VERIFY_DESIGN_H_

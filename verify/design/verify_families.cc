@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 const model::PartBasics* BasicsOf(const Problem& problem, Family family, int part) {
   const model::Parts& parts = problem.parts;
@@ -106,4 +106,4 @@ std::vector<ProofItem> EntriesOf(const Problem& problem, const ProofSlot& slot) 
   return entries;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

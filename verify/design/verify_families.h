@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "optimizer/problem/problem.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 // Parts of a family, as many as there are of them in parallel at most.
 int FamilySize(const Problem& problem, Family family);
@@ -22,6 +22,6 @@ std::vector<ProofItem> EntriesOf(const Problem& problem, const ProofSlot& slot);
 // By the contract: of one configuration, from the catalogue alone.
 BigCount Combinations(const Problem& problem, Configuration configuration);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_DESIGN_VERIFY_FAMILIES_H_

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/problem/big_count.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 // One thing that does not hold, under the name of its check.
 struct Finding {
@@ -40,6 +40,6 @@ inline bool Near(double a, double b, double relative) {
   return a == b || std::abs(a - b) <= relative * std::max(std::abs(a), std::abs(b));
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_DESIGN_VERIFY_FINDING_H_

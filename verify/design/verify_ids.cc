@@ -1,6 +1,6 @@
 #include "verify/design/verify_ids.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 Ids IdsOf(const Design& design) {
   Ids ids;
@@ -19,4 +19,4 @@ std::string Text(const Ids& ids) {
   return text;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

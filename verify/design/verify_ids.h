@@ -6,15 +6,15 @@
 #include <utility>
 #include <vector>
 
-#include "optimizer/problem/problem.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 // Ids in the order of a parts list, with pieces where parts of the source stand in parallel.
 using Ids = std::vector<std::pair<std::string, int>>;
 Ids IdsOf(const Design& design);
 std::string Text(const Ids& ids);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_DESIGN_VERIFY_IDS_H_

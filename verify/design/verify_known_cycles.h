@@ -8,8 +8,9 @@
 
 #include "verify/design/verify_cycle.h"
 #include "verify/design/verify_pump_curve.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 // QuickCycles that remembers. Strokes are the same beside any battery and any number of bottles.
 class KnownCycles {
@@ -51,6 +52,6 @@ class KnownCycles {
   std::map<double, double> held_;
 };
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_DESIGN_VERIFY_KNOWN_CYCLES_H_

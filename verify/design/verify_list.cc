@@ -5,7 +5,7 @@
 #include "verify/design/verify_design.h"
 #include "verify/design/verify_ids.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 constexpr std::size_t kFindingsShown = 3;
@@ -74,4 +74,4 @@ std::vector<Check> Gather(const CheckNames& names, const Findings& findings) {
   return checks;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "optimizer/problem/problem.h"
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 // Designs by objective, ties by ids, none twice, no more than were asked for.
 void CheckOrder(const Problem& problem, const std::vector<Design>& designs, Findings& findings);
@@ -21,6 +21,6 @@ void CheckDesigns(const Problem& problem, const std::vector<Design>& designs, Fi
 using CheckNames = std::vector<std::pair<const char*, const char*>>;
 std::vector<Check> Gather(const CheckNames& names, const Findings& findings);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_DESIGN_VERIFY_LIST_H_

@@ -2,7 +2,7 @@
 #include "verify/design/verify_cycle.h"
 #include "verify/design/verify_supply.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 std::string Numbers(const std::string& what, double claimed, double found) {
@@ -122,4 +122,4 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
   return true;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -4,7 +4,7 @@
 
 #include "verify/design/verify_finding.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 constexpr int kGrid = 500;
@@ -35,4 +35,4 @@ double PowerHeld(const model::CompressorCurve& curve, double low_pa, double high
   return Held(curve, low_pa, high_pa, [&](double pa) { return model::ElectricalPower(curve, pa); });
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -7,7 +7,7 @@
 #include "model/physics/storage.h"
 #include "verify/design/verify_supply.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 constexpr double kPressureTolerance = 1e-9;  // relative
@@ -290,4 +290,4 @@ Sizing Sizer::Size(const Assembly& assembly, double slack, double enough) {
   return PressureSizing(problem_, assembly, *cycles_, {volume_m3, volume_m3}, slack).Run(enough);
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -10,8 +10,9 @@
 #define PLENUM_VERIFY_DESIGN_VERIFY_SIZE_H_
 
 #include "verify/design/verify_known_cycles.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 enum class Sized { kFeasible, kInfeasible, kUnknown };
 
@@ -37,6 +38,6 @@ class Sizer {
   std::optional<KnownCycles> cycles_;
 };
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_DESIGN_VERIFY_SIZE_H_

@@ -3,7 +3,7 @@
 
 #include "model/physics/storage.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 Pressures StoodPressures(const Problem& problem, const Assembly& a) {
   double low_pa = problem.ambient.pressure_pa, high_pa = problem.source_pressure_max_pa;
@@ -110,4 +110,4 @@ std::map<std::string, Reached> Requirements(const Problem& problem, const Settin
   return all;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -6,8 +6,9 @@
 #include <string>
 
 #include "verify/design/verify_cycle.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 // Source pressures that every part stands; none where low > high.
 struct Pressures {
@@ -38,6 +39,6 @@ std::map<std::string, Reached> Requirements(const Problem& problem, const Settin
                                             const Totals& totals, const Assembly& assembly,
                                             const Cycle& cycle, const Supply& supply);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_DESIGN_VERIFY_SUPPLY_H_

@@ -3,7 +3,7 @@
 #include "verify/design/verify_families.h"
 #include "verify/design/verify_size.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 // The order of a parts list.
@@ -178,4 +178,4 @@ BigCount BoxCheck::Recheck(const Ranges& ranges, Findings& findings) {
   return open;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -5,9 +5,10 @@
 #include "verify/design/verify_design.h"
 #include "verify/design/verify_ids.h"
 #include "verify/design/verify_size.h"
+#include "verify/design/verify_values.h"
 #include "verify/tree/verify_corner.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 // What an answer says of every combination that is not listed: its objective is `least` or more,
 // and past `tie_end` unless its ids come after `last`.
@@ -61,6 +62,6 @@ class BoxCheck {
   long long looks_ = 0;
 };
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_TREE_VERIFY_BOX_H_

@@ -8,7 +8,7 @@
 #include "verify/tree/verify_box.h"
 #include "verify/tree/verify_dominance.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 // A combination is feasible or not only if that holds with this to spare.
@@ -243,4 +243,4 @@ BruteForceCounts CheckByBruteForce(const Problem& problem, const Answer& answer,
   return Enumeration(problem, answer, options, findings).Run();
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

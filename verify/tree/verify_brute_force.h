@@ -5,10 +5,10 @@
 
 #include <functional>
 
-#include "optimizer/problem/problem.h"
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 struct BruteForceOptions {
   std::function<bool()> cancelled;                       // may be empty
@@ -34,6 +34,6 @@ BigCount CombinationsOf(const Problem& problem);
 BruteForceCounts CheckByBruteForce(const Problem& problem, const Answer& answer,
                                    const BruteForceOptions& options, Findings& findings);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_TREE_VERIFY_BRUTE_FORCE_H_

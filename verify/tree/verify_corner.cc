@@ -4,7 +4,7 @@
 #include "model/strokes/stroke.h"
 #include "verify/design/verify_design.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 constexpr double kSlack = 1.0 + kSumTolerance;
@@ -243,4 +243,4 @@ double Corners::LeastObjective(const Ranges& ranges, double enough) {
                 : LeastRegulated(ranges, chosen);
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

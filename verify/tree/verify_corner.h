@@ -5,11 +5,12 @@
 #include <array>
 #include <map>
 
+#include "verify/design/verify_values.h"
 #include "verify/tree/verify_dominance.h"
 #include "verify/tree/verify_line.h"
 #include "verify/tree/verify_pump.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 // The least amounts of a slot's choices in a range, the objective's share and its spread.
 struct LeastAmounts {
@@ -55,6 +56,6 @@ class Corners {
   std::optional<Pumps> pumps_;
 };
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_TREE_VERIFY_CORNER_H_

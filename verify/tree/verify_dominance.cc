@@ -7,7 +7,7 @@
 #include "verify/design/verify_families.h"
 #include "verify/design/verify_finding.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 using model::FlowElement;
@@ -189,4 +189,4 @@ bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& s
          NoWorse(problem, plan, slot, better, worse);
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

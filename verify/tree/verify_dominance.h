@@ -2,9 +2,9 @@
 #ifndef PLENUM_VERIFY_TREE_VERIFY_DOMINANCE_H_
 #define PLENUM_VERIFY_TREE_VERIFY_DOMINANCE_H_
 
-#include "optimizer/problem/problem.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 struct ItemAmounts {
   double mass_kg = 0.0, volume_m3 = 0.0, cost_eur = 0.0;
@@ -18,6 +18,6 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const P
 bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
                const ProofItem& better, const ProofItem& worse);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_TREE_VERIFY_DOMINANCE_H_

@@ -2,7 +2,7 @@
 
 #include "verify/tree/verify_gaps.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 // Resolutions that a front may have: of parts off the shelf, of a reservoir's volume made to
@@ -74,4 +74,4 @@ void CheckFront(const Problem& problem, const Front& front, Findings& findings,
   if (count > 0) open.push_back({"combinations that may lie between points", count});
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -2,11 +2,10 @@
 #ifndef PLENUM_VERIFY_TREE_VERIFY_FRONT_H_
 #define PLENUM_VERIFY_TREE_VERIFY_FRONT_H_
 
-#include "optimizer/problem/pareto_front.h"
-#include "optimizer/problem/problem.h"
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 // Whether no point beats another, and the status claims no more than that nothing is unexplored.
 //
@@ -16,6 +15,6 @@ namespace plenum::optimizer {
 void CheckFront(const Problem& problem, const Front& front, Findings& findings,
                 std::vector<NotRechecked>& open);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_TREE_VERIFY_FRONT_H_

@@ -7,7 +7,7 @@
 #include "verify/tree/verify_box.h"
 #include "verify/tree/verify_record.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 constexpr double kNoLimit = 1e12;  // a limit that only asks for prices
@@ -282,4 +282,4 @@ BigCount CheckGaps(const Problem& problem, const std::vector<Amount>& amounts,
   return open;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -4,11 +4,10 @@
 
 #include <vector>
 
-#include "optimizer/problem/pareto_front.h"
-#include "optimizer/problem/problem.h"
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 using Point = std::vector<double>;  // one value per amount
 
@@ -24,6 +23,6 @@ BigCount CheckGaps(const Problem& problem, const std::vector<Amount>& amounts,
                    const std::vector<Point>& points, const std::vector<Point>& gaps,
                    Findings& findings);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_TREE_VERIFY_GAPS_H_

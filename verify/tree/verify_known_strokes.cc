@@ -5,7 +5,7 @@
 #include "model/strokes/stroke.h"
 #include "verify/design/verify_finding.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 constexpr double kSlack = 1.0 + kSumTolerance;
@@ -75,4 +75,4 @@ std::optional<double> KnownStrokes::LeastStart(const Query& query, double low_pa
   return low_pa;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -7,9 +7,10 @@
 #include <optional>
 #include <tuple>
 
+#include "verify/design/verify_values.h"
 #include "verify/tree/verify_pump_choices.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 struct Volumes {  // of a reservoir
   double low_m3, high_m3;
@@ -56,6 +57,6 @@ class KnownStrokes {
   std::map<StrokeKey, Starts> known_;
 };
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_TREE_VERIFY_KNOWN_STROKES_H_

@@ -4,7 +4,7 @@
 #include "model/strokes/stroke.h"
 #include "verify/design/verify_design.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 constexpr double kSourceTolerance = 1e-3;  // of the least source pressure; its lower end counts
@@ -155,4 +155,4 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   return best;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

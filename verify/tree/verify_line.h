@@ -3,9 +3,10 @@
 #define PLENUM_VERIFY_TREE_VERIFY_LINE_H_
 
 #include "model/flow/series.h"
+#include "verify/design/verify_values.h"
 #include "verify/tree/verify_tree.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 struct BestLine {
   // False: no choices fit together; or the best of each, alone on a source without limits, miss a
@@ -32,6 +33,6 @@ double PressureAt(const Problem& problem, int group, double fraction);
 // Content of all chambers of a group above that at rest, Pa·m³, with the given dead volume.
 double Drawn(const Problem& problem, int group, const model::Chamber& chamber, double pressure_pa);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_TREE_VERIFY_LINE_H_

@@ -4,7 +4,7 @@
 
 #include "model/physics/storage.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 constexpr double kFinestRatio = 1.01;  // of the ends of an interval of made-to-measure volumes
@@ -262,4 +262,4 @@ double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& li
   return least;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

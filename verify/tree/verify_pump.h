@@ -17,10 +17,11 @@
 #include <map>
 #include <vector>
 
+#include "verify/design/verify_values.h"
 #include "verify/tree/verify_dominance.h"
 #include "verify/tree/verify_known_strokes.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 using SlotAmounts = std::vector<std::vector<ItemAmounts>>;  // per slot and choice
 
@@ -81,6 +82,6 @@ class Pumps {
   std::map<std::array<int, 4>, Packs> packs_;
 };
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_TREE_VERIFY_PUMP_H_

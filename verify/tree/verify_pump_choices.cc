@@ -1,6 +1,6 @@
 #include "verify/tree/verify_pump_choices.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 double LeastPower(const model::CompressorCurve& curve, double low_pa, double high_pa) {
@@ -91,4 +91,4 @@ double PumpChoices::DeliveryAt(const PumpCells& pumps, double pressure_pa) const
   return pumps.delivery_m3_per_s[CellOf(pressure_pa)];
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

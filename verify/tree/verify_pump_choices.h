@@ -5,9 +5,10 @@
 #include <map>
 #include <vector>
 
+#include "verify/design/verify_values.h"
 #include "verify/tree/verify_line.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 // Content, Pa·m³, of a cubic metre of air ANR: κ.
 double ContentPerVolume(const Problem& problem);
@@ -46,6 +47,6 @@ class PumpChoices {
   std::map<Range, PumpCells> ranges_;
 };
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_TREE_VERIFY_PUMP_CHOICES_H_

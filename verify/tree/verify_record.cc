@@ -8,7 +8,7 @@
 #include "verify/design/verify_pump_curve.h"
 #include "verify/tree/verify_box.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 // Positions of a listed design's parts among the choices; none where one was left out.
@@ -239,4 +239,4 @@ void CheckRecord(const Problem& problem, const Answer& answer, Findings& finding
   RecordCheck(problem, answer, findings).Run(open);
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -2,10 +2,10 @@
 #ifndef PLENUM_VERIFY_TREE_VERIFY_RECORD_H_
 #define PLENUM_VERIFY_TREE_VERIFY_RECORD_H_
 
-#include "optimizer/problem/problem.h"
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 // Whether dominance may compare only equal flows (proof.h).
 bool FlowMustBeEqual(const Problem& problem, Configuration configuration);
@@ -15,6 +15,6 @@ bool FlowMustBeEqual(const Problem& problem, Configuration configuration);
 void CheckRecord(const Problem& problem, const Answer& answer, Findings& findings,
                  std::vector<NotRechecked>& open);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_TREE_VERIFY_RECORD_H_

@@ -5,7 +5,7 @@
 #include "verify/design/verify_families.h"
 #include "verify/tree/verify_dominance.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 namespace {
 
 std::string In(const ProofPlan& plan) { return std::string(" (") + Name(plan.configuration) + ")"; }
@@ -116,4 +116,4 @@ void CheckSlots(const Problem& problem, const ProofPlan& plan, Pruned& counts, F
   counts.dominated += priced - kept;
 }
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "optimizer/problem/problem.h"
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_values.h"
 
-namespace plenum::optimizer {
+namespace plenum::verify {
 
 using Ranges = std::vector<std::pair<int, int>>;  // of choices per slot, half-open
 
@@ -27,6 +27,6 @@ BigCount CountOf(const Ranges& ranges);
 // rule of proof.h. Adds to the counts.
 void CheckSlots(const Problem& problem, const ProofPlan& plan, Pruned& counts, Findings& findings);
 
-}  // namespace plenum::optimizer
+}  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_TREE_VERIFY_TREE_H_

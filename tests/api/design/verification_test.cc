@@ -81,7 +81,7 @@ TEST(Verify, AcceptsAnAnswerSavedBeforeAnswersCarriedTheVersion) {
 TEST(Verify, EnumeratesEveryCombinationWhereThatEnds) {
   const Json gripper = Listed("gripper", 5);
   double shown = 0.0;
-  const BruteForce all{optimizer::kBruteForceMax, {}, [&](double share) { shown = share; }};
+  const BruteForce all{verify::kBruteForceMax, {}, [&](double share) { shown = share; }};
   const Json verified =
       std::get<Json>(VerifyAnswer(gripper, Project().parts, Project().revision, all));
   EXPECT_EQ(verified["accepted"], true);
@@ -100,7 +100,7 @@ TEST(Verify, EnumeratesEveryCombinationWhereThatEnds) {
   for (const Json& check : refused["checks"])
     EXPECT_TRUE(check["check"] != "brute_force" || !check["ok"].get<bool>());
 
-  const BruteForce stopped{optimizer::kBruteForceMax, [] { return true; }, {}};
+  const BruteForce stopped{verify::kBruteForceMax, [] { return true; }, {}};
   const Json cancelled =
       std::get<Json>(VerifyAnswer(gripper, Project().parts, Project().revision, stopped));
   EXPECT_EQ(cancelled["brute_force"]["cancelled"], true);
@@ -113,7 +113,7 @@ TEST(Verify, RefusesToEnumerateMoreThanTheLimit) {
         VerifyAnswer(answer, Project().parts, Project().revision, BruteForce{most, {}, {}}));
   };
   const std::string detail =
-      DetailAt(errors(Exosuit(), optimizer::kBruteForceMax), "/proof/combinations");
+      DetailAt(errors(Exosuit(), verify::kBruteForceMax), "/proof/combinations");
   EXPECT_NE(detail.find(Exosuit()["proof"]["combinations"].get<std::string>()), std::string::npos);
   EXPECT_NE(detail.find("--combinations-max"), std::string::npos);
   const Json gripper = Listed("gripper", 3);

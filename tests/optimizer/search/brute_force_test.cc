@@ -93,7 +93,7 @@ void ExpectHonest(const Answer& answer, const BruteForce& truth) {
 
 // What the search writes its verifier accepts, on a simulation of its own.
 void ExpectVerified(const Problem& problem, const Answer& answer) {
-  for (const optimizer::Check& check : optimizer::Verify(problem, answer).checks)
+  for (const verify::Check& check : verify::Verify(problem, answer).checks)
     EXPECT_TRUE(check.ok) << check.name << ": " << check.detail;
 }
 
