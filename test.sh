@@ -26,19 +26,19 @@ long_tests() {
 
 case ${1:-all} in
   all)
-    install_packages
+    install_packages $rule_packages
     run_tests release
     ;;
   fast)
-    install_packages
+    install_packages $rule_packages
     run_tests release -L fast
     ;;
   asan)
-    install_packages $sanitizer_packages
+    install_packages $rule_packages $sanitizer_packages
     run_tests asan
     ;;
   full)
-    install_packages $sanitizer_packages
+    install_packages $rule_packages $sanitizer_packages
     run_tests release
     run_tests asan
     long_tests

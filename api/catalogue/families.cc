@@ -1,4 +1,6 @@
-#include "api/services.h"
+#include "api/catalogue/families.h"
+
+#include "api/json/json.h"
 #include "catalog/fields/fields.h"
 
 namespace plenum::api {

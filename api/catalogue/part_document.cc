@@ -1,14 +1,17 @@
+#include "api/catalogue/part_document.h"
+
 #include <algorithm>
 #include <cctype>
 #include <string>
 
 #include "api/catalogue/part_details.h"
+#include "api/json/json.h"
 #include "api/json/reader.h"
 #include "api/json/request_limits.h"
 #include "api/json/words.h"
-#include "api/services.h"
 #include "catalog/fields/fields.h"
 #include "catalog/fields/price.h"
+#include "catalog/store/store.h"
 
 namespace plenum::api {
 namespace {

@@ -7,10 +7,12 @@
 #include <set>
 #include <variant>
 
+#include "api/catalogue/part_document.h"
+#include "api/json/json.h"
 #include "api/json/request_limits.h"
 #include "api/json/words.h"
-#include "api/services.h"
 #include "catalog/fields/fields.h"
+#include "catalog/store/store.h"
 
 namespace plenum::api {
 namespace {

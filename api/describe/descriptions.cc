@@ -4,14 +4,17 @@
 #include <vector>
 
 #include "api/catalogue/part_details.h"
-#include "api/design/design_reader.h"
+#include "api/design/read/design_reader.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
 #include "api/json/reader.h"
 #include "api/json/request_limits.h"
 #include "api/json/schema_recorder.h"
 #include "api/measure/diagnose_request.h"
 #include "api/measure/measurement.h"
 #include "api/measure/model_document.h"
-#include "api/services.h"
+#include "api/simulate/map.h"
+#include "api/simulate/simulation.h"
 #include "catalog/fields/fields.h"
 
 namespace plenum::api {

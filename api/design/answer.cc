@@ -1,8 +1,14 @@
+#include "api/design/answer.h"
+
+#include "api/design/designs.h"
 #include "api/design/front.h"
+#include "api/design/read/requirements_reader.h"
 #include "api/design/revised_ranking.h"
-#include "api/services.h"
+#include "api/json/json.h"
 #include "optimizer/explain/conflict.h"
 #include "optimizer/explain/explained_search.h"
+#include "optimizer/front/pareto.h"
+#include "optimizer/problem/problem.h"
 
 namespace plenum::api {
 

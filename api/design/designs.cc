@@ -1,3 +1,5 @@
+#include "api/design/designs.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,10 +9,12 @@
 
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/proof_record.h"
-#include "api/design/selection.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/design/read/selection.h"
+#include "api/json/json.h"
 #include "api/json/units.h"
 #include "api/json/version.h"
-#include "api/services.h"
+#include "optimizer/problem/problem.h"
 
 namespace plenum::api {
 namespace {

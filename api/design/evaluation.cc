@@ -1,8 +1,14 @@
-#include "api/design/combination.h"
-#include "api/design/design_reader.h"
+#include "api/design/evaluation.h"
+
+#include "api/design/designs.h"
+#include "api/design/read/combination.h"
+#include "api/design/read/design_reader.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
 #include "api/json/units.h"
 #include "api/json/version.h"
-#include "api/services.h"
+#include "api/measure/model_document.h"
+#include "optimizer/problem/problem.h"
 #include "optimizer/sizing/resize.h"
 
 namespace plenum::api {

@@ -3,7 +3,7 @@
 #include <map>
 #include <optional>
 
-#include "api/design/selection.h"
+#include "api/design/read/selection.h"
 #include "api/json/words.h"
 
 namespace plenum::api {

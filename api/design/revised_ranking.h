@@ -2,7 +2,9 @@
 #ifndef PLENUM_API_DESIGN_REVISED_RANKING_H_
 #define PLENUM_API_DESIGN_REVISED_RANKING_H_
 
-#include "api/services.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
+#include "optimizer/problem/problem.h"
 
 namespace plenum::api {
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "api/design/tolerance.h"
+#include "api/design/read/tolerance.h"
 #include "api/json/reader.h"
 
 namespace plenum::api {

@@ -4,7 +4,9 @@
 
 #include <optional>
 
-#include "api/services.h"
+#include "api/json/json.h"
+#include "api/json/request_limits.h"
+#include "catalog/store/store.h"
 #include "verify/verify.h"
 
 namespace plenum::api {

@@ -1,12 +1,15 @@
+#include "api/simulate/map.h"
+
 #include <chrono>
 #include <cmath>
 #include <optional>
 #include <vector>
 
+#include "api/json/json.h"
+#include "api/json/request_limits.h"
 #include "api/json/shared_fields.h"
 #include "api/json/version.h"
 #include "api/json/words.h"
-#include "api/services.h"
 #include "model/simulate/simulate.h"
 #include "model/strokes/closed_form.h"
 

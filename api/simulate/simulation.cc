@@ -1,14 +1,17 @@
+#include "api/simulate/simulation.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
 #include <string>
 
+#include "api/json/json.h"
+#include "api/json/request_limits.h"
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"
 #include "api/json/version.h"
 #include "api/json/words.h"
-#include "api/services.h"
 #include "api/simulate/effects.h"
 #include "api/simulate/rig.h"
 

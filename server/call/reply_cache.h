@@ -7,7 +7,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
 #include "server/call/reply.h"
 
 namespace plenum::server {

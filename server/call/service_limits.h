@@ -10,8 +10,9 @@
 #include <memory>
 #include <mutex>
 
+#include "api/catalogue/stores.h"
 #include "api/json/json.h"
-#include "api/services.h"
+#include "api/json/request_limits.h"
 #include "server/call/reply.h"
 
 namespace plenum::server {

@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "api/catalogue/part_table.h"
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/request_limits.h"
+#include "api/measure/model_document.h"
 #include "server/call/reply_cache.h"
 #include "server/call/service_limits.h"
 

@@ -4,7 +4,7 @@
 
 #include <variant>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
 #include "server/call/reply.h"
 
 namespace plenum::server {

@@ -13,7 +13,8 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 #include "server/call/reply.h"
 
 namespace plenum::server {

@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "api/services.h"
+#include "api/catalogue/part_document.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 #include "server/call/reply.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"

@@ -2,8 +2,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "api/catalogue/part_document.h"
 #include "api/catalogue/part_query.h"
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 #include "server/call/reply.h"
 #include "server/commands/catalog_keeping.h"
 #include "server/commands/command_options.h"

@@ -3,7 +3,11 @@
 #include <cstdio>
 #include <memory>
 
-#include "api/services.h"
+#include "api/catalogue/part_document.h"
+#include "api/catalogue/stores.h"
+#include "api/design/answer.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
 #include "server/call/reply.h"
 #include "server/commands/command_options.h"
 #include "server/commands/commands.h"

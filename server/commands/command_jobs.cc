@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 #include "server/call/reply.h"
 #include "server/commands/catalog_keeping.h"
 #include "server/commands/command_options.h"

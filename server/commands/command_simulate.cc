@@ -1,7 +1,11 @@
 #include <cstdio>
 #include <memory>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/design/evaluation.h"
+#include "api/json/json.h"
+#include "api/simulate/map.h"
+#include "api/simulate/simulation.h"
 #include "server/call/reply.h"
 #include "server/commands/command_options.h"
 #include "server/commands/commands.h"

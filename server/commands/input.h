@@ -6,9 +6,9 @@
 #include <utility>
 #include <variant>
 
+#include "api/catalogue/stores.h"
 #include "api/json/json.h"
 #include "api/json/request_limits.h"
-#include "api/services.h"
 
 namespace plenum::server {
 

@@ -19,7 +19,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/request_limits.h"
 
 namespace plenum::server {
 namespace {

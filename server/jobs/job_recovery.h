@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
 
 namespace plenum::server {
 

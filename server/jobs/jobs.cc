@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "api/json/signal_stack.h"
+#include "api/json/worker_stack.h"
 #include "server/call/reply.h"
 #include "server/jobs/crash_marks.h"
 

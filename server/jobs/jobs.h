@@ -20,8 +20,8 @@
 #include <thread>
 #include <vector>
 
+#include "api/catalogue/stores.h"
 #include "api/json/json.h"
-#include "api/services.h"
 #include "server/call/service_limits.h"
 #include "server/jobs/job_turns.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
 
 namespace plenum::server {
 

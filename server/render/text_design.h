@@ -5,7 +5,6 @@
 #include <string>
 
 #include "api/json/json.h"
-#include "api/services.h"
 
 namespace plenum::server {
 

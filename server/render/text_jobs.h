@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "api/catalogue/stores.h"
 #include "api/json/json.h"
-#include "api/services.h"
 
 namespace plenum::server {
 

@@ -1,6 +1,11 @@
 #include "server/resources/designs_resource.h"
 
-#include "api/services.h"
+#include "api/catalogue/part_document.h"
+#include "api/catalogue/stores.h"
+#include "api/design/answer.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
+#include "api/measure/model_document.h"
 #include "server/call/signature.h"
 #include "server/jobs/job_inputs.h"
 

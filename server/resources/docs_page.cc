@@ -1,6 +1,6 @@
 #include <string>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
 #include "server/resources/openapi.h"
 
 namespace plenum::server {

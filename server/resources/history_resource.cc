@@ -3,7 +3,10 @@
 #include <charconv>
 #include <cstdint>
 
-#include "api/services.h"
+#include "api/catalogue/part_document.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
+#include "api/json/request_limits.h"
 #include "server/call/signature.h"
 #include "server/resources/import_parts.h"
 

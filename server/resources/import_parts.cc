@@ -3,7 +3,10 @@
 #include <set>
 #include <utility>
 
-#include "api/services.h"
+#include "api/catalogue/part_document.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
+#include "api/json/request_limits.h"
 
 namespace plenum::server {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "api/catalogue/stores.h"
 #include "api/json/json.h"
-#include "api/services.h"
 
 namespace plenum::server {
 

@@ -1,8 +1,9 @@
 #include "server/resources/models_resource.h"
 
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 #include "api/json/reader.h"
 #include "api/measure/model_document.h"
-#include "api/services.h"
 #include "server/call/signature.h"
 
 namespace plenum::server {

@@ -6,7 +6,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 
 namespace plenum::server {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
 #include "server/resources/page_files.h"
 
 namespace plenum::server {

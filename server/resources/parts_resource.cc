@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "api/catalogue/part_document.h"
 #include "api/catalogue/part_query.h"
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
+#include "api/json/request_limits.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
 #include "server/resources/import_parts.h"

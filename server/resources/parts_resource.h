@@ -1,4 +1,4 @@
-// /v1/parts: the catalogue over HTTP. Requests and answers as in api/services.h.
+// /v1/parts: the catalogue over HTTP. Requests and answers as in api/catalogue/part_document.h.
 #ifndef PLENUM_SERVER_RESOURCES_PARTS_RESOURCE_H_
 #define PLENUM_SERVER_RESOURCES_PARTS_RESOURCE_H_
 

@@ -1,6 +1,11 @@
 #include "server/resources/routes.h"
 
-#include "api/services.h"
+#include "api/catalogue/families.h"
+#include "api/design/evaluation.h"
+#include "api/json/json.h"
+#include "api/json/request_limits.h"
+#include "api/simulate/map.h"
+#include "api/simulate/simulation.h"
 #include "server/call/service_limits.h"
 #include "server/resources/designs_resource.h"
 #include "server/resources/diagnoses_resource.h"

@@ -8,7 +8,7 @@
 
 #include "calibration/values/dataset.h"
 #include "tests/calibration/noise/processes.h"
-#include "tests/support/effect_form.h"
+#include "tests/support/effects/effect_form.h"
 
 namespace plenum::test {
 

@@ -4,11 +4,17 @@
 #include <memory>
 #include <optional>
 
+#include "api/catalogue/stores.h"
+#include "api/design/answer.h"
+#include "api/design/evaluation.h"
+#include "api/design/read/requirements_reader.h"
 #include "api/design/verification.h"
+#include "api/json/json.h"
 #include "api/measure/diagnose_request.h"
-#include "api/services.h"
+#include "api/simulate/simulation.h"
 #include "catalog/fields/csv.h"
 #include "catalog/fields/fields.h"
+#include "optimizer/problem/problem.h"
 #include "targets.h"
 #include "tests/api/support.h"
 

@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "api/catalogue/part_query.h"
+#include "api/catalogue/stores.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
 #include "api/measure/measurement.h"
-#include "api/services.h"
 #include "catalog/fields/csv.h"
 #include "catalog/fields/fields.h"
 #include "server/wire/request_frame.h"

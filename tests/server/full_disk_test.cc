@@ -10,7 +10,8 @@
 #include <filesystem>
 #include <thread>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 #include "workbench.h"
 
 namespace plenum::server {

@@ -17,7 +17,8 @@
 #include <random>
 #include <thread>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 #include "workbench.h"
 
 namespace plenum::server {

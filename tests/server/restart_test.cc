@@ -8,7 +8,9 @@
 #include <optional>
 #include <thread>
 
-#include "api/services.h"
+#include "api/catalogue/part_document.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 #include "workbench.h"
 
 namespace plenum::server {

@@ -1,3 +1,5 @@
+#include "api/catalogue/part_document.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +9,8 @@
 #include <string>
 
 #include "api/catalogue/catalogue_parts.h"
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 #include "catalog/fields/csv.h"
 #include "catalog/fields/fields.h"
 #include "tests/api/support.h"

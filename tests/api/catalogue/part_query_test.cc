@@ -9,7 +9,8 @@
 #include <random>
 #include <set>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 #include "catalog/fields/fields.h"
 #include "tests/api/support.h"
 #include "tests/catalog/samples.h"

@@ -1,6 +1,11 @@
+#include "api/design/designs.h"
+
 #include <gtest/gtest.h>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
+#include "optimizer/problem/problem.h"
 #include "tests/api/support.h"
 
 namespace plenum::api {

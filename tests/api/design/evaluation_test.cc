@@ -1,4 +1,6 @@
 // Given parts at given settings, against the search that listed them and the simulator.
+#include "api/design/evaluation.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +8,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/design/answer.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
 #include "tests/api/support.h"
 #include "tests/support/places.h"
 

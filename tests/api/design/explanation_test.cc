@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "api/services.h"
+#include "api/design/answer.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
+#include "optimizer/problem/problem.h"
 #include "tests/api/support.h"
 
 namespace plenum::api {

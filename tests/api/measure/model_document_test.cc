@@ -8,8 +8,11 @@
 #include <fstream>
 #include <iterator>
 
+#include "api/catalogue/stores.h"
+#include "api/design/answer.h"
+#include "api/design/read/requirements_reader.h"
 #include "api/design/verification.h"
-#include "api/services.h"
+#include "api/json/json.h"
 #include "api/simulate/effects.h"
 #include "tests/api/support.h"
 #include "tests/support/places.h"

@@ -1,7 +1,9 @@
+#include "api/simulate/map.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "api/services.h"
+#include "api/json/json.h"
 #include "tests/api/support.h"
 
 namespace plenum::api {

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "api/services.h"
+#include "api/json/json.h"
 #include "api/simulate/effects.h"
+#include "api/simulate/simulation.h"
 #include "tests/api/support.h"
 #include "tests/support/places.h"
 

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "api/services.h"
+#include "api/json/json.h"
+#include "api/simulate/simulation.h"
 #include "tests/api/support.h"
 
 namespace plenum::api {

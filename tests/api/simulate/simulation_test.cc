@@ -1,9 +1,11 @@
+#include "api/simulate/simulation.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "api/services.h"
+#include "api/json/json.h"
 #include "tests/api/support.h"
 
 namespace plenum::api {

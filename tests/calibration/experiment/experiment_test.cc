@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tests/calibration/noise/processes.h"
-#include "tests/support/effect_form.h"
+#include "tests/support/effects/effect_form.h"
 
 namespace plenum::calibration {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/model/effects/effect_rigs.h"
-#include "tests/support/effect_form.h"
+#include "tests/support/effects/effect_form.h"
 #include "tests/support/mass_form.h"
 
 namespace plenum::test {

@@ -1,5 +1,5 @@
 // The independent simulator of effects against published and separately computed numbers.
-#include "tests/support/effect_form.h"
+#include "tests/support/effects/effect_form.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/support/effect_form.h"
+#include "tests/support/effects/effect_form.h"
 
 namespace plenum::test {
 

@@ -11,7 +11,7 @@
 #include "model/simulate/simulate.h"
 #include "tests/model/effects/effect_rigs.h"
 #include "tests/model/simulate/simulate_rigs.h"
-#include "tests/support/effect_form.h"
+#include "tests/support/effects/effect_form.h"
 
 namespace plenum::model {
 

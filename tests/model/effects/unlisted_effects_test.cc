@@ -1,5 +1,5 @@
 // What the independent simulator does with sources that move and effects that no list has.
-#include "tests/support/unlisted_effects.h"
+#include "tests/support/effects/unlisted_effects.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "tests/model/effects/effect_rigs.h"
-#include "tests/support/effect_form.h"
+#include "tests/support/effects/effect_form.h"
 
 namespace plenum::test {
 namespace {

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 #include "workbench.h"
 
 namespace plenum::server {

@@ -10,7 +10,7 @@
 #include <set>
 #include <thread>
 
-#include "api/services.h"
+#include "api/json/json.h"
 #include "raw.h"
 #include "workbench.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "tests/support/effect_kinds.h"
+#include "tests/support/effects/effect_kinds.h"
 
 namespace plenum::test {
 namespace {

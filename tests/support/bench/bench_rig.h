@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/effect_form.h"
+#include "tests/support/effects/effect_form.h"
 #include "tests/support/random.h"
 
 namespace plenum::test {
