@@ -5,6 +5,7 @@
 #include <map>
 
 #include "api/json/units.h"
+#include "api/measure/model_document.h"
 #include "api/simulate/effects.h"
 #include "optimizer/evaluate/relaxation.h"
 #include "optimizer/explain/explained_search.h"

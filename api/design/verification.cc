@@ -1,6 +1,7 @@
 #include "api/design/verification.h"
 
 #include "api/design/read/answer_reader.h"
+#include "api/design/read/requirements_reader.h"
 #include "api/json/version.h"
 #include "api/json/words.h"
 #include "verify/verify_draws.h"

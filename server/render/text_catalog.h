@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "api/catalogue/part_document.h"
 #include "api/catalogue/stores.h"
 
 namespace plenum::server {

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "api/design/answer.h"
 #include "api/json/json.h"
 
 namespace plenum::server {
