@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/storage.h"
+#include "optimizer/families.h"
 #include "optimizer/line.h"
 #include "optimizer/plan.h"
 
@@ -94,9 +95,7 @@ class Sketch {
   }
 
   void AddReservoirs() {
-    const auto required = problem_.require.find(Family::kReservoir);
-    const bool made = !problem_.exclude.contains("custom") &&
-                      (required == problem_.require.end() || required->second.contains("custom"));
+    const bool made = MadeToMeasureAllowed(problem_, Family::kReservoir);
     Add(problem_.parts.reservoirs, problem_.limits.reservoirs, Pieces(), made ? 1 : 0,
         made ? Share(CustomReservoir(problem_, model::kMadeReservoirSmallestM3)) : kUnlimited);
   }

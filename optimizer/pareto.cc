@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 
+#include "optimizer/families.h"
 #include "optimizer/front_tree.h"
 #include "optimizer/front_walk.h"
 #include "optimizer/line.h"
@@ -35,11 +36,9 @@ std::size_t Minimised(const std::vector<Amount>& amounts) {
 }
 
 bool MadeReservoirAllowed(const Problem& problem, const std::vector<Amount>& amounts) {
-  const auto required = problem.require.find(Family::kReservoir);
   return problem.configurations.contains(Configuration::kCompressor) && !CostMatters(problem) &&
          std::find(amounts.begin(), amounts.end(), Amount::kCost) == amounts.end() &&
-         !problem.exclude.contains("custom") &&
-         (required == problem.require.end() || required->second.contains("custom"));
+         MadeToMeasureAllowed(problem, Family::kReservoir);
 }
 
 double Resolution(const Problem& problem, const std::vector<Amount>& amounts) {

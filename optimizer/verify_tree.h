@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "optimizer/families.h"
 #include "optimizer/verify.h"
 
 namespace plenum::optimizer {
@@ -22,15 +23,12 @@ std::vector<ClosedBox> Replay(const ProofPlan& plan, Findings& findings);
 
 BigCount CountOf(const Ranges& ranges);
 
-// Parts of a family, as many as there are of them in parallel at most.
-int FamilySize(const Problem& problem, Family family);
-int QuantityMax(const Problem& problem, Family family);
-std::vector<Family> SourceFamilies(Configuration configuration);
-bool MadeReservoirAllowed(const Problem& problem);
-const model::PartBasics* BasicsOf(const Problem& problem, Family family, int part);
-
 // What a slot can be filled with: every part in every number, priced ones alone where cost matters.
 std::vector<ProofItem> EntriesOf(const Problem& problem, const ProofSlot& slot);
+
+// A plan of a configuration with a slot for each family that it needs, without choices: of each
+// group, then of the source.
+ProofPlan EmptyPlan(const Problem& problem, Configuration configuration);
 
 // By the contract: of one configuration, from the catalogue alone.
 BigCount Combinations(const Problem& problem, Configuration configuration);
