@@ -1,7 +1,16 @@
+#include "api/catalogue_parts.h"
 #include "api/services.h"
 #include "catalog/fields.h"
 
 namespace plenum::api {
+namespace {
+
+Json SearchUse(const catalog::Family& family, std::string_view field) {
+  const auto use = UseInSearch(family.name, field);
+  return use ? Json(*use) : Json(nullptr);
+}
+
+}  // namespace
 
 Json RenderFamilies() {
   Json families = Json::array();
@@ -12,12 +21,14 @@ Json RenderFamilies() {
                          {"min", field.min},
                          {"max", field.max},
                          {"required", field.required},
-                         {"meaning", field.meaning}});
+                         {"meaning", field.meaning},
+                         {"search", SearchUse(family, field.name)}});
     for (const catalog::TextField& field : family.texts)
       texts.push_back({{"name", field.name},
                        {"allowed", field.allowed},
                        {"required", field.required},
-                       {"meaning", field.meaning}});
+                       {"meaning", field.meaning},
+                       {"search", SearchUse(family, field.name)}});
     families.push_back({{"name", family.name},
                         {"numbers", std::move(numbers)},
                         {"texts", std::move(texts)},

@@ -11,6 +11,7 @@
 #include "api/units.h"
 #include "catalog/fields.h"
 #include "optimizer/candidate.h"
+#include "optimizer/families.h"
 
 namespace plenum::api {
 namespace {
@@ -117,7 +118,7 @@ optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
     for (const optimizer::Choice& choice : design.parts) {
       if (!seen.insert(choice.id).second) continue;
       const bool made =
-          choice.family == optimizer::Family::kReservoir && choice.id == kCustomReservoir;
+          choice.id == kCustomReservoir && optimizer::SpecOf(choice.family).made_to_measure;
       drawn.push_back(
           Perturbed(made ? MadeReservoirRow(problem, design, choice) : *by_id.at(choice.id),
                     tolerance, seed, draw));
