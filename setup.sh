@@ -1,5 +1,8 @@
 # Sourced by run.sh and test.sh: the packages of packages.txt, then one preset configured.
 
+rule_packages="python3 universal-ctags"  # of tests/rules
+sanitizer_packages="clang-14 libclang-rt-14-dev"  # of the preset asan
+
 missing_packages() {  # names of packages.txt and of the arguments that are not installed
   local package
   for package in $(grep -v '^#' packages.txt) "$@"; do

@@ -1,19 +1,50 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything and runs all tests.
-# ./test.sh [asan]   asan: with AddressSanitizer and UndefinedBehaviorSanitizer
+# Installs what is missing, builds and runs tests.
+# ./test.sh        all tests, in a release build
+# ./test.sh fast   those that take seconds: what one runs after each edit
+# ./test.sh asan   all tests with AddressSanitizer and UndefinedBehaviorSanitizer
+# ./test.sh full   all of that, and what is too long for every commit
 set -euo pipefail
 cd "$(dirname "$0")"
 . ./setup.sh
 
-preset=${1:-release}
-case $preset in
-  release | asan) ;;
+run_tests() {  # run_tests PRESET [ARGUMENTS OF CTEST]; a table of durations: build/PRESET/tests.xml
+  local preset=$1
+  shift
+  configure "$preset"
+  cmake --build --preset "$preset" >&2
+  ctest --preset "$preset" -j "$(nproc)" --output-junit "$PWD/build/$preset/tests.xml" "$@"
+}
+
+long_tests() {
+  tests/fuzz/run.sh 600
+  PLENUM_KILLS=150 PLENUM_KILL_WRITES=6000 build/release/server_tests --gtest_filter='Kill.*'
+  configure bench
+  cmake --build --preset bench --target batch_tests >&2
+  build/bench/batch_tests --gtest_brief=1
+}
+
+case ${1:-all} in
+  all)
+    install_packages $rule_packages
+    run_tests release
+    ;;
+  fast)
+    install_packages $rule_packages
+    run_tests release -L fast
+    ;;
+  asan)
+    install_packages $rule_packages $sanitizer_packages
+    run_tests asan
+    ;;
+  full)
+    install_packages $rule_packages $sanitizer_packages
+    run_tests release
+    run_tests asan
+    long_tests
+    ;;
   *)
-    echo "usage: ./test.sh [asan]" >&2
+    echo "usage: ./test.sh [fast | asan | full]" >&2
     exit 2
     ;;
 esac
-install_packages
-configure "$preset"
-cmake --build --preset "$preset" >&2
-ctest --preset "$preset" -j "$(nproc)"

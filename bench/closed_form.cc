@@ -1,11 +1,11 @@
-#include "model/closed_form.h"
+#include "model/strokes/closed_form.h"
 
 #include <array>
 #include <vector>
 
+#include "bench/batch/closed_form_batch.h"
 #include "bench/method.h"
-#include "model/closed_form_batch.h"
-#include "model/stroke.h"
+#include "model/strokes/stroke.h"
 
 namespace plenum::bench {
 namespace {
@@ -36,7 +36,7 @@ class BatchClosedForm {
       from_[i] = rig.ambient_pa;
       to_[i] = rig.TargetPa();
     }
-    model::RiseTimes({c_, b_, v0_, v1_, outer_, from_, to_, {}}, rise_s);
+    RiseTimes({c_, b_, v0_, v1_, outer_, from_, to_, {}}, rise_s);
   }
 
  private:

@@ -32,10 +32,10 @@ Method OneByOne(std::string name, bool takes_tolerance, RiseTime rise_time) {
           }};
 }
 
-// bench/closed_form.cc: model/closed_form.h, the same in model/closed_form_batch.h, and the
-// quadrature of model/stroke.h.
+// bench/closed_form.cc: model/strokes/closed_form.h, the same in bench/batch/closed_form_batch.h,
+// and the quadrature of model/strokes/stroke.h.
 std::vector<Method> ClosedForms();
-// bench/simulator.cc: model/simulate.h and model/simulate_batch.h.
+// bench/simulator.cc: model/simulate/simulate.h and bench/batch/simulate_batch.h.
 std::vector<Method> Simulators();
 // bench/odeint.cc: Boost.odeint's dopri5, with dense output.
 std::vector<Method> OdeintMethods();

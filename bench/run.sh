@@ -21,6 +21,7 @@ echo "Target: $(g++ -march=native -Q --help=target | awk '$1 == "-march=" {print
   "(SUNDIALS and SciPy: Debian's binaries as they are)"
 echo "Libraries:$(dpkg-query -W -f ' ${Package} ${Version}' \
   libsundials-dev libboost1.74-dev python3-scipy python3-numpy)"
+build/bench/batch_tests --gtest_brief=1 >&2
 pinned build/bench/plenum_bench rise "$results"
 pinned /usr/bin/python3 bench/rise_scipy.py "$results" # Debian's, which has Debian's SciPy
 echo

@@ -6,9 +6,9 @@
 #include <variant>
 #include <vector>
 
+#include "bench/batch/simulate_batch.h"
 #include "bench/method.h"
-#include "model/simulate.h"
-#include "model/simulate_batch.h"
+#include "model/simulate/simulate.h"
 
 namespace plenum::bench {
 namespace {
@@ -60,8 +60,7 @@ class RiseSimulations {
     for (std::size_t first = 0; first < rises.size(); first += rigs_.size()) {
       const std::size_t size = std::min(rigs_.size(), rises.size() - first);
       for (std::size_t i = 0; i < size; ++i) SetRig(rises[first + i], rigs_[i]);
-      model::FullStrokesOfMany(std::span(rigs_).first(size), options,
-                               std::span(strokes_).first(size));
+      FullStrokesOfMany(std::span(rigs_).first(size), options, std::span(strokes_).first(size));
       for (std::size_t i = 0; i < size; ++i) rise_s[first + i] = strokes_[i].rise_time_s;
     }
   }

@@ -4,15 +4,15 @@
 #include <atomic>
 #include <chrono>
 
-#include "calibration/discrepancy.h"
-#include "calibration/errors.h"
-#include "calibration/evidence.h"
-#include "calibration/findings.h"
-#include "calibration/identifiability.h"
-#include "calibration/slips.h"
-#include "calibration/thresholds.h"
-#include "calibration/ties.h"
-#include "calibration/verdict.h"
+#include "calibration/judge/errors.h"
+#include "calibration/judge/evidence.h"
+#include "calibration/judge/findings.h"
+#include "calibration/judge/identifiability.h"
+#include "calibration/judge/ties.h"
+#include "calibration/judge/verdict.h"
+#include "calibration/learn/discrepancy.h"
+#include "calibration/learn/slips.h"
+#include "calibration/values/thresholds.h"
 
 namespace plenum::calibration {
 namespace {

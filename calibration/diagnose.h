@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/diagnosis.h"
-#include "calibration/effect_search.h"
+#include "calibration/search/effect_search.h"
+#include "calibration/values/diagnosis.h"
 
 namespace plenum::calibration {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "catalog/csv.h"
-#include "catalog/fields.h"
-#include "catalog/store.h"
+#include "catalog/fields/csv.h"
+#include "catalog/fields/fields.h"
+#include "catalog/store/store.h"
 
 namespace {
 

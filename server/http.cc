@@ -7,14 +7,16 @@
 #include <chrono>
 #include <thread>
 
-#include "api/problem.h"
-#include "server/connections.h"
-#include "server/designs_resource.h"
-#include "server/diagnoses_resource.h"
-#include "server/limits.h"
-#include "server/protocol.h"
-#include "server/request_log.h"
-#include "server/routes.h"
+#include "api/json/problem_document.h"
+#include "server/call/request_log.h"
+#include "server/call/service_limits.h"
+#include "server/jobs/crash_marks.h"
+#include "server/jobs/job_recovery.h"
+#include "server/resources/designs_resource.h"
+#include "server/resources/diagnoses_resource.h"
+#include "server/resources/routes.h"
+#include "server/wire/connections.h"
+#include "server/wire/protocol.h"
 
 namespace plenum::server {
 namespace {
@@ -90,7 +92,7 @@ bool IsLarge(const Route& route, const Call& call) {
 
 // What a refusal by RequestFrame is worth in numbers.
 api::Json ValueOf(const std::string& limit, const HttpOptions& options) {
-  return RenderLimits(options.jobs, options.kept).value(limit, api::Json());
+  return RenderLimits(QuotaOf(options.jobs), options.kept).value(limit, api::Json());
 }
 
 }  // namespace
@@ -119,8 +121,9 @@ struct HttpService::Impl {
         tokens(TokenFile(given.catalog)),
         catalog(given.catalog),
         jobs(given.catalog.string() + "-jobs", given.kept),
-        designs(jobs, "design", DesignWork(catalog), given.jobs),
-        diagnoses(jobs, "diagnosis", DiagnosisWork(catalog), given.jobs),
+        marks(Recovered(CrashFile(given.catalog))),
+        designs(jobs, turns, "design", DesignWork(catalog), given.jobs),
+        diagnoses(jobs, turns, "diagnosis", DiagnosisWork(catalog), given.jobs),
         routes(Routes({catalog, designs, diagnoses, metrics, given.jobs, given.kept, given.catalog,
                        [this] { MeasureConnections(); }})),
         connections([this](Incoming request,
@@ -137,6 +140,12 @@ struct HttpService::Impl {
     if (options.host != "localhost" && !IsLoopback(options.host))
       options.allow_hosts.push_back(options.host);
     SetHandlers();
+  }
+
+  // The file of crash marks, once the jobs know what it says.
+  std::filesystem::path Recovered(const std::filesystem::path& crash_file) {
+    RecoverJobs(jobs, crash_file);
+    return crash_file;
   }
 
   int Bind() {
@@ -318,6 +327,8 @@ struct HttpService::Impl {
   Metrics metrics;
   SharedCatalog catalog;
   catalog::JobStore jobs;
+  CrashMarks marks;
+  JobTurns turns;
   Jobs designs, diagnoses;
   const std::vector<Route> routes;
   Gate large_requests{kLargeMax, kLargeWaitingMax};

@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "calibration/dataset.h"
+#include "calibration/values/dataset.h"
 
 namespace plenum::bench {
 

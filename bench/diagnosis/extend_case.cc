@@ -6,8 +6,8 @@
 #include <exception>
 #include <fstream>
 
-#include "tests/support/bench_channels.h"
-#include "tests/support/bench_json.h"
+#include "tests/support/bench/bench_channels.h"
+#include "tests/support/bench/bench_json.h"
 
 namespace {
 

@@ -27,12 +27,12 @@
 #include <thread>
 #include <vector>
 
-#include "api/measurement.h"
-#include "calibration/contenders.h"
-#include "calibration/fit.h"
-#include "calibration/start_scan.h"
-#include "tests/support/bench_dataset.h"
-#include "tests/support/bench_json.h"
+#include "api/measure/measurement.h"
+#include "calibration/fit/fit.h"
+#include "calibration/fit/start_scan.h"
+#include "calibration/search/contenders.h"
+#include "tests/support/bench/bench_dataset.h"
+#include "tests/support/bench/bench_json.h"
 
 namespace plenum::bench {
 namespace {

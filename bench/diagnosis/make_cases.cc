@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/support/bench_json.h"
+#include "tests/support/bench/bench_json.h"
 
 namespace {
 

@@ -13,9 +13,9 @@
 #include <variant>
 #include <vector>
 
-#include "api/measurement.h"
+#include "api/measure/measurement.h"
 #include "bench/diagnosis/correction.h"
-#include "calibration/fit.h"
+#include "calibration/fit/fit.h"
 
 namespace plenum::bench {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "bench/search/synthetic.h"
-#include "model/storage.h"
-#include "model/stroke.h"
-#include "model/tube.h"
+#include "model/flow/tube.h"
+#include "model/physics/storage.h"
+#include "model/strokes/stroke.h"
 
 namespace plenum::bench {
 namespace {
@@ -194,7 +194,9 @@ BaseInstance MakeBaseInstance(std::uint64_t catalogue, std::uint64_t requirement
     model::Chamber chamber = group.chamber;
     chamber.dead_volume_m3 += model::BoreVolume(tube.inner_diameter_m, group.tube_length_m);
     base.need_m3.push_back(problem.actuations * group.count *
-                           model::AirPerActuation(chamber, problem.ambient.temperature_k));
+                           model::StandardVolume(Content(chamber, chamber.operating_pressure_pa) -
+                                                     Content(chamber, chamber.ambient_pressure_pa),
+                                                 problem.ambient.temperature_k));
   }
   for (const model::Regulator& regulator : parts.regulators) {
     base.mass_kg[kRegulators].push_back(regulator.basics.mass_kg);

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "optimizer/problem.h"
+#include "optimizer/problem/problem.h"
 
 namespace plenum::bench {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/search/synthetic.h"
-#include "optimizer/pareto.h"
+#include "optimizer/front/pareto.h"
 
 namespace plenum::bench {
 namespace {

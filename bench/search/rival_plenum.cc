@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "bench/search/rival.h"
-#include "optimizer/tree_search.h"
+#include "optimizer/search/tree_search.h"
 
 namespace plenum::bench {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "bench/search/synthetic.h"
-#include "optimizer/tree_search.h"
+#include "optimizer/search/tree_search.h"
 
 namespace plenum::bench {
 namespace {

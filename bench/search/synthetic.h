@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "optimizer/problem.h"
+#include "optimizer/problem/problem.h"
 
 namespace plenum::bench {
 

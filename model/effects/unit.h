@@ -15,10 +15,10 @@
 
 #include <vector>
 
-#include "model/air.h"
 #include "model/effects/effect.h"
-#include "model/monotone_curve.h"
-#include "model/simulate_line.h"
+#include "model/flow/simulate_line.h"
+#include "model/physics/air.h"
+#include "model/physics/monotone_curve.h"
 
 namespace plenum::model {
 

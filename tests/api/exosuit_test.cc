@@ -8,7 +8,11 @@
 #include <iterator>
 #include <numbers>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
+#include "optimizer/explain/explained_search.h"
+#include "optimizer/problem/problem.h"
 #include "tests/support/mass_form.h"
 #include "tests/support/places.h"
 

@@ -5,7 +5,12 @@
 #include <random>
 #include <string>
 
-#include "api/services.h"
+#include "api/catalogue/part_document.h"
+#include "api/catalogue/stores.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
+#include "api/simulate/map.h"
+#include "api/simulate/simulation.h"
 #include "tests/api/support.h"
 
 namespace plenum::api {

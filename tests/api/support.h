@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "api/json.h"
-#include "catalog/part.h"
+#include "api/json/json.h"
+#include "catalog/fields/part.h"
 
 namespace plenum::api {
 

@@ -8,7 +8,10 @@
 #include <thread>
 #include <vector>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/design/answer.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
 #include "tests/api/support.h"
 #include "tests/support/places.h"
 

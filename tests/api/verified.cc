@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "api/verify.h"
+#include "api/design/verification.h"
 #include "tests/api/support.h"
 #include "tests/support/places.h"
 

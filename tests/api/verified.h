@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "api/services.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
 
 namespace plenum::api {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "calibration/dataset.h"
-#include "tests/calibration/processes.h"
-#include "tests/support/effect_form.h"
+#include "calibration/values/dataset.h"
+#include "tests/calibration/noise/processes.h"
+#include "tests/support/effects/effect_form.h"
 
 namespace plenum::test {
 

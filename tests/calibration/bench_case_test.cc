@@ -1,6 +1,6 @@
 // The generator of measured data sets with known truth is itself checked: against what it states of
 // itself, and its readings against the program's model.
-#include "tests/support/bench_case.h"
+#include "tests/support/bench/bench_case.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "calibration/forward.h"
-#include "tests/support/bench_dataset.h"
-#include "tests/support/bench_json.h"
-#include "tests/support/bench_refit.h"
+#include "calibration/fit/forward.h"
+#include "tests/support/bench/bench_dataset.h"
+#include "tests/support/bench/bench_json.h"
+#include "tests/support/bench/bench_refit.h"
 
 namespace plenum::test {
 namespace {

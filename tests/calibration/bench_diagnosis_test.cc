@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibration/diagnose.h"
-#include "tests/support/bench_dataset.h"
+#include "tests/support/bench/bench_dataset.h"
 
 namespace plenum::test {
 namespace {

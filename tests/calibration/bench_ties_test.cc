@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "calibration/forward.h"
-#include "tests/support/bench_case.h"
-#include "tests/support/bench_channels.h"
-#include "tests/support/bench_dataset.h"
-#include "tests/support/bench_json.h"
+#include "calibration/fit/forward.h"
+#include "tests/support/bench/bench_case.h"
+#include "tests/support/bench/bench_channels.h"
+#include "tests/support/bench/bench_dataset.h"
+#include "tests/support/bench/bench_json.h"
 
 namespace plenum::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "tests/calibration/bench.h"
-#include "tests/calibration/processes.h"
+#include "tests/calibration/noise/processes.h"
 
 namespace plenum::calibration {
 namespace {

@@ -11,7 +11,7 @@
 #include <iterator>
 #include <string>
 
-#include "catalog/store.h"
+#include "catalog/store/store.h"
 
 namespace plenum::catalog {
 

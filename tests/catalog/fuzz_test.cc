@@ -6,11 +6,11 @@
 #include <random>
 #include <string>
 
-#include "catalog/csv.h"
-#include "catalog/part_record.h"
-#include "catalog/quantity.h"
-#include "catalog/text.h"
-#include "samples.h"
+#include "catalog/fields/csv.h"
+#include "catalog/fields/quantity.h"
+#include "catalog/fields/text.h"
+#include "catalog/store/part_record.h"
+#include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
 namespace {

@@ -3,15 +3,22 @@
 #define PLENUM_TESTS_CATALOG_SAMPLES_H_
 
 #include <algorithm>
+#include <optional>
 #include <random>
 #include <string>
 
-#include "catalog/fields.h"
+#include "catalog/fields/fields.h"
+#include "catalog/fields/price.h"
 
 namespace plenum::catalog {
 
 inline Provenance AnyProvenance(std::mt19937& random) {
-  return static_cast<Provenance>(std::uniform_int_distribution(0, 3)(random));
+  return static_cast<Provenance>(std::uniform_int_distribution(0, 4)(random));
+}
+
+inline std::optional<double> AnyUncertainty(std::mt19937& random) {
+  if (random() % 2 == 0) return std::nullopt;
+  return std::uniform_real_distribution(1e-6, 1.0)(random);
 }
 
 // Text that trips up careless quoting.
@@ -46,6 +53,8 @@ inline double AnyNumber(const NumberField& field, std::mt19937& random) {
 
 inline Curve AnyCurve(std::mt19937& random) {
   Curve curve{{}, AnyProvenance(random), AnyText(random), AnyProvenance(random), AnyText(random)};
+  curve.free_air_uncertainty = AnyUncertainty(random);
+  curve.current_uncertainty = AnyUncertainty(random);
   double pressure = 0.0, flow = 50.0;
   std::uniform_real_distribution<double> step(1e-3, 10.0);
   for (int i = std::uniform_int_distribution(1, 64)(random); i > 0; --i) {
@@ -54,6 +63,24 @@ inline Curve AnyCurve(std::mt19937& random) {
     flow *= 0.97;
   }
   return curve;
+}
+
+// Series, aliases, offers and documents, each there or not.
+inline void AddAnyDetails(Part& part, std::mt19937& random) {
+  const auto some = [&] { return std::uniform_int_distribution(0, 2)(random); };
+  if (some() > 0) part.series = AnyText(random);
+  if (const int known = some(); known > 0) part.orderable = known == 1;
+  for (int i = some(); i > 0; --i) part.aliases.push_back(std::to_string(i) + AnyText(random));
+  static const char* const kDates[] = {"", "1999", "2024-02", "2024-02-29"};
+  for (int i = some(); i > 0; --i) {
+    const auto currencies = Currencies();
+    part.offers.push_back({AnyText(random), std::uniform_real_distribution(0.0, 1e3)(random),
+                           std::string(currencies[random() % currencies.size()]),
+                           random() % 2 == 0 ? 1.0 : 12.5, kDates[random() % 4],
+                           random() % 2 == 0 ? "" : "https://example.org/?a=\"b\\c\""});
+  }
+  for (int i = some(); i > 0; --i)
+    part.documents.push_back({AnyText(random), random() % 2 == 0 ? "" : std::string(64, 'e')});
 }
 
 // A valid part of the family with random content; optional fields come and go.
@@ -67,7 +94,7 @@ inline Part AnyPart(const Family& family, const std::string& id, std::mt19937& r
   for (const NumberField& field : family.numbers)
     if (field.required || random() % 2 == 0)
       part.numbers[std::string(field.name)] = {AnyNumber(field, random), AnyProvenance(random),
-                                               AnyText(random)};
+                                               AnyText(random), AnyUncertainty(random)};
   for (const TextField& field : family.texts)
     if (field.required || random() % 2 == 0)
       part.texts[std::string(field.name)] = {
@@ -75,6 +102,8 @@ inline Part AnyPart(const Family& family, const std::string& id, std::mt19937& r
                                 : std::string(field.allowed[random() % field.allowed.size()]),
           AnyProvenance(random), AnyText(random)};
   if (family.has_curve) part.curve = AnyCurve(random);
+  AddAnyDetails(part, random);
+  DerivePrice(part);
   // Pairs that must be in order.
   if (family.name == "tubing") {
     part.numbers["inner_diameter_mm"].value = 2.5;

@@ -6,11 +6,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 
-#include "catalog/csv.h"
-#include "catalog/fields.h"
-#include "catalog/store.h"
+#include "catalog/fields/csv.h"
+#include "catalog/fields/fields.h"
+#include "catalog/store/store.h"
 #include "tests/support/places.h"
 
 namespace plenum::catalog {
@@ -43,6 +44,65 @@ TEST(Seed, EveryNumberSaysWhereItComesFrom) {
     for (const Part& part : ReadFamily(family).parts)
       for (const auto& [field, number] : part.numbers)
         EXPECT_NE(number.source, "") << part.id << ", " << field;
+}
+
+TEST(Seed, EveryRowHasASeriesOfItsMakerAndFamily) {
+  std::map<std::string, std::string> owner;  // of a series: family and maker
+  for (const Family& family : Families())
+    for (const Part& part : ReadFamily(family).parts) {
+      EXPECT_TRUE(part.series.starts_with(part.manufacturer + " ")) << part.id;
+      const std::string of = std::string(family.name) + " of " + part.manufacturer;
+      EXPECT_EQ(owner.emplace(part.series, of).first->second, of) << part.id;
+    }
+}
+
+// Groups that a person checked.
+TEST(Seed, VariantsShareASeries) {
+  std::map<std::string, std::string> series;
+  for (const Family& family : Families())
+    for (const Part& part : ReadFamily(family).parts) series[part.id] = part.series;
+  const std::vector<std::vector<std::string>> groups = {
+      {"jsg-bd-02-6v-lf", "jsg-bd-02-12v-hf", "jsg-bd-02-24v-lf"},
+      {"jsg-bd-03-6v-lf"},
+      {"viair-90c-12v", "viair-90c-13.8v"},
+      {"viair-330c-ig-13.8v"},
+      {"asco-rhb20xx30x-pair", "asco-rmm3xxx55x"},
+      {"smc-sy3000", "smc-sy3240-5mz"},
+      {"smc-sy5000"},
+      {"smc-syj300"},
+      {"smc-s070c-6dc-32", "smc-s070c-6dc-32-pair"},
+      {"festo-mpye-5-m5-010-b", "festo-mpye-5-3-8-010-b"},
+      {"metal-impact-s06", "metal-impact-s40"},
+      {"generic-0.1l-200bar-al", "generic-0.5l-200bar-al"},
+      {"tattu-r-line-4s-1550-mah-95c", "tattu-r-line-6s-1400-mah"},
+      {"tattu-6s-14500-mah"},
+      {"generic-lipo-1s-300mah", "generic-lipo-6s-3300mah"},
+      {"smc-ir2000", "smc-ir2020"}};
+  std::set<std::string> seen;
+  for (const auto& group : groups) {
+    for (const std::string& id : group) EXPECT_EQ(series.at(id), series.at(group.front())) << id;
+    EXPECT_TRUE(seen.insert(series.at(group.front())).second) << group.front();
+  }
+}
+
+TEST(Seed, AClassOfPartsIsNoProduct) {
+  for (const Family& family : Families())
+    for (const Part& part : ReadFamily(family).parts) {
+      const bool of_platform = part.part_number.find("platform") != std::string::npos;
+      if (part.manufacturer == "generic" || of_platform) {
+        EXPECT_EQ(part.orderable, false) << part.id;
+      }
+    }
+}
+
+TEST(Seed, EveryValveHasAResponseTimeAndAnEstimateSaysHowGoodItIs) {
+  for (const Part& part : ReadFamily(*FindFamily("valve")).parts) {
+    ASSERT_TRUE(part.numbers.contains("response_time_ms")) << part.id;
+    const Number& time = part.numbers.at("response_time_ms");
+    if (time.provenance != Provenance::kEstimated) continue;
+    EXPECT_THAT(time.source, ::testing::HasSubstr("median of ")) << part.id;
+    EXPECT_TRUE(time.uncertainty) << part.id;
+  }
 }
 
 TEST(Seed, TheBuiltCatalogueHoldsTheRowsOfTheFiles) {

@@ -1,10 +1,10 @@
 #include "tests/families/manifold.h"
 
-#include "api/catalogue_parts.h"
-#include "api/units.h"
-#include "catalog/family_list.h"
-#include "optimizer/corner_table.h"
-#include "optimizer/families.h"
+#include "api/catalogue/catalogue_parts.h"
+#include "api/json/units.h"
+#include "catalog/fields/fields.h"
+#include "optimizer/choices/plant/corner_table.h"
+#include "optimizer/problem/family_specs.h"
 
 namespace plenum::test {
 namespace {

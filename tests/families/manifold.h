@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "catalog/part.h"
-#include "optimizer/corner.h"
-#include "optimizer/part_numbers.h"
+#include "catalog/fields/part.h"
+#include "optimizer/choices/corner.h"
+#include "optimizer/choices/plant/part_numbers.h"
 
 namespace plenum::test {
 

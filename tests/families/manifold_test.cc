@@ -7,18 +7,19 @@
 #include <random>
 #include <set>
 
-#include "api/descriptions.h"
-#include "api/proof_record.h"
-#include "api/selection.h"
-#include "api/services.h"
-#include "catalog/csv.h"
-#include "optimizer/box_tree.h"
-#include "optimizer/compared.h"
-#include "optimizer/families.h"
-#include "optimizer/verify_best.h"
-#include "optimizer/verify_dominance.h"
+#include "api/catalogue/families.h"
+#include "api/catalogue/part_document.h"
+#include "api/describe/descriptions.h"
+#include "api/design/proof_record.h"
+#include "api/design/read/selection.h"
+#include "catalog/fields/csv.h"
+#include "optimizer/choices/box_tree.h"
+#include "optimizer/choices/plant/compared.h"
+#include "optimizer/problem/family_specs.h"
 #include "tests/catalog/samples.h"
 #include "tests/support/small_catalogue.h"
+#include "verify/tree/verify_best.h"
+#include "verify/tree/verify_dominance.h"
 
 namespace plenum::test {
 namespace {
@@ -26,13 +27,14 @@ namespace {
 using api::Json;
 using optimizer::Configuration;
 using optimizer::Contender;
-using optimizer::Findings;
 using optimizer::Item;
 using optimizer::PartNumbers;
 using optimizer::Problem;
 using optimizer::ProofItem;
 using optimizer::ProofPlan;
 using optimizer::ProofSlot;
+using verify::BestNumbers;
+using verify::Findings;
 
 const catalog::Family& Table() { return *catalog::FindFamily("manifold"); }
 
@@ -169,7 +171,7 @@ TEST(Manifold, DominanceIsTheSameInSearchAndVerify) {
       for (int b = 0; b < 60; ++b) {
         int checked = 0, by_words = 0;
         for (int a = 0; a < 60; ++a) {
-          checked += Dominates(problem, plan, slot, {a, 1}, {b, 1});
+          checked += verify::Dominates(problem, plan, slot, {a, 1}, {b, 1});
           by_words += IsBetter(Manifolds()[a], Manifolds()[b], equal_flow);
         }
         ASSERT_EQ(checked, by_words) << seed << " " << b;
@@ -210,8 +212,7 @@ TEST(Manifold, CornersOfBoxesAreTheBestOfTheirChoices) {
       EXPECT_EQ(corner.threads, best.threads);
       EXPECT_EQ(corner.flow, best.flow);
       EXPECT_EQ(corner.pressure_max_pa, std::min(best.pressure_max_pa, useful_pa));
-      const optimizer::BestNumbers checked(problem, plan,
-                                           {{tree.nodes[n].first, tree.nodes[n].last}}, 0);
+      const BestNumbers checked(problem, plan, {{tree.nodes[n].first, tree.nodes[n].last}}, 0);
       EXPECT_EQ(checked.Flow("sonic_conductance_dm3_per_s_bar"), best.flow);
       EXPECT_EQ(checked.Number("pressure_max_kpa_gauge"), best.pressure_max_pa);
     }
@@ -222,10 +223,10 @@ TEST(Manifold, CornersOfBoxesAreTheBestOfTheirChoices) {
 
 // A plan of the mains with every choice, and the manifolds as a search would list them.
 ProofPlan PlanWith(const Problem& problem, const optimizer::Skyband& skyband) {
-  ProofPlan plan = EmptyPlan(problem, Configuration::kMains);
+  ProofPlan plan = verify::EmptyPlan(problem, Configuration::kMains);
   plan.tie = 1e-9;
   for (ProofSlot& slot : plan.slots) {
-    slot.choices = EntriesOf(problem, slot);
+    slot.choices = verify::EntriesOf(problem, slot);
     if (slot.family != kManifold) continue;
     slot.choices.clear();
     for (const int i : skyband.kept) slot.choices.push_back({i, 1});
@@ -237,9 +238,9 @@ ProofPlan PlanWith(const Problem& problem, const optimizer::Skyband& skyband) {
 std::vector<std::string> ChecksOf(const Problem& problem, const ProofPlan& plan) {
   optimizer::Pruned counts;
   Findings findings;
-  CheckSlots(problem, plan, counts, findings);
+  verify::CheckSlots(problem, plan, counts, findings);
   std::vector<std::string> checks;
-  for (const optimizer::Finding& finding : findings) checks.push_back(finding.check);
+  for (const verify::Finding& finding : findings) checks.push_back(finding.check);
   return checks;
 }
 
@@ -265,9 +266,9 @@ TEST(Manifold, VerifyChecksItsSlot) {
   changed.slots.pop_back();
   EXPECT_EQ(ChecksOf(problem, changed), std::vector<std::string>{"choices"});
 
-  const optimizer::BigCount with = optimizer::Combinations(problem, Configuration::kMains);
+  const optimizer::BigCount with = verify::Combinations(problem, Configuration::kMains);
   Manifolds().resize(10);
-  EXPECT_EQ(optimizer::Combinations(problem, Configuration::kMains) * 3, with);
+  EXPECT_EQ(verify::Combinations(problem, Configuration::kMains) * 3, with);
 }
 
 TEST(Manifold, GoesThroughTheRecord) {

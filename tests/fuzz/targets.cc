@@ -1,26 +1,19 @@
-#include "targets.h"
+#include "tests/fuzz/targets.h"
 
-#include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "api/measurement.h"
-#include "api/part_query.h"
-#include "api/services.h"
-#include "catalog/csv.h"
-#include "catalog/fields.h"
-#include "server/request_frame.h"
+#include "api/catalogue/part_query.h"
+#include "api/catalogue/stores.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
+#include "api/measure/measurement.h"
+#include "catalog/fields/csv.h"
+#include "catalog/fields/fields.h"
+#include "server/wire/request_frame.h"
 
 namespace plenum::fuzz {
-namespace {
-
-// What must hold in a fuzzer, where no test library listens.
-void Require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
 
 void Requirements(std::string_view text) {
   const auto json = api::ParseJson(text);

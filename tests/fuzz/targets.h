@@ -2,9 +2,15 @@
 #ifndef PLENUM_TESTS_FUZZ_TARGETS_H_
 #define PLENUM_TESTS_FUZZ_TARGETS_H_
 
+#include <cstdlib>
 #include <string_view>
 
 namespace plenum::fuzz {
+
+// What must hold in a fuzzer, where no test library listens.
+inline void Require(bool holds) {
+  if (!holds) std::abort();
+}
 
 void Requirements(std::string_view text);
 void Measurement(std::string_view text);

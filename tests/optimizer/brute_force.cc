@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/storage.h"
-#include "tests/optimizer/scan_sizing.h"
+#include "model/physics/storage.h"
+#include "tests/optimizer/sizing/scan_sizing.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "optimizer/custom_sizing.h"
+#include "optimizer/sizing/custom_sizing.h"
 
 namespace plenum::test {
 

@@ -10,8 +10,9 @@
 #include <filesystem>
 #include <thread>
 
-#include "api/services.h"
-#include "workbench.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 namespace {

@@ -4,9 +4,10 @@
 
 #include <filesystem>
 
-#include "../fuzz/targets.h"
+#include "tests/fuzz/computations.h"
+#include "tests/fuzz/targets.h"
+#include "tests/server/workbench.h"
 #include "tests/support/places.h"
-#include "workbench.h"
 
 namespace plenum::fuzz {
 namespace {
@@ -26,6 +27,12 @@ TEST(Fuzz, Measurement) { Replay("measurement", Measurement); }
 TEST(Fuzz, Csv) { Replay("csv", Csv); }
 TEST(Fuzz, Query) { Replay("query", Query); }
 TEST(Fuzz, Frame) { Replay("frame", Frame); }
+TEST(Fuzz, Design) { Replay("design", Design); }
+TEST(Fuzz, Evaluation) { Replay("evaluation", Evaluation); }
+TEST(Fuzz, Simulation) { Replay("simulation", Simulation); }
+TEST(Fuzz, Diagnosis) { Replay("diagnosis", Diagnosis); }
+TEST(Fuzz, Import) { Replay("import", Import); }
+TEST(Fuzz, Verify) { Replay("verify", Verify); }
 
 }  // namespace
 }  // namespace plenum::fuzz

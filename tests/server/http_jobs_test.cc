@@ -1,9 +1,9 @@
 // Designs and models over HTTP.
 #include <thread>
 
-#include "catalog/store.h"
-#include "http_client.h"
+#include "catalog/store/store.h"
 #include "server/http.h"
+#include "tests/server/http_client.h"
 
 namespace plenum::server {
 namespace {

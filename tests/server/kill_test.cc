@@ -17,8 +17,9 @@
 #include <random>
 #include <thread>
 
-#include "api/services.h"
-#include "workbench.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 namespace {

@@ -8,8 +8,10 @@
 #include <optional>
 #include <thread>
 
-#include "api/services.h"
-#include "workbench.h"
+#include "api/catalogue/part_document.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 namespace {
@@ -185,6 +187,36 @@ TEST_P(Restart, AJobWhosePartsAreGoneSaysSo) {
 
 INSTANTIATE_TEST_SUITE_P(, Restart, testing::Values(SIGTERM, SIGKILL), [](const auto& signal) {
   return signal.param == SIGTERM ? "Stopped" : "Killed";
+});
+
+class Deaths : public Restart {};
+
+// A signal from outside comes to a thread of no job: no job is to blame, none fails.
+TEST_P(Deaths, TheServiceStartsEachTimeAndTheJobsEnd) {
+  Start();
+  const std::vector<std::string> jobs = {Post(SlowToProve(3.0), "a"), Post(SlowToProve(3.0), "b"),
+                                         Post(Exosuit(60.0), "c")};
+  const int deaths = GetParam() == SIGSEGV ? 5 : 20;
+  for (int death = 0; death < deaths; ++death) {
+    const auto running = [&](const std::string& job) {
+      return Body(client_->Get(job))["status"] == "running";
+    };
+    while (!running(jobs[0]) && !running(jobs[1])) Rest();
+    client_.reset();
+    EXPECT_EQ(serve_->End(GetParam()), -GetParam());
+    serve_.reset();
+    Start();
+  }
+  for (const std::string& job : jobs) {
+    const Json ended = WhenEnded(job);
+    EXPECT_EQ(ended["status"], "done");
+    EXPECT_EQ(ended["crashes"], 0);
+  }
+  EXPECT_GT(Body(client_->Get(jobs[0]))["attempts"], 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(, Deaths, testing::Values(SIGSEGV, SIGKILL), [](const auto& signal) {
+  return signal.param == SIGSEGV ? "Crashed" : "Killed";
 });
 
 TEST(Serve, RefusesASecondServiceOfTheSameCatalogue) {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "api/json.h"
+#include "api/json/json.h"
 
 namespace plenum::server {
 

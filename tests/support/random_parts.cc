@@ -1,11 +1,11 @@
 #include "tests/support/random_parts.h"
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
-#include "model/storage.h"
-#include "optimizer/problem.h"
+#include "optimizer/problem/problem.h"
 
 namespace plenum::test {
 namespace {
@@ -114,13 +114,20 @@ model::Cylinder RandomCylinder(Random& random, int index) {
   return cylinder;
 }
 
+// What the wall of a bottle can evaporate, m³/s ANR: catalog/data/README.md, CO2 sustained flow.
+double SustainedFlow(double body_volume_m3) {
+  const double diameter_m = std::cbrt(body_volume_m3 / (0.75 * std::numbers::pi));
+  const double wall_m2 = 3.5 * std::numbers::pi * diameter_m * diameter_m;
+  return 10.0 * wall_m2 * 20.0 / 274e3;
+}
+
 model::Co2Bottle RandomCo2(Random& random, int index) {
   model::Co2Bottle bottle;
   bottle.co2_mass_kg = LogUniform(random, 0.016, 0.6);
   if (Chance(random, 0.7)) bottle.water_volume_m3 = bottle.co2_mass_kg / 700.0;
   bottle.basics = Basics(random, "co2", index, bottle.co2_mass_kg * Uniform(random, 0.8, 2.5));
   bottle.flow_sustained_m3_per_s =
-      model::Co2SustainedFlow(bottle.co2_mass_kg / 600.0) * LogUniform(random, 1.0, 10.0);
+      SustainedFlow(bottle.co2_mass_kg / 600.0) * LogUniform(random, 1.0, 10.0);
   return bottle;
 }
 

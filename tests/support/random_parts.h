@@ -6,7 +6,7 @@
 #include <array>
 #include <random>
 
-#include "model/parts.h"
+#include "model/flow/parts.h"
 
 namespace plenum::test {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "calibration/phases.h"
-#include "calibration/residual.h"
-#include "model/simulate.h"
+#include "calibration/judge/residual.h"
+#include "calibration/noise/phases.h"
+#include "model/simulate/simulate.h"
 
 namespace plenum::test {
 namespace {

@@ -3,8 +3,8 @@
 #ifndef PLENUM_TESTS_SUPPORT_SAMPLE_DIAGNOSIS_H_
 #define PLENUM_TESTS_SUPPORT_SAMPLE_DIAGNOSIS_H_
 
-#include "calibration/dataset.h"
-#include "calibration/diagnosis.h"
+#include "calibration/values/dataset.h"
+#include "calibration/values/diagnosis.h"
 
 namespace plenum::test {
 

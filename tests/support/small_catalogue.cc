@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/storage.h"
-#include "model/stroke.h"
-#include "model/tube.h"
+#include "model/flow/tube.h"
+#include "model/physics/storage.h"
+#include "model/strokes/stroke.h"
 
 namespace plenum::test {
 namespace {

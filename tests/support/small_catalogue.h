@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/candidate.h"
-#include "optimizer/problem.h"
+#include "optimizer/evaluate/candidate.h"
+#include "optimizer/problem/problem.h"
 #include "tests/support/random_parts.h"
 
 namespace plenum::test {

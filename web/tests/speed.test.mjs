@@ -108,7 +108,7 @@ test('what if answers within 100 ms', async (t) => {
   const id = await rank(service, example('exosuit'));
   const { page, close } = await openPage(browser, service.base, `#/designs/${id}/1`);
   await page.getByRole('rowheader', { name: 'actuations' }).last().waitFor();
-  const slider = page.getByRole('slider', { name: 'Reservoir' });
+  const slider = page.getByRole('slider', { name: 'Source pressure' });
   await slider.focus();
   const times = [];
   for (let i = 0; i < 12; ++i) {

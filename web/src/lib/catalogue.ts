@@ -55,4 +55,9 @@ export const provenanceWord = {
   third_party: 'third party',
   derived: 'derived',
   estimated: 'estimated',
+  measured: 'measured',
 } as const;
+
+// "± 5 %" of a number that says how uncertain it is.
+export const uncertaintyText = (share: number | undefined): string =>
+  share === undefined ? '' : `± ${Number((100 * share).toPrecision(3))} %`;

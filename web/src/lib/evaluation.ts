@@ -13,7 +13,7 @@ export interface Evaluation {
 // What may be tried on a design; 1 or the design's own value changes nothing.
 export interface Change {
   source_kpa: number;
-  reservoir_ml: number | null;
+  reservoir_ml: number | null; // null: as designed, none or one that is bought
   tube: number; // factors
   rest_volume: number;
   expansion: number;
@@ -22,9 +22,12 @@ export interface Change {
   actuations: number;
 }
 
+const isMade = (design: Design): boolean =>
+  design.parts.some(({ family, id }) => family === 'reservoir' && id === 'custom');
+
 export const asDesigned = (design: Design): Change => ({
   source_kpa: design.settings.source_pressure_kpa_gauge,
-  reservoir_ml: design.settings.reservoir_volume_ml,
+  reservoir_ml: isMade(design) ? design.settings.reservoir_volume_ml : null,
   tube: 1,
   rest_volume: 1,
   expansion: 1,
@@ -65,6 +68,12 @@ export function changed(requirements: Requirements, change: Change): Requirement
   };
 }
 
+// Metres of tube that a group needs.
+const tubeOf = (requirements: Requirements, name: string | null): number => {
+  const group = requirements.actuators.find((g, i) => (g.name ?? `group ${i + 1}`) === name)!;
+  return (group.count ?? 1) * group.tube_length_m;
+};
+
 export const evaluate = (
   design: Design,
   requirements: Requirements,
@@ -79,7 +88,7 @@ export const evaluate = (
         family,
         id,
         ...(group !== null && { group }),
-        quantity,
+        quantity: family === 'tubing' ? tubeOf(changed(requirements, change), group) : quantity,
       })),
       settings: {
         source_pressure_kpa_gauge: change.source_kpa,

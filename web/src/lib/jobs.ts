@@ -76,6 +76,13 @@ export async function cancel(self: string): Promise<void> {
   await ask('DELETE', self);
 }
 
+// Does a job again that failed or was cancelled, and follows it.
+export async function again(self: string): Promise<void> {
+  await ask('POST', `${self}/again`);
+  put(self, { job: null, trace: [], problem: null });
+  void follow(self);
+}
+
 export const jobList = signal<Job[] | null>(null);
 
 export async function refreshJobs(): Promise<void> {

@@ -46,7 +46,7 @@ function sourceOf(design: Design, requirements: Requirements, parts: Parts, chan
         free_air_l_per_min,
       })),
       count: pump.quantity,
-      reservoir_volume_ml: change.reservoir_ml,
+      reservoir_volume_ml: change.reservoir_ml ?? design.settings.reservoir_volume_ml,
       initial_pressure_kpa_gauge: change.source_kpa,
       stop_pressure_kpa_gauge: change.source_kpa,
     };

@@ -201,6 +201,9 @@ export interface Job<Result = Answer, Report = Progress> {
   name: string;
   status: JobStatus;
   submitted_at: string;
+  attempts: number;
+  crashes: number; // times that its computation ended the service
+  last_crash: string | null;
   progress: Report | null;
   result?: Result | null;
   detail?: string;
@@ -214,8 +217,23 @@ export interface CurvePoint {
 }
 
 export interface Provenance {
-  kind: 'datasheet' | 'third_party' | 'derived' | 'estimated';
+  kind: 'datasheet' | 'third_party' | 'derived' | 'estimated' | 'measured';
   source: string;
+  uncertainty?: number; // relative, one standard deviation
+}
+
+export interface Offer {
+  supplier: string;
+  price: number; // of a pack, net of tax
+  currency: string;
+  pack: number;
+  date: string;
+  link: string;
+}
+
+export interface Document {
+  link: string;
+  sha256: string;
 }
 
 export interface Part {
@@ -225,6 +243,11 @@ export interface Part {
   part_number: string;
   origin: string;
   notes: string;
+  series: string;
+  orderable: boolean | null; // null: not known
+  aliases: string[];
+  offers: Offer[];
+  documents: Document[];
   curve?: CurvePoint[];
   provenance: Record<string, Provenance>;
   [field: string]: unknown;

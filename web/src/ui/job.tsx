@@ -1,7 +1,8 @@
 // What panels of jobs under way share.
 import { useSignal } from '@preact/signals';
 
-import { cancel } from '../lib/jobs';
+import { asProblem } from '../lib/api';
+import { again, cancel } from '../lib/jobs';
 
 export function CancelButton({ self }: { self: string }) {
   const stopping = useSignal(false);
@@ -13,6 +14,31 @@ export function CancelButton({ self }: { self: string }) {
     <button type="button" disabled={stopping.value} onClick={stop}>
       {stopping.value ? 'Stopping…' : 'Cancel'}
     </button>
+  );
+}
+
+// Of a job that failed or was cancelled.
+export function AgainButton({ self, name }: { self: string; name: string }) {
+  const problem = useSignal('');
+  const isAsked = useSignal(false);
+  const ask = () => {
+    isAsked.value = true;
+    problem.value = '';
+    again(self)
+      .catch((error) => (problem.value = asProblem(error).message))
+      .finally(() => (isAsked.value = false));
+  };
+  return (
+    <>
+      <button type="button" disabled={isAsked.value} aria-label={`Again: ${name}`} onClick={ask}>
+        Again
+      </button>
+      {problem.value && (
+        <p class="error" role="alert">
+          {problem.value}
+        </p>
+      )}
+    </>
   );
 }
 

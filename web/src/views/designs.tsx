@@ -10,6 +10,7 @@ import type { Answer } from '../lib/types';
 import { proofInWords, statusWord } from '../lib/words';
 import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';
+import { AgainButton } from '../ui/job';
 import { extra, heard, number, Table } from '../ui/table';
 import { ComparePanel } from './compare';
 import { DesignPage } from './design';
@@ -76,6 +77,7 @@ export function DesignsView() {
         <Notice kind={now.job.status === 'failed' ? 'bad' : 'warn'}>
           {now.job.detail ?? 'The search was cancelled before it began.'}
         </Notice>
+        <AgainButton self={pathOf(id)} name={now.job.name || 'unnamed'} />
       </Panel>
     );
   }

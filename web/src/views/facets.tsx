@@ -57,7 +57,7 @@ export function passes(part: Part, chosen: Filters, but = ''): boolean {
 
 export function Facets({ meta, list }: { meta: Family; list: Part[] }) {
   const chosen = filters.value;
-  const texts = ['manufacturer', ...meta.texts.map((t) => t.name), 'origin'];
+  const texts = ['manufacturer', 'series', ...meta.texts.map((t) => t.name), 'orderable', 'origin'];
   const numbers = meta.numbers.filter((field) =>
     list.some((part) => numberOf(part, field.name) !== null),
   );

@@ -53,7 +53,8 @@ function changes(before: Part, after: Part): string {
   const different = names.filter(
     (name) => JSON.stringify(before[name]) !== JSON.stringify(after[name]),
   );
-  const text = (value: unknown) => (typeof value === 'object' ? '…' : String(value ?? '–'));
+  const text = (value: unknown) =>
+    value !== null && typeof value === 'object' ? '…' : String(value ?? '–');
   return (
     different
       .map((name) => `${fieldName(name).label} ${text(before[name])} → ${text(after[name])}`)

@@ -1,6 +1,6 @@
 // Searches and diagnoses that the service knows, the newest first.
 import { useSignal } from '@preact/signals';
-import type { ComponentChildren } from 'preact';
+import { type ComponentChildren, Fragment } from 'preact';
 import { useEffect } from 'preact/hooks';
 
 import { objectiveUnit } from '../lib/amounts';
@@ -11,7 +11,8 @@ import { link } from '../lib/route';
 import type { Job } from '../lib/types';
 import { statusWord, type Word, verdictWord } from '../lib/words';
 import { Chip, Notice, Panel } from '../ui/controls';
-import { extra, number, Table } from '../ui/table';
+import { AgainButton } from '../ui/job';
+import { extra, heard, number, Table } from '../ui/table';
 
 const periodMs = 2000;
 
@@ -75,6 +76,15 @@ const statusWords: Record<string, Word> = {
   failed: { text: 'failed', kind: 'bad' },
 };
 
+const times = (count: number): string => (count === 1 ? 'once' : `${count} times`);
+
+// What a reader should know of a job beside its outcome.
+function remarkOn(job: Job<unknown, unknown>): string {
+  if (job.detail) return `${job.detail} (attempts: ${job.attempts})`;
+  if (job.crashes === 0 || ended(job.status)) return '';
+  return `Its computation ended the service ${times(job.crashes)}, by ${job.last_crash}; it runs alone.`;
+}
+
 function Jobs<Report extends { seconds: number; outcome?: string }>(props: {
   label: string;
   jobs: Job<unknown, Report>[] | null;
@@ -96,26 +106,42 @@ function Jobs<Report extends { seconds: number; outcome?: string }>(props: {
         number('took'),
         'started',
         extra({ text: 'id' }),
+        heard('do it again'),
       ]}
     >
       {props.jobs.map((job) => {
         const outcome = ended(job.status) ? job.progress?.outcome : undefined;
         const word = (outcome && props.words[outcome]) || statusWords[job.status]!;
+        const remark = remarkOn(job);
         return (
-          <tr key={job.id}>
-            <th scope="row">
-              <a href={props.href(job.id)}>{job.name || 'unnamed'}</a>
-            </th>
-            <td>
-              <Chip kind={word.kind}>{word.text}</Chip>
-            </td>
-            {props.children && <td class="num">{props.children(job)}</td>}
-            <td class="num">{job.progress ? duration(job.progress.seconds) : '–'}</td>
-            <td class="nowrap">{moment(job.submitted_at)}</td>
-            <td class="extra">
-              <code>{job.id}</code>
-            </td>
-          </tr>
+          <Fragment key={job.id}>
+            <tr>
+              <th scope="row">
+                <a href={props.href(job.id)}>{job.name || 'unnamed'}</a>
+              </th>
+              <td>
+                <Chip kind={word.kind}>{word.text}</Chip>
+              </td>
+              {props.children && <td class="num">{props.children(job)}</td>}
+              <td class="num">{job.progress ? duration(job.progress.seconds) : '–'}</td>
+              <td class="nowrap">{moment(job.submitted_at)}</td>
+              <td class="extra">
+                <code>{job.id}</code>
+              </td>
+              <td>
+                {(job.status === 'failed' || job.status === 'cancelled') && (
+                  <AgainButton self={job.links.self} name={job.name || 'unnamed'} />
+                )}
+              </td>
+            </tr>
+            {remark && (
+              <tr>
+                <td class="muted" colSpan={props.found ? 7 : 6}>
+                  {remark}
+                </td>
+              </tr>
+            )}
+          </Fragment>
         );
       })}
     </Table>

@@ -23,7 +23,7 @@ import { pressuresShown, unitOf } from '../lib/units';
 import { Lines } from '../plots/lines';
 import { Notice, Panel } from '../ui/controls';
 import { ErrorList, FilePicker } from '../ui/files';
-import { Bar, CancelButton } from '../ui/job';
+import { AgainButton, Bar, CancelButton } from '../ui/job';
 import { DiagnosisView } from './diagnosis';
 import { RigForm } from './rig_form';
 import { PhaseKey, pickRun, RunPicker } from './runs';
@@ -161,9 +161,12 @@ export function MeasuredView() {
       {now?.problem && <Notice kind="bad">{now.problem.message}</Notice>}
       {now?.job && isRunning && <Running job={now.job} />}
       {now?.job && !isRunning && !result && (
-        <Notice kind={now.job.status === 'failed' ? 'bad' : 'warn'}>
-          {now.job.detail ?? `The diagnosis was ${now.job.status}.`}
-        </Notice>
+        <>
+          <Notice kind={now.job.status === 'failed' ? 'bad' : 'warn'}>
+            {now.job.detail ?? `The diagnosis was ${now.job.status}.`}
+          </Notice>
+          <AgainButton self={diagnosisPath(job!)} name={now.job.name || 'unnamed'} />
+        </>
       )}
       {result && <DiagnosisView diagnosis={result} id={job!} data={data} />}
     </div>

@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
 import { ask, asProblem } from '../lib/api';
-import { loadPart, numberOf, partPath, provenanceWord } from '../lib/catalogue';
+import { loadPart, numberOf, partPath, provenanceWord, uncertaintyText } from '../lib/catalogue';
 import { fieldKind, fieldName, short } from '../lib/format';
 import { edit, requirements } from '../lib/requirements';
 import type { Family, Part } from '../lib/types';
@@ -12,6 +12,7 @@ import { Lines } from '../plots/lines';
 import { Chip, Dialog, Notice } from '../ui/controls';
 import { number, Table } from '../ui/table';
 import { PartHistory } from './history';
+import { Address, OrderableChip, PartDetails } from './part_details';
 import { PartForm } from './part_form';
 
 export function PartDialog(props: {
@@ -68,6 +69,7 @@ export function PartDialog(props: {
             <Chip kind={now.part.origin === 'seed' ? '' : 'good'}>
               {now.part.origin === 'seed' ? 'supplied' : 'own'}
             </Chip>
+            <OrderableChip part={now.part} />
             <code>{id}</code>
             <span class="toolbar-group">
               <Wish part={now.part} />
@@ -83,6 +85,7 @@ export function PartDialog(props: {
             </span>
           </div>
           {now.part.notes && <p class="notes">{now.part.notes}</p>}
+          <PartDetails part={now.part} />
           <FieldTable part={now.part} meta={meta} />
           {now.part.curve && <Curve part={now.part} />}
           <PartHistory id={id} />
@@ -153,9 +156,10 @@ function FieldTable({ part, meta }: { part: Part; meta: Family }) {
             <td>
               <span class={`from ${from?.kind ?? ''}`}>
                 {from ? provenanceWord[from.kind] : '–'}
-              </span>
+              </span>{' '}
+              <small>{uncertaintyText(from?.uncertainty)}</small>
             </td>
-            <td class="source">{from?.source ?? '–'}</td>
+            <td class="source">{from ? <Address text={from.source} /> : '–'}</td>
           </tr>
         );
       })}
@@ -168,7 +172,7 @@ function Curve({ part }: { part: Part }) {
   const from = part.provenance.free_air;
   return (
     <Lines
-      title={`Delivery${from ? `, ${provenanceWord[from.kind]}` : ''}`}
+      title={`Delivery${from ? `, ${provenanceWord[from.kind]} ${uncertaintyText(from.uncertainty)}`.trimEnd() : ''}`}
       x={curve.map((p) => toShown('pressure', p.pressure_kpa_gauge))}
       xUnit={unitOf('pressure')}
       xLabel={`outlet pressure, ${unitOf('pressure')}`}

@@ -7,8 +7,12 @@ import { partPath, provenanceWord } from '../lib/catalogue';
 import { fieldKind, fieldName } from '../lib/format';
 import type { CurvePoint, Family, Part, Provenance } from '../lib/types';
 import { Dialog, Notice, NumberField, Select, TextField } from '../ui/controls';
+import { documentsText, offersText, readAliases, readDocuments, readOffers } from './part_details';
 
 type Draft = Record<string, unknown>;
+
+// Fields of several lines: what is wrong with them is said above the form.
+const inLines = ['/curve', '/aliases', '/offers', '/documents', '/orderable'];
 
 const curveText = (curve: CurvePoint[] | undefined): string =>
   (curve ?? [])
@@ -49,8 +53,12 @@ export function PartForm(props: {
       : { family: meta.name },
   );
   const curve = useSignal(curveText(part?.curve));
+  const aliases = useSignal((part?.aliases ?? []).join('\n'));
+  const offers = useSignal(offersText(part?.offers));
+  const documents = useSignal(documentsText(part?.documents));
   const kind = useSignal<Provenance['kind']>('datasheet');
   const source = useSignal('');
+  const uncertainty = useSignal<number | null>(null);
   const errors = useSignal<FieldError[]>([]);
   const problem = useSignal('');
   const busy = useSignal(false);
@@ -63,7 +71,7 @@ export function PartForm(props: {
       ? undefined
       : errors.value.find((e) => e.pointer === `/${name}`)?.detail;
   const elsewhere = errors.value.filter(
-    (e) => !/^\/[a-z_0-9]+$/.test(e.pointer) || e.pointer === '/curve',
+    (e) => !/^\/[a-z_0-9]+$/.test(e.pointer) || inLines.includes(e.pointer),
   );
 
   // Changed numbers get the source named here, the others keep theirs.
@@ -80,22 +88,29 @@ export function PartForm(props: {
       .map((f) => f.name)
       .filter((f) => now[f] !== undefined);
     const mine: Provenance = { kind: kind.value, source: source.value.trim() || 'user' };
+    const share = uncertainty.value === null ? undefined : uncertainty.value / 100;
+    const measured: Provenance = { ...mine, ...(share !== undefined && { uncertainty: share }) };
     for (const field of fields)
       provenance[field] =
         part && now[field] === part[field] && part.provenance[field]
           ? part.provenance[field]!
-          : mine;
+          : typeof now[field] === 'number'
+            ? measured
+            : mine;
     if (points && points.length > 0) {
       const same = curveText(part?.curve) === curve.value && part;
-      provenance.free_air = (same && part.provenance.free_air) || mine;
+      provenance.free_air = (same && part.provenance.free_air) || measured;
       if (points.some((p) => p.current_a !== undefined))
-        provenance.current = (same && part.provenance.current) || mine;
+        provenance.current = (same && part.provenance.current) || measured;
     }
     const { origin: _, ...rest } = now;
     return {
       ...rest,
       family: meta.name,
       ...(points && points.length > 0 && { curve: points }),
+      aliases: readAliases(aliases.value),
+      offers: readOffers(offers.value),
+      documents: readDocuments(documents.value),
       provenance,
     };
   };
@@ -137,6 +152,17 @@ export function PartForm(props: {
       onChange={(v) => set(name, v)}
     />
   );
+  const lines = (label: string, state: { value: string }, rows: number, hint?: string) => (
+    <label class="curve">
+      {label}
+      <textarea
+        rows={rows}
+        value={state.value}
+        placeholder={hint}
+        onInput={(e) => (state.value = e.currentTarget.value)}
+      />
+    </label>
+  );
   const usual = (field: string) =>
     [
       ...new Set(
@@ -165,6 +191,7 @@ export function PartForm(props: {
         <div class="fields">
           {text('manufacturer', 'Maker', usual('manufacturer'))}
           {text('part_number', 'Part number')}
+          {text('series', 'Series (optional)', usual('series'), 'what variants of one part share')}
           {!etag && text('id', 'Id', undefined, 'made from maker and number if empty')}
           {meta.texts.map((field) =>
             text(
@@ -191,16 +218,16 @@ export function PartForm(props: {
             );
           })}
         </div>
-        {meta.has_curve && (
-          <label class="curve">
-            Curve: kPa gauge, free air L/min, current A; one point a line
-            <textarea
-              rows={6}
-              value={curve.value}
-              onInput={(e) => (curve.value = e.currentTarget.value)}
-            />
-          </label>
+        {meta.has_curve &&
+          lines('Curve: kPa gauge, free air L/min, current A; one point a line', curve, 6)}
+        {lines(
+          'Offers, net of tax: supplier | price | currency | pieces in the pack | date | link; one a line. The newest makes the price.',
+          offers,
+          2,
+          'Shop | 12.50 | EUR | 1 | 2024-05-31 | https://example.org/part',
         )}
+        {lines('Documents: link; one a line', documents, 2, 'https://example.org/part.pdf')}
+        {lines('Other names and numbers; one a line', aliases, 2)}
         <div class="fields">
           <Select
             label={part ? 'Changed numbers are from' : 'These numbers are from'}
@@ -216,6 +243,24 @@ export function PartForm(props: {
             value={source.value}
             onChange={(v) => (source.value = v)}
             hint="page, file or measurement"
+          />
+          <NumberField
+            label="Uncertainty of these numbers (optional)"
+            unit="%"
+            value={uncertainty.value}
+            range={[1e-4, 100]}
+            hint="one standard deviation"
+            onChange={(v) => (uncertainty.value = v)}
+          />
+          <Select
+            label="Can be ordered"
+            value={now.orderable === true ? 'yes' : now.orderable === false ? 'no' : ''}
+            onChange={(v) => set('orderable', v === '' ? null : v === 'yes')}
+            options={[
+              { value: '', label: 'not known' },
+              { value: 'yes', label: 'yes' },
+              { value: 'no', label: 'no, a class of parts' },
+            ]}
           />
           {text('notes', 'Notes')}
         </div>

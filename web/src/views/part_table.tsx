@@ -1,5 +1,5 @@
 // Parts of one family with the source on every number.
-import { numberOf, provenanceWord } from '../lib/catalogue';
+import { numberOf, provenanceWord, uncertaintyText } from '../lib/catalogue';
 import { columnName, fieldKind, short } from '../lib/format';
 import { link, route, setQuery } from '../lib/route';
 import type { Family, Part } from '../lib/types';
@@ -89,7 +89,11 @@ function NumberCell({ part, field }: { part: Part; field: string }) {
     <td class="num">
       <span
         class={`from ${from?.kind ?? ''}`}
-        data-tip={from ? `${provenanceWord[from.kind]}: ${from.source}` : undefined}
+        data-tip={
+          from
+            ? `${provenanceWord[from.kind]}: ${from.source} ${uncertaintyText(from.uncertainty)}`.trim()
+            : undefined
+        }
       >
         {from?.kind === 'estimated' && '~ '}
         {short(toShown(fieldKind(field), value), 4)}

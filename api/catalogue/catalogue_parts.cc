@@ -1,0 +1,203 @@
+#include "api/catalogue/catalogue_parts.h"
+
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "api/json/units.h"
+#include "optimizer/problem/family_specs.h"
+
+namespace plenum::api {
+namespace {
+
+double Required(const catalog::Part& row, const char* field) { return row.numbers.at(field).value; }
+
+std::optional<double> Optional(const catalog::Part& row, const char* field) {
+  const auto found = row.numbers.find(field);
+  if (found == row.numbers.end()) return std::nullopt;
+  return found->second.value;
+}
+
+double Pressure(const catalog::Part& row, const char* field, const model::Ambient& ambient) {
+  return PaFromKpaGauge(Required(row, field), ambient);
+}
+
+model::PartBasics Basics(const catalog::Part& row) {
+  return {row.id, Required(row, "mass_kg"), M3FromMl(Required(row, "body_volume_ml")),
+          Optional(row, "price_eur")};
+}
+
+model::Tubing Tubing(const catalog::Part& row, const model::Ambient& ambient) {
+  const double outer_m = MFromMm(Required(row, "outer_diameter_mm"));
+  return {
+      .per_metre = {row.id, Required(row, "mass_kg_per_m"),
+                    std::numbers::pi / 4.0 * outer_m * outer_m, Optional(row, "price_eur_per_m")},
+      .outer_diameter_m = outer_m,
+      .inner_diameter_m = MFromMm(Required(row, "inner_diameter_mm")),
+      .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};
+}
+
+model::Fitting Fitting(const catalog::Part& row, const model::Ambient& ambient) {
+  return {.basics = Basics(row),
+          .tube_outer_diameter_m = MFromMm(Required(row, "tube_outer_diameter_mm")),
+          .thread = row.texts.at("thread").value,
+          .flow = ElementOf(row, "sonic_conductance_dm3_per_s_bar", "critical_ratio"),
+          .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};
+}
+
+model::Valve Valve(const catalog::Part& row, const model::Ambient& ambient) {
+  return {.basics = Basics(row),
+          .kind = ValveKindFromFunction(row.texts.at("function").value),
+          .channels = static_cast<int>(Required(row, "channels")),
+          .port = row.texts.at("port").value,
+          .fill = ElementOf(row, "sonic_conductance_fill_dm3_per_s_bar", "critical_ratio_fill"),
+          .exhaust =
+              ElementOf(row, "sonic_conductance_exhaust_dm3_per_s_bar", "critical_ratio_exhaust"),
+          .coil_power_w = Required(row, "coil_power_w"),
+          .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient),
+          .pressure_min_pa =
+              PaFromKpaGauge(Optional(row, "pressure_min_kpa_gauge").value_or(0.0), ambient)};
+}
+
+model::Compressor Compressor(const catalog::Part& row, const model::Ambient& ambient) {
+  std::vector<double> pressure_pa, flow_m3_per_s, current_a;
+  for (const catalog::CurvePoint& point : row.curve.value().points) {
+    pressure_pa.push_back(PaFromKpaGauge(point.pressure_kpa_gauge, ambient));
+    flow_m3_per_s.push_back(M3PerSFromLPerMin(point.free_air_l_per_min));
+    current_a.push_back(point.current_a);
+  }
+  return {.basics = Basics(row),
+          .curve = {.free_air_m3_per_s = {pressure_pa, flow_m3_per_s},
+                    .current_a = {pressure_pa, current_a},
+                    .voltage_v = Required(row, "voltage_v"),
+                    .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)},
+          .duty_max = Required(row, "duty_max")};
+}
+
+model::Battery Battery(const catalog::Part& row) {
+  return {.basics = Basics(row),
+          .nominal_voltage_v = Required(row, "nominal_voltage_v"),
+          .capacity_ah = Required(row, "capacity_ah"),
+          .current_max_a = Required(row, "current_max_a")};
+}
+
+model::Cylinder Cylinder(const catalog::Part& row, const model::Ambient& ambient) {
+  return {.basics = Basics(row),
+          .water_volume_m3 = M3FromL(Required(row, "water_volume_l")),
+          .fill_pressure_pa = Pressure(row, "fill_pressure_kpa_gauge", ambient)};
+}
+
+model::Co2Bottle Co2Bottle(const catalog::Part& row) {
+  return {
+      .basics = Basics(row),
+      .co2_mass_kg = Required(row, "co2_mass_kg"),
+      .water_volume_m3 = M3FromL(Optional(row, "water_volume_l").value_or(0.0)),
+      .flow_sustained_m3_per_s = M3PerSFromLPerMin(Required(row, "flow_sustained_l_per_min_anr"))};
+}
+
+model::Regulator Regulator(const catalog::Part& row, const model::Ambient& ambient) {
+  const auto flow_max = Optional(row, "flow_max_l_per_min_anr");
+  return {.basics = Basics(row),
+          .flow = ElementOf(row, "sonic_conductance_dm3_per_s_bar", "critical_ratio"),
+          .flow_max_m3_per_s =
+              flow_max ? M3PerSFromLPerMin(*flow_max) : std::numeric_limits<double>::infinity(),
+          .inlet_pressure_min_pa = Pressure(row, "inlet_pressure_min_kpa_gauge", ambient),
+          .inlet_pressure_max_pa = Pressure(row, "inlet_pressure_max_kpa_gauge", ambient),
+          .outlet_pressure_min_pa = Pressure(row, "outlet_pressure_min_kpa_gauge", ambient),
+          .outlet_pressure_max_pa = Pressure(row, "outlet_pressure_max_kpa_gauge", ambient),
+          .electrical_power_w = Required(row, "electrical_power_w")};
+}
+
+model::Reservoir Reservoir(const catalog::Part& row, const model::Ambient& ambient) {
+  return {.basics = Basics(row),
+          .volume_m3 = M3FromMl(Required(row, "internal_volume_ml")),
+          .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};
+}
+
+bool IsFlow(optimizer::Use use) {
+  return use == optimizer::Use::kFlow || use == optimizer::Use::kSharedFlow;
+}
+
+// The name of b beside that of C: sonic_conductance_fill_dm3_per_s_bar, critical_ratio_fill.
+std::string RatioName(std::string_view conductance) {
+  constexpr std::string_view kBefore = "sonic_conductance", kAfter = "_dm3_per_s_bar";
+  const std::string_view of = conductance.substr(kBefore.size());
+  return "critical_ratio" + std::string(of.substr(0, of.size() - kAfter.size()));
+}
+
+// The row of a family's table that a number of the catalogue belongs to; null: none.
+const optimizer::PartField* FieldOf(std::string_view family, std::string_view number) {
+  for (const optimizer::FamilySpec& spec : optimizer::Families()) {
+    if (family != spec.name) continue;
+    for (const optimizer::PartField& field : spec.fields)
+      if (field.name == number || (IsFlow(field.use) && RatioName(field.name) == number))
+        return &field;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+model::FlowElement ElementOf(const catalog::Part& row, const char* conductance, const char* ratio) {
+  return {.sonic_conductance_m3_per_s_pa = ConductanceFromDm3PerSBar(Required(row, conductance)),
+          .critical_ratio = Required(row, ratio)};
+}
+
+model::ValveKind ValveKindFromFunction(std::string_view function) {
+  if (function == "2/2 pair") return model::ValveKind::kPair;
+  if (function == "proportional") return model::ValveKind::kProportional;
+  return model::ValveKind::kThreeWay;
+}
+
+model::Parts ToModelParts(const std::vector<catalog::Part>& rows, const model::Ambient& ambient) {
+  model::Parts parts;
+  for (const catalog::Part& row : rows) {
+    if (row.family == "tubing") parts.tubing.push_back(Tubing(row, ambient));
+    if (row.family == "fitting") parts.fittings.push_back(Fitting(row, ambient));
+    if (row.family == "valve") parts.valves.push_back(Valve(row, ambient));
+    if (row.family == "compressor") parts.compressors.push_back(Compressor(row, ambient));
+    if (row.family == "battery") parts.batteries.push_back(Battery(row));
+    if (row.family == "cylinder") parts.cylinders.push_back(Cylinder(row, ambient));
+    if (row.family == "co2") parts.co2.push_back(Co2Bottle(row));
+    if (row.family == "regulator") parts.regulators.push_back(Regulator(row, ambient));
+    if (row.family == "reservoir") parts.reservoirs.push_back(Reservoir(row, ambient));
+  }
+  return parts;
+}
+
+std::optional<std::string_view> UseInSearch(std::string_view family, std::string_view field) {
+  using optimizer::Use;
+  for (const std::string_view amount :
+       {"mass_kg", "body_volume_ml", "price_eur", "mass_kg_per_m", "price_eur_per_m"})
+    if (field == amount) return "adds up";
+  if (field == "free_air" || field == "current") return "a rule of the family";
+  const optimizer::PartField* found = FieldOf(family, field);
+  if (found == nullptr) return std::nullopt;
+  switch (found->use) {
+    case Use::kMore:
+    case Use::kFlow:
+      return "more is better";
+    case Use::kSharedFlow:
+      return "more is better, but takes air from other lines";
+    case Use::kLess:
+      return "less is better";
+    case Use::kRating:
+      return "more is better, up to what a source gives";
+    case Use::kBoth:
+      return "better for one requirement, worse for another";
+    case Use::kMate:
+      return "decides what fits";
+    case Use::kRule:
+      return "a rule of the family";
+  }
+  return std::nullopt;
+}
+
+bool IsFlowData(std::string_view family, std::string_view field) {
+  if (field == "free_air" || (family == "tubing" && field == "inner_diameter_mm")) return true;
+  const optimizer::PartField* found = FieldOf(family, field);
+  return found != nullptr && IsFlow(found->use);
+}
+
+}  // namespace plenum::api

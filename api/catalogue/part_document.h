@@ -1,0 +1,32 @@
+// Parts, revisions and what is odd about parts as JSON.
+#ifndef PLENUM_API_CATALOGUE_PART_DOCUMENT_H_
+#define PLENUM_API_CATALOGUE_PART_DOCUMENT_H_
+
+#include <vector>
+
+#include "api/json/json.h"
+#include "catalog/fields/part.h"
+#include "catalog/fields/plausibility.h"
+#include "catalog/store/revision.h"
+#include "catalog/store/store.h"
+
+namespace plenum::api {
+
+Json RenderPart(const catalog::Part& part);
+// `request` is what RenderPart gives, or a part of a user's own; what the server sets (origin) is
+// accepted and ignored.
+Parsed<catalog::Part> ParsePart(const Json& request);
+// { number, hash }: `catalogue_revision` of an answer, which names the parts it was computed from.
+Json RenderRevisionName(const catalog::Revision& revision);
+// { number, hash, at, who, what }.
+Json RenderRevision(const catalog::Revision& revision);
+// { id, before, after }, each a part or null.
+Json RenderChange(const catalog::Change& change);
+// { "outliers": [{ id, family, field, value, family_median, robust_z }],
+// "gaps": [{ family, field, blocks, parts, missing: ids }] }.
+Json RenderPlausibility(const std::vector<catalog::Outlier>& outliers,
+                        const std::vector<catalog::Gap>& gaps);
+
+}  // namespace plenum::api
+
+#endif  // PLENUM_API_CATALOGUE_PART_DOCUMENT_H_

@@ -1,0 +1,11 @@
+// The stores of the catalogue for the service and the commands, which see api/ alone.
+#ifndef PLENUM_API_CATALOGUE_STORES_H_
+#define PLENUM_API_CATALOGUE_STORES_H_
+
+#include "catalog/fields/csv.h"
+#include "catalog/store/backup.h"
+#include "catalog/store/content_hash.h"
+#include "catalog/store/job_store.h"
+#include "catalog/store/store.h"
+
+#endif  // PLENUM_API_CATALOGUE_STORES_H_

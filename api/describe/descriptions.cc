@@ -1,0 +1,351 @@
+#include "api/describe/descriptions.h"
+
+#include <utility>
+#include <vector>
+
+#include "api/catalogue/part_details.h"
+#include "api/design/read/design_reader.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
+#include "api/json/reader.h"
+#include "api/json/request_limits.h"
+#include "api/json/schema_recorder.h"
+#include "api/measure/diagnose_request.h"
+#include "api/measure/measurement.h"
+#include "api/measure/model_document.h"
+#include "api/simulate/map.h"
+#include "api/simulate/simulation.h"
+#include "catalog/fields/fields.h"
+
+namespace plenum::api {
+namespace {
+
+Json Document(const char* text) { return std::get<Json>(ParseJson(text)); }
+
+// What `read` asks of `documents`, which together lead it into each of its branches.
+template <typename Read>
+Json Heard(const std::vector<Json>& documents, Read&& read) {
+  SchemaRecorder recorder;
+  for (const Json& document : documents) read(document);
+  return recorder.Schema();
+}
+
+// Every option of requirements beyond those of the example.
+Json AllRequirements() {
+  return Document(R"({
+    "schema": "requirements/1", "name": "all",
+    "actuators": [
+      { "name": "a", "count": 1, "rest_volume_ml": 50, "operating_pressure_kpa_gauge": 100,
+        "pressure_volume": [ { "pressure_kpa_gauge": 0, "volume_ml": 50 },
+                             { "pressure_kpa_gauge": 120, "volume_ml": 90 } ],
+        "tube_length_m": 0.5, "fittings_per_line": 2, "rise_time_s_max": 1, "fall_time_s_max": 1,
+        "pressure_kpa_gauge_max": 105 } ],
+    "duty": { "frequency_hz": 0.1, "actuations": 10, "simultaneous": true },
+    "rise": { "to_fraction": 0.95 }, "fall": { "to_fraction": 0.05 },
+    "supply": { "configurations": ["mains"],
+                "mains": { "pressure_kpa_gauge": 600, "flow_l_per_min_anr_max": 200 },
+                "source_pressure_kpa_gauge_max": 600, "mass_kg_max": 10, "volume_l_max": 10,
+                "cost_eur_max": 1000 },
+    "ambient": { "pressure_kpa_abs": 100, "temperature_k": 293.15 },
+    "objective": { "minimize": { "mass_kg": 1 }, "pareto": ["mass_kg", "volume_l"] },
+    "ranking": { "count": 1, "time_limit_s": 1, "probability_min": 0, "proof": false },
+    "robust": { "draws": 1, "time_limit_s": 1, "seed": 0,
+                "tolerance": { "datasheet": 0, "third_party": 0, "derived": 0, "estimated": 0,
+                               "measured": 0 } },
+    "explain": { "prices": false, "ranks": 0, "time_limit_s": 1 },
+    "limits": { "compressors_max": 1, "batteries_max": 1, "cylinders_max": 1, "co2_max": 1,
+                "reservoirs_max": 1 },
+    "require": { "tubing": ["x"], "fitting": ["x"], "valve": ["x"], "compressor": ["x"],
+                 "battery": ["x"], "cylinder": ["x"], "co2": ["x"], "regulator": ["x"],
+                 "reservoir": ["x"] },
+    "exclude": ["x"], "model": "nominal" })");
+}
+
+// The ways to write a line, a source and a schedule that the example does not use. It runs
+// nothing: "t_end_s" is missing.
+std::vector<Json> AllSimulations() {
+  return {Document(R"({
+    "schema": "simulation/1", "gas": "air", "blocked": false,
+    "actuators": [
+      { "count": 1, "blocked": false, "close_at_operating_pressure": false, "effects": [],
+        "operating_pressure_kpa_gauge": 100,
+        "pressure_volume": [ {}, {} ], "valve": [ { "t_s": 0, "state": "hold" } ],
+        "line": { "elements": [ { "part": "x", "length_m": 1 },
+                                { "tube": { "inner_diameter_mm": 2.5, "length_m": 0.5 } },
+                                { "sonic_conductance_dm3_per_s_bar": 0.3, "critical_ratio": 0.3,
+                                  "exhaust": {} } ] } } ],
+    "initial": {}, "ambient": { "pressure_kpa_abs": 200 },
+    "source": { "kind": "compressor", "curve": [ {} ], "reservoir_volume_ml": 500 } })"),
+          Document(R"({
+    "schema": "simulation/1", "effects": [],
+    "actuators": [ { "line": { "sonic_conductance_dm3_per_s_bar": 0.3, "critical_ratio": 0.35,
+                               "exhaust": {}, "tube": {} }, "cycle": {} } ],
+    "cycle": { "frequency_hz": 1, "inflate_fraction": 0.5, "cycles": 1 }, "rise": {}, "fall": {},
+    "source": { "kind": "regulated", "source_pressure_kpa_gauge": 200, "regulator": {} } })")};
+}
+
+std::vector<Json> AllMeasurements() {
+  return {Document(R"({
+    "schema": "measurement/1", "relative_uncertainty": {}, "holdout": [],
+    "rig": { "ambient": { "pressure_kpa_abs": 200 },
+             "actuator": { "pressure_volume": [ {}, {} ] },
+             "line": { "sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3,
+                       "exhaust": {}, "tube": {} },
+             "supply": { "kind": "compressor", "curve": [ {} ] } },
+    "runs": [ { "initial": {}, "channels": { "source_pressure_kpa_gauge": [],
+                "inlet_pressure_kpa_gauge": [], "temperature_k": [], "volume_ml": [],
+                "flow_l_per_min_anr": [] }, "valve": [ {} ], "cycle": {} } ] })"),
+          Document(R"({
+    "schema": "measurement/1",
+    "rig": { "actuator": {}, "line": { "elements": [ { "exhaust": {} }, { "tube": {} } ] },
+             "supply": { "kind": "regulated" } },
+    "runs": [ { "cycle": {} } ] })")};
+}
+
+// The same without "required": of a rig each run may give a part.
+Json InParts(Json schema) {
+  if (schema.is_object() && schema.contains("properties")) schema.erase("required");
+  for (auto& [name, inner] : schema.items())
+    if (inner.is_structured() && name != "items") inner = InParts(std::move(inner));
+  return schema;
+}
+
+Json Text(std::size_t most) { return {{"type", "string"}, {"maxLength", most}}; }
+
+Json ProvenanceForm(bool of_number) {
+  Json properties = {{"kind", {{"enum", catalog::ProvenanceNames()}}},
+                     {"source", {{"type", "string"}}}};
+  if (of_number)
+    properties["uncertainty"] = {{"type", {"number", "null"}},
+                                 {"minimum", 1e-6},
+                                 {"maximum", 1},
+                                 {"description", "relative, one standard deviation"}};
+  return {{"type", {"object", "null"}},
+          {"properties", std::move(properties)},
+          {"additionalProperties", false}};
+}
+
+Json CurveForm() {
+  const Json point = {{"type", "object"},
+                      {"properties",
+                       {{"pressure_kpa_gauge", NumberForm({0, 5e4})},
+                        {"free_air_l_per_min", NumberForm({0, 1e6})},
+                        {"current_a", NumberForm({0, 1e4})}}},
+                      {"required", {"pressure_kpa_gauge", "free_air_l_per_min", "current_a"}},
+                      {"additionalProperties", false}};
+  return {{"type", "array"}, {"minItems", 1}, {"maxItems", kTablePointsMax}, {"items", point}};
+}
+
+Json PartOf(const catalog::Family& family) {
+  Json properties = {{"family", {{"const", family.name}}},
+                     {"id", Text(100)},
+                     {"manufacturer", Text(kTextCharactersMax)},
+                     {"part_number", Text(kTextCharactersMax)},
+                     {"origin", {{"description", "set by the service"}}},
+                     {"notes", {{"type", {"string", "null"}}, {"maxLength", 4000}}}};
+  properties.update(DetailForms());
+  Json required = {"family", "manufacturer", "part_number"};
+  Json provenance = Json::object();
+  const auto add = [&](std::string_view name, Json form, bool is_required, bool is_number,
+                       std::string_view meaning) {
+    const std::string field(name);
+    form["description"] = meaning;
+    if (is_required) required.push_back(field);
+    if (!is_required) form = {{"anyOf", {form, {{"type", "null"}}}}};
+    properties[field] = std::move(form);
+    provenance[field] = ProvenanceForm(is_number);
+  };
+  for (const catalog::NumberField& field : family.numbers)
+    add(field.name, NumberForm({field.min, field.max}), field.required, true, field.meaning);
+  for (const catalog::TextField& field : family.texts) {
+    Json form = Text(kTextCharactersMax);
+    if (!field.allowed.empty()) form["enum"] = field.allowed;
+    add(field.name, std::move(form), field.required, false, field.meaning);
+  }
+  if (family.has_curve) {
+    properties["curve"] = CurveForm();
+    required.push_back("curve");
+    for (const char* name : {"free_air", "current"}) provenance[name] = ProvenanceForm(true);
+  }
+  properties["provenance"] = {{"type", {"object", "null"}},
+                              {"properties", std::move(provenance)},
+                              {"additionalProperties", false}};
+  return {{"title", family.name},
+          {"type", "object"},
+          {"properties", std::move(properties)},
+          {"required", std::move(required)},
+          {"additionalProperties", false}};
+}
+
+Json Parameter(const std::string& name, Json schema, std::string_view description) {
+  return {
+      {"name", name}, {"in", "query"}, {"schema", std::move(schema)}, {"description", description}};
+}
+
+}  // namespace
+
+Json DescribeRequirements() {
+  return Heard({ExampleRequirements(), AllRequirements()},
+               [](const Json& document) { ParseRequirements(document, {}); });
+}
+
+Json DescribeMeasurement() {
+  std::vector<Json> documents = AllMeasurements();
+  documents.push_back(ExampleMeasurement());
+  Json schema = Heard(documents, [](const Json& document) { ParseMeasurement(document); });
+  Json& properties = schema["properties"];
+  properties["rig"] = InParts(properties["rig"]);
+  properties["runs"]["items"]["properties"]["rig"] = properties["rig"];
+  properties["model"] = {{"type", {"string", "null"}},
+                         {"maxLength", kTextCharactersMax},
+                         {"description", "a saved model that predicts the runs"}};
+  properties["save"] = {{"type", {"string", "null"}},
+                        {"maxLength", kTextCharactersMax},
+                        {"description", "the name to save the model under"}};
+  properties["time_limit_s"] = NumberForm({0.01, kDiagnosisTimeMaxS});
+  return schema;
+}
+
+Json DescribeSimulation() {
+  std::vector<Json> documents = AllSimulations();
+  documents.push_back(ExampleSimulation());
+  return Heard(documents, [](const Json& document) { RunSimulation(document, {}); });
+}
+
+Json DescribeMap() {
+  Json compressor = ExampleMap();
+  compressor["compressor_flow_normalised"] = {0.1};
+  compressor["reservoir_volume_normalised"] = {100};
+  compressor["actuator_count"] = {1};
+  return Heard({ExampleMap(), compressor}, [](const Json& document) { RunMap(document); });
+}
+
+Json DescribeModel() {
+  return Heard({ExampleModel()}, [](const Json& document) { ParseModel(document); });
+}
+
+Json DescribeGivenDesign() {
+  return Heard({ExampleEvaluation().at("design")}, [](const Json& document) {
+    Errors errors;
+    ReadGivenDesign(Reader(document, "", errors), {});
+  });
+}
+
+Json DescribePart() {
+  Json forms = Json::array();
+  for (const catalog::Family& family : catalog::Families()) forms.push_back(PartOf(family));
+  return {{"oneOf", std::move(forms)}};
+}
+
+Json DescribePartFilters() {
+  Json filters = Json::array();
+  Json seen = Json::object();  // fields by name; several families share some
+  const auto is_new = [&](std::string_view name) {
+    return std::exchange(seen[std::string(name)], true).is_null();
+  };
+  Json families = Json::array();
+  for (const catalog::Family& family : catalog::Families()) families.push_back(family.name);
+  filters.push_back(Parameter("family", {{"enum", families}}, "only parts of this family"));
+  for (const char* name : {"manufacturer", "part_number", "origin", "series"})
+    filters.push_back(Parameter(name, {{"type", "string"}}, "exactly this"));
+  filters.push_back(Parameter("orderable", {{"enum", {"true", "false"}}},
+                              "known to be a product that one can order, or known not to be"));
+  for (const catalog::Family& family : catalog::Families()) {
+    for (const catalog::NumberField& field : family.numbers) {
+      if (!is_new(field.name)) continue;
+      const std::string name(field.name);
+      const Json number = {{"type", "number"}};
+      filters.push_back(Parameter(name, number, field.meaning));
+      filters.push_back(Parameter(name + "_min", number, "at least"));
+      filters.push_back(Parameter(name + "_max", number, "at most"));
+    }
+    for (const catalog::TextField& field : family.texts)
+      if (is_new(field.name))
+        filters.push_back(Parameter(std::string(field.name), {{"type", "string"}}, field.meaning));
+  }
+  filters.push_back(Parameter("sort", {{"type", "string"}}, "a field; - before it turns it round"));
+  filters.push_back(
+      Parameter("facets", {{"type", "boolean"}}, "counts and ranges of what matches"));
+  filters.push_back(Parameter("limit", {{"type", "integer"}, {"minimum", 1}, {"maximum", kPageMax}},
+                              "parts of a page"));
+  filters.push_back(Parameter("cursor", {{"type", "string"}}, "next_cursor of the page before"));
+  filters.push_back(Parameter("revision", {{"type", "integer"}, {"minimum", 0}},
+                              "parts as they were in this revision"));
+  return filters;
+}
+
+Json ExampleRequirements() {
+  return Document(R"({
+    "schema": "requirements/1", "name": "gripper",
+    "actuators": [ { "name": "finger", "count": 3, "rest_volume_ml": 20.0, "expansion_ratio": 1.5,
+                     "operating_pressure_kpa_gauge": 80.0, "tube_length_m": 0.4,
+                     "fittings_per_line": 2, "rise_time_s_max": 0.5, "fall_time_s_max": 0.6 } ],
+    "duty": { "frequency_hz": 0.1, "actuations": 100 },
+    "objective": { "minimize": "mass_kg" },
+    "ranking": { "count": 1, "time_limit_s": 5.0 } })");
+}
+
+Json ExampleMeasurement() {
+  return Document(R"({
+    "schema": "measurement/1", "name": "bench",
+    "rig": { "actuator": { "rest_volume_ml": 50.0, "expansion_ratio": 1.0,
+                           "operating_pressure_kpa_gauge": 100.0 },
+             "line": { "sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3 },
+             "supply": { "kind": "regulated" } },
+    "relative_uncertainty": { "sonic_conductance": 0.03 },
+    "runs": [ { "id": "r1", "blocked": true, "source_pressure_kpa_gauge": 200.0,
+                "initial": { "pressure_kpa_gauge": 0.0 },
+                "valve": [ { "t_s": 0.0, "state": "inflate" } ],
+                "t_s": [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9],
+                "pressure_kpa_gauge": [0.1, 29.6, 58.9, 86.2, 112.1, 134.8, 155.2, 171.9, 185.1, 194.0] } ] })");
+}
+
+Json ExampleSimulation() {
+  return Document(R"({
+    "schema": "simulation/1", "name": "one stroke",
+    "actuators": [ { "name": "a", "rest_volume_ml": 50.0, "expansion_ratio": 2.0,
+                     "operating_pressure_kpa_gauge": 100.0,
+                     "line": { "sonic_conductance_dm3_per_s_bar": 0.3, "critical_ratio": 0.35 } } ],
+    "source": { "kind": "regulated", "source_pressure_kpa_gauge": 200.0 },
+    "valve": [ { "t_s": 0.0, "state": "inflate" } ],
+    "initial": { "pressure_kpa_gauge": 0.0 }, "t_end_s": 0.5, "sample_hz": 20 })");
+}
+
+Json ExampleMap() {
+  return Document(R"({ "schema": "map/1", "name": "coarse", "source_pressure_ratio": [2.5, 3],
+    "operating_pressure_ratio": 2.0, "expansion_ratio": [1, 2], "critical_ratio": 0.3,
+    "rise": { "to_fraction": 0.95 }, "fall": { "to_fraction": 0.05 } })");
+}
+
+Json ExampleEvaluation() {
+  Json evaluation = Document(R"({
+    "schema": "evaluation/1",
+    "design": {
+      "configuration": "compressor",
+      "parts": [
+        { "family": "valve", "id": "smc-vq110u-5m-m5", "quantity": 3, "group": "finger" },
+        { "family": "fitting", "id": "generic-push-in-2mm-m5", "quantity": 6, "group": "finger" },
+        { "family": "tubing", "id": "generic-polyurethane-2x1.2", "quantity": 1.2,
+          "group": "finger" },
+        { "family": "compressor", "id": "generic-diaphragm-12v-2lpm-150kpa", "quantity": 1 },
+        { "family": "battery", "id": "generic-lipo-3s-450mah", "quantity": 1 },
+        { "family": "reservoir", "id": "generic-pet-1500ml", "quantity": 1 } ],
+      "settings": { "source_pressure_kpa_gauge": 83, "reservoir_volume_ml": 1500 } } })");
+  evaluation["requirements"] = ExampleRequirements();
+  return evaluation;
+}
+
+Json ExampleModel() {
+  return Document(R"({ "schema": "model/1",
+    "effects": [ { "id": "creep", "parameters": { "fraction": 0.15, "time_constant_s": 2.0 } } ],
+    "factors": {}, "covariance": { "parameters": [], "matrix": [] },
+    "data": [ { "name": "bench.json", "sha256": "e3b0c442" } ], "noise_kpa": 0.2 })");
+}
+
+Json ExamplePart() {
+  return Document(R"({ "id": "my-pack", "family": "battery", "manufacturer": "me",
+    "part_number": "3S 4 Ah", "cells_series": 3, "nominal_voltage_v": 11.1, "capacity_ah": 4.0,
+    "current_max_a": 40, "mass_kg": 0.25, "body_volume_ml": 130 })");
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,311 @@
+#include "api/design/read/combination.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "api/design/read/selection.h"
+#include "api/json/units.h"
+#include "api/json/words.h"
+#include "model/physics/storage.h"
+#include "optimizer/evaluate/line.h"
+#include "optimizer/problem/family_specs.h"
+
+namespace plenum::api {
+namespace {
+
+using optimizer::ActuatorGroup;
+using optimizer::Choice;
+using optimizer::Configuration;
+using optimizer::Design;
+using optimizer::Family;
+using optimizer::Problem;
+
+constexpr double kRounding = 1e-6;  // relative, of a stated length or volume
+
+bool Near(double a, double b) { return std::abs(a - b) <= kRounding * std::abs(b); }
+
+bool OfLine(Family family) {
+  return family == Family::kTubing || family == Family::kFitting || family == Family::kValve;
+}
+
+bool IsCustom(const Choice& choice) {
+  return choice.family == Family::kReservoir && choice.id == kCustomReservoir;
+}
+
+std::string KpaGauge(double pressure_pa, const Problem& problem) {
+  return Decimal(Rounded(KpaGaugeFromPa(pressure_pa, problem.ambient))) + " kPa gauge";
+}
+
+// "a valve", "tubing"
+std::string Piece(Family family) {
+  return family == Family::kTubing ? "tubing" : std::string("a ") + optimizer::Name(family);
+}
+
+const std::string& IdOf(const model::Tubing& tube) { return tube.per_metre.id; }
+const std::string& IdOf(const auto& part) { return part.basics.id; }
+
+template <typename Part>
+const Part* Find(const std::vector<Part>& parts, const Choice* choice) {
+  if (choice == nullptr) return nullptr;
+  for (const Part& part : parts)
+    if (IdOf(part) == choice->id) return &part;
+  return nullptr;
+}
+
+// Most pieces of a part of the source, and the field that says so.
+struct Most {
+  int pieces = 1;
+  const char* field = nullptr;
+};
+
+Most MostOf(Family family, const optimizer::Limits& limits) {
+  switch (family) {
+    case Family::kCompressor:
+      return {limits.compressors, "compressors_max"};
+    case Family::kBattery:
+      return {limits.batteries, "batteries_max"};
+    case Family::kCylinder:
+      return {limits.cylinders, "cylinders_max"};
+    case Family::kCo2:
+      return {limits.co2, "co2_max"};
+    case Family::kReservoir:
+      return {limits.reservoirs, "reservoirs_max"};
+    default:
+      return {};
+  }
+}
+
+class Check {
+ public:
+  Check(const Design& design, const Problem& problem, const std::vector<catalog::Part>& catalogue,
+        const std::string& pointer, Errors& errors)
+      : design_(design),
+        problem_(problem),
+        catalogue_(catalogue),
+        pointer_(pointer),
+        errors_(errors) {}
+
+  void Run() {
+    const std::size_t before = errors_.size();
+    CheckConfiguration();
+    for (const Choice& choice : design_.parts) CheckRow(choice);
+    CheckMissing();
+    if (errors_.size() > before) return;
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) CheckLine(g);
+    CheckSource();
+    CheckVolume();
+  }
+
+ private:
+  void Fail(const std::string& place, std::string detail) {
+    errors_.push_back({pointer_ + place, std::move(detail)});
+  }
+  void FailRow(const Choice& choice, const char* field, std::string detail) {
+    Fail("/parts/" + std::to_string(&choice - design_.parts.data()) + field, std::move(detail));
+  }
+  std::string Is() const { return std::string("a ") + Name(design_.configuration) + " design"; }
+
+  // The first row of a family, for a group or (−1) for all.
+  const Choice* RowOf(Family family, int group = -1) const {
+    for (const Choice& choice : design_.parts)
+      if (choice.family == family && choice.group == group) return &choice;
+    return nullptr;
+  }
+
+  void CheckConfiguration() {
+    if (problem_.configurations.contains(design_.configuration)) return;
+    std::vector<std::string> names;
+    for (const Configuration one : problem_.configurations)
+      names.emplace_back(optimizer::Name(one));
+    Fail("/configuration", "must be one that supply.configurations asks for, " + OneOf(names) +
+                               ", not " + Quoted(optimizer::Name(design_.configuration)));
+  }
+
+  void CheckRow(const Choice& choice) {
+    const std::string piece = Piece(choice.family);
+    const bool of_line = OfLine(choice.family);
+    const std::vector<Family> source = optimizer::SourceFamilies(design_.configuration);
+    if (!of_line && std::find(source.begin(), source.end(), choice.family) == source.end())
+      return FailRow(choice, "/family", Is() + " has no " + optimizer::Name(choice.family));
+    if (of_line && choice.group < 0)
+      return FailRow(choice, "/group",
+                     "is required: which group of actuators " + piece + " serves");
+    if (!of_line && choice.group >= 0)
+      return FailRow(choice, "/group", "must be left out: " + piece + " serves all groups");
+    if (choice.family == Family::kFitting && Group(choice).fittings_per_line == 0)
+      return FailRow(
+          choice, "/family",
+          "the lines of " + Group(choice).name + " have no fittings: fittings_per_line is 0");
+    if (RowOf(choice.family, choice.group) != &choice)
+      return FailRow(choice, "/family",
+                     "an earlier row is " + piece + (of_line ? " of this group" : "") +
+                         " already; a design has one such row");
+    if (CheckPart(choice)) of_line ? CheckLineQuantity(choice) : CheckSourceQuantity(choice);
+  }
+
+  const ActuatorGroup& Group(const Choice& choice) const { return problem_.groups[choice.group]; }
+
+  // The part is in the catalogue, of its family and allowed.
+  bool CheckPart(const Choice& choice) {
+    const std::string family = optimizer::Name(choice.family);
+    const auto found = std::find_if(catalogue_.begin(), catalogue_.end(),
+                                    [&](const auto& part) { return part.id == choice.id; });
+    if (found == catalogue_.end() && !IsCustom(choice)) {
+      std::vector<std::string> ids;
+      for (const catalog::Part& part : catalogue_)
+        if (part.family == family) ids.push_back(part.id);
+      const std::string nearest = Nearest(choice.id, ids);
+      FailRow(choice, "/id",
+              "no part " + Quoted(choice.id) + " in the catalogue" +
+                  (nearest.empty() ? "" : "; nearest " + family + ": " + nearest));
+    } else if (found != catalogue_.end() && found->family != family) {
+      FailRow(choice, "/id", Quoted(choice.id) + " is a " + found->family + ", not a " + family);
+    } else if (problem_.exclude.contains(choice.id)) {
+      FailRow(choice, "/id", Quoted(choice.id) + " is one of those that exclude keeps out");
+    } else if (!IsAllowed(problem_, choice.family, choice.id)) {
+      FailRow(choice, "/id",
+              Quoted(choice.id) + " is none of those that require." + family + " asks for");
+    } else {
+      return true;
+    }
+    return false;
+  }
+
+  void CheckLineQuantity(const Choice& choice) {
+    const ActuatorGroup& group = Group(choice);
+    const std::string lines = "the " + std::to_string(group.count) +
+                              (group.count == 1 ? " line of " : " lines of ") + group.name;
+    double needed = group.count * group.tube_length_m;
+    std::string what = "metres of tube for " + lines;
+    if (choice.family == Family::kFitting) {
+      needed = group.count * group.fittings_per_line;
+      what = "fittings for " + lines;
+    }
+    if (choice.family == Family::kValve) {
+      const int channels = Find(problem_.parts.valves, &choice)->channels;
+      needed = (group.count + channels - 1) / channels;
+      what = "a channel for each of " + lines + ", " + std::to_string(channels) + " a piece";
+    }
+    if (!Near(choice.quantity, needed))
+      FailRow(choice, "/quantity",
+              "must be " + Decimal(Rounded(needed)) + " (" + what + "), not " +
+                  Decimal(choice.quantity));
+  }
+
+  void CheckSourceQuantity(const Choice& choice) {
+    const Most most = IsCustom(choice) ? Most{} : MostOf(choice.family, problem_.limits);
+    const double n = choice.quantity;
+    if (n == std::floor(n) && n >= 1 && n <= most.pieces) return;
+    const std::string allowed = std::to_string(most.pieces);
+    FailRow(choice, "/quantity",
+            "must be " + (most.pieces == 1 ? allowed : "a whole number ≥ 1 and ≤ " + allowed) +
+                (most.field ? std::string(" (limits.") + most.field + ")" : "") + ", not " +
+                Decimal(n));
+  }
+
+  void CheckMissing() {
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
+      const ActuatorGroup& group = problem_.groups[g];
+      for (const Family family : {Family::kValve, Family::kFitting, Family::kTubing})
+        if ((family != Family::kFitting || group.fittings_per_line > 0) && !RowOf(family, g))
+          Fail("/parts", Piece(family) + " for group " + group.name + " is missing");
+    }
+    for (const Family family : optimizer::SourceFamilies(design_.configuration))
+      if (!RowOf(family)) Fail("/parts", Piece(family) + " is missing: " + Is() + " has one");
+  }
+
+  void CheckLine(int g) {
+    const model::Parts& parts = problem_.parts;
+    const Choice* valve_row = RowOf(Family::kValve, g);
+    const Choice* fitting_row = RowOf(Family::kFitting, g);
+    if (!fitting_row) return;
+    const model::Tubing& tube = *Find(parts.tubing, RowOf(Family::kTubing, g));
+    const model::Fitting& fitting = *Find(parts.fittings, fitting_row);
+    const model::Valve& valve = *Find(parts.valves, valve_row);
+    const auto mm = [](double m) { return Decimal(Rounded(m / kMPerMm)) + " mm"; };
+    if (!optimizer::DiametersMate(tube.outer_diameter_m, fitting.tube_outer_diameter_m))
+      FailRow(*fitting_row, "/id",
+              "takes tube of " + mm(fitting.tube_outer_diameter_m) + ", but " + Quoted(IdOf(tube)) +
+                  " has an outer diameter of " + mm(tube.outer_diameter_m));
+    if (fitting.thread != valve.port)
+      FailRow(*fitting_row, "/id",
+              "has the thread " + Quoted(fitting.thread) + ", but the port of " +
+                  Quoted(IdOf(valve)) + " is " + Quoted(valve.port));
+  }
+
+  void CheckSource() {
+    const model::Parts& parts = problem_.parts;
+    const Choice* battery_row = RowOf(Family::kBattery);
+    if (const auto* pump = Find(parts.compressors, RowOf(Family::kCompressor))) {
+      const double pack_v = Find(parts.batteries, battery_row)->nominal_voltage_v;
+      if (!model::VoltageMatches(pack_v, pump->curve.voltage_v))
+        FailRow(*battery_row, "/id",
+                "has " + Decimal(pack_v) + " V, but " + Quoted(IdOf(*pump)) + " runs at " +
+                    Decimal(pump->curve.voltage_v) + " V, within 15 %");
+      return;
+    }
+    const Choice* row = RowOf(Family::kRegulator);
+    const model::Regulator& regulator = *Find(parts.regulators, row);
+    const auto* cylinder = Find(parts.cylinders, RowOf(Family::kCylinder));
+    const double supply_pa = cylinder ? cylinder->fill_pressure_pa
+                             : design_.configuration == Configuration::kCo2
+                                 ? model::Co2SaturationPressure(problem_.ambient.temperature_k)
+                                 : problem_.mains_pressure_pa;
+    const std::string supply = "; the supply has " + KpaGauge(supply_pa, problem_);
+    if (supply_pa > regulator.inlet_pressure_max_pa)
+      FailRow(*row, "/id",
+              "stands " + KpaGauge(regulator.inlet_pressure_max_pa, problem_) + " at its inlet" +
+                  supply);
+    else if (!cylinder && supply_pa < regulator.inlet_pressure_min_pa)
+      FailRow(*row, "/id",
+              "needs " + KpaGauge(regulator.inlet_pressure_min_pa, problem_) + " at its inlet" +
+                  supply);
+  }
+
+  void CheckVolume() {
+    const char* place = "/settings/reservoir_volume_ml";
+    const std::optional<double> given = design_.settings.reservoir_volume_m3;
+    const std::string is = given ? ", not " + Decimal(Rounded(MlFromM3(*given))) : "";
+    const Choice* row = RowOf(Family::kReservoir);
+    if (row == nullptr) {
+      if (given) Fail(place, "must be left out: " + Is() + " has no reservoir");
+    } else if (!IsCustom(*row)) {
+      const double stock_m3 = row->quantity * Find(problem_.parts.reservoirs, row)->volume_m3;
+      if (given && !Near(*given, stock_m3))
+        Fail(place, "must be " + Decimal(Rounded(MlFromM3(stock_m3))) + ", the volume of " +
+                        Quoted(row->id) + ", or left out" + is);
+    } else if (!given || *given < model::kMadeReservoirSmallestM3 * (1.0 - kRounding) ||
+               *given > model::kMadeReservoirLargestM3 * (1.0 + kRounding)) {
+      Fail(place, std::string(given ? "must be"
+                                    : "is required with a reservoir made to measure, a "
+                                      "number") +
+                      " ≥ " + Decimal(Rounded(MlFromM3(model::kMadeReservoirSmallestM3))) +
+                      " and ≤ " + Decimal(Rounded(MlFromM3(model::kMadeReservoirLargestM3))) + is);
+    }
+  }
+
+  const Design& design_;
+  const Problem& problem_;
+  const std::vector<catalog::Part>& catalogue_;
+  const std::string& pointer_;
+  Errors& errors_;
+};
+
+}  // namespace
+
+void CheckCombination(const Design& design, const Problem& problem,
+                      const std::vector<catalog::Part>& catalogue, const std::string& pointer,
+                      Errors& errors) {
+  Check(design, problem, catalogue, pointer, errors).Run();
+}
+
+Design WithReservoirVolume(Design design, const Problem& problem) {
+  for (const Choice& choice : design.parts)
+    if (choice.family == Family::kReservoir && !IsCustom(choice))
+      design.settings.reservoir_volume_m3 =
+          choice.quantity * Find(problem.parts.reservoirs, &choice)->volume_m3;
+  return design;
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,68 @@
+#include "api/design/read/design_reader.h"
+
+#include "api/json/shared_fields.h"
+#include "api/json/units.h"
+#include "optimizer/problem/family_specs.h"
+
+namespace plenum::api {
+namespace {
+
+using optimizer::Configuration;
+using optimizer::Family;
+using optimizer::Problem;
+
+const Range kReservoirMl{1e-3, 1e9};
+
+int GroupNamed(const Problem& problem, const std::string& name) {
+  for (std::size_t g = 0; g < problem.groups.size(); ++g)
+    if (problem.groups[g].name == name) return static_cast<int>(g);
+  return -1;
+}
+
+}  // namespace
+
+Configuration ReadConfiguration(Reader& design) {
+  return ReadEnum<Configuration>(design, "configuration",
+                                 {Configuration::kCylinder, Configuration::kCo2,
+                                  Configuration::kCompressor, Configuration::kMains});
+}
+
+optimizer::Choice ReadChoice(Reader& row, const Problem& problem) {
+  optimizer::Choice choice;
+  std::vector<Family> families;
+  for (const optimizer::FamilySpec& spec : optimizer::Families()) families.push_back(spec.family);
+  choice.family = ReadEnum<Family>(row, "family", families);
+  choice.id = row.Text("id");
+  if (row.Has("group")) {
+    choice.group = GroupNamed(problem, row.Text("group"));
+    if (choice.group < 0) row.Fail("group", "is no group of the request");
+  }
+  choice.quantity = row.Number("quantity", Above(0, 1e6));
+  return choice;
+}
+
+optimizer::Settings ReadPoint(Reader& reader, const Problem& problem) {
+  optimizer::Settings settings;
+  settings.source_pressure_pa = PaFromKpaGauge(
+      reader.Number("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}), problem.ambient);
+  if (const auto ml = reader.OptionalNumber("reservoir_volume_ml", kReservoirMl))
+    settings.reservoir_volume_m3 = M3FromMl(*ml);
+  return settings;
+}
+
+optimizer::Design ReadGivenDesign(Reader reader, const Problem& problem) {
+  optimizer::Design design;
+  design.configuration = ReadConfiguration(reader);
+  for (const Element& element : reader.List("parts", 1, kDesignRowsMax)) {
+    Reader row(element, reader.errors());
+    design.parts.push_back(ReadChoice(row, problem));
+    row.Finish();
+  }
+  Reader settings = reader.Object("settings");
+  design.settings = ReadPoint(settings, problem);
+  settings.Finish();
+  reader.Finish();
+  return design;
+}
+
+}  // namespace plenum::api

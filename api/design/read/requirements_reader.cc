@@ -1,0 +1,315 @@
+#include "api/design/read/requirements_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "api/catalogue/catalogue_parts.h"
+#include "api/design/read/selection.h"
+#include "api/json/json.h"
+#include "api/json/request_limits.h"
+#include "api/json/shared_fields.h"
+#include "api/json/units.h"
+#include "api/json/words.h"
+#include "api/measure/model_document.h"
+#include "model/flow/series.h"
+#include "optimizer/problem/problem.h"
+
+namespace plenum::api {
+namespace {
+
+using optimizer::Configuration;
+
+// Valve, tube and the shared regulator take three places of a series.
+constexpr int kFittingsMax = static_cast<int>(model::kMaxSeriesElements) - 3;
+constexpr double kPressureMarginDefault = 1.05;
+const Range kTimeLimitS = Above(0, 1e6);
+const Range kAmount = Above(0, 1e6);  // kg, L, EUR
+
+constexpr Configuration kAllConfigurations[] = {Configuration::kCylinder, Configuration::kCo2,
+                                                Configuration::kCompressor, Configuration::kMains};
+
+// `operating_kpa` is set to the operating gauge pressure as given.
+optimizer::ActuatorGroup ReadGroup(const Element& element, std::size_t index,
+                                   const model::Ambient& ambient, std::vector<std::string>& names,
+                                   double& operating_kpa, Errors& errors) {
+  Reader reader(element, errors);
+  optimizer::ActuatorGroup group;
+  group.name = ReadName(reader, index, names);
+  group.count = reader.Integer("count", 1, kCountMax, 1);
+  group.chamber = ReadChamber(reader, ambient);
+  group.tube_length_m = reader.Number("tube_length_m", TubeLengthRange());
+  group.fittings_per_line = reader.Integer("fittings_per_line", 0, kFittingsMax, 2);
+  group.rise_time_max_s =
+      reader.OptionalNumber("rise_time_s_max", kTimeLimitS).value_or(optimizer::kUnlimited);
+  group.fall_time_max_s =
+      reader.OptionalNumber("fall_time_s_max", kTimeLimitS).value_or(optimizer::kUnlimited);
+
+  operating_kpa = KpaGaugeFromPa(group.chamber.operating_pressure_pa, ambient);
+  const auto limit_kpa = reader.OptionalNumber("pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
+  if (limit_kpa && *limit_kpa < operating_kpa - 1e-9)
+    reader.Fail("pressure_kpa_gauge_max", "must be ≥ the operating pressure of " +
+                                              Decimal(Rounded(operating_kpa)) + " kPa gauge, not " +
+                                              Decimal(*limit_kpa));
+  group.pressure_max_pa =
+      PaFromKpaGauge(limit_kpa.value_or(kPressureMarginDefault * operating_kpa), ambient);
+  reader.Finish();
+  return group;
+}
+
+void ReadDuty(Reader& request, optimizer::Problem& problem) {
+  Reader duty = request.Object("duty");
+  problem.frequency_hz = duty.Number("frequency_hz", FrequencyRange());
+  problem.actuations = duty.Integer("actuations", 1, 1'000'000'000);
+  problem.simultaneous = duty.Bool("simultaneous", true);
+  duty.Finish();
+}
+
+void ReadConfigurations(Reader& supply, bool has_mains, optimizer::Problem& problem) {
+  if (!supply.Has("configurations")) {
+    for (const Configuration configuration : kAllConfigurations)
+      if (configuration != Configuration::kMains || has_mains)
+        problem.configurations.insert(configuration);
+    return;
+  }
+  std::vector<std::string> names;
+  for (const Configuration configuration : kAllConfigurations)
+    names.emplace_back(optimizer::Name(configuration));
+  const std::vector<std::string> given = supply.Texts("configurations", 1, std::size(names));
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const auto found = std::find(names.begin(), names.end(), given[i]);
+    if (found != names.end())
+      problem.configurations.insert(kAllConfigurations[found - names.begin()]);
+    else if (!given[i].empty())
+      supply.FailAt("configurations/" + std::to_string(i),
+                    "must be " + OneOf(names) + ", not " + Quoted(given[i]));
+  }
+  if (problem.configurations.contains(Configuration::kMains) && !has_mains)
+    supply.Fail("mains", "is required by the configuration mains");
+}
+
+void ReadSupply(Reader& request, optimizer::Problem& problem) {
+  static const Json kNothing = Json::object();
+  auto given = request.OptionalObject("supply");
+  Reader supply = given ? *given : Reader(kNothing, request.Pointer("supply"), request.errors());
+  auto mains = supply.OptionalObject("mains");
+  if (mains) {
+    problem.mains_pressure_pa = PaFromKpaGauge(
+        mains->Number("pressure_kpa_gauge", {1, kOperatingGaugeMaxKpa}), problem.ambient);
+    const auto flow = mains->OptionalNumber("flow_l_per_min_anr_max", Above(0, 1e6));
+    if (flow) problem.mains_flow_max_m3_per_s = M3PerSFromLPerMin(*flow);
+    mains->Finish();
+  }
+  ReadConfigurations(supply, mains.has_value(), problem);
+  const auto source = supply.OptionalNumber("source_pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
+  if (source) problem.source_pressure_max_pa = PaFromKpaGauge(*source, problem.ambient);
+  const auto limit = [&](const char* name) {
+    return supply.OptionalNumber(name, kAmount).value_or(optimizer::kUnlimited);
+  };
+  problem.mass_max_kg = limit("mass_kg_max");
+  problem.volume_max_l = limit("volume_l_max");
+  problem.cost_max_eur = limit("cost_eur_max");
+  supply.Finish();
+}
+
+// A source must reach the operating pressure of every group: what no choice of parts can mend is an
+// error of the request.
+void CheckPressures(const optimizer::Problem& problem, const std::vector<double>& operating_kpa,
+                    Errors& errors) {
+  const bool only_mains = problem.configurations == std::set<Configuration>{Configuration::kMains};
+  const auto kpa = [&](double pa) { return Rounded(KpaGaugeFromPa(pa, problem.ambient)); };
+  for (std::size_t i = 0; i < operating_kpa.size(); ++i) {
+    const double operating_pa = problem.groups[i].chamber.operating_pressure_pa;
+    const std::string pointer = "/actuators/" + std::to_string(i) + "/operating_pressure_kpa_gauge";
+    const std::string is = "is " + Decimal(Rounded(operating_kpa[i])) + ", above ";
+    if (operating_pa > problem.source_pressure_max_pa)
+      errors.push_back({pointer, is +
+                                     "the highest source pressure allowed: "
+                                     "/supply/source_pressure_kpa_gauge_max is " +
+                                     Decimal(kpa(problem.source_pressure_max_pa))});
+    else if (only_mains && operating_pa > problem.mains_pressure_pa)
+      errors.push_back({pointer, is + "the only source: /supply/mains/pressure_kpa_gauge is " +
+                                     Decimal(kpa(problem.mains_pressure_pa))});
+  }
+}
+
+struct NamedWeight {
+  const char* name;
+  double optimizer::Objective::*weight;
+};
+constexpr NamedWeight kWeights[] = {{"mass_kg", &optimizer::Objective::mass_kg},
+                                    {"volume_l", &optimizer::Objective::volume_l},
+                                    {"cost_eur", &optimizer::Objective::cost_eur},
+                                    {"energy_wh", &optimizer::Objective::energy_wh}};
+
+// The amounts of a front; without "minimize" its designs are listed by the first of them.
+void ReadPareto(Reader& reader, DesignRequest& parsed) {
+  constexpr optimizer::Amount kAmounts[] = {optimizer::Amount::kMass, optimizer::Amount::kVolume,
+                                            optimizer::Amount::kCost, optimizer::Amount::kEnergy};
+  std::vector<std::string> names;
+  for (const optimizer::Amount amount : kAmounts) names.emplace_back(optimizer::Name(amount));
+  const std::vector<std::string> given = reader.Texts("pareto", 2, 3);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const auto found = std::find(names.begin(), names.end(), given[i]);
+    if (found != names.end())
+      parsed.pareto.push_back(kAmounts[found - names.begin()]);
+    else if (!given[i].empty())
+      reader.FailAt("pareto/" + std::to_string(i),
+                    "must be " + OneOf(names) + ", not " + Quoted(given[i]));
+  }
+}
+
+optimizer::Objective ReadMinimize(Reader& reader) {
+  optimizer::Objective objective;
+  const Json* minimize = reader.Raw("minimize");
+  if (minimize != nullptr && minimize->is_object()) {
+    Reader weights = reader.Object("minimize");
+    double sum = 0.0;
+    for (const auto& [name, weight] : kWeights)
+      sum += objective.*weight = weights.Number(name, {0, 1e6}, 0.0);
+    weights.Finish();
+    if (sum == 0.0) weights.FailHere("at least one weight must be > 0");
+    return objective;
+  }
+  std::vector<std::string> names;
+  for (const NamedWeight& weight : kWeights) names.emplace_back(weight.name);
+  const std::string chosen = reader.Choice("minimize", names);
+  for (const auto& [name, weight] : kWeights) objective.*weight = chosen == name ? 1.0 : 0.0;
+  return objective;
+}
+
+void ReadObjective(Reader& request, DesignRequest& parsed) {
+  optimizer::Objective& objective = parsed.problem.objective;
+  auto reader = request.OptionalObject("objective");
+  if (!reader) {
+    objective.mass_kg = 1.0;
+    return;
+  }
+  if (reader->Has("pareto")) ReadPareto(*reader, parsed);
+  if (reader->Has("minimize") || !reader->Has("pareto"))
+    objective = ReadMinimize(*reader);
+  else if (!parsed.pareto.empty())
+    for (const auto& [name, weight] : kWeights)
+      if (std::string_view(name) == optimizer::Name(parsed.pareto.front())) objective.*weight = 1.0;
+  if (!parsed.pareto.empty())
+    for (const auto& [name, weight] : kWeights)
+      if (objective.*weight > 0.0 &&
+          std::none_of(parsed.pareto.begin(), parsed.pareto.end(),
+                       [wanted = std::string_view(name)](optimizer::Amount amount) {
+                         return wanted == optimizer::Name(amount);
+                       }))
+        reader->Fail("minimize",
+                     std::string(name) +
+                         " is not an amount of the front; it orders the front's designs "
+                         "and must be made of these");
+  reader->Finish();
+}
+
+// Gives the least probability, if one is asked for.
+std::optional<double> ReadRanking(Reader& request, DesignRequest& parsed) {
+  auto ranking = request.OptionalObject("ranking");
+  if (!ranking) return std::nullopt;
+  parsed.problem.count = ranking->Integer("count", 1, kDesignsMax, 20);
+  parsed.time_limit_s = ranking->Number("time_limit_s", {0.01, kDesignSecondsMax}, 30.0);
+  const auto probability_min = ranking->OptionalNumber("probability_min", {0, 1});
+  parsed.proof = ranking->Bool("proof", false);
+  ranking->Finish();
+  return probability_min;
+}
+
+optimizer::Limits ReadLimits(Reader& request) {
+  optimizer::Limits limits;
+  auto reader = request.OptionalObject("limits");
+  if (!reader) return limits;
+  const auto read = [&](const char* name, int& limit) {
+    limit = reader->Integer(name, 1, 16, limit);
+  };
+  read("compressors_max", limits.compressors);
+  read("batteries_max", limits.batteries);
+  read("cylinders_max", limits.cylinders);
+  read("co2_max", limits.co2);
+  read("reservoirs_max", limits.reservoirs);
+  reader->Finish();
+  return limits;
+}
+
+// Effects of the revision go to every group; those of its sensor change no actuator.
+void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& models,
+               DesignRequest& parsed) {
+  const std::string name = request.Text("model", "nominal");
+  if (name.empty() || name == "nominal") return;
+  auto found = FindModel(name, models, request.Pointer("model"));
+  if (const auto* errors = std::get_if<Errors>(&found)) {
+    request.errors().insert(request.errors().end(), errors->begin(), errors->end());
+    return;
+  }
+  for (const model::Effect& effect : std::get<SavedModel>(found).effects) {
+    if (effect.spec->place == model::EffectPlace::kSensor) continue;
+    for (optimizer::ActuatorGroup& group : parsed.problem.groups) group.effects.push_back(effect);
+  }
+  parsed.model = *std::find_if(models.begin(), models.end(),
+                               [&](const auto& model) { return model.name == name; });
+}
+
+bool HasErrorIn(const Errors& errors, std::initializer_list<std::string_view> places) {
+  return std::any_of(errors.begin(), errors.end(), [&](const Error& error) {
+    return std::any_of(places.begin(), places.end(),
+                       [&](std::string_view place) { return error.pointer.starts_with(place); });
+  });
+}
+
+}  // namespace
+
+Parsed<DesignRequest> ParseRequirements(const Json& request,
+                                        const std::vector<catalog::Part>& parts,
+                                        const std::vector<catalog::ModelRevision>& models) {
+  Errors errors;
+  DesignRequest parsed;
+  optimizer::Problem& problem = parsed.problem;
+  Reader reader(request, "", errors);
+  reader.Schema("requirements/1");
+  parsed.name = reader.Text("name", "");
+  problem.ambient = ReadAmbient(reader);
+
+  std::vector<std::string> names;
+  std::vector<double> operating_kpa;
+  for (const Element& element : reader.List("actuators", 1, kGroupsMax))
+    problem.groups.push_back(ReadGroup(element, problem.groups.size(), problem.ambient, names,
+                                       operating_kpa.emplace_back(), errors));
+  ReadDuty(reader, problem);
+  const Fractions fractions = ReadFractions(reader);
+  problem.rise_fraction = fractions.rise;
+  problem.fall_fraction = fractions.fall;
+  ReadSupply(reader, problem);
+  CheckPressures(problem, operating_kpa, errors);
+  ReadObjective(reader, parsed);
+  const std::optional<double> probability_min = ReadRanking(reader, parsed);
+  parsed.robust = ReadRobust(reader, probability_min);
+  parsed.explain = ReadExplain(reader);
+  if (!parsed.pareto.empty() && parsed.proof)
+    reader.FailAt("ranking/proof", "is for a list by one objective");
+  if (!parsed.pareto.empty() && probability_min)
+    reader.FailAt("ranking/probability_min", "is for a list by one objective");
+  if (parsed.explain && !parsed.pareto.empty())
+    reader.Fail("explain", "explains a list by one objective, not a front");
+  if (parsed.explain && parsed.explain->ranks > 0 && probability_min)
+    reader.FailAt("explain/ranks", "must be 0 with /ranking/probability_min");
+  problem.limits = ReadLimits(reader);
+  ReadSelection(reader, parts, problem);
+  ReadModel(reader, models, parsed);
+  if (parsed.model && parsed.proof)
+    reader.FailAt("ranking/proof", "is for the nominal model: its record cannot be verified");
+  reader.Finish();
+
+  const bool needs_fittings =
+      std::any_of(problem.groups.begin(), problem.groups.end(),
+                  [](const auto& group) { return group.fittings_per_line > 0; });
+  if (!HasErrorIn(errors, {"/supply", "/require", "/exclude"}))
+    CheckFamilies(parts, problem, needs_fittings, errors);
+  if (!errors.empty()) return errors;
+  problem.parts = ToModelParts(AllowedParts(parts, problem), problem.ambient);
+  parsed.request = request;
+  return parsed;
+}
+
+}  // namespace plenum::api

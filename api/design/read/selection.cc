@@ -1,0 +1,120 @@
+#include "api/design/read/selection.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "api/json/request_limits.h"
+#include "api/json/words.h"
+#include "optimizer/problem/family_specs.h"
+
+namespace plenum::api {
+namespace {
+
+using optimizer::Configuration;
+using optimizer::Family;
+
+// Whether the request leaves a part of the family to choose.
+bool HasChoice(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
+               Family family) {
+  if (optimizer::MadeToMeasureAllowed(problem, family)) return true;
+  return std::any_of(parts.begin(), parts.end(), [&](const catalog::Part& part) {
+    return part.family == optimizer::Name(family) && IsAllowed(problem, family, part.id);
+  });
+}
+
+// Where to look for the reason why a family is empty.
+std::string PointerFor(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
+                       Family family) {
+  const std::string name = optimizer::Name(family);
+  if (problem.require.contains(family)) return "/require/" + name;
+  const bool in_catalogue = std::any_of(
+      parts.begin(), parts.end(), [&](const catalog::Part& part) { return part.family == name; });
+  return in_catalogue || optimizer::SpecOf(family).made_to_measure ? "/exclude" : "";
+}
+
+}  // namespace
+
+bool IsAllowed(const optimizer::Problem& problem, Family family, const std::string& id) {
+  const auto required = problem.require.find(family);
+  return !problem.exclude.contains(id) &&
+         (required == problem.require.end() || required->second.contains(id));
+}
+
+void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
+                   optimizer::Problem& problem) {
+  std::map<std::string, std::string> family_of;
+  std::vector<std::string> ids;
+  for (const catalog::Part& part : parts) {
+    family_of[part.id] = part.family;
+    ids.push_back(part.id);
+  }
+  const auto unknown = [&](const std::string& id) {
+    const std::string nearest = Nearest(id, ids);
+    return "no part " + Quoted(id) + " in the catalogue" +
+           (nearest.empty() ? "" : "; nearest id: " + nearest);
+  };
+
+  if (auto require = request.OptionalObject("require")) {
+    for (const optimizer::FamilySpec& spec : optimizer::Families()) {
+      const std::string name = spec.name;
+      if (!require->Has(name)) continue;
+      const std::vector<std::string> wanted = require->Texts(name, 1, kExcludedMax);
+      for (std::size_t i = 0; i < wanted.size() && !require->Full(); ++i) {
+        const std::string& id = wanted[i];
+        const std::string place = name + "/" + std::to_string(i);
+        if (id.empty() || (spec.made_to_measure && id == kCustomReservoir)) continue;
+        const auto found = family_of.find(id);
+        if (found == family_of.end())
+          require->FailAt(place, unknown(id));
+        else if (found->second != name)
+          require->FailAt(place, Quoted(id) + " is a " + found->second + ", not a " + name);
+      }
+      problem.require[spec.family] = {wanted.begin(), wanted.end()};
+    }
+    require->Finish();
+  }
+
+  if (!request.Has("exclude")) return;
+  const std::vector<std::string> unwanted = request.Texts("exclude", 0, kExcludedMax);
+  for (std::size_t i = 0; i < unwanted.size() && !request.Full(); ++i)
+    if (const std::string& id = unwanted[i];
+        !id.empty() && id != kCustomReservoir && !family_of.contains(id))
+      request.FailAt("exclude/" + std::to_string(i), unknown(id));
+  problem.exclude = {unwanted.begin(), unwanted.end()};
+}
+
+std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
+                                        const optimizer::Problem& problem) {
+  std::vector<catalog::Part> allowed;
+  for (const optimizer::FamilySpec& spec : optimizer::Families())
+    for (const catalog::Part& part : parts)
+      if (part.family == spec.name && IsAllowed(problem, spec.family, part.id))
+        allowed.push_back(part);
+  return allowed;
+}
+
+void CheckFamilies(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
+                   bool needs_fittings, Errors& errors) {
+  std::vector<Family> shared = optimizer::LineFamilies();
+  if (!needs_fittings) std::erase(shared, Family::kFitting);
+  std::vector<Family> empty;
+  for (const Configuration configuration : problem.configurations) {
+    bool possible = true;
+    std::vector<Family> needed = optimizer::SourceFamilies(configuration);
+    needed.insert(needed.begin(), shared.begin(), shared.end());
+    for (const Family family : needed) {
+      if (HasChoice(parts, problem, family)) continue;
+      possible = false;
+      if (std::find(empty.begin(), empty.end(), family) == empty.end()) empty.push_back(family);
+    }
+    if (possible) return;
+  }
+  for (const Family family : empty)
+    errors.push_back({PointerFor(parts, problem, family),
+                      std::string("no part of the family ") + optimizer::Name(family) +
+                          " is left to choose; every allowed configuration lacks a family that "
+                          "it needs"});
+}
+
+}  // namespace plenum::api

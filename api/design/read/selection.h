@@ -1,0 +1,36 @@
+// What a request allows of the catalogue: "require" and "exclude", and whether each allowed
+// configuration still finds a part of every family that it needs.
+#ifndef PLENUM_API_DESIGN_READ_SELECTION_H_
+#define PLENUM_API_DESIGN_READ_SELECTION_H_
+
+#include <vector>
+
+#include "api/json/reader.h"
+#include "catalog/fields/part.h"
+#include "optimizer/problem/problem.h"
+
+namespace plenum::api {
+
+inline constexpr const char* kCustomReservoir = "custom";
+
+// Whether `require` and `exclude` leave the part.
+bool IsAllowed(const optimizer::Problem& problem, optimizer::Family family, const std::string& id);
+
+// Reads "require" and "exclude" into the problem; ids must exist in `parts`, and required ones
+// belong to their family.
+void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
+                   optimizer::Problem& problem);
+
+// The parts that the problem's `require` and `exclude` leave; by family, else in their order.
+std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
+                                        const optimizer::Problem& problem);
+
+// Records an error for each empty family if that leaves no allowed configuration: at
+// /require/<family> or /exclude where the request emptied it, at "" where the catalogue has none.
+// `needs_fittings`: some line has any.
+void CheckFamilies(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
+                   bool needs_fittings, Errors& errors);
+
+}  // namespace plenum::api
+
+#endif  // PLENUM_API_DESIGN_READ_SELECTION_H_

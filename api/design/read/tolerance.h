@@ -1,0 +1,48 @@
+// Part numbers within the tolerance that their provenance deserves.
+#ifndef PLENUM_API_DESIGN_READ_TOLERANCE_H_
+#define PLENUM_API_DESIGN_READ_TOLERANCE_H_
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "catalog/fields/part.h"
+#include "optimizer/explain/robust.h"
+
+namespace plenum::api {
+
+// Half-widths, as shares of the number, by provenance. Defaults: data sheets of pneumatic parts
+// give flow and mass within a few per cent; another's measurement or bill of materials is coarser;
+// what is computed inherits; the rules of catalog/data/README.md miss by a quarter; and what was
+// fitted to measurements of the part itself is as good as a data sheet.
+struct Tolerance {
+  double datasheet = 0.02, third_party = 0.05, derived = 0.10, estimated = 0.25, measured = 0.02;
+  double Of(catalog::Provenance provenance) const;
+  // Of a number that says how uncertain it is: twice that, at most 0.95 of the number; else that of
+  // its provenance.
+  double Of(catalog::Provenance provenance, const std::optional<double>& uncertainty) const;
+  bool operator==(const Tolerance&) const = default;
+};
+
+// A number uniform in [1 − half_width, 1 + half_width] that depends on nothing but its arguments:
+// the same part has the same error wherever it is used. (Uniform is what GUM 4.3.7 asks where only
+// limits are known.)
+double Factor(std::uint64_t seed, int draw, const std::string& id, const std::string& field,
+              double half_width);
+
+// The row with each number times its factor, kept within the field's range; a pump's delivery and
+// current have one factor each for the whole curve. What says which parts go together is exact:
+// counts, outer diameters of tubes, nominal voltages.
+catalog::Part Perturbed(catalog::Part row, const Tolerance& tolerance, std::uint64_t seed,
+                        int draw);
+
+// The draws of `rows`; they must outlive it. A made-to-measure reservoir becomes a part of the
+// volume that the design gave it, as exact as a data sheet, with the estimated mass and outer
+// volume of its rule.
+optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
+                               const optimizer::Problem& problem, const Tolerance& tolerance,
+                               std::uint64_t seed);
+
+}  // namespace plenum::api
+
+#endif  // PLENUM_API_DESIGN_READ_TOLERANCE_H_

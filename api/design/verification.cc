@@ -1,0 +1,155 @@
+#include "api/design/verification.h"
+
+#include "api/design/read/answer_reader.h"
+#include "api/json/version.h"
+#include "api/json/words.h"
+#include "verify/verify_draws.h"
+
+namespace plenum::api {
+namespace {
+
+using optimizer::BigCount;
+using optimizer::Problem;
+
+std::string RevisionName(const Json& number, const std::string& hash) {
+  return "revision " + number.dump() + " (" + Clip(hash, 12) + ")";
+}
+
+// What the result was computed from is what is on the table.
+Json CheckCatalogue(Reader& reader, const catalog::Revision& revision) {
+  Reader named = reader.Object("catalogue_revision");
+  const Json* number = named.Raw("number");
+  const std::string hash = named.Text("hash");
+  const bool same = hash == revision.hash;
+  return {{"check", "catalogue"},
+          {"ok", same},
+          {"detail", same ? "the result was computed from these parts"
+                          : "the result was computed from " +
+                                RevisionName(number ? *number : Json(nullptr), hash) +
+                                ", the catalogue is at " +
+                                RevisionName(revision.number, revision.hash)}};
+}
+
+Json Refused(const std::string& check, const std::string& detail) {
+  return {{"check", check}, {"ok", false}, {"detail", detail}};
+}
+
+Json RenderCounts(const verify::BruteForceCounts& counts) {
+  return {{"cancelled", counts.cancelled},
+          {"combinations", counts.combinations.str()},
+          {"incompatible", counts.incompatible.str()},
+          {"unpriced", counts.unpriced.str()},
+          {"beyond_the_list", counts.beyond.str()},
+          {"infeasible", counts.infeasible.str()},
+          {"feasible", counts.feasible.str()},
+          {"undecided", counts.undecided.str()}};
+}
+
+verify::Verification VerifyList(const Problem& problem, const optimizer::Answer& answer,
+                                const std::optional<BruteForce>& brute_force) {
+  verify::BruteForceOptions options;
+  if (brute_force) {
+    const double all = verify::CombinationsOf(problem).ToDouble();
+    options.cancelled = brute_force->cancelled;
+    if (brute_force->progress)
+      options.progress = [&brute_force, all](const BigCount& looked) {
+        brute_force->progress(looked.ToDouble() / all);
+      };
+  }
+  return verify::Verify(problem, answer, brute_force ? &options : nullptr);
+}
+
+// Adds checks, what they left open and counts to the document.
+void AddVerification(const verify::Verification& verification, Json& document) {
+  for (const verify::Check& check : verification.checks)
+    document["checks"].push_back(
+        {{"check", check.name}, {"ok", check.ok}, {"detail", check.detail}});
+  for (const verify::NotRechecked& open : verification.not_rechecked)
+    document["not_rechecked"].push_back(
+        {{"what", open.what}, {"combinations", open.combinations.str()}});
+  if (verification.brute_force) document["brute_force"] = RenderCounts(*verification.brute_force);
+}
+
+// The front or the list; where draws were asked for, them, too. A list that asks for a probability
+// stands or falls with the one that it was chosen from.
+void VerifyAsked(const DesignRequest& asked, Reader& reader,
+                 const std::vector<catalog::Part>& parts,
+                 const std::optional<BruteForce>& brute_force, Json& document) {
+  const Problem& problem = asked.problem;
+  optimizer::RobustAnswer robust;
+  robust.answer = ReadAnswer(reader, problem);
+  if (asked.robust && reader.errors().empty())
+    robust = ReadRobustAnswer(reader, problem, *asked.robust, std::move(robust.answer));
+  std::optional<optimizer::Front> front;
+  if (!asked.pareto.empty() && reader.errors().empty())
+    front = ReadFront(reader, asked.pareto, robust.answer);
+  if (!reader.errors().empty()) return;
+  if (front) {
+    AddVerification(verify::VerifyFront(problem, *front), document);
+  } else if (robust.searched) {
+    Problem deeper = problem;
+    deeper.count = robust.searched->count;
+    AddVerification(VerifyList(deeper, robust.searched->answer, brute_force), document);
+  } else {
+    AddVerification(VerifyList(problem, robust.answer, brute_force), document);
+  }
+  if (asked.robust)
+    AddVerification(verify::VerifyDraws(problem, robust, asked.robust->options,
+                                        MakeDraws(parts, problem, asked.robust->tolerance,
+                                                  static_cast<std::uint64_t>(asked.robust->seed))),
+                    document);
+}
+
+}  // namespace
+
+Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& parts,
+                          const catalog::Revision& revision,
+                          const std::optional<BruteForce>& brute_force) {
+  Errors errors;
+  Reader reader(result, "", errors);
+  reader.Schema("designs/1");
+  Json document = AnswerDocument("verification/1");
+  document["accepted"] = false;
+  document["checks"] = Json::array({CheckCatalogue(reader, revision)});
+  document["not_rechecked"] = Json::array();
+  const Json* request = reader.Raw("requirements");
+  if (request == nullptr) reader.Fail("requirements", "is required, the request as it was given");
+  if (!errors.empty()) return errors;
+  if (document["checks"][0]["ok"].get<bool>()) {
+    if (request->is_object() && request->value("model", Json("nominal")) != "nominal")
+      return Errors{{"/requirements/model", "only answers of the nominal model can be verified"}};
+    auto parsed = ParseRequirements(*request, parts);
+    if (auto* wrong = std::get_if<Errors>(&parsed)) {
+      for (Error& error : *wrong) error.pointer.insert(0, "/requirements");
+      return *wrong;
+    }
+    const DesignRequest& asked = std::get<DesignRequest>(parsed);
+    const Problem& problem = asked.problem;
+    if (reader.Has("robust") != asked.robust.has_value())
+      return Errors{{"/robust", "must be there where draws were asked for, and only there"}};
+    if (asked.robust && asked.robust->options.probability_min && !asked.proof)
+      return Errors{{"/requirements/ranking/proof",
+                     "must be true: a list that asks for a probability is verified with the record "
+                     "of its search"}};
+    if (reader.Has("front") == asked.pareto.empty())
+      return Errors{{"/front", "must be there where a front was asked for, and only there"}};
+    if (brute_force && !asked.pareto.empty())
+      return Errors{{"/front", "only a list by one objective can be verified by brute force"}};
+    const BigCount combinations = verify::CombinationsOf(problem);
+    if (brute_force && combinations > brute_force->combinations_max)
+      return Errors{{"/proof/combinations", "brute force would look at " + combinations.str() +
+                                                " combinations, the limit is " +
+                                                std::to_string(brute_force->combinations_max) +
+                                                " (--combinations-max raises it)"}};
+    VerifyAsked(asked, reader, parts, brute_force, document);
+    if (!errors.empty())
+      for (const Error& error : errors)
+        document["checks"].push_back(Refused("form", error.pointer + ": " + error.detail));
+  }
+  bool accepted = !document.value("/brute_force/cancelled"_json_pointer, false);
+  for (const Json& check : document["checks"]) accepted = accepted && check["ok"].get<bool>();
+  document["accepted"] = accepted;
+  return document;
+}
+
+}  // namespace plenum::api

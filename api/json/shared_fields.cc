@@ -1,0 +1,143 @@
+#include "api/json/shared_fields.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "api/json/units.h"
+#include "api/json/words.h"
+
+namespace plenum::api {
+namespace {
+
+const Range kRestVolumeMl{0.01, 1e6};
+constexpr double kTableAgreement = 0.05;
+
+// Two columns of a list of points, in the order given.
+struct Table {
+  std::vector<double> x, y;
+  bool valid = false;  // not empty and without an error
+};
+
+// Reads points { x_name, y_name } with x strictly rising; `direction` is the sign that steps of y
+// may have.
+Table ReadTable(Reader& owner, std::string_view list, std::size_t least, std::string_view x_name,
+                Range x_range, std::string_view y_name, Range y_range, int direction) {
+  Table table;
+  Errors& errors = owner.errors();
+  const std::size_t errors_before = errors.size();
+  for (const Element& element : owner.List(list, least, kTablePointsMax)) {
+    Reader point(element, errors);
+    const double x = point.Number(x_name, x_range);
+    const double y = point.Number(y_name, y_range);
+    point.Finish();
+    if (!table.x.empty() && x <= table.x.back())
+      point.Fail(x_name, "must rise from point to point: " + Decimal(x) + " follows " +
+                             Decimal(table.x.back()));
+    if (!table.y.empty() && direction * (y - table.y.back()) < 0)
+      point.Fail(y_name, std::string("must not ") + (direction > 0 ? "fall" : "rise") +
+                             " from point to point: " + Decimal(y) + " follows " +
+                             Decimal(table.y.back()));
+    table.x.push_back(x);
+    table.y.push_back(y);
+  }
+  table.valid = !table.x.empty() && errors.size() == errors_before;
+  return table;
+}
+
+}  // namespace
+
+model::Ambient ReadAmbient(Reader& request) {
+  model::Ambient ambient;
+  auto reader = request.OptionalObject("ambient");
+  if (!reader) return ambient;
+  ambient.pressure_pa = PaFromKpaAbs(reader->Number("pressure_kpa_abs", {20, 200}, 100));
+  ambient.temperature_k = reader->Number("temperature_k", {200, 350}, ambient.temperature_k);
+  reader->Finish();
+  // Told of once: what is gauge is read beside the usual one.
+  if (std::isnan(ambient.pressure_pa)) ambient.pressure_pa = model::Ambient{}.pressure_pa;
+  return ambient;
+}
+
+Fractions ReadFractions(Reader& request) {
+  Fractions fractions;
+  if (auto rise = request.OptionalObject("rise")) {
+    fractions.rise = rise->Number("to_fraction", Above(0, 1), fractions.rise);
+    rise->Finish();
+  }
+  if (auto fall = request.OptionalObject("fall")) {
+    fractions.fall = fall->Number("to_fraction", Below(0, 1), fractions.fall);
+    fall->Finish();
+  }
+  return fractions;
+}
+
+model::FlowElement ReadPair(Reader& reader) {
+  model::FlowElement element;
+  element.sonic_conductance_m3_per_s_pa =
+      ConductanceFromDm3PerSBar(reader.Number("sonic_conductance_dm3_per_s_bar", {1e-6, 1e4}));
+  element.critical_ratio = reader.Number("critical_ratio", {0, 0.95});
+  return element;
+}
+
+model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient) {
+  model::Chamber chamber;
+  chamber.ambient_pressure_pa = ambient.pressure_pa;
+  const double operating = group.Number("operating_pressure_kpa_gauge", {1, kOperatingGaugeMaxKpa});
+  chamber.operating_pressure_pa = PaFromKpaGauge(operating, ambient);
+
+  if (!group.Has("pressure_volume")) {
+    chamber.rest_volume_m3 = M3FromMl(group.Number("rest_volume_ml", kRestVolumeMl));
+    chamber.expansion_ratio = group.Number("expansion_ratio", {1, 50});
+    return chamber;
+  }
+  if (group.Has("expansion_ratio"))
+    group.Fail("expansion_ratio", "give either expansion_ratio or pressure_volume, not both");
+  const auto stated = group.OptionalNumber("rest_volume_ml", kRestVolumeMl);
+  const double lowest = -ambient.pressure_pa / kPaPerKpa;
+  const Table table = ReadTable(group, "pressure_volume", 2, "pressure_kpa_gauge",
+                                Above(lowest, kGaugeMaxKpa), "volume_ml", kRestVolumeMl, +1);
+  // Reported where they are read.
+  if (!table.valid || std::isnan(chamber.operating_pressure_pa)) return chamber;
+  if (table.x.front() > 0 || table.x.back() < operating) {
+    group.Fail("pressure_volume", "must reach from 0 to the operating pressure of " +
+                                      Decimal(operating) + " kPa gauge, not from " +
+                                      Decimal(table.x.front()) + " to " + Decimal(table.x.back()));
+    return chamber;
+  }
+  std::vector<double> pressure_pa, volume_m3;
+  for (const double kpa : table.x) pressure_pa.push_back(PaFromKpaGauge(kpa, ambient));
+  for (const double ml : table.y) volume_m3.push_back(M3FromMl(ml));
+  chamber.volume_curve = model::MonotoneCurve(std::move(pressure_pa), std::move(volume_m3));
+  chamber.rest_volume_m3 = chamber.volume_curve(ambient.pressure_pa);
+  chamber.expansion_ratio =
+      chamber.volume_curve(chamber.operating_pressure_pa) / chamber.rest_volume_m3;
+  const double rest_ml = MlFromM3(chamber.rest_volume_m3);
+  if (stated && std::abs(*stated - rest_ml) > kTableAgreement * rest_ml)
+    group.Fail("rest_volume_ml", "is " + Decimal(*stated) + ", but pressure_volume gives " +
+                                     Decimal(rest_ml) + " at ambient pressure");
+  return chamber;
+}
+
+std::string ReadName(Reader& group, std::size_t index, std::vector<std::string>& names) {
+  std::string name = group.Text("name", "group " + std::to_string(index + 1));
+  if (!name.empty() && std::find(names.begin(), names.end(), name) != names.end())
+    group.Fail("name", "must be unique; " + Quoted(name) + " is taken by an earlier group");
+  names.push_back(name);
+  return name;
+}
+
+model::CompressorCurve ReadPumpCurve(Reader& source, const model::Ambient& ambient) {
+  const Table table = ReadTable(source, "curve", 1, "pressure_kpa_gauge", {0, kGaugeMaxKpa},
+                                "free_air_l_per_min", {0, 1e6}, -1);
+  model::CompressorCurve curve;
+  if (!table.valid || std::isnan(ambient.pressure_pa)) return curve;
+  std::vector<double> pressure_pa, flow_m3_per_s;
+  for (const double kpa : table.x) pressure_pa.push_back(PaFromKpaGauge(kpa, ambient));
+  for (const double flow : table.y) flow_m3_per_s.push_back(M3PerSFromLPerMin(flow));
+  curve.pressure_max_pa = pressure_pa.back();
+  curve.current_a = model::MonotoneCurve({pressure_pa.front()}, {0.0});
+  curve.free_air_m3_per_s = model::MonotoneCurve(std::move(pressure_pa), std::move(flow_m3_per_s));
+  return curve;
+}
+
+}  // namespace plenum::api

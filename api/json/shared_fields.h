@@ -1,0 +1,47 @@
+// Pieces of a request that several requests share: ambient, fractions, chambers, pump curves.
+#ifndef PLENUM_API_JSON_SHARED_FIELDS_H_
+#define PLENUM_API_JSON_SHARED_FIELDS_H_
+
+#include "api/json/reader.h"
+#include "api/json/request_limits.h"
+#include "model/flow/iso6358.h"
+#include "model/physics/air.h"
+#include "model/physics/chamber.h"
+#include "model/physics/compressor.h"
+
+namespace plenum::api {
+
+inline constexpr int kCountMax = 64;
+inline constexpr double kGaugeMaxKpa = 5e4;           // sources, parts
+inline constexpr double kOperatingGaugeMaxKpa = 1e4;  // actuators
+
+inline Range FrequencyRange() { return {1e-4, 100.0}; }
+inline Range TubeLengthRange() { return {0.01, 100.0}; }
+
+// "ambient": 20–200 kPa absolute, 200–350 K; ISO 8778 where missing.
+model::Ambient ReadAmbient(Reader& request);
+
+// "rise" and "fall": { "to_fraction" }, in (0, 1] and [0, 1).
+struct Fractions {
+  double rise = 0.95;
+  double fall = 0.05;
+};
+Fractions ReadFractions(Reader& request);
+
+// "sonic_conductance_dm3_per_s_bar" and "critical_ratio" of one element.
+model::FlowElement ReadPair(Reader& reader);
+
+// "rest_volume_ml", "expansion_ratio" or "pressure_volume", "operating_pressure_kpa_gauge". With a
+// table the rest volume is that of the table at ambient pressure; a stated one must agree with it
+// within 5 %.
+model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient);
+
+// The name of group `index`, "group 1", … where missing; must not be in `names`, to which it adds.
+std::string ReadName(Reader& group, std::size_t index, std::vector<std::string>& names);
+
+// "curve": [{ "pressure_kpa_gauge", "free_air_l_per_min" }] without currents.
+model::CompressorCurve ReadPumpCurve(Reader& source, const model::Ambient& ambient);
+
+}  // namespace plenum::api
+
+#endif  // PLENUM_API_JSON_SHARED_FIELDS_H_

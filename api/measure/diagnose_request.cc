@@ -1,0 +1,32 @@
+#include "api/measure/diagnose_request.h"
+
+#include "api/measure/revision_of_diagnosis.h"
+#include "calibration/diagnose.h"
+#include "catalog/store/content_hash.h"
+
+namespace plenum::api {
+
+DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisProgress& progress) {
+  calibration::DiagnoseOptions options;
+  options.cancelled = progress.cancelled;
+  options.progress = progress.progress;
+  options.time_limit_s = request.time_limit_s;
+  const calibration::Diagnosis diagnosis =
+      request.model
+          ? calibration::Predict(request.dataset, {request.model->effects, request.model->factors},
+                                 options)
+          : calibration::Diagnose(request.dataset, options);
+  DiagnosisAnswer answer;
+  answer.answer = RenderDiagnosis(diagnosis, request.dataset, request.provenance);
+  if (!request.model && diagnosis.tied.empty() &&
+      diagnosis.verdict != calibration::Verdict::kUndecided)
+    answer.revision = RevisionOf(diagnosis, request.provenance);
+  answer.answer["revision"] = answer.revision ? RenderModel(*answer.revision) : Json(nullptr);
+  return answer;
+}
+
+Provenance::File FileOf(const std::string& name, std::string_view text) {
+  return {name, catalog::Sha256(text)};
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,42 @@
+// A diagnosis from documents to answer, for the command line and the service.
+#ifndef PLENUM_API_MEASURE_DIAGNOSE_REQUEST_H_
+#define PLENUM_API_MEASURE_DIAGNOSE_REQUEST_H_
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/measure/diagnosis_document.h"
+#include "api/measure/measurement.h"
+#include "api/measure/model_document.h"
+
+namespace plenum::api {
+
+inline constexpr double kDiagnosisTimeS = 60.0, kDiagnosisTimeMaxS = 3600.0;
+
+struct DiagnosisRequest {
+  calibration::Dataset dataset;
+  std::optional<SavedModel> model;  // predicts the runs; none: they are diagnosed
+  Provenance provenance;
+  double time_limit_s = kDiagnosisTimeS;
+};
+
+struct DiagnosisProgress {
+  std::function<bool()> cancelled;                           // may be empty
+  std::function<void(double, const std::string&)> progress;  // share done, what is under way
+};
+
+struct DiagnosisAnswer {
+  Json answer;                         // diagnosis/1
+  std::optional<SavedModel> revision;  // to be saved; none of a tie or of what is undecided
+};
+DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisProgress& progress);
+
+// A file by name and the hash of its text.
+Provenance::File FileOf(const std::string& name, std::string_view text);
+
+}  // namespace plenum::api
+
+#endif  // PLENUM_API_MEASURE_DIAGNOSE_REQUEST_H_

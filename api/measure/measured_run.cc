@@ -1,0 +1,221 @@
+#include "api/measure/measured_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "api/json/schema_recorder.h"
+#include "api/json/shared_fields.h"
+#include "api/json/units.h"
+#include "api/json/words.h"
+#include "api/measure/measured_rig.h"
+#include "api/simulate/rig.h"
+
+namespace plenum::api {
+namespace {
+
+using calibration::Run;
+using calibration::Supply;
+
+constexpr std::size_t kReadingsMin = 8;
+constexpr double kTimeMaxS = 1e6;
+constexpr double kAbsurd = 3.0;  // a reading that many times above all that could cause it
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Collects errors of one list up to a number, then says how many more there are.
+class SeriesErrors {
+ public:
+  SeriesErrors(Reader& owner, std::string name) : owner_(owner), name_(std::move(name)) {}
+  ~SeriesErrors() {
+    if (count_ > kSeriesErrors)
+      owner_.Fail(name_, "and " + std::to_string(count_ - kSeriesErrors) + " more like these");
+  }
+  SeriesErrors(const SeriesErrors&) = delete;
+  void Add(std::size_t index, const std::string& detail) {
+    if (++count_ <= kSeriesErrors) owner_.FailAt(name_ + "/" + std::to_string(index), detail);
+  }
+
+ private:
+  Reader& owner_;
+  std::string name_;
+  std::size_t count_ = 0;
+};
+
+// Samples; null is NaN where `gaps` are allowed.
+std::vector<double> ReadSeries(Reader& owner, const std::string& name, Range range, bool gaps,
+                               std::size_t least) {
+  Json item = NumberForm(range);
+  if (gaps) item = {{"anyOf", {item, {{"type", "null"}}}}};
+  owner.Describe(name, {{"type", "array"},
+                        {"minItems", least},
+                        {"maxItems", kRunSamplesMax},
+                        {"items", std::move(item)}});
+  std::vector<double> series;
+  SeriesErrors errors(owner, name);
+  for (const Element& element : owner.List(name, least, kRunSamplesMax)) {
+    const Json& value = *element.value;
+    double number = kNaN;
+    if (value.is_number()) {
+      number = value.get<double>();
+      if (!range.Contains(number))
+        errors.Add(series.size(), "must be " + range.Text() + ", not " + Decimal(number));
+    } else if (!value.is_null() || !gaps) {
+      errors.Add(series.size(), "must be a number" + std::string(gaps ? " or null" : "") +
+                                    ", not " + KindOf(value));
+    }
+    series.push_back(number);
+  }
+  return series;
+}
+
+void CheckRising(Reader& owner, const std::vector<double>& t_s) {
+  SeriesErrors errors(owner, "t_s");
+  for (std::size_t i = 1; i < t_s.size(); ++i)
+    if (t_s[i] < t_s[i - 1])
+      errors.Add(i, "must not fall from sample to sample: " + Decimal(t_s[i]) + " follows " +
+                        Decimal(t_s[i - 1]));
+  if (!t_s.empty() && t_s.front() == t_s.back())
+    owner.Fail("t_s", "must span some time; all samples are at " + Decimal(t_s.front()) + " s");
+}
+
+void CheckLength(Reader& owner, const std::string& name, std::size_t length, std::size_t samples) {
+  if (length > 0 && samples > 0 && length != samples)
+    owner.Fail(name, "must have one value for each of the " + std::to_string(samples) +
+                         " sample times, not " + std::to_string(length));
+}
+
+std::vector<double> InSi(const std::vector<double>& series, auto&& convert) {
+  std::vector<double> si(series.size());
+  std::transform(series.begin(), series.end(), si.begin(), convert);
+  return si;
+}
+
+void ReadChannels(Reader& owner, Run& run) {
+  auto channels = owner.OptionalObject("channels");
+  if (!channels) return;
+  const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
+  const auto gauge = [&](double kpa) { return PaFromKpaGauge(kpa, run.ambient); };
+  const auto read = [&](const char* name, Range range, auto&& convert,
+                        std::vector<double>& channel) {
+    if (!channels->Has(name)) return;
+    channel = InSi(ReadSeries(*channels, name, range, true, 0), convert);
+    CheckLength(*channels, name, channel.size(), run.t_s.size());
+    const bool silent =
+        std::all_of(channel.begin(), channel.end(), [](double value) { return std::isnan(value); });
+    if (silent) channel.clear();
+  };
+  const Range pressure = Above(lowest_kpa, kGaugeMaxKpa);
+  read("source_pressure_kpa_gauge", pressure, gauge, run.channels.source_pressure_pa);
+  read("inlet_pressure_kpa_gauge", pressure, gauge, run.channels.inlet_pressure_pa);
+  read("temperature_k", {50, 2000}, std::identity(), run.channels.temperature_k);
+  read("volume_ml", Above(0, 1e9), M3FromMl, run.channels.volume_m3);
+  read("flow_l_per_min_anr", {-1e6, 1e6}, M3PerSFromLPerMin, run.channels.flow_m3_per_s);
+  channels->Finish();
+}
+
+void ReadInitial(Reader& owner, Run& run) {
+  auto initial = owner.OptionalObject("initial");
+  if (!initial) return;
+  const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
+  if (const auto kpa =
+          initial->OptionalNumber("pressure_kpa_gauge", Above(lowest_kpa, kGaugeMaxKpa)))
+    run.initial_pressure_pa = PaFromKpaGauge(*kpa, run.ambient);
+  run.initial_temperature_k = initial->OptionalNumber("temperature_k", {150, 600});
+  initial->Finish();
+}
+
+bool Opens(const Run& run, model::ValveState state) {
+  return std::any_of(run.valve.begin(), run.valve.end(),
+                     [&](const model::ValveCommand& command) { return command.state == state; });
+}
+
+// What the run does must be possible with what is declared.
+void CheckAgreement(Reader& owner, const Run& run, bool has_source_pressure) {
+  const bool inflates = Opens(run, model::ValveState::kInflate);
+  if ((inflates || Opens(run, model::ValveState::kDeflate)) && run.line.empty())
+    owner.Fail("valve", "opens, but the rig has no line");
+  if (inflates && run.supply == Supply::kNone)
+    owner.Fail("valve", "inflates, but the rig's supply is none");
+  if (run.supply == Supply::kRegulated && inflates && !has_source_pressure)
+    owner.Fail("source_pressure_kpa_gauge", "is required with a regulated supply, a number ≥ 0");
+  if (run.supply == Supply::kMeasured && run.channels.source_pressure_pa.empty())
+    owner.Fail("channels", "source_pressure_kpa_gauge is required with supply.kind measured");
+}
+
+// Readings that can tell something.
+void CheckReadings(Reader& owner, const Run& run) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  std::size_t count = 0;
+  for (const double pa : run.pressure_pa) {
+    if (std::isnan(pa)) continue;
+    low = std::min(low, pa), high = std::max(high, pa);
+    ++count;
+  }
+  if (run.pressure_pa.empty()) return;  // reported
+  if (count < kReadingsMin) {
+    owner.Fail("pressure_kpa_gauge", "must hold at least " + std::to_string(kReadingsMin) +
+                                         " readings, not " + std::to_string(count));
+    return;
+  }
+  const double high_kpa = KpaGaugeFromPa(high, run.ambient);
+  if (low == high)
+    owner.Fail("pressure_kpa_gauge", "must change; all " + std::to_string(count) +
+                                         " readings are " + Decimal(Rounded(high_kpa)));
+  double cause_pa = std::max({run.source_pressure_pa, run.chamber.operating_pressure_pa,
+                              run.initial_pressure_pa.value_or(0.0)});
+  for (const double pa : run.channels.source_pressure_pa)
+    if (!std::isnan(pa)) cause_pa = std::max(cause_pa, pa);
+  if (run.supply == Supply::kCompressor)
+    cause_pa = std::max(cause_pa, run.compressor.pressure_max_pa);
+  const double cause_kpa = KpaGaugeFromPa(cause_pa, run.ambient);
+  if (run.initial_pressure_pa && high_kpa > kAbsurd * cause_kpa)
+    owner.Fail("pressure_kpa_gauge", "reaches " + Decimal(Rounded(high_kpa)) +
+                                         " kPa, but nothing in the run is above " +
+                                         Decimal(Rounded(cause_kpa)) + " kPa; are the units kPa?");
+}
+
+}  // namespace
+
+Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& ids,
+            Errors& errors) {
+  Reader reader(element, errors);
+  AllowRemarks(reader);
+  Run run;
+  run.id = reader.Text("id");
+  if (!run.id.empty() && !ids.insert(run.id).second)
+    reader.Fail("id", "must be unique; " + Quoted(run.id) + " is taken by an earlier run");
+  const MeasuredRig rig = ReadRigOfRun(shared, reader.Has("rig") ? reader.Raw("rig") : nullptr,
+                                       reader.Pointer("rig"), errors);
+  run.ambient = rig.ambient;
+  run.chamber = rig.chamber;
+  run.line = rig.line;
+  run.supply = rig.supply;
+  run.compressor = rig.compressor;
+  run.reservoir_volume_m3 = rig.reservoir_volume_m3;
+  run.blocked = reader.Bool("blocked", false);
+  const auto source_kpa = reader.OptionalNumber("source_pressure_kpa_gauge", {0, kGaugeMaxKpa});
+  const bool has_source = source_kpa || rig.source_pressure_pa;
+  run.source_pressure_pa = source_kpa ? PaFromKpaGauge(*source_kpa, run.ambient)
+                                      : rig.source_pressure_pa.value_or(run.ambient.pressure_pa);
+  ReadInitial(reader, run);
+  if (const auto schedule = ReadSchedule(reader))
+    run.valve = schedule->commands;
+  else
+    reader.Fail("valve", "is required, a list of commands { t_s, state }");
+  run.t_s = ReadSeries(reader, "t_s", {-kTimeMaxS, kTimeMaxS}, false, kReadingsMin);
+  CheckRising(reader, run.t_s);
+  const double lowest_kpa = -run.ambient.pressure_pa / kPaPerKpa;
+  run.pressure_pa = InSi(ReadSeries(reader, "pressure_kpa_gauge", {1.5 * lowest_kpa, kGaugeMaxKpa},
+                                    true, kReadingsMin),
+                         [&](double kpa) { return PaFromKpaGauge(kpa, run.ambient); });
+  CheckLength(reader, "pressure_kpa_gauge", run.pressure_pa.size(), run.t_s.size());
+  ReadChannels(reader, run);
+  CheckAgreement(reader, run, has_source);
+  CheckReadings(reader, run);
+  reader.Finish();
+  return run;
+}
+
+}  // namespace plenum::api

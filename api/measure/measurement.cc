@@ -1,0 +1,101 @@
+#include "api/measure/measurement.h"
+
+#include <set>
+
+#include "api/json/reader.h"
+#include "api/json/schema_recorder.h"
+#include "api/json/shared_fields.h"
+#include "api/json/words.h"
+#include "api/measure/measured_rig.h"
+#include "api/measure/measured_run.h"
+
+namespace plenum::api {
+namespace {
+
+using calibration::Dataset;
+using calibration::Declared;
+
+void ReadUncertainty(Reader& document, Dataset& dataset) {
+  auto reader = document.OptionalObject("relative_uncertainty");
+  if (!reader) return;
+  for (int k = 0; k < calibration::kDeclaredCount; ++k) {
+    const auto name = calibration::Name(static_cast<Declared>(k));
+    double& uncertainty = dataset.relative_uncertainty[static_cast<std::size_t>(k)];
+    reader->Describe(name, {{"anyOf", {NumberForm({0, 10}), {{"const", "unknown"}}}}});
+    if (!reader->Has(name)) continue;
+    const Json& value = *reader->Raw(name);
+    if (value.is_string() && value.get_ref<const std::string&>() == "unknown")
+      uncertainty = calibration::kUnknown;
+    else if (value.is_string())
+      reader->Fail(name, "must be a number or \"unknown\", not " + KindOf(value));
+    else
+      uncertainty = reader->Number(name, {0, 10});
+  }
+  reader->Finish();
+}
+
+void CheckHoldout(Reader& document, const std::set<std::string>& ids, const Dataset& dataset) {
+  for (std::size_t i = 0; i < dataset.holdout.size(); ++i) {
+    if (ids.contains(dataset.holdout[i])) continue;
+    const std::vector<std::string> known(ids.begin(), ids.end());
+    const std::string nearest = Nearest(dataset.holdout[i], known);
+    document.FailAt("holdout/" + std::to_string(i),
+                    "no run " + Quoted(dataset.holdout[i]) +
+                        (nearest.empty() ? "" : "; nearest id: " + nearest));
+  }
+  if (!ids.empty() && dataset.holdout.size() >= ids.size())
+    document.Fail("holdout", "must leave at least one run to fit");
+}
+
+}  // namespace
+
+Parsed<Dataset> ParseMeasurement(const Json& document) {
+  Errors errors;
+  Dataset dataset;
+  Reader reader(document, "", errors);
+  AllowRemarks(reader);
+  reader.Schema("measurement/1");
+  dataset.name = reader.Text("name", "measurement");
+  static const Json kNoRig = Json::object();
+  const Json* shared = reader.Has("rig") ? reader.Raw("rig") : &kNoRig;
+  ReadUncertainty(reader, dataset);
+  std::set<std::string> ids;
+  for (const Element& element : reader.List("runs", 1, kRunsMax))
+    dataset.runs.push_back(ReadRun(element, *shared, ids, errors));
+  dataset.holdout = reader.Texts("holdout", 0, kRunsMax);
+  CheckHoldout(reader, ids, dataset);
+  reader.Finish();
+  if (!errors.empty()) return errors;
+  return dataset;
+}
+
+Parsed<Json> MergeMeasurements(const std::vector<Json>& documents) {
+  Json merged = documents.front();
+  Errors errors;
+  for (std::size_t d = 1; d < documents.size(); ++d) {
+    const Json& document = documents[d];
+    if (!document.is_object() || !merged.is_object()) {
+      errors.push_back({"", "document " + std::to_string(d + 1) + " is not an object"});
+      continue;
+    }
+    if (document.value("relative_uncertainty", Json::object()) !=
+        merged.value("relative_uncertainty", Json::object()))
+      errors.push_back({"/relative_uncertainty",
+                        "differs between the files; one factor serves "
+                        "all runs, so it must be the same in all"});
+    const bool same_rig = document.value("rig", Json()) == merged.value("rig", Json());
+    for (Json run : document.value("runs", Json::array())) {
+      if (!same_rig && run.is_object()) {
+        Json rig = document.value("rig", Json::object());
+        rig.merge_patch(run.value("rig", Json::object()));
+        run["rig"] = std::move(rig);
+      }
+      merged["runs"].push_back(std::move(run));
+    }
+    for (const Json& id : document.value("holdout", Json::array())) merged["holdout"].push_back(id);
+  }
+  if (!errors.empty()) return errors;
+  return merged;
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,61 @@
+#include "api/measure/revision_of_diagnosis.h"
+
+#include "api/simulate/effects.h"
+#include "model/effects/learned/learned.h"
+
+namespace plenum::api {
+namespace {
+
+// The name of an effect's parameter in the contract and how large 1 in SI is in its unit.
+struct Unit {
+  std::string name;
+  double size = 1.0;
+};
+
+Unit UnitOf(const model::Effect& effect, std::size_t parameter) {
+  model::Effect one = effect;
+  one.parameters.assign(effect.parameters.size(), 0.0);
+  one.parameters[parameter] = 1.0;
+  const Json rendered = RenderEffects({&one, 1})[0]["parameters"];
+  for (const auto& [name, value] : rendered.items())
+    if (value.is_number() && value.get<double>() != 0.0)
+      return {std::string(effect.spec->id) + "." + name, value.get<double>()};
+  return {std::string(effect.spec->id)};
+}
+
+}  // namespace
+
+SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance& provenance) {
+  SavedModel model;
+  std::vector<double> sizes;
+  std::vector<calibration::FittedEffect> effects = diagnosis.effects;
+  if (diagnosis.discrepancy && diagnosis.discrepancy->learned)
+    effects.push_back(*diagnosis.discrepancy->learned);
+  for (const calibration::FittedEffect& fitted : effects) {
+    model.effects.push_back(fitted.effect);
+    for (std::size_t i = 0; i < fitted.parameters.size(); ++i) {
+      if (model::OfEachRun(fitted.effect.spec->parameters[i])) continue;
+      const Unit unit = UnitOf(fitted.effect, i);
+      model.covariance.parameters.push_back(unit.name);
+      sizes.push_back(unit.size);
+    }
+  }
+  for (const auto& [number, estimate] : diagnosis.fitted) {
+    model.factors.emplace_back(number, estimate.value);
+    model.covariance.parameters.emplace_back(calibration::Name(number));
+    sizes.push_back(1.0);
+  }
+  model.covariance.rows = diagnosis.covariance;
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    for (std::size_t j = 0; j < sizes.size(); ++j)
+      model.covariance.rows[i][j] *= sizes[i] * sizes[j];
+  for (const Provenance::File& file : provenance.files)
+    model.data.push_back({file.name, file.sha256});
+  model.noise_pa = diagnosis.noise_pa;
+  model.before_rms_pa = diagnosis.before.rms_pa;
+  model.after_rms_pa = diagnosis.after.rms_pa;
+  model.holdout_rms_pa = diagnosis.after.holdout_rms_pa;
+  return model;
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,15 @@
+// The model revision that a diagnosis found, to be saved.
+#ifndef PLENUM_API_MEASURE_REVISION_OF_DIAGNOSIS_H_
+#define PLENUM_API_MEASURE_REVISION_OF_DIAGNOSIS_H_
+
+#include "api/measure/diagnosis_document.h"
+#include "api/measure/model_document.h"
+
+namespace plenum::api {
+
+// Effects, a learned term among them, and factors at their estimates, with their covariance.
+SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance& provenance);
+
+}  // namespace plenum::api
+
+#endif  // PLENUM_API_MEASURE_REVISION_OF_DIAGNOSIS_H_

@@ -1,0 +1,116 @@
+// From a run and a model to what the sensors should have read, with exact derivatives.
+//
+// A model is the declared rig with a factor on each declared number (gauge pressures keep the
+// ambient pressure as their zero), a list of effects, the pressures and temperatures at which the
+// runs began, by how much each run's clock lags behind the rig's — commands act that much later
+// than recorded, and a compressor began that much later to fill its reservoir —, and what a learned
+// term leaves to each run: the phase of what swings, and how late each stroke comes
+// (model/effects/learned/learned.h). Where a tube's bore moves, its pair (C, b) and its volume move
+// with it (model/flow/tube.h). A factor on C or b acts on the declared pairs, not on those that
+// follow from a tube's size; b stays in [0, 0.95] and ε at 1 or above.
+#ifndef PLENUM_CALIBRATION_FIT_FORWARD_H_
+#define PLENUM_CALIBRATION_FIT_FORWARD_H_
+
+#include <array>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "calibration/values/dataset.h"
+#include "model/effects/effect.h"
+#include "model/simulate/simulate.h"
+
+namespace plenum::calibration {
+
+struct ModelState {
+  ModelState() { factor.fill(1.0); }
+
+  std::array<double, kDeclaredCount> factor;
+  std::vector<model::Effect> effects;
+  std::vector<double> initial_pressure_pa;    // absolute, by run of the data set
+  std::vector<double> initial_temperature_k;  // by run; matters with an energy balance alone
+  std::vector<double> clock_s;                // by run
+  std::vector<double> phase_rad;              // by run
+  // By run and command; empty: none is late but by what the effect itself says.
+  std::vector<std::vector<double>> late_s;
+};
+
+// One number of a model state.
+struct Parameter {
+  enum class Kind {
+    kDeclared,
+    kEffect,
+    kInitialPressure,
+    kInitialTemperature,
+    kClock,
+    kPhase,
+    kLateness
+  };
+  Kind kind = Kind::kDeclared;
+  Declared declared = Declared::kRestVolume;  // kDeclared
+  std::size_t effect = 0, number = 0;  // kEffect: of the list, of its parameters; kLateness: of the
+                                       // run's commands
+  std::size_t run = 0;                 // of one run's own number
+  bool operator==(const Parameter&) const = default;
+};
+double& NumberOf(ModelState& state, const Parameter& parameter);
+double NumberOf(const ModelState& state, const Parameter& parameter);
+
+// Gives a state the numbers of one run's own as another has them.
+void CopyRun(const ModelState& from, std::size_t run, ModelState& to);
+
+// At the run's sample times. Channels that the model does not give are empty: the source without a
+// source, the inlet without a tube in the line.
+struct Reading {
+  std::vector<double> pressure_pa;  // of the sensor, absolute
+  Channels channels;
+};
+
+struct Prediction {
+  model::SimulateStatus status = model::SimulateStatus::kNotRun;
+  std::string detail;                // for any status but kDone
+  bool stiff = false;                // an implicit method was needed
+  Reading reading;                   // as far as it came
+  std::vector<Reading> derivatives;  // by parameter: ∂reading/∂number; empty where it is 0
+};
+
+struct PredictOptions {
+  double relative_tolerance = 1e-6;
+  std::function<bool()> cancelled = {};
+  std::size_t steps_max = 200'000;
+  bool recorded_alone = false;  // of the channels only those that the run itself has
+  bool stiff = false;           // known to be: the implicit method from the start
+};
+
+// Holds what the runs of a data set need again and again: measured source pressures condensed to a
+// few points. The data set must outlive it. Calls may run side by side.
+class ForwardModel {
+ public:
+  explicit ForwardModel(const Dataset& dataset);
+
+  const Dataset& dataset() const { return *dataset_; }
+
+  // The declared model: no effects, declared initial pressures, else the first reading; declared
+  // initial temperatures, else the ambient's.
+  ModelState Declared() const;
+
+  // The rig of a run as the model has it, on the run's own clock shifted to start at 0.
+  model::Rig RigOf(std::size_t run, const ModelState& state) const;
+
+  Prediction Predict(std::size_t run, const ModelState& state,
+                     std::span<const Parameter> parameters, const PredictOptions& options) const;
+
+ private:
+  model::Source SourceOf(std::size_t run, const ModelState& state) const;
+
+  const Dataset* dataset_;
+  std::vector<model::DrivenSource> measured_;  // by run; without points where not measured
+};
+
+// The time at which a run begins: the first sample or the first command, whichever is earlier.
+double StartOf(const Run& run);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_FIT_FORWARD_H_

@@ -1,0 +1,200 @@
+#include "calibration/judge/errors.h"
+
+#include <limits>
+
+#include "calibration/judge/evidence.h"
+#include "calibration/judge/residual.h"
+#include "calibration/learn/criticism.h"
+#include "calibration/values/parallel.h"
+
+namespace plenum::calibration {
+namespace {
+
+constexpr std::size_t kReportSteps = 20'000;  // when there is no time left
+
+// Σ ∂p/∂uᵀ·Σ·∂p/∂u over the run's pressure samples; 0 where it cannot be simulated.
+double PredictionVariance(const FitData& data, const Fit& fit, std::size_t run,
+                          const FitOptions& options) {
+  std::vector<Parameter> parameters;
+  for (const Coordinate& coordinate : fit.coordinates) parameters.push_back(coordinate.parameter);
+  const Prediction prediction = data.forward->Predict(
+      run, fit.state, parameters, {.cancelled = options.cancelled, .steps_max = options.steps_max});
+  if (prediction.status != model::SimulateStatus::kDone) return 0.0;
+  const std::vector<std::size_t>& samples = (*data.observed)[run].signals.front().samples;
+  Eigen::MatrixXd slopes =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(samples.size()), fit.u.size());
+  for (Eigen::Index j = 0; j < fit.u.size(); ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    const std::vector<double>& derivative = prediction.derivatives[k].pressure_pa;
+    const double slope = derivative.empty() ? 0.0 : fit.coordinates[k].Slope(fit.u[j]);
+    for (std::size_t i = 0; i < samples.size() && slope != 0.0; ++i)
+      slopes(static_cast<Eigen::Index>(i), j) = slope * derivative[samples[i]];
+  }
+  return (slopes * Covariance(data, fit, options)).cwiseProduct(slopes).sum();
+}
+
+// Squares on runs that a fit did not see, and what they are made of.
+struct UnseenSum {
+  Squares squares;
+  double noise_pa2 = 0.0, spread_pa2 = 0.0, samples = 0.0;
+  void Add(const Bench& bench, const FitData& data, const Fit& fit, std::size_t run) {
+    squares.Add(ErrorsUnseen(bench, run, fit.state));
+    const auto count = static_cast<double>(bench.observed[run].signals.front().samples.size());
+    noise_pa2 += count * std::pow(NoiseOf(bench, {run}), 2);
+    spread_pa2 += PredictionVariance(data, fit, run, bench.tight);
+    samples += count;
+  }
+  UnseenError Mean() const {
+    const double count = std::max(1.0, samples);
+    return {squares.Rms(), std::sqrt(noise_pa2 / count), std::sqrt(spread_pa2 / count)};
+  }
+};
+
+// Of the fitted runs.
+std::vector<Reading> ReadingsOf(const Bench& bench, const ModelState& state) {
+  std::vector<Reading> readings(bench.data.runs.size());
+  ForAll(readings.size(), bench.tight.threads,
+         [&](std::size_t k) { readings[k] = Shown(bench, state, bench.data.runs[k]); });
+  return readings;
+}
+
+}  // namespace
+
+bool Stopped(const Bench& bench) { return bench.tight.cancelled && bench.tight.cancelled(); }
+
+Reading Shown(const Bench& bench, const ModelState& state, std::size_t run) {
+  FitOptions options = bench.tight;
+  options.cancelled = nullptr;
+  if (Stopped(bench)) options.steps_max = kReportSteps;
+  return Predicted(bench.data, state, run, options);
+}
+
+bool HeldOut(const Bench& bench, std::size_t run) {
+  const std::string& id = bench.dataset.runs[run].id;
+  return std::find(bench.dataset.holdout.begin(), bench.dataset.holdout.end(), id) !=
+         bench.dataset.holdout.end();
+}
+
+Squares ErrorsOf(const Bench& bench, std::size_t run, const ModelState& state) {
+  const Reading reading = Shown(bench, state, run);
+  Squares squares;
+  if (reading.pressure_pa.empty()) {
+    squares.Add(std::numeric_limits<double>::max());
+    return squares;
+  }
+  for (const double r : PressureResidual(bench.dataset.runs[run], bench.observed[run], reading))
+    squares.Add(r);
+  return squares;
+}
+
+ErrorReport ErrorOf(const Bench& bench, const ModelState& state) {
+  std::vector<Squares> of_runs(bench.dataset.runs.size());
+  ForAll(of_runs.size(), bench.tight.threads, [&](std::size_t i) {
+    of_runs[i] = HeldOut(bench, i) ? ErrorsUnseen(bench, i, state) : ErrorsOf(bench, i, state);
+  });
+  ErrorReport report;
+  Squares fitted, held_out;
+  for (std::size_t i = 0; i < of_runs.size(); ++i) {
+    report.run_rms_pa.emplace_back(bench.dataset.runs[i].id, of_runs[i].Rms());
+    (HeldOut(bench, i) ? held_out : fitted).Add(of_runs[i]);
+  }
+  const model::Chamber& chamber = bench.dataset.runs.front().chamber;
+  report.rms_pa = fitted.Rms();
+  report.peak_pa = fitted.peak;
+  report.rms_share = report.rms_pa / (chamber.operating_pressure_pa - chamber.ambient_pressure_pa);
+  if (held_out.count > 0) report.holdout_rms_pa = held_out.Rms();
+  return report;
+}
+
+ModelState Aligned(const Bench& bench, std::size_t run, const ModelState& state) {
+  FitData data = bench.data;
+  data.clocks = data.clocks || data.runs.size() == 1u;
+  return Aligned(data, state, run, bench.tight);
+}
+
+Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& state) {
+  return ErrorsOf(bench, run, Aligned(bench, run, state));
+}
+
+double NoiseOf(const Bench& bench, const std::vector<std::size_t>& runs) {
+  double sum = 0.0, count = 0.0;
+  for (const std::size_t i : runs) {
+    const ObservedSignal& pressure = bench.observed[i].signals.front();
+    const double samples = static_cast<double>(pressure.samples.size());
+    sum += samples * pressure.sigma * pressure.sigma;
+    count += samples;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+UnseenError HeldOutError(const Bench& bench, const Fit& fit) {
+  UnseenSum sum;
+  for (const std::size_t run : bench.held_out) sum.Add(bench, bench.data, fit, run);
+  return sum.Mean();
+}
+
+std::optional<UnseenError> LeaveOneOut(const Bench& bench, const Fit& fit) {
+  if (bench.data.runs.size() < 2) return std::nullopt;
+  UnseenSum sum;
+  for (const std::size_t left_out : bench.data.runs) {
+    FitData data = bench.data;
+    std::erase(data.runs, left_out);
+    FitOptions options = bench.tight;
+    options.noise_share = 1e-2;
+    ModelState start = fit.state;
+    CopyRun(bench.forward.Declared(), left_out, start);
+    const Fit without = FitModel(data, start, options);
+    if (!without.Usable()) return std::nullopt;
+    sum.Add(bench, data, without, left_out);
+  }
+  return sum.Mean();
+}
+
+Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
+  Leftover leftover;
+  if (!fit.Usable()) return leftover;
+  std::vector<FittedRun> runs;
+  Squares squares;
+  const std::vector<Reading> readings = ReadingsOf(bench, fit.state);
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    const std::size_t i = bench.data.runs[k];
+    const Reading& reading = readings[k];
+    if (reading.pressure_pa.empty()) return leftover;
+    runs.push_back({&bench.dataset.runs[i], reading.pressure_pa, bench.observed[i].noise});
+    for (const double r : PressureResidual(bench.dataset.runs[i], bench.observed[i], reading))
+      squares.Add(r);
+  }
+  leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()), nullptr,
+                                      bench.tight.cancelled);
+  leftover.rms_pa = squares.Rms();
+  leftover.priors_hold = PriorsHold(fit);
+  // A memory that leaves the residual coloured is not that of the noise.
+  const double underread = leftover.residual.white ? std::sqrt(leftover.residual.underread) : 1.0;
+  leftover.noise_pa = underread * NoiseOf(bench, bench.data.runs);
+  if (IsNoise(leftover))
+    leftover.learnable_bic =
+        LearnableGain(bench.data, fit, MemoryOf(WhitenedOf(bench, fit)), bench.tight);
+  if (!with_holdout) return leftover;
+  const std::optional<UnseenError> unseen =
+      bench.held_out.empty() ? LeaveOneOut(bench, fit) : HeldOutError(bench, fit);
+  if (unseen) {
+    leftover.holdout_rms_pa = unseen->rms_pa;
+    leftover.holdout_noise_pa = underread * unseen->noise_pa;
+    leftover.holdout_spread_pa = underread * unseen->spread_pa;
+  }
+  return leftover;
+}
+
+std::vector<std::vector<double>> WhitenedOf(const Bench& bench, const Fit& fit) {
+  std::vector<std::vector<double>> series;
+  const std::vector<Reading> readings = ReadingsOf(bench, fit.state);
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    const std::size_t i = bench.data.runs[k];
+    std::vector<double>& rows = series.emplace_back(bench.observed[i].rows());
+    Residuals(bench.dataset.runs[i], bench.observed[i], readings[k], rows);
+    rows.resize(bench.observed[i].signals.front().samples.size());
+  }
+  return series;
+}
+
+}  // namespace plenum::calibration

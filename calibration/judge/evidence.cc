@@ -1,0 +1,108 @@
+#include "calibration/judge/evidence.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <complex>
+#include <unsupported/Eigen/FFT>
+
+#include "calibration/values/parallel.h"
+#include "calibration/values/thresholds.h"
+
+namespace plenum::calibration {
+namespace {
+
+constexpr std::size_t kReweighed = 6;
+constexpr double kNear = 20.0;      // of BIC, were the priors free
+constexpr double kFixedBic = 0.01;  // by how much less the last step may change it
+
+// Σ e_i·e_{i−k} by lag k: the inverse transform of |ê|², with as many zeros behind e that no lag
+// wraps around.
+std::vector<double> Products(std::vector<double> e) {
+  const std::size_t lags = e.size();
+  e.resize(std::bit_ceil(2 * lags), 0.0);
+  Eigen::FFT<double> fft;
+  std::vector<std::complex<double>> spectrum;
+  fft.fwd(spectrum, e);
+  for (std::complex<double>& line : spectrum) line = std::norm(line);
+  std::vector<double> products;
+  fft.inv(products, spectrum);
+  products.resize(lags);
+  return products;
+}
+
+}  // namespace
+
+double MemoryOf(std::span<const std::vector<double>> series) {
+  std::vector<double> covariance;  // by lag, of all series
+  for (const std::vector<double>& e : series) {
+    const std::vector<double> products = Products(e);
+    covariance.resize(std::max(covariance.size(), products.size()), 0.0);
+    for (std::size_t lag = 0; lag < products.size(); ++lag) covariance[lag] += products[lag];
+  }
+  double memory = 1.0;
+  for (std::size_t lag = 1; lag < covariance.size(); ++lag) {
+    const double share = covariance[lag] / covariance.front();
+    if (!(share > 0.0)) break;
+    memory += 2.0 * share;
+  }
+  return memory;
+}
+
+double BicWith(const Fit& fit, double memory) {
+  const double n = static_cast<double>(fit.rows), worth = n / memory;
+  return worth * std::log(fit.chi2_data / n) + fit.chi2_prior + Penalty(fit, memory);
+}
+
+void Reweigh(const FitData& data, const FitOptions& options, double memory,
+             std::vector<Contender>& contenders) {
+  for (std::size_t size = 0; size <= kEffectsMax; ++size) {
+    std::vector<Contender*> best;
+    for (Contender& contender : contenders)
+      if (contender.effects.size() == size && contender.fit.Usable()) best.push_back(&contender);
+    std::sort(best.begin(), best.end(), [&](const Contender* a, const Contender* b) {
+      return BicWith(a->fit, memory) < BicWith(b->fit, memory);
+    });
+    best.resize(std::min(best.size(), kReweighed));
+    std::erase_if(best, [goal = best.empty() ? 0.0 : BicWith(best.front()->fit, memory),
+                         memory](const Contender* contender) {
+      return BicWith(contender->fit, memory) - contender->fit.chi2_prior > goal + kNear;
+    });
+    ForAll(best.size(), options.threads, [&](std::size_t i) {
+      Contender& contender = *best[i];
+      FitOptions weighed = options;
+      weighed.threads = ThreadsWithin(i, best.size(), options.threads);
+      weighed.weight = 1.0 / (memory * std::max(1.0, contender.fit.chi2_data /
+                                                         static_cast<double>(contender.fit.rows)));
+      // Readings of less worth need less.
+      weighed.noise_share /= std::sqrt(weighed.weight);
+      weighed.function_tolerance = std::max(
+          options.function_tolerance, kFixedBic * memory / static_cast<double>(contender.fit.rows));
+      Fit fit = FitModel(data, contender.fit.state, weighed);
+      Narrow(data, weighed, fit);
+      if (fit.Usable() && BicWith(fit, memory) < BicWith(contender.fit, memory))
+        contender.fit = std::move(fit);
+    });
+  }
+}
+
+std::size_t Standing(std::span<const Contender> contenders, double memory) {
+  std::vector<std::size_t> best(kEffectsMax + 1, contenders.size());
+  for (std::size_t i = 0; i < contenders.size(); ++i) {
+    std::size_t& leader = best[contenders[i].effects.size()];
+    if (!contenders[i].fit.Usable()) continue;
+    if (leader == contenders.size() ||
+        BicWith(contenders[i].fit, memory) < BicWith(contenders[leader].fit, memory))
+      leader = i;
+  }
+  std::size_t standing = best.front();
+  for (std::size_t size = 1; size < best.size() && best[size] < contenders.size(); ++size) {
+    if (BicWith(contenders[best[size]].fit, memory) >
+        BicWith(contenders[standing].fit, memory) - kAccept)
+      break;
+    standing = best[size];
+  }
+  return standing;
+}
+
+}  // namespace plenum::calibration

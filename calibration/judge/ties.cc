@@ -1,0 +1,61 @@
+#include "calibration/judge/ties.h"
+
+#include <algorithm>
+
+#include "calibration/judge/closeness.h"
+#include "calibration/judge/evidence.h"
+#include "calibration/judge/findings.h"
+#include "calibration/judge/wider_laws.h"
+#include "calibration/values/thresholds.h"
+
+namespace plenum::calibration {
+
+std::vector<const Contender*> TiedWith(const Bench& bench, std::span<const Contender> contenders,
+                                       const Contender& chosen, double memory, double reach) {
+  const bool alone = bench.data.runs.size() == 1u && bench.held_out.empty();
+  const double evidence = alone ? EvidenceOf(bench, chosen.fit, memory) : 0.0;
+  const auto apart = [&](const Fit& other) {
+    const bool worse = BicWith(other, memory) > BicWith(chosen.fit, memory) + reach;
+    if (!worse || !alone) return worse;
+    const Gap gap = GapTo(bench, chosen.fit, other, memory);
+    return gap.size > kTieScatter * gap.scatter &&
+           EvidenceOf(bench, other, memory) > evidence + reach;
+  };
+  std::vector<const Contender*> tied = {&chosen};
+  for (const Contender& contender : contenders) {
+    if (contender.effects.size() != chosen.effects.size() || !contender.fit.Usable()) continue;
+    if (apart(contender.fit)) continue;
+    const bool known = std::any_of(tied.begin(), tied.end(), [&](const Contender* other) {
+      return SameEffects(contender, *other);
+    });
+    if (!known) tied.push_back(&contender);
+  }
+  const std::vector<const Contender*> all = tied;
+  std::erase_if(tied, [&](const Contender* wide) {
+    return wide != &chosen && std::any_of(all.begin(), all.end(), [&](const Contender* narrow) {
+             return StandsAtLimitAlone(bench, *wide, *narrow, memory);
+           });
+  });
+  return tied;
+}
+
+std::optional<Experiment> ExperimentFor(const Bench& bench,
+                                        const std::vector<const Contender*>& tied,
+                                        const Fit& by_the_clock) {
+  FitData data = bench.data;
+  std::vector<Fit> with_clocks;
+  if (by_the_clock.Usable()) {
+    data.clocks = true;
+    for (const Contender* contender : tied)
+      with_clocks.push_back(FitModel(data, contender->fit.state, bench.tight));
+  }
+  std::vector<TiedFit> fits;
+  for (std::size_t i = 0; i < tied.size(); ++i)
+    fits.push_back({IdsOf(*tied[i]), with_clocks.empty() ? &tied[i]->fit : &with_clocks[i]});
+  if (by_the_clock.Usable()) fits.push_back({{}, &by_the_clock});
+  const bool usable =
+      std::all_of(fits.begin(), fits.end(), [](const TiedFit& one) { return one.fit->Usable(); });
+  return usable ? DesignExperiment(data, fits, bench.tight) : std::nullopt;
+}
+
+}  // namespace plenum::calibration

@@ -1,0 +1,56 @@
+#include "calibration/judge/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/values/thresholds.h"
+
+namespace plenum::calibration {
+namespace {
+
+double Above(const Leftover& leftover) {
+  return std::max(0.0, leftover.rms_pa * leftover.rms_pa - leftover.noise_pa * leftover.noise_pa);
+}
+
+bool IsSmall(const Leftover& before, const Leftover& after) {
+  const double share = Above(after) / std::max(Above(before), 1e-300);
+  return share < kLeftOver && std::sqrt(Above(after)) < kNegligible * after.noise_pa;
+}
+
+bool HoldsOut(const Leftover& leftover) {
+  if (!leftover.holdout_rms_pa) return true;
+  const double noise_pa = kHoldout * leftover.holdout_noise_pa.value_or(leftover.noise_pa);
+  return *leftover.holdout_rms_pa <=
+         std::hypot(noise_pa, std::sqrt(kHoldoutSpread) * leftover.holdout_spread_pa);
+}
+
+}  // namespace
+
+bool IsNoise(const Leftover& leftover) {
+  const ResidualReport& residual = leftover.residual;
+  return residual.white && residual.independent_of_inputs &&
+         residual.lack_of_fit <= residual.lack_of_fit_limit && leftover.learnable_bic <= kAccept;
+}
+
+double UnexplainedFraction(const Leftover& before, const Leftover& after) {
+  if (IsNoise(after) || Above(before) == 0.0) return 0.0;
+  return std::min(1.0, Above(after) / Above(before));
+}
+
+Verdict Judge(const Evidence& evidence) {
+  if (!evidence.complete) return Verdict::kUndecided;
+  if (!evidence.accepted)
+    return IsNoise(evidence.before) ? Verdict::kAdequate : Verdict::kUnexplained;
+  const bool clean = IsNoise(evidence.after) || IsSmall(evidence.before, evidence.after);
+  const bool imitation = evidence.imitated || !evidence.after.priors_hold;
+  if (!clean || !HoldsOut(evidence.after) || imitation) return Verdict::kUnexplained;
+  return evidence.tied > 0 ? Verdict::kTie : Verdict::kExplained;
+}
+
+bool IsTieBesideStructure(const Evidence& evidence) {
+  return evidence.accepted && evidence.tied > 0 && HoldsOut(evidence.after) &&
+         evidence.after.priors_hold && !evidence.imitated &&
+         UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
+}
+
+}  // namespace plenum::calibration

@@ -1,0 +1,52 @@
+// The verdict on a search, from what its fits left over.
+#ifndef PLENUM_CALIBRATION_JUDGE_VERDICT_H_
+#define PLENUM_CALIBRATION_JUDGE_VERDICT_H_
+
+#include <optional>
+
+#include "calibration/values/diagnosis.h"
+
+namespace plenum::calibration {
+
+// What a fitted model leaves over.
+struct Leftover {
+  ResidualReport residual;
+  double rms_pa = 0.0;    // of the fitted runs
+  double noise_pa = 0.0;  // of the same samples
+  std::optional<double> holdout_rms_pa;
+  std::optional<double> holdout_noise_pa;
+  double holdout_spread_pa = 0.0;  // what the uncertainty of the fitted numbers adds to it
+  double learnable_bic = 0.0;      // what a learned term would gain (criticism.h)
+  bool priors_hold = true;         // the declared numbers are where their uncertainties let them be
+};
+
+// Nothing but noise: white and independent of the inputs, no more of it than the readings show, and
+// nothing in it that a learned term could take up.
+bool IsNoise(const Leftover& leftover);
+
+// Share of the variance above the noise that is left of what the base model left.
+double UnexplainedFraction(const Leftover& before, const Leftover& after);
+
+struct Evidence {
+  bool complete = false;   // every fit that matters came to its end
+  bool accepted = false;   // the chosen set has effects (which BIC accepted)
+  int tied = 0;            // other sets of its size as good as it
+  Leftover before, after;  // of the base model and the chosen set
+  bool imitated = false;   // one learned term alone does as well as its several effects
+};
+
+// In this order: kUndecided if not complete. Without an accepted effect kAdequate if the base model
+// leaves noise alone, else kUnexplained. With one, kUnexplained where structure is left that is
+// neither noise nor small (kLeftOver, kNegligible), where runs that the fit did not see are off
+// by more than √(kHoldout²·noise² + kHoldoutSpread·spread²), and where the set only imitates what
+// is missing: it needs declared numbers beyond their uncertainties, or one term of unknown cause
+// does what it takes several effects for. Then kTie if others are as good; else kExplained.
+Verdict Judge(const Evidence& evidence);
+
+// A tie claims less than an explanation: it stands where each of several sets leaves at most
+// kEstablished of what the base model left, though that is structure, and holds out.
+bool IsTieBesideStructure(const Evidence& evidence);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_JUDGE_VERDICT_H_

@@ -1,0 +1,40 @@
+// Sets of effects that a search tries.
+#ifndef PLENUM_CALIBRATION_VALUES_EFFECT_SETS_H_
+#define PLENUM_CALIBRATION_VALUES_EFFECT_SETS_H_
+
+#include <string_view>
+#include <vector>
+
+#include "calibration/values/dataset.h"
+#include "model/effects/effect.h"
+
+namespace plenum::calibration {
+
+using EffectSet = std::vector<const model::EffectSpec*>;  // in the order of the registry
+
+// Whether the registry has `a` before `b`.
+bool Precedes(const model::EffectSpec* a, const model::EffectSpec* b);
+
+EffectSet With(EffectSet set, const model::EffectSpec* in);
+EffectSet Without(EffectSet set, const model::EffectSpec* out);
+
+bool HoldsId(const EffectSet& set, std::string_view id);
+
+// A term that stands for what has no name (discrepancy.h).
+bool IsLearned(const model::EffectSpec& spec);
+
+// The effects that have a name, of which the runs can tell: a valve that never opens tells nothing
+// of itself, of its line and of what feeds it.
+EffectSet NamedEffects(const std::vector<Run>& runs);
+
+// Effects that shift strokes in time, as a clock does.
+bool ActsInTime(const model::EffectSpec& spec);
+
+// Effects that ring: a simulation less exact damps them, and where they ring in step is all that
+// tells them.
+bool Rings(const model::EffectSpec& spec);
+bool AnyRings(const EffectSet& set);
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_VALUES_EFFECT_SETS_H_

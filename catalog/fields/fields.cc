@@ -1,0 +1,119 @@
+#include "catalog/fields/fields.h"
+
+namespace plenum::catalog {
+namespace {
+
+const NumberField kMass{"mass_kg", 1e-6, 500, true, "mass of one piece, empty"};
+const NumberField kBody{"body_volume_ml", 1e-4, 1e6, true, "outer envelope of one piece"};
+const NumberField kPrice{"price_eur", 0, 1e6, false, "price of one piece"};
+const NumberField kPressureMax{"pressure_max_kpa_gauge", 1, 5e4, true, "highest working pressure"};
+
+NumberField Conductance(std::string_view name, std::string_view meaning) {
+  return {name, 1e-6, 1e4, true, meaning};
+}
+NumberField Ratio(std::string_view name) {
+  return {name, 0, 0.95, true, "critical pressure ratio b"};
+}
+
+}  // namespace
+
+std::vector<Family> OwnFamilies() {
+  return {
+      {"tubing",
+       {{"outer_diameter_mm", 0.5, 100, true, "outer diameter"},
+        {"inner_diameter_mm", 0.3, 30, true, "bore"},
+        {"mass_kg_per_m", 1e-6, 10, true, "mass per metre"},
+        {"price_eur_per_m", 0, 1e4, false, "price per metre"},
+        kPressureMax},
+       {{"material", false, {}, "material"}},
+       false},
+      {"fitting",
+       {{"tube_outer_diameter_mm", 0.5, 100, true, "outer diameter of the tube it takes"},
+        Conductance("sonic_conductance_dm3_per_s_bar", "sonic conductance C of one fitting"),
+        Ratio("critical_ratio"),
+        kMass,
+        kBody,
+        kPrice,
+        kPressureMax},
+       {{"thread", true, {}, "thread, matches a valve's port"}, {"style", false, {}, "shape"}},
+       false},
+      {"valve",
+       {{"channels", 1, 64, true, "actuators that one piece serves"},
+        Conductance("sonic_conductance_fill_dm3_per_s_bar", "sonic conductance C when filling"),
+        Ratio("critical_ratio_fill"),
+        Conductance("sonic_conductance_exhaust_dm3_per_s_bar", "sonic conductance C when venting"),
+        Ratio("critical_ratio_exhaust"),
+        {"coil_power_w", 0, 1e3, true, "electrical power per channel while energised"},
+        {"pressure_min_kpa_gauge", 0, 5e4, false, "lowest inlet pressure at which it switches"},
+        {"response_time_ms", 0, 1e4, false, "time from command to open"},
+        kMass,
+        kBody,
+        kPrice,
+        kPressureMax},
+       {{"function", true, {"3/2", "2/2 pair", "proportional"}, "how one channel is served"},
+        {"port", true, {}, "thread of the port to the actuator"}},
+       false},
+      {"compressor",
+       {{"voltage_v", 1, 60, true, "voltage at which the curve was taken"},
+        {"duty_max", 0.01, 1, true, "thermal limit on the share of time that it runs"},
+        kMass,
+        kBody,
+        kPrice,
+        kPressureMax},
+       {{"type", false, {}, "principle"}},
+       true},
+      {"cylinder",
+       {{"water_volume_l", 0.01, 100, true, "inner volume"},
+        {"fill_pressure_kpa_gauge", 100, 5e4, true, "fill pressure"},
+        kMass,
+        kBody,
+        kPrice},
+       {{"material", false, {}, "material"}},
+       false},
+      {"co2",
+       {{"co2_mass_kg", 1e-3, 50, true, "liquid CO2 when full"},
+        {"water_volume_l", 0.005, 100, false, "inner volume"},
+        {"flow_sustained_l_per_min_anr", 1e-3, 1e4, true, "sustained draw without heating"},
+        kMass,
+        kBody,
+        kPrice},
+       {{"thread", false, {}, "neck thread"}},
+       false},
+      {"battery",
+       {{"cells_series", 1, 24, true, "cells in series"},
+        {"nominal_voltage_v", 1, 100, true, "nominal voltage of the pack"},
+        {"capacity_ah", 0.01, 1e3, true, "capacity"},
+        {"current_max_a", 0.01, 1e4, true, "continuous current limit"},
+        kMass,
+        kBody,
+        kPrice},
+       {{"chemistry", false, {}, "cell chemistry"}},
+       false},
+      {"regulator",
+       {Conductance("sonic_conductance_dm3_per_s_bar", "sonic conductance C, inlet to outlet"),
+        Ratio("critical_ratio"),
+        {"flow_max_l_per_min_anr", 1e-3, 1e6, false, "flow limit, if below what C allows"},
+        {"inlet_pressure_min_kpa_gauge", 0, 5e4, true, "lowest inlet pressure that regulates"},
+        {"inlet_pressure_max_kpa_gauge", 1, 5e4, true, "highest inlet pressure"},
+        {"outlet_pressure_min_kpa_gauge", 0, 5e4, true, "lowest outlet setting"},
+        {"outlet_pressure_max_kpa_gauge", 1, 5e4, true, "highest outlet setting"},
+        {"electrical_power_w", 0, 1e3, true, "electrical power, 0 for a mechanical regulator"},
+        kMass,
+        kBody,
+        kPrice},
+       {{"type", false, {}, "principle"}},
+       false},
+      {"reservoir",
+       {{"internal_volume_ml", 1, 1e6, true, "inner volume"}, kMass, kBody, kPrice, kPressureMax},
+       {{"material", false, {}, "material"}, {"port", false, {}, "thread"}},
+       false},
+  };
+}
+
+const Family* FindFamily(std::string_view name) {
+  for (const Family& family : Families())
+    if (family.name == name) return &family;
+  return nullptr;
+}
+
+}  // namespace plenum::catalog

@@ -1,0 +1,89 @@
+#include "catalog/fields/price.h"
+
+#include "catalog/fields/csv_table.h"
+#include "catalog/fields/fields.h"
+#include "catalog/fields/rates_csv.h"
+#include "catalog/fields/text.h"
+
+namespace plenum::catalog {
+namespace {
+
+constexpr std::string_view kEuro = "EUR";
+
+std::vector<Rate> ReadRates() {
+  std::vector<Rate> rates;
+  for (const CsvRow& row : ParseTable(RatesCsv()).rows)
+    if (const auto units = ParseNumber(row.at(2)))  // none in the header
+      rates.push_back({row[0], row[1], *units});
+  return rates;
+}
+
+std::optional<double> EuroAPiece(const Offer& offer) {
+  const auto units = UnitsPerEuro(offer.currency, offer.date);
+  if (!units || !(offer.price >= 0) || !(offer.pack > 0)) return std::nullopt;
+  return offer.price / (*units * offer.pack);
+}
+
+// Empty where parts of the family have no price.
+std::string PriceField(const std::string& family_name) {
+  if (const Family* family = FindFamily(family_name))
+    for (const NumberField& field : family->numbers)
+      if (field.name.starts_with("price_eur")) return std::string(field.name);
+  return {};
+}
+
+std::string SourceOf(const Offer& offer) {
+  std::string source = "offer of " + offer.supplier;
+  if (!offer.date.empty()) source += ", " + offer.date;
+  source += ": " + FormatNumber(offer.price) + " " + offer.currency;
+  if (offer.pack != 1.0) source += " for " + FormatNumber(offer.pack);
+  if (offer.currency != kEuro)
+    source += ", " + FormatNumber(UnitsPerEuro(offer.currency, offer.date).value()) + " " +
+              offer.currency + "/EUR";
+  return source;
+}
+
+}  // namespace
+
+const std::vector<Rate>& Rates() {
+  static const std::vector<Rate> rates = ReadRates();
+  return rates;
+}
+
+std::vector<std::string_view> Currencies() {
+  std::vector<std::string_view> currencies{kEuro};
+  for (const Rate& rate : Rates())
+    if (currencies.back() != rate.currency) currencies.push_back(rate.currency);
+  return currencies;
+}
+
+// Dates compare as texts: "2024" comes before "2024-05", which comes before "2024-05-31".
+std::optional<double> UnitsPerEuro(std::string_view currency, std::string_view date) {
+  if (currency == kEuro) return 1.0;
+  std::optional<double> units;
+  for (const Rate& rate : Rates())
+    if (rate.currency == currency && (!units || date.empty() || rate.date <= date))
+      units = rate.units_per_eur;
+  return units;
+}
+
+const Offer* NewestOffer(const std::vector<Offer>& offers) {
+  const Offer* newest = nullptr;
+  for (const Offer& offer : offers) {
+    const auto price = EuroAPiece(offer);
+    if (!price) continue;
+    if (newest == nullptr || offer.date > newest->date ||
+        (offer.date == newest->date && *price < *EuroAPiece(*newest)))
+      newest = &offer;
+  }
+  return newest;
+}
+
+void DerivePrice(Part& part) {
+  const Offer* offer = NewestOffer(part.offers);
+  const std::string field = PriceField(part.family);
+  if (offer == nullptr || field.empty()) return;
+  part.numbers[field] = {*EuroAPiece(*offer), Provenance::kDerived, SourceOf(*offer)};
+}
+
+}  // namespace plenum::catalog

@@ -1,0 +1,30 @@
+// Small helpers on text that validation and CSV share.
+#ifndef PLENUM_CATALOG_FIELDS_TEXT_H_
+#define PLENUM_CATALOG_FIELDS_TEXT_H_
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plenum::catalog {
+
+// Shortest decimal that reads back as the same double.
+std::string FormatNumber(double value);
+
+// A whole decimal number with nothing after it, blanks around it aside; none also where it does not
+// fit a finite double.
+std::optional<double> ParseNumber(std::string_view text);
+
+// Well-formed UTF-8 without control characters but tab, line feed and carriage return.
+bool IsCleanText(std::string_view text);
+
+// Number of characters of well-formed UTF-8.
+std::size_t CountCharacters(std::string_view text);
+
+// The name with the smallest edit distance, the first of equals; empty if there is none.
+std::string_view NearestName(std::string_view name, const std::vector<std::string_view>& known);
+
+}  // namespace plenum::catalog
+
+#endif  // PLENUM_CATALOG_FIELDS_TEXT_H_

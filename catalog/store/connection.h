@@ -1,0 +1,36 @@
+// Connections to catalog.db: opened, refused or migrated. Internal to the room.
+#ifndef PLENUM_CATALOG_STORE_CONNECTION_H_
+#define PLENUM_CATALOG_STORE_CONNECTION_H_
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <string>
+#include <vector>
+
+#include "catalog/store/store_error.h"
+
+namespace plenum::catalog {
+
+// A connection with foreign keys on, to a file of the newest schema: an older one is migrated, all
+// migrations in one transaction. Throws SQLite::Exception, and StoreError without the name of the
+// file where it is no catalogue or a newer one.
+SQLite::Database Connect(const std::string& path, Access access);
+
+// Makes the connection wait for locks, ten seconds for each, by asking every millisecond. SQLite's
+// own wait asks ten times a second in the end and misses the moments between the commits of a busy
+// writer for as long as it writes.
+void WaitForLocks(SQLite::Database& db);
+
+// What SQLite's own checks of the pages and the foreign keys find.
+std::vector<std::string> CheckFile(SQLite::Database& db);
+
+// Number of migrations that the file has seen. Throws StoreError where it is not a catalogue (an
+// empty file may become one) or has more than this program knows.
+int SchemaVersion(SQLite::Database& db);
+
+// The store's error for one of SQLite's; `where` names the file.
+StoreError ToStoreError(const std::string& where, const SQLite::Exception& error);
+
+}  // namespace plenum::catalog
+
+#endif  // PLENUM_CATALOG_STORE_CONNECTION_H_

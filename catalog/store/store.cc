@@ -1,0 +1,326 @@
+#include "catalog/store/store.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "catalog/store/connection.h"
+#include "catalog/store/history.h"
+#include "catalog/store/models.h"
+#include "catalog/store/rows.h"
+
+namespace plenum::catalog {
+namespace {
+
+// Equal but for the origin, which a CSV file does not carry.
+bool SameContent(Part a, const Part& b) {
+  a.origin = b.origin;
+  return a == b;
+}
+
+// Enters the part in the plan beside what is stored under its id.
+void Enter(const Part& part, const std::optional<Part>& stored, ImportPlan& plan) {
+  if (!stored)
+    plan.added.push_back(part.id);
+  else if (stored->family != part.family)
+    plan.taken.push_back(part.id);
+  else
+    (SameContent(part, *stored) ? plan.unchanged : plan.replaced).push_back(part.id);
+}
+
+// `stored(id)` gives the part as it was when the import began.
+template <class Stored>
+ImportPlan Plan(const PartSource& parts, const Stored& stored) {
+  ImportPlan plan;
+  parts([&](const Part& part) { Enter(part, stored(part.id), plan); });
+  return plan;
+}
+
+}  // namespace
+
+struct Store::Impl {
+  Impl(std::string file, Access access) : path(std::move(file)), db(Connect(path, access)) {}
+
+  // Runs `action` with the connection to itself and names the file in every error.
+  template <class Action>
+  auto Do(const Action& action) {
+    const std::lock_guard lock(mutex);
+    try {
+      return action(db);
+    } catch (const SQLite::Exception& error) {
+      throw ToStoreError(path, error);
+    } catch (const StoreError& error) {
+      throw StoreError(path + " " + error.what(), error.fault());
+    }
+  }
+
+  // Runs `action(writer)` in one transaction; only if it answers kDone, what it changed is recorded
+  // as a revision and committed. A request that was done before under its key is not done again.
+  template <class Action>
+  WriteResult Write(const Signature& by, const std::string& what, const Action& action) {
+    return Do([&](SQLite::Database& connection) -> WriteResult {
+      SQLite::Transaction transaction(connection, SQLite::TransactionBehavior::IMMEDIATE);
+      if (const auto kept = by.key.empty() ? std::nullopt : FindKey(connection, by.key)) {
+        if (kept->request != by.request) return {WriteStatus::kKeyReused, {}, {}};
+        return {
+            WriteStatus::kRepeated, {}, catalog::FindRevision(connection, kept->revision).value()};
+      }
+      RevisionWriter writer(connection);
+      WriteResult result = action(writer);
+      if (result.status != WriteStatus::kDone) return result;
+      result.revision = writer.Record(by.who, what);
+      if (!by.key.empty()) KeepKey(connection, by, writer.head().number, result.revision.number);
+      transaction.commit();
+      return result;
+    });
+  }
+
+  // Runs `action` on tables that are all of one moment.
+  template <class Action>
+  auto Read(const Action& action) {
+    return Do([&](SQLite::Database& connection) {
+      SQLite::Transaction one_moment(connection);
+      return action(connection);
+    });
+  }
+
+  std::string path;
+  SQLite::Database db;
+  std::mutex mutex;
+};
+
+Store::Store(const std::filesystem::path& path, Access access) {
+  try {
+    impl_ = std::make_unique<Impl>(path.string(), access);
+  } catch (const SQLite::Exception& error) {
+    throw ToStoreError(path.string() + ": cannot be opened for " +
+                           (access == Access::kRead ? "reading" : "writing"),
+                       error);
+  } catch (const StoreError& error) {
+    throw StoreError(path.string() + " " + error.what());
+  }
+}
+
+Store::~Store() = default;
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&&) noexcept = default;
+
+std::vector<Part> Store::List(const std::optional<std::string>& family) const {
+  return impl_->Read([&](SQLite::Database& db) {
+    return family ? PartReader(db, "family").Read(*family) : ReadParts(db);
+  });
+}
+
+std::pair<Revision, std::vector<Part>> Store::ListWithHead() const {
+  return impl_->Read(
+      [](SQLite::Database& db) { return std::pair(catalog::Head(db), ReadParts(db)); });
+}
+
+std::optional<Part> Store::Get(const std::string& id) const { return GetAt(id, INT64_MAX); }
+
+Revision Store::Head() const {
+  return impl_->Read([](SQLite::Database& db) { return catalog::Head(db); });
+}
+
+std::optional<Revision> Store::FindRevision(std::int64_t number) const {
+  return impl_->Read([&](SQLite::Database& db) { return catalog::FindRevision(db, number); });
+}
+
+std::vector<Revision> Store::Revisions(std::int64_t below, int limit) const {
+  return impl_->Read([&](SQLite::Database& db) { return ReadRevisions(db, below, limit); });
+}
+
+std::vector<Part> Store::ListAt(std::int64_t number) const {
+  return impl_->Read([&](SQLite::Database& db) { return PartsAt(db, number); });
+}
+
+std::optional<Part> Store::GetAt(const std::string& id, std::int64_t number) const {
+  return impl_->Read([&](SQLite::Database& db) { return PartAt(db, id, number); });
+}
+
+std::vector<Change> Store::History(const std::string& id, std::int64_t below, int limit) const {
+  return impl_->Read([&](SQLite::Database& db) { return ChangesOf(db, id, below, limit); });
+}
+
+std::vector<Change> Store::Changes(const Revision& revision) const {
+  return impl_->Read([&](SQLite::Database& db) { return ChangesIn(db, revision); });
+}
+
+WriteResult Store::Add(const Part& part, const Signature& by) {
+  if (auto errors = Validate(part); !errors.empty())
+    return {WriteStatus::kInvalid, std::move(errors), {}};
+  return impl_->Write(by, "add " + part.id, [&](RevisionWriter& writer) -> WriteResult {
+    if (writer.Get(part.id)) return {WriteStatus::kExists, {}, {}};
+    writer.Change(part.id, std::nullopt, part);
+    return {};
+  });
+}
+
+WriteResult Store::Replace(const Part& part, const Signature& by, const Precondition& may) {
+  if (auto errors = Validate(part); !errors.empty())
+    return {WriteStatus::kInvalid, std::move(errors), {}};
+  return impl_->Write(by, "replace " + part.id, [&](RevisionWriter& writer) -> WriteResult {
+    const auto old = writer.Get(part.id);
+    if (!old) return {WriteStatus::kNotFound, {}, {}};
+    if (may && !may(*old)) return {WriteStatus::kChanged, {}, {}};
+    writer.Change(part.id, old, part);
+    return {};
+  });
+}
+
+WriteResult Store::Remove(const std::string& id, const Signature& by, const Precondition& may) {
+  return impl_->Write(by, "remove " + id, [&](RevisionWriter& writer) -> WriteResult {
+    const auto old = writer.Get(id);
+    if (!old) return {WriteStatus::kNotFound, {}, {}};
+    if (may && !may(*old)) return {WriteStatus::kChanged, {}, {}};
+    writer.Change(id, old, std::nullopt);
+    return {};
+  });
+}
+
+ImportPlan Store::PlanImport(const PartSource& parts) const {
+  return impl_->Read([&](SQLite::Database& db) {
+    PartReader reader(db, "id");
+    return Plan(parts, [&](const std::string& id) { return reader.One(id); });
+  });
+}
+
+ImportResult Store::Import(const PartSource& parts, const Signature& by) {
+  ImportResult result;
+  std::string what = "import nothing";
+  result.write = impl_->Write(by, what, [&](RevisionWriter& writer) -> WriteResult {
+    WriteResult written;
+    parts([&](const Part& part) {
+      what = "import " + part.family;
+      for (const FieldError& error : Validate(part))
+        written.errors.push_back({error.field, part.id + ": " + error.detail});
+      if (!written.errors.empty()) return;
+      const auto old = writer.Get(part.id);
+      Enter(part, old, result.plan);
+      if (!old || !SameContent(part, *old)) writer.Change(part.id, old, part);
+    });
+    // Then nothing of it is committed.
+    if (!written.errors.empty())
+      written.status = WriteStatus::kInvalid;
+    else if (!result.plan.taken.empty())
+      written.status = WriteStatus::kExists;
+    return written;
+  });
+  if (result.write.status == WriteStatus::kRepeated)
+    result.plan = impl_->Read([&](SQLite::Database& db) {
+      const std::int64_t base = FindKey(db, by.key).value().base;
+      return Plan(parts, [&](const std::string& id) { return PartAt(db, id, base); });
+    });
+  return result;
+}
+
+ImportResult Store::Import(const std::vector<Part>& parts, const Signature& by) {
+  return Import(PartSource([&](const TakeEach& take) {
+                  for (const Part& part : parts) take(part);
+                }),
+                by);
+}
+
+WriteResult Store::Undo(std::int64_t number, const Signature& by) {
+  const auto revision = FindRevision(number);
+  if (!revision) return {WriteStatus::kNotFound, {}, {}};
+  const std::vector<Change> changes = Changes(*revision);
+  WriteResult refused;
+  for (const Change& change : changes)
+    if (change.before)
+      for (FieldError& error : Validate(*change.before)) refused.errors.push_back(std::move(error));
+  if (!refused.errors.empty()) {
+    refused.status = WriteStatus::kInvalid;
+    return refused;
+  }
+  const std::string what = "undo " + std::to_string(number);
+  return impl_->Write(by, what, [&](RevisionWriter& writer) -> WriteResult {
+    for (const Change& change : changes)
+      if (writer.Get(change.id) != change.after)
+        refused.errors.push_back(
+            {"", change.id + " was changed since revision " + std::to_string(number)});
+    if (!refused.errors.empty()) return {WriteStatus::kSuperseded, refused.errors, {}};
+    for (const Change& change : changes) writer.Change(change.id, change.after, change.before);
+    return {};
+  });
+}
+
+std::vector<ModelRevision> Store::Models() const {
+  return impl_->Read([](SQLite::Database& db) { return ReadModels(db); });
+}
+
+std::vector<ModelRevision> Store::ModelVersions(const std::string& name) const {
+  return impl_->Read([&](SQLite::Database& db) { return ReadVersions(db, name); });
+}
+
+std::optional<ModelRevision> Store::FindModel(const std::string& name,
+                                              std::optional<std::int64_t> version) const {
+  return impl_->Read([&](SQLite::Database& db) { return ReadModel(db, name, version); });
+}
+
+ModelRevision Store::SaveModel(const std::string& name, const std::string& document,
+                               const std::string& who) {
+  return SaveModel(name, document, Signature{who, {}, {}}).value();
+}
+
+std::optional<ModelRevision> Store::SaveModel(const std::string& name, const std::string& document,
+                                              const Signature& by) {
+  return impl_->Do([&](SQLite::Database& db) -> std::optional<ModelRevision> {
+    SQLite::Transaction transaction(db, SQLite::TransactionBehavior::IMMEDIATE);
+    if (const auto kept = by.key.empty() ? std::nullopt : FindKey(db, by.key))
+      return kept->request == by.request ? FindDocument(db, name, document) : std::nullopt;
+    ModelRevision saved = InsertModel(db, name, document, by.who);
+    if (!by.key.empty()) {
+      const std::int64_t head = catalog::Head(db).number;  // which models do not change
+      KeepKey(db, by, head, head);
+    }
+    transaction.commit();
+    return saved;
+  });
+}
+
+void Store::ReplaceSeed(const std::vector<Part>& parts) {
+  std::vector<Part> seed = parts;
+  for (Part& part : seed) {
+    part.origin = "seed";
+    if (const auto errors = Validate(part); !errors.empty())
+      throw StoreError(impl_->path + ": seed part " + part.id + ": " + errors.front().detail +
+                       " (" + errors.front().field + ")");
+  }
+  std::sort(seed.begin(), seed.end(), [](const Part& a, const Part& b) { return a.id < b.id; });
+  for (std::size_t i = 1; i < seed.size(); ++i)
+    if (seed[i].id == seed[i - 1].id)
+      throw StoreError(impl_->path + ": two seed parts have the id " + seed[i].id);
+
+  const std::vector<Part> old = List();
+  impl_->Write({"build_catalog", {}, {}}, "seed", [&](RevisionWriter& writer) -> WriteResult {
+    for (const Part& part : old) {
+      const bool kept = std::binary_search(
+          seed.begin(), seed.end(), part, [](const Part& a, const Part& b) { return a.id < b.id; });
+      if (part.origin == "seed" && !kept) writer.Change(part.id, writer.Get(part.id), std::nullopt);
+    }
+    for (const Part& part : seed) {
+      const auto stored = writer.Get(part.id);
+      if (!stored || stored->origin == "seed") writer.Change(part.id, stored, part);
+    }
+    return {};
+  });
+  impl_->Do([](SQLite::Database& db) { db.exec("VACUUM"); });
+}
+
+std::vector<std::string> Store::Check() const {
+  return impl_->Read([](SQLite::Database& db) {
+    std::vector<std::string> faults = CheckFile(db);
+    if (!faults.empty()) return faults;  // what is damaged cannot be read part by part
+    for (const Part& part : ReadParts(db))
+      for (const FieldError& error : Validate(part))
+        faults.push_back(part.id + ", " + error.field + ": " + error.detail);
+    for (std::string& fault : CheckHistory(db)) faults.push_back(std::move(fault));
+    for (std::string& fault : CheckModels(db)) faults.push_back(std::move(fault));
+    return faults;
+  });
+}
+
+}  // namespace plenum::catalog

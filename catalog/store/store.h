@@ -1,0 +1,132 @@
+// catalog.db: reads and writes parts, and remembers every change. The only room that knows SQLite.
+//
+// Exactly one read-write connection per process writes; readers open their own read-only
+// connection. Every write is one transaction under a rollback journal and becomes one revision, so
+// the file alone is the catalogue and can be read where nothing can be written. One store may be
+// used from several threads; its calls take turns.
+#ifndef PLENUM_CATALOG_STORE_STORE_H_
+#define PLENUM_CATALOG_STORE_STORE_H_
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "catalog/fields/fields.h"
+#include "catalog/fields/part.h"
+#include "catalog/store/model_revision.h"
+#include "catalog/store/revision.h"
+#include "catalog/store/store_error.h"
+
+namespace plenum::catalog {
+
+enum class WriteStatus {
+  kDone,
+  kRepeated,    // the signature's key and request were done before; nothing was written
+  kInvalid,     // see errors
+  kExists,      // the id is taken
+  kNotFound,    // no part has the id, no revision the number
+  kChanged,     // the precondition does not hold
+  kSuperseded,  // undo: a part was changed again since; errors name them
+  kKeyReused    // the key stands for another request
+};
+struct WriteResult {
+  WriteStatus status = WriteStatus::kDone;
+  std::vector<FieldError> errors;
+  Revision revision;  // kDone, kRepeated: the one that holds the write
+};
+
+// What importing a list of parts does to each of them.
+struct ImportPlan {
+  std::vector<std::string> added, replaced, unchanged;  // ids
+  std::vector<std::string> taken;  // ids of parts of another family: nothing can be imported
+};
+struct ImportResult {
+  ImportPlan plan;
+  WriteResult write;
+};
+
+// Calls `take` with each of a list of parts, the same ones whenever it is called; so a list need
+// not be in memory at once.
+using TakeEach = std::function<void(const Part&)>;
+using PartSource = std::function<void(const TakeEach& take)>;
+
+// Whether a write may go on, seen the part as it is stored; evaluated inside the transaction.
+using Precondition = std::function<bool(const Part&)>;
+
+class Store {
+ public:
+  // Opens `path`. With kWrite the file is created if missing. An older schema is migrated to the
+  // newest in one transaction, also with kRead if the file can be written; a newer one is refused.
+  Store(const std::filesystem::path& path, Access access);
+  ~Store();
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) noexcept;
+
+  // Parts in order of id; of one family if given.
+  std::vector<Part> List(const std::optional<std::string>& family = std::nullopt) const;
+  std::optional<Part> Get(const std::string& id) const;
+
+  // The newest revision, all of them from the newest on below `below`, and the state of one: parts
+  // as they were, exactly. `number` must be one that FindRevision finds.
+  Revision Head() const;
+  std::optional<Revision> FindRevision(std::int64_t number) const;
+  std::vector<Revision> Revisions(std::int64_t below, int limit) const;
+  std::vector<Part> ListAt(std::int64_t number) const;
+  std::optional<Part> GetAt(const std::string& id, std::int64_t number) const;
+  // Changes of a part, newest first, in revisions below `below`; and of a revision, by id.
+  std::vector<Change> History(const std::string& id, std::int64_t below, int limit) const;
+  std::vector<Change> Changes(const Revision& revision) const;
+  // Parts together with the revision that they are.
+  std::pair<Revision, std::vector<Part>> ListWithHead() const;
+
+  WriteResult Add(const Part& part, const Signature& by = {});
+  WriteResult Replace(const Part& part, const Signature& by = {}, const Precondition& may = {});
+  WriteResult Remove(const std::string& id, const Signature& by = {}, const Precondition& may = {});
+
+  // Adds or replaces all of `parts`, which have different ids, or none. A part that is stored with
+  // the same content but its origin is left alone.
+  ImportPlan PlanImport(const PartSource& parts) const;
+  ImportResult Import(const PartSource& parts, const Signature& by);
+  ImportResult Import(const std::vector<Part>& parts, const Signature& by);
+
+  // Brings every part that revision `number` changed back to what it was before, as a revision of
+  // its own; all or none. Only where none of them was changed again since.
+  WriteResult Undo(std::int64_t number, const Signature& by);
+
+  // Saved model revisions: the newest of each name in order of name; all of one name, newest first;
+  // one of them, the newest where no version is given. SaveModel adds a version, or gives the
+  // newest where it holds the same document already; `name` must pass WhyInvalidModelName, a
+  // document has 2 to 10,000,000 bytes. Parts, and so revisions of the catalogue, do not change.
+  std::vector<ModelRevision> Models() const;
+  std::vector<ModelRevision> ModelVersions(const std::string& name) const;
+  std::optional<ModelRevision> FindModel(const std::string& name,
+                                         std::optional<std::int64_t> version = {}) const;
+  ModelRevision SaveModel(const std::string& name, const std::string& document,
+                          const std::string& who);
+  // Once for the signature's key: repeated, it gives the newest version that holds the document.
+  // None: the key stands for another request.
+  std::optional<ModelRevision> SaveModel(const std::string& name, const std::string& document,
+                                         const Signature& by);
+
+  // Replaces all seed rows by `parts` (origin set to "seed"); rows of users stay. All or nothing.
+  // A user's row with the id of a seed row keeps its place and the seed row is left out.
+  void ReplaceSeed(const std::vector<Part>& parts);
+
+  // SQLite's own integrity and foreign-key check, Validate on every row, whether the history agrees
+  // with the parts and saved models with their hashes; empty: all is well.
+  std::vector<std::string> Check() const;
+
+  // Changes with every committed write, by any process: the number of the newest revision.
+  std::int64_t DataVersion() const { return Head().number; }
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace plenum::catalog
+
+#endif  // PLENUM_CATALOG_STORE_STORE_H_

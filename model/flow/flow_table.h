@@ -1,0 +1,51 @@
+// The flow curve of a line, tabulated once for use inside integrators.
+//
+// With q = q*·√(1 − c²) the cosine c rises smoothly from 0 at the choked ratio to 1 at equal
+// pressures; it is tabulated over r by cubic Hermite pieces through exact values and slopes.
+#ifndef PLENUM_MODEL_FLOW_FLOW_TABLE_H_
+#define PLENUM_MODEL_FLOW_FLOW_TABLE_H_
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "model/flow/series.h"
+
+namespace plenum::model {
+
+class FlowTable {
+ public:
+  FlowTable() = default;
+  explicit FlowTable(const Series& series);  // of elements with a subsonic index of ½
+
+  // As FlowAtRatio(series, ratio), m³/(s·Pa).
+  double operator()(double ratio) const;
+
+ private:
+  static constexpr int kCells = 48;
+  double choked_flow_ = 0.0, choked_ratio_ = 0.0, cells_per_ratio_ = 0.0;
+  // 1 − c and its slope per cell where cells begin, from equal pressures to the choked ratio: each
+  // cell is the cubic that both ends have in common.
+  struct Knot {
+    double value, slope;
+  };
+  std::array<Knot, kCells + 1> knots_{};
+};
+
+inline double FlowTable::operator()(double ratio) const {
+  if (ratio <= choked_ratio_) return choked_flow_;
+  if (ratio >= 1.0) return 0.0;
+  const double position = (1.0 - ratio) * cells_per_ratio_;
+  const int cell = std::min(static_cast<int>(position), kCells - 1);
+  const double t = position - cell;
+  const Knot &from = knots_[cell], &to = knots_[cell + 1];
+  const double rise = to.value - from.value;
+  const double square = 3.0 * rise - 2.0 * from.slope - to.slope;
+  const double cube = from.slope + to.slope - 2.0 * rise;
+  const double u = from.value + t * (from.slope + t * (square + t * cube));
+  return choked_flow_ * std::sqrt(u * (2.0 - u));
+}
+
+}  // namespace plenum::model
+
+#endif  // PLENUM_MODEL_FLOW_FLOW_TABLE_H_

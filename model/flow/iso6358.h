@@ -1,0 +1,32 @@
+// Flow of a compressible gas through one element, ISO 6358-1.
+#ifndef PLENUM_MODEL_FLOW_ISO6358_H_
+#define PLENUM_MODEL_FLOW_ISO6358_H_
+
+#include "model/physics/air.h"
+
+namespace plenum::model {
+
+// Flow characteristics of an element (valve, fitting, tube).
+// Valid: C > 0 and finite, 0 ≤ b < 1, 0 < m ≤ 1, Δp_c ≥ 0. Checked where elements enter plenum.
+struct FlowElement {
+  double sonic_conductance_m3_per_s_pa = 0.0;  // C; 1 dm³/(s·bar) = 1e-8 m³/(s·Pa)
+  double critical_ratio = 0.0;        // b, downstream/upstream pressure at which flow chokes
+  double subsonic_index = 0.5;        // m
+  double cracking_pressure_pa = 0.0;  // Δp_c, lost from the upstream pressure
+  bool operator==(const FlowElement&) const = default;
+};
+
+// Below this pressure ratio the ellipse holds; from it to 1 the simulator uses a straight line to
+// zero flow, because the ellipse has infinite slope at equal pressures (Simscape's legacy block
+// uses 0.995 to 0.999). Times to 95 % of the source pressure do not change; to 99.9 % by 0.3 %.
+inline constexpr double kLinearRatio = 0.999;
+
+// Ψ(r) = 1 for r ≤ b, else [1 − ((r−b)/(1−b))²]^m; r = p2/p1 in [0, 1]; 0 for r ≥ 1.
+double FlowFunction(double ratio, double critical_ratio, double subsonic_index = 0.5);
+
+// dΨ/dr; 0 where choked, −∞ at r = 1 for m < 1.
+double FlowFunctionSlope(double ratio, double critical_ratio, double subsonic_index = 0.5);
+
+}  // namespace plenum::model
+
+#endif  // PLENUM_MODEL_FLOW_ISO6358_H_

@@ -1,0 +1,127 @@
+// Parts as the search sees them: SI, absolute pressures, numbers only. The catalogue's rows with
+// their provenance become these in api/.
+#ifndef PLENUM_MODEL_FLOW_PARTS_H_
+#define PLENUM_MODEL_FLOW_PARTS_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/flow/iso6358.h"
+#include "model/physics/compressor.h"
+
+namespace plenum::model {
+
+struct PartBasics {
+  std::string id;
+  double mass_kg = 0.0;
+  double body_volume_m3 = 0.0;     // outer envelope
+  std::optional<double> cost_eur;  // none: not known
+  bool operator==(const PartBasics&) const = default;
+};
+
+// Mass, outer volume and cost of a tube are per metre.
+struct Tubing {
+  PartBasics per_metre;
+  double outer_diameter_m = 0.0;
+  double inner_diameter_m = 0.0;
+  double pressure_max_pa = 0.0;
+  bool operator==(const Tubing&) const = default;
+};
+
+struct Fitting {
+  PartBasics basics;
+  double tube_outer_diameter_m = 0.0;
+  std::string thread;  // matches Valve::port
+  FlowElement flow;
+  double pressure_max_pa = 0.0;
+  bool operator==(const Fitting&) const = default;
+};
+
+// How a valve serves one channel. A lone 3/2 cannot hold: closed to the source it vents.
+enum class ValveKind {
+  kThreeWay,      // 3/2: fill or vent; energised while filling and holding
+  kPair,          // two 2/2, one for filling and one for venting; each energised while open
+  kProportional,  // 3/3 or 5/3 with closed centre; energised while filling and while venting
+};
+inline bool Holds(ValveKind kind) { return kind != ValveKind::kThreeWay; }
+
+struct Valve {
+  PartBasics basics;
+  ValveKind kind = ValveKind::kThreeWay;
+  int channels = 1;
+  std::string port;
+  FlowElement fill;
+  FlowElement exhaust;
+  double coil_power_w = 0.0;  // per channel while energised
+  double pressure_max_pa = 0.0;
+  double pressure_min_pa = 0.0;  // at the inlet, to switch at all (pilot-operated valves)
+  bool operator==(const Valve&) const = default;
+};
+
+struct Compressor {
+  PartBasics basics;
+  CompressorCurve curve;
+  double duty_max = 1.0;  // thermal limit on the share of time that it runs
+  bool operator==(const Compressor&) const = default;
+};
+
+struct Battery {
+  PartBasics basics;
+  double nominal_voltage_v = 0.0;
+  double capacity_ah = 0.0;
+  double current_max_a = 0.0;
+  bool operator==(const Battery&) const = default;
+};
+
+// Compressed air at ambient temperature; mass without the gas.
+struct Cylinder {
+  PartBasics basics;
+  double water_volume_m3 = 0.0;
+  double fill_pressure_pa = 0.0;
+  bool operator==(const Cylinder&) const = default;
+};
+
+// Liquid CO2 in a cartridge or bottle; mass without the CO2.
+struct Co2Bottle {
+  PartBasics basics;
+  double co2_mass_kg = 0.0;
+  double water_volume_m3 = 0.0;  // 0: not known
+  double flow_sustained_m3_per_s = 0.0;
+  bool operator==(const Co2Bottle&) const = default;
+};
+
+struct Regulator {
+  PartBasics basics;
+  FlowElement flow;
+  double flow_max_m3_per_s = 0.0;      // +∞: no limit but the conductance
+  double inlet_pressure_min_pa = 0.0;  // above it, and above the outlet, it regulates
+  double inlet_pressure_max_pa = 0.0;
+  double outlet_pressure_min_pa = 0.0;
+  double outlet_pressure_max_pa = 0.0;
+  double electrical_power_w = 0.0;
+  bool operator==(const Regulator&) const = default;
+};
+
+struct Reservoir {
+  PartBasics basics;
+  double volume_m3 = 0.0;
+  double pressure_max_pa = 0.0;
+  bool operator==(const Reservoir&) const = default;
+};
+
+struct Parts {
+  std::vector<Tubing> tubing;
+  std::vector<Fitting> fittings;
+  std::vector<Valve> valves;
+  std::vector<Compressor> compressors;
+  std::vector<Battery> batteries;
+  std::vector<Cylinder> cylinders;
+  std::vector<Co2Bottle> co2;
+  std::vector<Regulator> regulators;
+  std::vector<Reservoir> reservoirs;
+};
+
+}  // namespace plenum::model
+
+#endif  // PLENUM_MODEL_FLOW_PARTS_H_

@@ -1,0 +1,41 @@
+// The expanding actuator: how its volume follows its pressure.
+#ifndef PLENUM_MODEL_PHYSICS_CHAMBER_H_
+#define PLENUM_MODEL_PHYSICS_CHAMBER_H_
+
+#include <string>
+
+#include "model/physics/air.h"
+#include "model/physics/monotone_curve.h"
+
+namespace plenum::model {
+
+// Quasi-static actuator with the rigid dead volume of its tube.
+//   linear law: V(p) = V0·[1 + (ε−1)·x],  x = (p − p_a)/(p_op − p_a), on both sides of [p_a, p_op]
+//   table:      monotone cubic through the points (PCHIP), straight on with the end slope outside
+// ε = 1 is a rigid or blocked actuator. Valid: V0 > 0, ε ≥ 1, p_op > p_a; a table starts at or
+// below p_a, ends at or above p_op, pressures strictly rising, volumes > 0 and not falling (so that
+// d(pV)/dp > 0 and the pressure is a function of the gas inside).
+struct Chamber {
+  double rest_volume_m3 = 0.0;
+  double expansion_ratio = 1.0;
+  double operating_pressure_pa = 0.0;  // absolute
+  double ambient_pressure_pa = kReferencePressurePa;
+  double dead_volume_m3 = 0.0;  // rigid, at the actuator
+  MonotoneCurve volume_curve;   // absolute Pa → m³; empty: the linear law
+  bool operator==(const Chamber&) const = default;
+};
+
+// The first reason why the chamber is outside the valid range, or empty.
+std::string WhyInvalid(const Chamber& chamber);
+
+// Volume of actuator and dead volume, m³, at absolute pressure.
+double Volume(const Chamber& chamber, double pressure_pa);
+double VolumeSlope(const Chamber& chamber, double pressure_pa);  // dV/dp, m³/Pa
+
+// p·V(p) in Pa·m³, what the mass balance counts, and its slope W(p) = V + p·dV/dp in m³.
+double Content(const Chamber& chamber, double pressure_pa);
+double ContentSlope(const Chamber& chamber, double pressure_pa);
+
+}  // namespace plenum::model
+
+#endif  // PLENUM_MODEL_PHYSICS_CHAMBER_H_

@@ -1,0 +1,136 @@
+// Boxes of the configurations with a regulator: cylinder, CO2 and mains.
+#include <algorithm>
+#include <cmath>
+
+#include "model/physics/storage.h"
+#include "optimizer/bounds/box.h"
+#include "optimizer/evaluate/filling.h"
+#include "optimizer/evaluate/line.h"
+#include "optimizer/evaluate/root.h"
+#include "optimizer/sizing/sizing.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kRounding = kBoxSlack;
+constexpr double kFloorTolerance = 1e-3;
+
+// From a regulator, shared by so many lines, to one actuator.
+std::vector<model::FlowElement> Elements(model::FlowElement regulator, const Line& line,
+                                         int count) {
+  regulator.sonic_conductance_m3_per_s_pa /= count;
+  std::vector<model::FlowElement> elements{regulator};
+  elements.insert(elements.end(), line.fill.begin(), line.fill.end());
+  return elements;
+}
+
+}  // namespace
+
+Constraint Bounds::AssessRegulated(Box& box, bool source_changed) {
+  if (source_changed)
+    if (const Constraint missed = NeedOfRegulated(box); missed != Constraint::kNone) return missed;
+  return RestOfRegulated(box);
+}
+
+// Window, strokes and needs. Strokes are those of each group alone on the regulator, at the highest
+// pressure that parts stand: neighbours and lower pressures only slow them.
+Constraint Bounds::NeedOfRegulated(Box& box) {
+  const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
+  if (plan_.configuration != Configuration::kCylinder) {
+    const double inlet_pa = plan_.configuration == Configuration::kCo2
+                                ? model::Co2SaturationPressure(problem_.ambient.temperature_k)
+                                : problem_.mains_pressure_pa;
+    if (regulator.inlet_max_pa < inlet_pa || regulator.inlet_min_pa > inlet_pa)
+      return Constraint::kMating;
+  }
+  AddLines(box);
+  box.window.low_pa = std::max(box.window.low_pa, regulator.outlet_min_pa);
+  box.window.high_pa = std::min(box.window.high_pa, regulator.outlet_max_pa);
+  if (plan_.configuration == Configuration::kMains)
+    box.window.high_pa = std::min(box.window.high_pa, problem_.mains_pressure_pa);
+  const double flow_max = FlowMax(regulator);
+  if (box.window.empty()) return Constraint::kPressure;
+
+  const double seconds = problem_.actuations / problem_.frequency_hz;
+  box.air_m3 = 0.0;
+  box.energy_beyond_j = 0.0;
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
+    const Line& line = *box.lines[g];
+    const ActuatorGroup& group = problem_.groups[g];
+    const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, group.count);
+    Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
+                    flow_max / group.count);
+    if (!filling.InTime(box.window.high_pa)) return Constraint::kRise;
+    box.air_m3 += AirPerStroke(problem_, g, line, box.window.low_pa);
+    if (line.all_hold && line.coil_power_w > 0.0) {  // energised while they inflate, too
+      const double inflate_s = problem_.objective.energy_wh > 0.0
+                                   ? filling.InflateTime(box.window.high_pa)
+                                   : filling.InflateTimeAtLeast(box.window.high_pa);
+      box.energy_beyond_j += problem_.actuations * line.coil_power_w * inflate_s;
+    }
+  }
+  box.energy_j = box.energy_beyond_j +
+                 problem_.actuations * HalfPeriod(problem_) * box.coil_power_w +
+                 regulator.electrical_power_w * seconds;
+  box.coil_power_w += regulator.electrical_power_w;
+  return Constraint::kNone;
+}
+
+double Bounds::FlowMax(const RegulatorCorner& regulator) const {
+  return plan_.configuration == Configuration::kMains
+             ? std::min(regulator.flow_max_m3_per_s, problem_.mains_flow_max_m3_per_s)
+             : regulator.flow_max_m3_per_s;
+}
+
+// A source pressure below which some group, alone on the regulator, is too slow.
+double Bounds::RegulatedFloor(const Box& box) const {
+  const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
+  double floor_pa = box.window.low_pa;
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
+    const Line& line = *box.lines[g];
+    const int count = problem_.groups[g].count;
+    const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, count);
+    Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
+                    FlowMax(regulator) / count);
+    const auto late = [&](double source_pa) {
+      return filling.LatenessAtLeast(source_pa).value_or(0.0);
+    };
+    floor_pa = FeasibleBracket(late, floor_pa, box.window.high_pa, kFloorTolerance).low;
+  }
+  return floor_pa;
+}
+
+// The lightest bottle and battery of the box that bear the needs.
+Constraint Bounds::RestOfRegulated(Box& box) {
+  const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
+  double bound = regulator.objective + EnergyShare(box.energy_beyond_j);
+  if (plan_.bottle_slot >= 0) {
+    const double inlet_pa = std::max(box.window.low_pa, regulator.inlet_min_pa);
+    const double air_m3 = problem_.actuations * box.air_m3;
+    const double low = GasLeft(problem_, plan_.configuration, plan_.bottle_range.low_pa);
+    const double high = GasLeft(problem_, plan_.configuration, plan_.bottle_range.high_pa);
+    const double left = GasLeft(problem_, plan_.configuration, inlet_pa);
+    const double share = high > low ? std::max(0.0, (left - low) / (high - low)) : 0.0;
+    const Amounts all = LeastOfAll(box);
+    const Amounts& counted = CornerAt(plan_.bottles, box, plan_.bottle_slot).amounts;
+    const Amounts others{all.mass_kg - counted.mass_kg, all.volume_m3 - counted.volume_m3,
+                         all.cost_eur - counted.cost_eur};
+    const double bottle =
+        LeastObjective(plan_.bottles, box.nodes[plan_.bottle_slot], [&](const BottleCorner& c) {
+          return c.fill_pressure_pa <= regulator.inlet_max_pa &&
+                 (1.0 - share) * c.gas_to_low_m3 + share * c.gas_to_high_m3 >= air_m3 / kRounding &&
+                 c.flow_sustained_m3_per_s * kRounding >= box.air_m3 * problem_.frequency_hz &&
+                 WithinLimits(others, c.amounts);
+        });
+    if (std::isinf(bottle)) return Constraint::kGas;
+    bound += bottle;
+  }
+  int unknown = -1;
+  const BatteryLoad load{box.energy_j / kRounding, 0.0, box.coil_power_w, LeastBesidesBattery(box)};
+  const double battery = LeastBattery(box, load, unknown);
+  if (std::isinf(battery)) return Constraint::kBattery;
+  box.bound = std::max(box.bound, bound + LeastWithLines(box, load, battery));
+  return Constraint::kNone;
+}
+
+}  // namespace plenum::optimizer

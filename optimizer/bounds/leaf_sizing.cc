@@ -1,0 +1,33 @@
+#include "optimizer/bounds/leaf_sizing.h"
+
+#include <algorithm>
+
+#include "optimizer/bounds/core_sizing.h"
+
+namespace plenum::optimizer {
+
+Halves Divide(const Bounds& bounds, const Box& box) {
+  Halves halves;
+  halves.slot = bounds.WidestSlot(box);
+  const std::vector<BoxNode>& tree = *bounds.plan().slots[halves.slot].nodes;
+  const BoxNode& divided = tree[box.nodes[halves.slot]];
+  halves.middle = tree[divided.right].first;
+  halves.boxes = {box, box};
+  halves.boxes[0].nodes[halves.slot] = divided.left;
+  halves.boxes[1].nodes[halves.slot] = divided.right;
+  return halves;
+}
+
+std::optional<Leaf> SizeLeaf(const Problem& problem, const Candidate& candidate, Box& box,
+                             std::unique_ptr<CustomSizing>& sizing) {
+  if (candidate.reservoir.index != kCustom)
+    return SizeAtVolume(problem, candidate, ReservoirVolume(problem, candidate));
+  if (!sizing && box.core)
+    if (const std::optional<Leaf> leaf = LeafOfCore(problem, candidate, *box.core)) return leaf;
+  if (!sizing) sizing = std::make_unique<CustomSizing>(problem, candidate, NeedsOf(box));
+  if (sizing->Refine()) return sizing->leaf();
+  box.bound = std::max(box.bound, sizing->leaf().lower_bound);
+  return std::nullopt;
+}
+
+}  // namespace plenum::optimizer

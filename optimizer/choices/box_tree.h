@@ -1,0 +1,193 @@
+// A family's choices as a tree of boxes: a binary kd-tree whose every node stands for all choices
+// below it by their corner, the componentwise best of what they can do. Whatever the corner cannot
+// do, none of the choices can; what it costs, each of them costs at least.
+#ifndef PLENUM_OPTIMIZER_CHOICES_BOX_TREE_H_
+#define PLENUM_OPTIMIZER_CHOICES_BOX_TREE_H_
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "optimizer/evaluate/candidate.h"
+
+namespace plenum::optimizer {
+
+// A choice and what it can do.
+template <typename Corner>
+struct Item {
+  Option option;
+  Corner corner;
+  int outdone = 0;  // by how many choices of the family it is dominated
+};
+
+struct BoxNode {
+  int left = -1, right = -1;  // −1: a single choice
+  int first = 0, last = 0;    // the choices [first, last) of the tree's order
+  double objective_low = 0.0, objective_high = 0.0;
+  int earliest = 0;  // the choice of the lowest rank
+  int outdone = 0;   // each choice is dominated by so many others at least
+  bool single() const { return left < 0; }
+  int size() const { return last - first; }
+};
+
+// Node 0 is the root; no nodes where the family has no choices.
+template <typename Corner>
+struct BoxTree {
+  std::vector<BoxNode> nodes;
+  std::vector<Corner> corners;  // per node
+  std::vector<Option> options;  // in the tree's order
+};
+
+namespace box_tree_internal {
+
+template <typename Corner>
+class Builder {
+ public:
+  explicit Builder(const std::vector<const Item<Corner>*>& items)
+      : items_(items), order_(items.size()), by_key_(items.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+    keys_.reserve(items.size());
+    classes_.reserve(items.size());
+    for (const Item<Corner>* item : items) {
+      keys_.push_back(SplitKeys(item->corner));
+      classes_.push_back(MatingClass(item->corner));
+    }
+  }
+
+  BoxTree<Corner> Build() {
+    if (items_.empty()) return {};
+    tree_.nodes.reserve(2 * items_.size());
+    tree_.corners.reserve(2 * items_.size());
+    tree_.options.reserve(items_.size());
+    Grow(0, static_cast<int>(order_.size()), true);
+    for (int i : order_) tree_.options.push_back(items_[i]->option);
+    return std::move(tree_);
+  }
+
+ private:
+  using Keys = decltype(SplitKeys(std::declval<Corner>()));
+
+  int Rank(int position) const { return order_[position]; }
+
+  Keys Spread(int first, int last) const {
+    Keys low = keys_[order_[first]], high = low;
+    for (int i = first; i < last; ++i)
+      for (std::size_t k = 0; k < low.size(); ++k) {
+        low[k] = std::min(low[k], keys_[order_[i]][k]);
+        high[k] = std::max(high[k], keys_[order_[i]][k]);
+      }
+    for (std::size_t k = 0; k < low.size(); ++k) high[k] -= low[k];
+    return high;
+  }
+
+  // Where [first, last) is divided: between two classes of parts that mate differently as long as
+  // there are several, else at the median of the attribute that is spread most. `several` is set to
+  // whether there are.
+  int Divide(int first, int last, bool& several) {
+    const auto begin = order_.begin() + first, end = order_.begin() + last;
+    several = several && std::any_of(begin + 1, end,
+                                     [&](int i) { return classes_[i] != classes_[order_[first]]; });
+    if (several) {
+      std::sort(begin, end, [&](int a, int b) {
+        return classes_[a] != classes_[b] ? classes_[a] < classes_[b] : a < b;
+      });
+      int best = first;  // the border that is nearest to the middle
+      for (int i = first + 1; i < last; ++i)
+        if (classes_[order_[i - 1]] != classes_[order_[i]] &&
+            (best == first || std::abs(2 * i - first - last) < std::abs(2 * best - first - last)))
+          best = i;
+      return best;
+    }
+    const Keys spread = Spread(first, last);
+    std::size_t widest = 0;
+    double width = -1.0;
+    for (std::size_t k = 0; k < spread.size(); ++k)
+      if (spread[k] > width) {
+        width = spread[k];
+        widest = k;
+      }
+    const int middle = first + (last - first) / 2;
+    const auto begin_key = by_key_.begin() + first, end_key = by_key_.begin() + last;
+    for (int i = first; i < last; ++i) by_key_[i] = {keys_[order_[i]][widest], order_[i]};
+    std::nth_element(begin_key, by_key_.begin() + middle, end_key);
+    std::transform(begin_key, end_key, begin, [](const auto& pair) { return pair.second; });
+    return middle;
+  }
+
+  // `several`: classes there may be.
+  int Grow(int first, int last, bool several) {
+    const int index = static_cast<int>(tree_.nodes.size());
+    tree_.nodes.push_back({-1, -1, first, last});
+    tree_.corners.emplace_back();
+    double low, high;
+    int earliest = first, outdone;
+    if (last - first == 1) {
+      tree_.corners[index] = items_[order_[first]]->corner;
+      low = high = tree_.corners[index].objective;
+      outdone = items_[order_[first]]->outdone;
+    } else {
+      const int middle = Divide(first, last, several);
+      const int left = Grow(first, middle, several);
+      const int right = Grow(middle, last, several);
+      tree_.nodes[index].left = left;
+      tree_.nodes[index].right = right;
+      tree_.corners[index] = tree_.corners[left];
+      Widen(tree_.corners[index], tree_.corners[right]);
+      low = std::min(tree_.nodes[left].objective_low, tree_.nodes[right].objective_low);
+      high = std::max(tree_.nodes[left].objective_high, tree_.nodes[right].objective_high);
+      outdone = std::min(tree_.nodes[left].outdone, tree_.nodes[right].outdone);
+      earliest = tree_.nodes[left].earliest;
+      if (Rank(tree_.nodes[right].earliest) < Rank(earliest))
+        earliest = tree_.nodes[right].earliest;
+    }
+    tree_.nodes[index].objective_low = low;
+    tree_.nodes[index].objective_high = high;
+    tree_.nodes[index].earliest = earliest;
+    tree_.nodes[index].outdone = outdone;
+    return index;
+  }
+
+  const std::vector<const Item<Corner>*>& items_;
+  std::vector<int> order_;
+  std::vector<Keys> keys_;
+  std::vector<std::pair<double, int>> by_key_;  // of what is being divided, in the same order
+  std::vector<decltype(MatingClass(std::declval<Corner>()))> classes_;
+  BoxTree<Corner> tree_;
+};
+
+}  // namespace box_tree_internal
+
+// `items`: in the order of ids, then quantities.
+template <typename Corner>
+BoxTree<Corner> MakeBoxTree(const std::vector<const Item<Corner>*>& items) {
+  return box_tree_internal::Builder<Corner>(items).Build();
+}
+
+// The choice below `node` with the least objective of those that `could` accepts, as a node; it
+// must accept the corner of every box that holds an accepted choice. `best` (none at first) where
+// none below it has less.
+template <typename Corner, typename Could>
+int LeastChoice(const BoxTree<Corner>& tree, int node, const Could& could, int best = -1) {
+  const Corner& corner = tree.corners[node];
+  if ((best >= 0 && corner.objective >= tree.corners[best].objective) || !could(corner))
+    return best;
+  const BoxNode& box = tree.nodes[node];
+  if (box.single()) return node;
+  int near = box.left, far = box.right;
+  if (tree.corners[far].objective < tree.corners[near].objective) std::swap(near, far);
+  best = LeastChoice(tree, near, could, best);
+  return LeastChoice(tree, far, could, best);
+}
+
+// Its objective; +∞ without one.
+template <typename Corner, typename Could>
+double LeastObjective(const BoxTree<Corner>& tree, int node, const Could& could) {
+  const int least = LeastChoice(tree, node, could);
+  return least < 0 ? kUnlimited : tree.corners[least].objective;
+}
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_CHOICES_BOX_TREE_H_

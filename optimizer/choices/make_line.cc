@@ -1,0 +1,191 @@
+#include "optimizer/choices/make_line.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+
+#include "model/flow/tube.h"
+#include "model/strokes/stroke.h"
+#include "optimizer/evaluate/filling.h"
+#include "optimizer/evaluate/root.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kBoxTolerance = 2e-3;  // of the least source pressure; its lower end is used
+
+// The elements of a line, as crossed.
+class Elements {
+ public:
+  void Add(const model::FlowElement& element, int count = 1) {
+    for (int i = 0; i < count; ++i) all_[size_++] = element;
+  }
+  std::span<const model::FlowElement> span() const { return {all_.data(), size_}; }
+
+ private:
+  std::array<model::FlowElement, model::kMaxSeriesElements> all_{};
+  std::size_t size_ = 0;
+};
+
+struct Crossed {
+  Elements fill, exhaust;
+};
+
+Crossed ElementsOf(const ActuatorGroup& group, const LineCorners& corners) {
+  const auto& [tube, fitting, valve] = corners;
+  const int near_valve = (group.fittings_per_line + 1) / 2;
+  const int near_actuator = group.fittings_per_line - near_valve;
+  const model::FlowElement bore = model::TubeElement(tube.inner_high_m, group.tube_length_m);
+  Crossed crossed;
+  crossed.fill.Add(valve.fill);
+  crossed.fill.Add(fitting.flow, near_valve);
+  crossed.fill.Add(bore);
+  crossed.fill.Add(fitting.flow, near_actuator);
+  crossed.exhaust.Add(fitting.flow, near_actuator);
+  crossed.exhaust.Add(bore);
+  crossed.exhaust.Add(fitting.flow, near_valve);
+  crossed.exhaust.Add(valve.exhaust);
+  return crossed;
+}
+
+model::Chamber ChamberWith(const ActuatorGroup& group, const TubeCorner& tube) {
+  model::Chamber chamber = group.chamber;
+  chamber.dead_volume_m3 += model::BoreVolume(tube.inner_low_m, group.tube_length_m);
+  return chamber;
+}
+
+double SourceMax(const Problem& problem, const ActuatorGroup& group, const LineCorners& corners) {
+  const auto& [tube, fitting, valve] = corners;
+  const double stands_pa = std::min({tube.pressure_max_pa, valve.pressure_max_pa,
+                                     fitting.pressure_max_pa, problem.source_pressure_max_pa});
+  return valve.some_hold ? stands_pa : std::min(stands_pa, group.pressure_max_pa);
+}
+
+double FallTime(const Problem& problem, const ActuatorGroup& group,
+                std::span<const model::FlowElement> exhaust, double factor,
+                const model::Chamber& chamber) {
+  return model::EmptyTime(model::MakeSeries(exhaust, factor), chamber,
+                          group.chamber.operating_pressure_pa, FallTarget(problem, group),
+                          problem.ambient.temperature_k);
+}
+
+// FallTime() ≤ limit, by an enclosure where that decides.
+bool FallsInTime(const Problem& problem, const ActuatorGroup& group,
+                 std::span<const model::FlowElement> exhaust, double factor,
+                 const model::Chamber& chamber, double limit_s) {
+  const double to_pa = FallTarget(problem, group);
+  if (model::EmptyTimeAtMost(exhaust, factor, chamber, group.chamber.operating_pressure_pa, to_pa,
+                             problem.ambient.temperature_k) <= limit_s)
+    return true;
+  const model::Enclosure enclosure = model::EncloseEmptyTime(
+      model::MarchNodes(exhaust, factor, chamber.ambient_pressure_pa / to_pa), chamber,
+      group.chamber.operating_pressure_pa, to_pa, problem.ambient.temperature_k);
+  if (enclosure.low_s > limit_s) return false;
+  return enclosure.high_s <= limit_s ||
+         FallTime(problem, group, exhaust, factor, chamber) <= limit_s;
+}
+
+bool SamePath(const LineCorners& a, const LineCorners& b) {
+  return a.tube.inner_low_m == b.tube.inner_low_m && a.tube.inner_high_m == b.tube.inner_high_m &&
+         a.fitting.flow == b.fitting.flow;
+}
+
+}  // namespace
+
+Constraint ScreenLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
+                      bool exact, const LineCorners* wider) {
+  const ActuatorGroup& group = problem.groups[g];
+  if (!(corners.tube.diameters & corners.fitting.diameters) ||
+      !(corners.fitting.threads & corners.valve.threads))
+    return Constraint::kMating;
+  const double source_max_pa = SourceMax(problem, group, corners);
+  if (source_max_pa < std::max(group.chamber.operating_pressure_pa, corners.valve.pressure_min_pa))
+    return Constraint::kPressure;
+
+  const bool same = !exact && wider && SamePath(corners, *wider);
+  const bool falls = same && corners.valve.exhaust == wider->valve.exhaust;
+  const bool rises = same && corners.valve.fill == wider->valve.fill &&
+                     source_max_pa == SourceMax(problem, group, *wider);
+  if (falls && rises) return Constraint::kNone;
+
+  const double factor = FlowFactor(problem, gas);
+  const double slack = exact ? 1.0 : kBoxSlack;
+  const model::Chamber chamber = ChamberWith(group, corners.tube);
+  const Crossed elements = ElementsOf(group, corners);
+  const double fall_max_s = std::min(group.fall_time_max_s, HalfPeriod(problem));
+  if (!falls &&
+      !FallsInTime(problem, group, elements.exhaust.span(), factor, chamber, fall_max_s * slack))
+    return Constraint::kFall;
+  if (!rises &&
+      !Filling(problem, g, elements.fill.span(), factor, chamber, slack).InTime(source_max_pa))
+    return Constraint::kRise;
+  return Constraint::kNone;
+}
+
+Line AssembleLine(const Problem& problem, int g, const LineCorners& corners) {
+  const auto& [tube, fitting, valve] = corners;
+  const ActuatorGroup& group = problem.groups[g];
+  Line line;
+  line.amounts += tube.amounts;
+  line.amounts += valve.amounts;
+  line.amounts += fitting.amounts;
+  line.objective = tube.objective + valve.objective + fitting.objective;
+  line.source_max_pa = SourceMax(problem, group, corners);
+  line.holds = valve.some_hold;
+  line.all_hold = valve.all_hold;
+  const Crossed elements = ElementsOf(group, corners);
+  line.fill.assign(elements.fill.span().begin(), elements.fill.span().end());
+  line.exhaust.assign(elements.exhaust.span().begin(), elements.exhaust.span().end());
+  line.coil_power_w = valve.coil_power_w;
+  line.chamber = ChamberWith(group, tube);
+  line.dead_volume_spread_m3 = model::BoreVolume(tube.inner_high_m, group.tube_length_m) -
+                               model::BoreVolume(tube.inner_low_m, group.tube_length_m);
+  return line;
+}
+
+void FinishLine(const Problem& problem, int g, model::Gas gas, const ValveCorner& valve, bool exact,
+                bool with_curve, Line& line) {
+  const ActuatorGroup& group = problem.groups[g];
+  const double operating_pa = group.chamber.operating_pressure_pa;
+  const double factor = FlowFactor(problem, gas);
+  Filling filling(problem, g, line.fill, factor, line.chamber, exact ? 1.0 : kBoxSlack);
+  const bool found = exact && with_curve;
+  const auto late = [&](double source_pa) {
+    const std::optional<double> least = found ? std::nullopt : filling.LatenessAtLeast(source_pa);
+    return least ? *least : filling.Lateness(source_pa);
+  };
+  const Bracket least =
+      FeasibleBracket(late, operating_pa, line.source_max_pa, found ? 1e-9 : kBoxTolerance);
+  line.source_min_pa = std::max(valve.pressure_min_pa, found ? least.high : least.low);
+  // A lone 3/2 is energised for half of the period whatever the stroke.
+  if (line.all_hold && (exact || with_curve))
+    line.inflate_time_least_s = filling.InflateTime(line.source_max_pa);
+  if (exact) line.fall_time_s = FallTime(problem, group, line.exhaust, factor, line.chamber);
+  if (!with_curve) return;
+  line.curve = std::make_shared<const FillCurve>(
+      FillCurve{model::FlowTable(filling.series()), MakeStrokePanels(problem, g, line.chamber)});
+}
+
+bool FinishLike(const Line& wider, const ValveCorner& valve, Line& line) {
+  if (line.fill != wider.fill || line.chamber != wider.chamber ||
+      line.dead_volume_spread_m3 != wider.dead_volume_spread_m3 || line.holds != wider.holds ||
+      line.all_hold != wider.all_hold || line.source_max_pa != wider.source_max_pa)
+    return false;
+  line.source_min_pa = std::max(valve.pressure_min_pa, wider.source_min_pa);
+  line.inflate_time_least_s = wider.inflate_time_least_s;
+  line.curve = wider.curve;
+  line.strokes = wider.strokes;
+  return true;
+}
+
+Constraint MakeLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
+                    bool exact, bool with_curve, Line& line) {
+  const Constraint missed = ScreenLine(problem, g, gas, corners, exact);
+  line = AssembleLine(problem, g, corners);
+  if (missed == Constraint::kNone)
+    FinishLine(problem, g, gas, corners.valve, exact, with_curve, line);
+  return missed;
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,156 @@
+#include "optimizer/choices/outline.h"
+
+#include <algorithm>
+
+#include "model/physics/storage.h"
+#include "optimizer/choices/plan.h"
+#include "optimizer/evaluate/line.h"
+#include "optimizer/problem/family_specs.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kRounding = 1.0 - 1e-9;  // of sums in another order
+
+class Sketch {
+ public:
+  Sketch(const Problem& problem, Configuration configuration) : problem_(problem) {
+    outline_.configuration = configuration;
+    outline_.combinations = outline_.priced = 1;
+  }
+
+  Outline Draw() {
+    const model::Parts& parts = problem_.parts;
+    const Limits& most = problem_.limits;
+    for (const ActuatorGroup& group : problem_.groups) AddGroup(group);
+    if (outline_.configuration == Configuration::kCompressor) {
+      Add(parts.compressors, most.compressors, Pieces());
+      AddReservoirs();
+    } else {
+      Add(parts.regulators, 1, Pieces());
+    }
+    if (outline_.configuration == Configuration::kCylinder) AddCylinders();
+    if (outline_.configuration == Configuration::kCo2) AddCo2();
+    if (outline_.configuration != Configuration::kMains) AddBatteries();
+    outline_.bound *= kRounding;
+    return outline_;
+  }
+
+ private:
+  double Share(const Amounts& amounts) const { return ObjectiveOf(problem_.objective, amounts); }
+
+  struct PiecesShare {
+    const Objective& objective;
+    int pieces;
+    template <typename Part>
+    double operator()(const Part& part, int quantity) const {
+      return ObjectiveOf(objective, static_cast<double>(pieces * quantity) * part.basics);
+    }
+  };
+  PiecesShare Pieces(int pieces = 1) const { return {problem_.objective, pieces}; }
+
+  // `share(part, quantity)` of the objective, +∞ where no design can have that; `made`: choices
+  // beside the parts, with their least share.
+  template <typename Part, typename ShareOf>
+  void Add(const std::vector<Part>& parts, int quantity_max, const ShareOf& share, int made = 0,
+           double made_share = kUnlimited) {
+    long long priced = CostMatters(problem_) ? 0 : made;
+    double least = CostMatters(problem_) ? kUnlimited : made_share;
+    for (const Part& part : parts) {
+      if (CostMatters(problem_) && !BasicsOf(part).cost_eur) continue;
+      priced += quantity_max;
+      for (int quantity = 1; quantity <= quantity_max; ++quantity)
+        least = std::min(least, share(part, quantity));
+    }
+    outline_.combinations *= static_cast<long long>(parts.size()) * quantity_max + made;
+    outline_.priced *= priced;
+    outline_.bound += least;
+  }
+
+  static const model::PartBasics& BasicsOf(const model::Tubing& part) { return part.per_metre; }
+  template <typename Part>
+  static const model::PartBasics& BasicsOf(const Part& part) {
+    return part.basics;
+  }
+
+  void AddGroup(const ActuatorGroup& group) {
+    const model::Parts& parts = problem_.parts;
+    Add(parts.tubing, 1, [&](const model::Tubing& part, int) {
+      return Share(group.count * group.tube_length_m * part.per_metre);
+    });
+    if (group.fittings_per_line > 0)
+      Add(parts.fittings, 1, Pieces(group.count * group.fittings_per_line));
+    Add(parts.valves, 1, [&](const model::Valve& part, int) {
+      const int pieces = (group.count + part.channels - 1) / part.channels;
+      return Share(static_cast<double>(pieces) * part.basics);
+    });
+    double coil_w = kUnlimited;
+    for (const model::Valve& valve : parts.valves) coil_w = std::min(coil_w, valve.coil_power_w);
+    coils_j_ += problem_.actuations * HalfPeriod(problem_) * group.count * coil_w;
+    const model::Chamber& chamber = group.chamber;
+    const double content = model::Content(chamber, chamber.operating_pressure_pa) -
+                           model::Content(chamber, problem_.ambient.pressure_pa);
+    air_m3_ += problem_.actuations * group.count *
+               model::StandardVolume(content, problem_.ambient.temperature_k);
+  }
+
+  void AddReservoirs() {
+    const bool made = MadeToMeasureAllowed(problem_, Family::kReservoir);
+    Add(problem_.parts.reservoirs, problem_.limits.reservoirs, Pieces(), made ? 1 : 0,
+        made ? Share(CustomReservoir(problem_, model::kMadeReservoirSmallestM3)) : kUnlimited);
+  }
+
+  double GasAt(double pressure_pa) const {
+    return GasLeft(problem_, outline_.configuration, pressure_pa);
+  }
+
+  // Of bottles that hold so much gas and give it down to ambient pressure.
+  double BottleShare(const model::PartBasics& basics, int quantity, double gas_kg, double gas_m3,
+                     double water_m3) const {
+    const double given_m3 = gas_m3 - water_m3 * GasAt(problem_.ambient.pressure_pa);
+    if (quantity * given_m3 < kRounding * air_m3_) return kUnlimited;
+    Amounts amounts = static_cast<double>(quantity) * basics;
+    amounts.mass_kg += quantity * gas_kg;
+    return Share(amounts);
+  }
+
+  void AddCylinders() {
+    const double temperature_k = problem_.ambient.temperature_k;
+    Add(problem_.parts.cylinders, problem_.limits.cylinders,
+        [&](const model::Cylinder& part, int quantity) {
+          const double water_m3 = part.water_volume_m3, fill_pa = part.fill_pressure_pa;
+          return BottleShare(part.basics, quantity,
+                             model::CylinderCharge(water_m3, fill_pa, temperature_k),
+                             water_m3 * GasAt(fill_pa), water_m3);
+        });
+  }
+
+  void AddCo2() {
+    Add(problem_.parts.co2, problem_.limits.co2, [&](const model::Co2Bottle& part, int quantity) {
+      return BottleShare(part.basics, quantity, part.co2_mass_kg,
+                         part.co2_mass_kg / model::kReferenceDensityCo2KgPerM3,
+                         part.water_volume_m3);
+    });
+  }
+
+  void AddBatteries() {
+    Add(problem_.parts.batteries, problem_.limits.batteries,
+        [&](const model::Battery& part, int quantity) {
+          const double energy_j =
+              quantity * model::UsableEnergy(part.capacity_ah, part.nominal_voltage_v);
+          return energy_j < kRounding * coils_j_ ? kUnlimited : Pieces()(part, quantity);
+        });
+  }
+
+  const Problem& problem_;
+  Outline outline_;
+  double coils_j_ = 0.0, air_m3_ = 0.0;  // of the mission, at least
+};
+
+}  // namespace
+
+Outline MakeOutline(const Problem& problem, Configuration configuration) {
+  return Sketch(problem, configuration).Draw();
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,22 @@
+// What is known of a configuration before its families are planted: from one look at every part,
+// without dominance and trees.
+#ifndef PLENUM_OPTIMIZER_CHOICES_OUTLINE_H_
+#define PLENUM_OPTIMIZER_CHOICES_OUTLINE_H_
+
+#include "optimizer/problem/problem.h"
+
+namespace plenum::optimizer {
+
+struct Outline {
+  Configuration configuration;
+  BigCount combinations, priced;  // priced: those with all prices that the objective needs
+  double bound = 0.0;             // of the objective of each; +∞ where a family has no choice
+};
+
+// The bound is the sum of each family's least share, of a bottle that holds the air of the chambers
+// alone and of a battery that feeds the coils alone; what fits together is not asked.
+Outline MakeOutline(const Problem& problem, Configuration configuration);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_CHOICES_OUTLINE_H_

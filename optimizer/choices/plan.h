@@ -1,0 +1,68 @@
+// What a configuration offers: the choices of every family as trees of boxes, one slot each.
+//
+//   regulated:   tube, fitting, valve of each group; regulator, bottle, battery
+//                (mains: no bottle, no battery)
+//   compressor:  tube, fitting, valve of each group; compressor, reservoir, battery
+#ifndef PLENUM_OPTIMIZER_CHOICES_PLAN_H_
+#define PLENUM_OPTIMIZER_CHOICES_PLAN_H_
+
+#include <vector>
+
+#include "optimizer/choices/corner.h"
+#include "optimizer/problem/proof.h"
+
+namespace plenum::optimizer {
+
+inline constexpr int kSlotsPerGroup = 3;
+
+// A family in a plan, whatever its corners.
+struct Slot {
+  Family family;
+  int group = -1;
+  const std::vector<BoxNode>* nodes = nullptr;
+  const std::vector<Option>* options = nullptr;
+  std::vector<ProofDominated> dominated;  // where MakePlan was asked to name them
+};
+
+struct GroupTrees {
+  BoxTree<TubeCorner> tubes;
+  BoxTree<FittingCorner> fittings;  // one choice of no part where the group needs none
+  BoxTree<ValveCorner> valves;
+};
+
+// Inlet pressures of bottles that matter, and the gas that 1 m³ holds at them, m³ ANR.
+struct BottleRange {
+  double low_pa = 0.0, high_pa = 0.0;
+};
+
+struct Plan {
+  Plan() = default;
+  Plan(const Plan&) = delete;  // slots point into the trees
+  Plan& operator=(const Plan&) = delete;
+
+  Configuration configuration;
+  bool equal_flow = false;  // as in ProofPlan
+  double tie = 0.0;
+  std::vector<GroupTrees> groups;
+  BoxTree<RegulatorCorner> regulators;
+  BoxTree<BottleCorner> bottles;
+  BoxTree<CompressorCorner> compressors;
+  BoxTree<ReservoirCorner> reservoirs;
+  BoxTree<BatteryCorner> batteries;
+  std::vector<Slot> slots;
+  int regulator_slot = -1, bottle_slot = -1, compressor_slot = -1, reservoir_slot = -1,
+      battery_slot = -1;
+
+  BottleRange bottle_range;
+  double highest_pump_pa = 0.0;
+
+  BigCount combinations, unpriced, dominated;  // the trees hold what is left of them
+  bool empty() const;                          // some slot has no choice
+};
+
+// Gas left in 1 m³ of a bottle at an inlet pressure, m³ ANR.
+double GasLeft(const Problem& problem, Configuration configuration, double inlet_pa);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_CHOICES_PLAN_H_

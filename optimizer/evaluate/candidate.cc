@@ -1,0 +1,79 @@
+#include "optimizer/evaluate/candidate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/flow/scalar.h"
+#include "model/physics/storage.h"
+
+namespace plenum::optimizer {
+
+Window SourceWindow(const Problem& problem, const Candidate& candidate) {
+  Window window{std::max(problem.ambient.pressure_pa, candidate.source_floor_pa),
+                std::min(problem.source_pressure_max_pa, candidate.source_cap_pa)};
+  for (const Line* line : candidate.lines) {
+    window.low_pa = std::max(window.low_pa, line->source_min_pa);
+    window.high_pa = std::min(window.high_pa, line->source_max_pa);
+  }
+  if (candidate.regulator.index != kNone) {
+    const model::Regulator& regulator = problem.parts.regulators[candidate.regulator.index];
+    window.low_pa = std::max(window.low_pa, regulator.outlet_pressure_min_pa);
+    window.high_pa = std::min(window.high_pa, regulator.outlet_pressure_max_pa);
+  }
+  if (candidate.configuration == Configuration::kMains)
+    window.high_pa = std::min(window.high_pa, problem.mains_pressure_pa);
+  if (candidate.compressor.index != kNone) {
+    const model::CompressorCurve& curve =
+        problem.parts.compressors[candidate.compressor.index].curve;
+    window.high_pa = std::min(window.high_pa, model::HighestPressure(curve));
+  }
+  if (candidate.reservoir.index >= 0)
+    window.high_pa = std::min(window.high_pa,
+                              problem.parts.reservoirs[candidate.reservoir.index].pressure_max_pa);
+  if (candidate.reservoir.index == kCustom)
+    window.high_pa = std::min(window.high_pa, CustomRatingPa(problem));
+  return window;
+}
+
+double ReservoirVolume(const Problem& problem, const Candidate& candidate) {
+  const Option& reservoir = candidate.reservoir;
+  return reservoir.index < 0
+             ? 0.0
+             : reservoir.quantity * problem.parts.reservoirs[reservoir.index].volume_m3;
+}
+
+double CustomRatingPa(const Problem& problem) {
+  return std::min(problem.source_pressure_max_pa,
+                  problem.ambient.pressure_pa + model::kMadeReservoirPressureMaxGaugePa);
+}
+
+Amounts CustomReservoir(const Problem& problem, double volume_m3) {
+  const model::MadeReservoir made =
+      model::MakeReservoir(volume_m3, CustomRatingPa(problem) - problem.ambient.pressure_pa);
+  return {made.mass_kg, made.body_volume_m3, 0.0};
+}
+
+template <class T>
+AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
+                          const T& reservoir_m3) {
+  AmountsOf<T> total;
+  for (const Line* line : candidate.lines) total += line->amounts;
+  for (const Option* option : {&candidate.regulator, &candidate.bottle, &candidate.compressor,
+                               &candidate.battery, &candidate.reservoir})
+    total += option->amounts;
+  if (candidate.reservoir.index != kCustom) return total;
+  // Made to measure, all of it is linear in the volume.
+  const double volume_m3 = model::ValueOf(reservoir_m3);
+  const Amounts made = CustomReservoir(problem, volume_m3);
+  const Amounts none = CustomReservoir(problem, 0.0);
+  const auto grown = [&](double here, double fixed) {
+    return model::Chain(reservoir_m3, here, (here - fixed) / volume_m3);
+  };
+  total += AmountsOf<T>{grown(made.mass_kg, none.mass_kg), grown(made.volume_m3, none.volume_m3)};
+  return total;
+}
+
+template Amounts TotalAmounts(const Problem&, const Candidate&, const double&);
+template AmountsOf<model::Dual> TotalAmounts(const Problem&, const Candidate&, const model::Dual&);
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,179 @@
+#include "optimizer/evaluate/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/flow/scalar.h"
+#include "model/physics/storage.h"
+#include "optimizer/evaluate/effect_strokes.h"
+#include "optimizer/evaluate/evaluate_strokes.h"
+
+namespace plenum::optimizer {
+namespace {
+
+// Gas on board that reaches the regulator's outlet, m³ ANR.
+double AirAvailable(const Problem& problem, const Candidate& candidate, double source_pa) {
+  if (candidate.bottle.index == kNone) return kUnlimited;  // wall supply, or not chosen yet
+  const double temperature_k = problem.ambient.temperature_k;
+  const int quantity = candidate.bottle.quantity;
+  if (candidate.configuration == Configuration::kCylinder) {
+    const model::Cylinder& cylinder = problem.parts.cylinders[candidate.bottle.index];
+    const double inlet_pa = std::max(
+        source_pa, problem.parts.regulators[candidate.regulator.index].inlet_pressure_min_pa);
+    return quantity * model::CylinderUsableVolume(cylinder.water_volume_m3,
+                                                  cylinder.fill_pressure_pa, inlet_pa,
+                                                  temperature_k);
+  }
+  if (candidate.configuration == Configuration::kCo2) {
+    const model::Co2Bottle& bottle = problem.parts.co2[candidate.bottle.index];
+    const double inlet_pa = std::max(
+        source_pa, problem.parts.regulators[candidate.regulator.index].inlet_pressure_min_pa);
+    return quantity * model::Co2UsableVolume(bottle.co2_mass_kg, bottle.water_volume_m3, inlet_pa,
+                                             temperature_k);
+  }
+  return kUnlimited;
+}
+
+// Highest frequency that the source sustains, by thermal duty or by evaporation.
+template <class T>
+T SourceFrequency(const Problem& problem, const Candidate& candidate,
+                  const EvaluationOf<T>& evaluation) {
+  if (candidate.configuration == Configuration::kCompressor)
+    return problem.frequency_hz * problem.parts.compressors[candidate.compressor.index].duty_max /
+           evaluation.compressor_duty;
+  if (candidate.configuration == Configuration::kCo2 && candidate.bottle.index != kNone)
+    return candidate.bottle.quantity *
+           problem.parts.co2[candidate.bottle.index].flow_sustained_m3_per_s /
+           evaluation.air_per_cycle_m3;
+  return T(kUnlimited);
+}
+
+// Energy to fill the reservoir the first time: ∫ P/Q grows by its integrand with the upper end.
+template <class T>
+T FirstFill(const Problem& problem, const model::CompressorCurve& curve,
+            const OperatingPointOf<T>& point) {
+  const double source_pa = model::ValueOf(point.source_pa);
+  const double temperature_k = problem.ambient.temperature_k;
+  const double unit_j =
+      model::EnergyToFill(curve, 1.0, problem.ambient.pressure_pa, source_pa, temperature_k);
+  if constexpr (model::kIsDual<T>) {
+    const double slope = model::ElectricalPower(curve, source_pa) /
+                         curve.free_air_m3_per_s(source_pa) *
+                         model::StandardVolume(1.0, temperature_k);
+    return point.reservoir_rising_m3 * model::Chain(point.source_pa, unit_j, slope);
+  }
+  return point.reservoir_rising_m3 * unit_j;
+}
+
+// Over the pressures up to a stop pressure; moves with it where the largest is at the end.
+template <class T>
+T LargestCurrent(const model::CompressorCurve& curve, double low_pa, const T& stop_pa) {
+  const double value_pa = model::ValueOf(stop_pa);
+  const double largest_a = model::LargestCurrent(curve, low_pa, value_pa);
+  const model::MonotoneCurve& current = curve.current_a;
+  const bool at_end = !current.empty() && value_pa > current.front() && value_pa < current.back() &&
+                      largest_a <= current(value_pa);
+  return model::Chain(stop_pa, largest_a, at_end ? current.Slope(value_pa) : 0.0);
+}
+
+template <class T>
+void AddPump(const Problem& problem, const Candidate& candidate, const OperatingPointOf<T>& point,
+             const StrokesOf<T>& strokes, EvaluationOf<T>& evaluation) {
+  const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
+  const double ambient_pa = problem.ambient.pressure_pa;
+  evaluation.compressor_duty = strokes.pump_on_s * problem.frequency_hz;
+  evaluation.energy_per_cycle_j += strokes.pump_energy_j;
+  evaluation.energy_first_fill_j = FirstFill(problem, curve, point);
+  evaluation.air_total_m3 += point.reservoir_rising_m3 * (point.source_pa - ambient_pa) *
+                             model::StandardVolume(1.0, problem.ambient.temperature_k);
+  evaluation.battery_current_a += static_cast<double>(candidate.compressor.quantity) *
+                                  LargestCurrent(curve, ambient_pa, point.source_pa);
+}
+
+template <class T>
+void AddBattery(const Problem& problem, const Candidate& candidate, double coil_power_w,
+                EvaluationOf<T>& evaluation) {
+  evaluation.energy_available_j = kUnlimited;
+  if (candidate.battery.index == kNone) return;
+  const model::Battery& battery = problem.parts.batteries[candidate.battery.index];
+  evaluation.energy_available_j =
+      candidate.battery.quantity *
+      model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v);
+  evaluation.battery_current_a += coil_power_w / battery.nominal_voltage_v;
+}
+
+}  // namespace
+
+template <class T>
+T ObjectiveValue(const Problem& problem, const Candidate& candidate,
+                 const OperatingPointOf<T>& point, const EvaluationOf<T>& evaluation) {
+  constexpr double kJoulePerWattHour = 3600.0;
+  return ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, point.reservoir_m3)) +
+         problem.objective.energy_wh * evaluation.energy_total_j / kJoulePerWattHour;
+}
+
+Evaluation Evaluate(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                    const EvaluateOptions& options) {
+  return EvaluateWith(EvaluateStrokes(problem, candidate, point), problem, candidate, point,
+                      options);
+}
+
+template <class T>
+EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem,
+                             const Candidate& candidate, const OperatingPointOf<T>& point,
+                             const EvaluateOptions& options) {
+  EvaluationOf<T> evaluation;
+  evaluation.failed = strokes.failed;
+  if (!strokes.works) return evaluation;
+  evaluation.works = true;
+  evaluation.from_full = strokes.from_full;
+
+  const bool revised = HasEffects(problem);
+  evaluation.air_per_cycle_m3 = T(revised ? strokes.air_m3 : 0.0);
+  double coil_power_w = 0.0;
+  T slowest_s = T(0.0);
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    const Line& line = *candidate.lines[g];
+    const T rise_s = strokes.rise_s[g];
+    const T inflate_s = strokes.inflate_s[g];
+    const double fall_s = revised ? strokes.fall_s[g] : line.fall_time_s;
+    evaluation.groups.push_back({rise_s, T(fall_s), inflate_s, 1.0 / (rise_s + fall_s),
+                                 T(revised ? strokes.highest_pa[g] : 0.0)});
+    if (!revised) evaluation.air_per_cycle_m3 += AirPerStroke(problem, g, line, point.source_pa);
+    evaluation.energy_coils_j +=
+        problem.actuations *
+        CoilEnergyPerCycle(problem, line,
+                           options.least_coil_energy ? T(line.inflate_time_least_s) : inflate_s);
+    coil_power_w += line.coil_power_w;
+    slowest_s = std::max({slowest_s, inflate_s, T(fall_s)});
+  }
+  evaluation.air_total_m3 = problem.actuations * evaluation.air_per_cycle_m3;
+  evaluation.energy_per_cycle_j = evaluation.energy_coils_j / problem.actuations;
+  if (candidate.regulator.index != kNone) {
+    const double power_w = problem.parts.regulators[candidate.regulator.index].electrical_power_w;
+    evaluation.energy_per_cycle_j += power_w / problem.frequency_hz;
+    coil_power_w += power_w;
+  }
+  if (candidate.compressor.index != kNone) AddPump(problem, candidate, point, strokes, evaluation);
+  evaluation.air_available_m3 = AirAvailable(problem, candidate, model::ValueOf(point.source_pa));
+  AddBattery(problem, candidate, coil_power_w, evaluation);
+  evaluation.energy_total_j =
+      evaluation.energy_first_fill_j + problem.actuations * evaluation.energy_per_cycle_j;
+  evaluation.frequency_sustained_hz =
+      std::min(SourceFrequency(problem, candidate, evaluation), T(0.5 / slowest_s));
+  return evaluation;
+}
+
+template Evaluation EvaluateWith(const Strokes&, const Problem&, const Candidate&,
+                                 const OperatingPoint&, const EvaluateOptions&);
+template double ObjectiveValue(const Problem&, const Candidate&, const OperatingPoint&,
+                               const Evaluation&);
+template EvaluationOf<model::Dual> EvaluateWith(const StrokesOf<model::Dual>&, const Problem&,
+                                                const Candidate&,
+                                                const OperatingPointOf<model::Dual>&,
+                                                const EvaluateOptions&);
+template model::Dual ObjectiveValue(const Problem&, const Candidate&,
+                                    const OperatingPointOf<model::Dual>&,
+                                    const EvaluationOf<model::Dual>&);
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,190 @@
+#include "optimizer/evaluate/evaluate_strokes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/flow/scalar.h"
+#include "model/simulate/periodic.h"
+#include "model/strokes/reservoir_stroke.h"
+#include "model/strokes/stroke.h"
+#include "optimizer/evaluate/effect_strokes.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kPeriodicTolerance = 1e-7;
+// Strokes of one group alone on the regulator.
+void RegulatedStroke(const Problem& problem, const Candidate& candidate, double source_pa, int g,
+                     Strokes& strokes) {
+  const Line& line = *candidate.lines[g];
+  const ActuatorGroup& group = problem.groups[g];
+  // A regulator shared by n equal lines is, for each of them, one with an n-th of its conductance.
+  model::FlowElement share = problem.parts.regulators[candidate.regulator.index].flow;
+  share.sonic_conductance_m3_per_s_pa /= group.count;
+  std::vector<model::FlowElement> elements{share};
+  elements.insert(elements.end(), line.fill.begin(), line.fill.end());
+  const model::Series fill =
+      model::MakeSeries(elements, FlowFactor(problem, GasOf(candidate.configuration)));
+  const double flow_max = FlowMax(problem, candidate) / group.count;
+  const auto fill_time = [&](double to_pa) {
+    return model::FillTime(fill, line.chamber, source_pa, problem.ambient.pressure_pa, to_pa,
+                           problem.ambient.temperature_k, flow_max);
+  };
+  strokes.rise_s[g] = fill_time(RiseTarget(problem, group));
+  strokes.inflate_s[g] = fill_time(group.chamber.operating_pressure_pa);
+}
+
+model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candidate& candidate,
+                                            const OperatingPoint& point, int g) {
+  model::ReservoirStrokeInput input;
+  input.fill = &candidate.lines[g]->curve->flow;
+  input.chamber = &candidate.lines[g]->chamber;
+  input.count = problem.groups[g].count;
+  input.compressor = &problem.parts.compressors[candidate.compressor.index].curve;
+  input.compressors = candidate.compressor.quantity;
+  input.stop_pa = point.source_pa;
+  input.volume_falling_m3 = point.reservoir_m3;
+  input.volume_rising_m3 = point.reservoir_rising_m3;
+  input.from_pa = problem.ambient.pressure_pa;
+  input.target_pa = RiseTarget(problem, problem.groups[g]);
+  input.operating_pa = problem.groups[g].chamber.operating_pressure_pa;
+  input.temperature_k = problem.ambient.temperature_k;
+  return input;
+}
+
+double RiseLimit(const Problem& problem, int g) {
+  return std::min(problem.groups[g].rise_time_max_s, HalfPeriod(problem));
+}
+
+enum class Alone { kYes, kNo, kTooSlow };
+
+// Stroke of one group alone on the full reservoir, if that is the whole story: the reservoir is
+// full again before another group's stroke, `time_s` later. A single group's own next stroke may
+// come too early: the running time then exceeds the period, and the duty refuses this stop
+// pressure; a lower one that is reached describes the same periodic state.
+Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
+                      const OperatingPoint& point, int g, double time_s, Strokes& strokes) {
+  const model::ReservoirStrokeInput input = MakeStrokeInput(problem, candidate, point, g);
+  const model::ReservoirStroke stroke = model::FillFromReservoir(input);
+  if (!stroke.reached) return Alone::kTooSlow;
+  strokes.rise_s[g] = stroke.rise_s;
+  strokes.inflate_s[g] = stroke.inflate_s;
+  const double refill_s =
+      model::PumpUpTime(*input.compressor, input.compressors, point.reservoir_rising_m3,
+                        stroke.reservoir_end_pa, point.source_pa, input.temperature_k);
+  const bool last_word = problem.groups.size() == 1;
+  if (!last_word && !(stroke.inflate_s + refill_s <= time_s)) return Alone::kNo;
+  strokes.pump_on_s += stroke.pump_on_s + refill_s;
+  strokes.pump_energy_j +=
+      stroke.pump_energy_j + model::EnergyToFill(*input.compressor, point.reservoir_rising_m3,
+                                                 stroke.reservoir_end_pa, point.source_pa,
+                                                 input.temperature_k);
+  strokes.pump_air_m3 +=
+      stroke.pump_air_m3 +
+      model::StandardVolume(point.reservoir_rising_m3 * (point.source_pa - stroke.reservoir_end_pa),
+                            input.temperature_k);
+  if (!candidate.lines[g]->holds) AddHeldAir(problem, candidate, point.source_pa, g, strokes);
+  return Alone::kYes;
+}
+
+Strokes EmptyStrokes(const Problem& problem) {
+  Strokes strokes;
+  strokes.rise_s.assign(problem.groups.size(), model::kNever);
+  strokes.inflate_s.assign(problem.groups.size(), model::kNever);
+  return strokes;
+}
+
+}  // namespace
+
+template <class T>
+void AddHeldAir(const Problem& problem, const Candidate& candidate, const T& stop_pa, int g,
+                StrokesOf<T>& strokes) {
+  const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
+  const model::Chamber& chamber = candidate.lines[g]->chamber;
+  const double stop = model::ValueOf(stop_pa);
+  const T full =
+      model::Chain(stop_pa, model::Content(chamber, stop), model::ContentSlope(chamber, stop));
+  const T air_m3 = problem.groups[g].count *
+                   model::StandardVolume(1.0, problem.ambient.temperature_k) *
+                   (full - model::Content(chamber, chamber.operating_pressure_pa));
+  // Just below the pressure at which the pumps stop.
+  const T last_pa = std::min(stop_pa, T(model::HighestPressure(curve)));
+  const T delivery = std::max(T(0.0), model::CurveAt(curve.free_air_m3_per_s, last_pa));
+  const bool drawn =
+      !curve.current_a.empty() && stop > curve.current_a.front() && stop < curve.current_a.back();
+  const T power_w = model::Chain(stop_pa, model::ElectricalPower(curve, stop),
+                                 drawn ? curve.voltage_v * curve.current_a.Slope(stop) : 0.0);
+  const T seconds = air_m3 / (static_cast<double>(candidate.compressor.quantity) * delivery);
+  strokes.pump_on_s += seconds;
+  strokes.pump_energy_j += seconds * static_cast<double>(candidate.compressor.quantity) * power_w;
+  strokes.pump_air_m3 += air_m3;
+}
+template void AddHeldAir(const Problem&, const Candidate&, const double&, int, Strokes&);
+template void AddHeldAir(const Problem&, const Candidate&, const model::Dual&, int,
+                         StrokesOf<model::Dual>&);
+
+double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
+                         const OperatingPoint& point) {
+  double excess = -kUnlimited;
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    const model::ReservoirStroke stroke =
+        model::FillFromReservoir(MakeStrokeInput(problem, candidate, point, g));
+    if (!stroke.reached) return kUnlimited;
+    excess = std::max({excess, stroke.rise_s / RiseLimit(problem, g) - 1.0,
+                       stroke.inflate_s / HalfPeriod(problem) - 1.0});
+  }
+  return excess;
+}
+
+Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
+                        const OperatingPoint& point) {
+  const int groups = static_cast<int>(problem.groups.size());
+  const bool alone = groups == 1 || !problem.simultaneous;
+  if (!alone || HasEffects(problem)) return SimulateStrokes(problem, candidate, point);
+
+  Strokes strokes = EmptyStrokes(problem);
+  const double time_s = 1.0 / problem.frequency_hz / groups;  // until the next group's command
+  for (int g = 0; g < groups; ++g) {
+    if (candidate.configuration != Configuration::kCompressor) {
+      RegulatedStroke(problem, candidate, point.source_pa, g, strokes);
+      if (groups > 1 && !(strokes.inflate_s[g] <= time_s))
+        return SimulateStrokes(problem, candidate, point);
+    } else {
+      const Alone outcome = ReservoirStroke(problem, candidate, point, g, time_s, strokes);
+      if (outcome == Alone::kTooSlow) return EmptyStrokes(problem);
+      if (outcome == Alone::kNo) return SimulateStrokes(problem, candidate, point);
+    }
+  }
+  strokes.from_full = true;
+  strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
+                              [](double s) { return std::isfinite(s); });
+  return strokes;
+}
+
+Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
+                        const OperatingPoint& point) {
+  if (HasEffects(problem)) return SimulateWithEffects(problem, candidate, point);
+  Strokes strokes = EmptyStrokes(problem);
+  const model::Rig rig = MakePeriodicRig(problem, candidate, point);
+  model::SimulateOptions options = StrokeOptions(problem);
+  const Workbench own;
+  const Workbench& bench = candidate.bench != nullptr ? *candidate.bench : own;
+  options.cancelled = bench.stop;
+  const model::PeriodicState state =
+      bench.periodic(rig, 1.0 / problem.frequency_hz, options, {.tolerance = kPeriodicTolerance});
+  strokes.failed = state.status != model::PeriodicStatus::kConverged;
+  if (strokes.failed) return strokes;
+  for (const model::Stroke& stroke : state.response.strokes) {
+    if (stroke.state != model::ValveState::kInflate) continue;
+    strokes.rise_s[stroke.group] = stroke.to_target_s;
+    strokes.inflate_s[stroke.group] = stroke.to_operating_s;
+  }
+  strokes.pump_on_s = state.response.compressor_on_s;
+  strokes.pump_energy_j = state.response.compressor_energy_j;
+  strokes.pump_air_m3 = state.response.compressor_air_m3;
+  strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
+                              [](double s) { return std::isfinite(s); });
+  return strokes;
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,35 @@
+// The strokes of a candidate in the periodic state, by the cheapest method that is exact for it.
+#ifndef PLENUM_OPTIMIZER_EVALUATE_EVALUATE_STROKES_H_
+#define PLENUM_OPTIMIZER_EVALUATE_EVALUATE_STROKES_H_
+
+#include "optimizer/evaluate/stroke_rig.h"
+
+namespace plenum::optimizer {
+
+// Adds what a valve that cannot hold lets through: its actuators stay on the source, which fills
+// them from p_op up to the stop pressure. Counted as pumped at the stop pressure, the most that it
+// can take.
+template <class T>
+void AddHeldAir(const Problem& problem, const Candidate& candidate, const T& stop_pa, int group,
+                StrokesOf<T>& strokes);
+
+// `works` is false where a pressure is never reached, and where a bound shows that a limit on a
+// rise time is missed. One quadrature or one small integration per group where groups do not meet
+// on the source (a single group, or staggered strokes that end before the next begins), else the
+// simulator.
+Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
+                        const OperatingPoint& point);
+
+// Largest relative excess of the strokes over their limits on a compressor's reservoir, each group
+// as if it were alone and found the reservoir full: a bound from below, by one integration a group.
+double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
+                         const OperatingPoint& point);
+
+// The strokes by the simulator alone, in the periodic state; with effects by SimulateWithEffects
+// (effect_strokes.h).
+Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
+                        const OperatingPoint& point);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_EVALUATE_EVALUATE_STROKES_H_

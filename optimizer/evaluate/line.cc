@@ -1,0 +1,55 @@
+#include "optimizer/evaluate/line.h"
+
+#include <cmath>
+
+#include "model/flow/scalar.h"
+
+namespace plenum::optimizer {
+
+namespace {
+
+constexpr double kDiameterToleranceM = 0.05e-3;
+
+}  // namespace
+
+bool DiametersMate(double tube_outer_m, double fitting_outer_m) {
+  return std::abs(tube_outer_m - fitting_outer_m) <= kDiameterToleranceM;
+}
+
+bool PartsMate(const Problem& problem, int tubing, int fitting, int valve) {
+  if (fitting < 0) return true;
+  const model::Fitting& part = problem.parts.fittings[fitting];
+  return DiametersMate(problem.parts.tubing[tubing].outer_diameter_m, part.tube_outer_diameter_m) &&
+         part.thread == problem.parts.valves[valve].port;
+}
+
+Amounts operator*(double quantity, const model::PartBasics& basics) {
+  return {quantity * basics.mass_kg, quantity * basics.body_volume_m3,
+          quantity * basics.cost_eur.value_or(0.0)};
+}
+
+bool CostMatters(const Problem& problem) {
+  return problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur);
+}
+
+double FlowFactor(const Problem& problem, model::Gas gas) {
+  return model::FlowFactor(gas) *
+         std::sqrt(model::kReferenceTemperatureK / problem.ambient.temperature_k);
+}
+
+template <class T>
+T AirPerStroke(const Problem& problem, int group, const Line& line, const T& source_pa) {
+  const ActuatorGroup& actuators = problem.groups[group];
+  const T full_pa = line.holds ? T(actuators.chamber.operating_pressure_pa) : source_pa;
+  const double value_pa = model::ValueOf(full_pa);
+  const T full = model::Chain(full_pa, model::Content(line.chamber, value_pa),
+                              model::ContentSlope(line.chamber, value_pa));
+  const T content = full - model::Content(line.chamber, problem.ambient.pressure_pa);
+  return static_cast<double>(actuators.count) * content *
+         model::StandardVolume(1.0, problem.ambient.temperature_k);
+}
+
+template double AirPerStroke(const Problem&, int, const Line&, const double&);
+template model::Dual AirPerStroke(const Problem&, int, const Line&, const model::Dual&);
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,126 @@
+// How far an evaluation is from each requirement.
+#include <algorithm>
+#include <cmath>
+
+#include "model/flow/scalar.h"
+#include "optimizer/evaluate/evaluate.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kPaPerKpa = 1e3;
+
+std::string Pointer(int group, const char* field) {
+  return "/actuators/" + std::to_string(group) + "/" + field;
+}
+
+template <class T>
+MarginOf<T> AtMost(std::string pointer, double limit, const T& achieved) {
+  return {std::move(pointer), limit, achieved, (limit - achieved) / limit};
+}
+
+template <class T>
+MarginOf<T> AtLeast(std::string pointer, double limit, const T& achieved) {
+  return {std::move(pointer), limit, achieved, achieved / limit - 1.0};
+}
+
+// Every margin but the strokes'.
+template <class T>
+std::vector<MarginOf<T>> SupplyMargins(const Problem& problem, const Candidate& candidate,
+                                       const OperatingPointOf<T>& point,
+                                       const EvaluationOf<T>& evaluation) {
+  std::vector<MarginOf<T>> margins;
+  const double ambient_pa = problem.ambient.pressure_pa;
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    const ActuatorGroup& group = problem.groups[g];
+    const T full_pa =
+        candidate.lines[g]->holds ? T(group.chamber.operating_pressure_pa) : point.source_pa;
+    const T highest_pa = std::max(evaluation.groups[g].highest_pressure_pa, full_pa);
+    margins.push_back(AtMost<T>(Pointer(g, "pressure_kpa_gauge_max"),
+                                (group.pressure_max_pa - ambient_pa) / kPaPerKpa,
+                                (highest_pa - ambient_pa) / kPaPerKpa));
+    if (std::isfinite(group.fall_time_max_s))
+      margins.push_back(AtMost<T>(Pointer(g, "fall_time_s_max"), group.fall_time_max_s,
+                                  evaluation.groups[g].fall_time_s));
+  }
+  margins.push_back(
+      AtLeast<T>("/duty/frequency_hz", problem.frequency_hz, evaluation.frequency_sustained_hz));
+  const T by_energy = evaluation.energy_per_cycle_j > 0.0
+                          ? T((evaluation.energy_available_j - evaluation.energy_first_fill_j) /
+                              evaluation.energy_per_cycle_j)
+                          : T(kUnlimited);
+  const T actuations =
+      std::min(T(evaluation.air_available_m3 / evaluation.air_per_cycle_m3), by_energy);
+  if (std::isfinite(model::ValueOf(actuations)))
+    margins.push_back(AtLeast<T>("/duty/actuations", problem.actuations, actuations));
+  if (std::isfinite(problem.source_pressure_max_pa))
+    margins.push_back(AtMost<T>("/supply/source_pressure_kpa_gauge_max",
+                                (problem.source_pressure_max_pa - ambient_pa) / kPaPerKpa,
+                                (point.source_pa - ambient_pa) / kPaPerKpa));
+  const AmountsOf<T> total = TotalAmounts(problem, candidate, point.reservoir_m3);
+  if (std::isfinite(problem.mass_max_kg))
+    margins.push_back(AtMost<T>("/supply/mass_kg_max", problem.mass_max_kg, total.mass_kg));
+  if (std::isfinite(problem.volume_max_l))
+    margins.push_back(
+        AtMost<T>("/supply/volume_l_max", problem.volume_max_l, total.volume_m3 * 1e3));
+  if (std::isfinite(problem.cost_max_eur))
+    margins.push_back(AtMost<T>("/supply/cost_eur_max", problem.cost_max_eur, total.cost_eur));
+  return margins;
+}
+
+}  // namespace
+
+template <class T>
+std::vector<MarginOf<T>> Margins(const Problem& problem, const Candidate& candidate,
+                                 const OperatingPointOf<T>& point,
+                                 const EvaluationOf<T>& evaluation) {
+  std::vector<MarginOf<T>> margins;
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    if (std::isfinite(problem.groups[g].rise_time_max_s))
+      margins.push_back(AtMost<T>(Pointer(g, "rise_time_s_max"), problem.groups[g].rise_time_max_s,
+                                  evaluation.groups[g].rise_time_s));
+  for (MarginOf<T>& margin : SupplyMargins(problem, candidate, point, evaluation))
+    margins.push_back(std::move(margin));
+  return margins;
+}
+
+double StrokeExcess(const Problem& problem, const Evaluation& evaluation) {
+  if (!evaluation.works) return kUnlimited;
+  double excess = -kUnlimited;
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    const GroupPerformance& group = evaluation.groups[g];
+    excess = std::max(excess, group.inflate_time_s / HalfPeriod(problem) - 1.0);
+    if (std::isfinite(problem.groups[g].rise_time_max_s))
+      excess = std::max(excess, group.rise_time_s / problem.groups[g].rise_time_max_s - 1.0);
+  }
+  return excess;
+}
+
+template <class T>
+T CurrentMargin(const Problem& problem, const Candidate& candidate,
+                const EvaluationOf<T>& evaluation) {
+  if (candidate.battery.index == kNone) return T(kUnlimited);
+  const double current_max_a =
+      candidate.battery.quantity * problem.parts.batteries[candidate.battery.index].current_max_a;
+  return 1.0 - evaluation.battery_current_a / current_max_a;
+}
+
+double SupplyMargin(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                    const Evaluation& evaluation) {
+  if (!evaluation.works) return -kUnlimited;
+  double smallest = kUnlimited;
+  for (const Margin& margin : SupplyMargins(problem, candidate, point, evaluation))
+    smallest = std::min(smallest, margin.relative_margin);
+  return std::min(smallest, CurrentMargin(problem, candidate, evaluation));
+}
+
+template std::vector<Margin> Margins(const Problem&, const Candidate&, const OperatingPoint&,
+                                     const Evaluation&);
+template double CurrentMargin(const Problem&, const Candidate&, const Evaluation&);
+template std::vector<MarginOf<model::Dual>> Margins(const Problem&, const Candidate&,
+                                                    const OperatingPointOf<model::Dual>&,
+                                                    const EvaluationOf<model::Dual>&);
+template model::Dual CurrentMargin(const Problem&, const Candidate&,
+                                   const EvaluationOf<model::Dual>&);
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,33 @@
+#include "optimizer/evaluate/stroke_panels.h"
+
+#include <cmath>
+
+namespace plenum::optimizer {
+
+StrokePanels MakeStrokePanels(const Problem& problem, int g, const model::Chamber& chamber) {
+  const ActuatorGroup& group = problem.groups[g];
+  const double ambient_pa = problem.ambient.pressure_pa;
+  const double target_pa = RiseTarget(problem, group);
+  const double empty = model::Content(chamber, ambient_pa);
+  const auto drawn = [&](double pressure_pa) {
+    return group.count * (model::Content(chamber, pressure_pa) - empty);
+  };
+  StrokePanels panels;
+  // Closer to each other towards the ends, where the flow drops fastest.
+  const auto place = [&](int first, int count, double from_pa, double to_pa) {
+    for (int i = 0; i <= count; ++i) {
+      const double rest = 1.0 - static_cast<double>(i) / count;
+      panels.pressure_pa[first + i] = to_pa - (to_pa - from_pa) * rest * std::sqrt(rest);
+    }
+  };
+  place(0, kStrokePanels, ambient_pa, target_pa);
+  place(kStrokePanels, kLastStrokePanels, target_pa, group.chamber.operating_pressure_pa);
+  for (int i = 0; i < kStrokeNodes; ++i) panels.drawn[i] = drawn(panels.pressure_pa[i]);
+  for (int i = 0; i + 1 < kStrokeNodes; ++i) {
+    panels.middle_pa[i] = 0.5 * (panels.pressure_pa[i] + panels.pressure_pa[i + 1]);
+    panels.middle_drawn[i] = drawn(panels.middle_pa[i]);
+  }
+  return panels;
+}
+
+}  // namespace plenum::optimizer

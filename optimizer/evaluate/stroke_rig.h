@@ -1,0 +1,52 @@
+// A candidate as a rig for the simulator, and the strokes that an evaluation finds.
+#ifndef PLENUM_OPTIMIZER_EVALUATE_STROKE_RIG_H_
+#define PLENUM_OPTIMIZER_EVALUATE_STROKE_RIG_H_
+
+#include <vector>
+
+#include "model/simulate/simulate.h"
+#include "optimizer/evaluate/candidate.h"
+
+namespace plenum::optimizer {
+
+template <class T>
+struct StrokesOf {
+  bool works = false;
+  bool failed = false;               // the simulator gave up or was stopped: nothing is known
+  std::vector<T> rise_s, inflate_s;  // per group, worst of the cycle
+  T pump_on_s = T(0.0);              // per cycle
+  T pump_energy_j = T(0.0);          // per cycle, all pumps
+  T pump_air_m3 = T(0.0);            // the same, ANR; not known with effects
+  bool from_full = false;            // no two groups meet, and each finds the reservoir full
+  // With effects only; without them the line knows.
+  std::vector<double> fall_s, highest_pa;  // per group
+  double air_m3 = 0.0;                     // ANR, per cycle, all actuators
+};
+using Strokes = StrokesOf<double>;
+
+model::Gas GasOf(Configuration configuration);
+
+// Most that the regulator of a candidate passes, m³ ANR/s.
+double FlowMax(const Problem& problem, const Candidate& candidate);
+
+// Whether any group's model is revised.
+bool HasEffects(const Problem& problem);
+
+// The effects of a group that act in a configuration: a droop measured behind a regulator is no
+// property of a compressor with its own reservoir.
+std::vector<model::Effect> ActingEffects(const ActuatorGroup& group, Configuration configuration);
+
+// The candidate as a rig for the simulator, with the commands of one cycle: actuators at rest and a
+// full reservoir.
+model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
+
+// The same, where every stroke begins at ambient, as its rise time is defined, also where the fall
+// only just meets its target within half of the period. How fast a chamber empties is nothing to
+// the source.
+model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
+                           const OperatingPoint& point);
+model::SimulateOptions StrokeOptions(const Problem& problem);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_EVALUATE_STROKE_RIG_H_

@@ -1,0 +1,68 @@
+#include "optimizer/explain/requirements.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optimizer/evaluate/line.h"
+
+namespace plenum::optimizer {
+namespace {
+
+// Low enough for air and strokes; not so low that valves are held for minutes in each cycle.
+double LoosestFrequency(double required_hz) {
+  return std::min(required_hz / 8.0, std::max(1e-2, required_hz / 4096.0));
+}
+
+void AddGroups(const Problem& problem, std::vector<Requirement>& list) {
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    const std::string base = "/actuators/" + std::to_string(g);
+    const ActuatorGroup& group = problem.groups[g];
+    if (std::isfinite(group.rise_time_max_s))
+      list.push_back({base + "/rise_time_s_max", group.rise_time_max_s,
+                      std::max(HalfPeriod(problem), 2.0 * group.rise_time_max_s),
+                      [g](Problem& p, double value) { p.groups[g].rise_time_max_s = value; },
+                      std::nullopt});
+    if (std::isfinite(group.fall_time_max_s))
+      list.push_back({base + "/fall_time_s_max", group.fall_time_max_s,
+                      std::max(HalfPeriod(problem), 2.0 * group.fall_time_max_s),
+                      [g](Problem& p, double value) { p.groups[g].fall_time_max_s = value; },
+                      std::nullopt});
+  }
+}
+
+void AddAmounts(const Problem& problem, std::vector<Requirement>& list) {
+  const auto add = [&](const char* pointer, double limit, double Problem::*member,
+                       Objective objective) {
+    if (std::isfinite(limit))
+      list.push_back({pointer, limit, kUnlimited,
+                      [member](Problem& p, double value) { p.*member = value; }, objective});
+  };
+  add("/supply/mass_kg_max", problem.mass_max_kg, &Problem::mass_max_kg, {.mass_kg = 1.0});
+  add("/supply/volume_l_max", problem.volume_max_l, &Problem::volume_max_l, {.volume_l = 1.0});
+  add("/supply/cost_eur_max", problem.cost_max_eur, &Problem::cost_max_eur, {.cost_eur = 1.0});
+}
+
+}  // namespace
+
+std::vector<Requirement> Requirements(const Problem& problem) {
+  std::vector<Requirement> list;
+  AddGroups(problem, list);
+  AddAmounts(problem, list);
+  list.push_back({"/duty/actuations", problem.actuations, 1.0,
+                  [](Problem& p, double value) { p.actuations = value; }, std::nullopt, true});
+  list.push_back({"/duty/frequency_hz", problem.frequency_hz,
+                  LoosestFrequency(problem.frequency_hz),
+                  [](Problem& p, double value) { p.frequency_hz = value; }, std::nullopt});
+  if (std::isfinite(problem.source_pressure_max_pa)) {
+    const double ambient_pa = problem.ambient.pressure_pa;
+    list.push_back({"/supply/source_pressure_kpa_gauge_max",
+                    (problem.source_pressure_max_pa - ambient_pa) / 1e3, 1e4,
+                    [ambient_pa](Problem& p, double value) {
+                      p.source_pressure_max_pa = ambient_pa + value * 1e3;
+                    },
+                    std::nullopt});
+  }
+  return list;
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,36 @@
+// The requirements of a problem that can be loosened or tightened, one number each.
+#ifndef PLENUM_OPTIMIZER_EXPLAIN_REQUIREMENTS_H_
+#define PLENUM_OPTIMIZER_EXPLAIN_REQUIREMENTS_H_
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "optimizer/problem/problem.h"
+
+namespace plenum::optimizer {
+
+struct Requirement {
+  std::string pointer;
+  double required;                            // in the units of the field
+  double loosest;                             // at this it no longer binds
+  std::function<void(Problem&, double)> set;  // to a value in those units
+  // For mass, volume and cost: the objective that finds the best at once.
+  std::optional<Objective> objective;
+  bool whole = false;  // a number of something of which at least so many are required
+};
+
+// Rise and fall times, limits on mass, volume and cost, actuations, frequency, source pressure:
+// those that the problem has.
+std::vector<Requirement> Requirements(const Problem& problem);
+
+// The value that is easier (share > 0) or harder (share < 0) by a share of the required one.
+inline double Loosened(const Requirement& requirement, double share) {
+  return requirement.required *
+         (requirement.loosest > requirement.required ? 1.0 + share : 1.0 - share);
+}
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_EXPLAIN_REQUIREMENTS_H_

@@ -1,0 +1,60 @@
+#include "optimizer/problem/amount.h"
+
+#include <cmath>
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kJoulePerWattHour = 3600.0;
+
+}  // namespace
+
+Objective ObjectiveOn(Amount amount) {
+  switch (amount) {
+    case Amount::kMass:
+      return {.mass_kg = 1.0};
+    case Amount::kVolume:
+      return {.volume_l = 1.0};
+    case Amount::kCost:
+      return {.cost_eur = 1.0};
+    case Amount::kEnergy:
+      return {.energy_wh = 1.0};
+  }
+  return {};
+}
+
+double& LimitOn(Amount amount, Problem& problem) {
+  return amount == Amount::kMass     ? problem.mass_max_kg
+         : amount == Amount::kVolume ? problem.volume_max_l
+                                     : problem.cost_max_eur;
+}
+
+const char* Name(Amount amount) {
+  switch (amount) {
+    case Amount::kMass:
+      return "mass_kg";
+    case Amount::kVolume:
+      return "volume_l";
+    case Amount::kCost:
+      return "cost_eur";
+    case Amount::kEnergy:
+      return "energy_wh";
+  }
+  return "";
+}
+
+double Of(Amount amount, const Totals& totals) {
+  switch (amount) {
+    case Amount::kMass:
+      return totals.mass_kg;
+    case Amount::kVolume:
+      return totals.volume_m3 * 1e3;
+    case Amount::kCost:
+      return totals.cost_eur.value_or(std::nan(""));
+    case Amount::kEnergy:
+      return totals.energy_j / kJoulePerWattHour;
+  }
+  return std::nan("");
+}
+
+}  // namespace plenum::optimizer

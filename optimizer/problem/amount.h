@@ -1,0 +1,22 @@
+// The amounts of a design that can be traded against each other: mass, volume, cost, energy.
+#ifndef PLENUM_OPTIMIZER_PROBLEM_AMOUNT_H_
+#define PLENUM_OPTIMIZER_PROBLEM_AMOUNT_H_
+
+#include "optimizer/problem/problem.h"
+
+namespace plenum::optimizer {
+
+enum class Amount { kMass, kVolume, kCost, kEnergy };
+const char* Name(Amount amount);  // "mass_kg", "volume_l", "cost_eur", "energy_wh"
+
+Objective ObjectiveOn(Amount amount);  // that amount alone
+
+// In the unit of its name; NaN for the cost of parts without a price.
+double Of(Amount amount, const Totals& totals);
+
+// The problem's limit on an amount, in the same unit; energy has none.
+double& LimitOn(Amount amount, Problem& problem);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_PROBLEM_AMOUNT_H_

@@ -1,0 +1,43 @@
+#include "optimizer/problem/problem.h"
+
+namespace plenum::optimizer {
+
+const char* Name(Configuration configuration) {
+  switch (configuration) {
+    case Configuration::kCylinder:
+      return "cylinder";
+    case Configuration::kCo2:
+      return "co2";
+    case Configuration::kCompressor:
+      return "compressor";
+    case Configuration::kMains:
+      return "mains";
+  }
+  return "";
+}
+
+const char* Name(Status status) {
+  switch (status) {
+    case Status::kOptimal:
+      return "optimal";
+    case Status::kFeasible:
+      return "feasible";
+    case Status::kInfeasible:
+      return "infeasible";
+    case Status::kCancelled:
+      return "cancelled";
+  }
+  return "";
+}
+
+double RiseTarget(const Problem& problem, const ActuatorGroup& group) {
+  const double ambient_pa = problem.ambient.pressure_pa;
+  return ambient_pa + problem.rise_fraction * (group.chamber.operating_pressure_pa - ambient_pa);
+}
+
+double FallTarget(const Problem& problem, const ActuatorGroup& group) {
+  const double ambient_pa = problem.ambient.pressure_pa;
+  return ambient_pa + problem.fall_fraction * (group.chamber.operating_pressure_pa - ambient_pa);
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,224 @@
+// The design problem and its answer, as values. SI, absolute pressures.
+#ifndef PLENUM_OPTIMIZER_PROBLEM_PROBLEM_H_
+#define PLENUM_OPTIMIZER_PROBLEM_PROBLEM_H_
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "model/effects/effect.h"
+#include "model/flow/parts.h"
+#include "model/physics/air.h"
+#include "model/physics/chamber.h"
+#include "model/simulate/periodic.h"
+#include "optimizer/problem/big_count.h"
+#include "optimizer/problem/proof.h"
+
+namespace plenum::optimizer {
+
+inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+enum class Configuration { kCylinder, kCo2, kCompressor, kMains };
+inline constexpr int kConfigurations = 4;
+const char* Name(Configuration configuration);  // "cylinder", "co2", "compressor", "mains"
+
+enum class Family {
+  kTubing,
+  kFitting,
+  kValve,
+  kCompressor,
+  kCylinder,
+  kCo2,
+  kBattery,
+  kRegulator,
+  kReservoir
+};
+const char* Name(Family family);  // as in the catalogue: "tubing", "fitting", …
+
+struct ActuatorGroup {
+  std::string name;
+  int count = 1;
+  model::Chamber chamber;  // without the tube's dead volume
+  double tube_length_m = 0.0;
+  int fittings_per_line = 0;
+  double rise_time_max_s = kUnlimited;
+  double fall_time_max_s = kUnlimited;
+  double pressure_max_pa = 0.0;
+  std::vector<model::Effect> effects;  // of a revised model; none: the base model
+};
+
+struct Objective {  // weighted sum; a plain objective has one weight of 1
+  double mass_kg = 0.0, volume_l = 0.0, cost_eur = 0.0, energy_wh = 0.0;
+  bool operator==(const Objective&) const = default;
+};
+
+struct Limits {  // most identical parts in parallel
+  int compressors = 2, batteries = 4, cylinders = 4, co2 = 4, reservoirs = 2;
+};
+
+struct Problem {
+  std::vector<ActuatorGroup> groups;  // at least one
+  double frequency_hz = 0.0;
+  double actuations = 0.0;
+  bool simultaneous = true;
+  double rise_fraction = 0.95;
+  double fall_fraction = 0.05;
+  std::set<Configuration> configurations;
+  double mains_pressure_pa = 0.0;
+  double mains_flow_max_m3_per_s = kUnlimited;
+  double source_pressure_max_pa = kUnlimited;
+  double mass_max_kg = kUnlimited;
+  double volume_max_l = kUnlimited;
+  double cost_max_eur = kUnlimited;
+  model::Ambient ambient;
+  Objective objective;
+  Limits limits;
+  std::map<Family, std::set<std::string>>
+      require;                    // only these ids of the family; "custom" reservoir
+  std::set<std::string> exclude;  // may hold "custom"
+  int count = 20;
+  model::Parts parts;
+};
+
+// Target pressures of a group.
+double RiseTarget(const Problem& problem, const ActuatorGroup& group);
+double FallTarget(const Problem& problem, const ActuatorGroup& group);
+
+struct Progress {
+  double seconds = 0.0;
+  long long evaluated = 0;
+  long long open = 0;  // nodes that wait
+  std::optional<double> best;
+  double lower_bound = 0.0;
+};
+
+// Finds the periodic state of a rig: model::FindPeriodicState, unless a test takes its place.
+using PeriodicSolver = std::function<model::PeriodicState(const model::Rig&, double period_s,
+                                                          const model::SimulateOptions&,
+                                                          const model::PeriodicOptions&)>;
+
+struct SearchOptions {
+  bool record = false;  // fill Proof::record
+  double time_limit_s = 30.0;
+  bool any_design = false;  // the first design found is enough; nothing is proved of it then
+  std::function<bool()> cancelled;  // may be empty
+  std::function<void(const Progress&)>
+      progress;  // called at most a few times a second; may be empty
+  PeriodicSolver periodic = model::FindPeriodicState;
+  std::size_t crowd = 16384;  // boxes that wait from which on room is saved
+};
+
+// One row of the parts list.
+struct Choice {
+  Family family;
+  std::string id;                         // "custom" for a made-to-measure reservoir
+  int group = -1;                         // −1: shared by all
+  double quantity = 1;                    // pieces; for tubing the metres
+  double mass_kg = 0.0, volume_m3 = 0.0;  // whole row, gas charge included
+  std::optional<double> cost_eur;
+};
+
+struct Settings {
+  double source_pressure_pa = 0.0;
+  std::optional<double> compressor_duty;
+  std::optional<double> reservoir_volume_m3;
+  std::vector<double> valve_duty;  // per group
+};
+
+struct Totals {
+  double mass_kg = 0.0, volume_m3 = 0.0;
+  std::optional<double> cost_eur;
+  double energy_j = 0.0;
+};
+
+// T here and below: double, or a dual number that carries derivatives (model/flow/scalar.h).
+template <class T>
+struct GroupPerformanceOf {
+  T rise_time_s = T(0.0), fall_time_s = T(0.0);
+  T inflate_time_s = T(0.0);  // to the operating pressure
+  T frequency_max_hz = T(0.0);
+  T highest_pressure_pa = T(0.0);  // of the periodic state; 0: that at which the valve closes
+};
+using GroupPerformance = GroupPerformanceOf<double>;
+
+struct Performance {
+  std::vector<GroupPerformance> groups;
+  double frequency_sustained_hz = 0.0;
+  double air_per_actuation_m3 = 0.0;  // ANR, mean over all actuators, tube share included
+  double air_total_m3 = 0.0;  // ANR, all actuators, all cycles (and first fill of a reservoir)
+  double run_time_s = 0.0;
+};
+
+template <class T>
+struct MarginOf {
+  std::string requirement;  // JSON pointer into the requirements
+  double required = 0.0;    // in the units of the requirement's field
+  T achieved = T(0.0);
+  T relative_margin = T(0.0);  // ≥ 0: met
+};
+using Margin = MarginOf<double>;
+
+struct Design {
+  Configuration configuration;
+  std::vector<Choice> parts;
+  Settings settings;
+  Totals totals;
+  Performance performance;
+  std::vector<Margin> margins;
+  double objective = 0.0;
+  struct Trace {
+    std::vector<double> t_s;
+    std::vector<std::vector<double>> pressure_pa;  // per group
+    std::vector<double> source_pressure_pa;
+  } response;  // one cycle of the periodic state
+};
+
+enum class Status { kOptimal, kFeasible, kInfeasible, kCancelled };
+const char* Name(Status status);
+
+struct Pruned {
+  BigCount incompatible, infeasible, bound, dominated, unpriced;
+};
+
+struct Proof {
+  BigCount combinations;
+  bool complete = false;
+  double lower_bound = 0.0;  // of the objective of every design not listed
+  double gap = 0.0;
+  long long boxes = 0;      // looked at
+  BigCount evaluated;       // leaves sized
+  long long simulated = 0;  // designs that went through the simulator
+  long long undecided = 0;  // leaves that could be neither sized nor refuted
+  Pruned pruned;
+  std::shared_ptr<const ProofRecord> record;  // where SearchOptions asks for it
+};
+
+struct Conflict {
+  std::string requirement;  // JSON pointer
+  double required = 0.0;
+  std::optional<double> best;  // best the catalogue reaches while the others hold; none: not at all
+  bool proved = true;  // without it a design was found; false: time ran out before that was known
+};
+
+// As FindConflict (conflict.h): of an infeasible problem, with so much of the time limit used.
+using FindConflictFunction = std::function<std::vector<Conflict>(
+    const Problem& problem, const SearchOptions& options, double used_s)>;
+
+struct Answer {
+  Status status = Status::kCancelled;
+  std::vector<Design> designs;
+  Proof proof;
+  std::vector<Conflict> conflict;
+  double seconds = 0.0;
+};
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_PROBLEM_PROBLEM_H_

@@ -1,0 +1,134 @@
+// Tables of pumps for the bounds of pump_bounds.h.
+#include "optimizer/pump/pump_facts.h"
+
+#include <algorithm>
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kNoDelivery = 1e12;
+
+struct Division {
+  double low_pa, high_pa;
+  int count;
+  double Edge(int i) const { return low_pa + (high_pa - low_pa) * i / count; }
+};
+
+void MakeNonFalling(std::vector<double>& values) {
+  for (std::size_t i = values.size() - 1; i-- > 0;) values[i] = std::min(values[i], values[i + 1]);
+}
+
+// Delivery falls with pressure, so that a cell's lower edge has the most; the least power is at an
+// edge or at a point of the table.
+PumpTables MakeTables(const model::CompressorCurve& curve, int pumps, const Division& cells) {
+  const model::MonotoneCurve& current = curve.current_a;
+  const auto current_at = [&](double pressure_pa) {
+    return current.empty() ? 0.0
+                           : current(std::clamp(pressure_pa, current.front(), current.back()));
+  };
+  PumpTables tables;
+  for (std::vector<double>* table :
+       {&tables.energy_j_per_m3, &tables.seconds_per_m3, &tables.current_a})
+    table->reserve(static_cast<std::size_t>(cells.count));
+  double edge_pa = cells.low_pa;
+  std::size_t knot = 0;
+  while (knot < current.x().size() && current.x()[knot] <= edge_pa) ++knot;
+  double high_a = current_at(edge_pa), largest_a = high_a;
+  for (int i = 0; i < cells.count; ++i) {
+    const double low_pa = edge_pa;
+    edge_pa = cells.Edge(i + 1);
+    tables.current_a.push_back(pumps * largest_a);
+    const double low_a = high_a;
+    high_a = current_at(edge_pa);
+    double least_a = std::min(low_a, high_a);
+    for (; knot < current.x().size() && current.x()[knot] < edge_pa; ++knot) {
+      least_a = std::min(least_a, current.y()[knot]);
+      largest_a = std::max(largest_a, current.y()[knot]);
+    }
+    largest_a = std::max(largest_a, high_a);
+    // Past the last delivery nothing can be pumped; a large number keeps integrals finite.
+    const double delivery = model::FreeAirDelivery(curve, low_pa);
+    const double power_w = curve.voltage_v * least_a;
+    tables.energy_j_per_m3.push_back(delivery > 0.0 ? power_w / delivery : kNoDelivery);
+    tables.seconds_per_m3.push_back(delivery > 0.0 ? 1.0 / (pumps * delivery) : kNoDelivery);
+  }
+  MakeNonFalling(tables.energy_j_per_m3);
+  MakeNonFalling(tables.seconds_per_m3);
+  return tables;
+}
+
+PumpFacts MakeFacts(const Problem& problem, double highest_pa, PumpTables tables) {
+  PumpFacts facts;
+  facts.target_pa = kUnlimited;
+  double rising_s = 0.0;
+  for (const ActuatorGroup& group : problem.groups) {
+    facts.target_pa = std::min(facts.target_pa, RiseTarget(problem, group));
+    const double rise_s = std::min(group.rise_time_max_s, HalfPeriod(problem));
+    rising_s = problem.simultaneous ? std::max(rising_s, rise_s) : rising_s + rise_s;
+  }
+  facts.early_m3 = rising_s / tables.seconds_per_m3.front();
+  facts.rates = {problem.ambient.pressure_pa, highest_pa, std::move(tables)};
+  return facts;
+}
+
+}  // namespace
+
+PumpRates::PumpRates(double low_pa, double high_pa, PumpTables tables)
+    : cells_(low_pa, high_pa, tables.seconds_per_m3.size()),
+      current_a_(std::move(tables.current_a)) {
+  sums_.reserve(current_a_.size());
+  paces_.reserve(current_a_.size());
+  PerAir sum;
+  for (std::size_t i = 0; i < current_a_.size(); ++i) {
+    const PerAir value{tables.seconds_per_m3[i], tables.energy_j_per_m3[i]};
+    sums_.push_back({value, sum});
+    paces_.push_back({value.seconds, 1.0 / value.seconds});
+    sum.seconds += value.seconds * cells_.width_pa();
+    sum.energy_j += value.energy_j * cells_.width_pa();
+  }
+}
+
+PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& curve, int pumps,
+                        int cells) {
+  const double ambient_pa = problem.ambient.pressure_pa;
+  const double highest_pa = std::max(model::HighestPressure(curve), 1.01 * ambient_pa);
+  PumpFacts facts =
+      MakeFacts(problem, highest_pa, MakeTables(curve, pumps, {ambient_pa, highest_pa, cells}));
+  facts.exact = true;
+  return facts;
+}
+
+double HighestPumpPressure(const Problem& problem) {
+  double highest_pa = problem.ambient.pressure_pa * 1.01;
+  for (const model::Compressor& compressor : problem.parts.compressors)
+    highest_pa = std::max(highest_pa, model::HighestPressure(compressor.curve));
+  return std::clamp(problem.source_pressure_max_pa, 1.01 * problem.ambient.pressure_pa, highest_pa);
+}
+
+CoarsePump MakeCoarsePump(const Problem& problem, double highest_pa,
+                          const model::CompressorCurve& curve) {
+  const PumpTables tables =
+      MakeTables(curve, 1, {problem.ambient.pressure_pa, highest_pa, kCoarseCells});
+  CoarsePump coarse;
+  std::copy_n(tables.energy_j_per_m3.begin(), kCoarseCells, coarse.energy_j_per_m3.begin());
+  std::copy_n(tables.seconds_per_m3.begin(), kCoarseCells, coarse.seconds_per_m3.begin());
+  std::copy_n(tables.current_a.begin(), kCoarseCells, coarse.current_a.begin());
+  return coarse;
+}
+
+CoarsePump Several(CoarsePump one, int pumps) {
+  for (double& seconds : one.seconds_per_m3) seconds /= pumps;
+  for (double& current : one.current_a) current *= pumps;
+  return one;
+}
+
+PumpFacts MakePumpFacts(const Problem& problem, double highest_pa, const CoarsePump& coarse) {
+  const auto table = [](const std::array<double, kCoarseCells>& values) {
+    return std::vector<double>(values.begin(), values.end());
+  };
+  return MakeFacts(
+      problem, highest_pa,
+      {table(coarse.energy_j_per_m3), table(coarse.seconds_per_m3), table(coarse.current_a)});
+}
+
+}  // namespace plenum::optimizer

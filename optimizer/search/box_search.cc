@@ -1,0 +1,420 @@
+#include "optimizer/search/box_search.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <queue>
+
+#include "optimizer/bounds/leaf_sizing.h"
+#include "optimizer/problem/problem.h"
+#include "optimizer/search/conclusion.h"
+#include "optimizer/search/configurations.h"
+#include "optimizer/search/dive.h"
+#include "optimizer/search/ranking.h"
+#include "optimizer/search/recorder.h"
+#include "optimizer/search/search_node.h"
+#include "optimizer/sizing/report.h"
+
+namespace plenum::optimizer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kProgressIntervalS = 0.2;
+// After the end designs found before are still confirmed, one at least and others for so long.
+constexpr double kGraceS = 0.1;
+constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;  // of the time limit
+constexpr int kCrowdDives = 20;                      // for each design that is wanted
+constexpr int kBoxesPerDiveStep = 2, kDiveStepsLeast = 10'000;
+constexpr int kHardDesigns = 16;  // no design takes more than this part of the steps of dives
+
+// Where the objective is one of the limited amounts alone, its limit bounds the objective.
+double ObjectiveLimit(const Problem& problem) {
+  const Objective& o = problem.objective;
+  if (o == Objective{.mass_kg = o.mass_kg}) return o.mass_kg * problem.mass_max_kg;
+  if (o == Objective{.volume_l = o.volume_l}) return o.volume_l * problem.volume_max_l;
+  if (o == Objective{.cost_eur = o.cost_eur}) return o.cost_eur * problem.cost_max_eur;
+  return kUnlimited;
+}
+
+class BoxSearch {
+ public:
+  BoxSearch(const Problem& problem, const SearchOptions& options, Clock::time_point start)
+      : problem_(problem),
+        options_(options),
+        start_(start),
+        objective_limit_(ObjectiveLimit(problem) * (1.0 + 1e-12)),
+        ranking_(problem.count),
+        recorder_(options.record),
+        bench_{[this] { return Stopped() || Seconds() > dive_until_s_; }, options.periodic},
+        report_bench_{
+            [this] { return reported_ > 0 && Stopped() && Seconds() > stopped_s_ + kGraceS; },
+            options.periodic},
+        configurations_(problem, bench_, options.record) {}
+
+  Answer Run() {
+    do Enumerate();
+    while (!stopped() && !ConfirmList());
+    if (stopped()) ConfirmList();
+    return Conclude();
+  }
+
+ private:
+  double Seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  bool stopped() const { return cancelled_ || late_; }
+  bool Stopped() {
+    if (stopped()) return true;
+    cancelled_ = options_.cancelled && options_.cancelled();
+    looked_s_ = Seconds();
+    late_ = looked_s_ > options_.time_limit_s;
+    if (stopped()) stopped_s_ = looked_s_;
+    return stopped();
+  }
+
+  // Plants the configurations that the search has come to, or all where a record is wanted. False
+  // if stopped on the way.
+  bool PlantReached() {
+    const auto reached = [&] {
+      if (options_.record) return kUnlimited;
+      const double next = open_.empty() ? kUnlimited : open_.top()->box.bound;
+      return std::min(next < ranking_.run_begin() ? next : ranking_.run_end(), objective_limit_);
+    };
+    while (!configurations_.waiting().empty() && configurations_.LeastWaiting() <= reached())
+      if (!PlantNext()) return false;
+    return true;
+  }
+
+  bool PlantNext() {
+    Bounds* bounds = configurations_.PlantNext();
+    if (!bounds) return false;
+    const Plan& plan = bounds->plan();
+    proof_.pruned.unpriced += plan.unpriced;
+    proof_.pruned.dominated += plan.dominated;
+    if (plan.empty()) return true;
+    auto node = std::make_unique<Node>();
+    node->bounds = bounds;
+    node->box = bounds->Root();
+    node->record = recorder_.Start(plan);
+    const Constraint missed = bounds->Assess(node->box, -1);
+    Keep(std::move(node), missed);
+    return true;
+  }
+
+  // Queues an assessed box, or counts it where its corner misses something.
+  void Keep(NodePtr node, Constraint missed) {
+    if (missed == Constraint::kNone) {
+      Push(std::move(node));
+      return;
+    }
+    (missed == Constraint::kMating ? proof_.pruned.incompatible : proof_.pruned.infeasible) +=
+        node->bounds->Count(node->box);
+    recorder_.Close(node->record, {.kind = BoxKind::kInfeasible, .constraint = missed});
+  }
+
+  void Push(NodePtr node) {
+    node->serial = serial_++;
+    if (ordering_ties_ && node->box.bound <= ranking_.run_end()) {
+      node->earliest = EarliestIds(problem_, node->bounds->plan(), node->box);
+      ties_.Push(std::move(node));
+    } else {
+      SaveRoom(*node);
+      open_.Push(std::move(node));
+    }
+  }
+
+  void Enumerate() {
+    while (!Stopped() && PlantReached() && !open_.empty()) {
+      Report();
+      DiveIfSlow();
+      SaveRoomIfCrowded();
+      const double lowest = open_.top()->box.bound;
+      if (lowest > objective_limit_ || lowest > ranking_.run_end()) return;
+      if (options_.any_design && !ranking_.list().empty()) return;
+      if (lowest >= ranking_.run_begin()) {
+        OrderTies();
+        return;
+      }
+      Step(open_.Pop());
+    }
+  }
+
+  // All boxes that hold better designs are done. Those that may tie with the last place are
+  // searched in the order of ids until none of them can come before it.
+  void OrderTies() {
+    ordering_ties_ = true;
+    while (!open_.empty() && open_.top()->box.bound <= ranking_.run_end()) Push(open_.Pop());
+    while (!ties_.empty() && !Stopped() && ties_.top()->earliest < ranking_.last().ids)
+      Step(ties_.Pop());
+    ordering_ties_ = false;
+    while (!ties_.empty()) Push(ties_.Pop());
+  }
+
+  void Step(NodePtr node) {
+    ++proof_.boxes;
+    Bounds& bounds = *node->bounds;
+    if (bounds.CanFindSource(node->box)) {
+      Constraint missed = bounds.FindSource(node->box);
+      while (missed == Constraint::kNone && IsNext(*node) && bounds.CanFindSource(node->box)) {
+        ++proof_.boxes;
+        missed = bounds.FindSource(node->box);
+      }
+      Keep(std::move(node), missed);
+    } else if (bounds.IsSingle(node->box)) {
+      Size(std::move(node));
+    } else {
+      Divide(*node);
+    }
+  }
+
+  // Whether a box that has come out would be the next to do so. Told to stop, a look at a box need
+  // not get it any further.
+  bool IsNext(const Node& node) {
+    return !Stopped() && !ordering_ties_ && !open_.empty() &&
+           node.box.bound < open_.top()->box.bound;
+  }
+
+  void Divide(Node& node) {
+    Halves halves = optimizer::Divide(*node.bounds, node.box);
+    const auto [left, right] = recorder_.Split(node.record, halves.slot, halves.middle);
+    for (int half : {0, 1}) {
+      auto part = std::make_unique<Node>();
+      part->bounds = node.bounds;
+      part->box = std::move(halves.boxes[half]);
+      part->depth = node.depth + 1;
+      part->record = half == 0 ? left : right;
+      if (part->bounds->IsOutdone(part->box)) {
+        proof_.pruned.bound += part->bounds->Count(part->box);
+        outdone_.push_back(part->record);
+        continue;
+      }
+      const Constraint missed = part->bounds->Assess(part->box, halves.slot);
+      Keep(std::move(part), missed);
+    }
+  }
+
+  void Size(NodePtr node) {
+    PartIds ids = EarliestIds(problem_, node->bounds->plan(), node->box);
+    if (Found* known = ranking_.Find(ids)) {  // by the dive
+      proof_.evaluated += 1;
+      known->record = node->record;
+      CountGap(known->leaf);
+      recorder_.Close(node->record, {.kind = BoxKind::kNotListed, .bound = known->leaf.objective});
+      return;
+    }
+    const Candidate candidate = node->bounds->CandidateOf(node->box);
+    const std::optional<Leaf> sized = SizeLeaf(problem_, candidate, node->box, node->sizing);
+    if (!sized) {  // as its bound rises the box goes back into the queue
+      Push(std::move(node));
+      return;
+    }
+    Leaf leaf = *sized;
+    if (leaf.status == LeafStatus::kUndecided && Stopped()) {
+      Push(std::move(node));
+      return;
+    }
+    proof_.evaluated += 1;
+    if (leaf.status == LeafStatus::kUndecided)
+      Undecided(std::max(node->box.bound, leaf.lower_bound), node->record);
+    if (leaf.status == LeafStatus::kInfeasible)
+      recorder_.Close(node->record, {.kind = BoxKind::kRefuted});
+    if (leaf.status != LeafStatus::kFeasible) return;
+    recorder_.Close(node->record, {.kind = BoxKind::kNotListed, .bound = leaf.objective});
+    leaf.lower_bound = std::clamp(node->box.bound, leaf.lower_bound, leaf.objective);
+    CountGap(leaf);
+    ranking_.Add({std::move(node->box), node->bounds, leaf, std::move(ids), node->record, nullptr});
+  }
+
+  void Undecided(double bound, int record) {
+    ++proof_.undecided;
+    undecided_bound_ = std::min(undecided_bound_, bound);
+    if (record >= 0) recorder_.Close(record, {.kind = BoxKind::kUndecided, .bound = bound});
+  }
+
+  // A leaf whose best settings are not proved may be better than the place that it gets.
+  void CountGap(const Leaf& leaf) {
+    if (leaf.lower_bound < leaf.objective * (1.0 - kTie)) Undecided(leaf.lower_bound, -1);
+  }
+
+  // A search that is slow to prove should not come home empty-handed: with a third of the time gone
+  // it looks for good designs by depth first. They bound the search from above and are the best so
+  // far if time runs out.
+  void DiveIfSlow() {
+    const double from = options_.any_design ? 0.0 : kDiveFrom;
+    if (dived_ || looked_s_ < from * options_.time_limit_s) return;
+    dived_ = true;
+    while (!configurations_.waiting().empty())
+      if (!PlantNext()) return;
+    const auto& all = configurations_.planted();
+    for (const std::unique_ptr<Bounds>& bounds : all) {
+      const double until_s =
+          Seconds() + kDiveShare * options_.time_limit_s / static_cast<double>(all.size());
+      dive_until_s_ = until_s;
+      Dive(problem_, *bounds, options_.any_design, bench_.stop, ranking_);
+      dive_until_s_ = kUnlimited;
+    }
+  }
+
+  // What boxes know takes room, and most of it would only be asked if their bounds came up. Designs
+  // found by depth first tell which bounds surely will not; where they are taken back (ConfirmList)
+  // what was forgotten is found anew. To look for designs takes longer than to forget, and is worth
+  // it less often.
+  void SaveRoomIfCrowded() {
+    if (open_.size() >= crowd_to_dive_) {
+      crowd_to_dive_ += crowd_to_dive_;
+      DiveFromNext();
+    }
+    if (open_.size() < crowd_) return;
+    crowd_ += crowd_ / 4 + 1;
+    open_.ForEach([&](const NodePtr& node) { SaveRoom(*node); });
+  }
+
+  // From the boxes that come out next, then off the way from those that led to better designs; not
+  // for longer than a share of what the search has done.
+  void DiveFromNext() {
+    DiveSteps steps{static_cast<long long>(proof_.boxes) / kBoxesPerDiveStep + kDiveStepsLeast, 0};
+    steps.of_design = steps.left / kHardDesigns;
+    const auto improves = [&](const Node& node, int turns) {
+      const double before = ranking_.run_end();
+      DiveFrom(node.box, turns, problem_, *node.bounds, bench_.stop, steps, ranking_);
+      return ranking_.run_end() < before;
+    };
+    std::vector<NodePtr> first;
+    std::vector<const Node*> led;  // the best last
+    while (!open_.empty() && static_cast<int>(first.size()) < kCrowdDives * problem_.count) {
+      first.push_back(open_.Pop());
+      if (improves(*first.back(), 0)) led.push_back(first.back().get());
+    }
+    for (int i = 0; i < problem_.count && !led.empty(); ++i, led.pop_back())
+      improves(*led.back(), 1);
+    for (NodePtr& node : first) open_.Push(std::move(node));
+  }
+
+  void SaveRoom(Node& node) const {
+    if (ranking_.full() && !node.sizing)  // which points to the box's lines
+      node.bounds->Forget(node.box, ranking_.run_end());
+  }
+
+  // Makes the designs of the list. One that the simulator does not confirm is taken out, and the
+  // search has to go on: false.
+  bool ConfirmList() {
+    std::vector<Found>& list = ranking_.list();
+    bool all = true;
+    for (std::size_t i = 0; i < list.size() && static_cast<int>(i) < problem_.count;) {
+      Found& found = list[i];
+      if (!found.design) {
+        ++proof_.simulated;
+        Candidate candidate = found.bounds->CandidateOf(found.box);
+        candidate.bench = &report_bench_;
+        std::optional<Design> design = MakeDesign(problem_, candidate, found.leaf, !Stopped());
+        if (!design && report_bench_.stopped()) {  // the rest is left out, and bounds the list
+          for (; i < list.size(); ++i)
+            undecided_bound_ = std::min(undecided_bound_, list[i].leaf.lower_bound);
+          return false;
+        }
+        if (!design) {
+          Undecided(found.leaf.lower_bound, found.record);
+          ranking_.Remove(i);
+          if (!stopped()) return false;
+          all = false;
+          continue;
+        }
+        found.design = std::make_shared<Design>(std::move(*design));
+        ++reported_;
+      }
+      ++i;
+    }
+    return all;
+  }
+
+  void Report() {
+    if (!options_.progress) return;
+    const double seconds = Seconds();
+    if (seconds - reported_s_ < kProgressIntervalS) return;
+    reported_s_ = seconds;
+    Progress progress;
+    progress.seconds = seconds;
+    progress.evaluated = static_cast<long long>(proof_.evaluated.ToDouble());
+    progress.open = static_cast<long long>(open_.size());
+    if (!ranking_.list().empty()) progress.best = ranking_.list().front().leaf.objective;
+    progress.lower_bound = open_.top()->box.bound;
+    options_.progress(progress);
+  }
+
+  // Boxes whose combinations are outdone hold none that is better than the last of a full list, and
+  // none that is feasible where the list is not full. `rest`: the least objective of all others
+  // that are not listed, which may be better than those.
+  double CloseOutdone(double rest) {
+    if (outdone_.empty()) return rest;
+    const double least = ranking_.full() ? std::min(rest, ranking_.last().leaf.objective) : rest;
+    for (int record : outdone_) recorder_.Close(record, {.kind = BoxKind::kOrder, .bound = least});
+    return least;
+  }
+
+  // Boxes that are still open, and configurations that still wait, are closed by their bound; the
+  // least of these, or +∞.
+  double CloseRest() {
+    double least = kUnlimited;
+    for (const Outline& outline : configurations_.waiting()) {
+      const bool over = outline.bound > objective_limit_;
+      (over ? proof_.pruned.infeasible : proof_.pruned.bound) += outline.priced;
+      proof_.pruned.unpriced += outline.combinations - outline.priced;
+      if (!over) least = std::min(least, outline.bound);
+    }
+    open_.ForEach([&](const NodePtr& node) {
+      const double bound = node->box.bound;
+      const bool over = bound > objective_limit_;
+      (over ? proof_.pruned.infeasible : proof_.pruned.bound) += node->bounds->Count(node->box);
+      if (!over) least = std::min(least, bound);
+      const bool ties = ranking_.full() && bound <= ranking_.run_end();
+      recorder_.Close(node->record, {.kind = over   ? BoxKind::kInfeasible
+                                             : ties ? BoxKind::kOrder
+                                                    : BoxKind::kBound,
+                                     .constraint = over ? Constraint::kAmounts : Constraint::kNone,
+                                     .bound = bound});
+    });
+    return least;
+  }
+
+  Answer Conclude() {
+    proof_.combinations = configurations_.combinations();
+    proof_.lower_bound =
+        CloseOutdone(std::min({undecided_bound_, CloseRest(), ranking_.BoundBehind()}));
+    const Ending ending{.stopped = stopped(),
+                        .cancelled = cancelled_,
+                        .any_design = options_.any_design,
+                        .seconds = Seconds()};
+    return optimizer::Conclude(problem_, ending, std::move(proof_), ranking_, recorder_);
+  }
+
+  const Problem& problem_;
+  const SearchOptions& options_;
+  Clock::time_point start_;
+  double objective_limit_;  // a bound above it breaks a limit
+  Queue<NodePtr, LowestBound> open_;
+  Queue<NodePtr, EarliestIdsFirst> ties_;
+  bool ordering_ties_ = false;
+  Ranking ranking_;
+  Recorder recorder_;
+  Proof proof_;
+  double undecided_bound_ = kUnlimited;
+  std::vector<int> outdone_;        // boxes, as recorded
+  Workbench bench_, report_bench_;  // for the search, for the designs of the list
+  Configurations configurations_;
+  int reported_ = 0;
+  // Boxes that wait when room is saved next, and when designs are sought for it.
+  std::size_t crowd_ = options_.crowd, crowd_to_dive_ = options_.crowd;
+  double looked_s_ = 0.0;  // at the clock
+  double reported_s_ = 0.0, stopped_s_ = 0.0, dive_until_s_ = kUnlimited;
+  long long serial_ = 0;
+  bool cancelled_ = false, late_ = false, dived_ = false;
+};
+
+}  // namespace
+
+Answer SearchBoxes(const Problem& problem, const SearchOptions& options) {
+  return BoxSearch(problem, options, Clock::now()).Run();
+}
+
+}  // namespace plenum::optimizer

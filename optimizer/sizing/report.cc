@@ -1,0 +1,166 @@
+#include "optimizer/sizing/report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/physics/storage.h"
+#include "optimizer/evaluate/effect_strokes.h"
+#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/source_options.h"
+#include "optimizer/problem/family_specs.h"
+
+namespace plenum::optimizer {
+namespace {
+
+// The simulator's times may pass a limit by this share before a design is refused: it is the
+// simulator's own error at its default tolerance, with room.
+constexpr double kConfirmTolerance = 1e-5;
+constexpr int kSamplesPerCycle = 400;
+
+void AddChoice(const Problem& problem, Family family, const Option& option, Design& design) {
+  if (option.index < 0) return;
+  const model::PartBasics& basics = BasicsOf(problem.parts, family, option.index);
+  Choice choice{family,
+                basics.id,
+                -1,
+                static_cast<double>(option.quantity),
+                option.amounts.mass_kg,
+                option.amounts.volume_m3,
+                std::nullopt};
+  if (basics.cost_eur) choice.cost_eur = option.quantity * *basics.cost_eur;
+  design.parts.push_back(choice);
+}
+
+Choice PieceChoice(Family family, const model::PartBasics& basics, int group, double quantity) {
+  Choice choice{family,
+                basics.id,
+                group,
+                quantity,
+                quantity * basics.mass_kg,
+                quantity * basics.body_volume_m3,
+                std::nullopt};
+  if (basics.cost_eur) choice.cost_eur = quantity * *basics.cost_eur;
+  return choice;
+}
+
+void AddLine(const Problem& problem, int g, const Line& line, Design& design) {
+  const ActuatorGroup& group = problem.groups[g];
+  const model::Valve& valve = problem.parts.valves[line.valve];
+  const int pieces = (group.count + valve.channels - 1) / valve.channels;
+  design.parts.push_back(PieceChoice(Family::kValve, valve.basics, g, pieces));
+  if (line.fitting >= 0)
+    design.parts.push_back(PieceChoice(Family::kFitting,
+                                       problem.parts.fittings[line.fitting].basics, g,
+                                       group.count * group.fittings_per_line));
+  design.parts.push_back(PieceChoice(Family::kTubing, problem.parts.tubing[line.tubing].per_metre,
+                                     g, group.count * group.tube_length_m));
+}
+
+void AddParts(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+              Design& design) {
+  for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g)
+    AddLine(problem, g, *candidate.lines[g], design);
+  for (const Family family : SourceFamilies(candidate.configuration))
+    AddChoice(problem, family, OptionOf(candidate, family), design);
+  if (candidate.reservoir.index == kCustom) {
+    const Amounts amounts = CustomReservoir(problem, point.reservoir_m3);
+    design.parts.push_back(
+        {Family::kReservoir, "custom", -1, 1, amounts.mass_kg, amounts.volume_m3, std::nullopt});
+  }
+  bool priced = true;
+  Totals& totals = design.totals;
+  totals.cost_eur = 0.0;
+  for (const Choice& choice : design.parts) {
+    totals.mass_kg += choice.mass_kg;
+    totals.volume_m3 += choice.volume_m3;
+    priced = priced && choice.cost_eur.has_value();
+    if (priced) *totals.cost_eur += *choice.cost_eur;
+  }
+  if (!priced) totals.cost_eur.reset();
+}
+
+Performance MakePerformance(const Problem& problem, const Evaluation& evaluation) {
+  Performance performance;
+  performance.groups = evaluation.groups;
+  performance.frequency_sustained_hz = evaluation.frequency_sustained_hz;
+  int actuators = 0;
+  for (const ActuatorGroup& group : problem.groups) actuators += group.count;
+  performance.air_per_actuation_m3 = evaluation.air_per_cycle_m3 / actuators;
+  performance.air_total_m3 = evaluation.air_total_m3;
+  performance.run_time_s = problem.actuations / problem.frequency_hz;
+  return performance;
+}
+
+// One cycle from a full reservoir and actuators at rest, for the plots.
+Design::Trace TraceCycle(const Problem& problem, const Candidate& candidate,
+                         const OperatingPoint& point) {
+  model::SimulateOptions options;
+  options.end_s = 1.0 / problem.frequency_hz;
+  options.sample_hz = kSamplesPerCycle * problem.frequency_hz;
+  options.rise_fraction = problem.rise_fraction;
+  options.fall_fraction = problem.fall_fraction;
+  model::Response response = model::Simulate(MakeRig(problem, candidate, point), options);
+  Design::Trace trace;
+  if (response.status != model::SimulateStatus::kDone) return trace;
+  trace.t_s = std::move(response.t_s);
+  for (model::GroupResponse& group : response.groups)
+    trace.pressure_pa.push_back(std::move(group.pressure_pa));
+  trace.source_pressure_pa = std::move(response.source_pressure_pa);
+  return trace;
+}
+
+// Whether the simulator confirms the strokes and what the pumps bear at this point.
+bool Confirm(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+             const Evaluation& evaluation) {
+  if (StrokeExcess(problem, evaluation) > 0.0 ||
+      SupplyMargin(problem, candidate, point, evaluation) < 0.0)
+    return false;
+  if (HasEffects(problem)) return true;  // the evaluation was the simulator's
+  const Strokes strokes = SimulateStrokes(problem, candidate, point);
+  if (!strokes.works) return false;
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    if (strokes.rise_s[g] > problem.groups[g].rise_time_max_s * (1.0 + kConfirmTolerance))
+      return false;
+    if (strokes.inflate_s[g] > HalfPeriod(problem) * (1.0 + kConfirmTolerance)) return false;
+  }
+  if (candidate.compressor.index == kNone) return true;
+  const double duty_max = problem.parts.compressors[candidate.compressor.index].duty_max;
+  return strokes.pump_on_s * problem.frequency_hz <= duty_max * (1.0 + kConfirmTolerance);
+}
+
+}  // namespace
+
+std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
+                                 const Leaf& leaf, bool settle) {
+  OperatingPoint point = settle ? Settle(problem, candidate, leaf) : leaf.point;
+  Evaluation evaluation = Evaluate(problem, candidate, point);
+  if (!Confirm(problem, candidate, point, evaluation)) {
+    point = leaf.point;
+    evaluation = Evaluate(problem, candidate, point);
+    if (!Confirm(problem, candidate, point, evaluation)) return std::nullopt;
+  }
+  Design design = Describe(problem, candidate, point, evaluation);
+  design.response = TraceCycle(problem, candidate, point);
+  return design;
+}
+
+Design Describe(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                const Evaluation& evaluation) {
+  Design design;
+  design.configuration = candidate.configuration;
+  AddParts(problem, candidate, point, design);
+  design.totals.energy_j = evaluation.energy_total_j;
+  design.settings.source_pressure_pa = point.source_pa;
+  if (candidate.compressor.index != kNone) {
+    design.settings.compressor_duty = evaluation.compressor_duty;
+    design.settings.reservoir_volume_m3 = point.reservoir_m3;
+  }
+  for (const GroupPerformance& group : evaluation.groups)
+    design.settings.valve_duty.push_back(group.inflate_time_s * problem.frequency_hz);
+  design.performance = MakePerformance(problem, evaluation);
+  design.margins = Margins(problem, candidate, point, evaluation);
+  design.objective = ObjectiveValue(problem, candidate, point, evaluation);
+  return design;
+}
+
+}  // namespace plenum::optimizer

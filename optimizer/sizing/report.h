@@ -1,0 +1,23 @@
+// A listed design: the candidate with its settings, checked and traced by the simulator.
+#ifndef PLENUM_OPTIMIZER_SIZING_REPORT_H_
+#define PLENUM_OPTIMIZER_SIZING_REPORT_H_
+
+#include <optional>
+
+#include "optimizer/sizing/sizing.h"
+
+namespace plenum::optimizer {
+
+// None where the simulator, run on the whole rig in its periodic state, does not confirm that every
+// requirement is met: the design is then not listed but counted as undecided.
+// `settle`: choose the settings that the objective leaves free (sizing.h), else keep the leaf's.
+std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
+                                 const Leaf& leaf, bool settle = true);
+
+// The candidate at a point as it was evaluated there, whatever it meets, without a trace.
+Design Describe(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                const Evaluation& evaluation);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_SIZING_REPORT_H_

@@ -1,0 +1,231 @@
+#include "optimizer/sizing/sizing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/root.h"
+#include "optimizer/pump/pump_bounds.h"
+#include "optimizer/pump/pump_slope.h"
+#include "optimizer/pump/stroke_bound.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kFirstStep = 1e-3, kStepGrowth = 8.0;  // of the source pressure
+constexpr double kObjectiveTolerance = 4e-7;
+
+// Coils of all cycles at any source pressure, at least.
+double LeastCoilEnergy(const Problem& problem, const Candidate& candidate) {
+  double energy_j = 0.0;
+  for (const Line* line : candidate.lines)
+    energy_j += problem.actuations * CoilEnergyPerCycle(problem, *line, line->inflate_time_least_s);
+  return energy_j;
+}
+
+// Whether no two groups draw at the same time, at the pressure of the evaluation and above.
+bool OneAtATime(const Problem& problem, const Candidate& candidate, const Evaluation& evaluation) {
+  const std::size_t groups = problem.groups.size();
+  if (groups <= 2) return true;
+  for (std::size_t g = 0; g < groups; ++g)
+    if (!candidate.lines[g]->holds ||
+        evaluation.groups[g].inflate_time_s * problem.frequency_hz * static_cast<double>(groups) >
+            1.0)
+      return false;
+  return true;
+}
+
+SteepestFall PumpFall(const Problem& problem, const Candidate& candidate) {
+  if (candidate.compressor.index == kNone) return {};
+  return {problem.parts.compressors[candidate.compressor.index].curve, problem.ambient.pressure_pa,
+          SourceWindow(problem, candidate).high_pa};
+}
+
+// Source pressures at a fixed volume, by branch and bound over intervals: an interval takes at
+// least what its left end does, less what coils and pumps may save towards its right end
+// (pump_slope.h).
+class PressureSearch {
+ public:
+  PressureSearch(const Problem& problem, const Candidate& candidate, double reservoir_m3,
+                 int evaluations_max)
+      : problem_(problem),
+        candidate_(candidate),
+        reservoir_m3_(reservoir_m3),
+        evaluations_max_(evaluations_max),
+        rises_(PumpEnergyRises(problem, candidate)),
+        pump_fall_(PumpFall(problem, candidate)),
+        least_coils_j_(LeastCoilEnergy(problem, candidate)),
+        parts_objective_(
+            ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3))) {}
+
+  Leaf Run(double low_pa, double high_pa) {
+    leaf_.objective = kUnlimited;
+    const Evaluation low = Try(low_pa);
+    // Without energy in the objective the lowest pressure that works is as good as any.
+    if (std::isfinite(leaf_.objective) && problem_.objective.energy_wh == 0.0) return Done();
+    if (high_pa > low_pa) Open(low_pa, low, high_pa, Try(high_pa));
+    while (!open_.empty() && evaluations_ < evaluations_max_ && !failed_ && !candidate_.stopped()) {
+      if (open_.top().bound >= leaf_.objective * (1.0 - kObjectiveTolerance)) return Done();
+      const Interval interval = open_.top();
+      open_.pop();
+      const double middle_pa = 0.5 * (interval.low_pa + interval.high_pa);
+      const Evaluation middle = Try(middle_pa);
+      Open(interval.low_pa, interval.low, middle_pa, middle);
+      Open(middle_pa, middle, interval.high_pa, interval.high);
+    }
+    return Done();
+  }
+
+ private:
+  struct Interval {
+    double low_pa, high_pa, bound;
+    double near;  // lowest objective at its ends: the order where no bound is known
+    Evaluation low, high;
+    bool operator<(const Interval& other) const {  // lowest on top
+      return bound != other.bound ? bound > other.bound : near > other.near;
+    }
+  };
+
+  OperatingPoint At(double source_pa) const { return {source_pa, reservoir_m3_, reservoir_m3_}; }
+
+  Evaluation Try(double source_pa) {
+    ++evaluations_;
+    const OperatingPoint point = At(source_pa);
+    Evaluation evaluation = Evaluate(problem_, candidate_, point);
+    failed_ = failed_ || evaluation.failed;
+    if (!(SmallestMargin(problem_, candidate_, point, evaluation) >= 0.0)) return evaluation;
+    const double objective = ObjectiveValue(problem_, candidate_, point, evaluation);
+    if (objective < leaf_.objective) {
+      leaf_.objective = objective;
+      leaf_.point = point;
+    }
+    return evaluation;
+  }
+
+  void Open(double low_pa, const Evaluation& low, double high_pa, const Evaluation& high) {
+    double bound = parts_objective_;
+    const double fall_j = low.works ? EnergyFall(low_pa, low, high_pa, high) : kUnlimited;
+    if (std::isfinite(fall_j)) {
+      const Evaluation least = LeastBetween(low, high, fall_j);
+      if (SupplyMargin(problem_, candidate_, At(low_pa), least) < 0.0) return;
+      bound = ObjectiveValue(problem_, candidate_, At(low_pa), least);
+    }
+    const double near = std::min(ObjectiveValue(problem_, candidate_, At(low_pa), low),
+                                 ObjectiveValue(problem_, candidate_, At(high_pa), high));
+    open_.push({low_pa, high_pa, bound, near, low, high});
+  }
+
+  // Most of it grows with the pressure and is least at the left end. Coils fall with it, and pumps
+  // may by `fall_j` a cycle.
+  Evaluation LeastBetween(Evaluation low, const Evaluation& high, double fall_j) const {
+    const double coils_j = high.works ? high.energy_coils_j : least_coils_j_;
+    const double change_j =
+        std::min(0.0, coils_j - low.energy_coils_j) - problem_.actuations * fall_j;
+    low.energy_total_j += change_j;
+    low.energy_per_cycle_j += change_j / problem_.actuations;
+    return low;
+  }
+
+  // Most that the pumps save in a cycle by stopping higher than at `low_pa`, J.
+  double EnergyFall(double low_pa, const Evaluation& low, double high_pa,
+                    const Evaluation& high) const {
+    if (rises_) return 0.0;
+    double fall_j_per_pa = low.air_per_cycle_m3 * pump_fall_.EnergyPerAir(high_pa);
+    // Where groups take turns and the reservoir does not always become full.
+    if (!problem_.simultaneous && problem_.groups.size() > 1 && !high.from_full) {
+      if (!OneAtATime(problem_, candidate_, low)) return kUnlimited;
+      fall_j_per_pa +=
+          candidate_.compressor.quantity * pump_fall_.Power(high_pa) / problem_.frequency_hz;
+    }
+    return fall_j_per_pa * (high_pa - low_pa);
+  }
+
+  Leaf Done() {
+    const bool found = std::isfinite(leaf_.objective);
+    leaf_.status = found                       ? LeafStatus::kFeasible
+                   : open_.empty() && !failed_ ? LeafStatus::kInfeasible
+                                               : LeafStatus::kUndecided;
+    leaf_.lower_bound = open_.empty() ? leaf_.objective : open_.top().bound;
+    if (problem_.objective.energy_wh == 0.0 || failed_) leaf_.lower_bound = parts_objective_;
+    if (found) leaf_.lower_bound = std::min(leaf_.lower_bound, leaf_.objective);
+    return leaf_;
+  }
+
+  const Problem& problem_;
+  const Candidate& candidate_;
+  double reservoir_m3_;
+  int evaluations_max_;
+  bool rises_;  // so do duty and energy of the pumps
+  SteepestFall pump_fall_;
+  double least_coils_j_;
+  double parts_objective_;
+  std::priority_queue<Interval> open_;
+  Leaf leaf_;
+  int evaluations_ = 0;
+  bool failed_ = false;
+};
+
+}  // namespace
+
+double SmallestMargin(const Problem& problem, const Candidate& candidate,
+                      const OperatingPoint& point, const Evaluation& evaluation) {
+  return std::min(-StrokeExcess(problem, evaluation),
+                  SupplyMargin(problem, candidate, point, evaluation));
+}
+
+bool PumpEnergyRises(const Problem& problem, const Candidate& candidate) {
+  if (candidate.compressor.index == kNone) return true;
+  const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
+  const double low_pa = problem.ambient.pressure_pa;
+  const double high_pa = SourceWindow(problem, candidate).high_pa;
+  if (problem.simultaneous || problem.groups.size() == 1)
+    return EnergyPerAirRises(curve, low_pa, high_pa);
+  return PowerRises(curve, low_pa, high_pa);
+}
+
+NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& candidate,
+                                    OperatingPoint point, double tolerance) {
+  const Window window = SourceWindow(problem, candidate);
+  if (window.empty()) return {LeafStatus::kInfeasible};
+  bool failed = false;
+  const auto excess = [&](double source_pa) {
+    point.source_pa = source_pa;
+    const Evaluation evaluation = Evaluate(problem, candidate, point);
+    failed = failed || evaluation.failed;
+    return StrokeExcess(problem, evaluation);
+  };
+  double low_pa = window.low_pa, high_pa = window.high_pa;
+  double f_low = excess(low_pa);
+  if (f_low <= 0.0) return {LeafStatus::kFeasible, low_pa, low_pa};
+  const auto unless_failed = [&](double source_pa) { return failed ? 0.0 : excess(source_pa); };
+  // A window often begins a little below what is needed.
+  double f_high = kUnlimited;
+  for (double step = kFirstStep; f_high > 0.0; step *= kStepGrowth) {
+    high_pa = std::min(window.low_pa * (1.0 + step), window.high_pa);
+    f_high = unless_failed(high_pa);
+    if (f_high > 0.0 && high_pa == window.high_pa) return {LeafStatus::kInfeasible};
+    if (f_high > 0.0) {
+      low_pa = high_pa;
+      f_low = f_high;
+    }
+  }
+  if (failed) return {LeafStatus::kUndecided};
+  const Bracket needed = NarrowBracket(unless_failed, low_pa, f_low, high_pa, f_high, tolerance);
+  return {failed ? LeafStatus::kUndecided : LeafStatus::kFeasible, needed.high, needed.low};
+}
+
+Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
+                  int evaluations_max) {
+  const NeededPressure needed =
+      NeededSourcePressure(problem, candidate, {0.0, reservoir_m3, reservoir_m3});
+  if (needed.status == LeafStatus::kFeasible)
+    return PressureSearch(problem, candidate, reservoir_m3, evaluations_max)
+        .Run(needed.source_pa, SourceWindow(problem, candidate).high_pa);
+  Leaf leaf;
+  leaf.status = needed.status;
+  leaf.lower_bound = ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3));
+  return leaf;
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,80 @@
+#include "server/call/service_limits.h"
+
+#include "api/json/problem_document.h"
+#include "api/json/render_limits.h"
+
+namespace plenum::server {
+
+api::Json RenderLimits(const JobQuota& jobs, const catalog::JobsKept& kept) {
+  api::Json limits = {{"head_bytes_max", kHeadBytesMax},
+                      {"headers_max", kHeadersMax},
+                      {"path_bytes_max", kPathBytesMax},
+                      {"head_seconds_max", kHeadSecondsMax},
+                      {"idle_seconds_max", kIdleSecondsMax},
+                      {"body_bytes_max", kBodyBytesMax},
+                      {"body_bytes_per_second_min", kBytesPerSecondMin},
+                      {"buffered_bytes_max", kBufferedBytesMax},
+                      {"large_body_bytes", kLargeBodyBytes},
+                      {"large_page_parts", kLargePageParts},
+                      {"large_requests_max", kLargeMax},
+                      {"large_requests_waiting_max", kLargeWaitingMax},
+                      {"large_requests_wait_seconds", kLargeWaitSeconds},
+                      {"import_bytes_max", kImportBytesMax},
+                      {"large_imports_max", kLargeImportsMax},
+                      {"import_rows_max", kImportRowsMax},
+                      {"import_columns_max", catalog::kCsvColumnsMax},
+                      {"import_cell_bytes_max", catalog::kCsvCellBytesMax},
+                      {"catalogue_waiting_max", kCatalogueWaitingMax},
+                      {"catalogue_wait_seconds", kCatalogueWaitSeconds},
+                      {"connections_max", kConnectionsMax},
+                      {"requests_at_a_time_max", kRequestThreads},
+                      {"computing_max", kComputingMax},
+                      {"waiting_max", kWaitingMax},
+                      {"wait_seconds_max", kWaitSecondsMax},
+                      {"event_streams_max", kStreamsMax},
+                      {"large_diagnosis_samples", kLargeDiagnosisSamples},
+                      {"large_diagnoses_running_max", kLargeDiagnosesMax},
+                      {"jobs_running_max", jobs.running_max},
+                      {"jobs_queued_max", jobs.queued_max},
+                      {"jobs_kept_max", kept.jobs},
+                      {"jobs_kept_bytes_max", kept.bytes}};
+  limits.update(api::RenderRequestLimits());
+  return limits;
+}
+
+Reply LimitReply(int status, const std::string& name, const api::Json& value,
+                 const std::string& detail) {
+  api::Json document = api::ProblemDocument(status, detail);
+  document["limit"] = {{"name", name}, {"value", value}};
+  return {status, "application/problem+json", Dump(document) + "\n", {}, {}};
+}
+
+std::shared_ptr<void> Gate::Enter(std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  if (free_ == 0) {
+    if (waiting_free_ == 0) return nullptr;
+    --waiting_free_;
+    const bool came = left_.wait_for(lock, patience, [this] { return free_ > 0; });
+    ++waiting_free_;
+    if (!came) return nullptr;
+  }
+  --free_;
+  return {this, [](Gate* gate) { gate->Leave(); }};
+}
+
+void Gate::Leave() {
+  {
+    const std::lock_guard lock(mutex_);
+    ++free_;
+  }
+  left_.notify_one();
+}
+
+Reply BusyReply(const std::string& name, const api::Json& value, const std::string& detail,
+                int retry_after_s) {
+  Reply reply = LimitReply(429, name, value, detail);
+  reply.headers.emplace_back("Retry-After", std::to_string(retry_after_s));
+  return reply;
+}
+
+}  // namespace plenum::server

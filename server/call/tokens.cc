@@ -1,0 +1,156 @@
+#include "server/call/tokens.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
+#include "server/call/reply.h"
+
+namespace plenum::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string RandomHex(std::size_t bytes) {
+  static constexpr char kHex[] = "0123456789abcdef";
+  std::vector<unsigned char> random(bytes);
+  if (getrandom(random.data(), bytes, 0) != static_cast<ssize_t>(bytes))
+    throw std::runtime_error("no random numbers");
+  std::string text;
+  for (const unsigned char byte : random) text += {kHex[byte >> 4], kHex[byte & 15]};
+  return text;
+}
+
+std::string Today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[16];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &utc);
+  return text;
+}
+
+Token FromJson(const api::Json& json) {
+  return {json.at("id"), json.at("name"),
+          json.at("scope") == "write" ? Scope::kWrite : Scope::kRead, json.at("sha256"),
+          json.at("created")};
+}
+
+api::Json ToJson(const Token& token) {
+  return {{"id", token.id},
+          {"name", token.name},
+          {"scope", Name(token.scope)},
+          {"sha256", token.hash},
+          {"created", token.created}};
+}
+
+// One writer at a time, and readers see the file before or after.
+class Lock {
+ public:
+  explicit Lock(const fs::path& file)
+      : fd_(open((file.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
+    if (fd_ < 0 || flock(fd_, LOCK_EX) != 0)
+      throw std::runtime_error(file.string() + ": its lock cannot be taken");
+  }
+  ~Lock() { close(fd_); }
+  Lock(const Lock&) = delete;
+
+ private:
+  int fd_;
+};
+
+void WriteTokens(const fs::path& file, const std::vector<Token>& tokens) {
+  api::Json list = api::Json::array();
+  for (const Token& token : tokens) list.push_back(ToJson(token));
+  const std::string text = Dump({{"schema", "tokens/1"}, {"tokens", list}}, 2) + "\n";
+  const fs::path fresh = file.string() + ".new";
+  const int fd = open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  const bool written =
+      fd >= 0 && write(fd, text.data(), text.size()) == ssize_t(text.size()) && fsync(fd) == 0;
+  if (fd >= 0) close(fd);
+  if (!written || std::rename(fresh.c_str(), file.c_str()) != 0)
+    throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+bool EqualInConstantTime(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  unsigned char difference = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    difference = static_cast<unsigned char>(difference | (a[i] ^ b[i]));
+  return difference == 0;
+}
+
+}  // namespace
+
+const char* Name(Scope scope) { return scope == Scope::kWrite ? "write" : "read"; }
+
+fs::path TokenFile(const fs::path& catalog) { return catalog.string() + ".tokens"; }
+
+std::vector<Token> ReadTokens(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    if (fs::exists(file)) throw std::runtime_error(file.string() + ": cannot be read");
+    return {};
+  }
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const auto json = api::ParseJson(text);
+  try {
+    std::vector<Token> tokens;
+    for (const api::Json& token : std::get<api::Json>(json).at("tokens"))
+      tokens.push_back(FromJson(token));
+    return tokens;
+  } catch (const std::exception&) {
+    throw std::runtime_error(file.string() + ": is not a file of tokens");
+  }
+}
+
+std::string CreateToken(const fs::path& file, const std::string& name, Scope scope) {
+  const Lock lock(file);
+  auto tokens = ReadTokens(file);
+  const std::string text = "plenum_" + RandomHex(32);
+  tokens.push_back({RandomHex(4), name, scope, catalog::Sha256(text), Today()});
+  WriteTokens(file, tokens);
+  return text;
+}
+
+bool RevokeToken(const fs::path& file, const std::string& id) {
+  const Lock lock(file);
+  auto tokens = ReadTokens(file);
+  if (std::erase_if(tokens, [&](const Token& token) { return token.id == id; }) == 0) return false;
+  WriteTokens(file, tokens);
+  return true;
+}
+
+void TokenKeeper::Refresh() {
+  std::error_code none;
+  const auto changed = fs::last_write_time(file_, none);
+  const auto size = none ? 0 : fs::file_size(file_, none);
+  if (changed == read_at_ && size == size_) return;
+  tokens_.clear();  // a file that cannot be read admits nobody
+  read_at_ = changed;
+  size_ = size;
+  tokens_ = ReadTokens(file_);
+}
+
+std::optional<Token> TokenKeeper::Find(std::string_view text) {
+  const std::string hash = catalog::Sha256(text);
+  const std::lock_guard lock(mutex_);
+  Refresh();
+  std::optional<Token> found;
+  for (const Token& token : tokens_)
+    if (EqualInConstantTime(token.hash, hash)) found = token;
+  return found;
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,119 @@
+#include "server/commands/catalog_keeping.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "api/catalogue/part_document.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
+#include "server/call/reply.h"
+#include "server/commands/exit_status.h"
+#include "server/commands/input.h"
+#include "server/render/text_catalog.h"
+#include "server/resources/import_parts.h"
+
+namespace plenum::server {
+namespace {
+
+using catalog::Access;
+using catalog::WriteStatus;
+
+void RevisionList(const CatalogOptions& options, const catalog::Store& store) {
+  const auto revisions = store.Revisions(INT64_MAX, options.limit);
+  if (!options.json) return Print(RevisionsText(revisions));
+  api::Json list = api::Json::array();
+  for (const auto& revision : revisions) list.push_back(api::RenderRevision(revision));
+  Print(Dump({{"revisions", list}}) + "\n");
+}
+
+void CopyOrRefuse(void (*copy)(const std::filesystem::path&, const std::filesystem::path&),
+                  const CatalogOptions& options) {
+  try {
+    copy(options.catalog, options.file);
+  } catch (const catalog::StoreError& error) {
+    throw BadInput(error.what());
+  }
+}
+
+// What is wrong with the jobs beside the catalogue. A service that runs holds them for itself.
+std::vector<std::string> CheckJobsOf(const std::string& catalog) {
+  const std::string path = catalog + "-jobs";
+  if (!std::filesystem::exists(path)) return {};
+  try {
+    auto faults = catalog::CheckJobs(path);
+    for (auto& fault : faults) fault = path + ": " + fault;
+    return faults;
+  } catch (const catalog::StoreError& error) {
+    if (error.fault() != catalog::StoreFault::kBusy) return {error.what()};
+    std::fprintf(stderr, "%s: not checked, a service holds it\n", path.c_str());
+    return {};
+  }
+}
+
+}  // namespace
+
+void Print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+void ShowHistory(const CatalogOptions& options) {
+  const auto store = OpenCatalog(options.catalog, Access::kRead);
+  if (options.id.empty()) return RevisionList(options, store);
+  const auto changes = store.History(options.id, INT64_MAX, options.limit);
+  if (changes.empty() && !store.Get(options.id)) {
+    throw BadInput("ID: no part has or had the id " + options.id);
+  }
+  if (!options.json) return Print(HistoryText(changes));
+  api::Json list = api::Json::array();
+  for (const auto& change : changes) {
+    api::Json entry = {{"revision", api::RenderRevision(change.revision)}};
+    entry.update(api::RenderChange(change));
+    list.push_back(std::move(entry));
+  }
+  Print(Dump({{"id", options.id}, {"history", list}}) + "\n");
+}
+
+void UndoWrite(const CatalogOptions& options) {
+  const auto number = options.revision.value();
+  const auto written =
+      OpenCatalog(options.catalog, Access::kWrite).Undo(number, CommandSignature());
+  if (written.status == WriteStatus::kNotFound) {
+    throw BadInput("REVISION: the catalogue has no revision " + std::to_string(number));
+  }
+  if (written.status != WriteStatus::kDone) Refuse(FieldErrors(written.errors));
+  Print("undone as revision " + std::to_string(written.revision.number) + "\n");
+}
+
+void BackupCatalog(const CatalogOptions& options) {
+  OpenCatalog(options.catalog, Access::kRead);  // says what is wrong with the file
+  CopyOrRefuse(catalog::Backup, options);
+  Print("copied to " + options.file + "\n");
+}
+
+void RestoreCatalog(const CatalogOptions& options) {
+  CopyOrRefuse(catalog::Restore, options);
+  Print("restored revision " +
+        std::to_string(OpenCatalog(options.catalog, Access::kRead).Head().number) + " from " +
+        options.file + "\n");
+}
+
+int CheckCatalog(const CatalogOptions& options) {
+  const auto store = OpenCatalog(options.catalog, Access::kRead);
+  auto faults = store.Check();
+  const bool readable = faults.empty();
+  for (auto& fault : CheckJobsOf(options.catalog)) faults.push_back(std::move(fault));
+  for (const auto& fault : faults) std::fprintf(stderr, "%s\n", fault.c_str());
+  std::vector<catalog::Part> parts;
+  if (readable) parts = store.List();  // what is damaged cannot be read
+  const auto outliers = catalog::FindOutliers(parts);
+  const auto gaps = catalog::FindGaps(parts);
+  if (options.json) {
+    api::Json json = {{"parts", readable ? api::Json(parts.size()) : api::Json()},
+                      {"faults", faults}};
+    json.update(api::RenderPlausibility(outliers, gaps));
+    Print(Dump(json) + "\n");
+  } else if (faults.empty()) {
+    Print(std::to_string(parts.size()) + " parts, no faults\n" + PlausibilityText(outliers, gaps));
+  }
+  return faults.empty() ? kAnswered : kBadInput;
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,34 @@
+// What `plenum catalog` does beside reading and writing parts: history, copies, checks.
+#ifndef PLENUM_SERVER_COMMANDS_CATALOG_KEEPING_H_
+#define PLENUM_SERVER_COMMANDS_CATALOG_KEEPING_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plenum::server {
+
+// Options of all subcommands; each uses its own.
+struct CatalogOptions {
+  std::string catalog = "catalog.db";
+  std::string family, file, id, sort;
+  std::vector<std::string> filters;
+  std::optional<std::int64_t> revision;
+  int limit = 20;
+  bool json = false, csv = false, dry_run = false;
+};
+
+// Writes to standard output as it is.
+void Print(const std::string& text);
+
+void ShowHistory(const CatalogOptions& options);
+void UndoWrite(const CatalogOptions& options);
+void BackupCatalog(const CatalogOptions& options);
+void RestoreCatalog(const CatalogOptions& options);
+// The exit status: faults make the catalogue unfit for use; what only looks wrong does not count.
+int CheckCatalog(const CatalogOptions& options);
+
+}  // namespace plenum::server
+
+#endif  // PLENUM_SERVER_COMMANDS_CATALOG_KEEPING_H_

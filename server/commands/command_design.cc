@@ -1,0 +1,96 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "api/catalogue/part_document.h"
+#include "api/catalogue/stores.h"
+#include "api/design/answer.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
+#include "server/call/reply.h"
+#include "server/commands/command_options.h"
+#include "server/commands/commands.h"
+#include "server/commands/exit_status.h"
+#include "server/commands/input.h"
+#include "server/commands/interrupt.h"
+#include "server/render/text_design.h"
+
+namespace plenum::server {
+namespace {
+
+struct DesignOptions {
+  std::string file;
+  std::string catalog = "catalog.db";
+  std::optional<int> top;
+  std::optional<double> time_limit_s;
+  bool proof = false;
+  bool json = false;
+};
+
+// One line on the terminal, written over and over; nothing when errors go to a file.
+class ProgressLine {
+ public:
+  void Show(const optimizer::Progress& progress) {
+    if (!terminal_) return;
+    std::fprintf(stderr, "\r\x1b[K%s", ProgressText(progress).c_str());
+    std::fflush(stderr);
+  }
+  ~ProgressLine() {
+    if (terminal_) std::fputs("\r\x1b[K", stderr);
+  }
+
+ private:
+  const bool terminal_ = isatty(STDERR_FILENO) != 0;
+};
+
+// The requirements with what the flags say instead; checked like the rest.
+api::Json ReadRequirements(const DesignOptions& options) {
+  auto request = ReadJson(options.file);
+  if (!request.is_object()) return request;
+  const auto set = [&](const char* field, const api::Json& value) {
+    auto& ranking = request["ranking"];
+    if (ranking.is_null() || ranking.is_object()) ranking[field] = value;
+  };
+  if (options.top) set("count", *options.top);
+  if (options.time_limit_s) set("time_limit_s", *options.time_limit_s);
+  if (options.proof) set("proof", true);
+  return request;
+}
+
+api::Json AnswerWithProgress(const api::DesignRequest& request,
+                             const std::vector<catalog::Part>& parts) {
+  ProgressLine line;
+  optimizer::SearchOptions options;
+  options.cancelled = Interrupted;
+  options.progress = [&](const optimizer::Progress& progress) { line.Show(progress); };
+  return api::AnswerRequest(request, options, parts);
+}
+
+int Design(const DesignOptions& options) {
+  CatchInterrupts();
+  const auto requirements = ReadRequirements(options);
+  const catalog::Store store = OpenCatalog(options.catalog, catalog::Access::kRead);
+  const auto [revision, parts] = store.ListWithHead();
+  const auto request = ValueOrRefuse(api::ParseRequirements(requirements, parts, store.Models()));
+  auto json = AnswerWithProgress(request, parts);
+  json["catalogue_revision"] = api::RenderRevisionName(revision);
+  std::fputs(options.json ? (Dump(json) + "\n").c_str() : DesignText(json).c_str(), stdout);
+  return Interrupted() ? kInterrupted : kAnswered;
+}
+
+}  // namespace
+
+void AddDesignCommand(CLI::App& app, int& status) {
+  auto options = std::make_shared<DesignOptions>();
+  auto* command = app.add_subcommand("design", "Ranked designs for a requirements file");
+  AddFile(*command, options->file, "Requirements as JSON; - is standard input");
+  command->add_option("--top", options->top, "Number of designs")->type_name("N");
+  command->add_option("--time-limit", options->time_limit_s, "Seconds to search")->type_name("S");
+  command->add_flag("--proof", options->proof, "Keep the record of the search, for verify");
+  AddJsonFlag(*command, options->json);
+  AddCatalogOption(*command, options->catalog);
+  command->callback([options, &status] { status = Design(*options); });
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,111 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
+#include "server/call/reply.h"
+#include "server/commands/catalog_keeping.h"
+#include "server/commands/command_options.h"
+#include "server/commands/commands.h"
+#include "server/commands/exit_status.h"
+#include "server/commands/input.h"
+#include "server/jobs/crash_marks.h"
+#include "server/jobs/job_recovery.h"
+#include "server/render/text_jobs.h"
+
+namespace plenum::server {
+namespace {
+
+struct JobsCommand {
+  std::string catalog = "catalog.db";
+  std::string id;
+  bool json = false;
+};
+
+std::string FileOf(const JobsCommand& options) { return options.catalog + "-jobs"; }
+
+// The jobs as the next service will find them.
+std::unique_ptr<catalog::JobStore> OpenJobs(const JobsCommand& options) {
+  try {
+    auto store = std::make_unique<catalog::JobStore>(FileOf(options), catalog::JobsKept());
+    RecoverJobs(*store, CrashFile(options.catalog));
+    return store;
+  } catch (const catalog::StoreError& error) {
+    if (error.fault() != catalog::StoreFault::kBusy) throw BadInput(error.what());
+    throw BadInput(FileOf(options) +
+                   ": a service that runs holds these jobs. Ask it instead: its page lists them;\n"
+                   "GET /v1/designs and GET /v1/diagnoses do, too; POST /v1/designs/ID/again does "
+                   "one again,\nDELETE /v1/designs/ID cancels it. Or stop the service first.");
+  }
+}
+
+// What a catalogue has that no service was started with.
+std::vector<catalog::JobRecord> ListOf(const JobsCommand& options) {
+  OpenCatalog(options.catalog, catalog::Access::kRead);  // says what is wrong with the file
+  if (!std::filesystem::exists(FileOf(options))) return {};
+  return OpenJobs(options)->List();
+}
+
+void List(const JobsCommand& options) {
+  const auto jobs = ListOf(options);
+  if (!options.json) return Print(JobsText(jobs));
+  api::Json list = api::Json::array();
+  for (const catalog::JobRecord& job : jobs) list.push_back(RenderJob(job));
+  Print(Dump({{"jobs", std::move(list)}}) + "\n");
+}
+
+catalog::JobRecord FindOrRefuse(const JobsCommand& options) {
+  for (catalog::JobRecord& job : ListOf(options))
+    if (job.id == options.id) return std::move(job);
+  throw BadInput("ID: no job has the id " + options.id + "; plenum jobs lists them");
+}
+
+void Say(const JobsCommand& options, catalog::JobStatus status, const std::string& text) {
+  Print(options.json ? Dump({{"id", options.id}, {"status", catalog::Name(status)}}) + "\n"
+                     : text + "\n");
+}
+
+void DoAgain(const JobsCommand& options) {
+  const catalog::JobRecord job = FindOrRefuse(options);
+  if (!catalog::Ended(job.status))
+    throw BadInput("ID: the job is queued already; the next plenum serve does it");
+  if (job.status == catalog::JobStatus::kDone)
+    throw BadInput("ID: the job is done and its result stands; plenum serve gives it");
+  OpenJobs(options)->Again(job.id);
+  Say(options, catalog::JobStatus::kQueued, "queued; the next plenum serve does it");
+}
+
+void Cancel(const JobsCommand& options) {
+  catalog::JobRecord job = FindOrRefuse(options);
+  if (catalog::Ended(job.status))
+    return Say(options, job.status,
+               std::string("nothing to cancel: the job is ") + catalog::Name(job.status));
+  job.status = catalog::JobStatus::kCancelled;
+  OpenJobs(options)->End(job);
+  Say(options, job.status, "cancelled");
+}
+
+}  // namespace
+
+void AddJobsCommand(CLI::App& app, int&) {
+  auto options = std::make_shared<JobsCommand>();
+  auto* command = app.add_subcommand("jobs", "Jobs of a catalogue while no service runs");
+  command->require_subcommand(0, 1);
+  AddCatalogOption(*command, options->catalog);
+  AddJsonFlag(*command, options->json);
+  command->callback([options, command] {
+    if (command->get_subcommands().empty()) List(*options);
+  });
+  auto* again = command->add_subcommand("again", "Queues a job that failed or was cancelled");
+  again->callback([options] { DoAgain(*options); });
+  auto* cancel = command->add_subcommand("cancel", "Ends a job that is queued");
+  cancel->callback([options] { Cancel(*options); });
+  for (auto* subcommand : {again, cancel}) {
+    subcommand->fallthrough();
+    subcommand->add_option("ID", options->id, "Of the list")->required()->type_name("");
+  }
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,82 @@
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/call/protection.h"
+#include "server/call/tokens.h"
+#include "server/commands/command_options.h"
+#include "server/commands/commands.h"
+#include "server/commands/exit_status.h"
+#include "server/commands/input.h"
+#include "server/commands/interrupt.h"
+#include "server/http.h"
+
+namespace plenum::server {
+namespace {
+
+struct ServeOptions {
+  std::string catalog = "catalog.db";
+  std::string host = "127.0.0.1";
+  int port = 8080;
+  std::vector<std::string> allow_hosts;
+  bool log = true;
+};
+
+std::unique_ptr<HttpService> Listen(const ServeOptions& options) {
+  OpenCatalog(options.catalog, catalog::Access::kRead);  // says what is wrong with the file
+  HttpOptions http;
+  http.catalog = options.catalog;
+  http.host = options.host;
+  http.port = options.port;
+  http.allow_hosts = options.allow_hosts;
+  http.log = options.log;
+  if (NeedsToken(http) && ReadTokens(TokenFile(options.catalog)).empty())
+    throw BadInput(
+        "other machines can reach this service, so it needs tokens: make one with "
+        "plenum token create");
+  try {
+    return std::make_unique<HttpService>(http);
+  } catch (const ListenError& error) {
+    throw BadInput(error.what());
+  } catch (const catalog::StoreError& error) {
+    throw BadInput(error.what());
+  }
+}
+
+void Serve(const ServeOptions& options) {
+  BlockInterrupts();
+  // A write past the limit on the size of files then fails, as on a full disk, and ends nothing.
+  std::signal(SIGXFSZ, SIG_IGN);
+  const auto service = Listen(options);
+  std::fprintf(stderr, "plenum listens at http://%s:%d/\n",
+               options.host == "::1" ? "[::1]" : options.host.c_str(), service->port());
+  std::thread thread([&] { service->Run(); });
+  WaitForInterrupt();
+  std::fputs("stopping\n", stderr);
+  service->Stop();
+  thread.join();
+}
+
+}  // namespace
+
+void AddServeCommand(CLI::App& app, int&) {
+  auto options = std::make_shared<ServeOptions>();
+  auto* command = app.add_subcommand("serve", "The HTTP service");
+  command->add_option("--host", options->host, "Address; any but a loopback one needs tokens")
+      ->capture_default_str();
+  command->add_option("--port", options->port, "0 takes any free one")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 65535));
+  command->add_option("--allow-host", options->allow_hosts,
+                      "Name by which a proxy makes the service known; needs tokens");
+  command->add_flag("!--no-log", options->log, "No line a request on standard error");
+  AddCatalogOption(*command, options->catalog);
+  command->callback([options] { Serve(*options); });
+}
+
+}  // namespace plenum::server

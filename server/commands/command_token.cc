@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "server/call/reply.h"
+#include "server/call/tokens.h"
+#include "server/commands/catalog_keeping.h"
+#include "server/commands/command_options.h"
+#include "server/commands/commands.h"
+#include "server/commands/exit_status.h"
+
+namespace plenum::server {
+namespace {
+
+constexpr std::size_t kNameLongest = 100;
+
+struct TokenOptions {
+  std::string catalog = "catalog.db";
+  std::string name, id;
+  std::string scope = "read";
+  bool json = false;
+};
+
+void Create(const TokenOptions& options) {
+  const bool plain = std::all_of(options.name.begin(), options.name.end(),
+                                 [](char c) { return c >= ' ' && c <= '~'; });
+  if (options.name.empty() || options.name.size() > kNameLongest || !plain)
+    throw BadInput("NAME: must be 1 to 100 characters of visible ASCII");
+  const Scope scope = options.scope == "write" ? Scope::kWrite : Scope::kRead;
+  Print(CreateToken(TokenFile(options.catalog), options.name, scope) + "\n");
+  std::fputs("Shown this once only. Send it as: Authorization: Bearer TOKEN\n", stderr);
+}
+
+void List(const TokenOptions& options) {
+  api::Json list = api::Json::array();
+  std::string lines;
+  for (const Token& token : ReadTokens(TokenFile(options.catalog))) {
+    list.push_back({{"id", token.id},
+                    {"name", token.name},
+                    {"scope", Name(token.scope)},
+                    {"created", token.created}});
+    lines += token.id + "  " + token.created + "  " +
+             (token.scope == Scope::kWrite ? "write" : "read ") + "  " + token.name + "\n";
+  }
+  Print(options.json ? Dump({{"tokens", list}}) + "\n" : lines);
+}
+
+void Revoke(const TokenOptions& options) {
+  if (!RevokeToken(TokenFile(options.catalog), options.id))
+    throw BadInput("ID: no token has the id " + options.id);
+}
+
+}  // namespace
+
+void AddTokenCommand(CLI::App& app, int&) {
+  auto options = std::make_shared<TokenOptions>();
+  auto* command = app.add_subcommand("token", "Tokens for use of the service from elsewhere");
+  command->require_subcommand(1);
+  auto* create = command->add_subcommand("create", "Makes a token and prints it");
+  create->add_option("NAME", options->name, "Whose it is")->required()->type_name("");
+  create->add_option("--scope", options->scope, "What it may do")
+      ->check(CLI::IsMember({"read", "write"}))
+      ->capture_default_str();
+  create->callback([options] { Create(*options); });
+  auto* list = command->add_subcommand("list", "Tokens by id, without their text");
+  AddJsonFlag(*list, options->json);
+  list->callback([options] { List(*options); });
+  auto* revoke = command->add_subcommand("revoke", "Ends a token, also of a running service");
+  revoke->add_option("ID", options->id, "Of the list")->required()->type_name("");
+  revoke->callback([options] { Revoke(*options); });
+  for (auto* subcommand : {create, list, revoke}) AddCatalogOption(*subcommand, options->catalog);
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,110 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "api/design/verification.h"
+#include "server/call/reply.h"
+#include "server/commands/command_options.h"
+#include "server/commands/commands.h"
+#include "server/commands/exit_status.h"
+#include "server/commands/input.h"
+#include "server/commands/interrupt.h"
+#include "server/render/text_table.h"
+
+namespace plenum::server {
+namespace {
+
+struct VerifyOptions {
+  std::string file;
+  std::string catalog = "catalog.db";
+  bool json = false;
+  bool brute_force = false;
+  long long combinations_max = verify::kBruteForceMax;
+};
+
+// One line on the terminal, written over and over; nothing when errors go to a file.
+class ShareLine {
+ public:
+  void Show(double share) {
+    const int per_mille = static_cast<int>(1000.0 * share);
+    if (!terminal_ || per_mille == shown_) return;
+    shown_ = per_mille;
+    std::fprintf(stderr, "\r\x1b[K%.1f %% of all combinations", 0.1 * per_mille);
+    std::fflush(stderr);
+  }
+  ~ShareLine() {
+    if (shown_ >= 0) std::fputs("\r\x1b[K", stderr);
+  }
+
+ private:
+  const bool terminal_ = isatty(STDERR_FILENO) != 0;
+  int shown_ = -1;
+};
+
+std::string VerificationText(const api::Json& json) {
+  Table table(
+      {{"check", Table::Align::kLeft}, {"", Table::Align::kLeft}, {"", Table::Align::kLeft}});
+  for (const auto& check : json["checks"])
+    table.Add({check["check"], check["ok"] ? "ok" : "REFUSED", check["detail"]});
+  std::string text = table.Text();
+  for (const auto& open : json["not_rechecked"])
+    text += "Not rechecked: " + Grouped(open["combinations"]) + " × " +
+            open["what"].get<std::string>() + "\n";
+  if (json.contains("brute_force")) {
+    const auto& counts = json["brute_force"];
+    text += (counts["cancelled"] ? "Stopped after " : "Enumerated ") +
+            Grouped(counts["combinations"]) + " combinations:";
+    const char* separator = " ";
+    for (const char* kind :
+         {"incompatible", "unpriced", "beyond_the_list", "infeasible", "feasible", "undecided"}) {
+      text += separator + std::string(kind) + " " + Grouped(counts[kind]);
+      separator = ", ";
+    }
+    text += "\n";
+  }
+  return text + (json["accepted"] ? "Accepted.\n" : "Refused.\n");
+}
+
+// A refused result gives a failing status, so that scripts see it; why is on standard error.
+int Verify(const VerifyOptions& options) {
+  const auto result = ReadJson(options.file, api::kResultBytesMax);
+  const auto [revision, parts] =
+      OpenCatalog(options.catalog, catalog::Access::kRead).ListWithHead();
+  std::optional<api::BruteForce> brute_force;
+  ShareLine line;
+  if (options.brute_force) {
+    CatchInterrupts();
+    brute_force = api::BruteForce{options.combinations_max, Interrupted,
+                                  [&](double share) { line.Show(share); }};
+  }
+  const auto json = ValueOrRefuse(api::VerifyAnswer(result, parts, revision, brute_force));
+  std::fputs(options.json ? (Dump(json) + "\n").c_str() : VerificationText(json).c_str(), stdout);
+  if (json["accepted"]) return kAnswered;
+  if (Interrupted()) return kInterrupted;
+  for (const auto& check : json["checks"])
+    if (!check["ok"])
+      std::fprintf(stderr, "refused: %s: %s\n", check["check"].get<std::string>().c_str(),
+                   check["detail"].get<std::string>().c_str());
+  return kBadInput;
+}
+
+}  // namespace
+
+void AddVerifyCommand(CLI::App& app, int& status) {
+  auto options = std::make_shared<VerifyOptions>();
+  auto* command = app.add_subcommand("verify", "Checks a saved answer of design from scratch");
+  AddFile(*command, options->file, "Answer of design --json; - is standard input");
+  command->add_flag("--brute-force", options->brute_force, "Look at every combination, too");
+  command
+      ->add_option("--combinations-max", options->combinations_max,
+                   "More than these are not looked at one by one")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  AddJsonFlag(*command, options->json);
+  AddCatalogOption(*command, options->catalog);
+  command->callback([options, &status] { status = Verify(*options); });
+}
+
+}  // namespace plenum::server

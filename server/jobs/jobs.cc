@@ -1,0 +1,332 @@
+#include "server/jobs/jobs.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <random>
+#include <utility>
+
+#include "api/json/worker_stack.h"
+#include "server/call/reply.h"
+#include "server/jobs/crash_marks.h"
+
+namespace plenum::server {
+namespace {
+
+constexpr int kNiceness = 10;
+// Between two looks whether a job's turn has come, while jobs run alone.
+constexpr std::chrono::milliseconds kTurnPause{20};
+
+// 64 random bits.
+std::string RandomId() {
+  std::random_device random;
+  char text[17];
+  std::snprintf(text, sizeof text, "%08x%08x", static_cast<unsigned>(random()),
+                static_cast<unsigned>(random()));
+  return text;
+}
+
+std::string TextOf(const api::Json& json) { return json.is_null() ? "" : Dump(json); }
+
+// Null where there is none.
+api::Json FromText(const std::string& text, bool& damaged) {
+  if (text.empty()) return {};
+  api::Json json = api::Json::parse(text, nullptr, false);
+  damaged = json.is_discarded();
+  return damaged ? api::Json() : json;
+}
+
+Job ToJob(const catalog::JobRecord& record) {
+  Job job;
+  job.number = record.number;
+  job.id = record.id;
+  job.name = record.order.name;
+  job.status = record.status;
+  bool no_progress = false, no_result = false;
+  job.progress = FromText(record.progress, no_progress);
+  job.result = FromText(record.result, no_result);
+  job.failure = record.failure;
+  if (no_result) {
+    job.status = JobStatus::kFailed;
+    job.failure = "its stored result is damaged and cannot be read";
+  }
+  job.attempts = record.starts;
+  job.crashes = record.crashes;
+  job.crash = record.crash;
+  job.alone = record.alone;
+  job.submitted_at = record.submitted_at;
+  job.ended_at = record.ended_at;
+  job.catalogue_revision = record.order.revision;
+  job.catalogue_hash = record.order.hash;
+  return job;
+}
+
+// What the disk must hold for the next service only: this one goes on without.
+template <typename F>
+bool Try(const std::string& id, F&& write) {
+  try {
+    write();
+    return true;
+  } catch (const catalog::StoreError& error) {
+    std::fprintf(stderr, "job %s: %s\n", id.c_str(), error.what());
+    return false;
+  }
+}
+
+std::string ListOf(const api::Errors& errors) {
+  std::string list;
+  for (const api::Error& error : errors)
+    list += (list.empty() ? "" : "; ") + (error.pointer.empty() ? "" : error.pointer + ": ") +
+            error.detail;
+  return list;
+}
+
+}  // namespace
+
+Jobs::Jobs(catalog::JobStore& store, JobTurns& turns, std::string kind, Work work,
+           const JobOptions& options)
+    : store_(store),
+      turns_(turns),
+      kind_(std::move(kind)),
+      work_(std::move(work)),
+      options_(options) {
+  for (const catalog::JobRecord& record : store_.Unfinished(kind_)) {
+    Enqueue(record);
+    if (record.cancel_asked) Cancel(record.id);
+  }
+  for (int i = 0; i < options_.workers; ++i) workers_.emplace_back([this] { WorkLoop(); });
+}
+
+Jobs::~Jobs() { Stop(); }
+
+// With the lock held, or before there are workers.
+Jobs::EntryPtr Jobs::Enqueue(const catalog::JobRecord& record) {
+  auto entry = std::make_shared<Entry>();
+  entry->job = ToJob(record);
+  entry->job.status = JobStatus::kQueued;
+  entries_[record.id] = entry;
+  if (record.alone) turns_.Announce();
+  const auto after = record.alone
+                         ? std::find_if(queue_.begin(), queue_.end(),
+                                        [](const auto& other) { return !other->job.alone; })
+                         : queue_.end();
+  queue_.insert(after, entry);
+  work_ready_.notify_one();
+  return entry;
+}
+
+Submitted Jobs::Submit(catalog::JobOrder order) {
+  const std::lock_guard submitting(submitting_);
+  order.kind = kind_;
+  if (!order.by.key.empty()) {
+    if (const auto known = store_.FindKey(kind_, order.by.key)) {
+      if (known->order.by.request != order.by.request) return {Submitted::kKeyReused, ""};
+      return {Submitted::kRepeated, known->id};
+    }
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_ || queue_.size() >= options_.queued_max) return {Submitted::kRefused, ""};
+  }
+  const catalog::JobRecord record = store_.Add(RandomId(), order);
+  const std::lock_guard lock(mutex_);
+  Enqueue(record);
+  return {Submitted::kAccepted, record.id};
+}
+
+Asked Jobs::Again(const std::string& id) {
+  const std::lock_guard submitting(submitting_);
+  const auto job = Get(id);
+  if (!job) return Asked::kUnknown;
+  if (!Ended(job->status)) return Asked::kUnderWay;
+  if (job->status == JobStatus::kDone) return Asked::kDone;
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_ || queue_.size() >= options_.queued_max) return Asked::kRefused;
+  }
+  store_.Again(id);
+  const auto record = store_.Find(kind_, id);
+  if (!record) return Asked::kUnknown;  // dropped as old meanwhile
+  const std::lock_guard lock(mutex_);
+  Enqueue(*record);
+  return Asked::kQueued;
+}
+
+Jobs::EntryPtr Jobs::Find(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  const auto it = entries_.find(id);
+  return it == entries_.end() ? nullptr : it->second;
+}
+
+std::optional<Job> Jobs::Get(const std::string& id) const {
+  if (const EntryPtr entry = Find(id)) {
+    const std::lock_guard lock(mutex_);
+    return entry->job;
+  }
+  const auto record = store_.Find(kind_, id);
+  return record ? std::optional(ToJob(*record)) : std::nullopt;
+}
+
+std::vector<Job> Jobs::List() const {
+  std::map<std::int64_t, Job, std::greater<>> jobs;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [id, entry] : entries_) jobs[entry->job.number] = entry->job;
+  }
+  // A job is on disk as ended before it leaves the memory, so none is missed.
+  for (const catalog::JobRecord& record : store_.Ended(kind_))
+    jobs.emplace(record.number, ToJob(record));
+  std::vector<Job> list;
+  for (auto& [number, job] : jobs) {
+    job.result = nullptr;
+    list.push_back(std::move(job));
+  }
+  return list;
+}
+
+bool Jobs::Cancel(const std::string& id) {
+  const EntryPtr entry = Find(id);
+  if (!entry) return store_.Find(kind_, id).has_value();
+  bool was_queued = false;
+  {
+    const std::lock_guard lock(mutex_);
+    entry->cancelled = true;
+    was_queued = std::erase(queue_, entry) > 0;
+  }
+  if (!was_queued) {
+    Try(id, [&] { store_.AskToCancel(id); });
+    return true;
+  }
+  if (entry->job.alone) turns_.Withdraw();
+  End(*entry, JobStatus::kCancelled, nullptr, "");
+  return true;
+}
+
+// On disk before anybody sees it. Where that fails the job stays in memory as it ended, and the
+// next service does it again.
+void Jobs::End(Entry& entry, JobStatus status, api::Json result, const std::string& failure) {
+  catalog::JobRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    record.id = entry.job.id;
+    record.progress = TextOf(entry.job.progress);
+  }
+  record.order.kind = kind_;
+  record.status = status;
+  record.result = TextOf(result);
+  record.failure = failure;
+  std::string ended_at;
+  const bool kept = Try(record.id, [&] { ended_at = store_.End(record); });
+  const std::lock_guard lock(mutex_);
+  entry.job.status = status;
+  entry.job.ended_at = ended_at;  // for those who found the entry before it goes
+  entry.job.result = std::move(result);
+  entry.job.failure = failure;
+  ++entry.job.revision;
+  if (kept) entries_.erase(record.id);
+  changed_.notify_all();
+}
+
+template <typename Predicate>
+std::optional<Job> Jobs::WaitUntil(const std::string& id, std::chrono::milliseconds timeout,
+                                   Predicate done) const {
+  const EntryPtr entry = Find(id);
+  if (!entry) return Get(id);
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, timeout, [&] { return stopping_ || done(entry->job); });
+  return entry->job;
+}
+
+std::optional<Job> Jobs::WaitForChange(const std::string& id, long long revision,
+                                       std::chrono::milliseconds timeout) const {
+  return WaitUntil(id, timeout, [revision](const Job& job) {
+    return job.revision > revision || Ended(job.status);
+  });
+}
+
+std::optional<Job> Jobs::WaitForEnd(const std::string& id,
+                                    std::chrono::milliseconds timeout) const {
+  return WaitUntil(id, timeout, [](const Job& job) { return Ended(job.status); });
+}
+
+void Jobs::Stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    work_ready_.notify_all();
+    changed_.notify_all();
+  }
+  for (auto& worker : workers_) {
+    if (worker.joinable()) worker.join();
+  }
+}
+
+bool Jobs::Stopping() const { return stopping_; }
+
+// The job that begins now; none when the service stops.
+Jobs::EntryPtr Jobs::Next() {
+  std::unique_lock lock(mutex_);
+  while (!stopping_ && (queue_.empty() || !turns_.Enter(queue_.front()->job.alone))) {
+    if (queue_.empty())
+      work_ready_.wait(lock);
+    else
+      work_ready_.wait_for(lock, kTurnPause);
+  }
+  if (stopping_) return nullptr;
+  const EntryPtr entry = queue_.front();
+  queue_.pop_front();
+  entry->job.status = JobStatus::kRunning;
+  ++entry->job.attempts;
+  ++entry->job.revision;
+  changed_.notify_all();
+  return entry;
+}
+
+void Jobs::WorkLoop() {
+  const api::SignalStack stack;  // a crash by overflow of the thread's own stack is marked, too
+  // Requests go first, however nice the service itself is: on Linux the niceness is the thread's.
+  setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNiceness);
+  while (const EntryPtr entry = Next()) {
+    Run(*entry);
+    turns_.Leave(entry->job.alone);
+  }
+}
+
+void Jobs::Run(Entry& entry) {
+  const std::string id = entry.job.id;
+  const WorksFor job(entry.job.number);
+  Try(id, [&] { store_.Start(id); });
+  auto outcome = Outcome(entry);
+  if (entry.interrupted && !entry.cancelled) {
+    Try(id, [&] { store_.Requeue(id); });
+  } else if (const auto* errors = std::get_if<api::Errors>(&outcome)) {
+    End(entry, JobStatus::kFailed, nullptr, ListOf(*errors));
+  } else {
+    End(entry, entry.cancelled ? JobStatus::kCancelled : JobStatus::kDone,
+        std::get<api::Json>(std::move(outcome)), "");
+  }
+}
+
+api::Parsed<api::Json> Jobs::Outcome(Entry& entry) {
+  const JobControl control{[this, &entry] {
+                             const bool stopping = stopping_;
+                             if (stopping) entry.interrupted = true;
+                             return stopping || entry.cancelled;
+                           },
+                           [this, &entry](api::Json progress) {
+                             const std::lock_guard lock(mutex_);
+                             entry.job.progress = std::move(progress);
+                             ++entry.job.revision;
+                             changed_.notify_all();
+                           }};
+  try {
+    return work_(store_.Find(kind_, entry.job.id).value().order, control);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "job %s: fault: %s\n", entry.job.id.c_str(), error.what());
+    return api::Errors{{"", "a fault of the program; its log says more"}};
+  }
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,270 @@
+#include "server/render/text_design.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "server/render/text_explain.h"
+#include "server/render/text_table.h"
+
+namespace plenum::server {
+namespace {
+
+using api::Json;
+using Align = Table::Align;
+
+std::string Percent(const Json& share) {
+  return share.is_number() ? fmt::format("{:.1f} %", 100.0 * share.get<double>()) : "–";
+}
+
+std::string Times(const Json& part) {
+  const double quantity = part.at("quantity").get<double>();
+  if (part.at("unit") == "m") return fmt::format("{:.2f} m", quantity);
+  return fmt::format("{:.0f}", quantity);
+}
+
+// What tells one design from the next: all but fittings and batteries, which follow from the rest.
+std::string KeyParts(const Json& design) {
+  static constexpr std::string_view kKey[] = {"compressor", "cylinder", "co2",   "regulator",
+                                              "reservoir",  "valve",    "tubing"};
+  std::string text;
+  for (const auto family : kKey) {
+    for (const auto& part : design.at("parts")) {
+      if (part.at("family") != family) continue;
+      const bool counted = part.at("unit") != "m" && part.at("quantity") != 1;
+      text += (text.empty() ? "" : " + ") + (counted ? Times(part) + "× " : "") +
+              Cut(part.at("part_number").get<std::string>(), 28);
+    }
+  }
+  return text;
+}
+
+double Worst(const Json& design, const char* what) {
+  double worst = 0.0;
+  for (const auto& group : design.at("performance").at("groups")) {
+    worst = std::max(worst, group.at(what).get<double>());
+  }
+  return worst;
+}
+
+// The requirement that is met most closely; nullptr without any.
+const Json* Binding(const Json& design) {
+  const auto& margins = design.at("margins");
+  const auto least = std::min_element(margins.begin(), margins.end(), [](auto& a, auto& b) {
+    return a.at("relative_margin") < b.at("relative_margin");
+  });
+  return least == margins.end() ? nullptr : &*least;
+}
+
+std::string QualityMark(const Json& design) {
+  const auto& quality = design.at("data_quality");
+  std::string mark = quality.at("flow_estimated").get<bool>() ? "flow ~" : "flow ok";
+  const double share = quality.at("mass_share_estimated").get<double>();
+  if (share >= 0.005) mark += fmt::format(", mass ~{:.0f} %", 100.0 * share);
+  return mark;
+}
+
+std::string RankedTable(const Json& designs) {
+  Table table({{"#"},
+               {"source", Align::kLeft},
+               {"mass kg"},
+               {"volume L"},
+               {"cost €"},
+               {"kPa gauge"},
+               {"rise s"},
+               {"fall s"},
+               {"least margin"},
+               {"data", Align::kLeft},
+               {"key parts", Align::kLeft}});
+  for (const auto& design : designs) {
+    const auto& totals = design.at("totals");
+    const Json* binding = Binding(design);
+    table.Add({Grouped(design.at("rank")), design.at("configuration").get<std::string>(),
+               fmt::format("{:.3f}", totals.at("mass_kg").get<double>()),
+               Short(totals.at("volume_l")), Short(totals.at("cost_eur")),
+               Short(design.at("settings").at("source_pressure_kpa_gauge")),
+               fmt::format("{:.3f}", Worst(design, "rise_time_s")),
+               fmt::format("{:.3f}", Worst(design, "fall_time_s")),
+               binding ? Percent(binding->at("relative_margin")) : "–", QualityMark(design),
+               KeyParts(design)});
+  }
+  return table.Text();
+}
+
+std::string PartsTable(const Json& design) {
+  Table table({{"family", Align::kLeft},
+               {"part", Align::kLeft},
+               {"for", Align::kLeft},
+               {"quantity"},
+               {"mass kg"}},
+              2);
+  for (const auto& part : design.at("parts")) {
+    const auto name = part.at("manufacturer").get<std::string>() + " " +
+                      part.at("part_number").get<std::string>();
+    table.Add({part.at("family").get<std::string>(), Cut(name, 48),
+               part.at("group").is_string() ? part.at("group").get<std::string>() : "all",
+               Times(part), fmt::format("{:.4f}", part.at("mass_kg").get<double>())});
+  }
+  return table.Text();
+}
+
+std::string SettingsText(const Json& design) {
+  const auto& settings = design.at("settings");
+  std::string text = fmt::format("  Settings: source {} kPa gauge",
+                                 Short(settings.at("source_pressure_kpa_gauge")));
+  text += ", valve duty " + Percent(settings.at("valve_duty"));
+  if (settings.at("compressor_duty").is_number()) {
+    text += ", compressor duty " + Percent(settings.at("compressor_duty"));
+  }
+  if (settings.at("reservoir_volume_ml").is_number()) {
+    text += fmt::format(", reservoir {} mL", Short(settings.at("reservoir_volume_ml")));
+  }
+  return text + "\n";
+}
+
+std::string TotalsText(const Json& design) {
+  const auto& totals = design.at("totals");
+  const auto& performance = design.at("performance");
+  return fmt::format(
+      "  Totals: mass {:.3f} kg, volume {} L, cost {} €, energy {} Wh\n"
+      "  Air: {} L (ANR) per actuation, {} L in all; runs {} s, sustains {} Hz\n",
+      totals.at("mass_kg").get<double>(), Short(totals.at("volume_l")),
+      Short(totals.at("cost_eur")), Short(totals.at("energy_wh")),
+      Short(performance.at("air_per_actuation_l_anr")), Short(performance.at("air_total_l_anr")),
+      Short(performance.at("run_time_s")), Short(performance.at("frequency_hz_sustained")));
+}
+
+std::string MarginsTable(const Json& design) {
+  const Json* binding = Binding(design);
+  Table table(
+      {{"requirement", Align::kLeft}, {"required"}, {"achieved"}, {"margin"}, {"", Align::kLeft}},
+      2);
+  for (const auto& margin : design.at("margins")) {
+    table.Add({margin.at("requirement").get<std::string>(), Short(margin.at("required")),
+               Short(margin.at("achieved")), Percent(margin.at("relative_margin")),
+               &margin == binding ? "← binding" : ""});
+  }
+  return table.Text();
+}
+
+std::string QualityText(const Json& design) {
+  const auto& estimated = design.at("data_quality").at("estimated");
+  if (estimated.empty()) return "  Data: no number of these parts is an estimate.\n";
+  std::string text = fmt::format("  Data: estimates carry {} of the mass; they are\n",
+                                 Percent(design.at("data_quality").at("mass_share_estimated")));
+  std::string family;
+  for (const auto& entry : estimated) {
+    const std::string name = entry;
+    const auto dot = name.find('.');
+    const bool same = name.substr(0, dot) == family;
+    family = name.substr(0, dot);
+    text += (same ? ", " : (text.back() == '\n' ? "    " : "\n    ") + family + ": ") +
+            name.substr(dot + 1);
+  }
+  return text + "\n";
+}
+
+std::string Details(const Json& design) {
+  return fmt::format("Design {} in full\n", Grouped(design.at("rank"))) + PartsTable(design) +
+         "\n" + SettingsText(design) + TotalsText(design) + "\n" + MarginsTable(design) + "\n" +
+         QualityText(design);
+}
+
+std::string ConflictText(const Json& answer) {
+  std::string text = "No combination of catalogue parts meets the requirements.\n";
+  const auto& conflict = answer.at("conflict");
+  if (conflict.empty()) return text;
+  text += conflict.size() == 1 ? "This one cannot be met:\n" : "These cannot be met together:\n";
+  for (const auto& entry : conflict) {
+    text += fmt::format("  {}: required {}, ", entry.at("requirement").get<std::string>(),
+                        Short(entry.at("required")));
+    text += entry.at("best").is_number()
+                ? fmt::format("the catalogue reaches {}{} ({} off)\n", Short(entry.at("best")),
+                              conflict.size() > 1 ? " while the others hold" : "",
+                              Percent(entry.at("relaxation")))
+            : entry.at("proved").get<bool>()
+                ? std::string("nothing reached while the others hold\n")
+                : std::string("not known to matter: time ran out\n");
+  }
+  return text;
+}
+
+std::string StatusText(const Json& answer) {
+  const std::string status = answer.at("status");
+  const auto& proof = answer.at("proof");
+  if (answer.contains("front")) {
+    if (status == "optimal") return "Proved: no other combination belongs to the front.";
+    if (status != "infeasible") return "Not proved: the front may lack points.";
+  }
+  if (status == "optimal") {
+    return "Proved: no other combination of catalogue parts beats the last design shown.";
+  }
+  if (status == "infeasible") return "Proved: every combination was ruled out.";
+  const std::string reason = status == "cancelled" ? "Stopped on request" : "Not proved";
+  if (answer.at("designs").empty()) return reason + ": no design found so far.";
+  return reason + fmt::format(": a design not listed may reach {}, {} below the last one shown.",
+                              Short(proof.at("lower_bound")), Percent(proof.at("gap")));
+}
+
+std::string ProofText(const Json& answer) {
+  const auto& proof = answer.at("proof");
+  std::string pruned;
+  for (const auto& [reason, count] : proof.at("pruned").items()) {
+    if (count == "0") continue;
+    pruned += fmt::format("{}{} {}", pruned.empty() ? "" : ", ", reason, Grouped(count));
+  }
+  std::string text = fmt::format("{}\n{} combinations: {} evaluated ({} simulated); pruned: {}.\n",
+                                 StatusText(answer), Grouped(proof.at("combinations")),
+                                 Grouped(proof.at("evaluated")), Grouped(proof.at("simulated")),
+                                 pruned.empty() ? "none" : pruned);
+  if (proof.at("undecided") != 0) {
+    text += Grouped(proof.at("undecided")) + " could be neither sized nor ruled out.\n";
+  }
+  return text + fmt::format("{:.2f} s\n", answer.at("seconds").get<double>());
+}
+
+}  // namespace
+
+std::string DesignText(const Json& answer) {
+  const auto& designs = answer.at("designs");
+  std::string text;
+  if (answer.contains("name")) text += answer.at("name").get<std::string>() + "\n\n";
+  if (answer.at("status") == "infeasible") {
+    text += ConflictText(answer) + "\n";
+  } else if (!designs.empty()) {
+    text += RankedTable(designs);
+    text += "“~” marks data that rest on estimates";
+    const auto& best = answer.at("best_on_measured_flow");
+    text += best.is_number()
+                ? fmt::format("; best without estimated flow data: design {}.\n\n", Grouped(best))
+                : std::string(".\n\n");
+    text += Details(designs.front()) + "\n";
+  }
+  text += FrontText(answer) + RobustText(answer) + PricesText(answer) + FlipsText(answer);
+  return text + ProofText(answer);
+}
+
+std::string EvaluationText(const Json& answer) {
+  const auto& range = answer.at("source_pressure_range_kpa_gauge");
+  if (range.is_null()) {
+    return "It does not work: at no source pressure that the parts stand does every stroke end "
+           "within half of the period.\n";
+  }
+  std::string text = fmt::format("The parts stand source pressures from {} to {} kPa gauge.\n",
+                                 Short(range[0]), Short(range[1]));
+  if (!answer.at("works").get<bool>()) {
+    return text +
+           "It does not work: the source pressure is none of these, or a stroke does not "
+           "end within half of the period.\n";
+  }
+  return text + SettingsText(answer) + TotalsText(answer) + "\n" + MarginsTable(answer);
+}
+
+std::string ProgressText(const optimizer::Progress& progress) {
+  return fmt::format("{:.0f} s  {} evaluated  {} boxes open  best {}  bound {}", progress.seconds,
+                     progress.evaluated, progress.open, progress.best ? Short(*progress.best) : "–",
+                     Short(progress.lower_bound));
+}
+
+}  // namespace plenum::server

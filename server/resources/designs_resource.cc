@@ -1,0 +1,88 @@
+#include "server/resources/designs_resource.h"
+
+#include "api/catalogue/part_document.h"
+#include "api/catalogue/stores.h"
+#include "api/design/answer.h"
+#include "api/design/read/requirements_reader.h"
+#include "api/json/json.h"
+#include "api/measure/model_document.h"
+#include "server/call/signature.h"
+#include "server/jobs/job_inputs.h"
+
+namespace plenum::server {
+namespace {
+
+// What `best` and `lower_bound` of a progress are amounts of, as the requirements say it.
+api::Json ObjectiveOf(const api::Json& requirements) {
+  return requirements.value("objective", api::Json{{"minimize", "mass_kg"}});
+}
+
+api::Json ToJson(const optimizer::Progress& progress, const api::Json& objective) {
+  return {{"seconds", api::Number(progress.seconds)},
+          {"evaluated", progress.evaluated},
+          {"open", progress.open},
+          {"best", progress.best ? api::Number(*progress.best) : api::Json()},
+          {"lower_bound", api::Number(progress.lower_bound)},
+          {"objective", objective}};
+}
+
+// The last progress, which a list of jobs shows in place of the answer.
+api::Json Outcome(const api::Json& answer, const api::Json& objective) {
+  const api::Json& designs = answer.at("designs");
+  return {{"seconds", answer.at("seconds")},
+          {"evaluated", answer.at("proof").at("evaluated")},
+          {"best", designs.empty() ? api::Json() : designs.front().at("objective")},
+          {"lower_bound", answer.at("proof").at("lower_bound")},
+          {"objective", objective},
+          {"outcome", answer.at("status")}};
+}
+
+}  // namespace
+
+Work DesignWork(SharedCatalog& catalog) {
+  return [&catalog](const catalog::JobOrder& order,
+                    const JobControl& control) -> api::Parsed<api::Json> {
+    auto view = PartsOf(catalog, order);
+    if (auto* errors = std::get_if<api::Errors>(&view)) return *errors;
+    auto models = ModelsOf(catalog, order);
+    if (auto* errors = std::get_if<api::Errors>(&models)) return *errors;
+    auto json = api::ParseJson(order.request);
+    if (auto* errors = std::get_if<api::Errors>(&json)) return *errors;
+    const CatalogView& parts = std::get<CatalogView>(view);
+    auto request = api::ParseRequirements(std::get<api::Json>(json), *parts.parts,
+                                          std::get<std::vector<catalog::ModelRevision>>(models));
+    if (auto* errors = std::get_if<api::Errors>(&request)) return *errors;
+
+    const api::Json objective = ObjectiveOf(std::get<api::Json>(json));
+    optimizer::SearchOptions options;
+    options.cancelled = control.cancelled;
+    options.progress = [&](const optimizer::Progress& progress) {
+      control.report(ToJson(progress, objective));
+    };
+    api::Json answer =
+        api::AnswerRequest(std::get<api::DesignRequest>(request), options, *parts.parts);
+    answer["catalogue_revision"] = api::RenderRevisionName(parts.revision);
+    control.report(Outcome(answer, objective));
+    return answer;
+  };
+}
+
+Reply PostDesign(SharedCatalog& catalog, const JobsResource& designs, const Call& call) {
+  auto query_errors = CheckQuery(call, {"validate_only"});
+  const bool validate_only = ReadFlag(call, "validate_only", query_errors);
+  if (!query_errors.empty()) return ProblemReply(422, query_errors);
+  auto json = api::ParseJson(call.body);
+  if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
+  const CatalogView view = catalog.View();
+  auto parsed = api::ParseRequirements(std::get<api::Json>(json), *view.parts, catalog.Models());
+  if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
+  if (validate_only) return JsonReply(200, {{"valid", true}});
+  const auto signature = SignatureOf(call);
+  if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
+  const auto& request = std::get<api::DesignRequest>(parsed);
+  return StartJob(designs, call,
+                  OrderOf(call, std::get<catalog::Signature>(signature), request.name,
+                          view.revision, request.model));
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,182 @@
+#include "server/resources/diagnoses_resource.h"
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "api/json/reader.h"
+#include "api/json/request_limits.h"
+#include "api/measure/diagnose_request.h"
+#include "server/call/service_limits.h"
+#include "server/call/signature.h"
+#include "server/jobs/job_inputs.h"
+
+namespace plenum::server {
+namespace {
+
+constexpr std::chrono::seconds kSavePatience{60};
+constexpr const char* kModel = "model";
+constexpr const char* kSave = "save";
+constexpr const char* kTimeLimit = "time_limit_s";
+
+// What the service takes beside the measurement.
+struct Names {
+  std::string model, save;  // empty: none
+  double time_limit_s = api::kDiagnosisTimeS;
+};
+
+Names ReadNames(const api::Json& document, api::Errors& errors) {
+  Names names;
+  if (!document.is_object()) return names;  // reported with the measurement
+  api::Reader reader(document, "", errors);
+  if (reader.Has(kModel)) names.model = reader.Text(kModel);
+  if (reader.Has(kSave)) names.save = reader.Text(kSave);
+  names.time_limit_s =
+      reader.Number(kTimeLimit, {0.01, api::kDiagnosisTimeMaxS}, api::kDiagnosisTimeS);
+  const std::string why = names.save.empty() ? "" : catalog::WhyInvalidModelName(names.save);
+  if (!why.empty()) reader.Fail(kSave, why);
+  return names;
+}
+
+template <typename T>
+T ValueOrAdd(api::Parsed<T> parsed, api::Errors& errors) {
+  if (const auto* found = std::get_if<api::Errors>(&parsed)) {
+    errors.insert(errors.end(), found->begin(), found->end());
+    return {};
+  }
+  return std::get<T>(std::move(parsed));
+}
+
+struct Request {
+  api::DiagnosisRequest diagnosis;
+  std::string save;
+  std::optional<catalog::ModelRevision> model;  // of the diagnosis
+};
+
+// `models` are the newest of each name that "model" may ask for.
+api::Parsed<Request> ReadRequest(std::string_view body,
+                                 const std::vector<catalog::ModelRevision>& models,
+                                 api::Json document) {
+  api::Errors errors;
+  Request request;
+  const Names names = ReadNames(document, errors);
+  request.save = names.save;
+  request.diagnosis.time_limit_s = names.time_limit_s;
+  if (!names.model.empty() && names.model != "nominal") {
+    request.diagnosis.model = ValueOrAdd(api::FindModel(names.model, models, "/model"), errors);
+    for (const auto& model : models)
+      if (model.name == names.model) request.model = model;
+  }
+  if (document.is_object()) {
+    document.erase(kModel);
+    document.erase(kSave);
+    document.erase(kTimeLimit);
+  }
+  request.diagnosis.dataset = ValueOrAdd(api::ParseMeasurement(document), errors);
+  if (!errors.empty()) return errors;
+  request.diagnosis.provenance.files = {api::FileOf(request.diagnosis.dataset.name, body)};
+  return request;
+}
+
+std::size_t SamplesOf(const calibration::Dataset& dataset) {
+  std::size_t samples = 0;
+  for (const auto& run : dataset.runs) samples += run.t_s.size();
+  return samples;
+}
+
+// The turn of a diagnosis that takes much memory, when it comes; none for one that takes little, or
+// when the job is cancelled while it waits.
+std::shared_ptr<void> AwaitTurn(const calibration::Dataset& dataset, const JobControl& control) {
+  static Gate large(kLargeDiagnosesMax, kLargeWaitingMax);
+  std::shared_ptr<void> turn;
+  if (SamplesOf(dataset) <= kLargeDiagnosisSamples) return turn;
+  control.report({{"seconds", 0}, {"share", 0}, {"doing", "waits for another large diagnosis"}});
+  while (!turn && !control.cancelled()) turn = large.Enter(std::chrono::milliseconds(100));
+  return turn;
+}
+
+// Puts the name under which the model was saved into the answer; where that fails the model itself,
+// to be saved later: the diagnosis is worth more than its place.
+void Save(SharedCatalog& catalog, const std::string& name, const std::string& who,
+          const std::optional<api::SavedModel>& revision, api::Json& answer) {
+  answer["saved"] = nullptr;
+  if (!revision) return;
+  const api::Json model = api::RenderModel(*revision);
+  try {
+    answer["saved"] = catalog.With(
+        [&](catalog::Store& store) {
+          return api::RenderModelRevision(store.SaveModel(name, Dump(model), who), false);
+        },
+        kSavePatience);
+  } catch (const catalog::StoreError& error) {
+    std::fprintf(stderr, "model %s was not saved: %s\n", name.c_str(), error.what());
+    answer["not_saved"] = {
+        {"detail",
+         error.fault() == catalog::StoreFault::kBusy
+             ? "the catalogue is being written by another; POST name and model to /v1/models"
+             : "the catalogue cannot be written; POST name and model to /v1/models"},
+        {"name", name},
+        {"model", model}};
+  }
+}
+
+}  // namespace
+
+Work DiagnosisWork(SharedCatalog& catalog) {
+  return [&catalog](const catalog::JobOrder& order,
+                    const JobControl& control) -> api::Parsed<api::Json> {
+    using Clock = std::chrono::steady_clock;
+    auto models = ModelsOf(catalog, order);
+    if (auto* errors = std::get_if<api::Errors>(&models)) return *errors;
+    auto json = api::ParseJson(order.request);
+    if (auto* errors = std::get_if<api::Errors>(&json)) return *errors;
+    auto parsed = ReadRequest(order.request, std::get<std::vector<catalog::ModelRevision>>(models),
+                              std::get<api::Json>(std::move(json)));
+    if (auto* errors = std::get_if<api::Errors>(&parsed)) return *errors;
+    const auto& request = std::get<Request>(parsed);
+
+    const auto turn = AwaitTurn(request.diagnosis.dataset, control);
+    const auto start = Clock::now();
+    const auto report_of = [&](double share, const std::string& doing) -> api::Json {
+      const std::chrono::duration<double> elapsed = Clock::now() - start;
+      return {{"seconds", api::Number(elapsed.count())},
+              {"share", api::Number(share)},
+              {"doing", doing}};
+    };
+    const auto report = [&](double share, const std::string& doing) {
+      control.report(report_of(share, doing));
+    };
+    const auto cancelled = [&] {
+      return control.cancelled() ||
+             Clock::now() - start > std::chrono::seconds(api::kDiagnosisSecondsMax);
+    };
+    auto diagnosis =
+        api::RunDiagnosis(request.diagnosis, {.cancelled = cancelled, .progress = report});
+    if (!request.save.empty())
+      Save(catalog, request.save, order.by.who, diagnosis.revision, diagnosis.answer);
+    // The last progress, which a list of jobs shows in place of the answer.
+    auto outcome = report_of(1.0, "ended");
+    outcome["outcome"] = diagnosis.answer.at("verdict");
+    control.report(std::move(outcome));
+    return std::move(diagnosis.answer);
+  };
+}
+
+Reply PostDiagnosis(SharedCatalog& catalog, const JobsResource& diagnoses, const Call& call) {
+  auto json = api::ParseJson(call.body);
+  if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
+  const auto models = catalog.Models();
+  auto parsed = ReadRequest(call.body, models, std::move(std::get<api::Json>(json)));
+  if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
+  const auto signature = SignatureOf(call);
+  if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
+  const auto& request = std::get<Request>(parsed);
+  const auto head = catalog.Head();
+  return StartJob(diagnoses, call,
+                  OrderOf(call, std::get<catalog::Signature>(signature),
+                          request.diagnosis.dataset.name, head, request.model));
+}
+
+}  // namespace plenum::server

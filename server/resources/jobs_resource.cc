@@ -1,0 +1,182 @@
+#include "server/resources/jobs_resource.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <regex>
+#include <utility>
+
+#include "server/call/service_limits.h"
+#include "server/call/signature.h"
+
+namespace plenum::server {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kHeartbeat{1000};
+
+std::string SelfOf(const JobsResource& resource, const std::string& id) {
+  return resource.path + "/" + id;
+}
+
+api::Json Links(const JobsResource& resource, const std::string& id) {
+  const std::string self = SelfOf(resource, id);
+  return {{"self", self}, {"events", self + "/events"}};
+}
+
+api::Json Short(const JobsResource& resource, const Job& job) {
+  return {{"id", job.id}, {"status", Name(job.status)}, {"links", Links(resource, job.id)}};
+}
+
+std::string WhyFailed(const JobsResource& resource, const Job& job) {
+  return "the " + resource.noun + " failed: " + job.failure;
+}
+
+api::Json Long(const JobsResource& resource, const Job& job) {
+  api::Json json = {
+      {"id", job.id},
+      {"name", job.name},
+      {"status", Name(job.status)},
+      {"submitted_at", job.submitted_at},
+      {"ended_at", job.ended_at.empty() ? api::Json() : api::Json(job.ended_at)},
+      {"attempts", job.attempts},
+      {"crashes", job.crashes},
+      {"last_crash", job.crash.empty() ? api::Json() : api::Json(job.crash)},
+      {"catalogue_revision", {{"number", job.catalogue_revision}, {"hash", job.catalogue_hash}}},
+      {"progress", job.progress}};
+  if (job.status == JobStatus::kFailed) json["detail"] = WhyFailed(resource, job);
+  return json;
+}
+
+api::Json Full(const JobsResource& resource, const Job& job) {
+  api::Json json = Long(resource, job);
+  json["result"] = job.result;
+  json["links"] = Links(resource, job.id);
+  return json;
+}
+
+// Seconds of "Prefer: wait=N"; 0 without one. Preferences that are not understood are ignored
+// (RFC 7240).
+int WaitSeconds(const Call& call) {
+  const auto prefer = call.header("Prefer");
+  if (!prefer || prefer->size() > 200) return 0;
+  static const std::regex kWait(R"re((^|[,;\s])wait\s*=\s*"?(\d{1,6})"?)re", std::regex::icase);
+  std::smatch match;
+  if (!std::regex_search(*prefer, match, kWait)) return 0;
+  return std::min(std::stoi(match[2]), kWaitSecondsMax);
+}
+
+// What a client that waited gets: the result, or nothing when it takes longer.
+std::optional<Reply> WaitForResult(const JobsResource& resource, const std::string& id,
+                                   int seconds) {
+  static Turnstile turnstile(kWaitingMax);
+  const auto turn = seconds > 0 ? turnstile.Enter() : nullptr;
+  if (!turn) return std::nullopt;
+  const auto job = resource.jobs->WaitForEnd(id, std::chrono::seconds(seconds));
+  if (!job || !Ended(job->status)) return std::nullopt;
+  if (job->status == JobStatus::kFailed) return ProblemReply(500, WhyFailed(resource, *job));
+  if (job->result.is_null()) return ProblemReply(409, "the job was cancelled before it began");
+  auto reply = JsonReply(200, job->result);
+  reply.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(seconds));
+  return reply;
+}
+
+Reply NoJob(const JobsResource& resource, const std::string& id) {
+  return ProblemReply(404, "no " + resource.noun + " job has the id " + id +
+                               "; of those that ended only the newest are kept");
+}
+
+Reply FullQueue(const JobsResource& resource) {
+  return BusyReply("jobs_queued_max", resource.jobs->options().queued_max,
+                   "the queue of " + resource.noun + " jobs is full; try again later", 10);
+}
+
+std::string Event(const char* name, const api::Json& data) {
+  return std::string("event: ") + name + "\ndata: " + Dump(data) + "\n\n";
+}
+
+}  // namespace
+
+Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder order) {
+  const auto [status, id] = resource.jobs->Submit(std::move(order));
+  if (status == Submitted::kKeyReused) return KeyReused();
+  if (status == Submitted::kRefused) return FullQueue(resource);
+  auto reply = WaitForResult(resource, id, WaitSeconds(call));
+  if (!reply) {
+    const auto job = resource.jobs->Get(id);
+    reply = JsonReply(
+        202, job ? Short(resource, *job) : api::Json{{"id", id}, {"links", Links(resource, id)}});
+  }
+  reply->headers.emplace_back("Location", SelfOf(resource, id));
+  return *reply;
+}
+
+Reply ListJobs(const JobsResource& resource) {
+  api::Json list = api::Json::array();
+  for (const auto& job : resource.jobs->List()) {
+    list.push_back(Long(resource, job));
+    list.back()["links"] = Links(resource, job.id);
+  }
+  return JsonReply(200, {{"jobs", std::move(list)}});
+}
+
+Reply GetJob(const JobsResource& resource, const Call& call) {
+  const auto job = resource.jobs->Get(call.argument);
+  return job ? JsonReply(200, Full(resource, *job)) : NoJob(resource, call.argument);
+}
+
+Reply DoJobAgain(const JobsResource& resource, const Call& call) {
+  const std::string& id = call.argument;
+  switch (resource.jobs->Again(id)) {
+    case Asked::kUnknown:
+      return NoJob(resource, id);
+    case Asked::kUnderWay:
+      return ProblemReply(409, "the job is queued or running; it need not be asked for again");
+    case Asked::kDone:
+      return ProblemReply(409,
+                          "the job is done and its result stands; post the request again for "
+                          "the catalogue as it is now");
+    case Asked::kRefused:
+      return FullQueue(resource);
+    case Asked::kQueued:
+      break;
+  }
+  const auto job = resource.jobs->Get(id);
+  if (!job) return NoJob(resource, id);
+  auto reply = JsonReply(202, Short(resource, *job));
+  reply.headers.emplace_back("Location", SelfOf(resource, id));
+  return reply;
+}
+
+Reply CancelJob(const JobsResource& resource, const Call& call) {
+  if (!resource.jobs->Cancel(call.argument)) return NoJob(resource, call.argument);
+  const auto job = resource.jobs->Get(call.argument);
+  return job ? JsonReply(200, Short(resource, *job)) : NoJob(resource, call.argument);
+}
+
+Reply JobEvents(const JobsResource& resource, const Call& call) {
+  static Turnstile turnstile(kStreamsMax);
+  if (!resource.jobs->Get(call.argument)) return NoJob(resource, call.argument);
+  auto turn = turnstile.Enter();
+  if (!turn) {
+    return BusyReply("event_streams_max", kStreamsMax,
+                     "too many event streams are open; poll the job instead", 5);
+  }
+  Reply reply{200, "text/event-stream", "", {{"Cache-Control", "no-store"}}, {}};
+  reply.stream = [resource, id = call.argument, turn = std::move(turn),
+                  revision = -1LL](const Write& write) mutable {
+    const auto job = resource.jobs->WaitForChange(id, revision, kHeartbeat);
+    if (!job || resource.jobs->Stopping()) return false;
+    if (Ended(job->status)) {
+      write(Event("end", Short(resource, *job)));
+      return false;
+    }
+    if (job->revision == revision) return write(": still there\n\n");
+    revision = job->revision;
+    return write(Event("progress", {{"status", Name(job->status)}, {"progress", job->progress}}));
+  };
+  return reply;
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,37 @@
+// Long work over HTTP: one kind of job, its path and what people call it.
+#ifndef PLENUM_SERVER_RESOURCES_JOBS_RESOURCE_H_
+#define PLENUM_SERVER_RESOURCES_JOBS_RESOURCE_H_
+
+#include <string>
+
+#include "server/call/reply.h"
+#include "server/jobs/jobs.h"
+
+namespace plenum::server {
+
+struct JobsResource {
+  Jobs* jobs;
+  std::string path;  // "/v1/designs"
+  std::string noun;  // "design"
+};
+
+// A new job, or the one that has the order's key. 202 with { id, status, links }, or with "Prefer:
+// wait=N" 200 with the result when it comes within N seconds. At most a quarter of the request
+// threads wait at a time; beyond that it is 202 at once. 429 when the queue is full, 422 when the
+// key stands for another request.
+Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder order);
+Reply ListJobs(const JobsResource& resource);
+// { id, name, status, submitted_at, ended_at, attempts, crashes, last_crash, catalogue_revision,
+// progress, result, links }, and `detail` where it failed.
+Reply GetJob(const JobsResource& resource, const Call& call);
+// 202 with { id, status, links } and Location; 409 for a job that is under way or done, 429 when
+// the queue is full.
+Reply DoJobAgain(const JobsResource& resource, const Call& call);
+Reply CancelJob(const JobsResource& resource, const Call& call);
+// Server-sent events: `progress` at every change, `end` when the job has ended. 429 when too many
+// streams are open.
+Reply JobEvents(const JobsResource& resource, const Call& call);
+
+}  // namespace plenum::server
+
+#endif  // PLENUM_SERVER_RESOURCES_JOBS_RESOURCE_H_

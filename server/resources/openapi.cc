@@ -1,0 +1,325 @@
+#include "server/resources/openapi.h"
+
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "api/describe/descriptions.h"
+
+namespace plenum::server {
+namespace {
+
+using api::Json;
+
+constexpr char kJson[] = "application/json";
+constexpr char kCsv[] = "text/csv";
+constexpr char kEvents[] = "text/event-stream";
+
+// What an operation takes and gives beyond what its route says.
+struct Operation {
+  std::vector<std::string> parameters = {};  // names in the components
+  std::string body = {};                     // schema of the request; "csv" for rows of parts
+  struct Answer {
+    int status;
+    std::string schema;  // in the components; empty: no body
+    const char* media = kJson;
+  };
+  std::vector<Answer> answers = {};
+  std::vector<int> problems = {};
+};
+
+const std::map<std::string, Operation>& Operations() {
+  static const std::vector<std::string> kPage = {"limit", "cursor"};
+  static const std::vector<std::string> kWrite = {"Idempotency-Key", "From"};
+  static const std::vector<std::string> kJobPost = {"validate_only", "Prefer", "Idempotency-Key",
+                                                    "From"};
+  static const std::map<std::string, Operation> kOperations = {
+      {"POST /v1/designs",
+       {kJobPost,
+        "Requirements",
+        {{200, "DesignsOrValid"}, {202, "JobAccepted"}},
+        {400, 422, 429}}},
+      {"POST /v1/diagnoses",
+       {{"Prefer", "Idempotency-Key", "From"},
+        "Measurement",
+        {{200, "Diagnosis"}, {202, "JobAccepted"}},
+        {400, 422, 429}}},
+      {"POST /v1/simulations", {{}, "Simulation", {{200, "Response"}}, {400, 422, 429}}},
+      {"POST /v1/evaluations", {{}, "Evaluation", {{200, "EvaluationAnswer"}}, {400, 422, 429}}},
+      {"POST /v1/maps", {{}, "Map", {{200, "MapAnswer"}}, {400, 422, 429}}},
+      {"GET /v1/parts", {{"If-None-Match"}, "", {{200, "PartsPage"}, {304, ""}}, {404, 422}}},
+      {"POST /v1/parts", {kWrite, "Part", {{201, "StoredPart"}}, {400, 409, 422}}},
+      {"GET /v1/parts/export", {{"family"}, "", {{200, "Csv", kCsv}}, {422}}},
+      {"POST /v1/parts/import",
+       {{"family", "dry_run", "Idempotency-Key", "From"}, "csv", {{200, "Import"}}, {422}}},
+      {"GET /v1/parts/{id}",
+       {{"revision", "If-None-Match"}, "", {{200, "StoredPart"}, {304, ""}}, {404, 422}}},
+      {"PUT /v1/parts/{id}",
+       {{"If-Match", "From"}, "Part", {{200, "StoredPart"}}, {400, 404, 412, 422}}},
+      {"DELETE /v1/parts/{id}", {{"If-Match", "From"}, "", {{204, ""}}, {404, 412}}},
+      {"GET /v1/parts/{id}/history", {kPage, "", {{200, "History"}}, {404, 422}}},
+      {"GET /v1/families", {{}, "", {{200, "Families"}}, {}}},
+      {"GET /v1/limits", {{}, "", {{200, "Limits"}}, {}}},
+      {"GET /v1/revisions", {kPage, "", {{200, "Revisions"}}, {422}}},
+      {"GET /v1/revisions/{id}", {{}, "", {{200, "RevisionWithChanges"}}, {404}}},
+      {"POST /v1/revisions/{id}/undo", {kWrite, "", {{200, "Undone"}}, {404, 409, 422}}},
+      {"GET /v1/models", {{}, "", {{200, "Models"}}, {}}},
+      {"POST /v1/models", {kWrite, "NamedModel", {{201, "ModelRevision"}}, {400, 422}}},
+      {"GET /v1/models/{id}", {{}, "", {{200, "ModelVersions"}}, {404}}},
+      {"GET /v1", {{}, "", {{200, "RouteTable"}}, {}}},
+      {"GET /healthz", {{}, "", {{200, "Health"}}, {}}},
+      {"GET /readyz", {{}, "", {{200, "Readiness"}}, {503}}},
+      {"GET /metrics", {{}, "", {{200, "Text", "text/plain"}}, {}}},
+      {"GET /openapi.json", {{}, "", {{200, "Anything"}}, {}}},
+      {"GET /docs", {{}, "", {{200, "Text", "text/html"}}, {}}},
+      {"GET /", {{"If-None-Match"}, "", {{200, "Text", "text/html"}, {304, ""}}, {}}},
+      {"GET /assets/{id}", {{}, "", {{200, "Text", "*/*"}}, {404}}},
+  };
+  return kOperations;
+}
+
+// Those of both kinds of jobs are alike.
+const Operation& OperationOf(const Route& route) {
+  static const std::map<std::string, Operation> kJobs = {
+      {"GET ", {{}, "", {{200, "Jobs"}}, {}}},
+      {"GET /{id}", {{}, "", {{200, "Job"}}, {404}}},
+      {"DELETE /{id}", {{}, "", {{200, "JobAccepted"}}, {404}}},
+      {"POST /{id}/again", {{}, "", {{202, "JobAccepted"}}, {404, 409, 429}}},
+      {"GET /{id}/events", {{}, "", {{200, "Text", kEvents}}, {404, 429}}},
+  };
+  const auto found = Operations().find(route.method + " " + route.path);
+  if (found != Operations().end()) return found->second;
+  for (const std::string path : {"/v1/designs", "/v1/diagnoses"})
+    if (route.path.starts_with(path))
+      return kJobs.at(route.method + " " + route.path.substr(path.size()));
+  throw std::logic_error("no description of " + route.method + " " + route.path);
+}
+
+Json Ref(const std::string& kind, const std::string& name) {
+  return {{"$ref", "#/components/" + kind + "/" + name}};
+}
+
+Json Object(const Json& properties) {
+  Json required = Json::array();
+  for (const auto& [name, schema] : properties.items()) required.push_back(name);
+  return {{"type", "object"}, {"properties", properties}, {"required", required}};
+}
+Json ListOf(const Json& items) { return {{"type", "array"}, {"items", items}}; }
+Json NamedListOf(const std::string& name, const Json& items) {
+  return Object({{name, ListOf(items)}});
+}
+
+Json Header(const char* name, const char* description) {
+  return {{"name", name},
+          {"in", "header"},
+          {"schema", {{"type", "string"}}},
+          {"description", description}};
+}
+Json Query(const char* name, Json schema, const char* description) {
+  return {
+      {"name", name}, {"in", "query"}, {"schema", std::move(schema)}, {"description", description}};
+}
+
+Json Parameters() {
+  const Json text = {{"type", "string"}}, flag = {{"type", "boolean"}};
+  Json parameters = {
+      {"id", {{"name", "id"}, {"in", "path"}, {"required", true}, {"schema", text}}},
+      {"limit", Query("limit", {{"type", "integer"}, {"minimum", 1}, {"maximum", 1000}},
+                      "entries of a page")},
+      {"cursor", Query("cursor", text, "next_cursor of the page before")},
+      {"family", Query("family", text, "of parts")},
+      {"dry_run", Query("dry_run", flag, "say what would be done, write nothing")},
+      {"validate_only", Query("validate_only", flag, "check the document, start no job")},
+      {"revision", Query("revision", {{"type", "integer"}, {"minimum", 0}},
+                         "as it was in this revision of the catalogue")},
+      {"Prefer", Header("Prefer", "wait=N: up to N seconds for the result")},
+      {"Idempotency-Key", Header("Idempotency-Key", "repetitions with the same key act once")},
+      {"From", Header("From", "who writes")},
+      {"If-Match", Header("If-Match", "ETag of what is replaced or removed; needed")},
+      {"If-None-Match", Header("If-None-Match", "ETag of what the client has")}};
+  return parameters;
+}
+
+// Of answers: the fields that callers may rely on; more may come.
+Json AnswerSchemas() {
+  const Json text = {{"type", "string"}}, number = {{"type", "number"}};
+  const Json integer = {{"type", "integer"}}, maybe_text = {{"type", {"string", "null"}}};
+  const Json flag = {{"type", "boolean"}}, any = Json::object();
+  const Json ids = ListOf(text);
+  const Json name_of_revision = Object({{"number", integer}, {"hash", text}});
+  const Json revision =
+      Object({{"number", integer}, {"hash", text}, {"at", text}, {"who", text}, {"what", text}});
+  const Json status = {{"enum", {"queued", "running", "done", "cancelled", "failed"}}};
+  const Json links = Object({{"self", text}, {"events", text}});
+  const auto versioned = [&](const char* schema) {
+    return Json{{"type", "object"},
+                {"properties", {{"schema", {{"const", schema}}}, {"plenum", text}}},
+                {"required", {"schema", "plenum"}}};
+  };
+  Json schemas = {
+      {"Problem",
+       {{"type", "object"},
+        {"properties",
+         {{"type", text},
+          {"title", text},
+          {"status", integer},
+          {"detail", text},
+          {"errors", ListOf(Object({{"pointer", text}, {"detail", text}}))},
+          {"limit", Object({{"name", text}, {"value", any}})}}},
+        {"required", {"type", "title", "status"}}}},
+      {"Anything", any},
+      {"Text", text},
+      {"Csv", text},
+      {"Health", Object({{"status", {{"const", "ok"}}}})},
+      {"Readiness", Object({{"status", text}, {"checks", {{"type", "object"}}}})},
+      {"Limits", Object({{"limits", {{"type", "object"}, {"additionalProperties", number}}}})},
+      {"RouteTable",
+       NamedListOf("routes", Object({{"method", text}, {"path", text}, {"summary", text}}))},
+      {"JobAccepted", Object({{"id", text}, {"status", status}, {"links", links}})},
+      {"Job", Object({{"id", text},
+                      {"name", text},
+                      {"status", status},
+                      {"attempts", integer},
+                      {"crashes", integer},
+                      {"last_crash", maybe_text},
+                      {"progress", any},
+                      {"result", any},
+                      {"links", links}})},
+      {"Jobs", NamedListOf("jobs", Object({{"id", text},
+                                           {"name", text},
+                                           {"status", status},
+                                           {"attempts", integer},
+                                           {"crashes", integer},
+                                           {"last_crash", maybe_text},
+                                           {"progress", any},
+                                           {"links", links}}))},
+      {"Designs", versioned("designs/1")},
+      {"DesignsOrValid",
+       {{"anyOf", {Ref("schemas", "Designs"), Object({{"valid", {{"const", true}}}})}}}},
+      {"Diagnosis", versioned("diagnosis/1")},
+      {"Response", versioned("response/1")},
+      {"MapAnswer", versioned("map_answer/1")},
+      {"EvaluationAnswer", versioned("evaluation_answer/1")},
+      {"StoredPart",
+       {{"allOf", {Ref("schemas", "Part"), {{"type", "object"}, {"required", {"id", "origin"}}}}}}},
+      {"PartsPage", Object({{"parts", ListOf(Ref("schemas", "StoredPart"))},
+                            {"next_cursor", maybe_text},
+                            {"total", integer},
+                            {"catalogue_revision", name_of_revision}})},
+      {"Import",
+       Object({{"added", ids}, {"replaced", ids}, {"unchanged", ids}, {"dry_run", flag}})},
+      {"Families", NamedListOf("families", Object({{"name", text},
+                                                   {"numbers", ListOf(any)},
+                                                   {"texts", ListOf(any)},
+                                                   {"has_curve", flag}}))},
+      {"Revisions", Object({{"revisions", ListOf(revision)}, {"next_cursor", maybe_text}})},
+      {"RevisionWithChanges",
+       {{"allOf",
+         {revision,
+          NamedListOf("changes", Object({{"id", text}, {"before", any}, {"after", any}}))}}}},
+      {"History", Object({{"id", text}, {"history", ListOf(any)}, {"next_cursor", maybe_text}})},
+      {"Undone", {{"type", "object"}}},
+      {"ModelRevision", Object({{"name", text},
+                                {"version", integer},
+                                {"at", text},
+                                {"who", text},
+                                {"hash", text},
+                                {"model", any}})},
+      {"Models", NamedListOf("models", Ref("schemas", "ModelRevision"))},
+      {"ModelVersions",
+       Object({{"name", text}, {"versions", ListOf(Ref("schemas", "ModelRevision"))}})}};
+  return schemas;
+}
+
+Json Schemas() {
+  Json schemas = {{"Requirements", api::DescribeRequirements()},
+                  {"Measurement", api::DescribeMeasurement()},
+                  {"Simulation", api::DescribeSimulation()},
+                  {"Map", api::DescribeMap()},
+                  {"Model", api::DescribeModel()},
+                  {"Part", api::DescribePart()}};
+  schemas["Evaluation"] = Object({{"schema", {{"const", "evaluation/1"}}},
+                                  {"requirements", Ref("schemas", "Requirements")},
+                                  {"design", api::DescribeGivenDesign()}});
+  schemas["Evaluation"]["additionalProperties"] = false;
+  schemas["NamedModel"] = Object(
+      {{"name", {{"type", "string"}, {"maxLength", 200}}}, {"model", Ref("schemas", "Model")}});
+  schemas["NamedModel"]["additionalProperties"] = false;
+  schemas.update(AnswerSchemas());
+  return schemas;
+}
+
+Json ExampleOf(const std::string& schema) {
+  if (schema == "Requirements") return api::ExampleRequirements();
+  if (schema == "Measurement") return api::ExampleMeasurement();
+  if (schema == "Simulation") return api::ExampleSimulation();
+  if (schema == "Map") return api::ExampleMap();
+  if (schema == "Evaluation") return api::ExampleEvaluation();
+  if (schema == "Part") return api::ExamplePart();
+  return {{"name", "bench"}, {"model", api::ExampleModel()}};
+}
+
+Json RequestBody(const std::string& schema) {
+  if (schema == "csv")
+    return {{"required", true}, {"content", {{kCsv, {{"schema", Ref("schemas", "Csv")}}}}}};
+  return {
+      {"required", true},
+      {"content", {{kJson, {{"schema", Ref("schemas", schema)}, {"example", ExampleOf(schema)}}}}}};
+}
+
+Json Render(const Route& route) {
+  const Operation& operation = OperationOf(route);
+  Json json = {{"summary", route.summary}, {"parameters", Json::array()}};
+  if (route.path.find("{id}") != std::string::npos)
+    json["parameters"].push_back(Ref("parameters", "id"));
+  for (const std::string& name : operation.parameters)
+    json["parameters"].push_back(Ref("parameters", name));
+  if (route.method == "GET" && route.path == "/v1/parts")
+    for (const Json& filter : api::DescribePartFilters()) json["parameters"].push_back(filter);
+  if (!operation.body.empty()) json["requestBody"] = RequestBody(operation.body);
+  Json& responses = json["responses"] = Json::object();
+  for (const Operation::Answer& answer : operation.answers) {
+    Json& response = responses[std::to_string(answer.status)] = {{"description", "answered"}};
+    if (!answer.schema.empty())
+      response["content"][answer.media]["schema"] = Ref("schemas", answer.schema);
+  }
+  for (const int status : operation.problems)
+    responses[std::to_string(status)] = Ref("responses", "Problem");
+  responses["default"] = Ref("responses", "Problem");
+  if (route.access == Access::kOpen) json["security"] = Json::array();
+  return json;
+}
+
+std::string LowerCase(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
+  return text;
+}
+
+}  // namespace
+
+Json OpenApi(const std::vector<Route>& routes) {
+  Json paths = Json::object();
+  for (const Route& route : routes) paths[route.path][LowerCase(route.method)] = Render(route);
+  const Json problem = {
+      {"description", "refused or failed; what, where and which limit stands in the document"},
+      {"content", {{"application/problem+json", {{"schema", Ref("schemas", "Problem")}}}}}};
+  return {{"openapi", "3.1.0"},
+          {"info",
+           {{"title", "plenum"},
+            {"version", "1"},
+            {"description",
+             "Chooses the parts of a pneumatic supply for soft robots. The unit of every number "
+             "is the end of its name. Limits are at /v1/limits. Beyond the statuses of an "
+             "operation every one may answer 400, 401, 403, 408, 413, 414, 415, 429, 431, 500, "
+             "503 or 507, always with a problem document."}}},
+          {"security", Json::array({Json::object(), Json{{"token", Json::array()}}})},
+          {"paths", std::move(paths)},
+          {"components",
+           {{"securitySchemes", {{"token", {{"type", "http"}, {"scheme", "bearer"}}}}},
+            {"parameters", Parameters()},
+            {"responses", {{"Problem", problem}}},
+            {"schemas", Schemas()}}}};
+}
+
+}  // namespace plenum::server

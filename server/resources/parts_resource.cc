@@ -1,0 +1,298 @@
+#include "server/resources/parts_resource.h"
+
+#include <algorithm>
+
+#include "api/catalogue/part_document.h"
+#include "api/catalogue/part_query.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
+#include "api/json/request_limits.h"
+#include "server/call/service_limits.h"
+#include "server/call/signature.h"
+#include "server/resources/import_parts.h"
+
+namespace plenum::server {
+namespace {
+
+// Strong: equal texts only, and no two texts in practice, have the same tag.
+std::string ETag(const std::string& text) {
+  return '"' + catalog::Sha256(text).substr(0, 32) + '"';
+}
+
+std::string ETag(const catalog::Part& part) { return ETag(Dump(api::RenderPart(part))); }
+
+enum class Compare { kStrong, kWeak };
+
+// Whether a list of entity tags holds `etag`. If-Match compares strongly, where no weak tag
+// matches; If-None-Match weakly, where W/ does not count (RFC 9110, 8.8.3.2).
+bool Holds(const std::string& list, const std::string& etag, Compare compare) {
+  bool quoted = false;  // a tag may hold commas
+  std::string item;
+  for (std::size_t i = 0; i <= list.size(); ++i) {
+    if (i < list.size() && list[i] == '"') quoted = !quoted;
+    if (i < list.size() && (quoted || list[i] != ',')) {
+      if (quoted || (list[i] != ' ' && list[i] != '\t')) item += list[i];
+      continue;
+    }
+    if (compare == Compare::kWeak && item.starts_with("W/")) item.erase(0, 2);
+    if (item == etag) return true;
+    if (item == "*" && list.find_first_not_of("* \t") == std::string::npos) return true;
+    item.clear();
+  }
+  return false;
+}
+
+Reply NoPart(const std::string& id) { return ProblemReply(404, "no part has the id " + id); }
+
+// `revision` is one in which the part is as shown.
+Reply PartReply(int status, const catalog::Part& part, const catalog::Revision& revision) {
+  auto reply = JsonReply(status, api::RenderPart(part));
+  reply.headers.emplace_back("ETag", ETag(part));
+  reply.headers.emplace_back("Catalogue-Revision",
+                             std::to_string(revision.number) + " " + revision.hash);
+  return reply;
+}
+
+// 304 where If-None-Match holds the reply's tag.
+Reply UnlessKnown(const Call& call, const std::string& etag, Reply reply) {
+  const auto condition = call.header("If-None-Match");
+  if (!condition || !Holds(*condition, etag, Compare::kWeak)) return reply;
+  reply.status = 304;
+  reply.body.clear();
+  return reply;
+}
+
+std::string Location(const std::string& id) {
+  static constexpr char kHex[] = "0123456789ABCDEF";
+  std::string path = "/v1/parts/";
+  for (const char c : id) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain =
+        byte < 0x80 && (std::isalnum(byte) != 0 || c == '-' || c == '_' || c == '.' || c == '~');
+    if (plain) {
+      path += c;
+    } else {
+      path += {'%', kHex[byte >> 4], kHex[byte & 15]};
+    }
+  }
+  return path;
+}
+
+// The part in the body, or the reply that says what is wrong with it.
+std::variant<catalog::Part, Reply> PartInBody(const Call& call) {
+  auto json = api::ParseJson(call.body);
+  if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
+  auto part = api::ParsePart(std::get<api::Json>(json));
+  if (auto* errors = std::get_if<api::Errors>(&part)) return ProblemReply(422, *errors);
+  return std::get<catalog::Part>(std::move(part));
+}
+
+void CheckFamily(const std::optional<std::string>& family, api::Errors& errors) {
+  if (family && catalog::FindFamily(*family) == nullptr) {
+    errors.push_back({"/family", "must be one of " + FamilyNames() + ", not \"" + *family + "\""});
+  }
+}
+
+// Evaluated on the part as it is stored; writes its tag to `etag`.
+catalog::Precondition IfMatch(const std::string& condition, std::string& etag) {
+  return [&condition, &etag](const catalog::Part& stored) {
+    etag = ETag(stored);
+    return Holds(condition, etag, Compare::kStrong);
+  };
+}
+
+Reply NoCondition(const char* what) {
+  return ProblemReply(412,
+                      std::string("If-Match is missing: send the ETag of the part to be ") + what);
+}
+
+Reply Changed(const std::string& etag) {
+  return ProblemReply(412, "the part was changed: its ETag is now " + etag);
+}
+
+}  // namespace
+
+Reply ListParts(SharedCatalog& catalog, const Call& call) {
+  const auto parsed = api::ParsePartQuery(call.query);
+  if (const auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
+  const auto& query = std::get<api::PartQuery>(parsed);
+
+  auto number = query.revision;
+  if (!number && query.cursor) number = query.cursor->revision;
+  const auto view = number ? catalog.ViewAt(*number) : catalog.View();
+  if (!view) return ProblemReply(404, "the catalogue has no revision " + std::to_string(*number));
+  const auto page = api::RenderPage(query, view->revision, *view->table);
+  if (const auto* errors = std::get_if<api::Errors>(&page)) return ProblemReply(422, *errors);
+  Reply reply{200, "application/json", std::get<std::string>(page) + "\n", {}, {}};
+  const std::string etag = ETag(reply.body);
+  reply.headers.emplace_back("ETag", etag);
+  return UnlessKnown(call, etag, std::move(reply));
+}
+
+namespace {
+
+Reply GetNewest(SharedCatalog& catalog, const Call& call) {
+  auto shown = catalog.replies().Find(catalog.Head(), call.argument);
+  if (const auto view = shown ? std::nullopt : catalog.ViewBeforeWrite()) {
+    const auto part =
+        std::lower_bound(view->parts->begin(), view->parts->end(), call.argument,
+                         [](const catalog::Part& one, const auto& id) { return one.id < id; });
+    if (part == view->parts->end() || part->id != call.argument) return NoPart(call.argument);
+    shown = std::make_shared<const Reply>(PartReply(200, *part, view->revision));
+  }
+  if (!shown) {
+    catalog.With([&](catalog::Store& store) {
+      const auto revision = store.Head();
+      const auto part = store.GetAt(call.argument, revision.number);
+      if (!part) return;
+      shown = std::make_shared<const Reply>(PartReply(200, *part, revision));
+      catalog.replies().Keep(revision, call.argument, *shown);
+    });
+  }
+  if (!shown) return NoPart(call.argument);
+  return UnlessKnown(call, shown->headers.front().second, *shown);
+}
+
+}  // namespace
+
+Reply GetPart(SharedCatalog& catalog, const Call& call) {
+  const auto errors = CheckQuery(call, {"revision"});
+  if (!errors.empty()) return ProblemReply(422, errors);
+  // The same reading of the number as in a list.
+  const auto parsed = api::ParsePartQuery(call.query);
+  if (const auto* wrong = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *wrong);
+  const auto number = std::get<api::PartQuery>(parsed).revision;
+  if (!number) return GetNewest(catalog, call);
+  return catalog.With([&](catalog::Store& store) {
+    const auto revision = store.FindRevision(*number);
+    if (!revision) {
+      return ProblemReply(404, "the catalogue has no revision " + std::to_string(*number));
+    }
+    const auto part = store.GetAt(call.argument, revision->number);
+    if (!part) return NoPart(call.argument);
+    return UnlessKnown(call, ETag(*part), PartReply(200, *part, *revision));
+  });
+}
+
+Reply AddPart(SharedCatalog& catalog, const Call& call) {
+  auto body = PartInBody(call);
+  if (auto* reply = std::get_if<Reply>(&body)) return std::move(*reply);
+  const auto& part = std::get<catalog::Part>(body);
+  const auto signature = SignatureOf(call);
+  if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
+  return catalog.With([&](catalog::Store& store) {
+    const auto written = store.Add(part, std::get<catalog::Signature>(signature));
+    switch (written.status) {
+      case catalog::WriteStatus::kExists:
+        return ProblemReply(409, "the id " + part.id + " is taken; PUT replaces a part");
+      case catalog::WriteStatus::kInvalid:
+        return ProblemReply(422, FieldErrors(written.errors));
+      case catalog::WriteStatus::kKeyReused:
+        return KeyReused();
+      default:
+        break;
+    }
+    // As it was added, also if it was changed between the request and its repetition.
+    const auto added = store.GetAt(part.id, written.revision.number).value_or(part);
+    auto reply = PartReply(201, added, written.revision);
+    reply.headers.emplace_back("Location", Location(part.id));
+    return reply;
+  });
+}
+
+Reply ReplacePart(SharedCatalog& catalog, const Call& call) {
+  auto body = PartInBody(call);
+  if (auto* reply = std::get_if<Reply>(&body)) return std::move(*reply);
+  const auto& part = std::get<catalog::Part>(body);
+  if (part.id != call.argument) {
+    return ProblemReply(422, api::Errors{{"/id", "must be the id in the path, " + call.argument +
+                                                     ", not " + part.id}});
+  }
+  const auto signature = SignatureOf(call);
+  if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
+  auto by = std::get<catalog::Signature>(signature);
+  by.key.clear();  // If-Match makes it act once
+  return catalog.With([&](catalog::Store& store) {
+    if (!store.Get(part.id)) return NoPart(part.id);
+    const auto condition = call.header("If-Match");
+    if (!condition) return NoCondition("replaced");
+    std::string etag;
+    const auto written = store.Replace(part, by, IfMatch(*condition, etag));
+    switch (written.status) {
+      case catalog::WriteStatus::kInvalid:
+        return ProblemReply(422, FieldErrors(written.errors));
+      case catalog::WriteStatus::kNotFound:
+        return NoPart(part.id);
+      case catalog::WriteStatus::kChanged:
+        return Changed(etag);
+      default:
+        return PartReply(200, part, written.revision);
+    }
+  });
+}
+
+Reply RemovePart(SharedCatalog& catalog, const Call& call) {
+  const auto signature = SignatureOf(call);
+  if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
+  auto by = std::get<catalog::Signature>(signature);
+  by.key.clear();  // If-Match makes it act once
+  return catalog.With([&](catalog::Store& store) {
+    if (!store.Get(call.argument)) return NoPart(call.argument);
+    const auto condition = call.header("If-Match");
+    if (!condition) return NoCondition("removed");
+    std::string etag;
+    const auto written = store.Remove(call.argument, by, IfMatch(*condition, etag));
+    if (written.status == catalog::WriteStatus::kNotFound) return NoPart(call.argument);
+    if (written.status == catalog::WriteStatus::kChanged) return Changed(etag);
+    return Reply{204, "", "", {}, {}};
+  });
+}
+
+Reply ExportParts(SharedCatalog& catalog, const Call& call) {
+  auto errors = CheckQuery(call, {"family"});
+  const auto family = QueryValue(call, "family");
+  if (!family) errors.push_back({"/family", "is missing; one of " + FamilyNames()});
+  CheckFamily(family, errors);
+  if (!errors.empty()) return ProblemReply(422, errors);
+  const Parts all = catalog.Snapshot();
+  std::vector<catalog::Part> parts;
+  std::copy_if(all->begin(), all->end(), std::back_inserter(parts),
+               [&](const catalog::Part& part) { return part.family == *family; });
+  return {200,
+          "text/csv; charset=utf-8; header=present",
+          catalog::WriteCsv(*family, parts),
+          {{"Content-Disposition", "attachment; filename=\"" + *family + ".csv\""}},
+          {}};
+}
+
+namespace {
+
+std::optional<Reply> RefuseTable(std::string_view text) {
+  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  if (lines <= kImportRowsMax) return std::nullopt;
+  return LimitReply(413, "import_rows_max", kImportRowsMax,
+                    "the table has too many rows; send it in parts");
+}
+
+}  // namespace
+
+Reply ImportParts(SharedCatalog& catalog, const Call& call) {
+  auto errors = CheckQuery(call, {"family", "dry_run"});
+  const auto family = QueryValue(call, "family");
+  if (!family) errors.push_back({"/family", "is missing; one of " + FamilyNames()});
+  const bool dry_run = ReadFlag(call, "dry_run", errors);
+  if (!errors.empty()) return ProblemReply(422, errors);
+  if (auto refused = RefuseTable(call.body)) return *refused;
+  const auto signature = SignatureOf(call);
+  if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
+  auto wrong = CheckCsv(*family, call.body);  // without the store: others may have it meanwhile
+  if (!wrong.empty()) return ProblemReply(422, wrong);
+  const auto result = catalog.WithLong([&](catalog::Store& store) {
+    return ImportCsv(store, *family, call.body, dry_run, std::get<catalog::Signature>(signature));
+  });
+  if (!result.errors.empty()) return ProblemReply(422, result.errors);
+  if (result.status == catalog::WriteStatus::kKeyReused) return KeyReused();
+  return JsonReply(200, ToJson(result, dry_run));
+}
+
+}  // namespace plenum::server

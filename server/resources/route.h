@@ -1,0 +1,39 @@
+// One row of the table of routes, and what routes work with.
+#ifndef PLENUM_SERVER_RESOURCES_ROUTE_H_
+#define PLENUM_SERVER_RESOURCES_ROUTE_H_
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "server/call/metrics.h"
+#include "server/call/protection.h"
+#include "server/call/reply.h"
+#include "server/call/shared_catalog.h"
+#include "server/jobs/jobs.h"
+
+namespace plenum::server {
+
+struct Route {
+  std::string method;
+  std::string path;  // "{id}" stands for one segment, which becomes Call::argument
+  std::string summary;
+  Access access;
+  std::function<Reply(const Call&)> answer;
+};
+
+// What the routes work with.
+struct Services {
+  SharedCatalog& catalog;
+  Jobs& designs;
+  Jobs& diagnoses;
+  Metrics& metrics;
+  JobOptions job_options;
+  catalog::JobsKept jobs_kept;
+  std::filesystem::path file;                 // the catalogue
+  std::function<void()> measure_connections;  // sets their metrics
+};
+
+}  // namespace plenum::server
+
+#endif  // PLENUM_SERVER_RESOURCES_ROUTE_H_

@@ -1,0 +1,173 @@
+#include "server/resources/routes.h"
+
+#include "api/catalogue/families.h"
+#include "api/design/evaluation.h"
+#include "api/json/json.h"
+#include "api/json/request_limits.h"
+#include "api/simulate/map.h"
+#include "api/simulate/simulation.h"
+#include "server/call/service_limits.h"
+#include "server/resources/designs_resource.h"
+#include "server/resources/diagnoses_resource.h"
+#include "server/resources/history_resource.h"
+#include "server/resources/models_resource.h"
+#include "server/resources/openapi.h"
+#include "server/resources/operation_resource.h"
+#include "server/resources/page_resource.h"
+#include "server/resources/parts_resource.h"
+
+namespace plenum::server {
+namespace {
+
+constexpr std::string_view kVariable = "{id}";
+
+Turnstile& Computing() {
+  static Turnstile turnstile(kComputingMax);
+  return turnstile;
+}
+
+template <typename F>
+Reply AnswerAtOnce(const Call& call, F&& run) {
+  const auto turn = Computing().Enter();
+  if (!turn)
+    return BusyReply("computing_max", kComputingMax, "other simulations and maps are under way", 1);
+  auto json = api::ParseJson(call.body);
+  if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
+  auto answer = run(std::get<api::Json>(json));
+  if (auto* errors = std::get_if<api::Errors>(&answer)) return ProblemReply(422, *errors);
+  return JsonReply(200, std::get<api::Json>(answer));
+}
+
+api::Json RouteTable(const std::vector<Route>& routes) {
+  api::Json table = api::Json::array();
+  for (const auto& route : routes) {
+    table.push_back({{"method", route.method}, {"path", route.path}, {"summary", route.summary}});
+  }
+  return {{"routes", std::move(table)}};
+}
+
+void AddJobRoutes(const JobsResource& jobs, std::vector<Route>& routes) {
+  const std::string one = jobs.path + "/{id}";
+  routes.push_back({"GET", jobs.path, "the " + jobs.noun + " jobs, newest first", Access::kRead,
+                    [jobs](const Call&) { return ListJobs(jobs); }});
+  routes.push_back({"GET", one, "one " + jobs.noun + " job: status, progress, result",
+                    Access::kRead, [jobs](const Call& call) { return GetJob(jobs, call); }});
+  routes.push_back({"DELETE", one, "cancels the job", Access::kWrite,
+                    [jobs](const Call& call) { return CancelJob(jobs, call); }});
+  routes.push_back({"POST", one + "/again", "does a job again that failed or was cancelled",
+                    Access::kWrite, [jobs](const Call& call) { return DoJobAgain(jobs, call); }});
+  routes.push_back({"GET", one + "/events", "progress as server-sent events", Access::kRead,
+                    [jobs](const Call& call) { return JobEvents(jobs, call); }});
+}
+
+}  // namespace
+
+std::vector<Route> Routes(const Services& services) {
+  SharedCatalog& catalog = services.catalog;
+  const auto parts = [&](Reply (*answer)(SharedCatalog&, const Call&)) {
+    return [&catalog, answer](const Call& call) { return answer(catalog, call); };
+  };
+  const JobsResource design_jobs{&services.designs, "/v1/designs", "design"};
+  const JobsResource diagnosis_jobs{&services.diagnoses, "/v1/diagnoses", "diagnosis"};
+  std::vector<Route> routes = {
+      {"POST", design_jobs.path,
+       "requirements/1 in, a job that ranks designs out; query validate_only", Access::kWrite,
+       [&catalog, design_jobs](const Call& call) {
+         return PostDesign(catalog, design_jobs, call);
+       }},
+      {"POST", diagnosis_jobs.path,
+       "measurement/1 in, a job that finds what the model lacks out; fields model, save",
+       Access::kWrite,
+       [&catalog, diagnosis_jobs](const Call& call) {
+         return PostDiagnosis(catalog, diagnosis_jobs, call);
+       }},
+      {"POST", "/v1/simulations", "simulation/1 in, response/1 out", Access::kRead,
+       [&](const Call& call) {
+         return AnswerAtOnce(call, [&](const api::Json& request) {
+           return api::RunSimulation(request, *catalog.Snapshot());
+         });
+       }},
+      {"POST", "/v1/evaluations", "evaluation/1 in: parts at settings against requirements",
+       Access::kRead,
+       [&](const Call& call) {
+         return AnswerAtOnce(call, [&](const api::Json& request) {
+           return api::RunEvaluation(request, *catalog.Snapshot(), catalog.Models());
+         });
+       }},
+      {"POST", "/v1/maps", "map/1 in, rise time, fall time and frequency over the grid out",
+       Access::kRead, [](const Call& call) { return AnswerAtOnce(call, api::RunMap); }},
+      {"GET", "/v1/parts",
+       "parts; query family, field_min, field_max, sort, facets, limit, cursor, revision",
+       Access::kRead, parts(ListParts)},
+      {"POST", "/v1/parts", "adds a part", Access::kWrite, parts(AddPart)},
+      {"GET", "/v1/parts/export", "parts of a family as CSV; query family", Access::kRead,
+       parts(ExportParts)},
+      {"POST", "/v1/parts/import", "parts of a family from CSV; query family, dry_run",
+       Access::kWrite, parts(ImportParts)},
+      {"GET", "/v1/parts/{id}", "one part, with ETag", Access::kRead, parts(GetPart)},
+      {"PUT", "/v1/parts/{id}", "replaces the part that If-Match names", Access::kWrite,
+       parts(ReplacePart)},
+      {"DELETE", "/v1/parts/{id}", "removes the part that If-Match names", Access::kWrite,
+       parts(RemovePart)},
+      {"GET", "/v1/parts/{id}/history", "changes of a part, newest first", Access::kRead,
+       parts(PartHistory)},
+      {"GET", "/v1/families", "families of parts: fields, ranges, what they mean", Access::kRead,
+       [](const Call&) { return JsonReply(200, api::RenderFamilies()); }},
+      {"GET", "/v1/revisions", "writes to the catalogue, newest first", Access::kRead,
+       parts(ListRevisions)},
+      {"GET", "/v1/revisions/{id}", "one write with its changes", Access::kRead,
+       parts(GetRevision)},
+      {"GET", "/v1/models", "saved model revisions, the newest of each name", Access::kRead,
+       parts(ListModels)},
+      {"POST", "/v1/models", "saves a model revision: its name and model/1", Access::kWrite,
+       parts(SaveModel)},
+      {"GET", "/v1/models/{id}", "all versions of a saved model revision", Access::kRead,
+       parts(GetModel)},
+      {"POST", "/v1/revisions/{id}/undo", "takes the changes of a write back", Access::kWrite,
+       parts(UndoRevision)},
+      {"GET", "/healthz", "whether the service runs", Access::kOpen,
+       [](const Call&) {
+         return JsonReply(200, {{"status", "ok"}});
+       }},
+      {"GET", "/readyz", "whether it can take work", Access::kOpen,
+       [services](const Call& call) { return GetReadiness(services, call); }},
+      {"GET", "/metrics", "what it did and holds, for Prometheus", Access::kRead,
+       [services](const Call& call) { return GetMetrics(services, call); }},
+      {"GET", "/v1/limits", "how much a request may ask for", Access::kRead,
+       [limits = RenderLimits(QuotaOf(services.job_options), services.jobs_kept)](const Call&) {
+         return JsonReply(200, {{"limits", limits}});
+       }},
+  };
+  AddJobRoutes(design_jobs, routes);
+  AddJobRoutes(diagnosis_jobs, routes);
+  routes.push_back({"GET", "/", "the web page", Access::kOpen, GetPage});
+  routes.push_back({"GET", "/assets/{id}", "a file of the web page", Access::kOpen, GetAsset});
+  routes.push_back({"GET", "/docs", "this description, for reading", Access::kOpen, GetDocs});
+  routes.push_back({"GET", "/openapi.json", "this description, OpenAPI 3.1", Access::kOpen, {}});
+  routes.push_back({"GET", "/v1", "this table", Access::kRead, {}});
+  routes.back().answer = [reply = JsonReply(200, RouteTable(routes))](const Call&) {
+    return reply;
+  };
+  (routes.end() - 2)->answer = [reply = JsonReply(200, OpenApi(routes))](const Call&) {
+    return reply;
+  };
+  return routes;
+}
+
+bool Matches(const Route& route, std::string_view path, std::string& argument) {
+  const std::string_view pattern = route.path;
+  const auto at = pattern.find(kVariable);
+  if (at == std::string_view::npos) return path == pattern;
+  const auto head = pattern.substr(0, at);
+  const auto tail = pattern.substr(at + kVariable.size());
+  if (path.size() <= head.size() + tail.size() || !path.starts_with(head) ||
+      !path.ends_with(tail)) {
+    return false;
+  }
+  const auto middle = path.substr(at, path.size() - head.size() - tail.size());
+  if (middle.find('/') != std::string_view::npos) return false;
+  argument = middle;
+  return true;
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,209 @@
+#include "api/catalogue/part_document.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+
+#include "api/catalogue/catalogue_parts.h"
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
+#include "catalog/fields/csv.h"
+#include "catalog/fields/fields.h"
+#include "tests/api/support.h"
+#include "tests/catalog/samples.h"
+#include "tests/support/places.h"
+
+namespace plenum::api {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Parts, RoundTripKeepsEveryNumberAndItsSource) {
+  for (catalog::Part part : SmallCatalogue()) {
+    part.notes = "from \"the\" shelf\n";
+    if (!part.numbers.empty()) {
+      part.numbers.begin()->second.value *= 1.0 + 1e-15;  // all digits survive
+      part.numbers.begin()->second.provenance = catalog::Provenance::kEstimated;
+    }
+    const Json text = Parse(RenderPart(part).dump());
+    const auto parsed = ParsePart(text);
+    for (const Error& error : ErrorsOf(parsed))
+      ADD_FAILURE() << part.family << error.pointer << ": " << error.detail;
+    ASSERT_TRUE(std::holds_alternative<catalog::Part>(parsed));
+    EXPECT_EQ(std::get<catalog::Part>(parsed), part) << text.dump(1);
+  }
+}
+
+// The parts that the project ships: all can be shown, given back, and used by the search.
+TEST(Parts, EverySeedPartRoundTripsAndConverts) {
+  std::vector<catalog::Part> all;
+  for (const catalog::Family& family : catalog::Families()) {
+    std::ifstream file(test::SourceDir().string() + "/catalog/data/" + std::string(family.name) +
+                       ".csv");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const catalog::CsvParts csv = catalog::ReadCsv(family.name, text);
+    ASSERT_TRUE(csv.errors.empty()) << family.name << " " << csv.errors.front().detail;
+    EXPECT_FALSE(csv.parts.empty()) << family.name;
+    for (catalog::Part part : csv.parts) {
+      part.origin = "user";
+      const auto parsed = ParsePart(Parse(RenderPart(part).dump()));
+      for (const Error& error : ErrorsOf(parsed))
+        ADD_FAILURE() << part.id << error.pointer << ": " << error.detail;
+      ASSERT_TRUE(std::holds_alternative<catalog::Part>(parsed)) << part.id;
+      EXPECT_EQ(std::get<catalog::Part>(parsed), part);
+      all.push_back(std::move(part));
+    }
+  }
+  const model::Parts parts = ToModelParts(all, {});
+  EXPECT_EQ(parts.tubing.size() + parts.fittings.size() + parts.valves.size() +
+                parts.compressors.size() + parts.batteries.size() + parts.cylinders.size() +
+                parts.co2.size() + parts.regulators.size() + parts.reservoirs.size(),
+            all.size());
+}
+
+TEST(Parts, RandomPartsWithDetailsRoundTrip) {
+  std::mt19937 random(17);
+  for (const catalog::Family& family : catalog::Families())
+    for (int i = 0; i < 20; ++i) {
+      const catalog::Part part = catalog::AnyPart(family, "p", random);
+      const auto parsed = ParsePart(Parse(RenderPart(part).dump()));
+      for (const Error& error : ErrorsOf(parsed))
+        ADD_FAILURE() << part.family << error.pointer << ": " << error.detail;
+      ASSERT_TRUE(std::holds_alternative<catalog::Part>(parsed));
+      EXPECT_EQ(std::get<catalog::Part>(parsed), part);
+    }
+}
+
+TEST(Parts, AnOfferMakesThePrice) {
+  Json valve = RenderPart(PartOf("valve"));
+  valve["price_eur"] = 1;
+  valve["offers"] = Parse(R"([{"supplier": "Shop", "price": 25, "currency": "EUR", "pack": 10}])");
+  const auto part = std::get<catalog::Part>(ParsePart(valve));
+  EXPECT_EQ(part.numbers.at("price_eur").value, 2.5);
+  EXPECT_EQ(part.numbers.at("price_eur").provenance, catalog::Provenance::kDerived);
+}
+
+TEST(Parts, DetailsThatAreMissingOrNullAreEmpty) {
+  Json valve = RenderPart(PartOf("valve"));
+  for (const char* field : {"series", "orderable", "aliases", "offers", "documents"})
+    valve[field] = nullptr;
+  const auto from_null = std::get<catalog::Part>(ParsePart(valve));
+  for (const char* field : {"series", "orderable", "aliases", "offers", "documents"})
+    valve.erase(field);
+  const auto from_none = std::get<catalog::Part>(ParsePart(valve));
+  EXPECT_EQ(from_null, from_none);
+  EXPECT_EQ(from_none.series, "");
+  EXPECT_FALSE(from_none.orderable);
+}
+
+TEST(Parts, RenderIsFlat) {
+  const Json json = RenderPart(PartOf("compressor"));
+  EXPECT_EQ(json["id"], "compressor-1");
+  EXPECT_EQ(json["family"], "compressor");
+  EXPECT_EQ(json["voltage_v"], 12.0);
+  EXPECT_EQ(json["type"], "piston");
+  EXPECT_EQ(json["curve"][1],
+            Parse(R"({"pressure_kpa_gauge": 69.0, "free_air_l_per_min": 14.2, "current_a": 8.0})"));
+  EXPECT_EQ(json["provenance"]["mass_kg"], Parse(R"({"kind": "datasheet", "source": "sheet 1"})"));
+  EXPECT_EQ(json["provenance"]["current"]["kind"], "derived");
+}
+
+TEST(Parts, APartOfAUsersOwnNeedsNeitherIdNorProvenance) {
+  Json json = RenderPart(PartOf("battery"));
+  for (const char* field : {"id", "provenance", "notes", "origin"}) json.erase(field);
+  json["manufacturer"] = "Turnigy Ltd.";
+  json["part_number"] = "T5000/3S (XT60)";
+  const auto parsed = ParsePart(json);
+  ASSERT_TRUE(std::holds_alternative<catalog::Part>(parsed));
+  const auto& part = std::get<catalog::Part>(parsed);
+  EXPECT_EQ(part.id, "turnigy-ltd-t5000-3s-xt60");
+  EXPECT_EQ(part.origin, "user");
+  EXPECT_EQ(part.numbers.at("mass_kg"),
+            (catalog::Number{0.4, catalog::Provenance::kThirdParty, "user"}));
+}
+
+TEST(Parts, WhatTheServerSetsIsIgnored) {
+  const auto parsed = ParsePart(With(RenderPart(PartOf("valve")), "/origin", "seed"));
+  EXPECT_EQ(std::get<catalog::Part>(parsed).origin, "user");
+}
+
+TEST(Parts, NameEveryFieldThatIsWrong) {
+  const Json valve = RenderPart(PartOf("valve"));
+  const struct {
+    const char* pointer;
+    Json value;
+    const char* detail;
+  } cases[] = {
+      {"/mass_kg", -1, "≥ 1e-6 and ≤ 500, not -1"},
+      {"/mass_kg", "heavy", "number"},
+      {"/channels", 0, "≥ 1"},
+      {"/function", "4/2", "3/2, 2/2 pair or proportional"},
+      {"/manufacturer", "", "1 to 200"},
+      {"/weight_kg", 1, "nearest known: "},
+      {"/notes", 5, "text"},
+      {"/provenance/mass_kg/kind", "guess",
+       "datasheet, third_party, derived, estimated or measured"},
+      {"/provenance/mass", Json::object(), "nearest known: mass_kg"},
+      {"/provenance/mass_kg/source", 3, "text"},
+      {"/provenance/mass_kg/source", std::string(5000, 'x'), "characters"},
+      {"/id", "Ventil 1", "a-z"},
+      {"/id", "custom", "made-to-measure"},
+      {"/channels", 1.5, "whole number"},
+      {"/provenance/mass_kg/uncertainty", 0, "≥ 1e-6 and ≤ 1"},
+      {"/provenance/mass_kg/uncertainty", "5 %", "number"},
+      {"/series", 5, "text of at most 200"},
+      {"/orderable", "yes", "true, false, or null"},
+      {"/aliases", Parse(R"(["a", "a"])"), "listed twice"},
+      {"/offers", Parse(R"([{"supplier": "S", "price": -1, "currency": "EUR"}])"), "≥ 0"},
+      {"/offers", Parse(R"([{"supplier": "S", "price": 1, "currency": "XYZ"}])"), "EUR"},
+      {"/offers", Parse(R"([{"supplier": "S", "price": 1, "currency": "EUR", "pack": 0}])"), "> 0"},
+      {"/offers", Parse(R"([{"supplier": "S", "price": 1, "currency": "EUR", "date": "May"}])"),
+       "like 2024"},
+      {"/offers", Parse(R"([{"supplier": "S", "price": 1, "currency": "EUR", "curency": ""}])"),
+       "nearest known: currency"},
+      {"/documents", Parse(R"([{"sha256": "abc"}])"), "64 digits"},
+      {"/documents", Parse("[{}]"), "link or a sha256"},
+  };
+  for (const auto& [pointer, value, detail] : cases) {
+    const Errors errors = ErrorsOf(ParsePart(With(valve, pointer, value)));
+    ASSERT_EQ(errors.size(), 1u) << pointer;
+    EXPECT_THAT(errors[0].pointer, testing::StartsWith(pointer));  // or an item of a list there
+    EXPECT_THAT(errors[0].detail, HasSubstr(detail));
+  }
+  EXPECT_THAT(DetailAt(ErrorsOf(ParsePart(With(valve, "/family", "valves"))), "/family"),
+              HasSubstr("valve"));
+  EXPECT_EQ(ErrorsOf(ParsePart(Without(valve, "/family"))).front().pointer, "/family");
+  EXPECT_EQ(ErrorsOf(ParsePart(Json::array())).front().pointer, "");
+}
+
+TEST(Parts, CatalogueRulesBecomePointers) {
+  Json valve = RenderPart(PartOf("valve"));
+  valve.erase("mass_kg");
+  valve["provenance"].erase("mass_kg");
+  valve.erase("port");
+  valve["provenance"].erase("port");
+  const Errors errors = ErrorsOf(ParsePart(valve));
+  EXPECT_NE(DetailAt(errors, "/mass_kg"), "");
+  EXPECT_NE(DetailAt(errors, "/port"), "");
+  EXPECT_EQ(errors.size(), 2u);
+
+  Json pump = RenderPart(PartOf("compressor"));
+  pump["curve"][2]["free_air_l_per_min"] = 20;  // rises with pressure
+  const Errors curve = ErrorsOf(ParsePart(pump));
+  ASSERT_EQ(curve.size(), 1u);
+  EXPECT_THAT(curve[0].pointer, testing::StartsWith("/curve"));
+}
+
+TEST(Parts, ProvenanceOfAMissingValueIsRefused) {
+  Json fitting = RenderPart(PartOf("fitting"));
+  fitting["provenance"]["price_eur"] = Parse(R"({"kind": "datasheet", "source": "list"})");
+  EXPECT_THAT(DetailAt(ErrorsOf(ParsePart(fitting)), "/provenance/price_eur"),
+              HasSubstr("no value of price_eur"));
+}
+
+}  // namespace
+}  // namespace plenum::api

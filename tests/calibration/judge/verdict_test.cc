@@ -1,0 +1,82 @@
+#include "calibration/judge/verdict.h"
+
+#include <gtest/gtest.h>
+
+namespace plenum::calibration {
+namespace {
+
+Leftover Noise() {
+  Leftover leftover;
+  leftover.residual.white = leftover.residual.independent_of_inputs = true;
+  leftover.residual.lack_of_fit = 1.0;
+  leftover.residual.lack_of_fit_limit = 1.1;
+  leftover.rms_pa = leftover.noise_pa = 100.0;
+  leftover.holdout_rms_pa = leftover.holdout_noise_pa = 100.0;
+  return leftover;
+}
+
+Leftover Structure(double rms_pa) {
+  Leftover leftover = Noise();
+  leftover.residual.white = false;
+  leftover.rms_pa = rms_pa;
+  return leftover;
+}
+
+TEST(Verdict, OfWhatIsLeft) {
+  EXPECT_EQ(Judge({false, true, 0, Structure(900), Noise()}), Verdict::kUndecided);
+  EXPECT_EQ(Judge({true, false, 0, Noise(), Noise()}), Verdict::kAdequate);
+  EXPECT_EQ(Judge({true, false, 0, Structure(900), Structure(900)}), Verdict::kUnexplained);
+  EXPECT_EQ(Judge({true, true, 0, Structure(900), Noise()}), Verdict::kExplained);
+  EXPECT_EQ(Judge({true, true, 2, Structure(900), Noise()}), Verdict::kTie);
+  EXPECT_EQ(Judge({true, true, 2, Structure(900), Structure(400)}), Verdict::kUnexplained);
+}
+
+TEST(Verdict, ATieMayStandBesideSmallStructure) {
+  EXPECT_TRUE(IsTieBesideStructure({true, true, 1, Structure(900), Structure(350)}));
+  EXPECT_FALSE(IsTieBesideStructure({true, true, 1, Structure(900), Structure(500)}));
+  EXPECT_FALSE(IsTieBesideStructure({true, true, 0, Structure(900), Structure(250)}));
+  Leftover unseen_off = Structure(250);
+  unseen_off.holdout_rms_pa = 200.0;
+  EXPECT_FALSE(IsTieBesideStructure({true, true, 1, Structure(900), unseen_off}));
+}
+
+TEST(Verdict, ASetThatOnlyImitatesIsNotNamed) {
+  Evidence evidence{true, true, 0, Structure(900), Noise()};
+  evidence.imitated = true;
+  EXPECT_EQ(Judge(evidence), Verdict::kUnexplained);
+  evidence.imitated = false;
+  evidence.after.priors_hold = false;
+  EXPECT_EQ(Judge(evidence), Verdict::kUnexplained);
+  Evidence tie{true, true, 1, Structure(900), Structure(250)};
+  tie.after.priors_hold = false;
+  EXPECT_FALSE(IsTieBesideStructure(tie));
+}
+
+TEST(Verdict, WhatATermCouldLearnIsNoNoise) {
+  Leftover learnable = Noise();
+  learnable.learnable_bic = 40.0;
+  EXPECT_EQ(Judge({true, false, 0, learnable, learnable}), Verdict::kUnexplained);
+  learnable.rms_pa = 110.0;  // of 900: not small beside the noise
+  EXPECT_EQ(Judge({true, true, 0, Structure(900), learnable}), Verdict::kUnexplained);
+}
+
+TEST(Verdict, RunsNotSeenMayNotBeOff) {
+  Leftover after = Noise();
+  after.holdout_rms_pa = 200.0;
+  EXPECT_EQ(Judge({true, true, 0, Structure(900), after}), Verdict::kUnexplained);
+  after.holdout_spread_pa = 60.0;  // of one number, which may be two or three deviations off
+  EXPECT_EQ(Judge({true, true, 0, Structure(900), after}), Verdict::kExplained);
+  after.holdout_rms_pa = 300.0;
+  EXPECT_EQ(Judge({true, true, 0, Structure(900), after}), Verdict::kUnexplained);
+  after.holdout_rms_pa.reset();
+  EXPECT_EQ(Judge({true, true, 0, Structure(900), after}), Verdict::kExplained);
+}
+
+TEST(Verdict, UnexplainedFractionIsOfTheVarianceAboveTheNoise) {
+  EXPECT_EQ(UnexplainedFraction(Structure(900), Noise()), 0.0);
+  EXPECT_NEAR(UnexplainedFraction(Structure(900), Structure(500)), 24.0 / 80.0, 1e-12);
+  EXPECT_EQ(UnexplainedFraction(Structure(500), Structure(900)), 1.0);
+}
+
+}  // namespace
+}  // namespace plenum::calibration

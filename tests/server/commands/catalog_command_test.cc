@@ -1,0 +1,134 @@
+// `plenum catalog` beyond reading and writing single parts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "api/catalogue/stores.h"
+#include "api/json/json.h"
+#include "tests/server/workbench.h"
+
+namespace plenum::server {
+namespace {
+
+using api::Json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+Json Document(const std::string& text) {
+  auto parsed = api::ParseJson(text);
+  return std::holds_alternative<Json>(parsed) ? std::get<Json>(parsed) : Json();
+}
+
+TEST(CatalogCommand, ShowsHistoryAndTakesChangesBack) {
+  const Workbench bench;
+  ASSERT_EQ(bench.Run("catalog add -", NewFitting("f").dump()).status, 0);
+  const Json writes = Document(bench.Run("catalog history --json").out)["revisions"];
+  EXPECT_EQ(writes[0]["what"], "add f");
+  EXPECT_NE(writes[0]["who"], "");
+  const std::string added = writes[0]["number"].dump();
+  ASSERT_EQ(bench.Run("catalog remove f").status, 0);
+  EXPECT_EQ(bench.Run("catalog show f").status, 2);
+  EXPECT_EQ(Document(bench.Run("catalog show f --json --revision " + added).out)["mass_kg"], 0.003);
+  EXPECT_THAT(bench.Run("catalog show f --revision 999").err, HasSubstr("no revision 999"));
+  EXPECT_THAT(bench.Run("catalog history f").out, HasSubstr("the part was removed"));
+  EXPECT_EQ(Document(bench.Run("catalog history f --json").out)["history"].size(), 2u);
+  EXPECT_EQ(bench.Run("catalog history never").status, 2);
+
+  const auto too_early = bench.Run("catalog undo " + added);
+  EXPECT_EQ(too_early.status, 2);
+  EXPECT_THAT(too_early.err, HasSubstr("f was changed since"));
+  const std::string removed = std::to_string(std::stoi(added) + 1);
+  EXPECT_THAT(bench.Run("catalog undo " + removed).out, StartsWith("undone as revision"));
+  EXPECT_EQ(bench.Run("catalog show f").status, 0);
+  EXPECT_EQ(bench.Run("catalog undo 999").status, 2);
+  const Json then = Document(bench.Run("catalog list fitting --json --revision " + added).out);
+  EXPECT_EQ(then["catalogue_revision"]["hash"], writes[0]["hash"]);
+}
+
+TEST(CatalogCommand, ChecksTheJobsBesideTheCatalogue) {
+  const Workbench bench;
+  const std::string jobs = std::string(bench.catalog()) + "-jobs";
+  EXPECT_EQ(bench.Run("catalog check").status, 0);  // there are none
+  {
+    catalog::JobStore store(jobs, {});
+    catalog::JobOrder order;
+    order.kind = "design";
+    order.request = std::string(100'000, 'x');
+    order.hash = std::string(64, '0');
+    store.Add("a", order);
+    const auto held = bench.Run("catalog check");
+    EXPECT_EQ(held.status, 0);
+    EXPECT_THAT(held.err, HasSubstr("a service holds it"));
+  }
+  const auto sound = bench.Run("catalog check");
+  EXPECT_EQ(sound.status, 0) << sound.err;
+  EXPECT_EQ(sound.err, "");
+  // Pages of the tree that holds the request become noise.
+  std::string bytes = ReadAll(jobs);
+  ASSERT_GT(bytes.size(), 30'000u);
+  std::fill(bytes.begin() + 8192, bytes.begin() + 24'000, '\xA5');
+  std::ofstream(jobs, std::ios::binary).write(bytes.data(), std::ssize(bytes));
+  const auto damaged = bench.Run("catalog check");
+  EXPECT_EQ(damaged.status, 2);
+  EXPECT_THAT(damaged.err, HasSubstr("-jobs"));
+}
+
+TEST(CatalogCommand, ListsWhatIsAskedForInOrder) {
+  const Workbench bench;
+  const Json json = Document(
+      bench
+          .Run("catalog list valve --where mass_kg_max=0.05 --where port=M5 --sort=-mass_kg --json")
+          .out);
+  ASSERT_GT(json["parts"].size(), 1u);
+  double last = 0.05;
+  for (const Json& part : json["parts"]) {
+    EXPECT_EQ(part["port"], "M5");
+    EXPECT_LE(part["mass_kg"], last);
+    last = part["mass_kg"];
+  }
+  EXPECT_THAT(bench.Run("catalog list --where mass=1").err, HasSubstr("nearest known"));
+  EXPECT_EQ(bench.Run("catalog list --where mass_kg").status, 2);
+  EXPECT_EQ(bench.Run("catalog list --where limit=3").status, 2);
+}
+
+TEST(CatalogCommand, BacksUpAndRestores) {
+  const Workbench bench;
+  ASSERT_EQ(bench.Run("catalog backup copy.db").status, 0);
+  const auto exported = bench.Run("catalog export fitting").out;
+  ASSERT_EQ(bench.Run("catalog add -", NewFitting("f").dump()).status, 0);
+  EXPECT_NE(bench.Run("catalog export fitting").out, exported);
+  ASSERT_EQ(bench.Run("catalog restore copy.db").status, 0);
+  EXPECT_EQ(bench.Run("catalog export fitting").out, exported);
+  bench.Write("bad.db", ReadAll(bench.Path("copy.db")).substr(0, 400'000));
+  const auto refused = bench.Run("catalog restore bad.db");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, StartsWith("bad.db"));
+  EXPECT_EQ(bench.Run("catalog export fitting").out, exported);
+  ASSERT_EQ(bench.Run("catalog restore copy.db --catalog fresh.db").status, 0);
+  EXPECT_EQ(bench.Run("catalog export fitting --catalog fresh.db").out, exported);
+}
+
+TEST(CatalogCommand, CheckPointsOutOddNumbersAndGaps) {
+  const Workbench bench;
+  auto heavy = NewFitting("heavy");
+  heavy["mass_kg"] = 300;
+  ASSERT_EQ(bench.Run("catalog add -", heavy.dump()).status, 0);
+  const auto check = bench.Run("catalog check --json");
+  EXPECT_EQ(check.status, 0);
+  const Json json = Document(check.out);
+  EXPECT_EQ(json["faults"], Json::array());
+  int found = 0;
+  for (const Json& outlier : json["outliers"])
+    found += outlier["id"] == "heavy" && outlier["field"] == "mass_kg";
+  EXPECT_EQ(found, 1);
+  bool gap = false;
+  for (const Json& field : json["gaps"])
+    gap |= field["family"] == "fitting" && field["field"] == "price_eur";
+  EXPECT_TRUE(gap);
+  EXPECT_THAT(bench.Run("catalog check").out, HasSubstr("worth a second look"));
+}
+
+}  // namespace
+}  // namespace plenum::server

@@ -1,0 +1,248 @@
+// Parts of a design, whether they fit, and what they weigh, take and cost.
+#include <set>
+
+#include "model/physics/storage.h"
+#include "verify/design/verify_design.h"
+#include "verify/design/verify_families.h"
+
+namespace plenum::verify {
+namespace {
+
+std::string Row(const Choice& choice) { return std::string(Name(choice.family)) + " " + choice.id; }
+
+// The part of a row; none where the problem has no such part.
+std::optional<ProofItem> ItemOf(const Problem& problem, const Choice& choice) {
+  if (choice.id == "custom" && MadeToMeasureAllowed(problem, choice.family))
+    return ProofItem{-2, 1};
+  const int part = FindPart(problem.parts, choice.family, choice.id);
+  if (part < 0) return std::nullopt;
+  return ProofItem{part, choice.group < 0 ? static_cast<int>(choice.quantity) : 1};
+}
+
+// Pieces that a row of a group must have: metres of tube, fittings, valves with their channels.
+double LineQuantity(const ActuatorGroup& group, const Choice& choice, const LineParts& line) {
+  if (choice.family == Family::kTubing) return group.count * group.tube_length_m;
+  if (choice.family == Family::kFitting) return group.count * group.fittings_per_line;
+  return std::ceil(static_cast<double>(group.count) / line.valve->channels);
+}
+
+bool IsSourceQuantity(const Problem& problem, const Choice& choice, const ProofItem& item) {
+  return item.quantity == choice.quantity && item.quantity >= 1 &&
+         item.quantity <= QuantityMax(problem, choice.family);
+}
+
+bool Whole(const Problem& problem, const Assembly& a) {
+  for (std::size_t g = 0; g < a.lines.size(); ++g)
+    if (!a.lines[g].tube || !a.lines[g].valve ||
+        (problem.groups[g].fittings_per_line > 0) != (a.lines[g].fitting != nullptr))
+      return false;
+  const Configuration c = a.configuration;
+  const bool pump = c == Configuration::kCompressor;
+  return (a.regulator != nullptr) == !pump && (a.compressor != nullptr) == pump &&
+         (a.reservoirs > 0) == pump && (a.battery != nullptr) == (c != Configuration::kMains) &&
+         (a.cylinder != nullptr) == (c == Configuration::kCylinder) &&
+         (a.co2 != nullptr) == (c == Configuration::kCo2);
+}
+
+// The part's numbers behind a row; gas on board comes on top of the mass.
+struct Expected {
+  double mass_kg = 0.0, volume_m3 = 0.0;
+  std::optional<double> cost_eur;
+};
+
+Expected Times(double quantity, const model::PartBasics& basics, double gas_kg = 0.0) {
+  Expected expected{quantity * (basics.mass_kg + gas_kg), quantity * basics.body_volume_m3, {}};
+  if (basics.cost_eur) expected.cost_eur = quantity * *basics.cost_eur;
+  return expected;
+}
+
+Expected Made(const Problem& problem, double reservoir_m3) {
+  const double rating_pa = std::min(problem.source_pressure_max_pa - problem.ambient.pressure_pa,
+                                    model::kMadeReservoirPressureMaxGaugePa);
+  const model::MadeReservoir made = model::MakeReservoir(reservoir_m3, rating_pa);
+  return {made.mass_kg, made.body_volume_m3, {}};
+}
+
+Expected Filled(const Problem& problem, int quantity, const model::Cylinder& cylinder) {
+  return Times(quantity, cylinder.basics,
+               model::CylinderCharge(cylinder.water_volume_m3, cylinder.fill_pressure_pa,
+                                     problem.ambient.temperature_k));
+}
+
+Expected ExpectedRow(const Problem& problem, const Design& design, const Choice& choice) {
+  const int part = ItemOf(problem, choice)->part;
+  if (part < 0) return Made(problem, design.settings.reservoir_volume_m3.value_or(0.0));
+  double gas_kg = 0.0;
+  if (choice.family == Family::kCylinder)
+    return Filled(problem, static_cast<int>(choice.quantity), problem.parts.cylinders[part]);
+  if (choice.family == Family::kCo2) gas_kg = problem.parts.co2[part].co2_mass_kg;
+  return Times(choice.quantity, BasicsOf(problem.parts, choice.family, part), gas_kg);
+}
+
+bool SameCost(const std::optional<double>& a, const std::optional<double>& b) {
+  return a.has_value() == b.has_value() && (!a || Near(*a, *b, kSumTolerance));
+}
+
+}  // namespace
+
+double ObjectiveOf(const Problem& problem, const Totals& totals) {
+  const Objective& weight = problem.objective;
+  return weight.mass_kg * totals.mass_kg + weight.volume_l * totals.volume_m3 * 1e3 +
+         weight.cost_eur * totals.cost_eur.value_or(0.0) +
+         weight.energy_wh * totals.energy_j / 3600.0;
+}
+
+Totals TotalsOf(const Problem& problem, const Assembly& a, double reservoir_m3) {
+  Totals totals;
+  totals.cost_eur = 0.0;
+  const auto add = [&](const Expected& part) {
+    totals.mass_kg += part.mass_kg;
+    totals.volume_m3 += part.volume_m3;
+    if (totals.cost_eur && part.cost_eur)
+      *totals.cost_eur += *part.cost_eur;
+    else
+      totals.cost_eur.reset();
+  };
+  for (std::size_t g = 0; g < a.lines.size(); ++g) {
+    const ActuatorGroup& group = problem.groups[g];
+    const LineParts& line = a.lines[g];
+    add(Times(group.count * group.tube_length_m, line.tube->per_metre));
+    if (line.fitting) add(Times(group.count * group.fittings_per_line, line.fitting->basics));
+    add(Times(std::ceil(static_cast<double>(group.count) / line.valve->channels),
+              line.valve->basics));
+  }
+  if (a.regulator) add(Times(1, a.regulator->basics));
+  if (a.cylinder) add(Filled(problem, a.bottles, *a.cylinder));
+  if (a.co2) add(Times(a.bottles, a.co2->basics, a.co2->co2_mass_kg));
+  if (a.compressor) add(Times(a.compressors, a.compressor->basics));
+  if (a.battery) add(Times(a.batteries, a.battery->basics));
+  if (a.reservoir)
+    add(Times(a.reservoirs, a.reservoir->basics));
+  else if (a.compressor)
+    add(Made(problem, reservoir_m3));
+  return totals;
+}
+
+bool Fit(const model::Tubing& tube, const model::Fitting& fitting) {
+  return std::abs(tube.outer_diameter_m - fitting.tube_outer_diameter_m) <= 0.05e-3;
+}
+
+bool Fit(const model::Fitting& fitting, const model::Valve& valve) {
+  return fitting.thread == valve.port;
+}
+
+bool Fit(const Problem& problem, const Assembly& source) {
+  if (source.compressor)
+    return model::VoltageMatches(source.battery->nominal_voltage_v,
+                                 source.compressor->curve.voltage_v);
+  const model::Regulator& regulator = *source.regulator;
+  // A cylinder may be fuller than the regulator needs; other supplies have one pressure.
+  if (source.cylinder) return source.cylinder->fill_pressure_pa <= regulator.inlet_pressure_max_pa;
+  const double inlet_pa = source.co2 ? model::Co2SaturationPressure(problem.ambient.temperature_k)
+                                     : problem.mains_pressure_pa;
+  return regulator.inlet_pressure_min_pa <= inlet_pa && inlet_pa <= regulator.inlet_pressure_max_pa;
+}
+
+void Place(const Problem& problem, Family family, int group, const ProofItem& item, Assembly& a) {
+  const model::Parts& parts = problem.parts;
+  const auto put = [&](const auto& of_family, auto& place) {
+    if (item.part >= 0) place = &of_family[item.part];
+  };
+  switch (family) {
+    case Family::kTubing:
+      return put(parts.tubing, a.lines[group].tube);
+    case Family::kFitting:
+      return put(parts.fittings, a.lines[group].fitting);
+    case Family::kValve:
+      return put(parts.valves, a.lines[group].valve);
+    case Family::kRegulator:
+      return put(parts.regulators, a.regulator);
+    case Family::kCylinder:
+      a.bottles = item.quantity;
+      return put(parts.cylinders, a.cylinder);
+    case Family::kCo2:
+      a.bottles = item.quantity;
+      return put(parts.co2, a.co2);
+    case Family::kCompressor:
+      a.compressors = item.quantity;
+      return put(parts.compressors, a.compressor);
+    case Family::kBattery:
+      a.batteries = item.quantity;
+      return put(parts.batteries, a.battery);
+    case Family::kReservoir:
+      a.reservoirs = item.quantity;
+      return put(parts.reservoirs, a.reservoir);
+  }
+}
+
+std::optional<Assembly> Assemble(const Problem& problem, const Design& design, Findings& findings) {
+  Assembly assembly;
+  assembly.configuration = design.configuration;
+  assembly.lines.resize(problem.groups.size());
+  const std::size_t before = findings.size();
+  if (!problem.configurations.contains(design.configuration))
+    findings.push_back(
+        {"parts", std::string(Name(design.configuration)) + " is not a requested configuration"});
+  std::set<std::pair<Family, int>> placed;
+  for (const Choice& choice : design.parts) {
+    const bool in_line = choice.group >= 0;
+    const auto item = ItemOf(problem, choice);
+    bool allowed = item && SpecOf(choice.family).in_line == in_line &&
+                   placed.insert({choice.family, choice.group}).second;
+    if (allowed) {
+      Place(problem, choice.family, choice.group, *item, assembly);
+      allowed = in_line ? Near(choice.quantity,
+                               LineQuantity(problem.groups[choice.group], choice,
+                                            assembly.lines[choice.group]),
+                               kSumTolerance)
+                        : IsSourceQuantity(problem, choice, *item);
+    }
+    if (allowed) continue;
+    findings.push_back(
+        {"parts",
+         Row(choice) + (in_line ? " of group " + problem.groups[choice.group].name +
+                                      " is not an allowed part in the number it needs"
+                                : " is not an allowed part of the source in this number")});
+  }
+  if (findings.size() == before && !Whole(problem, assembly))
+    findings.push_back({"parts", std::string("the list of parts of a ") +
+                                     Name(design.configuration) + " design is not complete"});
+  if (findings.size() != before) return std::nullopt;
+  return assembly;
+}
+
+void CheckAmounts(const Problem& problem, const Design& design, const Assembly& assembly,
+                  Findings& findings) {
+  for (const LineParts& line : assembly.lines)
+    if (line.fitting && (!Fit(*line.tube, *line.fitting) || !Fit(*line.fitting, *line.valve)))
+      findings.push_back(
+          {"parts", "fitting " + line.fitting->basics.id + " does not fit its tube " + "or valve"});
+  if (!Fit(problem, assembly)) findings.push_back({"parts", "parts of the source do not fit"});
+  Totals sum;
+  double cost_eur = 0.0;
+  bool priced = true;
+  for (const Choice& choice : design.parts) {
+    const Expected row = ExpectedRow(problem, design, choice);
+    if (!Near(choice.mass_kg, row.mass_kg, kSumTolerance) ||
+        !Near(choice.volume_m3, row.volume_m3, kSumTolerance) ||
+        !SameCost(choice.cost_eur, row.cost_eur))
+      findings.push_back({"amounts", Row(choice) + ": mass, volume or cost is not the part's"});
+    sum.mass_kg += row.mass_kg;
+    sum.volume_m3 += row.volume_m3;
+    cost_eur += row.cost_eur.value_or(0.0);
+    priced = priced && row.cost_eur.has_value();
+  }
+  if (priced) sum.cost_eur = cost_eur;
+  const Totals& totals = design.totals;
+  if (!Near(totals.mass_kg, sum.mass_kg, kSumTolerance) ||
+      !Near(totals.volume_m3, sum.volume_m3, kSumTolerance) ||
+      !SameCost(totals.cost_eur, sum.cost_eur))
+    findings.push_back({"amounts", "totals are not the sums of the parts"});
+  const double objective = ObjectiveOf(problem, totals);
+  if (!Near(design.objective, objective, kSumTolerance))
+    findings.push_back({"amounts", "the objective is not that of the totals"});
+  if ((problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur)) && !totals.cost_eur)
+    findings.push_back({"amounts", "a part without a price where cost matters"});
+}
+
+}  // namespace plenum::verify

@@ -1,0 +1,57 @@
+// One cycle of a design's periodic state. Internal to verify*.cc.
+#ifndef PLENUM_VERIFY_DESIGN_VERIFY_CYCLE_H_
+#define PLENUM_VERIFY_DESIGN_VERIFY_CYCLE_H_
+
+#include <optional>
+#include <vector>
+
+#include "model/flow/flow_table.h"
+#include "model/flow/series.h"
+#include "model/simulate/simulate.h"
+#include "verify/design/verify_design.h"
+#include "verify/design/verify_values.h"
+
+namespace plenum::verify {
+
+struct Cycle {
+  std::vector<double> rise_s, inflate_s, fall_s;  // per group; +∞: never reached
+  double air_m3 = 0.0;                            // ANR, by the contents at rest and full
+  double pump_on_s = 0.0, pump_j = 0.0, pump_air_m3 = 0.0;
+  double coil_w = 0.0;                       // all on at once, with the regulator
+  double steady_j = 0.0, inflating_j = 0.0;  // coils and regulator; of it what strokes shorten
+  double electric_j() const { return steady_j + inflating_j; }
+};
+
+// By the simulator, from the first cycle until the source repeats. None where it does not get
+// there.
+std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& settings,
+                                   const Assembly& assembly);
+
+// The same at many settings: by one quadrature or integration for each group, where groups do not
+// meet on the source; else by the simulator, too. Air that pumps add to actuators that stay open to
+// the reservoir is pumped at the stop pressure, the most that it can take.
+class QuickCycles {
+ public:
+  QuickCycles(const Problem& problem, const Assembly& assembly);
+
+  // `rising_m3`: the reservoir's volume while its pressure rises, where it is to bound those of an
+  // interval of volumes (model/strokes/reservoir_stroke.h).
+  std::optional<Cycle> At(const Settings& settings, double rising_m3) const;
+
+ private:
+  // Until the source is as it was before the stroke.
+  double FillFromRegulator(const Settings& settings, int group, Cycle& cycle) const;
+  double FillFromReservoir(const Settings& settings, double rising_m3, int group,
+                           Cycle& cycle) const;
+
+  const Problem& problem_;
+  const Assembly& assembly_;
+  std::vector<model::GroupRig> rigs_;
+  std::vector<model::Series> fills_;  // with the regulator's share
+  std::vector<model::FlowTable> fill_tables_;
+  std::vector<double> fall_s_;
+};
+
+}  // namespace plenum::verify
+
+#endif  // PLENUM_VERIFY_DESIGN_VERIFY_CYCLE_H_

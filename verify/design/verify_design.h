@@ -1,0 +1,61 @@
+// One listed design, put together again from the raw parts. Internal to verify*.cc.
+//
+// verify_assemble.cc: its parts and amounts. verify_performance.cc: against a simulation.
+#ifndef PLENUM_VERIFY_DESIGN_VERIFY_DESIGN_H_
+#define PLENUM_VERIFY_DESIGN_VERIFY_DESIGN_H_
+
+#include <optional>
+#include <vector>
+
+#include "verify/design/verify_finding.h"
+#include "verify/design/verify_values.h"
+
+namespace plenum::verify {
+
+struct LineParts {
+  const model::Tubing* tube = nullptr;
+  const model::Fitting* fitting = nullptr;  // null: the group needs none
+  const model::Valve* valve = nullptr;
+  bool operator==(const LineParts&) const = default;
+};
+
+struct Assembly {
+  Configuration configuration = Configuration::kMains;
+  std::vector<LineParts> lines;  // per group
+  const model::Regulator* regulator = nullptr;
+  const model::Cylinder* cylinder = nullptr;
+  const model::Co2Bottle* co2 = nullptr;
+  const model::Compressor* compressor = nullptr;
+  const model::Battery* battery = nullptr;
+  const model::Reservoir* reservoir = nullptr;  // null with a compressor: made to measure
+  int bottles = 0, compressors = 0, batteries = 0, reservoirs = 0;
+};
+
+// Puts a choice of a family into its place. ProofItem::part as there: −1 and −2 leave it empty.
+void Place(const Problem& problem, Family family, int group, const ProofItem& item,
+           Assembly& assembly);
+
+// The parts of a design; none after a finding (unknown part, wrong number, missing family).
+std::optional<Assembly> Assemble(const Problem& problem, const Design& design, Findings& findings);
+
+// Parts that do not fit together, rows and totals that are not those of the parts.
+void CheckAmounts(const Problem& problem, const Design& design, const Assembly& assembly,
+                  Findings& findings);
+
+// Strokes, air, energy, duties and margins against a simulation of the periodic state. False where
+// the simulator did not get there: nothing is known then.
+bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& assembly,
+                      Findings& findings);
+
+// Sums over all pieces, without energy; a made-to-measure reservoir has the given volume.
+Totals TotalsOf(const Problem& problem, const Assembly& assembly, double reservoir_m3);
+double ObjectiveOf(const Problem& problem, const Totals& totals);
+
+// Which parts fit together.
+bool Fit(const model::Tubing& tube, const model::Fitting& fitting);
+bool Fit(const model::Fitting& fitting, const model::Valve& valve);
+bool Fit(const Problem& problem, const Assembly& source);  // regulator and bottle, pump and pack
+
+}  // namespace plenum::verify
+
+#endif  // PLENUM_VERIFY_DESIGN_VERIFY_DESIGN_H_

@@ -1,0 +1,57 @@
+// Cycles of parts that are asked for again and again. Internal to verify*.cc.
+#ifndef PLENUM_VERIFY_DESIGN_VERIFY_KNOWN_CYCLES_H_
+#define PLENUM_VERIFY_DESIGN_VERIFY_KNOWN_CYCLES_H_
+
+#include <array>
+#include <map>
+#include <optional>
+
+#include "verify/design/verify_cycle.h"
+#include "verify/design/verify_pump_curve.h"
+#include "verify/design/verify_values.h"
+
+namespace plenum::verify {
+
+// QuickCycles that remembers. Strokes are the same beside any battery and any number of bottles.
+class KnownCycles {
+ public:
+  KnownCycles(const Problem& problem, const Assembly& assembly)
+      : problem_(problem), assembly_(assembly), quick_(problem, assembly_) {}
+  KnownCycles(const KnownCycles&) = delete;
+  KnownCycles& operator=(const KnownCycles&) = delete;
+
+  bool Serves(const Assembly& other) const {
+    return other.configuration == assembly_.configuration && other.lines == assembly_.lines &&
+           other.regulator == assembly_.regulator && other.co2 == assembly_.co2 &&
+           other.compressor == assembly_.compressor && other.compressors == assembly_.compressors;
+  }
+
+  // By energy per air, or by power where groups take turns (verify_size.h); of all the pressures
+  // up to the source's.
+  double PumpHeld(double high_pa) {
+    const auto [entry, fresh] = held_.try_emplace(high_pa);
+    if (!fresh) return entry->second;
+    const model::CompressorCurve& curve = assembly_.compressor->curve;
+    const bool together = problem_.simultaneous || problem_.groups.size() == 1;
+    return entry->second = (together ? EnergyPerAirHeld : PowerHeld)(
+               curve, problem_.ambient.pressure_pa, high_pa);
+  }
+
+  const std::optional<Cycle>& At(const Settings& settings, double rising_m3) {
+    const auto [entry, fresh] = known_.try_emplace(
+        {settings.source_pressure_pa, settings.reservoir_volume_m3.value_or(0.0), rising_m3});
+    if (fresh) entry->second = quick_.At(settings, rising_m3);
+    return entry->second;
+  }
+
+ private:
+  const Problem& problem_;
+  const Assembly assembly_;
+  const QuickCycles quick_;
+  std::map<std::array<double, 3>, std::optional<Cycle>> known_;
+  std::map<double, double> held_;
+};
+
+}  // namespace plenum::verify
+
+#endif  // PLENUM_VERIFY_DESIGN_VERIFY_KNOWN_CYCLES_H_

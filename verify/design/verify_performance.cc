@@ -1,0 +1,125 @@
+// Strokes, air, energy and margins of a listed design against a simulation of its periodic state.
+#include "verify/design/verify_cycle.h"
+#include "verify/design/verify_supply.h"
+
+namespace plenum::verify {
+namespace {
+
+std::string Numbers(const std::string& what, double claimed, double found) {
+  return what + " is given as " + std::to_string(claimed) + ", found " + std::to_string(found);
+}
+
+void CheckMargins(const std::map<std::string, Reached>& requirements, const Design& design,
+                  bool held_air, Findings& findings) {
+  std::map<std::string, const Margin*> given;
+  for (const Margin& margin : design.margins) given[margin.requirement] = &margin;
+  if (given.size() != design.margins.size() || given.size() != requirements.size())
+    findings.push_back({"margins", "there must be one margin for each requirement"});
+  for (const auto& [pointer, reached] : requirements) {
+    if (reached.margin() < -reached.tolerance)
+      findings.push_back({"supply", pointer + " is not met: " + std::to_string(reached.achieved) +
+                                        " for " + std::to_string(reached.required)});
+    const auto found = given.find(pointer);
+    if (found == given.end()) {
+      findings.push_back({"margins", pointer + " has no margin"});
+      continue;
+    }
+    const Margin& claimed = *found->second;
+    const double claimed_margin = reached.at_most ? 1.0 - claimed.achieved / claimed.required
+                                                  : claimed.achieved / claimed.required - 1.0;
+    // Air that a pump adds while a valve that cannot hold stands open is counted by its most.
+    const bool cautious =
+        held_air && pointer.starts_with("/duty") && claimed.achieved <= reached.achieved;
+    if (!Near(claimed.required, reached.required, kSumTolerance) ||
+        (!Near(claimed.achieved, reached.achieved, reached.tolerance) && !cautious))
+      findings.push_back({"margins", Numbers(pointer, claimed.achieved, reached.achieved)});
+    else if (std::abs(claimed.relative_margin - claimed_margin) > kSumTolerance)
+      findings.push_back({"margins", pointer + ": the margin is not that of its two numbers"});
+  }
+}
+
+// Close to equal pressures the simulator follows a straight line instead of the flow law, which
+// delays the end of a stroke whose source is hardly above the operating pressure. There the
+// quadratures count.
+constexpr double kHardlyAbove = 1.0 + 1e-6;
+
+std::optional<Cycle> CycleOf(const Problem& problem, const Design& design,
+                             const Assembly& assembly) {
+  std::optional<Cycle> cycle = SimulateCycle(problem, design.settings, assembly);
+  const bool hardly_above =
+      std::any_of(problem.groups.begin(), problem.groups.end(), [&](const ActuatorGroup& group) {
+        return design.settings.source_pressure_pa <
+               kHardlyAbove * group.chamber.operating_pressure_pa;
+      });
+  if (!cycle || !hardly_above) return cycle;
+  const std::optional<Cycle> quick =
+      QuickCycles(problem, assembly)
+          .At(design.settings, design.settings.reservoir_volume_m3.value_or(0.0));
+  if (!quick) return std::nullopt;
+  cycle->rise_s = quick->rise_s;
+  cycle->inflate_s = quick->inflate_s;
+  cycle->inflating_j = quick->inflating_j;
+  return cycle;
+}
+
+}  // namespace
+
+bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& assembly,
+                      Findings& findings) {
+  const Pressures stood = StoodPressures(problem, assembly);
+  const double source_pa = design.settings.source_pressure_pa;
+  if (source_pa < stood.low_pa * (1.0 - kSumTolerance) ||
+      source_pa > stood.high_pa * (1.0 + kSumTolerance))
+    findings.push_back({"supply", "the source pressure is outside what the parts stand"});
+  if (assembly.reservoir &&
+      !Near(design.settings.reservoir_volume_m3.value_or(0.0),
+            assembly.reservoirs * assembly.reservoir->volume_m3, kSumTolerance))
+    findings.push_back({"supply", "the reservoir's volume is not that of the part"});
+  const std::optional<Cycle> cycle = CycleOf(problem, design, assembly);
+  if (!cycle) return false;
+
+  bool held_air = false;  // pumped into actuators that stay open to the reservoir
+  const Performance& claimed = design.performance;
+  const auto expect = [&](const std::string& what, double given, double found, double tolerance) {
+    if (!Near(given, found, tolerance))
+      findings.push_back({"strokes", Numbers(what, given, found)});
+  };
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    const std::string name = problem.groups[g].name + ": ";
+    const GroupPerformance& group = claimed.groups[g];
+    held_air |= assembly.compressor && !model::Holds(assembly.lines[g].valve->kind);
+    expect(name + "rise_time_s", group.rise_time_s, cycle->rise_s[g], kTimeTolerance);
+    expect(name + "fall_time_s", group.fall_time_s, cycle->fall_s[g], kTimeTolerance);
+    expect(name + "inflate_time_s", group.inflate_time_s, cycle->inflate_s[g], kTimeTolerance);
+    expect(name + "frequency_hz_max", group.frequency_max_hz,
+           1.0 / (cycle->rise_s[g] + cycle->fall_s[g]), kTimeTolerance);
+    expect(name + "valve_duty", design.settings.valve_duty[g],
+           cycle->inflate_s[g] * problem.frequency_hz, kTimeTolerance);
+    if (cycle->inflate_s[g] > 0.5 / problem.frequency_hz * (1.0 + kTimeTolerance) ||
+        cycle->fall_s[g] > 0.5 / problem.frequency_hz * (1.0 + kTimeTolerance))
+      findings.push_back({"strokes", name + "a stroke takes longer than half of the period"});
+  }
+  const Supply supply = SupplyOf(problem, design.settings, assembly, *cycle);
+  int actuators = 0;
+  for (const ActuatorGroup& group : problem.groups) actuators += group.count;
+  expect("air_per_actuation", claimed.air_per_actuation_m3, cycle->air_m3 / actuators,
+         kTimeTolerance);
+  expect("air_total", claimed.air_total_m3,
+         problem.actuations * cycle->air_m3 + supply.first_fill_m3, kTimeTolerance);
+  expect("run_time_s", claimed.run_time_s, problem.actuations / problem.frequency_hz,
+         kSumTolerance);
+  const double energy_j = EnergyOf(problem, supply, *cycle);
+  if (!(held_air && design.totals.energy_j >= energy_j))
+    expect("energy", design.totals.energy_j, energy_j, kEnergyTolerance);
+  if (assembly.compressor && !held_air)
+    expect("compressor_duty", design.settings.compressor_duty.value_or(0.0),
+           cycle->pump_on_s * problem.frequency_hz, kEnergyTolerance);
+  if (assembly.battery && supply.current_a > assembly.batteries * assembly.battery->current_max_a *
+                                                 (1.0 + kEnergyTolerance))
+    findings.push_back({"supply", "the batteries do not give the current"});
+  CheckMargins(Requirements(problem, design.settings, design.totals, assembly, *cycle, supply),
+               design, held_air, findings);
+  return true;
+}
+
+}  // namespace plenum::verify

@@ -1,0 +1,293 @@
+#include "verify/design/verify_size.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "model/physics/storage.h"
+#include "verify/design/verify_supply.h"
+
+namespace plenum::verify {
+namespace {
+
+constexpr double kPressureTolerance = 1e-9;  // relative
+// For an interval of volumes pressures are told apart as finely as this share of its width: beyond
+// that it is the volumes that want to be divided.
+constexpr double kPressureShare = 0.1, kFinest = 1e-9, kCoarsest = 1e-2;
+constexpr double kGap = 2e-7;  // of the objective
+constexpr int kLooksMax = 2000, kVolumesMax = 2000;
+constexpr double kFirstStep = 1e-4, kStepGrowth = 8.0;  // of the source pressure
+constexpr int kFirstVolumes = 12;
+constexpr double kNarrow = 1.01;  // ratio of volumes
+
+// Volumes of the reservoir: the smallest counts while its pressure rises and for all that it takes,
+// the largest while it falls.
+struct Volumes {
+  double low_m3 = 0.0, high_m3 = 0.0;
+};
+
+struct Look {
+  double source_pa = 0.0;
+  Cycle cycle;
+  double least_pump_j = 0.0;  // of any of the volumes at this or a higher pressure
+};
+
+class PressureSizing {
+ public:
+  // Below `floor_pa` strokes are known to be too slow.
+  PressureSizing(const Problem& problem, const Assembly& assembly, KnownCycles& cycles,
+                 Volumes volumes, double slack, double floor_pa = 0.0)
+      : problem_(problem),
+        assembly_(assembly),
+        cycles_(cycles),
+        volumes_(volumes),
+        slack_(slack),
+        totals_(TotalsOf(problem, assembly, volumes.low_m3)),
+        stood_(StoodPressures(problem, assembly)) {
+    stood_.low_pa = std::max(stood_.low_pa, floor_pa);
+    if (volumes.high_m3 > volumes.low_m3)
+      resolution_ =
+          std::clamp(kPressureShare * (volumes.high_m3 / volumes.low_m3 - 1.0), kFinest, kCoarsest);
+    if (assembly.compressor) held_ = cycles.PumpHeld(stood_.high_pa);
+  }
+
+  // Known after Run: no lower source pressure is fast enough.
+  double floor_pa() const { return floor_pa_; }
+
+  Sizing Run(double enough) {
+    Sizing sizing;
+    sizing.status = Sized::kInfeasible;
+    sizing.lower_bound = kUnlimited;
+    if (!(stood_.low_pa <= stood_.high_pa)) return sizing;
+    const auto fastest = cycles_.At(SettingsAt(stood_.high_pa, volumes_.high_m3), volumes_.low_m3);
+    if (!fastest) return {};
+    if (StrokeExcess(*fastest) > slack_) return sizing;
+    const std::optional<double> lowest_pa = FastEnough();
+    if (!lowest_pa) return {};
+    floor_pa_ = *lowest_pa;
+    const auto highest = At(stood_.high_pa), lowest = At(*lowest_pa);
+    if (!highest || !lowest) return {};
+    Open(*lowest, *highest);
+    Offer(*lowest, sizing);
+    if (problem_.objective.energy_wh > 0.0) Offer(*highest, sizing);
+    while (!open_.empty() && open_.top().bound < sizing.objective * (1.0 - kGap)) {
+      if (open_.top().bound > enough || looks_ > kLooksMax || open_.top().width() < resolution_) {
+        sizing.status = Sized::kUnknown;
+        break;
+      }
+      const Interval interval = open_.top();
+      open_.pop();
+      const auto middle = At(0.5 * (interval.low.source_pa + interval.high.source_pa));
+      if (!middle) return {};
+      Open(interval.low, *middle);
+      Open(*middle, interval.high);
+      Offer(*middle, sizing);
+    }
+    if (!open_.empty()) sizing.lower_bound = open_.top().bound;
+    sizing.lower_bound = std::min(sizing.lower_bound, sizing.objective);
+    if (std::isfinite(sizing.objective)) sizing.status = Sized::kFeasible;
+    return sizing;
+  }
+
+ private:
+  struct Interval {
+    Look low, high;
+    double bound;
+    // Lowest bound on top; of equal ones the narrowest, which tells soonest whether any is left.
+    bool operator<(const Interval& other) const {
+      return bound != other.bound ? bound > other.bound : width() > other.width();
+    }
+    double width() const { return high.source_pa / low.source_pa - 1.0; }
+  };
+
+  Settings SettingsAt(double source_pa, double volume_m3) const {
+    Settings settings;
+    settings.source_pressure_pa = source_pa;
+    if (assembly_.compressor) settings.reservoir_volume_m3 = volume_m3;
+    return settings;
+  }
+
+  std::optional<Look> At(double source_pa) {
+    ++looks_;
+    std::optional<Cycle> cycle =
+        cycles_.At(SettingsAt(source_pa, volumes_.high_m3), volumes_.low_m3);
+    if (!cycle) return std::nullopt;
+    const double pump_j = held_ * cycle->pump_j;
+    if (!(volumes_.high_m3 > volumes_.low_m3)) return Look{source_pa, std::move(*cycle), pump_j};
+    const auto low = cycles_.At(SettingsAt(source_pa, volumes_.low_m3), volumes_.high_m3);
+    if (!low) return std::nullopt;
+    return Look{source_pa, std::move(*cycle), LeastPumpEnergy(source_pa, *low)};
+  }
+
+  // With the smallest volume while the reservoir falls and the largest while it rises its pressure
+  // is at every time below that of each volume, and the pumps deliver no less. Where energy per air
+  // rises with pressure the air of a cycle thus takes at least what the cheapest bits of that run
+  // take; what it pumps beyond takes at most the greatest power at the least delivery. Where it
+  // falls on the way the same holds for the largest curve below it that does rise, of which the run
+  // takes at least the share `held_`.
+  double LeastPumpEnergy(double source_pa, const Cycle& low) const {
+    // One group that is filled up to the stop pressure ends there without end, and takes its air.
+    const bool alone = problem_.groups.size() == 1;
+    if (!alone && !std::isfinite(*std::max_element(low.inflate_s.begin(), low.inflate_s.end())))
+      return 0.0;
+    const model::CompressorCurve& curve = assembly_.compressor->curve;
+    const double beyond_m3 = alone ? low.pump_air_m3 - low.air_m3
+                                   : (1.0 - volumes_.low_m3 / volumes_.high_m3) * low.pump_air_m3;
+    if (!(beyond_m3 > 0.0)) return held_ * low.pump_j;
+    const double delivery =
+        curve.free_air_m3_per_s(std::min(source_pa, model::HighestPressure(curve)));
+    const double power_w =
+        curve.voltage_v * model::LargestCurrent(curve, problem_.ambient.pressure_pa, source_pa);
+    return std::max(0.0, held_ * low.pump_j - beyond_m3 * power_w / delivery);
+  }
+
+  double StrokeExcess(const Cycle& cycle) const {
+    double excess = -kUnlimited;
+    const double half_s = 0.5 / problem_.frequency_hz;
+    for (std::size_t g = 0; g < problem_.groups.size(); ++g)
+      excess = std::max({excess, cycle.inflate_s[g] / half_s - 1.0,
+                         cycle.rise_s[g] / problem_.groups[g].rise_time_max_s - 1.0,
+                         cycle.fall_s[g] / half_s - 1.0,
+                         cycle.fall_s[g] / problem_.groups[g].fall_time_max_s - 1.0});
+    return excess;
+  }
+
+  // The lowest source pressure at which strokes are fast enough; for an interval of volumes one a
+  // little below. It is often a little above the floor.
+  std::optional<double> FastEnough() {
+    bool known = true;
+    const auto too_slow = [&](double source_pa) {
+      ++looks_;
+      const auto cycle = cycles_.At(SettingsAt(source_pa, volumes_.high_m3), volumes_.low_m3);
+      known = known && cycle;
+      return !cycle || StrokeExcess(*cycle) > slack_;
+    };
+    double slow_pa = stood_.low_pa, fast_pa = stood_.high_pa;
+    if (!too_slow(slow_pa)) return slow_pa;
+    const double tolerance = resolution_ > 0.0 ? resolution_ : kPressureTolerance;
+    for (double step = kFirstStep; known && stood_.low_pa * (1.0 + step) < fast_pa;
+         step *= kStepGrowth) {
+      const double next_pa = stood_.low_pa * (1.0 + step);
+      (too_slow(next_pa) ? slow_pa : fast_pa) = next_pa;
+    }
+    while (known && fast_pa - slow_pa > tolerance * fast_pa) {
+      const double middle_pa = 0.5 * (slow_pa + fast_pa);
+      (too_slow(middle_pa) ? slow_pa : fast_pa) = middle_pa;
+    }
+    if (!known) return std::nullopt;
+    return resolution_ > 0.0 ? slow_pa : fast_pa;
+  }
+
+  // Largest share by which the cycle misses a requirement, and the objective.
+  std::pair<double, double> Judge(double source_pa, const Cycle& cycle) const {
+    const Settings settings = SettingsAt(source_pa, volumes_.low_m3);
+    const Supply supply = SupplyOf(problem_, settings, assembly_, cycle);
+    double excess = StrokeExcess(cycle);
+    for (const auto& [pointer, reached] :
+         Requirements(problem_, settings, totals_, assembly_, cycle, supply))
+      excess = std::max(excess, -reached.margin());
+    if (assembly_.battery)
+      excess = std::max(
+          excess,
+          supply.current_a / (assembly_.batteries * assembly_.battery->current_max_a) - 1.0);
+    Totals totals = totals_;
+    totals.energy_j = EnergyOf(problem_, supply, cycle);
+    return {excess, ObjectiveOf(problem_, totals)};
+  }
+
+  void Offer(const Look& look, Sizing& sizing) {
+    if (volumes_.high_m3 > volumes_.low_m3) return;  // no reservoir has several volumes
+    const auto [excess, objective] = Judge(look.source_pa, look.cycle);
+    if (excess <= slack_) sizing.objective = std::min(sizing.objective, objective);
+  }
+
+  void Open(const Look& low, const Look& high) {
+    Cycle least = low.cycle;
+    least.inflate_s = high.cycle.inflate_s;
+    least.rise_s = high.cycle.rise_s;
+    least.inflating_j = std::min(least.inflating_j, high.cycle.inflating_j);
+    least.pump_j = low.least_pump_j;
+    const auto [excess, objective] = Judge(low.source_pa, least);
+    if (excess <= slack_) open_.push({low, high, objective});
+  }
+
+  const Problem& problem_;
+  const Assembly& assembly_;
+  KnownCycles& cycles_;
+  Volumes volumes_;
+  double slack_;
+  Totals totals_;
+  Pressures stood_;
+  double floor_pa_ = 0.0;
+  double resolution_ = 0.0;  // of pressures, relative; 0 where there is one volume
+  double held_ = 1.0;        // of the pump's energy per air, or of its power, on the way up
+  int looks_ = 0;
+  std::priority_queue<Interval> open_;
+};
+
+// A made-to-measure reservoir: intervals of volumes, the one with the lowest bound first.
+Sizing SizeMade(const Problem& problem, const Assembly& assembly, KnownCycles& cycles, double slack,
+                double enough) {
+  struct Interval {
+    Volumes volumes;
+    double bound;
+    double floor_pa;
+    bool looked_at;
+    bool operator<(const Interval& other) const { return bound > other.bound; }
+  };
+  std::priority_queue<Interval> open;
+  const auto add = [&](double low_m3, double high_m3, double bound, double floor_pa) {
+    const double parts = ObjectiveOf(problem, TotalsOf(problem, assembly, low_m3));
+    open.push({{low_m3, high_m3}, std::max(bound, parts), floor_pa, false});
+  };
+  const double ratio = std::pow(model::kMadeReservoirLargestM3 / model::kMadeReservoirSmallestM3,
+                                1.0 / kFirstVolumes);
+  double low_m3 = model::kMadeReservoirSmallestM3;
+  for (int i = 0; i < kFirstVolumes; ++i, low_m3 *= ratio) add(low_m3, low_m3 * ratio, 0.0, 0.0);
+  Sizing best;
+  for (int i = 0; !open.empty() && open.top().bound < best.objective * (1.0 - kGap); ++i) {
+    if (open.top().bound > enough || i > kVolumesMax) break;
+    Interval interval = open.top();
+    open.pop();
+    const Volumes& v = interval.volumes;
+    if (!interval.looked_at) {
+      PressureSizing pressures(problem, assembly, cycles, v, slack, interval.floor_pa);
+      const Sizing all = pressures.Run(enough);
+      if (all.status == Sized::kInfeasible) continue;
+      interval.bound = std::max(interval.bound, all.lower_bound);
+      interval.floor_pa = pressures.floor_pa();
+      interval.looked_at = true;
+      open.push(interval);
+      continue;
+    }
+    // A point that is no better than `enough` is of no use, and few of a wide interval are found.
+    if (v.high_m3 < kNarrow * v.low_m3 &&
+        ObjectiveOf(problem, TotalsOf(problem, assembly, v.high_m3)) <= enough)
+      best.objective =
+          std::min(best.objective, PressureSizing(problem, assembly, cycles, {v.high_m3, v.high_m3},
+                                                  slack, interval.floor_pa)
+                                       .Run(best.objective)
+                                       .objective);
+    const double middle_m3 = std::sqrt(v.low_m3 * v.high_m3);
+    add(v.low_m3, middle_m3, interval.bound, interval.floor_pa);
+    add(middle_m3, v.high_m3, interval.bound, interval.floor_pa);
+  }
+  best.lower_bound = open.empty() ? best.objective : std::min(best.objective, open.top().bound);
+  best.status = std::isfinite(best.objective) ? Sized::kFeasible
+                : open.empty()                ? Sized::kInfeasible
+                                              : Sized::kUnknown;
+  return best;
+}
+
+}  // namespace
+
+Sizing Sizer::Size(const Assembly& assembly, double slack, double enough) {
+  if (!cycles_ || !cycles_->Serves(assembly)) cycles_.emplace(problem_, assembly);
+  if (assembly.compressor && !assembly.reservoir)
+    return SizeMade(problem_, assembly, *cycles_, slack, enough);
+  const double volume_m3 =
+      assembly.reservoir ? assembly.reservoirs * assembly.reservoir->volume_m3 : 0.0;
+  return PressureSizing(problem_, assembly, *cycles_, {volume_m3, volume_m3}, slack).Run(enough);
+}
+
+}  // namespace plenum::verify

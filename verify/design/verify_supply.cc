@@ -1,0 +1,113 @@
+// Pressures that parts stand, supplies, and every requirement.
+#include "verify/design/verify_supply.h"
+
+#include "model/physics/storage.h"
+
+namespace plenum::verify {
+
+Pressures StoodPressures(const Problem& problem, const Assembly& a) {
+  double low_pa = problem.ambient.pressure_pa, high_pa = problem.source_pressure_max_pa;
+  for (std::size_t g = 0; g < a.lines.size(); ++g) {
+    const LineParts& line = a.lines[g];
+    low_pa = std::max(
+        {low_pa, line.valve->pressure_min_pa, problem.groups[g].chamber.operating_pressure_pa});
+    high_pa = std::min({high_pa, line.valve->pressure_max_pa, line.tube->pressure_max_pa});
+    if (line.fitting) high_pa = std::min(high_pa, line.fitting->pressure_max_pa);
+    if (!model::Holds(line.valve->kind))
+      high_pa = std::min(high_pa, problem.groups[g].pressure_max_pa);
+  }
+  if (a.regulator) {
+    low_pa = std::max(low_pa, a.regulator->outlet_pressure_min_pa);
+    high_pa = std::min(high_pa, a.regulator->outlet_pressure_max_pa);
+  }
+  if (a.configuration == Configuration::kMains)
+    high_pa = std::min(high_pa, problem.mains_pressure_pa);
+  if (a.compressor) high_pa = std::min(high_pa, model::HighestPressure(a.compressor->curve));
+  if (a.reservoir) high_pa = std::min(high_pa, a.reservoir->pressure_max_pa);
+  if (a.compressor && !a.reservoir)
+    high_pa =
+        std::min(high_pa, problem.ambient.pressure_pa + model::kMadeReservoirPressureMaxGaugePa);
+  return {low_pa, high_pa};
+}
+
+Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly& a,
+                const Cycle& cycle) {
+  Supply supply;
+  const double temperature_k = problem.ambient.temperature_k;
+  const double source_pa = settings.source_pressure_pa;
+  const double inlet_pa =
+      a.regulator ? std::max(source_pa, a.regulator->inlet_pressure_min_pa) : 0.0;
+  double slowest_s = 0.0;
+  for (std::size_t g = 0; g < a.lines.size(); ++g)
+    slowest_s = std::max({slowest_s, cycle.inflate_s[g], cycle.fall_s[g]});
+  supply.frequency_hz = 0.5 / slowest_s;
+  if (a.cylinder)
+    supply.gas_m3 = a.bottles * model::CylinderUsableVolume(a.cylinder->water_volume_m3,
+                                                            a.cylinder->fill_pressure_pa, inlet_pa,
+                                                            temperature_k);
+  if (a.co2) {
+    supply.gas_m3 = a.bottles * model::Co2UsableVolume(a.co2->co2_mass_kg, a.co2->water_volume_m3,
+                                                       inlet_pa, temperature_k);
+    supply.frequency_hz =
+        std::min(supply.frequency_hz, a.bottles * a.co2->flow_sustained_m3_per_s / cycle.air_m3);
+  }
+  if (a.compressor) {
+    const double ambient_pa = problem.ambient.pressure_pa;
+    const double volume_m3 = settings.reservoir_volume_m3.value_or(0.0);
+    supply.first_fill_j =
+        model::EnergyToFill(a.compressor->curve, volume_m3, ambient_pa, source_pa, temperature_k);
+    supply.first_fill_m3 =
+        model::StandardVolume(volume_m3 * (source_pa - ambient_pa), temperature_k);
+    supply.current_a =
+        a.compressors * model::LargestCurrent(a.compressor->curve, ambient_pa, source_pa);
+    supply.frequency_hz = std::min(supply.frequency_hz, a.compressor->duty_max / cycle.pump_on_s);
+  }
+  if (a.battery) {
+    supply.energy_j =
+        a.batteries * model::UsableEnergy(a.battery->capacity_ah, a.battery->nominal_voltage_v);
+    supply.current_a += cycle.coil_w / a.battery->nominal_voltage_v;
+  }
+  return supply;
+}
+
+double EnergyOf(const Problem& problem, const Supply& supply, const Cycle& cycle) {
+  return supply.first_fill_j + problem.actuations * (cycle.pump_j + cycle.electric_j());
+}
+
+std::map<std::string, Reached> Requirements(const Problem& problem, const Settings& settings,
+                                            const Totals& totals, const Assembly& a,
+                                            const Cycle& cycle, const Supply& supply) {
+  std::map<std::string, Reached> all;
+  const auto at_most = [&](const std::string& pointer, double limit, double value, double tol) {
+    if (std::isfinite(limit)) all[pointer] = {limit, value, true, tol};
+  };
+  const double ambient_pa = problem.ambient.pressure_pa;
+  const auto gauge = [&](double pa) { return (pa - ambient_pa) / 1e3; };
+  const double source_pa = settings.source_pressure_pa;
+  for (std::size_t g = 0; g < a.lines.size(); ++g) {
+    const ActuatorGroup& group = problem.groups[g];
+    const std::string at = "/actuators/" + std::to_string(g) + "/";
+    at_most(at + "rise_time_s_max", group.rise_time_max_s, cycle.rise_s[g], kTimeTolerance);
+    at_most(at + "fall_time_s_max", group.fall_time_max_s, cycle.fall_s[g], kTimeTolerance);
+    at_most(at + "pressure_kpa_gauge_max", gauge(group.pressure_max_pa),
+            gauge(model::Holds(a.lines[g].valve->kind) ? group.chamber.operating_pressure_pa
+                                                       : source_pa),
+            kSumTolerance);
+  }
+  all["/duty/frequency_hz"] = {problem.frequency_hz, supply.frequency_hz, false, kEnergyTolerance};
+  const double per_cycle_j = cycle.pump_j + cycle.electric_j();
+  const double actuations = std::min(
+      supply.gas_m3 / cycle.air_m3,
+      per_cycle_j > 0.0 ? (supply.energy_j - supply.first_fill_j) / per_cycle_j : kUnlimited);
+  if (std::isfinite(actuations))
+    all["/duty/actuations"] = {problem.actuations, actuations, false, kEnergyTolerance};
+  at_most("/supply/source_pressure_kpa_gauge_max", gauge(problem.source_pressure_max_pa),
+          gauge(source_pa), kSumTolerance);
+  at_most("/supply/mass_kg_max", problem.mass_max_kg, totals.mass_kg, kSumTolerance);
+  at_most("/supply/volume_l_max", problem.volume_max_l, totals.volume_m3 * 1e3, kSumTolerance);
+  at_most("/supply/cost_eur_max", problem.cost_max_eur, totals.cost_eur.value_or(kUnlimited),
+          kSumTolerance);
+  return all;
+}
+
+}  // namespace plenum::verify

@@ -1,0 +1,51 @@
+// The values that verification shares with the search: the problem, its answer and the
+// record of the search. It shares no code.
+#ifndef PLENUM_VERIFY_DESIGN_VERIFY_VALUES_H_
+#define PLENUM_VERIFY_DESIGN_VERIFY_VALUES_H_
+
+#include "optimizer/problem/amount.h"
+#include "optimizer/problem/big_count.h"
+#include "optimizer/problem/pareto_front.h"
+#include "optimizer/problem/problem.h"
+#include "optimizer/problem/proof.h"
+#include "optimizer/problem/robust_answer.h"
+
+namespace plenum::verify {
+
+using optimizer::ActuatorGroup;
+using optimizer::Amount;
+using optimizer::Answer;
+using optimizer::BigCount;
+using optimizer::BoxKind;
+using optimizer::Choice;
+using optimizer::Configuration;
+using optimizer::Constraint;
+using optimizer::Design;
+using optimizer::DrawParts;
+using optimizer::Family;
+using optimizer::Front;
+using optimizer::GroupPerformance;
+using optimizer::kUnlimited;
+using optimizer::Limits;
+using optimizer::Margin;
+using optimizer::Objective;
+using optimizer::Performance;
+using optimizer::Problem;
+using optimizer::Proof;
+using optimizer::ProofBox;
+using optimizer::ProofDominated;
+using optimizer::ProofItem;
+using optimizer::ProofPlan;
+using optimizer::ProofRecord;
+using optimizer::ProofSlot;
+using optimizer::Pruned;
+using optimizer::RobustAnswer;
+using optimizer::RobustOptions;
+using optimizer::Searched;
+using optimizer::Settings;
+using optimizer::Status;
+using optimizer::Totals;
+
+}  // namespace plenum::verify
+
+#endif  // PLENUM_VERIFY_DESIGN_VERIFY_VALUES_H_

@@ -1,0 +1,245 @@
+#include "verify/tree/verify_brute_force.h"
+
+#include <map>
+#include <set>
+
+#include "verify/design/verify_families.h"
+#include "verify/design/verify_size.h"
+#include "verify/tree/verify_box.h"
+#include "verify/tree/verify_dominance.h"
+
+namespace plenum::verify {
+namespace {
+
+// A combination is feasible or not only if that holds with this to spare.
+constexpr double kToSpare = 1e-6;
+constexpr long long kReportEvery = 1 << 16;  // combinations
+
+// Sums of parts are exact; where settings count they are sought in two ways that agree to this.
+double ObjectiveTolerance(const Problem& problem, const Assembly& assembly) {
+  const bool made = assembly.compressor && !assembly.reservoir;
+  return problem.objective.energy_wh > 0.0 ? 1e-4 : made ? 1e-5 : kSumTolerance;
+}
+
+ProofPlan AllOf(const Problem& problem, Configuration configuration) {
+  ProofPlan plan = EmptyPlan(problem, configuration);
+  for (ProofSlot& slot : plan.slots) slot.choices = EntriesOf(problem, slot);
+  return plan;
+}
+
+class Enumeration {
+ public:
+  Enumeration(const Problem& problem, const Answer& answer, const BruteForceOptions& options,
+              Findings& findings)
+      : problem_(problem),
+        answer_(answer),
+        options_(options),
+        claim_(ClaimOf(problem, answer)),
+        findings_(findings) {
+    enough_ = std::max(claim_.least, claim_.tie_end);
+    if (!answer.designs.empty())
+      enough_ = std::max(enough_, answer.designs.back().objective * (1.0 + kTieTolerance));
+    for (std::size_t i = 0; i < answer.designs.size(); ++i)
+      listed_[{answer.designs[i].configuration, IdsOf(answer.designs[i])}] = i;
+  }
+
+  BruteForceCounts Run() {
+    for (const Configuration configuration : problem_.configurations) {
+      const ProofPlan plan = AllOf(problem_, configuration);
+      BigCount priced = 1;
+      for (const ProofSlot& slot : plan.slots) priced *= slot.choices.size();
+      counts_.unpriced += Combinations(problem_, configuration) - priced;
+      plan_ = &plan;
+      single_.assign(plan.slots.size(), {0, 0});
+      amounts_.clear();
+      for (const ProofSlot& slot : plan.slots) {
+        amounts_.emplace_back();
+        for (const ProofItem& item : slot.choices)
+          amounts_.back().push_back(ChoiceAmounts(problem_, slot, item));
+      }
+      From(0, {});
+    }
+    counts_.combinations = counts_.incompatible + counts_.unpriced + counts_.beyond +
+                           counts_.infeasible + counts_.feasible + counts_.undecided;
+    if (!counts_.cancelled) Compare();
+    return counts_;
+  }
+
+ private:
+  // Every choice of this slot and the ones behind it.
+  void From(std::size_t slot, const ItemAmounts& before) {
+    if (slot == single_.size()) {
+      Look(before);
+      return;
+    }
+    BigCount behind = 1;
+    for (std::size_t s = slot + 1; s < single_.size(); ++s)
+      behind *= plan_->slots[s].choices.size();
+    const int choices = static_cast<int>(plan_->slots[slot].choices.size());
+    for (int i = 0; i < choices && !counts_.cancelled; ++i) {
+      single_[slot] = {i, i + 1};
+      if (!FitsUpTo(slot)) {
+        counts_.incompatible += behind;
+        continue;
+      }
+      const ItemAmounts& amounts = amounts_[slot][i];
+      From(slot + 1, {before.mass_kg + amounts.mass_kg, before.volume_m3 + amounts.volume_m3,
+                      before.cost_eur + amounts.cost_eur, before.objective + amounts.objective});
+    }
+  }
+
+  const ProofItem& ItemAt(std::size_t slot) const {
+    return plan_->slots[slot].choices[single_[slot].first];
+  }
+
+  // Whether the choice of a slot fits those before it: plans have valves before fittings before
+  // tubes, regulators before bottles, compressors before batteries.
+  bool FitsUpTo(std::size_t slot) const {
+    const model::Parts& parts = problem_.parts;
+    const int part = ItemAt(slot).part;
+    Assembly source;
+    source.configuration = plan_->configuration;
+    const int group = plan_->slots[slot].group;
+    const auto part_of = [&](Family family) {
+      return ItemAt(static_cast<std::size_t>(SlotOf(*plan_, family, group))).part;
+    };
+    switch (plan_->slots[slot].family) {
+      case Family::kFitting:
+        return part < 0 || Fit(parts.fittings[part], parts.valves[part_of(Family::kValve)]);
+      case Family::kTubing: {
+        const int fitting = part_of(Family::kFitting);
+        return fitting < 0 || Fit(parts.tubing[part], parts.fittings[fitting]);
+      }
+      case Family::kRegulator:
+        if (plan_->configuration == Configuration::kCylinder) return true;  // asked with the bottle
+        source.regulator = &parts.regulators[part];
+        if (plan_->configuration == Configuration::kCo2 && !parts.co2.empty())
+          source.co2 = &parts.co2.front();
+        return Fit(problem_, source);
+      case Family::kCylinder:
+        source.regulator = &parts.regulators[part_of(Family::kRegulator)];
+        source.cylinder = &parts.cylinders[part];
+        return Fit(problem_, source);
+      case Family::kBattery:
+        if (plan_->configuration != Configuration::kCompressor) return true;
+        source.compressor = &parts.compressors[part_of(Family::kCompressor)];
+        source.battery = &parts.batteries[part];
+        return Fit(problem_, source);
+      default:
+        return true;
+    }
+  }
+
+  void Look(const ItemAmounts& sum) {
+    if (++looked_ % kReportEvery == 0) Report();
+    if (sum.objective > enough_ * (1.0 + kSumTolerance)) {
+      counts_.beyond += 1;
+      return;
+    }
+    const double slack = 1.0 + kToSpare;
+    if (sum.mass_kg > problem_.mass_max_kg * slack ||
+        sum.volume_m3 * 1e3 > problem_.volume_max_l * slack ||
+        sum.cost_eur > problem_.cost_max_eur * slack) {
+      counts_.infeasible += 1;
+      return;
+    }
+    if (++sized_ % 64 == 0) Report();
+    const Assembly assembly = AssemblyAt(problem_, *plan_, single_);
+    const Sizing surely = sizer_.Size(assembly, -kToSpare, enough_);
+    if (surely.status == Sized::kUnknown && surely.lower_bound > enough_) {
+      counts_.beyond += 1;
+      return;
+    }
+    if (surely.status == Sized::kFeasible) {
+      counts_.feasible += 1;
+      Judge(assembly, surely.objective, true);
+      return;
+    }
+    const Sizing perhaps = sizer_.Size(assembly, kToSpare, enough_);
+    (perhaps.status == Sized::kInfeasible ? counts_.infeasible : counts_.undecided) += 1;
+    if (perhaps.status == Sized::kFeasible) Judge(assembly, perhaps.objective, false);
+    if (perhaps.status == Sized::kUnknown) Judge(assembly, kUnlimited, false);
+  }
+
+  // A combination that is surely or perhaps feasible.
+  void Judge(const Assembly& assembly, double objective, bool surely) {
+    const Ids ids = EarliestIds(problem_, *plan_, single_);
+    const double tolerance = ObjectiveTolerance(problem_, assembly);
+    const auto rank = listed_.find({plan_->configuration, ids});
+    if (rank != listed_.end()) {
+      seen_.insert(rank->second);
+      const double given = answer_.designs[rank->second].objective;
+      if (std::isfinite(objective) && !Near(given, objective, tolerance))
+        Add("rank " + std::to_string(rank->second + 1) + " comes to " + std::to_string(objective) +
+            ", not " + std::to_string(given));
+      return;
+    }
+    const bool worse = objective * (1.0 + tolerance) >= claim_.least &&
+                       (objective * (1.0 + tolerance) > claim_.tie_end || ids > claim_.last);
+    if (!surely || worse) return;
+    Add("a " + std::string(Name(plan_->configuration)) + " design that is not listed comes to " +
+        std::to_string(objective) + ": " + Text(ids));
+  }
+
+  void Report() {
+    counts_.cancelled = counts_.cancelled || (options_.cancelled && options_.cancelled());
+    if (options_.progress)
+      options_.progress(counts_.incompatible + counts_.unpriced + counts_.beyond +
+                        counts_.infeasible + counts_.feasible + counts_.undecided);
+  }
+
+  void Compare() {
+    for (std::size_t i = 0; i < answer_.designs.size(); ++i)
+      if (!seen_.contains(i))
+        Add("rank " + std::to_string(i + 1) + " is no combination that meets the requirements");
+    const Proof& proof = answer_.proof;
+    const auto differ = [&](const char* what, const BigCount& given, const BigCount& counted) {
+      Add(std::string(what) + " is given as " + given.str() + ", counted " + counted.str());
+    };
+    if (proof.combinations != counts_.combinations)
+      differ("combinations", proof.combinations, counts_.combinations);
+    if (proof.pruned.unpriced != counts_.unpriced)
+      differ("unpriced", proof.pruned.unpriced, counts_.unpriced);
+    // Boxes closed as incompatible or infeasible hold nothing else.
+    if (proof.pruned.incompatible > counts_.incompatible)
+      differ("incompatible", proof.pruned.incompatible, counts_.incompatible);
+    const BigCount not_feasible = counts_.combinations - counts_.unpriced - counts_.feasible;
+    if (proof.pruned.incompatible + proof.pruned.infeasible > not_feasible)
+      differ("infeasible", proof.pruned.infeasible, not_feasible - proof.pruned.incompatible);
+    if (answer_.status == Status::kInfeasible && counts_.feasible > 0)
+      Add("infeasible, but " + counts_.feasible.str() + " combinations meet the requirements");
+  }
+
+  void Add(std::string detail) { findings_.push_back({"brute_force", std::move(detail)}); }
+
+  const Problem& problem_;
+  const Answer& answer_;
+  const BruteForceOptions& options_;
+  const Claim claim_;
+  double enough_;  // parts that come to more are beyond the list
+  Findings& findings_;
+  std::map<std::pair<Configuration, Ids>, std::size_t> listed_;
+  std::set<std::size_t> seen_;
+  const ProofPlan* plan_ = nullptr;
+  Ranges single_;
+  std::vector<std::vector<ItemAmounts>> amounts_;
+  Sizer sizer_{problem_};
+  BruteForceCounts counts_;
+  long long looked_ = 0, sized_ = 0;
+};
+
+}  // namespace
+
+BigCount CombinationsOf(const Problem& problem) {
+  BigCount sum = 0;
+  for (const Configuration configuration : problem.configurations)
+    sum += Combinations(problem, configuration);
+  return sum;
+}
+
+BruteForceCounts CheckByBruteForce(const Problem& problem, const Answer& answer,
+                                   const BruteForceOptions& options, Findings& findings) {
+  return Enumeration(problem, answer, options, findings).Run();
+}
+
+}  // namespace plenum::verify
