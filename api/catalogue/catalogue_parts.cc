@@ -6,6 +6,7 @@
 #include <string>
 
 #include "api/json/units.h"
+#include "optimizer/problem/family_specs.h"
 
 namespace plenum::api {
 namespace {
@@ -114,6 +115,28 @@ model::Reservoir Reservoir(const catalog::Part& row, const model::Ambient& ambie
           .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};
 }
 
+bool IsFlow(optimizer::Use use) {
+  return use == optimizer::Use::kFlow || use == optimizer::Use::kSharedFlow;
+}
+
+// The name of b beside that of C: sonic_conductance_fill_dm3_per_s_bar, critical_ratio_fill.
+std::string RatioName(std::string_view conductance) {
+  constexpr std::string_view kBefore = "sonic_conductance", kAfter = "_dm3_per_s_bar";
+  const std::string_view of = conductance.substr(kBefore.size());
+  return "critical_ratio" + std::string(of.substr(0, of.size() - kAfter.size()));
+}
+
+// The row of a family's table that a number of the catalogue belongs to; null: none.
+const optimizer::PartField* FieldOf(std::string_view family, std::string_view number) {
+  for (const optimizer::FamilySpec& spec : optimizer::Families()) {
+    if (family != spec.name) continue;
+    for (const optimizer::PartField& field : spec.fields)
+      if (field.name == number || (IsFlow(field.use) && RatioName(field.name) == number))
+        return &field;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 model::FlowElement ElementOf(const catalog::Part& row, const char* conductance, const char* ratio) {
@@ -143,13 +166,38 @@ model::Parts ToModelParts(const std::vector<catalog::Part>& rows, const model::A
   return parts;
 }
 
-bool IsUsedBySearch(std::string_view field) {
-  return field != "cells_series" && field != "response_time_ms";
+std::optional<std::string_view> UseInSearch(std::string_view family, std::string_view field) {
+  using optimizer::Use;
+  for (const std::string_view amount :
+       {"mass_kg", "body_volume_ml", "price_eur", "mass_kg_per_m", "price_eur_per_m"})
+    if (field == amount) return "adds up";
+  if (field == "free_air" || field == "current") return "a rule of the family";
+  const optimizer::PartField* found = FieldOf(family, field);
+  if (found == nullptr) return std::nullopt;
+  switch (found->use) {
+    case Use::kMore:
+    case Use::kFlow:
+      return "more is better";
+    case Use::kSharedFlow:
+      return "more is better, but takes air from other lines";
+    case Use::kLess:
+      return "less is better";
+    case Use::kRating:
+      return "more is better, up to what a source gives";
+    case Use::kBoth:
+      return "better for one requirement, worse for another";
+    case Use::kMate:
+      return "decides what fits";
+    case Use::kRule:
+      return "a rule of the family";
+  }
+  return std::nullopt;
 }
 
 bool IsFlowData(std::string_view family, std::string_view field) {
-  return field.starts_with("sonic_conductance") || field.starts_with("critical_ratio") ||
-         field == "free_air" || (family == "tubing" && field == "inner_diameter_mm");
+  if (field == "free_air" || (family == "tubing" && field == "inner_diameter_mm")) return true;
+  const optimizer::PartField* found = FieldOf(family, field);
+  return found != nullptr && IsFlow(found->use);
 }
 
 }  // namespace plenum::api

@@ -3,6 +3,7 @@
 #ifndef PLENUM_API_CATALOGUE_CATALOGUE_PARTS_H_
 #define PLENUM_API_CATALOGUE_CATALOGUE_PARTS_H_
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -23,9 +24,9 @@ model::ValveKind ValveKindFromFunction(std::string_view function);
 // C and b of a row, in SI; the names of the two fields differ between families.
 model::FlowElement ElementOf(const catalog::Part& row, const char* conductance, const char* ratio);
 
-// Whether a number or curve ("free_air", "current") of a family enters the search at all, as
-// opposed to being kept for the reader.
-bool IsUsedBySearch(std::string_view field);
+// What a field or curve ("free_air", "current") of a family does for the search, in words; none:
+// the search does not look at it, it is kept for the reader.
+std::optional<std::string_view> UseInSearch(std::string_view family, std::string_view field);
 // Whether it is flow data: conductances, critical ratios, a tube's bore, a pump's delivery.
 bool IsFlowData(std::string_view family, std::string_view field);
 

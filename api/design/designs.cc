@@ -14,6 +14,7 @@
 #include "api/json/json.h"
 #include "api/json/units.h"
 #include "api/json/version.h"
+#include "optimizer/problem/family_specs.h"
 #include "optimizer/problem/problem.h"
 
 namespace plenum::api {
@@ -39,7 +40,7 @@ Json Numbers(const std::vector<double>& values, auto&& convert) {
 Json OrNull(const std::optional<double>& value) { return value ? Number(*value) : Json(nullptr); }
 
 bool IsCustom(const optimizer::Choice& choice) {
-  return choice.family == optimizer::Family::kReservoir && choice.id == kCustomReservoir;
+  return choice.id == kCustomReservoir && optimizer::SpecOf(choice.family).made_to_measure;
 }
 
 Json RenderChoice(const optimizer::Choice& choice, const optimizer::Problem& problem,
@@ -117,7 +118,7 @@ struct Quality {
 
 void AddEstimates(const catalog::Part& row, double quantity, Quality& quality) {
   const auto add = [&](const std::string& field) {
-    if (!IsUsedBySearch(field)) return;
+    if (!UseInSearch(row.family, field)) return;
     quality.estimated.insert(row.family + "." + field);
     quality.flow_estimated |= IsFlowData(row.family, field);
   };

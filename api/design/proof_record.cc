@@ -5,6 +5,7 @@
 
 #include "api/design/read/selection.h"
 #include "api/json/words.h"
+#include "optimizer/problem/family_specs.h"
 
 namespace plenum::api {
 namespace {
@@ -21,37 +22,16 @@ constexpr int kNone = -1, kMade = -2;  // ProofItem::part
 constexpr std::size_t kMany = 100'000'000;
 constexpr int kConstraints = 9;
 
-std::vector<std::string> IdsOf(const model::Parts& parts, Family family) {
-  std::vector<std::string> ids;
-  const auto add = [&](const auto& list) {
-    for (const auto& part : list)
-      if constexpr (requires { part.per_metre; })
-        ids.push_back(part.per_metre.id);
-      else
-        ids.push_back(part.basics.id);
-  };
-  if (family == Family::kTubing) add(parts.tubing);
-  if (family == Family::kFitting) add(parts.fittings);
-  if (family == Family::kValve) add(parts.valves);
-  if (family == Family::kCompressor) add(parts.compressors);
-  if (family == Family::kCylinder) add(parts.cylinders);
-  if (family == Family::kCo2) add(parts.co2);
-  if (family == Family::kBattery) add(parts.batteries);
-  if (family == Family::kRegulator) add(parts.regulators);
-  if (family == Family::kReservoir) add(parts.reservoirs);
-  return ids;
-}
-
 Json RenderSlot(const ProofSlot& slot, const model::Parts& parts) {
-  const std::vector<std::string> names = IdsOf(parts, slot.family);
   Json ids = Json::array();
   std::map<int, int> places;  // of parts in `ids`
   const auto place = [&](const ProofItem& item) {
     const auto [entry, fresh] = places.try_emplace(item.part, static_cast<int>(ids.size()));
     if (fresh)
-      ids.push_back(item.part == kNone   ? Json(nullptr)
-                    : item.part == kMade ? Json(kCustomReservoir)
-                                         : Json(names[item.part]));
+      ids.push_back(item.part == kNone ? Json(nullptr)
+                    : item.part == kMade
+                        ? Json(kCustomReservoir)
+                        : Json(optimizer::BasicsOf(parts, slot.family, item.part).id));
     return entry->second;
   };
   Json choices = Json::array(), dominated = Json::array();
@@ -147,19 +127,18 @@ Enum ReadName(Reader& reader, const char* field, const std::map<std::string, Enu
 }
 
 ProofSlot ReadSlot(Reader& reader, const model::Parts& parts) {
-  static const auto kFamilies = NamesOf<Family>(
-      {Family::kTubing, Family::kFitting, Family::kValve, Family::kCompressor, Family::kCylinder,
-       Family::kCo2, Family::kBattery, Family::kRegulator, Family::kReservoir});
-  ProofSlot slot{ReadName(reader, "family", kFamilies), -1, {}, {}};
+  std::map<std::string, Family> families;
+  for (const optimizer::FamilySpec& spec : optimizer::Families()) families[spec.name] = spec.family;
+  ProofSlot slot{ReadName(reader, "family", families), -1, {}, {}};
   if (reader.Has("group")) slot.group = reader.Integer("group", 0, 1000);
   std::map<std::string, int> part_of;
-  for (const std::string& id : IdsOf(parts, slot.family))
-    part_of.emplace(id, static_cast<int>(part_of.size()));
+  for (int part = 0; part < optimizer::FamilySize(parts, slot.family); ++part)
+    part_of.emplace(optimizer::BasicsOf(parts, slot.family, part).id, part);
   std::vector<int> ids;
   for (const Element& id : reader.List("ids", 0, kMany)) {
     if (id.value->is_null()) {
       ids.push_back(kNone);
-    } else if (*id.value == kCustomReservoir && slot.family == Family::kReservoir) {
+    } else if (*id.value == kCustomReservoir && optimizer::SpecOf(slot.family).made_to_measure) {
       ids.push_back(kMade);
     } else {
       const auto found =

@@ -15,7 +15,9 @@ NumberField Ratio(std::string_view name) {
   return {name, 0, 0.95, true, "critical pressure ratio b"};
 }
 
-std::vector<Family> MakeFamilies() {
+}  // namespace
+
+std::vector<Family> OwnFamilies() {
   return {
       {"tubing",
        {{"outer_diameter_mm", 0.5, 100, true, "outer diameter"},
@@ -106,13 +108,6 @@ std::vector<Family> MakeFamilies() {
        {{"material", false, {}, "material"}, {"port", false, {}, "thread"}},
        false},
   };
-}
-
-}  // namespace
-
-std::span<const Family> Families() {
-  static const std::vector<Family> families = MakeFamilies();
-  return families;
 }
 
 const Family* FindFamily(std::string_view name) {

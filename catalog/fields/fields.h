@@ -35,7 +35,9 @@ struct Family {
   bool has_curve;
 };
 
+// In family_list.cc alone, so that a program can be linked with a list that has a further one.
 std::span<const Family> Families();
+std::vector<Family> OwnFamilies();                // what it holds in plenum
 const Family* FindFamily(std::string_view name);  // nullptr: unknown
 
 // What is wrong with a part, each with the field it concerns ("" for the whole part) and a sentence

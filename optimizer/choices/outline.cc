@@ -5,6 +5,7 @@
 #include "model/physics/storage.h"
 #include "optimizer/choices/plan.h"
 #include "optimizer/evaluate/line.h"
+#include "optimizer/problem/family_specs.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -94,9 +95,7 @@ class Sketch {
   }
 
   void AddReservoirs() {
-    const auto required = problem_.require.find(Family::kReservoir);
-    const bool made = !problem_.exclude.contains("custom") &&
-                      (required == problem_.require.end() || required->second.contains("custom"));
+    const bool made = MadeToMeasureAllowed(problem_, Family::kReservoir);
     Add(problem_.parts.reservoirs, problem_.limits.reservoirs, Pieces(), made ? 1 : 0,
         made ? Share(CustomReservoir(problem_, model::kMadeReservoirSmallestM3)) : kUnlimited);
   }

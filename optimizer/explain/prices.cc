@@ -6,6 +6,7 @@
 
 #include "optimizer/evaluate/line.h"
 #include "optimizer/explain/requirements.h"
+#include "optimizer/problem/family_specs.h"
 #include "optimizer/search/tree_search.h"
 #include "optimizer/sizing/resize.h"
 
@@ -57,49 +58,6 @@ double Carried(const Problem& problem, const Design& design, const model::PartBa
   return ObjectiveOf(problem.objective, quantity * basics);
 }
 
-model::PartBasics* BasicsIn(model::Parts& parts, Family family, const std::string& id) {
-  model::PartBasics* found = nullptr;
-  const auto look = [&](auto& of_family) {
-    for (auto& part : of_family) {
-      if constexpr (requires { part.per_metre; }) {
-        if (part.per_metre.id == id) found = &part.per_metre;
-      } else {
-        if (part.basics.id == id) found = &part.basics;
-      }
-    }
-  };
-  switch (family) {
-    case Family::kTubing:
-      look(parts.tubing);
-      break;
-    case Family::kFitting:
-      look(parts.fittings);
-      break;
-    case Family::kValve:
-      look(parts.valves);
-      break;
-    case Family::kCompressor:
-      look(parts.compressors);
-      break;
-    case Family::kCylinder:
-      look(parts.cylinders);
-      break;
-    case Family::kCo2:
-      look(parts.co2);
-      break;
-    case Family::kBattery:
-      look(parts.batteries);
-      break;
-    case Family::kRegulator:
-      look(parts.regulators);
-      break;
-    case Family::kReservoir:
-      look(parts.reservoirs);
-      break;
-  }
-  return found;
-}
-
 void Scale(model::PartBasics& basics, double factor) {
   basics.mass_kg *= factor;
   basics.body_volume_m3 *= factor;
@@ -121,9 +79,9 @@ std::optional<double> ShareToPass(const Problem& problem, const Design& design, 
 std::optional<PartFlip> FlipPart(const Problem& problem, const std::vector<Design>& designs,
                                  std::size_t rank, const Choice& choice, Budget& budget) {
   Problem changed = problem;
-  const model::PartBasics* found = BasicsIn(changed.parts, choice.family, choice.id);
-  if (found == nullptr) return std::nullopt;  // made to measure
-  const model::PartBasics basics = *found;
+  const int part = FindPart(problem.parts, choice.family, choice.id);
+  if (part < 0) return std::nullopt;  // made to measure
+  const model::PartBasics& basics = BasicsOf(problem.parts, choice.family, part);
   PartFlip flip{choice.family, choice.id, 0.0, false};
   const auto pass = [&](const Design& other) {
     const auto share = ShareToPass(problem, designs[rank], other, basics);
@@ -133,7 +91,7 @@ std::optional<PartFlip> FlipPart(const Problem& problem, const std::vector<Desig
   for (std::size_t i = 0; i < rank; ++i)
     if (!pass(designs[i])) return std::nullopt;
   for (int cut = 0; cut < kCutsMax && !budget.Out(); ++cut) {
-    model::PartBasics& scaled = *BasicsIn(changed.parts, choice.family, choice.id);
+    model::PartBasics& scaled = BasicsOf(changed.parts, choice.family, part);
     scaled = basics;
     Scale(scaled, 1.0 - flip.share);
     const Answer answer = budget.Best(changed, 0.3);

@@ -8,6 +8,7 @@
 #include "optimizer/evaluate/line.h"
 #include "optimizer/front/front_tree.h"
 #include "optimizer/front/front_walk.h"
+#include "optimizer/problem/family_specs.h"
 #include "optimizer/search/tree_search.h"
 
 namespace plenum::optimizer {
@@ -35,11 +36,9 @@ std::size_t Minimised(const std::vector<Amount>& amounts) {
 }
 
 bool MadeReservoirAllowed(const Problem& problem, const std::vector<Amount>& amounts) {
-  const auto required = problem.require.find(Family::kReservoir);
   return problem.configurations.contains(Configuration::kCompressor) && !CostMatters(problem) &&
          std::find(amounts.begin(), amounts.end(), Amount::kCost) == amounts.end() &&
-         !problem.exclude.contains("custom") &&
-         (required == problem.require.end() || required->second.contains("custom"));
+         MadeToMeasureAllowed(problem, Family::kReservoir);
 }
 
 double Resolution(const Problem& problem, const std::vector<Amount>& amounts) {

@@ -16,30 +16,6 @@ const char* Name(Configuration configuration) {
   return "";
 }
 
-const char* Name(Family family) {
-  switch (family) {
-    case Family::kTubing:
-      return "tubing";
-    case Family::kFitting:
-      return "fitting";
-    case Family::kValve:
-      return "valve";
-    case Family::kCompressor:
-      return "compressor";
-    case Family::kCylinder:
-      return "cylinder";
-    case Family::kCo2:
-      return "co2";
-    case Family::kBattery:
-      return "battery";
-    case Family::kRegulator:
-      return "regulator";
-    case Family::kReservoir:
-      return "reservoir";
-  }
-  return "";
-}
-
 const char* Name(Status status) {
   switch (status) {
     case Status::kOptimal:

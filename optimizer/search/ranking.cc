@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "optimizer/problem/family_specs.h"
+
 namespace plenum::optimizer {
 namespace {
 
@@ -11,27 +13,7 @@ namespace {
 std::string IdOf(const model::Parts& parts, Family family, int index) {
   if (index == kNone) return {};
   if (index == kCustom) return "custom";
-  switch (family) {
-    case Family::kTubing:
-      return parts.tubing[index].per_metre.id;
-    case Family::kFitting:
-      return parts.fittings[index].basics.id;
-    case Family::kValve:
-      return parts.valves[index].basics.id;
-    case Family::kCompressor:
-      return parts.compressors[index].basics.id;
-    case Family::kCylinder:
-      return parts.cylinders[index].basics.id;
-    case Family::kCo2:
-      return parts.co2[index].basics.id;
-    case Family::kBattery:
-      return parts.batteries[index].basics.id;
-    case Family::kRegulator:
-      return parts.regulators[index].basics.id;
-    case Family::kReservoir:
-      return parts.reservoirs[index].basics.id;
-  }
-  return {};
+  return BasicsOf(parts, family, index).id;
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/effect_strokes.h"
 #include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/source_options.h"
+#include "optimizer/problem/family_specs.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -15,19 +17,17 @@ namespace {
 constexpr double kConfirmTolerance = 1e-5;
 constexpr int kSamplesPerCycle = 400;
 
-template <typename Part>
-void AddChoice(Design& design, Family family, const std::vector<Part>& parts,
-               const Option& option) {
+void AddChoice(const Problem& problem, Family family, const Option& option, Design& design) {
   if (option.index < 0) return;
-  const Part& part = parts[option.index];
+  const model::PartBasics& basics = BasicsOf(problem.parts, family, option.index);
   Choice choice{family,
-                part.basics.id,
+                basics.id,
                 -1,
                 static_cast<double>(option.quantity),
                 option.amounts.mass_kg,
                 option.amounts.volume_m3,
                 std::nullopt};
-  if (part.basics.cost_eur) choice.cost_eur = option.quantity * *part.basics.cost_eur;
+  if (basics.cost_eur) choice.cost_eur = option.quantity * *basics.cost_eur;
   design.parts.push_back(choice);
 }
 
@@ -58,17 +58,10 @@ void AddLine(const Problem& problem, int g, const Line& line, Design& design) {
 
 void AddParts(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
               Design& design) {
-  const model::Parts& parts = problem.parts;
   for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g)
     AddLine(problem, g, *candidate.lines[g], design);
-  AddChoice(design, Family::kRegulator, parts.regulators, candidate.regulator);
-  if (candidate.configuration == Configuration::kCylinder)
-    AddChoice(design, Family::kCylinder, parts.cylinders, candidate.bottle);
-  if (candidate.configuration == Configuration::kCo2)
-    AddChoice(design, Family::kCo2, parts.co2, candidate.bottle);
-  AddChoice(design, Family::kCompressor, parts.compressors, candidate.compressor);
-  AddChoice(design, Family::kBattery, parts.batteries, candidate.battery);
-  AddChoice(design, Family::kReservoir, parts.reservoirs, candidate.reservoir);
+  for (const Family family : SourceFamilies(candidate.configuration))
+    AddChoice(problem, family, OptionOf(candidate, family), design);
   if (candidate.reservoir.index == kCustom) {
     const Amounts amounts = CustomReservoir(problem, point.reservoir_m3);
     design.parts.push_back(

@@ -5,7 +5,10 @@
 
 #include "model/physics/storage.h"
 #include "optimizer/choices/make_line.h"
+#include "optimizer/choices/plant/part_numbers.h"
 #include "optimizer/evaluate/relaxation.h"
+#include "optimizer/evaluate/source_options.h"
+#include "optimizer/problem/family_specs.h"
 #include "optimizer/sizing/effect_sizing.h"
 #include "optimizer/sizing/report.h"
 
@@ -35,98 +38,66 @@ const Choice* ChoiceOf(const Design& design, Family family, int group) {
   return found == design.parts.end() ? nullptr : &*found;
 }
 
-template <typename Part>
-const Part* Find(const std::vector<Part>& parts, const Choice* choice) {
-  if (choice == nullptr) return nullptr;
-  for (const Part& part : parts)
-    if (IdOf(part) == choice->id) return &part;
-  return nullptr;
+int PartOf(const model::Parts& parts, Family family, const Choice* choice) {
+  return choice == nullptr ? -1 : FindPart(parts, family, choice->id);
 }
 
 // False: a part is missing, or no source makes the line meet its limits.
 bool SetLine(const Problem& problem, const Design& design, int g, Line& line) {
+  const model::Parts& parts = problem.parts;
   const Choice* fitting_choice = ChoiceOf(design, Family::kFitting, g);
-  const model::Tubing* tube = Find(problem.parts.tubing, ChoiceOf(design, Family::kTubing, g));
-  const model::Fitting* fitting = Find(problem.parts.fittings, fitting_choice);
-  const model::Valve* valve = Find(problem.parts.valves, ChoiceOf(design, Family::kValve, g));
-  if (tube == nullptr || valve == nullptr || (fitting_choice != nullptr && fitting == nullptr))
-    return false;
+  const int tube = PartOf(parts, Family::kTubing, ChoiceOf(design, Family::kTubing, g));
+  const int fitting = PartOf(parts, Family::kFitting, fitting_choice);
+  const int valve = PartOf(parts, Family::kValve, ChoiceOf(design, Family::kValve, g));
+  if (tube < 0 || valve < 0 || (fitting_choice != nullptr && fitting < 0)) return false;
   const ActuatorGroup& group = problem.groups[g];
-  const int pieces = (group.count + valve->channels - 1) / valve->channels;
+  const int channels = parts.valves[valve].channels;
+  const int pieces = (group.count + channels - 1) / channels;
   constexpr Kinds kMate = 1;  // they do
+  const auto set = [&](Family family, int part, double bought, auto& corner) {
+    SetNumbers(PartNumbers{parts, part, static_cast<double>(group.count)}, corner);
+    corner.amounts = bought * BasicsOf(parts, family, part);
+  };
   TubeCorner tube_corner;
-  tube_corner.amounts = group.count * group.tube_length_m * tube->per_metre;
+  set(Family::kTubing, tube, group.count * group.tube_length_m, tube_corner);
   tube_corner.diameters = kMate;
-  tube_corner.inner_low_m = tube_corner.inner_high_m = tube->inner_diameter_m;
-  tube_corner.pressure_max_pa = tube->pressure_max_pa;
   FittingCorner fitting_corner;
-  fitting_corner.diameters = fitting_corner.threads = kMate;
   fitting_corner.pressure_max_pa = kUnlimited;
-  if (fitting != nullptr) {
-    fitting_corner.amounts =
-        static_cast<double>(group.count * group.fittings_per_line) * fitting->basics;
-    fitting_corner.flow = fitting->flow;
-    fitting_corner.pressure_max_pa = fitting->pressure_max_pa;
-  }
+  if (fitting >= 0)
+    set(Family::kFitting, fitting, group.count * group.fittings_per_line, fitting_corner);
+  fitting_corner.diameters = fitting_corner.threads = kMate;
   ValveCorner valve_corner;
-  valve_corner.amounts = static_cast<double>(pieces) * valve->basics;
+  set(Family::kValve, valve, pieces, valve_corner);
   valve_corner.threads = kMate;
-  valve_corner.some_hold = valve_corner.all_hold = model::Holds(valve->kind);
-  valve_corner.fill = valve->fill;
-  valve_corner.exhaust = valve->exhaust;
-  valve_corner.coil_power_w = valve->coil_power_w * group.count;
-  valve_corner.pressure_min_pa = valve->pressure_min_pa;
-  valve_corner.pressure_max_pa = valve->pressure_max_pa;
   const model::Gas gas =
       design.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
   const Constraint missed =
       MakeLine(problem, g, gas, {tube_corner, fitting_corner, valve_corner}, true, true, line);
-  line.tubing = static_cast<int>(tube - problem.parts.tubing.data());
-  line.fitting =
-      fitting == nullptr ? -1 : static_cast<int>(fitting - problem.parts.fittings.data());
-  line.valve = static_cast<int>(valve - problem.parts.valves.data());
+  line.tubing = tube;
+  line.fitting = fitting;
+  line.valve = valve;
   return missed == Constraint::kNone;
 }
 
-// False: the design has such a part and the problem does not. `charge_kg` is the gas in one piece.
-template <typename Part, typename Charge>
-bool SetOption(const Problem& problem, const Design& design, Family family,
-               const std::vector<Part>& parts, Charge&& charge_kg, Option& option) {
-  const Choice* choice = ChoiceOf(design, family, -1);
-  if (choice == nullptr) return true;
-  for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
-    if (IdOf(parts[i]) != choice->id) continue;
-    option.index = i;
-    option.quantity = static_cast<int>(choice->quantity);
-    option.amounts = choice->quantity * parts[i].basics;
-    option.amounts.mass_kg += choice->quantity * charge_kg(parts[i]);
-    option.objective = ObjectiveOf(problem.objective, option.amounts);
-    return true;
-  }
-  return false;
-}
-
+// False: the design has a part that the problem does not.
 bool SetOptions(const Problem& problem, const Design& design, Candidate& candidate) {
-  const model::Parts& parts = problem.parts;
-  const auto none = [](const auto&) { return 0.0; };
-  const auto air = [&](const model::Cylinder& cylinder) {
-    return model::CylinderCharge(cylinder.water_volume_m3, cylinder.fill_pressure_pa,
-                                 problem.ambient.temperature_k);
-  };
-  const auto co2 = [](const model::Co2Bottle& bottle) { return bottle.co2_mass_kg; };
-  const auto set = [&](Family family, const auto& of_family, const auto& charge, Option& option) {
-    return SetOption(problem, design, family, of_family, charge, option);
-  };
-  if (!set(Family::kReservoir, parts.reservoirs, none, candidate.reservoir)) {
-    if (ChoiceOf(design, Family::kReservoir, -1)->id != "custom") return false;
-    candidate.reservoir.index = kCustom;
-    candidate.reservoir.quantity = 1;
+  for (const FamilySpec& spec : Families()) {
+    const Choice* choice = spec.in_line ? nullptr : ChoiceOf(design, spec.family, -1);
+    if (choice == nullptr) continue;
+    Option& option = OptionOf(candidate, spec.family);
+    option.index = FindPart(problem.parts, spec.family, choice->id);
+    option.quantity = static_cast<int>(choice->quantity);
+    if (option.index < 0) {
+      if (!spec.made_to_measure || choice->id != "custom") return false;
+      option.index = kCustom;
+      option.quantity = 1;
+      continue;
+    }
+    option.amounts = choice->quantity * BasicsOf(problem.parts, spec.family, option.index);
+    option.amounts.mass_kg += choice->quantity * ChargeKg(problem, spec.family, option.index);
+    option.objective = ObjectiveOf(problem.objective, option.amounts);
   }
-  return set(Family::kRegulator, parts.regulators, none, candidate.regulator) &&
-         set(Family::kCylinder, parts.cylinders, air, candidate.bottle) &&
-         set(Family::kCo2, parts.co2, co2, candidate.bottle) &&
-         set(Family::kCompressor, parts.compressors, none, candidate.compressor) &&
-         set(Family::kBattery, parts.batteries, none, candidate.battery);
+  return true;
 }
 
 // A candidate with lines of its own.

@@ -10,7 +10,7 @@
 #include "catalog/fields/quantity.h"
 #include "catalog/fields/text.h"
 #include "catalog/store/part_record.h"
-#include "samples.h"
+#include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
 namespace {

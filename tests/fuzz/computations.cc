@@ -1,4 +1,4 @@
-#include "computations.h"
+#include "tests/fuzz/computations.h"
 
 #include <atomic>
 #include <memory>
@@ -15,8 +15,8 @@
 #include "catalog/fields/csv.h"
 #include "catalog/fields/fields.h"
 #include "optimizer/problem/problem.h"
-#include "targets.h"
 #include "tests/api/support.h"
+#include "tests/fuzz/targets.h"
 
 namespace plenum::fuzz {
 namespace {

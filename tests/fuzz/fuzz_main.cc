@@ -2,8 +2,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "computations.h"
-#include "targets.h"
+#include "tests/fuzz/computations.h"
+#include "tests/fuzz/targets.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   plenum::fuzz::FUZZ_TARGET({reinterpret_cast<const char*>(data), size});

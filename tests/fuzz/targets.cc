@@ -1,4 +1,4 @@
-#include "targets.h"
+#include "tests/fuzz/targets.h"
 
 #include <map>
 #include <string>

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "workbench.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 namespace {

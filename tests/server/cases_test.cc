@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "service.h"
+#include "tests/server/service.h"
 #include "tests/support/places.h"
 
 namespace plenum::server {

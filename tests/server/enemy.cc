@@ -1,4 +1,4 @@
-#include "enemy.h"
+#include "tests/server/enemy.h"
 
 #include <cmath>
 #include <functional>

@@ -1,6 +1,6 @@
 // Requests as an enemy would write them. Whatever comes, the service answers with a problem
 // document that names the place, and goes on. PLENUM_ENEMY_ROUNDS makes more of them.
-#include "enemy.h"
+#include "tests/server/enemy.h"
 
 #include <gtest/gtest.h>
 #include <httplib.h>
@@ -9,7 +9,7 @@
 #include <map>
 
 #include "api/describe/descriptions.h"
-#include "service.h"
+#include "tests/server/service.h"
 
 namespace plenum::server {
 namespace {

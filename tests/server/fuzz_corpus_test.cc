@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "../fuzz/computations.h"
-#include "../fuzz/targets.h"
+#include "tests/fuzz/computations.h"
+#include "tests/fuzz/targets.h"
+#include "tests/server/workbench.h"
 #include "tests/support/places.h"
-#include "workbench.h"
 
 namespace plenum::fuzz {
 namespace {

@@ -1,8 +1,8 @@
 // The catalogue over HTTP.
 #include <map>
 
-#include "http_client.h"
 #include "server/http.h"
+#include "tests/server/http_client.h"
 
 namespace plenum::server {
 namespace {

@@ -12,8 +12,8 @@
 #include <memory>
 #include <string>
 
-#include "service.h"
-#include "workbench.h"
+#include "tests/server/service.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 

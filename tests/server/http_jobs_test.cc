@@ -2,8 +2,8 @@
 #include <thread>
 
 #include "catalog/store/store.h"
-#include "http_client.h"
 #include "server/http.h"
+#include "tests/server/http_client.h"
 
 namespace plenum::server {
 namespace {

@@ -4,8 +4,8 @@
 #include <csignal>
 #include <memory>
 
-#include "http_client.h"
 #include "server/call/protection.h"
+#include "tests/server/http_client.h"
 
 namespace plenum::server {
 namespace {

@@ -19,7 +19,7 @@
 
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
-#include "workbench.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 namespace {

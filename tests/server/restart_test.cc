@@ -11,7 +11,7 @@
 #include "api/catalogue/part_document.h"
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
-#include "workbench.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 namespace {

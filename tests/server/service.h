@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "server/http.h"
-#include "workbench.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 

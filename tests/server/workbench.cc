@@ -1,4 +1,4 @@
-#include "workbench.h"
+#include "tests/server/workbench.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>

@@ -117,8 +117,9 @@ std::optional<optimizer::Ranges> PlaceOf(const Problem& problem, const ProofPlan
       optimizer::Ranges one(plan.slots.size(), {0, 1});
       one[s] = {i, i + 1};
       const auto* basics =
-          choices[i].part < 0 ? nullptr
-                              : optimizer::BasicsOf(problem, plan.slots[s].family, choices[i].part);
+          choices[i].part < 0
+              ? nullptr
+              : &optimizer::BasicsOf(problem.parts, plan.slots[s].family, choices[i].part);
       if (choices[i].part == -1) found = i;
       for (const auto& [id, quantity] : key) {
         const bool same = basics ? basics->id == id : choices[i].part == -2 && id == "custom";

@@ -1,73 +1,34 @@
 // Parts of a design, whether they fit, and what they weigh, take and cost.
-#include <map>
+#include <set>
 
 #include "model/physics/storage.h"
 #include "verify/design/verify_design.h"
+#include "verify/design/verify_families.h"
 
 namespace plenum::verify {
 namespace {
 
-const model::PartBasics& BasicsOf(const model::Tubing& tube) { return tube.per_metre; }
-const model::PartBasics& BasicsOf(const auto& part) { return part.basics; }
-
-template <typename Part>
-const Part* Find(const std::vector<Part>& parts, const std::string& id) {
-  for (const Part& part : parts)
-    if (BasicsOf(part).id == id) return &part;
-  return nullptr;
-}
-
 std::string Row(const Choice& choice) { return std::string(Name(choice.family)) + " " + choice.id; }
 
-void PlaceInLine(const Problem& problem, const Choice& choice, LineParts& line) {
-  const model::Parts& parts = problem.parts;
-  if (choice.family == Family::kTubing && !line.tube) line.tube = Find(parts.tubing, choice.id);
-  if (choice.family == Family::kFitting && !line.fitting)
-    line.fitting = Find(parts.fittings, choice.id);
-  if (choice.family == Family::kValve && !line.valve) line.valve = Find(parts.valves, choice.id);
+// The part of a row; none where the problem has no such part.
+std::optional<ProofItem> ItemOf(const Problem& problem, const Choice& choice) {
+  if (choice.id == "custom" && MadeToMeasureAllowed(problem, choice.family))
+    return ProofItem{-2, 1};
+  const int part = FindPart(problem.parts, choice.family, choice.id);
+  if (part < 0) return std::nullopt;
+  return ProofItem{part, choice.group < 0 ? static_cast<int>(choice.quantity) : 1};
 }
 
 // Pieces that a row of a group must have: metres of tube, fittings, valves with their channels.
 double LineQuantity(const ActuatorGroup& group, const Choice& choice, const LineParts& line) {
   if (choice.family == Family::kTubing) return group.count * group.tube_length_m;
   if (choice.family == Family::kFitting) return group.count * group.fittings_per_line;
-  return line.valve ? std::ceil(static_cast<double>(group.count) / line.valve->channels) : 0.0;
+  return std::ceil(static_cast<double>(group.count) / line.valve->channels);
 }
 
-// Where a row of the source goes, and the most pieces there.
-bool PlaceInSource(const Problem& problem, const Choice& choice, Assembly& assembly) {
-  const model::Parts& parts = problem.parts;
-  const Limits& limits = problem.limits;
-  const auto place = [&](const auto& family, auto& part, int& quantity, int most) {
-    if (part || quantity > 0) return false;
-    part = Find(family, choice.id);
-    quantity = static_cast<int>(choice.quantity);
-    return part && quantity == choice.quantity && quantity >= 1 && quantity <= most;
-  };
-  int one = 0;
-  switch (choice.family) {
-    case Family::kRegulator:
-      return place(parts.regulators, assembly.regulator, one, 1);
-    case Family::kCylinder:
-      return place(parts.cylinders, assembly.cylinder, assembly.bottles, limits.cylinders);
-    case Family::kCo2:
-      return place(parts.co2, assembly.co2, assembly.bottles, limits.co2);
-    case Family::kCompressor:
-      return place(parts.compressors, assembly.compressor, assembly.compressors,
-                   limits.compressors);
-    case Family::kBattery:
-      return place(parts.batteries, assembly.battery, assembly.batteries, limits.batteries);
-    case Family::kReservoir:
-      if (choice.id == "custom" && choice.quantity == 1 && assembly.reservoirs == 0) {
-        assembly.reservoirs = 1;
-        const auto required = problem.require.find(Family::kReservoir);
-        return !problem.exclude.contains("custom") &&
-               (required == problem.require.end() || required->second.contains("custom"));
-      }
-      return place(parts.reservoirs, assembly.reservoir, assembly.reservoirs, limits.reservoirs);
-    default:
-      return false;
-  }
+bool IsSourceQuantity(const Problem& problem, const Choice& choice, const ProofItem& item) {
+  return item.quantity == choice.quantity && item.quantity >= 1 &&
+         item.quantity <= QuantityMax(problem, choice.family);
 }
 
 bool Whole(const Problem& problem, const Assembly& a) {
@@ -108,31 +69,14 @@ Expected Filled(const Problem& problem, int quantity, const model::Cylinder& cyl
                                      problem.ambient.temperature_k));
 }
 
-Expected ExpectedRow(const Problem& problem, const Design& design, const Assembly& a,
-                     const Choice& choice) {
-  const double n = choice.quantity;
-  switch (choice.family) {
-    case Family::kTubing:
-      return Times(n, a.lines[choice.group].tube->per_metre);
-    case Family::kFitting:
-      return Times(n, a.lines[choice.group].fitting->basics);
-    case Family::kValve:
-      return Times(n, a.lines[choice.group].valve->basics);
-    case Family::kRegulator:
-      return Times(n, a.regulator->basics);
-    case Family::kCylinder:
-      return Filled(problem, a.bottles, *a.cylinder);
-    case Family::kCo2:
-      return Times(n, a.co2->basics, a.co2->co2_mass_kg);
-    case Family::kCompressor:
-      return Times(n, a.compressor->basics);
-    case Family::kBattery:
-      return Times(n, a.battery->basics);
-    case Family::kReservoir:
-      break;
-  }
-  if (a.reservoir) return Times(n, a.reservoir->basics);
-  return Made(problem, design.settings.reservoir_volume_m3.value_or(0.0));
+Expected ExpectedRow(const Problem& problem, const Design& design, const Choice& choice) {
+  const int part = ItemOf(problem, choice)->part;
+  if (part < 0) return Made(problem, design.settings.reservoir_volume_m3.value_or(0.0));
+  double gas_kg = 0.0;
+  if (choice.family == Family::kCylinder)
+    return Filled(problem, static_cast<int>(choice.quantity), problem.parts.cylinders[part]);
+  if (choice.family == Family::kCo2) gas_kg = problem.parts.co2[part].co2_mass_kg;
+  return Times(choice.quantity, BasicsOf(problem.parts, choice.family, part), gas_kg);
 }
 
 bool SameCost(const std::optional<double>& a, const std::optional<double>& b) {
@@ -199,6 +143,38 @@ bool Fit(const Problem& problem, const Assembly& source) {
   return regulator.inlet_pressure_min_pa <= inlet_pa && inlet_pa <= regulator.inlet_pressure_max_pa;
 }
 
+void Place(const Problem& problem, Family family, int group, const ProofItem& item, Assembly& a) {
+  const model::Parts& parts = problem.parts;
+  const auto put = [&](const auto& of_family, auto& place) {
+    if (item.part >= 0) place = &of_family[item.part];
+  };
+  switch (family) {
+    case Family::kTubing:
+      return put(parts.tubing, a.lines[group].tube);
+    case Family::kFitting:
+      return put(parts.fittings, a.lines[group].fitting);
+    case Family::kValve:
+      return put(parts.valves, a.lines[group].valve);
+    case Family::kRegulator:
+      return put(parts.regulators, a.regulator);
+    case Family::kCylinder:
+      a.bottles = item.quantity;
+      return put(parts.cylinders, a.cylinder);
+    case Family::kCo2:
+      a.bottles = item.quantity;
+      return put(parts.co2, a.co2);
+    case Family::kCompressor:
+      a.compressors = item.quantity;
+      return put(parts.compressors, a.compressor);
+    case Family::kBattery:
+      a.batteries = item.quantity;
+      return put(parts.batteries, a.battery);
+    case Family::kReservoir:
+      a.reservoirs = item.quantity;
+      return put(parts.reservoirs, a.reservoir);
+  }
+}
+
 std::optional<Assembly> Assemble(const Problem& problem, const Design& design, Findings& findings) {
   Assembly assembly;
   assembly.configuration = design.configuration;
@@ -207,21 +183,26 @@ std::optional<Assembly> Assemble(const Problem& problem, const Design& design, F
   if (!problem.configurations.contains(design.configuration))
     findings.push_back(
         {"parts", std::string(Name(design.configuration)) + " is not a requested configuration"});
+  std::set<std::pair<Family, int>> placed;
   for (const Choice& choice : design.parts) {
-    if (choice.group >= 0) {
-      const ActuatorGroup& group = problem.groups[choice.group];
-      LineParts& line = assembly.lines[choice.group];
-      const LineParts earlier = line;
-      PlaceInLine(problem, choice, line);
-      const bool placed = earlier.tube != line.tube || earlier.fitting != line.fitting ||
-                          earlier.valve != line.valve;
-      if (!placed || !Near(choice.quantity, LineQuantity(group, choice, line), kSumTolerance))
-        findings.push_back({"parts", Row(choice) + " of group " + group.name +
-                                         " is not an allowed part in the number it needs"});
-    } else if (!PlaceInSource(problem, choice, assembly)) {
-      findings.push_back(
-          {"parts", Row(choice) + " is not an allowed part of the source in this number"});
+    const bool in_line = choice.group >= 0;
+    const auto item = ItemOf(problem, choice);
+    bool allowed = item && SpecOf(choice.family).in_line == in_line &&
+                   placed.insert({choice.family, choice.group}).second;
+    if (allowed) {
+      Place(problem, choice.family, choice.group, *item, assembly);
+      allowed = in_line ? Near(choice.quantity,
+                               LineQuantity(problem.groups[choice.group], choice,
+                                            assembly.lines[choice.group]),
+                               kSumTolerance)
+                        : IsSourceQuantity(problem, choice, *item);
     }
+    if (allowed) continue;
+    findings.push_back(
+        {"parts",
+         Row(choice) + (in_line ? " of group " + problem.groups[choice.group].name +
+                                      " is not an allowed part in the number it needs"
+                                : " is not an allowed part of the source in this number")});
   }
   if (findings.size() == before && !Whole(problem, assembly))
     findings.push_back({"parts", std::string("the list of parts of a ") +
@@ -241,7 +222,7 @@ void CheckAmounts(const Problem& problem, const Design& design, const Assembly& 
   double cost_eur = 0.0;
   bool priced = true;
   for (const Choice& choice : design.parts) {
-    const Expected row = ExpectedRow(problem, design, assembly, choice);
+    const Expected row = ExpectedRow(problem, design, choice);
     if (!Near(choice.mass_kg, row.mass_kg, kSumTolerance) ||
         !Near(choice.volume_m3, row.volume_m3, kSumTolerance) ||
         !SameCost(choice.cost_eur, row.cost_eur))

@@ -31,6 +31,10 @@ struct Assembly {
   int bottles = 0, compressors = 0, batteries = 0, reservoirs = 0;
 };
 
+// Puts a choice of a family into its place. ProofItem::part as there: −1 and −2 leave it empty.
+void Place(const Problem& problem, Family family, int group, const ProofItem& item,
+           Assembly& assembly);
+
 // The parts of a design; none after a finding (unknown part, wrong number, missing family).
 std::optional<Assembly> Assemble(const Problem& problem, const Design& design, Findings& findings);
 

@@ -1,23 +1,35 @@
-// What the catalogue offers a problem: the parts of each family, in which numbers, and how many
-// combinations that makes. Internal to verify*.cc.
+// What the catalogue offers a problem, in which numbers, and how many combinations that makes.
+// Internal to verify*.cc.
 #ifndef PLENUM_VERIFY_DESIGN_VERIFY_FAMILIES_H_
 #define PLENUM_VERIFY_DESIGN_VERIFY_FAMILIES_H_
 
 #include <vector>
 
+#include "optimizer/problem/family_specs.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
 
-// Parts of a family, as many as there are of them in parallel at most.
-int FamilySize(const Problem& problem, Family family);
-int QuantityMax(const Problem& problem, Family family);
-std::vector<Family> SourceFamilies(Configuration configuration);
-bool MadeReservoirAllowed(const Problem& problem);
-const model::PartBasics* BasicsOf(const Problem& problem, Family family, int part);
+using optimizer::BasicsOf;
+using optimizer::FamilySize;
+using optimizer::FamilySpec;
+using optimizer::FieldValue;
+using optimizer::FindPart;
+using optimizer::LineFamilies;
+using optimizer::MadeToMeasureAllowed;
+using optimizer::PartField;
+using optimizer::Pieces;
+using optimizer::QuantityMax;
+using optimizer::SourceFamilies;
+using optimizer::SpecOf;
+using optimizer::Use;
 
 // What a slot can be filled with: every part in every number, priced ones alone where cost matters.
 std::vector<ProofItem> EntriesOf(const Problem& problem, const ProofSlot& slot);
+
+// A plan of a configuration with a slot for each family that it needs, without choices: of each
+// group, then of the source.
+ProofPlan EmptyPlan(const Problem& problem, Configuration configuration);
 
 // By the contract: of one configuration, from the catalogue alone.
 BigCount Combinations(const Problem& problem, Configuration configuration);

@@ -6,33 +6,27 @@
 namespace plenum::verify {
 namespace {
 
-// The order of a parts list.
-constexpr Family kOrder[] = {Family::kValve,      Family::kFitting,  Family::kTubing,
-                             Family::kRegulator,  Family::kCylinder, Family::kCo2,
-                             Family::kCompressor, Family::kBattery,  Family::kReservoir};
-
 std::string IdOf(const Problem& problem, Family family, const ProofItem& item) {
-  return item.part == -2 ? "custom" : BasicsOf(problem, family, item.part)->id;
+  return item.part == -2 ? "custom" : BasicsOf(problem.parts, family, item.part).id;
 }
 
 }  // namespace
 
 Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
   Ids ids;
-  const int groups = static_cast<int>(problem.groups.size());
-  for (int group = 0; group <= groups; ++group)
-    for (const Family family : kOrder) {
-      const int slot = SlotOf(plan, family, group < groups ? group : -1);
-      if (slot < 0) continue;
-      std::optional<Ids::value_type> first;
-      for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
-        const ProofItem& item = plan.slots[slot].choices[i];
-        if (item.part == -1) continue;
-        Ids::value_type id{IdOf(problem, family, item), item.quantity};
-        if (!first || id < *first) first = std::move(id);
-      }
-      if (first) ids.push_back(std::move(*first));
+  const ProofPlan listed = EmptyPlan(problem, plan.configuration);  // in the order of a parts list
+  for (const ProofSlot& place : listed.slots) {
+    const int slot = SlotOf(plan, place.family, place.group);
+    if (slot < 0) continue;
+    std::optional<Ids::value_type> first;
+    for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
+      const ProofItem& item = plan.slots[slot].choices[i];
+      if (item.part == -1) continue;
+      Ids::value_type id{IdOf(problem, place.family, item), item.quantity};
+      if (!first || id < *first) first = std::move(id);
     }
+    if (first) ids.push_back(std::move(*first));
+  }
   return ids;
 }
 
@@ -48,31 +42,12 @@ Claim ClaimOf(const Problem& problem, const Answer& answer) {
 }
 
 Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges& single) {
-  const model::Parts& parts = problem.parts;
   Assembly assembly;
   assembly.configuration = plan.configuration;
   assembly.lines.resize(problem.groups.size());
-  for (std::size_t s = 0; s < plan.slots.size(); ++s) {
-    const ProofSlot& slot = plan.slots[s];
-    const ProofItem& item = slot.choices[single[s].first];
-    LineParts* line = slot.group < 0 ? nullptr : &assembly.lines[slot.group];
-    if (slot.family == Family::kTubing) line->tube = &parts.tubing[item.part];
-    if (slot.family == Family::kFitting && item.part >= 0)
-      line->fitting = &parts.fittings[item.part];
-    if (slot.family == Family::kValve) line->valve = &parts.valves[item.part];
-    if (slot.family == Family::kRegulator) assembly.regulator = &parts.regulators[item.part];
-    if (slot.family == Family::kCylinder) assembly.cylinder = &parts.cylinders[item.part];
-    if (slot.family == Family::kCo2) assembly.co2 = &parts.co2[item.part];
-    if (slot.family == Family::kCompressor) assembly.compressor = &parts.compressors[item.part];
-    if (slot.family == Family::kBattery) assembly.battery = &parts.batteries[item.part];
-    if (slot.family == Family::kReservoir && item.part >= 0)
-      assembly.reservoir = &parts.reservoirs[item.part];
-    if (slot.family == Family::kCylinder || slot.family == Family::kCo2)
-      assembly.bottles = item.quantity;
-    if (slot.family == Family::kCompressor) assembly.compressors = item.quantity;
-    if (slot.family == Family::kBattery) assembly.batteries = item.quantity;
-    if (slot.family == Family::kReservoir) assembly.reservoirs = item.quantity;
-  }
+  for (std::size_t s = 0; s < plan.slots.size(); ++s)
+    Place(problem, plan.slots[s].family, plan.slots[s].group,
+          plan.slots[s].choices[single[s].first], assembly);
   return assembly;
 }
 
@@ -95,11 +70,8 @@ int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges) 
   std::pair<bool, double> most{false, -1.0};
   for (int s = 0; s < static_cast<int>(ranges.size()); ++s) {
     if (ranges[s].second - ranges[s].first < 2) continue;
-    const Family family = plan.slots[s].family;
     const LeastAmounts& amounts = corners.Least(ranges, s);
-    const std::pair<bool, double> spread{family != Family::kCylinder && family != Family::kCo2 &&
-                                             family != Family::kBattery &&
-                                             family != Family::kReservoir,
+    const std::pair<bool, double> spread{!SpecOf(plan.slots[s].family).by_need,
                                          amounts.objective_most - amounts.least.objective};
     if (widest < 0 || spread > most) {
       widest = s;

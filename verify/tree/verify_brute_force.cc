@@ -22,13 +22,7 @@ double ObjectiveTolerance(const Problem& problem, const Assembly& assembly) {
 }
 
 ProofPlan AllOf(const Problem& problem, Configuration configuration) {
-  ProofPlan plan;
-  plan.configuration = configuration;
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
-    for (const Family family : {Family::kTubing, Family::kFitting, Family::kValve})
-      plan.slots.push_back({family, g, {}, {}});
-  for (const Family family : SourceFamilies(configuration))
-    plan.slots.push_back({family, -1, {}, {}});
+  ProofPlan plan = EmptyPlan(problem, configuration);
   for (ProofSlot& slot : plan.slots) slot.choices = EntriesOf(problem, slot);
   return plan;
 }
@@ -98,18 +92,23 @@ class Enumeration {
     return plan_->slots[slot].choices[single_[slot].first];
   }
 
-  // Whether the choice of a slot fits those before it.
+  // Whether the choice of a slot fits those before it: plans have valves before fittings before
+  // tubes, regulators before bottles, compressors before batteries.
   bool FitsUpTo(std::size_t slot) const {
     const model::Parts& parts = problem_.parts;
     const int part = ItemAt(slot).part;
     Assembly source;
     source.configuration = plan_->configuration;
+    const int group = plan_->slots[slot].group;
+    const auto part_of = [&](Family family) {
+      return ItemAt(static_cast<std::size_t>(SlotOf(*plan_, family, group))).part;
+    };
     switch (plan_->slots[slot].family) {
       case Family::kFitting:
-        return part < 0 || Fit(parts.tubing[ItemAt(slot - 1).part], parts.fittings[part]);
-      case Family::kValve: {
-        const int fitting = ItemAt(slot - 1).part;
-        return fitting < 0 || Fit(parts.fittings[fitting], parts.valves[part]);
+        return part < 0 || Fit(parts.fittings[part], parts.valves[part_of(Family::kValve)]);
+      case Family::kTubing: {
+        const int fitting = part_of(Family::kFitting);
+        return fitting < 0 || Fit(parts.tubing[part], parts.fittings[fitting]);
       }
       case Family::kRegulator:
         if (plan_->configuration == Configuration::kCylinder) return true;  // asked with the bottle
@@ -118,12 +117,12 @@ class Enumeration {
           source.co2 = &parts.co2.front();
         return Fit(problem_, source);
       case Family::kCylinder:
-        source.regulator = &parts.regulators[ItemAt(slot - 1).part];
+        source.regulator = &parts.regulators[part_of(Family::kRegulator)];
         source.cylinder = &parts.cylinders[part];
         return Fit(problem_, source);
       case Family::kBattery:
         if (plan_->configuration != Configuration::kCompressor) return true;
-        source.compressor = &parts.compressors[ItemAt(slot - 2).part];
+        source.compressor = &parts.compressors[part_of(Family::kCompressor)];
         source.battery = &parts.batteries[part];
         return Fit(problem_, source);
       default:

@@ -3,6 +3,7 @@
 #include "model/physics/storage.h"
 #include "model/strokes/stroke.h"
 #include "verify/design/verify_design.h"
+#include "verify/tree/verify_best.h"
 
 namespace plenum::verify {
 namespace {
@@ -39,30 +40,6 @@ double GasOf(const Problem& problem, Family family, const ProofItem& item, doubl
   const model::Co2Bottle& bottle = problem.parts.co2[item.part];
   return item.quantity * model::Co2UsableVolume(bottle.co2_mass_kg, bottle.water_volume_m3,
                                                 inlet_pa, temperature_k);
-}
-
-// The best of every number of the regulators in a box.
-model::Regulator BestRegulator(const Problem& problem, const ProofPlan& plan,
-                               const Ranges& ranges) {
-  model::Regulator best;
-  best.flow = {0.0, 0.0, 1.0};
-  best.inlet_pressure_min_pa = best.outlet_pressure_min_pa = best.electrical_power_w = kUnlimited;
-  Any(plan, ranges, SlotOf(plan, Family::kRegulator, -1), [&](const ProofItem& item) {
-    const model::Regulator& one = problem.parts.regulators[item.part];
-    model::FlowElement& flow = best.flow;
-    flow.sonic_conductance_m3_per_s_pa =
-        std::max(flow.sonic_conductance_m3_per_s_pa, one.flow.sonic_conductance_m3_per_s_pa);
-    flow.critical_ratio = std::max(flow.critical_ratio, one.flow.critical_ratio);
-    flow.subsonic_index = std::min(flow.subsonic_index, one.flow.subsonic_index);
-    best.flow_max_m3_per_s = std::max(best.flow_max_m3_per_s, one.flow_max_m3_per_s);
-    best.inlet_pressure_min_pa = std::min(best.inlet_pressure_min_pa, one.inlet_pressure_min_pa);
-    best.inlet_pressure_max_pa = std::max(best.inlet_pressure_max_pa, one.inlet_pressure_max_pa);
-    best.outlet_pressure_min_pa = std::min(best.outlet_pressure_min_pa, one.outlet_pressure_min_pa);
-    best.outlet_pressure_max_pa = std::max(best.outlet_pressure_max_pa, one.outlet_pressure_max_pa);
-    best.electrical_power_w = std::min(best.electrical_power_w, one.electrical_power_w);
-    return false;
-  });
-  return best;
 }
 
 }  // namespace
@@ -138,10 +115,12 @@ bool Corners::TooMuch(const Ranges& ranges) {
 
 // Each group alone on the best regulator, then the least bottle and battery that bear the needs.
 double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
-  model::Regulator regulator = BestRegulator(problem_, plan_, ranges);
-  double low_pa = std::max(problem_.ambient.pressure_pa, regulator.outlet_pressure_min_pa);
-  double high_pa = std::min(problem_.source_pressure_max_pa, regulator.outlet_pressure_max_pa);
-  double flow_max = regulator.flow_max_m3_per_s;
+  const BestNumbers regulator(problem_, plan_, ranges, SlotOf(plan_, Family::kRegulator, -1));
+  double low_pa =
+      std::max(problem_.ambient.pressure_pa, regulator.Number("outlet_pressure_min_kpa_gauge"));
+  double high_pa =
+      std::min(problem_.source_pressure_max_pa, regulator.Number("outlet_pressure_max_kpa_gauge"));
+  double flow_max = regulator.Number("flow_max_l_per_min_anr");
   if (plan_.configuration == Configuration::kMains) {
     high_pa = std::min(high_pa, problem_.mains_pressure_pa);
     flow_max = std::min(flow_max, problem_.mains_flow_max_m3_per_s);
@@ -163,7 +142,7 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   for (int g = 0; g < groups; ++g) {
     const BestLine& line = strokes_.Line(ranges, g);
     const ActuatorGroup& group = problem_.groups[g];
-    std::vector<model::FlowElement> elements{regulator.flow};
+    std::vector<model::FlowElement> elements{regulator.Flow("sonic_conductance_dm3_per_s_bar")};
     elements.front().sonic_conductance_m3_per_s_pa /= group.count;
     elements.insert(elements.end(), line.fill.begin(), line.fill.end());
     const model::Series fill = model::MakeSeries(elements, factor);
@@ -187,13 +166,14 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
 
   const double energy_j =
       beyond_j + problem_.actuations * coil_j +
-      regulator.electrical_power_w * problem_.actuations / problem_.frequency_hz;
+      regulator.Number("electrical_power_w") * problem_.actuations / problem_.frequency_hz;
   return LeastStores(ranges, regulator, low_pa, {air_m3, energy_j}, sum);
 }
 
-double Corners::LeastStores(const Ranges& ranges, const model::Regulator& regulator, double low_pa,
+double Corners::LeastStores(const Ranges& ranges, const BestNumbers& regulator, double low_pa,
                             const Stored& stored, double sum) {
-  const double inlet_pa = std::max(low_pa, regulator.inlet_pressure_min_pa);
+  const double inlet_pa = std::max(low_pa, regulator.Number("inlet_pressure_min_kpa_gauge"));
+  const double inlet_max_pa = regulator.Number("inlet_pressure_max_kpa_gauge");
   const bool cylinder = plan_.configuration == Configuration::kCylinder;
   const Family family = cylinder ? Family::kCylinder : Family::kCo2;
   const auto least = [&](int slot, const auto& bears) {
@@ -205,10 +185,10 @@ double Corners::LeastStores(const Ranges& ranges, const model::Regulator& regula
   };
   sum += least(SlotOf(plan_, family, -1), [&](const ProofItem& item) {
     const model::Parts& parts = problem_.parts;
-    const bool fits =
-        cylinder ? parts.cylinders[item.part].fill_pressure_pa <= regulator.inlet_pressure_max_pa
-                 : item.quantity * parts.co2[item.part].flow_sustained_m3_per_s * kSlack >=
-                       stored.air_m3 * problem_.frequency_hz;
+    const bool fits = cylinder
+                          ? parts.cylinders[item.part].fill_pressure_pa <= inlet_max_pa
+                          : item.quantity * parts.co2[item.part].flow_sustained_m3_per_s * kSlack >=
+                                stored.air_m3 * problem_.frequency_hz;
     return fits &&
            GasOf(problem_, family, item, inlet_pa) * kSlack >= problem_.actuations * stored.air_m3;
   });
@@ -224,12 +204,8 @@ double Corners::LeastObjective(const Ranges& ranges, double enough) {
   double sum = 0.0, chosen = 0.0;
   for (int s = 0; s < static_cast<int>(plan_.slots.size()); ++s) {
     const double least = Least(ranges, s).least.objective;
-    const Family family = plan_.slots[s].family;
     sum += least;
-    // The others are found by what they must bear.
-    if (family != Family::kCylinder && family != Family::kCo2 && family != Family::kBattery &&
-        family != Family::kReservoir)
-      chosen += least;
+    if (!SpecOf(plan_.slots[s].family).by_need) chosen += least;
   }
   if (sum > enough) return sum;
   if (TooMuch(ranges)) return kUnlimited;

@@ -45,7 +45,7 @@ class Corners {
     double energy_j;  // of the mission
   };
   // `sum` with the least of the bottles and batteries that hold so much.
-  double LeastStores(const Ranges& ranges, const model::Regulator& regulator, double low_pa,
+  double LeastStores(const Ranges& ranges, const BestNumbers& regulator, double low_pa,
                      const Stored& stored, double sum);
 
   const Problem& problem_;

@@ -22,30 +22,27 @@ bool Flows(const FlowElement& a, const FlowElement& b, bool equal) {
          a.critical_ratio >= b.critical_ratio && a.subsonic_index <= b.subsonic_index;
 }
 
-bool Better(const model::Tubing& a, const model::Tubing& b, bool fittings) {
-  return (!fittings || a.outer_diameter_m == b.outer_diameter_m) &&
-         a.inner_diameter_m == b.inner_diameter_m && a.pressure_max_pa >= b.pressure_max_pa;
+// Whether a choice of a family is no worse in a field than another.
+bool NoWorse(const FieldValue& a, const FieldValue& b, const PartField& field, bool equal_flow) {
+  if (field.use == Use::kMate) return a == b;
+  if (const auto* flow = std::get_if<FlowElement>(&a))
+    return Flows(*flow, std::get<FlowElement>(b), equal_flow && field.use == Use::kSharedFlow);
+  const double x = std::get<double>(a), y = std::get<double>(b);
+  switch (field.use) {
+    case Use::kMore:
+    case Use::kRating:
+      return x >= y;
+    case Use::kLess:
+      return x <= y;
+    default:
+      return x == y;
+  }
 }
 
-bool Better(const model::Fitting& a, const model::Fitting& b, bool equal) {
-  return a.tube_outer_diameter_m == b.tube_outer_diameter_m && a.thread == b.thread &&
-         Flows(a.flow, b.flow, equal) && a.pressure_max_pa >= b.pressure_max_pa;
-}
-
-bool Better(const model::Valve& a, const model::Valve& b, bool fittings, bool equal) {
-  return (!fittings || a.port == b.port) && model::Holds(a.kind) == model::Holds(b.kind) &&
-         Flows(a.fill, b.fill, equal) && Flows(a.exhaust, b.exhaust, equal) &&
-         a.coil_power_w <= b.coil_power_w && a.pressure_max_pa >= b.pressure_max_pa &&
-         a.pressure_min_pa <= b.pressure_min_pa;
-}
-
-bool Better(const model::Regulator& a, const model::Regulator& b) {
-  return Flows(a.flow, b.flow, false) && a.flow_max_m3_per_s >= b.flow_max_m3_per_s &&
-         a.inlet_pressure_max_pa >= b.inlet_pressure_max_pa &&
-         a.outlet_pressure_max_pa >= b.outlet_pressure_max_pa &&
-         a.inlet_pressure_min_pa <= b.inlet_pressure_min_pa &&
-         a.outlet_pressure_min_pa <= b.outlet_pressure_min_pa &&
-         a.electrical_power_w <= b.electrical_power_w;
+// The same of so many pieces whose numbers add up.
+bool NoWorse(double a, double b, const PartField& field) {
+  if (field.use == Use::kBoth) return a == b;
+  return field.use == Use::kLess ? Least(a, b) : Most(a, b);
 }
 
 // Inlet pressures that a regulator of the catalogue may ask of a bottle: lowest and highest.
@@ -89,45 +86,36 @@ bool Drives(const Problem& problem, const model::Battery& a, const model::Batter
                      });
 }
 
-// Everything but amounts.
-bool NoWorse(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
-             const ProofItem& a, const ProofItem& b) {
+// What no table says: gas of bottles, pumps in parallel, which pumps a battery drives.
+bool RuleNoWorse(const Problem& problem, const ProofPlan& plan, Family family, const ProofItem& a,
+                 const ProofItem& b) {
   const model::Parts& parts = problem.parts;
   const int i = a.part, j = b.part, n = a.quantity, m = b.quantity;
-  if (i < 0 || j < 0) return false;  // no other choice stands for these
-  const bool fittings = slot.group >= 0 && problem.groups[slot.group].fittings_per_line > 0;
-  switch (slot.family) {
-    case Family::kTubing:
-      return Better(parts.tubing[i], parts.tubing[j], fittings);
-    case Family::kFitting:
-      return Better(parts.fittings[i], parts.fittings[j], plan.equal_flow);
-    case Family::kValve:
-      return Better(parts.valves[i], parts.valves[j], fittings, plan.equal_flow);
-    case Family::kRegulator:
-      return Better(parts.regulators[i], parts.regulators[j]);
-    case Family::kCylinder:
-      return parts.cylinders[i].fill_pressure_pa <= parts.cylinders[j].fill_pressure_pa &&
-             GivesMore(problem, parts.cylinders[i], n, parts.cylinders[j], m);
-    case Family::kCo2:
-      return Most(n * parts.co2[i].flow_sustained_m3_per_s,
-                  m * parts.co2[j].flow_sustained_m3_per_s) &&
-             GivesMore(problem, parts.co2[i], n, parts.co2[j], m);
-    case Family::kCompressor:
-      return n == m && parts.compressors[i].curve == parts.compressors[j].curve &&
-             parts.compressors[i].duty_max >= parts.compressors[j].duty_max;
-    case Family::kBattery: {
-      const model::Battery &x = parts.batteries[i], &y = parts.batteries[j];
-      return (plan.configuration != Configuration::kCompressor || Drives(problem, x, y)) &&
-             Most(n * x.capacity_ah * x.nominal_voltage_v,
-                  m * y.capacity_ah * y.nominal_voltage_v) &&
-             Most(n * x.current_max_a, m * y.current_max_a) &&
-             x.nominal_voltage_v >= y.nominal_voltage_v;
-    }
-    case Family::kReservoir:
-      return n * parts.reservoirs[i].volume_m3 == m * parts.reservoirs[j].volume_m3 &&
-             parts.reservoirs[i].pressure_max_pa >= parts.reservoirs[j].pressure_max_pa;
+  if (family == Family::kCylinder)
+    return GivesMore(problem, parts.cylinders[i], n, parts.cylinders[j], m);
+  if (family == Family::kCo2) return GivesMore(problem, parts.co2[i], n, parts.co2[j], m);
+  if (family == Family::kCompressor)
+    return n == m && parts.compressors[i].curve == parts.compressors[j].curve;
+  if (family == Family::kBattery && plan.configuration == Configuration::kCompressor)
+    return Drives(problem, parts.batteries[i], parts.batteries[j]);
+  return true;
+}
+
+// Everything but amounts, field by field.
+bool NoWorse(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
+             const ProofItem& a, const ProofItem& b) {
+  if (a.part < 0 || b.part < 0) return false;  // no other choice stands for these
+  const FamilySpec& spec = SpecOf(slot.family);
+  const bool mates = !spec.in_line || problem.groups[slot.group].fittings_per_line > 0;
+  for (const PartField& field : spec.fields) {
+    if (field.use == Use::kRule || (field.use == Use::kMate && !mates)) continue;
+    const FieldValue x = field.of(problem.parts, a.part), y = field.of(problem.parts, b.part);
+    const bool sum = field.pieces == Pieces::kSum && !spec.in_line;
+    if (sum ? !NoWorse(a.quantity * std::get<double>(x), b.quantity * std::get<double>(y), field)
+            : !NoWorse(x, y, field, plan.equal_flow))
+      return false;
   }
-  return false;
+  return RuleNoWorse(problem, plan, slot.family, a, b);
 }
 
 }  // namespace
@@ -143,7 +131,7 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const P
         model::MakeReservoir(model::kMadeReservoirSmallestM3, rating_pa);
     sum = {made.mass_kg, made.body_volume_m3, 0.0, 0.0};
   } else {
-    const model::PartBasics& basics = *BasicsOf(problem, slot.family, item.part);
+    const model::PartBasics& basics = BasicsOf(problem.parts, slot.family, item.part);
     double pieces = item.quantity, gas_kg = 0.0;
     if (slot.group >= 0) {
       const ActuatorGroup& group = problem.groups[slot.group];
@@ -182,8 +170,8 @@ bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& s
       (std::isfinite(problem.volume_max_l) && !Least(a.volume_m3, b.volume_m3)) ||
       (std::isfinite(problem.cost_max_eur) && !Least(a.cost_eur, b.cost_eur)))
     return false;
-  const std::string& id = BasicsOf(problem, slot.family, better.part)->id;
-  const std::string& other = BasicsOf(problem, slot.family, worse.part)->id;
+  const std::string& id = BasicsOf(problem.parts, slot.family, better.part).id;
+  const std::string& other = BasicsOf(problem.parts, slot.family, worse.part).id;
   const bool first = id != other ? id < other : better.quantity < worse.quantity;
   return (a.objective < b.objective - plan.tie || (first && Least(a.objective, b.objective))) &&
          NoWorse(problem, plan, slot, better, worse);

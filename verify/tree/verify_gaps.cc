@@ -86,13 +86,8 @@ std::vector<Point> Sums(const std::vector<Point>& points) {
 
 // The choices that no other dominates, by their share of the objective.
 ProofPlan WholePlan(const Problem& problem, Configuration configuration) {
-  ProofPlan plan;
-  plan.configuration = configuration;
+  ProofPlan plan = EmptyPlan(problem, configuration);
   plan.equal_flow = FlowMustBeEqual(problem, configuration);
-  for (int group = 0; group < static_cast<int>(problem.groups.size()); ++group)
-    for (Family family : {Family::kTubing, Family::kFitting, Family::kValve})
-      plan.slots.push_back({family, group, {}, {}});
-  for (Family family : SourceFamilies(configuration)) plan.slots.push_back({family, -1, {}, {}});
   for (ProofSlot& slot : plan.slots) {
     const std::vector<ProofItem> entries = EntriesOf(problem, slot);
     std::vector<std::pair<double, ProofItem>> kept;

@@ -3,18 +3,12 @@
 #include "model/flow/tube.h"
 #include "model/strokes/stroke.h"
 #include "verify/design/verify_design.h"
+#include "verify/tree/verify_best.h"
 
 namespace plenum::verify {
 namespace {
 
 constexpr double kSourceTolerance = 1e-3;  // of the least source pressure; its lower end counts
-
-void Raise(const model::FlowElement& flow, model::FlowElement& best) {
-  best.sonic_conductance_m3_per_s_pa =
-      std::max(best.sonic_conductance_m3_per_s_pa, flow.sonic_conductance_m3_per_s_pa);
-  best.critical_ratio = std::max(best.critical_ratio, flow.critical_ratio);
-  best.subsonic_index = std::min(best.subsonic_index, flow.subsonic_index);
-}
 
 // Indices of the parts that a slot may have in the box.
 std::vector<int> PartsOf(const ProofPlan& plan, const Ranges& ranges, Family family, int group) {
@@ -43,41 +37,32 @@ bool Mates(const Problem& problem, int g, const LineChoices& choices) {
 }
 
 // Elements, volumes and pressures.
-BestLine Gather(const Problem& problem, int g, const LineChoices& choices,
+BestLine Gather(const Problem& problem, const ProofPlan& plan, const Ranges& ranges, int g,
                 model::FlowElement& exhaust, double& switches_pa) {
-  const model::Parts& parts = problem.parts;
   const ActuatorGroup& group = problem.groups[g];
+  const auto best_of = [&](Family family) {
+    return BestNumbers(problem, plan, ranges, SlotOf(plan, family, g));
+  };
+  const BestNumbers tube = best_of(Family::kTubing), fitting = best_of(Family::kFitting),
+                    valve = best_of(Family::kValve);
+  const int fittings = group.fittings_per_line;
+  const double narrowest_m = tube.Low("inner_diameter_mm"),
+               widest_m = tube.High("inner_diameter_mm");
   BestLine best;
-  double narrowest_m = kUnlimited, widest_m = 0.0, tube_pa = 0.0, valve_pa = 0.0;
-  double fitting_pa = group.fittings_per_line > 0 ? 0.0 : kUnlimited;
-  model::FlowElement fill{0, 0, 1}, fitting{0, 0, 1};
-  for (int t : choices.tubes) {
-    narrowest_m = std::min(narrowest_m, parts.tubing[t].inner_diameter_m);
-    widest_m = std::max(widest_m, parts.tubing[t].inner_diameter_m);
-    tube_pa = std::max(tube_pa, parts.tubing[t].pressure_max_pa);
-  }
-  if (group.fittings_per_line > 0)
-    for (int f : choices.fittings) {
-      Raise(parts.fittings[f].flow, fitting);
-      fitting_pa = std::max(fitting_pa, parts.fittings[f].pressure_max_pa);
-    }
-  best.coil_w = switches_pa = kUnlimited;
-  for (int v : choices.valves) {
-    const model::Valve& valve = parts.valves[v];
-    Raise(valve.fill, fill);
-    Raise(valve.exhaust, exhaust);
-    valve_pa = std::max(valve_pa, valve.pressure_max_pa);
-    switches_pa = std::min(switches_pa, valve.pressure_min_pa);
-    best.coil_w = std::min(best.coil_w, group.count * valve.coil_power_w);
-    best.some_hold |= model::Holds(valve.kind);
-    best.all_hold &= model::Holds(valve.kind);
-  }
-  best.source_high_pa = std::min({tube_pa, fitting_pa, valve_pa, problem.source_pressure_max_pa});
+  best.coil_w = group.count * valve.Number("coil_power_w");
+  best.some_hold = valve.High("function") > 0.0;
+  best.all_hold = valve.Low("function") > 0.0;
+  exhaust = valve.Flow("sonic_conductance_exhaust_dm3_per_s_bar");
+  switches_pa = valve.Number("pressure_min_kpa_gauge");
+  best.source_high_pa =
+      std::min({tube.Number("pressure_max_kpa_gauge"),
+                fittings > 0 ? fitting.Number("pressure_max_kpa_gauge") : kUnlimited,
+                valve.Number("pressure_max_kpa_gauge"), problem.source_pressure_max_pa});
   if (!best.some_hold) best.source_high_pa = std::min(best.source_high_pa, group.pressure_max_pa);
-  best.fill.assign(group.fittings_per_line, fitting);
-  best.fill.insert(best.fill.begin() + (group.fittings_per_line + 1) / 2,
+  best.fill.assign(fittings, fitting.Flow("sonic_conductance_dm3_per_s_bar"));
+  best.fill.insert(best.fill.begin() + (fittings + 1) / 2,
                    model::TubeElement(widest_m, group.tube_length_m));
-  best.fill.insert(best.fill.begin(), fill);
+  best.fill.insert(best.fill.begin(), valve.Flow("sonic_conductance_fill_dm3_per_s_bar"));
   best.chamber = group.chamber;
   best.chamber.dead_volume_m3 += model::BoreVolume(narrowest_m, group.tube_length_m);
   best.widest_dead_m3 =
@@ -108,9 +93,9 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
                             PartsOf(plan, ranges, Family::kFitting, g),
                             PartsOf(plan, ranges, Family::kValve, g)};
   if (!Mates(problem, g, choices)) return {};
-  model::FlowElement exhaust_valve{0, 0, 1};
+  model::FlowElement exhaust_valve;
   double switches_pa = 0.0;
-  BestLine best = Gather(problem, g, choices, exhaust_valve, switches_pa);
+  BestLine best = Gather(problem, plan, ranges, g, exhaust_valve, switches_pa);
   best.mates = true;
   const ActuatorGroup& group = problem.groups[g];
   const double operating_pa = group.chamber.operating_pressure_pa;

@@ -26,9 +26,10 @@ std::optional<std::vector<int>> PositionsOf(const Problem& problem, const ProofP
     int position = -1;
     for (std::size_t i = 0; i < slot.choices.size(); ++i) {
       const ProofItem& item = slot.choices[i];
-      const std::string item_id = item.part == -2   ? "custom"
-                                  : item.part == -1 ? ""
-                                                    : BasicsOf(problem, slot.family, item.part)->id;
+      const std::string item_id = item.part == -2 ? "custom"
+                                  : item.part == -1
+                                      ? ""
+                                      : BasicsOf(problem.parts, slot.family, item.part).id;
       if (item_id == id && (item.part == -1 || item.quantity == quantity))
         position = static_cast<int>(i);
     }

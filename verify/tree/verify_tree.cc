@@ -96,10 +96,8 @@ std::vector<ClosedBox> Replay(const ProofPlan& plan, Findings& findings) {
 
 void CheckSlots(const Problem& problem, const ProofPlan& plan, Pruned& counts, Findings& findings) {
   std::set<std::pair<Family, int>> expected, found;
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
-    for (Family family : {Family::kTubing, Family::kFitting, Family::kValve})
-      expected.insert({family, g});
-  for (Family family : SourceFamilies(plan.configuration)) expected.insert({family, -1});
+  for (const ProofSlot& slot : EmptyPlan(problem, plan.configuration).slots)
+    expected.insert({slot.family, slot.group});
   for (const ProofSlot& slot : plan.slots) found.insert({slot.family, slot.group});
   if (found != expected || found.size() != plan.slots.size()) {
     findings.push_back({"choices", "the slots are not one for each family" + In(plan)});

@@ -9,6 +9,7 @@
 #include "api/json/words.h"
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/line.h"
+#include "optimizer/problem/family_specs.h"
 
 namespace plenum::api {
 namespace {
@@ -124,7 +125,7 @@ class Check {
   void CheckRow(const Choice& choice) {
     const std::string piece = Piece(choice.family);
     const bool of_line = OfLine(choice.family);
-    const std::vector<Family> source = SourceFamilies(design_.configuration);
+    const std::vector<Family> source = optimizer::SourceFamilies(design_.configuration);
     if (!of_line && std::find(source.begin(), source.end(), choice.family) == source.end())
       return FailRow(choice, "/family", Is() + " has no " + optimizer::Name(choice.family));
     if (of_line && choice.group < 0)
@@ -210,7 +211,7 @@ class Check {
         if ((family != Family::kFitting || group.fittings_per_line > 0) && !RowOf(family, g))
           Fail("/parts", Piece(family) + " for group " + group.name + " is missing");
     }
-    for (const Family family : SourceFamilies(design_.configuration))
+    for (const Family family : optimizer::SourceFamilies(design_.configuration))
       if (!RowOf(family)) Fail("/parts", Piece(family) + " is missing: " + Is() + " has one");
   }
 

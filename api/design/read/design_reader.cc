@@ -2,6 +2,7 @@
 
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"
+#include "optimizer/problem/family_specs.h"
 
 namespace plenum::api {
 namespace {
@@ -28,10 +29,9 @@ Configuration ReadConfiguration(Reader& design) {
 
 optimizer::Choice ReadChoice(Reader& row, const Problem& problem) {
   optimizer::Choice choice;
-  choice.family = ReadEnum<Family>(
-      row, "family",
-      {Family::kTubing, Family::kFitting, Family::kValve, Family::kCompressor, Family::kCylinder,
-       Family::kCo2, Family::kBattery, Family::kRegulator, Family::kReservoir});
+  std::vector<Family> families;
+  for (const optimizer::FamilySpec& spec : optimizer::Families()) families.push_back(spec.family);
+  choice.family = ReadEnum<Family>(row, "family", families);
   choice.id = row.Text("id");
   if (row.Has("group")) {
     choice.group = GroupNamed(problem, row.Text("group"));

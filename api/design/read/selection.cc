@@ -1,12 +1,12 @@
 #include "api/design/read/selection.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <string>
 
 #include "api/json/request_limits.h"
 #include "api/json/words.h"
+#include "optimizer/problem/family_specs.h"
 
 namespace plenum::api {
 namespace {
@@ -14,14 +14,10 @@ namespace {
 using optimizer::Configuration;
 using optimizer::Family;
 
-constexpr std::array kFamilies{Family::kTubing,     Family::kFitting,   Family::kValve,
-                               Family::kCompressor, Family::kCylinder,  Family::kCo2,
-                               Family::kBattery,    Family::kRegulator, Family::kReservoir};
-
 // Whether the request leaves a part of the family to choose.
 bool HasChoice(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
                Family family) {
-  if (family == Family::kReservoir && IsAllowed(problem, family, kCustomReservoir)) return true;
+  if (optimizer::MadeToMeasureAllowed(problem, family)) return true;
   return std::any_of(parts.begin(), parts.end(), [&](const catalog::Part& part) {
     return part.family == optimizer::Name(family) && IsAllowed(problem, family, part.id);
   });
@@ -34,24 +30,10 @@ std::string PointerFor(const std::vector<catalog::Part>& parts, const optimizer:
   if (problem.require.contains(family)) return "/require/" + name;
   const bool in_catalogue = std::any_of(
       parts.begin(), parts.end(), [&](const catalog::Part& part) { return part.family == name; });
-  return in_catalogue || family == Family::kReservoir ? "/exclude" : "";
+  return in_catalogue || optimizer::SpecOf(family).made_to_measure ? "/exclude" : "";
 }
 
 }  // namespace
-
-std::vector<Family> SourceFamilies(Configuration configuration) {
-  switch (configuration) {
-    case Configuration::kCylinder:
-      return {Family::kCylinder, Family::kRegulator, Family::kBattery};
-    case Configuration::kCo2:
-      return {Family::kCo2, Family::kRegulator, Family::kBattery};
-    case Configuration::kCompressor:
-      return {Family::kCompressor, Family::kReservoir, Family::kBattery};
-    case Configuration::kMains:
-      return {Family::kRegulator};
-  }
-  return {};
-}
 
 bool IsAllowed(const optimizer::Problem& problem, Family family, const std::string& id) {
   const auto required = problem.require.find(family);
@@ -74,21 +56,21 @@ void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
   };
 
   if (auto require = request.OptionalObject("require")) {
-    for (const Family family : kFamilies) {
-      const std::string name = optimizer::Name(family);
+    for (const optimizer::FamilySpec& spec : optimizer::Families()) {
+      const std::string name = spec.name;
       if (!require->Has(name)) continue;
       const std::vector<std::string> wanted = require->Texts(name, 1, kExcludedMax);
       for (std::size_t i = 0; i < wanted.size() && !require->Full(); ++i) {
         const std::string& id = wanted[i];
         const std::string place = name + "/" + std::to_string(i);
-        if (id.empty() || (family == Family::kReservoir && id == kCustomReservoir)) continue;
+        if (id.empty() || (spec.made_to_measure && id == kCustomReservoir)) continue;
         const auto found = family_of.find(id);
         if (found == family_of.end())
           require->FailAt(place, unknown(id));
         else if (found->second != name)
           require->FailAt(place, Quoted(id) + " is a " + found->second + ", not a " + name);
       }
-      problem.require[family] = {wanted.begin(), wanted.end()};
+      problem.require[spec.family] = {wanted.begin(), wanted.end()};
     }
     require->Finish();
   }
@@ -105,21 +87,21 @@ void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
 std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
                                         const optimizer::Problem& problem) {
   std::vector<catalog::Part> allowed;
-  for (const Family family : kFamilies)
+  for (const optimizer::FamilySpec& spec : optimizer::Families())
     for (const catalog::Part& part : parts)
-      if (part.family == optimizer::Name(family) && IsAllowed(problem, family, part.id))
+      if (part.family == spec.name && IsAllowed(problem, spec.family, part.id))
         allowed.push_back(part);
   return allowed;
 }
 
 void CheckFamilies(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
                    bool needs_fittings, Errors& errors) {
-  std::vector<Family> shared{Family::kTubing, Family::kValve};
-  if (needs_fittings) shared.push_back(Family::kFitting);
+  std::vector<Family> shared = optimizer::LineFamilies();
+  if (!needs_fittings) std::erase(shared, Family::kFitting);
   std::vector<Family> empty;
   for (const Configuration configuration : problem.configurations) {
     bool possible = true;
-    std::vector<Family> needed = SourceFamilies(configuration);
+    std::vector<Family> needed = optimizer::SourceFamilies(configuration);
     needed.insert(needed.begin(), shared.begin(), shared.end());
     for (const Family family : needed) {
       if (HasChoice(parts, problem, family)) continue;

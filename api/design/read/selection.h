@@ -13,9 +13,6 @@ namespace plenum::api {
 
 inline constexpr const char* kCustomReservoir = "custom";
 
-// What the source of a configuration is made of, a part of each.
-std::vector<optimizer::Family> SourceFamilies(optimizer::Configuration configuration);
-
 // Whether `require` and `exclude` leave the part.
 bool IsAllowed(const optimizer::Problem& problem, optimizer::Family family, const std::string& id);
 

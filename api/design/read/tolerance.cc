@@ -11,6 +11,7 @@
 #include "api/json/units.h"
 #include "catalog/fields/fields.h"
 #include "optimizer/evaluate/candidate.h"
+#include "optimizer/problem/family_specs.h"
 
 namespace plenum::api {
 namespace {
@@ -129,7 +130,7 @@ optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
     for (const optimizer::Choice& choice : design.parts) {
       if (!seen.insert(choice.id).second) continue;
       const bool made =
-          choice.family == optimizer::Family::kReservoir && choice.id == kCustomReservoir;
+          choice.id == kCustomReservoir && optimizer::SpecOf(choice.family).made_to_measure;
       drawn.push_back(
           Perturbed(made ? MadeReservoirRow(problem, design, choice) : *by_id.at(choice.id),
                     tolerance, seed, draw));

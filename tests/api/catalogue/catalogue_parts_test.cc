@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "api/json/units.h"
+#include "catalog/fields/fields.h"
+#include "model/physics/storage.h"
+#include "optimizer/problem/family_specs.h"
 #include "tests/api/support.h"
 
 namespace plenum::api {
@@ -89,6 +94,70 @@ TEST(ToModelParts, KnowsTheFunctionsOfValves) {
   EXPECT_EQ(ValveKindFromFunction("3/2"), model::ValveKind::kThreeWay);
   EXPECT_EQ(ValveKindFromFunction("2/2 pair"), model::ValveKind::kPair);
   EXPECT_EQ(ValveKindFromFunction("proportional"), model::ValveKind::kProportional);
+}
+
+// A number of the catalogue in SI, by the unit in its name.
+double InSi(const std::string& name, double value, const model::Ambient& ambient) {
+  if (name.ends_with("_kpa_gauge")) return ambient.pressure_pa + 1e3 * value;
+  if (name.ends_with("_mm")) return 1e-3 * value;
+  if (name.ends_with("_ml")) return 1e-6 * value;
+  if (name.ends_with("_l")) return 1e-3 * value;
+  if (name.ends_with("_l_per_min_anr")) return 1e-3 / 60 * value;
+  if (name.ends_with("_dm3_per_s_bar")) return 1e-8 * value;
+  return value;
+}
+
+// The search's table of a family and the catalogue's speak of the same fields, each of the number
+// that it names.
+TEST(FamilyTables, AgreeWithTheCatalogue) {
+  const std::set<std::string> kAmounts{"mass_kg", "body_volume_ml", "price_eur", "mass_kg_per_m",
+                                       "price_eur_per_m"};
+  const std::set<std::string> kUnused{"cells_series", "response_time_ms"};
+  const model::Ambient ambient{.pressure_pa = 90e3, .temperature_k = 293.15};
+  for (const optimizer::FamilySpec& spec : optimizer::Families()) {
+    SCOPED_TRACE(spec.name);
+    EXPECT_EQ(optimizer::SpecOf(spec.family).name, spec.name);
+    const catalog::Family* family = catalog::FindFamily(spec.name);
+    ASSERT_NE(family, nullptr);
+    std::set<std::string> names;
+    for (const catalog::NumberField& field : family->numbers) {
+      const std::string name(field.name);
+      names.insert(name);
+      EXPECT_NE(UseInSearch(spec.name, name).has_value(), kUnused.contains(name)) << name;
+      EXPECT_EQ(UseInSearch(spec.name, name) == "adds up", kAmounts.contains(name)) << name;
+    }
+    for (const catalog::TextField& field : family->texts) names.emplace(field.name);
+    for (const catalog::Part& row : SmallCatalogue()) {
+      if (row.family != spec.name) continue;
+      const model::Parts parts = ToModelParts({row}, ambient);
+      ASSERT_EQ(optimizer::FamilySize(parts, spec.family), 1);
+      EXPECT_EQ(optimizer::BasicsOf(parts, spec.family, 0).id, row.id);
+      for (const optimizer::PartField& field : spec.fields) {
+        const std::string name(field.name);
+        EXPECT_TRUE(names.contains(name)) << name;
+        const optimizer::FieldValue value = field.of(parts, 0);
+        const auto number = row.numbers.find(name);
+        if (const auto* text = std::get_if<std::string_view>(&value)) {
+          EXPECT_EQ(*text, row.texts.at(name).value);
+        } else if (number == row.numbers.end()) {
+          const auto optional = std::find_if(
+              family->numbers.begin(), family->numbers.end(),
+              [&](const catalog::NumberField& f) { return f.name == name && !f.required; });
+          EXPECT_TRUE(name == "function" || optional != family->numbers.end()) << name;
+        } else if (const auto* flow = std::get_if<model::FlowElement>(&value)) {
+          EXPECT_DOUBLE_EQ(flow->sonic_conductance_m3_per_s_pa,
+                           InSi(name, number->second.value, ambient));
+        } else if (name == "capacity_ah") {
+          EXPECT_DOUBLE_EQ(
+              std::get<double>(value),
+              model::UsableEnergy(number->second.value, row.numbers.at("nominal_voltage_v").value));
+        } else {
+          EXPECT_DOUBLE_EQ(std::get<double>(value), InSi(name, number->second.value, ambient))
+              << name;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "catalog/fields/fields.h"
-#include "samples.h"
+#include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "samples.h"
+#include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
 namespace {

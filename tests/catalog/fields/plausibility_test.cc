@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "samples.h"
+#include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
 namespace {

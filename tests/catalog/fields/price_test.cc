@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "samples.h"
+#include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
 namespace {

@@ -7,8 +7,8 @@
 #include <random>
 #include <thread>
 
-#include "folder.h"
-#include "samples.h"
+#include "tests/catalog/folder.h"
+#include "tests/catalog/samples.h"
 #include "tests/support/places.h"
 
 namespace plenum::catalog {

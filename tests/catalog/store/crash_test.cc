@@ -13,8 +13,8 @@
 #include <memory>
 
 #include "catalog/store/backup.h"
-#include "folder.h"
-#include "samples.h"
+#include "tests/catalog/folder.h"
+#include "tests/catalog/samples.h"
 #include "tests/support/places.h"
 
 namespace plenum::catalog {

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "catalog/store/part_record.h"
-#include "folder.h"
-#include "samples.h"
+#include "tests/catalog/folder.h"
+#include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
 namespace {

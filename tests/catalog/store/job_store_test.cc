@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "folder.h"
+#include "tests/catalog/folder.h"
 
 namespace plenum::catalog {
 namespace {

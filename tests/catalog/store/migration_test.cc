@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "catalog/store/migrations.h"
-#include "folder.h"
-#include "samples.h"
+#include "tests/catalog/folder.h"
+#include "tests/catalog/samples.h"
 #include "tests/support/places.h"
 
 namespace plenum::catalog {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "catalog/store/content_hash.h"
-#include "folder.h"
-#include "samples.h"
+#include "tests/catalog/folder.h"
+#include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "samples.h"
+#include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
 namespace {

@@ -14,7 +14,7 @@
 #include <sstream>
 
 #include "catalog/fields/csv.h"
-#include "samples.h"
+#include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
 namespace {

@@ -6,10 +6,10 @@
 #include <httplib.h>
 #include <sys/stat.h>
 
-#include "raw.h"
 #include "server/call/service_limits.h"
 #include "server/wire/request_frame.h"
-#include "service.h"
+#include "tests/server/raw.h"
+#include "tests/server/service.h"
 
 namespace plenum::server {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <future>
 
-#include "workbench.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <csignal>
 
+#include "tests/server/workbench.h"
 #include "tests/support/places.h"
-#include "workbench.h"
 
 namespace plenum::server {
 namespace {

@@ -14,7 +14,7 @@
 #include "server/jobs/crash_marks.h"
 #include "server/jobs/job_recovery.h"
 #include "server/jobs/jobs.h"
-#include "workbench.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 namespace {

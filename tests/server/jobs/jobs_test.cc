@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "server/jobs/job_recovery.h"
-#include "workbench.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 namespace {

@@ -16,8 +16,8 @@
 #include <thread>
 
 #include "server/http.h"
-#include "service.h"
-#include "workbench.h"
+#include "tests/server/service.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 namespace {

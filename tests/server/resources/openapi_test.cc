@@ -15,7 +15,7 @@
 
 #include "api/describe/descriptions.h"
 #include "server/call/service_limits.h"
-#include "service.h"
+#include "tests/server/service.h"
 #include "tests/support/places.h"
 
 namespace plenum::server {

@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "server/http.h"
+#include "tests/server/workbench.h"
 #include "tests/support/places.h"
-#include "workbench.h"
 
 namespace plenum::server {
 namespace {

@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "api/json/json.h"
-#include "raw.h"
-#include "workbench.h"
+#include "tests/server/raw.h"
+#include "tests/server/workbench.h"
 
 namespace plenum::server {
 namespace {

@@ -1,7 +1,9 @@
-// Makes a plan: parts become choices with corners, slot by slot. Internal to
-// make_plan.cc, plan_lines.cc and plan_source.cc.
-#ifndef PLENUM_OPTIMIZER_CHOICES_PLANTER_H_
-#define PLENUM_OPTIMIZER_CHOICES_PLANTER_H_
+// Makes a plan: parts become choices with corners, slot by slot. Internal to make_plan.cc and
+// choose_battery.cc, choose_bottle.cc, choose_compressor.cc, choose_fitting.cc,
+// choose_regulator.cc, choose_reservoir.cc, choose_tubing.cc and choose_valve.cc, which say how the
+// parts of a family combine.
+#ifndef PLENUM_OPTIMIZER_CHOICES_PLANT_PLANTER_H_
+#define PLENUM_OPTIMIZER_CHOICES_PLANT_PLANTER_H_
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +18,9 @@
 #include "model/physics/storage.h"
 #include "optimizer/choices/dominance.h"
 #include "optimizer/choices/plan.h"
+#include "optimizer/choices/plant/compared.h"
 #include "optimizer/evaluate/line.h"
+#include "optimizer/problem/family_specs.h"
 #include "optimizer/pump/pump_slope.h"
 
 namespace plenum::optimizer {
@@ -48,17 +52,6 @@ inline double EnergyWeight(const Problem& problem) {
   return problem.objective.energy_wh / kJoulePerWattHour;
 }
 
-// Numbers distinct values from 0.
-template <typename Value>
-class NumbersOf {
- public:
-  int Of(const Value& value) { return number_.try_emplace(value, size()).first->second; }
-  int size() const { return static_cast<int>(number_.size()); }
-
- private:
-  std::map<Value, int> number_;
-};
-
 // The choices of a family and what dominance compares; PlantSlot adds what holds for all.
 template <typename Corner>
 struct Entry {
@@ -69,12 +62,20 @@ template <typename Corner>
 struct Entries {
   std::vector<Item<Corner>> items;
   std::vector<Contender> contenders;
+  MatingClasses classes;
 
   void Reserve(std::size_t size) {
     items.reserve(size);
     contenders.reserve(size);
   }
   Entry<Corner> Add() { return {items.emplace_back(), contenders.emplace_back()}; }
+};
+
+// What of a line's parts must mate with what.
+struct LineMates {
+  bool fittings = false;  // without them nothing has to
+  KindsOf<double> diameters;
+  KindsOf<std::string> threads;  // of fittings
 };
 
 template <typename Corner>
@@ -252,62 +253,74 @@ class Planter {
     return !CostMatters(problem_) || basics.cost_eur.has_value();
   }
 
-  // C and b as losses, also the other way round where only equal flow compares.
-  void AddFlow(const model::FlowElement& flow, Losses& losses) const {
-    losses.push_back(-flow.sonic_conductance_m3_per_s_pa);
-    losses.push_back(-flow.critical_ratio);
-    losses.push_back(flow.subsonic_index);
-    if (!plan_->equal_flow) return;
-    losses.push_back(flow.sonic_conductance_m3_per_s_pa);
-    losses.push_back(flow.critical_ratio);
-    losses.push_back(-flow.subsonic_index);
-  }
-
-  struct FittingKinds {  // of all fittings, which tubes and valves mate with
-    KindsOf<double> diameters;
-    KindsOf<std::string> threads;
+  // How many pieces a choice has: those that weigh and cost, and those whose numbers count.
+  struct Count {
+    double bought, counted;
   };
-  void PlantGroup(int g);
-  void PlantTubes(int g, const FittingKinds& mates);
-  void PlantFittings(int g, FittingKinds& mates);
-  void PlantValves(int g, const FittingKinds& mates);
 
-  int PlantRegulators();
-
-  // `make(part, quantity, entry)` for each part × 1…quantity_max that has the price it needs.
-  template <typename Corner, typename Part, typename Make>
-  Entries<Corner> InParallel(const std::vector<Part>& parts, int quantity_max,
-                             const Make& make) const {
+  // Each part of the family × 1…the most that may stand in parallel that has the price it needs.
+  // `count(part, quantity)`; `rule(part, quantity, entry)` adds what the table does not say.
+  // `mates`: fields of Use::kMate count.
+  template <typename Corner, typename CountOf, typename Rule>
+  Entries<Corner> MakeEntries(Family family, bool mates, const CountOf& count,
+                              const Rule& rule) const {
     constexpr int kBetweenLooks = 256;
+    const FamilySpec& spec = SpecOf(family);
+    const int most = QuantityMax(problem_, family);
+    const int size = FamilySize(problem_.parts, family);
     Entries<Corner> entries;
-    entries.Reserve(parts.size() * static_cast<std::size_t>(quantity_max) + 1);
-    for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
+    entries.Reserve(static_cast<std::size_t>(size) * static_cast<std::size_t>(most) + 1);
+    for (int i = 0; i < size; ++i) {
       if (i % kBetweenLooks == 0 && stopped()) break;
-      if (!Priced(parts[i].basics)) continue;
-      for (int quantity = 1; quantity <= quantity_max; ++quantity) {
+      const model::PartBasics& basics = spec.basics(problem_.parts, i);
+      if (!Priced(basics)) continue;
+      for (int quantity = 1; quantity <= most; ++quantity) {
         const Entry<Corner> entry = entries.Add();
-        entry.item.option = {i, quantity, static_cast<double>(quantity) * parts[i].basics};
-        entry.contender.id = parts[i].basics.id;
-        make(parts[i], quantity, entry);
+        const Count pieces = count(i, quantity);
+        entry.item.option = {i, quantity, pieces.bought * basics};
+        SetShare(problem_, entry.item.option.amounts, entry.item.corner);
+        const PartNumbers numbers{problem_.parts, i, pieces.counted, useful_max_pa_};
+        SetNumbers(numbers, entry.item.corner);
+        entry.contender.id = basics.id;
+        entry.contender.mates = entries.classes.Of(numbers, spec.fields, mates);
+        AddLosses(numbers, spec.fields, plan_->equal_flow, entry.contender.losses);
+        rule(i, quantity, entry);
       }
     }
     return entries;
   }
+  // The same of a family of the source.
+  template <typename Corner, typename Rule>
+  Entries<Corner> MakeSourceEntries(Family family, const Rule& rule) const {
+    return MakeEntries<Corner>(
+        family, true,
+        [](int, int quantity) {
+          return Count{static_cast<double>(quantity), static_cast<double>(quantity)};
+        },
+        rule);
+  }
+  // How many choices that makes, were there a price for each.
+  long long ChoicesOf(Family family) const {
+    return static_cast<long long>(FamilySize(problem_.parts, family)) *
+           QuantityMax(problem_, family);
+  }
+
+  void PlantGroup(int g);
+  void PlantTubing(int g, const LineMates& mates);
+  void PlantFittings(int g, LineMates& mates);
+  void PlantValves(int g, const LineMates& mates);
 
   // `full_m3`: gas down to an inlet pressure of nothing; `water_m3`: what holds gas back.
-  void SetBottle(double gas_kg, double full_m3, double water_m3, double fill_pa,
-                 double flow_m3_per_s, const Entry<BottleCorner>& entry) const;
-
-  int PlantCylinders();
-
-  int PlantCo2();
-
-  int PlantCompressors();
-
+  void SetBottle(double gas_kg, double full_m3, double water_m3,
+                 const Entry<BottleCorner>& entry) const;
   void AddMadeReservoir(int mates, const Entry<ReservoirCorner>& entry) const;
 
+  // Each returns the number of its slot.
+  int PlantRegulators();
+  int PlantCylinders();
+  int PlantCo2();
+  int PlantCompressors();
   int PlantReservoirs();
-
   int PlantBatteries();
 
   const Problem& problem_;
@@ -322,4 +335,4 @@ class Planter {
 
 }  // namespace plenum::optimizer
 
-#endif  // PLENUM_OPTIMIZER_CHOICES_PLANTER_H_
+#endif  // PLENUM_OPTIMIZER_CHOICES_PLANT_PLANTER_H_

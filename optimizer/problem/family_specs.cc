@@ -1,0 +1,130 @@
+#include "optimizer/problem/family_specs.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "optimizer/problem/part_tables.h"
+
+namespace plenum::optimizer {
+namespace {
+
+template <auto list>
+std::size_t SizeOf(const model::Parts& parts) {
+  return (parts.*list).size();
+}
+
+template <auto list>
+const model::PartBasics& BasicsIn(const model::Parts& parts, int part) {
+  const auto& found = (parts.*list)[part];
+  if constexpr (requires { found.per_metre; })
+    return found.per_metre;
+  else
+    return found.basics;
+}
+
+// Where a family is used.
+struct Place {
+  int place;
+  bool in_line;
+  std::vector<Configuration> sources;
+  int Limits::*most = nullptr;
+  bool by_need = false, made_to_measure = false;
+};
+
+template <auto list>
+FamilySpec Spec(Family family, const char* name, std::span<const PartField> fields,
+                const Place& place) {
+  FamilySpec spec{.family = family,
+                  .name = name,
+                  .fields = fields,
+                  .size = &SizeOf<list>,
+                  .basics = &BasicsIn<list>,
+                  .place = place.place,
+                  .in_line = place.in_line,
+                  .most = place.most,
+                  .by_need = place.by_need,
+                  .made_to_measure = place.made_to_measure};
+  for (const Configuration configuration : place.sources)
+    spec.in_source[static_cast<std::size_t>(configuration)] = true;
+  return spec;
+}
+
+std::vector<Family> InOrder(std::vector<Family> families) {
+  std::sort(families.begin(), families.end(),
+            [](Family a, Family b) { return SpecOf(a).place < SpecOf(b).place; });
+  return families;
+}
+
+}  // namespace
+
+std::vector<FamilySpec> OwnFamilies() {
+  using model::Parts;
+  constexpr auto kCylinder = Configuration::kCylinder, kCo2 = Configuration::kCo2,
+                 kCompressor = Configuration::kCompressor, kMains = Configuration::kMains;
+  return {
+      Spec<&Parts::tubing>(Family::kTubing, "tubing", kTubingFields, {2, true, {}}),
+      Spec<&Parts::fittings>(Family::kFitting, "fitting", kFittingFields, {1, true, {}}),
+      Spec<&Parts::valves>(Family::kValve, "valve", kValveFields, {0, true, {}}),
+      Spec<&Parts::compressors>(Family::kCompressor, "compressor", kCompressorFields,
+                                {6, false, {kCompressor}, &Limits::compressors}),
+      Spec<&Parts::cylinders>(Family::kCylinder, "cylinder", kCylinderFields,
+                              {4, false, {kCylinder}, &Limits::cylinders, true}),
+      Spec<&Parts::co2>(Family::kCo2, "co2", kCo2Fields, {5, false, {kCo2}, &Limits::co2, true}),
+      Spec<&Parts::batteries>(Family::kBattery, "battery", kBatteryFields,
+                              {7, false, {kCylinder, kCo2, kCompressor}, &Limits::batteries, true}),
+      Spec<&Parts::regulators>(Family::kRegulator, "regulator", kRegulatorFields,
+                               {3, false, {kCylinder, kCo2, kMains}}),
+      Spec<&Parts::reservoirs>(Family::kReservoir, "reservoir", kReservoirFields,
+                               {8, false, {kCompressor}, &Limits::reservoirs, true, true}),
+  };
+}
+
+const FamilySpec& SpecOf(Family family) { return Families()[static_cast<std::size_t>(family)]; }
+
+const char* Name(Family family) { return SpecOf(family).name; }
+
+int FamilySize(const model::Parts& parts, Family family) {
+  return static_cast<int>(SpecOf(family).size(parts));
+}
+
+const model::PartBasics& BasicsOf(const model::Parts& parts, Family family, int part) {
+  return SpecOf(family).basics(parts, part);
+}
+
+model::PartBasics& BasicsOf(model::Parts& parts, Family family, int part) {
+  return const_cast<model::PartBasics&>(BasicsOf(std::as_const(parts), family, part));
+}
+
+int FindPart(const model::Parts& parts, Family family, const std::string& id) {
+  for (int i = 0; i < FamilySize(parts, family); ++i)
+    if (BasicsOf(parts, family, i).id == id) return i;
+  return -1;
+}
+
+int QuantityMax(const Problem& problem, Family family) {
+  const auto most = SpecOf(family).most;
+  return most == nullptr ? 1 : problem.limits.*most;
+}
+
+bool MadeToMeasureAllowed(const Problem& problem, Family family) {
+  if (!SpecOf(family).made_to_measure) return false;
+  const auto required = problem.require.find(family);
+  return !problem.exclude.contains("custom") &&
+         (required == problem.require.end() || required->second.contains("custom"));
+}
+
+std::vector<Family> LineFamilies() {
+  std::vector<Family> families;
+  for (const FamilySpec& spec : Families())
+    if (spec.in_line) families.push_back(spec.family);
+  return InOrder(std::move(families));
+}
+
+std::vector<Family> SourceFamilies(Configuration configuration) {
+  std::vector<Family> families;
+  for (const FamilySpec& spec : Families())
+    if (spec.InSourceOf(configuration)) families.push_back(spec.family);
+  return InOrder(std::move(families));
+}
+
+}  // namespace plenum::optimizer
