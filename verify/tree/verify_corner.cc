@@ -3,7 +3,6 @@
 #include "model/physics/storage.h"
 #include "model/strokes/stroke.h"
 #include "verify/design/verify_design.h"
-#include "verify/tree/verify_best.h"
 
 namespace plenum::verify {
 namespace {

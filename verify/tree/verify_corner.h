@@ -6,6 +6,7 @@
 #include <map>
 
 #include "verify/design/verify_values.h"
+#include "verify/tree/verify_best.h"
 #include "verify/tree/verify_dominance.h"
 #include "verify/tree/verify_line.h"
 #include "verify/tree/verify_pump.h"
