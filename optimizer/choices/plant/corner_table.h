@@ -48,6 +48,18 @@ struct Ruled {
   double Corner::*at;
 };
 
+// Clang 14 does not deduce an aggregate's arguments without these.
+template <typename Corner>
+Best(PartField, double Corner::*) -> Best<Corner>;
+template <typename Corner>
+Ends(PartField, double Corner::*, double Corner::*) -> Ends<Corner>;
+template <typename Corner>
+Flow(PartField, model::FlowElement Corner::*) -> Flow<Corner>;
+template <typename Corner>
+Mates(std::uint64_t Corner::*) -> Mates<Corner>;
+template <typename Corner>
+Ruled(Use, double, double Corner::*) -> Ruled<Corner>;
+
 inline double Log(double value) { return std::log(std::max(value, 1e-300)); }
 inline double Weighted(const PartField& field, double value) {
   return field.weight * Log(value + field.weight_offset);
