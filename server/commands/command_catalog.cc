@@ -8,7 +8,6 @@
 #include "api/json/json.h"
 #include "server/call/reply.h"
 #include "server/commands/catalog_keeping.h"
-#include "server/commands/command_options.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
@@ -20,8 +19,6 @@ namespace {
 
 using catalog::Access;
 using catalog::WriteStatus;
-
-using Options = std::shared_ptr<CatalogOptions>;
 
 void CheckFamily(const std::string& family) {
   if (catalog::FindFamily(family) == nullptr) {
@@ -128,104 +125,110 @@ void Export(const CatalogOptions& options) {
   Print(catalog::WriteCsv(options.family, parts));
 }
 
-class CatalogCommands {
- public:
-  CatalogCommands(CLI::App& app, int& status)
-      : group_(*app.add_subcommand("catalog", "The parts catalogue")), status_(status) {
-    group_.require_subcommand(1);
-  }
-
-  CLI::App& Add(const char* name, const char* description, int (*run)(const CatalogOptions&)) {
-    options_ = std::make_shared<CatalogOptions>();
-    auto* command = group_.add_subcommand(name, description);
-    AddCatalogOption(*command, options_->catalog);
-    command->callback([options = options_, run, &status = status_] { status = run(*options); });
-    return *command;
-  }
-  // Of the command added last.
-  CatalogOptions& options() { return *options_; }
-
- private:
-  CLI::App& group_;
-  int& status_;
-  Options options_;
-};
-
 template <void (*run)(const CatalogOptions&)>
 int Answered(const CatalogOptions& options) {
   run(options);
   return kAnswered;
 }
 
-void AddRevision(CLI::App& command, CatalogOptions& options) {
-  command.add_option("--revision", options.revision, "As the catalogue was in this revision")
-      ->type_name("N");
+using Table = std::vector<Option>;
+
+// A command below `catalog`, with options of its own.
+Command Below(const char* name, const char* help, int (*run)(const CatalogOptions&),
+              const std::function<Table(CatalogOptions&)>& table) {
+  auto options = std::make_shared<CatalogOptions>();
+  Table all = table(*options);
+  all.insert(all.begin(), CatalogOption(options->catalog));
+  return {name, help, std::move(all), [options, run] { return run(*options); }};
+}
+
+Option Family(CatalogOptions& options) {
+  return {"FAMILY", "One of " + FamilyNames(), &options.family, {.value_name = ""}};
+}
+
+Option RequiredFamily(CatalogOptions& options) {
+  Option family = Family(options);
+  family.rules.required = true;
+  return family;
+}
+
+Option RevisionOption(CatalogOptions& options) {
+  return {"--revision",
+          "As the catalogue was in this revision",
+          &options.revision,
+          {.value_name = "N"}};
+}
+
+Table ListTable(CatalogOptions& options) {
+  return {
+      Family(options),
+      {"--where",
+       "FIELD=VALUE, FIELD_min=VALUE or FIELD_max=VALUE; may be repeated",
+       &options.filters,
+       {.value_name = "FILTER"}},
+      {"--sort", "Field; -FIELD for the opposite order", &options.sort, {.value_name = "FIELD"}},
+      RevisionOption(options),
+      JsonFlag(options.json),
+      {"--csv", "CSV, as import takes it", &options.csv, {.excludes = "--json"}}};
+}
+
+Table ShowTable(CatalogOptions& options) {
+  return {Argument("ID", "Its id", &options.id), RevisionOption(options), JsonFlag(options.json)};
+}
+
+Table HistoryTable(CatalogOptions& options) {
+  return {{"ID", "A part's id; all writes without", &options.id, {.value_name = ""}},
+          {"--limit",
+           "Newest N",
+           &options.limit,
+           {.value_name = "N", .shows_default = true, .allowed = Within{1, 1'000'000}}},
+          JsonFlag(options.json)};
+}
+
+Table ImportTable(CatalogOptions& options) {
+  return {RequiredFamily(options),
+          Argument("FILE", "CSV; - is standard input", &options.file),
+          {"--dry-run", "Says what it would do", &options.dry_run},
+          JsonFlag(options.json)};
+}
+
+// One argument by its place.
+std::function<Table(CatalogOptions&)> FileTable(const char* help) {
+  return
+      [help](CatalogOptions& options) -> Table { return {Argument("FILE", help, &options.file)}; };
 }
 
 }  // namespace
 
-void AddCatalogCommand(CLI::App& app, int& status) {
-  CatalogCommands commands(app, status);
-  auto& list = commands.Add("list", "The parts, of one family or all", Answered<List>);
-  list.add_option("FAMILY", commands.options().family, "One of " + FamilyNames())->type_name("");
-  list.add_option("--where", commands.options().filters,
-                  "FIELD=VALUE, FIELD_min=VALUE or FIELD_max=VALUE; may be repeated")
-      ->type_name("FILTER");
-  list.add_option("--sort", commands.options().sort, "Field; -FIELD for the opposite order")
-      ->type_name("FIELD");
-  AddRevision(list, commands.options());
-  AddJsonFlag(list, commands.options().json);
-  list.add_flag("--csv", commands.options().csv, "CSV, as import takes it")->excludes("--json");
-
-  auto& show = commands.Add("show", "One part with the source of every number", Answered<Show>);
-  show.add_option("ID", commands.options().id, "Its id")->required()->type_name("");
-  AddRevision(show, commands.options());
-  AddJsonFlag(show, commands.options().json);
-
-  auto& history =
-      commands.Add("history", "Changes of a part, or all writes", Answered<ShowHistory>);
-  history.add_option("ID", commands.options().id, "A part's id; all writes without")->type_name("");
-  history.add_option("--limit", commands.options().limit, "Newest N")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1'000'000));
-  AddJsonFlag(history, commands.options().json);
-
-  auto& undo = commands.Add("undo", "Takes the changes of a revision back", Answered<UndoWrite>);
-  undo.add_option("REVISION", commands.options().revision, "Its number, see history")
-      ->required()
-      ->type_name("");
-
-  auto& add = commands.Add("add", "Adds a part", Answered<Add>);
-  AddFile(add, commands.options().file, "JSON as show --json prints it; - is standard input");
-
-  auto& remove = commands.Add("remove", "Removes a part", Answered<Remove>);
-  remove.add_option("ID", commands.options().id, "Its id")->required()->type_name("");
-
-  auto& import = commands.Add("import", "Adds and replaces parts from CSV", Answered<Import>);
-  import.add_option("FAMILY", commands.options().family, "One of " + FamilyNames())
-      ->required()
-      ->type_name("");
-  AddFile(import, commands.options().file, "CSV; - is standard input");
-  import.add_flag("--dry-run", commands.options().dry_run, "Says what it would do");
-  AddJsonFlag(import, commands.options().json);
-
-  auto& write = commands.Add("export", "Parts of a family as CSV", Answered<Export>);
-  write.add_option("FAMILY", commands.options().family, "One of " + FamilyNames())
-      ->required()
-      ->type_name("");
-
-  auto& backup =
-      commands.Add("backup", "Copies the catalogue while it is in use", Answered<BackupCatalog>);
-  AddFile(backup, commands.options().file, "The copy; replaced if there is one");
-
-  auto& restore = commands.Add("restore", "Puts parts and history of a copy in place",
-                               Answered<RestoreCatalog>);
-  AddFile(restore, commands.options().file, "The copy");
-
-  auto& check = commands.Add("check", "Checks the file, every row, the history and odd numbers",
-                             CheckCatalog);
-  AddJsonFlag(check, commands.options().json);
+Command CatalogCommand() {
+  const auto id = [](CatalogOptions& options) -> Table {
+    return {Argument("ID", "Its id", &options.id)};
+  };
+  const auto revision = [](CatalogOptions& options) -> Table {
+    return {Argument("REVISION", "Its number, see history", &options.revision)};
+  };
+  const auto family = [](CatalogOptions& options) -> Table { return {RequiredFamily(options)}; };
+  const auto json = [](CatalogOptions& options) -> Table { return {JsonFlag(options.json)}; };
+  return {
+      "catalog",
+      "The parts catalogue",
+      {},
+      {},
+      {Below("list", "The parts, of one family or all", Answered<List>, ListTable),
+       Below("show", "One part with the source of every number", Answered<Show>, ShowTable),
+       Below("history", "Changes of a part, or all writes", Answered<ShowHistory>, HistoryTable),
+       Below("undo", "Takes the changes of a revision back", Answered<UndoWrite>, revision),
+       Below("add", "Adds a part", Answered<Add>,
+             FileTable("JSON as show --json prints it; - is standard input")),
+       Below("remove", "Removes a part", Answered<Remove>, id),
+       Below("import", "Adds and replaces parts from CSV", Answered<Import>, ImportTable),
+       Below("export", "Parts of a family as CSV", Answered<Export>, family),
+       Below("backup", "Copies the catalogue while it is in use", Answered<BackupCatalog>,
+             FileTable("The copy; replaced if there is one")),
+       Below("restore", "Puts parts and history of a copy in place", Answered<RestoreCatalog>,
+             FileTable("The copy")),
+       Below("check", "Checks the file, every row, the history and odd numbers", CheckCatalog,
+             json)}};
 }
 
 }  // namespace plenum::server

@@ -9,7 +9,6 @@
 #include "api/design/read/requirements_reader.h"
 #include "api/json/json.h"
 #include "server/call/reply.h"
-#include "server/commands/command_options.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
@@ -81,16 +80,17 @@ int Design(const DesignOptions& options) {
 
 }  // namespace
 
-void AddDesignCommand(CLI::App& app, int& status) {
+Command DesignCommand() {
   auto options = std::make_shared<DesignOptions>();
-  auto* command = app.add_subcommand("design", "Ranked designs for a requirements file");
-  AddFile(*command, options->file, "Requirements as JSON; - is standard input");
-  command->add_option("--top", options->top, "Number of designs")->type_name("N");
-  command->add_option("--time-limit", options->time_limit_s, "Seconds to search")->type_name("S");
-  command->add_flag("--proof", options->proof, "Keep the record of the search, for verify");
-  AddJsonFlag(*command, options->json);
-  AddCatalogOption(*command, options->catalog);
-  command->callback([options, &status] { status = Design(*options); });
+  return {"design",
+          "Ranked designs for a requirements file",
+          {Argument("FILE", "Requirements as JSON; - is standard input", &options->file),
+           {"--top", "Number of designs", &options->top, {.value_name = "N"}},
+           {"--time-limit", "Seconds to search", &options->time_limit_s, {.value_name = "S"}},
+           {"--proof", "Keep the record of the search, for verify", &options->proof},
+           JsonFlag(options->json),
+           CatalogOption(options->catalog)},
+          [options] { return Design(*options); }};
 }
 
 }  // namespace plenum::server

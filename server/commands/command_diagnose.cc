@@ -9,7 +9,6 @@
 
 #include "api/measure/diagnose_request.h"
 #include "server/call/reply.h"
-#include "server/commands/command_options.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
@@ -20,7 +19,7 @@
 namespace plenum::server {
 namespace {
 
-struct DiagnoseCommand {
+struct DiagnoseOptions {
   std::vector<std::string> files;
   std::string rig, model, save, report;
   std::string catalog = "catalog.db";
@@ -48,9 +47,9 @@ class ProgressLine {
 api::Json DocumentOf(const std::string& text) { return ValueOrRefuse(api::ParseJson(text)); }
 
 // Every file as a measurement document; CSV with the rig file.
-std::vector<api::Json> ReadDocuments(const DiagnoseCommand& command, api::Provenance& provenance) {
+std::vector<api::Json> ReadDocuments(const DiagnoseOptions& options, api::Provenance& provenance) {
   std::vector<api::Json> documents;
-  for (const std::string& file : command.files) {
+  for (const std::string& file : options.files) {
     const std::string text = ReadText(file);
     provenance.files.push_back(api::FileOf(file, text));
     const std::size_t first = text.find_first_not_of(" \t\r\n");
@@ -58,30 +57,30 @@ std::vector<api::Json> ReadDocuments(const DiagnoseCommand& command, api::Proven
       documents.push_back(DocumentOf(text));
       continue;
     }
-    if (command.rig.empty()) {
+    if (options.rig.empty()) {
       if (!file.ends_with(".csv")) documents.push_back(DocumentOf(text));  // says what is wrong
       Refuse({{"--rig", "is required with CSV: the JSON file that describes the rig"}});
     }
     documents.push_back(
-        ValueOrRefuse(api::MeasurementFromCsv(text, DocumentOf(ReadText(command.rig)))));
+        ValueOrRefuse(api::MeasurementFromCsv(text, DocumentOf(ReadText(options.rig)))));
   }
   return documents;
 }
 
-std::optional<api::SavedModel> KnownModel(const DiagnoseCommand& command) {
-  if (command.model.empty() || command.model == "nominal") return std::nullopt;
-  const auto models = OpenCatalog(command.catalog, catalog::Access::kRead).Models();
-  return ValueOrRefuse(api::FindModel(command.model, models, "--model"));
+std::optional<api::SavedModel> KnownModel(const DiagnoseOptions& options) {
+  if (options.model.empty() || options.model == "nominal") return std::nullopt;
+  const auto models = OpenCatalog(options.catalog, catalog::Access::kRead).Models();
+  return ValueOrRefuse(api::FindModel(options.model, models, "--model"));
 }
 
-api::DiagnosisRequest ReadRequest(const DiagnoseCommand& command) {
+api::DiagnosisRequest ReadRequest(const DiagnoseOptions& options) {
   api::DiagnosisRequest request;
   api::Json document =
-      ValueOrRefuse(api::MergeMeasurements(ReadDocuments(command, request.provenance)));
-  if (!command.holdout.empty() && document.is_object()) document["holdout"] = command.holdout;
+      ValueOrRefuse(api::MergeMeasurements(ReadDocuments(options, request.provenance)));
+  if (!options.holdout.empty() && document.is_object()) document["holdout"] = options.holdout;
   request.dataset = ValueOrRefuse(api::ParseMeasurement(document));
-  request.model = KnownModel(command);
-  request.time_limit_s = command.time_limit_s;
+  request.model = KnownModel(options);
+  request.time_limit_s = options.time_limit_s;
   return request;
 }
 
@@ -91,25 +90,25 @@ void WriteReport(const std::string& path, const api::Json& answer) {
   if (!file.flush()) Refuse({{"--report", "cannot write " + path}});
 }
 
-void SaveModel(const DiagnoseCommand& command, const std::optional<api::SavedModel>& revision) {
+void SaveModel(const DiagnoseOptions& options, const std::optional<api::SavedModel>& revision) {
   if (!revision) {
     std::fprintf(stderr, "not saved: the diagnosis settled on no model\n");
     return;
   }
-  catalog::Store store = OpenCatalog(command.catalog, catalog::Access::kWrite);
+  catalog::Store store = OpenCatalog(options.catalog, catalog::Access::kWrite);
   const auto saved =
-      store.SaveModel(command.save, api::RenderModel(*revision).dump(), CommandSignature().who);
+      store.SaveModel(options.save, api::RenderModel(*revision).dump(), CommandSignature().who);
   std::fprintf(stderr, "saved as %s, version %lld\n", saved.name.c_str(),
                static_cast<long long>(saved.version));
 }
 
-int Diagnose(const DiagnoseCommand& command) {
+int Diagnose(const DiagnoseOptions& options) {
   CatchInterrupts();
-  if (!command.save.empty()) {  // before the long work
-    const std::string reason = catalog::WhyInvalidModelName(command.save);
+  if (!options.save.empty()) {  // before the long work
+    const std::string reason = catalog::WhyInvalidModelName(options.save);
     if (!reason.empty()) Refuse({{"--save", reason}});
   }
-  const api::DiagnosisRequest request = ReadRequest(command);
+  const api::DiagnosisRequest request = ReadRequest(options);
   api::DiagnosisAnswer result;
   {
     ProgressLine line;
@@ -119,35 +118,36 @@ int Diagnose(const DiagnoseCommand& command) {
                   }});
   }
   const api::Json& answer = result.answer;
-  std::fputs(command.json ? (Dump(answer) + "\n").c_str() : DiagnosisText(answer).c_str(), stdout);
-  if (!command.report.empty()) WriteReport(command.report, answer);
-  if (!command.save.empty()) SaveModel(command, result.revision);
+  std::fputs(options.json ? (Dump(answer) + "\n").c_str() : DiagnosisText(answer).c_str(), stdout);
+  if (!options.report.empty()) WriteReport(options.report, answer);
+  if (!options.save.empty()) SaveModel(options, result.revision);
   return Interrupted() ? kInterrupted : kAnswered;
 }
 
 }  // namespace
 
-void AddDiagnoseCommand(CLI::App& app, int& status) {
-  auto options = std::make_shared<DiagnoseCommand>();
-  auto* command =
-      app.add_subcommand("diagnose", "What the model lacks against measured pressure traces");
-  command->add_option("FILE", options->files, "Measurements as JSON or CSV; - is standard input")
-      ->required()
-      ->type_name("");
-  command->add_option("--rig", options->rig, "The rig of CSV files, as JSON")->type_name("FILE");
-  command->add_option("--holdout", options->holdout, "Runs that no fit may see")->type_name("RUN");
-  command->add_option("--model", options->model, "Predict with a saved model, without fitting")
-      ->type_name("NAME");
-  command->add_option("--save", options->save, "Keep the revised model for designs")
-      ->type_name("NAME");
-  command->add_option("--report", options->report, "Write an HTML report")->type_name("FILE");
-  command->add_option("--time-limit", options->time_limit_s, "Seconds to search")
-      ->check(CLI::Range(0.01, api::kDiagnosisTimeMaxS))
-      ->capture_default_str()
-      ->type_name("S");
-  AddJsonFlag(*command, options->json);
-  AddCatalogOption(*command, options->catalog);
-  command->callback([options, &status] { status = Diagnose(*options); });
+Command DiagnoseCommand() {
+  auto options = std::make_shared<DiagnoseOptions>();
+  return {"diagnose",
+          "What the model lacks against measured pressure traces",
+          {Argument("FILE", "Measurements as JSON or CSV; - is standard input", &options->files),
+           {"--rig", "The rig of CSV files, as JSON", &options->rig, {.value_name = "FILE"}},
+           {"--holdout", "Runs that no fit may see", &options->holdout, {.value_name = "RUN"}},
+           {"--model",
+            "Predict with a saved model, without fitting",
+            &options->model,
+            {.value_name = "NAME"}},
+           {"--save", "Keep the revised model for designs", &options->save, {.value_name = "NAME"}},
+           {"--report", "Write an HTML report", &options->report, {.value_name = "FILE"}},
+           {"--time-limit",
+            "Seconds to search",
+            &options->time_limit_s,
+            {.value_name = "S",
+             .shows_default = true,
+             .allowed = Within{0.01, api::kDiagnosisTimeMaxS}}},
+           JsonFlag(options->json),
+           CatalogOption(options->catalog)},
+          [options] { return Diagnose(*options); }};
 }
 
 }  // namespace plenum::server

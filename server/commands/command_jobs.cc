@@ -7,7 +7,6 @@
 #include "api/json/json.h"
 #include "server/call/reply.h"
 #include "server/commands/catalog_keeping.h"
-#include "server/commands/command_options.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
@@ -18,16 +17,16 @@
 namespace plenum::server {
 namespace {
 
-struct JobsCommand {
+struct JobsOptions {
   std::string catalog = "catalog.db";
   std::string id;
   bool json = false;
 };
 
-std::string FileOf(const JobsCommand& options) { return options.catalog + "-jobs"; }
+std::string FileOf(const JobsOptions& options) { return options.catalog + "-jobs"; }
 
 // The jobs as the next service will find them.
-std::unique_ptr<catalog::JobStore> OpenJobs(const JobsCommand& options) {
+std::unique_ptr<catalog::JobStore> OpenJobs(const JobsOptions& options) {
   try {
     auto store = std::make_unique<catalog::JobStore>(FileOf(options), catalog::JobsKept());
     RecoverJobs(*store, CrashFile(options.catalog));
@@ -42,13 +41,13 @@ std::unique_ptr<catalog::JobStore> OpenJobs(const JobsCommand& options) {
 }
 
 // What a catalogue has that no service was started with.
-std::vector<catalog::JobRecord> ListOf(const JobsCommand& options) {
+std::vector<catalog::JobRecord> ListOf(const JobsOptions& options) {
   OpenCatalog(options.catalog, catalog::Access::kRead);  // says what is wrong with the file
   if (!std::filesystem::exists(FileOf(options))) return {};
   return OpenJobs(options)->List();
 }
 
-void List(const JobsCommand& options) {
+void List(const JobsOptions& options) {
   const auto jobs = ListOf(options);
   if (!options.json) return Print(JobsText(jobs));
   api::Json list = api::Json::array();
@@ -56,18 +55,18 @@ void List(const JobsCommand& options) {
   Print(Dump({{"jobs", std::move(list)}}) + "\n");
 }
 
-catalog::JobRecord FindOrRefuse(const JobsCommand& options) {
+catalog::JobRecord FindOrRefuse(const JobsOptions& options) {
   for (catalog::JobRecord& job : ListOf(options))
     if (job.id == options.id) return std::move(job);
   throw BadInput("ID: no job has the id " + options.id + "; plenum jobs lists them");
 }
 
-void Say(const JobsCommand& options, catalog::JobStatus status, const std::string& text) {
+void Say(const JobsOptions& options, catalog::JobStatus status, const std::string& text) {
   Print(options.json ? Dump({{"id", options.id}, {"status", catalog::Name(status)}}) + "\n"
                      : text + "\n");
 }
 
-void DoAgain(const JobsCommand& options) {
+void DoAgain(const JobsOptions& options) {
   const catalog::JobRecord job = FindOrRefuse(options);
   if (!catalog::Ended(job.status))
     throw BadInput("ID: the job is queued already; the next plenum serve does it");
@@ -77,7 +76,7 @@ void DoAgain(const JobsCommand& options) {
   Say(options, catalog::JobStatus::kQueued, "queued; the next plenum serve does it");
 }
 
-void Cancel(const JobsCommand& options) {
+void Cancel(const JobsOptions& options) {
   catalog::JobRecord job = FindOrRefuse(options);
   if (catalog::Ended(job.status))
     return Say(options, job.status,
@@ -89,23 +88,23 @@ void Cancel(const JobsCommand& options) {
 
 }  // namespace
 
-void AddJobsCommand(CLI::App& app, int&) {
-  auto options = std::make_shared<JobsCommand>();
-  auto* command = app.add_subcommand("jobs", "Jobs of a catalogue while no service runs");
-  command->require_subcommand(0, 1);
-  AddCatalogOption(*command, options->catalog);
-  AddJsonFlag(*command, options->json);
-  command->callback([options, command] {
-    if (command->get_subcommands().empty()) List(*options);
-  });
-  auto* again = command->add_subcommand("again", "Queues a job that failed or was cancelled");
-  again->callback([options] { DoAgain(*options); });
-  auto* cancel = command->add_subcommand("cancel", "Ends a job that is queued");
-  cancel->callback([options] { Cancel(*options); });
-  for (auto* subcommand : {again, cancel}) {
-    subcommand->fallthrough();
-    subcommand->add_option("ID", options->id, "Of the list")->required()->type_name("");
-  }
+Command JobsCommand() {
+  auto options = std::make_shared<JobsOptions>();
+  const auto command = [&](const char* name, const char* help, void (*run)(const JobsOptions&)) {
+    return Command{name, help, {Argument("ID", "Of the list", &options->id)}, [options, run] {
+                     run(*options);
+                     return kAnswered;
+                   }};
+  };
+  return {"jobs",
+          "Jobs of a catalogue while no service runs",
+          {CatalogOption(options->catalog), JsonFlag(options->json)},
+          [options] {
+            List(*options);
+            return kAnswered;
+          },
+          {command("again", "Queues a job that failed or was cancelled", DoAgain),
+           command("cancel", "Ends a job that is queued", Cancel)}};
 }
 
 }  // namespace plenum::server

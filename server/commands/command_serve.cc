@@ -9,7 +9,6 @@
 
 #include "server/call/protection.h"
 #include "server/call/tokens.h"
-#include "server/commands/command_options.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
@@ -64,19 +63,26 @@ void Serve(const ServeOptions& options) {
 
 }  // namespace
 
-void AddServeCommand(CLI::App& app, int&) {
+Command ServeCommand() {
   auto options = std::make_shared<ServeOptions>();
-  auto* command = app.add_subcommand("serve", "The HTTP service");
-  command->add_option("--host", options->host, "Address; any but a loopback one needs tokens")
-      ->capture_default_str();
-  command->add_option("--port", options->port, "0 takes any free one")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 65535));
-  command->add_option("--allow-host", options->allow_hosts,
-                      "Name by which a proxy makes the service known; needs tokens");
-  command->add_flag("!--no-log", options->log, "No line a request on standard error");
-  AddCatalogOption(*command, options->catalog);
-  command->callback([options] { Serve(*options); });
+  return {"serve",
+          "The HTTP service",
+          {{"--host",
+            "Address; any but a loopback one needs tokens",
+            &options->host,
+            {.shows_default = true}},
+           {"--port",
+            "0 takes any free one",
+            &options->port,
+            {.shows_default = true, .allowed = Within{0, 65535}}},
+           {"--allow-host", "Name by which a proxy makes the service known; needs tokens",
+            &options->allow_hosts},
+           {"!--no-log", "No line a request on standard error", &options->log},
+           CatalogOption(options->catalog)},
+          [options] {
+            Serve(*options);
+            return kAnswered;
+          }};
 }
 
 }  // namespace plenum::server

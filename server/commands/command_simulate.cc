@@ -7,8 +7,8 @@
 #include "api/simulate/map.h"
 #include "api/simulate/simulation.h"
 #include "server/call/reply.h"
-#include "server/commands/command_options.h"
 #include "server/commands/commands.h"
+#include "server/commands/exit_status.h"
 #include "server/commands/input.h"
 #include "server/render/text_design.h"
 #include "server/render/text_response.h"
@@ -52,28 +52,30 @@ void Map(const FileOptions& options) {
   std::fputs(options.json ? (Dump(answer) + "\n").c_str() : MapText(answer).c_str(), stdout);
 }
 
-void AddFileCommand(CLI::App& app, const char* name, const char* description,
-                    void (*run)(const FileOptions&)) {
+Command FileCommand(const char* name, const char* help, void (*run)(const FileOptions&)) {
   auto options = std::make_shared<FileOptions>();
-  auto* command = app.add_subcommand(name, description);
-  AddFile(*command, options->file, "Request as JSON; - is standard input");
-  AddJsonFlag(*command, options->json);
-  AddCatalogOption(*command, options->catalog);
-  command->callback([options, run] { run(*options); });
+  return {name,
+          help,
+          {Argument("FILE", "Request as JSON; - is standard input", &options->file),
+           JsonFlag(options->json), CatalogOption(options->catalog)},
+          [options, run] {
+            run(*options);
+            return kAnswered;
+          }};
 }
 
 }  // namespace
 
-void AddSimulateCommand(CLI::App& app, int&) {
-  AddFileCommand(app, "simulate", "Pressures of one given design over time", Simulate);
+Command SimulateCommand() {
+  return FileCommand("simulate", "Pressures of one given design over time", Simulate);
 }
 
-void AddEvaluateCommand(CLI::App& app, int&) {
-  AddFileCommand(app, "evaluate", "A given design against requirements", Evaluate);
+Command EvaluateCommand() {
+  return FileCommand("evaluate", "A given design against requirements", Evaluate);
 }
 
-void AddMapCommand(CLI::App& app, int&) {
-  AddFileCommand(app, "map", "Normalised rise and fall times over a grid", Map);
+Command MapCommand() {
+  return FileCommand("map", "Normalised rise and fall times over a grid", Map);
 }
 
 }  // namespace plenum::server

@@ -5,7 +5,6 @@
 #include "server/call/reply.h"
 #include "server/call/tokens.h"
 #include "server/commands/catalog_keeping.h"
-#include "server/commands/command_options.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 
@@ -52,23 +51,30 @@ void Revoke(const TokenOptions& options) {
 
 }  // namespace
 
-void AddTokenCommand(CLI::App& app, int&) {
+Command TokenCommand() {
   auto options = std::make_shared<TokenOptions>();
-  auto* command = app.add_subcommand("token", "Tokens for use of the service from elsewhere");
-  command->require_subcommand(1);
-  auto* create = command->add_subcommand("create", "Makes a token and prints it");
-  create->add_option("NAME", options->name, "Whose it is")->required()->type_name("");
-  create->add_option("--scope", options->scope, "What it may do")
-      ->check(CLI::IsMember({"read", "write"}))
-      ->capture_default_str();
-  create->callback([options] { Create(*options); });
-  auto* list = command->add_subcommand("list", "Tokens by id, without their text");
-  AddJsonFlag(*list, options->json);
-  list->callback([options] { List(*options); });
-  auto* revoke = command->add_subcommand("revoke", "Ends a token, also of a running service");
-  revoke->add_option("ID", options->id, "Of the list")->required()->type_name("");
-  revoke->callback([options] { Revoke(*options); });
-  for (auto* subcommand : {create, list, revoke}) AddCatalogOption(*subcommand, options->catalog);
+  const auto command = [&](const char* name, const char* help, std::vector<Option> table,
+                           void (*run)(const TokenOptions&)) -> Command {
+    table.push_back(CatalogOption(options->catalog));
+    return {name, help, std::move(table), [options, run] {
+              run(*options);
+              return kAnswered;
+            }};
+  };
+  return {"token",
+          "Tokens for use of the service from elsewhere",
+          {},
+          {},
+          {command("create", "Makes a token and prints it",
+                   {Argument("NAME", "Whose it is", &options->name),
+                    {"--scope",
+                     "What it may do",
+                     &options->scope,
+                     {.shows_default = true, .allowed = OneOf{"read", "write"}}}},
+                   Create),
+           command("list", "Tokens by id, without their text", {JsonFlag(options->json)}, List),
+           command("revoke", "Ends a token, also of a running service",
+                   {Argument("ID", "Of the list", &options->id)}, Revoke)}};
 }
 
 }  // namespace plenum::server

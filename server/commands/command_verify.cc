@@ -5,7 +5,6 @@
 
 #include "api/design/verification.h"
 #include "server/call/reply.h"
-#include "server/commands/command_options.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
@@ -91,20 +90,19 @@ int Verify(const VerifyOptions& options) {
 
 }  // namespace
 
-void AddVerifyCommand(CLI::App& app, int& status) {
+Command VerifyCommand() {
   auto options = std::make_shared<VerifyOptions>();
-  auto* command = app.add_subcommand("verify", "Checks a saved answer of design from scratch");
-  AddFile(*command, options->file, "Answer of design --json; - is standard input");
-  command->add_flag("--brute-force", options->brute_force, "Look at every combination, too");
-  command
-      ->add_option("--combinations-max", options->combinations_max,
-                   "More than these are not looked at one by one")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  AddJsonFlag(*command, options->json);
-  AddCatalogOption(*command, options->catalog);
-  command->callback([options, &status] { status = Verify(*options); });
+  return {"verify",
+          "Checks a saved answer of design from scratch",
+          {Argument("FILE", "Answer of design --json; - is standard input", &options->file),
+           {"--brute-force", "Look at every combination, too", &options->brute_force},
+           {"--combinations-max",
+            "More than these are not looked at one by one",
+            &options->combinations_max,
+            {.value_name = "N", .shows_default = true, .allowed = Positive{}}},
+           JsonFlag(options->json),
+           CatalogOption(options->catalog)},
+          [options] { return Verify(*options); }};
 }
 
 }  // namespace plenum::server
