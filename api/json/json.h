@@ -27,7 +27,7 @@ using Parsed = std::variant<T, Errors>;
 
 // Strict parse: depth ≤ 64, no duplicate keys, no bytes after the document (NUL included), numbers
 // finite; integers that do not fit are errors. NaN and Infinity are not JSON and are refused, and
-// so is what takes more than `bytes_max` of memory; kJsonBytesMax (limits.h) without it.
+// so is what takes more than `bytes_max` of memory; kJsonBytesMax (request_limits.h) without it.
 Parsed<Json> ParseJson(std::string_view text);
 Parsed<Json> ParseJson(std::string_view text, std::size_t bytes_max);
 

@@ -1,4 +1,4 @@
-// The limits of limits.h as JSON, by name.
+// The limits of request_limits.h as JSON, by name.
 #ifndef PLENUM_API_JSON_RENDER_LIMITS_H_
 #define PLENUM_API_JSON_RENDER_LIMITS_H_
 

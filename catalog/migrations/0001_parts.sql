@@ -1,6 +1,6 @@
 -- Parts with a row per number and per text, each with where it comes from. NaN arrives as NULL and
 -- is refused by NOT NULL; infinity passes an open CHECK, so every number is bounded on both sides.
--- The ranges of single fields live in catalog/fields.cc; here is their envelope.
+-- The ranges of single fields live in catalog/fields/fields.cc; here is their envelope.
 PRAGMA application_id = 1886154349;
 
 CREATE TABLE migration (

@@ -1,7 +1,8 @@
 -- Series, aliases, offers, documents, whether a part can be ordered, an uncertainty per number, and
 -- numbers that were measured. SQLite cannot widen a CHECK, so the tables are made anew; children
 -- are dropped before their parents, which would take them along. Which families there are and which
--- fields they have is known to catalog/fields.cc alone, so that a new family needs no migration.
+-- fields they have is known to catalog/fields/fields.cc alone, so that a new family needs no
+-- migration.
 CREATE TABLE part_new (
   id TEXT NOT NULL PRIMARY KEY CHECK (length(id) BETWEEN 1 AND 100 AND id NOT GLOB '*[^a-z0-9._-]*'
     AND id GLOB '[a-z0-9]*' AND id <> 'custom'),

@@ -1,7 +1,8 @@
 // Many connections on a few threads. A connection has no thread while its request arrives or its
 // answer leaves: it waits in one epoll set, from which a thread takes it when there is something to
 // do. So slow clients cost a little memory each and hold up nobody. Who is slower than the limits
-// allow (limits.h) is closed, and where all of them together take too much, who has waited longest.
+// allow (service_limits.h) is closed, and where all of them together take too much, who has waited
+// longest.
 #ifndef PLENUM_SERVER_WIRE_CONNECTIONS_H_
 #define PLENUM_SERVER_WIRE_CONNECTIONS_H_
 
