@@ -205,7 +205,7 @@ class Exceptions(unittest.TestCase):
                          "lines_of_function = 5\nmethods_of_class = 3\nfields_of_class = 2\n"
                          '[rooms.model]\nsees = []\norder = ["air", "flow"]\n[libraries]\n',
                          "rules/exceptions.txt": ""})
-            run = lambda: subprocess.run([sys.executable, tool, root, f"{root}/rules"],
+            run = lambda: subprocess.run([sys.executable, "-B", tool, root, f"{root}/rules"],
                                          capture_output=True, text=True)
             self.assertEqual((run().returncode, run().stdout), (0, ""))
             write(root, self.LONG)
