@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "api/design/answer.h"
+#include "api/design/read/requirements_reader.h"
 #include "api/design/verification.h"
 #include "tests/api/support.h"
 #include "tests/support/places.h"

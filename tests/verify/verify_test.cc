@@ -107,14 +107,14 @@ TEST(VerifyTest, AcceptsWhatTheSearchFoundAndLeavesNothingOpen) {
 }
 
 // Position of each choice of a design in the plan's slots; none where one was left out.
-std::optional<optimizer::Ranges> PlaceOf(const Problem& problem, const ProofPlan& plan,
-                                         const PartsKey& key) {
-  optimizer::Ranges ranges(plan.slots.size());
+std::optional<verify::Ranges> PlaceOf(const Problem& problem, const ProofPlan& plan,
+                                      const PartsKey& key) {
+  verify::Ranges ranges(plan.slots.size());
   for (std::size_t s = 0; s < plan.slots.size(); ++s) {
     const auto& choices = plan.slots[s].choices;
     int found = -1;
     for (int i = 0; i < static_cast<int>(choices.size()); ++i) {
-      optimizer::Ranges one(plan.slots.size(), {0, 1});
+      verify::Ranges one(plan.slots.size(), {0, 1});
       one[s] = {i, i + 1};
       const auto* basics =
           choices[i].part < 0
@@ -143,14 +143,14 @@ TEST(VerifyTest, BoundsLieBelowEveryDesignOfABox) {
     const BruteForce truth = Enumerate(problem);
     Random random(seed);
     for (const ProofPlan& plan : answer.proof.record->plans) {
-      optimizer::KnownStrokes strokes(problem, plan);
-      optimizer::Corners corners(problem, plan, strokes);
+      verify::KnownStrokes strokes(problem, plan);
+      verify::Corners corners(problem, plan, strokes);
       for (const Enumerated& design : truth.designs) {
         if (design.configuration != plan.configuration) continue;
         const auto place = PlaceOf(problem, plan, design.key);
         if (!place) continue;
         for (int box = 0; box < 4; ++box) {  // the design alone, then wider and wider boxes
-          optimizer::Ranges ranges = *place;
+          verify::Ranges ranges = *place;
           for (std::size_t s = 0; box > 0 && s < ranges.size(); ++s) {
             const int last = static_cast<int>(plan.slots[s].choices.size());
             ranges[s].first = Pick(random, 0, ranges[s].first);
@@ -183,32 +183,32 @@ TEST(VerifyTest, SizesAsTheSearchDoes) {
     problem.count = 1'000'000;
     const Answer answer = Recorded(problem);
     for (const ProofPlan& plan : answer.proof.record->plans) {
-      std::vector<optimizer::Ranges> feasible_places;
-      optimizer::Sizer sizer(problem);
+      std::vector<verify::Ranges> feasible_places;
+      verify::Sizer sizer(problem);
       for (const Enumerated& design : truth.designs) {
         if (design.configuration != plan.configuration) continue;
         const auto place = PlaceOf(problem, plan, design.key);
         ASSERT_TRUE(place);  // nothing is dominated a million times
         feasible_places.push_back(*place);
-        const optimizer::Sizing sizing =
-            sizer.Size(optimizer::AssemblyAt(problem, plan, *place), 1e-6, optimizer::kUnlimited);
-        EXPECT_EQ(sizing.status, optimizer::Sized::kFeasible);
+        const verify::Sizing sizing =
+            sizer.Size(verify::AssemblyAt(problem, plan, *place), 1e-6, optimizer::kUnlimited);
+        EXPECT_EQ(sizing.status, verify::Sized::kFeasible);
         EXPECT_NEAR(sizing.objective, design.leaf.objective, 2e-5 * design.leaf.objective);
         EXPECT_LE(sizing.lower_bound, sizing.objective);
         ++feasible;
       }
       // Every other combination has no settings that meet the requirements with room to spare.
-      optimizer::Ranges place(plan.slots.size(), {0, 1});
+      verify::Ranges place(plan.slots.size(), {0, 1});
       for (bool more = true; more;) {
         if (std::find(feasible_places.begin(), feasible_places.end(), place) ==
             feasible_places.end()) {
-          optimizer::KnownStrokes strokes(problem, plan);
-          optimizer::Corners corners(problem, plan, strokes);
+          verify::KnownStrokes strokes(problem, plan);
+          verify::Corners corners(problem, plan, strokes);
           if (!corners.CannotMate(place)) {
-            const optimizer::Sizing sizing = sizer.Size(optimizer::AssemblyAt(problem, plan, place),
-                                                        -1e-6, optimizer::kUnlimited);
-            apart += sizing.status == optimizer::Sized::kUnknown;
-            EXPECT_NE(sizing.status, optimizer::Sized::kFeasible);
+            const verify::Sizing sizing =
+                sizer.Size(verify::AssemblyAt(problem, plan, place), -1e-6, optimizer::kUnlimited);
+            apart += sizing.status == verify::Sized::kUnknown;
+            EXPECT_NE(sizing.status, verify::Sized::kFeasible);
             ++infeasible;
           }
         }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "api/design/read/requirements_reader.h"
 #include "api/design/verification.h"
 #include "tests/api/support.h"
 #include "tests/api/verified.h"

@@ -113,7 +113,7 @@ void Compare(const Problem& problem, Tally& tally) {
   tally.infeasible += answer.status == Status::kInfeasible;
   tally.with_undecided += answer.proof.undecided > 0;
   tally.undecided += answer.proof.undecided;
-  tally.evaluated += static_cast<long long>(answer.proof.evaluated);
+  tally.evaluated += static_cast<long long>(answer.proof.evaluated.ToDouble());
   tally.designs += static_cast<long long>(answer.designs.size());
   for (const optimizer::Design& design : answer.designs)
     tally.made += std::any_of(design.parts.begin(), design.parts.end(),

@@ -5,6 +5,7 @@
 
 #include <future>
 
+#include "api/catalogue/part_document.h"
 #include "tests/server/workbench.h"
 
 namespace plenum::server {

@@ -12,8 +12,8 @@
 namespace plenum::test {
 namespace {
 
-using optimizer::Cycle;
 using optimizer::Problem;
+using verify::Cycle;
 
 TEST(VerifyCycleTest, SimulatorAndQuadraturesAgreeOnSlowEndsOfStrokes) {
   constexpr double kAgree = 2e-5;  // a fifth of what verify allows
@@ -24,7 +24,7 @@ TEST(VerifyCycleTest, SimulatorAndQuadraturesAgreeOnSlowEndsOfStrokes) {
     problem.frequency_hz = 0.005;
     Random random(seed);
     const double operating_pa = problem.groups[0].chamber.operating_pressure_pa;
-    optimizer::Assembly assembly;
+    verify::Assembly assembly;
     assembly.configuration = optimizer::Configuration::kCompressor;
     assembly.lines = {{&problem.parts.tubing[0], &problem.parts.fittings[0],
                        &problem.parts.valves[seed % problem.parts.valves.size()]}};
@@ -35,7 +35,7 @@ TEST(VerifyCycleTest, SimulatorAndQuadraturesAgreeOnSlowEndsOfStrokes) {
     settings.reservoir_volume_m3 = LogUniform(random, 1e-4, 2e-2);
     if (settings.source_pressure_pa > model::HighestPressure(assembly.compressor->curve)) continue;
     const std::optional<Cycle> quick =
-        optimizer::QuickCycles(problem, assembly).At(settings, *settings.reservoir_volume_m3);
+        verify::QuickCycles(problem, assembly).At(settings, *settings.reservoir_volume_m3);
     // Longer than half of the period the stroke is cut short in one and not in the other.
     if (!quick || !(quick->inflate_s[0] < 0.4 / problem.frequency_hz)) continue;
     if (quick->pump_on_s > 0.9 / problem.frequency_hz) continue;
