@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "api/catalogue/part_document.h"
 #include "api/design/answer.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/design/verification.h"

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "optimizer/search/tree_search.h"
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 #include "verify/design/verify_size.h"
 #include "verify/tree/verify_box.h"

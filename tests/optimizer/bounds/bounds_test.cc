@@ -11,7 +11,7 @@
 #include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/pump/stroke_bound.h"
 #include "optimizer/sizing/sizing.h"
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "optimizer/choices/make_plan.h"
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

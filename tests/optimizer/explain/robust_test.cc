@@ -10,7 +10,7 @@
 
 #include "optimizer/explain/explained_search.h"
 #include "optimizer/sizing/resize.h"
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

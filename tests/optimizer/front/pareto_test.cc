@@ -9,7 +9,7 @@
 #include <random>
 
 #include "optimizer/explain/conflict.h"
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

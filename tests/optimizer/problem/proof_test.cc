@@ -8,7 +8,7 @@
 #include <map>
 
 #include "optimizer/search/tree_search.h"
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

@@ -9,7 +9,7 @@
 #include "model/simulate/periodic.h"
 #include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/pump/pump_bounds.h"
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

@@ -1,5 +1,5 @@
 // The search against plain enumeration of every combination of small random catalogues.
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 
 #include <gtest/gtest.h>
 

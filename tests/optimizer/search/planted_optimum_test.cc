@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "optimizer/search/tree_search.h"
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "optimizer/evaluate/relaxation.h"
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

@@ -5,7 +5,7 @@
 
 #include "optimizer/explain/explained_search.h"
 #include "optimizer/search/tree_search.h"
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "optimizer/search/tree_search.h"
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

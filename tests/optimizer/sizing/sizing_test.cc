@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "optimizer/evaluate/evaluate_strokes.h"
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 #include "tests/support/mass_form.h"
 #include "tests/support/small_catalogue.h"
 

@@ -299,7 +299,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
       Check(client.Delete(one), "delete", path + "/{id}", 200);
       Check(client.Get(one + "/events"), "get", path + "/{id}/events", 200);
       // A job that is cancelled before it is done can be asked for again, one that is done not.
-      const auto again = [&](const std::string& job_path, int expected) {
+      const auto again = [&, path = path](const std::string& job_path, int expected) {
         Check(client.Post(job_path + "/again", "", kJson), "post", path + "/{id}/again", expected);
       };
       for (std::string ended = one;;) {

@@ -1,8 +1,8 @@
 // Every combination of a small problem, one after the other: nothing of the tree search is used.
 // Made-to-measure reservoirs are sized by dense scans, all others by the sizing at a given volume,
 // which sizing_test checks against dense scans.
-#ifndef PLENUM_TESTS_OPTIMIZER_BRUTE_FORCE_H_
-#define PLENUM_TESTS_OPTIMIZER_BRUTE_FORCE_H_
+#ifndef PLENUM_TESTS_SUPPORT_BRUTE_FORCE_H_
+#define PLENUM_TESTS_SUPPORT_BRUTE_FORCE_H_
 
 #include <functional>
 #include <string>
@@ -49,4 +49,4 @@ optimizer::SearchOptions Within(double seconds);
 
 }  // namespace plenum::test
 
-#endif  // PLENUM_TESTS_OPTIMIZER_BRUTE_FORCE_H_
+#endif  // PLENUM_TESTS_SUPPORT_BRUTE_FORCE_H_

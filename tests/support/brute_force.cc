@@ -1,4 +1,4 @@
-#include "tests/optimizer/brute_force.h"
+#include "tests/support/brute_force.h"
 
 #include <algorithm>
 #include <cmath>
