@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/physics/storage.h"
-#include "tests/optimizer/sizing/scan_sizing.h"
+#include "tests/support/scan_sizing.h"
 #include "tests/support/small_catalogue.h"
 
 namespace plenum::test {

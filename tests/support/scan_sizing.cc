@@ -1,4 +1,4 @@
-#include "tests/optimizer/sizing/scan_sizing.h"
+#include "tests/support/scan_sizing.h"
 
 #include <algorithm>
 #include <cmath>

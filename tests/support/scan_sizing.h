@@ -1,8 +1,8 @@
 // Sizing of one candidate with a made-to-measure reservoir by dense scans over volumes and, within
 // each, over source pressures, refined by bisection and golden sections. Shares the evaluation of a
 // pair of settings with the search and nothing of its bounds or solvers.
-#ifndef PLENUM_TESTS_OPTIMIZER_SIZING_SCAN_SIZING_H_
-#define PLENUM_TESTS_OPTIMIZER_SIZING_SCAN_SIZING_H_
+#ifndef PLENUM_TESTS_SUPPORT_SCAN_SIZING_H_
+#define PLENUM_TESTS_SUPPORT_SCAN_SIZING_H_
 
 #include "optimizer/evaluate/candidate.h"
 
@@ -18,4 +18,4 @@ Scanned ScanMadeReservoir(const optimizer::Problem& problem, const optimizer::Ca
 
 }  // namespace plenum::test
 
-#endif  // PLENUM_TESTS_OPTIMIZER_SIZING_SCAN_SIZING_H_
+#endif  // PLENUM_TESTS_SUPPORT_SCAN_SIZING_H_
