@@ -161,6 +161,9 @@ std::pair<double, double> Visible(const model::EffectSpec& effect, const model::
     range = {std::max(spec.low, -0.25 * sizes.gauge_pa),
              std::min(spec.high, 0.25 * sizes.gauge_pa)};
   if (spec.name.ends_with("_rad_per_s")) range.second = std::min(spec.high, 150.0 / sizes.stroke_s);
+  // A vessel of hundreds of litres or readings of minutes would begin beyond the law's own range.
+  range.first = std::min(range.first, spec.high);
+  range.second = std::max(range.second, range.first);
   return range;
 }
 
@@ -187,6 +190,7 @@ Coordinate CoordinateOf(const model::EffectSpec& effect, const model::ParameterS
     coordinate.low = std::max(coordinate.low, std::log(*smallest) - kUnknownSpan);
     coordinate.high = std::min(coordinate.high, std::log(*largest) + kUnknownSpan);
   }
+  coordinate.low = std::min(coordinate.low, coordinate.high);
   return coordinate;
 }
 

@@ -331,7 +331,7 @@ TEST(Verify, RefusesTampering) {
       {"gap", "bound", [](Json& a) { a["proof"]["gap"] = 0.1; }},
       {"excluded part listed", "parts",
        [](Json& a) {
-         a["requirements"]["exclude"] = {a["designs"][0]["parts"][0]["id"]};
+         a["requirements"]["exclude"] = Json::array({a["designs"][0]["parts"][0]["id"]});
          a["proof"].erase("record");
        }},
   };

@@ -67,6 +67,20 @@ TEST(NothingFitted, AFewReadingsOfAClosedVesselShowItsLeak) {
   }
 }
 
+// 5,000 times the volume and readings 80 times as far apart: what is searched of each law would
+// begin beyond the law's own range.
+TEST(NothingFitted, AVesselOfHundredsOfLitresShowsItsLeak) {
+  Json document = Hold(40);
+  document["rig"]["actuator"]["rest_volume_ml"] = 500e3;
+  for (Json& t_s : document["runs"][0]["t_s"]) t_s = 80.0 * t_s.get<double>();
+  const Json answer = Diagnosed(document);
+  ASSERT_EQ(answer.at("verdict"), "explained");
+  ASSERT_EQ(answer.at("effects").size(), 1u);
+  EXPECT_EQ(answer.at("effects")[0].at("id"), "leak");
+  const double leak = kLeak * 5000.0 / 80.0 * 60.0 * kStartBar;
+  EXPECT_NEAR(LeakAtStart(answer.at("effects")[0].at("parameters")), leak, 0.15 * leak);
+}
+
 TEST(NothingFitted, NoiseAloneIsAdequate) {
   Json document = Hold(12);
   Json& run = document["runs"][0];
