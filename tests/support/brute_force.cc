@@ -214,6 +214,7 @@ void ForEachCombination(const Problem& problem, const Visit& visit) {
     const model::Gas gas =
         configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
     std::vector<std::vector<Line>> lines;
+    lines.reserve(problem.groups.size());
     for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
       lines.push_back(Lines(problem, g, gas));
     Candidate candidate;
