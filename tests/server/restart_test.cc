@@ -191,6 +191,14 @@ INSTANTIATE_TEST_SUITE_P(, Restart, testing::Values(SIGTERM, SIGKILL), [](const 
 
 class Deaths : public Restart {};
 
+// How a service ends by a signal; AddressSanitizer takes a SIGSEGV for its own and exits with 1.
+int EndBy(int signal) {
+#ifdef PLENUM_SANITIZED
+  if (signal == SIGSEGV) return 1;
+#endif
+  return -signal;
+}
+
 // A signal from outside comes to a thread of no job: no job is to blame, none fails.
 TEST_P(Deaths, TheServiceStartsEachTimeAndTheJobsEnd) {
   Start();
@@ -203,7 +211,7 @@ TEST_P(Deaths, TheServiceStartsEachTimeAndTheJobsEnd) {
     };
     while (!running(jobs[0]) && !running(jobs[1])) Rest();
     client_.reset();
-    EXPECT_EQ(serve_->End(GetParam()), -GetParam());
+    EXPECT_EQ(serve_->End(GetParam()), EndBy(GetParam()));
     serve_.reset();
     Start();
   }
