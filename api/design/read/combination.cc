@@ -25,10 +25,6 @@ constexpr double kRounding = 1e-6;  // relative, of a stated length or volume
 
 bool Near(double a, double b) { return std::abs(a - b) <= kRounding * std::abs(b); }
 
-bool OfLine(Family family) {
-  return family == Family::kTubing || family == Family::kFitting || family == Family::kValve;
-}
-
 bool IsCustom(const Choice& choice) {
   return choice.family == Family::kReservoir && choice.id == kCustomReservoir;
 }
@@ -53,26 +49,21 @@ const Part* Find(const std::vector<Part>& parts, const Choice* choice) {
   return nullptr;
 }
 
-// Most pieces of a part of the source, and the field that says so.
-struct Most {
-  int pieces = 1;
-  const char* field = nullptr;
-};
-
-Most MostOf(Family family, const optimizer::Limits& limits) {
+// The field that says how many pieces of a part of the source there may be; null: always one.
+const char* LimitField(Family family) {
   switch (family) {
     case Family::kCompressor:
-      return {limits.compressors, "compressors_max"};
+      return "compressors_max";
     case Family::kBattery:
-      return {limits.batteries, "batteries_max"};
+      return "batteries_max";
     case Family::kCylinder:
-      return {limits.cylinders, "cylinders_max"};
+      return "cylinders_max";
     case Family::kCo2:
-      return {limits.co2, "co2_max"};
+      return "co2_max";
     case Family::kReservoir:
-      return {limits.reservoirs, "reservoirs_max"};
+      return "reservoirs_max";
     default:
-      return {};
+      return nullptr;
   }
 }
 
@@ -124,9 +115,9 @@ class Check {
 
   void CheckRow(const Choice& choice) {
     const std::string piece = Piece(choice.family);
-    const bool of_line = OfLine(choice.family);
-    const std::vector<Family> source = optimizer::SourceFamilies(design_.configuration);
-    if (!of_line && std::find(source.begin(), source.end(), choice.family) == source.end())
+    const optimizer::FamilySpec& spec = optimizer::SpecOf(choice.family);
+    const bool of_line = spec.in_line;
+    if (!of_line && !spec.InSourceOf(design_.configuration))
       return FailRow(choice, "/family", Is() + " has no " + optimizer::Name(choice.family));
     if (of_line && choice.group < 0)
       return FailRow(choice, "/group",
@@ -194,14 +185,14 @@ class Check {
   }
 
   void CheckSourceQuantity(const Choice& choice) {
-    const Most most = IsCustom(choice) ? Most{} : MostOf(choice.family, problem_.limits);
+    const int most = IsCustom(choice) ? 1 : optimizer::QuantityMax(problem_, choice.family);
+    const char* field = IsCustom(choice) ? nullptr : LimitField(choice.family);
     const double n = choice.quantity;
-    if (n == std::floor(n) && n >= 1 && n <= most.pieces) return;
-    const std::string allowed = std::to_string(most.pieces);
+    if (n == std::floor(n) && n >= 1 && n <= most) return;
+    const std::string allowed = std::to_string(most);
     FailRow(choice, "/quantity",
-            "must be " + (most.pieces == 1 ? allowed : "a whole number ≥ 1 and ≤ " + allowed) +
-                (most.field ? std::string(" (limits.") + most.field + ")" : "") + ", not " +
-                Decimal(n));
+            "must be " + (most == 1 ? allowed : "a whole number ≥ 1 and ≤ " + allowed) +
+                (field ? std::string(" (limits.") + field + ")" : "") + ", not " + Decimal(n));
   }
 
   void CheckMissing() {
