@@ -56,7 +56,7 @@ class Restart : public testing::TestWithParam<int> {
   }
   Json WhenEnded(const std::string& job) {
     for (;;) {
-      const Json body = Body(client_->Get(job));
+      Json body = Body(client_->Get(job));
       if (body["status"] != "queued" && body["status"] != "running") return body;
       Rest();
     }
@@ -105,9 +105,8 @@ TEST_P(Restart, UnfinishedJobsEndWithTheSameAnswer) {
   ASSERT_EQ(expected["status"], "optimal");
   ASSERT_EQ(expected_revised["model"]["version"], 1);
 
-  std::vector<std::string> jobs;
-  for (int i = 0; i < 3; ++i) jobs.push_back(Post(crawler, "c" + std::to_string(i)));
-  jobs.push_back(Post(revised, "r0"));
+  const std::vector<std::string> jobs{Post(crawler, "c0"), Post(crawler, "c1"), Post(crawler, "c2"),
+                                      Post(revised, "r0")};
   while (Body(client_->Get(jobs[1]))["status"] == "queued") Rest();
   EndBySignal();
   const bool killed = GetParam() == SIGKILL;

@@ -175,7 +175,8 @@ class Check {
     }
     if (choice.family == Family::kValve) {
       const int channels = Find(problem_.parts.valves, &choice)->channels;
-      needed = (group.count + channels - 1) / channels;
+      const int pieces = (group.count + channels - 1) / channels;
+      needed = pieces;
       what = "a channel for each of " + lines + ", " + std::to_string(channels) + " a piece";
     }
     if (!Near(choice.quantity, needed))
