@@ -2,44 +2,58 @@
 # Installs what is missing, builds and runs tests.
 # ./test.sh        all tests, in a release build
 # ./test.sh fast   those that take seconds: what one runs after each edit
-# ./test.sh asan   all tests with AddressSanitizer and UndefinedBehaviorSanitizer
-# ./test.sh full   all of that, and what is too long for every commit
+# ./test.sh asan   with AddressSanitizer and UndefinedBehaviorSanitizer, but for the long ones, which run in a
+#                  release build
+# ./test.sh full   all tests in both, and what is too long for every commit
 set -euo pipefail
 cd "$(dirname "$0")"
 . ./setup.sh
 
-run_tests() {  # run_tests PRESET [ARGUMENTS OF CTEST]; a table of durations: build/PRESET/tests.xml
+build() {  # build PRESET [TARGET...]
   local preset=$1
   shift
   configure "$preset"
-  cmake --build --preset "$preset" >&2
+  cmake --build --preset "$preset" ${1:+--target "$@"} >&2
+}
+
+run_tests() {  # run_tests PRESET [ARGUMENTS OF CTEST]; a table of durations: build/PRESET/tests.xml
+  local preset=$1
+  shift
   ctest --preset "$preset" -j "$(nproc)" --output-junit "$PWD/build/$preset/tests.xml" "$@"
 }
+
+programs_with_long_tests="model_tests optimizer_tests calibration_tests"
 
 long_tests() {
   tests/fuzz/run.sh 600
   PLENUM_KILLS=150 PLENUM_KILL_WRITES=6000 build/release/server_tests --gtest_filter='Kill.*'
-  configure bench
-  cmake --build --preset bench --target batch_tests >&2
+  build bench batch_tests
   build/bench/batch_tests --gtest_brief=1
 }
 
 case ${1:-all} in
   all)
     install_packages $rule_packages
+    build release
     run_tests release
     ;;
   fast)
     install_packages $rule_packages
+    build release
     run_tests release -L fast
     ;;
   asan)
     install_packages $rule_packages $sanitizer_packages
-    run_tests asan
+    build asan
+    run_tests asan -LE long
+    build release $programs_with_long_tests
+    run_tests release -L long
     ;;
   full)
     install_packages $rule_packages $sanitizer_packages
+    build release
     run_tests release
+    build asan
     run_tests asan
     long_tests
     ;;

@@ -191,6 +191,7 @@ bool Advance(const ReservoirStrokeInput& in, State& y, double p, double end) {
 
 ReservoirStroke FillFromReservoir(const ReservoirStrokeInput& input) {
   ReservoirStroke result;
+  if (!(input.volume_falling_m3 > 0.0 && input.volume_rising_m3 > 0.0)) return result;
   State y{0.0, input.stop_pa, 0.0, 0.0, 0.0};
   if (!Advance(input, y, input.from_pa, input.target_pa)) return result;
   result.rise_s = y[0];

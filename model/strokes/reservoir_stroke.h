@@ -49,7 +49,8 @@ struct ReservoirStroke {
   double pump_air_m3 = 0.0;    // the same, m³ ANR
 };
 
-// To 1e-6 of the times and the energy (against the simulator on random rigs).
+// To 1e-6 of the times and the energy (against the simulator on random rigs). Without a reservoir
+// volume nothing is reached.
 ReservoirStroke FillFromReservoir(const ReservoirStrokeInput& input);
 
 // Time for `compressors` pumps to bring a closed volume from `low_pa` to `high_pa`; +∞ where the

@@ -39,7 +39,7 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
   if (plan_.configuration != Configuration::kCylinder) {
     const double inlet_pa = plan_.configuration == Configuration::kCo2
                                 ? model::Co2SaturationPressure(problem_.ambient.temperature_k)
-                                : problem_.mains_pressure_pa;
+                                : problem_.mains.pressure_pa;
     if (regulator.inlet_max_pa < inlet_pa || regulator.inlet_min_pa > inlet_pa)
       return Constraint::kMating;
   }
@@ -47,7 +47,7 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
   box.window.low_pa = std::max(box.window.low_pa, regulator.outlet_min_pa);
   box.window.high_pa = std::min(box.window.high_pa, regulator.outlet_max_pa);
   if (plan_.configuration == Configuration::kMains)
-    box.window.high_pa = std::min(box.window.high_pa, problem_.mains_pressure_pa);
+    box.window.high_pa = std::min(box.window.high_pa, problem_.mains.pressure_pa);
   const double flow_max = FlowMax(regulator);
   if (box.window.empty()) return Constraint::kPressure;
 
@@ -78,7 +78,7 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
 
 double Bounds::FlowMax(const RegulatorCorner& regulator) const {
   return plan_.configuration == Configuration::kMains
-             ? std::min(regulator.flow_max_m3_per_s, problem_.mains_flow_max_m3_per_s)
+             ? std::min(regulator.flow_max_m3_per_s, problem_.mains.flow_max_m3_per_s)
              : regulator.flow_max_m3_per_s;
 }
 

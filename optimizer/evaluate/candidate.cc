@@ -21,7 +21,7 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
     window.high_pa = std::min(window.high_pa, regulator.outlet_pressure_max_pa);
   }
   if (candidate.configuration == Configuration::kMains)
-    window.high_pa = std::min(window.high_pa, problem.mains_pressure_pa);
+    window.high_pa = std::min(window.high_pa, problem.mains.pressure_pa);
   if (candidate.compressor.index != kNone) {
     const model::CompressorCurve& curve =
         problem.parts.compressors[candidate.compressor.index].curve;

@@ -22,7 +22,7 @@ model::Gas GasOf(Configuration configuration) {
 double FlowMax(const Problem& problem, const Candidate& candidate) {
   const model::Regulator& regulator = problem.parts.regulators[candidate.regulator.index];
   return candidate.configuration == Configuration::kMains
-             ? std::min(regulator.flow_max_m3_per_s, problem.mains_flow_max_m3_per_s)
+             ? std::min(regulator.flow_max_m3_per_s, problem.mains.flow_max_m3_per_s)
              : regulator.flow_max_m3_per_s;
 }
 

@@ -16,6 +16,8 @@ const char* Name(Configuration configuration) {
   return "";
 }
 
+const char* Name(NlpSolver solver) { return solver == NlpSolver::kIpopt ? "ipopt" : "nlopt"; }
+
 const char* Name(Status status) {
   switch (status) {
     case Status::kOptimal:

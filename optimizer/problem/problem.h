@@ -25,6 +25,9 @@ namespace plenum::optimizer {
 
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
+enum class NlpSolver { kIpopt, kNlopt };
+const char* Name(NlpSolver solver);  // "ipopt", "nlopt"
+
 enum class Configuration { kCylinder, kCo2, kCompressor, kMains };
 inline constexpr int kConfigurations = 4;
 const char* Name(Configuration configuration);  // "cylinder", "co2", "compressor", "mains"
@@ -59,6 +62,11 @@ struct Objective {  // weighted sum; a plain objective has one weight of 1
   bool operator==(const Objective&) const = default;
 };
 
+struct Mains {
+  double pressure_pa = 0.0;
+  double flow_max_m3_per_s = kUnlimited;
+};
+
 struct Limits {  // most identical parts in parallel
   int compressors = 2, batteries = 4, cylinders = 4, co2 = 4, reservoirs = 2;
 };
@@ -71,8 +79,7 @@ struct Problem {
   double rise_fraction = 0.95;
   double fall_fraction = 0.05;
   std::set<Configuration> configurations;
-  double mains_pressure_pa = 0.0;
-  double mains_flow_max_m3_per_s = kUnlimited;
+  Mains mains;
   double source_pressure_max_pa = kUnlimited;
   double mass_max_kg = kUnlimited;
   double volume_max_l = kUnlimited;
@@ -84,6 +91,7 @@ struct Problem {
       require;                    // only these ids of the family; "custom" reservoir
   std::set<std::string> exclude;  // may hold "custom"
   int count = 20;
+  NlpSolver solver = NlpSolver::kIpopt;  // of continuous settings, the one that is asked first
   model::Parts parts;
 };
 

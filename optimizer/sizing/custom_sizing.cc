@@ -213,7 +213,7 @@ bool CustomSizing::Offer(double volume_m3) {
 void CustomSizing::Polish() {
   const std::optional<SizingProgram> program = SizingProgram::At(problem_, candidate_, leaf_.point);
   if (!program) return;
-  const NlpResult result = Solve(program->MakeNlp());
+  const NlpResult result = Solve(program->MakeNlp(), problem_.solver);
   if (result.status != NlpStatus::kSolved) return;
   Offer(ALittleMore(program->PointOf(result.x).reservoir_m3));
 }

@@ -88,10 +88,11 @@ NlpResult SolveWithNlopt(const Nlp& nlp) {
   return result;
 }
 
-NlpResult Solve(const Nlp& nlp) {
-  NlpResult result = SolveWithIpopt(nlp);
+NlpResult Solve(const Nlp& nlp, NlpSolver first) {
+  const bool ipopt_first = first == NlpSolver::kIpopt;
+  NlpResult result = ipopt_first ? SolveWithIpopt(nlp) : SolveWithNlopt(nlp);
   if (result.status == NlpStatus::kSolved) return result;
-  NlpResult second = SolveWithNlopt(nlp);
+  NlpResult second = ipopt_first ? SolveWithNlopt(nlp) : SolveWithIpopt(nlp);
   return second.status == NlpStatus::kSolved ? second : result;
 }
 

@@ -12,6 +12,8 @@
 #include <functional>
 #include <vector>
 
+#include "optimizer/problem/problem.h"
+
 namespace plenum::optimizer {
 
 struct NlpValues {
@@ -43,8 +45,9 @@ struct NlpResult {
   int evaluations = 0;
 };
 
-// Ipopt, and NLopt where Ipopt does not converge: of the two the one that is solved.
-NlpResult Solve(const Nlp& nlp);
+// The solver asked first, and the other where that one does not converge: of the two the one that
+// is solved.
+NlpResult Solve(const Nlp& nlp, NlpSolver first);
 NlpResult SolveWithIpopt(const Nlp& nlp);  // interior point, limited-memory BFGS for the Hessian
 NlpResult SolveWithNlopt(const Nlp& nlp);  // SLSQP
 

@@ -24,6 +24,7 @@ struct DesignOptions {
   std::optional<int> top;
   std::optional<double> time_limit_s;
   bool proof = false;
+  std::string solver;
   bool json = false;
 };
 
@@ -54,6 +55,7 @@ api::Json ReadRequirements(const DesignOptions& options) {
   if (options.top) set("count", *options.top);
   if (options.time_limit_s) set("time_limit_s", *options.time_limit_s);
   if (options.proof) set("proof", true);
+  if (!options.solver.empty()) set("solver", options.solver);
   return request;
 }
 
@@ -87,6 +89,10 @@ Command DesignCommand() {
           {Argument("FILE", "Requirements as JSON; - is standard input", &options->file),
            {"--top", "Number of designs", &options->top, {.value_name = "N"}},
            {"--time-limit", "Seconds to search", &options->time_limit_s, {.value_name = "S"}},
+           {"--solver",
+            "Of continuous settings: ipopt, or nlopt for a second opinion",
+            &options->solver,
+            {.value_name = "NAME"}},
            {"--proof", "Keep the record of the search, for verify", &options->proof},
            JsonFlag(options->json),
            CatalogOption(options->catalog)},

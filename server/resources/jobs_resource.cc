@@ -1,9 +1,10 @@
 #include "server/resources/jobs_resource.h"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <optional>
-#include <regex>
+#include <string_view>
 #include <utility>
 
 #include "server/call/service_limits.h"
@@ -56,15 +57,35 @@ api::Json Full(const JobsResource& resource, const Job& job) {
   return json;
 }
 
+// Blanks and quotation marks around it off, in lower case.
+std::string Bare(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\"");
+  if (first == std::string_view::npos) return "";
+  std::string bare(text.substr(first, text.find_last_not_of(" \t\"") - first + 1));
+  for (char& c : bare)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return bare;
+}
+
 // Seconds of "Prefer: wait=N"; 0 without one. Preferences that are not understood are ignored
 // (RFC 7240).
 int WaitSeconds(const Call& call) {
-  const auto prefer = call.header("Prefer");
-  if (!prefer || prefer->size() > 200) return 0;
-  static const std::regex kWait(R"re((^|[,;\s])wait\s*=\s*"?(\d{1,6})"?)re", std::regex::icase);
-  std::smatch match;
-  if (!std::regex_search(*prefer, match, kWait)) return 0;
-  return std::min(std::stoi(match[2]), kWaitSecondsMax);
+  const auto header = call.header("Prefer");
+  if (!header || header->size() > 200) return 0;
+  std::string_view rest = *header;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find_first_of(",;"), rest.size());
+    const std::string_view preference = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    const std::size_t equal = preference.find('=');
+    if (equal == std::string_view::npos || Bare(preference.substr(0, equal)) != "wait") continue;
+    const std::string value = Bare(preference.substr(equal + 1));
+    int seconds = 0;
+    const auto [last, error] = std::from_chars(value.data(), value.data() + value.size(), seconds);
+    if (error == std::errc() && last == value.data() + value.size() && seconds >= 0)
+      return std::min(seconds, kWaitSecondsMax);
+  }
+  return 0;
 }
 
 // What a client that waited gets: the result, or nothing when it takes longer.

@@ -74,7 +74,7 @@ bool RegulatorStands(const Problem& problem, const Candidate& candidate) {
            problem.parts.cylinders[candidate.bottle.index].fill_pressure_pa;
   inlet_pa = candidate.configuration == Configuration::kCo2
                  ? model::Co2SaturationPressure(problem.ambient.temperature_k)
-                 : problem.mains_pressure_pa;
+                 : problem.mains.pressure_pa;
   return regulator.inlet_pressure_min_pa <= inlet_pa && inlet_pa <= regulator.inlet_pressure_max_pa;
 }
 

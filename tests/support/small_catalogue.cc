@@ -52,9 +52,9 @@ Problem RandomProblem(const Draw& draw) {
       std::round(40.0 * std::pow(20.0, draw.severity) * LogUniform(random, 0.5, 2.0));
   problem.rise_fraction = Chance(random, 0.7) ? 0.95 : Uniform(random, 0.5, 1.0);
   problem.fall_fraction = Chance(random, 0.7) ? 0.05 : Uniform(random, 0.02, 0.5);
-  problem.mains_pressure_pa = kAmbientPa + Uniform(random, 3.0, 7.0) * kBar;
+  problem.mains.pressure_pa = kAmbientPa + Uniform(random, 3.0, 7.0) * kBar;
   if (Chance(random, 0.5))
-    problem.mains_flow_max_m3_per_s = LogUniform(random, 30.0, 300.0) * kLitrePerMinute;
+    problem.mains.flow_max_m3_per_s = LogUniform(random, 30.0, 300.0) * kLitrePerMinute;
   if (Chance(random, 0.5))
     problem.source_pressure_max_pa = kAmbientPa + Uniform(random, 2.0, 6.0) * kBar;
   problem.objective.mass_kg = 1.0;

@@ -139,7 +139,7 @@ bool Fit(const Problem& problem, const Assembly& source) {
   // A cylinder may be fuller than the regulator needs; other supplies have one pressure.
   if (source.cylinder) return source.cylinder->fill_pressure_pa <= regulator.inlet_pressure_max_pa;
   const double inlet_pa = source.co2 ? model::Co2SaturationPressure(problem.ambient.temperature_k)
-                                     : problem.mains_pressure_pa;
+                                     : problem.mains.pressure_pa;
   return regulator.inlet_pressure_min_pa <= inlet_pa && inlet_pa <= regulator.inlet_pressure_max_pa;
 }
 

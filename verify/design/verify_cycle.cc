@@ -84,7 +84,7 @@ model::Rig MakeRig(const Problem& problem, const Settings& settings, const Assem
   } else {
     double flow_max = assembly.regulator->flow_max_m3_per_s;
     if (assembly.configuration == Configuration::kMains)
-      flow_max = std::min(flow_max, problem.mains_flow_max_m3_per_s);
+      flow_max = std::min(flow_max, problem.mains.flow_max_m3_per_s);
     rig.source =
         model::RegulatedSource{settings.source_pressure_pa, assembly.regulator->flow, flow_max};
   }
@@ -237,7 +237,7 @@ double QuickCycles::FillFromRegulator(const Settings& settings, int g, Cycle& cy
   const model::GroupRig& rig = rigs_[g];
   double flow_max = assembly_.regulator->flow_max_m3_per_s;
   if (assembly_.configuration == Configuration::kMains)
-    flow_max = std::min(flow_max, problem_.mains_flow_max_m3_per_s);
+    flow_max = std::min(flow_max, problem_.mains.flow_max_m3_per_s);
   const auto seconds = [&](double to_pa) {
     return model::FillTime(fills_[g], rig.chamber, settings.source_pressure_pa,
                            problem_.ambient.pressure_pa, to_pa, problem_.ambient.temperature_k,

@@ -21,7 +21,7 @@ Pressures StoodPressures(const Problem& problem, const Assembly& a) {
     high_pa = std::min(high_pa, a.regulator->outlet_pressure_max_pa);
   }
   if (a.configuration == Configuration::kMains)
-    high_pa = std::min(high_pa, problem.mains_pressure_pa);
+    high_pa = std::min(high_pa, problem.mains.pressure_pa);
   if (a.compressor) high_pa = std::min(high_pa, model::HighestPressure(a.compressor->curve));
   if (a.reservoir) high_pa = std::min(high_pa, a.reservoir->pressure_max_pa);
   if (a.compressor && !a.reservoir)

@@ -121,8 +121,8 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
       std::min(problem_.source_pressure_max_pa, regulator.Number("outlet_pressure_max_kpa_gauge"));
   double flow_max = regulator.Number("flow_max_l_per_min_anr");
   if (plan_.configuration == Configuration::kMains) {
-    high_pa = std::min(high_pa, problem_.mains_pressure_pa);
-    flow_max = std::min(flow_max, problem_.mains_flow_max_m3_per_s);
+    high_pa = std::min(high_pa, problem_.mains.pressure_pa);
+    flow_max = std::min(flow_max, problem_.mains.flow_max_m3_per_s);
   }
   const int groups = static_cast<int>(problem_.groups.size());
   for (int g = 0; g < groups; ++g) {

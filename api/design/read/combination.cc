@@ -243,7 +243,7 @@ class Check {
     const double supply_pa = cylinder ? cylinder->fill_pressure_pa
                              : design_.configuration == Configuration::kCo2
                                  ? model::Co2SaturationPressure(problem_.ambient.temperature_k)
-                                 : problem_.mains_pressure_pa;
+                                 : problem_.mains.pressure_pa;
     const std::string supply = "; the supply has " + KpaGauge(supply_pa, problem_);
     if (supply_pa > regulator.inlet_pressure_max_pa)
       FailRow(*row, "/id",

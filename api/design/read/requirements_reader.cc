@@ -5,6 +5,7 @@
 #include <map>
 
 #include "api/catalogue/catalogue_parts.h"
+#include "api/design/read/design_reader.h"
 #include "api/design/read/selection.h"
 #include "api/json/json.h"
 #include "api/json/request_limits.h"
@@ -94,10 +95,10 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
   Reader supply = given ? *given : Reader(kNothing, request.Pointer("supply"), request.errors());
   auto mains = supply.OptionalObject("mains");
   if (mains) {
-    problem.mains_pressure_pa = PaFromKpaGauge(
+    problem.mains.pressure_pa = PaFromKpaGauge(
         mains->Number("pressure_kpa_gauge", {1, kOperatingGaugeMaxKpa}), problem.ambient);
     const auto flow = mains->OptionalNumber("flow_l_per_min_anr_max", Above(0, 1e6));
-    if (flow) problem.mains_flow_max_m3_per_s = M3PerSFromLPerMin(*flow);
+    if (flow) problem.mains.flow_max_m3_per_s = M3PerSFromLPerMin(*flow);
     mains->Finish();
   }
   ReadConfigurations(supply, mains.has_value(), problem);
@@ -127,9 +128,9 @@ void CheckPressures(const optimizer::Problem& problem, const std::vector<double>
                                      "the highest source pressure allowed: "
                                      "/supply/source_pressure_kpa_gauge_max is " +
                                      Decimal(kpa(problem.source_pressure_max_pa))});
-    else if (only_mains && operating_pa > problem.mains_pressure_pa)
+    else if (only_mains && operating_pa > problem.mains.pressure_pa)
       errors.push_back({pointer, is + "the only source: /supply/mains/pressure_kpa_gauge is " +
-                                     Decimal(kpa(problem.mains_pressure_pa))});
+                                     Decimal(kpa(problem.mains.pressure_pa))});
   }
 }
 
@@ -213,6 +214,9 @@ std::optional<double> ReadRanking(Reader& request, DesignRequest& parsed) {
   parsed.time_limit_s = ranking->Number("time_limit_s", {0.01, kDesignSecondsMax}, 30.0);
   const auto probability_min = ranking->OptionalNumber("probability_min", {0, 1});
   parsed.proof = ranking->Bool("proof", false);
+  if (ranking->Has("solver"))
+    parsed.problem.solver = ReadEnum<optimizer::NlpSolver>(
+        *ranking, "solver", {optimizer::NlpSolver::kIpopt, optimizer::NlpSolver::kNlopt});
   ranking->Finish();
   return probability_min;
 }

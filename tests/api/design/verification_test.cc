@@ -2,6 +2,7 @@
 // check that is meant to see it.
 #include "api/design/verification.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,6 +77,15 @@ TEST(Verify, AcceptsAnAnswerSavedBeforeAnswersCarriedTheVersion) {
   Json answer = Exosuit();
   ASSERT_EQ(answer.erase("plenum"), 1u);
   EXPECT_EQ(Refusals(answer), "");
+}
+
+TEST(Verify, APumpsDesignStatesItsReservoir) {
+  Json answer = Exosuit();
+  std::size_t pumped = 0;
+  while (answer["designs"].at(pumped)["configuration"] != "compressor") ++pumped;
+  const std::string field = "/designs/" + std::to_string(pumped) + "/settings/reservoir_volume_ml";
+  const auto without = VerifyAnswer(Without(answer, field), Project().parts, Project().revision);
+  EXPECT_THAT(DetailAt(ErrorsOf(without), field), testing::HasSubstr("missing"));
 }
 
 TEST(Verify, EnumeratesEveryCombinationWhereThatEnds) {

@@ -234,6 +234,13 @@ TEST(ReservoirStroke, WhereTheReservoirFallsToTheChambersBothFillTogether) {
   EXPECT_FALSE(FillFromReservoir(weak.Input()).reached);
 }
 
+TEST(ReservoirStroke, WithoutAVolumeNothingIsReached) {
+  const Pumped rig = ByHand(1e-5, 30e-6);
+  EXPECT_FALSE(FillFromReservoir(rig.Input(0.0, 0.0)).reached);
+  EXPECT_FALSE(FillFromReservoir(rig.Input(0.0, 30e-6)).reached);
+  EXPECT_FALSE(FillFromReservoir(rig.Input(30e-6, std::nan(""))).reached);
+}
+
 // A pump that delivers more than the choked line draws keeps the reservoir full: the stroke is that
 // of a constant source, and the pump runs for the air drawn, 3·0.05·(2·2 − 1) = 0.45 L.
 TEST(ReservoirStroke, AStrongPumpKeepsTheReservoirFull) {

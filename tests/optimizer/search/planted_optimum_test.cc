@@ -59,8 +59,8 @@ TEST(PlantedOptimumTest, IsRankedFirst) {
     draw.size = {5, 5, 6, 5, 5, 5, 4, 5, 2};
     Problem problem = RandomProblem(draw);
     problem.source_pressure_max_pa = 6e5;
-    problem.mains_pressure_pa = 7e5;
-    problem.mains_flow_max_m3_per_s = optimizer::kUnlimited;
+    problem.mains.pressure_pa = 7e5;
+    problem.mains.flow_max_m3_per_s = optimizer::kUnlimited;
     problem.count = 1;
     Random random(seed);
     PlantEverywhere(random, problem);

@@ -164,12 +164,22 @@ TEST(NlpTest, NoSolverClaimsToHaveSolvedAnInfeasibleProgram) {
 
 TEST(NlpTest, NloptTakesOverWhereIpoptDoesNotConverge) {
   ASSERT_NE(SolveWithIpopt(KinkedMargin()).status, NlpStatus::kSolved);
-  ExpectSolved(Solve(KinkedMargin()), {2.0 / 3.0, 2.0 / 3.0}, "kinked margin");
+  ExpectSolved(Solve(KinkedMargin(), NlpSolver::kIpopt), {2.0 / 3.0, 2.0 / 3.0}, "kinked margin");
 }
 
 TEST(NlpTest, IpoptIsEnoughWhereItConverges) {
-  for (const Sample& sample : Zoo()) EXPECT_EQ(Solve(sample.nlp).x, SolveWithIpopt(sample.nlp).x);
-  EXPECT_NE(Solve(Infeasible()).status, NlpStatus::kSolved);
+  for (const Sample& sample : Zoo())
+    EXPECT_EQ(Solve(sample.nlp, NlpSolver::kIpopt).x, SolveWithIpopt(sample.nlp).x);
+  EXPECT_NE(Solve(Infeasible(), NlpSolver::kIpopt).status, NlpStatus::kSolved);
+}
+
+TEST(NlpTest, NloptIsAskedFirstWhereItsOpinionIsWanted) {
+  for (const Sample& sample : Zoo()) {
+    const NlpResult nlopt = SolveWithNlopt(sample.nlp);
+    if (nlopt.status == NlpStatus::kSolved)
+      EXPECT_EQ(Solve(sample.nlp, NlpSolver::kNlopt).x, nlopt.x);
+  }
+  EXPECT_NE(Solve(Infeasible(), NlpSolver::kNlopt).status, NlpStatus::kSolved);
 }
 
 // What is stopped is not solved.

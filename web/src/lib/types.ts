@@ -34,7 +34,7 @@ export interface Requirements {
   };
   ambient?: { pressure_kpa_abs: number; temperature_k: number };
   objective?: { minimize?: Amount | Partial<Record<Amount, number>>; pareto?: Amount[] };
-  ranking?: { count?: number; time_limit_s?: number; probability_min?: number };
+  ranking?: { count?: number; time_limit_s?: number; probability_min?: number; solver?: string };
   limits?: Record<string, number>;
   require?: Record<string, string[]>;
   exclude?: string[];

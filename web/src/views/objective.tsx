@@ -13,7 +13,7 @@ const amounts: { value: Amount; label: string }[] = [
 ];
 
 export function Objective() {
-  const { objective, robust, explain, model } = requirements.value;
+  const { objective, ranking, robust, explain, model } = requirements.value;
   const pareto = objective?.pareto;
   const minimize = typeof objective?.minimize === 'string' ? objective.minimize : 'mass_kg';
   const weights = typeof objective?.minimize === 'object' ? objective.minimize : undefined;
@@ -95,6 +95,15 @@ export function Objective() {
           path={['ranking', 'time_limit_s']}
           usual={30}
           range={[0.01, 3600]}
+        />
+        <Select
+          label="Solver of settings"
+          value={ranking?.solver ?? 'ipopt'}
+          options={[
+            { value: 'ipopt', label: 'Ipopt' },
+            { value: 'nlopt', label: 'NLopt (second opinion)' },
+          ]}
+          onChange={(v) => edit(['ranking', 'solver'], v === 'ipopt' ? undefined : v)}
         />
       </div>
       <div class="checks">

@@ -59,8 +59,8 @@ TEST(Requirements, ReadsTheContractsExampleInSi) {
   EXPECT_DOUBLE_EQ(problem.actuations, 1000);
   EXPECT_TRUE(problem.simultaneous);
   EXPECT_EQ(problem.configurations.size(), 4u);
-  EXPECT_DOUBLE_EQ(problem.mains_pressure_pa, 700e3);
-  EXPECT_NEAR(problem.mains_flow_max_m3_per_s, 0.00333333333, 1e-11);  // 200 L/min
+  EXPECT_DOUBLE_EQ(problem.mains.pressure_pa, 700e3);
+  EXPECT_NEAR(problem.mains.flow_max_m3_per_s, 0.00333333333, 1e-11);  // 200 L/min
   EXPECT_DOUBLE_EQ(problem.source_pressure_max_pa, 700e3);
   EXPECT_EQ(problem.mass_max_kg, optimizer::kUnlimited);
   EXPECT_EQ(problem.objective.mass_kg, 1.0);
@@ -69,6 +69,19 @@ TEST(Requirements, ReadsTheContractsExampleInSi) {
   EXPECT_EQ(problem.require.at(optimizer::Family::kValve), std::set<std::string>{"valve-1"});
   EXPECT_EQ(problem.exclude, std::set<std::string>{"reservoir-1"});
   EXPECT_EQ(problem.parts.valves.size(), 1u);
+}
+
+TEST(Requirements, TheSolverMayBeChosen) {
+  Json document = Requirements();
+  const auto solver = [&] {
+    return std::get<DesignRequest>(ParseRequirements(document, SmallCatalogue())).problem.solver;
+  };
+  EXPECT_EQ(solver(), optimizer::NlpSolver::kIpopt);
+  document["ranking"]["solver"] = "nlopt";
+  EXPECT_EQ(solver(), optimizer::NlpSolver::kNlopt);
+  document["ranking"]["solver"] = "cplex";
+  EXPECT_THAT(DetailAt(ErrorsOf(ParseRequirements(document, SmallCatalogue())), "/ranking/solver"),
+              testing::HasSubstr("nlopt"));
 }
 
 TEST(Requirements, LeavesOutPartsThatAreExcludedOrNotRequired) {
@@ -120,7 +133,7 @@ TEST(Requirements, AddsGaugeToTheGivenAmbient) {
   const auto request = Good(With(Requirements(), "/ambient", Parse(R"({"pressure_kpa_abs": 80})")));
   EXPECT_DOUBLE_EQ(request.problem.groups[0].chamber.operating_pressure_pa, 180e3);
   EXPECT_DOUBLE_EQ(request.problem.groups[0].pressure_max_pa, 185e3);
-  EXPECT_DOUBLE_EQ(request.problem.mains_pressure_pa, 680e3);
+  EXPECT_DOUBLE_EQ(request.problem.mains.pressure_pa, 680e3);
   EXPECT_DOUBLE_EQ(request.problem.ambient.temperature_k, 293.15);
 }
 
