@@ -1,5 +1,6 @@
 #include "api/catalogue/catalogue_parts.h"
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -168,6 +169,10 @@ model::Parts ToModelParts(const std::vector<catalog::Part>& rows, const model::A
 
 std::optional<std::string_view> UseInSearch(std::string_view family, std::string_view field) {
   using optimizer::Use;
+  const auto families = optimizer::Families();
+  if (std::none_of(families.begin(), families.end(),
+                   [&](const optimizer::FamilySpec& spec) { return family == spec.name; }))
+    return std::nullopt;
   for (const std::string_view amount :
        {"mass_kg", "body_volume_ml", "price_eur", "mass_kg_per_m", "price_eur_per_m"})
     if (field == amount) return "adds up";

@@ -34,7 +34,7 @@ Json RenderFamilies() {
     families.push_back({{"name", family.name},
                         {"numbers", std::move(numbers)},
                         {"texts", std::move(texts)},
-                        {"has_curve", family.has_curve}});
+                        {"has_curve", family.has_curve()}});
   }
   return {{"families", std::move(families)}};
 }

@@ -74,7 +74,7 @@ void ReadCurve(Reader& reader, catalog::Part& part) {
   curve.free_air_source = curve.current_source = "user";
   for (const Element& element : reader.List("curve", 1, kTablePointsMax)) {
     Reader point(element, reader.errors());
-    curve.points.push_back({point.Number("pressure_kpa_gauge", {0, 5e4}),
+    curve.points.push_back({point.Number("pressure_kpa_gauge", {catalog::kVacuumMinKpaGauge, 5e4}),
                             point.Number("free_air_l_per_min", {0, 1e6}),
                             point.Number("current_a", {0, 1e4})});
     point.Finish();
@@ -124,7 +124,7 @@ void ReadProvenance(Reader& reader, const catalog::Family& family, catalog::Part
   std::vector<std::string> fields;
   for (const catalog::NumberField& field : family.numbers) fields.emplace_back(field.name);
   for (const catalog::TextField& field : family.texts) fields.emplace_back(field.name);
-  if (family.has_curve)
+  if (family.has_curve())
     fields.insert(fields.end(), std::begin(kCurveProvenances), std::end(kCurveProvenances));
   for (const std::string& field : fields) {
     auto given = provenance->OptionalObject(field);
@@ -213,7 +213,7 @@ Parsed<catalog::Part> ParsePart(const Json& request) {
   ReadDetails(reader, part);
   ReadNumbers(reader, *family, part);
   ReadTexts(reader, *family, part);
-  if (family->has_curve) ReadCurve(reader, part);
+  if (family->has_curve()) ReadCurve(reader, part);
   ReadProvenance(reader, *family, part);
   reader.Finish();
   catalog::DerivePrice(part);

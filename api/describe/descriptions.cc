@@ -126,14 +126,17 @@ Json ProvenanceForm(bool of_number) {
           {"additionalProperties", false}};
 }
 
-Json CurveForm() {
-  const Json point = {{"type", "object"},
-                      {"properties",
-                       {{"pressure_kpa_gauge", NumberForm({0, 5e4})},
-                        {"free_air_l_per_min", NumberForm({0, 1e6})},
-                        {"current_a", NumberForm({0, 1e4})}}},
-                      {"required", {"pressure_kpa_gauge", "free_air_l_per_min", "current_a"}},
-                      {"additionalProperties", false}};
+Json CurveForm(catalog::CurveKind kind) {
+  const bool suction = kind == catalog::CurveKind::kSuction;
+  const Json point = {
+      {"type", "object"},
+      {"properties",
+       {{"pressure_kpa_gauge",
+         NumberForm({suction ? catalog::kVacuumMinKpaGauge : 0, suction ? 0 : 5e4})},
+        {"free_air_l_per_min", NumberForm({0, 1e6})},
+        {"current_a", NumberForm({0, 1e4})}}},
+      {"required", {"pressure_kpa_gauge", "free_air_l_per_min", "current_a"}},
+      {"additionalProperties", false}};
   return {{"type", "array"}, {"minItems", 1}, {"maxItems", kTablePointsMax}, {"items", point}};
 }
 
@@ -163,8 +166,8 @@ Json PartOf(const catalog::Family& family) {
     if (!field.allowed.empty()) form["enum"] = field.allowed;
     add(field.name, std::move(form), field.required, false, field.meaning);
   }
-  if (family.has_curve) {
-    properties["curve"] = CurveForm();
+  if (family.has_curve()) {
+    properties["curve"] = CurveForm(family.curve);
     required.push_back("curve");
     for (const char* name : {"free_air", "current"}) provenance[name] = ProvenanceForm(true);
   }

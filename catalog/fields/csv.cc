@@ -48,7 +48,7 @@ std::vector<std::string> Columns(const Family& family) {
     columns.emplace_back(field.name);
     add_origin(field.name);
   }
-  if (family.has_curve) {
+  if (family.has_curve()) {
     columns.emplace_back("curve");
     for (const std::string_view name : kCurveNumbers) {
       add_origin(name);
@@ -91,7 +91,7 @@ class RowReader {
     ReadList("documents", ReadDocuments, part);
     for (const NumberField& field : family_.numbers) ReadNumber(field.name, part);
     for (const TextField& field : family_.texts) ReadText(field.name, part);
-    if (family_.has_curve) ReadCurve(part);
+    if (family_.has_curve()) ReadCurve(part);
     DerivePrice(part);
 
     // A cell that could not be read is reported once, not as a missing field as well.
@@ -272,7 +272,7 @@ CsvRow ToRow(const Family& family, const Part& part) {
     row.push_back(found->second.value);
     add_origin(found->second.provenance, found->second.source);
   }
-  if (!family.has_curve) return row;
+  if (!family.has_curve()) return row;
   if (!part.curve) {
     row.resize(row.size() + 7);
     return row;

@@ -6,6 +6,19 @@ namespace {
 const NumberField kMass{"mass_kg", 1e-6, 500, true, "mass of one piece, empty"};
 const NumberField kBody{"body_volume_ml", 1e-4, 1e6, true, "outer envelope of one piece"};
 const NumberField kPrice{"price_eur", 0, 1e6, false, "price of one piece"};
+// Of families that are kept but not yet chosen from, few data sheets give these.
+const NumberField kMassIfKnown{"mass_kg", 1e-6, 500, false, "mass of one piece"};
+const NumberField kBodyIfKnown{"body_volume_ml", 1e-4, 1e6, false, "outer envelope of one piece"};
+const NumberField kPowerMin{"power_min_w", 1e-3, 1e4, false, "lowest electrical power printed"};
+const NumberField kPowerMax{"power_max_w", 1e-3, 1e4, false, "highest electrical power printed"};
+const NumberField kPressureMaxIfKnown{"pressure_max_kpa_gauge", 1, 5e4, false,
+                                      "highest working pressure"};
+const NumberField kVacuumMax{"vacuum_max_kpa_gauge", kVacuumMinKpaGauge, 0, false,
+                             "deepest suction pressure, below ambient"};
+const NumberField kConductanceIfKnown{"sonic_conductance_dm3_per_s_bar", 1e-6, 1e4, false,
+                                      "sonic conductance C"};
+const NumberField kRatioIfKnown{"critical_ratio", 0, 0.95, false, "critical pressure ratio b"};
+
 const NumberField kPressureMax{"pressure_max_kpa_gauge", 1, 5e4, true, "highest working pressure"};
 
 NumberField Conductance(std::string_view name, std::string_view meaning) {
@@ -15,9 +28,74 @@ NumberField Ratio(std::string_view name) {
   return {name, 0, 0.95, true, "critical pressure ratio b"};
 }
 
-}  // namespace
+// What is kept, found, imported and exported, and waits for the search: these and the next.
+std::vector<Family> VacuumSources() {
+  return {
+      {"vacuum_pump",
+       {{"voltage_v", 1, 60, true, "voltage at which the curve was taken"},
+        {"duty_max", 0.01, 1, false, "thermal limit on the share of time that it runs"},
+        kPowerMin,
+        kPowerMax,
+        kVacuumMax,
+        kMassIfKnown,
+        kBodyIfKnown,
+        kPrice,
+        {"pressure_max_kpa_gauge", 1, 5e4, false, "highest pressure where it also compresses"}},
+       {{"type", false, {}, "principle"}},
+       CurveKind::kSuction},
+      {"ejector",
+       {{"suction_flow_l_per_min_anr", 1e-3, 1e5, false, "suction flow without vacuum"},
+        kVacuumMax,
+        {"air_consumption_l_per_min_anr", 1e-3, 1e5, false, "air drawn at its supply pressure"},
+        {"supply_pressure_kpa_gauge", 1, 2e3, false, "supply pressure that the numbers hold for"},
+        {"nozzle_diameter_mm", 0.1, 20, false, "bore of the nozzle"},
+        {"stages", 1, 10, false, "stages"},
+        kMassIfKnown,
+        kBodyIfKnown,
+        kPrice},
+       {{"port", false, {}, "thread or tube of the suction port"}}},
+  };
+}
 
-std::vector<Family> OwnFamilies() {
+std::vector<Family> Connections() {
+  return {
+      {"manifold",
+       {{"stations", 1, 64, true, "valves or lines that it takes"},
+        kConductanceIfKnown,
+        kRatioIfKnown,
+        kMassIfKnown,
+        kBodyIfKnown,
+        kPrice,
+        kPressureMaxIfKnown},
+       {{"takes", false, {}, "series of the valves that sit on it"},
+        {"inlet", false, {}, "thread of the supply port"},
+        {"port", false, {}, "thread or tube of each outlet"}}},
+      {"check_valve",
+       {kConductanceIfKnown,
+        kRatioIfKnown,
+        {"cracking_pressure_kpa_gauge", 0, 5e3, false, "pressure difference from which it opens"},
+        kMassIfKnown,
+        kBodyIfKnown,
+        kPrice,
+        kPressureMaxIfKnown},
+       {{"port", false, {}, "thread or tube"}}},
+      {"relief_valve",
+       {{"relief_pressure_min_kpa_gauge", 0.1, 5e4, false, "lowest setting"},
+        {"relief_pressure_max_kpa_gauge", 0.1, 5e4, false, "highest setting"},
+        kConductanceIfKnown,
+        kRatioIfKnown,
+        kMassIfKnown,
+        kBodyIfKnown,
+        kPrice},
+       {{"port", false, {}, "thread"}}},
+      {"silencer",
+       {kConductanceIfKnown, kRatioIfKnown, kMassIfKnown, kBodyIfKnown, kPrice,
+        kPressureMaxIfKnown},
+       {{"port", false, {}, "thread"}}},
+  };
+}
+
+std::vector<Family> FamiliesOfTheSearch() {
   return {
       {"tubing",
        {{"outer_diameter_mm", 0.5, 100, true, "outer diameter"},
@@ -25,8 +103,7 @@ std::vector<Family> OwnFamilies() {
         {"mass_kg_per_m", 1e-6, 10, true, "mass per metre"},
         {"price_eur_per_m", 0, 1e4, false, "price per metre"},
         kPressureMax},
-       {{"material", false, {}, "material"}},
-       false},
+       {{"material", false, {}, "material"}}},
       {"fitting",
        {{"tube_outer_diameter_mm", 0.5, 100, true, "outer diameter of the tube it takes"},
         Conductance("sonic_conductance_dm3_per_s_bar", "sonic conductance C of one fitting"),
@@ -35,8 +112,7 @@ std::vector<Family> OwnFamilies() {
         kBody,
         kPrice,
         kPressureMax},
-       {{"thread", true, {}, "thread, matches a valve's port"}, {"style", false, {}, "shape"}},
-       false},
+       {{"thread", true, {}, "thread, matches a valve's port"}, {"style", false, {}, "shape"}}},
       {"valve",
        {{"channels", 1, 64, true, "actuators that one piece serves"},
         Conductance("sonic_conductance_fill_dm3_per_s_bar", "sonic conductance C when filling"),
@@ -51,25 +127,26 @@ std::vector<Family> OwnFamilies() {
         kPrice,
         kPressureMax},
        {{"function", true, {"3/2", "2/2 pair", "proportional"}, "how one channel is served"},
-        {"port", true, {}, "thread of the port to the actuator"}},
-       false},
+        {"port", true, {}, "thread of the port to the actuator"}}},
       {"compressor",
        {{"voltage_v", 1, 60, true, "voltage at which the curve was taken"},
         {"duty_max", 0.01, 1, true, "thermal limit on the share of time that it runs"},
+        kPowerMin,
+        kPowerMax,
+        kVacuumMax,
         kMass,
         kBody,
         kPrice,
         kPressureMax},
        {{"type", false, {}, "principle"}},
-       true},
+       CurveKind::kPressure},
       {"cylinder",
        {{"water_volume_l", 0.01, 100, true, "inner volume"},
         {"fill_pressure_kpa_gauge", 100, 5e4, true, "fill pressure"},
         kMass,
         kBody,
         kPrice},
-       {{"material", false, {}, "material"}},
-       false},
+       {{"material", false, {}, "material"}}},
       {"co2",
        {{"co2_mass_kg", 1e-3, 50, true, "liquid CO2 when full"},
         {"water_volume_l", 0.005, 100, false, "inner volume"},
@@ -77,8 +154,7 @@ std::vector<Family> OwnFamilies() {
         kMass,
         kBody,
         kPrice},
-       {{"thread", false, {}, "neck thread"}},
-       false},
+       {{"thread", false, {}, "neck thread"}}},
       {"battery",
        {{"cells_series", 1, 24, true, "cells in series"},
         {"nominal_voltage_v", 1, 100, true, "nominal voltage of the pack"},
@@ -87,8 +163,7 @@ std::vector<Family> OwnFamilies() {
         kMass,
         kBody,
         kPrice},
-       {{"chemistry", false, {}, "cell chemistry"}},
-       false},
+       {{"chemistry", false, {}, "cell chemistry"}}},
       {"regulator",
        {Conductance("sonic_conductance_dm3_per_s_bar", "sonic conductance C, inlet to outlet"),
         Ratio("critical_ratio"),
@@ -101,13 +176,20 @@ std::vector<Family> OwnFamilies() {
         kMass,
         kBody,
         kPrice},
-       {{"type", false, {}, "principle"}},
-       false},
+       {{"type", false, {}, "principle"}}},
       {"reservoir",
        {{"internal_volume_ml", 1, 1e6, true, "inner volume"}, kMass, kBody, kPrice, kPressureMax},
-       {{"material", false, {}, "material"}, {"port", false, {}, "thread"}},
-       false},
+       {{"material", false, {}, "material"}, {"port", false, {}, "thread"}}},
   };
+}
+
+}  // namespace
+
+std::vector<Family> OwnFamilies() {
+  std::vector<Family> families = FamiliesOfTheSearch();
+  for (const auto& waiting : {VacuumSources(), Connections()})
+    families.insert(families.end(), waiting.begin(), waiting.end());
+  return families;
 }
 
 const Family* FindFamily(std::string_view name) {

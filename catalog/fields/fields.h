@@ -28,11 +28,17 @@ struct TextField {
   std::string_view meaning;
 };
 
+// Pressures of a curve are from ambient up, free air falling, or from the deepest suction pressure up
+// to ambient, free air rising.
+enum class CurveKind { kNone, kPressure, kSuction };
+inline constexpr double kVacuumMinKpaGauge = -101.325;
+
 struct Family {
   std::string_view name;
   std::vector<NumberField> numbers;
   std::vector<TextField> texts;
-  bool has_curve;
+  CurveKind curve = CurveKind::kNone;
+  bool has_curve() const { return curve != CurveKind::kNone; }
 };
 
 // In family_list.cc alone, so that a program can be linked with a list that has a further one.

@@ -154,7 +154,7 @@ void CheckTexts(const Family& family, const Part& part, Errors& errors) {
     if (!Contains(family.texts, name)) errors.push_back(UnknownField(family, name, "text"));
 }
 
-void CheckPoint(const Curve& curve, std::size_t i, Errors& errors) {
+void CheckPoint(const Curve& curve, std::size_t i, CurveKind kind, Errors& errors) {
   const CurvePoint& point = curve.points[i];
   const std::string which = "point " + std::to_string(i + 1) + ": ";
   const auto check = [&](bool ok, std::string_view what, double value, const std::string& rule) {
@@ -163,8 +163,10 @@ void CheckPoint(const Curve& curve, std::size_t i, Errors& errors) {
                                      FormatNumber(value)});
   };
   const double pressure = point.pressure_kpa_gauge, flow = point.free_air_l_per_min;
-  check(pressure >= 0 && pressure <= kCurvePressureMax, "pressure in kPa gauge", pressure,
-        Range(0, kCurvePressureMax));
+  const bool suction = kind == CurveKind::kSuction;
+  const double lowest = suction ? kVacuumMinKpaGauge : 0, highest = suction ? 0 : kCurvePressureMax;
+  check(pressure >= lowest && pressure <= highest, "pressure in kPa gauge", pressure,
+        Range(lowest, highest));
   check(flow >= 0 && flow <= kCurveFlowMax, "free air in L/min", flow, Range(0, kCurveFlowMax));
   check(point.current_a > 0 && point.current_a <= kCurveCurrentMax, "current in A", point.current_a,
         "> 0 and ≤ " + FormatNumber(kCurveCurrentMax));
@@ -172,17 +174,19 @@ void CheckPoint(const Curve& curve, std::size_t i, Errors& errors) {
   const CurvePoint& last = curve.points[i - 1];
   check(!(pressure <= last.pressure_kpa_gauge), "pressure in kPa gauge", pressure,
         "above that of the point before, " + FormatNumber(last.pressure_kpa_gauge));
-  check(!(flow > last.free_air_l_per_min), "free air in L/min", flow,
-        "at most that of the point before, " + FormatNumber(last.free_air_l_per_min));
+  const bool turned = suction ? flow < last.free_air_l_per_min : flow > last.free_air_l_per_min;
+  check(!turned, "free air in L/min", flow,
+        std::string(suction ? "at least" : "at most") + " that of the point before, " +
+            FormatNumber(last.free_air_l_per_min));
 }
 
 void CheckCurve(const Family& family, const Part& part, Errors& errors) {
   if (!part.curve) {
-    if (family.has_curve)
+    if (family.has_curve())
       errors.push_back({"curve", "is required: 1 to 64 points of pressure, free air and current"});
     return;
   }
-  if (!family.has_curve) {
+  if (!family.has_curve()) {
     errors.push_back({"curve", "family " + std::string(family.name) + " has no curve"});
     return;
   }
@@ -190,7 +194,7 @@ void CheckCurve(const Family& family, const Part& part, Errors& errors) {
   if (count < 1 || count > kCurvePointsMost)
     errors.push_back({"curve", "must have 1 to 64 points, has " + std::to_string(count)});
   else
-    for (std::size_t i = 0; i < count; ++i) CheckPoint(*part.curve, i, errors);
+    for (std::size_t i = 0; i < count; ++i) CheckPoint(*part.curve, i, family.curve, errors);
   CheckText("free_air.source", part.curve->free_air_source, 0, kRemarkLongest, errors);
   CheckText("current.source", part.curve->current_source, 0, kRemarkLongest, errors);
   CheckUncertainty("free_air", part.curve->free_air_uncertainty, errors);
@@ -319,6 +323,7 @@ std::vector<FieldError> Validate(const Part& part) {
   CheckCurve(*family, part, errors);
   CheckOrder(part, "inner_diameter_mm", "outer_diameter_mm", true, errors);
   CheckOrder(part, "outlet_pressure_min_kpa_gauge", "outlet_pressure_max_kpa_gauge", false, errors);
+  CheckOrder(part, "relief_pressure_min_kpa_gauge", "relief_pressure_max_kpa_gauge", false, errors);
   CheckOrder(part, "inlet_pressure_min_kpa_gauge", "inlet_pressure_max_kpa_gauge", false, errors);
   return errors;
 }

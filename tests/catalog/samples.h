@@ -51,7 +51,7 @@ inline double AnyNumber(const NumberField& field, std::mt19937& random) {
   }
 }
 
-inline Curve AnyCurve(std::mt19937& random) {
+inline Curve AnyCurve(CurveKind kind, std::mt19937& random) {
   Curve curve{{}, AnyProvenance(random), AnyText(random), AnyProvenance(random), AnyText(random)};
   curve.free_air_uncertainty = AnyUncertainty(random);
   curve.current_uncertainty = AnyUncertainty(random);
@@ -61,6 +61,10 @@ inline Curve AnyCurve(std::mt19937& random) {
     curve.points.push_back({pressure, flow, step(random)});
     pressure += step(random);
     flow *= 0.97;
+  }
+  if (kind == CurveKind::kSuction) {
+    for (CurvePoint& point : curve.points) point.pressure_kpa_gauge *= -0.1;
+    std::reverse(curve.points.begin(), curve.points.end());
   }
   return curve;
 }
@@ -101,13 +105,17 @@ inline Part AnyPart(const Family& family, const std::string& id, std::mt19937& r
           field.allowed.empty() ? AnyText(random)
                                 : std::string(field.allowed[random() % field.allowed.size()]),
           AnyProvenance(random), AnyText(random)};
-  if (family.has_curve) part.curve = AnyCurve(random);
+  if (family.has_curve()) part.curve = AnyCurve(family.curve, random);
   AddAnyDetails(part, random);
   DerivePrice(part);
   // Pairs that must be in order.
   if (family.name == "tubing") {
     part.numbers["inner_diameter_mm"].value = 2.5;
     part.numbers["outer_diameter_mm"].value = 4.0;
+  }
+  if (family.name == "relief_valve") {
+    part.numbers["relief_pressure_min_kpa_gauge"].value = 1.0;
+    part.numbers["relief_pressure_max_kpa_gauge"].value = 700.0;
   }
   if (family.name == "regulator")
     for (const std::string side : {"inlet", "outlet"}) {

@@ -34,7 +34,7 @@ TEST(Fields, EveryRangeIsFiniteAndEveryNameUnique) {
     std::set<std::string_view> names;
     for (const NumberField& field : family.numbers) {
       EXPECT_LT(field.min, field.max) << field.name;
-      EXPECT_GE(field.min, 0.0) << field.name;
+      EXPECT_GE(field.min, -1e6) << field.name << ": wider than the database's check";
       EXPECT_LE(field.max, 1e6) << field.name << ": wider than the database's check";
       EXPECT_TRUE(names.insert(field.name).second) << field.name;
     }
@@ -73,6 +73,18 @@ TEST(Validate, NamesValueAndRangeOfANumber) {
   }
   part.numbers.erase("mass_kg");
   EXPECT_THAT(Validate(part), ElementsAre(Error("mass_kg", "required")));
+}
+
+TEST(Validate, ASuctionCurveRunsFromTheDeepestVacuumUpToAmbient) {
+  std::mt19937 random(1);
+  Part part = AnyPart(*FindFamily("vacuum_pump"), "pump", random);
+  part.curve->points = {{-85, 0, 1}, {-40, 8, 1}, {0, 15, 1}};
+  EXPECT_THAT(Validate(part), ElementsAre());
+  part.curve->points = {{-85, 15, 1}, {0, 0, 1}};
+  EXPECT_THAT(Validate(part), ElementsAre(Error("curve", "at least that of the point before, 15")));
+  part.curve->points = {{-102, 0, 1}, {10, 5, 1}};
+  EXPECT_THAT(Validate(part), ElementsAre(Error("curve", "between -101.325 and 0, is -102"),
+                                          Error("curve", "between -101.325 and 0, is 10")));
 }
 
 TEST(Validate, SuggestsTheNearestFieldName) {

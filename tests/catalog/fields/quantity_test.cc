@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "catalog/fields/fields.h"
 
 namespace plenum::catalog {
@@ -102,8 +104,9 @@ TEST(Quantity, EveryFieldWithAUnitHasOneInItsName) {
   for (const Family& family : Families())
     for (const NumberField& field : family.numbers) {
       const std::string error = ParseQuantity("1 parsec", field.name).error;
-      const bool counts = field.name == "channels" || field.name == "cells_series" ||
-                          field.name.starts_with("critical_ratio") || field.name == "duty_max";
+      const std::set<std::string_view> bare{"channels", "cells_series", "duty_max", "stages",
+                                            "stations"};
+      const bool counts = bare.contains(field.name) || field.name.starts_with("critical_ratio");
       EXPECT_EQ(error.find("one of %;") != std::string::npos, counts) << field.name << error;
     }
 }
