@@ -13,8 +13,9 @@ import re
 import statistics
 import sys
 
-FAMILIES = ["battery", "co2", "compressor", "cylinder", "fitting", "regulator", "reservoir",
-            "tubing", "valve"]
+FAMILIES = ["battery", "check_valve", "co2", "compressor", "cylinder", "ejector", "fitting",
+            "manifold", "regulator", "relief_valve", "reservoir", "silencer", "tubing",
+            "vacuum_pump", "valve"]
 COMMON = ["series", "orderable", "aliases", "offers", "documents"]
 
 # Per family: a pattern for "maker: part number" and the model base that it stands for, the first
@@ -36,7 +37,7 @@ BASES = {
         (r"SMC: (SYJ?\d)\d+-", r"\g<1>000"),
     ],
     "compressor": [
-        (r"JSG: (BD-\d+) platform", r"\1"),
+        (r"JSG: (BD-\d+)", r"\1"),
         (r"Airpo: (D028B)", r"\1"),
         (r"Adafruit / ZR: (ZR370)", r"\1"),
         (r"generic: (diaphragm|piston) pump [\d.]+ V, (.*)", r"\1 pump \2"),
@@ -114,7 +115,7 @@ def battery_line(part_number, chemistry):
 def series_of(family, row):
     maker, number = row["manufacturer"], row["part_number"]
     base = None
-    for pattern, template in BASES[family]:
+    for pattern, template in BASES.get(family, []):
         match = re.match(pattern, f"{maker}: {number}")
         if match:
             base = template(match) if callable(template) else match.expand(template)
@@ -127,9 +128,8 @@ def series_of(family, row):
 
 
 def orderable_of(row):
-    """A class of parts, or a variant made by a rule from a range, is no product."""
-    made = row["manufacturer"] == "generic" or " platform, " in row["part_number"]
-    return "false" if made else ""
+    """A class of parts is no product; what a maker lists is one."""
+    return "false" if row["manufacturer"].startswith("generic") else "true"
 
 
 def valve_class(row):

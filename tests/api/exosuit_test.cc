@@ -63,7 +63,11 @@ TEST(Exosuit, FirstDesignRisesAndFallsAsTheMassesSay) {
   ASSERT_EQ(design.configuration, optimizer::Configuration::kCompressor);
 
   std::map<optimizer::Family, std::string> ids;
-  for (const optimizer::Choice& choice : design.parts) ids[choice.family] = choice.id;
+  double pumps = 0.0;
+  for (const optimizer::Choice& choice : design.parts) {
+    ids[choice.family] = choice.id;
+    if (choice.family == optimizer::Family::kCompressor) pumps = choice.quantity;
+  }
   const auto& tube = Find(problem.parts.tubing, ids[optimizer::Family::kTubing]);
   const auto& fitting = Find(problem.parts.fittings, ids[optimizer::Family::kFitting]);
   const auto& valve = Find(problem.parts.valves, ids[optimizer::Family::kValve]);
@@ -90,7 +94,7 @@ TEST(Exosuit, FirstDesignRisesAndFallsAsTheMassesSay) {
   rig.reservoir_m3 = *design.settings.reservoir_volume_m3;
   for (int i = 0; i <= 400; ++i) {
     const double p = 1e5 + (pump.curve.free_air_m3_per_s.back() - 1e5) * i / 400.0;
-    rig.delivery.emplace_back(p, pump.curve.free_air_m3_per_s(p));
+    rig.delivery.emplace_back(p, pumps * pump.curve.free_air_m3_per_s(p));
   }
   const optimizer::GroupPerformance& reported = design.performance.groups[0];
   EXPECT_NEAR(Crossing(test::SimulateMasses(rig, 1.0, 1e-4, 1e-3), 1.95e5), reported.rise_time_s,

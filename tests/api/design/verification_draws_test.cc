@@ -61,7 +61,9 @@ TEST(VerifyDraws, AcceptsAListThatReachesAProbability) {
 
 #ifndef PLENUM_SANITIZED
 TEST(VerifyDraws, AcceptsDesignsWithRoomToSpareWhereNoneOfTheBestReachIt) {
-  const Json answer = Answered(Asked(Drawn("crawler", 2, 20), 0.9));
+  Json request = Asked(Drawn("crawler", 2, 20), 0.9);
+  request["supply"]["configurations"] = {"cylinder"};
+  const Json answer = Answered(request);
   EXPECT_EQ(answer["status"], "feasible");
   ASSERT_EQ(answer["designs"].size(), 2u);
   EXPECT_EQ(LeftOut(answer), 500u);
