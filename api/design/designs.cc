@@ -114,6 +114,7 @@ struct Quality {
   double mass_estimated_kg = 0.0;
   std::set<std::string> estimated;  // "family.field"
   bool flow_estimated = false;
+  std::set<std::string> not_orderable;  // ids of classes of parts and the like
 };
 
 void AddEstimates(const catalog::Part& row, double quantity, Quality& quality) {
@@ -142,6 +143,7 @@ Quality QualityOf(const optimizer::Design& design, const Rows& rows) {
       quality.estimated.insert({"reservoir.body_volume_ml", "reservoir.mass_kg"});
     } else if (const auto row = rows.find(choice.id); row != rows.end()) {
       AddEstimates(*row->second, choice.quantity, quality);
+      if (!row->second->orderable.value_or(true)) quality.not_orderable.insert(choice.id);
     }
   }
   return quality;
@@ -151,7 +153,8 @@ Json RenderQuality(const Quality& quality, double mass_kg) {
   const double share = mass_kg > 0.0 ? std::min(1.0, quality.mass_estimated_kg / mass_kg) : 0.0;
   return {{"mass_share_estimated", Number(share)},
           {"estimated", quality.estimated},
-          {"flow_estimated", quality.flow_estimated}};
+          {"flow_estimated", quality.flow_estimated},
+          {"not_orderable", quality.not_orderable}};
 }
 
 Json RenderResponse(const optimizer::Design::Trace& trace, const optimizer::Problem& problem) {

@@ -148,6 +148,17 @@ std::string MarginsTable(const Json& design) {
   return table.Text();
 }
 
+// Parts that stand for a class and are no product that one can order.
+std::string OrderText(const Json& design) {
+  std::string text;
+  const Json not_orderable = design.at("data_quality").value("not_orderable", Json::array());
+  for (const Json& part : design.at("parts"))
+    if (std::find(not_orderable.begin(), not_orderable.end(), part.at("id")) != not_orderable.end())
+      text += "    " + part.at("family").get<std::string>() + ": " +
+              part.at("part_number").get<std::string>() + "\n";
+  return text.empty() ? text : "  Classes of parts, not products that one can order:\n" + text;
+}
+
 std::string QualityText(const Json& design) {
   const auto& estimated = design.at("data_quality").at("estimated");
   if (estimated.empty()) return "  Data: no number of these parts is an estimate.\n";
@@ -168,7 +179,7 @@ std::string QualityText(const Json& design) {
 std::string Details(const Json& design) {
   return fmt::format("Design {} in full\n", Grouped(design.at("rank"))) + PartsTable(design) +
          "\n" + SettingsText(design) + TotalsText(design) + "\n" + MarginsTable(design) + "\n" +
-         QualityText(design);
+         QualityText(design) + OrderText(design);
 }
 
 std::string ConflictText(const Json& answer) {

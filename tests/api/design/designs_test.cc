@@ -104,6 +104,7 @@ TEST(RenderAnswer, SaysWhatRestsOnEstimates) {
       part.numbers["mass_kg"].provenance = catalog::Provenance::kEstimated;
       part.numbers["response_time_ms"].provenance = catalog::Provenance::kEstimated;  // not used
     }
+    if (part.family == "valve" || part.family == "battery") part.orderable = false;
     if (part.family == "battery")  // not in the design
       part.numbers["mass_kg"].provenance = catalog::Provenance::kEstimated;
   }
@@ -114,6 +115,7 @@ TEST(RenderAnswer, SaysWhatRestsOnEstimates) {
   EXPECT_EQ(quality["estimated"],
             (Json{"reservoir.body_volume_ml", "reservoir.mass_kg", "valve.mass_kg"}));
   EXPECT_EQ(quality["flow_estimated"], false);
+  EXPECT_EQ(quality["not_orderable"], Json{"valve-1"});
 }
 
 TEST(RenderAnswer, GasChargeIsNotAnEstimate) {
