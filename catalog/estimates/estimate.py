@@ -112,15 +112,17 @@ def fill_pumps(rows, made):
     power = made["pump_power"]
     for row in rows:
         low, high = pumps.printed_power(row)
-        sigma = spread
+        of_power = 0.0
         if high is None:
-            high, sigma = power.law.predict(laws.flow_x(row)), power.law.sigma
+            high, of_power = power.law.predict(laws.flow_x(row)), power.law.sigma
         low = low or high / 2
         if row["current.provenance"] == "estimated":
-            pumps.fill_curve(row, low, high, efficiency, piston)
-            row["current.uncertainty"] = f"{together(sigma, (high - low) / (high + low) / 2):.2g}"
+            cut = pumps.fill_curve(row, low, high, efficiency, piston)
+            # Anywhere between the two ends of the power, as likely here as there.
+            range_of_power = (high - low) / (high + low) / math.sqrt(3)
+            row["current.uncertainty"] = f"{together(of_power, range_of_power):.2g}"
             if row["free_air.provenance"] == "estimated":
-                row["free_air.uncertainty"] = f"{line:.2g}"
+                row["free_air.uncertainty"] = f"{max(line, spread if cut else 0.0):.2g}"
         if row["family"] == "compressor" or row["mass_kg"]:
             fill(made["pump_mass"], row, "mass_kg")
             fill(made["pump_body"], row, "body_volume_ml", 1.0,

@@ -74,18 +74,19 @@ def along(pairs, x):
 
 
 def fill_curve(row, low, high, efficiency, piston_shape):
-    """Points from the ends of the row's curve; `low` and `high` are electrical power in W."""
+    """Points from the ends of the row's curve; `low` and `high` are electrical power in W. True where
+    the power cuts the flow."""
     flow, far = ends(row)
     volts = number(row, "voltage_v")
     if far == 0:  # only the free flow is known
         row["curve"] = f"0:{flow:.5g}:{high / volts:.5g}"
-        return
+        return False
     known_flow = row["free_air.provenance"] != "estimated"
     given = sorted(curve(row)) if known_flow else []
     at = [p for p, _, _ in given] if known_flow and len(given) > 1 else [
         far * i / STEPS for i in range(STEPS + 1)]
     at = sorted(at, key=abs)
-    flows, last = [], math.inf
+    flows, last, cut = [], math.inf, False
     for pressure in at:
         if known_flow:
             q = along([(p, f) for p, f, _ in given], pressure)
@@ -94,7 +95,9 @@ def fill_curve(row, low, high, efficiency, piston_shape):
         else:
             q = straight(flow, far, pressure)
         if not known_flow and pressure != 0:
-            q = min(q, efficiency * high / (work(pressure, 1.0) or math.inf), last)
+            most = efficiency * high / work(pressure, 1.0)
+            cut |= most < q
+            q = min(q, most, last)
         last = q
         flows.append(q)
     hardest_work = max(map(work, at, flows))
@@ -105,6 +108,7 @@ def fill_curve(row, low, high, efficiency, piston_shape):
     if far < 0:
         points.reverse()
     row["curve"] = ";".join(f"{p:.6g}:{q:.5g}:{i:.5g}" for p, q, i in points)
+    return cut
 
 
 def printed_power(row):
