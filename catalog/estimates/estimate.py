@@ -115,6 +115,8 @@ def fill_pumps(rows, made):
         of_power = 0.0
         if high is None:
             high, of_power = power.law.predict(laws.flow_x(row)), power.law.sigma
+            if row["free_air.provenance"] != "estimated":
+                high, of_power = pumps.most_work(row) / efficiency, spread
         low = low or high / 2
         if row["current.provenance"] == "estimated":
             cut = pumps.fill_curve(row, low, high, efficiency, piston)

@@ -39,6 +39,11 @@ def hardest(flow, far):
     return max(work(far * i / 100.0, straight(flow, far, far * i / 100.0)) for i in range(100))
 
 
+def most_work(row):
+    """Greatest isothermal work along the row's own curve."""
+    return max(work(p, q) for p, q, _ in curve(row))
+
+
 def is_measured(row):
     points = curve(row)
     return (len(points) > 2 and row["free_air.provenance"] != "estimated"
