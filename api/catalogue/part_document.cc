@@ -68,13 +68,14 @@ void ReadTexts(Reader& reader, const catalog::Family& family, catalog::Part& par
   }
 }
 
-void ReadCurve(Reader& reader, catalog::Part& part) {
+void ReadCurve(Reader& reader, catalog::CurveKind kind, catalog::Part& part) {
   if (!reader.Has("curve")) return;
+  const auto [lowest, highest] = catalog::CurvePressuresKpaGauge(kind);
   catalog::Curve curve;
   curve.free_air_source = curve.current_source = "user";
   for (const Element& element : reader.List("curve", 1, kTablePointsMax)) {
     Reader point(element, reader.errors());
-    curve.points.push_back({point.Number("pressure_kpa_gauge", {catalog::kVacuumMinKpaGauge, 5e4}),
+    curve.points.push_back({point.Number("pressure_kpa_gauge", {lowest, highest}),
                             point.Number("free_air_l_per_min", {0, 1e6}),
                             point.Number("current_a", {0, 1e4})});
     point.Finish();
@@ -213,7 +214,7 @@ Parsed<catalog::Part> ParsePart(const Json& request) {
   ReadDetails(reader, part);
   ReadNumbers(reader, *family, part);
   ReadTexts(reader, *family, part);
-  if (family->has_curve()) ReadCurve(reader, part);
+  if (family->has_curve()) ReadCurve(reader, family->curve, part);
   ReadProvenance(reader, *family, part);
   reader.Finish();
   catalog::DerivePrice(part);

@@ -127,16 +127,14 @@ Json ProvenanceForm(bool of_number) {
 }
 
 Json CurveForm(catalog::CurveKind kind) {
-  const bool suction = kind == catalog::CurveKind::kSuction;
-  const Json point = {
-      {"type", "object"},
-      {"properties",
-       {{"pressure_kpa_gauge",
-         NumberForm({suction ? catalog::kVacuumMinKpaGauge : 0, suction ? 0 : 5e4})},
-        {"free_air_l_per_min", NumberForm({0, 1e6})},
-        {"current_a", NumberForm({0, 1e4})}}},
-      {"required", {"pressure_kpa_gauge", "free_air_l_per_min", "current_a"}},
-      {"additionalProperties", false}};
+  const auto [lowest, highest] = catalog::CurvePressuresKpaGauge(kind);
+  const Json point = {{"type", "object"},
+                      {"properties",
+                       {{"pressure_kpa_gauge", NumberForm({lowest, highest})},
+                        {"free_air_l_per_min", NumberForm({0, 1e6})},
+                        {"current_a", NumberForm({0, 1e4})}}},
+                      {"required", {"pressure_kpa_gauge", "free_air_l_per_min", "current_a"}},
+                      {"additionalProperties", false}};
   return {{"type", "array"}, {"minItems", 1}, {"maxItems", kTablePointsMax}, {"items", point}};
 }
 

@@ -126,7 +126,9 @@ def fill_pumps(rows, made):
             if row["free_air.provenance"] == "estimated":
                 row["free_air.uncertainty"] = f"{max(line, spread if cut else 0.0):.2g}"
         if row["family"] == "compressor" or row["mass_kg"]:
-            fill(made["pump_mass"], row, "mass_kg")
+            slope = made["pump_mass"].law.coefficients[1]
+            fill(made["pump_mass"], row, "mass_kg", 1.0,
+                 0.0 if is_known(row, "power_max_w") else slope * power.law.sigma)
             fill(made["pump_body"], row, "body_volume_ml", 1.0,
                  0.0 if is_known(row, "mass_kg") else own(row, "mass_kg"))
     return (efficiency, spread), line

@@ -28,10 +28,17 @@ struct TextField {
   std::string_view meaning;
 };
 
-// Pressures of a curve are from ambient up, free air falling, or from the deepest suction pressure up
-// to ambient, free air rising.
+// Pressures of a curve are from ambient up, free air falling, or from the deepest suction pressure
+// up to ambient, free air rising.
 enum class CurveKind { kNone, kPressure, kSuction };
 inline constexpr double kVacuumMinKpaGauge = -101.325;
+struct CurvePressures {
+  double min, max;
+};
+constexpr CurvePressures CurvePressuresKpaGauge(CurveKind kind) {
+  return kind == CurveKind::kSuction ? CurvePressures{kVacuumMinKpaGauge, 0}
+                                     : CurvePressures{0, 5e4};
+}
 
 struct Family {
   std::string_view name;

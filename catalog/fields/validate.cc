@@ -16,7 +16,6 @@ constexpr std::size_t kIdLongest = 100;
 constexpr std::size_t kNameLongest = 200;
 constexpr std::size_t kRemarkLongest = 4000;  // notes and sources
 constexpr std::size_t kCurvePointsMost = 64;
-constexpr double kCurvePressureMax = 5e4;
 constexpr double kCurveFlowMax = 1e6;
 constexpr double kCurveCurrentMax = 1e3;
 // With these the longest list still fits a cell of a CSV file (kCsvCellBytesMax).
@@ -164,7 +163,7 @@ void CheckPoint(const Curve& curve, std::size_t i, CurveKind kind, Errors& error
   };
   const double pressure = point.pressure_kpa_gauge, flow = point.free_air_l_per_min;
   const bool suction = kind == CurveKind::kSuction;
-  const double lowest = suction ? kVacuumMinKpaGauge : 0, highest = suction ? 0 : kCurvePressureMax;
+  const auto [lowest, highest] = CurvePressuresKpaGauge(kind);
   check(pressure >= lowest && pressure <= highest, "pressure in kPa gauge", pressure,
         Range(lowest, highest));
   check(flow >= 0 && flow <= kCurveFlowMax, "free air in L/min", flow, Range(0, kCurveFlowMax));

@@ -115,12 +115,13 @@ TEST(FullDisk, AJobThatEndsThereIsReadableAndDoneAgainAfterARestart) {
   EXPECT_TRUE(again["result"]["designs"] == first["result"]["designs"]);
 }
 
-// A disk of 2.5 MB of its own.
+// A disk of its own, with room for 1.5 MB beside the catalogue.
 class SmallDisk {
  public:
-  explicit SmallDisk(const std::filesystem::path& place) : place_(place) {
+  SmallDisk(const std::filesystem::path& place, std::uintmax_t catalog_bytes) : place_(place) {
     std::filesystem::create_directory(place_);
-    mounted_ = mount("tmpfs", place_.c_str(), "tmpfs", 0, "size=2560k") == 0;
+    const std::string size = "size=" + std::to_string(catalog_bytes + (1536 << 10));
+    mounted_ = mount("tmpfs", place_.c_str(), "tmpfs", 0, size.c_str()) == 0;
   }
   ~SmallDisk() {
     if (mounted_) umount2(place_.c_str(), MNT_DETACH);
@@ -136,7 +137,7 @@ class SmallDisk {
 
 TEST(FullDisk, ADiskWithoutSpaceIsAnsweredWith507AndLeavesThingsWhole) {
   const Workbench bench;
-  const SmallDisk disk(bench.Path("disk"));
+  const SmallDisk disk(bench.Path("disk"), std::filesystem::file_size(bench.catalog()));
   if (!disk.mounted()) GTEST_SKIP() << "needs the right to mount a small disk";
   const auto catalog = bench.Path("disk") / "catalog.db";
   std::filesystem::copy_file(bench.catalog(), catalog);
