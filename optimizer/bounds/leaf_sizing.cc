@@ -21,7 +21,7 @@ Halves Divide(const Bounds& bounds, const Box& box) {
 std::optional<Leaf> SizeLeaf(const Problem& problem, const Candidate& candidate, Box& box,
                              std::unique_ptr<CustomSizing>& sizing) {
   if (candidate.reservoir.index != kCustom)
-    return SizeAtVolume(problem, candidate, ReservoirVolume(problem, candidate));
+    return SizeQuickly(problem, candidate, ReservoirVolume(problem, candidate));
   if (!sizing && box.core)
     if (const std::optional<Leaf> leaf = LeafOfCore(problem, candidate, *box.core)) return leaf;
   if (!sizing) sizing = std::make_unique<CustomSizing>(problem, candidate, NeedsOf(box));

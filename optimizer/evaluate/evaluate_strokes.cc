@@ -8,6 +8,7 @@
 #include "model/strokes/reservoir_stroke.h"
 #include "model/strokes/stroke.h"
 #include "optimizer/evaluate/effect_strokes.h"
+#include "optimizer/evaluate/shared_filling.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -34,12 +35,13 @@ void RegulatedStroke(const Problem& problem, const Candidate& candidate, double 
   strokes.inflate_s[g] = fill_time(group.chamber.operating_pressure_pa);
 }
 
+// `count`: chambers that fill at once, through lines as those of the group.
 model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candidate& candidate,
-                                            const OperatingPoint& point, int g) {
+                                            const OperatingPoint& point, int g, int count) {
   model::ReservoirStrokeInput input;
   input.fill = &candidate.lines[g]->curve->flow;
   input.chamber = &candidate.lines[g]->chamber;
-  input.count = problem.groups[g].count;
+  input.count = count;
   input.compressor = &problem.parts.compressors[candidate.compressor.index].curve;
   input.compressors = candidate.compressor.quantity;
   input.stop_pa = point.source_pa;
@@ -63,8 +65,9 @@ enum class Alone { kYes, kNo, kTooSlow };
 // come too early: the running time then exceeds the period, and the duty refuses this stop
 // pressure; a lower one that is reached describes the same periodic state.
 Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
-                      const OperatingPoint& point, int g, double time_s, Strokes& strokes) {
-  const model::ReservoirStrokeInput input = MakeStrokeInput(problem, candidate, point, g);
+                      const OperatingPoint& point, int g, int count, double time_s,
+                      Strokes& strokes) {
+  const model::ReservoirStrokeInput input = MakeStrokeInput(problem, candidate, point, g, count);
   const model::ReservoirStroke stroke = model::FillFromReservoir(input);
   if (!stroke.reached) return Alone::kTooSlow;
   strokes.rise_s[g] = stroke.rise_s;
@@ -72,7 +75,7 @@ Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
   const double refill_s =
       model::PumpUpTime(*input.compressor, input.compressors, point.reservoir_rising_m3,
                         stroke.reservoir_end_pa, point.source_pa, input.temperature_k);
-  const bool last_word = problem.groups.size() == 1;
+  const bool last_word = problem.groups.size() == 1 || problem.simultaneous;
   if (!last_word && !(stroke.inflate_s + refill_s <= time_s)) return Alone::kNo;
   strokes.pump_on_s += stroke.pump_on_s + refill_s;
   strokes.pump_energy_j +=
@@ -91,6 +94,35 @@ Strokes EmptyStrokes(const Problem& problem) {
   Strokes strokes;
   strokes.rise_s.assign(problem.groups.size(), model::kNever);
   strokes.inflate_s.assign(problem.groups.size(), model::kNever);
+  return strokes;
+}
+
+// Whether all chambers, whatever their group, fill in the same way.
+bool FillAlike(const Candidate& candidate) {
+  const Line& first = *candidate.lines[0];
+  for (std::size_t g = 1; g < candidate.lines.size(); ++g) {
+    const Line& line = *candidate.lines[g];
+    if (!(line.fill == first.fill && line.chamber == first.chamber && line.holds == first.holds))
+      return false;
+  }
+  return true;
+}
+
+// Groups whose chambers fill alike and at once are one group to the reservoir.
+Strokes StrokesAlike(const Problem& problem, const Candidate& candidate,
+                     const OperatingPoint& point) {
+  int count = 0;
+  for (const ActuatorGroup& group : problem.groups) count += group.count;
+  Strokes strokes = EmptyStrokes(problem);
+  if (ReservoirStroke(problem, candidate, point, 0, count, 1.0 / problem.frequency_hz, strokes) !=
+      Alone::kYes)
+    return EmptyStrokes(problem);
+  std::fill(strokes.rise_s.begin(), strokes.rise_s.end(), strokes.rise_s[0]);
+  std::fill(strokes.inflate_s.begin(), strokes.inflate_s.end(), strokes.inflate_s[0]);
+  for (int g = 1; g < static_cast<int>(problem.groups.size()); ++g)
+    if (!candidate.lines[g]->holds) AddHeldAir(problem, candidate, point.source_pa, g, strokes);
+  strokes.from_full = true;
+  strokes.works = std::isfinite(strokes.inflate_s[0]);
   return strokes;
 }
 
@@ -127,8 +159,8 @@ double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
                          const OperatingPoint& point) {
   double excess = -kUnlimited;
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    const model::ReservoirStroke stroke =
-        model::FillFromReservoir(MakeStrokeInput(problem, candidate, point, g));
+    const model::ReservoirStroke stroke = model::FillFromReservoir(
+        MakeStrokeInput(problem, candidate, point, g, problem.groups[g].count));
     if (!stroke.reached) return kUnlimited;
     excess = std::max({excess, stroke.rise_s / RiseLimit(problem, g) - 1.0,
                        stroke.inflate_s / HalfPeriod(problem) - 1.0});
@@ -140,6 +172,11 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
   const int groups = static_cast<int>(problem.groups.size());
   const bool alone = groups == 1 || !problem.simultaneous;
+  if (!alone && !HasEffects(problem) && candidate.configuration != Configuration::kCompressor)
+    if (std::optional<Strokes> strokes = FillTogether(problem, candidate, point.source_pa))
+      return *std::move(strokes);
+  if (!alone && !HasEffects(problem) && FillAlike(candidate))
+    return StrokesAlike(problem, candidate, point);
   if (!alone || HasEffects(problem)) return SimulateStrokes(problem, candidate, point);
 
   Strokes strokes = EmptyStrokes(problem);
@@ -150,7 +187,8 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
       if (groups > 1 && !(strokes.inflate_s[g] <= time_s))
         return SimulateStrokes(problem, candidate, point);
     } else {
-      const Alone outcome = ReservoirStroke(problem, candidate, point, g, time_s, strokes);
+      const Alone outcome =
+          ReservoirStroke(problem, candidate, point, g, problem.groups[g].count, time_s, strokes);
       if (outcome == Alone::kTooSlow) return EmptyStrokes(problem);
       if (outcome == Alone::kNo) return SimulateStrokes(problem, candidate, point);
     }

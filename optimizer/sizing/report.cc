@@ -109,9 +109,10 @@ Design::Trace TraceCycle(const Problem& problem, const Candidate& candidate,
   return trace;
 }
 
-// Whether the simulator confirms the strokes and what the pumps bear at this point.
+// Whether the simulator confirms the strokes and what the pumps bear at this point. Where groups
+// meet its times are taken.
 bool Confirm(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
-             const Evaluation& evaluation) {
+             Evaluation& evaluation) {
   if (StrokeExcess(problem, evaluation) > 0.0 ||
       SupplyMargin(problem, candidate, point, evaluation) < 0.0)
     return false;
@@ -123,7 +124,12 @@ bool Confirm(const Problem& problem, const Candidate& candidate, const Operating
       return false;
     if (strokes.inflate_s[g] > HalfPeriod(problem) * (1.0 + kConfirmTolerance)) return false;
   }
-  if (candidate.compressor.index == kNone) return true;
+  if (candidate.compressor.index == kNone) {
+    const Evaluation simulated =
+        GroupsMeet(problem) ? EvaluateWith(strokes, problem, candidate, point) : evaluation;
+    if (SmallestMargin(problem, candidate, point, simulated) >= 0.0) evaluation = simulated;
+    return true;
+  }
   const double duty_max = problem.parts.compressors[candidate.compressor.index].duty_max;
   return strokes.pump_on_s * problem.frequency_hz <= duty_max * (1.0 + kConfirmTolerance);
 }
@@ -131,7 +137,12 @@ bool Confirm(const Problem& problem, const Candidate& candidate, const Operating
 }  // namespace
 
 std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
-                                 const Leaf& leaf, bool settle) {
+                                 const Leaf& given, bool settle) {
+  Leaf leaf = given;
+  if (!leaf.lowest && settle)
+    if (const Leaf sized = SizeAtVolume(problem, candidate, leaf.point.reservoir_m3);
+        sized.status == LeafStatus::kFeasible)
+      leaf = sized;
   OperatingPoint point = settle ? Settle(problem, candidate, leaf) : leaf.point;
   Evaluation evaluation = Evaluate(problem, candidate, point);
   if (!Confirm(problem, candidate, point, evaluation)) {

@@ -12,7 +12,7 @@ namespace plenum::optimizer {
 // requirement is met: the design is then not listed but counted as undecided.
 // `settle`: choose the settings that the objective leaves free (sizing.h), else keep the leaf's.
 std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
-                                 const Leaf& leaf, bool settle = true);
+                                 const Leaf& given, bool settle = true);
 
 // The candidate at a point as it was evaluated there, whatever it meets, without a trace.
 Design Describe(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,

@@ -228,4 +228,27 @@ Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double res
   return leaf;
 }
 
+bool FastAtHighest(const Problem& problem, const Candidate& candidate) {
+  const Window window = SourceWindow(problem, candidate);
+  if (window.empty()) return true;
+  const Evaluation evaluation = Evaluate(problem, candidate, {window.high_pa});
+  return evaluation.failed || StrokeExcess(problem, evaluation) <= 0.0;
+}
+
+Leaf SizeQuickly(const Problem& problem, const Candidate& candidate, double reservoir_m3) {
+  const OperatingPoint highest{SourceWindow(problem, candidate).high_pa, reservoir_m3,
+                               reservoir_m3};
+  if (!GroupsMeet(problem) || problem.objective.energy_wh > 0.0 ||
+      SourceWindow(problem, candidate).empty())
+    return SizeAtVolume(problem, candidate, reservoir_m3);
+  const Evaluation evaluation = Evaluate(problem, candidate, highest);
+  const double parts =
+      ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3));
+  if (!evaluation.failed && StrokeExcess(problem, evaluation) > 0.0)
+    return {LeafStatus::kInfeasible, {}, 0.0, parts};
+  if (evaluation.failed || SmallestMargin(problem, candidate, highest, evaluation) < 0.0)
+    return SizeAtVolume(problem, candidate, reservoir_m3);
+  return {LeafStatus::kFeasible, highest, parts, parts, false};
+}
+
 }  // namespace plenum::optimizer

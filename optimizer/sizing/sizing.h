@@ -21,6 +21,7 @@ struct Leaf {
   OperatingPoint point;      // kFeasible: a point that meets every requirement
   double objective = 0.0;    // there
   double lower_bound = 0.0;  // of the objective over all settings
+  bool lowest = true;        // no lower source pressure would do; false: that was not asked
 };
 
 // Settings with the volume given (stock reservoir; 0 where the configuration has none). Where the
@@ -29,6 +30,19 @@ struct Leaf {
 inline constexpr int kSizingEvaluationsMax = 20000;
 Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
                   int evaluations_max = kSizingEvaluationsMax);
+
+// The same for a search, which asks whether and not where: of strokes that only a simulation tells
+// the highest pressure is tried first, and is enough where the objective does not depend on it.
+Leaf SizeQuickly(const Problem& problem, const Candidate& candidate, double reservoir_m3);
+
+// Whether groups meet on the source, so that each evaluation integrates them together.
+inline bool GroupsMeet(const Problem& problem) {
+  return problem.groups.size() > 1 && problem.simultaneous;
+}
+
+// Whether the strokes of a regulated candidate are in time at the highest pressure of its window;
+// true where that is not known.
+bool FastAtHighest(const Problem& problem, const Candidate& candidate);
 
 // All relative margins of an evaluation that works, strokes first and limited to 1: what a solver
 // keeps ≥ 0. The smallest of them, or −∞ where nothing works.

@@ -42,7 +42,9 @@ model::PeriodicState Failed(model::PeriodicStatus status) {
 
 TEST(StopTest, SolverThatAlwaysFailsLeavesAllLeavesOpen) {
   for (Configuration configuration : {Configuration::kCylinder, Configuration::kCompressor}) {
-    const Problem problem = TogetherProblem(5, configuration);
+    Problem problem = TogetherProblem(5, configuration);
+    problem.parts.regulators.resize(1);
+    problem.parts.cylinders.resize(1);
     ASSERT_EQ(optimizer::SearchTrees(problem, Within(60.0)).status, Status::kOptimal);
     SearchOptions options = Within(60.0);
     int calls = 0;
@@ -149,7 +151,7 @@ TEST(StopTest, CancelFromAnotherThreadReachesALeaf) {
 }
 
 TEST(StopTest, TimeLimitReachesALeaf) {
-  const Problem problem = TogetherProblem(5, Configuration::kCylinder);
+  const Problem problem = TogetherProblem(5, Configuration::kCompressor);
   std::atomic<bool> begun = false;
   SearchOptions options = Within(0.05);
   options.periodic = Endless(begun);
