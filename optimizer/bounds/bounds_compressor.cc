@@ -14,6 +14,7 @@ namespace plenum::optimizer {
 namespace {
 
 constexpr double kFoundTolerance = 5e-7;
+constexpr double kMeetTolerance = 1e-3;
 
 }  // namespace
 
@@ -151,10 +152,15 @@ Constraint Bounds::FindSource(Box& box) {
   } else {
     box.source_known = true;
     const Candidate candidate = CandidateOf(box);
-    const NeededPressure needed = NeededSourcePressure(problem_, candidate, {});
+    const bool meet = GroupsMeet(problem_);
+    if (meet && !FastAtHighest(problem_, candidate)) return Constraint::kRise;
+    // Where groups meet it is found no closer than bottles have to know it.
+    if (meet && plan_.bottle_slot < 0) return Constraint::kNone;
+    const NeededPressure needed =
+        NeededSourcePressure(problem_, candidate, {}, meet ? kMeetTolerance : kPressureTolerance);
     if (needed.status == LeafStatus::kInfeasible) return Constraint::kRise;
     if (needed.status == LeafStatus::kUndecided) return Constraint::kNone;
-    box.source_floor_pa = needed.source_pa;
+    box.source_floor_pa = meet ? needed.floor_pa : needed.source_pa;
   }
   if (const Constraint missed = NeedOfRegulated(box); missed != Constraint::kNone) return missed;
   return RestOfRegulated(box);

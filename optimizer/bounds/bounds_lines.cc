@@ -97,30 +97,6 @@ Bounds::LineParts Bounds::PartsOf(const LineKey& key) const {
           trees};
 }
 
-namespace {
-
-// As many as are worth a look each: those that differ least are put together.
-void Thin(std::vector<LineChoice>& choices) {
-  constexpr std::size_t kMost = 8;
-  while (choices.size() > kMost) {
-    std::size_t least = 0;
-    double least_loss = kUnlimited;
-    for (std::size_t i = 0; i + 1 < choices.size(); ++i) {
-      const double loss = (choices[i + 1].objective - choices[i].objective) *
-                          (choices[i].coil_power_w - choices[i + 1].coil_power_w);
-      if (loss < least_loss) {
-        least_loss = loss;
-        least = i;
-      }
-    }
-    choices[least].coil_power_w = choices[least + 1].coil_power_w;
-    choices[least].places = {-1, -1, -1};
-    choices.erase(choices.begin() + static_cast<std::ptrdiff_t>(least) + 1);
-  }
-}
-
-}  // namespace
-
 // The limits of fall and rise and what mates with what already rule out the lightest lines of a
 // box, each slot's lightest choice put together. So lines alone are searched best first, each found
 // only if its coils take less than those of the lines before. After so many divisions parts of the
@@ -189,26 +165,13 @@ void Bounds::TakeChoices(MadeLine& made, std::vector<LineChoice> choices) const 
   line.weights = weights_;
 }
 
-void Bounds::CombineChoices(Box& box) {
+void CombineChoices(Box& box) {
   if (box.lines.size() == 1) {
     box.choices = {box.lines.front(), &box.lines.front()->choices};
     return;
   }
   std::vector<LineChoice> all{{}};
-  for (const std::shared_ptr<const Line>& line : box.lines) {
-    std::vector<LineChoice> sums, kept;
-    for (const LineChoice& a : all)
-      for (const LineChoice& b : line->choices)
-        sums.push_back({a.objective + b.objective, a.coil_power_w + b.coil_power_w});
-    std::sort(sums.begin(), sums.end(), [](const LineChoice& a, const LineChoice& b) {
-      return a.objective != b.objective ? a.objective < b.objective
-                                        : a.coil_power_w < b.coil_power_w;
-    });
-    for (const LineChoice& sum : sums)
-      if (kept.empty() || sum.coil_power_w < kept.back().coil_power_w) kept.push_back(sum);
-    Thin(kept);
-    all = std::move(kept);
-  }
+  for (const std::shared_ptr<const Line>& line : box.lines) all = SumsOf(all, line->choices);
   box.choices = std::make_shared<const std::vector<LineChoice>>(std::move(all));
 }
 
@@ -230,7 +193,7 @@ std::shared_ptr<Line> Bounds::Assemble(const LineKey& key) const {
 
 // From a larger box: the lines that it comes down to are those of each part that has all of them.
 void Bounds::TakeOver(const Line& whole, const LineParts& parts, MadeLine& made) const {
-  if (!made.least && whole.weights == weights_ && parts.HoldAll(whole.choices))
+  if (!shared_ && !made.least && whole.weights == weights_ && parts.HoldAll(whole.choices))
     TakeChoices(made, whole.choices);
   if (!made.finished && !parts.single())
     made.finished = FinishLike(whole, parts.corners.valve, *made.line);
@@ -253,9 +216,9 @@ Constraint Bounds::RemakeLine(Box& box, int group) {
   const bool divided = box.lines_finished && box.lines[group];
   if (divided) TakeOver(*box.lines[group], PartsOf(key), made);
   box.lines[group] = made.line;
-  box.lines_finished = divided && made.least && made.finished;
+  box.lines_finished = divided && (made.least || shared_) && made.finished;
   box.choices = nullptr;
-  if (box.lines_finished) CombineChoices(box);
+  if (box.lines_finished && !shared_) CombineChoices(box);
   return Constraint::kNone;
 }
 
@@ -266,7 +229,9 @@ Constraint Bounds::FinishLines(Box& box) {
     const KnownLines::Known known = Know(key);
     if (known.missed() != Constraint::kNone) return known.missed();
     MadeLine& made = LineOf(key, known);
-    if (const Constraint missed = FindLeast(key, made); missed != Constraint::kNone) return missed;
+    if (!shared_)
+      if (const Constraint missed = FindLeast(key, made); missed != Constraint::kNone)
+        return missed;
     if (!made.finished) {
       const LineParts parts = PartsOf(key);
       made.finished = true;
@@ -276,7 +241,7 @@ Constraint Bounds::FinishLines(Box& box) {
     }
     box.lines[g] = made.line;
   }
-  CombineChoices(box);
+  if (!shared_) CombineChoices(box);
   return Constraint::kNone;
 }
 

@@ -73,6 +73,19 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
                  problem_.actuations * HalfPeriod(problem_) * box.coil_power_w +
                  regulator.electrical_power_w * seconds;
   box.coil_power_w += regulator.electrical_power_w;
+  if (!shared_) return Constraint::kNone;
+  std::vector<GroupLines::Nodes> nodes;
+  std::vector<const Line*> lines;
+  nodes.reserve(box.lines.size());
+  lines.reserve(box.lines.size());
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
+    nodes.push_back(KeyOf(box, g).nodes);
+    lines.push_back(box.lines[g].get());
+  }
+  std::vector<LineChoice> choices =
+      groups_->LeastBehind(nodes, lines, box.window, {regulator.flow, 0.0, flow_max});
+  if (choices.empty()) return Constraint::kRise;
+  box.choices = std::make_shared<const std::vector<LineChoice>>(std::move(choices));
   return Constraint::kNone;
 }
 
@@ -128,8 +141,9 @@ Constraint Bounds::RestOfRegulated(Box& box) {
   int unknown = -1;
   const BatteryLoad load{box.energy_j / kRounding, 0.0, box.coil_power_w, LeastBesidesBattery(box)};
   const double battery = LeastBattery(box, load, unknown);
-  if (std::isinf(battery)) return Constraint::kBattery;
-  box.bound = std::max(box.bound, bound + LeastWithLines(box, load, battery));
+  const double lines = std::isinf(battery) ? battery : LeastWithLines(box, load, battery);
+  if (std::isinf(lines)) return Constraint::kBattery;
+  box.bound = std::max(box.bound, bound + lines);
   return Constraint::kNone;
 }
 

@@ -6,6 +6,7 @@
 #include "optimizer/choices/make_line.h"
 #include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/evaluate/line.h"
+#include "optimizer/sizing/sizing.h"
 
 namespace plenum::optimizer {
 
@@ -24,6 +25,8 @@ Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
       useful_(std::move(useful)),
       gas_(GasOf(plan.configuration)),
       lines_(plan.groups.size()),
+      groups_(plan.groups.size() > 1 ? std::make_unique<GroupLines>(problem, plan) : nullptr),
+      shared_(GroupsMeet(problem) && plan.configuration != Configuration::kCompressor),
       limited_(useful_ || std::isfinite(problem.mass_max_kg) ||
                std::isfinite(problem.volume_max_l) || std::isfinite(problem.cost_max_eur)) {}
 
@@ -135,11 +138,12 @@ Constraint Bounds::Reweigh(Box& box) {
       made->line->objective = PartsOf(key).objective();
       made->finished = box.lines_finished;
     }
-    if (made->finished)
+    if (made->finished && !shared_)
       if (const Constraint missed = FindLeast(key, *made); missed != Constraint::kNone)
         return missed;
     box.lines[g] = made->line;
   }
+  if (shared_) return AssessRegulated(box, true);
   if (box.lines_finished) CombineChoices(box);
   if (plan_.configuration != Configuration::kCompressor) return RestOfRegulated(box);
   for (VolumeNeed& volume : box.volumes.Own()) {

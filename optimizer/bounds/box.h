@@ -6,8 +6,9 @@
 // combinations, up to a single one.
 //
 // box.cc: boxes and their division. bounds_lines.cc: lines, whatever the source.
-// bounds_regulated.cc: cylinder, CO2 and mains. bounds_compressor.cc: compressor.
-// bounds_volumes.cc: reservoirs. core_sizing.cc: made-to-measure reservoirs.
+// bounds_groups.cc: lines of several groups at a common node. bounds_regulated.cc: cylinder, CO2
+// and mains. bounds_compressor.cc: compressor. bounds_volumes.cc: reservoirs. core_sizing.cc:
+// made-to-measure reservoirs.
 #ifndef PLENUM_OPTIMIZER_BOUNDS_BOX_H_
 #define PLENUM_OPTIMIZER_BOUNDS_BOX_H_
 
@@ -19,6 +20,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "optimizer/bounds/group_lines.h"
 #include "optimizer/choices/known_lines.h"
 #include "optimizer/choices/make_line.h"
 #include "optimizer/choices/plan.h"
@@ -70,6 +72,8 @@ struct Box {
 };
 
 std::vector<ReservoirNeed> NeedsOf(const Box& box);
+// Puts the choices of all lines together.
+void CombineChoices(Box& box);
 
 class Bounds {
  public:
@@ -91,7 +95,10 @@ class Bounds {
 
   // The problem's objective has other weights of the amounts, and so has the plan (reweigh.h): what
   // is known of boxes but for their bounds stays, and Reweigh() finds those.
-  void ChangeWeights() { ++weights_; }
+  void ChangeWeights() {
+    ++weights_;
+    if (groups_) groups_->ChangeWeights();
+  }
   Constraint Reweigh(Box& box);
 
   Amounts LeastOfAll(const Box& box) const;  // sums of the least of each slot
@@ -120,6 +127,9 @@ class Bounds {
   bool IsOutdone(const Box& box) const;
 
   Candidate CandidateOf(const Box& box) const;
+
+  // Each group's lines by themselves; of several groups.
+  GroupLines& groups() { return *groups_; }
 
  private:
   // A box of lines: a node of each of the group's trees.
@@ -178,7 +188,6 @@ class Bounds {
   void ForgetLines();
   std::shared_ptr<Line> Assemble(const LineKey& key) const;
   Constraint FindChoices(const LineKey& key, std::vector<LineChoice>& choices);
-  static void CombineChoices(Box& box);
   static LineKey KeyOf(const Box& box, int group);
   Constraint RemakeLine(Box& box, int group);
   Constraint FinishLines(Box& box);
@@ -246,7 +255,10 @@ class Bounds {
   model::Gas gas_;
   std::vector<KnownLines> lines_;  // per group
   std::vector<MadeLine> made_;     // of them
-  bool limited_;                   // in amounts
+  // Of several groups. `shared_`: they inflate at once, at the node behind a regulator.
+  std::unique_ptr<GroupLines> groups_;
+  bool shared_;
+  bool limited_;  // in amounts
   int weights_ = 0, strokes_ = 0;
   // Per node of the compressors' tree: with boxes of lines, with single lines.
   std::unordered_map<int, PumpFacts> pumps_, chosen_pumps_;
