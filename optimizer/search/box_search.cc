@@ -4,13 +4,14 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <queue>
+#include <set>
 
 #include "optimizer/bounds/leaf_sizing.h"
 #include "optimizer/problem/problem.h"
 #include "optimizer/search/conclusion.h"
 #include "optimizer/search/configurations.h"
 #include "optimizer/search/dive.h"
+#include "optimizer/search/first_designs.h"
 #include "optimizer/search/ranking.h"
 #include "optimizer/search/recorder.h"
 #include "optimizer/search/search_node.h"
@@ -24,19 +25,11 @@ using Clock = std::chrono::steady_clock;
 constexpr double kProgressIntervalS = 0.2;
 // After the end designs found before are still confirmed, one at least and others for so long.
 constexpr double kGraceS = 0.1;
-constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;  // of the time limit
-constexpr int kCrowdDives = 20;                      // for each design that is wanted
+constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;     // of the time limit
+constexpr double kFirstFrom = 0.01, kFirstShare = 0.1;  // the same
+constexpr int kCrowdDives = 20;                         // for each design that is wanted
 constexpr int kBoxesPerDiveStep = 2, kDiveStepsLeast = 10'000;
 constexpr int kHardDesigns = 16;  // no design takes more than this part of the steps of dives
-
-// Where the objective is one of the limited amounts alone, its limit bounds the objective.
-double ObjectiveLimit(const Problem& problem) {
-  const Objective& o = problem.objective;
-  if (o == Objective{.mass_kg = o.mass_kg}) return o.mass_kg * problem.mass_max_kg;
-  if (o == Objective{.volume_l = o.volume_l}) return o.volume_l * problem.volume_max_l;
-  if (o == Objective{.cost_eur = o.cost_eur}) return o.cost_eur * problem.cost_max_eur;
-  return kUnlimited;
-}
 
 class BoxSearch {
  public:
@@ -127,6 +120,7 @@ class BoxSearch {
   void Enumerate() {
     while (!Stopped() && PlantReached() && !open_.empty()) {
       Report();
+      SeekFirstDesigns();
       DiveIfSlow();
       SaveRoomIfCrowded();
       const double lowest = open_.top()->box.bound;
@@ -237,23 +231,30 @@ class BoxSearch {
     if (leaf.lower_bound < leaf.objective * (1.0 - kTie)) Undecided(leaf.lower_bound, -1);
   }
 
-  // A search that is slow to prove should not come home empty-handed: with a third of the time gone
-  // it looks for good designs by depth first. They bound the search from above and are the best so
-  // far if time runs out.
+  // Several groups are slow to prove, and most boxes need no look once the list is good.
+  void SeekFirstDesigns() {
+    const bool slow = looked_s_ >= kFirstFrom * options_.time_limit_s;
+    for (Bounds* bounds : Due(problem_, configurations_.planted(), slow, sought_))
+      DiveFor(kFirstShare, [&] { FindFirstDesigns(problem_, *bounds, bench_.stop, ranking_); });
+  }
+
+  void DiveFor(double share, const auto& dive) {
+    dive_until_s_ = Seconds() + share * options_.time_limit_s;
+    dive();
+    dive_until_s_ = kUnlimited;
+  }
+
+  // With a third of the time gone good designs are sought by depth first, in case time runs out.
   void DiveIfSlow() {
-    const double from = options_.any_design ? 0.0 : kDiveFrom;
-    if (dived_ || looked_s_ < from * options_.time_limit_s) return;
-    dived_ = true;
+    const double from_s = options_.any_design ? 0.0 : kDiveFrom * options_.time_limit_s;
+    if (sought_.deep || looked_s_ < from_s) return;
+    sought_.deep = true;
     while (!configurations_.waiting().empty())
       if (!PlantNext()) return;
     const auto& all = configurations_.planted();
-    for (const std::unique_ptr<Bounds>& bounds : all) {
-      const double until_s =
-          Seconds() + kDiveShare * options_.time_limit_s / static_cast<double>(all.size());
-      dive_until_s_ = until_s;
-      Dive(problem_, *bounds, options_.any_design, bench_.stop, ranking_);
-      dive_until_s_ = kUnlimited;
-    }
+    for (const std::unique_ptr<Bounds>& bounds : all)
+      DiveFor(kDiveShare / static_cast<double>(all.size()),
+              [&] { Dive(problem_, *bounds, options_.any_design, bench_.stop, ranking_); });
   }
 
   // What boxes know takes room, and most of it would only be asked if their bounds came up. Designs
@@ -333,13 +334,11 @@ class BoxSearch {
     const double seconds = Seconds();
     if (seconds - reported_s_ < kProgressIntervalS) return;
     reported_s_ = seconds;
-    Progress progress;
-    progress.seconds = seconds;
-    progress.evaluated = static_cast<long long>(proof_.evaluated.ToDouble());
-    progress.open = static_cast<long long>(open_.size());
-    if (!ranking_.list().empty()) progress.best = ranking_.list().front().leaf.objective;
-    progress.lower_bound = open_.top()->box.bound;
-    options_.progress(progress);
+    const std::vector<Found>& list = ranking_.list();
+    options_.progress({seconds, static_cast<long long>(proof_.evaluated.ToDouble()),
+                       static_cast<long long>(open_.size()),
+                       list.empty() ? std::nullopt : std::optional(list.front().leaf.objective),
+                       open_.top()->box.bound});
   }
 
   // Boxes whose combinations are outdone hold none that is better than the last of a full list, and
@@ -402,13 +401,14 @@ class BoxSearch {
   std::vector<int> outdone_;        // boxes, as recorded
   Workbench bench_, report_bench_;  // for the search, for the designs of the list
   Configurations configurations_;
+  Sought sought_;
   int reported_ = 0;
   // Boxes that wait when room is saved next, and when designs are sought for it.
   std::size_t crowd_ = options_.crowd, crowd_to_dive_ = options_.crowd;
   double looked_s_ = 0.0;  // at the clock
   double reported_s_ = 0.0, stopped_s_ = 0.0, dive_until_s_ = kUnlimited;
   long long serial_ = 0;
-  bool cancelled_ = false, late_ = false, dived_ = false;
+  bool cancelled_ = false, late_ = false;
 };
 
 }  // namespace

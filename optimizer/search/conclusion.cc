@@ -5,6 +5,14 @@
 
 namespace plenum::optimizer {
 
+double ObjectiveLimit(const Problem& problem) {
+  const Objective& o = problem.objective;
+  if (o == Objective{.mass_kg = o.mass_kg}) return o.mass_kg * problem.mass_max_kg;
+  if (o == Objective{.volume_l = o.volume_l}) return o.volume_l * problem.volume_max_l;
+  if (o == Objective{.cost_eur = o.cost_eur}) return o.cost_eur * problem.cost_max_eur;
+  return kUnlimited;
+}
+
 double GapOf(double lower_bound, double last) {
   return std::isfinite(lower_bound) && last > 0.0 ? std::max(0.0, 1.0 - lower_bound / last) : 0.0;
 }

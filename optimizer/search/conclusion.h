@@ -14,6 +14,9 @@ struct Ending {
   double seconds = 0.0;
 };
 
+// Where the objective is one of the limited amounts alone, its limit bounds the objective.
+double ObjectiveLimit(const Problem& problem);
+
 // The share by which the last design of a list may be too large: 1 − lower bound / last, at least
 // 0.
 double GapOf(double lower_bound, double last);

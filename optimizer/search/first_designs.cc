@@ -1,0 +1,144 @@
+#include "optimizer/search/first_designs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "optimizer/bounds/leaf_sizing.h"
+#include "optimizer/search/search_node.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr int kPressures = 12;                             // of the source, that are tried
+constexpr double kNodeShares[] = {0.97, 0.85, 0.7, 0.55};  // of it, at the node
+constexpr int kRounds = 4;                                 // of improvements
+constexpr int kBoxesBelow = 3000;                          // that are looked at below one box
+constexpr int kSizedInVain = 6;    // designs below one box, one after the other
+constexpr int kRefinements = 200;  // of a made-to-measure reservoir
+
+struct Walk {
+  const Problem& problem;
+  Bounds& bounds;
+  const std::function<bool()>& stop;
+  Ranking& ranking;
+};
+
+// Whether it is a design that the ranking did not have.
+bool Size(const Walk& walk, Node& node) {
+  PartIds ids = EarliestIds(walk.problem, walk.bounds.plan(), node.box);
+  if (walk.ranking.Find(ids) != nullptr) return false;
+  const Candidate candidate = walk.bounds.CandidateOf(node.box);
+  std::optional<Leaf> sized;
+  for (int i = 0; !sized && i < kRefinements && !walk.stop(); ++i)
+    sized = SizeLeaf(walk.problem, candidate, node.box, node.sizing);
+  if (!sized || sized->status != LeafStatus::kFeasible) return false;
+  walk.ranking.Add({std::move(node.box), &walk.bounds, *sized, std::move(ids), -1, nullptr});
+  return true;
+}
+
+// Best first below a box that is not assessed yet, until so many designs are found.
+void SearchBelow(const Walk& walk, Box box, int wanted) {
+  if (walk.bounds.Assess(box, -1) != Constraint::kNone) return;
+  Queue<NodePtr, LowestBound> open;
+  long long serial = 0;
+  const auto push = [&](Box part, int depth) {
+    auto node = std::make_unique<Node>();
+    node->box = std::move(part);
+    node->depth = depth;
+    node->serial = serial++;
+    open.Push(std::move(node));
+  };
+  push(std::move(box), 0);
+  int in_vain = 0;
+  for (int looks = 0; !open.empty() && looks < kBoxesBelow && !walk.stop(); ++looks) {
+    NodePtr node = open.Pop();
+    if (node->box.bound > walk.ranking.run_end()) return;
+    if (walk.bounds.CanFindSource(node->box)) {
+      if (walk.bounds.FindSource(node->box) == Constraint::kNone)
+        push(std::move(node->box), node->depth);
+    } else if (walk.bounds.IsSingle(node->box)) {
+      const bool found = Size(walk, *node);
+      in_vain = found ? 0 : in_vain + 1;
+      if ((found && --wanted == 0) || in_vain == kSizedInVain) return;
+    } else {
+      Halves halves = Divide(walk.bounds, node->box);
+      for (Box& half : halves.boxes)
+        if (walk.bounds.Assess(half, halves.slot) == Constraint::kNone)
+          push(std::move(half), node->depth + 1);
+    }
+  }
+}
+
+// The box of all sources with each group's lightest lines for a source of this pressure that
+// leaves so much of it at the node; false where there are none.
+bool TakeLines(const Walk& walk, double source_pa, double node_pa, Box& box) {
+  for (int g = 0; g < static_cast<int>(walk.problem.groups.size()); ++g) {
+    const auto line = walk.bounds.groups().LeastAt(g, {node_pa, node_pa}, source_pa);
+    if (!line) return false;
+    std::copy(line->begin(), line->end(), box.nodes.begin() + kSlotsPerGroup * g);
+  }
+  return true;
+}
+
+void TryLines(const Walk& walk, const Box& root) {
+  const auto& [low_pa, high_pa] = root.window;
+  std::set<std::vector<int>> tried;
+  for (int i = 0; i < kPressures; ++i) {
+    const double source_pa =
+        high_pa * std::pow(low_pa / high_pa, static_cast<double>(i) / kPressures);
+    for (double share : kNodeShares) {
+      if (walk.stop()) return;
+      Box box = walk.bounds.Root();
+      if (!TakeLines(walk, source_pa, share * source_pa, box)) continue;
+      if (tried.insert({box.nodes.begin(), box.nodes.end()}).second)
+        SearchBelow(walk, std::move(box), 1);
+    }
+  }
+}
+
+// Of the best design: the slots of one group, or of the source, chosen anew.
+void Exchange(const Walk& walk, const Box& best, int group, int wanted) {
+  Box box = walk.bounds.Root();
+  const int groups = static_cast<int>(walk.problem.groups.size());
+  for (int s = 0; s < static_cast<int>(box.nodes.size()); ++s)
+    if (std::min(s / kSlotsPerGroup, groups) != group) box.nodes[s] = best.nodes[s];
+  SearchBelow(walk, std::move(box), wanted);
+}
+
+}  // namespace
+
+std::vector<Bounds*> Due(const Problem& problem,
+                         const std::vector<std::unique_ptr<Bounds>>& planted, bool slow,
+                         Sought& sought) {
+  std::vector<Bounds*> chosen;
+  if (problem.groups.size() == 1) return chosen;
+  for (const std::unique_ptr<Bounds>& bounds : planted) {
+    const bool cheap =
+        GroupsMeet(problem) && bounds->plan().configuration != Configuration::kCompressor;
+    if (!bounds->plan().empty() && (cheap || slow) && sought.first.insert(bounds.get()).second)
+      chosen.push_back(bounds.get());
+  }
+  return chosen;
+}
+
+void FindFirstDesigns(const Problem& problem, Bounds& bounds, const std::function<bool()>& stop,
+                      Ranking& ranking) {
+  const Walk walk{problem, bounds, stop, ranking};
+  Box root = bounds.Root();
+  if (bounds.Assess(root, -1) != Constraint::kNone) return;
+  TryLines(walk, root);
+  const int groups = static_cast<int>(problem.groups.size());
+  for (int round = 0; round < kRounds && !ranking.list().empty() && !stop(); ++round) {
+    if (ranking.list().front().bounds != &bounds) return;
+    const double before = ranking.list().front().leaf.objective;
+    for (int g = 0; g <= groups && !stop(); ++g)
+      Exchange(walk, Box(ranking.list().front().box), g, problem.count);
+    if (!(ranking.list().front().leaf.objective < before)) return;
+  }
+}
+
+}  // namespace plenum::optimizer

@@ -1,0 +1,37 @@
+// Good designs of several groups on one source, before anything is proved.
+//
+// Lines that make do with the same pressure at the node that they share suit each other, whatever
+// feeds it. So for some pressures each group gets its lightest line (equal groups equal ones), and
+// the source is chosen best first by the bounds. The best design is then improved part by part: the
+// line of one group, or the source, is chosen anew while all else stays. Each design is sized as
+// any other leaf of the search.
+#ifndef PLENUM_OPTIMIZER_SEARCH_FIRST_DESIGNS_H_
+#define PLENUM_OPTIMIZER_SEARCH_FIRST_DESIGNS_H_
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "optimizer/search/ranking.h"
+
+namespace plenum::optimizer {
+
+// Where designs have been sought.
+struct Sought {
+  std::set<const Bounds*> first;  // in the plans of these, first designs
+  bool deep = false;              // in all, by depth first
+};
+// In which plans first designs are to be sought now: of several groups, once each. Where a design
+// takes a simulation, or groups do not meet, only once the search has proved slow.
+std::vector<Bounds*> Due(const Problem& problem,
+                         const std::vector<std::unique_ptr<Bounds>>& planted, bool slow,
+                         Sought& sought);
+
+// Adds what it finds to the ranking, until `stop` says so.
+void FindFirstDesigns(const Problem& problem, Bounds& bounds, const std::function<bool()>& stop,
+                      Ranking& ranking);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_SEARCH_FIRST_DESIGNS_H_
