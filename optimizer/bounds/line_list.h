@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <queue>
+#include <tuple>
 #include <vector>
 
 #include "optimizer/bounds/node_need.h"
@@ -28,7 +29,10 @@ struct LineAsk {
   std::array<int, kSlotsPerGroup> first{}, last{};  // half-open, in the orders of the trees
   NodeMeans most;
   double source_low_pa = 0.0, source_high_pa = 0.0;  // it works somewhere in between
-  auto operator<=>(const LineAsk&) const = default;
+  bool operator<(const LineAsk& other) const {
+    return std::tie(first, last, most, source_low_pa, source_high_pa) <
+           std::tie(other.first, other.last, other.most, other.source_low_pa, other.source_high_pa);
+  }
   bool Admits(const ListedLine& line) const {
     for (int s = 0; s < kSlotsPerGroup; ++s)
       if (line.places[s] < first[s] || line.places[s] >= last[s]) return false;

@@ -18,7 +18,7 @@
 #ifndef PLENUM_OPTIMIZER_BOUNDS_NODE_NEED_H_
 #define PLENUM_OPTIMIZER_BOUNDS_NODE_NEED_H_
 
-#include <compare>
+#include <tuple>
 #include <vector>
 
 #include "optimizer/choices/corner.h"
@@ -30,7 +30,9 @@ namespace plenum::optimizer {
 // the period.
 struct NodeMeans {
   double rise_pa = 0.0, inflate_pa = 0.0;
-  auto operator<=>(const NodeMeans&) const = default;
+  bool operator<(const NodeMeans& other) const {
+    return std::tie(rise_pa, inflate_pa) < std::tie(other.rise_pa, other.inflate_pa);
+  }
   bool Within(const NodeMeans& most) const {
     return rise_pa <= most.rise_pa && inflate_pa <= most.inflate_pa;
   }

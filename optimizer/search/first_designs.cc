@@ -79,7 +79,8 @@ bool TakeLines(const Walk& walk, double source_pa, double node_pa, Box& box) {
   for (int g = 0; g < static_cast<int>(walk.problem.groups.size()); ++g) {
     const auto line = walk.bounds.groups().LeastAt(g, {node_pa, node_pa}, source_pa);
     if (!line) return false;
-    std::copy(line->begin(), line->end(), box.nodes.begin() + kSlotsPerGroup * g);
+    std::copy(line->begin(), line->end(),
+              box.nodes.begin() + static_cast<std::ptrdiff_t>(kSlotsPerGroup) * g);
   }
   return true;
 }
