@@ -145,9 +145,9 @@ const NodeMeans& GroupLines::MostOf(int group) {
   const RegulatorCorner& regulator = plan_.regulators.corners[0];
   const bool mains = plan_.configuration == Configuration::kMains;
   const double source_pa = std::min({problem_.source_pressure_max_pa, regulator.outlet_max_pa,
-                                     mains ? problem_.mains_pressure_pa : kUnlimited});
+                                     mains ? problem_.mains.pressure_pa : kUnlimited});
   const double flow_max =
-      std::min(regulator.flow_max_m3_per_s, mains ? problem_.mains_flow_max_m3_per_s : kUnlimited);
+      std::min(regulator.flow_max_m3_per_s, mains ? problem_.mains.flow_max_m3_per_s : kUnlimited);
   most_ = HighestNodeMeans(problem_, gas_, {regulator.flow, source_pa, flow_max}, corners);
   return most_[group];
 }
