@@ -25,7 +25,8 @@ Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
       useful_(std::move(useful)),
       gas_(GasOf(plan.configuration)),
       lines_(plan.groups.size()),
-      groups_(plan.groups.size() > 1 ? std::make_unique<GroupLines>(problem, plan) : nullptr),
+      groups_(plan.groups.size() > 1 ? std::make_unique<GroupLines>(problem, plan, bench)
+                                     : nullptr),
       shared_(GroupsMeet(problem) && plan.configuration != Configuration::kCompressor),
       limited_(useful_ || std::isfinite(problem.mass_max_kg) ||
                std::isfinite(problem.volume_max_l) || std::isfinite(problem.cost_max_eur)) {}

@@ -6,7 +6,7 @@
 // combinations, up to a single one.
 //
 // box.cc: boxes and their division. bounds_lines.cc: lines, whatever the source.
-// bounds_groups.cc: lines of several groups at a common node. bounds_regulated.cc: cylinder, CO2
+// group_lines.cc: lines of several groups at a common node. bounds_regulated.cc: cylinder, CO2
 // and mains. bounds_compressor.cc: compressor. bounds_volumes.cc: reservoirs. core_sizing.cc:
 // made-to-measure reservoirs.
 #ifndef PLENUM_OPTIMIZER_BOUNDS_BOX_H_

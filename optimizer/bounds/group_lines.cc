@@ -83,8 +83,12 @@ std::vector<LineChoice> SumsOf(const std::vector<LineChoice>& a, const std::vect
   return front;
 }
 
-GroupLines::GroupLines(const Problem& problem, const Plan& plan)
-    : problem_(problem), plan_(plan), gas_(GasOf(plan.configuration)), lists_(plan.groups.size()) {
+GroupLines::GroupLines(const Problem& problem, const Plan& plan, const Workbench* bench)
+    : problem_(problem),
+      plan_(plan),
+      bench_(bench),
+      gas_(GasOf(plan.configuration)),
+      lists_(plan.groups.size()) {
   like_.reserve(problem.groups.size());
   for (const ActuatorGroup& group : problem.groups) {
     const auto first =
@@ -209,7 +213,10 @@ const std::vector<LineChoice>& GroupLines::Least(int group, const Nodes& nodes,
     return Look(group, box_nodes, box);
   };
   std::size_t place = list.PlaceOf(least * (1.0 - kRounding));
+  bool stopped = false;
   for (std::size_t end = place + kPlaces; place < end; ++place) {
+    stopped = place % 16 == 0 && bench_ != nullptr && bench_->stopped();
+    if (stopped) break;
     const ListedLine* line = list.At(place, kLooks, look);
     if (!line) break;
     if (!ask.Admits(*line)) continue;
@@ -221,7 +228,10 @@ const std::vector<LineChoice>& GroupLines::Least(int group, const Nodes& nodes,
   const ListedLine* next = list.At(place, 0, look);
   const double beyond = std::max(next ? next->objective : list.Beyond(), least);
   if (std::isfinite(beyond)) choices.push_back({beyond, least_coil_w});
-  return choices;
+  if (!stopped) return choices;
+  unfinished_ = std::move(choices);
+  least_.erase(known);
+  return unfinished_;
 }
 
 std::vector<LineChoice> GroupLines::LeastBehind(const std::vector<Nodes>& boxes,

@@ -28,7 +28,8 @@ class GroupLines {
  public:
   using Nodes = KnownLines::Nodes;  // a box of lines: one node of each tree of the group
 
-  GroupLines(const Problem& problem, const Plan& plan);
+  // `bench` says when to stop; may be null.
+  GroupLines(const Problem& problem, const Plan& plan, const Workbench* bench);
 
   // Of one box of lines per group, whose corners are `lines`, the least that work behind a
   // regulator whose source pressure lies in the window: by rising objective, each with less coil
@@ -56,12 +57,14 @@ class GroupLines {
 
   const Problem& problem_;
   const Plan& plan_;
+  const Workbench* bench_;
   model::Gas gas_;
   std::vector<int> like_;        // per group: the first that is asked the same of its lines
   std::vector<LineList> lists_;  // per group
   std::vector<NodeMeans> most_;  // the most there is at the node; once asked
   std::map<Key, std::optional<NodeMeans>> needs_;  // of boxes; none: no line of it is in time
   std::map<std::pair<int, LineAsk>, std::vector<LineChoice>> least_;
+  std::vector<LineChoice> unfinished_;  // what was found when told to stop, which is not kept
 };
 
 }  // namespace plenum::optimizer

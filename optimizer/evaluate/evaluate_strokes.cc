@@ -172,10 +172,11 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
   const int groups = static_cast<int>(problem.groups.size());
   const bool alone = groups == 1 || !problem.simultaneous;
-  if (!alone && !HasEffects(problem) && candidate.configuration != Configuration::kCompressor)
+  const bool pumped = candidate.configuration == Configuration::kCompressor;
+  if (!alone && !HasEffects(problem) && !pumped)
     if (std::optional<Strokes> strokes = FillTogether(problem, candidate, point.source_pa))
-      return *std::move(strokes);
-  if (!alone && !HasEffects(problem) && FillAlike(candidate))
+      if (!strokes->failed || candidate.stopped()) return *std::move(strokes);
+  if (!alone && !HasEffects(problem) && pumped && FillAlike(candidate))
     return StrokesAlike(problem, candidate, point);
   if (!alone || HasEffects(problem)) return SimulateStrokes(problem, candidate, point);
 

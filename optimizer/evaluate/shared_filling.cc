@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "model/flow/flow_table.h"
@@ -79,7 +80,9 @@ class SharedFilling {
       now_s = stepper_.time();
       step_s = stepper_.next_step();
       state.assign(stepper_.state().begin(), stepper_.state().end());
-      if (restart) state.back() = node_pa_;
+      for (const auto& [g, pressure_pa] : released_) state[g] = pressure_pa;
+      released_.clear();
+      if (restart) state.back() = AnyAtNode() ? node_pa_ : NodePressure(state);
     }
     strokes_.works = Done();
     strokes_.failed = !strokes_.works && now_s < end_s_;
@@ -228,9 +231,18 @@ class SharedFilling {
       if (g == first || PressureNow(g) >= groups_[g].operating_pa)
         Note(g, groups_[g].operating_pa, strokes_.inflate_s[g]);
     }
-    bool changed = first < groups_.size();
-    if (changed) groups_[first].valve = Valve::kClosed;
-    return Follow() || changed;
+    if (first == groups_.size()) return Follow();
+    Close(first);
+    return true;
+  }
+
+  // The node jumps where a valve closes: chambers that went with it are behind their lines again.
+  void Close(std::size_t first) {
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      if (g != first && groups_[g].valve == Valve::kAtNode)
+        released_.emplace_back(g, PressureNow(g));
+    for (const auto& [g, pressure_pa] : released_) groups_[g].valve = Valve::kOpen;
+    groups_[first].valve = Valve::kClosed;
   }
 
   // Lets chambers that have come up to the node go with it; true where some have.
@@ -260,7 +272,8 @@ class SharedFilling {
   model::FlowTable regulator_;
   std::vector<Group> groups_;
   model::DormandPrince stepper_;
-  double node_pa_ = 0.0, node_before_pa_ = 0.0;  // where the last step began
+  double node_pa_ = 0.0, node_before_pa_ = 0.0;           // where the last step began
+  std::vector<std::pair<std::size_t, double>> released_;  // groups whose pressure is to be set
   Strokes strokes_;
 };
 

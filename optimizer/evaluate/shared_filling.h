@@ -6,7 +6,7 @@
 //
 // p the pressure at the node, F flows (m³ ANR/s), W = d(pV)/dp, until a valve that holds closes at
 // the operating pressure. Pressures only rise. A chamber that has come up to the node stays with it
-// from then on, and the node rises as fast as what is left of the flow fills such chambers.
+// until a valve closes, and the node rises as fast as what is left of the flow fills such chambers.
 #ifndef PLENUM_OPTIMIZER_EVALUATE_SHARED_FILLING_H_
 #define PLENUM_OPTIMIZER_EVALUATE_SHARED_FILLING_H_
 

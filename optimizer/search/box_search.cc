@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
-#include <set>
 
 #include "optimizer/bounds/leaf_sizing.h"
 #include "optimizer/problem/problem.h"
@@ -139,7 +137,7 @@ class BoxSearch {
   void OrderTies() {
     ordering_ties_ = true;
     while (!open_.empty() && open_.top()->box.bound <= ranking_.run_end()) Push(open_.Pop());
-    while (!ties_.empty() && !Stopped() && ties_.top()->earliest < ranking_.last().ids)
+    while (!ties_.empty() && !Stopped() && ranking_.MayTakeLast(ties_.top()->earliest))
       Step(ties_.Pop());
     ordering_ties_ = false;
     while (!ties_.empty()) Push(ties_.Pop());
@@ -234,8 +232,10 @@ class BoxSearch {
   // Several groups are slow to prove, and most boxes need no look once the list is good.
   void SeekFirstDesigns() {
     const bool slow = looked_s_ >= kFirstFrom * options_.time_limit_s;
-    for (Bounds* bounds : Due(problem_, configurations_.planted(), slow, sought_))
-      DiveFor(kFirstShare, [&] { FindFirstDesigns(problem_, *bounds, bench_.stop, ranking_); });
+    const auto due = Due(problem_, configurations_.planted(), slow, sought_);
+    for (Bounds* bounds : due)
+      DiveFor(kFirstShare / static_cast<double>(due.size()),
+              [&] { FindFirstDesigns(problem_, *bounds, bench_.stop, ranking_); });
   }
 
   void DiveFor(double share, const auto& dive) {

@@ -41,6 +41,11 @@ class Ranking {
   std::vector<Found>& list() { return list_; }
   bool full() const { return static_cast<int>(list_.size()) >= wanted_; }
   const Found& last() const { return list_[wanted_ - 1]; }  // of a full list
+  // Of a full list and a box with these earliest ids: whether it may hold a design that comes
+  // before the last, or the last itself, found before its box was.
+  bool MayTakeLast(const PartIds& earliest) const {
+    return earliest < last().ids || (earliest == last().ids && last().record < 0);
+  }
   // Objectives of the run of ties that the last place of a full list is in; +∞ until it is full.
   double run_begin() const { return run_begin_; }
   double run_end() const { return run_end_; }

@@ -133,7 +133,7 @@ Count Drawn(const Json& schema, const Json& example, int documents, Run run, Val
 // One of the corpus of the fuzzer of evaluations.
 Json Seed(const char* name) {
   std::ifstream file(test::SourceDir() / "tests/fuzz/corpus/evaluation" / name);
-  return api::Parse({std::istreambuf_iterator<char>(file), {}});
+  return api::Parse(std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
 // Enough of what is drawn must come through to the computation.
