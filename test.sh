@@ -2,8 +2,7 @@
 # Installs what is missing, builds and runs tests.
 # ./test.sh        all tests, in a release build
 # ./test.sh fast   those that take seconds: what one runs after each edit
-# ./test.sh asan   with AddressSanitizer and UndefinedBehaviorSanitizer, but for the long ones, which run in a
-#                  release build
+# ./test.sh asan   all tests with AddressSanitizer and UndefinedBehaviorSanitizer
 # ./test.sh full   all tests in both, and what is too long for every commit
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -21,8 +20,6 @@ run_tests() {  # run_tests PRESET [ARGUMENTS OF CTEST]; a table of durations: bu
   shift
   ctest --preset "$preset" -j "$(nproc)" --output-junit "$PWD/build/$preset/tests.xml" "$@"
 }
-
-programs_with_long_tests="model_tests optimizer_tests calibration_tests"
 
 long_tests() {
   tests/fuzz/run.sh 600
@@ -45,9 +42,7 @@ case ${1:-all} in
   asan)
     install_packages $rule_packages $sanitizer_packages
     build asan
-    run_tests asan -LE long
-    build release $programs_with_long_tests
-    run_tests release -L long
+    run_tests asan
     ;;
   full)
     install_packages $rule_packages $sanitizer_packages
