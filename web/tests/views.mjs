@@ -79,7 +79,7 @@ export async function makeViews(service) {
     },
     {
       name: 'part',
-      hash: '#/catalogue/compressor?part=jsg-bd-07-12v-hf',
+      hash: '#/catalogue/compressor?part=adafruit-zr370-02pm',
       ready: (p) => p.getByText('Delivery').first().waitFor(),
     },
     {
