@@ -54,47 +54,8 @@ double Bounds::ObjectiveKnown(const LineParts& parts, KnownLines::Known known) c
   return parts.objective();
 }
 
-double Bounds::LineParts::objective() const {
-  return nodes[0]->objective_low + nodes[2]->objective_low + nodes[1]->objective_low;
-}
-
-bool Bounds::LineParts::single() const {
-  return std::all_of(nodes.begin(), nodes.end(), [](const BoxNode* n) { return n->single(); });
-}
-
-int Bounds::LineParts::widest() const {
-  const auto spread = [](const BoxNode* node) {
-    return node->single() ? -1.0 : node->objective_high - node->objective_low;
-  };
-  return static_cast<int>(
-      std::max_element(nodes.begin(), nodes.end(),
-                       [&](const BoxNode* a, const BoxNode* b) { return spread(a) < spread(b); }) -
-      nodes.begin());
-}
-
-std::array<int, kSlotsPerGroup> Bounds::LineParts::places() const {
-  return {nodes[0]->first, nodes[1]->first, nodes[2]->first};
-}
-
-bool Bounds::LineParts::HoldAll(const std::vector<LineChoice>& choices) const {
-  return std::all_of(choices.begin(), choices.end(), [&](const LineChoice& choice) {
-    for (int s = 0; s < kSlotsPerGroup; ++s)
-      if (choice.places[s] < nodes[s]->first || choice.places[s] >= nodes[s]->last) return false;
-    return true;
-  });
-}
-
-std::array<int, kSlotsPerGroup> Bounds::LineParts::choices() const {
-  return {trees.tubes.options[nodes[0]->first].index, trees.fittings.options[nodes[1]->first].index,
-          trees.valves.options[nodes[2]->first].index};
-}
-
-Bounds::LineParts Bounds::PartsOf(const LineKey& key) const {
-  const GroupTrees& trees = plan_.groups[key.group];
-  const auto [tube, fitting, valve] = key.nodes;
-  return {{&trees.tubes.nodes[tube], &trees.fittings.nodes[fitting], &trees.valves.nodes[valve]},
-          {trees.tubes.corners[tube], trees.fittings.corners[fitting], trees.valves.corners[valve]},
-          trees};
+LineParts Bounds::PartsOf(const LineKey& key) const {
+  return optimizer::PartsOf(plan_.groups[key.group], key.nodes);
 }
 
 // The limits of fall and rise and what mates with what already rule out the lightest lines of a

@@ -6,7 +6,6 @@
 #include "optimizer/choices/make_line.h"
 #include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/evaluate/line.h"
-#include "optimizer/sizing/sizing.h"
 
 namespace plenum::optimizer {
 

@@ -17,10 +17,12 @@
 #include <boost/container/small_vector.hpp>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
 #include "optimizer/bounds/group_lines.h"
+#include "optimizer/bounds/line_parts.h"
 #include "optimizer/choices/known_lines.h"
 #include "optimizer/choices/make_line.h"
 #include "optimizer/choices/plan.h"
@@ -136,18 +138,9 @@ class Bounds {
   struct LineKey {
     int group = 0;
     KnownLines::Nodes nodes{};
-    auto operator<=>(const LineKey&) const = default;
-  };
-  struct LineParts {
-    std::array<const BoxNode*, kSlotsPerGroup> nodes;
-    LineCorners corners;
-    const GroupTrees& trees;
-    double objective() const;
-    bool single() const;
-    int widest() const;  // of a box that is not single: by the share of the objective
-    std::array<int, kSlotsPerGroup> choices() const;  // indices of parts, of a single one
-    std::array<int, kSlotsPerGroup> places() const;   // the same, as in LineChoice
-    bool HoldAll(const std::vector<LineChoice>& choices) const;
+    bool operator>(const LineKey& other) const {
+      return std::tie(group, nodes) > std::tie(other.group, other.nodes);
+    }
   };
   LineParts PartsOf(const LineKey& key) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimizer/bounds/line_parts.h"
 #include "optimizer/evaluate/stroke_rig.h"
 
 namespace plenum::optimizer {
@@ -103,34 +104,19 @@ void GroupLines::ChangeWeights() {
   least_.clear();
 }
 
-LineCorners GroupLines::CornersOf(int group, const Nodes& nodes) const {
-  const GroupTrees& trees = plan_.groups[group];
-  return {trees.tubes.corners[nodes[0]], trees.fittings.corners[nodes[1]],
-          trees.valves.corners[nodes[2]]};
-}
-
-std::array<const BoxNode*, kSlotsPerGroup> GroupLines::NodesOf(int group,
-                                                               const Nodes& nodes) const {
-  const GroupTrees& trees = plan_.groups[group];
-  return {&trees.tubes.nodes[nodes[0]], &trees.fittings.nodes[nodes[1]],
-          &trees.valves.nodes[nodes[2]]};
-}
-
 const std::optional<NodeMeans>& GroupLines::NeedOf(int group, const Nodes& nodes) {
   if (needs_.size() > kNeedsKept) needs_.clear();
   const auto [known, fresh] = needs_.try_emplace({group, nodes});
   if (!fresh) return known->second;
-  const GroupTrees& trees = plan_.groups[group];
-  const auto parts = NodesOf(group, nodes);
-  const bool single =
-      std::all_of(parts.begin(), parts.end(), [](const BoxNode* node) { return node->single(); });
-  if (single && !PartsMate(problem_, trees.tubes.options[parts[0]->first].index,
-                           trees.fittings.options[parts[1]->first].index,
-                           trees.valves.options[parts[2]->first].index))
-    return known->second;
-  const LineCorners corners = CornersOf(group, nodes);
-  if (ScreenLine(problem_, group, gas_, corners, single) == Constraint::kNone)
-    known->second = LeastNodeMeans(problem_, group, gas_, AssembleLine(problem_, group, corners));
+  const LineParts parts = PartsOf(plan_.groups[group], nodes);
+  const bool single = parts.single();
+  if (single) {
+    const auto [tube, fitting, valve] = parts.choices();
+    if (!PartsMate(problem_, tube, fitting, valve)) return known->second;
+  }
+  if (ScreenLine(problem_, group, gas_, parts.corners, single) == Constraint::kNone)
+    known->second =
+        LeastNodeMeans(problem_, group, gas_, AssembleLine(problem_, group, parts.corners));
   return known->second;
 }
 
@@ -145,7 +131,8 @@ const NodeMeans& GroupLines::MostOf(int group) {
   lines.reserve(plan_.groups.size());
   corners.reserve(plan_.groups.size());
   for (int g = 0; g < static_cast<int>(plan_.groups.size()); ++g)
-    corners.push_back(&lines.emplace_back(AssembleLine(problem_, g, CornersOf(g, {0, 0, 0}))));
+    corners.push_back(&lines.emplace_back(
+        AssembleLine(problem_, g, PartsOf(plan_.groups[g], {0, 0, 0}).corners)));
   const RegulatorCorner& regulator = plan_.regulators.corners[0];
   const bool mains = plan_.configuration == Configuration::kMains;
   const double source_pa = std::min({problem_.source_pressure_max_pa, regulator.outlet_max_pa,
@@ -159,38 +146,28 @@ const NodeMeans& GroupLines::MostOf(int group) {
 bool GroupLines::Look(int group, const Nodes& nodes, LineList::Box& box) {
   const std::optional<NodeMeans>& needs = NeedOf(group, nodes);
   if (!needs || !needs->Within(MostOf(group))) return false;
-  const auto parts = NodesOf(group, nodes);
-  box.objective = parts[0]->objective_low + parts[2]->objective_low + parts[1]->objective_low;
-  const auto spread = [&](int s) {
-    return parts[s]->single() ? -1.0 : parts[s]->objective_high - parts[s]->objective_low;
-  };
-  int widest = 0;
-  for (int s = 1; s < kSlotsPerGroup; ++s)
-    if (spread(s) > spread(widest)) widest = s;
-  box.single = spread(widest) < 0.0;
+  const LineParts parts = PartsOf(plan_.groups[group], nodes);
+  box.objective = parts.objective();
+  box.single = parts.single();
   if (box.single) {
-    const LineCorners corners = CornersOf(group, nodes);
-    const Line line = AssembleLine(problem_, group, corners);
-    box.line = {box.objective,
-                line.coil_power_w,
-                *needs,
-                corners.valve.pressure_min_pa,
-                line.source_max_pa,
-                {parts[0]->first, parts[1]->first, parts[2]->first}};
+    const Line line = AssembleLine(problem_, group, parts.corners);
+    box.line = {box.objective,      line.coil_power_w, *needs, parts.corners.valve.pressure_min_pa,
+                line.source_max_pa, parts.places()};
     return true;
   }
+  const int widest = parts.widest();
   box.halves = {nodes, nodes};
-  box.halves[0][widest] = parts[widest]->left;
-  box.halves[1][widest] = parts[widest]->right;
+  box.halves[0][widest] = parts.nodes[widest]->left;
+  box.halves[1][widest] = parts.nodes[widest]->right;
   return true;
 }
 
 LineAsk GroupLines::AskOf(int group, const Nodes& nodes) const {
-  const auto parts = NodesOf(group, nodes);
+  const LineParts parts = PartsOf(plan_.groups[group], nodes);
   LineAsk ask;
   for (int s = 0; s < kSlotsPerGroup; ++s) {
-    ask.first[s] = parts[s]->first;
-    ask.last[s] = parts[s]->last;
+    ask.first[s] = parts.nodes[s]->first;
+    ask.last[s] = parts.nodes[s]->last;
   }
   return ask;
 }
@@ -205,9 +182,9 @@ const std::vector<LineChoice>& GroupLines::Least(int group, const Nodes& nodes,
   const auto [known, fresh] = least_.try_emplace({group, ask});
   std::vector<LineChoice>& choices = known->second;
   if (!fresh) return choices;
-  const auto parts = NodesOf(group, nodes);
-  const double least = parts[0]->objective_low + parts[2]->objective_low + parts[1]->objective_low;
-  const double least_coil_w = CornersOf(group, nodes).valve.coil_power_w;
+  const LineParts parts = PartsOf(plan_.groups[group], nodes);
+  const double least = parts.objective();
+  const double least_coil_w = parts.corners.valve.coil_power_w;
   LineList& list = lists_[group];
   const auto look = [&](const Nodes& box_nodes, LineList::Box& box) {
     return Look(group, box_nodes, box);

@@ -47,8 +47,6 @@ class GroupLines {
 
  private:
   using Key = std::pair<int, Nodes>;  // group and box
-  LineCorners CornersOf(int group, const Nodes& nodes) const;
-  std::array<const BoxNode*, kSlotsPerGroup> NodesOf(int group, const Nodes& nodes) const;
   const std::optional<NodeMeans>& NeedOf(int group, const Nodes& nodes);
   const NodeMeans& MostOf(int group);
   bool Look(int group, const Nodes& nodes, LineList::Box& box);

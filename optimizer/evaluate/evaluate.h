@@ -27,7 +27,7 @@ struct EvaluationOf {
   T battery_current_a = T(0.0);
   T compressor_duty = T(0.0);
   T frequency_sustained_hz = T(0.0);
-  bool from_full = false;  // no two groups meet, and each finds the reservoir full
+  bool from_full = false;  // each stroke finds the reservoir full
 };
 using Evaluation = EvaluationOf<double>;
 

@@ -171,7 +171,7 @@ double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
 Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
   const int groups = static_cast<int>(problem.groups.size());
-  const bool alone = groups == 1 || !problem.simultaneous;
+  const bool alone = !GroupsMeet(problem);
   const bool pumped = candidate.configuration == Configuration::kCompressor;
   if (!alone && !HasEffects(problem) && !pumped)
     if (std::optional<Strokes> strokes = FillTogether(problem, candidate, point.source_pa))

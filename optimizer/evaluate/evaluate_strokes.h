@@ -13,10 +13,15 @@ template <class T>
 void AddHeldAir(const Problem& problem, const Candidate& candidate, const T& stop_pa, int group,
                 StrokesOf<T>& strokes);
 
+// Whether groups meet on the source, so that each evaluation integrates them together.
+inline bool GroupsMeet(const Problem& problem) {
+  return problem.groups.size() > 1 && problem.simultaneous;
+}
+
 // `works` is false where a pressure is never reached, and where a bound shows that a limit on a
 // rise time is missed. One quadrature or one small integration per group where groups do not meet
-// on the source (a single group, or staggered strokes that end before the next begins), else the
-// simulator.
+// on the source (a single group, or staggered strokes that end before the next begins), and one for
+// all that fill alike from a reservoir; FillTogether() behind a regulator; else the simulator.
 Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point);
 

@@ -17,7 +17,7 @@ struct StrokesOf {
   T pump_on_s = T(0.0);              // per cycle
   T pump_energy_j = T(0.0);          // per cycle, all pumps
   T pump_air_m3 = T(0.0);            // the same, ANR; not known with effects
-  bool from_full = false;            // no two groups meet, and each finds the reservoir full
+  bool from_full = false;            // each stroke finds the reservoir full
   // With effects only; without them the line knows.
   std::vector<double> fall_s, highest_pa;  // per group
   double air_m3 = 0.0;                     // ANR, per cycle, all actuators

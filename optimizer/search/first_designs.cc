@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "optimizer/bounds/leaf_sizing.h"
+#include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/search/search_node.h"
 
 namespace plenum::optimizer {

@@ -31,14 +31,9 @@ inline constexpr int kSizingEvaluationsMax = 20000;
 Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
                   int evaluations_max = kSizingEvaluationsMax);
 
-// The same for a search, which asks whether and not where: of strokes that only a simulation tells
-// the highest pressure is tried first, and is enough where the objective does not depend on it.
+// The same for a search, which asks whether and not where: where groups meet the highest pressure
+// is tried first, and is enough where the objective does not depend on it.
 Leaf SizeQuickly(const Problem& problem, const Candidate& candidate, double reservoir_m3);
-
-// Whether groups meet on the source, so that each evaluation integrates them together.
-inline bool GroupsMeet(const Problem& problem) {
-  return problem.groups.size() > 1 && problem.simultaneous;
-}
 
 // Whether the strokes of a regulated candidate are in time at the highest pressure of its window;
 // true where that is not known.

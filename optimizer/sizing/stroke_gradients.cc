@@ -161,8 +161,7 @@ std::optional<StrokesOf<Dual>> DifferentiateStrokes(const Problem& problem,
                                                     const OperatingPoint& point,
                                                     const Strokes& strokes) {
   StrokesOf<Dual> lifted = Lifted(strokes);
-  const bool alone = problem.groups.size() == 1 || !problem.simultaneous;
-  if (!alone || !strokes.from_full) {
+  if (GroupsMeet(problem) || !strokes.from_full) {
     if (!AddTogether(problem, candidate, point, lifted)) return std::nullopt;
     return lifted;
   }

@@ -18,18 +18,13 @@
 #include "api/simulate/simulation.h"
 #include "tests/api/support.h"
 #include "tests/fuzz/computations.h"
+#include "tests/server/enemy.h"
 #include "tests/support/places.h"
 
 namespace plenum::server {
 namespace {
 
 using api::Json;
-
-// What stands under a name; null if nothing does.
-const Json& In(const Json& json, const std::string& name) {
-  static const Json kNothing;
-  return json.is_object() && json.contains(name) ? json[name] : kNothing;
-}
 
 class Draw {
  public:
@@ -41,10 +36,7 @@ class Draw {
     if (schema.contains("const")) return schema["const"];
     if (schema.contains("enum"))
       return like.is_null() || Chance(0.03) ? schema["enum"][Below(schema["enum"].size())] : like;
-    const Json& types = In(schema, "type");
-    const std::string type = types.is_array()    ? types[0].get<std::string>()
-                             : types.is_string() ? types.get<std::string>()
-                                                 : "";
+    const std::string type = TypeOf(schema);
     if (type == "object") return Object(schema, like);
     if (type == "array") return Array(schema, like);
     if (type == "number" || type == "integer") return Number(schema, like, type == "integer");
@@ -63,7 +55,7 @@ class Draw {
   const Json& FormFor(const Json& forms, const Json& like) {
     if (!Chance(0.02))
       for (const Json& form : forms)
-        if (const Json& type = In(form, "type");
+        if (const std::string type = TypeOf(form);
             (type == "object" && like.is_object()) || (type == "array" && like.is_array()) ||
             (type == "number" && like.is_number()) || (type == "string" && like.is_string()))
           return form;

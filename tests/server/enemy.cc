@@ -18,18 +18,6 @@ std::vector<Json> Forms(const Json& schema) {
   return forms;
 }
 
-// What stands under a name; null if nothing does.
-const Json& In(const Json& form, const char* name) {
-  static const Json kNothing;
-  return form.contains(name) ? form[name] : kNothing;
-}
-
-std::string TypeOf(const Json& form) {
-  const Json& type = In(form, "type");  // the first of several
-  if (type.is_array()) return type[0].get<std::string>();
-  return type.is_string() ? type.get<std::string>() : "";
-}
-
 double LowOf(const Json& form) {
   return form.value("minimum", form.value("exclusiveMinimum", 0.0));
 }
@@ -131,7 +119,7 @@ class Breaker {
 
  private:
   void WalkObject(const Json& form, const Json& value, const std::string& pointer) {
-    if (form.value("additionalProperties", true) == false) {
+    if (!form.value("additionalProperties", true)) {
       const std::string name = "no_such_field" + std::to_string(bad_.size());
       Put(pointer + "/" + name, 1);
     }
@@ -174,6 +162,17 @@ class Breaker {
 };
 
 }  // namespace
+
+const Json& In(const Json& form, const std::string& name) {
+  static const Json kNothing;
+  return form.contains(name) ? form[name] : kNothing;
+}
+
+std::string TypeOf(const Json& form) {
+  const Json& type = In(form, "type");  // the first of several
+  if (type.is_array()) return type[0].get<std::string>();
+  return type.is_string() ? type.get<std::string>() : "";
+}
 
 Json FullDocument(const Json& schema, unsigned turn) {
   std::vector<Json> forms;

@@ -15,6 +15,10 @@ struct BadDocument {
   std::string pointer;  // where an error must be reported
 };
 
+// Of a schema: what stands under a name, null if nothing does; the type, the first of several.
+const api::Json& In(const api::Json& form, const std::string& name);
+std::string TypeOf(const api::Json& form);
+
 // A document with every field of the schema; where it may have one of several forms or values, the
 // one of that turn.
 api::Json FullDocument(const api::Json& schema, unsigned turn);
