@@ -99,7 +99,7 @@ TEST(FullDisk, AJobThatEndsThereIsReadableAndDoneAgainAfterARestart) {
   {
     ServeProcess serve(bench.catalog());
     httplib::Client client("127.0.0.1", serve.port());
-    const std::string request = Example("crawler", 60.0).dump();
+    const std::string request = Example("crawler", 600.0).dump();
     job = client.Post("/v1/designs", request, "application/json")->get_header_value("Location");
     serve.LimitFiles(1);
     first = when_ended(client);

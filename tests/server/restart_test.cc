@@ -95,17 +95,17 @@ class Restart : public testing::TestWithParam<int> {
 // the answers that an uninterrupted one gave before.
 TEST_P(Restart, UnfinishedJobsEndWithTheSameAnswer) {
   catalog::Store(bench_.catalog(), catalog::Access::kWrite).SaveModel("bench", Model(0.1), "me");
-  Json crawler = Example("crawler", 60.0), revised = Exosuit(0.3);
-  crawler["ranking"]["count"] = 20;
-  crawler["robust"] = {{"draws", 25}, {"time_limit_s", 60.0}};  // long enough to be killed in
+  Json drawn = Exosuit(600.0), revised = Exosuit(0.3);
+  drawn["ranking"]["count"] = 20;
+  drawn["robust"] = {{"draws", 10}, {"time_limit_s", 600.0}};  // long enough to be killed in
   revised["model"] = "bench";
   Start();
-  const Json expected = WhenEnded(Post(crawler, "c"))["result"],
+  const Json expected = WhenEnded(Post(drawn, "c"))["result"],
              expected_revised = WhenEnded(Post(revised, "r"))["result"];
   ASSERT_EQ(expected["status"], "optimal");
   ASSERT_EQ(expected_revised["model"]["version"], 1);
 
-  const std::vector<std::string> jobs{Post(crawler, "c0"), Post(crawler, "c1"), Post(crawler, "c2"),
+  const std::vector<std::string> jobs{Post(drawn, "c0"), Post(drawn, "c1"), Post(drawn, "c2"),
                                       Post(revised, "r0")};
   while (Body(client_->Get(jobs[1]))["status"] == "queued") Rest();
   EndBySignal();
@@ -121,7 +121,7 @@ TEST_P(Restart, UnfinishedJobsEndWithTheSameAnswer) {
 
   ChangeTheCatalogue(expected);
   Start();
-  EXPECT_EQ(Post(crawler, "c1"), jobs[1]);  // asked again, not begun again
+  EXPECT_EQ(Post(drawn, "c1"), jobs[1]);  // asked again, not begun again
   for (int i = 0; i < 4; ++i) {
     const Json ended = WhenEnded(jobs[i]);
     EXPECT_EQ(ended["status"], "done");
@@ -137,7 +137,7 @@ TEST_P(Restart, UnfinishedJobsEndWithTheSameAnswer) {
   const auto number = std::to_string(expected["catalogue_revision"]["number"].get<int>());
   EXPECT_EQ(client_->Get("/v1/parts/bench-lighter?revision=" + number)->status, 404);
   EXPECT_EQ(client_->Get("/v1/parts/bench-lighter")->status, 200);
-  const Json now = WhenEnded(Post(crawler, "now"))["result"];
+  const Json now = WhenEnded(Post(drawn, "now"))["result"];
   EXPECT_FALSE(WithoutSeconds(now) == WithoutSeconds(expected));
 }
 

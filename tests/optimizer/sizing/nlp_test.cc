@@ -176,8 +176,9 @@ TEST(NlpTest, IpoptIsEnoughWhereItConverges) {
 TEST(NlpTest, NloptIsAskedFirstWhereItsOpinionIsWanted) {
   for (const Sample& sample : Zoo()) {
     const NlpResult nlopt = SolveWithNlopt(sample.nlp);
-    if (nlopt.status == NlpStatus::kSolved)
+    if (nlopt.status == NlpStatus::kSolved) {
       EXPECT_EQ(Solve(sample.nlp, NlpSolver::kNlopt).x, nlopt.x);
+    }
   }
   EXPECT_NE(Solve(Infeasible(), NlpSolver::kNlopt).status, NlpStatus::kSolved);
 }
