@@ -2,7 +2,9 @@
 # Installs what is missing, builds and runs tests.
 # ./test.sh        all tests, in a release build
 # ./test.sh fast   those that take seconds: what one runs after each edit
-# ./test.sh asan   all tests with AddressSanitizer and UndefinedBehaviorSanitizer
+# ./test.sh doors  tests of the rooms that read what others wrote, with AddressSanitizer and
+#                  UndefinedBehaviorSanitizer, but those that take longest
+# ./test.sh asan   all tests with both
 # ./test.sh full   all tests in both, and what is too long for every commit
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -39,6 +41,11 @@ case ${1:-all} in
     build release
     run_tests release -L fast
     ;;
+  doors)
+    install_packages $rule_packages $sanitizer_packages
+    build asan catalog_tests api_tests server_tests
+    run_tests asan -L '^(catalog|api|server)\.' -LE long
+    ;;
   asan)
     install_packages $rule_packages $sanitizer_packages
     build asan
@@ -53,7 +60,7 @@ case ${1:-all} in
     long_tests
     ;;
   *)
-    echo "usage: ./test.sh [fast | asan | full]" >&2
+    echo "usage: ./test.sh [fast | doors | asan | full]" >&2
     exit 2
     ;;
 esac
