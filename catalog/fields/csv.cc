@@ -11,8 +11,9 @@
 #include "catalog/fields/fields.h"
 #include "catalog/fields/part_lists.h"
 #include "catalog/fields/price.h"
-#include "catalog/fields/quantity.h"
-#include "catalog/fields/text.h"
+#include "catalog/units/printed_flow.h"
+#include "catalog/units/quantity.h"
+#include "catalog/units/text.h"
 
 namespace plenum::catalog {
 namespace {
@@ -164,6 +165,7 @@ class RowReader {
   void ReadNumber(std::string_view field, Part& part) {
     const std::string cell = Cell(field);
     if (cell.empty()) return CheckNoOrigin(field);
+    if (IsConductance(field) && IsPrintedFlow(cell)) return ReadPrinted(field, cell, part);
     const Quantity quantity = ParseQuantity(cell, field);
     const Provenance provenance = ReadProvenance(field);
     if (quantity.value)
@@ -171,6 +173,20 @@ class RowReader {
                                           ReadUncertainty(field)};
     else
       Fail(std::string(field), quantity.error);
+  }
+
+  // Derived, with the formula before the source that the row gives.
+  void ReadPrinted(std::string_view field, const std::string& cell, Part& part) {
+    PrintedFlow printed;
+    if (std::string error = ReadPrintedFlow(cell, printed); !error.empty())
+      return Fail(std::string(field), std::move(error));
+    ReadProvenance(field);  // so that a wrong one is told
+    const std::string source = Cell(Column(field, kSource));
+    const auto ratio = ParseQuantity(Cell(CriticalRatioOf(field)), CriticalRatioOf(field)).value;
+    const DerivedFlow derived = ConductanceOf(printed, ratio);
+    part.numbers[std::string(field)] = {derived.conductance_dm3_per_s_bar, Provenance::kDerived,
+                                        derived.formula + (source.empty() ? "" : "; " + source),
+                                        ReadUncertainty(field)};
   }
 
   void ReadText(std::string_view field, Part& part) {

@@ -5,7 +5,7 @@
 // family F, F.provenance, F.source and, for a number, F.uncertainty; for families with a curve also
 // `curve` (points "kPa_gauge:L/min:A" joined by ';') and .provenance, .source, .uncertainty of
 // free_air and current. A column may be missing; an empty cell means no value. Without a provenance
-// a number counts as third_party. A number may carry a unit of its own (catalog/fields/quantity.h),
+// a number counts as third_party. A number may carry a unit of its own (catalog/units/quantity.h),
 // also in a curve. A part with offers has the price of the newest (catalog/fields/price.h). What
 // WriteCsv writes is read back exactly and written again byte for byte.
 #ifndef PLENUM_CATALOG_FIELDS_CSV_H_

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "catalog/fields/text.h"
+#include "catalog/units/text.h"
 
 namespace plenum::catalog {
 namespace {

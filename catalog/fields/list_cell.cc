@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "catalog/fields/text.h"
+#include "catalog/units/text.h"
 
 namespace plenum::catalog {
 namespace {

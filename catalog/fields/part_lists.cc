@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "catalog/fields/list_cell.h"
-#include "catalog/fields/text.h"
+#include "catalog/units/text.h"
 
 namespace plenum::catalog {
 namespace {

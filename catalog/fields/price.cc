@@ -3,7 +3,7 @@
 #include "catalog/fields/csv_table.h"
 #include "catalog/fields/fields.h"
 #include "catalog/fields/rates_csv.h"
-#include "catalog/fields/text.h"
+#include "catalog/units/text.h"
 
 namespace plenum::catalog {
 namespace {

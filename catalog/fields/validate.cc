@@ -7,7 +7,7 @@
 
 #include "catalog/fields/fields.h"
 #include "catalog/fields/price.h"
-#include "catalog/fields/text.h"
+#include "catalog/units/text.h"
 
 namespace plenum::catalog {
 namespace {

@@ -1,7 +1,7 @@
 #include "catalog/store/part_record.h"
 
 #include "catalog/fields/csv_table.h"
-#include "catalog/fields/text.h"
+#include "catalog/units/text.h"
 
 namespace plenum::catalog {
 namespace {

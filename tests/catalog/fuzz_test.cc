@@ -7,9 +7,9 @@
 #include <string>
 
 #include "catalog/fields/csv.h"
-#include "catalog/fields/quantity.h"
-#include "catalog/fields/text.h"
 #include "catalog/store/part_record.h"
+#include "catalog/units/quantity.h"
+#include "catalog/units/text.h"
 #include "tests/catalog/samples.h"
 
 namespace plenum::catalog {

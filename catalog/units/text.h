@@ -1,6 +1,6 @@
 // Small helpers on text that validation and CSV share.
-#ifndef PLENUM_CATALOG_FIELDS_TEXT_H_
-#define PLENUM_CATALOG_FIELDS_TEXT_H_
+#ifndef PLENUM_CATALOG_UNITS_TEXT_H_
+#define PLENUM_CATALOG_UNITS_TEXT_H_
 
 #include <optional>
 #include <string>
@@ -16,6 +16,9 @@ std::string FormatNumber(double value);
 // fit a finite double.
 std::optional<double> ParseNumber(std::string_view text);
 
+// In double quotes for a message; what is long is cut between characters and marked with "…".
+std::string Shown(std::string_view text);
+
 // Well-formed UTF-8 without control characters but tab, line feed and carriage return.
 bool IsCleanText(std::string_view text);
 
@@ -27,4 +30,4 @@ std::string_view NearestName(std::string_view name, const std::vector<std::strin
 
 }  // namespace plenum::catalog
 
-#endif  // PLENUM_CATALOG_FIELDS_TEXT_H_
+#endif  // PLENUM_CATALOG_UNITS_TEXT_H_

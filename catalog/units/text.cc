@@ -1,4 +1,4 @@
-#include "catalog/fields/text.h"
+#include "catalog/units/text.h"
 
 #include <algorithm>
 #include <array>
@@ -63,6 +63,14 @@ std::optional<double> ParseNumber(std::string_view text) {
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
     return std::nullopt;
   return value;
+}
+
+std::string Shown(std::string_view text) {
+  constexpr std::size_t kShown = 60;
+  if (text.size() <= kShown) return "\"" + std::string(text) + "\"";
+  std::size_t end = kShown;
+  while ((static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return "\"" + std::string(text.substr(0, end)) + "…\"";
 }
 
 bool IsCleanText(std::string_view text) {
