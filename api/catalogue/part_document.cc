@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <string>
 
 #include "api/catalogue/part_details.h"
@@ -12,6 +13,7 @@
 #include "catalog/fields/fields.h"
 #include "catalog/fields/price.h"
 #include "catalog/store/store.h"
+#include "catalog/units/printed_flow.h"
 
 namespace plenum::api {
 namespace {
@@ -49,10 +51,70 @@ const catalog::Family* ReadFamily(Reader& reader) {
   return catalog::FindFamily(reader.Choice("family", names));
 }
 
+// What is printed in place of a conductance, as an object or a text; none: a number or nothing.
+std::optional<catalog::PrintedFlow> ReadPrinted(Reader& reader, const std::string& name) {
+  const Json& value = *reader.Raw(name);
+  catalog::PrintedFlow printed;
+  if (value.is_string()) {
+    const std::string& text = value.get_ref<const std::string&>();
+    if (!catalog::IsPrintedFlow(text)) return std::nullopt;
+    if (std::string error = catalog::ReadPrintedFlow(text, printed); !error.empty())
+      reader.Fail(name, std::move(error));
+    return printed;
+  }
+  if (!value.is_object()) return std::nullopt;
+  Reader object = reader.Object(name);
+  std::vector<std::string> names, given;
+  for (const catalog::FlowNotationSpec& spec : catalog::FlowNotations()) {
+    names.emplace_back(spec.field);
+    if (!object.Has(spec.field)) continue;
+    given.emplace_back(spec.field);
+    printed.notation = spec.notation;
+    printed.value = object.Number(spec.field, {spec.min, spec.max});
+  }
+  if (given.size() != 1)
+    object.FailHere("must hold one of " + OneOf(names) + ", not " + std::to_string(given.size()));
+  if (printed.notation == catalog::FlowNotation::kQn && object.Has("at"))
+    if (std::string error = catalog::ReadFlowPressures(object.Text("at"), printed); !error.empty())
+      object.Fail("at", std::move(error));
+  object.Finish();
+  return printed;
+}
+
+// The conductances that are given as they are printed: derived, with formula and source.
+void DerivePrinted(Reader& reader, const catalog::Family& family, catalog::Part& part) {
+  for (const catalog::NumberField& field : family.numbers) {
+    const std::string name(field.name);
+    if (!catalog::IsConductance(name) || !reader.Has(name)) continue;
+    const std::size_t errors_before = reader.errors().size();
+    const auto printed = ReadPrinted(reader, name);
+    if (!printed || reader.errors().size() > errors_before) continue;
+    const auto ratio = part.numbers.find(catalog::CriticalRatioOf(name));
+    const catalog::DerivedFlow derived = catalog::ConductanceOf(
+        *printed, ratio == part.numbers.end() || std::isnan(ratio->second.value)
+                      ? std::nullopt
+                      : std::optional(ratio->second.value));
+    const Range range{field.min, field.max};
+    if (!range.Contains(derived.conductance_dm3_per_s_bar))
+      reader.Fail(name, "comes to " + Decimal(derived.conductance_dm3_per_s_bar) + " (" +
+                            derived.formula + "); must be " + range.Text());
+    part.numbers[name] = {derived.conductance_dm3_per_s_bar, catalog::Provenance::kDerived,
+                          derived.formula};
+  }
+}
+
+// A value that ReadNumbers leaves to DerivePrinted.
+bool IsPrinted(Reader& reader, const std::string& name) {
+  const Json& value = *reader.Raw(name);
+  return catalog::IsConductance(name) &&
+         (value.is_object() ||
+          (value.is_string() && catalog::IsPrintedFlow(value.get_ref<const std::string&>())));
+}
+
 void ReadNumbers(Reader& reader, const catalog::Family& family, catalog::Part& part) {
   for (const catalog::NumberField& field : family.numbers) {
     const std::string name(field.name);
-    if (!reader.Has(name)) continue;
+    if (!reader.Has(name) || IsPrinted(reader, name)) continue;
     part.numbers[name] = {reader.Number(name, {field.min, field.max}),
                           catalog::Provenance::kThirdParty, "user"};
   }
@@ -88,6 +150,7 @@ struct Origin {
   catalog::Provenance* provenance = nullptr;
   std::string* source = nullptr;
   std::optional<double>* uncertainty = nullptr;  // null for texts
+  bool is_printed = false;                       // derived by this reading
 };
 Origin OriginOf(catalog::Part& part, const std::string& field) {
   if (const auto found = part.numbers.find(field); found != part.numbers.end()) {
@@ -115,8 +178,14 @@ void ReadOrigin(Reader& given, const Origin& origin) {
     *origin.uncertainty = given.OptionalNumber("uncertainty", {kUncertaintyMin, 1});
   given.Finish();
   if (origin.source == nullptr) return;
+  const bool has_source = source != nullptr && source->is_string();
+  // What was derived here from what is printed stays so, and its formula stands before the source.
+  if (origin.is_printed) {
+    if (has_source) *origin.source += "; " + source->get<std::string>();
+    return;
+  }
   *origin.provenance = catalog::ProvenanceFromName(kind).value_or(catalog::Provenance::kThirdParty);
-  *origin.source = source != nullptr && source->is_string() ? source->get<std::string>() : "user";
+  *origin.source = has_source ? source->get<std::string>() : "user";
 }
 
 void ReadProvenance(Reader& reader, const catalog::Family& family, catalog::Part& part) {
@@ -130,7 +199,8 @@ void ReadProvenance(Reader& reader, const catalog::Family& family, catalog::Part
   for (const std::string& field : fields) {
     auto given = provenance->OptionalObject(field);
     if (!given) continue;
-    const Origin origin = OriginOf(part, field);
+    Origin origin = OriginOf(part, field);
+    origin.is_printed = reader.Has(field) && IsPrinted(reader, field);
     ReadOrigin(*given, origin);
     if (origin.source == nullptr) provenance->Fail(field, "the part has no value of " + field);
   }
@@ -213,6 +283,7 @@ Parsed<catalog::Part> ParsePart(const Json& request) {
   part.notes = ReadFreeText(reader, "notes", kNotesMax);
   ReadDetails(reader, part);
   ReadNumbers(reader, *family, part);
+  DerivePrinted(reader, *family, part);
   ReadTexts(reader, *family, part);
   if (family->has_curve()) ReadCurve(reader, family->curve, part);
   ReadProvenance(reader, *family, part);

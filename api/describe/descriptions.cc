@@ -16,6 +16,7 @@
 #include "api/simulate/map.h"
 #include "api/simulate/simulation.h"
 #include "catalog/fields/fields.h"
+#include "catalog/units/printed_flow.h"
 
 namespace plenum::api {
 namespace {
@@ -39,7 +40,13 @@ Json AllRequirements() {
         "pressure_volume": [ { "pressure_kpa_gauge": 0, "volume_ml": 50 },
                              { "pressure_kpa_gauge": 120, "volume_ml": 90 } ],
         "tube_length_m": 0.5, "fittings_per_line": 2, "rise_time_s_max": 1, "fall_time_s_max": 1,
-        "pressure_kpa_gauge_max": 105 } ],
+        "pressure_kpa_gauge_max": 105 },
+      { "cylinder": { "bore_mm": 10, "stroke_mm": 50, "rod_mm": 4, "acting": "single",
+                      "dead_volume_ml": 1 } },
+      { "muscle": { "length_mm": 100, "diameter_mm": 10, "braid_angle_deg": 25,
+                    "contraction": 0.2 } },
+      { "pouch": { "width_mm": 30, "length_mm": 60, "cells": 2 } },
+      { "body": { "diameter_mm": 50, "length_m": 1 } } ],
     "duty": { "frequency_hz": 0.1, "actuations": 10, "simultaneous": true },
     "rise": { "to_fraction": 0.95 }, "fall": { "to_fraction": 0.05 },
     "supply": { "configurations": ["mains"],
@@ -70,7 +77,8 @@ std::vector<Json> AllSimulations() {
     "actuators": [
       { "count": 1, "blocked": false, "close_at_operating_pressure": false, "effects": [],
         "operating_pressure_kpa_gauge": 100,
-        "pressure_volume": [ {}, {} ], "valve": [ { "t_s": 0, "state": "hold" } ],
+        "pressure_volume": [ {}, {} ], "cylinder": {}, "muscle": {}, "pouch": {}, "body": {},
+        "valve": [ { "t_s": 0, "state": "hold" } ],
         "line": { "elements": [ { "part": "x", "length_m": 1 },
                                 { "tube": { "inner_diameter_mm": 2.5, "length_m": 0.5 } },
                                 { "sonic_conductance_dm3_per_s_bar": 0.3, "critical_ratio": 0.3,
@@ -89,7 +97,8 @@ std::vector<Json> AllMeasurements() {
   return {Document(R"({
     "schema": "measurement/1", "relative_uncertainty": {}, "holdout": [],
     "rig": { "ambient": { "pressure_kpa_abs": 200 },
-             "actuator": { "pressure_volume": [ {}, {} ] },
+             "actuator": { "pressure_volume": [ {}, {} ], "cylinder": {}, "muscle": {}, "pouch": {},
+                           "body": {} },
              "line": { "sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3,
                        "exhaust": {}, "tube": {} },
              "supply": { "kind": "compressor", "curve": [ {} ] } },
@@ -128,14 +137,38 @@ Json ProvenanceForm(bool of_number) {
 
 Json CurveForm(catalog::CurveKind kind) {
   const auto [lowest, highest] = catalog::CurvePressuresKpaGauge(kind);
-  const Json point = {{"type", "object"},
-                      {"properties",
-                       {{"pressure_kpa_gauge", NumberForm({lowest, highest})},
-                        {"free_air_l_per_min", NumberForm({0, 1e6})},
-                        {"current_a", NumberForm({0, 1e4})}}},
-                      {"required", {"pressure_kpa_gauge", "free_air_l_per_min", "current_a"}},
-                      {"additionalProperties", false}};
+  const Json point = {
+      {"type", "object"},
+      {"properties",
+       {{"pressure_kpa_gauge", NumberOrQuantityForm("pressure_kpa_gauge", {lowest, highest})},
+        {"free_air_l_per_min", NumberOrQuantityForm("free_air_l_per_min", {0, 1e6})},
+        {"current_a", NumberOrQuantityForm("current_a", {0, 1e4})}}},
+      {"required", {"pressure_kpa_gauge", "free_air_l_per_min", "current_a"}},
+      {"additionalProperties", false}};
   return {{"type", "array"}, {"minItems", 1}, {"maxItems", kTablePointsMax}, {"items", point}};
+}
+
+// The ways to give a conductance as it is printed.
+Json PrintedForms() {
+  Json forms = Json::array();
+  for (const catalog::FlowNotationSpec& spec : catalog::FlowNotations()) {
+    Json properties = {
+        {std::string(spec.field), NumberOrQuantityForm(spec.field, {spec.min, spec.max})}};
+    if (spec.notation == catalog::FlowNotation::kQn)
+      properties["at"] = {{"type", "string"}, {"examples", {"6 to 5 bar"}}};
+    forms.push_back({{"type", "object"},
+                     {"properties", std::move(properties)},
+                     {"required", {spec.field}},
+                     {"additionalProperties", false}});
+  }
+  return forms;
+}
+
+Json FormOf(const catalog::NumberField& field) {
+  Json form = NumberOrQuantityForm(field.name, {field.min, field.max});
+  if (catalog::IsConductance(field.name))
+    for (const Json& printed : PrintedForms()) form["anyOf"].push_back(printed);
+  return form;
 }
 
 Json PartOf(const catalog::Family& family) {
@@ -158,7 +191,7 @@ Json PartOf(const catalog::Family& family) {
     provenance[field] = ProvenanceForm(is_number);
   };
   for (const catalog::NumberField& field : family.numbers)
-    add(field.name, NumberForm({field.min, field.max}), field.required, true, field.meaning);
+    add(field.name, FormOf(field), field.required, true, field.meaning);
   for (const catalog::TextField& field : family.texts) {
     Json form = Text(kTextCharactersMax);
     if (!field.allowed.empty()) form["enum"] = field.allowed;
@@ -204,7 +237,7 @@ Json DescribeMeasurement() {
   properties["save"] = {{"type", {"string", "null"}},
                         {"maxLength", kTextCharactersMax},
                         {"description", "the name to save the model under"}};
-  properties["time_limit_s"] = NumberForm({0.01, kDiagnosisTimeMaxS});
+  properties["time_limit_s"] = NumberOrQuantityForm("time_limit_s", {0.01, kDiagnosisTimeMaxS});
   return schema;
 }
 

@@ -257,6 +257,7 @@ Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
   if (answer.status == optimizer::Status::kInfeasible)
     document["conflict"] = RenderConflict(answer.conflict);
   document["seconds"] = Number(answer.seconds);
+  request.remarks.AddTo(document);
   document["requirements"] = request.request;
   return document;
 }

@@ -5,6 +5,8 @@
 #include "api/design/read/design_reader.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/json/json.h"
+#include "api/json/remarks.h"
+#include "api/json/shared_fields.h"
 #include "api/json/units.h"
 #include "api/json/version.h"
 #include "api/measure/model_document.h"
@@ -16,6 +18,7 @@ namespace plenum::api {
 Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>& parts,
                            const std::vector<catalog::ModelRevision>& models) {
   Errors errors;
+  RemarkRecorder recorder;
   Reader reader(request, "", errors);
   reader.Schema("evaluation/1");
   const Json* requirements = reader.Raw("requirements");
@@ -28,6 +31,9 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
     return *wrong;
   }
   const optimizer::Problem& problem = std::get<DesignRequest>(parsed).problem;
+  Remarks remarks = std::get<DesignRequest>(parsed).remarks;
+  remarks.PutUnder("/requirements");
+  TellAmbient(problem.ambient);
   optimizer::Design given = ReadGivenDesign(reader.Object("design"), problem);
   reader.Finish();
   if (errors.empty()) CheckCombination(given, problem, parts, "/design", errors);
@@ -41,6 +47,8 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
   answer["source_pressure_range_kpa_gauge"] =
       source.empty() ? Json(nullptr) : Json{gauge(source.low_pa), gauge(source.high_pa)};
   if (design) answer.update(RenderFigures(*design, problem));
+  remarks.Append(recorder.Take());
+  remarks.AddTo(answer);
   return answer;
 }
 

@@ -5,10 +5,14 @@
 #include <limits>
 #include <set>
 #include <utility>
+#include <variant>
 
+#include "api/json/remarks.h"
 #include "api/json/request_limits.h"
 #include "api/json/schema_recorder.h"
+#include "api/json/unit_slips.h"
 #include "api/json/words.h"
+#include "catalog/units/quantity.h"
 
 namespace plenum::api {
 namespace {
@@ -24,6 +28,28 @@ Json ListForm(std::size_t least, std::size_t most) {
 
 std::string SizeText(std::size_t least, std::size_t most) {
   return "must be a list of " + std::to_string(least) + " to " + std::to_string(most) + " elements";
+}
+
+// The number of a text with a unit, for a field whose name ends in one, or what is wrong with it.
+std::variant<double, std::string> ReadQuantity(const std::string& text, const std::string& pointer,
+                                               Range range, std::string_view name) {
+  RemarkRecorder* remarks = RemarkRecorder::Current();
+  const catalog::Quantity quantity = catalog::ParseQuantity(
+      text, name,
+      {.ambient_kpa_abs = remarks == nullptr ? std::nullopt : remarks->ambient_kpa_abs(),
+       .needs_unit = true});
+  const std::string unit(catalog::UnitOf(name));
+  if (!quantity.value) return quantity.error + "; allowed are " + range.Text() + " " + unit;
+  // Without the noise of the conversion, so that a bound in another unit is within its range.
+  const double number = Rounded(*quantity.value);
+  if (!range.Contains(number))
+    return "must be " + range.Text() + " " + unit + ", not " + Decimal(number) + " (" +
+           Quoted(text) + ")";
+  if (remarks == nullptr) return number;
+  Json understood = {{"given", text}, {"value", number}, {"unit", unit}};
+  if (!quantity.condition.empty()) understood["condition"] = quantity.condition;
+  remarks->Understood(pointer, std::move(understood));
+  return number;
 }
 
 }  // namespace
@@ -57,10 +83,16 @@ std::string KindOf(const Json& value) {
 Reader::Reader(const Json& value, std::string pointer, Errors& errors)
     : pointer_(std::move(pointer)), errors_(&errors) {
   if (auto* recorder = SchemaRecorder::Current()) recorder->Object(pointer_);
-  if (value.is_object())
-    object_ = &value;
-  else
+  if (!value.is_object()) {
     FailHere("must be an object, not " + KindOf(value));
+    return;
+  }
+  object_ = &value;
+  // A note is allowed in every object of a document whose answer gives it back.
+  if (auto* remarks = RemarkRecorder::Current()) {
+    Note("note", false, NoteForm);
+    if (const Json* note = Raw("note")) remarks->Note(pointer_, *note);
+  }
 }
 
 Reader::Reader(const Element& element, Errors& errors)
@@ -96,36 +128,48 @@ const Json* Reader::Required(std::string_view name) {
   return value;
 }
 
-double Reader::ReadNumber(const Json& value, const std::string& pointer, Range range) {
+double Reader::ReadNumber(const Json& value, const std::string& pointer, Range range,
+                          std::string_view name) {
+  if (value.is_string() && !catalog::UnitOf(name).empty()) {
+    const auto read = ReadQuantity(value.get_ref<const std::string&>(), pointer, range, name);
+    if (const double* number = std::get_if<double>(&read)) return *number;
+    Report(pointer, std::get<std::string>(read));
+    return kNaN;
+  }
   if (!value.is_number()) {
     Report(pointer, "must be a number " + range.Text() + ", not " + KindOf(value));
     return kNaN;
   }
   const double number = value.get<double>();
-  if (range.Contains(number)) return number;
-  Report(pointer, "must be " + range.Text() + ", not " + Decimal(number));
-  return kNaN;
+  if (!range.Contains(number)) {
+    Report(pointer, "must be " + range.Text() + ", not " + Decimal(number));
+    return kNaN;
+  }
+  if (auto* remarks = RemarkRecorder::Current())
+    if (const std::string slip = LooksLikeAnotherUnit(pointer, number); !slip.empty())
+      remarks->Warn(pointer, slip);
+  return number;
 }
 
 double Reader::Number(std::string_view name, Range range) {
-  Note(name, true, [&] { return NumberForm(range); });
+  Note(name, true, [&] { return NumberOrQuantityForm(name, range); });
   const Json* value = Raw(name);
-  if (value != nullptr) return ReadNumber(*value, Pointer(name), range);
+  if (value != nullptr) return ReadNumber(*value, Pointer(name), range, name);
   if (object_ != nullptr) Fail(name, "is required, a number " + range.Text());
   return kNaN;
 }
 
 double Reader::Number(std::string_view name, Range range, double fallback) {
-  Note(name, false, [&] { return NumberForm(range); });
+  Note(name, false, [&] { return NumberOrQuantityForm(name, range); });
   const Json* value = Raw(name);
-  return value == nullptr ? fallback : ReadNumber(*value, Pointer(name), range);
+  return value == nullptr ? fallback : ReadNumber(*value, Pointer(name), range, name);
 }
 
 std::optional<double> Reader::OptionalNumber(std::string_view name, Range range) {
-  Note(name, false, [&] { return NumberForm(range); });
+  Note(name, false, [&] { return NumberOrQuantityForm(name, range); });
   Note(name, false, [] { return kNullForm; });
   if (!Has(name)) return std::nullopt;
-  return ReadNumber(*Raw(name), Pointer(name), range);
+  return ReadNumber(*Raw(name), Pointer(name), range, name);
 }
 
 int Reader::Integer(std::string_view name, int low, int high, std::optional<int> fallback) {
@@ -241,10 +285,10 @@ std::vector<double> Reader::Numbers(std::string_view name, std::size_t most, Ran
     return form;
   });
   if (const Json* value = Raw(name); value != nullptr && value->is_number())
-    return {ReadNumber(*value, Pointer(name), range)};
+    return {ReadNumber(*value, Pointer(name), range, "")};
   std::vector<double> numbers;
   for (const Element& element : List(name, 1, most))
-    numbers.push_back(ReadNumber(*element.value, element.pointer, range));
+    numbers.push_back(ReadNumber(*element.value, element.pointer, range, ""));
   return numbers;
 }
 

@@ -34,6 +34,8 @@ class Reader {
   // Present and not null. Marks the field as known.
   bool Has(std::string_view name);
 
+  // A field whose name ends in a unit also takes a text with a unit ("15 psi"); what was
+  // understood, and what looks like another unit, goes to the RemarkRecorder of the thread.
   double Number(std::string_view name, Range range);                         // required
   double Number(std::string_view name, Range range, double fallback);        // may be missing
   std::optional<double> OptionalNumber(std::string_view name, Range range);  // missing or null
@@ -91,7 +93,9 @@ class Reader {
   template <typename MakeForm>
   void Note(std::string_view name, bool required, MakeForm&& form);
   void Report(std::string pointer, std::string detail);
-  double ReadNumber(const Json& value, const std::string& pointer, Range range);
+  // `name` is the field's where its unit may stand in a text, empty in a list.
+  double ReadNumber(const Json& value, const std::string& pointer, Range range,
+                    std::string_view name);
 
   const Json* object_ = nullptr;  // null: not an object, which has been reported
   std::string pointer_;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "api/json/request_limits.h"
+#include "catalog/units/quantity.h"
+
 namespace plenum::api {
 namespace {
 
@@ -38,6 +41,21 @@ Json NumberForm(const Range& range) {
           {range.high_open ? "exclusiveMaximum" : "maximum", range.high}};
 }
 
+Json NoteForm() { return {{"description", "a remark, which comes back unchanged"}}; }
+
+Json QuantityForm(std::string_view name) {
+  const std::string units = catalog::UnitNames(name);
+  return {{"type", "string"},
+          {"maxLength", kTextCharactersMax},
+          {"description", "a number with one of the units " + units},
+          {"examples", {"1 " + units.substr(0, units.find(','))}}};
+}
+
+Json NumberOrQuantityForm(std::string_view name, const Range& range) {
+  if (catalog::UnitOf(name).empty()) return NumberForm(range);
+  return {{"anyOf", {NumberForm(range), QuantityForm(name)}}};
+}
+
 SchemaRecorder::SchemaRecorder() { current = this; }
 SchemaRecorder::~SchemaRecorder() { current = nullptr; }
 SchemaRecorder* SchemaRecorder::Current() { return current; }
@@ -67,6 +85,10 @@ SchemaRecorder::Node& SchemaRecorder::At(const std::string& pointer) {
 
 void SchemaRecorder::AddForm(Node& node, const Json& form) {
   if (form.is_null()) return;
+  if (form.contains("anyOf")) {
+    for (const Json& one : form["anyOf"]) AddForm(node, one);
+    return;
+  }
   for (Json& known : node.forms) {
     if (known == form) return;
     if (known.value("type", "") == "array" && form.value("type", "") == "array") {

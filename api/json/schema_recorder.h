@@ -64,8 +64,14 @@ class SchemaRecorder {
   Node root_;
 };
 
+// "note" of an object.
+Json NoteForm();
 // Forms of single values, with bounds as ranges of the reader have them.
 Json NumberForm(const Range& range);
+// A text of a number and a unit, for a field whose name ends in one.
+Json QuantityForm(std::string_view name);
+// What a number field may hold: the number, and where its name ends in a unit such a text, too.
+Json NumberOrQuantityForm(std::string_view name, const Range& range);
 
 }  // namespace plenum::api
 

@@ -3,23 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/json/remarks.h"
 #include "api/json/units.h"
 #include "api/json/words.h"
 
 namespace plenum::api {
-namespace {
 
-const Range kRestVolumeMl{0.01, 1e6};
-constexpr double kTableAgreement = 0.05;
-
-// Two columns of a list of points, in the order given.
-struct Table {
-  std::vector<double> x, y;
-  bool valid = false;  // not empty and without an error
-};
-
-// Reads points { x_name, y_name } with x strictly rising; `direction` is the sign that steps of y
-// may have.
 Table ReadTable(Reader& owner, std::string_view list, std::size_t least, std::string_view x_name,
                 Range x_range, std::string_view y_name, Range y_range, int direction) {
   Table table;
@@ -44,10 +33,14 @@ Table ReadTable(Reader& owner, std::string_view list, std::size_t least, std::st
   return table;
 }
 
-}  // namespace
+void TellAmbient(const model::Ambient& ambient) {
+  if (auto* remarks = RemarkRecorder::Current())
+    remarks->SetAmbient(ambient.pressure_pa / kPaPerKpa);
+}
 
 model::Ambient ReadAmbient(Reader& request) {
   model::Ambient ambient;
+  TellAmbient(ambient);
   auto reader = request.OptionalObject("ambient");
   if (!reader) return ambient;
   ambient.pressure_pa = PaFromKpaAbs(reader->Number("pressure_kpa_abs", {20, 200}, 100));
@@ -55,6 +48,7 @@ model::Ambient ReadAmbient(Reader& request) {
   reader->Finish();
   // Told of once: what is gauge is read beside the usual one.
   if (std::isnan(ambient.pressure_pa)) ambient.pressure_pa = model::Ambient{}.pressure_pa;
+  TellAmbient(ambient);
   return ambient;
 }
 
@@ -77,45 +71,6 @@ model::FlowElement ReadPair(Reader& reader) {
       ConductanceFromDm3PerSBar(reader.Number("sonic_conductance_dm3_per_s_bar", {1e-6, 1e4}));
   element.critical_ratio = reader.Number("critical_ratio", {0, 0.95});
   return element;
-}
-
-model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient) {
-  model::Chamber chamber;
-  chamber.ambient_pressure_pa = ambient.pressure_pa;
-  const double operating = group.Number("operating_pressure_kpa_gauge", {1, kOperatingGaugeMaxKpa});
-  chamber.operating_pressure_pa = PaFromKpaGauge(operating, ambient);
-
-  if (!group.Has("pressure_volume")) {
-    chamber.rest_volume_m3 = M3FromMl(group.Number("rest_volume_ml", kRestVolumeMl));
-    chamber.expansion_ratio = group.Number("expansion_ratio", {1, 50});
-    return chamber;
-  }
-  if (group.Has("expansion_ratio"))
-    group.Fail("expansion_ratio", "give either expansion_ratio or pressure_volume, not both");
-  const auto stated = group.OptionalNumber("rest_volume_ml", kRestVolumeMl);
-  const double lowest = -ambient.pressure_pa / kPaPerKpa;
-  const Table table = ReadTable(group, "pressure_volume", 2, "pressure_kpa_gauge",
-                                Above(lowest, kGaugeMaxKpa), "volume_ml", kRestVolumeMl, +1);
-  // Reported where they are read.
-  if (!table.valid || std::isnan(chamber.operating_pressure_pa)) return chamber;
-  if (table.x.front() > 0 || table.x.back() < operating) {
-    group.Fail("pressure_volume", "must reach from 0 to the operating pressure of " +
-                                      Decimal(operating) + " kPa gauge, not from " +
-                                      Decimal(table.x.front()) + " to " + Decimal(table.x.back()));
-    return chamber;
-  }
-  std::vector<double> pressure_pa, volume_m3;
-  for (const double kpa : table.x) pressure_pa.push_back(PaFromKpaGauge(kpa, ambient));
-  for (const double ml : table.y) volume_m3.push_back(M3FromMl(ml));
-  chamber.volume_curve = model::MonotoneCurve(std::move(pressure_pa), std::move(volume_m3));
-  chamber.rest_volume_m3 = chamber.volume_curve(ambient.pressure_pa);
-  chamber.expansion_ratio =
-      chamber.volume_curve(chamber.operating_pressure_pa) / chamber.rest_volume_m3;
-  const double rest_ml = MlFromM3(chamber.rest_volume_m3);
-  if (stated && std::abs(*stated - rest_ml) > kTableAgreement * rest_ml)
-    group.Fail("rest_volume_ml", "is " + Decimal(*stated) + ", but pressure_volume gives " +
-                                     Decimal(rest_ml) + " at ambient pressure");
-  return chamber;
 }
 
 std::string ReadName(Reader& group, std::size_t index, std::vector<std::string>& names) {

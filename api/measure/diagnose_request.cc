@@ -6,6 +6,19 @@
 
 namespace plenum::api {
 
+namespace {
+
+// The warnings of a diagnosis are sentences.
+void AddRemarks(Remarks remarks, Json& answer) {
+  for (const Json& warning : remarks.warnings)
+    answer["warnings"].push_back(warning["pointer"].get<std::string>() + " " +
+                                 warning["detail"].get<std::string>());
+  remarks.warnings = Json::array();
+  remarks.AddTo(answer);
+}
+
+}  // namespace
+
 DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisProgress& progress) {
   calibration::DiagnoseOptions options;
   options.cancelled = progress.cancelled;
@@ -18,6 +31,7 @@ DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisPro
           : calibration::Diagnose(request.dataset, options);
   DiagnosisAnswer answer;
   answer.answer = RenderDiagnosis(diagnosis, request.dataset, request.provenance);
+  AddRemarks(request.remarks, answer.answer);
   if (!request.model && diagnosis.tied.empty() &&
       diagnosis.verdict != calibration::Verdict::kUndecided)
     answer.revision = RevisionOf(diagnosis, request.provenance);

@@ -20,6 +20,7 @@ struct DiagnosisRequest {
   calibration::Dataset dataset;
   std::optional<SavedModel> model;  // predicts the runs; none: they are diagnosed
   Provenance provenance;
+  Remarks remarks;  // of the measurement
   double time_limit_s = kDiagnosisTimeS;
 };
 

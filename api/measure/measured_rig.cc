@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "api/json/remarks.h"
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"
+#include "api/simulate/group_chamber.h"
 #include "api/simulate/rig.h"
 
 namespace plenum::api {
@@ -111,16 +113,21 @@ MeasuredRig ReadRigOfRun(const Json& shared, const Json* own, const std::string&
                          Errors& errors) {
   Errors found;
   MeasuredRig part;
+  RemarkRecorder recorder;
   if (own == nullptr || !own->is_object() || !shared.is_object()) {
     if (own != nullptr && !own->is_object())
       found.push_back({own_pointer, "must be an object, not " + KindOf(*own)});
     part = ReadRig(shared, "/rig", found);
+    recorder.TellOuter([](const std::string& pointer) { return pointer; });
   } else {
     Json merged = shared;
     merged.merge_patch(*own);
     part = ReadRig(merged, own_pointer, found);
     for (Error& error : found)
       error.pointer = PlaceInShared(error.pointer, own_pointer, *own, shared);
+    recorder.TellOuter([&](const std::string& pointer) {
+      return PlaceInShared(pointer, own_pointer, *own, shared);
+    });
   }
   for (Error& error : found) AddOnce(std::move(error), errors);
   return part;

@@ -49,8 +49,9 @@ void CheckHoldout(Reader& document, const std::set<std::string>& ids, const Data
 
 }  // namespace
 
-Parsed<Dataset> ParseMeasurement(const Json& document) {
+Parsed<Dataset> ParseMeasurement(const Json& document, Remarks* remarks) {
   Errors errors;
+  RemarkRecorder recorder;
   Dataset dataset;
   Reader reader(document, "", errors);
   AllowRemarks(reader);
@@ -66,6 +67,7 @@ Parsed<Dataset> ParseMeasurement(const Json& document) {
   CheckHoldout(reader, ids, dataset);
   reader.Finish();
   if (!errors.empty()) return errors;
+  if (remarks != nullptr) *remarks = recorder.Take();
   return dataset;
 }
 

@@ -12,13 +12,15 @@
 #include <string_view>
 
 #include "api/json/json.h"
+#include "api/json/remarks.h"
 #include "api/measure/measured_run.h"
 #include "calibration/values/dataset.h"
 
 namespace plenum::api {
 
 // Every error at once, each with its pointer; at most kSeriesErrors of one list of samples.
-Parsed<calibration::Dataset> ParseMeasurement(const Json& document);
+// `remarks`, if asked for, belong to a document without errors.
+Parsed<calibration::Dataset> ParseMeasurement(const Json& document, Remarks* remarks = nullptr);
 
 // The same document from CSV and its rig file. Errors of the table point at its line: "line 7".
 Parsed<Json> MeasurementFromCsv(std::string_view csv, const Json& rig);

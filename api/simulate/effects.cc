@@ -114,15 +114,19 @@ Json EffectsForm() {
     if (!spec->law.empty() && spec->law != LawsOf(spec->id).front()) required.push_back("law");
     for (const model::ParameterSpec& number : spec->parameters) {
       const Parameter parameter = ParameterOf(number);
-      parameters["properties"][parameter.name] = NumberForm(parameter.range);
+      parameters["properties"][parameter.name] =
+          NumberOrQuantityForm(parameter.name, parameter.range);
       required.push_back(parameter.name);
     }
+    parameters["properties"]["note"] = NoteForm();
     parameters["required"] = std::move(required);
     parameters["additionalProperties"] = false;
-    forms.push_back({{"type", "object"},
-                     {"properties", {{"id", {{"const", spec->id}}}, {"parameters", parameters}}},
-                     {"required", {"id", "parameters"}},
-                     {"additionalProperties", false}});
+    forms.push_back(
+        {{"type", "object"},
+         {"properties",
+          {{"id", {{"const", spec->id}}}, {"parameters", parameters}, {"note", NoteForm()}}},
+         {"required", {"id", "parameters"}},
+         {"additionalProperties", false}});
   }
   return {{"type", "array"}, {"maxItems", kEffectsMax}, {"items", {{"anyOf", forms}}}};
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "api/json/json.h"
+#include "api/json/remarks.h"
 #include "api/json/request_limits.h"
 #include "api/json/shared_fields.h"
 #include "api/json/version.h"
@@ -25,6 +26,7 @@ struct Grid {
   std::vector<double> source, operating, expansion, critical;
   std::vector<double> compressor_flow, reservoir_volume, count;  // empty: constant source pressure
   Fractions fractions;
+  Remarks remarks;
 };
 
 struct Point {
@@ -118,12 +120,13 @@ void ReadCompressorAxes(Reader& reader, Grid& grid) {
 Parsed<Grid> ParseGrid(const Json& request) {
   Errors errors;
   Grid grid;
+  RemarkRecorder recorder;
   Reader reader(request, "", errors);
   reader.Schema("map/1");
   reader.Text("name", "");
   grid.source = reader.Numbers("source_pressure_ratio", kMapAxisMax, {1, 1000});
   grid.operating = reader.Numbers("operating_pressure_ratio", kMapAxisMax, Above(1, 100));
-  grid.expansion = reader.Numbers("expansion_ratio", kMapAxisMax, {1, 50});
+  grid.expansion = reader.Numbers("expansion_ratio", kMapAxisMax, {1, kExpansionMax});
   grid.critical = reader.Numbers("critical_ratio", kMapAxisMax, {0, 0.95});
   ReadCompressorAxes(reader, grid);
   grid.fractions = ReadFractions(reader);
@@ -140,6 +143,7 @@ Parsed<Grid> ParseGrid(const Json& request) {
     reader.FailHere("the grid must have at most " + Decimal(most) + " points" +
                     (has_compressor ? " with a compressor" : "") + ", not " + Decimal(points));
   if (!errors.empty()) return errors;
+  grid.remarks = recorder.Take();
   return grid;
 }
 
@@ -182,6 +186,7 @@ Parsed<Json> RunMap(const Json& request) {
   if (IsPast(deadline)) return Errors{{"", "the grid takes longer than 60 s; give fewer points"}};
   Json answer = AnswerDocument("map_answer/1");
   answer["rows"] = std::move(rows);
+  grid.remarks.AddTo(answer);
   return answer;
 }
 

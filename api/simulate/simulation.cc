@@ -7,12 +7,14 @@
 #include <string>
 
 #include "api/json/json.h"
+#include "api/json/remarks.h"
 #include "api/json/request_limits.h"
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"
 #include "api/json/version.h"
 #include "api/json/words.h"
 #include "api/simulate/effects.h"
+#include "api/simulate/group_chamber.h"
 #include "api/simulate/rig.h"
 
 namespace plenum::api {
@@ -25,6 +27,7 @@ constexpr double kEndMaxS = 1e6;
 struct Simulation {
   model::Rig rig;
   model::SimulateOptions options;
+  Remarks remarks;
 };
 
 // Every actuator at the start; the temperature matters only to heat_transfer, 0 is the ambient's.
@@ -89,6 +92,7 @@ void ReadTimes(Reader& request, double duration_s, model::SimulateOptions& optio
 Parsed<Simulation> ParseSimulation(const Json& request, const std::vector<catalog::Part>& parts) {
   Errors errors;
   Simulation simulation;
+  RemarkRecorder recorder;
   Reader reader(request, "", errors);
   reader.Schema("simulation/1");
   reader.Text("name", "");
@@ -114,6 +118,7 @@ Parsed<Simulation> ParseSimulation(const Json& request, const std::vector<catalo
   ReadTimes(reader, duration_s, simulation.options);
   reader.Finish();
   if (!errors.empty()) return errors;
+  simulation.remarks = recorder.Take();
   return simulation;
 }
 
@@ -191,7 +196,7 @@ Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>
                            double seconds_max) {
   Parsed<Simulation> parsed = ParseSimulation(request, parts);
   if (auto* errors = std::get_if<Errors>(&parsed)) return std::move(*errors);
-  auto& [rig, options] = std::get<Simulation>(parsed);
+  auto& [rig, options, remarks] = std::get<Simulation>(parsed);
   using Clock = std::chrono::steady_clock;
   const auto limit = std::chrono::duration<double>(seconds_max);
   options.cancelled = [start = Clock::now(), limit] { return Clock::now() - start > limit; };
@@ -204,7 +209,9 @@ Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>
     if (!response.detail.empty()) response.detail += "; ";
     response.detail += "out of time: what performance gives as null is not known";
   }
-  return RenderResponse(response, strokes, rig);
+  Json document = RenderResponse(response, strokes, rig);
+  remarks.AddTo(document);
+  return document;
 }
 
 }  // namespace plenum::api

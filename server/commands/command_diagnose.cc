@@ -78,7 +78,7 @@ api::DiagnosisRequest ReadRequest(const DiagnoseOptions& options) {
   api::Json document =
       ValueOrRefuse(api::MergeMeasurements(ReadDocuments(options, request.provenance)));
   if (!options.holdout.empty() && document.is_object()) document["holdout"] = options.holdout;
-  request.dataset = ValueOrRefuse(api::ParseMeasurement(document));
+  request.dataset = ValueOrRefuse(api::ParseMeasurement(document, &request.remarks));
   request.model = KnownModel(options);
   request.time_limit_s = options.time_limit_s;
   return request;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "server/render/text_explain.h"
+#include "server/render/text_remarks.h"
 #include "server/render/text_table.h"
 
 namespace plenum::server {
@@ -253,23 +254,25 @@ std::string DesignText(const Json& answer) {
     text += Details(designs.front()) + "\n";
   }
   text += FrontText(answer) + RobustText(answer) + PricesText(answer) + FlipsText(answer);
-  return text + ProofText(answer);
+  return text + ProofText(answer) + RemarksText(answer);
 }
 
 std::string EvaluationText(const Json& answer) {
   const auto& range = answer.at("source_pressure_range_kpa_gauge");
   if (range.is_null()) {
     return "It does not work: at no source pressure that the parts stand does every stroke end "
-           "within half of the period.\n";
+           "within half of the period.\n" +
+           RemarksText(answer);
   }
   std::string text = fmt::format("The parts stand source pressures from {} to {} kPa gauge.\n",
                                  Short(range[0]), Short(range[1]));
-  if (!answer.at("works").get<bool>()) {
-    return text +
-           "It does not work: the source pressure is none of these, or a stroke does not "
-           "end within half of the period.\n";
-  }
-  return text + SettingsText(answer) + TotalsText(answer) + "\n" + MarginsTable(answer);
+  if (answer.at("works").get<bool>())
+    text += SettingsText(answer) + TotalsText(answer) + "\n" + MarginsTable(answer);
+  else
+    text +=
+        "It does not work: the source pressure is none of these, or a stroke does not "
+        "end within half of the period.\n";
+  return text + RemarksText(answer);
 }
 
 std::string ProgressText(const optimizer::Progress& progress) {

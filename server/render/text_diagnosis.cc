@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "server/render/text_remarks.h"
 #include "server/render/text_table.h"
 
 namespace plenum::server {
@@ -220,7 +221,7 @@ std::string DiagnosisText(const Json& answer) {
       TieText(answer) + CandidatesTable(answer) + DiscrepancyText(answer) + ResidualText(answer);
   for (const Json& warning : answer.at("warnings"))
     text += "note: " + warning.get<std::string>() + "\n";
-  return text;
+  return text + RemarksText(answer);
 }
 
 }  // namespace plenum::server

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "server/render/text_remarks.h"
 #include "server/render/text_table.h"
 
 namespace plenum::server {
@@ -67,7 +68,7 @@ std::string ResponseText(const Json& response) {
   if (response.contains("detail") && response.at("detail").is_string()) {
     text += response.at("detail").get<std::string>() + "\n";
   }
-  return text;
+  return text + RemarksText(response);
 }
 
 std::string MapText(const Json& answer) {
@@ -81,7 +82,7 @@ std::string MapText(const Json& answer) {
     for (const auto& [name, value] : row.items()) cells.push_back(Short(value));
     table.Add(std::move(cells));
   }
-  return table.Text();
+  return table.Text() + RemarksText(answer);
 }
 
 }  // namespace plenum::server

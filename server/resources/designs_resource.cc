@@ -76,7 +76,11 @@ Reply PostDesign(SharedCatalog& catalog, const JobsResource& designs, const Call
   const CatalogView view = catalog.View();
   auto parsed = api::ParseRequirements(std::get<api::Json>(json), *view.parts, catalog.Models());
   if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
-  if (validate_only) return JsonReply(200, {{"valid", true}});
+  if (validate_only) {
+    api::Json valid = {{"valid", true}};
+    std::get<api::DesignRequest>(parsed).remarks.AddTo(valid);
+    return JsonReply(200, valid);
+  }
   const auto signature = SignatureOf(call);
   if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
   const auto& request = std::get<api::DesignRequest>(parsed);

@@ -74,7 +74,8 @@ api::Parsed<Request> ReadRequest(std::string_view body,
     document.erase(kSave);
     document.erase(kTimeLimit);
   }
-  request.diagnosis.dataset = ValueOrAdd(api::ParseMeasurement(document), errors);
+  request.diagnosis.dataset =
+      ValueOrAdd(api::ParseMeasurement(document, &request.diagnosis.remarks), errors);
   if (!errors.empty()) return errors;
   request.diagnosis.provenance.files = {api::FileOf(request.diagnosis.dataset.name, body)};
   return request;

@@ -140,6 +140,25 @@ Json Parameters() {
   return parameters;
 }
 
+// What an answer says of its request, each where there is something to say.
+Json RemarkSchemas() {
+  const Json text = {{"type", "string"}}, any = Json::object();
+  Json understood =
+      Object({{"pointer", text}, {"given", any}, {"value", {{"type", "number"}}}, {"unit", text}});
+  for (const char* name : {"condition", "name", "formula"}) understood["properties"][name] = text;
+  return {{"understood", ListOf(understood)},
+          {"warnings", ListOf({{"anyOf", {Object({{"pointer", text}, {"detail", text}}), text}}})},
+          {"notes", ListOf(Object({{"pointer", text}, {"note", any}}))}};
+}
+
+Json Versioned(const char* schema) {
+  Json properties = {{"schema", {{"const", schema}}}, {"plenum", {{"type", "string"}}}};
+  properties.update(RemarkSchemas());
+  return {{"type", "object"},
+          {"properties", std::move(properties)},
+          {"required", {"schema", "plenum"}}};
+}
+
 // Of answers: the fields that callers may rely on; more may come.
 Json AnswerSchemas() {
   const Json text = {{"type", "string"}}, number = {{"type", "number"}};
@@ -151,11 +170,6 @@ Json AnswerSchemas() {
       Object({{"number", integer}, {"hash", text}, {"at", text}, {"who", text}, {"what", text}});
   const Json status = {{"enum", {"queued", "running", "done", "cancelled", "failed"}}};
   const Json links = Object({{"self", text}, {"events", text}});
-  const auto versioned = [&](const char* schema) {
-    return Json{{"type", "object"},
-                {"properties", {{"schema", {{"const", schema}}}, {"plenum", text}}},
-                {"required", {"schema", "plenum"}}};
-  };
   Json schemas = {
       {"Problem",
        {{"type", "object"},
@@ -193,13 +207,13 @@ Json AnswerSchemas() {
                                            {"last_crash", maybe_text},
                                            {"progress", any},
                                            {"links", links}}))},
-      {"Designs", versioned("designs/1")},
+      {"Designs", Versioned("designs/1")},
       {"DesignsOrValid",
        {{"anyOf", {Ref("schemas", "Designs"), Object({{"valid", {{"const", true}}}})}}}},
-      {"Diagnosis", versioned("diagnosis/1")},
-      {"Response", versioned("response/1")},
-      {"MapAnswer", versioned("map_answer/1")},
-      {"EvaluationAnswer", versioned("evaluation_answer/1")},
+      {"Diagnosis", Versioned("diagnosis/1")},
+      {"Response", Versioned("response/1")},
+      {"MapAnswer", Versioned("map_answer/1")},
+      {"EvaluationAnswer", Versioned("evaluation_answer/1")},
       {"StoredPart",
        {{"allOf", {Ref("schemas", "Part"), {{"type", "object"}, {"required", {"id", "origin"}}}}}}},
       {"PartsPage", Object({{"parts", ListOf(Ref("schemas", "StoredPart"))},
@@ -241,6 +255,7 @@ Json Schemas() {
   schemas["Evaluation"] = Object({{"schema", {{"const", "evaluation/1"}}},
                                   {"requirements", Ref("schemas", "Requirements")},
                                   {"design", api::DescribeGivenDesign()}});
+  schemas["Evaluation"]["properties"]["note"] = Json::object();
   schemas["Evaluation"]["additionalProperties"] = false;
   schemas["NamedModel"] = Object(
       {{"name", {{"type", "string"}, {"maxLength", 200}}}, {"model", Ref("schemas", "Model")}});

@@ -1,7 +1,7 @@
 // Documents drawn from their own schema: each optional field is there or not, lists have none to
-// three items, numbers are those of an example, near them or anywhere in their range. Each ends in
-// an answer or in errors that name what is wrong, computations included (tests/fuzz/computations.h
-// aborts on anything else).
+// three items, numbers are those of an example, near them or anywhere in their range, some of them
+// as a text with a unit. Each ends in an answer or in errors that name what is wrong, computations
+// included (tests/fuzz/computations.h aborts on anything else).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,10 @@ class Draw {
 
   // A value of the schema, near `like` where that is not null.
   Json Value(const Json& schema, const Json& like) {
-    if (schema.contains("anyOf")) return Value(FormFor(schema["anyOf"], like), like);
+    if (schema.contains("anyOf")) {
+      const Json value = Value(FormFor(schema["anyOf"], like), like);
+      return value.is_number() && Chance(0.05) ? WithUnit(schema["anyOf"], value) : value;
+    }
     if (schema.contains("const")) return schema["const"];
     if (schema.contains("enum"))
       return like.is_null() || Chance(0.03) ? schema["enum"][Below(schema["enum"].size())] : like;
@@ -46,6 +49,13 @@ class Draw {
   }
 
  private:
+  // As a text in the unit of the field, where it may be one: its example is "1 kPa".
+  static Json WithUnit(const Json& forms, const Json& number) {
+    for (const Json& form : forms)
+      if (TypeOf(form) == "string" && form.contains("examples"))
+        return number.dump() + form["examples"][0].get<std::string>().substr(1);
+    return number;
+  }
   bool Chance(double share) { return std::uniform_real_distribution<>()(random_) < share; }
   std::size_t Below(std::size_t n) {
     return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_);

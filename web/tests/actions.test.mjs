@@ -21,6 +21,42 @@ const idOf = (page) => /designs\/([0-9a-f]+)/.exec(page.url())[1];
 const rows = (page) =>
   page.getByRole('region', { name: 'Ranked designs' }).locator('tbody tr:not(.spacer)');
 
+test('a number is typed with its unit, a volume by what the actuator is', async () => {
+  const { page, close } = await openPage(browser, service.base);
+  await page.getByText('These requirements can be searched.').waitFor();
+  await page.getByLabel('Operating pressure').fill('15 psi');
+  await page.getByText('read as 103 kPa gauge').waitFor();
+  await page.getByLabel('Rise time, at most').fill('500 ms');
+  await page.getByText('read as 0.5 s').waitFor();
+  await page.getByLabel('Pressure, at most').fill('120');
+  await page.getByLabel('Fall time, at most').fill('600');
+  await page.getByText('is 600 ms meant').waitFor();
+  await page.getByLabel('Fall time, at most').fill('0.6');
+  await page.getByLabel('Volume by').selectOption('muscle');
+  await page.getByRole('img', { name: /McKibben muscle/ }).waitFor();
+  await page.getByLabel('Length', { exact: true }).fill('6 in');
+  await page.getByText(/mL at rest, .* at the operating pressure: × 2/).waitFor();
+  await page.getByText('These requirements can be searched.').waitFor();
+  await page.getByRole('button', { name: 'Find the best designs' }).click();
+  await page.getByText('Proved: no other combination').waitFor();
+  await page.getByText('“15 psi” is 103 kPa gauge').waitFor();
+  const listed = await service.get(`/v1/designs/${page.url().split('/').at(-1)}`);
+  const [group] = listed.result.requirements.actuators;
+  assert.equal(group.operating_pressure_kpa_gauge, '15 psi');
+  assert.equal(group.muscle.length_mm, '6 in');
+  assert.equal(group.rest_volume_ml, undefined);
+  // One design is shown and tried in numbers; editing brings the texts back.
+  await rows(page).first().getByRole('link').click();
+  await page
+    .getByRole('slider', { name: 'Source pressure' })
+    .and(page.locator(':enabled'))
+    .waitFor();
+  await page.goBack();
+  await page.getByRole('button', { name: 'Edit requirements' }).click();
+  assert.equal(await page.getByLabel('Operating pressure').inputValue(), '15 psi');
+  await close();
+});
+
 test('requirements are posted and the list is browsed', async () => {
   const { page, close } = await openPage(browser, service.base);
   await page.getByText('These requirements can be searched.').waitFor();

@@ -22,8 +22,13 @@ test('a bad number is marked at its field while it is typed', async () => {
   await page.getByText('One thing has to change').waitFor();
   assert.equal(await field.getAttribute('aria-invalid'), 'true');
   assert.ok(await page.getByRole('button', { name: 'Find the best designs' }).isDisabled());
+  // What is no number may be one with a unit: the service says why it is not.
   await field.fill('many');
+  await page.getByText('or a text of a number and one of mL').first().waitFor();
+  assert.ok(await page.getByRole('button', { name: 'Find the best designs' }).isDisabled());
+  await page.getByLabel('Expansion').fill('many');
   await page.getByText('a number is needed here').waitFor();
+  await page.getByLabel('Expansion').fill('2');
   await field.fill('50');
   await page.getByText('These requirements can be searched.').waitFor();
   await close([422]);

@@ -13,6 +13,7 @@
 #include "api/json/units.h"
 #include "api/json/words.h"
 #include "api/measure/model_document.h"
+#include "api/simulate/group_chamber.h"
 #include "model/flow/series.h"
 #include "optimizer/problem/problem.h"
 
@@ -269,6 +270,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
                                         const std::vector<catalog::ModelRevision>& models) {
   Errors errors;
   DesignRequest parsed;
+  RemarkRecorder recorder;
   optimizer::Problem& problem = parsed.problem;
   Reader reader(request, "", errors);
   reader.Schema("requirements/1");
@@ -313,6 +315,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   if (!errors.empty()) return errors;
   problem.parts = ToModelParts(AllowedParts(parts, problem), problem.ambient);
   parsed.request = request;
+  parsed.remarks = recorder.Take();
   return parsed;
 }
 

@@ -9,6 +9,7 @@
 #include "api/design/explanation.h"
 #include "api/design/robustness.h"
 #include "api/json/json.h"
+#include "api/json/remarks.h"
 #include "catalog/fields/part.h"
 #include "catalog/store/model_revision.h"
 #include "optimizer/problem/amount.h"
@@ -26,6 +27,7 @@ struct DesignRequest {
   std::optional<ExplainRequest> explain;        // with one objective only
   std::optional<catalog::ModelRevision> model;  // that ranks instead of the nominal one
   Json request;  // as it was given; the answer echoes it, so that a saved answer can be checked
+  Remarks remarks;
 };
 // Parses and validates requirements against the catalogue: every error at once. `parts` have passed
 // catalog::Validate; `models` are the newest of each name that "model" may ask for.

@@ -129,6 +129,49 @@ TEST(Parts, APartOfAUsersOwnNeedsNeitherIdNorProvenance) {
             (catalog::Number{0.4, catalog::Provenance::kThirdParty, "user"}));
 }
 
+// C 1.1, b 0.28 and 276 L/min are printed for one valve.
+TEST(Parts, AConductanceMayBeGivenAsItIsPrinted) {
+  const char* const name = "sonic_conductance_fill_dm3_per_s_bar";
+  const auto read = [&](const Json& value) {
+    Json json = With(RenderPart(PartOf("valve")), "/critical_ratio_fill", 0.28);
+    json[name] = value;
+    json["provenance"][name]["source"] = "sheet 7";
+    return ParsePart(json);
+  };
+  for (const char* given :
+       {R"({ "qn_l_per_min": 276, "at": "6 to 5 bar" })", R"({ "qn_l_per_min": "4.6 L/s" })",
+        R"("Qn 276 L/min at 6 to 5 bar")", R"("Qn 253.807 Nl/min at 0 °C")"}) {
+    const auto parsed = read(Parse(given));
+    ASSERT_TRUE(std::holds_alternative<catalog::Part>(parsed)) << given;
+    const catalog::Number& number = std::get<catalog::Part>(parsed).numbers.at(name);
+    EXPECT_NEAR(number.value, 1.1, 0.005) << given;
+    EXPECT_EQ(number.provenance, catalog::Provenance::kDerived);
+    EXPECT_THAT(number.source, HasSubstr("L/min from 6 to 5 bar gauge, b 0.28; sheet 7"));
+  }
+  const auto error = [&](const char* wrong, const std::string& at) {
+    return DetailAt(ErrorsOf(read(Parse(wrong))), std::string("/") + name + at);
+  };
+  EXPECT_THAT(error(R"({ "qn_l_per_min": 1, "cv": 1 })", ""), HasSubstr("must hold one of"));
+  EXPECT_THAT(error(R"({})", ""), HasSubstr("must hold one of"));
+  EXPECT_THAT(error(R"({ "qn_l_per_min": 1, "at": "5 to 6 bar" })", "/at"),
+              HasSubstr("must be like \"6 to 5 bar\""));
+  EXPECT_THAT(error(R"({ "cv": 0.05, "at": "6 to 5 bar" })", "/at"), HasSubstr("unknown field"));
+  EXPECT_THAT(error(R"({ "kv": -1 })", "/kv"), HasSubstr("must be ≥ 1e-6"));
+  EXPECT_THAT(error(R"("Cv many")", ""), HasSubstr("is \"many\""));
+}
+
+TEST(Parts, NumbersMayCarryUnits) {
+  Json json = RenderPart(PartOf("battery"));
+  json["mass_kg"] = "400 g";
+  json["capacity_ah"] = "5000 mAh";
+  const auto parsed = ParsePart(json);
+  ASSERT_TRUE(std::holds_alternative<catalog::Part>(parsed));
+  EXPECT_EQ(std::get<catalog::Part>(parsed).numbers.at("mass_kg").value, 0.4);
+  EXPECT_EQ(std::get<catalog::Part>(parsed).numbers.at("capacity_ah").value, 5.0);
+  EXPECT_THAT(DetailAt(ErrorsOf(ParsePart(With(json, "/mass_kg", "0.4"))), "/mass_kg"),
+              HasSubstr("the unit is missing"));
+}
+
 TEST(Parts, WhatTheServerSetsIsIgnored) {
   const auto parsed = ParsePart(With(RenderPart(PartOf("valve")), "/origin", "seed"));
   EXPECT_EQ(std::get<catalog::Part>(parsed).origin, "user");

@@ -5,6 +5,7 @@ import { useEffect } from 'preact/hooks';
 import { ask, asProblem, events, get, post, type Problem } from './api';
 import type { Diagnosis } from './measurement';
 import type { Answer, Doing, Job, JobStatus, Progress, Requirements } from './types';
+import { inNumbers } from './understood';
 
 export interface Watched<Result = Answer, Report = Progress> {
   job: Job<Result, Report> | null;
@@ -37,7 +38,7 @@ async function follow(self: string): Promise<void> {
     try {
       for (;;) {
         const job = await get<Job<unknown, unknown>>(self);
-        put(self, { job, problem: null });
+        put(self, { job: withNumbers(job), problem: null });
         if (ended(job.status)) break;
         await untilNews(self);
       }
@@ -47,6 +48,17 @@ async function follow(self: string): Promise<void> {
     }
   } while (watched.peek()[self]!.problem?.status === 0 && location.hash.includes(id));
   following.delete(self);
+}
+
+// Designs are read with their requirements in numbers, whatever they were written in.
+function withNumbers(job: Job<unknown, unknown>): Job<unknown, unknown> {
+  const answer = job.result as Answer | undefined;
+  if (answer?.schema !== 'designs/1') return job;
+  const { requirements, understood = [] } = answer;
+  return {
+    ...job,
+    result: { ...answer, requirements: inNumbers(requirements, understood), asked: requirements },
+  };
 }
 
 // The event stream to its end; where there is none, a while.

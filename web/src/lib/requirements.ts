@@ -1,5 +1,5 @@
 // The requirements being written: one document, kept in the address, checked as it changes.
-import { batch, effect, signal } from '@preact/signals';
+import { batch, computed, effect, signal } from '@preact/signals';
 
 import crawler from '../../../examples/crawler.json';
 import exosuit from '../../../examples/exosuit.json';
@@ -7,6 +7,7 @@ import gripper from '../../../examples/gripper.json';
 import { asProblem, type FieldError, post } from './api';
 import { route, setQuery } from './route';
 import type { Requirements } from './types';
+import { inNumbers, isOf, type Remarked, type Understood } from './understood';
 import { ambientKpa } from './units';
 
 export const presets: Record<string, Requirements> = {
@@ -41,6 +42,10 @@ export const fieldErrors = signal<FieldError[]>([]);
 export type Validity = 'checking' | 'valid' | 'invalid' | 'unknown';
 export const validity = signal<Validity>('checking');
 export const whyUnknown = signal('');
+// Of the requirements as they were when they were last valid.
+export const understood = signal<Understood[]>([]);
+export const warnings = signal<{ pointer: string; detail: string }[]>([]);
+export const numbers = computed(() => inNumbers(requirements.value, understood.value));
 
 type Path = (string | number)[];
 
@@ -71,6 +76,13 @@ export function load(document: Requirements): void {
 export const errorAt = (pointer: string): string | undefined =>
   fieldErrors.value.find((error) => error.pointer === pointer)?.detail;
 
+// What was understood of the text at a pointer, as it is now.
+export const understoodAt = (pointer: string): Understood | undefined =>
+  understood.value.find((row) => row.pointer === pointer && isOf(requirements.value, row));
+
+export const warningAt = (pointer: string): string | undefined =>
+  warnings.value.find((warning) => warning.pointer === pointer)?.detail;
+
 let asked: AbortController | undefined;
 let timer = 0;
 
@@ -78,8 +90,10 @@ async function validate(document: Requirements): Promise<void> {
   asked?.abort();
   const mine = (asked = new AbortController());
   try {
-    await post('/v1/designs?validate_only=true', document, mine.signal);
+    const valid = await post<Remarked>('/v1/designs?validate_only=true', document, mine.signal);
     batch(() => {
+      understood.value = valid.understood ?? [];
+      warnings.value = valid.warnings ?? [];
       fieldErrors.value = [];
       validity.value = 'valid';
     });
@@ -99,7 +113,7 @@ async function validate(document: Requirements): Promise<void> {
 
 effect(() => {
   const document = requirements.value;
-  ambientKpa.value = document.ambient?.pressure_kpa_abs ?? 100;
+  ambientKpa.value = numbers.value.ambient?.pressure_kpa_abs ?? 100;
   validity.value = 'checking';
   clearTimeout(timer);
   timer = window.setTimeout(() => {

@@ -1,4 +1,5 @@
 // The service's documents, as far as the page reads them. Units are in the names.
+import type { Remarked } from './understood';
 
 export interface Group {
   name: string;
@@ -6,6 +7,10 @@ export interface Group {
   rest_volume_ml?: number;
   expansion_ratio?: number;
   pressure_volume?: { pressure_kpa_gauge: number; volume_ml: number }[];
+  cylinder?: Record<string, unknown>;
+  muscle?: Record<string, unknown>;
+  pouch?: Record<string, unknown>;
+  body?: Record<string, unknown>;
   operating_pressure_kpa_gauge: number;
   tube_length_m: number;
   fittings_per_line?: number;
@@ -130,7 +135,7 @@ export interface Effect {
   parameters: Record<string, number | string>;
 }
 
-export interface Answer {
+export interface Answer extends Remarked {
   schema: 'designs/1';
   name?: string;
   status: 'optimal' | 'feasible' | 'infeasible' | 'cancelled';
@@ -172,7 +177,8 @@ export interface Answer {
       why: { requirement: string; required: number; achieved: number } | string | null;
     }[];
   };
-  requirements: Requirements;
+  requirements: Requirements; // in numbers
+  asked?: Requirements; // as they were written
   catalogue_revision?: { number: number; hash: string };
 }
 

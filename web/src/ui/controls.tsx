@@ -102,13 +102,22 @@ export function Check(props: {
   );
 }
 
-const asText = (kind: Kind, value: number | null | undefined): string =>
-  value === null || value === undefined ? '' : String(Number(toShown(kind, value).toPrecision(7)));
+type Entry = number | string | null | undefined;
+
+const asText = (kind: Kind, value: Entry): string =>
+  typeof value === 'string'
+    ? value
+    : value === null || value === undefined
+      ? ''
+      : String(Number(toShown(kind, value).toPrecision(7)));
 
 export interface NumberFieldProps {
   label: string;
-  value: number | null | undefined;
+  value: Entry;
   onChange: (value: number | null) => void;
+  onText?: (text: string) => void; // takes a number with its unit, too, which the service reads
+  read?: string; // what it read
+  warning?: string;
   kind?: Kind;
   unit?: string;
   range?: [number, number];
@@ -127,7 +136,7 @@ export function NumberField(props: NumberFieldProps) {
   const unit = unitOf(kind, props.unit);
   const text = useSignal(asText(kind, props.value));
   const broken = useSignal(false);
-  const sent = useRef<number | null | undefined>(props.value);
+  const sent = useRef<Entry>(props.value);
   const shownUnit = useRef(unit);
 
   useLayoutEffect(() => {
@@ -148,8 +157,13 @@ export function NumberField(props: NumberFieldProps) {
       return;
     }
     const number = Number(trimmed);
-    broken.value = !Number.isFinite(number);
+    broken.value = !Number.isFinite(number) && !props.onText;
     if (broken.value) return;
+    if (!Number.isFinite(number)) {
+      sent.current = input.trim();
+      props.onText!(sent.current);
+      return;
+    }
     sent.current = fromShown(kind, number);
     props.onChange(sent.current);
   };
@@ -157,8 +171,11 @@ export function NumberField(props: NumberFieldProps) {
   const range = props.range
     ? `${short(toShown(kind, props.range[0]), 3)} … ${short(toShown(kind, props.range[1]), 3)}`
     : '';
-  const error = broken.value ? 'a number is needed here' : props.error && inUnit(kind, props.error);
-  const hint = [props.hint, range].filter(Boolean).join(' · ');
+  // What is said of a text speaks of its own unit already.
+  const said =
+    typeof props.value === 'string' ? props.error : props.error && inUnit(kind, props.error);
+  const error = broken.value ? 'a number is needed here' : said;
+  const hint = props.read ?? props.warning ?? [props.hint, range].filter(Boolean).join(' · ');
   return (
     <div class={`field ${error ? 'wrong' : ''}`}>
       <label for={id}>{props.label}</label>

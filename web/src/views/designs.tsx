@@ -16,6 +16,7 @@ import { ComparePanel } from './compare';
 import { DesignPage } from './design';
 import { ProgressPanel } from './progress';
 import { AgainstNominal, Ranked } from './ranked';
+import { Remarks } from './remarks';
 import { Why } from './why';
 
 function useNewestJob(id: string | undefined) {
@@ -93,6 +94,7 @@ export function DesignsView() {
           <Ranked answer={answer} id={id} key={id} />
         </>
       )}
+      <Remarks of={answer} />
       {answer.designs.length === 0 && answer.against_nominal && (
         <Panel title="What the model changes">
           <AgainstNominal answer={answer} />
@@ -104,7 +106,7 @@ export function DesignsView() {
 
 function Headline({ answer, id }: { answer: Answer; id: string }) {
   const word = statusWord[answer.status];
-  const again = async () => go(['designs', await start(answer.requirements)]);
+  const again = async () => go(['designs', await start(answer.asked ?? answer.requirements)]);
   const measured = answer.best_on_measured_flow;
   return (
     <div class="headline">
@@ -118,7 +120,7 @@ function Headline({ answer, id }: { answer: Answer; id: string }) {
           <button
             type="button"
             onClick={() => {
-              load(answer.requirements);
+              load(answer.asked ?? answer.requirements);
               go(['requirements']);
             }}
           >
@@ -165,7 +167,7 @@ function askFor(answer: Answer, pointer: string, best: number): void {
   const size = 10 ** (Math.floor(Math.log10(Math.abs(best))) - 3);
   const isLeast = pointer.startsWith('/duty/');
   const easy = (isLeast ? Math.floor(best / size) : Math.ceil(best / size)) * size;
-  load(answer.requirements);
+  load(answer.asked ?? answer.requirements);
   const path = pointer.slice(1).split('/');
   edit(
     path.map((step) => (/^\d+$/.test(step) ? Number(step) : step)),

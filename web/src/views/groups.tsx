@@ -3,6 +3,7 @@ import { edit, errorAt, requirements } from '../lib/requirements';
 import type { Group } from '../lib/types';
 import { TextField } from '../ui/controls';
 import { RequirementField } from './requirement_field';
+import { VolumeFields } from './volume_fields';
 
 const blank = (n: number): Group => ({
   name: `group ${n}`,
@@ -49,44 +50,7 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
           onChange={(v) => edit(['actuators', index, 'name'], v)}
         />
         <RequirementField label="Actuators" path={path('count')} range={[1, 64]} />
-        {group.pressure_volume ? (
-          <div class="field">
-            <span class="label">Volume law</span>
-            <span class="hint">
-              measured, {group.pressure_volume.length} points{' '}
-              <button
-                type="button"
-                class="quiet small"
-                onClick={() =>
-                  edit(['actuators', index], {
-                    ...group,
-                    pressure_volume: undefined,
-                    rest_volume_ml: group.pressure_volume![0]!.volume_ml,
-                    expansion_ratio: 1,
-                  })
-                }
-              >
-                use a ratio
-              </button>
-            </span>
-          </div>
-        ) : (
-          <>
-            <RequirementField
-              label="Volume at rest"
-              kind="volume_ml"
-              path={path('rest_volume_ml')}
-              range={[0.01, 1e6]}
-            />
-            <RequirementField
-              label="Expansion"
-              unit="× at operating"
-              path={path('expansion_ratio')}
-              range={[1, 50]}
-              hint="1 is rigid"
-            />
-          </>
-        )}
+        <VolumeFields group={group} index={index} />
         <RequirementField
           label="Operating pressure"
           kind="pressure"

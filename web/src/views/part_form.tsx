@@ -6,10 +6,14 @@ import { ask, asProblem, type FieldError } from '../lib/api';
 import { partPath, provenanceWord } from '../lib/catalogue';
 import { fieldKind, fieldName } from '../lib/format';
 import type { CurvePoint, Family, Part, Provenance } from '../lib/types';
+import { namesUnit } from '../lib/understood';
 import { Dialog, Notice, NumberField, Select, TextField } from '../ui/controls';
 import { documentsText, offersText, readAliases, readDocuments, readOffers } from './part_details';
 
 type Draft = Record<string, unknown>;
+
+// What a conductance may be given as, too.
+const printed = 'or as printed: Qn 100 L/min at 6 to 5 bar, Cv 0.05, Kv 0.04, orifice 1.2 mm';
 
 // Fields of several lines: what is wrong with them is said above the form.
 const inLines = ['/curve', '/aliases', '/offers', '/documents', '/orderable'];
@@ -94,7 +98,7 @@ export function PartForm(props: {
       provenance[field] =
         part && now[field] === part[field] && part.provenance[field]
           ? part.provenance[field]!
-          : typeof now[field] === 'number'
+          : meta.numbers.some((f) => f.name === field)
             ? measured
             : mine;
     if (points && points.length > 0) {
@@ -209,8 +213,10 @@ export function PartForm(props: {
                 label={`${label}${field.required ? '' : ' (optional)'}`}
                 unit={unit}
                 kind={fieldKind(field.name)}
-                value={now[field.name] as number | undefined}
+                value={now[field.name] as number | string | undefined}
                 range={[field.min, field.max]}
+                {...(field.name.startsWith('sonic_conductance') && { hint: printed })}
+                {...(namesUnit(field.name) && { onText: (v: string) => set(field.name, v) })}
                 error={errorAt(field.name)}
                 pointer={`/${field.name}`}
                 onChange={(v) => set(field.name, v)}

@@ -1,21 +1,34 @@
-// A number of the requirements, by its path in the document.
-import { edit, errorAt, requirements, valueAt } from '../lib/requirements';
+// A number of the requirements, by its path in the document. Where its name ends in a unit, a text
+// with another unit may stand in its place; the service reads it, and the field says what it read.
+import { short } from '../lib/format';
+import { edit, errorAt, requirements, understoodAt, valueAt, warningAt } from '../lib/requirements';
+import { namesUnit } from '../lib/understood';
+import { toShown, unitOf } from '../lib/units';
 import { NumberField, type NumberFieldProps } from '../ui/controls';
 
 export function RequirementField(
-  props: Omit<NumberFieldProps, 'value' | 'onChange' | 'error' | 'pointer'> & {
+  props: Omit<NumberFieldProps, 'value' | 'onChange' | 'onText' | 'error' | 'pointer'> & {
     path: (string | number)[];
     usual?: number; // where the document does not say
   },
 ) {
   const { path, usual, ...rest } = props;
   const pointer = `/${path.join('/')}`;
+  const kind = props.kind ?? 'plain';
+  const row = understoodAt(pointer);
+  const read =
+    row &&
+    `read as ${short(toShown(kind, row.value))} ${unitOf(kind, row.unit)}${row.condition ? ` at ${row.condition}` : ''}`;
+  const warning = warningAt(pointer);
   return (
     <NumberField
       {...rest}
-      value={(valueAt(requirements.value, path) as number | null | undefined) ?? usual}
+      value={(valueAt(requirements.value, path) as number | string | null | undefined) ?? usual}
       pointer={pointer}
       error={errorAt(pointer)}
+      {...(namesUnit(String(path.at(-1))) && { onText: (text: string) => edit(path, text) })}
+      {...(read !== undefined && { read })}
+      {...(warning !== undefined && { warning })}
       onChange={(value) => edit(path, value ?? (props.optional ? undefined : null))}
     />
   );

@@ -2,16 +2,18 @@
 import { useSignal } from '@preact/signals';
 
 import { placeInWords } from '../lib/amounts';
-import { asProblem, type Problem } from '../lib/api';
+import { asProblem, type FieldError, type Problem } from '../lib/api';
 import { fieldKind, inUnit } from '../lib/format';
 import { previousJob, start } from '../lib/jobs';
 import {
   edit,
   fieldErrors,
   load,
+  numbers,
   presets,
   requirements,
   validity,
+  valueAt,
   whyUnknown,
 } from '../lib/requirements';
 import { go } from '../lib/route';
@@ -118,7 +120,7 @@ export function RequirementsView() {
       </div>
       <div class="column side">
         <Panel title="The system">
-          <Drawing requirements={document} />
+          <Drawing requirements={numbers.value} />
         </Panel>
         <div class="panel go">
           <Verdict />
@@ -170,12 +172,20 @@ function Verdict() {
             <button type="button" class="quiet small" onClick={() => focusOn(error.pointer)}>
               {placeInWords(error.pointer, requirements.value.actuators)}
             </button>{' '}
-            {inUnit(fieldKind(error.pointer.replace(/_max$/, '')), error.detail)}
+            {detailInWords(error)}
           </li>
         ))}
       </ul>
     </div>
   );
+}
+
+// What is said of a text speaks of its own unit already.
+function detailInWords({ pointer, detail }: FieldError): string {
+  const value = valueAt(requirements.value, pointer.split('/').slice(1));
+  return typeof value === 'string'
+    ? detail
+    : inUnit(fieldKind(pointer.replace(/_max$/, '')), detail);
 }
 
 const focusOn = (pointer: string): void =>

@@ -144,7 +144,7 @@ TEST(Requirements, NamesEveryFieldOutOfRange) {
       {"/actuators/0/rest_volume_ml", "\"50\"", "number"},
       {"/actuators/0/rest_volume_ml", "null", "number"},
       {"/actuators/0/rest_volume_ml", "1e300", "≤ 1e6"},
-      {"/actuators/0/expansion_ratio", "0.5", "≥ 1 and ≤ 50"},
+      {"/actuators/0/expansion_ratio", "0.5", "≥ 1 and ≤ 1000"},
       {"/actuators/0/tube_length_m", "0", "≥ 0.01 and ≤ 100"},
       {"/actuators/0/fittings_per_line", "6", "≤ 5"},
       {"/actuators/0/rise_time_s_max", "0", "> 0"},

@@ -1,0 +1,79 @@
+#include "api/simulate/group_chamber.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "api/json/shared_fields.h"
+#include "api/json/units.h"
+#include "api/json/words.h"
+#include "api/simulate/shape_reader.h"
+
+namespace plenum::api {
+namespace {
+
+const Range kRestVolumeMl{0.01, 1e6};
+constexpr double kTableAgreement = 0.05;
+
+// What else says the volume cannot stand beside `kind`.
+void Refuse(Reader& group, std::string_view kind, std::initializer_list<std::string_view> others) {
+  for (const std::string_view other : others)
+    if (group.Has(other))
+      group.Fail(other,
+                 "give either " + std::string(other) + " or " + std::string(kind) + ", not both");
+}
+
+void ReadTableOf(Reader& group, const model::Ambient& ambient, double operating_kpa,
+                 model::Chamber& chamber) {
+  const auto stated = group.OptionalNumber("rest_volume_ml", kRestVolumeMl);
+  const double lowest = -ambient.pressure_pa / kPaPerKpa;
+  const Table table = ReadTable(group, "pressure_volume", 2, "pressure_kpa_gauge",
+                                Above(lowest, kGaugeMaxKpa), "volume_ml", kRestVolumeMl, +1);
+  // Reported where they are read.
+  if (!table.valid || std::isnan(chamber.operating_pressure_pa)) return;
+  if (table.x.front() > 0 || table.x.back() < operating_kpa) {
+    group.Fail("pressure_volume", "must reach from 0 to the operating pressure of " +
+                                      Decimal(operating_kpa) + " kPa gauge, not from " +
+                                      Decimal(table.x.front()) + " to " + Decimal(table.x.back()));
+    return;
+  }
+  std::vector<double> pressure_pa, volume_m3;
+  for (const double kpa : table.x) pressure_pa.push_back(PaFromKpaGauge(kpa, ambient));
+  for (const double ml : table.y) volume_m3.push_back(M3FromMl(ml));
+  chamber.volume_curve = model::MonotoneCurve(std::move(pressure_pa), std::move(volume_m3));
+  chamber.rest_volume_m3 = chamber.volume_curve(ambient.pressure_pa);
+  chamber.expansion_ratio =
+      chamber.volume_curve(chamber.operating_pressure_pa) / chamber.rest_volume_m3;
+  const double rest_ml = MlFromM3(chamber.rest_volume_m3);
+  if (stated && std::abs(*stated - rest_ml) > kTableAgreement * rest_ml)
+    group.Fail("rest_volume_ml", "is " + Decimal(*stated) + ", but pressure_volume gives " +
+                                     Decimal(rest_ml) + " at ambient pressure");
+}
+
+}  // namespace
+
+model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient) {
+  model::Chamber chamber;
+  chamber.ambient_pressure_pa = ambient.pressure_pa;
+  const double operating = group.Number("operating_pressure_kpa_gauge", {1, kOperatingGaugeMaxKpa});
+  chamber.operating_pressure_pa = PaFromKpaGauge(operating, ambient);
+
+  if (HasShape(group)) {
+    Refuse(group, "the shape of the actuator",
+           {"rest_volume_ml", "expansion_ratio", "pressure_volume"});
+    if (const auto volumes = ReadShape(group)) {
+      chamber.rest_volume_m3 = volumes->rest_m3;
+      chamber.expansion_ratio = volumes->operating_m3 / volumes->rest_m3;
+    }
+  } else if (group.Has("pressure_volume")) {
+    Refuse(group, "pressure_volume", {"expansion_ratio"});
+    ReadTableOf(group, ambient, operating, chamber);
+  } else {
+    chamber.rest_volume_m3 = M3FromMl(group.Number("rest_volume_ml", kRestVolumeMl));
+    chamber.expansion_ratio = group.Number("expansion_ratio", {1, kExpansionMax});
+  }
+  return chamber;
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,21 @@
+// The actuator of a group: its volumes, as numbers, as a table or by what it is.
+#ifndef PLENUM_API_SIMULATE_GROUP_CHAMBER_H_
+#define PLENUM_API_SIMULATE_GROUP_CHAMBER_H_
+
+#include "api/json/reader.h"
+#include "model/physics/air.h"
+#include "model/physics/chamber.h"
+
+namespace plenum::api {
+
+// "operating_pressure_kpa_gauge" and one of
+// - "rest_volume_ml" and "expansion_ratio",
+// - "pressure_volume", a table; the rest volume is that of the table at ambient pressure, and a
+//   stated one must agree with it within 5 %,
+// - "cylinder", "muscle", "pouch" or "body" (shape_reader.h); the volumes and their formula go to
+//   the RemarkRecorder of the thread.
+model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient);
+
+}  // namespace plenum::api
+
+#endif  // PLENUM_API_SIMULATE_GROUP_CHAMBER_H_

@@ -1,0 +1,50 @@
+#include "server/render/text_remarks.h"
+
+#include <fmt/format.h>
+
+#include "server/render/text_table.h"
+
+namespace plenum::server {
+namespace {
+
+using api::Json;
+
+// A part of an answer that may be missing.
+const Json& ListOf(const Json& answer, const char* name) {
+  static const Json kNone = Json::array();
+  const auto found = answer.find(name);
+  return found == answer.end() ? kNone : *found;
+}
+
+std::string TextOf(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::string UnderstoodText(const Json& row) {
+  const std::string pointer = row.at("pointer").get<std::string>();
+  const std::string unit = row.at("unit").get<std::string>();
+  const std::string value = Short(row.at("value")) + (unit.empty() ? "" : " ") + unit;
+  if (row.contains("formula"))
+    return fmt::format("  {} {} = {}: {}\n", pointer, TextOf(row.at("name")), value,
+                       TextOf(row.at("formula")));
+  return fmt::format("  {} \"{}\" = {}{}\n", pointer, TextOf(row.at("given")), value,
+                     row.contains("condition") ? ", at " + TextOf(row.at("condition")) : "");
+}
+
+}  // namespace
+
+std::string RemarksText(const Json& answer) {
+  std::string text;
+  for (const Json& warning : ListOf(answer, "warnings"))
+    if (warning.is_object())
+      text += fmt::format("Warning: {} {}\n", TextOf(warning.at("pointer")),
+                          TextOf(warning.at("detail")));
+  const Json& understood = ListOf(answer, "understood");
+  if (!understood.empty()) text += "Understood:\n";
+  for (const Json& row : understood) text += UnderstoodText(row);
+  for (const Json& note : ListOf(answer, "notes"))
+    text += fmt::format("Note {}: {}\n", TextOf(note.at("pointer")), TextOf(note.at("note")));
+  return text.empty() ? "" : "\n" + text;
+}
+
+}  // namespace plenum::server

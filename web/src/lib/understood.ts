@@ -1,0 +1,62 @@
+// What the service understood of a document: texts with units, actuators by their shape.
+import type { Group, Requirements } from './types';
+
+export interface Understood {
+  pointer: string;
+  given: unknown;
+  value: number;
+  unit: string;
+  condition?: string; // of a standard volume
+  name?: string; // of a shape: which number of the group it came to
+  formula?: string;
+}
+
+export interface Remarked {
+  understood?: Understood[];
+  warnings?: { pointer: string; detail: string }[];
+  notes?: { pointer: string; note: unknown }[];
+}
+
+export const shapes = ['cylinder', 'muscle', 'pouch', 'body'] as const;
+export type Shape = (typeof shapes)[number];
+
+const stepsOf = (pointer: string): string[] => pointer.split('/').slice(1);
+const valueIn = (document: unknown, steps: string[]): unknown =>
+  steps.reduce<unknown>(
+    (at, step) => (at as Record<string, unknown> | undefined)?.[step],
+    document,
+  );
+
+// Whether it was understood of this document, and not of how it was before.
+export const isOf = (document: unknown, row: Understood): boolean =>
+  JSON.stringify(valueIn(document, stepsOf(row.pointer))) === JSON.stringify(row.given);
+
+// The same requirements in numbers alone, for what computes or draws with them. A text or a shape
+// that is not understood (yet) is left out.
+export function inNumbers(document: Requirements, understood: Understood[]): Requirements {
+  const numbers = structuredClone(document);
+  for (const row of understood) {
+    if (!isOf(document, row)) continue;
+    const steps = stepsOf(row.pointer);
+    const owner = valueIn(numbers, steps.slice(0, -1)) as Record<string, unknown>;
+    const name = row.name ?? steps.at(-1)!;
+    if (name !== 'operating_volume_ml') owner[name] = row.value;
+  }
+  for (const group of numbers.actuators) for (const shape of shapes) delete group[shape];
+  leaveOutTexts(numbers as unknown as Record<string, unknown>);
+  return numbers;
+}
+
+export const namesUnit = (name: string): boolean =>
+  /_(kpa_gauge|kpa_abs|kpa|ml|l|mm|m|s|ms|hz|kg|k|eur|wh|deg|anr|l_per_min|dm3_per_s_bar|ah|v|a|w)(_max|_min)?$/.test(
+    name,
+  );
+
+function leaveOutTexts(object: Record<string, unknown>): void {
+  for (const [name, value] of Object.entries(object)) {
+    if (typeof value === 'string' && namesUnit(name)) delete object[name];
+    else if (value && typeof value === 'object') leaveOutTexts(value as Record<string, unknown>);
+  }
+}
+
+export const shapeOf = (group: Group): Shape | undefined => shapes.find((shape) => group[shape]);
