@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "server/render/text_table.h"
-
 namespace plenum::server {
 namespace {
 
@@ -20,10 +18,16 @@ std::string TextOf(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+std::string PlaceOf(const Json& remark) {
+  const std::string pointer = remark.at("pointer").get<std::string>();
+  return pointer.empty() ? "on the whole" : pointer;
+}
+
 std::string UnderstoodText(const Json& row) {
-  const std::string pointer = row.at("pointer").get<std::string>();
+  const std::string pointer = PlaceOf(row);
   const std::string unit = row.at("unit").get<std::string>();
-  const std::string value = Short(row.at("value")) + (unit.empty() ? "" : " ") + unit;
+  const std::string value =
+      fmt::format("{:.6g}{}{}", row.at("value").get<double>(), unit.empty() ? "" : " ", unit);
   if (row.contains("formula"))
     return fmt::format("  {} {} = {}: {}\n", pointer, TextOf(row.at("name")), value,
                        TextOf(row.at("formula")));
@@ -37,13 +41,12 @@ std::string RemarksText(const Json& answer) {
   std::string text;
   for (const Json& warning : ListOf(answer, "warnings"))
     if (warning.is_object())
-      text += fmt::format("Warning: {} {}\n", TextOf(warning.at("pointer")),
-                          TextOf(warning.at("detail")));
+      text += fmt::format("Warning: {} {}\n", PlaceOf(warning), TextOf(warning.at("detail")));
   const Json& understood = ListOf(answer, "understood");
   if (!understood.empty()) text += "Understood:\n";
   for (const Json& row : understood) text += UnderstoodText(row);
   for (const Json& note : ListOf(answer, "notes"))
-    text += fmt::format("Note {}: {}\n", TextOf(note.at("pointer")), TextOf(note.at("note")));
+    text += fmt::format("Note {}: {}\n", PlaceOf(note), TextOf(note.at("note")));
   return text.empty() ? "" : "\n" + text;
 }
 

@@ -53,7 +53,7 @@ TEST(ActuatorShapes, MuscleDoesTheWorkOfItsPublishedForce) {
 
 TEST(ActuatorShapes, MuscleIsLargestAtTheMagicAngle) {
   const double angle = Radians(20.0), greatest = GreatestContraction(angle);
-  EXPECT_NEAR(greatest, 0.38558, 1e-5);  // 1 − cos 54.7356°/cos 20°
+  EXPECT_NEAR(greatest, 0.385597, 1e-6);  // 1 − cos 54.7356°/cos 20°
   const double most = MuscleVolumes(1, 1, angle, greatest).operating_m3;
   EXPECT_GT(most, MuscleVolumes(1, 1, angle, greatest - 0.01).operating_m3);
   EXPECT_GT(most, MuscleVolumes(1, 1, angle, greatest + 0.01).operating_m3);

@@ -112,8 +112,11 @@ async function validate(document: Requirements): Promise<void> {
 }
 
 effect(() => {
-  const document = requirements.value;
   ambientKpa.value = numbers.value.ambient?.pressure_kpa_abs ?? 100;
+});
+
+effect(() => {
+  const document = requirements.value;
   validity.value = 'checking';
   clearTimeout(timer);
   timer = window.setTimeout(() => {
