@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <map>
 
 #include "api/describe/descriptions.h"
+#include "api/design/answer.h"
 #include "api/design/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/json/words.h"
@@ -172,6 +175,28 @@ TEST(Quantities, AreNotReadInsideSampleArrays) {
   measurement["runs"][0]["pressure_kpa_gauge"][3] = "86.2 kPa";
   EXPECT_THAT(DetailAt(ErrorsOf(ParseMeasurement(measurement)), "/runs/0/pressure_kpa_gauge/3"),
               HasSubstr("must be a number or null, not the text"));
+}
+
+// 6 in by 3/8 in hold 10.859 mL; the ratio at a contraction of 0.2 from 25° by the length of its
+// threads, as physics/actuator_shapes_test.cc has it.
+TEST(Quantities, TheGloveInPsiAndInchesFindsADesign) {
+  const auto parts =
+      catalog::Store(test::SourceDir() / "catalog.db", catalog::Access::kRead).List();
+  std::ifstream file(test::SourceDir() / "examples/mckibben_glove.json");
+  Json document = Parse(std::string(std::istreambuf_iterator<char>(file), {}));
+  document["ranking"] = {{"count", 1}, {"time_limit_s", 200}};
+  const auto parsed = ParseRequirements(document, parts);
+  ASSERT_TRUE(ErrorsOf(parsed).empty());
+  const auto& request = std::get<DesignRequest>(parsed);
+  const auto& group = request.problem.groups[0];
+  EXPECT_NEAR(group.chamber.rest_volume_m3, 10.8593e-6, 1e-9);
+  EXPECT_NEAR(group.chamber.operating_pressure_pa - group.chamber.ambient_pressure_pa, 206'843, 1);
+  EXPECT_NEAR(group.chamber.expansion_ratio, 2.12449, 1e-5);
+  const Json answer = AnswerRequest(request, {}, parts);
+  EXPECT_EQ(answer["status"], "optimal");
+  EXPECT_EQ(answer["designs"].size(), 1u);
+  EXPECT_GE(answer["understood"].size(), 13u);
+  EXPECT_EQ(answer["requirements"], document);
 }
 
 TEST(Notes, StandInEveryObjectAndComeBackUnchanged) {

@@ -25,10 +25,10 @@ test('a number is typed with its unit, a volume by what the actuator is', async 
   const { page, close } = await openPage(browser, service.base);
   await page.getByText('These requirements can be searched.').waitFor();
   await page.getByLabel('Operating pressure').fill('15 psi');
-  await page.getByText('read as 103 kPa gauge').waitFor();
+  await page.getByText('read as 103.421 kPa gauge').waitFor();
   await page.getByLabel('Rise time, at most').fill('500 ms');
   await page.getByText('read as 0.5 s').waitFor();
-  await page.getByLabel('Pressure, at most').fill('120');
+  await page.getByLabel('Pressure, at most', { exact: true }).fill('120');
   await page.getByLabel('Fall time, at most').fill('600');
   await page.getByText('is 600 ms meant').waitFor();
   await page.getByLabel('Fall time, at most').fill('0.6');
@@ -39,7 +39,7 @@ test('a number is typed with its unit, a volume by what the actuator is', async 
   await page.getByText('These requirements can be searched.').waitFor();
   await page.getByRole('button', { name: 'Find the best designs' }).click();
   await page.getByText('Proved: no other combination').waitFor();
-  await page.getByText('“15 psi” is 103 kPa gauge').waitFor();
+  await page.getByText('“15 psi” is 103.421 kPa gauge').waitFor();
   const listed = await service.get(`/v1/designs/${page.url().split('/').at(-1)}`);
   const [group] = listed.result.requirements.actuators;
   assert.equal(group.operating_pressure_kpa_gauge, '15 psi');
