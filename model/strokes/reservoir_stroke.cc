@@ -121,15 +121,17 @@ bool FillTogether(const ReservoirStrokeInput& in, State& y, double from, double 
 // draw only falls. With p = p_s·(1 − u²) the integrand is smooth up to equal pressures.
 bool FillFromFull(const ReservoirStrokeInput& in, State& y, double from, double to) {
   if (to > in.stop_pa) return false;
+  constexpr double kLast = 1e-4;  // u from which on the integrand is that of equal pressures
   const double content_per_volume =
       kReferencePressurePa * in.temperature_k / kReferenceTemperatureK;
-  y[0] += Integral(
-      [&](double u) {
-        const double ratio = 1.0 - u * u;
-        return 2.0 * u * ContentSlope(*in.chamber, ratio * in.stop_pa) /
-               (content_per_volume * (*in.fill)(ratio));
-      },
-      std::sqrt(1.0 - to / in.stop_pa), std::sqrt(1.0 - from / in.stop_pa));
+  const auto seconds_per_u = [&](double u) {
+    const double ratio = 1.0 - u * u;
+    return 2.0 * u * ContentSlope(*in.chamber, ratio * in.stop_pa) /
+           (content_per_volume * (*in.fill)(ratio));
+  };
+  const double begin = std::sqrt(1.0 - from / in.stop_pa), end = std::sqrt(1.0 - to / in.stop_pa);
+  if (begin > kLast) y[0] += Integral(seconds_per_u, std::max(end, kLast), begin);
+  if (end < kLast) y[0] += (std::min(begin, kLast) - end) * seconds_per_u(kLast);
   const double air_m3 =
       in.count * (Content(*in.chamber, to) - Content(*in.chamber, from)) / content_per_volume;
   const double on_s = air_m3 / (in.compressors * Delivery(*in.compressor, in.stop_pa));
@@ -153,35 +155,66 @@ bool FillTogetherUntilFull(const ReservoirStrokeInput& in, State& y, double from
   return FillFromFull(in, y, low, to);
 }
 
-// Advances y from chamber pressure p to `end`; false if that is never reached.
-bool Advance(const ReservoirStrokeInput& in, State& y, double p, double end) {
+// Fills to `end` in one piece by `fill`, or up to the pressure that is reached when time is up.
+// False if neither happens.
+template <class Fill>
+bool FillUntil(const Fill& fill, State& y, double& p, double end, double until_s) {
+  constexpr double kPressureTolerance = 1e-11;
+  const State before = y;
+  if (fill(y, p, end) && y[0] <= until_s) {
+    p = end;
+    return true;
+  }
+  if (std::isinf(until_s)) return false;
+  double low = p, high = end;
+  while (high - low > kPressureTolerance * end) {
+    const double middle = 0.5 * (low + high);
+    y = before;
+    (fill(y, p, middle) && y[0] <= until_s ? low : high) = middle;
+  }
+  y = before;
+  if (low > p && !fill(y, p, low)) return false;
+  p = low;
+  y[0] = until_s;
+  return true;
+}
+
+// Advances y from chamber pressure p to `end`, or until `until_s`; false if neither comes.
+bool Advance(const ReservoirStrokeInput& in, State& y, double& p, double end,
+             double until_s = std::numeric_limits<double>::infinity()) {
   using boost::numeric::odeint::runge_kutta_dopri5;
   const Stroke stroke(in);
   auto stepper = boost::numeric::odeint::make_controlled<runge_kutta_dopri5<State>>(1e-9, 1e-8);
   const double span = end - p;
   double step = span / 8.0;
-  while (end - p > 1e-12 * end) {
-    if (y[1] >= in.stop_pa && stroke.Covered(p)) return FillFromFull(in, y, p, end);
-    if (Together(in, y[1], p) || step < 1e-9 * span) return FillTogetherUntilFull(in, y, p, end);
+  const auto from_full = [&](State& at, double from, double to) {
+    return FillFromFull(in, at, from, to);
+  };
+  const auto together = [&](State& at, double from, double to) {
+    return FillTogetherUntilFull(in, at, from, to);
+  };
+  while (end - p > 1e-12 * end && y[0] < until_s) {
+    if (y[1] >= in.stop_pa && stroke.Covered(p)) return FillUntil(from_full, y, p, end, until_s);
+    if (Together(in, y[1], p) || step < 1e-9 * span) return FillUntil(together, y, p, end, until_s);
     step = std::min(step, end - p);
     const State before = y;
     const double before_p = p;
     if (stepper.try_step(std::cref(stroke), y, p, step) != boost::numeric::odeint::success ||
-        y[1] <= in.stop_pa)
+        (y[1] <= in.stop_pa && y[0] <= until_s))
       continue;
-    // The reservoir became full within the step: cut it there.
-    const auto excess = [&](double width) {
+    // The reservoir became full within the step, or time is up: cut it there.
+    const auto over = [&](double width) {
       runge_kutta_dopri5<State>().do_step(std::cref(stroke), before, before_p, y, width);
-      return y[1] - in.stop_pa;
+      return y[1] > in.stop_pa || y[0] > until_s;
     };
     double low = 0.0, high = p - before_p;
     while (high - low > 1e-12 * span) {
       const double middle = 0.5 * (low + high);
-      (excess(middle) > 0.0 ? high : low) = middle;
+      (over(middle) ? high : low) = middle;
     }
-    excess(high);
+    over(high);
     p = before_p + high;
-    y[1] = in.stop_pa;
+    if (y[1] > in.stop_pa) y[1] = in.stop_pa;
     stepper.reset();
   }
   return std::isfinite(y[0]);
@@ -193,10 +226,13 @@ ReservoirStroke FillFromReservoir(const ReservoirStrokeInput& input) {
   ReservoirStroke result;
   if (!(input.volume_falling_m3 > 0.0 && input.volume_rising_m3 > 0.0)) return result;
   State y{0.0, input.stop_pa, 0.0, 0.0, 0.0};
-  if (!Advance(input, y, input.from_pa, input.target_pa)) return result;
+  double p = input.from_pa;
+  if (!Advance(input, y, p, input.target_pa)) return result;
   result.rise_s = y[0];
-  if (!Advance(input, y, input.target_pa, input.operating_pa)) return result;
+  if (!Advance(input, y, p, input.operating_pa)) return result;
   result.inflate_s = y[0];
+  if (y[0] < input.open_s && !Advance(input, y, p, input.stop_pa, input.open_s)) return result;
+  result.chamber_end_pa = p;
   result.reservoir_end_pa = y[1];
   result.pump_on_s = y[2];
   result.pump_energy_j = y[3];

@@ -9,6 +9,10 @@
 // fallen to the chamber's pressure both fill as one volume. Pressures order themselves: a higher
 // start, a stronger pump or, as long as the reservoir falls, a larger reservoir gives a higher p(t)
 // at every t.
+//
+// A valve that cannot hold stays open after the operating pressure for the rest of its time, and
+// the chambers go on filling: their pressure at its end is found where t comes to that time. They
+// never pass the stop pressure.
 #ifndef PLENUM_MODEL_STROKES_RESERVOIR_STROKE_H_
 #define PLENUM_MODEL_STROKES_RESERVOIR_STROKE_H_
 
@@ -36,6 +40,7 @@ struct ReservoirStrokeInput {
   double from_pa = 0.0;
   double target_pa = 0.0;     // rise time
   double operating_pa = 0.0;  // the valve closes, ≥ target
+  double open_s = 0.0;        // a valve that cannot hold closes no sooner than this
   double temperature_k = kReferenceTemperatureK;
 };
 
@@ -43,9 +48,10 @@ struct ReservoirStroke {
   bool reached = false;  // false: the pressures are never reached; nothing below is valid
   double rise_s = 0.0;
   double inflate_s = 0.0;
-  double reservoir_end_pa = 0.0;
-  double pump_on_s = 0.0;      // while inflating
-  double pump_energy_j = 0.0;  // while inflating, all pumps
+  // When the valve closes.
+  double reservoir_end_pa = 0.0, chamber_end_pa = 0.0;
+  double pump_on_s = 0.0;      // while it is open
+  double pump_energy_j = 0.0;  // while it is open, all pumps
   double pump_air_m3 = 0.0;    // the same, m³ ANR
 };
 

@@ -61,7 +61,7 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
     Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
                     flow_max / group.count);
     if (!filling.InTime(box.window.high_pa)) return Constraint::kRise;
-    box.air_m3 += AirPerStroke(problem_, g, line, box.window.low_pa);
+    box.air_m3 += LeastAirPerStroke(problem_, g, line);
     if (line.all_hold && line.coil_power_w > 0.0) {  // energised while they inflate, too
       const double inflate_s = problem_.objective.energy_wh > 0.0
                                    ? filling.InflateTime(box.window.high_pa)

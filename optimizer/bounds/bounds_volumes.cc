@@ -184,7 +184,7 @@ std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
   const PumpFacts& pump = PumpOf(box);
   std::vector<const Line*> lines;
   for (const std::shared_ptr<const Line>& line : box.lines) lines.push_back(line.get());
-  const PumpLoad load = MakePumpLoad(problem_, lines, box.window.low_pa);
+  const PumpLoad load = MakePumpLoad(problem_, lines);
   const PumpLimits limits{CornerAt(plan_.compressors, box, plan_.compressor_slot).duty_max,
                           CornerAt(plan_.batteries, box, plan_.battery_slot).energy_j};
   const bool single = CoreIsSingle(box, plan_.reservoir_slot);

@@ -139,7 +139,8 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
     const double fall_s = revised ? strokes.fall_s[g] : line.fall_time_s;
     evaluation.groups.push_back({rise_s, T(fall_s), inflate_s, 1.0 / (rise_s + fall_s),
                                  T(revised ? strokes.highest_pa[g] : 0.0)});
-    if (!revised) evaluation.air_per_cycle_m3 += AirPerStroke(problem, g, line, point.source_pa);
+    if (!revised)
+      evaluation.air_per_cycle_m3 += AirPerStroke(problem, g, line, strokes.filled_pa[g]);
     evaluation.energy_coils_j +=
         problem.actuations *
         CoilEnergyPerCycle(problem, line,

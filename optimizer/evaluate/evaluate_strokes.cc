@@ -8,15 +8,18 @@
 #include "model/strokes/reservoir_stroke.h"
 #include "model/strokes/stroke.h"
 #include "optimizer/evaluate/effect_strokes.h"
+#include "optimizer/evaluate/root.h"
 #include "optimizer/evaluate/shared_filling.h"
 
 namespace plenum::optimizer {
 namespace {
 
 constexpr double kPeriodicTolerance = 1e-7;
-// Strokes of one group alone on the regulator.
-void RegulatedStroke(const Problem& problem, const Candidate& candidate, double source_pa, int g,
-                     Strokes& strokes) {
+constexpr double kFilledTolerance = 1e-10;  // of a pressure
+
+// Strokes of one group alone on the regulator, and how long it draws.
+double RegulatedStroke(const Problem& problem, const Candidate& candidate, double source_pa, int g,
+                       Strokes& strokes) {
   const Line& line = *candidate.lines[g];
   const ActuatorGroup& group = problem.groups[g];
   // A regulator shared by n equal lines is, for each of them, one with an n-th of its conductance.
@@ -31,8 +34,19 @@ void RegulatedStroke(const Problem& problem, const Candidate& candidate, double 
     return model::FillTime(fill, line.chamber, source_pa, problem.ambient.pressure_pa, to_pa,
                            problem.ambient.temperature_k, flow_max);
   };
+  const double operating_pa = group.chamber.operating_pressure_pa;
+  const double inflate_s = fill_time(operating_pa), half_s = HalfPeriod(problem);
   strokes.rise_s[g] = fill_time(RiseTarget(problem, group));
-  strokes.inflate_s[g] = fill_time(group.chamber.operating_pressure_pa);
+  strokes.inflate_s[g] = inflate_s;
+  if (line.holds || !(inflate_s < half_s)) return inflate_s;
+  const auto left_s = [&](double to_pa) { return half_s - fill_time(to_pa); };
+  const double full_left_s = left_s(source_pa);
+  strokes.filled_pa[g] = full_left_s >= 0.0
+                             ? source_pa
+                             : NarrowBracket(left_s, operating_pa, half_s - inflate_s, source_pa,
+                                             full_left_s, kFilledTolerance)
+                                   .low;
+  return half_s - std::max(0.0, full_left_s);
 }
 
 // `count`: chambers that fill at once, through lines as those of the group.
@@ -50,6 +64,7 @@ model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candid
   input.from_pa = problem.ambient.pressure_pa;
   input.target_pa = RiseTarget(problem, problem.groups[g]);
   input.operating_pa = problem.groups[g].chamber.operating_pressure_pa;
+  if (!candidate.lines[g]->holds) input.open_s = HalfPeriod(problem);
   input.temperature_k = problem.ambient.temperature_k;
   return input;
 }
@@ -72,11 +87,13 @@ Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
   if (!stroke.reached) return Alone::kTooSlow;
   strokes.rise_s[g] = stroke.rise_s;
   strokes.inflate_s[g] = stroke.inflate_s;
+  strokes.filled_pa[g] = stroke.chamber_end_pa;
   const double refill_s =
       model::PumpUpTime(*input.compressor, input.compressors, point.reservoir_rising_m3,
                         stroke.reservoir_end_pa, point.source_pa, input.temperature_k);
   const bool last_word = problem.groups.size() == 1 || problem.simultaneous;
-  if (!last_word && !(stroke.inflate_s + refill_s <= time_s)) return Alone::kNo;
+  if (!last_word && !(std::max(stroke.inflate_s, input.open_s) + refill_s <= time_s))
+    return Alone::kNo;
   strokes.pump_on_s += stroke.pump_on_s + refill_s;
   strokes.pump_energy_j +=
       stroke.pump_energy_j + model::EnergyToFill(*input.compressor, point.reservoir_rising_m3,
@@ -86,7 +103,6 @@ Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
       stroke.pump_air_m3 +
       model::StandardVolume(point.reservoir_rising_m3 * (point.source_pa - stroke.reservoir_end_pa),
                             input.temperature_k);
-  if (!candidate.lines[g]->holds) AddHeldAir(problem, candidate, point.source_pa, g, strokes);
   return Alone::kYes;
 }
 
@@ -94,6 +110,8 @@ Strokes EmptyStrokes(const Problem& problem) {
   Strokes strokes;
   strokes.rise_s.assign(problem.groups.size(), model::kNever);
   strokes.inflate_s.assign(problem.groups.size(), model::kNever);
+  for (const ActuatorGroup& group : problem.groups)
+    strokes.filled_pa.push_back(group.chamber.operating_pressure_pa);
   return strokes;
 }
 
@@ -119,41 +137,13 @@ Strokes StrokesAlike(const Problem& problem, const Candidate& candidate,
     return EmptyStrokes(problem);
   std::fill(strokes.rise_s.begin(), strokes.rise_s.end(), strokes.rise_s[0]);
   std::fill(strokes.inflate_s.begin(), strokes.inflate_s.end(), strokes.inflate_s[0]);
-  for (int g = 1; g < static_cast<int>(problem.groups.size()); ++g)
-    if (!candidate.lines[g]->holds) AddHeldAir(problem, candidate, point.source_pa, g, strokes);
+  std::fill(strokes.filled_pa.begin(), strokes.filled_pa.end(), strokes.filled_pa[0]);
   strokes.from_full = true;
   strokes.works = std::isfinite(strokes.inflate_s[0]);
   return strokes;
 }
 
 }  // namespace
-
-template <class T>
-void AddHeldAir(const Problem& problem, const Candidate& candidate, const T& stop_pa, int g,
-                StrokesOf<T>& strokes) {
-  const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
-  const model::Chamber& chamber = candidate.lines[g]->chamber;
-  const double stop = model::ValueOf(stop_pa);
-  const T full =
-      model::Chain(stop_pa, model::Content(chamber, stop), model::ContentSlope(chamber, stop));
-  const T air_m3 = problem.groups[g].count *
-                   model::StandardVolume(1.0, problem.ambient.temperature_k) *
-                   (full - model::Content(chamber, chamber.operating_pressure_pa));
-  // Just below the pressure at which the pumps stop.
-  const T last_pa = std::min(stop_pa, T(model::HighestPressure(curve)));
-  const T delivery = std::max(T(0.0), model::CurveAt(curve.free_air_m3_per_s, last_pa));
-  const bool drawn =
-      !curve.current_a.empty() && stop > curve.current_a.front() && stop < curve.current_a.back();
-  const T power_w = model::Chain(stop_pa, model::ElectricalPower(curve, stop),
-                                 drawn ? curve.voltage_v * curve.current_a.Slope(stop) : 0.0);
-  const T seconds = air_m3 / (static_cast<double>(candidate.compressor.quantity) * delivery);
-  strokes.pump_on_s += seconds;
-  strokes.pump_energy_j += seconds * static_cast<double>(candidate.compressor.quantity) * power_w;
-  strokes.pump_air_m3 += air_m3;
-}
-template void AddHeldAir(const Problem&, const Candidate&, const double&, int, Strokes&);
-template void AddHeldAir(const Problem&, const Candidate&, const model::Dual&, int,
-                         StrokesOf<model::Dual>&);
 
 double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
                          const OperatingPoint& point) {
@@ -184,9 +174,8 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
   const double time_s = 1.0 / problem.frequency_hz / groups;  // until the next group's command
   for (int g = 0; g < groups; ++g) {
     if (candidate.configuration != Configuration::kCompressor) {
-      RegulatedStroke(problem, candidate, point.source_pa, g, strokes);
-      if (groups > 1 && !(strokes.inflate_s[g] <= time_s))
-        return SimulateStrokes(problem, candidate, point);
+      const double draw_s = RegulatedStroke(problem, candidate, point.source_pa, g, strokes);
+      if (groups > 1 && !(draw_s <= time_s)) return SimulateStrokes(problem, candidate, point);
     } else {
       const Alone outcome =
           ReservoirStroke(problem, candidate, point, g, problem.groups[g].count, time_s, strokes);
@@ -214,9 +203,13 @@ Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
   strokes.failed = state.status != model::PeriodicStatus::kConverged;
   if (strokes.failed) return strokes;
   for (const model::Stroke& stroke : state.response.strokes) {
-    if (stroke.state != model::ValveState::kInflate) continue;
-    strokes.rise_s[stroke.group] = stroke.to_target_s;
-    strokes.inflate_s[stroke.group] = stroke.to_operating_s;
+    if (stroke.state == model::ValveState::kInflate) {
+      strokes.rise_s[stroke.group] = stroke.to_target_s;
+      strokes.inflate_s[stroke.group] = stroke.to_operating_s;
+    } else if (stroke.state == model::ValveState::kDeflate &&
+               !candidate.lines[stroke.group]->holds) {
+      strokes.filled_pa[stroke.group] = stroke.start_pressure_pa;
+    }
   }
   strokes.pump_on_s = state.response.compressor_on_s;
   strokes.pump_energy_j = state.response.compressor_energy_j;

@@ -6,13 +6,6 @@
 
 namespace plenum::optimizer {
 
-// Adds what a valve that cannot hold lets through: its actuators stay on the source, which fills
-// them from p_op up to the stop pressure. Counted as pumped at the stop pressure, the most that it
-// can take.
-template <class T>
-void AddHeldAir(const Problem& problem, const Candidate& candidate, const T& stop_pa, int group,
-                StrokesOf<T>& strokes);
-
 // Whether groups meet on the source, so that each evaluation integrates them together.
 inline bool GroupsMeet(const Problem& problem) {
   return problem.groups.size() > 1 && problem.simultaneous;

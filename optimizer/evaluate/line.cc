@@ -38,15 +38,17 @@ double FlowFactor(const Problem& problem, model::Gas gas) {
 }
 
 template <class T>
-T AirPerStroke(const Problem& problem, int group, const Line& line, const T& source_pa) {
-  const ActuatorGroup& actuators = problem.groups[group];
-  const T full_pa = line.holds ? T(actuators.chamber.operating_pressure_pa) : source_pa;
-  const double value_pa = model::ValueOf(full_pa);
-  const T full = model::Chain(full_pa, model::Content(line.chamber, value_pa),
+T AirPerStroke(const Problem& problem, int group, const Line& line, const T& filled_pa) {
+  const double value_pa = model::ValueOf(filled_pa);
+  const T full = model::Chain(filled_pa, model::Content(line.chamber, value_pa),
                               model::ContentSlope(line.chamber, value_pa));
   const T content = full - model::Content(line.chamber, problem.ambient.pressure_pa);
-  return static_cast<double>(actuators.count) * content *
+  return static_cast<double>(problem.groups[group].count) * content *
          model::StandardVolume(1.0, problem.ambient.temperature_k);
+}
+
+double LeastAirPerStroke(const Problem& problem, int group, const Line& line) {
+  return AirPerStroke(problem, group, line, line.chamber.operating_pressure_pa);
 }
 
 template double AirPerStroke(const Problem&, int, const Line&, const double&);

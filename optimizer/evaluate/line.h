@@ -94,10 +94,12 @@ inline double HalfPeriod(const Problem& problem) { return 0.5 / problem.frequenc
 // Factor on every conductance from the gas and its temperature.
 double FlowFactor(const Problem& problem, model::Gas gas);
 
-// Air that one actuation of the whole group takes, m³ ANR. A valve that holds closes at p_op; one
-// that cannot leaves the actuator on the source, which fills it up to `source_pa`.
+// Air that one actuation of the whole group takes that fills it to this pressure, m³ ANR. A valve
+// that holds closes at p_op; one that cannot leaves the actuator on the source for half of the
+// period, which fills it to p_op at least and at most up to the source pressure.
 template <class T>
-T AirPerStroke(const Problem& problem, int group, const Line& line, const T& source_pa);
+T AirPerStroke(const Problem& problem, int group, const Line& line, const T& filled_pa);
+double LeastAirPerStroke(const Problem& problem, int group, const Line& line);
 
 // Coil energy of one cycle of the whole group, J: a 3/2 is energised for half of the period, a pair
 // or a proportional valve while it inflates and while it vents.

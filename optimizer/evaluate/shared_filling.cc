@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kTolerance = 1e-8;  // of what a step may be off
 constexpr double kEqual = 1e-12;     // nearer to the node's pressure, a chamber is at it
+constexpr double kFull = 1e-8;       // the same of the source's pressure
 constexpr double kNear = 1e-5;       // of the regulator's drop: nearer, it may go with it
 constexpr int kStepsMax = 20'000;
 
@@ -84,8 +85,12 @@ class SharedFilling {
       released_.clear();
       if (restart) state.back() = AnyAtNode() ? node_pa_ : NodePressure(state);
     }
-    strokes_.works = Done();
-    strokes_.failed = !strokes_.works && now_s < end_s_;
+    strokes_.failed = now_s < end_s_ && !Done();
+    strokes_.works = !strokes_.failed && AllReached();
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      strokes_.filled_pa.push_back(groups_[g].holds ? groups_[g].operating_pa
+                                   : IsFull(g)      ? source_pa_
+                                                    : PressureNow(g));
     return strokes_;
   }
 
@@ -100,9 +105,17 @@ class SharedFilling {
     return largest / kTolerance;
   }
 
-  bool Done() const {
+  bool AllReached() const {
     return std::all_of(strokes_.inflate_s.begin(), strokes_.inflate_s.end(),
                        [](double s) { return std::isfinite(s); });
+  }
+  // Chambers whose valve cannot hold go on filling until they are.
+  bool IsFull(std::size_t g) const { return PressureNow(g) >= source_pa_ * (1.0 - kFull); }
+  bool Done() const {
+    if (!AllReached()) return false;
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      if (!groups_[g].holds && !IsFull(g)) return false;
+    return true;
   }
   bool AnyAtNode() const {
     return std::any_of(groups_.begin(), groups_.end(),

@@ -14,10 +14,13 @@ struct StrokesOf {
   bool works = false;
   bool failed = false;               // the simulator gave up or was stopped: nothing is known
   std::vector<T> rise_s, inflate_s;  // per group, worst of the cycle
-  T pump_on_s = T(0.0);              // per cycle
-  T pump_energy_j = T(0.0);          // per cycle, all pumps
-  T pump_air_m3 = T(0.0);            // the same, ANR; not known with effects
-  bool from_full = false;            // each stroke finds the reservoir full
+  // Per group, when its valve closes, or where that cannot hold when half of the period is over;
+  // not known with effects.
+  std::vector<T> filled_pa;
+  T pump_on_s = T(0.0);      // per cycle
+  T pump_energy_j = T(0.0);  // per cycle, all pumps
+  T pump_air_m3 = T(0.0);    // the same, ANR; not known with effects
+  bool from_full = false;    // each stroke finds the reservoir full
   // With effects only; without them the line knows.
   std::vector<double> fall_s, highest_pa;  // per group
   double air_m3 = 0.0;                     // ANR, per cycle, all actuators

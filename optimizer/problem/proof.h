@@ -25,8 +25,11 @@
 //        compressor: same curve and number, duty_max no smaller;
 //        battery: drives the same compressors, usable energy, current, voltage no smaller;
 //        reservoir: same volume, pressure_max no smaller.
-//      Where Plan::equal_flow is set, C and b must be equal: several groups on one source may take
-//      air from each other, and a pump may take more energy per air at low pressure than at high.
+//      Where Plan::equal_flow is set, C and b of a line's parts must be equal: several groups on
+//      one source may take air from each other, and a pump may take more energy per air at low
+//      pressure than at high. But for mains they must also be equal of valves that cannot hold, and
+//      where the catalogue has such a valve of fittings and regulators: the more flows while it
+//      stands open the more air it takes.
 //
 // 2. Boxes. Plan::boxes is the tree of boxes in preorder. A box is a range of choices per slot; the
 //    first box is all of them. kSplit divides the range of one slot at `middle`: the left part,

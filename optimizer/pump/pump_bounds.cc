@@ -54,11 +54,10 @@ double MostBearable(ReservoirNeed need, double high_pa, double tolerance, Bearab
 
 }  // namespace
 
-PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines,
-                      double source_min_pa) {
+PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines) {
   PumpLoad load{lines};
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    load.air_m3 += AirPerStroke(problem, g, *lines[g], source_min_pa);
+    load.air_m3 += LeastAirPerStroke(problem, g, *lines[g]);
     load.air_to_target_m3 += AirToTarget(problem, g, lines[g]->chamber);
     load.coil_j += CoilEnergyPerCycle(problem, *lines[g], lines[g]->inflate_time_least_s);
   }
@@ -211,7 +210,7 @@ std::vector<ReservoirNeed> ReservoirNeeds(const Problem& problem, const PumpFact
   if (window.empty()) return needs;
   const PumpLimits limits{problem.parts.compressors[candidate.compressor.index].duty_max,
                           energy_max_j, true};
-  const PumpLoad load = MakePumpLoad(problem, candidate.lines, window.low_pa);
+  const PumpLoad load = MakePumpLoad(problem, candidate.lines);
   for (bool last = false; !last;) {
     const double next_m3 = std::min(low_m3 * kIntervalRatio, high_m3);
     last = next_m3 >= high_m3;

@@ -47,8 +47,7 @@ struct PumpLoad {
   const std::vector<const Line*>& lines;                      // one per group
   double air_m3 = 0.0, air_to_target_m3 = 0.0, coil_j = 0.0;  // per cycle
 };
-PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines,
-                      double source_min_pa);
+PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines);
 
 // What the pumps at least take in a cycle, with a reservoir of low_m3 to high_m3 that holds
 // start_pa[i] or more when phase i of the cycle begins: one phase, or one per group where two take

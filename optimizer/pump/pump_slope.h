@@ -10,6 +10,12 @@
 // becomes full goes as above, and in one in which it does not the pumps run all the time at no
 // lower a pressure and at most Δ higher, so that energy falls by at most Δ times the phase times
 // the steepest fall of P.
+//
+// A chamber whose valve cannot hold draws until half of the period is over, not until it is full to
+// the same pressure. Pressures keep order in time, too: with the higher stop it ends fuller, and
+// since Q falls with pressure less was pumped by then. From there on it is c₂ that stays, above
+// all that c₁ comes to, so that what is said above holds for the air that the lower stop takes, and
+// the higher one takes more on top.
 #ifndef PLENUM_OPTIMIZER_PUMP_PUMP_SLOPE_H_
 #define PLENUM_OPTIMIZER_PUMP_PUMP_SLOPE_H_
 

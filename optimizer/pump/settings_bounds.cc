@@ -38,10 +38,20 @@ bool OneAtATime(const Problem& problem, const Candidate& candidate, const Stroke
                      [&](double s) { return s * problem.frequency_hz * groups <= 1.0; });
 }
 
-double AirPerCycle(const Problem& problem, const Candidate& candidate, double source_pa) {
+double AirPerCycle(const Problem& problem, const Candidate& candidate, const Strokes& strokes) {
   double air_m3 = 0.0;
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
-    air_m3 += AirPerStroke(problem, g, *candidate.lines[g], source_pa);
+    air_m3 += AirPerStroke(problem, g, *candidate.lines[g], strokes.filled_pa[g]);
+  return air_m3;
+}
+
+double MostAirPerCycle(const Problem& problem, const Candidate& candidate, double source_pa) {
+  double air_m3 = 0.0;
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    const Line& line = *candidate.lines[g];
+    air_m3 +=
+        AirPerStroke(problem, g, line, line.holds ? line.chamber.operating_pressure_pa : source_pa);
+  }
   return air_m3;
 }
 
@@ -59,7 +69,7 @@ double MostAbove(const Problem& problem, const Candidate& candidate, const Setti
   const bool once_full = alone || low.pump_on_s * problem.frequency_hz < kLessThanAlways;
   const bool apart = alone || problem.simultaneous || OneAtATime(problem, candidate, low);
   if (!once_full || !apart) return kUnlimited;
-  const double air_m3 = AirPerCycle(problem, candidate, box.high_pa) + low.pump_air_m3;
+  const double air_m3 = MostAirPerCycle(problem, candidate, box.high_pa) + low.pump_air_m3;
   const double content = air_m3 * model::kReferencePressurePa * problem.ambient.temperature_k /
                          model::kReferenceTemperatureK;
   return box.high_pa - box.low_pa + (1.0 / box.low_m3 - 1.0 / box.high_m3) * content;
@@ -72,7 +82,7 @@ double BoundPumps(const Problem& problem, const Candidate& candidate, const Pump
   const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
   const double excess_m3 =
       low.from_full || AllHold(candidate)
-          ? std::max(0.0, low.pump_air_m3 - AirPerCycle(problem, candidate, box.low_pa))
+          ? std::max(0.0, low.pump_air_m3 - AirPerCycle(problem, candidate, low))
           : (1.0 - box.low_m3 / box.high_m3) * low.pump_air_m3;
   const double delivery =
       candidate.compressor.quantity *
@@ -114,6 +124,7 @@ LeastEvaluation LeastOver(const Problem& problem, const Candidate& candidate,
   least.pump_on_s = least.pump_energy_j = 0.0;
   least.failed = low.failed;
   if (low.works) {
+    least.filled_pa = low.filled_pa;
     const double pumps_j =
         problem.actuations * BoundPumps(problem, candidate, trend, box, low, least);
     result.pressures_gap_j =

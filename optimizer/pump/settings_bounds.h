@@ -24,6 +24,10 @@
 //   u ≤ p2 − p1 + (1/V1 − 1/V2)·κ·(A_high + M),    E ≥ E_low − (M − A)·e_max − L·M·u.
 // With time as clock the same holds, since the higher run pumps less, if the low run is full at
 // some time of the cycle and no group draws while another does.
+//
+// A. Chambers whose valve holds take the same in every run. Others are filled further the higher
+// their pressure is when half of the period is over, so that A is at least what the low run takes,
+// or what brings them to the operating pressure, and A_high at most what brings them to p2.
 #ifndef PLENUM_OPTIMIZER_PUMP_SETTINGS_BOUNDS_H_
 #define PLENUM_OPTIMIZER_PUMP_SETTINGS_BOUNDS_H_
 

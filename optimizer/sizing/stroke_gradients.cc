@@ -19,6 +19,7 @@ StrokesOf<Dual> Lifted(const Strokes& strokes) {
   lifted.from_full = strokes.from_full;
   for (double seconds : strokes.rise_s) lifted.rise_s.emplace_back(seconds);
   for (double seconds : strokes.inflate_s) lifted.inflate_s.emplace_back(seconds);
+  for (double pressure_pa : strokes.filled_pa) lifted.filled_pa.emplace_back(pressure_pa);
   lifted.pump_on_s = Dual(strokes.pump_on_s);
   lifted.pump_energy_j = Dual(strokes.pump_energy_j);
   lifted.pump_air_m3 = Dual(strokes.pump_air_m3);
@@ -55,11 +56,13 @@ bool AddAlone(const Problem& problem, const Candidate& candidate, const Operatin
               int g, const Strokes& values, StrokesOf<Dual>& strokes) {
   model::Rig rig = MakeRig(problem, candidate, point);
   rig.groups = {rig.groups[g]};
+  const bool holds = candidate.lines[g]->holds;
+  const double open_s = holds ? values.inflate_s[g] : HalfPeriod(problem);
   rig.groups[0].schedule = {{0.0, model::ValveState::kInflate}};
-  rig.groups[0].close_at_operating = true;
+  if (!holds) rig.groups[0].schedule.push_back({open_s, model::ValveState::kDeflate});
   model::ReservoirSource& source = Reservoir(rig);
   model::SimulateOptions options = DualOptions(problem, candidate);
-  options.end_s = kRoom * (values.inflate_s[g] + values.pump_on_s);
+  options.end_s = kRoom * (open_s + values.pump_on_s);
   const std::vector<model::Direction> directions{
       {{&source.initial_pressure_pa, 1.0}, {&source.stop_pressure_pa, 1.0}},
       {{&source.volume_m3, 1.0}}};
@@ -71,12 +74,6 @@ bool AddAlone(const Problem& problem, const Candidate& candidate, const Operatin
     strokes.inflate_s[g].v[j] = stroke.to_operating_s;
     AddPumps(run.derivatives[j], 1.0, 1.0, j, strokes);
   }
-  if (candidate.lines[g]->holds) return true;
-  StrokesOf<Dual> held;
-  AddHeldAir(problem, candidate, Dual(point.source_pa, kAlongPressure), g, held);
-  strokes.pump_on_s.v += held.pump_on_s.v;
-  strokes.pump_energy_j.v += held.pump_energy_j.v;
-  strokes.pump_air_m3.v += held.pump_air_m3.v;
   return true;
 }
 

@@ -19,7 +19,8 @@ namespace plenum::optimizer {
 
 inline constexpr int kAlongPressure = 0, kAlongVolume = 1;
 
-// `strokes`: of EvaluateStrokes at the point, whose two volumes are equal; they work. None where
+// `strokes`: of EvaluateStrokes at the point, whose two volumes are equal; they work. What chambers
+// are filled to is not differentiated: pumps deliver what they take, and no margin asks. None where
 // the simulator fails or is stopped, or where a derivative does not exist. Not for effects.
 std::optional<StrokesOf<model::Dual>> DifferentiateStrokes(const Problem& problem,
                                                            const Candidate& candidate,

@@ -80,7 +80,9 @@ Choices MakeChoices(const Problem& problem, bool equal_flow, double useful_max_p
     contender.id = basics.id;
     contender.objective = item.corner.objective;
     contender.mates = classes.Of(numbers, spec.fields, true);
-    AddLosses(numbers, spec.fields, equal_flow, contender.losses);
+    AddLosses(numbers, spec.fields,
+              equal_flow ? optimizer::EqualFlow::kShared : optimizer::EqualFlow::kNever,
+              contender.losses);
   }
   return choices;
 }

@@ -11,6 +11,7 @@ namespace plenum::verify {
 namespace {
 
 constexpr int kCyclesMax = 2000;
+constexpr double kFilled = 1e-9;    // of the pressure at which an actuator begins to vent
 constexpr double kPeriodic = 1e-8;  // relative change of the source from cycle to cycle
 // A source at the operating pressure fills up to it, much closer to equal pressures than by
 // default: a straight line from 1 − 1e-7 on would still delay the end of such a stroke by a
@@ -146,14 +147,13 @@ std::optional<State> Repeating(const Problem& problem, const Settings& settings,
 }
 
 // What is the same for every way to the strokes: air, coils and regulator.
-void AddNeeds(const Problem& problem, const Settings& settings, const Assembly& assembly,
-              Cycle& cycle) {
+void AddNeeds(const Problem& problem, const Assembly& assembly, Cycle& cycle) {
   const double period_s = 1.0 / problem.frequency_hz;
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
     const model::Valve& valve = *assembly.lines[g].valve;
     const model::Chamber chamber = ChamberOf(problem.groups[g], assembly.lines[g]);
     const bool holds = model::Holds(valve.kind);
-    const double full_pa = holds ? chamber.operating_pressure_pa : settings.source_pressure_pa;
+    const double full_pa = holds ? chamber.operating_pressure_pa : cycle.filled_pa[g];
     cycle.air_m3 += problem.groups[g].count *
                     model::StandardVolume(model::Content(chamber, full_pa) -
                                               model::Content(chamber, problem.ambient.pressure_pa),
@@ -183,8 +183,11 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
   Cycle cycle;
   cycle.rise_s.assign(groups, model::kNever);
   cycle.inflate_s.assign(groups, model::kNever);
+  cycle.filled_pa.resize(groups);
   for (const model::Stroke& stroke : response.strokes) {
     const bool carried_over = stroke.command_s == 0.0 && !problem.simultaneous && stroke.group > 0;
+    if (stroke.state == model::ValveState::kDeflate && !carried_over)  // the last one counts
+      cycle.filled_pa[stroke.group] = stroke.start_pressure_pa;
     if (stroke.state != model::ValveState::kInflate || stroke.command_s >= period_s || carried_over)
       continue;
     cycle.rise_s[stroke.group] = stroke.to_target_s;
@@ -195,7 +198,7 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
   cycle.pump_on_s = 0.5 * response.compressor_on_s;
   cycle.pump_j = 0.5 * response.compressor_energy_j;
   cycle.pump_air_m3 = 0.5 * response.compressor_air_m3;
-  AddNeeds(problem, settings, assembly, cycle);
+  AddNeeds(problem, assembly, cycle);
   return cycle;
 }
 
@@ -245,7 +248,17 @@ double QuickCycles::FillFromRegulator(const Settings& settings, int g, Cycle& cy
   };
   cycle.rise_s[g] = seconds(Target(problem_, problem_.groups[g], problem_.rise_fraction));
   cycle.inflate_s[g] = seconds(rig.chamber.operating_pressure_pa);
-  return cycle.inflate_s[g];
+  const double half_s = 0.5 / problem_.frequency_hz;
+  if (rig.close_at_operating || cycle.inflate_s[g] >= half_s) return cycle.inflate_s[g];
+  double low_pa = rig.chamber.operating_pressure_pa, high_pa = settings.source_pressure_pa;
+  const double full_s = seconds(high_pa);
+  if (full_s <= half_s) low_pa = high_pa;
+  while (high_pa - low_pa > kFilled * high_pa) {
+    const double middle_pa = 0.5 * (low_pa + high_pa);
+    (seconds(middle_pa) <= half_s ? low_pa : high_pa) = middle_pa;
+  }
+  cycle.filled_pa[g] = low_pa;
+  return std::min(full_s, half_s);
 }
 
 // A group out of a reservoir that is full when its stroke begins; how long until it is full again.
@@ -269,11 +282,13 @@ double QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3
   input.from_pa = problem_.ambient.pressure_pa;
   input.target_pa = Target(problem_, problem_.groups[g], problem_.rise_fraction);
   input.operating_pa = rig.chamber.operating_pressure_pa;
+  if (!rig.close_at_operating) input.open_s = 0.5 / problem_.frequency_hz;
   input.temperature_k = temperature_k;
   const model::ReservoirStroke stroke = model::FillFromReservoir(input);
   if (!stroke.reached) return model::kNever;
   cycle.rise_s[g] = stroke.rise_s;
   cycle.inflate_s[g] = stroke.inflate_s;
+  cycle.filled_pa[g] = stroke.chamber_end_pa;
   const double refill_s = model::PumpUpTime(curve, input.compressors, rising_m3,
                                             stroke.reservoir_end_pa, source_pa, temperature_k);
   cycle.pump_on_s += stroke.pump_on_s + refill_s;
@@ -283,19 +298,7 @@ double QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3
   cycle.pump_air_m3 +=
       stroke.pump_air_m3 +
       model::StandardVolume(rising_m3 * (source_pa - stroke.reservoir_end_pa), temperature_k);
-  const double full_s = stroke.inflate_s + refill_s;
-  if (rig.close_at_operating) return full_s;
-  const double content = model::Content(rig.chamber, source_pa) -
-                         model::Content(rig.chamber, rig.chamber.operating_pressure_pa);
-  if (!(content > 0.0)) return full_s;
-  const double last_pa = std::min(source_pa, model::HighestPressure(curve));
-  const double air_m3 = rig.count * model::StandardVolume(content, temperature_k);
-  const double seconds =
-      air_m3 / (input.compressors * std::max(0.0, curve.free_air_m3_per_s(last_pa)));
-  cycle.pump_on_s += seconds;
-  cycle.pump_j += seconds * input.compressors * model::ElectricalPower(curve, source_pa);
-  cycle.pump_air_m3 += air_m3;
-  return full_s;
+  return std::max(stroke.inflate_s, input.open_s) + refill_s;
 }
 
 std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3) const {
@@ -309,6 +312,8 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
   Cycle cycle;
   cycle.rise_s.assign(groups, model::kNever);
   cycle.inflate_s.assign(groups, model::kNever);
+  for (const model::GroupRig& rig : rigs_)
+    cycle.filled_pa.push_back(rig.chamber.operating_pressure_pa);
   cycle.fall_s = fall_s_;
   for (int g = 0; g < static_cast<int>(groups); ++g) {
     const double over_s = assembly_.compressor ? FillFromReservoir(settings, rising_m3, g, cycle)
@@ -316,7 +321,7 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
     if (groups > 1 && !(over_s <= turn_s))
       return Simulated(problem_, settings, assembly_, rising_m3);
   }
-  AddNeeds(problem_, settings, assembly_, cycle);
+  AddNeeds(problem_, assembly_, cycle);
   return cycle;
 }
 

@@ -15,7 +15,8 @@ namespace plenum::verify {
 
 struct Cycle {
   std::vector<double> rise_s, inflate_s, fall_s;  // per group; +∞: never reached
-  double air_m3 = 0.0;                            // ANR, by the contents at rest and full
+  std::vector<double> filled_pa;                  // per group, when its valve closes or it vents
+  double air_m3 = 0.0;                            // ANR, by the contents at rest and filled
   double pump_on_s = 0.0, pump_j = 0.0, pump_air_m3 = 0.0;
   double coil_w = 0.0;                       // all on at once, with the regulator
   double steady_j = 0.0, inflating_j = 0.0;  // coils and regulator; of it what strokes shorten
@@ -28,8 +29,7 @@ std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& setti
                                    const Assembly& assembly);
 
 // The same at many settings: by one quadrature or integration for each group, where groups do not
-// meet on the source; else by the simulator, too. Air that pumps add to actuators that stay open to
-// the reservoir is pumped at the stop pressure, the most that it can take.
+// meet on the source; else by the simulator, too.
 class QuickCycles {
  public:
   QuickCycles(const Problem& problem, const Assembly& assembly);
@@ -39,7 +39,7 @@ class QuickCycles {
   std::optional<Cycle> At(const Settings& settings, double rising_m3) const;
 
  private:
-  // Until the source is as it was before the stroke.
+  // How long until the source is as it was before the stroke.
   double FillFromRegulator(const Settings& settings, int group, Cycle& cycle) const;
   double FillFromReservoir(const Settings& settings, double rising_m3, int group,
                            Cycle& cycle) const;

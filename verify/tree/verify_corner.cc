@@ -154,8 +154,9 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
     if (inflate_s > group.rise_time_max_s &&
         seconds(PressureAt(problem_, g, problem_.rise_fraction)) > group.rise_time_max_s * kSlack)
       return kUnlimited;
-    const double full_pa = line.some_hold ? group.chamber.operating_pressure_pa : low_pa;
-    air_m3 += model::StandardVolume(Drawn(problem_, g, line.chamber, full_pa), temperature_k);
+    // At least: a valve that cannot hold may be open for no longer than that takes.
+    air_m3 += model::StandardVolume(
+        Drawn(problem_, g, line.chamber, group.chamber.operating_pressure_pa), temperature_k);
     coil_j += line.coil_w * half_s;
     if (line.all_hold) inflating_j += line.coil_w * inflate_s;
   }

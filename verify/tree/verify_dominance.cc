@@ -26,7 +26,7 @@ bool Flows(const FlowElement& a, const FlowElement& b, bool equal) {
 bool NoWorse(const FieldValue& a, const FieldValue& b, const PartField& field, bool equal_flow) {
   if (field.use == Use::kMate) return a == b;
   if (const auto* flow = std::get_if<FlowElement>(&a))
-    return Flows(*flow, std::get<FlowElement>(b), equal_flow && field.use == Use::kSharedFlow);
+    return Flows(*flow, std::get<FlowElement>(b), equal_flow);
   const double x = std::get<double>(a), y = std::get<double>(b);
   switch (field.use) {
     case Use::kMore:
@@ -101,18 +101,30 @@ bool RuleNoWorse(const Problem& problem, const ProofPlan& plan, Family family, c
   return true;
 }
 
+// Whether a valve that stands open for half of the period takes more air through a choice that
+// passes more.
+bool FillsFurther(const Problem& problem, const ProofPlan& plan, Family family,
+                  const ProofItem& item) {
+  const std::vector<model::Valve>& valves = problem.parts.valves;
+  if (plan.configuration == Configuration::kMains) return false;
+  if (family == Family::kValve) return !model::Holds(valves[item.part].kind);
+  return std::any_of(valves.begin(), valves.end(),
+                     [](const model::Valve& valve) { return !model::Holds(valve.kind); });
+}
+
 // Everything but amounts, field by field.
 bool NoWorse(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
              const ProofItem& a, const ProofItem& b) {
   if (a.part < 0 || b.part < 0) return false;  // no other choice stands for these
   const FamilySpec& spec = SpecOf(slot.family);
+  const bool further = FillsFurther(problem, plan, slot.family, b);
   const bool mates = !spec.in_line || problem.groups[slot.group].fittings_per_line > 0;
   for (const PartField& field : spec.fields) {
     if (field.use == Use::kRule || (field.use == Use::kMate && !mates)) continue;
     const FieldValue x = field.of(problem.parts, a.part), y = field.of(problem.parts, b.part);
     const bool sum = field.pieces == Pieces::kSum && !spec.in_line;
     if (sum ? !NoWorse(a.quantity * std::get<double>(x), b.quantity * std::get<double>(y), field)
-            : !NoWorse(x, y, field, plan.equal_flow))
+            : !NoWorse(x, y, field, further || (plan.equal_flow && field.use == Use::kSharedFlow)))
       return false;
   }
   return RuleNoWorse(problem, plan, slot.family, a, b);

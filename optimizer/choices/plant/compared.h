@@ -2,6 +2,7 @@
 #ifndef PLENUM_OPTIMIZER_CHOICES_PLANT_COMPARED_H_
 #define PLENUM_OPTIMIZER_CHOICES_PLANT_COMPARED_H_
 
+#include <cstdint>
 #include <string>
 #include <unordered_map>
 
@@ -41,20 +42,23 @@ class MatingClasses {
   std::unordered_map<std::string, int> number_;
 };
 
+// Where only the same flow compares, as in proof.h: of what is shared, of all. kPadded: nowhere, in
+// a family of which others are kAlways, so that all have as many losses.
+enum class EqualFlow : std::uint8_t { kNever, kPadded, kShared, kAlways };
+
 // C, b and m as losses; `equal`: also the other way round, so that only the same flow compares.
-inline void AddFlow(const model::FlowElement& flow, bool equal, Losses& losses) {
+inline void AddFlow(const model::FlowElement& flow, bool equal, bool padded, Losses& losses) {
   losses.push_back(-flow.sonic_conductance_m3_per_s_pa);
   losses.push_back(-flow.critical_ratio);
   losses.push_back(flow.subsonic_index);
-  if (!equal) return;
-  losses.push_back(flow.sonic_conductance_m3_per_s_pa);
-  losses.push_back(flow.critical_ratio);
-  losses.push_back(-flow.subsonic_index);
+  if (!equal && !padded) return;
+  losses.push_back(equal ? flow.sonic_conductance_m3_per_s_pa : 0.0);
+  losses.push_back(equal ? flow.critical_ratio : 0.0);
+  losses.push_back(equal ? -flow.subsonic_index : 0.0);
 }
 
-// `equal_flow`: as in ProofPlan.
 inline void AddLosses(const PartNumbers& numbers, std::span<const PartField> fields,
-                      bool equal_flow, Losses& losses) {
+                      EqualFlow equal, Losses& losses) {
   for (const PartField& field : fields) switch (field.use) {
       case Use::kMore:
       case Use::kRating:
@@ -64,10 +68,11 @@ inline void AddLosses(const PartNumbers& numbers, std::span<const PartField> fie
         losses.push_back(numbers.Rated(field));
         break;
       case Use::kFlow:
-        AddFlow(numbers.Flow(field), false, losses);
+        AddFlow(numbers.Flow(field), equal == EqualFlow::kAlways, false, losses);
         break;
       case Use::kSharedFlow:
-        AddFlow(numbers.Flow(field), equal_flow, losses);
+        AddFlow(numbers.Flow(field), equal >= EqualFlow::kShared, equal == EqualFlow::kPadded,
+                losses);
         break;
       case Use::kBoth:
       case Use::kMate:

@@ -93,7 +93,8 @@ class Planter {
         stop_(stop),
         plan_(std::make_unique<Plan>()) {
     plan_->configuration = configuration;
-    plan_->equal_flow = EqualFlow();
+    plan_->equal_flow = LinesMeet();
+    may_stay_open_ = MayStayOpen();
     plan_->bottle_range = FindBottleRange();
     plan_->highest_pump_pa = HighestPumpPressure(problem);
     plan_->tie = LargestTie();
@@ -128,7 +129,7 @@ class Planter {
 
   // A faster line is only sure to be no worse for the other groups where no two strokes take air at
   // the same time, and for a pump only where more pressure costs more energy per air.
-  bool EqualFlow() const {
+  bool LinesMeet() const {
     const int groups = static_cast<int>(problem_.groups.size());
     if (plan_->configuration != Configuration::kCompressor)
       return groups > 1 && (problem_.simultaneous || groups > 2);
@@ -138,6 +139,20 @@ class Planter {
                           return EnergyPerAirRises(c.curve, problem_.ambient.pressure_pa,
                                                    model::HighestPressure(c.curve));
                         });
+  }
+
+  // Whether a valve that cannot hold may be chosen, whose actuators take the more air the more
+  // flows while it is open; the mains have enough of it.
+  bool MayStayOpen() const {
+    return plan_->configuration != Configuration::kMains &&
+           std::any_of(problem_.parts.valves.begin(), problem_.parts.valves.end(),
+                       [](const model::Valve& valve) { return !model::Holds(valve.kind); });
+  }
+  EqualFlow EqualFlowOf(Family family, int part) const {
+    const bool closes = family == Family::kValve && model::Holds(problem_.parts.valves[part].kind);
+    if (may_stay_open_ && !closes) return EqualFlow::kAlways;
+    if (plan_->equal_flow) return EqualFlow::kShared;
+    return may_stay_open_ ? EqualFlow::kPadded : EqualFlow::kNever;
   }
 
   // No source gives more: ratings beyond it are all the same.
@@ -283,7 +298,7 @@ class Planter {
         SetNumbers(numbers, entry.item.corner);
         entry.contender.id = basics.id;
         entry.contender.mates = entries.classes.Of(numbers, spec.fields, mates);
-        AddLosses(numbers, spec.fields, plan_->equal_flow, entry.contender.losses);
+        AddLosses(numbers, spec.fields, EqualFlowOf(family, i), entry.contender.losses);
         rule(i, quantity, entry);
       }
     }
@@ -328,6 +343,7 @@ class Planter {
   const std::function<bool()>& stop_;
   std::unique_ptr<Plan> plan_;
   double useful_max_pa_ = kUnlimited;
+  bool may_stay_open_ = false;
   KindsOf<double> voltages_;  // of compressors
   BigCount total_, priced_, kept_;
   mutable double gas_kg_ = 0.0;

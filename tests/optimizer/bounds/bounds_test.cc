@@ -127,7 +127,7 @@ void ExpectPumpNeedHolds(const Problem& problem, const Candidate& candidate, con
       optimizer::MakePumpFacts(problem, problem.parts.compressors[candidate.compressor.index].curve,
                                candidate.compressor.quantity);
   const double source_pa = leaf.point.source_pa, volume_m3 = leaf.point.reservoir_m3;
-  const optimizer::PumpLoad load = optimizer::MakePumpLoad(problem, candidate.lines, source_pa);
+  const optimizer::PumpLoad load = optimizer::MakePumpLoad(problem, candidate.lines);
   const optimizer::Strokes strokes = optimizer::SimulateStrokes(problem, candidate, leaf.point);
   ASSERT_TRUE(strokes.works);
   const bool energy_rises = optimizer::PumpEnergyRises(problem, candidate);
@@ -155,7 +155,7 @@ void ExpectMissionEnergyHolds(const Problem& problem, const Candidate& candidate
       optimizer::MakePumpFacts(problem, problem.parts.compressors[candidate.compressor.index].curve,
                                candidate.compressor.quantity);
   const double source_pa = leaf.point.source_pa, volume_m3 = leaf.point.reservoir_m3;
-  const optimizer::PumpLoad load = optimizer::MakePumpLoad(problem, candidate.lines, source_pa);
+  const optimizer::PumpLoad load = optimizer::MakePumpLoad(problem, candidate.lines);
   const std::optional<optimizer::ReservoirNeed> need =
       optimizer::LeastReservoirNeed(problem, facts, load, {}, {source_pa, source_pa},
                                     {.low_m3 = volume_m3, .high_m3 = volume_m3}, 1e-3);
