@@ -26,6 +26,12 @@ constexpr double kSingleTolerance = 1e-3;
 // Of the range of source pressures, for the energy, at most: as long as it matters.
 constexpr int kDivisions = 32;
 
+// Made to measure, built for the least stop pressure that is known to be needed.
+Amounts Made(const Problem& problem, const VolumeNeed& volume, double volume_m3) {
+  return CustomReservoir(problem, volume_m3,
+                         std::max(LeastSourcePa(problem), volume.need.source_pa));
+}
+
 }  // namespace
 
 // Those of the box's reservoirs, with what a larger box knows of them.
@@ -60,7 +66,7 @@ bool Bounds::IsMade(const VolumeNeed& volume) const {
 }
 
 Amounts Bounds::LeastOf(const VolumeNeed& volume) const {
-  return IsMade(volume) ? CustomReservoir(problem_, volume.need.low_m3)
+  return IsMade(volume) ? Made(problem_, volume, volume.need.low_m3)
                         : plan_.reservoirs.corners[volume.node].amounts;
 }
 
@@ -84,7 +90,7 @@ Amounts Bounds::LeastAssessed(const Box& box) const {
 // How much more of the objective than the least a reservoir in it may take.
 double Bounds::Spread(const VolumeNeed& volume) const {
   const auto made = [&](double volume_m3) {
-    return ObjectiveOf(problem_.objective, CustomReservoir(problem_, volume_m3));
+    return ObjectiveOf(problem_.objective, Made(problem_, volume, volume_m3));
   };
   const BoxNode& node = plan_.reservoirs.nodes[volume.node];
   return IsMade(volume) ? made(volume.need.high_m3) - made(volume.need.low_m3)
@@ -96,7 +102,7 @@ std::vector<VolumeNeed> Bounds::Halves(const VolumeNeed& volume) const {
   if (IsMade(volume)) {
     const double middle_m3 = std::sqrt(volume.need.low_m3 * volume.need.high_m3);
     halves[0].need.high_m3 = halves[1].need.low_m3 = middle_m3;
-    halves[1].objective = ObjectiveOf(problem_.objective, CustomReservoir(problem_, middle_m3));
+    halves[1].objective = ObjectiveOf(problem_.objective, Made(problem_, volume, middle_m3));
     return halves;
   }
   const BoxNode& node = plan_.reservoirs.nodes[volume.node];
@@ -209,6 +215,7 @@ std::optional<VolumeNeed> Bounds::LookAt(const Box& box, VolumeNeed volume) {
                            single ? kSingleTolerance : kBoxTolerance);
     if (!need) return std::nullopt;
     volume.need = *need;
+    if (IsMade(volume)) volume.objective = ObjectiveOf(problem_.objective, LeastOf(volume));
     volume.look = box.look;
     volume.energy_known = !EnergyMayGrow(problem_, load);
   }

@@ -147,8 +147,7 @@ Constraint Bounds::Reweigh(Box& box) {
   if (box.lines_finished) CombineChoices(box);
   if (plan_.configuration != Configuration::kCompressor) return RestOfRegulated(box);
   for (VolumeNeed& volume : box.volumes.Own()) {
-    volume.objective = IsMade(volume) ? ObjectiveOf(problem_.objective,
-                                                    CustomReservoir(problem_, volume.need.low_m3))
+    volume.objective = IsMade(volume) ? ObjectiveOf(problem_.objective, LeastOf(volume))
                                       : plan_.reservoirs.corners[volume.node].objective;
     volume.battery = -1;
     volume.rest = volume.with_lines = 0.0;

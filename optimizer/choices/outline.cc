@@ -97,7 +97,9 @@ class Sketch {
   void AddReservoirs() {
     const bool made = MadeToMeasureAllowed(problem_, Family::kReservoir);
     Add(problem_.parts.reservoirs, problem_.limits.reservoirs, Pieces(), made ? 1 : 0,
-        made ? Share(CustomReservoir(problem_, model::kMadeReservoirSmallestM3)) : kUnlimited);
+        made ? Share(CustomReservoir(problem_, model::kMadeReservoirSmallestM3,
+                                     LeastSourcePa(problem_)))
+             : kUnlimited);
   }
 
   double GasAt(double pressure_pa) const {

@@ -47,33 +47,43 @@ double CustomRatingPa(const Problem& problem) {
                   problem.ambient.pressure_pa + model::kMadeReservoirPressureMaxGaugePa);
 }
 
-Amounts CustomReservoir(const Problem& problem, double volume_m3) {
+double LeastSourcePa(const Problem& problem) {
+  double least_pa = problem.ambient.pressure_pa;
+  for (const ActuatorGroup& group : problem.groups)
+    least_pa = std::max(least_pa, group.chamber.operating_pressure_pa);
+  return least_pa;
+}
+
+Amounts CustomReservoir(const Problem& problem, double volume_m3, double source_pa) {
   const model::MadeReservoir made =
-      model::MakeReservoir(volume_m3, CustomRatingPa(problem) - problem.ambient.pressure_pa);
+      model::MakeReservoir(volume_m3, std::max(0.0, source_pa - problem.ambient.pressure_pa));
   return {made.mass_kg, made.body_volume_m3, 0.0};
 }
 
 template <class T>
 AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
-                          const T& reservoir_m3) {
+                          const OperatingPointOf<T>& point) {
   AmountsOf<T> total;
   for (const Line* line : candidate.lines) total += line->amounts;
   for (const Option* option : {&candidate.regulator, &candidate.bottle, &candidate.compressor,
                                &candidate.battery, &candidate.reservoir})
     total += option->amounts;
   if (candidate.reservoir.index != kCustom) return total;
-  // Made to measure, all of it is linear in the volume.
-  const double volume_m3 = model::ValueOf(reservoir_m3);
-  const Amounts made = CustomReservoir(problem, volume_m3);
-  const Amounts none = CustomReservoir(problem, 0.0);
+  // Made to measure, all of it is linear in the volume, and its walls in the pressure.
+  const double volume_m3 = model::ValueOf(point.reservoir_m3);
+  const double source_pa = model::ValueOf(point.source_pa);
+  const Amounts made = CustomReservoir(problem, volume_m3, source_pa);
+  const Amounts none = CustomReservoir(problem, 0.0, source_pa);
   const auto grown = [&](double here, double fixed) {
-    return model::Chain(reservoir_m3, here, (here - fixed) / volume_m3);
+    return model::Chain(point.reservoir_m3, here, (here - fixed) / volume_m3);
   };
   total += AmountsOf<T>{grown(made.mass_kg, none.mass_kg), grown(made.volume_m3, none.volume_m3)};
+  total.mass_kg += volume_m3 * model::kMadeReservoirMassPerM3Pa * (point.source_pa - source_pa);
   return total;
 }
 
-template Amounts TotalAmounts(const Problem&, const Candidate&, const double&);
-template AmountsOf<model::Dual> TotalAmounts(const Problem&, const Candidate&, const model::Dual&);
+template Amounts TotalAmounts(const Problem&, const Candidate&, const OperatingPoint&);
+template AmountsOf<model::Dual> TotalAmounts(const Problem&, const Candidate&,
+                                             const OperatingPointOf<model::Dual>&);
 
 }  // namespace plenum::optimizer

@@ -67,12 +67,18 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate);
 // Volume of a stock reservoir; 0 where there is none, or where it is made to measure.
 double ReservoirVolume(const Problem& problem, const Candidate& candidate);
 
-// Parts of the candidate with a made-to-measure reservoir of the given volume.
+// Parts of the candidate; a made-to-measure reservoir is built for its volume and stop pressure.
 template <class T>
 AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
-                          const T& reservoir_m3);
-Amounts CustomReservoir(const Problem& problem, double volume_m3);
-double CustomRatingPa(const Problem& problem);  // absolute: what a made-to-measure one is built for
+                          const OperatingPointOf<T>& point);
+Amounts CustomReservoir(const Problem& problem, double volume_m3, double source_pa);
+// Absolute: the highest pressure that a made-to-measure one may be built for, and one that no
+// source drives the strokes without.
+double CustomRatingPa(const Problem& problem);
+double LeastSourcePa(const Problem& problem);
+inline OperatingPoint LeastPoint(const Problem& problem, double reservoir_m3) {
+  return {LeastSourcePa(problem), reservoir_m3, reservoir_m3};
+}
 
 }  // namespace plenum::optimizer
 

@@ -108,7 +108,7 @@ template <class T>
 T ObjectiveValue(const Problem& problem, const Candidate& candidate,
                  const OperatingPointOf<T>& point, const EvaluationOf<T>& evaluation) {
   constexpr double kJoulePerWattHour = 3600.0;
-  return ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, point.reservoir_m3)) +
+  return ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, point)) +
          problem.objective.energy_wh * evaluation.energy_total_j / kJoulePerWattHour;
 }
 

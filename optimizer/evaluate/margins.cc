@@ -45,7 +45,10 @@ std::vector<MarginOf<T>> SupplyMargins(const Problem& problem, const Candidate& 
   }
   margins.push_back(
       AtLeast<T>("/duty/frequency_hz", problem.frequency_hz, evaluation.frequency_sustained_hz));
-  const T by_energy = evaluation.energy_per_cycle_j > 0.0
+  // A pump needs energy without end to come to the pressure at which it delivers nothing.
+  const bool endless = std::isinf(model::ValueOf(evaluation.energy_total_j));
+  const T by_energy = endless ? T(0.0)
+                      : evaluation.energy_per_cycle_j > 0.0
                           ? T((evaluation.energy_available_j - evaluation.energy_first_fill_j) /
                               evaluation.energy_per_cycle_j)
                           : T(kUnlimited);
@@ -57,7 +60,7 @@ std::vector<MarginOf<T>> SupplyMargins(const Problem& problem, const Candidate& 
     margins.push_back(AtMost<T>("/supply/source_pressure_kpa_gauge_max",
                                 (problem.source_pressure_max_pa - ambient_pa) / kPaPerKpa,
                                 (point.source_pa - ambient_pa) / kPaPerKpa));
-  const AmountsOf<T> total = TotalAmounts(problem, candidate, point.reservoir_m3);
+  const AmountsOf<T> total = TotalAmounts(problem, candidate, point);
   if (std::isfinite(problem.mass_max_kg))
     margins.push_back(AtMost<T>("/supply/mass_kg_max", problem.mass_max_kg, total.mass_kg));
   if (std::isfinite(problem.volume_max_l))

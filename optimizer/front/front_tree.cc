@@ -236,8 +236,9 @@ class FrontTree {
     }
   }
 
-  // The least volume that does is the best under all weights, so a made-to-measure reservoir is
-  // sized by the first amount alone, and what is known of it holds for the next region.
+  // The least volume that does is the best under all weights: with a larger one the stop pressure
+  // may be lower, but by far not so much that its walls weigh less. So a made-to-measure reservoir
+  // is sized by the first amount alone, and what is known of it holds for the next region.
   std::optional<Leaf> SizeForAll(const Candidate& candidate, Node& node) {
     Box box = node.box;
     const Objective weighted = std::exchange(problem_.objective, ObjectiveOn(amounts_[0]));
@@ -250,7 +251,8 @@ class FrontTree {
     const Candidate candidate = node->bounds->CandidateOf(node->box);
     const std::optional<Leaf> leaf = SizeForAll(candidate, *node);
     if (!leaf) {
-      node->low = PairOf(TotalAmounts(problem_, candidate, node->sizing->volume_least_m3()));
+      node->low = PairOf(
+          TotalAmounts(problem_, candidate, LeastPoint(problem_, node->sizing->volume_least_m3())));
       Push(std::move(node), 0.0);
       return;
     }
@@ -266,7 +268,7 @@ class FrontTree {
       LeaveOpen(node->low);
     if (leaf->status == LeafStatus::kUndecided) return;
     node->leaf = leaf;
-    node->low = PairOf(TotalAmounts(problem_, candidate, leaf->point.reservoir_m3));
+    node->low = PairOf(TotalAmounts(problem_, candidate, leaf->point));
     Push(std::move(node), 0.0);
   }
 

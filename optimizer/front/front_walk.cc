@@ -137,7 +137,7 @@ class Walker {
     const bool made = candidate.reservoir.index == kCustom;
     // Where energy counts another volume may do within a lower limit; else this is the least.
     const bool again = made && problem_.objective.energy_wh > 0.0;
-    if (!Within(candidate, leaf.point.reservoir_m3)) {
+    if (!Within(candidate, leaf.point)) {
       node->leaf.reset();
       if (made) Push(std::move(node), leaf.objective);
       return;
@@ -157,8 +157,8 @@ class Walker {
     Push(std::move(node), leaf.objective);
   }
 
-  bool Within(const Candidate& candidate, double reservoir_m3) const {
-    const Amounts total = TotalAmounts(problem_, candidate, reservoir_m3);
+  bool Within(const Candidate& candidate, const OperatingPoint& point) const {
+    const Amounts total = TotalAmounts(problem_, candidate, point);
     return total.mass_kg <= problem_.mass_max_kg &&
            total.volume_m3 * 1e3 <= problem_.volume_max_l &&
            total.cost_eur <= problem_.cost_max_eur;

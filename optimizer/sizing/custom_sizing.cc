@@ -104,7 +104,7 @@ bool CustomSizing::Conclude(LeafStatus without_point) {
 void CustomSizing::Examine(Region region) {
   region.examined = true;
   const SettingsBox& box = region.box;
-  if (!WithinLimits(box.low_m3)) return;
+  if (!WithinLimits({box.low_pa, box.low_m3, box.low_m3})) return;
   const double tolerance = std::clamp(kPressureShare * Width(box.low_m3, box.high_m3), 1e-10, 1e-2);
   const LeafStatus driven = RaisePressure(problem_, candidate_, region.box, tolerance);
   if (driven == LeafStatus::kInfeasible) return;
@@ -112,8 +112,8 @@ void CustomSizing::Examine(Region region) {
   if (failed_ || Judge(region, tolerance)) open_.push(region);
 }
 
-bool CustomSizing::WithinLimits(double volume_m3) const {
-  const Amounts total = TotalAmounts(problem_, candidate_, volume_m3);
+bool CustomSizing::WithinLimits(const OperatingPoint& least) const {
+  const Amounts total = TotalAmounts(problem_, candidate_, least);
   return total.mass_kg <= problem_.mass_max_kg && total.volume_m3 * 1e3 <= problem_.volume_max_l;
 }
 
@@ -188,20 +188,21 @@ void CustomSizing::OfferIfNarrow(const Region& region) {
 // A volume that is a hair larger, and so more surely works, by less than the tolerance of the
 // objective: requirements are met to within a tolerance of the pressure at most.
 double CustomSizing::ALittleMore(double volume_m3) const {
-  const auto parts = [&](double v) {
-    return ObjectiveOf(problem_.objective, TotalAmounts(problem_, candidate_, v));
-  };
-  const double here = parts(volume_m3);
-  const double slope = parts(2.0 * volume_m3) - here;
+  const double here = LeastParts(volume_m3);
+  const double slope = LeastParts(2.0 * volume_m3) - here;
   const double most = slope > 0.0 ? 0.5 * tolerance_ * here / slope : kMostMore;
   return std::min(volume_m3 * (1.0 + std::min(most, kMostMore)), model::kMadeReservoirLargestM3);
 }
 
+// Objective of the parts with this volume, at least.
+double CustomSizing::LeastParts(double volume_m3) const {
+  return ObjectiveOf(problem_.objective,
+                     TotalAmounts(problem_, candidate_, LeastPoint(problem_, volume_m3)));
+}
+
 // Sizes the leaf at a volume; true where that is better than what was found before.
 bool CustomSizing::Offer(double volume_m3) {
-  if (ObjectiveOf(problem_.objective, TotalAmounts(problem_, candidate_, volume_m3)) >=
-      leaf_.objective)
-    return false;
+  if (LeastParts(volume_m3) >= leaf_.objective) return false;
   const Leaf leaf = SizeAtVolume(problem_, candidate_, volume_m3, kOfferEvaluationsMax);
   if (leaf.status != LeafStatus::kFeasible || leaf.objective >= leaf_.objective) return false;
   leaf_.point = leaf.point;

@@ -43,7 +43,8 @@ class CustomSizing {
     bool operator<(const Region& other) const { return bound > other.bound; }  // lowest on top
   };
   bool Decided() const;
-  bool WithinLimits(double volume_m3) const;
+  bool WithinLimits(const OperatingPoint& least) const;
+  double LeastParts(double volume_m3) const;
   void Examine(Region region);
   bool Judge(Region& region, double tolerance);
   void Divide(const Region& region);

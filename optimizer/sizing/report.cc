@@ -63,7 +63,7 @@ void AddParts(const Problem& problem, const Candidate& candidate, const Operatin
   for (const Family family : SourceFamilies(candidate.configuration))
     AddChoice(problem, family, OptionOf(candidate, family), design);
   if (candidate.reservoir.index == kCustom) {
-    const Amounts amounts = CustomReservoir(problem, point.reservoir_m3);
+    const Amounts amounts = CustomReservoir(problem, point.reservoir_m3, point.source_pa);
     design.parts.push_back(
         {Family::kReservoir, "custom", -1, 1, amounts.mass_kg, amounts.volume_m3, std::nullopt});
   }
@@ -134,6 +134,25 @@ bool Confirm(const Problem& problem, const Candidate& candidate, const Operating
   return strokes.pump_on_s * problem.frequency_hz <= duty_max * (1.0 + kConfirmTolerance);
 }
 
+// A point near the leaf's that the simulator confirms, with its evaluation; none where there is
+// none. The lowest pressure that is fast enough leaves no room for the simulator's own error, and a
+// stroke that just ends within half of the period is never completed there.
+std::optional<OperatingPoint> ConfirmNear(const Problem& problem, const Candidate& candidate,
+                                          const Leaf& leaf, Evaluation& evaluation) {
+  constexpr double kSteps[] = {0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3};  // of the source pressure
+  const double high_pa = SourceWindow(problem, candidate).high_pa;
+  for (const double step : kSteps) {
+    OperatingPoint point = leaf.point;
+    point.source_pa *= 1.0 + step;
+    if (step > 0.0 && point.source_pa > high_pa) break;
+    evaluation = Evaluate(problem, candidate, point);
+    const double most = leaf.objective * (1.0 + 0.5 * kTie);
+    if (evaluation.works && ObjectiveValue(problem, candidate, point, evaluation) > most) break;
+    if (Confirm(problem, candidate, point, evaluation)) return point;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
@@ -146,9 +165,9 @@ std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candid
   OperatingPoint point = settle ? Settle(problem, candidate, leaf) : leaf.point;
   Evaluation evaluation = Evaluate(problem, candidate, point);
   if (!Confirm(problem, candidate, point, evaluation)) {
-    point = leaf.point;
-    evaluation = Evaluate(problem, candidate, point);
-    if (!Confirm(problem, candidate, point, evaluation)) return std::nullopt;
+    const std::optional<OperatingPoint> near = ConfirmNear(problem, candidate, leaf, evaluation);
+    if (!near) return std::nullopt;
+    point = *near;
   }
   Design design = Describe(problem, candidate, point, evaluation);
   design.response = TraceCycle(problem, candidate, point);

@@ -55,14 +55,14 @@ class PressureSearch {
         evaluations_max_(evaluations_max),
         rises_(PumpEnergyRises(problem, candidate)),
         pump_fall_(PumpFall(problem, candidate)),
-        least_coils_j_(LeastCoilEnergy(problem, candidate)),
-        parts_objective_(
-            ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3))) {}
+        least_coils_j_(LeastCoilEnergy(problem, candidate)) {}
 
   Leaf Run(double low_pa, double high_pa) {
     leaf_.objective = kUnlimited;
+    parts_objective_ =
+        ObjectiveOf(problem_.objective, TotalAmounts(problem_, candidate_, At(low_pa)));
     const Evaluation low = Try(low_pa);
-    // Without energy in the objective the lowest pressure that works is as good as any.
+    // Without energy in the objective no pressure that works is better than the lowest.
     if (std::isfinite(leaf_.objective) && problem_.objective.energy_wh == 0.0) return Done();
     if (high_pa > low_pa) Open(low_pa, low, high_pa, Try(high_pa));
     while (!open_.empty() && evaluations_ < evaluations_max_ && !failed_ && !candidate_.stopped()) {
@@ -159,7 +159,7 @@ class PressureSearch {
   bool rises_;  // so do duty and energy of the pumps
   SteepestFall pump_fall_;
   double least_coils_j_;
-  double parts_objective_;
+  double parts_objective_ = 0.0;  // at the lowest pressure, at least
   std::priority_queue<Interval> open_;
   Leaf leaf_;
   int evaluations_ = 0;
@@ -224,7 +224,8 @@ Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double res
         .Run(needed.source_pa, SourceWindow(problem, candidate).high_pa);
   Leaf leaf;
   leaf.status = needed.status;
-  leaf.lower_bound = ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3));
+  leaf.lower_bound = ObjectiveOf(
+      problem.objective, TotalAmounts(problem, candidate, LeastPoint(problem, reservoir_m3)));
   return leaf;
 }
 
@@ -242,8 +243,7 @@ Leaf SizeQuickly(const Problem& problem, const Candidate& candidate, double rese
       SourceWindow(problem, candidate).empty())
     return SizeAtVolume(problem, candidate, reservoir_m3);
   const Evaluation evaluation = Evaluate(problem, candidate, highest);
-  const double parts =
-      ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, reservoir_m3));
+  const double parts = ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, highest));
   if (!evaluation.failed && StrokeExcess(problem, evaluation) > 0.0)
     return {LeafStatus::kInfeasible, {}, 0.0, parts};
   if (evaluation.failed || SmallestMargin(problem, candidate, highest, evaluation) < 0.0)

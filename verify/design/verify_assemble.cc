@@ -56,10 +56,11 @@ Expected Times(double quantity, const model::PartBasics& basics, double gas_kg =
   return expected;
 }
 
-Expected Made(const Problem& problem, double reservoir_m3) {
-  const double rating_pa = std::min(problem.source_pressure_max_pa - problem.ambient.pressure_pa,
-                                    model::kMadeReservoirPressureMaxGaugePa);
-  const model::MadeReservoir made = model::MakeReservoir(reservoir_m3, rating_pa);
+// Built for the pressure at which its pumps stop.
+Expected Made(const Problem& problem, const Settings& settings) {
+  const model::MadeReservoir made =
+      model::MakeReservoir(settings.reservoir_volume_m3.value_or(0.0),
+                           settings.source_pressure_pa - problem.ambient.pressure_pa);
   return {made.mass_kg, made.body_volume_m3, {}};
 }
 
@@ -71,7 +72,7 @@ Expected Filled(const Problem& problem, int quantity, const model::Cylinder& cyl
 
 Expected ExpectedRow(const Problem& problem, const Design& design, const Choice& choice) {
   const int part = ItemOf(problem, choice)->part;
-  if (part < 0) return Made(problem, design.settings.reservoir_volume_m3.value_or(0.0));
+  if (part < 0) return Made(problem, design.settings);
   double gas_kg = 0.0;
   if (choice.family == Family::kCylinder)
     return Filled(problem, static_cast<int>(choice.quantity), problem.parts.cylinders[part]);
@@ -92,7 +93,7 @@ double ObjectiveOf(const Problem& problem, const Totals& totals) {
          weight.energy_wh * totals.energy_j / 3600.0;
 }
 
-Totals TotalsOf(const Problem& problem, const Assembly& a, double reservoir_m3) {
+Totals TotalsOf(const Problem& problem, const Assembly& a, const Settings& settings) {
   Totals totals;
   totals.cost_eur = 0.0;
   const auto add = [&](const Expected& part) {
@@ -119,7 +120,7 @@ Totals TotalsOf(const Problem& problem, const Assembly& a, double reservoir_m3) 
   if (a.reservoir)
     add(Times(a.reservoirs, a.reservoir->basics));
   else if (a.compressor)
-    add(Made(problem, reservoir_m3));
+    add(Made(problem, settings));
   return totals;
 }
 

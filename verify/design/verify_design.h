@@ -47,8 +47,8 @@ void CheckAmounts(const Problem& problem, const Design& design, const Assembly& 
 bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& assembly,
                       Findings& findings);
 
-// Sums over all pieces, without energy; a made-to-measure reservoir has the given volume.
-Totals TotalsOf(const Problem& problem, const Assembly& assembly, double reservoir_m3);
+// Sums over all pieces, without energy; a made-to-measure reservoir is that of the settings.
+Totals TotalsOf(const Problem& problem, const Assembly& assembly, const Settings& settings);
 double ObjectiveOf(const Problem& problem, const Totals& totals);
 
 // Which parts fit together.

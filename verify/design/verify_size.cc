@@ -42,7 +42,6 @@ class PressureSizing {
         cycles_(cycles),
         volumes_(volumes),
         slack_(slack),
-        totals_(TotalsOf(problem, assembly, volumes.low_m3)),
         stood_(StoodPressures(problem, assembly)) {
     stood_.low_pa = std::max(stood_.low_pa, floor_pa);
     if (volumes.high_m3 > volumes.low_m3)
@@ -183,14 +182,14 @@ class PressureSizing {
     const Settings settings = SettingsAt(source_pa, volumes_.low_m3);
     const Supply supply = SupplyOf(problem_, settings, assembly_, cycle);
     double excess = StrokeExcess(cycle);
+    Totals totals = TotalsOf(problem_, assembly_, settings);
     for (const auto& [pointer, reached] :
-         Requirements(problem_, settings, totals_, assembly_, cycle, supply))
+         Requirements(problem_, settings, totals, assembly_, cycle, supply))
       excess = std::max(excess, -reached.margin());
     if (assembly_.battery)
       excess = std::max(
           excess,
           supply.current_a / (assembly_.batteries * assembly_.battery->current_max_a) - 1.0);
-    Totals totals = totals_;
     totals.energy_j = EnergyOf(problem_, supply, cycle);
     return {excess, ObjectiveOf(problem_, totals)};
   }
@@ -216,7 +215,6 @@ class PressureSizing {
   KnownCycles& cycles_;
   Volumes volumes_;
   double slack_;
-  Totals totals_;
   Pressures stood_;
   double floor_pa_ = 0.0;
   double resolution_ = 0.0;  // of pressures, relative; 0 where there is one volume
@@ -236,8 +234,17 @@ Sizing SizeMade(const Problem& problem, const Assembly& assembly, KnownCycles& c
     bool operator<(const Interval& other) const { return bound > other.bound; }
   };
   std::priority_queue<Interval> open;
+  double least_pa = problem.ambient.pressure_pa;  // that any source stops at
+  for (const ActuatorGroup& group : problem.groups)
+    least_pa = std::max(least_pa, group.chamber.operating_pressure_pa);
+  const auto parts_of = [&](double volume_m3) {
+    Settings least;
+    least.source_pressure_pa = least_pa;
+    least.reservoir_volume_m3 = volume_m3;
+    return ObjectiveOf(problem, TotalsOf(problem, assembly, least));
+  };
   const auto add = [&](double low_m3, double high_m3, double bound, double floor_pa) {
-    const double parts = ObjectiveOf(problem, TotalsOf(problem, assembly, low_m3));
+    const double parts = parts_of(low_m3);
     open.push({{low_m3, high_m3}, std::max(bound, parts), floor_pa, false});
   };
   const double ratio = std::pow(model::kMadeReservoirLargestM3 / model::kMadeReservoirSmallestM3,
@@ -261,8 +268,7 @@ Sizing SizeMade(const Problem& problem, const Assembly& assembly, KnownCycles& c
       continue;
     }
     // A point that is no better than `enough` is of no use, and few of a wide interval are found.
-    if (v.high_m3 < kNarrow * v.low_m3 &&
-        ObjectiveOf(problem, TotalsOf(problem, assembly, v.high_m3)) <= enough)
+    if (v.high_m3 < kNarrow * v.low_m3 && parts_of(v.high_m3) <= enough)
       best.objective =
           std::min(best.objective, PressureSizing(problem, assembly, cycles, {v.high_m3, v.high_m3},
                                                   slack, interval.floor_pa)

@@ -137,10 +137,11 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const P
   ItemAmounts sum;
   double energy_j = 0.0;  // whatever the strokes
   if (item.part == -2) {
-    const double rating_pa = std::min(problem.source_pressure_max_pa - problem.ambient.pressure_pa,
-                                      model::kMadeReservoirPressureMaxGaugePa);
-    const model::MadeReservoir made =
-        model::MakeReservoir(model::kMadeReservoirSmallestM3, rating_pa);
+    double least_pa = problem.ambient.pressure_pa;  // that any source stops at
+    for (const ActuatorGroup& group : problem.groups)
+      least_pa = std::max(least_pa, group.chamber.operating_pressure_pa);
+    const model::MadeReservoir made = model::MakeReservoir(model::kMadeReservoirSmallestM3,
+                                                           least_pa - problem.ambient.pressure_pa);
     sum = {made.mass_kg, made.body_volume_m3, 0.0, 0.0};
   } else {
     const model::PartBasics& basics = BasicsOf(problem.parts, slot.family, item.part);

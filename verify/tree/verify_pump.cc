@@ -92,8 +92,16 @@ double Pumps::FirstFill(const Case& c, double stop_pa, Volumes v) const {
   return energy_j;
 }
 
-// Battery and energy of pumps that find `starts_pa` at the starts of the strokes: one for all, or
-// one for each of two groups that take turns.
+double Pumps::MadeObjective(double volume_m3, double stop_pa) const {
+  const model::MadeReservoir made =
+      model::MakeReservoir(volume_m3, stop_pa - problem_.ambient.pressure_pa);
+  return problem_.objective.mass_kg * made.mass_kg +
+         problem_.objective.volume_l * made.body_volume_m3 * 1e3;
+}
+
+// Battery and energy of pumps, and a made-to-measure reservoir built for where they stop, that find
+// `starts_pa` at the starts of the strokes: one for all, or one for each of two groups that take
+// turns.
 double Pumps::Rest(const Case& c, const std::vector<double>& starts_pa, double stop_pa,
                    Volumes v) const {
   const double first_fill_j = FirstFill(c, stop_pa, v);
@@ -133,7 +141,9 @@ double Pumps::Rest(const Case& c, const std::vector<double>& starts_pa, double s
   if (on_s * problem_.frequency_hz > c.pumps.duty_max * kSlack) return kUnlimited;
   const double beyond_j = first_fill_j + problem_.actuations * (pump_j + c.inflating_j);
   const double coils_j = problem_.actuations * c.coil_w * 0.5 / problem_.frequency_hz;
-  return c.packs.Least(beyond_j + coils_j) + problem_.objective.energy_wh * beyond_j / 3600.0;
+  const double made = c.made ? MadeObjective(v.low_m3, stop_pa) : 0.0;
+  return made + c.packs.Least(beyond_j + coils_j) +
+         problem_.objective.energy_wh * beyond_j / 3600.0;
 }
 
 double Pumps::LeastAt(const Case& c, double reservoir, Volumes v) {
@@ -209,12 +219,7 @@ double Pumps::LeastInTurns(const Case& c, double enough, double low_pa, double h
 }
 
 double Pumps::LeastMade(const Case& c, Volumes v) {
-  const double rating_pa = std::min(problem_.source_pressure_max_pa - problem_.ambient.pressure_pa,
-                                    model::kMadeReservoirPressureMaxGaugePa);
-  const model::MadeReservoir made = model::MakeReservoir(v.low_m3, rating_pa);
-  const double reservoir = problem_.objective.mass_kg * made.mass_kg +
-                           problem_.objective.volume_l * made.body_volume_m3 * 1e3;
-  const double least = LeastAt(c, reservoir, v);
+  const double least = LeastAt(c, 0.0, v);
   const auto settled = [&](double bound) { return bound > c.enough || std::isinf(bound); };
   if (settled(least) || v.high_m3 < kFinestRatio * v.low_m3) return least;
   const double middle_m3 = std::sqrt(v.low_m3 * v.high_m3);
@@ -233,7 +238,8 @@ double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& li
          0.0,
          chosen,
          enough,
-         kUnlimited};
+         kUnlimited,
+         false};
   for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
     c.air_m3 += Drawn(problem_, g, lines[g]->chamber, OperatingPa(problem_, g)) / content_per_m3_;
     c.coil_w += lines[g]->coil_w;
@@ -248,7 +254,8 @@ double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& li
   for (int i = ranges[reservoir_].first; i < ranges[reservoir_].second; ++i) {
     if (std::isfinite(least) && least <= enough) return floor;  // no closer look is asked for
     const ProofItem& item = plan_.slots[reservoir_].choices[i];
-    if (item.part < 0) {
+    c.made = item.part < 0;
+    if (c.made) {
       c.reservoir_pa = problem_.ambient.pressure_pa + model::kMadeReservoirPressureMaxGaugePa;
       least = std::min(
           least, LeastMade(c, {model::kMadeReservoirSmallestM3, model::kMadeReservoirLargestM3}));

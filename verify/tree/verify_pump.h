@@ -59,11 +59,13 @@ class Pumps {
     double air_m3, coil_w, inflating_j;  // per cycle
     double chosen, enough;
     double reservoir_pa;  // most that it stands
+    bool made;            // to measure
   };
   using Range = PumpChoices::Range;
 
   const Packs& PacksIn(Range compressors, Range batteries);
   std::vector<double> DrawnBy(const BestLine& line, int group) const;
+  double MadeObjective(double volume_m3, double stop_pa) const;
   double FirstFill(const Case& c, double stop_pa, Volumes v) const;
   KnownStrokes::Query QueryOf(const Case& c, int group, Volumes v) const;
   double LeastTogether(const Case& c, double enough, double low_pa, double high_pa, Volumes v);

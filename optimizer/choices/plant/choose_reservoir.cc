@@ -37,7 +37,9 @@ void Planter::AddMadeReservoir(int mates, const Entry<ReservoirCorner>& entry) c
   entry.item.option.index = kCustom;
   entry.item.option.quantity = 1;
   ReservoirCorner& corner = entry.item.corner;
-  SetShare(problem_, CustomReservoir(problem_, model::kMadeReservoirSmallestM3), corner);
+  SetShare(problem_,
+           CustomReservoir(problem_, model::kMadeReservoirSmallestM3, LeastSourcePa(problem_)),
+           corner);
   corner.custom = true;
   corner.low_m3 = model::kMadeReservoirSmallestM3;
   corner.high_m3 = model::kMadeReservoirLargestM3;

@@ -209,8 +209,8 @@ class Planter {
       gas_kg_ = std::max(gas_kg_, bottle.co2_mass_kg);
     sum += problem_.objective.mass_kg * gas_kg_ *
            std::max(problem_.limits.cylinders, problem_.limits.co2);
-    sum +=
-        ObjectiveOf(problem_.objective, CustomReservoir(problem_, model::kMadeReservoirLargestM3));
+    sum += ObjectiveOf(problem_.objective, CustomReservoir(problem_, model::kMadeReservoirLargestM3,
+                                                           CustomRatingPa(problem_)));
     double energy_j = 0.0;  // no design uses more than its batteries give
     for (const model::Battery& battery : parts.batteries)
       energy_j = std::max(energy_j,

@@ -53,7 +53,7 @@ std::vector<Point> AllPoints(Problem problem, const std::vector<Amount>& amounts
   ForEachCombination(problem, [&](const optimizer::Candidate& candidate) {
     const optimizer::Leaf leaf = SizeAlone(problem, candidate);
     if (leaf.status != optimizer::LeafStatus::kFeasible) return;
-    const optimizer::Amounts total = TotalAmounts(problem, candidate, leaf.point.reservoir_m3);
+    const optimizer::Amounts total = TotalAmounts(problem, candidate, leaf.point);
     Point point;
     for (Amount amount : amounts)
       point.push_back(amount == Amount::kMass     ? total.mass_kg
