@@ -1,8 +1,10 @@
 #include "api/design/answer.h"
 
+#include "api/catalogue/catalogue_parts.h"
 #include "api/design/designs.h"
 #include "api/design/front.h"
 #include "api/design/read/requirements_reader.h"
+#include "api/design/read/selection.h"
 #include "api/design/revised_ranking.h"
 #include "api/json/json.h"
 #include "optimizer/explain/conflict.h"
@@ -17,7 +19,7 @@ namespace {
 Json AnswerFront(const DesignRequest& request, const optimizer::SearchOptions& options,
                  const std::vector<catalog::Part>& parts) {
   optimizer::Front front =
-      optimizer::ParetoFront(request.problem, request.pareto, options, optimizer::FindConflict);
+      optimizer::ParetoFront(request.problem, request.pareto, options, optimizer::FindConflicts);
   if (!request.robust) {
     Json document = RenderAnswer(request, front.answer, parts);
     AddFront(front, document);
@@ -58,6 +60,9 @@ Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions option
                    const std::vector<catalog::Part>& parts) {
   options.time_limit_s = request.time_limit_s;
   options.record = request.proof;
+  options.select = [&parts](const optimizer::Problem& problem) {
+    return ToModelParts(AllowedParts(parts, problem), problem.ambient);
+  };
   if (!request.pareto.empty()) return AnswerFront(request, options, parts);
   if (request.model) return AnswerRevised(request, options, parts);
   return AnswerList(request, options, parts).document;

@@ -214,17 +214,37 @@ Json RenderProof(const optimizer::Proof& proof, const model::Parts& parts) {
   return json;
 }
 
-Json RenderConflict(const std::vector<optimizer::Conflict>& conflicts) {
+Json RenderConflict(const std::vector<optimizer::Conflict>& conflict) {
   Json list = Json::array();
-  for (const optimizer::Conflict& conflict : conflicts)
-    list.push_back({{"requirement", conflict.requirement},
-                    {"required", Number(conflict.required)},
-                    {"best", OrNull(conflict.best)},
-                    {"relaxation", conflict.best && conflict.required != 0.0
-                                       ? Number(std::abs(*conflict.best / conflict.required - 1.0))
-                                       : Json(nullptr)},
-                    {"proved", conflict.proved}});
+  for (const optimizer::Conflict& entry : conflict) {
+    const bool reached = entry.best && entry.required && *entry.required != 0.0;
+    list.push_back({{"requirement", entry.requirement},
+                    {"required", OrNull(entry.required)},
+                    {"best", OrNull(entry.best)},
+                    {"best_interval", entry.best && entry.bound
+                                          ? Json({Number(*entry.bound), Number(*entry.best)})
+                                          : Json(nullptr)},
+                    {"relaxation", reached ? Number(std::abs(*entry.best / *entry.required - 1.0))
+                                           : Json(nullptr)},
+                    {"proved", entry.proved}});
+  }
   return list;
+}
+
+// Why there is no design, and what would give way.
+void AddInfeasibility(const optimizer::Infeasibility& why, Json& document) {
+  Json conflicts = Json::array(), relaxation = Json::array();
+  for (const std::vector<optimizer::Conflict>& conflict : why.conflicts)
+    conflicts.push_back(RenderConflict(conflict));
+  for (const optimizer::Relaxed& relaxed : why.relaxation)
+    relaxation.push_back({{"requirement", relaxed.requirement},
+                          {"required", OrNull(relaxed.required)},
+                          {"value", OrNull(relaxed.value)},
+                          {"relative_change", Number(relaxed.change)}});
+  document["conflict"] = conflicts.empty() ? Json::array() : conflicts.front();
+  document["conflicts"] = std::move(conflicts);
+  document["relaxation"] = std::move(relaxation);
+  document["conflicts_complete"] = why.complete;
 }
 
 }  // namespace
@@ -255,7 +275,7 @@ Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
   document["best_on_measured_flow"] = best_on_measured_flow;
   document["proof"] = RenderProof(answer.proof, request.problem.parts);
   if (answer.status == optimizer::Status::kInfeasible)
-    document["conflict"] = RenderConflict(answer.conflict);
+    AddInfeasibility(answer.infeasibility, document);
   document["seconds"] = Number(answer.seconds);
   request.remarks.AddTo(document);
   document["requirements"] = request.request;

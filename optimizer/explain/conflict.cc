@@ -1,165 +1,167 @@
 #include "optimizer/explain/conflict.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <set>
+#include <map>
 
-#include "optimizer/evaluate/line.h"
-#include "optimizer/explain/requirements.h"
-#include "optimizer/search/tree_search.h"
+#include "optimizer/explain/demands.h"
+#include "optimizer/explain/minimal_conflicts.h"
+#include "optimizer/explain/reach.h"
 
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kBestTolerance = 0.002;  // relative, on what the catalogue reaches at best
-constexpr double kLimitS = 12.0;          // for the whole analysis
-constexpr double kSearchShare = 0.15;     // of what is left, for one search
-constexpr double kSearchLeastS = 0.5;
+constexpr double kLimitS = 12.0;        // for the whole analysis
+constexpr std::size_t kDropsMost = 12;  // smallest sets of demands that are compared
 
-class ConflictSearch {
+class Analysis {
  public:
-  ConflictSearch(const SearchOptions& options, double used_s)
-      : options_(options),
-        start_(std::chrono::steady_clock::now()),
-        limit_s_(std::min(kLimitS, options.time_limit_s - used_s)) {
-    options_.progress = nullptr;
-  }
+  Analysis(const Problem& problem, const SearchOptions& options, double used_s)
+      : problem_(problem),
+        demands_(Demands(problem, options)),
+        search_(options, std::min(kLimitS, options.time_limit_s - used_s)),
+        oracle_([this](const DemandSet& dropped) { return Ask(dropped); }) {}
 
-  // Some design that meets the problem, or the proof that there is none, or neither in time.
-  Answer Any(Problem problem) { return Run(std::move(problem), true); }
-  // The best design.
-  Answer Best(Problem problem) { return Run(std::move(problem), false); }
-
-  double Left() const {
-    const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start_;
-    return limit_s_ - used.count();
+  Infeasibility Run() {
+    const int count = static_cast<int>(demands_.size());
+    const auto conflicts = FindDisjointConflicts(count, oracle_);
+    if (conflicts.size() == 1 && conflicts.front().demands.empty())
+      return {{PressuresThemselves()}, {}, true};
+    relaxation_ = Relax(FindSmallestDrops(count, conflicts, kDropsMost, oracle_));
+    Infeasibility result;
+    for (const MinimalConflict& conflict : conflicts)
+      if (!conflict.demands.empty()) result.conflicts.push_back(Describe(conflict));
+    for (const auto& [demand, value] : relaxation_) result.relaxation.push_back(AsRelaxed(demand));
+    result.complete = !unknown_ && !search_.OutOfTime();
+    return result;
   }
-  bool OutOfTime() const { return Left() <= 0.0 || (options_.cancelled && options_.cancelled()); }
 
  private:
-  Answer Run(Problem problem, bool any_design) {
-    problem.count = 1;
-    // A limit on an amount is decided soonest by minimising it.
-    if (std::isfinite(problem.mass_max_kg))
-      problem.objective = {.mass_kg = 1.0};
-    else if (std::isfinite(problem.volume_max_l))
-      problem.objective = {.volume_l = 1.0};
-    options_.any_design = any_design;
-    options_.time_limit_s = std::max(kSearchShare * Left(), std::min(Left(), kSearchLeastS));
-    return SearchTrees(problem, options_);
+  using Values = std::map<int, std::optional<double>>;  // of demands that give way; none: dropped
+
+  // Parts are selected anew before their prices are looked at, so the later fields come first.
+  Problem Without(const DemandSet& dropped) const {
+    Problem trial = problem_;
+    for (auto demand = dropped.rbegin(); demand != dropped.rend(); ++demand)
+      demands_[*demand].drop(trial);
+    return trial;
   }
 
-  SearchOptions options_;
-  std::chrono::steady_clock::time_point start_;
-  double limit_s_;
-};
-
-std::optional<double> Achieved(const Answer& answer, const std::string& pointer) {
-  if (answer.designs.empty()) return std::nullopt;
-  for (const Margin& margin : answer.designs.front().margins)
-    if (margin.requirement == pointer) return margin.achieved;
-  return std::nullopt;
-}
-
-// Best value between the required one, which is infeasible, and the loosest, by halving on a log
-// scale; a feasible search moves the bracket to what its design achieves.
-std::optional<double> Best(const Problem& problem, const Requirement& requirement,
-                           ConflictSearch& search) {
-  Problem loose = problem;
-  requirement.set(loose, requirement.loosest);
-  if (requirement.objective) {
-    // The lightest design is a second opinion where the search for the least amount runs out of
-    // time.
-    std::optional<double> best;
-    for (const Objective& objective : {*requirement.objective, Objective{.mass_kg = 1.0}}) {
-      loose.objective = objective;
-      const Answer answer = search.Best(loose);
-      if (answer.designs.empty()) continue;
-      const Totals& totals = answer.designs.front().totals;
-      if (requirement.objective->cost_eur > 0.0 && !totals.cost_eur) continue;
-      const double amount =
-          ObjectiveOf(*requirement.objective,
-                      Amounts{totals.mass_kg, totals.volume_m3, totals.cost_eur.value_or(0.0)});
-      best = std::min(best.value_or(kUnlimited), amount);
+  Problem With(const Values& values) const {
+    Problem trial = problem_;
+    for (auto entry = values.rbegin(); entry != values.rend(); ++entry) {
+      const Demand& demand = demands_[entry->first];
+      entry->second ? demand.number->set(trial, *entry->second) : demand.drop(trial);
     }
-    return best;
+    return trial;
   }
-  const bool less_is_harder = requirement.loosest > requirement.required;
-  double hard = requirement.required;
-  double easy = requirement.loosest;
-  const auto reach = [&](double value) {
-    Problem trial = problem;
-    requirement.set(trial, value);
-    const Answer answer = search.Any(trial);
-    if (answer.designs.empty()) return false;
-    const double achieved = Achieved(answer, requirement.pointer).value_or(value);
-    const double good = less_is_harder ? std::max(hard, std::min(achieved, value))
-                                       : std::min(hard, std::max(achieved, value));
-    easy = good;
-    return true;
-  };
-  // Looser is not always easier: a slower cycle holds valves longer. Approach from the required
-  // side.
-  double reached = less_is_harder ? hard * 2.0 : hard * 0.5;
-  while (!reach(reached)) {
-    if (search.OutOfTime() || (less_is_harder ? reached >= easy : reached <= easy))
-      return std::nullopt;
-    hard = reached;
-    reached = less_is_harder ? std::min(reached * 2.0, easy) : std::max(reached * 0.5, easy);
+
+  Met Ask(const DemandSet& dropped) {
+    if (search_.OutOfTime()) {
+      unknown_ = true;
+      return Met::kUnknown;
+    }
+    const Answer answer = search_.Any(Without(dropped));
+    if (!answer.designs.empty()) return Met::kYes;
+    if (answer.status == Status::kInfeasible) return Met::kNo;
+    unknown_ = true;
+    return Met::kUnknown;
   }
-  while (std::abs(std::log(easy / hard)) > kBestTolerance && !search.OutOfTime()) {
-    const double middle = std::sqrt(easy * hard);
-    if (!reach(middle)) hard = middle;
+
+  // With `others` as they are; a demand that is no number has nothing to reach.
+  Reach ReachOf(int demand, const Values& others) {
+    if (!demands_[demand].number || search_.OutOfTime()) return {};
+    return FindReach(With(others), demands_[demand], search_);
   }
-  return easy;
-}
+
+  double ChangeOf(int demand, const std::optional<double>& value) const {
+    if (!value || demands_[demand].pointer.starts_with("/limits/")) return 1.0;
+    const double required = demands_[demand].number->required;
+    return required != 0.0 ? std::abs(*value / required - 1.0) : 1.0;
+  }
+
+  double ChangeOf(const Values& values) const {
+    double sum = 0.0;
+    for (const auto& [demand, value] : values) sum += ChangeOf(demand, value);
+    return sum;
+  }
+
+  // Tightened one after the other, from the first on or from the last.
+  Values Tighten(const DemandSet& dropped, bool from_last) {
+    Values values;
+    for (const int demand : dropped) values[demand] = std::nullopt;
+    std::vector<int> order(dropped.begin(), dropped.end());
+    if (from_last) std::reverse(order.begin(), order.end());
+    for (const int demand : order) {
+      Values others = values;
+      others.erase(demand);
+      if (const Reach reach = ReachOf(demand, others); reach.best) values[demand] = reach.best;
+    }
+    return values;
+  }
+
+  Values Relax(const std::vector<DemandSet>& drops) {
+    Values least;
+    for (const DemandSet& dropped : drops)
+      for (const bool from_last : {false, true}) {
+        if (from_last && dropped.size() == 1) continue;
+        if (!least.empty() && search_.OutOfTime()) return least;
+        Values values = Tighten(dropped, from_last);
+        if (least.empty() || ChangeOf(values) < ChangeOf(least)) least = std::move(values);
+      }
+    return least;
+  }
+
+  std::vector<Conflict> Describe(const MinimalConflict& minimal) {
+    Values others = relaxation_;
+    for (const int demand : minimal.demands) others.erase(demand);
+    std::vector<Conflict> conflict;
+    for (const int demand : minimal.demands) {
+      const std::optional<Requirement>& number = demands_[demand].number;
+      Conflict entry;
+      entry.requirement = demands_[demand].pointer;
+      entry.proved = minimal.proved.contains(demand);
+      if (number) {
+        const Reach reach = ReachOf(demand, others);
+        entry.required = number->required;
+        entry.best = reach.best;
+        if (reach.best) entry.bound = reach.bound;
+      }
+      conflict.push_back(std::move(entry));
+    }
+    return conflict;
+  }
+
+  Relaxed AsRelaxed(int demand) const {
+    const std::optional<Requirement>& number = demands_[demand].number;
+    const std::optional<double>& value = relaxation_.at(demand);
+    return {demands_[demand].pointer, number ? std::optional(number->required) : std::nullopt,
+            value, ChangeOf(demand, value)};
+  }
+
+  // Nothing that can be dropped helps.
+  std::vector<Conflict> PressuresThemselves() const {
+    std::vector<Conflict> conflict;
+    for (std::size_t g = 0; g < problem_.groups.size(); ++g)
+      conflict.push_back(
+          {"/actuators/" + std::to_string(g) + "/operating_pressure_kpa_gauge",
+           (problem_.groups[g].chamber.operating_pressure_pa - problem_.ambient.pressure_pa) / 1e3,
+           std::nullopt, std::nullopt, true});
+    return conflict;
+  }
+
+  const Problem& problem_;
+  const std::vector<Demand> demands_;
+  TrialSearch search_;
+  DropOracle oracle_;
+  Values relaxation_;
+  bool unknown_ = false;  // some search ran out of time
+};
 
 }  // namespace
 
-std::vector<Conflict> FindConflict(const Problem& problem, const SearchOptions& options,
-                                   double used_s) {
-  ConflictSearch search(options, used_s);
-  const std::vector<Requirement> all = Requirements(problem);
-  std::vector<const Requirement*> kept;
-  for (const Requirement& requirement : all) kept.push_back(&requirement);
-
-  const auto without = [&](const std::vector<const Requirement*>& holding) {
-    Problem trial = problem;
-    for (const Requirement& requirement : all)
-      if (std::find(holding.begin(), holding.end(), &requirement) == holding.end())
-        requirement.set(trial, requirement.loosest);
-    return trial;
-  };
-  std::set<const Requirement*> proved;
-  for (std::size_t i = 0; i < kept.size() && !search.OutOfTime();) {
-    std::vector<const Requirement*> rest = kept;
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-    const Answer answer = search.Any(without(rest));
-    if (answer.status == Status::kInfeasible) {
-      kept = std::move(rest);
-    } else {
-      if (!answer.designs.empty()) proved.insert(kept[i]);
-      ++i;
-    }
-  }
-
-  std::vector<Conflict> conflict;
-  for (const Requirement* requirement : kept) {
-    std::optional<double> best;
-    if (!search.OutOfTime()) best = Best(problem, *requirement, search);
-    conflict.push_back(
-        {requirement->pointer, requirement->required, best, proved.contains(requirement)});
-  }
-  std::stable_partition(conflict.begin(), conflict.end(),
-                        [](const Conflict& c) { return c.proved; });
-  if (conflict.empty())  // nothing that can be loosened helps: the pressures themselves
-    for (std::size_t g = 0; g < problem.groups.size(); ++g)
-      conflict.push_back(
-          {"/actuators/" + std::to_string(g) + "/operating_pressure_kpa_gauge",
-           (problem.groups[g].chamber.operating_pressure_pa - problem.ambient.pressure_pa) / 1e3,
-           std::nullopt});
-  return conflict;
+Infeasibility FindConflicts(const Problem& problem, const SearchOptions& options, double used_s) {
+  return Analysis(problem, options, used_s).Run();
 }
 
 }  // namespace plenum::optimizer

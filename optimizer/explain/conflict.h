@@ -1,19 +1,18 @@
-// Why a problem is infeasible.
+// Why a problem is infeasible, and what would make it feasible.
 #ifndef PLENUM_OPTIMIZER_EXPLAIN_CONFLICT_H_
 #define PLENUM_OPTIMIZER_EXPLAIN_CONFLICT_H_
-
-#include <vector>
 
 #include "optimizer/problem/problem.h"
 
 namespace plenum::optimizer {
 
-// A smallest set of requirements that cannot be met together (each one dropped makes the rest
-// feasible), found by dropping them one by one; and for each the best that the catalogue reaches
-// while the others hold. `used_s` of the time limit are gone; when it ends the set may be larger
-// than needed and bests may be missing.
-std::vector<Conflict> FindConflict(const Problem& problem, const SearchOptions& options,
-                                   double used_s);
+// Disjoint smallest sets of demands (demands.h) that cannot be met together: with only these in
+// force no design is feasible, with any one of them dropped some is. And the relaxation: the fewest
+// demands that have to give way, of these the ones with the least sum of relative changes, each
+// loosened to the least that was found with the others as loose as they then are. `used_s` of the
+// time limit are gone; when it ends sets may be larger than needed and bests may be missing, and
+// the result is not `complete`.
+Infeasibility FindConflicts(const Problem& problem, const SearchOptions& options, double used_s);
 
 }  // namespace plenum::optimizer
 

@@ -11,7 +11,7 @@ Answer Search(const Problem& problem, const SearchOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   Answer answer = SearchTrees(problem, options);
   if (answer.status == Status::kInfeasible)
-    answer.conflict = FindConflict(problem, options, answer.seconds);
+    answer.infeasibility = FindConflicts(problem, options, answer.seconds);
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return answer;
 }

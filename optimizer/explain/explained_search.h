@@ -6,7 +6,7 @@
 
 namespace plenum::optimizer {
 
-// SearchTrees (tree_search.h); the answer to an infeasible problem has its conflict (conflict.h).
+// SearchTrees (tree_search.h); the answer to an infeasible problem has its conflicts (conflict.h).
 Answer Search(const Problem& problem, const SearchOptions& options);
 
 }  // namespace plenum::optimizer

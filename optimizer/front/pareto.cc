@@ -67,7 +67,7 @@ bool Inside(const Caps& inner, const Caps& outer) { return Within(inner, outer);
 class FrontSearch {
  public:
   FrontSearch(const Problem& problem, const std::vector<Amount>& amounts,
-              const SearchOptions& options, const FindConflictFunction& explain)
+              const SearchOptions& options, const FindConflictsFunction& explain)
       : problem_(problem),
         amounts_(amounts),
         options_(options),
@@ -155,17 +155,18 @@ class FrontSearch {
     Answer answer = SearchTrees(limited, options);
     // The first search alone explains why there is nothing.
     if (searches_ == 1 && answer.status == Status::kInfeasible && explain_)
-      answer.conflict = explain_(limited, options, answer.seconds);
+      answer.infeasibility = explain_(limited, options, answer.seconds);
     cancelled_ = cancelled_ || answer.status == Status::kCancelled;
     const bool proved = answer.status == Status::kOptimal || answer.status == Status::kInfeasible;
     proved_ += proved;
     if (searches_ == 1) {
       first_.proof = answer.proof;
-      first_.conflict = answer.conflict;
+      first_.infeasibility = std::move(answer.infeasibility);
       if (std::isinf(problem_.cost_max_eur))  // prices were asked for, not a limit
-        std::erase_if(first_.conflict, [](const Conflict& conflict) {
-          return conflict.requirement == "/supply/cost_eur_max";
-        });
+        for (std::vector<Conflict>& conflict : first_.infeasibility.conflicts)
+          std::erase_if(conflict, [](const Conflict& entry) {
+            return entry.requirement == "/supply/cost_eur_max";
+          });
     }
     return answer;
   }
@@ -307,7 +308,7 @@ class FrontSearch {
   const Problem& problem_;
   const std::vector<Amount>& amounts_;
   const SearchOptions& options_;
-  const FindConflictFunction& explain_;
+  const FindConflictsFunction& explain_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   const std::size_t minimised_;
   const double resolution_;
@@ -323,7 +324,7 @@ class FrontSearch {
 }  // namespace
 
 Front ParetoFront(const Problem& problem, const std::vector<Amount>& amounts,
-                  const SearchOptions& options, const FindConflictFunction& explain) {
+                  const SearchOptions& options, const FindConflictsFunction& explain) {
   return FrontSearch(problem, amounts, options, explain).Run();
 }
 

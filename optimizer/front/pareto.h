@@ -23,9 +23,9 @@ namespace plenum::optimizer {
 // `unexplored`. Where the volume of a made-to-measure reservoir trades against energy the front is
 // a curve: it is sampled at a resolution of 1 %.
 //
-// `explain` is asked where there is no design at all; an empty one leaves the conflict out.
+// `explain` is asked where there is no design at all; an empty one leaves the conflicts out.
 Front ParetoFront(const Problem& problem, const std::vector<Amount>& amounts,
-                  const SearchOptions& options, const FindConflictFunction& explain = {});
+                  const SearchOptions& options, const FindConflictsFunction& explain = {});
 
 }  // namespace plenum::optimizer
 

@@ -18,7 +18,7 @@ struct Unexplored {
 };
 
 struct Front {
-  // Status, designs of the front by rising Problem::objective, conflict if there are none. The
+  // Status, designs of the front by rising Problem::objective, conflicts if there are none. The
   // proof's counts and bound are those of the first search, which has no limits but the problem's.
   Answer answer;
   std::vector<Amount> amounts;

@@ -120,6 +120,8 @@ struct SearchOptions {
   std::function<void(const Progress&)>
       progress;  // called at most a few times a second; may be empty
   PeriodicSolver periodic = model::FindPeriodicState;
+  // The parts that other `require` and `exclude` leave; empty: these two cannot be dropped.
+  std::function<model::Parts(const Problem&)> select;
   std::size_t crowd = 16384;  // boxes that wait from which on room is saved
 };
 
@@ -208,22 +210,38 @@ struct Proof {
   std::shared_ptr<const ProofRecord> record;  // where SearchOptions asks for it
 };
 
+// An entry of a conflict: a field of the request that can be dropped or loosened.
 struct Conflict {
-  std::string requirement;  // JSON pointer
-  double required = 0.0;
-  std::optional<double> best;  // best the catalogue reaches while the others hold; none: not at all
+  std::string requirement;         // JSON pointer; "prices"
+  std::optional<double> required;  // in the units of the field; none: it is no number
+  // What it reaches while the rest of the relaxation is applied; none: nothing was found.
+  std::optional<double> best;
+  std::optional<double> bound;  // proved: nothing harder than this is reached
   bool proved = true;  // without it a design was found; false: time ran out before that was known
 };
 
-// As FindConflict (conflict.h): of an infeasible problem, with so much of the time limit used.
-using FindConflictFunction = std::function<std::vector<Conflict>(
+struct Relaxed {
+  std::string requirement;
+  std::optional<double> required, value;  // none: it is dropped
+  double change = 1.0;                    // relative; 1 of what is dropped
+};
+
+// Why there is no design (conflict.h).
+struct Infeasibility {
+  std::vector<std::vector<Conflict>> conflicts;  // disjoint, each minimal
+  std::vector<Relaxed> relaxation;               // makes it feasible; empty: none was found
+  bool complete = false;                         // false: time ran out before all was found
+};
+
+// As FindConflicts (conflict.h): of an infeasible problem, with so much of the time limit used.
+using FindConflictsFunction = std::function<Infeasibility(
     const Problem& problem, const SearchOptions& options, double used_s)>;
 
 struct Answer {
   Status status = Status::kCancelled;
   std::vector<Design> designs;
   Proof proof;
-  std::vector<Conflict> conflict;
+  Infeasibility infeasibility;
   double seconds = 0.0;
 };
 

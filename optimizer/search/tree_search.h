@@ -6,7 +6,7 @@
 
 namespace plenum::optimizer {
 
-// Same problem, same answer. Without the conflict of an infeasible problem (explained_search.h).
+// Same problem, same answer. Without the conflicts of an infeasible problem (explained_search.h).
 Answer SearchTrees(const Problem& problem, const SearchOptions& options);
 
 }  // namespace plenum::optimizer

@@ -183,23 +183,37 @@ std::string Details(const Json& design) {
          QualityText(design) + OrderText(design);
 }
 
+// One entry of a conflict: what is required, and what was found to be enough.
+std::string EntryText(const Json& entry) {
+  std::string text = "  " + entry.at("requirement").get<std::string>();
+  if (entry.at("required").is_number()) text += ": required " + Short(entry.at("required"));
+  if (entry.at("best").is_number())
+    return text + fmt::format(", the catalogue reaches {} while the others hold ({} off)\n",
+                              Short(entry.at("best")), Percent(entry.at("relaxation")));
+  if (!entry.at("proved").get<bool>()) return text + ", not known to matter: time ran out\n";
+  return text +
+         (entry.at("required").is_number() ? ", nothing reached while the others hold\n" : "\n");
+}
+
+std::string RelaxationText(const Json& relaxation) {
+  if (relaxation.empty()) return "";
+  std::string text = "The least that makes it feasible:\n";
+  for (const auto& relaxed : relaxation)
+    text += fmt::format("  {}: {}\n", relaxed.at("requirement").get<std::string>(),
+                        relaxed.at("value").is_number()
+                            ? fmt::format("{} in place of {}", Short(relaxed.at("value")),
+                                          Short(relaxed.at("required")))
+                            : std::string("to be dropped"));
+  return text;
+}
+
 std::string ConflictText(const Json& answer) {
   std::string text = "No combination of catalogue parts meets the requirements.\n";
-  const auto& conflict = answer.at("conflict");
-  if (conflict.empty()) return text;
-  text += conflict.size() == 1 ? "This one cannot be met:\n" : "These cannot be met together:\n";
-  for (const auto& entry : conflict) {
-    text += fmt::format("  {}: required {}, ", entry.at("requirement").get<std::string>(),
-                        Short(entry.at("required")));
-    text += entry.at("best").is_number()
-                ? fmt::format("the catalogue reaches {}{} ({} off)\n", Short(entry.at("best")),
-                              conflict.size() > 1 ? " while the others hold" : "",
-                              Percent(entry.at("relaxation")))
-            : entry.at("proved").get<bool>()
-                ? std::string("nothing reached while the others hold\n")
-                : std::string("not known to matter: time ran out\n");
+  for (const auto& conflict : answer.at("conflicts")) {
+    text += conflict.size() == 1 ? "This one cannot be met:\n" : "These cannot be met together:\n";
+    for (const auto& entry : conflict) text += EntryText(entry);
   }
-  return text;
+  return text + RelaxationText(answer.at("relaxation"));
 }
 
 std::string StatusText(const Json& answer) {

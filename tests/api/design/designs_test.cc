@@ -157,19 +157,26 @@ TEST(RenderAnswer, RanksTheBestDesignOnMeasuredFlow) {
 TEST(RenderAnswer, InfeasibleCarriesTheConflict) {
   optimizer::Answer answer;
   answer.status = optimizer::Status::kInfeasible;
-  answer.conflict = {{"/actuators/0/rise_time_s_max", 0.1, 0.3},
-                     {"/supply/mass_kg_max", 0.5, std::nullopt, false}};
+  answer.infeasibility = {{{{"/actuators/0/rise_time_s_max", 0.1, 0.3, 0.29},
+                            {"/require/valve", std::nullopt, std::nullopt, std::nullopt, false}}},
+                          {{"/actuators/0/rise_time_s_max", 0.1, 0.3, 2.0}},
+                          true};
   answer.proof.lower_bound = std::numeric_limits<double>::infinity();
   const Json json = RenderAnswer(Request(), answer, SmallCatalogue());
   EXPECT_EQ(json["status"], "infeasible");
   EXPECT_EQ(json["designs"], Json::array());
   EXPECT_TRUE(json["best_on_measured_flow"].is_null());
   EXPECT_TRUE(json["proof"]["lower_bound"].is_null());
-  EXPECT_EQ(json["conflict"],
-            Parse(R"([{"requirement": "/actuators/0/rise_time_s_max", "required": 0.1, "best": 0.3,
-                       "relaxation": 2.0, "proved": true},
-                      {"requirement": "/supply/mass_kg_max", "required": 0.5, "best": null,
-                       "relaxation": null, "proved": false}])"));
+  const Json conflict =
+      Parse(R"([{"requirement": "/actuators/0/rise_time_s_max", "required": 0.1, "best": 0.3,
+                 "best_interval": [0.29, 0.3], "relaxation": 2.0, "proved": true},
+                {"requirement": "/require/valve", "required": null, "best": null,
+                 "best_interval": null, "relaxation": null, "proved": false}])");
+  EXPECT_EQ(json["conflict"], conflict);
+  EXPECT_EQ(json["conflicts"], Json::array({conflict}));
+  EXPECT_EQ(json["relaxation"],
+            Parse(R"([{"requirement": "/actuators/0/rise_time_s_max", "required": 0.1,
+                       "value": 0.3, "relative_change": 2.0}])"));
 }
 
 TEST(RenderAnswer, SeveralGroupsGiveTheLargestValveDutyAndAllOfThem) {

@@ -51,7 +51,7 @@ TEST(SearchTest, CancelledAnywhereTheBoundHoldsAndTheCountsAddUp) {
       if (calls <= calls_max) continue;  // done before
       EXPECT_EQ(answer.status, Status::kCancelled);
       EXPECT_FALSE(answer.proof.complete);
-      EXPECT_TRUE(answer.conflict.empty());
+      EXPECT_TRUE(answer.infeasibility.conflicts.empty());
       ExpectBoundHolds(answer, truth);
       const optimizer::Pruned& pruned = answer.proof.pruned;
       EXPECT_EQ(answer.proof.combinations, truth.combinations);

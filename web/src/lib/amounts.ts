@@ -159,7 +159,15 @@ export function requirementName(pointer: string, groups: { name: string }[]): st
     '/supply/volume_l_max': 'volume',
     '/supply/cost_eur_max': 'cost',
     '/supply/mains/flow_l_per_min_anr_max': 'wall flow',
+    '/limits/compressors_max': 'pumps in parallel',
+    '/limits/batteries_max': 'batteries in parallel',
+    '/limits/cylinders_max': 'bottles in parallel',
+    '/limits/co2_max': 'CO₂ bottles in parallel',
+    '/limits/reservoirs_max': 'reservoirs in parallel',
+    '/exclude': 'excluded parts',
+    prices: 'parts with a known price only',
   };
+  if (pointer.startsWith('/require/')) return `required ${pointer.slice(9).replace('_', ' ')}`;
   if (!group) return names[pointer] ?? pointer;
   const what = names[group[2]!] ?? group[2]!;
   return groups.length > 1 ? `${what} of ${groups[Number(group[1])]?.name ?? group[1]}` : what;

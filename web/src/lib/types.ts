@@ -135,6 +135,22 @@ export interface Effect {
   parameters: Record<string, number | string>;
 }
 
+// A field that cannot be met beside the others of its conflict; no number: `required` is null.
+export interface ConflictEntry {
+  requirement: string;
+  required: number | null;
+  best: number | null;
+  relaxation: number | null;
+  proved: boolean;
+}
+
+// One change of those that make a problem feasible; to be dropped where there is no value.
+export interface Relaxed {
+  requirement: string;
+  required: number | null;
+  value: number | null;
+}
+
 export interface Answer extends Remarked {
   schema: 'designs/1';
   name?: string;
@@ -144,13 +160,8 @@ export interface Answer extends Remarked {
   proof: Proof;
   front?: { objectives: Partial<Record<Amount, number>>; rank: number }[];
   front_proof?: { complete: boolean; searches: number; proved: number; unexplored: unknown[] };
-  conflict?: {
-    requirement: string;
-    required: number;
-    best: number | null;
-    relaxation: number | null;
-    proved: boolean;
-  }[];
+  conflicts?: ConflictEntry[][];
+  relaxation?: Relaxed[];
   prices?: {
     requirement: string;
     required: number;

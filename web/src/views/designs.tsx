@@ -1,18 +1,16 @@
 // The answer of one job: while it runs its progress, then the ranked list.
 import { useEffect } from 'preact/hooks';
 
-import { requirementName, requirementNumber, requirementUnit, sense } from '../lib/amounts';
-import { percent, significant } from '../lib/format';
 import { ended, pathOf, useJob, jobList, previousJob, refreshJobs, start } from '../lib/jobs';
-import { edit, load } from '../lib/requirements';
+import { load } from '../lib/requirements';
 import { go, link, redirect, route } from '../lib/route';
 import type { Answer } from '../lib/types';
 import { proofInWords, statusWord } from '../lib/words';
 import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';
 import { AgainButton } from '../ui/job';
-import { extra, heard, number, Table } from '../ui/table';
 import { ComparePanel } from './compare';
+import { Conflicts } from './conflicts';
 import { DesignPage } from './design';
 import { ProgressPanel } from './progress';
 import { AgainstNominal, Ranked } from './ranked';
@@ -87,7 +85,7 @@ export function DesignsView() {
   return (
     <>
       <Headline answer={answer} id={id} />
-      {answer.conflict && <Conflict answer={answer} />}
+      {answer.conflicts && <Conflicts answer={answer} />}
       {answer.designs.length > 0 && (
         <>
           <Why answer={answer} id={id} />
@@ -161,69 +159,3 @@ function Headline({ answer, id }: { answer: Answer; id: string }) {
     </div>
   );
 }
-
-// The requirements with one number as far as the catalogue reaches, rounded to the easy side.
-function askFor(answer: Answer, pointer: string, best: number): void {
-  const size = 10 ** (Math.floor(Math.log10(Math.abs(best))) - 3);
-  const isLeast = pointer.startsWith('/duty/');
-  const easy = (isLeast ? Math.floor(best / size) : Math.ceil(best / size)) * size;
-  load(answer.asked ?? answer.requirements);
-  const path = pointer.slice(1).split('/');
-  edit(
-    path.map((step) => (/^\d+$/.test(step) ? Number(step) : step)),
-    Number(easy.toPrecision(4)),
-  );
-  go(['requirements']);
-}
-
-// What is found is enough, not the least: the searches behind each number end with the time.
-function Conflict({ answer }: { answer: Answer }) {
-  const rows = answer.conflict!;
-  const isProved = rows.every((row) => row.proved);
-  return (
-    <Panel title="These requirements cannot be met together">
-      <p>
-        One of them has to give; each row says what was found to be enough while the others stay.
-        {!isProved && ' Time ran out before it was clear that those in doubt take part.'}
-        {rows.some((row) => row.best === null) &&
-          ' Where there is no number, none was found in the time given; a longer limit may find one.'}
-      </p>
-      <Table
-        label="Conflicting requirements"
-        heads={[
-          'requirement',
-          number('asked'),
-          number('best found'),
-          extra(number('enough to give')),
-          heard('change'),
-        ]}
-      >
-        {rows.map((row) => (
-          <tr key={row.requirement}>
-            <th scope="row">
-              {requirementName(row.requirement, answer.requirements.actuators)}{' '}
-              <small class="muted">{requirementUnit(row.requirement)}</small>{' '}
-              {!row.proved && <Chip kind="warn">in doubt</Chip>}
-            </th>
-            <td class="num">
-              {sense(row.requirement)} {requirementNumber(row.requirement, row.required)}
-            </td>
-            <td class="num">{requirementNumber(row.requirement, row.best)}</td>
-            <td class="num extra">{give(row.relaxation)}</td>
-            <td class="num">
-              {row.best !== null && (
-                <button type="button" onClick={() => askFor(answer, row.requirement, row.best!)}>
-                  Ask for that
-                </button>
-              )}
-            </td>
-          </tr>
-        ))}
-      </Table>
-    </Panel>
-  );
-}
-
-// "745 %" is read worse than "8.4 times".
-const give = (share: number | null): string =>
-  share !== null && share > 1 ? `${significant(1 + share, 2)} ×` : percent(share);

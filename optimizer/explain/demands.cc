@@ -1,0 +1,163 @@
+#include "optimizer/explain/demands.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optimizer/evaluate/line.h"
+#include "optimizer/problem/family_specs.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr int kPiecesMost = 16;  // that a request may allow of a part
+constexpr double kLitrePerMinute = 1e-3 / 60.0;
+
+// Of the numbers of requirements.h; what no longer binds there may still do so once other demands
+// are dropped.
+Demand OfRequirement(const Requirement& requirement) {
+  const bool unlimited = !requirement.pointer.starts_with("/duty/");
+  Demand demand{requirement.pointer, nullptr, requirement};
+  if (unlimited) demand.number->loosest = kUnlimited;
+  demand.drop = [set = requirement.set, loosest = demand.number->loosest](Problem& p) {
+    set(p, loosest);
+  };
+  return demand;
+}
+
+Demand OfNumber(std::string pointer, double required, double loosest, bool whole,
+                std::function<void(Problem&, double)> set) {
+  Demand demand{pointer, [set, loosest](Problem& p) { set(p, loosest); }, std::nullopt};
+  demand.number =
+      Requirement{std::move(pointer), required, loosest, std::move(set), std::nullopt, whole};
+  return demand;
+}
+
+Demand OfGroupPressure(const Problem& problem, std::size_t g) {
+  const double ambient_pa = problem.ambient.pressure_pa;
+  return OfNumber("/actuators/" + std::to_string(g) + "/pressure_kpa_gauge_max",
+                  (problem.groups[g].pressure_max_pa - ambient_pa) / 1e3, kUnlimited, false,
+                  [g, ambient_pa](Problem& p, double kpa) {
+                    p.groups[g].pressure_max_pa = ambient_pa + 1e3 * kpa;
+                  });
+}
+
+Demand OfMainsFlow(const Problem& problem) {
+  return OfNumber(
+      "/supply/mains/flow_l_per_min_anr_max", problem.mains.flow_max_m3_per_s / kLitrePerMinute,
+      kUnlimited, false,
+      [](Problem& p, double value) { p.mains.flow_max_m3_per_s = value * kLitrePerMinute; });
+}
+
+template <typename Visit>
+void ForEachPart(Problem& problem, const Visit& visit) {
+  for (const FamilySpec& spec : Families())
+    for (int part = FamilySize(problem.parts, spec.family); part-- > 0;)
+      visit(BasicsOf(problem.parts, spec.family, part));
+}
+
+void AddPrices(const Problem& problem, std::vector<Demand>& list) {
+  if (!CostMatters(problem)) return;
+  list.push_back({"prices",
+                  [](Problem& p) {
+                    ForEachPart(p, [](model::PartBasics& basics) {
+                      basics.cost_eur = basics.cost_eur.value_or(0.0);
+                    });
+                    p.objective = {.mass_kg = 1.0};
+                  },
+                  std::nullopt});
+}
+
+void AddLimits(const Problem& problem, std::vector<Demand>& list) {
+  const auto add = [&](const char* pointer, int Limits::*limit,
+                       const std::vector<Configuration>& users) {
+    const bool used = std::any_of(users.begin(), users.end(), [&](Configuration user) {
+      return problem.configurations.contains(user);
+    });
+    if (used && problem.limits.*limit < kPiecesMost)
+      list.push_back(OfNumber(pointer, problem.limits.*limit, kPiecesMost, true,
+                              [limit](Problem& p, double value) {
+                                p.limits.*limit = static_cast<int>(std::lround(value));
+                              }));
+  };
+  const Configuration pump = Configuration::kCompressor, bottle = Configuration::kCylinder,
+                      co2 = Configuration::kCo2;
+  add("/limits/compressors_max", &Limits::compressors, {pump});
+  add("/limits/batteries_max", &Limits::batteries, {pump, bottle, co2});
+  add("/limits/cylinders_max", &Limits::cylinders, {bottle});
+  add("/limits/co2_max", &Limits::co2, {co2});
+  add("/limits/reservoirs_max", &Limits::reservoirs, {pump});
+}
+
+void AddSelection(const Problem& problem, const SearchOptions& options, std::vector<Demand>& list) {
+  if (!options.select) return;
+  for (const auto& [family, ids] : problem.require)
+    list.push_back({std::string("/require/") + Name(family),
+                    [family = family, select = options.select](Problem& p) {
+                      p.require.erase(family);
+                      p.parts = select(p);
+                    },
+                    std::nullopt});
+  if (!problem.exclude.empty())
+    list.push_back({"/exclude",
+                    [select = options.select](Problem& p) {
+                      p.exclude.clear();
+                      p.parts = select(p);
+                    },
+                    std::nullopt});
+}
+
+template <typename Part>
+void EraseUnpriced(std::vector<Part>& parts) {
+  std::erase_if(parts, [](const Part& part) { return !part.basics.cost_eur; });
+}
+
+void EraseUnpriced(model::Parts& parts) {
+  std::erase_if(parts.tubing, [](const model::Tubing& part) { return !part.per_metre.cost_eur; });
+  EraseUnpriced(parts.fittings);
+  EraseUnpriced(parts.valves);
+  EraseUnpriced(parts.compressors);
+  EraseUnpriced(parts.batteries);
+  EraseUnpriced(parts.cylinders);
+  EraseUnpriced(parts.co2);
+  EraseUnpriced(parts.regulators);
+  EraseUnpriced(parts.reservoirs);
+}
+
+}  // namespace
+
+std::vector<Demand> Demands(const Problem& problem, const SearchOptions& options) {
+  std::vector<Demand> list;
+  const std::vector<Requirement> numbers = Requirements(problem);
+  const auto add = [&](const std::string& place) {
+    for (const Requirement& number : numbers)
+      if (number.pointer.starts_with(place)) list.push_back(OfRequirement(number));
+  };
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    add("/actuators/" + std::to_string(g) + "/");
+    list.push_back(OfGroupPressure(problem, g));
+  }
+  add("/duty/");
+  if (problem.configurations.contains(Configuration::kMains) &&
+      std::isfinite(problem.mains.flow_max_m3_per_s))
+    list.push_back(OfMainsFlow(problem));
+  add("/supply/");
+  AddPrices(problem, list);
+  AddLimits(problem, list);
+  AddSelection(problem, options, list);
+  return list;
+}
+
+Problem ForAnyDesign(Problem problem) {
+  if (CostMatters(problem)) {
+    EraseUnpriced(problem.parts);
+    problem.exclude.insert("custom");  // a made-to-measure reservoir has no price
+  }
+  problem.count = 1;
+  problem.objective = std::isfinite(problem.mass_max_kg)    ? Objective{.mass_kg = 1.0}
+                      : std::isfinite(problem.volume_max_l) ? Objective{.volume_l = 1.0}
+                      : std::isfinite(problem.cost_max_eur) ? Objective{.cost_eur = 1.0}
+                                                            : Objective{.mass_kg = 1.0};
+  return problem;
+}
+
+}  // namespace plenum::optimizer
