@@ -236,11 +236,11 @@ void AddInfeasibility(const optimizer::Infeasibility& why, Json& document) {
   Json conflicts = Json::array(), relaxation = Json::array();
   for (const std::vector<optimizer::Conflict>& conflict : why.conflicts)
     conflicts.push_back(RenderConflict(conflict));
-  for (const optimizer::Relaxed& relaxed : why.relaxation)
-    relaxation.push_back({{"requirement", relaxed.requirement},
-                          {"required", OrNull(relaxed.required)},
-                          {"value", OrNull(relaxed.value)},
-                          {"relative_change", Number(relaxed.change)}});
+  for (const optimizer::Concession& concession : why.relaxation)
+    relaxation.push_back({{"requirement", concession.requirement},
+                          {"required", OrNull(concession.required)},
+                          {"value", OrNull(concession.value)},
+                          {"relative_change", Number(concession.change)}});
   document["conflict"] = conflicts.empty() ? Json::array() : conflicts.front();
   document["conflicts"] = std::move(conflicts);
   document["relaxation"] = std::move(relaxation);

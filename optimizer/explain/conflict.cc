@@ -31,7 +31,7 @@ class Analysis {
     Infeasibility result;
     for (const MinimalConflict& conflict : conflicts)
       if (!conflict.demands.empty()) result.conflicts.push_back(Describe(conflict));
-    for (const auto& [demand, value] : relaxation_) result.relaxation.push_back(AsRelaxed(demand));
+    for (const auto& [demand, value] : relaxation_) result.relaxation.push_back(AsConcession(demand));
     result.complete = !unknown_ && !search_.OutOfTime();
     return result;
   }
@@ -132,7 +132,7 @@ class Analysis {
     return conflict;
   }
 
-  Relaxed AsRelaxed(int demand) const {
+  Concession AsConcession(int demand) const {
     const std::optional<Requirement>& number = demands_[demand].number;
     const std::optional<double>& value = relaxation_.at(demand);
     return {demands_[demand].pointer, number ? std::optional(number->required) : std::nullopt,

@@ -220,7 +220,7 @@ struct Conflict {
   bool proved = true;  // without it a design was found; false: time ran out before that was known
 };
 
-struct Relaxed {
+struct Concession {
   std::string requirement;
   std::optional<double> required, value;  // none: it is dropped
   double change = 1.0;                    // relative; 1 of what is dropped
@@ -229,7 +229,7 @@ struct Relaxed {
 // Why there is no design (conflict.h).
 struct Infeasibility {
   std::vector<std::vector<Conflict>> conflicts;  // disjoint, each minimal
-  std::vector<Relaxed> relaxation;               // makes it feasible; empty: none was found
+  std::vector<Concession> relaxation;               // makes it feasible; empty: none was found
   bool complete = false;                         // false: time ran out before all was found
 };
 

@@ -106,13 +106,13 @@ void ExpectTight(const Problem& problem, const Conflict& conflict) {
 }
 
 // The relaxation, asked for, is feasible.
-void ExpectFeasible(Problem problem, const std::vector<optimizer::Relaxed>& relaxation) {
+void ExpectFeasible(Problem problem, const std::vector<optimizer::Concession>& relaxation) {
   if (relaxation.empty()) return;
-  for (const optimizer::Relaxed& relaxed : relaxation)
-    if (relaxed.value)
-      Fields().at(relaxed.requirement)(problem, *relaxed.value);
+  for (const optimizer::Concession& concession : relaxation)
+    if (concession.value)
+      Fields().at(concession.requirement)(problem, *concession.value);
     else
-      Loosen(problem, relaxed.requirement);
+      Loosen(problem, concession.requirement);
   EXPECT_TRUE(Feasible(problem));
 }
 
