@@ -155,10 +155,10 @@ Json PrintedForms() {
     Json properties = {
         {std::string(spec.field), NumberOrQuantityForm(spec.field, {spec.min, spec.max})}};
     if (spec.notation == catalog::FlowNotation::kQn)
-      properties["at"] = {{"type", "string"}, {"examples", {"6 to 5 bar"}}};
+      properties["at"] = {{"type", "string"}, {"examples", Json::array({"6 to 5 bar"})}};
     forms.push_back({{"type", "object"},
                      {"properties", std::move(properties)},
-                     {"required", {spec.field}},
+                     {"required", Json::array({spec.field})},
                      {"additionalProperties", false}});
   }
   return forms;

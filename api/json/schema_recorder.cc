@@ -48,7 +48,7 @@ Json QuantityForm(std::string_view name) {
   return {{"type", "string"},
           {"maxLength", kTextCharactersMax},
           {"description", "a number with one of the units " + units},
-          {"examples", {"1 " + units.substr(0, units.find(','))}}};
+          {"examples", Json::array({"1 " + units.substr(0, units.find(','))})}};
 }
 
 Json NumberOrQuantityForm(std::string_view name, const Range& range) {
