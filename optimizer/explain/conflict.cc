@@ -31,7 +31,8 @@ class Analysis {
     Infeasibility result;
     for (const MinimalConflict& conflict : conflicts)
       if (!conflict.demands.empty()) result.conflicts.push_back(Describe(conflict));
-    for (const auto& [demand, value] : relaxation_) result.relaxation.push_back(AsConcession(demand));
+    for (const auto& [demand, value] : relaxation_)
+      result.relaxation.push_back(AsConcession(demand));
     result.complete = !unknown_ && !search_.OutOfTime();
     return result;
   }
@@ -124,8 +125,9 @@ class Analysis {
       if (number) {
         const Reach reach = ReachOf(demand, others);
         entry.required = number->required;
-        entry.best = reach.best;
-        if (reach.best) entry.bound = reach.bound;
+        const auto given = relaxation_.find(demand);
+        entry.best = given != relaxation_.end() && given->second ? given->second : reach.best;
+        if (entry.best) entry.bound = reach.bound;
       }
       conflict.push_back(std::move(entry));
     }

@@ -85,7 +85,11 @@ Reach FindReach(const Problem& problem, const Demand& demand, TrialSearch& searc
   const Requirement& number = *demand.number;
   if (number.objective) return LeastAmount(problem, demand, search);
   const bool less_is_harder = number.loosest > number.required;
-  const auto rounded = [&](double value) { return number.whole ? std::round(value) : value; };
+  // Whole numbers to the easy side: what a design achieves must still be met by it.
+  const auto rounded = [&](double value) {
+    if (!number.whole) return value;
+    return less_is_harder ? std::ceil(value) : std::floor(value);
+  };
   double hard = number.required, easy = number.loosest;
   Reach reach{std::nullopt, number.required};
   bool known = true;  // that all up to `hard` is infeasible

@@ -297,10 +297,12 @@ TEST(ParetoTest, ConflictsNameOnlyRequirements) {
   Problem problem = LongFront();
   problem.groups[0].rise_time_max_s = 1e-6;
   const Front front =
-      ParetoFront(problem, {Amount::kMass, Amount::kCost}, Within(20.0), optimizer::FindConflict);
+      ParetoFront(problem, {Amount::kMass, Amount::kCost}, Within(20.0), optimizer::FindConflicts);
   EXPECT_EQ(front.answer.status, Status::kInfeasible);
-  ASSERT_EQ(front.answer.conflict.size(), 1u);
-  EXPECT_EQ(front.answer.conflict[0].requirement, "/actuators/0/rise_time_s_max");
+  const auto& conflicts = front.answer.infeasibility.conflicts;
+  ASSERT_EQ(conflicts.size(), 1u);
+  ASSERT_EQ(conflicts[0].size(), 1u);
+  EXPECT_EQ(conflicts[0][0].requirement, "/actuators/0/rise_time_s_max");
 }
 
 // Stopped anywhere on the way.
