@@ -229,7 +229,7 @@ struct Concession {
 // Why there is no design (conflict.h).
 struct Infeasibility {
   std::vector<std::vector<Conflict>> conflicts;  // disjoint, each minimal
-  std::vector<Concession> relaxation;               // makes it feasible; empty: none was found
+  std::vector<Concession> relaxation;            // makes it feasible; empty: none was found
   bool complete = false;                         // false: time ran out before all was found
 };
 
