@@ -180,11 +180,22 @@ TEST(ConflictTest, CostTooLow) {
     part->cost_eur = 20.0;
   problem.cost_max_eur = 1.0;
   const std::vector<Conflict> conflict = Analyse(problem);
-  ASSERT_EQ(conflict.size(), 2u);
+  ASSERT_EQ(conflict.size(), 1u);
   EXPECT_EQ(conflict[0].requirement, "/supply/cost_eur_max");
-  EXPECT_EQ(conflict[1].requirement, "prices");  // many cost nothing, as far as is known
   ExpectMinimal(problem, conflict);
   ExpectTight(problem, conflict[0]);
+}
+
+// Parts that no price is known of cannot be ranked by cost; counted as free they can.
+TEST(ConflictTest, PricesThatNobodyKnowsAreNamed) {
+  Problem problem = Base(3, Configuration::kMains);
+  problem.objective = {.cost_eur = 1.0};
+  for (model::Valve& valve : problem.parts.valves) valve.basics.cost_eur.reset();
+  const std::vector<Conflict> conflict = Analyse(problem);
+  ASSERT_EQ(conflict.size(), 1u);
+  EXPECT_EQ(conflict[0].requirement, "prices");
+  EXPECT_FALSE(conflict[0].required.has_value());
+  ExpectMinimal(problem, conflict);
 }
 
 TEST(ConflictTest, TwoRequirementsThatExcludeEachOther) {
