@@ -77,6 +77,7 @@ std::vector<MinimalConflict> FindDisjointConflicts(int count, DropOracle& oracle
 std::vector<DemandSet> FindSmallestDrops(int count, const std::vector<MinimalConflict>& known,
                                          std::size_t most, DropOracle& oracle) {
   std::vector<DemandSet> conflicts;
+  conflicts.reserve(known.size());
   for (const MinimalConflict& conflict : known) conflicts.push_back(conflict.demands);
   if (std::any_of(conflicts.begin(), conflicts.end(),
                   [](const DemandSet& conflict) { return conflict.empty(); }))
