@@ -127,7 +127,7 @@ test('requirements are saved, loaded and shared by address', async () => {
 test('an infeasible problem says what conflicts', async () => {
   const impossible = example('exosuit');
   impossible.supply.mass_kg_max = 0.2;
-  impossible.ranking.time_limit_s = 3;
+  impossible.ranking.time_limit_s = 20;
   const id = await rank(service, impossible);
   const { page, close } = await openPage(browser, service.base, `#/designs/${id}`);
   await page.getByText('infeasible', { exact: true }).waitFor();
