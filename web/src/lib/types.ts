@@ -162,6 +162,7 @@ export interface Answer extends Remarked {
   front_proof?: { complete: boolean; searches: number; proved: number; unexplored: unknown[] };
   conflicts?: ConflictEntry[][];
   relaxation?: Relaxed[];
+  conflicts_complete?: boolean;
   prices?: {
     requirement: string;
     required: number;

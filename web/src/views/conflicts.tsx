@@ -46,7 +46,9 @@ export function Conflicts({ answer }: { answer: Answer }) {
         {!rows.every((row) => row.proved) &&
           ' Time ran out before it was clear that those in doubt take part.'}
         {rows.some((row) => row.required !== null && row.best === null) &&
-          ' Where there is no number, none was found in the time given; a longer limit may find one.'}
+          (answer.conflicts_complete
+            ? ' Where there is no number, nothing is enough while the others stay.'
+            : ' Where there is no number, none was found in the time given; a longer limit may find one.')}
       </p>
       {conflicts.map((entries, i) => (
         <ConflictTable key={i} answer={answer} entries={entries} place={i} />
