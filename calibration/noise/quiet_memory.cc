@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::array<std::size_t, 5> kLengths = {384, 192, 96, 48, 24};  // of a block, in samples
 constexpr std::size_t kLeastLength = 12;
-constexpr std::size_t kPiecesLeast =
-    3;  // of a stretch: what a switch leaves behind is in its first
 constexpr double kSamplesMost = 6000.0;                // of all runs, evenly chosen
 constexpr double kThetasInABlock = 2.0;                // a longer memory is not told from a bend
 constexpr double kThetaLeast = 0.4, kThetaStep = 1.3;  // of the spacing

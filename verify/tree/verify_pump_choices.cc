@@ -21,7 +21,6 @@ double ContentPerVolume(const Problem& problem) {
 
 PumpChoices::PumpChoices(const Problem& problem, const ProofPlan& plan)
     : problem_(problem),
-      plan_(plan),
       compressor_(SlotOf(plan, Family::kCompressor, -1)),
       highest_pa_(1.01 * problem.ambient.pressure_pa) {
   for (const model::Compressor& compressor : problem.parts.compressors)

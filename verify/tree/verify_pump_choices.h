@@ -39,7 +39,6 @@ class PumpChoices {
   PumpCells CellsOf(const ProofItem& item) const;
 
   const Problem& problem_;
-  const ProofPlan& plan_;
   int compressor_;                    // slot
   double highest_pa_;                 // of any compressor
   std::vector<double> pressures_pa_;  // of cells
