@@ -59,16 +59,6 @@ std::vector<std::string> Columns(const Family& family) {
   return columns;
 }
 
-std::vector<std::string_view> Split(std::string_view text, char separator) {
-  std::vector<std::string_view> pieces;
-  for (;;) {
-    const std::size_t at = text.find(separator);
-    pieces.push_back(text.substr(0, at));
-    if (at == std::string_view::npos) return pieces;
-    text.remove_prefix(at + 1);
-  }
-}
-
 // One row being turned into a part; collects what is wrong with it.
 class RowReader {
  public:

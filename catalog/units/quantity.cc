@@ -43,16 +43,6 @@ std::string Normalized(std::string_view unit) {
   return text;
 }
 
-std::vector<std::string_view> Split(std::string_view text, char separator) {
-  std::vector<std::string_view> pieces;
-  for (;;) {
-    const std::size_t at = text.find(separator);
-    pieces.push_back(text.substr(0, at));
-    if (at == std::string_view::npos) return pieces;
-    text.remove_prefix(at + 1);
-  }
-}
-
 // "1.234.567" and the like: one to three digits, then groups of three.
 bool AreThousands(const std::vector<std::string_view>& groups) {
   for (std::size_t i = 0; i < groups.size(); ++i)

@@ -73,6 +73,16 @@ std::string Shown(std::string_view text) {
   return "\"" + std::string(text.substr(0, end)) + "…\"";
 }
 
+std::vector<std::string_view> Split(std::string_view text, char separator) {
+  std::vector<std::string_view> pieces;
+  for (;;) {
+    const std::size_t at = text.find(separator);
+    pieces.push_back(text.substr(0, at));
+    if (at == std::string_view::npos) return pieces;
+    text.remove_prefix(at + 1);
+  }
+}
+
 bool IsCleanText(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = SequenceLength(text);

@@ -19,6 +19,9 @@ std::optional<double> ParseNumber(std::string_view text);
 // In double quotes for a message; what is long is cut between characters and marked with "…".
 std::string Shown(std::string_view text);
 
+// The pieces between separators, empty ones too; of an empty text one empty piece.
+std::vector<std::string_view> Split(std::string_view text, char separator);
+
 // Well-formed UTF-8 without control characters but tab, line feed and carriage return.
 bool IsCleanText(std::string_view text);
 

@@ -5,7 +5,7 @@
 namespace plenum::catalog {
 namespace {
 
-constexpr double kPerLitreCubicFoot = 28.316846592;
+constexpr double kLitresPerCubicFoot = 28.316846592;
 
 // Conventional columns of mercury and water: 13,595.1 and 1000 kg/m³ at 9.80665 m/s².
 constexpr Unit kPressures[] = {
@@ -40,13 +40,13 @@ constexpr Unit kFlows[] = {
     {"m3/h", 1000, 60},
     {"m3/min", 1000, 1, 0, {}, true},
     // The standard cubic foot of CAGI and ISO 1217: 68 °F and 14.5 psi, which is the ANR litre.
-    {"scfm", kPerLitreCubicFoot, 1, 0, kAtTwenty},
-    {"SCFM", kPerLitreCubicFoot, 1, 0, kAtTwenty, true},
-    {"scfh", kPerLitreCubicFoot, 60, 0, kAtTwenty, true},
-    {"SCFH", kPerLitreCubicFoot, 60, 0, kAtTwenty, true},
-    {"cfm", kPerLitreCubicFoot, 1, 0, {}, true},
-    {"CFM", kPerLitreCubicFoot, 1, 0, {}, true},
-    {"ft3/min", kPerLitreCubicFoot, 1, 0, {}, true},
+    {"scfm", kLitresPerCubicFoot, 1, 0, kAtTwenty},
+    {"SCFM", kLitresPerCubicFoot, 1, 0, kAtTwenty, true},
+    {"scfh", kLitresPerCubicFoot, 60, 0, kAtTwenty, true},
+    {"SCFH", kLitresPerCubicFoot, 60, 0, kAtTwenty, true},
+    {"cfm", kLitresPerCubicFoot, 1, 0, {}, true},
+    {"CFM", kLitresPerCubicFoot, 1, 0, {}, true},
+    {"ft3/min", kLitresPerCubicFoot, 1, 0, {}, true},
 };
 constexpr Unit kViscous[] = {{"Pa2s/kg"}};
 constexpr Unit kInertial[] = {{"Pa2s2/kg2"}};

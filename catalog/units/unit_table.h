@@ -7,7 +7,7 @@
 
 namespace plenum::catalog {
 
-// (x + offset) of this unit are (x + offset) · numerator / denominator of the field's. Both are
+// x of this unit are (x + offset) · numerator / denominator of the field's. Both factors are
 // exact where the definition allows, so that 350 g becomes the double nearest to 0.35.
 struct Unit {
   std::string_view name;  // normalised: no blanks, 3 for ³, L for litres

@@ -40,14 +40,13 @@ class Analysis {
  private:
   using Values = std::map<int, std::optional<double>>;  // of demands that give way; none: dropped
 
-  // Parts are selected anew before their prices are looked at, so the later fields come first.
-  Problem Without(const DemandSet& dropped) const {
-    Problem trial = problem_;
-    for (auto demand = dropped.rbegin(); demand != dropped.rend(); ++demand)
-      demands_[*demand].drop(trial);
-    return trial;
+  static Values Dropped(const DemandSet& demands) {
+    Values values;
+    for (const int demand : demands) values[demand] = std::nullopt;
+    return values;
   }
 
+  // Parts are selected anew before their prices are looked at, so the later fields come first.
   Problem With(const Values& values) const {
     Problem trial = problem_;
     for (auto entry = values.rbegin(); entry != values.rend(); ++entry) {
@@ -62,7 +61,7 @@ class Analysis {
       unknown_ = true;
       return Met::kUnknown;
     }
-    const Answer answer = search_.Any(Without(dropped));
+    const Answer answer = search_.Any(With(Dropped(dropped)));
     if (!answer.designs.empty()) return Met::kYes;
     if (answer.status == Status::kInfeasible) return Met::kNo;
     unknown_ = true;
@@ -89,8 +88,7 @@ class Analysis {
 
   // Tightened one after the other, from the first on or from the last.
   Values Tighten(const DemandSet& dropped, bool from_last) {
-    Values values;
-    for (const int demand : dropped) values[demand] = std::nullopt;
+    Values values = Dropped(dropped);
     std::vector<int> order(dropped.begin(), dropped.end());
     if (from_last) std::reverse(order.begin(), order.end());
     for (const int demand : order) {
