@@ -1,6 +1,7 @@
 #include "verify/verify.h"
 
 #include "verify/design/verify_families.h"
+#include "verify/design/verify_kinds.h"
 #include "verify/design/verify_list.h"
 #include "verify/tree/verify_front.h"
 #include "verify/tree/verify_record.h"
@@ -62,6 +63,7 @@ Verification Verify(const Problem& problem, const Answer& answer,
   Findings findings;
   CheckDesigns(problem, answer.designs, findings, result.not_rechecked);
   CheckOrder(problem, answer.designs, findings);
+  if (ListsKinds(problem)) CheckKinds(problem, answer.designs, findings);
   CheckProofNumbers(problem, answer, findings);
   CheckNames names = kOfDesigns;
   names.emplace_back("bound", "the lower bound, the gap and the list agree");

@@ -26,17 +26,17 @@ double Pressure(const catalog::Part& row, const char* field, const model::Ambien
 
 model::PartBasics Basics(const catalog::Part& row) {
   return {row.id, Required(row, "mass_kg"), M3FromMl(Required(row, "body_volume_ml")),
-          Optional(row, "price_eur")};
+          Optional(row, "price_eur"), row.series};
 }
 
 model::Tubing Tubing(const catalog::Part& row, const model::Ambient& ambient) {
   const double outer_m = MFromMm(Required(row, "outer_diameter_mm"));
-  return {
-      .per_metre = {row.id, Required(row, "mass_kg_per_m"),
-                    std::numbers::pi / 4.0 * outer_m * outer_m, Optional(row, "price_eur_per_m")},
-      .outer_diameter_m = outer_m,
-      .inner_diameter_m = MFromMm(Required(row, "inner_diameter_mm")),
-      .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};
+  return {.per_metre = {row.id, Required(row, "mass_kg_per_m"),
+                        std::numbers::pi / 4.0 * outer_m * outer_m,
+                        Optional(row, "price_eur_per_m"), row.series},
+          .outer_diameter_m = outer_m,
+          .inner_diameter_m = MFromMm(Required(row, "inner_diameter_mm")),
+          .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};
 }
 
 model::Fitting Fitting(const catalog::Part& row, const model::Ambient& ambient) {

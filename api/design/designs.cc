@@ -2,193 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
-#include <set>
-#include <string>
 
-#include "api/catalogue/catalogue_parts.h"
+#include "api/design/design_document.h"
 #include "api/design/proof_record.h"
-#include "api/design/read/requirements_reader.h"
 #include "api/design/read/selection.h"
 #include "api/json/json.h"
-#include "api/json/units.h"
 #include "api/json/version.h"
+#include "optimizer/evaluate/line.h"
 #include "optimizer/problem/family_specs.h"
-#include "optimizer/problem/problem.h"
 
 namespace plenum::api {
 namespace {
-
-// A requirement that is met by less than this is called binding.
-constexpr double kBinding = 0.01;
-
-using Rows = std::map<std::string, const catalog::Part*>;
-
-Rows RowsOf(const std::vector<catalog::Part>& parts) {
-  Rows rows;
-  for (const catalog::Part& part : parts) rows[part.id] = &part;
-  return rows;
-}
-
-Json Numbers(const std::vector<double>& values, auto&& convert) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(Number(convert(value)));
-  return list;
-}
-
-Json OrNull(const std::optional<double>& value) { return value ? Number(*value) : Json(nullptr); }
-
-bool IsCustom(const optimizer::Choice& choice) {
-  return choice.id == kCustomReservoir && optimizer::SpecOf(choice.family).made_to_measure;
-}
-
-Json RenderChoice(const optimizer::Choice& choice, const optimizer::Problem& problem,
-                  const Rows& rows) {
-  const auto found = rows.find(choice.id);
-  const bool known = found != rows.end();
-  const bool is_tube = choice.family == optimizer::Family::kTubing;
-  return {{"family", optimizer::Name(choice.family)},
-          {"id", choice.id},
-          {"manufacturer", known ? found->second->manufacturer : "made to measure"},
-          {"part_number", known ? found->second->part_number : choice.id},
-          {"group", choice.group < 0 ? Json(nullptr) : Json(problem.groups[choice.group].name)},
-          {"quantity", Number(choice.quantity)},
-          {"unit", is_tube ? "m" : "piece"},
-          {"mass_kg", Number(choice.mass_kg)},
-          {"volume_l", Number(LFromM3(choice.volume_m3))},
-          {"cost_eur", OrNull(choice.cost_eur)}};
-}
-
-Json RenderSettings(const optimizer::Settings& settings, const model::Ambient& ambient) {
-  const auto& duty = settings.valve_duty;
-  Json source = Number(KpaGaugeFromPa(settings.source_pressure_pa, ambient));
-  return {{"source_pressure_kpa_gauge", source},
-          {"valve_duty",
-           duty.empty() ? Json(nullptr) : Number(*std::max_element(duty.begin(), duty.end()))},
-          {"valve_duty_groups", Numbers(duty, [](double share) { return share; })},
-          {"compressor_duty", OrNull(settings.compressor_duty)},
-          {"reservoir_volume_ml", settings.reservoir_volume_m3
-                                      ? Number(MlFromM3(*settings.reservoir_volume_m3))
-                                      : Json(nullptr)}};
-}
-
-Json RenderTotals(const optimizer::Totals& totals) {
-  return {{"mass_kg", Number(totals.mass_kg)},
-          {"volume_l", Number(LFromM3(totals.volume_m3))},
-          {"cost_eur", OrNull(totals.cost_eur)},
-          {"energy_wh", Number(WhFromJ(totals.energy_j))}};
-}
-
-Json RenderPerformance(const optimizer::Performance& performance,
-                       const optimizer::Problem& problem) {
-  Json groups = Json::array();
-  for (std::size_t i = 0; i < performance.groups.size(); ++i) {
-    const optimizer::GroupPerformance& group = performance.groups[i];
-    groups.push_back({{"name", problem.groups[i].name},
-                      {"rise_time_s", Number(group.rise_time_s)},
-                      {"fall_time_s", Number(group.fall_time_s)},
-                      {"inflate_time_s", Number(group.inflate_time_s)},
-                      {"frequency_hz_max", Number(group.frequency_max_hz)}});
-  }
-  return {{"groups", groups},
-          {"frequency_hz_sustained", Number(performance.frequency_sustained_hz)},
-          {"air_per_actuation_l_anr", Number(LFromM3(performance.air_per_actuation_m3))},
-          {"air_total_l_anr", Number(LFromM3(performance.air_total_m3))},
-          {"run_time_s", Number(performance.run_time_s)}};
-}
-
-Json RenderMargins(const std::vector<optimizer::Margin>& margins) {
-  Json list = Json::array();
-  for (const optimizer::Margin& margin : margins)
-    list.push_back({{"requirement", margin.requirement},
-                    {"required", Number(margin.required)},
-                    {"achieved", Number(margin.achieved)},
-                    {"relative_margin", Number(margin.relative_margin)},
-                    {"binding", margin.relative_margin < kBinding}});
-  return list;
-}
-
-// What of a design rests on estimates.
-struct Quality {
-  double mass_estimated_kg = 0.0;
-  std::set<std::string> estimated;  // "family.field"
-  bool flow_estimated = false;
-  std::set<std::string> not_orderable;  // ids of classes of parts and the like
-};
-
-void AddEstimates(const catalog::Part& row, double quantity, Quality& quality) {
-  const auto add = [&](const std::string& field) {
-    if (!UseInSearch(row.family, field)) return;
-    quality.estimated.insert(row.family + "." + field);
-    quality.flow_estimated |= IsFlowData(row.family, field);
-  };
-  for (const auto& [field, number] : row.numbers) {
-    if (number.provenance != catalog::Provenance::kEstimated) continue;
-    add(field);
-    // Of the part alone: a gas charge in its row is computed, not estimated.
-    if (field == "mass_kg" || field == "mass_kg_per_m")
-      quality.mass_estimated_kg += quantity * number.value;
-  }
-  if (!row.curve) return;
-  if (row.curve->free_air_provenance == catalog::Provenance::kEstimated) add("free_air");
-  if (row.curve->current_provenance == catalog::Provenance::kEstimated) add("current");
-}
-
-Quality QualityOf(const optimizer::Design& design, const Rows& rows) {
-  Quality quality;
-  for (const optimizer::Choice& choice : design.parts) {
-    if (IsCustom(choice)) {
-      quality.mass_estimated_kg += choice.mass_kg;
-      quality.estimated.insert({"reservoir.body_volume_ml", "reservoir.mass_kg"});
-    } else if (const auto row = rows.find(choice.id); row != rows.end()) {
-      AddEstimates(*row->second, choice.quantity, quality);
-      if (!row->second->orderable.value_or(true)) quality.not_orderable.insert(choice.id);
-    }
-  }
-  return quality;
-}
-
-Json RenderQuality(const Quality& quality, double mass_kg) {
-  const double share = mass_kg > 0.0 ? std::min(1.0, quality.mass_estimated_kg / mass_kg) : 0.0;
-  return {{"mass_share_estimated", Number(share)},
-          {"estimated", quality.estimated},
-          {"flow_estimated", quality.flow_estimated},
-          {"not_orderable", quality.not_orderable}};
-}
-
-Json RenderResponse(const optimizer::Design::Trace& trace, const optimizer::Problem& problem) {
-  const auto gauge = [&](double pa) { return KpaGaugeFromPa(pa, problem.ambient); };
-  Json groups = Json::array();
-  for (std::size_t i = 0; i < trace.pressure_pa.size(); ++i)
-    groups.push_back({{"name", problem.groups[i].name},
-                      {"pressure_kpa_gauge", Numbers(trace.pressure_pa[i], gauge)}});
-  return {{"t_s", Numbers(trace.t_s, [](double t) { return t; })},
-          {"groups", groups},
-          {"source_pressure_kpa_gauge", Numbers(trace.source_pressure_pa, gauge)}};
-}
-
-// What `verify` reads of a design.
-Json RenderClaim(const optimizer::Design& design, int rank, const optimizer::Problem& problem,
-                 const Rows& rows) {
-  Json parts = Json::array();
-  for (const optimizer::Choice& choice : design.parts)
-    parts.push_back(RenderChoice(choice, problem, rows));
-  Json json = {{"rank", rank},
-               {"configuration", optimizer::Name(design.configuration)},
-               {"objective", Number(design.objective)},
-               {"parts", parts}};
-  json.update(RenderFigures(design, problem));
-  return json;
-}
-
-Json RenderDesign(const optimizer::Design& design, int rank, const Quality& quality,
-                  const optimizer::Problem& problem, const Rows& rows) {
-  Json json = RenderClaim(design, rank, problem, rows);
-  json["data_quality"] = RenderQuality(quality, design.totals.mass_kg);
-  json["response"] = RenderResponse(design.response, problem);
-  return json;
-}
 
 // A count that is a number in the contract: a decimal string only past 2⁵³.
 Json Count(const optimizer::BigCount& count) {
@@ -247,14 +71,73 @@ void AddInfeasibility(const optimizer::Infeasibility& why, Json& document) {
   document["conflicts_complete"] = why.complete;
 }
 
-}  // namespace
-
-Json RenderFigures(const optimizer::Design& design, const optimizer::Problem& problem) {
-  return {{"settings", RenderSettings(design.settings, problem.ambient)},
-          {"totals", RenderTotals(design.totals)},
-          {"performance", RenderPerformance(design.performance, problem)},
-          {"margins", RenderMargins(design.margins)}};
+Json RenderBest(const optimizer::BestDesign& best, const optimizer::Answer& answer,
+                const optimizer::Problem& problem, const Rows& rows) {
+  Json row = {{"configuration", optimizer::Name(best.configuration)},
+              {"status", optimizer::Name(best.status)},
+              {"objective", nullptr},
+              {"relative_distance", nullptr},
+              {"lower_bound", Number(best.lower_bound)},
+              {"design", nullptr},
+              {"conflict", RenderConflict(best.conflict)}};
+  if (!best.design) return row;
+  const double first = answer.designs.front().objective;
+  row["objective"] = Number(best.design->objective);
+  if (first > 0.0) row["relative_distance"] = Number(best.design->objective / first - 1.0);
+  row["design"] =
+      RenderDesign(*best.design, best.rank, QualityOf(*best.design, rows), problem, rows);
+  if (best.rank == 0) row["design"]["rank"] = nullptr;
+  return row;
 }
+
+void AddBests(const optimizer::Answer& answer, const optimizer::Problem& problem, const Rows& rows,
+              Json& document) {
+  for (const optimizer::BestDesign& best : answer.by_configuration)
+    document["by_configuration"].push_back(RenderBest(best, answer, problem, rows));
+  if (!answer.orderable) return;
+  document["orderable"] = RenderBest(*answer.orderable, answer, problem, rows);
+  if (!answer.orderable->design) document["orderable"]["configuration"] = nullptr;
+}
+
+// What of the catalogue the search could not choose, and why: ids that are excluded, else how many
+// of each family.
+Json RenderLeftOut(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
+                   bool priced) {
+  std::map<std::string, std::map<std::string, int>> counts;
+  Json excluded = Json::array();
+  for (const optimizer::FamilySpec& spec : optimizer::Families())
+    for (const catalog::Part& part : parts) {
+      if (part.family != spec.name) continue;
+      const char* price = part.family == "tubing" ? "price_eur_per_m" : "price_eur";
+      const auto required = problem.require.find(spec.family);
+      if (problem.exclude.contains(part.id))
+        excluded.push_back(part.id);
+      else if (required != problem.require.end() && !required->second.contains(part.id))
+        ++counts["require"][part.family];
+      else if (problem.orderable_only && !part.orderable.value_or(true))
+        ++counts["orderable"][part.family];
+      else if (priced && !part.numbers.contains(price))
+        ++counts["prices"][part.family];
+    }
+  Json left_out = Json::object();
+  if (!excluded.empty()) left_out["exclude"] = std::move(excluded);
+  for (const auto& [why, families] : counts) left_out[why] = families;
+  return left_out;
+}
+
+// How many parts of each family have no price; families without such parts are left out.
+Json RenderUnpriced(const model::Parts& parts) {
+  Json counts = Json::object();
+  for (const optimizer::FamilySpec& spec : optimizer::Families()) {
+    int unpriced = 0;
+    for (int part = 0; part < optimizer::FamilySize(parts, spec.family); ++part)
+      unpriced += !optimizer::BasicsOf(parts, spec.family, part).cost_eur;
+    if (unpriced > 0) counts[spec.name] = unpriced;
+  }
+  return counts;
+}
+
+}  // namespace
 
 Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
                   const std::vector<catalog::Part>& parts) {
@@ -271,7 +154,16 @@ Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
   Json document = AnswerDocument("designs/1");
   if (!request.name.empty()) document["name"] = request.name;
   document["status"] = optimizer::Name(answer.status);
+  document["list"] = optimizer::Name(request.problem.list);
   document["designs"] = std::move(designs);
+  AddBests(answer, request.problem, rows, document);
+  document["left_out"] =
+      RenderLeftOut(parts, request.problem,
+                    optimizer::PricesNeeded(request.problem) && !answer.lower_bound_prices);
+  if (optimizer::CostCounts(request.problem)) {
+    document["price_basis"] = answer.lower_bound_prices ? "lower_bound" : "known";
+    document["unpriced"] = RenderUnpriced(request.problem.parts);
+  }
   document["best_on_measured_flow"] = best_on_measured_flow;
   document["proof"] = RenderProof(answer.proof, request.problem.parts);
   if (answer.status == optimizer::Status::kInfeasible)

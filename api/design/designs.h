@@ -16,8 +16,6 @@ Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
 // designs: [{ rank, listed } or a design that is not listed] }.
 Json RenderSearched(const optimizer::Problem& problem, const optimizer::Searched& searched,
                     const std::vector<catalog::Part>& parts);
-// Settings, totals, performance and margins of a design.
-Json RenderFigures(const optimizer::Design& design, const optimizer::Problem& problem);
 
 }  // namespace plenum::api
 

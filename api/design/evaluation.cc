@@ -1,6 +1,6 @@
 #include "api/design/evaluation.h"
 
-#include "api/design/designs.h"
+#include "api/design/design_document.h"
 #include "api/design/read/combination.h"
 #include "api/design/read/design_reader.h"
 #include "api/design/read/requirements_reader.h"

@@ -79,7 +79,7 @@ std::optional<int> WholeAt(const Json& list, std::size_t place, int low, int hig
 }
 
 std::optional<ProofBox> ParseBox(const Json& json) {
-  const auto kind = WholeAt(json, 0, 0, 7);
+  const auto kind = WholeAt(json, 0, 0, 8);
   if (!kind) return std::nullopt;
   ProofBox box;
   box.kind = static_cast<BoxKind>(*kind);

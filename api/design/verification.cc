@@ -76,7 +76,13 @@ void AddVerification(const verify::Verification& verification, Json& document) {
 void VerifyAsked(const DesignRequest& asked, Reader& reader,
                  const std::vector<catalog::Part>& parts,
                  const std::optional<BruteForce>& brute_force, Json& document) {
-  const Problem& problem = asked.problem;
+  Problem problem = asked.problem;
+  const Json* list = reader.Raw("list");  // answers of releases without kinds do not state it
+  problem.list = list && *list == optimizer::Name(optimizer::ListOf::kKinds)
+                     ? optimizer::ListOf::kKinds
+                     : optimizer::ListOf::kCombinations;
+  const Json* prices = reader.Raw("price_basis");
+  problem.unpriced_allowed = prices && *prices == "lower_bound";
   optimizer::RobustAnswer robust;
   robust.answer = ReadAnswer(reader, problem);
   if (asked.robust && reader.errors().empty())

@@ -17,6 +17,7 @@ struct PartBasics {
   double mass_kg = 0.0;
   double body_volume_m3 = 0.0;     // outer envelope
   std::optional<double> cost_eur;  // none: not known
+  std::string series = {};         // that its variants share; empty: it is its own
   bool operator==(const PartBasics&) const = default;
 };
 

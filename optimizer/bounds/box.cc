@@ -65,11 +65,15 @@ int Bounds::WidestSlot(const Box& box) const {
     return spread(a) != spread(b) ? spread(a) > spread(b)
                                   : Node(box, a).size() > Node(box, b).size();
   };
-  // Reservoirs are divided within the box (VolumeNeed) until all that decides the source with them
-  // is chosen; bottles and batteries are found by what they must bear.
-  const auto turn = [&](int s) { return s == plan_.reservoir_slot ? 1 : DecidesSource(s) ? 0 : 2; };
+  // What decides the kind comes first, where kinds are listed. Reservoirs are divided within the
+  // box (VolumeNeed) until all that decides the source with them is chosen; bottles and batteries
+  // are found by what they must bear.
+  const auto turn = [&](int s) {
+    if (Node(box, s).series < 0) return 0;
+    return s == plan_.reservoir_slot ? 2 : DecidesSource(s) ? 1 : 3;
+  };
   int widest = -1;
-  for (const int now : {0, 1, 2}) {
+  for (const int now : {0, 1, 2, 3}) {
     for (int s = 0; s < static_cast<int>(box.nodes.size()); ++s)
       if (turn(s) == now && !Node(box, s).single() && (widest < 0 || wider(s, widest))) widest = s;
     if (widest >= 0) break;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct Item {
   Option option;
   Corner corner;
   int outdone = 0;  // by how many choices of the family it is dominated
+  int series = 0;   // where kinds are listed (kind.h): by number, of its part
 };
 
 struct BoxNode {
@@ -28,6 +30,7 @@ struct BoxNode {
   double objective_low = 0.0, objective_high = 0.0;
   int earliest = 0;  // the choice of the lowest rank
   int outdone = 0;   // each choice is dominated by so many others at least
+  int series = 0;    // of all its choices; −1: of several
   bool single() const { return left < 0; }
   int size() const { return last - first; }
 };
@@ -61,6 +64,7 @@ class Builder {
     tree_.nodes.reserve(2 * items_.size());
     tree_.corners.reserve(2 * items_.size());
     tree_.options.reserve(items_.size());
+    MeetSeries();
     Grow(0, static_cast<int>(order_.size()), true);
     for (int i : order_) tree_.options.push_back(items_[i]->option);
     return std::move(tree_);
@@ -71,20 +75,66 @@ class Builder {
 
   int Rank(int position) const { return order_[position]; }
 
-  Keys Spread(int first, int last) const {
-    Keys low = keys_[order_[first]], high = low;
+  Keys Spread(const std::vector<Keys>& keys, int first, int last) const {
+    Keys low = keys[order_[first]], high = low;
     for (int i = first; i < last; ++i)
       for (std::size_t k = 0; k < low.size(); ++k) {
-        low[k] = std::min(low[k], keys_[order_[i]][k]);
-        high[k] = std::max(high[k], keys_[order_[i]][k]);
+        low[k] = std::min(low[k], keys[order_[i]][k]);
+        high[k] = std::max(high[k], keys[order_[i]][k]);
       }
     for (std::size_t k = 0; k < low.size(); ++k) high[k] -= low[k];
     return high;
   }
 
+  bool AreSeveralSeries(int first, int last) const {
+    for (int i = first + 1; i < last; ++i)
+      if (items_[order_[i]]->series != items_[order_[first]]->series) return true;
+    return false;
+  }
+
+  // Of each series the least of each attribute.
+  void MeetSeries() {
+    several_series_ = AreSeveralSeries(0, static_cast<int>(order_.size()));
+    if (!several_series_) return;
+    std::unordered_map<int, Keys> least;
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      Keys& keys = least.try_emplace(items_[i]->series, keys_[i]).first->second;
+      for (std::size_t k = 0; k < keys.size(); ++k) keys[k] = std::min(keys[k], keys_[i][k]);
+    }
+    of_series_.reserve(items_.size());
+    for (const Item<Corner>* item : items_) of_series_.push_back(least.at(item->series));
+  }
+
+  // As Divide() by attributes, but keeps each series together.
+  int DivideSeries(int first, int last) {
+    const std::size_t widest = Widest(Spread(of_series_, first, last));
+    const auto begin = order_.begin() + first, end = order_.begin() + last;
+    std::sort(begin, end, [&](int a, int b) {
+      const double key_a = of_series_[a][widest], key_b = of_series_[b][widest];
+      if (key_a != key_b) return key_a < key_b;
+      return items_[a]->series != items_[b]->series ? items_[a]->series < items_[b]->series : a < b;
+    });
+    return NearestBorder(first, last, [&](int i) { return items_[order_[i]]->series; });
+  }
+
+  // Of the places in an ordered range where `of` changes the one that is nearest to the middle.
+  int NearestBorder(int first, int last, const auto& of) const {
+    int best = first;
+    for (int i = first + 1; i < last; ++i)
+      if (of(i - 1) != of(i) &&
+          (best == first || std::abs(2 * i - first - last) < std::abs(2 * best - first - last)))
+        best = i;
+    return best;
+  }
+
+  static std::size_t Widest(const Keys& spread) {
+    return static_cast<std::size_t>(std::max_element(spread.begin(), spread.end()) -
+                                    spread.begin());
+  }
+
   // Where [first, last) is divided: between two classes of parts that mate differently as long as
-  // there are several, else at the median of the attribute that is spread most. `several` is set to
-  // whether there are.
+  // there are several, then between series, else at the median of the attribute that is spread
+  // most. `several` is set to whether there are several classes.
   int Divide(int first, int last, bool& several) {
     const auto begin = order_.begin() + first, end = order_.begin() + last;
     several = several && std::any_of(begin + 1, end,
@@ -93,21 +143,10 @@ class Builder {
       std::sort(begin, end, [&](int a, int b) {
         return classes_[a] != classes_[b] ? classes_[a] < classes_[b] : a < b;
       });
-      int best = first;  // the border that is nearest to the middle
-      for (int i = first + 1; i < last; ++i)
-        if (classes_[order_[i - 1]] != classes_[order_[i]] &&
-            (best == first || std::abs(2 * i - first - last) < std::abs(2 * best - first - last)))
-          best = i;
-      return best;
+      return NearestBorder(first, last, [&](int i) { return classes_[order_[i]]; });
     }
-    const Keys spread = Spread(first, last);
-    std::size_t widest = 0;
-    double width = -1.0;
-    for (std::size_t k = 0; k < spread.size(); ++k)
-      if (spread[k] > width) {
-        width = spread[k];
-        widest = k;
-      }
+    if (several_series_ && AreSeveralSeries(first, last)) return DivideSeries(first, last);
+    const std::size_t widest = Widest(Spread(keys_, first, last));
     const int middle = first + (last - first) / 2;
     const auto begin_key = by_key_.begin() + first, end_key = by_key_.begin() + last;
     for (int i = first; i < last; ++i) by_key_[i] = {keys_[order_[i]][widest], order_[i]};
@@ -122,11 +161,12 @@ class Builder {
     tree_.nodes.push_back({-1, -1, first, last});
     tree_.corners.emplace_back();
     double low, high;
-    int earliest = first, outdone;
+    int earliest = first, outdone, series;
     if (last - first == 1) {
       tree_.corners[index] = items_[order_[first]]->corner;
       low = high = tree_.corners[index].objective;
       outdone = items_[order_[first]]->outdone;
+      series = items_[order_[first]]->series;
     } else {
       const int middle = Divide(first, last, several);
       const int left = Grow(first, middle, several);
@@ -138,6 +178,8 @@ class Builder {
       low = std::min(tree_.nodes[left].objective_low, tree_.nodes[right].objective_low);
       high = std::max(tree_.nodes[left].objective_high, tree_.nodes[right].objective_high);
       outdone = std::min(tree_.nodes[left].outdone, tree_.nodes[right].outdone);
+      series = tree_.nodes[left].series;
+      if (tree_.nodes[right].series != series) series = -1;
       earliest = tree_.nodes[left].earliest;
       if (Rank(tree_.nodes[right].earliest) < Rank(earliest))
         earliest = tree_.nodes[right].earliest;
@@ -146,12 +188,15 @@ class Builder {
     tree_.nodes[index].objective_high = high;
     tree_.nodes[index].earliest = earliest;
     tree_.nodes[index].outdone = outdone;
+    tree_.nodes[index].series = series;
     return index;
   }
 
   const std::vector<const Item<Corner>*>& items_;
   std::vector<int> order_;
   std::vector<Keys> keys_;
+  bool several_series_ = false;
+  std::vector<Keys> of_series_;                 // per item
   std::vector<std::pair<double, int>> by_key_;  // of what is being divided, in the same order
   std::vector<decltype(MatingClass(std::declval<Corner>()))> classes_;
   BoxTree<Corner> tree_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace plenum::optimizer {
 namespace {
@@ -42,6 +43,23 @@ struct Share {  // of the objective
   int mates;
   double objective;
   int contender;
+};
+
+// Counts dominators of one contender after another, each other series once.
+class SeriesSeen {
+ public:
+  explicit SeriesSeen(const std::vector<Contender>& contenders) {
+    int most = -1;
+    for (const Contender& contender : contenders) most = std::max(most, contender.series);
+    last_.resize(static_cast<std::size_t>(most + 1), -1);
+  }
+  // Whether it is the first of its series for this contender.
+  bool IsFirst(int series, int contender) {
+    return series < 0 || std::exchange(last_[series], contender) != contender;
+  }
+
+ private:
+  std::vector<int> last_;  // per series: the contender that met it last
 };
 
 // Class by class, the least share of the objective first.
@@ -149,6 +167,7 @@ Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie, bo
   std::vector<ProofItem> dominators;
   KeptLosses kept_losses(width);
   std::vector<Share> kept;  // of one class
+  SeriesSeen seen(contenders);
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (stop && i % kBetweenLooks == 0 && stop()) return {};
     const Share& share = order[i];
@@ -160,10 +179,14 @@ Skyband KeepBest(const std::vector<Contender>& contenders, int k, double tie, bo
     dominators.clear();
     kept_losses.NoWorse(losses_of(share.contender), [&](std::size_t other) {
       const Share& better = kept[other];
-      if (better.objective < share.objective - tie ||
-          ListedFirst(contenders[better.contender], contenders[share.contender])) {
+      const Contender &a = contenders[better.contender], &b = contenders[share.contender];
+      if (!(better.objective < share.objective - tie || ListedFirst(a, b))) return true;
+      if (a.series >= 0 && a.series == b.series) {
+        dominated = k;
+        dominators.assign(1, a.item);
+      } else if (seen.IsFirst(a.series, share.contender)) {
         ++dominated;
-        if (name_left_out) dominators.push_back(contenders[better.contender].item);
+        if (name_left_out) dominators.push_back(a.item);
       }
       return dominated < k;
     });

@@ -1,5 +1,6 @@
 // Choices that cannot be among the k best, because k others of the family are at least as good in
-// every respect.
+// every respect. For a list of kinds (kind.h) one other of the same series is enough, or k others
+// of different series: they make a better design of the same kind, or k better kinds.
 //
 // A dominates B when it mates with the same parts, is no worse in any number that a requirement or
 // the objective depends on, and is listed first: its share of the objective is smaller by more than
@@ -30,6 +31,7 @@ struct Contender {
   std::string_view id;     // of the part, which outlives this
   double objective = 0.0;  // its share
   int mates = 0;           // from 0; equal for parts that mate with the same parts and behave alike
+  int series = -1;         // from 0; −1: its own
   Losses losses;           // smaller is better, as many for each choice of a family
 };
 

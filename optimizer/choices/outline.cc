@@ -54,10 +54,10 @@ class Sketch {
   template <typename Part, typename ShareOf>
   void Add(const std::vector<Part>& parts, int quantity_max, const ShareOf& share, int made = 0,
            double made_share = kUnlimited) {
-    long long priced = CostMatters(problem_) ? 0 : made;
-    double least = CostMatters(problem_) ? kUnlimited : made_share;
+    long long priced = PricesNeeded(problem_) ? 0 : made;
+    double least = PricesNeeded(problem_) ? kUnlimited : made_share;
     for (const Part& part : parts) {
-      if (CostMatters(problem_) && !BasicsOf(part).cost_eur) continue;
+      if (PricesNeeded(problem_) && !BasicsOf(part).cost_eur) continue;
       priced += quantity_max;
       for (int quantity = 1; quantity <= quantity_max; ++quantity)
         least = std::min(least, share(part, quantity));

@@ -28,8 +28,12 @@ Amounts operator*(double quantity, const model::PartBasics& basics) {
           quantity * basics.cost_eur.value_or(0.0)};
 }
 
-bool CostMatters(const Problem& problem) {
+bool CostCounts(const Problem& problem) {
   return problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur);
+}
+
+bool PricesNeeded(const Problem& problem) {
+  return CostCounts(problem) && !problem.unpriced_allowed;
 }
 
 double FlowFactor(const Problem& problem, model::Gas gas) {

@@ -37,7 +37,9 @@ T ObjectiveOf(const Objective& objective, const AmountsOf<T>& amounts) {
   return objective.mass_kg * amounts.mass_kg + objective.volume_l * amounts.volume_m3 * 1e3 +
          objective.cost_eur * amounts.cost_eur;
 }
-bool CostMatters(const Problem& problem);
+// Whether cost is minimised or limited; and whether a part without a price is then no choice.
+bool CostCounts(const Problem& problem);
+bool PricesNeeded(const Problem& problem);
 
 // Of a box of lines those with no more coil power, at least. Coils ask for more of the battery, so
 // that the lightest lines need not make the lightest design. `places`: of a single line its tube,

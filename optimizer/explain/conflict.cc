@@ -37,6 +37,11 @@ class Analysis {
     return result;
   }
 
+  std::vector<Conflict> FindOne() {
+    const auto minimal = FindMinimalConflict(static_cast<int>(demands_.size()), {}, oracle_);
+    return minimal.demands.empty() ? PressuresThemselves() : Describe(minimal, false);
+  }
+
  private:
   using Values = std::map<int, std::optional<double>>;  // of demands that give way; none: dropped
 
@@ -111,7 +116,7 @@ class Analysis {
     return least;
   }
 
-  std::vector<Conflict> Describe(const MinimalConflict& minimal) {
+  std::vector<Conflict> Describe(const MinimalConflict& minimal, bool reached = true) {
     Values others = relaxation_;
     for (const int demand : minimal.demands) others.erase(demand);
     std::vector<Conflict> conflict;
@@ -120,9 +125,9 @@ class Analysis {
       Conflict entry;
       entry.requirement = demands_[demand].pointer;
       entry.proved = minimal.proved.contains(demand);
-      if (number) {
+      if (number) entry.required = number->required;
+      if (number && reached) {
         const Reach reach = ReachOf(demand, others);
-        entry.required = number->required;
         const auto given = relaxation_.find(demand);
         entry.best = given != relaxation_.end() && given->second ? given->second : reach.best;
         if (entry.best) entry.bound = reach.bound;
@@ -162,6 +167,11 @@ class Analysis {
 
 Infeasibility FindConflicts(const Problem& problem, const SearchOptions& options, double used_s) {
   return Analysis(problem, options, used_s).Run();
+}
+
+std::vector<Conflict> FindOneConflict(const Problem& problem, const SearchOptions& options,
+                                      double used_s) {
+  return Analysis(problem, options, used_s).FindOne();
 }
 
 }  // namespace plenum::optimizer

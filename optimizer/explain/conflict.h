@@ -14,6 +14,10 @@ namespace plenum::optimizer {
 // the result is not `complete`.
 Infeasibility FindConflicts(const Problem& problem, const SearchOptions& options, double used_s);
 
+// One of these sets, with nothing of what its demands reach: in a small part of the time.
+std::vector<Conflict> FindOneConflict(const Problem& problem, const SearchOptions& options,
+                                      double used_s);
+
 }  // namespace plenum::optimizer
 
 #endif  // PLENUM_OPTIMIZER_EXPLAIN_CONFLICT_H_

@@ -48,23 +48,9 @@ Demand OfMainsFlow(const Problem& problem) {
       [](Problem& p, double value) { p.mains.flow_max_m3_per_s = value * kLitrePerMinute; });
 }
 
-template <typename Visit>
-void ForEachPart(Problem& problem, const Visit& visit) {
-  for (const FamilySpec& spec : Families())
-    for (int part = FamilySize(problem.parts, spec.family); part-- > 0;)
-      visit(BasicsOf(problem.parts, spec.family, part));
-}
-
 void AddPrices(const Problem& problem, std::vector<Demand>& list) {
-  if (!CostMatters(problem)) return;
-  list.push_back({"prices",
-                  [](Problem& p) {
-                    ForEachPart(p, [](model::PartBasics& basics) {
-                      basics.cost_eur = basics.cost_eur.value_or(0.0);
-                    });
-                    p.objective = {.mass_kg = 1.0};
-                  },
-                  std::nullopt});
+  if (!PricesNeeded(problem)) return;
+  list.push_back({"prices", [](Problem& p) { p.unpriced_allowed = true; }, std::nullopt});
 }
 
 void AddLimits(const Problem& problem, std::vector<Demand>& list) {
@@ -86,6 +72,16 @@ void AddLimits(const Problem& problem, std::vector<Demand>& list) {
   add("/limits/cylinders_max", &Limits::cylinders, {bottle});
   add("/limits/co2_max", &Limits::co2, {co2});
   add("/limits/reservoirs_max", &Limits::reservoirs, {pump});
+}
+
+void AddProducts(const Problem& problem, const SearchOptions& options, std::vector<Demand>& list) {
+  if (!options.select || !problem.orderable_only) return;
+  list.push_back({"/supply/parts",
+                  [select = options.select](Problem& p) {
+                    p.orderable_only = false;
+                    p.parts = select(p);
+                  },
+                  std::nullopt});
 }
 
 void AddSelection(const Problem& problem, const SearchOptions& options, std::vector<Demand>& list) {
@@ -141,6 +137,7 @@ std::vector<Demand> Demands(const Problem& problem, const SearchOptions& options
       std::isfinite(problem.mains.flow_max_m3_per_s))
     list.push_back(OfMainsFlow(problem));
   add("/supply/");
+  AddProducts(problem, options, list);
   AddPrices(problem, list);
   AddLimits(problem, list);
   AddSelection(problem, options, list);
@@ -148,7 +145,7 @@ std::vector<Demand> Demands(const Problem& problem, const SearchOptions& options
 }
 
 Problem ForAnyDesign(Problem problem) {
-  if (CostMatters(problem)) {
+  if (PricesNeeded(problem)) {
     EraseUnpriced(problem.parts);
     problem.exclude.insert("custom");  // a made-to-measure reservoir has no price
   }

@@ -1,18 +1,36 @@
 #include "optimizer/explain/explained_search.h"
 
+#include <algorithm>
 #include <chrono>
 
+#include "optimizer/evaluate/line.h"
 #include "optimizer/explain/conflict.h"
+#include "optimizer/explain/variants.h"
 #include "optimizer/search/tree_search.h"
 
 namespace plenum::optimizer {
 
 Answer Search(const Problem& problem, const SearchOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  Answer answer = SearchTrees(problem, options);
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  Problem searched = problem;
+  Answer answer = SearchTrees(searched, options);
+  if (answer.status == Status::kInfeasible && PricesNeeded(problem)) {
+    searched.unpriced_allowed = true;
+    SearchOptions left = options;
+    left.time_limit_s = std::max(0.0, options.time_limit_s - seconds());
+    answer = SearchTrees(searched, left);
+  }
+  answer.lower_bound_prices = searched.unpriced_allowed;
   if (answer.status == Status::kInfeasible)
-    answer.infeasibility = FindConflicts(problem, options, answer.seconds);
-  answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    answer.infeasibility = FindConflicts(searched, options, seconds());
+  if (searched.list == ListOf::kKinds && !answer.designs.empty()) {
+    AddBests(searched, options, seconds(), answer);
+    AddVariants(searched, options, seconds(), answer);
+  }
+  answer.seconds = seconds();
   return answer;
 }
 

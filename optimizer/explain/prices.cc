@@ -31,6 +31,7 @@ class Budget {
   // Best design; `share` of what is left of the time.
   Answer Best(Problem problem, double share) {
     problem.count = 1;
+    problem.list = ListOf::kCombinations;
     options_.time_limit_s = share * std::max(0.0, Left());
     return SearchTrees(problem, options_);
   }

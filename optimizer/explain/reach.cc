@@ -40,9 +40,9 @@ Reach LeastAmount(const Problem& problem, const Demand& demand, TrialSearch& sea
     const Answer answer = search.Best(loose, objective);
     if (answer.designs.empty()) continue;
     const Totals& totals = answer.designs.front().totals;
-    if (wanted.cost_eur > 0.0 && !totals.cost_eur) continue;
-    const double amount = ObjectiveOf(
-        wanted, Amounts{totals.mass_kg, totals.volume_m3, totals.cost_eur.value_or(0.0)});
+    if (wanted.cost_eur > 0.0 && !totals.cost_eur && !problem.unpriced_allowed) continue;
+    const double amount =
+        ObjectiveOf(wanted, Amounts{totals.mass_kg, totals.volume_m3, totals.cost_known_eur});
     reach.best = std::min(reach.best.value_or(kUnlimited), Outward(amount, true, false));
     if (answer.status == Status::kOptimal && objective == wanted) {
       reach.bound = amount;

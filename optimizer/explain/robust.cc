@@ -119,6 +119,7 @@ class DesignsWithRoom {
     if (options_.time_limit_s <= 0.0 || draws_.stopped()) return {};
     Problem tight = Tightened(problem_, room);
     tight.count = count;
+    tight.list = ListOf::kCombinations;
     std::vector<Design> bought;
     for (const Design& design : Search(tight, options_).designs) {
       if (draws_.stopped()) break;

@@ -36,7 +36,7 @@ std::size_t Minimised(const std::vector<Amount>& amounts) {
 }
 
 bool MadeReservoirAllowed(const Problem& problem, const std::vector<Amount>& amounts) {
-  return problem.configurations.contains(Configuration::kCompressor) && !CostMatters(problem) &&
+  return problem.configurations.contains(Configuration::kCompressor) && !PricesNeeded(problem) &&
          std::find(amounts.begin(), amounts.end(), Amount::kCost) == amounts.end() &&
          MadeToMeasureAllowed(problem, Family::kReservoir);
 }
@@ -48,8 +48,7 @@ double Resolution(const Problem& problem, const std::vector<Amount>& amounts) {
 }
 
 double ObjectiveOfTotals(const Objective& objective, const Totals& totals) {
-  return ObjectiveOf(objective,
-                     Amounts{totals.mass_kg, totals.volume_m3, totals.cost_eur.value_or(0.0)}) +
+  return ObjectiveOf(objective, Amounts{totals.mass_kg, totals.volume_m3, totals.cost_known_eur}) +
          objective.energy_wh * totals.energy_j / kJoulePerWattHour;
 }
 

@@ -25,10 +25,11 @@ const model::PartBasics& BasicsIn(const model::Parts& parts, int part) {
 // Where a family is used.
 struct Place {
   int place;
-  bool in_line;
-  std::vector<Configuration> sources;
+  bool in_line = false;
+  std::vector<Configuration> sources = {};
   int Limits::*most = nullptr;
   bool by_need = false, made_to_measure = false;
+  KindRole kind_role = KindRole::kApart;
 };
 
 template <auto list>
@@ -43,7 +44,8 @@ FamilySpec Spec(Family family, const char* name, std::span<const PartField> fiel
                   .in_line = place.in_line,
                   .most = place.most,
                   .by_need = place.by_need,
-                  .made_to_measure = place.made_to_measure};
+                  .made_to_measure = place.made_to_measure,
+                  .kind_role = place.kind_role};
   for (const Configuration configuration : place.sources)
     spec.in_source[static_cast<std::size_t>(configuration)] = true;
   return spec;
@@ -62,20 +64,42 @@ std::vector<FamilySpec> OwnFamilies() {
   constexpr auto kCylinder = Configuration::kCylinder, kCo2 = Configuration::kCo2,
                  kCompressor = Configuration::kCompressor, kMains = Configuration::kMains;
   return {
-      Spec<&Parts::tubing>(Family::kTubing, "tubing", kTubingFields, {2, true, {}}),
-      Spec<&Parts::fittings>(Family::kFitting, "fitting", kFittingFields, {1, true, {}}),
-      Spec<&Parts::valves>(Family::kValve, "valve", kValveFields, {0, true, {}}),
+      Spec<&Parts::tubing>(Family::kTubing, "tubing", kTubingFields, {.place = 2, .in_line = true}),
+      Spec<&Parts::fittings>(Family::kFitting, "fitting", kFittingFields,
+                             {.place = 1, .in_line = true}),
+      Spec<&Parts::valves>(Family::kValve, "valve", kValveFields,
+                           {.place = 0, .in_line = true, .kind_role = KindRole::kValve}),
       Spec<&Parts::compressors>(Family::kCompressor, "compressor", kCompressorFields,
-                                {6, false, {kCompressor}, &Limits::compressors}),
+                                {.place = 6,
+                                 .sources = {kCompressor},
+                                 .most = &Limits::compressors,
+                                 .kind_role = KindRole::kSource}),
       Spec<&Parts::cylinders>(Family::kCylinder, "cylinder", kCylinderFields,
-                              {4, false, {kCylinder}, &Limits::cylinders, true}),
-      Spec<&Parts::co2>(Family::kCo2, "co2", kCo2Fields, {5, false, {kCo2}, &Limits::co2, true}),
+                              {.place = 4,
+                               .sources = {kCylinder},
+                               .most = &Limits::cylinders,
+                               .by_need = true,
+                               .kind_role = KindRole::kSource}),
+      Spec<&Parts::co2>(Family::kCo2, "co2", kCo2Fields,
+                        {.place = 5,
+                         .sources = {kCo2},
+                         .most = &Limits::co2,
+                         .by_need = true,
+                         .kind_role = KindRole::kSource}),
       Spec<&Parts::batteries>(Family::kBattery, "battery", kBatteryFields,
-                              {7, false, {kCylinder, kCo2, kCompressor}, &Limits::batteries, true}),
-      Spec<&Parts::regulators>(Family::kRegulator, "regulator", kRegulatorFields,
-                               {3, false, {kCylinder, kCo2, kMains}}),
+                              {.place = 7,
+                               .sources = {kCylinder, kCo2, kCompressor},
+                               .most = &Limits::batteries,
+                               .by_need = true}),
+      Spec<&Parts::regulators>(
+          Family::kRegulator, "regulator", kRegulatorFields,
+          {.place = 3, .sources = {kCylinder, kCo2, kMains}, .kind_role = KindRole::kRegulator}),
       Spec<&Parts::reservoirs>(Family::kReservoir, "reservoir", kReservoirFields,
-                               {8, false, {kCompressor}, &Limits::reservoirs, true, true}),
+                               {.place = 8,
+                                .sources = {kCompressor},
+                                .most = &Limits::reservoirs,
+                                .by_need = true,
+                                .made_to_measure = true}),
   };
 }
 
@@ -107,7 +131,7 @@ int QuantityMax(const Problem& problem, Family family) {
 }
 
 bool MadeToMeasureAllowed(const Problem& problem, Family family) {
-  if (!SpecOf(family).made_to_measure) return false;
+  if (!SpecOf(family).made_to_measure || problem.orderable_only) return false;
   const auto required = problem.require.find(family);
   return !problem.exclude.contains("custom") &&
          (required == problem.require.end() || required->second.contains("custom"));

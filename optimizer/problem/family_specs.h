@@ -13,6 +13,9 @@
 
 namespace plenum::optimizer {
 
+// What a part of the family says of the kind of its design (kind.h).
+enum class KindRole { kApart, kSource, kRegulator, kValve };
+
 struct FamilySpec {
   Family family;
   const char* name;  // as in the catalogue
@@ -25,6 +28,7 @@ struct FamilySpec {
   int Limits::*most = nullptr;                    // pieces in parallel; null: 1
   bool by_need = false;          // chosen by what it must bear, once all else is known
   bool made_to_measure = false;  // one may be made instead ("custom")
+  KindRole kind_role = KindRole::kApart;
 
   bool InSourceOf(Configuration configuration) const {
     return in_source[static_cast<std::size_t>(configuration)];

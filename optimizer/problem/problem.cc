@@ -18,6 +18,8 @@ const char* Name(Configuration configuration) {
 
 const char* Name(NlpSolver solver) { return solver == NlpSolver::kIpopt ? "ipopt" : "nlopt"; }
 
+const char* Name(ListOf list) { return list == ListOf::kKinds ? "kinds" : "combinations"; }
+
 const char* Name(Status status) {
   switch (status) {
     case Status::kOptimal:

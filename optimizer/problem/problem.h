@@ -67,6 +67,11 @@ struct Mains {
   double flow_max_m3_per_s = kUnlimited;
 };
 
+// What a list holds: the best combinations of parts, or the best design of each of the best kinds
+// (kind.h).
+enum class ListOf { kCombinations, kKinds };
+const char* Name(ListOf list);  // "combinations", "kinds"
+
 struct Limits {  // most identical parts in parallel
   int compressors = 2, batteries = 4, cylinders = 4, co2 = 4, reservoirs = 2;
 };
@@ -84,13 +89,17 @@ struct Problem {
   double mass_max_kg = kUnlimited;
   double volume_max_l = kUnlimited;
   double cost_max_eur = kUnlimited;
+  bool unpriced_allowed = false;  // where cost matters: a part without a price counts as free
   model::Ambient ambient;
   Objective objective;
   Limits limits;
   std::map<Family, std::set<std::string>>
       require;                    // only these ids of the family; "custom" reservoir
   std::set<std::string> exclude;  // may hold "custom"
+  bool orderable_only = false;    // no parts that are no products
   int count = 20;
+  ListOf list = ListOf::kCombinations;
+  int per_source = 3;                    // most kinds on the list with the same sources
   NlpSolver solver = NlpSolver::kIpopt;  // of continuous settings, the one that is asked first
   model::Parts parts;
 };
@@ -122,7 +131,9 @@ struct SearchOptions {
   PeriodicSolver periodic = model::FindPeriodicState;
   // The parts that other `require` and `exclude` leave; empty: these two cannot be dropped.
   std::function<model::Parts(const Problem&)> select;
-  std::size_t crowd = 16384;  // boxes that wait from which on room is saved
+  std::size_t crowd = 16384;          // boxes that wait from which on room is saved
+  double objective_max = kUnlimited;  // designs above it are of no interest
+  long long steps_max = std::numeric_limits<long long>::max();  // of work, as at the time limit
 };
 
 // One row of the parts list.
@@ -146,6 +157,7 @@ struct Totals {
   double mass_kg = 0.0, volume_m3 = 0.0;
   std::optional<double> cost_eur;
   double energy_j = 0.0;
+  double cost_known_eur = 0.0;  // of the parts that have a price
 };
 
 // T here and below: double, or a dual number that carries derivatives (model/flow/scalar.h).
@@ -175,6 +187,18 @@ struct MarginOf {
 };
 using Margin = MarginOf<double>;
 
+// A design of the same kind as a listed one that does nearly as well.
+struct Variant {
+  double objective = 0.0;
+  std::vector<Choice> parts;
+};
+
+// The feasible designs of a kind within 1 % of its best, that one itself left out.
+struct Variants {
+  std::vector<Variant> found;  // the best first, at most 100
+  bool complete = false;       // proved: there are no others
+};
+
 struct Design {
   Configuration configuration;
   std::vector<Choice> parts;
@@ -187,7 +211,8 @@ struct Design {
     std::vector<double> t_s;
     std::vector<std::vector<double>> pressure_pa;  // per group
     std::vector<double> source_pressure_pa;
-  } response;  // one cycle of the periodic state
+  } response;                             // one cycle of the periodic state
+  std::optional<Variants> variants = {};  // where they were looked for
 };
 
 enum class Status { kOptimal, kFeasible, kInfeasible, kCancelled };
@@ -237,10 +262,23 @@ struct Infeasibility {
 using FindConflictsFunction = std::function<Infeasibility(
     const Problem& problem, const SearchOptions& options, double used_s)>;
 
+// The best design of some, whether or not it is on the list: of a configuration, say.
+struct BestDesign {
+  Configuration configuration{};
+  Status status = Status::kCancelled;
+  std::optional<Design> design = {};
+  int rank = 0;                         // on the list; 0: it is not there
+  double lower_bound = 0.0;             // of the objective of all its designs
+  std::vector<Conflict> conflict = {};  // where there is none
+};
+
 struct Answer {
   Status status = Status::kCancelled;
   std::vector<Design> designs;
+  std::vector<BestDesign> by_configuration = {};  // of a list of kinds
+  std::optional<BestDesign> orderable = {};       // the same: of parts that are products
   Proof proof;
+  bool lower_bound_prices = false;  // parts without a price counted as free
   Infeasibility infeasibility;
   double seconds = 0.0;
 };

@@ -8,8 +8,10 @@
 //
 // 1. Choices. Slot::choices lists those that the search looked at, in an order that makes every box
 //    a range. Slot::dominated lists those left out because of `k` others each, where k is the
-//    number of designs wanted (ProofRecord::count). Choices without a price where cost matters are
-//    in neither list. A checker sees that the three make up the family.
+//    number of designs wanted (ProofRecord::count); in a list of kinds because of one other of the
+//    same series (or of any, in families that make no kinds), or of OtherSeriesNeeded() others of
+//    different series (kind.h). Choices without a price where cost matters are in neither list. A
+//    checker sees that the three make up the family.
 //    A dominates B if at every setting B can be replaced by A without missing a requirement:
 //      * amounts (mass; outer volume; cost) of A are no larger where a limit is on them, and A's
 //        share of the objective is smaller by more than Plan::tie, or no larger while A's
@@ -40,6 +42,10 @@
 //      kOrder         as kBound, and every design in it whose objective ties with the last one
 //                     listed comes after it by ids; also where the choices that dominate those of
 //                     the box make as many better combinations of each in it as are wanted;
+//      kKind          as kBound; all in it are of a kind of which a design is listed that is no
+//      worse
+//                     than `bound` (where they tie, by ids), or of a source of which as many kinds
+//                     are listed before it as there may be;
 //      kDesign        a single combination that is listed; `design` is its index in the answer;
 //      kNotListed     a single combination that is feasible, with its objective as `bound`;
 //      kRefuted       a single combination for which no setting meets the requirements;
@@ -76,7 +82,7 @@ struct ProofItem {
 
 struct ProofDominated {
   ProofItem item;
-  std::vector<ProofItem> dominators;  // k of them, all among the slot's choices
+  std::vector<ProofItem> dominators;  // enough of them, all among the slot's choices
 };
 
 struct ProofSlot {
@@ -94,7 +100,8 @@ enum class BoxKind : std::uint8_t {
   kDesign,
   kNotListed,
   kRefuted,
-  kUndecided
+  kUndecided,
+  kKind
 };
 
 // What a corner misses.
@@ -116,7 +123,7 @@ struct ProofBox {
   std::int16_t slot = -1;                     // kSplit
   std::int32_t middle = 0;                    // kSplit: first choice of the right part
   std::int32_t design = -1;                   // kDesign
-  double bound = 0.0;                         // kBound, kOrder, kNotListed
+  double bound = 0.0;                         // kBound, kOrder, kKind, kNotListed
 };
 
 struct ProofPlan {

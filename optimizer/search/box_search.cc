@@ -1,7 +1,6 @@
 #include "optimizer/search/box_search.h"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include "optimizer/bounds/leaf_sizing.h"
@@ -13,12 +12,11 @@
 #include "optimizer/search/ranking.h"
 #include "optimizer/search/recorder.h"
 #include "optimizer/search/search_node.h"
+#include "optimizer/search/watch.h"
 #include "optimizer/sizing/report.h"
 
 namespace plenum::optimizer {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double kProgressIntervalS = 0.2;
 // After the end designs found before are still confirmed, one at least and others for so long.
@@ -27,21 +25,23 @@ constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;     // of the time limit
 constexpr double kFirstFrom = 0.01, kFirstShare = 0.1;  // the same
 constexpr int kCrowdDives = 20;                         // for each design that is wanted
 constexpr int kBoxesPerDiveStep = 2, kDiveStepsLeast = 10'000;
+// Work beside a look at a box: a step of sizing a made-to-measure reservoir, and a design whose
+// strokes are simulated.
+constexpr int kStepsPerRefine = 32, kStepsPerSimulation = 1000;
 constexpr int kHardDesigns = 16;  // no design takes more than this part of the steps of dives
 
 class BoxSearch {
  public:
-  BoxSearch(const Problem& problem, const SearchOptions& options, Clock::time_point start)
+  BoxSearch(const Problem& problem, const SearchOptions& options, Watch::Clock::time_point start)
       : problem_(problem),
         options_(options),
-        start_(start),
-        objective_limit_(ObjectiveLimit(problem) * (1.0 + 1e-12)),
-        ranking_(problem.count),
+        watch_(options, start),
+        objective_limit_(std::min(ObjectiveLimit(problem), options.objective_max) * (1.0 + 1e-12)),
+        ranking_(problem),
         recorder_(options.record),
-        bench_{[this] { return Stopped() || Seconds() > dive_until_s_; }, options.periodic},
-        report_bench_{
-            [this] { return reported_ > 0 && Stopped() && Seconds() > stopped_s_ + kGraceS; },
-            options.periodic},
+        bench_{[this] { return watch_.DiveStopped(); }, options.periodic},
+        report_bench_{[this] { return reported_ > 0 && watch_.StoppedFor(kGraceS); },
+                      options.periodic},
         configurations_(problem, bench_, options.record) {}
 
   Answer Run() {
@@ -51,18 +51,21 @@ class BoxSearch {
     return Conclude();
   }
 
- private:
-  double Seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
-  bool stopped() const { return cancelled_ || late_; }
-  bool Stopped() {
-    if (stopped()) return true;
-    cancelled_ = options_.cancelled && options_.cancelled();
-    looked_s_ = Seconds();
-    late_ = looked_s_ > options_.time_limit_s;
-    if (stopped()) stopped_s_ = looked_s_;
-    return stopped();
+  Listed List() {
+    Enumerate();
+    Listed listed{{}, !stopped() && proof_.undecided == 0};
+    for (const Found& found : ranking_.list()) {
+      if (static_cast<int>(listed.combinations.size()) == problem_.count) break;
+      listed.combinations.push_back(
+          {found.leaf.objective,
+           ListParts(problem_, found.bounds->CandidateOf(found.box), found.leaf.point)});
+    }
+    return listed;
   }
+
+ private:
+  bool stopped() const { return watch_.stopped() || steps_ > options_.steps_max; }
+  bool Stopped() { return stopped() || watch_.Stopped(); }
 
   // Plants the configurations that the search has come to, or all where a record is wanted. False
   // if stopped on the way.
@@ -128,7 +131,17 @@ class BoxSearch {
         OrderTies();
         return;
       }
-      Step(open_.Pop());
+      Take(open_.Pop());
+    }
+  }
+
+  // A box that can no longer change the list waits in case a design of it is taken out.
+  void Take(NodePtr node) {
+    if (ranking_.IsSettled(node->bounds->plan(), node->box)) {
+      SaveRoom(*node);
+      settled_.push_back(std::move(node));
+    } else {
+      Step(std::move(node));
     }
   }
 
@@ -138,18 +151,20 @@ class BoxSearch {
     ordering_ties_ = true;
     while (!open_.empty() && open_.top()->box.bound <= ranking_.run_end()) Push(open_.Pop());
     while (!ties_.empty() && !Stopped() && ranking_.MayTakeLast(ties_.top()->earliest))
-      Step(ties_.Pop());
+      Take(ties_.Pop());
     ordering_ties_ = false;
     while (!ties_.empty()) Push(ties_.Pop());
   }
 
   void Step(NodePtr node) {
     ++proof_.boxes;
+    steps_ += node->box.core ? kStepsPerRefine : 1;
     Bounds& bounds = *node->bounds;
     if (bounds.CanFindSource(node->box)) {
       Constraint missed = bounds.FindSource(node->box);
       while (missed == Constraint::kNone && IsNext(*node) && bounds.CanFindSource(node->box)) {
         ++proof_.boxes;
+        steps_ += node->box.core ? kStepsPerRefine : 1;
         missed = bounds.FindSource(node->box);
       }
       Keep(std::move(node), missed);
@@ -190,12 +205,14 @@ class BoxSearch {
     PartIds ids = EarliestIds(problem_, node->bounds->plan(), node->box);
     if (Found* known = ranking_.Find(ids)) {  // by the dive
       proof_.evaluated += 1;
-      known->record = node->record;
+      ranking_.Place(*known, node->record);
       CountGap(known->leaf);
       recorder_.Close(node->record, {.kind = BoxKind::kNotListed, .bound = known->leaf.objective});
       return;
     }
     const Candidate candidate = node->bounds->CandidateOf(node->box);
+    const bool simulated = GroupsMeet(problem_) && candidate.compressor.index != kNone;
+    steps_ += simulated ? kStepsPerSimulation : node->sizing ? kStepsPerRefine : 1;
     const std::optional<Leaf> sized = SizeLeaf(problem_, candidate, node->box, node->sizing);
     if (!sized) {  // as its bound rises the box goes back into the queue
       Push(std::move(node));
@@ -215,7 +232,8 @@ class BoxSearch {
     recorder_.Close(node->record, {.kind = BoxKind::kNotListed, .bound = leaf.objective});
     leaf.lower_bound = std::clamp(node->box.bound, leaf.lower_bound, leaf.objective);
     CountGap(leaf);
-    ranking_.Add({std::move(node->box), node->bounds, leaf, std::move(ids), node->record, nullptr});
+    ranking_.Add(
+        {std::move(node->box), node->bounds, leaf, std::move(ids), node->record, nullptr, {}});
   }
 
   void Undecided(double bound, int record) {
@@ -231,30 +249,24 @@ class BoxSearch {
 
   // Several groups are slow to prove, and most boxes need no look once the list is good.
   void SeekFirstDesigns() {
-    const bool slow = looked_s_ >= kFirstFrom * options_.time_limit_s;
+    const bool slow = watch_.looked_s() >= kFirstFrom * options_.time_limit_s;
     const auto due = Due(problem_, configurations_.planted(), slow, sought_);
     for (Bounds* bounds : due)
-      DiveFor(kFirstShare / static_cast<double>(due.size()),
-              [&] { FindFirstDesigns(problem_, *bounds, bench_.stop, ranking_); });
-  }
-
-  void DiveFor(double share, const auto& dive) {
-    dive_until_s_ = Seconds() + share * options_.time_limit_s;
-    dive();
-    dive_until_s_ = kUnlimited;
+      watch_.DiveFor(kFirstShare / static_cast<double>(due.size()),
+                     [&] { FindFirstDesigns(problem_, *bounds, bench_.stop, ranking_); });
   }
 
   // With a third of the time gone good designs are sought by depth first, in case time runs out.
   void DiveIfSlow() {
     const double from_s = options_.any_design ? 0.0 : kDiveFrom * options_.time_limit_s;
-    if (sought_.deep || looked_s_ < from_s) return;
+    if (sought_.deep || watch_.looked_s() < from_s) return;
     sought_.deep = true;
     while (!configurations_.waiting().empty())
       if (!PlantNext()) return;
     const auto& all = configurations_.planted();
     for (const std::unique_ptr<Bounds>& bounds : all)
-      DiveFor(kDiveShare / static_cast<double>(all.size()),
-              [&] { Dive(problem_, *bounds, options_.any_design, bench_.stop, ranking_); });
+      watch_.DiveFor(kDiveShare / static_cast<double>(all.size()),
+                     [&] { Dive(problem_, *bounds, options_.any_design, bench_.stop, ranking_); });
   }
 
   // What boxes know takes room, and most of it would only be asked if their bounds came up. Designs
@@ -317,6 +329,8 @@ class BoxSearch {
         if (!design) {
           Undecided(found.leaf.lower_bound, found.record);
           ranking_.Remove(i);
+          for (NodePtr& node : settled_) open_.Push(std::move(node));
+          settled_.clear();
           if (!stopped()) return false;
           all = false;
           continue;
@@ -331,7 +345,7 @@ class BoxSearch {
 
   void Report() {
     if (!options_.progress) return;
-    const double seconds = Seconds();
+    const double seconds = watch_.Seconds();
     if (seconds - reported_s_ < kProgressIntervalS) return;
     reported_s_ = seconds;
     const std::vector<Found>& list = ranking_.list();
@@ -373,6 +387,10 @@ class BoxSearch {
                                      .constraint = over ? Constraint::kAmounts : Constraint::kNone,
                                      .bound = bound});
     });
+    for (const NodePtr& node : settled_) {
+      proof_.pruned.bound += node->bounds->Count(node->box);
+      recorder_.Close(node->record, {.kind = BoxKind::kKind, .bound = node->box.bound});
+    }
     return least;
   }
 
@@ -381,19 +399,20 @@ class BoxSearch {
     proof_.lower_bound =
         CloseOutdone(std::min({undecided_bound_, CloseRest(), ranking_.BoundBehind()}));
     const Ending ending{.stopped = stopped(),
-                        .cancelled = cancelled_,
+                        .cancelled = watch_.cancelled(),
                         .any_design = options_.any_design,
-                        .seconds = Seconds()};
+                        .seconds = watch_.Seconds()};
     return optimizer::Conclude(problem_, ending, std::move(proof_), ranking_, recorder_);
   }
 
   const Problem& problem_;
   const SearchOptions& options_;
-  Clock::time_point start_;
+  Watch watch_;
   double objective_limit_;  // a bound above it breaks a limit
   Queue<NodePtr, LowestBound> open_;
   Queue<NodePtr, EarliestIdsFirst> ties_;
   bool ordering_ties_ = false;
+  std::vector<NodePtr> settled_;  // whose kind or source is (ranking.h)
   Ranking ranking_;
   Recorder recorder_;
   Proof proof_;
@@ -405,16 +424,18 @@ class BoxSearch {
   int reported_ = 0;
   // Boxes that wait when room is saved next, and when designs are sought for it.
   std::size_t crowd_ = options_.crowd, crowd_to_dive_ = options_.crowd;
-  double looked_s_ = 0.0;  // at the clock
-  double reported_s_ = 0.0, stopped_s_ = 0.0, dive_until_s_ = kUnlimited;
-  long long serial_ = 0;
-  bool cancelled_ = false, late_ = false;
+  double reported_s_ = 0.0;
+  long long serial_ = 0, steps_ = 0;
 };
 
 }  // namespace
 
 Answer SearchBoxes(const Problem& problem, const SearchOptions& options) {
-  return BoxSearch(problem, options, Clock::now()).Run();
+  return BoxSearch(problem, options, Watch::Clock::now()).Run();
+}
+
+Listed ListCombinations(const Problem& problem, const SearchOptions& options) {
+  return BoxSearch(problem, options, Watch::Clock::now()).List();
 }
 
 }  // namespace plenum::optimizer

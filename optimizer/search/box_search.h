@@ -16,6 +16,13 @@ namespace plenum::optimizer {
 // Of a problem without effects.
 Answer SearchBoxes(const Problem& problem, const SearchOptions& options);
 
+// The best combinations as they were sized, in order, without what the simulator says of them.
+struct Listed {
+  std::vector<Variant> combinations;
+  bool complete = false;  // the search came to its end, and no combination stayed undecided
+};
+Listed ListCombinations(const Problem& problem, const SearchOptions& options);
+
 }  // namespace plenum::optimizer
 
 #endif  // PLENUM_OPTIMIZER_SEARCH_BOX_SEARCH_H_

@@ -39,7 +39,9 @@ class Diver {
  private:
   bool Done() const { return steps_.left <= 0 || stop_() || (any_ && !ranking_.list().empty()); }
   // Whether a box may still improve the list; its bound rises and that of the list falls.
-  bool IsWanted(const Box& box) const { return !Done() && box.bound <= ranking_.run_end(); }
+  bool IsWanted(const Box& box) const {
+    return !Done() && box.bound <= ranking_.run_end() && !ranking_.IsSettled(bounds_.plan(), box);
+  }
 
   // `turns`: how often the part with the higher bound is taken below the box.
   void Below(Box box, int turns) {
@@ -78,7 +80,7 @@ class Diver {
          steps += kStepsPerRefine, steps_.left -= kStepsPerRefine)
       sized = SizeLeaf(problem_, candidate, box, sizing);
     if (sized && sized->status == LeafStatus::kFeasible)
-      ranking_.Add({std::move(box), &bounds_, *sized, std::move(ids), -1, nullptr});
+      ranking_.Add({std::move(box), &bounds_, *sized, std::move(ids), -1, nullptr, {}});
   }
 
   const Problem& problem_;

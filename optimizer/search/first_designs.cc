@@ -37,7 +37,7 @@ bool Size(const Walk& walk, Node& node) {
   for (int i = 0; !sized && i < kRefinements && !walk.stop(); ++i)
     sized = SizeLeaf(walk.problem, candidate, node.box, node.sizing);
   if (!sized || sized->status != LeafStatus::kFeasible) return false;
-  walk.ranking.Add({std::move(node.box), &walk.bounds, *sized, std::move(ids), -1, nullptr});
+  walk.ranking.Add({std::move(node.box), &walk.bounds, *sized, std::move(ids), -1, nullptr, {}});
   return true;
 }
 
@@ -58,6 +58,7 @@ void SearchBelow(const Walk& walk, Box box, int wanted) {
   for (int looks = 0; !open.empty() && looks < kBoxesBelow && !walk.stop(); ++looks) {
     NodePtr node = open.Pop();
     if (node->box.bound > walk.ranking.run_end()) return;
+    if (walk.ranking.IsSettled(walk.bounds.plan(), node->box)) continue;
     if (walk.bounds.CanFindSource(node->box)) {
       if (walk.bounds.FindSource(node->box) == Constraint::kNone)
         push(std::move(node->box), node->depth);

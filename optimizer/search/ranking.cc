@@ -35,7 +35,32 @@ PartIds EarliestIds(const Problem& problem, const Plan& plan, const Box& box) {
   return ids;
 }
 
+std::optional<Kind> KindAt(const Plan& plan, const Box& box) {
+  Kind kind{.configuration = plan.configuration};
+  for (std::size_t s = 0; s < plan.slots.size(); ++s) {
+    const KindRole role = SpecOf(plan.slots[s].family).kind_role;
+    if (role == KindRole::kApart) continue;
+    const int series = (*plan.slots[s].nodes)[box.nodes[s]].series;
+    if (series < 0) return std::nullopt;
+    if (role == KindRole::kSource) kind.source = series;
+    if (role == KindRole::kRegulator) kind.regulator = series;
+    if (role == KindRole::kValve) kind.valves.push_back(series);
+  }
+  std::sort(kind.valves.begin(), kind.valves.end());
+  kind.valves.erase(std::unique(kind.valves.begin(), kind.valves.end()), kind.valves.end());
+  return kind;
+}
+
 void Ranking::Add(Found found) {
+  if (ListsKinds()) {
+    found.kind = *KindAt(found.bounds->plan(), found.box);
+    const auto known = kinds_.find(found.kind);
+    const double end = known == kinds_.end() ? run_end_ : known->second.end;
+    const bool better = found.leaf.objective <= end;
+    spare_.push_back(std::move(found));
+    if (better) SortKinds();
+    return;
+  }
   if (found.leaf.objective > run_end_) {
     spare_.push_back(std::move(found));
     return;
@@ -46,6 +71,10 @@ void Ranking::Add(Found found) {
 
 void Ranking::Remove(std::size_t position) {
   list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(position));
+  if (ListsKinds()) {
+    SortKinds();
+    return;
+  }
   std::move(spare_.begin(), spare_.end(), std::back_inserter(list_));
   spare_.clear();
   Sort();
@@ -58,37 +87,136 @@ Found* Ranking::Find(const PartIds& ids) {
   return nullptr;
 }
 
+bool Ranking::IsSettled(const Plan& plan, const Box& box) const {
+  if (!ListsKinds()) return false;
+  const int slot = plan.compressor_slot >= 0 ? plan.compressor_slot : plan.bottle_slot;
+  const int source = slot < 0 ? -1 : (*plan.slots[slot].nodes)[box.nodes[slot]].series;
+  if (slot < 0 || source >= 0) {
+    const auto end = source_end_.find({plan.configuration, source});
+    if (end != source_end_.end() && box.bound > end->second) return true;
+  }
+  const std::optional<Kind> kind = KindAt(plan, box);
+  const auto known = kind ? kinds_.find(*kind) : kinds_.end();
+  if (known == kinds_.end() || box.bound < known->second.begin) return false;
+  const Run& run = known->second;
+  if (box.bound > run.end) return true;
+  const PartIds earliest = EarliestIds(problem_, plan, box);
+  return run.ids < earliest || (run.ids == earliest && run.seen);
+}
+
+void Ranking::Place(Found& found, int record) {
+  found.record = record;
+  const auto run = kinds_.find(found.kind);
+  if (ListsKinds() && run != kinds_.end() && run->second.ids == found.ids)
+    run->second.seen = record >= 0;
+}
+
 double Ranking::BoundBehind() const {
+  const auto is_listed = [&](const Found& found) {
+    return source_end_.contains(found.kind.Source()) ||
+           std::any_of(list_.begin(), list_.end(),
+                       [&](const Found& listed) { return listed.kind == found.kind; });
+  };
   double bound = kUnlimited;
-  for (const Found& found : spare_) bound = std::min(bound, found.leaf.lower_bound);
+  for (const Found& found : spare_)
+    if (!ListsKinds() || !is_listed(found)) bound = std::min(bound, found.leaf.lower_bound);
   for (std::size_t i = wanted_; i < list_.size(); ++i)
     bound = std::min(bound, list_[i].leaf.lower_bound);
   return bound;
 }
 
+namespace {
+
+bool ByObjective(const Found& a, const Found& b) {
+  return a.leaf.objective != b.leaf.objective ? a.leaf.objective < b.leaf.objective : a.ids < b.ids;
+}
+
+double EndOfTies(double objective) { return objective + kTie * std::abs(objective); }
+
+// Orders the run of ties that begins at a place of designs in the order of objectives; its end.
+std::size_t OrderRun(std::vector<Found>& designs, std::size_t first) {
+  const double limit = EndOfTies(designs[first].leaf.objective);
+  std::size_t end = first;
+  while (end < designs.size() && designs[end].leaf.objective <= limit) ++end;
+  std::sort(designs.begin() + static_cast<std::ptrdiff_t>(first),
+            designs.begin() + static_cast<std::ptrdiff_t>(end),
+            [](const Found& a, const Found& b) { return a.ids < b.ids; });
+  return end;
+}
+
+}  // namespace
+
 void Ranking::Sort() {
-  std::sort(list_.begin(), list_.end(), [](const Found& a, const Found& b) {
-    return a.leaf.objective != b.leaf.objective ? a.leaf.objective < b.leaf.objective
-                                                : a.ids < b.ids;
-  });
+  std::sort(list_.begin(), list_.end(), ByObjective);
   run_begin_ = run_end_ = kUnlimited;
-  const std::size_t wanted = static_cast<std::size_t>(wanted_);
   for (std::size_t first = 0; first < list_.size();) {
     const double objective = list_[first].leaf.objective;
-    const double limit = objective + kTie * std::abs(objective);
-    std::size_t end = first;
-    while (end < list_.size() && list_[end].leaf.objective <= limit) ++end;
-    const auto begin = list_.begin();
-    std::sort(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end),
-              [](const Found& a, const Found& b) { return a.ids < b.ids; });
-    if (end >= wanted) {
+    const std::size_t end = OrderRun(list_, first);
+    if (end >= static_cast<std::size_t>(wanted_)) {
       run_begin_ = objective;
-      run_end_ = limit;
-      std::move(begin + static_cast<std::ptrdiff_t>(end), list_.end(), std::back_inserter(spare_));
-      list_.erase(begin + static_cast<std::ptrdiff_t>(end), list_.end());
+      run_end_ = EndOfTies(objective);
+      const auto behind = list_.begin() + static_cast<std::ptrdiff_t>(end);
+      std::move(behind, list_.end(), std::back_inserter(spare_));
+      list_.erase(behind, list_.end());
       return;
     }
     first = end;
+  }
+}
+
+// All others are left in spare_.
+std::vector<Found> Ranking::TakeBestOfKinds() {
+  std::move(list_.begin(), list_.end(), std::back_inserter(spare_));
+  list_.clear();
+  std::sort(spare_.begin(), spare_.end(), ByObjective);
+  kinds_.clear();
+  std::map<Kind, std::size_t> best;  // by place in spare_
+  for (std::size_t i = 0; i < spare_.size(); ++i) {
+    const Found& found = spare_[i];
+    const double objective = found.leaf.objective;
+    const auto [run, fresh] =
+        kinds_.try_emplace(found.kind, Run{objective, EndOfTies(objective), {}, false});
+    const auto [place, first] = best.try_emplace(found.kind, i);
+    if (objective <= run->second.end && found.ids < spare_[place->second].ids) place->second = i;
+  }
+  std::vector<Found> taken;
+  taken.reserve(best.size());
+  std::vector<Found> others;
+  for (std::size_t i = 0; i < spare_.size(); ++i) {
+    Found& found = spare_[i];
+    if (best.at(found.kind) != i) {
+      others.push_back(std::move(found));
+      continue;
+    }
+    Run& run = kinds_.at(found.kind);
+    run.ids = found.ids;
+    run.seen = found.record >= 0;
+    taken.push_back(std::move(found));
+  }
+  spare_ = std::move(others);
+  return taken;
+}
+
+void Ranking::SortKinds() {
+  std::vector<Found> best = TakeBestOfKinds();
+  source_end_.clear();
+  run_begin_ = run_end_ = kUnlimited;
+  std::map<std::pair<Configuration, int>, int> listed;
+  for (std::size_t first = 0; first < best.size();) {
+    const double objective = best[first].leaf.objective;
+    const std::size_t end = OrderRun(best, first);
+    for (; first < end; ++first) {
+      Found& found = best[first];
+      int& of_source = listed[found.kind.Source()];
+      const bool wanted = !full() && of_source < problem_.per_source;
+      if (wanted && ++of_source == problem_.per_source)
+        source_end_[found.kind.Source()] = EndOfTies(objective);
+      (wanted ? list_ : spare_).push_back(std::move(found));
+    }
+    if (full() && !(run_end_ < kUnlimited)) {
+      run_begin_ = objective;
+      run_end_ = EndOfTies(objective);
+    }
   }
 }
 

@@ -100,6 +100,7 @@ class Revision {
   Answer Enumerate(const Problem& base, int depth, double seconds) {
     Problem deep = base;
     deep.count = depth;
+    deep.list = ListOf::kCombinations;
     SearchOptions options = options_;
     options.record = false;
     options.any_design = false;

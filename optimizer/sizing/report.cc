@@ -17,7 +17,8 @@ namespace {
 constexpr double kConfirmTolerance = 1e-5;
 constexpr int kSamplesPerCycle = 400;
 
-void AddChoice(const Problem& problem, Family family, const Option& option, Design& design) {
+void AddChoice(const Problem& problem, Family family, const Option& option,
+               std::vector<Choice>& parts) {
   if (option.index < 0) return;
   const model::PartBasics& basics = BasicsOf(problem.parts, family, option.index);
   Choice choice{family,
@@ -28,7 +29,7 @@ void AddChoice(const Problem& problem, Family family, const Option& option, Desi
                 option.amounts.volume_m3,
                 std::nullopt};
   if (basics.cost_eur) choice.cost_eur = option.quantity * *basics.cost_eur;
-  design.parts.push_back(choice);
+  parts.push_back(choice);
 }
 
 Choice PieceChoice(Family family, const model::PartBasics& basics, int group, double quantity) {
@@ -43,40 +44,29 @@ Choice PieceChoice(Family family, const model::PartBasics& basics, int group, do
   return choice;
 }
 
-void AddLine(const Problem& problem, int g, const Line& line, Design& design) {
+void AddLine(const Problem& problem, int g, const Line& line, std::vector<Choice>& parts) {
   const ActuatorGroup& group = problem.groups[g];
   const model::Valve& valve = problem.parts.valves[line.valve];
   const int pieces = (group.count + valve.channels - 1) / valve.channels;
-  design.parts.push_back(PieceChoice(Family::kValve, valve.basics, g, pieces));
+  parts.push_back(PieceChoice(Family::kValve, valve.basics, g, pieces));
   if (line.fitting >= 0)
-    design.parts.push_back(PieceChoice(Family::kFitting,
-                                       problem.parts.fittings[line.fitting].basics, g,
-                                       group.count * group.fittings_per_line));
-  design.parts.push_back(PieceChoice(Family::kTubing, problem.parts.tubing[line.tubing].per_metre,
-                                     g, group.count * group.tube_length_m));
+    parts.push_back(PieceChoice(Family::kFitting, problem.parts.fittings[line.fitting].basics, g,
+                                group.count * group.fittings_per_line));
+  parts.push_back(PieceChoice(Family::kTubing, problem.parts.tubing[line.tubing].per_metre, g,
+                              group.count * group.tube_length_m));
 }
 
-void AddParts(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
-              Design& design) {
-  for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g)
-    AddLine(problem, g, *candidate.lines[g], design);
-  for (const Family family : SourceFamilies(candidate.configuration))
-    AddChoice(problem, family, OptionOf(candidate, family), design);
-  if (candidate.reservoir.index == kCustom) {
-    const Amounts amounts = CustomReservoir(problem, point.reservoir_m3, point.source_pa);
-    design.parts.push_back(
-        {Family::kReservoir, "custom", -1, 1, amounts.mass_kg, amounts.volume_m3, std::nullopt});
-  }
+Totals TotalsOf(const std::vector<Choice>& parts) {
   bool priced = true;
-  Totals& totals = design.totals;
-  totals.cost_eur = 0.0;
-  for (const Choice& choice : design.parts) {
+  Totals totals;
+  for (const Choice& choice : parts) {
     totals.mass_kg += choice.mass_kg;
     totals.volume_m3 += choice.volume_m3;
     priced = priced && choice.cost_eur.has_value();
-    if (priced) *totals.cost_eur += *choice.cost_eur;
+    totals.cost_known_eur += choice.cost_eur.value_or(0.0);
   }
-  if (!priced) totals.cost_eur.reset();
+  if (priced) totals.cost_eur = totals.cost_known_eur;
+  return totals;
 }
 
 Performance MakePerformance(const Problem& problem, const Evaluation& evaluation) {
@@ -155,6 +145,21 @@ std::optional<OperatingPoint> ConfirmNear(const Problem& problem, const Candidat
 
 }  // namespace
 
+std::vector<Choice> ListParts(const Problem& problem, const Candidate& candidate,
+                              const OperatingPoint& point) {
+  std::vector<Choice> parts;
+  for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g)
+    AddLine(problem, g, *candidate.lines[g], parts);
+  for (const Family family : SourceFamilies(candidate.configuration))
+    AddChoice(problem, family, OptionOf(candidate, family), parts);
+  if (candidate.reservoir.index == kCustom) {
+    const Amounts amounts = CustomReservoir(problem, point.reservoir_m3, point.source_pa);
+    parts.push_back(
+        {Family::kReservoir, "custom", -1, 1, amounts.mass_kg, amounts.volume_m3, std::nullopt});
+  }
+  return parts;
+}
+
 std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
                                  const Leaf& given, bool settle) {
   Leaf leaf = given;
@@ -178,7 +183,8 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
                 const Evaluation& evaluation) {
   Design design;
   design.configuration = candidate.configuration;
-  AddParts(problem, candidate, point, design);
+  design.parts = ListParts(problem, candidate, point);
+  design.totals = TotalsOf(design.parts);
   design.totals.energy_j = evaluation.energy_total_j;
   design.settings.source_pressure_pa = point.source_pa;
   if (candidate.compressor.index != kNone) {

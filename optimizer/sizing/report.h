@@ -3,6 +3,7 @@
 #define PLENUM_OPTIMIZER_SIZING_REPORT_H_
 
 #include <optional>
+#include <vector>
 
 #include "optimizer/sizing/sizing.h"
 
@@ -13,6 +14,10 @@ namespace plenum::optimizer {
 // `settle`: choose the settings that the objective leaves free (sizing.h), else keep the leaf's.
 std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candidate,
                                  const Leaf& given, bool settle = true);
+
+// The rows of its parts list at a point.
+std::vector<Choice> ListParts(const Problem& problem, const Candidate& candidate,
+                              const OperatingPoint& point);
 
 // The candidate at a point as it was evaluated there, whatever it meets, without a trace.
 Design Describe(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,

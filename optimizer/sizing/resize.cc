@@ -216,7 +216,7 @@ AtSettings EvaluateAtSettings(const Problem& problem, const Design& design) {
   const Evaluation evaluation = Evaluate(free, rebuilt.candidate, point);
   if (!evaluation.works) return found;
   found.design = Describe(problem, rebuilt.candidate, point, evaluation);
-  if (found.design->totals.cost_eur) return found;
+  if (found.design->totals.cost_eur || problem.unpriced_allowed) return found;
   for (Margin& margin : found.design->margins)  // of a part without a price no cost is known
     if (margin.requirement == "/supply/cost_eur_max")
       margin.achieved = kUnlimited, margin.relative_margin = -kUnlimited;

@@ -9,7 +9,7 @@
 #include "server/call/reply.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
-#include "server/render/text_catalog.h"
+#include "server/render/text/text_catalog.h"
 #include "server/resources/import_parts.h"
 
 namespace plenum::server {

@@ -13,7 +13,7 @@
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
 #include "server/commands/interrupt.h"
-#include "server/render/text_design.h"
+#include "server/render/text/text_design.h"
 
 namespace plenum::server {
 namespace {
@@ -24,7 +24,8 @@ struct DesignOptions {
   std::optional<int> top;
   std::optional<double> time_limit_s;
   bool proof = false;
-  std::string solver;
+  std::string solver, list;
+  bool wide = false;
   bool json = false;
 };
 
@@ -56,6 +57,7 @@ api::Json ReadRequirements(const DesignOptions& options) {
   if (options.time_limit_s) set("time_limit_s", *options.time_limit_s);
   if (options.proof) set("proof", true);
   if (!options.solver.empty()) set("solver", options.solver);
+  if (!options.list.empty()) set("list", options.list);
   return request;
 }
 
@@ -76,7 +78,8 @@ int Design(const DesignOptions& options) {
   const auto request = ValueOrRefuse(api::ParseRequirements(requirements, parts, store.Models()));
   auto json = AnswerWithProgress(request, parts);
   json["catalogue_revision"] = api::RenderRevisionName(revision);
-  std::fputs(options.json ? (Dump(json) + "\n").c_str() : DesignText(json).c_str(), stdout);
+  std::fputs(options.json ? (Dump(json) + "\n").c_str() : DesignText(json, options.wide).c_str(),
+             stdout);
   return Interrupted() ? kInterrupted : kAnswered;
 }
 
@@ -93,6 +96,11 @@ Command DesignCommand() {
             "Of continuous settings: ipopt, or nlopt for a second opinion",
             &options->solver,
             {.value_name = "NAME"}},
+           {"--list",
+            "kinds: of each kind of design the best; or combinations: all alike",
+            &options->list,
+            {.value_name = "WHAT"}},
+           {"--wide", "All figures in the table, as wide as it gets", &options->wide},
            {"--proof", "Keep the record of the search, for verify", &options->proof},
            JsonFlag(options->json),
            CatalogOption(options->catalog)},

@@ -14,7 +14,7 @@
 #include "server/commands/input.h"
 #include "server/commands/interrupt.h"
 #include "server/render/report_diagnosis.h"
-#include "server/render/text_diagnosis.h"
+#include "server/render/text/text_diagnosis.h"
 
 namespace plenum::server {
 namespace {

@@ -12,7 +12,7 @@
 #include "server/commands/input.h"
 #include "server/jobs/crash_marks.h"
 #include "server/jobs/job_recovery.h"
-#include "server/render/text_jobs.h"
+#include "server/render/text/text_jobs.h"
 
 namespace plenum::server {
 namespace {

@@ -10,8 +10,8 @@
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
-#include "server/render/text_design.h"
-#include "server/render/text_response.h"
+#include "server/render/text/text_design.h"
+#include "server/render/text/text_response.h"
 
 namespace plenum::server {
 namespace {

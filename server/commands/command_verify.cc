@@ -9,7 +9,7 @@
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
 #include "server/commands/interrupt.h"
-#include "server/render/text_table.h"
+#include "server/render/text/text_table.h"
 
 namespace plenum::server {
 namespace {

@@ -9,8 +9,8 @@
 #include "server/render/html.h"
 #include "server/render/residual_plots.h"
 #include "server/render/svg_plot.h"
-#include "server/render/text_diagnosis.h"
-#include "server/render/text_table.h"
+#include "server/render/text/text_diagnosis.h"
+#include "server/render/text/text_table.h"
 
 namespace plenum::server {
 namespace {

@@ -18,8 +18,8 @@
 #include "optimizer/problem/family_specs.h"
 #include "tests/catalog/samples.h"
 #include "tests/support/small_catalogue.h"
-#include "verify/tree/verify_best.h"
-#include "verify/tree/verify_dominance.h"
+#include "verify/corner/verify_best.h"
+#include "verify/corner/verify_dominance.h"
 
 namespace plenum::test {
 namespace {

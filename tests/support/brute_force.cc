@@ -155,7 +155,8 @@ long long Combinations(const Problem& problem, Configuration configuration) {
                                                     : count(parts.co2, limits.co2));
 }
 
-// Runs of designs within 1e-6 of the first of the run are ties and go by part ids.
+}  // namespace
+
 void Rank(std::vector<Enumerated>& designs) {
   const auto by_objective = [](const Enumerated& a, const Enumerated& b) {
     return a.leaf.objective < b.leaf.objective;
@@ -170,8 +171,6 @@ void Rank(std::vector<Enumerated>& designs) {
     first = last;
   }
 }
-
-}  // namespace
 
 PartsKey KeyOf(const Problem& problem, const Candidate& candidate) {
   PartsKey key;

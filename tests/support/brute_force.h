@@ -45,6 +45,9 @@ optimizer::Leaf SizeAlone(const optimizer::Problem& problem, const optimizer::Ca
 
 BruteForce Enumerate(const optimizer::Problem& problem);
 
+// Runs of designs within 1e-6 of the first of the run are ties and go by part ids.
+void Rank(std::vector<Enumerated>& designs);
+
 optimizer::SearchOptions Within(double seconds);
 
 }  // namespace plenum::test

@@ -89,8 +89,7 @@ bool SameCost(const std::optional<double>& a, const std::optional<double>& b) {
 double ObjectiveOf(const Problem& problem, const Totals& totals) {
   const Objective& weight = problem.objective;
   return weight.mass_kg * totals.mass_kg + weight.volume_l * totals.volume_m3 * 1e3 +
-         weight.cost_eur * totals.cost_eur.value_or(0.0) +
-         weight.energy_wh * totals.energy_j / 3600.0;
+         weight.cost_eur * totals.cost_known_eur + weight.energy_wh * totals.energy_j / 3600.0;
 }
 
 Totals TotalsOf(const Problem& problem, const Assembly& a, const Settings& settings) {
@@ -99,6 +98,7 @@ Totals TotalsOf(const Problem& problem, const Assembly& a, const Settings& setti
   const auto add = [&](const Expected& part) {
     totals.mass_kg += part.mass_kg;
     totals.volume_m3 += part.volume_m3;
+    totals.cost_known_eur += part.cost_eur.value_or(0.0);
     if (totals.cost_eur && part.cost_eur)
       *totals.cost_eur += *part.cost_eur;
     else
@@ -237,12 +237,13 @@ void CheckAmounts(const Problem& problem, const Design& design, const Assembly& 
   const Totals& totals = design.totals;
   if (!Near(totals.mass_kg, sum.mass_kg, kSumTolerance) ||
       !Near(totals.volume_m3, sum.volume_m3, kSumTolerance) ||
-      !SameCost(totals.cost_eur, sum.cost_eur))
+      !SameCost(totals.cost_eur, sum.cost_eur) ||
+      !Near(totals.cost_known_eur, cost_eur, kSumTolerance))
     findings.push_back({"amounts", "totals are not the sums of the parts"});
   const double objective = ObjectiveOf(problem, totals);
   if (!Near(design.objective, objective, kSumTolerance))
     findings.push_back({"amounts", "the objective is not that of the totals"});
-  if ((problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur)) && !totals.cost_eur)
+  if (PricesNeeded(problem) && !totals.cost_eur)
     findings.push_back({"amounts", "a part without a price where cost matters"});
 }
 

@@ -4,11 +4,16 @@
 
 namespace plenum::verify {
 
+bool PricesNeeded(const Problem& problem) {
+  return !problem.unpriced_allowed &&
+         (problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur));
+}
+
 std::vector<ProofItem> EntriesOf(const Problem& problem, const ProofSlot& slot) {
   const Family family = slot.family;
   if (family == Family::kFitting && problem.groups[slot.group].fittings_per_line == 0)
     return {{-1, 0}};
-  const bool cost = problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur);
+  const bool cost = PricesNeeded(problem);
   std::vector<ProofItem> entries;
   for (int part = 0; part < FamilySize(problem.parts, family); ++part)
     for (int quantity = 1; quantity <= QuantityMax(problem, family); ++quantity)

@@ -24,6 +24,9 @@ using optimizer::SourceFamilies;
 using optimizer::SpecOf;
 using optimizer::Use;
 
+// Whether a part without a price is no choice.
+bool PricesNeeded(const Problem& problem);
+
 // What a slot can be filled with: every part in every number, priced ones alone where cost matters.
 std::vector<ProofItem> EntriesOf(const Problem& problem, const ProofSlot& slot);
 

@@ -105,7 +105,8 @@ std::map<std::string, Reached> Requirements(const Problem& problem, const Settin
           gauge(source_pa), kSumTolerance);
   at_most("/supply/mass_kg_max", problem.mass_max_kg, totals.mass_kg, kSumTolerance);
   at_most("/supply/volume_l_max", problem.volume_max_l, totals.volume_m3 * 1e3, kSumTolerance);
-  at_most("/supply/cost_eur_max", problem.cost_max_eur, totals.cost_eur.value_or(kUnlimited),
+  at_most("/supply/cost_eur_max", problem.cost_max_eur,
+          problem.unpriced_allowed ? totals.cost_known_eur : totals.cost_eur.value_or(kUnlimited),
           kSumTolerance);
   return all;
 }

@@ -30,17 +30,6 @@ Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   return ids;
 }
 
-Claim ClaimOf(const Problem& problem, const Answer& answer) {
-  if (!answer.proof.complete)
-    return {answer.proof.lower_bound * (1.0 - kSumTolerance), -kUnlimited, {}};
-  if (static_cast<int>(answer.designs.size()) < problem.count) return {kUnlimited, -kUnlimited, {}};
-  double run = -kUnlimited;  // objective of the first of the run of ties that the last one is in
-  for (const Design& design : answer.designs)
-    if (!(design.objective <= run + kTieTolerance * std::abs(run))) run = design.objective;
-  const double tie = kTieTolerance * std::abs(run);
-  return {run - tie, run + tie, IdsOf(answer.designs.back())};
-}
-
 Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges& single) {
   Assembly assembly;
   assembly.configuration = plan.configuration;
@@ -51,18 +40,19 @@ Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges&
   return assembly;
 }
 
-BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claim& claim)
+BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claims& claims)
     : problem_(problem),
       plan_(plan),
-      claim_(claim),
+      claims_(claims),
+      series_(problem, plan),
       strokes_(problem, plan),
       corners_(problem, plan, strokes_),
       sizer_(problem) {}
 
 // Whether a combination with this objective, or more, bears out the claim.
-bool BoxCheck::Holds(double objective, const Ranges& single) const {
-  if (!(objective >= claim_.least)) return false;
-  return objective > claim_.tie_end || EarliestIds(problem_, plan_, single) > claim_.last;
+bool BoxCheck::Holds(const Claim& claim, double objective, const Ranges& single) const {
+  if (!(objective >= claim.least)) return false;
+  return objective > claim.tie_end || EarliestIds(problem_, plan_, single) > claim.last;
 }
 
 int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges) {
@@ -81,12 +71,11 @@ int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges) 
   return widest;
 }
 
-bool BoxCheck::IsSettled(const Ranges& single, Findings& findings) {
+bool BoxCheck::IsSettled(const Claim& claim, const Ranges& single, Findings& findings) {
   const Assembly assembly = AssemblyAt(problem_, plan_, single);
-  const double enough = std::max(claim_.least, claim_.tie_end);
-  const Sizing sizing = sizer_.Size(assembly, -kToSpare, enough);
-  if (sizing.status == Sized::kInfeasible || Holds(sizing.lower_bound, single)) return true;
-  if (sizing.status != Sized::kFeasible || Holds(sizing.objective, single)) return false;
+  const Sizing sizing = sizer_.Size(assembly, -kToSpare, claim.enough());
+  if (sizing.status == Sized::kInfeasible || Holds(claim, sizing.lower_bound, single)) return true;
+  if (sizing.status != Sized::kFeasible || Holds(claim, sizing.objective, single)) return false;
   findings.push_back({"rechecked", "a " + std::string(Name(plan_.configuration)) +
                                        " design that is not listed comes to " +
                                        std::to_string(sizing.objective) + ": " +
@@ -96,19 +85,19 @@ bool BoxCheck::IsSettled(const Ranges& single, Findings& findings) {
 
 // Whether bounds alone bear out the claim; ids, which cost more, are asked only where they may
 // help.
-bool BoxCheck::IsBeyond(const Ranges& ranges) {
-  const double past_ties = std::max(claim_.least, claim_.tie_end);
+bool BoxCheck::IsBeyond(const Claim& claim, const Ranges& ranges) {
+  const double past_ties = claim.enough();
   const double bound = corners_.LeastObjective(ranges, past_ties);
-  if (bound > past_ties || (bound >= claim_.least && std::isinf(claim_.tie_end))) return true;
-  return std::isfinite(claim_.tie_end) && EarliestIds(problem_, plan_, ranges) > claim_.last &&
-         corners_.LeastObjective(ranges, claim_.least) > claim_.least;
+  if (bound > past_ties || (bound >= claim.least && std::isinf(claim.tie_end))) return true;
+  return std::isfinite(claim.tie_end) && EarliestIds(problem_, plan_, ranges) > claim.last &&
+         corners_.LeastObjective(ranges, claim.least) > claim.least;
 }
 
 // Whether what no battery changes, the energy that strokes take, is too much already. The parts
 // beside the batteries are sized once, without limits that a battery sets.
-bool BoxCheck::IsCoreBeyond(const Ranges& ranges, int battery_slot) {
+bool BoxCheck::IsCoreBeyond(const Claim& claim, const Ranges& ranges, int battery_slot) {
   if (!(problem_.objective.energy_wh > 0.0)) return false;
-  const double enough = std::max(claim_.least, claim_.tie_end);
+  const double enough = claim.enough();
   Ranges core = ranges;
   core[battery_slot] = {0, 1};
   if (CountOf(core) > 1) return false;
@@ -122,6 +111,22 @@ bool BoxCheck::IsCoreBeyond(const Ranges& ranges, int battery_slot) {
   return core_least_ > enough;
 }
 
+// Of a list of kinds what decides the kind is divided first; −1 where it is known.
+int BoxCheck::SlotOfKinds(const Ranges& ranges) {
+  int widest = -1;
+  double most = -1.0;
+  for (int s = 0; s < static_cast<int>(ranges.size()); ++s) {
+    if (!series_.AreSeveral(s, ranges[s])) continue;
+    const LeastAmounts& amounts = corners_.Least(ranges, s);
+    const double spread = amounts.objective_most - amounts.least.objective;
+    if (widest < 0 || spread > most) {
+      widest = s;
+      most = spread;
+    }
+  }
+  return widest;
+}
+
 BigCount BoxCheck::Recheck(const Ranges& ranges, Findings& findings) {
   BigCount open = 0;
   std::vector<Ranges> waiting{ranges};
@@ -129,21 +134,26 @@ BigCount BoxCheck::Recheck(const Ranges& ranges, Findings& findings) {
     ++looks_;
     Ranges part = std::move(waiting.back());
     waiting.pop_back();
-    if (IsBeyond(part)) continue;
+    const Claim& claim = ClaimOn(part);
+    if (IsBeyond(claim, part)) continue;
     if (looks_ > kLooksMax) {
       open += CountOf(part);
       continue;
     }
-    const int slot = SlotToDivide(plan_, corners_, part);
-    if (slot >= 0 && plan_.slots[slot].family == Family::kBattery && IsCoreBeyond(part, slot))
+    const int of_kinds = SlotOfKinds(part);
+    const int slot = of_kinds >= 0 ? of_kinds : SlotToDivide(plan_, corners_, part);
+    if (slot >= 0 && plan_.slots[slot].family == Family::kBattery &&
+        IsCoreBeyond(claim, part, slot))
       continue;
     if (slot < 0) {
       looks_ += kLooksPerSize;
-      if (!IsSettled(part, findings)) open += 1;
+      if (!IsSettled(claim, part, findings)) open += 1;
       continue;
     }
     Ranges right = part;
-    part[slot].second = right[slot].first = (part[slot].first + part[slot].second) / 2;
+    const int middle = of_kinds >= 0 ? series_.Border(slot, part[slot])
+                                     : (part[slot].first + part[slot].second) / 2;
+    part[slot].second = right[slot].first = middle;
     waiting.push_back(std::move(right));
     waiting.push_back(std::move(part));
   }

@@ -2,21 +2,13 @@
 #ifndef PLENUM_VERIFY_TREE_VERIFY_BOX_H_
 #define PLENUM_VERIFY_TREE_VERIFY_BOX_H_
 
+#include "verify/corner/verify_corner.h"
 #include "verify/design/verify_design.h"
-#include "verify/design/verify_ids.h"
 #include "verify/design/verify_size.h"
 #include "verify/design/verify_values.h"
-#include "verify/tree/verify_corner.h"
+#include "verify/tree/verify_claims.h"
 
 namespace plenum::verify {
-
-// What an answer says of every combination that is not listed: its objective is `least` or more,
-// and past `tie_end` unless its ids come after `last`.
-struct Claim {
-  double least = 0.0, tie_end = -kUnlimited;
-  Ids last;
-};
-Claim ClaimOf(const Problem& problem, const Answer& answer);
 
 // Of each slot the choice with the first id: no combination in the box comes before these.
 Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ranges);
@@ -37,7 +29,10 @@ int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges);
 
 class BoxCheck {
  public:
-  BoxCheck(const Problem& problem, const ProofPlan& plan, const Claim& claim);
+  BoxCheck(const Problem& problem, const ProofPlan& plan, const Claims& claims);
+
+  // What the answer says of all in a box.
+  const Claim& ClaimOn(const Ranges& ranges) const { return series_.ClaimOn(claims_, ranges); }
 
   bool CannotMate(const Ranges& ranges) { return corners_.CannotMate(ranges); }
 
@@ -46,14 +41,16 @@ class BoxCheck {
   BigCount Recheck(const Ranges& ranges, Findings& findings);
 
  private:
-  bool Holds(double objective, const Ranges& single) const;
-  bool IsBeyond(const Ranges& ranges);
-  bool IsCoreBeyond(const Ranges& ranges, int battery_slot);
-  bool IsSettled(const Ranges& single, Findings& findings);
+  bool Holds(const Claim& claim, double objective, const Ranges& single) const;
+  bool IsBeyond(const Claim& claim, const Ranges& ranges);
+  bool IsCoreBeyond(const Claim& claim, const Ranges& ranges, int battery_slot);
+  bool IsSettled(const Claim& claim, const Ranges& single, Findings& findings);
+  int SlotOfKinds(const Ranges& ranges);
 
   const Problem& problem_;
   const ProofPlan& plan_;
-  const Claim& claim_;
+  const Claims& claims_;
+  SeriesOfPlan series_;
   KnownStrokes strokes_;
   Corners corners_;
   Sizer sizer_;

@@ -1,12 +1,13 @@
 #include "verify/tree/verify_brute_force.h"
 
 #include <map>
+#include <optional>
 #include <set>
 
+#include "verify/corner/verify_dominance.h"
 #include "verify/design/verify_families.h"
 #include "verify/design/verify_size.h"
 #include "verify/tree/verify_box.h"
-#include "verify/tree/verify_dominance.h"
 
 namespace plenum::verify {
 namespace {
@@ -34,9 +35,9 @@ class Enumeration {
       : problem_(problem),
         answer_(answer),
         options_(options),
-        claim_(ClaimOf(problem, answer)),
+        claims_(problem, answer),
         findings_(findings) {
-    enough_ = std::max(claim_.least, claim_.tie_end);
+    enough_ = claims_.all().enough();
     if (!answer.designs.empty())
       enough_ = std::max(enough_, answer.designs.back().objective * (1.0 + kTieTolerance));
     for (std::size_t i = 0; i < answer.designs.size(); ++i)
@@ -49,7 +50,7 @@ class Enumeration {
       BigCount priced = 1;
       for (const ProofSlot& slot : plan.slots) priced *= slot.choices.size();
       counts_.unpriced += Combinations(problem_, configuration) - priced;
-      plan_ = &plan;
+      series_.emplace(problem_, plan);
       single_.assign(plan.slots.size(), {0, 0});
       amounts_.clear();
       for (const ProofSlot& slot : plan.slots) {
@@ -66,6 +67,8 @@ class Enumeration {
   }
 
  private:
+  const ProofPlan& plan() const { return series_->plan(); }
+
   // Every choice of this slot and the ones behind it.
   void From(std::size_t slot, const ItemAmounts& before) {
     if (slot == single_.size()) {
@@ -74,8 +77,8 @@ class Enumeration {
     }
     BigCount behind = 1;
     for (std::size_t s = slot + 1; s < single_.size(); ++s)
-      behind *= plan_->slots[s].choices.size();
-    const int choices = static_cast<int>(plan_->slots[slot].choices.size());
+      behind *= plan().slots[s].choices.size();
+    const int choices = static_cast<int>(plan().slots[slot].choices.size());
     for (int i = 0; i < choices && !counts_.cancelled; ++i) {
       single_[slot] = {i, i + 1};
       if (!FitsUpTo(slot)) {
@@ -89,7 +92,7 @@ class Enumeration {
   }
 
   const ProofItem& ItemAt(std::size_t slot) const {
-    return plan_->slots[slot].choices[single_[slot].first];
+    return plan().slots[slot].choices[single_[slot].first];
   }
 
   // Whether the choice of a slot fits those before it: plans have valves before fittings before
@@ -98,12 +101,12 @@ class Enumeration {
     const model::Parts& parts = problem_.parts;
     const int part = ItemAt(slot).part;
     Assembly source;
-    source.configuration = plan_->configuration;
-    const int group = plan_->slots[slot].group;
+    source.configuration = plan().configuration;
+    const int group = plan().slots[slot].group;
     const auto part_of = [&](Family family) {
-      return ItemAt(static_cast<std::size_t>(SlotOf(*plan_, family, group))).part;
+      return ItemAt(static_cast<std::size_t>(SlotOf(plan(), family, group))).part;
     };
-    switch (plan_->slots[slot].family) {
+    switch (plan().slots[slot].family) {
       case Family::kFitting:
         return part < 0 || Fit(parts.fittings[part], parts.valves[part_of(Family::kValve)]);
       case Family::kTubing: {
@@ -111,9 +114,9 @@ class Enumeration {
         return fitting < 0 || Fit(parts.tubing[part], parts.fittings[fitting]);
       }
       case Family::kRegulator:
-        if (plan_->configuration == Configuration::kCylinder) return true;  // asked with the bottle
+        if (plan().configuration == Configuration::kCylinder) return true;  // asked with the bottle
         source.regulator = &parts.regulators[part];
-        if (plan_->configuration == Configuration::kCo2 && !parts.co2.empty())
+        if (plan().configuration == Configuration::kCo2 && !parts.co2.empty())
           source.co2 = &parts.co2.front();
         return Fit(problem_, source);
       case Family::kCylinder:
@@ -121,7 +124,7 @@ class Enumeration {
         source.cylinder = &parts.cylinders[part];
         return Fit(problem_, source);
       case Family::kBattery:
-        if (plan_->configuration != Configuration::kCompressor) return true;
+        if (plan().configuration != Configuration::kCompressor) return true;
         source.compressor = &parts.compressors[part_of(Family::kCompressor)];
         source.battery = &parts.batteries[part];
         return Fit(problem_, source);
@@ -144,7 +147,7 @@ class Enumeration {
       return;
     }
     if (++sized_ % 64 == 0) Report();
-    const Assembly assembly = AssemblyAt(problem_, *plan_, single_);
+    const Assembly assembly = AssemblyAt(problem_, plan(), single_);
     const Sizing surely = sizer_.Size(assembly, -kToSpare, enough_);
     if (surely.status == Sized::kUnknown && surely.lower_bound > enough_) {
       counts_.beyond += 1;
@@ -163,9 +166,9 @@ class Enumeration {
 
   // A combination that is surely or perhaps feasible.
   void Judge(const Assembly& assembly, double objective, bool surely) {
-    const Ids ids = EarliestIds(problem_, *plan_, single_);
+    const Ids ids = EarliestIds(problem_, plan(), single_);
     const double tolerance = ObjectiveTolerance(problem_, assembly);
-    const auto rank = listed_.find({plan_->configuration, ids});
+    const auto rank = listed_.find({plan().configuration, ids});
     if (rank != listed_.end()) {
       seen_.insert(rank->second);
       const double given = answer_.designs[rank->second].objective;
@@ -174,10 +177,11 @@ class Enumeration {
             ", not " + std::to_string(given));
       return;
     }
-    const bool worse = objective * (1.0 + tolerance) >= claim_.least &&
-                       (objective * (1.0 + tolerance) > claim_.tie_end || ids > claim_.last);
+    const Claim& claim = series_->ClaimOn(claims_, single_);
+    const bool worse = objective * (1.0 + tolerance) >= claim.least &&
+                       (objective * (1.0 + tolerance) > claim.tie_end || ids > claim.last);
     if (!surely || worse) return;
-    Add("a " + std::string(Name(plan_->configuration)) + " design that is not listed comes to " +
+    Add("a " + std::string(Name(plan().configuration)) + " design that is not listed comes to " +
         std::to_string(objective) + ": " + Text(ids));
   }
 
@@ -215,12 +219,12 @@ class Enumeration {
   const Problem& problem_;
   const Answer& answer_;
   const BruteForceOptions& options_;
-  const Claim claim_;
+  const Claims claims_;
   double enough_;  // parts that come to more are beyond the list
   Findings& findings_;
   std::map<std::pair<Configuration, Ids>, std::size_t> listed_;
   std::set<std::size_t> seen_;
-  const ProofPlan* plan_ = nullptr;
+  std::optional<SeriesOfPlan> series_;
   Ranges single_;
   std::vector<std::vector<ItemAmounts>> amounts_;
   Sizer sizer_{problem_};

@@ -48,7 +48,7 @@ bool Holds(const Ranges& ranges, const std::vector<int>& positions) {
 class RecordCheck {
  public:
   RecordCheck(const Problem& problem, const Answer& answer, Findings& findings)
-      : problem_(problem), answer_(answer), claim_(ClaimOf(problem, answer)), findings_(findings) {}
+      : problem_(problem), answer_(answer), claims_(problem, answer), findings_(findings) {}
 
   void Run(std::vector<NotRechecked>& open) {
     const ProofRecord& record = *answer_.proof.record;
@@ -76,9 +76,9 @@ class RecordCheck {
 
  private:
   struct Replayed {
-    Replayed(const Problem& problem, const ProofPlan& replayed, const Claim& claim,
+    Replayed(const Problem& problem, const ProofPlan& replayed, const Claims& claims,
              Findings& findings)
-        : plan(replayed), closed(Replay(plan, findings)), check(problem, plan, claim) {}
+        : plan(replayed), closed(Replay(plan, findings)), check(problem, plan, claims) {}
     const ProofPlan& plan;
     std::vector<ClosedBox> closed;
     BoxCheck check;
@@ -99,7 +99,7 @@ class RecordCheck {
     CheckSlots(problem_, plan, counts_, findings_);
     for (const Finding& finding : Findings(findings_.begin() + before, findings_.end()))
       if (finding.check == "choices") return;  // the boxes mean nothing then
-    Replayed& replayed = replayed_.emplace_back(problem_, plan, claim_, findings_);
+    Replayed& replayed = replayed_.emplace_back(problem_, plan, claims_, findings_);
     const std::vector<ClosedBox>& closed = replayed.closed;
     for (const ClosedBox& box : closed) CheckBox(plan, box, replayed.check);
     for (std::size_t i = 0; i < answer_.designs.size(); ++i)
@@ -108,8 +108,7 @@ class RecordCheck {
 
   // A configuration without a plan has a family without a choice.
   void Missing(Configuration configuration) {
-    const bool cost = problem_.objective.cost_eur > 0.0 || std::isfinite(problem_.cost_max_eur);
-    if (Combinations(problem_, configuration) > 0 && !cost)
+    if (Combinations(problem_, configuration) > 0 && !PricesNeeded(problem_))
       findings_.push_back({"choices", std::string("no plan of ") + Name(configuration)});
     else
       counts_.unpriced += Combinations(problem_, configuration);
@@ -149,6 +148,13 @@ class RecordCheck {
         counts_.bound += count;
         Behind(box.end.bound, "a box was closed that may hold a better design" + where);
         break;
+      case BoxKind::kKind:
+        counts_.bound += count;
+        if (&check.ClaimOn(box.ranges) == &claims_.all() ||
+            box.end.bound < check.ClaimOn(box.ranges).least)
+          findings_.push_back(
+              {"bound", "a box was closed by a kind that is not listed, or is no better" + where});
+        break;
       default:
         if (count != 1)
           findings_.push_back({"boxes", "a box of several designs ends as one" + where});
@@ -160,13 +166,19 @@ class RecordCheck {
                 {"designs_in_tree", "a box names a design that is not listed" + where});
           return;
         }
-        if (box.end.kind == BoxKind::kNotListed)
+        if (box.end.kind == BoxKind::kNotListed && !IsOfListed(box, check))
           Behind(box.end.bound, "a better design was not listed" + where);
         if (box.end.kind == BoxKind::kUndecided) {
           behind_ = std::min(behind_, box.end.bound);
           ++undecided_;
         }
     }
+  }
+
+  // Whether a combination comes behind a listed one of its kind or source.
+  bool IsOfListed(const ClosedBox& box, const BoxCheck& check) const {
+    const Claim& claim = check.ClaimOn(box.ranges);
+    return &claim != &claims_.all() && box.end.bound >= claim.least;
   }
 
   // Looks at every closed box again; an answer that is refused already is left at that.
@@ -211,7 +223,7 @@ class RecordCheck {
 
   const Problem& problem_;
   const Answer& answer_;
-  const Claim claim_;
+  const Claims claims_;
   Findings& findings_;
   Pruned counts_;
   BigCount evaluated_ = 0;

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "verify/design/verify_families.h"
-#include "verify/tree/verify_dominance.h"
+#include "verify/corner/verify_dominance.h"
+#include "verify/design/verify_kinds.h"
 
 namespace plenum::verify {
 namespace {
@@ -30,13 +30,21 @@ void CheckSlot(const Problem& problem, const ProofPlan& plan, const ProofSlot& s
   }
   for (const ProofDominated& dominated : slot.dominated) {
     std::set<Key> different;
+    std::set<std::string> series;
+    const std::string own = SeriesName(problem, slot.family, dominated.item.part);
+    bool same = false;
     for (const ProofItem& dominator : dominated.dominators) {
       different.insert(KeyOf(dominator));
+      const std::string name = SeriesName(problem, slot.family, dominator.part);
+      same = same || name == own;
+      series.insert(name);
       if (!choices.contains(KeyOf(dominator)) ||
           !Dominates(problem, plan, slot, dominator, dominated.item))
         findings.push_back({"dominance", where + ": a choice left out is not dominated"});
     }
-    if (static_cast<int>(different.size()) < problem.count)
+    const bool enough = ListsKinds(problem) ? same || AreEnough(problem, slot.family, series.size())
+                                            : static_cast<int>(different.size()) >= problem.count;
+    if (!enough)
       findings.push_back({"dominance", where + ": a choice left out has too few dominators"});
   }
 }

@@ -2,15 +2,13 @@
 #ifndef PLENUM_VERIFY_TREE_VERIFY_TREE_H_
 #define PLENUM_VERIFY_TREE_VERIFY_TREE_H_
 
-#include <utility>
 #include <vector>
 
+#include "verify/corner/verify_ranges.h"
 #include "verify/design/verify_finding.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
-
-using Ranges = std::vector<std::pair<int, int>>;  // of choices per slot, half-open
 
 struct ClosedBox {
   ProofBox end;

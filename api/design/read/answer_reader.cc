@@ -56,6 +56,12 @@ void ReadPerformance(Reader performance, const Problem& problem, Design& design)
   given.run_time_s = performance.Number("run_time_s", kAnyNumber);
 }
 
+double PriceOf(const std::vector<Choice>& parts) {
+  double sum = 0.0;
+  for (const Choice& part : parts) sum += part.cost_eur.value_or(0.0);
+  return sum;
+}
+
 Design ReadDesign(const Element& element, int rank, const Problem& problem, Errors& errors) {
   Reader reader(element, errors);
   Design design;
@@ -78,6 +84,8 @@ Design ReadDesign(const Element& element, int rank, const Problem& problem, Erro
   design.totals.mass_kg = totals.Number("mass_kg", kAnyNumber);
   design.totals.volume_m3 = M3FromL(totals.Number("volume_l", kAnyNumber));
   design.totals.cost_eur = totals.OptionalNumber("cost_eur", kAnyNumber);
+  design.totals.cost_known_eur =  // answers of releases before do not state it
+      totals.OptionalNumber("cost_eur_min", kAnyNumber).value_or(PriceOf(design.parts));
   design.totals.energy_j = totals.Number("energy_wh", kAnyNumber) * kJPerWh;
   ReadPerformance(reader.Object("performance"), problem, design);
   for (const Element& row : reader.List("margins", 0, kDesignRowsMax)) {

@@ -157,6 +157,9 @@ class Check {
     } else if (!IsAllowed(problem_, choice.family, choice.id)) {
       FailRow(choice, "/id",
               Quoted(choice.id) + " is none of those that require." + family + " asks for");
+    } else if (found != catalogue_.end() && !IsAllowed(problem_, choice.family, *found)) {
+      FailRow(choice, "/id",
+              Quoted(choice.id) + " is no product that one can order, which supply.parts asks for");
     } else {
       return true;
     }

@@ -111,6 +111,8 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
   problem.mass_max_kg = limit("mass_kg_max");
   problem.volume_max_l = limit("volume_l_max");
   problem.cost_max_eur = limit("cost_eur_max");
+  if (supply.Has("parts"))
+    problem.orderable_only = supply.Choice("parts", {"any", "orderable"}) == "orderable";
   supply.Finish();
 }
 
@@ -207,6 +209,18 @@ void ReadObjective(Reader& request, DesignRequest& parsed) {
   reader->Finish();
 }
 
+// A list by one objective is one of kinds, unless it must reach a probability or the model is a
+// revised one.
+void ChooseList(Reader& request, bool probability_min, DesignRequest& parsed) {
+  const bool combinations = !parsed.pareto.empty() || probability_min || parsed.model;
+  const Json* ranking = request.Raw("ranking");
+  const bool chosen = ranking && ranking->is_object() && ranking->contains("list");
+  if (!chosen && !combinations) parsed.problem.list = optimizer::ListOf::kKinds;
+  if (combinations && parsed.problem.list == optimizer::ListOf::kKinds)
+    request.FailAt("ranking/list",
+                   "must be combinations for a front, with probability_min and with a model");
+}
+
 // Gives the least probability, if one is asked for.
 std::optional<double> ReadRanking(Reader& request, DesignRequest& parsed) {
   auto ranking = request.OptionalObject("ranking");
@@ -214,6 +228,10 @@ std::optional<double> ReadRanking(Reader& request, DesignRequest& parsed) {
   parsed.problem.count = ranking->Integer("count", 1, kDesignsMax, 20);
   parsed.time_limit_s = ranking->Number("time_limit_s", {0.01, kDesignSecondsMax}, 30.0);
   const auto probability_min = ranking->OptionalNumber("probability_min", {0, 1});
+  if (ranking->Has("list"))
+    parsed.problem.list = ReadEnum<optimizer::ListOf>(
+        *ranking, "list", {optimizer::ListOf::kKinds, optimizer::ListOf::kCombinations});
+  parsed.problem.per_source = ranking->Integer("per_source", 1, kDesignsMax, 3);
   parsed.proof = ranking->Bool("proof", false);
   if (ranking->Has("solver"))
     parsed.problem.solver = ReadEnum<optimizer::NlpSolver>(
@@ -303,6 +321,13 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   problem.limits = ReadLimits(reader);
   ReadSelection(reader, parts, problem);
   ReadModel(reader, models, parsed);
+  if (reader.Has("prices"))
+    problem.unpriced_allowed = reader.Choice("prices", {"known", "lower_bound"}) == "lower_bound";
+  const bool front_of_cost = std::find(parsed.pareto.begin(), parsed.pareto.end(),
+                                       optimizer::Amount::kCost) != parsed.pareto.end();
+  if (problem.unpriced_allowed && front_of_cost)
+    reader.Fail("prices", "must be known for a front with cost_eur");
+  ChooseList(reader, probability_min.has_value(), parsed);
   if (parsed.model && parsed.proof)
     reader.FailAt("ranking/proof", "is for the nominal model: its record cannot be verified");
   reader.Finish();

@@ -19,7 +19,7 @@ bool HasChoice(const std::vector<catalog::Part>& parts, const optimizer::Problem
                Family family) {
   if (optimizer::MadeToMeasureAllowed(problem, family)) return true;
   return std::any_of(parts.begin(), parts.end(), [&](const catalog::Part& part) {
-    return part.family == optimizer::Name(family) && IsAllowed(problem, family, part.id);
+    return part.family == optimizer::Name(family) && IsAllowed(problem, family, part);
   });
 }
 
@@ -30,7 +30,8 @@ std::string PointerFor(const std::vector<catalog::Part>& parts, const optimizer:
   if (problem.require.contains(family)) return "/require/" + name;
   const bool in_catalogue = std::any_of(
       parts.begin(), parts.end(), [&](const catalog::Part& part) { return part.family == name; });
-  return in_catalogue || optimizer::SpecOf(family).made_to_measure ? "/exclude" : "";
+  if (!in_catalogue && !optimizer::SpecOf(family).made_to_measure) return "";
+  return problem.exclude.empty() && problem.orderable_only ? "/supply/parts" : "/exclude";
 }
 
 }  // namespace
@@ -39,6 +40,11 @@ bool IsAllowed(const optimizer::Problem& problem, Family family, const std::stri
   const auto required = problem.require.find(family);
   return !problem.exclude.contains(id) &&
          (required == problem.require.end() || required->second.contains(id));
+}
+
+bool IsAllowed(const optimizer::Problem& problem, Family family, const catalog::Part& part) {
+  return IsAllowed(problem, family, part.id) &&
+         (!problem.orderable_only || part.orderable.value_or(true));
 }
 
 void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
@@ -89,7 +95,7 @@ std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
   std::vector<catalog::Part> allowed;
   for (const optimizer::FamilySpec& spec : optimizer::Families())
     for (const catalog::Part& part : parts)
-      if (part.family == spec.name && IsAllowed(problem, spec.family, part.id))
+      if (part.family == spec.name && IsAllowed(problem, spec.family, part))
         allowed.push_back(part);
   return allowed;
 }

@@ -13,15 +13,17 @@ namespace plenum::api {
 
 inline constexpr const char* kCustomReservoir = "custom";
 
-// Whether `require` and `exclude` leave the part.
+// Whether `require` and `exclude` leave the part; of a row of the catalogue also `supply.parts`.
 bool IsAllowed(const optimizer::Problem& problem, optimizer::Family family, const std::string& id);
+bool IsAllowed(const optimizer::Problem& problem, optimizer::Family family,
+               const catalog::Part& part);
 
 // Reads "require" and "exclude" into the problem; ids must exist in `parts`, and required ones
 // belong to their family.
 void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
                    optimizer::Problem& problem);
 
-// The parts that the problem's `require` and `exclude` leave; by family, else in their order.
+// The parts that the problem leaves; by family, else in their order.
 std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
                                         const optimizer::Problem& problem);
 

@@ -55,7 +55,7 @@ int Planter::PlantReservoirs() {
   long long total = ChoicesOf(Family::kReservoir);
   if (MadeToMeasureAllowed(problem_, Family::kReservoir)) {
     ++total;
-    if (!CostMatters(problem_)) AddMadeReservoir(entries.classes.size(), entries.Add());
+    if (!PricesNeeded(problem_)) AddMadeReservoir(entries.classes.size(), entries.Add());
   }
   return PlantSlot(Family::kReservoir, -1, total, std::move(entries), plan_->reservoirs);
 }

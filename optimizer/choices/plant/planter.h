@@ -21,6 +21,7 @@
 #include "optimizer/choices/plant/compared.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/kind.h"
 #include "optimizer/pump/pump_slope.h"
 
 namespace plenum::optimizer {
@@ -237,6 +238,8 @@ class Planter {
                 BoxTree<Corner>& tree) {
     if (stopped()) return -1;
     std::vector<Contender>& contenders = entries.contenders;
+    const bool kinds = problem_.list == ListOf::kKinds;
+    if (kinds) SetSeries(family, entries);
     for (std::size_t i = 0; i < contenders.size(); ++i) {
       Contender& contender = contenders[i];
       const Item<Corner>& item = entries.items[i];
@@ -247,12 +250,13 @@ class Planter {
       if (std::isfinite(problem_.volume_max_l)) contender.losses.push_back(amounts.volume_m3);
       if (std::isfinite(problem_.cost_max_eur)) contender.losses.push_back(amounts.cost_eur);
     }
-    Skyband skyband = KeepBest(contenders, problem_.count, plan_->tie, name_left_out_, stop_);
+    const int others = kinds ? OtherSeriesNeeded(problem_, family) : problem_.count;
+    Skyband skyband = KeepBest(contenders, others, plan_->tie, name_left_out_, stop_);
     if (stopped()) return -1;
     std::vector<const Item<Corner>*> items;
     items.reserve(skyband.kept.size());
     for (int i : skyband.kept) {
-      entries.items[i].outdone = skyband.outdone[i];
+      if (!kinds) entries.items[i].outdone = skyband.outdone[i];
       items.push_back(&entries.items[i]);
     }
     tree = MakeBoxTree(items);
@@ -264,8 +268,19 @@ class Planter {
     return static_cast<int>(plan_->slots.size()) - 1;
   }
 
+  // A part that has nothing to do with the kind is of the same series as all others.
+  template <typename Corner>
+  void SetSeries(Family family, Entries<Corner>& entries) const {
+    std::vector<int> series;
+    if (SpecOf(family).kind_role != KindRole::kApart) series = SeriesOf(problem_.parts, family);
+    for (std::size_t i = 0; i < entries.items.size(); ++i) {
+      const int part = entries.items[i].option.index;
+      entries.items[i].series = entries.contenders[i].series = series.empty() ? 0 : series[part];
+    }
+  }
+
   bool Priced(const model::PartBasics& basics) const {
-    return !CostMatters(problem_) || basics.cost_eur.has_value();
+    return !PricesNeeded(problem_) || basics.cost_eur.has_value();
   }
 
   // How many pieces a choice has: those that weigh and cost, and those whose numbers count.

@@ -186,12 +186,38 @@ TEST(ConflictTest, CostTooLow) {
   ExpectTight(problem, conflict[0]);
 }
 
-// Parts that no price is known of cannot be ranked by cost; counted as free they can.
+// Where no design has all prices, parts without one count as free: the list is that of a catalogue
+// in which they are.
+TEST(ConflictTest, AMissingPriceMakesNothingInfeasible) {
+  Problem problem = Base(3, Configuration::kMains);
+  problem.objective = {.cost_eur = 1.0};
+  for (model::Valve& valve : problem.parts.valves) valve.basics.cost_eur.reset();
+  const optimizer::Answer answer = optimizer::Search(problem, Within(100.0));
+  EXPECT_EQ(answer.status, Status::kOptimal);
+  EXPECT_TRUE(answer.lower_bound_prices);
+  Problem free = problem;
+  ForgetPrices(free);
+  const optimizer::Answer expected = optimizer::Search(free, Within(100.0));
+  EXPECT_FALSE(expected.lower_bound_prices);
+  ASSERT_EQ(answer.designs.size(), expected.designs.size());
+  ASSERT_FALSE(answer.designs.empty());
+  for (std::size_t i = 0; i < answer.designs.size(); ++i) {
+    EXPECT_EQ(KeyOf(answer.designs[i]), KeyOf(expected.designs[i]));
+    EXPECT_FALSE(answer.designs[i].totals.cost_eur.has_value());
+    EXPECT_DOUBLE_EQ(answer.designs[i].totals.cost_known_eur, *expected.designs[i].totals.cost_eur);
+  }
+  // What is impossible at any price stays so, and prices are not blamed.
+  problem.groups[0].rise_time_max_s = 1e-4;
+  for (const auto& conflict : optimizer::Search(problem, Within(100.0)).infeasibility.conflicts)
+    for (const Conflict& entry : conflict) EXPECT_NE(entry.requirement, "prices");
+}
+
+// Of one configuration alone, beside others, it is said.
 TEST(ConflictTest, PricesThatNobodyKnowsAreNamed) {
   Problem problem = Base(3, Configuration::kMains);
   problem.objective = {.cost_eur = 1.0};
   for (model::Valve& valve : problem.parts.valves) valve.basics.cost_eur.reset();
-  const std::vector<Conflict> conflict = Analyse(problem);
+  const std::vector<Conflict> conflict = optimizer::FindOneConflict(problem, Within(100.0), 0.0);
   ASSERT_EQ(conflict.size(), 1u);
   EXPECT_EQ(conflict[0].requirement, "prices");
   EXPECT_FALSE(conflict[0].required.has_value());

@@ -195,8 +195,11 @@ Problem WithLongFront(std::uint64_t seed) {
       const double share = static_cast<double>(i + 1) / static_cast<double>(parts.size());
       const std::string id = parts[i].basics.id;
       parts[i] = parts[0];
-      parts[i].basics = {id, mass_kg * share * scatter(random),
-                         volume_m3 * (1.1 - std::pow(share, power)) * scatter(random), 20.0};
+      parts[i].basics = {id,
+                         mass_kg * share * scatter(random),
+                         volume_m3 * (1.1 - std::pow(share, power)) * scatter(random),
+                         20.0,
+                         {}};
     }
   };
   trade(problem.parts.valves, 0.05, 60e-6);
@@ -245,7 +248,7 @@ Problem LongFront() {
     const double rank = static_cast<double>(i);
     const std::string id = valves[i].basics.id;
     valves[i] = valves[0];
-    valves[i].basics = {id, 0.05 + 0.01 * rank, 90e-6 - 10e-6 * rank, 20.0};
+    valves[i].basics = {id, 0.05 + 0.01 * rank, 90e-6 - 10e-6 * rank, 20.0, {}};
   }
   return problem;
 }

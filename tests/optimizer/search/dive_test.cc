@@ -50,7 +50,7 @@ TEST(DiveTest, StepsBoundIt) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Problem problem = Drawn(seed);
-    Ranking free(1), bound(1), hard(1);
+    Ranking free(problem), bound(problem), hard(problem);
     const long long taken = DiveOnce(problem, {kMany, kMany}, free);
     if (free.list().empty()) continue;
     ++found;
@@ -74,7 +74,7 @@ TEST(DiveTest, NoDesignIsSizedAnyFurtherThanItMayImproveTheList) {
       pump.basics.id += "-light";
       pump.basics.mass_kg *= 0.999;
     }
-    Ranking none(1), alone(1), behind(1);
+    Ranking none(problem), alone(problem), behind(problem);
     const long long unsized = DiveOnce(problem, {kMany, 0}, none);
     const long long to_the_end = DiveOnce(problem, {kMany, kMany}, alone);
     DiveOnce(lighter, {kMany, kMany}, behind);

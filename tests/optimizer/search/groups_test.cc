@@ -77,7 +77,9 @@ TEST(GroupsTest, FirstDesigns) {
     const auto plan = optimizer::MakePlan(problem, *problem.configurations.begin());
     if (plan->empty()) continue;
     optimizer::Bounds bounds(problem, *plan);
-    optimizer::Ranking ranking(1);
+    Problem of_one = problem;
+    of_one.count = 1;
+    optimizer::Ranking ranking(of_one);
     optimizer::FindFirstDesigns(
         problem, bounds, [] { return false; }, ranking);
     with_design += std::isfinite(least);

@@ -9,7 +9,7 @@
 #include "api/measure/diagnosis_document.h"
 #include "server/render/report_diagnosis.h"
 #include "server/render/svg_plot.h"
-#include "server/render/text_diagnosis.h"
+#include "server/render/text/text_diagnosis.h"
 #include "tests/support/sample_diagnosis.h"
 
 namespace plenum::server {

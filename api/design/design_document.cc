@@ -1,0 +1,230 @@
+#include "api/design/design_document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "api/catalogue/catalogue_parts.h"
+#include "api/design/read/selection.h"
+#include "api/json/units.h"
+#include "optimizer/problem/kind.h"
+
+namespace plenum::api {
+namespace {
+
+// A requirement that is met by less than this is called binding.
+constexpr double kBinding = 0.01;
+
+Json Numbers(const std::vector<double>& values, auto&& convert) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(Number(convert(value)));
+  return list;
+}
+
+bool IsCustom(const optimizer::Choice& choice) {
+  return choice.id == kCustomReservoir && optimizer::SpecOf(choice.family).made_to_measure;
+}
+
+Json RenderChoice(const optimizer::Choice& choice, const optimizer::Problem& problem,
+                  const Rows& rows) {
+  const auto found = rows.find(choice.id);
+  const bool known = found != rows.end();
+  const bool is_tube = choice.family == optimizer::Family::kTubing;
+  return {{"family", optimizer::Name(choice.family)},
+          {"id", choice.id},
+          {"manufacturer", known ? found->second->manufacturer : "made to measure"},
+          {"part_number", known ? found->second->part_number : choice.id},
+          {"group", choice.group < 0 ? Json(nullptr) : Json(problem.groups[choice.group].name)},
+          {"quantity", Number(choice.quantity)},
+          {"unit", is_tube ? "m" : "piece"},
+          {"mass_kg", Number(choice.mass_kg)},
+          {"volume_l", Number(LFromM3(choice.volume_m3))},
+          {"cost_eur", OrNull(choice.cost_eur)}};
+}
+
+Json RenderSettings(const optimizer::Settings& settings, const model::Ambient& ambient) {
+  const auto& duty = settings.valve_duty;
+  Json source = Number(KpaGaugeFromPa(settings.source_pressure_pa, ambient));
+  return {{"source_pressure_kpa_gauge", source},
+          {"valve_duty",
+           duty.empty() ? Json(nullptr) : Number(*std::max_element(duty.begin(), duty.end()))},
+          {"valve_duty_groups", Numbers(duty, [](double share) { return share; })},
+          {"compressor_duty", OrNull(settings.compressor_duty)},
+          {"reservoir_volume_ml", settings.reservoir_volume_m3
+                                      ? Number(MlFromM3(*settings.reservoir_volume_m3))
+                                      : Json(nullptr)}};
+}
+
+Json RenderTotals(const optimizer::Totals& totals) {
+  return {{"mass_kg", Number(totals.mass_kg)},
+          {"volume_l", Number(LFromM3(totals.volume_m3))},
+          {"cost_eur", OrNull(totals.cost_eur)},
+          {"cost_eur_min", Number(totals.cost_known_eur)},
+          {"energy_wh", Number(WhFromJ(totals.energy_j))}};
+}
+
+Json RenderPerformance(const optimizer::Performance& performance,
+                       const optimizer::Problem& problem) {
+  Json groups = Json::array();
+  for (std::size_t i = 0; i < performance.groups.size(); ++i) {
+    const optimizer::GroupPerformance& group = performance.groups[i];
+    groups.push_back({{"name", problem.groups[i].name},
+                      {"rise_time_s", Number(group.rise_time_s)},
+                      {"fall_time_s", Number(group.fall_time_s)},
+                      {"inflate_time_s", Number(group.inflate_time_s)},
+                      {"frequency_hz_max", Number(group.frequency_max_hz)}});
+  }
+  return {{"groups", groups},
+          {"frequency_hz_sustained", Number(performance.frequency_sustained_hz)},
+          {"air_per_actuation_l_anr", Number(LFromM3(performance.air_per_actuation_m3))},
+          {"air_total_l_anr", Number(LFromM3(performance.air_total_m3))},
+          {"run_time_s", Number(performance.run_time_s)}};
+}
+
+Json RenderMargins(const std::vector<optimizer::Margin>& margins) {
+  Json list = Json::array();
+  for (const optimizer::Margin& margin : margins)
+    list.push_back({{"requirement", margin.requirement},
+                    {"required", Number(margin.required)},
+                    {"achieved", Number(margin.achieved)},
+                    {"relative_margin", Number(margin.relative_margin)},
+                    {"binding", margin.relative_margin < kBinding}});
+  return list;
+}
+
+void AddEstimates(const catalog::Part& row, double quantity, Quality& quality) {
+  const auto add = [&](const std::string& field) {
+    if (!UseInSearch(row.family, field)) return;
+    quality.estimated.insert(row.family + "." + field);
+    quality.flow_estimated |= IsFlowData(row.family, field);
+  };
+  for (const auto& [field, number] : row.numbers) {
+    if (number.provenance != catalog::Provenance::kEstimated) continue;
+    add(field);
+    // Of the part alone: a gas charge in its row is computed, not estimated.
+    if (field == "mass_kg" || field == "mass_kg_per_m")
+      quality.mass_estimated_kg += quantity * number.value;
+  }
+  if (!row.curve) return;
+  if (row.curve->free_air_provenance == catalog::Provenance::kEstimated) add("free_air");
+  if (row.curve->current_provenance == catalog::Provenance::kEstimated) add("current");
+}
+
+Json RenderQuality(const Quality& quality, double mass_kg) {
+  const double share = mass_kg > 0.0 ? std::min(1.0, quality.mass_estimated_kg / mass_kg) : 0.0;
+  return {{"mass_share_estimated", Number(share)},
+          {"estimated", quality.estimated},
+          {"flow_estimated", quality.flow_estimated},
+          {"not_orderable", quality.not_orderable}};
+}
+
+Json RenderResponse(const optimizer::Design::Trace& trace, const optimizer::Problem& problem) {
+  const auto gauge = [&](double pa) { return KpaGaugeFromPa(pa, problem.ambient); };
+  Json groups = Json::array();
+  for (std::size_t i = 0; i < trace.pressure_pa.size(); ++i)
+    groups.push_back({{"name", problem.groups[i].name},
+                      {"pressure_kpa_gauge", Numbers(trace.pressure_pa[i], gauge)}});
+  return {{"t_s", Numbers(trace.t_s, [](double t) { return t; })},
+          {"groups", groups},
+          {"source_pressure_kpa_gauge", Numbers(trace.source_pressure_pa, gauge)}};
+}
+
+// The kind by names: of each part its series, or its id where it has none.
+Json RenderKind(const optimizer::Design& design, const optimizer::Problem& problem) {
+  std::map<optimizer::KindRole, std::set<std::string>> names;
+  for (const optimizer::Choice& choice : design.parts) {
+    const int part = optimizer::FindPart(problem.parts, choice.family, choice.id);
+    if (part < 0) continue;
+    const model::PartBasics& basics = optimizer::BasicsOf(problem.parts, choice.family, part);
+    names[optimizer::SpecOf(choice.family).kind_role].insert(basics.series.empty() ? basics.id
+                                                                                   : basics.series);
+  }
+  return {{"configuration", optimizer::Name(design.configuration)},
+          {"sources", names[optimizer::KindRole::kSource]},
+          {"regulators", names[optimizer::KindRole::kRegulator]},
+          {"valves", names[optimizer::KindRole::kValve]}};
+}
+
+// The rows in which a variant is not as the best of its kind.
+Json RenderVariant(const optimizer::Variant& variant, const optimizer::Design& best,
+                   const optimizer::Problem& problem, const Rows& rows,
+                   std::set<std::string>& differ_in) {
+  Json parts = Json::array();
+  for (const optimizer::Choice& choice : variant.parts) {
+    const bool same =
+        std::any_of(best.parts.begin(), best.parts.end(), [&](const optimizer::Choice& other) {
+          return other.family == choice.family && other.group == choice.group &&
+                 other.id == choice.id && other.quantity == choice.quantity;
+        });
+    if (same) continue;
+    differ_in.insert(optimizer::Name(choice.family));
+    parts.push_back(RenderChoice(choice, problem, rows));
+  }
+  return {{"objective", Number(variant.objective)}, {"parts", std::move(parts)}};
+}
+
+Json RenderVariants(const optimizer::Design& design, const optimizer::Problem& problem,
+                    const Rows& rows) {
+  Json examples = Json::array();
+  std::set<std::string> differ_in;
+  for (const optimizer::Variant& variant : design.variants->found)
+    examples.push_back(RenderVariant(variant, design, problem, rows, differ_in));
+  return {{"found", design.variants->found.size()},
+          {"complete", design.variants->complete},
+          {"differ_in", differ_in},
+          {"examples", std::move(examples)}};
+}
+
+}  // namespace
+
+Rows RowsOf(const std::vector<catalog::Part>& parts) {
+  Rows rows;
+  for (const catalog::Part& part : parts) rows[part.id] = &part;
+  return rows;
+}
+
+Quality QualityOf(const optimizer::Design& design, const Rows& rows) {
+  Quality quality;
+  for (const optimizer::Choice& choice : design.parts) {
+    if (IsCustom(choice)) {
+      quality.mass_estimated_kg += choice.mass_kg;
+      quality.estimated.insert({"reservoir.body_volume_ml", "reservoir.mass_kg"});
+    } else if (const auto row = rows.find(choice.id); row != rows.end()) {
+      AddEstimates(*row->second, choice.quantity, quality);
+      if (!row->second->orderable.value_or(true)) quality.not_orderable.insert(choice.id);
+    }
+  }
+  return quality;
+}
+
+Json RenderFigures(const optimizer::Design& design, const optimizer::Problem& problem) {
+  return {{"settings", RenderSettings(design.settings, problem.ambient)},
+          {"totals", RenderTotals(design.totals)},
+          {"performance", RenderPerformance(design.performance, problem)},
+          {"margins", RenderMargins(design.margins)}};
+}
+
+Json RenderClaim(const optimizer::Design& design, int rank, const optimizer::Problem& problem,
+                 const Rows& rows) {
+  Json parts = Json::array();
+  for (const optimizer::Choice& choice : design.parts)
+    parts.push_back(RenderChoice(choice, problem, rows));
+  Json json = {{"rank", rank},
+               {"configuration", optimizer::Name(design.configuration)},
+               {"objective", Number(design.objective)},
+               {"parts", parts}};
+  json.update(RenderFigures(design, problem));
+  return json;
+}
+
+Json RenderDesign(const optimizer::Design& design, int rank, const Quality& quality,
+                  const optimizer::Problem& problem, const Rows& rows) {
+  Json json = RenderClaim(design, rank, problem, rows);
+  json["data_quality"] = RenderQuality(quality, design.totals.mass_kg);
+  json["response"] = RenderResponse(design.response, problem);
+  if (problem.list == optimizer::ListOf::kKinds) json["kind"] = RenderKind(design, problem);
+  if (design.variants) json["variants"] = RenderVariants(design, problem, rows);
+  return json;
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,153 @@
+#include "optimizer/explain/variants.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "optimizer/explain/conflict.h"
+#include "optimizer/problem/kind.h"
+#include "optimizer/search/box_search.h"
+#include "optimizer/search/tree_search.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr double kNearly = 1.01;  // of the best objective
+constexpr std::size_t kVariantsMost = 100;
+// Steps of the searches for variants: of one kind, of a whole list.
+constexpr long long kStepsOfKind = 10'000, kStepsOfList = 60'000;
+
+using Clock = std::chrono::steady_clock;
+
+// Searches within what is left of a time limit.
+class TimeLeft {
+ public:
+  TimeLeft(const SearchOptions& options, double used_s)
+      : options_(options), left_s_(options.time_limit_s - used_s) {
+    options_.record = false;
+    options_.progress = nullptr;
+  }
+  SearchOptions Options() const {
+    SearchOptions options = options_;
+    options.time_limit_s =
+        std::max(0.0, left_s_ - std::chrono::duration<double>(Clock::now() - start_).count());
+    return options;
+  }
+
+ private:
+  SearchOptions options_;
+  double left_s_;
+  Clock::time_point start_ = Clock::now();
+};
+
+bool SamePieces(const std::vector<Choice>& a, const std::vector<Choice>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Choice& x, const Choice& y) {
+    return x.family == y.family && x.group == y.group && x.id == y.id && x.quantity == y.quantity;
+  });
+}
+
+// The problem of the design's configuration, and of the series of its kind alone.
+Problem OfKind(const Problem& problem, const Design& best) {
+  Problem own = problem;
+  own.configurations = {best.configuration};
+  own.list = ListOf::kCombinations;
+  const Kind kind = KindOf(problem.parts, best.configuration, best.parts);
+  const auto keep = [&](auto& parts, Family family, const auto& wanted) {
+    const std::vector<int> series = SeriesOf(problem.parts, family);
+    std::size_t i = 0;
+    std::erase_if(parts, [&](const auto&) { return !wanted(series[i++]); });
+  };
+  const auto of_source = [&](int series) { return series == kind.source; };
+  keep(own.parts.compressors, Family::kCompressor, of_source);
+  keep(own.parts.cylinders, Family::kCylinder, of_source);
+  keep(own.parts.co2, Family::kCo2, of_source);
+  keep(own.parts.regulators, Family::kRegulator,
+       [&](int series) { return series == kind.regulator; });
+  keep(own.parts.valves, Family::kValve, [&](int series) {
+    return std::binary_search(kind.valves.begin(), kind.valves.end(), series);
+  });
+  return own;
+}
+
+Variants VariantsOf(const Problem& problem, SearchOptions options, long long steps,
+                    const Design& best) {
+  Problem own = OfKind(problem, best);
+  own.count = static_cast<int>(kVariantsMost) + 2;  // the best itself, and one too many
+  options.objective_max = kNearly * best.objective;
+  options.steps_max = steps;
+  Listed listed = ListCombinations(own, options);
+  const Kind kind = KindOf(problem.parts, best.configuration, best.parts);
+  Variants variants;
+  variants.complete = listed.complete && static_cast<int>(listed.combinations.size()) < own.count;
+  for (Variant& variant : listed.combinations) {
+    if (variant.objective > options.objective_max || SamePieces(variant.parts, best.parts))
+      continue;
+    if (!(KindOf(problem.parts, best.configuration, variant.parts) == kind)) continue;
+    if (variants.found.size() < kVariantsMost) variants.found.push_back(std::move(variant));
+  }
+  return variants;
+}
+
+// The best design of a problem of its own, which has some of the parts or configurations alone.
+BestDesign BestOf(Problem own, const SearchOptions& options, const Answer& answer) {
+  own.list = ListOf::kCombinations;
+  own.count = 1;
+  Answer search = SearchTrees(own, options);
+  BestDesign best{.status = search.status, .lower_bound = search.proof.lower_bound};
+  if (best.status == Status::kInfeasible)
+    best.conflict = FindOneConflict(own, options, search.seconds);
+  if (search.designs.empty()) return best;
+  best.design = std::move(search.designs.front());
+  best.configuration = best.design->configuration;
+  best.lower_bound = std::min(best.lower_bound, best.design->objective);
+  const auto listed =
+      std::find_if(answer.designs.begin(), answer.designs.end(), [&](const Design& design) {
+        return design.configuration == best.configuration &&
+               SamePieces(design.parts, best.design->parts);
+      });
+  if (listed != answer.designs.end())
+    best.rank = static_cast<int>(listed - answer.designs.begin()) + 1;
+  return best;
+}
+
+BestDesign BestOfConfiguration(const Problem& problem, const TimeLeft& time,
+                               Configuration configuration, const Answer& answer) {
+  const auto listed =
+      std::find_if(answer.designs.begin(), answer.designs.end(),
+                   [&](const Design& design) { return design.configuration == configuration; });
+  if (listed != answer.designs.end())
+    return {.configuration = configuration,
+            .status = answer.status,
+            .design = *listed,
+            .rank = static_cast<int>(listed - answer.designs.begin()) + 1,
+            .lower_bound = std::min(answer.proof.lower_bound, listed->objective)};
+  Problem own = problem;
+  own.configurations = {configuration};
+  BestDesign best = BestOf(std::move(own), time.Options(), answer);
+  best.configuration = configuration;
+  return best;
+}
+
+}  // namespace
+
+void AddVariants(const Problem& problem, const SearchOptions& options, double used_s,
+                 Answer& answer) {
+  const TimeLeft time(options, used_s);
+  const long long steps =
+      std::min(kStepsOfKind, kStepsOfList / std::max<long long>(1, std::ssize(answer.designs)));
+  for (Design& design : answer.designs)
+    design.variants = VariantsOf(problem, time.Options(), steps, design);
+}
+
+void AddBests(const Problem& problem, const SearchOptions& options, double used_s, Answer& answer) {
+  const TimeLeft time(options, used_s);
+  for (const Configuration configuration : problem.configurations)
+    answer.by_configuration.push_back(BestOfConfiguration(problem, time, configuration, answer));
+  if (!options.select || problem.orderable_only) return;
+  Problem own = problem;
+  own.orderable_only = true;
+  own.parts = options.select(own);
+  answer.orderable = BestOf(std::move(own), time.Options(), answer);
+}
+
+}  // namespace plenum::optimizer

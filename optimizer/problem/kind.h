@@ -1,0 +1,47 @@
+// The kind of a design: what people take for the same idea, whatever the numbers of pieces, tubes,
+// fittings, batteries and reservoirs. That is its configuration, the series of its source (pump or
+// bottle; none for the mains), of its regulator, and the set of the series of its valves, whichever
+// group has which. A part without a series is its own.
+//
+// A list of kinds holds the best design of each of the best kinds, of kinds with the same
+// configuration and source at most Problem::per_source.
+#ifndef PLENUM_OPTIMIZER_PROBLEM_KIND_H_
+#define PLENUM_OPTIMIZER_PROBLEM_KIND_H_
+
+#include <tuple>
+#include <vector>
+
+#include "optimizer/problem/family_specs.h"
+
+namespace plenum::optimizer {
+
+struct Kind {
+  Configuration configuration{};
+  int source = -1, regulator = -1;  // series, by number; −1: there is none
+  std::vector<int> valves = {};     // the same, ascending, each once
+
+  std::pair<Configuration, int> Source() const { return {configuration, source}; }
+  bool operator<(const Kind& other) const {
+    return std::tie(configuration, source, regulator, valves) <
+           std::tie(other.configuration, other.source, other.regulator, other.valves);
+  }
+  bool operator==(const Kind& other) const = default;
+};
+
+// A series by number: the index of the first part of the family that has it. Of each part.
+std::vector<int> SeriesOf(const model::Parts& parts, Family family);
+
+// Of a design with these rows in its parts list.
+Kind KindOf(const model::Parts& parts, Configuration configuration,
+            const std::vector<Choice>& choices);
+
+// A family's choices that cannot be the best of their kind, or be among the kinds that are listed,
+// may be left out: those for which one of the same series, or this many of different other series,
+// are at least as good. A choice of another source makes another kind and another source; one of
+// another regulator another kind of the same source; so does another valve, unless another group
+// has its series already.
+int OtherSeriesNeeded(const Problem& problem, Family family);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_PROBLEM_KIND_H_

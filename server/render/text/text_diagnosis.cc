@@ -1,0 +1,227 @@
+#include "server/render/text/text_diagnosis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "server/render/text/text_remarks.h"
+#include "server/render/text/text_table.h"
+
+namespace plenum::server {
+namespace {
+
+using api::Json;
+using Align = Table::Align;
+
+std::string Percent(const Json& share) {
+  return share.is_number() ? fmt::format("{:.0f} %", 100.0 * share.get<double>()) : "–";
+}
+
+std::string ErrorsTable(const Json& answer) {
+  Table table({{"error", Align::kLeft}, {"RMS kPa"}, {"RMS %"}, {"peak kPa"}, {"held out kPa"}}, 2);
+  static constexpr std::pair<const char*, const char*> kRows[] = {
+      {"declared", "as declared"}, {"before", "base model, refitted"}, {"after", "with effects"}};
+  for (const auto& [field, title] : kRows) {
+    const Json& error = answer.at(field);
+    table.Add({title, Short(error.at("rms_kpa")), Short(error.at("rms_percent")),
+               Short(error.at("peak_kpa")), Short(error.at("holdout_rms_kpa"))});
+  }
+  return table.Text() +
+         fmt::format("  noise of the readings {} kPa; percentages of the operating pressure\n\n",
+                     Short(answer.at("noise_kpa")));
+}
+
+void AddEstimate(Table& table, std::string of, const std::string& parameter, const Json& estimate) {
+  const auto [name, unit] = Spoken(parameter);
+  const Json& interval = estimate.at("ci95");
+  table.Add({std::move(of), name, Short(estimate.at("value")),
+             Short(interval[0]) + " to " + Short(interval[1]), unit,
+             estimate.at("identified") == true ? "" : "not fixed by the data"});
+}
+
+std::string EstimatesTable(const Json& answer) {
+  Table table({{"effect", Align::kLeft},
+               {"parameter", Align::kLeft},
+               {"value"},
+               {"95 % interval"},
+               {"unit", Align::kLeft},
+               {"", Align::kLeft}},
+              2);
+  bool any = false;
+  for (const Json& effect : answer.at("effects")) {
+    std::string of = effect.at("id");
+    for (const auto& [name, value] : effect.at("parameters").items()) {
+      if (!value.is_object()) continue;
+      AddEstimate(table, std::exchange(of, ""), name, value);
+      any = true;
+    }
+  }
+  std::string of = "declared";
+  for (const auto& [name, value] : answer.at("fitted").items()) {
+    const std::string unit = value.at("unit");
+    AddEstimate(table, std::exchange(of, ""), unit == "1" ? name : name + "_" + unit, value);
+    any = true;
+  }
+  return any ? table.Text() + "\n" : "";
+}
+
+std::string CandidatesTable(const Json& answer) {
+  const Json& candidates = answer.at("candidates");
+  if (candidates.empty()) return "";
+  constexpr std::size_t kShown = 12;
+  Table table({{"candidate", Align::kLeft},
+               {"ΔBIC"},
+               {"RMS kPa"},
+               {"held out kPa"},
+               {"numbers"},
+               {"found again"},
+               {"", Align::kLeft}},
+              2);
+  for (std::size_t i = 0; i < std::min(kShown, candidates.size()); ++i) {
+    const Json& candidate = candidates[i];
+    table.Add({EffectsText(candidate.at("effects"), candidate.at("laws")),
+               Short(candidate.at("delta_bic")), Short(candidate.at("rms_kpa")),
+               Short(candidate.at("holdout_rms_kpa")), candidate.at("parameters").dump(),
+               candidate.at("found_again").dump() + " of " + candidate.at("starts").dump(),
+               candidate.at("converged") == true ? "" : "did not converge"});
+  }
+  std::string text = table.Text();
+  if (candidates.size() > kShown)
+    text += fmt::format("  and {} more\n", candidates.size() - kShown);
+  return text + "\n";
+}
+
+std::string TieText(const Json& answer) {
+  std::string text;
+  const Json& next = answer.at("next_experiment");
+  if (next.is_null()) return text;
+  text += fmt::format("Next run: {}\n", next.at("why").get<std::string>());
+  std::string valve;
+  for (const Json& command : next.at("valve"))
+    valve += fmt::format("{}{} at {} s", valve.empty() ? "" : ", ",
+                         command.at("state").get<std::string>(), Short(command.at("t_s")));
+  text += "  valve: " + valve + "\n";
+  if (next.contains("source_pressure_kpa_gauge"))
+    text += fmt::format("  source {} kPa gauge, actuator {}\n",
+                        Short(next.at("source_pressure_kpa_gauge")),
+                        next.at("blocked") == true ? "blocked" : "free");
+  std::string channels;
+  for (const Json& channel : next.at("measure")) {
+    const auto [name, unit] = Spoken(channel);
+    channels += (channels.empty() ? "" : ", ") + name;
+  }
+  return text + "  measure: " + channels + "\n\n";
+}
+
+std::string DiscrepancyText(const Json& answer) {
+  const Json& discrepancy = answer.at("discrepancy");
+  if (discrepancy.is_null()) return "";
+  std::string text = fmt::format("What is left ({} of the residual's variance above the noise)",
+                                 Percent(answer.at("unexplained_fraction")));
+  text += fmt::format(" lies in the equation of the {}\n",
+                      discrepancy.at("equation").get<std::string>());
+  for (const Json& place : discrepancy.at("places"))
+    text += fmt::format("  {}: {}, {} of it\n", place.at("axis").get<std::string>(),
+                        place.at("where").get<std::string>(), Percent(place.at("share")));
+  text += fmt::format(
+      "  a learned term takes the error from {} to {} kPa, held out from {} to {}\n\n",
+      Short(discrepancy.at("rms_before_kpa")), Short(discrepancy.at("rms_after_kpa")),
+      Short(discrepancy.at("holdout_before_kpa")), Short(discrepancy.at("holdout_after_kpa")));
+  return text;
+}
+
+std::string ResidualText(const Json& answer) {
+  const Json& residual = answer.at("residual");
+  std::string text = fmt::format(
+      "Residual: white {} ({} of {}), independent of the inputs {} ({} of {}), variance over noise "
+      "{} "
+      "of {}\n",
+      PassedText(residual.at("white")), Short(residual.at("portmanteau")),
+      Short(residual.at("portmanteau_limit")), PassedText(residual.at("independent_of_inputs")),
+      Short(residual.at("cross")), Short(residual.at("cross_limit")),
+      Short(residual.at("lack_of_fit")), Short(residual.at("lack_of_fit_limit")));
+  const Json& phases = residual.at("phases");
+  if (phases.empty()) return text + "\n";
+  constexpr std::size_t kShown = 24;
+  Table table({{"run", Align::kLeft},
+               {"phase", Align::kLeft},
+               {"cycle"},
+               {"from s"},
+               {"mean kPa"},
+               {"RMS kPa"},
+               {"trend kPa/s"}},
+              2);
+  for (std::size_t i = 0; i < std::min(kShown, phases.size()); ++i) {
+    const Json& phase = phases[i];
+    table.Add({phase.at("run").get<std::string>(), phase.at("phase").get<std::string>(),
+               phase.at("cycle").dump(), Short(phase.at("start_s")), Short(phase.at("mean_kpa")),
+               Short(phase.at("rms_kpa")), Short(phase.at("trend_kpa_per_s"))});
+  }
+  text += table.Text();
+  if (phases.size() > kShown) text += fmt::format("  and {} more\n", phases.size() - kShown);
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string PassedText(const Json& passed) {
+  return passed.is_null() ? "not tested" : passed == true ? "yes" : "no";
+}
+
+NameAndUnit Spoken(const std::string& parameter) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kUnits = {{
+      {"_dm3_per_s_bar", "dm³/(s·bar)"},
+      {"_l_per_min_bar", "l/(min·bar)"},
+      {"_l_per_min_anr", "l/min ANR"},
+      {"_rad_per_s", "rad/s"},
+      {"_pa2_s2_per_kg2", "Pa²·s²/kg²"},
+      {"_pa2_s_per_kg", "Pa²·s/kg"},
+      {"_kpa_gauge", "kPa gauge"},
+      {"_kpa", "kPa"},
+      {"_ml", "ml"},
+      {"_mm", "mm"},
+      {"_hz", "Hz"},
+      {"_m", "m"},
+      {"_k", "K"},
+      {"_s", "s"},
+  }};
+  NameAndUnit spoken{parameter, ""};
+  for (const auto& [ending, unit] : kUnits) {
+    if (!parameter.ends_with(ending)) continue;
+    spoken = {parameter.substr(0, parameter.size() - ending.size()), std::string(unit)};
+    break;
+  }
+  std::replace(spoken.name.begin(), spoken.name.end(), '_', ' ');
+  return spoken;
+}
+
+std::string EffectsText(const Json& effects, const Json& laws) {
+  std::string text;
+  for (const Json& effect : effects) {
+    std::string name = effect.get<std::string>();
+    const std::string law = laws.is_object() ? laws.value(name, "") : "";
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += (text.empty() ? "" : " + ") + name + (law.empty() ? "" : " (" + law + ")");
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string VerdictText(const Json& answer) {
+  const std::string sentence = answer.at("sentence");
+  if (!sentence.empty()) return sentence;
+  return "Verdict: " + answer.at("verdict").get<std::string>() + ".";
+}
+
+std::string DiagnosisText(const Json& answer) {
+  std::string text = VerdictText(answer) + "\n\n" + ErrorsTable(answer) + EstimatesTable(answer);
+  text +=
+      TieText(answer) + CandidatesTable(answer) + DiscrepancyText(answer) + ResidualText(answer);
+  for (const Json& warning : answer.at("warnings"))
+    text += "note: " + warning.get<std::string>() + "\n";
+  return text + RemarksText(answer);
+}
+
+}  // namespace plenum::server

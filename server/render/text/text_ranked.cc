@@ -1,0 +1,239 @@
+#include "server/render/text/text_ranked.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <string_view>
+#include <vector>
+
+#include "server/render/text/text_table.h"
+
+namespace plenum::server {
+namespace {
+
+using api::Json;
+using Align = Table::Align;
+
+// "2× JSG BD-03AB" of the parts of these families; of equal ones of several groups one.
+std::string NamesOf(const Json& design, std::initializer_list<std::string_view> families) {
+  std::vector<std::string> names;
+  for (const auto& part : design.at("parts")) {
+    const std::string family = part.at("family");
+    if (std::find(families.begin(), families.end(), family) == families.end()) continue;
+    const bool counted = part.at("unit") != "m" && part.at("quantity") != 1;
+    const std::string name = (counted ? Times(part) + "× " : "") +
+                             part.at("manufacturer").get<std::string>() + " " +
+                             part.at("part_number").get<std::string>();
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " + ") + name;
+  return text.empty() ? "–" : text;
+}
+
+std::string SourceOf(const Json& design) {
+  const std::string bottle = NamesOf(design, {"compressor", "cylinder", "co2"});
+  return bottle == "–" ? "mains, " + NamesOf(design, {"regulator"}) : bottle;
+}
+
+std::string TankOf(const Json& design) {
+  const Json& volume = design.at("settings").at("reservoir_volume_ml");
+  return volume.is_number() ? Short(volume) + " mL" : "–";
+}
+
+// "rise 4.8 %": the last word of the requirement's pointer that says what it is.
+std::string BindingText(const Json& design) {
+  const Json* binding = Binding(design);
+  if (!binding) return "–";
+  std::string name = binding->at("requirement").get<std::string>();
+  name = name.substr(name.rfind('/') + 1);
+  return name.substr(0, name.find('_')) + " " + Percent(binding->at("relative_margin"));
+}
+
+std::string Estimated(const Json& design) {
+  const Json& quality = design.at("data_quality");
+  return fmt::format("{:.0f} %{}", 100.0 * quality.at("mass_share_estimated").get<double>(),
+                     quality.at("flow_estimated").get<bool>() ? " ~" : "");
+}
+
+std::string Mass(const Json& design) {
+  return fmt::format("{:.3f}", design.at("totals").at("mass_kg").get<double>());
+}
+
+bool HasChances(const Json& designs) {
+  return !designs.empty() && designs.front().contains("robustness");
+}
+
+double Worst(const Json& design, const char* what) {
+  double worst = 0.0;
+  for (const auto& group : design.at("performance").at("groups"))
+    worst = std::max(worst, group.at(what).get<double>());
+  return worst;
+}
+
+bool CountsCost(const Json& answer) {
+  const Json& asked = answer.at("requirements");
+  const Json minimize = asked.value("minimize", Json());
+  const Json limits = asked.value("supply", Json::object());
+  return minimize == "cost_eur" || (minimize.is_object() && minimize.contains("cost_eur")) ||
+         (limits.is_object() && limits.contains("cost_eur_max"));
+}
+
+std::string MarkOf(const Json& design) {
+  const auto& quality = design.at("data_quality");
+  std::string mark = quality.at("flow_estimated").get<bool>() ? "flow ~" : "flow ok";
+  const double share = quality.at("mass_share_estimated").get<double>();
+  if (share >= 0.005) mark += fmt::format(", mass ~{:.0f} %", 100.0 * share);
+  return mark;
+}
+
+// One line: what the best of some designs is, or why there is none.
+std::string BestText(const std::string& name, const Json& best) {
+  std::string text = fmt::format("  {:<10}  ", name);
+  const Json& design = best.at("design");
+  if (design.is_null()) {
+    text += best.at("status") == "infeasible" ? "none, proved" : "none found yet";
+    for (const Json& entry : best.at("conflict"))
+      text += (&entry == &best.at("conflict").front() ? ": " : ", ") +
+              entry.at("requirement").get<std::string>();
+    return text + "\n";
+  }
+  text += Mass(design) + " kg";
+  if (best.at("relative_distance").is_number())
+    text += fmt::format(", {:+.1f} %", 100.0 * best.at("relative_distance").get<double>());
+  text += ", " + Cut(SourceOf(design), 30) + ", " + Cut(NamesOf(design, {"valve"}), 30);
+  return text + (best.at("status") == "optimal" ? "\n" : " (not proved)\n");
+}
+
+}  // namespace
+
+std::string Percent(const Json& share) {
+  return share.is_number() ? fmt::format("{:.1f} %", 100.0 * share.get<double>()) : "–";
+}
+
+std::string Times(const Json& part) {
+  const double quantity = part.at("quantity").get<double>();
+  if (part.at("unit") == "m") return fmt::format("{:.2f} m", quantity);
+  return fmt::format("{:.0f}", quantity);
+}
+
+const Json* Binding(const Json& design) {
+  const auto& margins = design.at("margins");
+  const auto least = std::min_element(margins.begin(), margins.end(), [](auto& a, auto& b) {
+    return a.at("relative_margin") < b.at("relative_margin");
+  });
+  return least == margins.end() ? nullptr : &*least;
+}
+
+std::string RankedTable(const Json& answer) {
+  const Json& designs = answer.at("designs");
+  const bool chances = HasChances(designs), cost = CountsCost(answer);
+  // Of 100 characters, what the columns with figures leave.
+  const std::size_t narrower = (chances ? 5 : 0) + (cost ? 4 : 0);
+  std::vector<Table::Column> columns{{"#"},
+                                     {"source", Align::kLeft},
+                                     {"valves", Align::kLeft},
+                                     {"battery", Align::kLeft},
+                                     {"tank"},
+                                     {"kg"}};
+  if (cost) columns.push_back({"cost €"});
+  columns.push_back({"binds", Align::kLeft});
+  if (chances) columns.push_back({"chance"});
+  columns.push_back({"est."});
+  Table table(columns);
+  for (const auto& design : designs) {
+    std::vector<std::string> row{Grouped(design.at("rank")),
+                                 Cut(SourceOf(design), 21 - narrower),
+                                 Cut(NamesOf(design, {"valve"}), 22 - narrower),
+                                 Cut(NamesOf(design, {"battery"}), 10),
+                                 TankOf(design),
+                                 Mass(design)};
+    if (cost) row.push_back(Short(design.at("totals").at("cost_eur")));
+    row.push_back(Cut(BindingText(design), 15));
+    if (chances) row.push_back(Percent(design.at("robustness").at("probability")));
+    row.push_back(Estimated(design));
+    table.Add(std::move(row));
+  }
+  return table.Text();
+}
+
+std::string WideTable(const Json& designs) {
+  Table table({{"#"},
+               {"configuration", Align::kLeft},
+               {"source", Align::kLeft},
+               {"valves", Align::kLeft},
+               {"battery", Align::kLeft},
+               {"reservoir", Align::kLeft},
+               {"regulator", Align::kLeft},
+               {"tubing", Align::kLeft},
+               {"mass kg"},
+               {"volume L"},
+               {"cost €"},
+               {"kPa gauge"},
+               {"rise s"},
+               {"fall s"},
+               {"binds", Align::kLeft},
+               {"variants"},
+               {"data", Align::kLeft}});
+  for (const auto& design : designs) {
+    const auto& totals = design.at("totals");
+    const Json variants = design.value("variants", Json::object());
+    table.Add({Grouped(design.at("rank")), design.at("configuration").get<std::string>(),
+               NamesOf(design, {"compressor", "cylinder", "co2"}), NamesOf(design, {"valve"}),
+               NamesOf(design, {"battery"}), NamesOf(design, {"reservoir"}),
+               NamesOf(design, {"regulator"}), NamesOf(design, {"tubing"}), Mass(design),
+               Short(totals.at("volume_l")), Short(totals.at("cost_eur")),
+               Short(design.at("settings").at("source_pressure_kpa_gauge")),
+               fmt::format("{:.3f}", Worst(design, "rise_time_s")),
+               fmt::format("{:.3f}", Worst(design, "fall_time_s")), BindingText(design),
+               variants.contains("found") ? Grouped(variants.at("found")) : "–", MarkOf(design)});
+  }
+  return table.Text();
+}
+
+std::string BestsText(const Json& answer) {
+  const Json list = answer.value("by_configuration", Json::array());
+  std::string text;
+  if (list.size() > 1)
+    for (const Json& best : list)
+      text += BestText(best.at("configuration").get<std::string>(), best);
+  const Json orderable = answer.value("orderable", Json());
+  const bool first = orderable.is_object() && orderable.at("design").is_object() &&
+                     orderable.at("design").at("rank") == 1;
+  if (orderable.is_object() && !first) text += BestText("to order", orderable);
+  return text.empty()
+             ? text
+             : "The best of each source, and of products that one can order\n" + text + "\n";
+}
+
+std::string VariantsText(const Json& design) {
+  const Json variants = design.value("variants", Json());
+  if (!variants.is_object()) return "";
+  if (variants.at("found") == 0)
+    return variants.at("complete").get<bool>() ? "  Variants within 1 %: none, proved.\n"
+                                               : "  Variants within 1 %: none found.\n";
+  std::string differ;
+  for (const Json& family : variants.at("differ_in"))
+    differ += (differ.empty() ? "" : ", ") + family.get<std::string>();
+  return fmt::format("  Variants within 1 %: {}{}, other in {}.\n",
+                     variants.at("complete").get<bool>() ? "" : "at least ",
+                     Grouped(variants.at("found")), differ);
+}
+
+std::string QualityLine(const Json& answer) {
+  const Json& designs = answer.at("designs");
+  if (designs.empty()) return "";
+  const Json& best = designs.front();
+  const Json& quality = best.at("data_quality");
+  std::string text = fmt::format("Best: {} kg, estimates carry {} of it", Mass(best),
+                                 Percent(quality.at("mass_share_estimated")));
+  if (quality.at("flow_estimated").get<bool>()) text += " and some flow data";
+  const std::size_t classes = quality.value("not_orderable", Json::array()).size();
+  if (classes > 0)
+    text += fmt::format("; {} of {} rows {} no product that one can order", classes,
+                        best.at("parts").size(), classes == 1 ? "is" : "are");
+  return text + ".\n\n";
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,43 @@
+// Aligned text tables for a terminal.
+#ifndef PLENUM_SERVER_RENDER_TEXT_TEXT_TABLE_H_
+#define PLENUM_SERVER_RENDER_TEXT_TEXT_TABLE_H_
+
+#include <string>
+#include <vector>
+
+#include "api/json/json.h"
+
+namespace plenum::server {
+
+class Table {
+ public:
+  enum class Align { kLeft, kRight };
+  struct Column {
+    std::string title;
+    Align align = Align::kRight;
+  };
+
+  explicit Table(std::vector<Column> columns, int indent = 0)
+      : columns_(std::move(columns)), indent_(indent) {}
+  void Add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+  // Title line, a rule, then the rows; columns two blanks apart.
+  std::string Text() const;
+
+ private:
+  std::vector<Column> columns_;
+  int indent_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+// At most `width` characters (not bytes); what is cut ends in "…".
+std::string Cut(const std::string& text, std::size_t width);
+
+// Three significant digits: 1234, 12.3, 0.0123; "–" for null and what is not finite.
+std::string Short(double value);
+std::string Short(const api::Json& value);
+// 1 234 567 from 1234567.
+std::string Grouped(const api::Json& count);
+
+}  // namespace plenum::server
+
+#endif  // PLENUM_SERVER_RENDER_TEXT_TEXT_TABLE_H_

@@ -1,0 +1,92 @@
+// Lists as people ask for them: of kinds or combinations, of products, by cost.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/api/support.h"
+#include "tests/api/verified.h"
+
+namespace plenum::api {
+namespace {
+
+TEST(ListsTest, OfKindsUnlessAskedOtherwise) {
+  const Json request = With(Example("gripper"), "/ranking", {{"proof", true}});
+  const Json kinds = Answered(request);
+  EXPECT_EQ(kinds["list"], "kinds");
+  ASSERT_GE(kinds["designs"].size(), 2u);
+  std::set<std::string> seen;
+  for (const Json& design : kinds["designs"]) {
+    EXPECT_TRUE(seen.insert(design["kind"].dump()).second) << design["kind"];
+    EXPECT_TRUE(design["variants"]["complete"]);
+    for (const Json& variant : design["variants"]["examples"]) {
+      EXPECT_GE(variant["objective"], design["objective"]);
+      EXPECT_LE(variant["objective"].get<double>(), 1.01 * design["objective"].get<double>());
+      EXPECT_FALSE(variant["parts"].empty());
+    }
+  }
+  EXPECT_EQ(Refusals(kinds), "");
+  const Json all = Answered(With(request, "/ranking/list", "combinations"));
+  EXPECT_EQ(all["list"], "combinations");
+  EXPECT_EQ(all["designs"][0]["parts"], kinds["designs"][0]["parts"]);
+  EXPECT_FALSE(all.contains("by_configuration"));
+  EXPECT_EQ(Refusals(all), "");
+  const Tampering tamperings[] = {
+      {"the same twice", "order",
+       [](Json& answer) {
+         answer["designs"][1] = answer["designs"][0];
+         answer["designs"][1]["rank"] = 2;
+       }},
+      {"a list of kinds sold as one of combinations", "bound",
+       [](Json& answer) { answer["list"] = "combinations"; }},
+  };
+  ExpectRefused(kinds, tamperings);
+}
+
+TEST(ListsTest, OfProductsAlone) {
+  const Json any = Answered(Example("exosuit"));
+  const Json products = Answered(With(Example("exosuit"), "/supply/parts", "orderable"));
+  ASSERT_FALSE(products["designs"].empty());
+  for (const Json& design : products["designs"])
+    EXPECT_TRUE(design["data_quality"]["not_orderable"].empty()) << design["rank"];
+  EXPECT_GE(products["designs"][0]["objective"], any["designs"][0]["objective"]);
+  EXPECT_EQ(any["orderable"]["status"], "optimal");
+  EXPECT_DOUBLE_EQ(any["orderable"]["objective"].get<double>(),
+                   products["designs"][0]["objective"].get<double>());
+  EXPECT_FALSE(products.contains("orderable"));
+  EXPECT_TRUE(products["left_out"].contains("orderable"));
+  EXPECT_FALSE(any["left_out"].contains("orderable"));
+  EXPECT_EQ(Refusals(products), "");
+}
+
+TEST(ListsTest, LeftOutIsWhatCouldNotBeChosen) {
+  const Json first = Answered(Example("gripper"));
+  std::string valve;
+  for (const Json& row : first["designs"][0]["parts"])
+    if (row["family"] == "valve") valve = row["id"];
+  const Json without = Answered(With(Example("gripper"), "/exclude", {valve}));
+  EXPECT_EQ(without["left_out"]["exclude"], Json::array({valve}));
+  const Json with = Answered(With(Example("gripper"), "/require", {{"valve", {valve}}}));
+  const int valves = with["left_out"]["require"]["valve"];
+  EXPECT_GT(valves, 50);
+  EXPECT_FALSE(with["left_out"].contains("exclude"));
+}
+
+// An unknown price is no reason not to answer; counted as nothing it makes no list dearer.
+TEST(ListsTest, ByCost) {
+  Json request = With(Example("gripper"), "/objective", {{"minimize", "cost_eur"}});
+  const Json known = Answered(request);
+  const Json least = Answered(With(request, "/prices", "lower_bound"));
+  ASSERT_FALSE(known["designs"].empty());
+  ASSERT_FALSE(least["designs"].empty());
+  EXPECT_EQ(least["price_basis"], "lower_bound");
+  EXPECT_LE(least["designs"][0]["objective"], known["designs"][0]["objective"]);
+  EXPECT_TRUE(least["unpriced"].contains("valve"));
+  for (const Json& design : least["designs"])
+    EXPECT_NEAR(design["objective"].get<double>(), design["totals"]["cost_eur_min"].get<double>(),
+                1e-9);
+  EXPECT_EQ(Refusals(known), "");
+  EXPECT_EQ(Refusals(least), "");
+}
+
+}  // namespace
+}  // namespace plenum::api

@@ -1,0 +1,222 @@
+#include "verify/corner/verify_corner.h"
+
+#include "model/physics/storage.h"
+#include "model/strokes/stroke.h"
+#include "verify/design/verify_design.h"
+
+namespace plenum::verify {
+namespace {
+
+constexpr double kSlack = 1.0 + kSumTolerance;
+
+// Calls `visit(item)` for the choices of a slot in the box until one gives true.
+template <typename Visit>
+bool Any(const ProofPlan& plan, const Ranges& ranges, int slot, const Visit& visit) {
+  for (int i = ranges[slot].first; i < ranges[slot].second; ++i)
+    if (visit(plan.slots[slot].choices[i])) return true;
+  return false;
+}
+
+SlotAmounts AmountsOfAll(const Problem& problem, const ProofPlan& plan) {
+  SlotAmounts all;
+  for (const ProofSlot& slot : plan.slots) {
+    all.emplace_back();
+    for (const ProofItem& item : slot.choices)
+      all.back().push_back(ChoiceAmounts(problem, slot, item));
+  }
+  return all;
+}
+
+// Gas that a bottle gives down to an inlet pressure.
+double GasOf(const Problem& problem, Family family, const ProofItem& item, double inlet_pa) {
+  const double temperature_k = problem.ambient.temperature_k;
+  if (family == Family::kCylinder) {
+    const model::Cylinder& bottle = problem.parts.cylinders[item.part];
+    return item.quantity * model::CylinderUsableVolume(bottle.water_volume_m3,
+                                                       bottle.fill_pressure_pa, inlet_pa,
+                                                       temperature_k);
+  }
+  const model::Co2Bottle& bottle = problem.parts.co2[item.part];
+  return item.quantity * model::Co2UsableVolume(bottle.co2_mass_kg, bottle.water_volume_m3,
+                                                inlet_pa, temperature_k);
+}
+
+}  // namespace
+
+Corners::Corners(const Problem& problem, const ProofPlan& plan, KnownStrokes& strokes)
+    : problem_(problem), plan_(plan), strokes_(strokes), amounts_(AmountsOfAll(problem, plan)) {
+  if (plan.configuration == Configuration::kCompressor)
+    pumps_.emplace(problem, plan, amounts_, strokes);
+}
+
+const LeastAmounts& Corners::Least(const Ranges& ranges, int slot) {
+  const auto [first, last] = ranges[slot];
+  const auto [entry, fresh] = least_.try_emplace({slot, first, last});
+  LeastAmounts& found = entry->second;
+  if (!fresh) return found;
+  ItemAmounts& least = found.least;
+  for (int i = first; i < last; ++i) {
+    const ItemAmounts& amounts = amounts_[slot][i];
+    least.mass_kg = std::min(least.mass_kg, amounts.mass_kg);
+    least.volume_m3 = std::min(least.volume_m3, amounts.volume_m3);
+    least.cost_eur = std::min(least.cost_eur, amounts.cost_eur);
+    least.objective = std::min(least.objective, amounts.objective);
+    found.objective_most = std::max(found.objective_most, amounts.objective);
+  }
+  return found;
+}
+
+bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
+  const model::Parts& parts = problem_.parts;
+  Assembly source;
+  source.configuration = plan_.configuration;
+  if (plan_.configuration == Configuration::kCompressor) {
+    source.compressor = &parts.compressors[item.part];
+    return Any(plan_, ranges, SlotOf(plan_, Family::kBattery, -1), [&](const ProofItem& pack) {
+      source.battery = &parts.batteries[pack.part];
+      return Fit(problem_, source);
+    });
+  }
+  source.regulator = &parts.regulators[item.part];
+  if (plan_.configuration == Configuration::kCylinder)
+    return Any(plan_, ranges, SlotOf(plan_, Family::kCylinder, -1), [&](const ProofItem& bottle) {
+      source.cylinder = &parts.cylinders[bottle.part];
+      return Fit(problem_, source);
+    });
+  if (plan_.configuration == Configuration::kCo2) source.co2 = &parts.co2.front();
+  return Fit(problem_, source);
+}
+
+bool Corners::SourceMates(const Ranges& ranges) const {
+  const bool pump = plan_.configuration == Configuration::kCompressor;
+  const int slot = SlotOf(plan_, pump ? Family::kCompressor : Family::kRegulator, -1);
+  return Any(plan_, ranges, slot, [&](const ProofItem& item) { return SourceMates(ranges, item); });
+}
+
+bool Corners::CannotMate(const Ranges& ranges) {
+  for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
+    if (!strokes_.Line(ranges, g).mates) return true;
+  return !SourceMates(ranges);
+}
+
+bool Corners::TooMuch(const Ranges& ranges) {
+  ItemAmounts sum;
+  for (int s = 0; s < static_cast<int>(plan_.slots.size()); ++s) {
+    const ItemAmounts& least = Least(ranges, s).least;
+    sum.mass_kg += least.mass_kg;
+    sum.volume_m3 += least.volume_m3;
+    sum.cost_eur += least.cost_eur;
+  }
+  return sum.mass_kg > problem_.mass_max_kg * kSlack ||
+         sum.volume_m3 * 1e3 > problem_.volume_max_l * kSlack ||
+         sum.cost_eur > problem_.cost_max_eur * kSlack;
+}
+
+// Each group alone on the best regulator, then the least bottle and battery that bear the needs.
+double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
+  const BestNumbers regulator(problem_, plan_, ranges, SlotOf(plan_, Family::kRegulator, -1));
+  double low_pa =
+      std::max(problem_.ambient.pressure_pa, regulator.Number("outlet_pressure_min_kpa_gauge"));
+  double high_pa =
+      std::min(problem_.source_pressure_max_pa, regulator.Number("outlet_pressure_max_kpa_gauge"));
+  double flow_max = regulator.Number("flow_max_l_per_min_anr");
+  if (plan_.configuration == Configuration::kMains) {
+    high_pa = std::min(high_pa, problem_.mains.pressure_pa);
+    flow_max = std::min(flow_max, problem_.mains.flow_max_m3_per_s);
+  }
+  const int groups = static_cast<int>(problem_.groups.size());
+  for (int g = 0; g < groups; ++g) {
+    low_pa = std::max(low_pa, strokes_.Line(ranges, g).source_low_pa);
+    high_pa = std::min(high_pa, strokes_.Line(ranges, g).source_high_pa);
+  }
+  if (!(low_pa <= high_pa)) return kUnlimited;
+
+  const double temperature_k = problem_.ambient.temperature_k;
+  const model::Gas gas =
+      plan_.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
+  const double factor =
+      model::FlowFactor(gas) * std::sqrt(model::kReferenceTemperatureK / temperature_k);
+  const double half_s = 0.5 / problem_.frequency_hz;
+  double air_m3 = 0.0, coil_j = 0.0, inflating_j = 0.0;  // per cycle
+  for (int g = 0; g < groups; ++g) {
+    const BestLine& line = strokes_.Line(ranges, g);
+    const ActuatorGroup& group = problem_.groups[g];
+    std::vector<model::FlowElement> elements{regulator.Flow("sonic_conductance_dm3_per_s_bar")};
+    elements.front().sonic_conductance_m3_per_s_pa /= group.count;
+    elements.insert(elements.end(), line.fill.begin(), line.fill.end());
+    const model::Series fill = model::MakeSeries(elements, factor);
+    const auto seconds = [&](double to_pa) {
+      return model::FillTime(fill, line.chamber, high_pa, problem_.ambient.pressure_pa, to_pa,
+                             temperature_k, flow_max / group.count);
+    };
+    const double inflate_s = seconds(group.chamber.operating_pressure_pa);
+    if (inflate_s > half_s * kSlack) return kUnlimited;
+    if (inflate_s > group.rise_time_max_s &&
+        seconds(PressureAt(problem_, g, problem_.rise_fraction)) > group.rise_time_max_s * kSlack)
+      return kUnlimited;
+    // At least: a valve that cannot hold may be open for no longer than that takes.
+    air_m3 += model::StandardVolume(
+        Drawn(problem_, g, line.chamber, group.chamber.operating_pressure_pa), temperature_k);
+    coil_j += line.coil_w * half_s;
+    if (line.all_hold) inflating_j += line.coil_w * inflate_s;
+  }
+  const double beyond_j = problem_.actuations * inflating_j;
+  double sum = chosen + problem_.objective.energy_wh * beyond_j / 3600.0;
+  if (plan_.configuration == Configuration::kMains) return sum;
+
+  const double energy_j =
+      beyond_j + problem_.actuations * coil_j +
+      regulator.Number("electrical_power_w") * problem_.actuations / problem_.frequency_hz;
+  return LeastStores(ranges, regulator, low_pa, {air_m3, energy_j}, sum);
+}
+
+double Corners::LeastStores(const Ranges& ranges, const BestNumbers& regulator, double low_pa,
+                            const Stored& stored, double sum) {
+  const double inlet_pa = std::max(low_pa, regulator.Number("inlet_pressure_min_kpa_gauge"));
+  const double inlet_max_pa = regulator.Number("inlet_pressure_max_kpa_gauge");
+  const bool cylinder = plan_.configuration == Configuration::kCylinder;
+  const Family family = cylinder ? Family::kCylinder : Family::kCo2;
+  const auto least = [&](int slot, const auto& bears) {
+    double objective = kUnlimited;
+    for (int i = ranges[slot].first; i < ranges[slot].second; ++i)
+      if (amounts_[slot][i].objective < objective && bears(plan_.slots[slot].choices[i]))
+        objective = amounts_[slot][i].objective;
+    return objective;
+  };
+  sum += least(SlotOf(plan_, family, -1), [&](const ProofItem& item) {
+    const model::Parts& parts = problem_.parts;
+    const bool fits = cylinder
+                          ? parts.cylinders[item.part].fill_pressure_pa <= inlet_max_pa
+                          : item.quantity * parts.co2[item.part].flow_sustained_m3_per_s * kSlack >=
+                                stored.air_m3 * problem_.frequency_hz;
+    return fits &&
+           GasOf(problem_, family, item, inlet_pa) * kSlack >= problem_.actuations * stored.air_m3;
+  });
+  return sum + least(SlotOf(plan_, Family::kBattery, -1), [&](const ProofItem& item) {
+           const model::Battery& pack = problem_.parts.batteries[item.part];
+           return item.quantity * model::UsableEnergy(pack.capacity_ah, pack.nominal_voltage_v) *
+                      kSlack >=
+                  stored.energy_j;
+         });
+}
+
+double Corners::LeastObjective(const Ranges& ranges, double enough) {
+  double sum = 0.0, chosen = 0.0;
+  for (int s = 0; s < static_cast<int>(plan_.slots.size()); ++s) {
+    const double least = Least(ranges, s).least.objective;
+    sum += least;
+    if (!SpecOf(plan_.slots[s].family).by_need) chosen += least;
+  }
+  if (sum > enough) return sum;
+  if (TooMuch(ranges)) return kUnlimited;
+  std::vector<const BestLine*> lines;
+  for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
+    lines.push_back(&strokes_.Line(ranges, g));
+    if (!lines.back()->works) return kUnlimited;
+  }
+  if (!SourceMates(ranges)) return kUnlimited;
+  return pumps_ ? pumps_->Least(ranges, lines, chosen, sum, enough)
+                : LeastRegulated(ranges, chosen);
+}
+
+}  // namespace plenum::verify

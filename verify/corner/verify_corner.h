@@ -1,0 +1,62 @@
+// What this side can say of a box from the raw parts alone. Internal to verify*.cc.
+#ifndef PLENUM_VERIFY_CORNER_VERIFY_CORNER_H_
+#define PLENUM_VERIFY_CORNER_VERIFY_CORNER_H_
+
+#include <array>
+#include <map>
+
+#include "verify/corner/verify_best.h"
+#include "verify/corner/verify_dominance.h"
+#include "verify/corner/verify_line.h"
+#include "verify/corner/verify_pump.h"
+#include "verify/design/verify_values.h"
+
+namespace plenum::verify {
+
+// The least amounts of a slot's choices in a range, the objective's share and its spread.
+struct LeastAmounts {
+  ItemAmounts least{kUnlimited, kUnlimited, kUnlimited, kUnlimited};
+  double objective_most = -kUnlimited;
+};
+
+// Keeps what it found: boxes of one tree share most of their ranges.
+class Corners {
+ public:
+  Corners(const Problem& problem, const ProofPlan& plan, KnownStrokes& strokes);
+  Corners(const Corners&) = delete;  // its pumps look at its amounts
+
+  // No choices in the box fit together.
+  bool CannotMate(const Ranges& ranges);
+
+  // Every design in the box has at least this objective; +∞ where no combination works. It is
+  // looked at closely only as long as it is not above `enough`.
+  double LeastObjective(const Ranges& ranges, double enough);
+
+  const LeastAmounts& Least(const Ranges& ranges, int slot);
+
+ private:
+  using SlotRange = std::array<int, 3>;  // slot, first, last
+
+  bool SourceMates(const Ranges& ranges) const;
+  bool SourceMates(const Ranges& ranges, const ProofItem& pump_or_regulator) const;
+  bool TooMuch(const Ranges& ranges);
+  double LeastRegulated(const Ranges& ranges, double chosen);
+  struct Stored {
+    double air_m3;    // per cycle
+    double energy_j;  // of the mission
+  };
+  // `sum` with the least of the bottles and batteries that hold so much.
+  double LeastStores(const Ranges& ranges, const BestNumbers& regulator, double low_pa,
+                     const Stored& stored, double sum);
+
+  const Problem& problem_;
+  const ProofPlan& plan_;
+  KnownStrokes& strokes_;
+  std::vector<std::vector<ItemAmounts>> amounts_;  // per slot and choice
+  std::map<SlotRange, LeastAmounts> least_;
+  std::optional<Pumps> pumps_;
+};
+
+}  // namespace plenum::verify
+
+#endif  // PLENUM_VERIFY_CORNER_VERIFY_CORNER_H_

@@ -1,0 +1,193 @@
+#include "verify/corner/verify_dominance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/physics/storage.h"
+#include "verify/design/verify_families.h"
+#include "verify/design/verify_finding.h"
+
+namespace plenum::verify {
+namespace {
+
+using model::FlowElement;
+
+// Numbers of two choices are compared with room for rounding alone.
+bool Least(double a, double b) { return a <= b || Near(a, b, 1e-12); }
+bool Most(double a, double b) { return Least(b, a); }
+
+bool Flows(const FlowElement& a, const FlowElement& b, bool equal) {
+  if (equal) return a == b;
+  return a.sonic_conductance_m3_per_s_pa >= b.sonic_conductance_m3_per_s_pa &&
+         a.critical_ratio >= b.critical_ratio && a.subsonic_index <= b.subsonic_index;
+}
+
+// Whether a choice of a family is no worse in a field than another.
+bool NoWorse(const FieldValue& a, const FieldValue& b, const PartField& field, bool equal_flow) {
+  if (field.use == Use::kMate) return a == b;
+  if (const auto* flow = std::get_if<FlowElement>(&a))
+    return Flows(*flow, std::get<FlowElement>(b), equal_flow);
+  const double x = std::get<double>(a), y = std::get<double>(b);
+  switch (field.use) {
+    case Use::kMore:
+    case Use::kRating:
+      return x >= y;
+    case Use::kLess:
+      return x <= y;
+    default:
+      return x == y;
+  }
+}
+
+// The same of so many pieces whose numbers add up.
+bool NoWorse(double a, double b, const PartField& field) {
+  if (field.use == Use::kBoth) return a == b;
+  return field.use == Use::kLess ? Least(a, b) : Most(a, b);
+}
+
+// Inlet pressures that a regulator of the catalogue may ask of a bottle: lowest and highest.
+std::pair<double, double> InletPressures(const Problem& problem) {
+  const double low_pa = problem.ambient.pressure_pa;
+  double inlet_pa = low_pa, outlet_pa = low_pa;
+  for (const model::Regulator& regulator : problem.parts.regulators) {
+    inlet_pa = std::max(inlet_pa, regulator.inlet_pressure_min_pa);
+    outlet_pa = std::max(outlet_pa, regulator.outlet_pressure_max_pa);
+  }
+  return {low_pa, std::max(inlet_pa, std::min(outlet_pa, problem.source_pressure_max_pa))};
+}
+
+// Gas down to an inlet pressure; below nothing where the bottle is emptier than that, so that what
+// it holds back counts in the comparison.
+double Gas(const Problem& problem, const model::Cylinder& bottle, int quantity, double inlet_pa) {
+  const auto held = [&](double p) { return p / model::CompressibilityOfAir(p); };
+  return quantity * bottle.water_volume_m3 *
+         model::StandardVolume(held(bottle.fill_pressure_pa) - held(inlet_pa),
+                               problem.ambient.temperature_k);
+}
+
+double Gas(const Problem& problem, const model::Co2Bottle& bottle, int quantity, double inlet_pa) {
+  return quantity *
+         (bottle.co2_mass_kg / model::kReferenceDensityCo2KgPerM3 -
+          bottle.water_volume_m3 * model::StandardVolume(inlet_pa, problem.ambient.temperature_k));
+}
+
+template <typename Bottle>
+bool GivesMore(const Problem& problem, const Bottle& a, int count_a, const Bottle& b, int count_b) {
+  const auto [low_pa, high_pa] = InletPressures(problem);
+  return Most(Gas(problem, a, count_a, low_pa), Gas(problem, b, count_b, low_pa)) &&
+         Most(Gas(problem, a, count_a, high_pa), Gas(problem, b, count_b, high_pa));
+}
+
+bool Drives(const Problem& problem, const model::Battery& a, const model::Battery& b) {
+  return std::all_of(problem.parts.compressors.begin(), problem.parts.compressors.end(),
+                     [&](const model::Compressor& pump) {
+                       return !model::VoltageMatches(b.nominal_voltage_v, pump.curve.voltage_v) ||
+                              model::VoltageMatches(a.nominal_voltage_v, pump.curve.voltage_v);
+                     });
+}
+
+// What no table says: gas of bottles, pumps in parallel, which pumps a battery drives.
+bool RuleNoWorse(const Problem& problem, const ProofPlan& plan, Family family, const ProofItem& a,
+                 const ProofItem& b) {
+  const model::Parts& parts = problem.parts;
+  const int i = a.part, j = b.part, n = a.quantity, m = b.quantity;
+  if (family == Family::kCylinder)
+    return GivesMore(problem, parts.cylinders[i], n, parts.cylinders[j], m);
+  if (family == Family::kCo2) return GivesMore(problem, parts.co2[i], n, parts.co2[j], m);
+  if (family == Family::kCompressor)
+    return n == m && parts.compressors[i].curve == parts.compressors[j].curve;
+  if (family == Family::kBattery && plan.configuration == Configuration::kCompressor)
+    return Drives(problem, parts.batteries[i], parts.batteries[j]);
+  return true;
+}
+
+// Whether a valve that stands open for half of the period takes more air through a choice that
+// passes more.
+bool FillsFurther(const Problem& problem, const ProofPlan& plan, Family family,
+                  const ProofItem& item) {
+  const std::vector<model::Valve>& valves = problem.parts.valves;
+  if (plan.configuration == Configuration::kMains) return false;
+  if (family == Family::kValve) return !model::Holds(valves[item.part].kind);
+  return std::any_of(valves.begin(), valves.end(),
+                     [](const model::Valve& valve) { return !model::Holds(valve.kind); });
+}
+
+// Everything but amounts, field by field.
+bool NoWorse(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
+             const ProofItem& a, const ProofItem& b) {
+  if (a.part < 0 || b.part < 0) return false;  // no other choice stands for these
+  const FamilySpec& spec = SpecOf(slot.family);
+  const bool further = FillsFurther(problem, plan, slot.family, b);
+  const bool mates = !spec.in_line || problem.groups[slot.group].fittings_per_line > 0;
+  for (const PartField& field : spec.fields) {
+    if (field.use == Use::kRule || (field.use == Use::kMate && !mates)) continue;
+    const FieldValue x = field.of(problem.parts, a.part), y = field.of(problem.parts, b.part);
+    const bool sum = field.pieces == Pieces::kSum && !spec.in_line;
+    if (sum ? !NoWorse(a.quantity * std::get<double>(x), b.quantity * std::get<double>(y), field)
+            : !NoWorse(x, y, field, further || (plan.equal_flow && field.use == Use::kSharedFlow)))
+      return false;
+  }
+  return RuleNoWorse(problem, plan, slot.family, a, b);
+}
+
+}  // namespace
+
+ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const ProofItem& item) {
+  if (item.part == -1) return {};
+  ItemAmounts sum;
+  double energy_j = 0.0;  // whatever the strokes
+  if (item.part == -2) {
+    double least_pa = problem.ambient.pressure_pa;  // that any source stops at
+    for (const ActuatorGroup& group : problem.groups)
+      least_pa = std::max(least_pa, group.chamber.operating_pressure_pa);
+    const model::MadeReservoir made = model::MakeReservoir(model::kMadeReservoirSmallestM3,
+                                                           least_pa - problem.ambient.pressure_pa);
+    sum = {made.mass_kg, made.body_volume_m3, 0.0, 0.0};
+  } else {
+    const model::PartBasics& basics = BasicsOf(problem.parts, slot.family, item.part);
+    double pieces = item.quantity, gas_kg = 0.0;
+    if (slot.group >= 0) {
+      const ActuatorGroup& group = problem.groups[slot.group];
+      pieces = group.count *
+               (slot.family == Family::kTubing ? group.tube_length_m : group.fittings_per_line);
+      if (slot.family == Family::kValve) {
+        const model::Valve& valve = problem.parts.valves[item.part];
+        pieces = std::ceil(static_cast<double>(group.count) / valve.channels);
+        energy_j = problem.actuations * group.count * valve.coil_power_w / problem.frequency_hz / 2;
+      }
+    }
+    if (slot.family == Family::kRegulator)
+      energy_j = problem.actuations / problem.frequency_hz *
+                 problem.parts.regulators[item.part].electrical_power_w;
+    if (slot.family == Family::kCylinder) {
+      const model::Cylinder& cylinder = problem.parts.cylinders[item.part];
+      gas_kg = model::CylinderCharge(cylinder.water_volume_m3, cylinder.fill_pressure_pa,
+                                     problem.ambient.temperature_k);
+    }
+    if (slot.family == Family::kCo2) gas_kg = problem.parts.co2[item.part].co2_mass_kg;
+    sum = {pieces * (basics.mass_kg + gas_kg), pieces * basics.body_volume_m3,
+           pieces * basics.cost_eur.value_or(0.0), 0.0};
+  }
+  const Objective& weight = problem.objective;
+  sum.objective = weight.mass_kg * sum.mass_kg + weight.volume_l * sum.volume_m3 * 1e3 +
+                  weight.cost_eur * sum.cost_eur + weight.energy_wh * energy_j / 3600.0;
+  return sum;
+}
+
+bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
+               const ProofItem& better, const ProofItem& worse) {
+  if (better.part < 0 || worse.part < 0 || better == worse) return false;
+  const ItemAmounts a = ChoiceAmounts(problem, slot, better),
+                    b = ChoiceAmounts(problem, slot, worse);
+  if ((std::isfinite(problem.mass_max_kg) && !Least(a.mass_kg, b.mass_kg)) ||
+      (std::isfinite(problem.volume_max_l) && !Least(a.volume_m3, b.volume_m3)) ||
+      (std::isfinite(problem.cost_max_eur) && !Least(a.cost_eur, b.cost_eur)))
+    return false;
+  const std::string& id = BasicsOf(problem.parts, slot.family, better.part).id;
+  const std::string& other = BasicsOf(problem.parts, slot.family, worse.part).id;
+  const bool first = id != other ? id < other : better.quantity < worse.quantity;
+  return (a.objective < b.objective - plan.tie || (first && Least(a.objective, b.objective))) &&
+         NoWorse(problem, plan, slot, better, worse);
+}
+
+}  // namespace plenum::verify

@@ -1,0 +1,78 @@
+#include "verify/corner/verify_known_strokes.h"
+
+#include <algorithm>
+
+#include "model/strokes/stroke.h"
+#include "verify/design/verify_finding.h"
+
+namespace plenum::verify {
+namespace {
+
+constexpr double kSlack = 1.0 + kSumTolerance;
+
+}  // namespace
+
+KnownStrokes::KnownStrokes(const Problem& problem, const ProofPlan& plan)
+    : problem_(problem), plan_(plan) {
+  if (plan.configuration == Configuration::kCompressor) pumps_.emplace(problem, plan);
+}
+
+const BestLine& KnownStrokes::Line(const Ranges& ranges, int g) {
+  const auto& tubes = ranges[SlotOf(plan_, Family::kTubing, g)];
+  const auto& fittings = ranges[SlotOf(plan_, Family::kFitting, g)];
+  const auto& valves = ranges[SlotOf(plan_, Family::kValve, g)];
+  const auto [entry, fresh] = lines_.try_emplace(
+      {g, tubes.first, tubes.second, fittings.first, fittings.second, valves.first, valves.second});
+  if (fresh) entry->second = BestOf(problem_, plan_, ranges, g);
+  return entry->second;
+}
+
+bool KnownStrokes::IsTooSlow(const Query& query, double start_pa) const {
+  const auto& [line, pumps, g, v] = query;
+  const double ambient_pa = problem_.ambient.pressure_pa;
+  const double temperature_k = problem_.ambient.temperature_k;
+  const double target_pa = PressureAt(problem_, g, problem_.rise_fraction);
+  model::Chamber widest = line.chamber;
+  widest.dead_volume_m3 = line.widest_dead_m3;
+  double low_pa = ambient_pa, high_pa = start_pa;  // around the lowest pressure of the stroke
+  while (high_pa - low_pa > kStartTolerance * high_pa) {
+    const double p = 0.5 * (low_pa + high_pa);
+    const double held =
+        v.low_m3 * (p - start_pa) + Drawn(problem_, g, widest, std::min(p, target_pa));
+    (held < 0.0 ? low_pa : high_pa) = p;
+  }
+  const double limit_s = std::min(problem_.groups[g].rise_time_max_s, 0.5 / problem_.frequency_hz);
+  const double pumped_m3 = limit_s * pumps_->DeliveryAt(pumps, low_pa);
+  return model::FillTimeFromReservoir(line.fill_series, line.chamber, problem_.groups[g].count,
+                                      v.high_m3,
+                                      start_pa + ContentPerVolume(problem_) * pumped_m3 / v.low_m3,
+                                      ambient_pa, target_pa, temperature_k) > limit_s * kSlack;
+}
+
+KnownStrokes::Starts& KnownStrokes::KnownOf(const Query& query) {
+  return known_[{&query.line, &query.pumps, query.volumes.low_m3, query.volumes.high_m3}];
+}
+
+bool KnownStrokes::TooSlow(const Query& query, double start_pa) {
+  Starts& known = KnownOf(query);
+  if (start_pa <= known.too_slow_pa) return true;
+  if (start_pa >= known.fast_enough_pa) return false;
+  const bool too_slow = IsTooSlow(query, start_pa);
+  (too_slow ? known.too_slow_pa : known.fast_enough_pa) = start_pa;
+  return too_slow;
+}
+
+std::optional<double> KnownStrokes::LeastStart(const Query& query, double low_pa, double high_pa) {
+  if (!(low_pa <= high_pa) || TooSlow(query, high_pa)) return std::nullopt;
+  if (!TooSlow(query, low_pa)) return low_pa;
+  const Starts& known = KnownOf(query);
+  low_pa = std::max(low_pa, known.too_slow_pa);
+  high_pa = std::min(high_pa, known.fast_enough_pa);
+  while (high_pa - low_pa > kStartTolerance * high_pa) {
+    const double middle_pa = 0.5 * (low_pa + high_pa);
+    (TooSlow(query, middle_pa) ? low_pa : high_pa) = middle_pa;
+  }
+  return low_pa;
+}
+
+}  // namespace plenum::verify

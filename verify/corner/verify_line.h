@@ -1,0 +1,38 @@
+// The best of every number of a group's choices in a box. Internal to verify*.cc.
+#ifndef PLENUM_VERIFY_CORNER_VERIFY_LINE_H_
+#define PLENUM_VERIFY_CORNER_VERIFY_LINE_H_
+
+#include "model/flow/series.h"
+#include "verify/corner/verify_ranges.h"
+#include "verify/design/verify_values.h"
+
+namespace plenum::verify {
+
+struct BestLine {
+  // False: no choices fit together; or the best of each, alone on a source without limits, miss a
+  // pressure or a time. Nothing below is valid then.
+  bool mates = false, works = false;
+  std::vector<model::FlowElement> fill;  // in the order crossed, largest C and b of each element
+  model::Series fill_series;             // of these, with gas and temperature factor
+  model::Chamber chamber;                // with the narrowest bore
+  double widest_dead_m3 = 0.0;           // dead volume of the widest
+  double source_low_pa = 0.0;            // least source pressure that is fast enough
+  double source_high_pa = 0.0;           // most that the parts stand
+  double coil_w = 0.0;                   // whole group
+  double inflate_s = 0.0;                // at the highest pressure; 0 unless all valves hold
+  bool some_hold = false, all_hold = true;
+};
+
+BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ranges, int group);
+
+int SlotOf(const ProofPlan& plan, Family family, int group);
+
+// Pressure after a share of the way from ambient to the operating pressure.
+double PressureAt(const Problem& problem, int group, double fraction);
+
+// Content of all chambers of a group above that at rest, Pa·m³, with the given dead volume.
+double Drawn(const Problem& problem, int group, const model::Chamber& chamber, double pressure_pa);
+
+}  // namespace plenum::verify
+
+#endif  // PLENUM_VERIFY_CORNER_VERIFY_LINE_H_

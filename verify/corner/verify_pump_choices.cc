@@ -1,0 +1,93 @@
+#include "verify/corner/verify_pump_choices.h"
+
+namespace plenum::verify {
+namespace {
+
+double LeastPower(const model::CompressorCurve& curve, double low_pa, double high_pa) {
+  double least_w =
+      std::min(model::ElectricalPower(curve, low_pa), model::ElectricalPower(curve, high_pa));
+  for (double knot : curve.current_a.x())  // in between the table is monotone
+    if (knot > low_pa && knot < high_pa)
+      least_w = std::min(least_w, model::ElectricalPower(curve, knot));
+  return least_w;
+}
+
+}  // namespace
+
+double ContentPerVolume(const Problem& problem) {
+  return model::kReferencePressurePa * problem.ambient.temperature_k /
+         model::kReferenceTemperatureK;
+}
+
+PumpChoices::PumpChoices(const Problem& problem, const ProofPlan& plan)
+    : problem_(problem),
+      compressor_(SlotOf(plan, Family::kCompressor, -1)),
+      highest_pa_(1.01 * problem.ambient.pressure_pa) {
+  for (const model::Compressor& compressor : problem.parts.compressors)
+    highest_pa_ = std::max(highest_pa_, model::HighestPressure(compressor.curve));
+  const double ambient_pa = problem.ambient.pressure_pa;
+  for (std::size_t cell = 0; cell <= kPumpCells; ++cell)
+    pressures_pa_.push_back(ambient_pa +
+                            (highest_pa_ - ambient_pa) * static_cast<double>(cell) / kPumpCells);
+  for (const ProofItem& item : plan.slots[compressor_].choices) items_.push_back(CellsOf(item));
+}
+
+// Delivery falls with pressure: a cell's lower end has the most.
+PumpCells PumpChoices::CellsOf(const ProofItem& item) const {
+  const model::Compressor& compressor = problem_.parts.compressors[item.part];
+  const model::CompressorCurve& curve = compressor.curve;
+  PumpCells cells;
+  for (std::size_t i = 0; i < kPumpCells; ++i) {
+    const double delivery = model::FreeAirDelivery(curve, PressureOf(i));
+    cells.delivery_m3_per_s.push_back(item.quantity * delivery);
+    cells.energy_j_per_m3.push_back(
+        delivery > 0.0 ? LeastPower(curve, PressureOf(i), PressureOf(i + 1)) / delivery
+                       : kUnlimited);
+  }
+  double operating_pa = problem_.ambient.pressure_pa;
+  for (const ActuatorGroup& group : problem_.groups)
+    operating_pa = std::max(operating_pa, group.chamber.operating_pressure_pa);
+  cells.highest_pa = model::HighestPressure(curve);
+  cells.duty_max = compressor.duty_max;
+  cells.current_a =
+      item.quantity * model::LargestCurrent(curve, problem_.ambient.pressure_pa, operating_pa);
+  return cells;
+}
+
+const PumpCells& PumpChoices::CellsIn(Range range) {
+  const auto [entry, fresh] = ranges_.try_emplace(range);
+  PumpCells& best = entry->second;
+  if (!fresh) return best;
+  best = items_[range.first];
+  for (int item = range.first + 1; item < range.second; ++item) {
+    const PumpCells& cells = items_[item];
+    for (std::size_t i = 0; i < kPumpCells; ++i) {
+      best.delivery_m3_per_s[i] = std::max(best.delivery_m3_per_s[i], cells.delivery_m3_per_s[i]);
+      best.energy_j_per_m3[i] = std::min(best.energy_j_per_m3[i], cells.energy_j_per_m3[i]);
+    }
+    best.highest_pa = std::max(best.highest_pa, cells.highest_pa);
+    best.duty_max = std::max(best.duty_max, cells.duty_max);
+    best.current_a = std::min(best.current_a, cells.current_a);
+  }
+  for (std::size_t i = kPumpCells - 1; i-- > 0;)
+    best.energy_j_per_m3[i] = std::min(best.energy_j_per_m3[i], best.energy_j_per_m3[i + 1]);
+  best.filling_j_per_m3.assign(1, 0.0);
+  for (std::size_t i = 0; i < kPumpCells; ++i)
+    best.filling_j_per_m3.push_back(best.filling_j_per_m3[i] +
+                                    best.energy_j_per_m3[i] *
+                                        model::StandardVolume(PressureOf(i + 1) - PressureOf(i),
+                                                              problem_.ambient.temperature_k));
+  return best;
+}
+
+std::size_t PumpChoices::CellOf(double pressure_pa) const {
+  const double ambient_pa = problem_.ambient.pressure_pa;
+  const double cell = (pressure_pa - ambient_pa) / (highest_pa_ - ambient_pa) * kPumpCells;
+  return std::min(static_cast<std::size_t>(std::max(cell, 0.0)), kPumpCells - 1);
+}
+
+double PumpChoices::DeliveryAt(const PumpCells& pumps, double pressure_pa) const {
+  return pumps.delivery_m3_per_s[CellOf(pressure_pa)];
+}
+
+}  // namespace plenum::verify

@@ -1,0 +1,124 @@
+// What stands beside a list of kinds: the best of each configuration and of what can be ordered, and
+// the other designs of a kind.
+import { amountText, axisOf, objectiveUnit, requirementName, supplyWord } from '../lib/amounts';
+import { change, count, significant } from '../lib/format';
+import { link } from '../lib/route';
+import type { Answer, Best, Design, PartRow } from '../lib/types';
+import { Panel } from '../ui/controls';
+import { number, Table } from '../ui/table';
+
+const named = (parts: PartRow[]): string =>
+  [
+    ...new Set(
+      parts.map(
+        (p) =>
+          `${p.unit !== 'm' && p.quantity !== 1 ? `${p.quantity}× ` : ''}${p.manufacturer} ${p.part_number}`,
+      ),
+    ),
+  ].join(' + ');
+
+// What tells people one design from another: pump or bottle, and valves.
+export function identity(design: Design): { source: string; valves: string } {
+  const of = (...families: string[]) =>
+    named(design.parts.filter((p) => families.includes(p.family)));
+  return {
+    source: of('compressor', 'cylinder', 'co2') || `wall, ${of('regulator')}`,
+    valves: of('valve'),
+  };
+}
+
+// The best design of each configuration, and of products that one can order, where the list does
+// not show it.
+export function Bests({ answer, id }: { answer: Answer; id: string }) {
+  const rows: { name: string; best: Best }[] = (answer.by_configuration ?? []).map((best) => ({
+    name: supplyWord(best as { configuration: Design['configuration'] }),
+    best,
+  }));
+  if (answer.orderable && answer.orderable.design?.rank !== 1)
+    rows.push({ name: 'products to order', best: answer.orderable });
+  if (rows.length < 2) return null;
+  const groups = answer.requirements.actuators;
+  const mass = axisOf('mass')!;
+  return (
+    <Panel title="The best of each">
+      <Table
+        label="The best design of each supply"
+        heads={[
+          'of',
+          number('mass', 'kg'),
+          number(`to #1`),
+          'pump or bottle, valves',
+          { text: 'place' },
+        ]}
+      >
+        {rows.map(({ name, best }) => (
+          <tr key={name}>
+            <th scope="row">{name}</th>
+            {best.design ? (
+              <>
+                <td class="num">{amountText(mass, mass.of(best.design))}</td>
+                <td class="num nowrap">
+                  {best.relative_distance === null ? '–' : change(best.relative_distance)}
+                </td>
+                <td>{`${identity(best.design).source}; ${identity(best.design).valves}`}</td>
+                <td class="nowrap">
+                  {best.design.rank ? (
+                    <a href={link(['designs', id, String(best.design.rank)])}>
+                      #{best.design.rank}
+                    </a>
+                  ) : best.status === 'optimal' ? (
+                    'proved, not listed'
+                  ) : (
+                    `not proved: ${significant(best.lower_bound ?? 0)} ${objectiveUnit(answer.requirements)} at least`
+                  )}
+                </td>
+              </>
+            ) : (
+              <td colSpan={4}>
+                {best.status === 'infeasible' ? 'none, proved' : 'none found yet'}
+                {best.conflict.length > 0 &&
+                  `: ${best.conflict.map((c) => requirementName(c.requirement, groups)).join(', ')}`}
+              </td>
+            )}
+          </tr>
+        ))}
+      </Table>
+    </Panel>
+  );
+}
+
+// Of a design: what else of its kind comes within 1 %.
+export function VariantsPanel({ design }: { design: Design }) {
+  const { variants } = design;
+  if (!variants) return null;
+  if (variants.found === 0)
+    return (
+      <Panel title="Variants">
+        <p>
+          {variants.complete
+            ? 'Proved: no other design of this kind comes within 1 %.'
+            : 'No other design of this kind within 1 % was found in the steps given.'}
+        </p>
+      </Panel>
+    );
+  return (
+    <Panel title={`${variants.complete ? '' : 'At least '}${count(variants.found)} variants`}>
+      <p>
+        The same pump or bottle and valves with other {variants.differ_in.join(', ')}, within 1 % of
+        this design; sized, not simulated.
+      </p>
+      <Table
+        label="Variants of this design"
+        boxClass="ranked"
+        heads={[number('to this'), 'other parts']}
+      >
+        {variants.examples.map((variant, i) => (
+          <tr key={i}>
+            <td class="num nowrap">{change(variant.objective / design.objective - 1)}</td>
+            <td>{named(variant.parts)}</td>
+          </tr>
+        ))}
+      </Table>
+    </Panel>
+  );
+}
