@@ -98,6 +98,12 @@ Json AnswerRevised(const DesignRequest& request, const optimizer::SearchOptions&
 
   optimizer::SearchOptions rest = options;
   rest.time_limit_s = std::max(0.0, options.time_limit_s - used.count());
+  if (options.progress)
+    rest.progress = [&](optimizer::Progress progress) {
+      progress.seconds += used.count();
+      progress.lower_bound = 0.0;  // a revised search is proved at its end only
+      options.progress(progress);
+    };
   ListAnswer list = AnswerList(request, rest, parts);
   Json model = RenderModelRevision(*request.model, false);
   model["effects"] = RenderEffects(request.problem.groups.front().effects);

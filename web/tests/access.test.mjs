@@ -1,14 +1,10 @@
 // No violation that axe finds, and nothing wider than the window, in every view, light and dark, at
 // three widths; everything within reach of the keyboard.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
 
-import { openPage, startBrowser, startService } from './support.mjs';
+import { openPage, startBrowser, startService, violationsOf } from './support.mjs';
 import { makeViews, schemes, widths } from './views.mjs';
-
-const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
 let service, browser, views;
 before(async () => {
@@ -30,14 +26,7 @@ for (const colorScheme of schemes) {
           viewport: { width, height: 900 },
         });
         await view.ready(page);
-        await page.evaluate(axe);
-        const { violations } = await page.evaluate(() =>
-          globalThis.axe.run(document, { resultTypes: ['violations'] }),
-        );
-        for (const { id, nodes } of violations)
-          found.push(`${view.name}: ${id}: ${nodes.map((n) => n.html.slice(0, 160)).join(' | ')}`);
-        const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-        if (over > 0) found.push(`${view.name} is ${over} px wider than the window`);
+        for (const violation of await violationsOf(page)) found.push(`${view.name}: ${violation}`);
         await close();
       }
       assert.deepEqual(found, []);

@@ -205,7 +205,8 @@ test('the first design is explained: what requirements cost and how sure it is',
   await page.getByRole('button', { name: 'What do requirements cost, how sure is it?' }).click();
   const prices = page.getByRole('region', { name: 'Prices of requirements' });
   await prices.waitFor({ timeout: 60_000 });
-  const explained = await service.get(`/v1/designs/${idOf(page)}`);
+  const job = /explained=([0-9a-f]+)/.exec(page.url())[1];
+  const explained = await service.get(`/v1/designs/${job}`);
   const dearest = explained.result.prices.reduce((a, b) => (b.saving > a.saving ? b : a));
   assert.ok(dearest.saving > 0);
   const names = {

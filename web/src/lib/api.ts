@@ -87,6 +87,14 @@ export async function ask<T>(
 }
 
 export const get = async <T>(path: string): Promise<T> => (await ask<T>('GET', path)).body;
+// The document at an address, or null where it is larger than that.
+export async function getAtMost<T>(path: string, bytesMax: number): Promise<T | null> {
+  const response = await fetch(path, { headers: withToken({}) });
+  if (!response.ok) throw await problemOf(response);
+  if (Number(response.headers.get('Content-Length')) <= bytesMax) return response.json();
+  void response.body?.cancel();
+  return null;
+}
 export const post = async <T>(path: string, body: unknown, signal?: AbortSignal): Promise<T> =>
   (await ask<T>('POST', path, { body, signal })).body;
 

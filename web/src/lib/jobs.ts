@@ -51,13 +51,17 @@ async function follow(self: string): Promise<void> {
 }
 
 // Designs are read with their requirements in numbers, whatever they were written in.
-function withNumbers(job: Job<unknown, unknown>): Job<unknown, unknown> {
-  const answer = job.result as Answer | undefined;
+export function withNumbers<Result, Report>(job: Job<Result, Report>): Job<Result, Report> {
+  const answer = job.result as Answer | null | undefined;
   if (answer?.schema !== 'designs/1') return job;
   const { requirements, understood = [] } = answer;
   return {
     ...job,
-    result: { ...answer, requirements: inNumbers(requirements, understood), asked: requirements },
+    result: {
+      ...answer,
+      requirements: inNumbers(requirements, understood),
+      asked: requirements,
+    } as Result,
   };
 }
 

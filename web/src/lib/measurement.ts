@@ -8,7 +8,7 @@ export type ValveState = 'hold' | 'inflate' | 'deflate';
 export interface Run {
   id: string;
   blocked?: boolean;
-  source_pressure_kpa_gauge?: number;
+  source_pressure_kpa_gauge?: number | string; // a text has its unit
   initial?: { pressure_kpa_gauge: number };
   valve: { t_s: number; state: ValveState }[];
   t_s: number[];
@@ -32,7 +32,7 @@ export interface Measurement {
   schema: 'measurement/1';
   name?: string;
   rig: Rig;
-  relative_uncertainty?: Record<string, number | 'unknown'>;
+  relative_uncertainty?: Record<string, number | string>; // or "unknown"
   runs: Run[];
   holdout?: string[];
 }
@@ -58,6 +58,7 @@ export interface FittedEffect {
 
 export interface Experiment extends Partial<Run> {
   id: string;
+  source_pressure_kpa_gauge?: number;
   t_end_s?: number;
   sample_hz?: number;
   measure?: string[];

@@ -4,7 +4,7 @@ import { batch, computed, effect, signal } from '@preact/signals';
 import crawler from '../../../examples/crawler.json';
 import exosuit from '../../../examples/exosuit.json';
 import gripper from '../../../examples/gripper.json';
-import { asProblem, type FieldError, post } from './api';
+import { asProblem, type FieldError, post, type Problem } from './api';
 import { route, setQuery } from './route';
 import type { Requirements } from './types';
 import { inNumbers, isOf, type Remarked, type Understood } from './understood';
@@ -83,6 +83,16 @@ export const understoodAt = (pointer: string): Understood | undefined =>
 export const warningAt = (pointer: string): string | undefined =>
   warnings.value.find((warning) => warning.pointer === pointer)?.detail;
 
+// Takes what the service refuses to the fields; false where it is not the requirements that are wrong.
+export function refuse(problem: Problem): boolean {
+  if (problem.status !== 422 && problem.status !== 400) return false;
+  batch(() => {
+    fieldErrors.value = problem.errors;
+    validity.value = 'invalid';
+  });
+  return true;
+}
+
 let asked: AbortController | undefined;
 let timer = 0;
 
@@ -100,9 +110,10 @@ async function validate(document: Requirements): Promise<void> {
   } catch (error) {
     if (mine.signal.aborted) return;
     const problem = asProblem(error);
+    if (refuse(problem)) return;
     batch(() => {
-      fieldErrors.value = problem.errors;
-      validity.value = problem.status === 422 || problem.status === 400 ? 'invalid' : 'unknown';
+      fieldErrors.value = [];
+      validity.value = 'unknown';
       whyUnknown.value =
         problem.status === 0
           ? 'The service does not answer; nothing was checked.'

@@ -222,6 +222,7 @@ export interface Job<Result = Answer, Report = Progress> {
   attempts: number;
   crashes: number; // times that its computation ended the service
   last_crash: string | null;
+  catalogue_revision: { number: number; hash: string };
   progress: Report | null;
   result?: Result | null;
   detail?: string;

@@ -52,9 +52,15 @@ export const namesUnit = (name: string): boolean =>
     name,
   );
 
+// Numbers without a unit, among them the limits on numbers of parts.
+const namesNumber = (name: string): boolean =>
+  /^(count|fittings_per_line|contraction|cells|actuations|probability_min|\w+_(ratio|fraction|max))$/.test(
+    name,
+  );
+
 function leaveOutTexts(object: Record<string, unknown>): void {
   for (const [name, value] of Object.entries(object)) {
-    if (typeof value === 'string' && namesUnit(name)) delete object[name];
+    if (typeof value === 'string' && (namesUnit(name) || namesNumber(name))) delete object[name];
     else if (value && typeof value === 'object') leaveOutTexts(value as Record<string, unknown>);
   }
 }

@@ -4,6 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useLayoutEffect, useRef } from 'preact/hooks';
 
 import { inUnit, short } from '../lib/format';
+import { readTyped } from '../lib/typed';
 import { fromShown, type Kind, toShown, unitOf } from '../lib/units';
 
 export function Panel(props: {
@@ -115,7 +116,11 @@ export interface NumberFieldProps {
   label: string;
   value: Entry;
   onChange: (value: number | null) => void;
-  onText?: (text: string) => void; // takes a number with its unit, too, which the service reads
+  usual?: number; // what holds where nothing is given
+  // Takes what is no plain number: one with its unit, which the service reads, or what it refuses.
+  // A field whose text stands nowhere would be asked for with the number that it had before.
+  onText: (text: string) => void;
+  takesUnits?: boolean;
   read?: string; // what it read
   warning?: string;
   kind?: Kind;
@@ -128,44 +133,51 @@ export interface NumberFieldProps {
   pointer?: string;
 }
 
+const needed = 'a number is needed here';
+
+// What is wrong with a text whatever the service says; nothing where it is the service's to judge.
+function wrongWith(text: string, takesUnits = false): string | undefined {
+  const typed = readTyped(text);
+  if (typed === 'ambiguous')
+    return `may be ${text.replace(',', '.')} or ${text.replace(',', '')}: write one of them`;
+  return typed === 'unreadable' && !takesUnits ? needed : undefined;
+}
+
 // A number in the unit chosen for its kind. What is no number is said here; everything else is the
 // service's to judge.
 export function NumberField(props: NumberFieldProps) {
   const kind = props.kind ?? 'plain';
   const id = useId();
   const unit = unitOf(kind, props.unit);
-  const text = useSignal(asText(kind, props.value));
-  const broken = useSignal(false);
+  const text = useSignal(asText(kind, props.value ?? props.usual));
   const sent = useRef<Entry>(props.value);
+  const cleared = useSignal(false);
   const shownUnit = useRef(unit);
 
   useLayoutEffect(() => {
-    if (props.value === sent.current && unit === shownUnit.current) return;
-    text.value = asText(kind, props.value);
-    broken.value = false;
+    if ((props.value ?? undefined) === (sent.current ?? undefined) && unit === shownUnit.current)
+      return;
+    text.value = asText(kind, props.value ?? props.usual);
+    cleared.value = false;
     sent.current = props.value;
     shownUnit.current = unit;
   });
 
   const take = (input: string) => {
     text.value = input;
-    const trimmed = input.trim().replace(',', '.');
+    const trimmed = input.trim();
+    const typed = readTyped(trimmed);
+    cleared.value = trimmed === '';
     if (trimmed === '') {
-      broken.value = !props.optional;
       sent.current = null;
       props.onChange(null);
-      return;
+    } else if (typeof typed === 'number') {
+      sent.current = fromShown(kind, typed);
+      props.onChange(sent.current);
+    } else {
+      sent.current = trimmed;
+      props.onText(trimmed);
     }
-    const number = Number(trimmed);
-    broken.value = !Number.isFinite(number) && !props.onText;
-    if (broken.value) return;
-    if (!Number.isFinite(number)) {
-      sent.current = input.trim();
-      props.onText!(sent.current);
-      return;
-    }
-    sent.current = fromShown(kind, number);
-    props.onChange(sent.current);
   };
 
   const range = props.range
@@ -174,7 +186,9 @@ export function NumberField(props: NumberFieldProps) {
   // What is said of a text speaks of its own unit already.
   const said =
     typeof props.value === 'string' ? props.error : props.error && inUnit(kind, props.error);
-  const error = broken.value ? 'a number is needed here' : said;
+  const isNeeded = cleared.value && !props.optional && props.usual === undefined;
+  const wrong = text.value.trim() === '' ? undefined : wrongWith(text.value, props.takesUnits);
+  const error = isNeeded ? needed : (wrong ?? said);
   const hint = props.read ?? props.warning ?? [props.hint, range].filter(Boolean).join(' · ');
   return (
     <div class={`field ${error ? 'wrong' : ''}`}>
@@ -186,11 +200,14 @@ export function NumberField(props: NumberFieldProps) {
           inputMode="decimal"
           autocomplete="off"
           value={text.value}
-          placeholder={props.placeholder ?? (props.optional ? 'no limit' : '')}
+          placeholder={
+            props.placeholder ?? (props.optional ? 'no limit' : asText(kind, props.usual))
+          }
           data-pointer={props.pointer}
           aria-invalid={error ? true : undefined}
           aria-describedby={`${id}-hint`}
           onInput={(event) => take(event.currentTarget.value)}
+          onBlur={() => (text.value ||= asText(kind, props.usual))}
         />
         {unit && <span class="unit">{unit}</span>}
       </span>

@@ -2,7 +2,9 @@
 import { useSignal } from '@preact/signals';
 
 import { asProblem } from '../lib/api';
-import { again, cancel } from '../lib/jobs';
+import { again, cancel, start } from '../lib/jobs';
+import { go } from '../lib/route';
+import type { Answer } from '../lib/types';
 
 export function CancelButton({ self }: { self: string }) {
   const stopping = useSignal(false);
@@ -42,15 +44,45 @@ export function AgainButton({ self, name }: { self: string; name: string }) {
   );
 }
 
-export const Bar = ({ label, share }: { label: string; share: number }) => (
-  <div
-    class="gap-bar"
-    role="progressbar"
-    aria-label={label}
-    aria-valuemin={0}
-    aria-valuemax={100}
-    aria-valuenow={Math.round(100 * share)}
-  >
-    <span style={{ width: `${100 * share}%` }} />
-  </div>
-);
+// Starts the same search with the catalogue as it is now, and goes to its list.
+export function RankAgainButton(props: { answer: Answer; label: string; tip?: string }) {
+  const { answer, label, tip } = props;
+  const problem = useSignal('');
+  const rank = () => {
+    problem.value = '';
+    start(answer.asked ?? answer.requirements).then(
+      (job) => go(['designs', job]),
+      (error) => (problem.value = asProblem(error).sentence),
+    );
+  };
+  return (
+    <>
+      <button type="button" data-tip={tip} onClick={rank}>
+        {label}
+      </button>
+      {problem.value && (
+        <span class="error" role="alert">
+          {problem.value}
+        </span>
+      )}
+    </>
+  );
+}
+
+// Of a job under way: never full, as it is not done. `share`: null where it is not known how far it
+// is.
+export const Bar = ({ label, share }: { label: string; share: number | null }) => {
+  const percent = share === null ? undefined : Math.min(99, Math.floor(100 * share));
+  return (
+    <div
+      class={`gap-bar ${share === null ? 'unknown' : ''}`}
+      role="progressbar"
+      aria-label={label}
+      aria-valuemin={0}
+      aria-valuemax={100}
+      aria-valuenow={percent}
+    >
+      <span style={percent === undefined ? undefined : { width: `${percent}%` }} />
+    </div>
+  );
+};

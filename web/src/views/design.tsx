@@ -10,6 +10,7 @@ import { proofInWords } from '../lib/words';
 import { Chip, Notice } from '../ui/controls';
 import { csv, saveFile } from '../ui/files';
 import { Maps } from './maps';
+import { MovedOn } from './moved_on';
 import { Sensitivities } from './sensitivities';
 import { WhatIf } from './what_if';
 import { Estimates, Facts, MarginsPanel, PartsPanel } from './design_panels';
@@ -71,6 +72,7 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
             </button>
           </span>
         </div>
+        <MovedOn answer={answer} />
         <Facts design={design} />
         <p class="only-printed">
           {proofInWords(answer)} Catalogue revision {answer.catalogue_revision?.number ?? '–'}.

@@ -1,21 +1,26 @@
 // The answer of one job: while it runs its progress, then the ranked list.
 import { useEffect } from 'preact/hooks';
 
-import { ended, pathOf, useJob, jobList, previousJob, refreshJobs, start } from '../lib/jobs';
+import { type Explanation, useExplained } from '../lib/explained';
+import { ended, pathOf, useJob, jobList, previousJob, refreshJobs } from '../lib/jobs';
+import { usePreviousList } from '../lib/previous_list';
 import { load } from '../lib/requirements';
 import { go, link, redirect, route } from '../lib/route';
 import type { Answer } from '../lib/types';
 import { proofInWords, statusWord } from '../lib/words';
 import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';
-import { AgainButton } from '../ui/job';
+import { AgainButton, RankAgainButton } from '../ui/job';
+import { NothingLeft } from './against_nominal';
 import { ComparePanel } from './compare';
 import { Conflicts } from './conflicts';
 import { DesignPage } from './design';
+import { ListChangesPanel } from './list_changes';
+import { MovedOn } from './moved_on';
 import { ProgressPanel } from './progress';
-import { AgainstNominal, Ranked } from './ranked';
+import { Ranked } from './ranked';
 import { Remarks } from './remarks';
-import { Why } from './why';
+import { isUnderWay, Why } from './why';
 
 function useNewestJob(id: string | undefined) {
   useEffect(() => {
@@ -38,6 +43,7 @@ export function DesignsView() {
   const [, id, rank] = route.value.path;
   useNewestJob(id);
   const now = useJob(id ? pathOf(id) : null);
+  const { answer, saved, explanation } = useExplained(id ?? '', now?.job?.result ?? null);
   if (!id) {
     return (
       <Panel first title="Designs">
@@ -69,7 +75,6 @@ export function DesignsView() {
       </>
     );
   }
-  const answer = now.job.result;
   if (!answer) {
     return (
       <Panel first title={now.job.name || 'Designs'}>
@@ -82,29 +87,54 @@ export function DesignsView() {
   }
   if (rank === 'compare') return <ComparePanel answer={answer} id={id} />;
   if (rank) return <DesignPage answer={answer} id={id} rank={Number(rank)} key={`${id}/${rank}`} />;
+  return <List answer={answer} saved={saved!} id={id} explanation={explanation} key={id} />;
+}
+
+// The list that it is compared with: the one chosen, or that of before the catalogue changed.
+function useSince(id: string, answer: Answer) {
+  const previous = usePreviousList(id, answer);
+  const chosen = route.value.query.get('with') ?? previous;
+  const since = chosen === 'none' ? null : chosen;
+  return { id: since, answer: useJob(since ? pathOf(since) : null)?.job?.result ?? undefined };
+}
+
+function List(props: {
+  answer: Answer;
+  saved: Answer;
+  id: string;
+  explanation: Explanation | null;
+}) {
+  const { answer, id, explanation } = props;
+  const since = useSince(id, answer);
+  const isEmpty = answer.designs.length === 0;
   return (
     <>
-      <Headline answer={answer} id={id} />
+      <Headline answer={answer} saved={props.saved} id={id} />
+      {since.id && since.answer && (
+        <ListChangesPanel answer={answer} other={since.answer} id={id} otherId={since.id} />
+      )}
+      {isEmpty && answer.against_nominal && <NothingLeft answer={answer} />}
       {answer.conflicts && <Conflicts answer={answer} />}
-      {answer.designs.length > 0 && (
+      {!isEmpty && (
         <>
-          <Why answer={answer} id={id} />
-          <Ranked answer={answer} id={id} key={id} />
+          <Why answer={answer} id={id} explanation={explanation} />
+          <Ranked
+            answer={answer}
+            id={id}
+            since={since}
+            awaited={
+              explanation && isUnderWay(explanation) && !answer.robust ? ['probability'] : []
+            }
+          />
         </>
       )}
       <Remarks of={answer} />
-      {answer.designs.length === 0 && answer.against_nominal && (
-        <Panel title="What the model changes">
-          <AgainstNominal answer={answer} />
-        </Panel>
-      )}
     </>
   );
 }
 
-function Headline({ answer, id }: { answer: Answer; id: string }) {
+function Headline({ answer, saved, id }: { answer: Answer; saved: Answer; id: string }) {
   const word = statusWord[answer.status];
-  const again = async () => go(['designs', await start(answer.asked ?? answer.requirements)]);
   const measured = answer.best_on_measured_flow;
   return (
     <div class="headline">
@@ -124,17 +154,15 @@ function Headline({ answer, id }: { answer: Answer; id: string }) {
           >
             Edit requirements
           </button>
-          <button
-            type="button"
-            data-tip="The same requirements with the catalogue as it is now"
-            onClick={() => void again()}
-          >
-            Rank again
-          </button>
+          <RankAgainButton
+            answer={answer}
+            label="Rank again"
+            tip="The same requirements with the catalogue as it is now"
+          />
           <button
             type="button"
             onClick={() =>
-              saveFile(`${answer.name || id}-designs.json`, `${JSON.stringify(answer, null, 2)}\n`)
+              saveFile(`${answer.name || id}-designs.json`, `${JSON.stringify(saved, null, 2)}\n`)
             }
           >
             Save JSON
@@ -156,6 +184,7 @@ function Headline({ answer, id }: { answer: Answer; id: string }) {
           <span class="muted">Every design listed has a flow number that is an estimate.</span>
         )}
       </p>
+      <MovedOn answer={answer} />
     </div>
   );
 }

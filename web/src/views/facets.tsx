@@ -5,6 +5,7 @@ import { numberOf } from '../lib/catalogue';
 import { fieldKind, fieldName, short } from '../lib/format';
 import { route, setQuery } from '../lib/route';
 import type { Family, Part } from '../lib/types';
+import { readTyped } from '../lib/typed';
 import { fromShown, toShown } from '../lib/units';
 
 // Filters in the address: "n=mass_kg:0:1~…" ranges, "t=port:M5~…" values.
@@ -68,15 +69,15 @@ export function Facets({ meta, list }: { meta: Family; list: Part[] }) {
       texts: { ...chosen.texts, [field]: on ? [...now, value] : now.filter((v) => v !== value) },
     });
   };
-  const setBound = (field: string, end: 0 | 1, text: string) => {
+  // What cannot be read is marked and filters nothing.
+  const setBound = (field: string, end: 0 | 1, input: HTMLInputElement) => {
     const range: [number, number] = [...(chosen.numbers[field] ?? [-Infinity, Infinity])];
-    const number = Number(text.replace(',', '.'));
+    const number = readTyped(input.value);
+    const isEmpty = input.value.trim() === '';
+    input.ariaInvalid = isEmpty || typeof number === 'number' ? null : 'true';
+    if (!isEmpty && typeof number !== 'number') return;
     range[end] =
-      text.trim() === '' || !Number.isFinite(number)
-        ? end
-          ? Infinity
-          : -Infinity
-        : fromShown(fieldKind(field), number);
+      typeof number === 'number' ? fromShown(fieldKind(field), number) : end ? Infinity : -Infinity;
     setFilters({ ...chosen, numbers: { ...chosen.numbers, [field]: range } });
   };
   const any =
@@ -124,7 +125,7 @@ export function Facets({ meta, list }: { meta: Family; list: Part[] }) {
                 aria-label={`${label}, at least`}
                 value={range ? bound(inUnit(range[0])) : ''}
                 placeholder={short(inUnit(Math.min(...values)), 3)}
-                onChange={(e) => setBound(field.name, 0, e.currentTarget.value)}
+                onChange={(e) => setBound(field.name, 0, e.currentTarget)}
               />
               …
               <input
@@ -133,7 +134,7 @@ export function Facets({ meta, list }: { meta: Family; list: Part[] }) {
                 aria-label={`${label}, at most`}
                 value={range ? bound(inUnit(range[1])) : ''}
                 placeholder={short(inUnit(Math.max(...values)), 3)}
-                onChange={(e) => setBound(field.name, 1, e.currentTarget.value)}
+                onChange={(e) => setBound(field.name, 1, e.currentTarget)}
               />
             </span>
           </div>

@@ -47,6 +47,7 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
           label="Group"
           value={group.name}
           error={errorAt(`${at}/name`)}
+          pointer={`${at}/name`}
           onChange={(v) => edit(['actuators', index, 'name'], v)}
         />
         <RequirementField label="Actuators" path={path('count')} range={[1, 64]} />

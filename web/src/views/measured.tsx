@@ -1,5 +1,6 @@
 // Measured data: drop files, see them, ask what the model lacks.
 import { signal, useSignal } from '@preact/signals';
+import { useRef } from 'preact/hooks';
 
 import { ask, asProblem } from '../lib/api';
 import { significant } from '../lib/format';
@@ -23,6 +24,7 @@ import { pressuresShown, unitOf } from '../lib/units';
 import { Lines } from '../plots/lines';
 import { Notice, Panel } from '../ui/controls';
 import { ErrorList, FilePicker } from '../ui/files';
+import { focusFirstWrong } from '../ui/refused';
 import { AgainButton, Bar, CancelButton } from '../ui/job';
 import { DiagnosisView } from './diagnosis';
 import { RigForm } from './rig_form';
@@ -74,16 +76,26 @@ async function take(files: File[], added: boolean): Promise<void> {
 
 export function MeasuredView() {
   const over = useSignal(false);
+  const page = useRef<HTMLDivElement>(null);
   const busy = useSignal(false);
   const job = route.value.query.get('job');
   const now = useJob<Diagnosis, Doing>(job ? diagnosisPath(job) : null);
   const result = now?.job?.result ?? undefined;
   const isRunning = now?.job ? !ended(now.job.status) : false;
   const data = measurement.value;
+  const goToWhatIsWrong = () =>
+    focusFirstWrong(
+      page.current!,
+      measurementErrors.value.map((error) => error.pointer),
+    );
   const diagnose = async () => {
-    busy.value = true;
     measurementErrors.value = [];
     problem.value = '';
+    if (page.current!.querySelector('[aria-invalid="true"]')) {
+      goToWhatIsWrong();
+      return;
+    }
+    busy.value = true;
     try {
       const { body } = await ask<{ id: string }>('POST', '/v1/diagnoses', {
         text: originalText.value ?? JSON.stringify(data),
@@ -94,6 +106,7 @@ export function MeasuredView() {
       const refused = asProblem(error);
       problem.value = refused.message;
       measurementErrors.value = refused.errors;
+      setTimeout(goToWhatIsWrong); // once the fields are marked
     } finally {
       busy.value = false;
     }
@@ -107,6 +120,7 @@ export function MeasuredView() {
   const accept = '.json,.csv,application/json,text/csv';
   return (
     <div
+      ref={page}
       class="measured"
       onDragOver={(e) => {
         e.preventDefault();

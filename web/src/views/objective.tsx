@@ -52,7 +52,13 @@ export function Objective() {
         />
       )}
       {mode === 'front' && (
-        <div class="checks" role="group" aria-label="Amounts of the front">
+        <div
+          class="checks"
+          role="group"
+          aria-label="Amounts of the front"
+          data-pointer="/objective/pareto"
+          tabIndex={-1}
+        >
           {amounts.map((a) => (
             <Check
               key={a.value}

@@ -1,6 +1,7 @@
 // A part to add, copy or change. The service checks it; a change is refused when the part is no
 // longer the one that was opened (If-Match).
 import { useSignal } from '@preact/signals';
+import { useRef } from 'preact/hooks';
 
 import { ask, asProblem, type FieldError } from '../lib/api';
 import { partPath, provenanceWord } from '../lib/catalogue';
@@ -8,6 +9,7 @@ import { fieldKind, fieldName } from '../lib/format';
 import type { CurvePoint, Family, Part, Provenance } from '../lib/types';
 import { namesUnit } from '../lib/understood';
 import { Dialog, Notice, NumberField, Select, TextField } from '../ui/controls';
+import { focusFirstWrong } from '../ui/refused';
 import { documentsText, offersText, readAliases, readDocuments, readOffers } from './part_details';
 
 type Draft = Record<string, unknown>;
@@ -62,7 +64,8 @@ export function PartForm(props: {
   const documents = useSignal(documentsText(part?.documents));
   const kind = useSignal<Provenance['kind']>('datasheet');
   const source = useSignal('');
-  const uncertainty = useSignal<number | null>(null);
+  const form = useRef<HTMLFormElement>(null);
+  const uncertainty = useSignal<number | string | null>(null);
   const errors = useSignal<FieldError[]>([]);
   const problem = useSignal('');
   const busy = useSignal(false);
@@ -92,7 +95,7 @@ export function PartForm(props: {
       .map((f) => f.name)
       .filter((f) => now[f] !== undefined);
     const mine: Provenance = { kind: kind.value, source: source.value.trim() || 'user' };
-    const share = uncertainty.value === null ? undefined : uncertainty.value / 100;
+    const share = typeof uncertainty.value === 'number' ? uncertainty.value / 100 : undefined;
     const measured: Provenance = { ...mine, ...(share !== undefined && { uncertainty: share }) };
     for (const field of fields)
       provenance[field] =
@@ -119,11 +122,20 @@ export function PartForm(props: {
     };
   };
 
+  const goToWhatIsWrong = () =>
+    form.current &&
+    focusFirstWrong(
+      form.current,
+      errors.value.map((error) => error.pointer),
+    );
   const save = async () => {
     errors.value = [];
     problem.value = '';
     const document = documentOf();
-    if (!document) return;
+    if (!document || typeof uncertainty.value === 'string') {
+      setTimeout(goToWhatIsWrong);
+      return;
+    }
     busy.value = true;
     try {
       if (etag)
@@ -139,6 +151,7 @@ export function PartForm(props: {
           : refused.errors.length > 0
             ? 'Not saved; see the fields marked.'
             : refused.message;
+      setTimeout(goToWhatIsWrong); // once the fields are marked
     } finally {
       busy.value = false;
     }
@@ -156,12 +169,20 @@ export function PartForm(props: {
       onChange={(v) => set(name, v)}
     />
   );
-  const lines = (label: string, state: { value: string }, rows: number, hint?: string) => (
+  const lines = (
+    label: string,
+    pointer: string,
+    state: { value: string },
+    rows: number,
+    hint?: string,
+  ) => (
     <label class="curve">
       {label}
       <textarea
         rows={rows}
         value={state.value}
+        data-pointer={pointer}
+        aria-invalid={errorAt(pointer.slice(1)) ? true : undefined}
         placeholder={hint}
         onInput={(e) => (state.value = e.currentTarget.value)}
       />
@@ -180,6 +201,7 @@ export function PartForm(props: {
       onClose={() => props.onClose(false)}
     >
       <form
+        ref={form}
         noValidate
         onSubmit={(event) => {
           event.preventDefault();
@@ -216,7 +238,9 @@ export function PartForm(props: {
                 value={now[field.name] as number | string | undefined}
                 range={[field.min, field.max]}
                 {...(field.name.startsWith('sonic_conductance') && { hint: printed })}
-                {...(namesUnit(field.name) && { onText: (v: string) => set(field.name, v) })}
+                {...(!field.required && { optional: true, placeholder: '' })}
+                takesUnits={namesUnit(field.name)}
+                onText={(v) => set(field.name, v)}
                 error={errorAt(field.name)}
                 pointer={`/${field.name}`}
                 onChange={(v) => set(field.name, v)}
@@ -225,15 +249,27 @@ export function PartForm(props: {
           })}
         </div>
         {meta.has_curve &&
-          lines('Curve: kPa gauge, free air L/min, current A; one point a line', curve, 6)}
+          lines(
+            'Curve: kPa gauge, free air L/min, current A; one point a line',
+            '/curve',
+            curve,
+            6,
+          )}
         {lines(
           'Offers, net of tax: supplier | price | currency | pieces in the pack | date | link; one a line. The newest makes the price.',
+          '/offers',
           offers,
           2,
           'Shop | 12.50 | EUR | 1 | 2024-05-31 | https://example.org/part',
         )}
-        {lines('Documents: link; one a line', documents, 2, 'https://example.org/part.pdf')}
-        {lines('Other names and numbers; one a line', aliases, 2)}
+        {lines(
+          'Documents: link; one a line',
+          '/documents',
+          documents,
+          2,
+          'https://example.org/part.pdf',
+        )}
+        {lines('Other names and numbers; one a line', '/aliases', aliases, 2)}
         <div class="fields">
           <Select
             label={part ? 'Changed numbers are from' : 'These numbers are from'}
@@ -256,6 +292,9 @@ export function PartForm(props: {
             value={uncertainty.value}
             range={[1e-4, 100]}
             hint="one standard deviation"
+            optional
+            placeholder=""
+            onText={(v) => (uncertainty.value = v)}
             onChange={(v) => (uncertainty.value = v)}
           />
           <Select

@@ -11,8 +11,9 @@ export function ProgressPanel({ watched, self }: { watched: Watched; self: strin
   const progress = watched.job?.progress;
   const trace = watched.trace;
   const best = progress?.best ?? null;
-  const bound = progress?.lower_bound ?? null;
+  const bound = progress?.lower_bound || null; // 0 says nothing: a revised search proves at its end
   const gap = best !== null && bound !== null && best > 0 ? Math.max(0, 1 - bound / best) : null;
+  const hasBounds = trace.some((p) => p.lower_bound);
   const unit = progress ? objectiveUnit(progress) : '';
   const name = progress ? objectiveName(progress) : '';
   const queued = watched.job?.status === 'queued';
@@ -33,30 +34,37 @@ export function ProgressPanel({ watched, self }: { watched: Watched; self: strin
           ['all others at least', significant(bound, 4), bound === null ? '' : unit],
           ['gap', percent(gap)],
           ['evaluated', count(progress?.evaluated ?? 0)],
-          ['regions left', count(progress?.open ?? 0)],
+          ['regions left', bound === null ? '–' : count(progress?.open ?? 0)],
         ]}
       />
-      <Bar label="How far the proof has closed" share={gap === null ? 0 : 1 - gap} />
+      <Bar label="How far the proof has closed" share={gap ? 1 - gap : null} />
       {gap === 0 && (
         <p role="status">
           Nothing beats the best so far; what else belongs on the list is still being proved.
         </p>
       )}
+      {best !== null && bound === null && (
+        <p role="status">What is proved of these designs is known at the end of the search.</p>
+      )}
       {trace.length > 1 && (
         <Lines
-          title="The proof closing"
+          title={hasBounds ? 'The proof closing' : 'The best so far'}
           xLabel="time, s"
           yLabel={[name || 'objective', unit].filter(Boolean).join(', ')}
           height={200}
           x={trace.map((p) => p.seconds)}
           lines={[
             { label: 'best so far', values: trace.map((p) => p.best), colour: '--c1' },
-            {
-              label: 'all others at least',
-              values: trace.map((p) => p.lower_bound),
-              colour: '--c2',
-              dash: [5, 3],
-            },
+            ...(hasBounds
+              ? [
+                  {
+                    label: 'all others at least',
+                    values: trace.map((p) => p.lower_bound || null),
+                    colour: '--c2',
+                    dash: [5, 3],
+                  },
+                ]
+              : []),
           ]}
         />
       )}

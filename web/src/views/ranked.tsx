@@ -2,25 +2,17 @@
 import { computed, useComputed } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
-import {
-  axes,
-  axisOf,
-  leastMargin,
-  objectiveUnit,
-  requirementName,
-  requirementNumber,
-  requirementUnit,
-  usualAxes,
-} from '../lib/amounts';
-import { change, significant } from '../lib/format';
-import { jobList, pathOf, refreshJobs, useJob } from '../lib/jobs';
+import { axes, axisOf, leastMargin, usualAxes } from '../lib/amounts';
+import { jobList, refreshJobs } from '../lib/jobs';
+import { signature } from '../lib/list_changes';
 import { go, route, setQuery } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
 import { type Brushes, Parallel } from '../plots/parallel';
 import { Scatter } from '../plots/scatter';
 import { Panel, Select } from '../ui/controls';
 import { csv, saveFile } from '../ui/files';
-import { isAlike, picked, signature, Table } from './ranked_table';
+import { AgainstNominal } from './against_nominal';
+import { isAlike, picked, Table } from './ranked_table';
 
 const query = computed(() => route.value.query);
 
@@ -39,10 +31,19 @@ function brushesOf(text: string | null): Brushes {
   return brushes;
 }
 
-export function Ranked({ answer, id }: { answer: Answer; id: string }) {
+export function Ranked({
+  answer,
+  id,
+  since,
+  awaited,
+}: {
+  answer: Answer;
+  id: string;
+  since: { id: string | null; answer: Answer | undefined }; // the list that it is compared with
+  awaited: string[]; // columns that are being worked out
+}) {
   const q = query.value;
   const brushes = useComputed(() => brushesOf(query.value.get('brush'))).value;
-  const other = useJob(q.get('with') ? pathOf(q.get('with')!) : null)?.job?.result;
   useEffect(() => {
     void refreshJobs().catch(() => undefined);
     picked.value = (query.peek().get('pick') ?? '').split(',').map(Number).filter(Boolean);
@@ -87,8 +88,8 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
             : [[signature(answer.designs[d.rank - 1]!), d.nominal_rank] as const],
         ),
       )
-    : other
-      ? new Map(other.designs.map((design) => [signature(design), design.rank]))
+    : since.answer
+      ? new Map(since.answer.designs.map((design) => [signature(design), design.rank]))
       : undefined;
   const jobs = (jobList.value ?? []).filter((job) => job.id !== id && job.status === 'done');
   return (
@@ -146,13 +147,13 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
                 .slice(0, 500)
                 .map((d) => ({ value: String(d.rank), label: `#${d.rank}` }))}
             />
-            {!nominal && jobs.length > 0 && (
+            {jobs.length > 0 && (
               <Select
                 label="Changes since"
-                value={q.get('with') ?? ''}
+                value={since.id ?? 'none'}
                 onChange={(v) => setQuery({ with: v })}
                 options={[
-                  { value: '', label: 'no search chosen' },
+                  { value: 'none', label: 'no search chosen' },
                   ...jobs.map((job) => ({
                     value: job.id,
                     label: `${job.name || 'unnamed'} ${job.id.slice(0, 6)}`,
@@ -179,7 +180,6 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
         }
       >
         {nominal && <AgainstNominal answer={answer} />}
-        {!nominal && before && other && <Changes answer={answer} other={other} before={before} />}
         <Table
           answer={answer}
           rows={rows}
@@ -187,77 +187,10 @@ export function Ranked({ answer, id }: { answer: Answer; id: string }) {
           baseline={baseline}
           sort={sort}
           before={before}
+          awaited={awaited}
         />
       </Panel>
     </>
-  );
-}
-
-type Why = NonNullable<Answer['against_nominal']>['dropped'][number]['why'];
-
-function whyDropped(why: Why, groups: { name: string }[]): string {
-  if (why === null) return 'others are better now';
-  if (typeof why === 'string') return why;
-  const { requirement, required, achieved } = why;
-  const unit = requirementUnit(requirement);
-  return `misses ${requirementName(requirement, groups)}: ${requirementNumber(requirement, achieved)} instead of ${requirementNumber(requirement, required)} ${unit}`;
-}
-
-// What the revised model changes in the ranking.
-export function AgainstNominal({ answer }: { answer: Answer }) {
-  const { designs, dropped } = answer.against_nominal!;
-  const fresh = designs.filter((d) => d.nominal_rank === null).length;
-  const was =
-    dropped.find((d) => d.nominal_rank === 1)?.objective ??
-    designs.find((d) => d.nominal_rank === 1)?.nominal?.objective;
-  const groups = answer.requirements.actuators;
-  return (
-    <div class="changes" role="status">
-      <p>
-        Against the nominal model: {fresh} new, {dropped.length} no longer listed.{' '}
-        {was !== undefined &&
-          answer.designs[0] &&
-          `Best ${significant(was, 4)} → ${significant(answer.designs[0].objective, 4)} ${objectiveUnit(answer.requirements)} (${change(answer.designs[0].objective / was - 1)}).`}
-      </p>
-      {dropped.length > 0 && (
-        <details>
-          <summary>No longer listed</summary>
-          <ul class="history">
-            {dropped.map((d) => (
-              <li key={d.nominal_rank}>
-                nominal #{d.nominal_rank}, {significant(d.objective, 4)}{' '}
-                {objectiveUnit(answer.requirements)}: {whyDropped(d.why, groups)}
-              </li>
-            ))}
-          </ul>
-        </details>
-      )}
-    </div>
-  );
-}
-
-function Changes({
-  answer,
-  other,
-  before,
-}: {
-  answer: Answer;
-  other: Answer;
-  before: Map<string, number>;
-}) {
-  const fresh = answer.designs.filter((design) => !before.has(signature(design)));
-  const now = new Set(answer.designs.map(signature));
-  const gone = other.designs.filter((design) => !now.has(signature(design)));
-  const [first, was] = [answer.designs[0], other.designs[0]];
-  return (
-    <p class="changes" role="status">
-      {fresh.length === 0 && gone.length === 0
-        ? 'The same designs as before. '
-        : `${fresh.length} new, ${gone.length} no longer listed. `}
-      {first &&
-        was &&
-        `Best ${significant(was.objective, 4)} → ${significant(first.objective, 4)} ${objectiveUnit(answer.requirements)} (${change(first.objective / was.objective - 1)}).`}
-    </p>
   );
 }
 

@@ -13,19 +13,13 @@ import {
   supplyWord,
 } from '../lib/amounts';
 import { change, digitsApart, isSame, percent } from '../lib/format';
+import { signature } from '../lib/list_changes';
 import { link, setQuery } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
 import { Chip } from '../ui/controls';
 import { type Head, LongTable, number, SortHead } from '../ui/table';
 
 export const picked = signal<number[]>([]);
-
-// Designs are the same when they have the same parts in the same numbers.
-export const signature = (design: Design): string =>
-  design.parts
-    .map((p) => `${p.id}×${p.unit === 'm' ? '' : p.quantity}@${p.group ?? ''}`)
-    .sort()
-    .join('|');
 
 const columns = [
   'mass',
@@ -79,10 +73,13 @@ export function Table(props: {
   baseline: number;
   sort: string;
   before?: Map<string, number>;
+  awaited: string[]; // columns that are being worked out
 }) {
-  const { answer, rows, baseline, sort } = props;
+  const { answer, rows, baseline, sort, awaited } = props;
   const { designs } = answer;
-  const some = columns.filter((axis) => designs.some((design) => axis.of(design) !== null));
+  const some = columns.filter(
+    (axis) => awaited.includes(axis.id) || designs.some((design) => axis.of(design) !== null),
+  );
   const alike = designs.length > 1 ? some.filter((axis) => isAlike(axis, designs)) : [];
   const used = some
     .filter((axis) => !alike.includes(axis))
@@ -183,7 +180,7 @@ export function Table(props: {
             {hasSupply && <td class="nowrap">{supplyWord(design)}</td>}
             {used.map(({ axis, digits }) => (
               <td key={axis.id} class="num">
-                {amountText(axis, axis.of(design), digits)}
+                {awaited.includes(axis.id) ? '…' : amountText(axis, axis.of(design), digits)}
               </td>
             ))}
             <td>

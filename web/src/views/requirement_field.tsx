@@ -9,10 +9,9 @@ import { NumberField, type NumberFieldProps } from '../ui/controls';
 export function RequirementField(
   props: Omit<NumberFieldProps, 'value' | 'onChange' | 'onText' | 'error' | 'pointer'> & {
     path: (string | number)[];
-    usual?: number; // where the document does not say
   },
 ) {
-  const { path, usual, ...rest } = props;
+  const { path, ...rest } = props;
   const pointer = `/${path.join('/')}`;
   const kind = props.kind ?? 'plain';
   const row = understoodAt(pointer);
@@ -23,13 +22,16 @@ export function RequirementField(
   return (
     <NumberField
       {...rest}
-      value={(valueAt(requirements.value, path) as number | string | null | undefined) ?? usual}
+      value={valueAt(requirements.value, path) as number | string | null | undefined}
       pointer={pointer}
       error={errorAt(pointer)}
-      {...(namesUnit(String(path.at(-1))) && { onText: (text: string) => edit(path, text) })}
+      takesUnits={namesUnit(String(path.at(-1)))}
       {...(read !== undefined && { read })}
       {...(warning !== undefined && { warning })}
-      onChange={(value) => edit(path, value ?? (props.optional ? undefined : null))}
+      onText={(text) => edit(path, text)}
+      onChange={(value) =>
+        edit(path, value ?? (props.optional || props.usual !== undefined ? undefined : null))
+      }
     />
   );
 }

@@ -28,7 +28,13 @@ export function Supply() {
   const wrong = errorAt('/supply/configurations') ?? errorAt('/supply/mains');
   return (
     <Panel title="Supply">
-      <div class="checks" role="group" aria-label="Kinds of supply to consider">
+      <div
+        class="checks"
+        role="group"
+        aria-label="Kinds of supply to consider"
+        data-pointer="/supply/configurations"
+        tabIndex={-1}
+      >
         {configurations.map((c) => (
           <Check
             key={c.value}

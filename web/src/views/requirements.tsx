@@ -1,5 +1,6 @@
 // What the supply has to do: the form, its check, and the start of a search.
 import { useSignal } from '@preact/signals';
+import { useRef } from 'preact/hooks';
 
 import { placeInWords } from '../lib/amounts';
 import { asProblem, type FieldError, type Problem } from '../lib/api';
@@ -11,6 +12,7 @@ import {
   load,
   numbers,
   presets,
+  refuse,
   requirements,
   validity,
   valueAt,
@@ -19,7 +21,8 @@ import {
 import { go } from '../lib/route';
 import type { Requirements } from '../lib/types';
 import { Notice, Panel, TextField } from '../ui/controls';
-import { ErrorList, FilePicker, saveFile } from '../ui/files';
+import { FilePicker, saveFile } from '../ui/files';
+import { focusFirstWrong, focusOn } from '../ui/refused';
 import { Drawing } from './drawing';
 import { Groups } from './groups';
 import { Objective } from './objective';
@@ -28,15 +31,29 @@ import { Conditions, Duty, Supply } from './requirement_panels';
 export function RequirementsView() {
   const problem = useSignal<Problem | null>(null);
   const busy = useSignal(false);
+  const form = useRef<HTMLFormElement>(null);
   const document = requirements.value;
+  const isInvalid = validity.value === 'invalid';
+  const goToWhatIsWrong = () => {
+    const pointers = fieldErrors.value.map((error) => error.pointer);
+    if (!focusFirstWrong(form.current!, pointers))
+      form.current!.querySelector<HTMLElement>('.verdict')?.focus();
+  };
   const run = async () => {
+    if (isInvalid) {
+      goToWhatIsWrong();
+      return;
+    }
     busy.value = true;
     problem.value = null;
     try {
       const id = await start(document);
       if (previousJob.value !== id) go(['designs', id]);
     } catch (error) {
-      problem.value = asProblem(error);
+      const refused = asProblem(error);
+      if (refuse(refused))
+        setTimeout(goToWhatIsWrong); // once the fields are marked
+      else problem.value = refused;
     } finally {
       busy.value = false;
     }
@@ -56,6 +73,7 @@ export function RequirementsView() {
   };
   return (
     <form
+      ref={form}
       class="split"
       noValidate
       onSubmit={(event) => {
@@ -124,16 +142,12 @@ export function RequirementsView() {
         </Panel>
         <div class="panel go">
           <Verdict />
-          {problem.value && (
-            <Notice kind="bad">
-              {problem.value.message}
-              <ErrorList errors={problem.value.errors} />
-            </Notice>
-          )}
+          {problem.value && <Notice kind="bad">{problem.value.message}</Notice>}
           <button
             type="submit"
             class="primary"
-            disabled={busy.value || validity.value === 'invalid'}
+            disabled={busy.value}
+            aria-disabled={isInvalid || undefined}
           >
             {busy.value ? 'Starting…' : 'Find the best designs'}
           </button>
@@ -164,7 +178,7 @@ function Verdict() {
     );
   const n = fieldErrors.value.length;
   return (
-    <div class="verdict bad" role="status">
+    <div class="verdict bad" role="status" tabIndex={-1}>
       {n === 1 ? 'One thing has to change:' : `${n} things have to change:`}
       <ul>
         {fieldErrors.value.map((error) => (
@@ -187,6 +201,3 @@ function detailInWords({ pointer, detail }: FieldError): string {
     ? detail
     : inUnit(fieldKind(pointer.replace(/_max$/, '')), detail);
 }
-
-const focusOn = (pointer: string): void =>
-  document.querySelector<HTMLElement>(`[data-pointer="${pointer}"]`)?.focus();

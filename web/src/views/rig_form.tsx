@@ -1,5 +1,6 @@
 // The rig that a CSV was measured on.
 import { measurement, measurementErrors, type Rig } from '../lib/measurement';
+import { namesUnit } from '../lib/understood';
 import { Check, NumberField, Panel, Select } from '../ui/controls';
 
 export function RigForm() {
@@ -8,24 +9,39 @@ export function RigForm() {
   const set = (rig: Partial<Rig>) =>
     (measurement.value = { ...data, rig: { ...data.rig, ...rig } });
   // Of one block of the rig, by name.
-  const field = (block: 'actuator' | 'line', name: string) => ({
-    value: (data.rig[block] as Record<string, number | null>)[name],
-    error: errorAt(`/rig/${block}/${name}`),
-    onChange: (v: number | null) => set({ [block]: { ...data.rig[block], [name]: v } }),
-  });
+  const field = (block: 'actuator' | 'line', name: string) => {
+    const put = (v: number | string | null) => set({ [block]: { ...data.rig[block], [name]: v } });
+    return {
+      value: (data.rig[block] as Record<string, number | string | null>)[name],
+      error: errorAt(`/rig/${block}/${name}`),
+      pointer: `/rig/${block}/${name}`,
+      takesUnits: namesUnit(name),
+      onChange: put,
+      onText: put,
+    };
+  };
   const errorAt = (pointer: string) =>
     measurementErrors.value.find((e) => e.pointer === pointer)?.detail;
   const source = data.runs[0]?.source_pressure_kpa_gauge;
+  const putSource = (v: number | string | null) =>
+    (measurement.value = {
+      ...data,
+      runs: data.runs.map((run) => ({ ...run, source_pressure_kpa_gauge: v ?? undefined })),
+    });
   const sigma = data.relative_uncertainty ?? {};
+  const putSigma = (name: string) => (v: number | string | null) => {
+    const { [name]: _, ...others } = sigma;
+    measurement.value = {
+      ...data,
+      relative_uncertainty: v === null ? others : { ...others, [name]: v },
+    };
+  };
   const uncertain = (name: string) => ({
-    value: typeof sigma[name] === 'number' ? sigma[name] : null,
-    onChange: (v: number | null) => {
-      const { [name]: _, ...others } = sigma;
-      measurement.value = {
-        ...data,
-        relative_uncertainty: v === null ? others : { ...others, [name]: v },
-      };
-    },
+    value: sigma[name] === 'unknown' ? null : sigma[name],
+    error: errorAt(`/relative_uncertainty/${name}`),
+    pointer: `/relative_uncertainty/${name}`,
+    onChange: putSigma(name),
+    onText: putSigma(name),
     unit: '1 σ, share',
     optional: true,
     placeholder: 'exact',
@@ -64,15 +80,10 @@ export function RigForm() {
             value={source}
             hint="of the regulator"
             error={errorAt('/runs/0/source_pressure_kpa_gauge')}
-            onChange={(v) =>
-              (measurement.value = {
-                ...data,
-                runs: data.runs.map((run) => ({
-                  ...run,
-                  source_pressure_kpa_gauge: v ?? undefined,
-                })),
-              })
-            }
+            pointer="/runs/0/source_pressure_kpa_gauge"
+            takesUnits
+            onChange={putSource}
+            onText={putSource}
           />
         )}
       </div>

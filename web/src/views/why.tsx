@@ -12,21 +12,35 @@ import {
   supplyWord,
 } from '../lib/amounts';
 import { asProblem } from '../lib/api';
-import { change, percent, significant } from '../lib/format';
-import { start } from '../lib/jobs';
-import { go, link } from '../lib/route';
+import { change, duration, percent, significant } from '../lib/format';
+import { explain, type Explanation, foundNothing } from '../lib/explained';
+import { ended } from '../lib/jobs';
+import { link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
 import { Notice, Panel } from '../ui/controls';
+import { Bar, CancelButton } from '../ui/job';
 import { ShareBar } from '../ui/share_bar';
 import { extra, number, Table } from '../ui/table';
 import { partsInShort } from './ranked_table';
 
-export function Why({ answer, id }: { answer: Answer; id: string }) {
+export function Why({
+  answer,
+  id,
+  explanation,
+}: {
+  answer: Answer;
+  id: string;
+  explanation: Explanation | null;
+}) {
   const first = answer.designs[0]!;
   const next = answer.designs[1];
   const isFront = answer.front !== undefined;
   return (
-    <Panel title={isFront ? 'The front' : `Why #1 is first`} aside={<Explain answer={answer} />}>
+    <Panel
+      title={isFront ? 'The front' : `Why #1 is first`}
+      aside={<Explain answer={answer} id={id} explanation={explanation} />}
+    >
+      {explanation && <Explaining explanation={explanation} />}
       <div class={answer.prices ? 'plots even' : ''}>
         {!isFront && (
           <ul class="reasons">
@@ -148,20 +162,17 @@ function surest(answer: Answer, id: string) {
 }
 
 // Asks for what the answer does not say: prices, what #2 to #4 lack, draws within tolerances.
-function Explain({ answer }: { answer: Answer }) {
+function Explain(props: { answer: Answer; id: string; explanation: Explanation | null }) {
+  const { answer, id, explanation } = props;
   const problem = useSignal('');
   const busy = useSignal(false);
-  const { requirements } = answer;
   if (answer.robust && (answer.prices || answer.front)) return null;
+  if (explanation && isUnderWay(explanation)) return <CancelButton self={explanation.self} />;
   const run = async () => {
     busy.value = true;
+    problem.value = '';
     try {
-      const job = await start({
-        ...requirements,
-        robust: requirements.robust ?? {},
-        ...(!answer.front && { explain: { prices: true, ranks: 4 } }),
-      });
-      go(['designs', job]);
+      await explain(id, answer);
     } catch (error) {
       problem.value = asProblem(error).message;
     }
@@ -174,6 +185,42 @@ function Explain({ answer }: { answer: Answer }) {
         {answer.front ? 'How sure is it?' : 'What do requirements cost, how sure is it?'}
       </button>
     </>
+  );
+}
+
+export const isUnderWay = ({ watched }: Explanation): boolean =>
+  watched.job === null ? watched.problem === null : !ended(watched.job.status);
+
+// How far that is, and what came in its way. The list stays as it is meanwhile.
+function Explaining({ explanation }: { explanation: Explanation }) {
+  const { watched, fit } = explanation;
+  const { job, problem } = watched;
+  if (problem) return <Notice kind="bad">{problem.message}</Notice>;
+  if (isUnderWay(explanation)) {
+    const seconds = job?.progress?.seconds;
+    return (
+      <>
+        <p role="status">
+          {job?.status === 'queued'
+            ? 'Waiting for its turn: what the requirements cost and how sure the designs are.'
+            : 'Working out what the requirements cost and how sure the designs are.'}
+          {seconds !== undefined && <span class="muted"> {duration(seconds)}</span>}
+        </p>
+        <Bar label="How far prices and draws are" share={null} />
+      </>
+    );
+  }
+  if (foundNothing(job?.result))
+    return (
+      <Notice kind={job?.status === 'failed' ? 'bad' : 'warn'}>
+        {job?.detail ?? 'It was stopped before prices and draws were worked out.'}
+      </Notice>
+    );
+  return fit === 'same' ? null : (
+    <Notice kind="warn">
+      The catalogue or the time left was another one when this was worked out, and so was the list:
+      prices are those of its first design, and designs that are not on it have no probability.
+    </Notice>
   );
 }
 
