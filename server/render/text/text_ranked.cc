@@ -22,8 +22,9 @@ std::string NamesOf(const Json& design, std::initializer_list<std::string_view> 
     const std::string family = part.at("family");
     if (std::find(families.begin(), families.end(), family) == families.end()) continue;
     const bool counted = part.at("unit") != "m" && part.at("quantity") != 1;
+    const std::string maker = part.at("manufacturer");
     const std::string name = (counted ? Times(part) + "× " : "") +
-                             part.at("manufacturer").get<std::string>() + " " +
+                             (maker == "generic" ? "" : maker + " ") +
                              part.at("part_number").get<std::string>();
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
@@ -144,8 +145,8 @@ std::string RankedTable(const Json& answer) {
   Table table(columns);
   for (const auto& design : designs) {
     std::vector<std::string> row{Grouped(design.at("rank")),
-                                 Cut(SourceOf(design), 21 - narrower),
-                                 Cut(NamesOf(design, {"valve"}), 22 - narrower),
+                                 Cut(SourceOf(design), 20 - narrower),
+                                 Cut(NamesOf(design, {"valve"}), 20 - narrower),
                                  Cut(NamesOf(design, {"battery"}), 10),
                                  TankOf(design),
                                  Mass(design)};

@@ -77,7 +77,7 @@ TEST(RenderAnswer, HasEveryFieldOfTheContract) {
                       "valve_duty_groups": [0.046], "compressor_duty": 0.78,
                       "reservoir_volume_ml": 730.0})"));
   EXPECT_EQ(design["totals"], Parse(R"({"mass_kg": 1.387, "volume_l": 1.7617, "cost_eur": null,
-                                        "energy_wh": 61.0})"));
+                                        "cost_eur_min": 0.0, "energy_wh": 61.0})"));
   EXPECT_EQ(design["performance"],
             Parse(R"({"groups": [{"name": "spa_pack", "rise_time_s": 0.44, "fall_time_s": 0.57,
                                   "inflate_time_s": 0.46, "frequency_hz_max": 0.98}],

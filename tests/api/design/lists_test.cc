@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "optimizer/problem/proof.h"
 #include "tests/api/support.h"
 #include "tests/api/verified.h"
 
@@ -30,7 +31,21 @@ TEST(ListsTest, OfKindsUnlessAskedOtherwise) {
   EXPECT_EQ(all["designs"][0]["parts"], kinds["designs"][0]["parts"]);
   EXPECT_FALSE(all.contains("by_configuration"));
   EXPECT_EQ(Refusals(all), "");
+  const auto change = [](Json& answer, int from, Json to) {  // the first box that ends so
+    for (Json& box : answer["proof"]["record"]["plans"][0]["boxes"])
+      if (box[0] == from) {
+        box = std::move(to);
+        return;
+      }
+  };
+  const int kind = static_cast<int>(optimizer::BoxKind::kKind);
   const Tampering tamperings[] = {
+      {"a box of a kind that is better than its design", "bound",
+       [&](Json& answer) {
+         change(answer, kind, {kind, 1e-3});
+       }},
+      {"one more of a source than there may be", "order",
+       [](Json& answer) { answer["requirements"]["ranking"]["per_source"] = 1; }},
       {"the same twice", "order",
        [](Json& answer) {
          answer["designs"][1] = answer["designs"][0];

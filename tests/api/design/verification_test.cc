@@ -345,7 +345,9 @@ TEST(Verify, RefusesTampering) {
          a["proof"].erase("record");
        }},
   };
-  ExpectRefused(Exosuit(), all);
+  Json request = Example("exosuit");
+  request["ranking"] = {{"count", 4}, {"proof", true}, {"list", "combinations"}};
+  ExpectRefused(Answered(request), all);
 }
 
 }  // namespace

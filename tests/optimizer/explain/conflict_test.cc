@@ -179,6 +179,7 @@ TEST(ConflictTest, CostTooLow) {
                      &problem.parts.tubing[0].per_metre, &problem.parts.regulators[0].basics})
     part->cost_eur = 20.0;
   problem.cost_max_eur = 1.0;
+  problem.unpriced_allowed = true;  // as a search goes on where no design has all prices
   const std::vector<Conflict> conflict = Analyse(problem);
   ASSERT_EQ(conflict.size(), 1u);
   EXPECT_EQ(conflict[0].requirement, "/supply/cost_eur_max");

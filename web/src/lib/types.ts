@@ -36,10 +36,19 @@ export interface Requirements {
     mass_kg_max?: number | null;
     volume_l_max?: number | null;
     cost_eur_max?: number | null;
+    parts?: 'any' | 'orderable';
   };
   ambient?: { pressure_kpa_abs: number; temperature_k: number };
   objective?: { minimize?: Amount | Partial<Record<Amount, number>>; pareto?: Amount[] };
-  ranking?: { count?: number; time_limit_s?: number; probability_min?: number; solver?: string };
+  ranking?: {
+    count?: number;
+    time_limit_s?: number;
+    probability_min?: number;
+    solver?: string;
+    list?: 'kinds' | 'combinations';
+    per_source?: number;
+  };
+  prices?: 'known' | 'lower_bound';
   limits?: Record<string, number>;
   require?: Record<string, string[]>;
   exclude?: string[];
@@ -87,7 +96,13 @@ export interface Design {
     compressor_duty: number | null;
     reservoir_volume_ml: number | null;
   };
-  totals: { mass_kg: number; volume_l: number; cost_eur: number | null; energy_wh: number };
+  totals: {
+    mass_kg: number;
+    volume_l: number;
+    cost_eur: number | null;
+    energy_wh: number;
+    cost_eur_min?: number;
+  };
   performance: {
     groups: {
       name: string;
@@ -104,6 +119,18 @@ export interface Design {
   margins: Margin[];
   data_quality: { mass_share_estimated: number; estimated: string[]; flow_estimated: boolean };
   response: Trace;
+  kind?: {
+    configuration: Configuration;
+    sources: string[];
+    regulators: string[];
+    valves: string[];
+  };
+  variants?: {
+    found: number;
+    complete: boolean;
+    differ_in: string[];
+    examples: { objective: number; parts: PartRow[] }[];
+  };
   robustness?: { probability: number; probability_ci95: [number, number]; share_rank_1: number };
   // What would have to change for it to be first.
   to_be_first?: {
@@ -117,6 +144,17 @@ export interface Design {
     }[];
     complete: boolean;
   };
+}
+
+// The best design of some, of a configuration say, or why there is none.
+export interface Best {
+  configuration: Configuration | null;
+  status: Answer['status'];
+  objective: number | null;
+  relative_distance: number | null;
+  lower_bound: number | null;
+  design: (Omit<Design, 'rank'> & { rank: number | null }) | null;
+  conflict: ConflictEntry[];
 }
 
 export interface Proof {
@@ -156,6 +194,11 @@ export interface Answer extends Remarked {
   name?: string;
   status: 'optimal' | 'feasible' | 'infeasible' | 'cancelled';
   designs: Design[];
+  list?: 'kinds' | 'combinations';
+  by_configuration?: Best[];
+  orderable?: Best;
+  price_basis?: 'known' | 'lower_bound';
+  left_out?: Record<string, string[] | Record<string, number>>;
   best_on_measured_flow: number | null;
   proof: Proof;
   front?: { objectives: Partial<Record<Amount, number>>; rank: number }[];

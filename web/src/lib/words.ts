@@ -3,6 +3,15 @@ import { count, duration, percent, scientific } from './format';
 import type { Diagnosis } from './measurement';
 import type { Answer } from './types';
 
+// What the proof does not speak of.
+function leftOut(answer: Answer): string {
+  const parts = Object.entries(answer.left_out ?? {}).map(([why, what]) => {
+    const how = Array.isArray(what) ? what.length : Object.values(what).reduce((a, b) => a + b, 0);
+    return `${count(how)} by ${why}`;
+  });
+  return parts.length ? ` Left out of the catalogue: ${parts.join(', ')}.` : '';
+}
+
 export function proofInWords(answer: Answer): string {
   const { proof, status, designs } = answer;
   const total = scientific(proof.combinations);
@@ -20,7 +29,9 @@ export function proofInWords(answer: Answer): string {
     case 'optimal':
       return listed === 0
         ? `Proved: nothing can be listed. ${did}`
-        : `Proved: no other combination of catalogue parts beats ${listed === 1 ? 'this design' : `the last of these ${listed} designs`}. ${did}`;
+        : answer.list === 'kinds'
+          ? `Proved: no kind of design that is not listed beats ${listed === 1 ? 'this one' : `the last of these ${listed}`}, but for further kinds with a source that is listed.${leftOut(answer)} ${did}`
+          : `Proved: no other combination of catalogue parts beats ${listed === 1 ? 'this design' : `the last of these ${listed} designs`}.${leftOut(answer)} ${did}`;
     case 'feasible':
       if (listed === 0)
         return `Nothing was found in the time given, and nothing was proved: there may be designs. ${did}`;

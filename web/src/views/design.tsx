@@ -9,6 +9,7 @@ import type { Answer, Design } from '../lib/types';
 import { proofInWords } from '../lib/words';
 import { Chip, Notice } from '../ui/controls';
 import { csv, saveFile } from '../ui/files';
+import { VariantsPanel } from './kinds';
 import { Maps } from './maps';
 import { MovedOn } from './moved_on';
 import { Sensitivities } from './sensitivities';
@@ -82,6 +83,7 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
         <PartsPanel design={design} />
         <MarginsPanel design={design} answer={answer} />
       </div>
+      <VariantsPanel design={design} />
       {parts.value && (
         <WhatIf
           design={design}

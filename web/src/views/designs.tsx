@@ -15,6 +15,7 @@ import { NothingLeft } from './against_nominal';
 import { ComparePanel } from './compare';
 import { Conflicts } from './conflicts';
 import { DesignPage } from './design';
+import { Bests } from './kinds';
 import { ListChangesPanel } from './list_changes';
 import { MovedOn } from './moved_on';
 import { ProgressPanel } from './progress';
@@ -128,6 +129,7 @@ function List(props: {
           />
         </>
       )}
+      {!isEmpty && <Bests answer={answer} id={id} />}
       <Remarks of={answer} />
     </>
   );

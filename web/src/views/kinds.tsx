@@ -18,7 +18,7 @@ const named = (parts: PartRow[]): string =>
   ].join(' + ');
 
 // What tells people one design from another: pump or bottle, and valves.
-export function identity(design: Design): { source: string; valves: string } {
+export function identity(design: Pick<Design, 'parts'>): { source: string; valves: string } {
   const of = (...families: string[]) =>
     named(design.parts.filter((p) => families.includes(p.family)));
   return {
@@ -31,7 +31,7 @@ export function identity(design: Design): { source: string; valves: string } {
 // not show it.
 export function Bests({ answer, id }: { answer: Answer; id: string }) {
   const rows: { name: string; best: Best }[] = (answer.by_configuration ?? []).map((best) => ({
-    name: supplyWord(best as { configuration: Design['configuration'] }),
+    name: best.configuration ? supplyWord({ configuration: best.configuration }) : '',
     best,
   }));
   if (answer.orderable && answer.orderable.design?.rank !== 1)
@@ -56,7 +56,7 @@ export function Bests({ answer, id }: { answer: Answer; id: string }) {
             <th scope="row">{name}</th>
             {best.design ? (
               <>
-                <td class="num">{amountText(mass, mass.of(best.design))}</td>
+                <td class="num">{amountText(mass, best.design.totals.mass_kg)}</td>
                 <td class="num nowrap">
                   {best.relative_distance === null ? '–' : change(best.relative_distance)}
                 </td>

@@ -13,7 +13,7 @@ const amounts: { value: Amount; label: string }[] = [
 ];
 
 export function Objective() {
-  const { objective, ranking, robust, explain, model } = requirements.value;
+  const { objective, ranking, robust, explain, model, supply, prices } = requirements.value;
   const pareto = objective?.pareto;
   const minimize = typeof objective?.minimize === 'string' ? objective.minimize : 'mass_kg';
   const weights = typeof objective?.minimize === 'object' ? objective.minimize : undefined;
@@ -101,6 +101,35 @@ export function Objective() {
           path={['ranking', 'time_limit_s']}
           usual={30}
           range={[0.01, 3600]}
+        />
+        {mode !== 'front' && (
+          <Select
+            label="List"
+            value={ranking?.list ?? 'kinds'}
+            options={[
+              { value: 'kinds', label: 'the best of each kind' },
+              { value: 'combinations', label: 'all combinations alike' },
+            ]}
+            onChange={(v) => edit(['ranking', 'list'], v === 'kinds' ? undefined : v)}
+          />
+        )}
+        <Select
+          label="Parts"
+          value={supply?.parts ?? 'any'}
+          options={[
+            { value: 'any', label: 'any of the catalogue' },
+            { value: 'orderable', label: 'products to order alone' },
+          ]}
+          onChange={(v) => edit(['supply', 'parts'], v === 'any' ? undefined : v)}
+        />
+        <Select
+          label="Unknown prices"
+          value={prices ?? 'known'}
+          options={[
+            { value: 'known', label: 'rank what has all prices' },
+            { value: 'lower_bound', label: 'count as 0' },
+          ]}
+          onChange={(v) => edit(['prices'], v === 'known' ? undefined : v)}
         />
         <Select
           label="Solver of settings"

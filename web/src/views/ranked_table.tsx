@@ -18,6 +18,7 @@ import { link, setQuery } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
 import { Chip } from '../ui/controls';
 import { type Head, LongTable, number, SortHead } from '../ui/table';
+import { identity } from './kinds';
 
 export const picked = signal<number[]>([]);
 
@@ -124,7 +125,7 @@ export function Table(props: {
             <th scope="col">
               <span class="only-heard">compare</span>
             </th>
-            {head('rank', number('#'))}
+            {head('rank', { text: '#' }, 'Pump or bottle, and valves')}
             {hasSupply && head('configuration', { text: 'supply' })}
             {used.map(({ axis }) =>
               head(axis.id, number(axis.label, axisUnit(axis)), axis.meaning),
@@ -170,12 +171,13 @@ export function Table(props: {
             </td>
             <th
               scope="row"
-              class="num"
+              class="nowrap"
               data-tip={design.parts
                 .map((p) => `${quantityOf(p)} ${p.manufacturer} ${p.part_number}`)
                 .join('; ')}
             >
               <a href={link(['designs', props.id, String(design.rank)])}>{design.rank}</a>
+              <Identity design={design} />
             </th>
             {hasSupply && <td class="nowrap">{supplyWord(design)}</td>}
             {used.map(({ axis, digits }) => (
@@ -200,6 +202,15 @@ export function Table(props: {
         )}
       />
     </>
+  );
+}
+
+function Identity({ design }: { design: Design }) {
+  const { source, valves } = identity(design);
+  return (
+    <span class="identity">
+      <span>{source}</span> <span class="muted">{valves}</span>
+    </span>
   );
 }
 
