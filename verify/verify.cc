@@ -57,18 +57,17 @@ const CheckNames kOfDesigns{
 
 }  // namespace
 
-Verification Verify(const Problem& problem, const Answer& answer,
-                    const BruteForceOptions* brute_force) {
+Verification Verify(const Problem& problem, const Answer& answer, const VerifyOptions& options) {
   Verification result;
   Findings findings;
-  CheckDesigns(problem, answer.designs, findings, result.not_rechecked);
+  CheckDesigns(problem, answer.designs, options.stop, findings, result.not_rechecked);
   CheckOrder(problem, answer.designs, findings);
   if (ListsKinds(problem)) CheckKinds(problem, answer.designs, findings);
   CheckProofNumbers(problem, answer, findings);
   CheckNames names = kOfDesigns;
   names.emplace_back("bound", "the lower bound, the gap and the list agree");
   if (answer.proof.record) {
-    CheckRecord(problem, answer, findings, result.not_rechecked);
+    CheckRecord(problem, answer, options.stop, findings, result.not_rechecked);
     names.insert(names.end(), {{"choices", "choices and those left out make up each family"},
                                {"dominance", "every choice left out is dominated often enough"},
                                {"boxes", "the boxes divide all combinations"},
@@ -81,23 +80,24 @@ Verification Verify(const Problem& problem, const Answer& answer,
         {"combinations that are not listed: the result holds no record of the search",
          answer.proof.combinations - answer.designs.size()});
   }
-  if (brute_force) {
-    result.brute_force = CheckByBruteForce(problem, answer, *brute_force, findings);
+  if (options.brute_force) {
+    result.brute_force =
+        CheckByBruteForce(problem, answer, {options.stop, options.progress}, findings);
     names.emplace_back("brute_force", "the list is that of all combinations, one by one");
   }
   result.checks = Gather(names, findings);
   return result;
 }
 
-Verification VerifyFront(const Problem& problem, const Front& front) {
+Verification VerifyFront(const Problem& problem, const Front& front, const Stop& stop) {
   Verification result;
   Findings findings;
   Problem uncut = problem;  // a front is not cut to the number of designs that was asked for
   uncut.count = std::max(uncut.count, static_cast<int>(front.answer.designs.size()));
-  CheckDesigns(uncut, front.answer.designs, findings, result.not_rechecked);
+  CheckDesigns(uncut, front.answer.designs, stop, findings, result.not_rechecked);
   CheckOrder(uncut, front.answer.designs, findings);
   CheckCombinations(problem, front.answer.proof, findings);
-  CheckFront(problem, front, findings, result.not_rechecked);
+  CheckFront(problem, front, stop, findings, result.not_rechecked);
   CheckNames names = kOfDesigns;
   names.emplace_back("front", "no point is matched or beaten by another");
   names.emplace_back("rechecked", "no combination found that lies between points");

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 #include "verify/tree/verify_brute_force.h"
 
@@ -23,13 +24,18 @@ struct Verification {
   std::optional<BruteForceCounts> brute_force;
 };
 
-// With `brute_force` every combination is looked at, too, CombinationsOf(problem) of them
-// (verify_brute_force.h).
+struct VerifyOptions {
+  Stop stop;
+  // Whether every combination is looked at, too, CombinationsOf(problem) of them
+  // (verify_brute_force.h).
+  bool brute_force = false;
+  std::function<void(const BigCount& looked)> progress;  // of these, now and then; may be empty
+};
 Verification Verify(const Problem& problem, const Answer& answer,
-                    const BruteForceOptions* brute_force = nullptr);
+                    const VerifyOptions& options = {});
 
 // Of a front its points are checked, and that none is missing as far as verify_front.h looks.
-Verification VerifyFront(const Problem& problem, const Front& front);
+Verification VerifyFront(const Problem& problem, const Front& front, const Stop& stop = {});
 
 }  // namespace plenum::verify
 

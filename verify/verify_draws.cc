@@ -16,6 +16,7 @@ constexpr double kEnergyUnsure = 1e-4;  // objectives with energy, sought in two
 struct Drawn {
   double least = kUnlimited, most = kUnlimited;
 };
+constexpr Drawn kNotMade{0.0, kUnlimited};  // nothing is known of it
 
 // Between what surely and what perhaps holds.
 struct Count {
@@ -27,7 +28,7 @@ struct Count {
   }
 };
 
-Drawn Draw(Problem& problem, const Design& design, model::Parts parts) {
+Drawn Draw(Problem& problem, const Design& design, model::Parts parts, const Stop& stop) {
   problem.parts = std::move(parts);
   Findings missing;
   std::optional<Assembly> assembly = Assemble(problem, design, missing);
@@ -36,7 +37,7 @@ Drawn Draw(Problem& problem, const Design& design, model::Parts parts) {
   if (assembly->compressor && !assembly->reservoir)
     assembly->reservoir = &problem.parts.reservoirs.at(0);
   const double unsure = problem.objective.energy_wh > 0.0 ? kEnergyUnsure : kSumTolerance;
-  Sizer sizer(problem);
+  Sizer sizer(problem, stop);
   const Sizing surely = sizer.Size(*assembly, -kToSpare, kUnlimited);
   if (surely.status == Sized::kFeasible)
     return {surely.objective * (1.0 - unsure), surely.objective * (1.0 + unsure)};
@@ -81,12 +82,13 @@ Count First(const std::vector<std::vector<Drawn>>& designs, std::size_t i) {
 class DrawsAgain {
  public:
   DrawsAgain(const Problem& problem, const RobustAnswer& answer, const RobustOptions& options,
-             const DrawParts& draw_parts)
+             const DrawParts& draw_parts, const Stop& stop)
       : nominal_(problem),
         problem_(problem),
         answer_(answer),
         options_(options),
-        draw_parts_(draw_parts) {}
+        draw_parts_(draw_parts),
+        stop_(stop) {}
 
   Verification Run() {
     if (answer_.draws < 0 || answer_.draws > options_.draws)
@@ -97,21 +99,25 @@ class DrawsAgain {
       drawn_.push_back(All(listed[i]));
       Compare("met in ", i, Met(drawn_.back()), answer_.robustness[i].met);
     }
-    for (std::size_t i = 0; i < listed.size(); ++i)
+    for (std::size_t i = 0; i < listed.size() && cut_short_ == 0; ++i)
       Compare("first in ", i, First(drawn_, i), answer_.robustness[i].first);
     CheckNames names{{"draws", "shares are those of the draws, made again"}};
     if (options_.probability_min) {
       CheckChoice(*answer_.searched);
       names.emplace_back("probability", "of the designs searched those that reach it are listed");
     }
+    if (cut_short_ > 0)
+      open_.push_back({"designs whose draws were not all made again", cut_short_});
     return {Gather(names, findings_), open_, {}};
   }
 
  private:
   std::vector<Drawn> All(const Design& design) {
     std::vector<Drawn> draws;
-    for (int draw = 0; draw < answer_.draws; ++draw)
-      draws.push_back(Draw(problem_, design, draw_parts_(design, draw)));
+    for (int draw = 0; draw < answer_.draws && !Stopped(stop_); ++draw)
+      draws.push_back(Draw(problem_, design, draw_parts_(design, draw), stop_));
+    if (Stopped(stop_)) ++cut_short_;
+    while (static_cast<int>(draws.size()) < answer_.draws) draws.push_back(kNotMade);
     return draws;
   }
 
@@ -124,7 +130,12 @@ class DrawsAgain {
     Count met;
     for (int draw = 0; draw < answer_.draws; ++draw) {
       if (!Reaches(met.perhaps + answer_.draws - draw)) break;
-      const Drawn drawn = Draw(problem_, design, draw_parts_(design, draw));
+      if (Stopped(stop_)) {
+        ++cut_short_;
+        met.perhaps += answer_.draws - draw;
+        break;
+      }
+      const Drawn drawn = Draw(problem_, design, draw_parts_(design, draw), stop_);
       met.surely += std::isfinite(drawn.most);
       met.perhaps += std::isfinite(drawn.least);
     }
@@ -168,7 +179,7 @@ class DrawsAgain {
   void CheckList() {
     const std::vector<Design>& listed = answer_.answer.designs;
     Findings own;
-    CheckDesigns(nominal_, listed, own, open_);
+    CheckDesigns(nominal_, listed, stop_, own, open_);
     CheckOrder(nominal_, listed, own);
     for (Finding& finding : own)
       Add("probability", finding.check + ": " + std::move(finding.detail));
@@ -210,16 +221,19 @@ class DrawsAgain {
   const RobustAnswer& answer_;
   const RobustOptions& options_;
   const DrawParts& draw_parts_;
+  const Stop& stop_;
   std::vector<std::vector<Drawn>> drawn_;  // of each listed design
   Findings findings_;
+  std::size_t cut_short_ = 0;  // designs whose draws were stopped
   std::vector<NotRechecked> open_;
 };
 
 }  // namespace
 
 Verification VerifyDraws(const Problem& problem, const RobustAnswer& answer,
-                         const RobustOptions& options, const DrawParts& draw_parts) {
-  return DrawsAgain(problem, answer, options, draw_parts).Run();
+                         const RobustOptions& options, const DrawParts& draw_parts,
+                         const Stop& stop) {
+  return DrawsAgain(problem, answer, options, draw_parts, stop).Run();
 }
 
 }  // namespace plenum::verify

@@ -14,9 +14,10 @@ namespace plenum::verify {
 // With probability_min the list is checked against RobustAnswer::searched, which must be there:
 // each of its designs is listed if it reaches the probability and the list is not full, and the
 // list's bound and status follow from those of the search. Whether that search holds is for Verify,
-// with Searched::count designs wanted.
+// with Searched::count designs wanted. Stopped before all draws are made, their counts stay open.
 Verification VerifyDraws(const Problem& problem, const RobustAnswer& answer,
-                         const RobustOptions& options, const DrawParts& draw_parts);
+                         const RobustOptions& options, const DrawParts& draw_parts,
+                         const Stop& stop = {});
 
 }  // namespace plenum::verify
 

@@ -1,5 +1,7 @@
 #include "api/design/evaluation.h"
 
+#include <chrono>
+
 #include "api/design/design_document.h"
 #include "api/design/read/combination.h"
 #include "api/design/read/design_reader.h"
@@ -9,14 +11,31 @@
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"
 #include "api/json/version.h"
+#include "api/json/words.h"
 #include "api/measure/model_document.h"
 #include "optimizer/problem/problem.h"
 #include "optimizer/sizing/resize.h"
 
 namespace plenum::api {
+namespace {
+
+std::function<bool()> After(double seconds) {
+  using Clock = std::chrono::steady_clock;
+  return [start = Clock::now(), limit = std::chrono::duration<double>(seconds)] {
+    return Clock::now() - start > limit;
+  };
+}
+
+std::string WhyUnknown(bool out_of_time, double seconds_max) {
+  return (out_of_time ? "out of time after " + Decimal(seconds_max) + " s"
+                      : std::string("the simulator found no cycle that repeats")) +
+         ": it is not known whether every stroke ends within half of the period";
+}
+
+}  // namespace
 
 Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>& parts,
-                           const std::vector<catalog::ModelRevision>& models) {
+                           const std::vector<catalog::ModelRevision>& models, double seconds_max) {
   Errors errors;
   RemarkRecorder recorder;
   Reader reader(request, "", errors);
@@ -39,10 +58,12 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
   if (errors.empty()) CheckCombination(given, problem, parts, "/design", errors);
   if (!errors.empty()) return errors;
   given = WithReservoirVolume(std::move(given), problem);
-  const auto [source, design] =
-      optimizer::EvaluateAtSettings(optimizer::WithPartsOf(problem, given), given);
+  const auto out_of_time = After(seconds_max);
+  const auto [source, unknown, design] =
+      optimizer::EvaluateAtSettings(optimizer::WithPartsOf(problem, given), given, out_of_time);
   Json answer = AnswerDocument("evaluation_answer/1");
-  answer["works"] = design.has_value();
+  answer["works"] = unknown ? Json() : Json(design.has_value());
+  if (unknown) answer["detail"] = WhyUnknown(out_of_time(), seconds_max);
   const auto gauge = [&](double pa) { return Number(KpaGaugeFromPa(pa, problem.ambient)); };
   answer["source_pressure_range_kpa_gauge"] =
       source.empty() ? Json(nullptr) : Json{gauge(source.low_pa), gauge(source.high_pa)};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "api/json/json.h"
+#include "api/json/request_limits.h"
 #include "catalog/fields/part.h"
 #include "catalog/store/model_revision.h"
 
@@ -12,9 +13,11 @@ namespace plenum::api {
 
 // How a combination of parts (combination.h) does at given settings, whatever it meets: no search.
 // `works` is false, without figures, where the parts do not stand the source pressure (its range is
-// given, null where there is none) or where a stroke takes longer than half of the period.
+// given, null where there is none) or where a stroke takes longer than half of the period. Where
+// the simulator does not find that out, or not in time, `works` is null and `detail` says why.
 Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>& parts,
-                           const std::vector<catalog::ModelRevision>& models);
+                           const std::vector<catalog::ModelRevision>& models,
+                           double seconds_max = kEvaluationSecondsMax);
 
 }  // namespace plenum::api
 

@@ -47,17 +47,15 @@ Json RenderCounts(const verify::BruteForceCounts& counts) {
 }
 
 verify::Verification VerifyList(const Problem& problem, const optimizer::Answer& answer,
-                                const std::optional<BruteForce>& brute_force) {
-  verify::BruteForceOptions options;
-  if (brute_force) {
-    const double all = verify::CombinationsOf(problem).ToDouble();
-    options.cancelled = brute_force->cancelled;
-    if (brute_force->progress)
-      options.progress = [&brute_force, all](const BigCount& looked) {
-        brute_force->progress(looked.ToDouble() / all);
-      };
-  }
-  return verify::Verify(problem, answer, brute_force ? &options : nullptr);
+                                const std::optional<BruteForce>& brute_force,
+                                const verify::Stop& stop) {
+  verify::VerifyOptions options{stop, brute_force.has_value(), {}};
+  if (brute_force && brute_force->progress)
+    options.progress = [&brute_force,
+                        all = verify::CombinationsOf(problem).ToDouble()](const BigCount& looked) {
+      brute_force->progress(looked.ToDouble() / all);
+    };
+  return verify::Verify(problem, answer, options);
 }
 
 // Adds checks, what they left open and counts to the document.
@@ -75,7 +73,8 @@ void AddVerification(const verify::Verification& verification, Json& document) {
 // stands or falls with the one that it was chosen from.
 void VerifyAsked(const DesignRequest& asked, Reader& reader,
                  const std::vector<catalog::Part>& parts,
-                 const std::optional<BruteForce>& brute_force, Json& document) {
+                 const std::optional<BruteForce>& brute_force, const verify::Stop& stop,
+                 Json& document) {
   Problem problem = asked.problem;
   const Json* list = reader.Raw("list");  // answers of releases without kinds do not state it
   problem.list = list && *list == optimizer::Name(optimizer::ListOf::kKinds)
@@ -92,18 +91,19 @@ void VerifyAsked(const DesignRequest& asked, Reader& reader,
     front = ReadFront(reader, asked.pareto, robust.answer);
   if (!reader.errors().empty()) return;
   if (front) {
-    AddVerification(verify::VerifyFront(problem, *front), document);
+    AddVerification(verify::VerifyFront(problem, *front, stop), document);
   } else if (robust.searched) {
     Problem deeper = problem;
     deeper.count = robust.searched->count;
-    AddVerification(VerifyList(deeper, robust.searched->answer, brute_force), document);
+    AddVerification(VerifyList(deeper, robust.searched->answer, brute_force, stop), document);
   } else {
-    AddVerification(VerifyList(problem, robust.answer, brute_force), document);
+    AddVerification(VerifyList(problem, robust.answer, brute_force, stop), document);
   }
   if (asked.robust)
     AddVerification(verify::VerifyDraws(problem, robust, asked.robust->options,
                                         MakeDraws(parts, problem, asked.robust->tolerance,
-                                                  static_cast<std::uint64_t>(asked.robust->seed))),
+                                                  static_cast<std::uint64_t>(asked.robust->seed)),
+                                        stop),
                     document);
 }
 
@@ -111,7 +111,10 @@ void VerifyAsked(const DesignRequest& asked, Reader& reader,
 
 Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& parts,
                           const catalog::Revision& revision,
-                          const std::optional<BruteForce>& brute_force) {
+                          const std::optional<BruteForce>& brute_force,
+                          const std::function<bool()>& stop) {
+  bool stopped = false;  // some check was told to stop
+  const verify::Stop stop_once = [&] { return stopped = stopped || (stop && stop()); };
   Errors errors;
   Reader reader(result, "", errors);
   reader.Schema("designs/1");
@@ -148,14 +151,15 @@ Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& 
                                                 " combinations, the limit is " +
                                                 std::to_string(brute_force->combinations_max) +
                                                 " (--combinations-max raises it)"}};
-    VerifyAsked(asked, reader, parts, brute_force, document);
+    VerifyAsked(asked, reader, parts, brute_force, stop_once, document);
     if (!errors.empty())
       for (const Error& error : errors)
         document["checks"].push_back(Refused("form", error.pointer + ": " + error.detail));
   }
-  bool accepted = !document.value("/brute_force/cancelled"_json_pointer, false);
+  bool accepted = !stopped;
   for (const Json& check : document["checks"]) accepted = accepted && check["ok"].get<bool>();
   document["accepted"] = accepted;
+  document["stopped"] = stopped;
   return document;
 }
 

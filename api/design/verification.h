@@ -12,19 +12,21 @@
 namespace plenum::api {
 
 // { "schema": "verification/1", "accepted", "checks": [{ "check", "ok", "detail" }],
-//   "not_rechecked": [{ "what", "combinations" }] }. Errors where `result` is no answer of one list
-// by one objective, or its echoed request does not fit the catalogue. `revision` names `parts`.
+//   "not_rechecked": [{ "what", "combinations" }], "stopped" }. Errors where `result` is no answer
+//   of
+// one list by one objective, or its echoed request does not fit the catalogue. `revision` names
+// `parts`. Once `stop` says so, what is left is not looked at: "stopped", and never accepted.
 //
 // With `brute_force` every combination is looked at, and "brute_force" counts them by outcome;
 // "cancelled" where that was stopped. An error where there are more than `combinations_max`.
 struct BruteForce {
   long long combinations_max = verify::kBruteForceMax;
-  std::function<bool()> cancelled;
   std::function<void(double share)> progress;
 };
 Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& parts,
                           const catalog::Revision& revision,
-                          const std::optional<BruteForce>& brute_force = std::nullopt);
+                          const std::optional<BruteForce>& brute_force = std::nullopt,
+                          const std::function<bool()>& stop = {});
 
 }  // namespace plenum::api
 

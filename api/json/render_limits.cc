@@ -15,6 +15,7 @@ Json RenderRequestLimits() {
           {"curve_points_max", kTablePointsMax},
           {"simulation_samples_max", kSimulationSamplesMax},
           {"simulation_seconds_max", kSimulationSecondsMax},
+          {"evaluation_seconds_max", kEvaluationSecondsMax},
           {"map_axis_max", kMapAxisMax},
           {"map_points_max", kMapPointsMax},
           {"map_points_with_compressor_max", kMapPointsCompressorMax},

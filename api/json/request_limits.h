@@ -21,6 +21,7 @@ inline constexpr std::size_t kEffectsMax = 100;
 inline constexpr std::size_t kTablePointsMax = 1000;  // of a curve
 inline constexpr std::size_t kSimulationSamplesMax = 200'000;
 inline constexpr int kSimulationSecondsMax = 60;
+inline constexpr int kEvaluationSecondsMax = 60;
 inline constexpr std::size_t kMapAxisMax = 1000;
 inline constexpr int kMapPointsMax = 100'000;
 inline constexpr int kMapPointsCompressorMax = 2'000;  // each is simulated

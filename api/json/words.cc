@@ -2,27 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <vector>
+
+#include "catalog/units/text.h"
 
 namespace plenum::api {
 namespace {
-
-std::size_t EditDistance(std::string_view a, std::string_view b) {
-  // Rows of the optimal string alignment table: two back, one back, current.
-  std::vector<std::size_t> older(b.size() + 1), old(b.size() + 1), row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    older.swap(old);
-    old.swap(row);
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({old[j] + 1, row[j - 1] + 1, old[j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], older[j - 2] + 1);
-    }
-  }
-  return row[b.size()];
-}
 
 bool StartsCharacter(char byte) { return (byte & 0xC0) != 0x80; }
 
@@ -75,17 +59,7 @@ std::string EscapePointer(std::string_view step) {
 }
 
 std::string Nearest(std::string_view name, std::span<const std::string> candidates) {
-  name = name.substr(0, 64);
-  std::string nearest;
-  std::size_t least = std::string::npos;
-  for (const std::string& candidate : candidates) {
-    const std::size_t distance = EditDistance(name, candidate);
-    if (distance < least) {
-      least = distance;
-      nearest = candidate;
-    }
-  }
-  return nearest;
+  return std::string(catalog::NearestName(name, {candidates.begin(), candidates.end()}));
 }
 
 }  // namespace plenum::api

@@ -30,19 +30,29 @@ bool IsControl(char c) {
   return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
 }
 
-std::size_t EditDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
+// Inserted, deleted and replaced bytes and swapped neighbours; `most`, or more, where that is not
+// less.
+std::size_t EditDistance(std::string_view a, std::string_view b, std::size_t most) {
+  if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) >= most) return most;
+  // Rows of the optimal string alignment table: two back, one back, current.
+  std::vector<std::size_t> older(b.size() + 1), old(b.size() + 1), row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
+  std::size_t least = 0, least_before = 0;  // of a row and the one before: later ones have no less
+  for (std::size_t i = 1; i <= a.size() && std::min(least, least_before) < most; ++i) {
+    older.swap(old);
+    old.swap(row);
     row[0] = i;
+    least_before = least;
+    least = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+      const std::size_t replaced = old[j - 1] + (a[i - 1] != b[j - 1]);
+      row[j] = std::min({old[j] + 1, row[j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], older[j - 2] + 1);
+      least = std::min(least, row[j]);
     }
   }
-  return row.back();
+  return std::min(least, least_before) < most ? row[b.size()] : most;
 }
 
 }  // namespace
@@ -100,11 +110,11 @@ std::size_t CountCharacters(std::string_view text) {
 
 std::string_view NearestName(std::string_view name, const std::vector<std::string_view>& known) {
   // What is far longer than any name is not a misspelling; keep the distance cheap.
-  name = name.substr(0, 200);
+  name = name.substr(0, 64);
   std::string_view nearest;
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (std::string_view candidate : known)
-    if (const std::size_t distance = EditDistance(name, candidate); distance < least) {
+    if (const std::size_t distance = EditDistance(name, candidate, least); distance < least) {
       least = distance;
       nearest = candidate;
     }

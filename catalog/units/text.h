@@ -28,7 +28,8 @@ bool IsCleanText(std::string_view text);
 // Number of characters of well-formed UTF-8.
 std::size_t CountCharacters(std::string_view text);
 
-// The name with the smallest edit distance, the first of equals; empty if there is none.
+// The name at the smallest edit distance (insert, delete, replace, swap of neighbours) from the
+// first 64 bytes, the first of equals; empty if there is none.
 std::string_view NearestName(std::string_view name, const std::vector<std::string_view>& known);
 
 }  // namespace plenum::catalog

@@ -205,7 +205,8 @@ std::optional<std::vector<Margin>> MarginsOf(const Problem& problem, const Probl
   return Margins(problem, rebuilt.candidate, point, evaluation);
 }
 
-AtSettings EvaluateAtSettings(const Problem& problem, const Design& design) {
+AtSettings EvaluateAtSettings(const Problem& problem, const Design& design,
+                              const std::function<bool()>& stop) {
   const Problem free = WithoutStrokeLimits(problem);
   AtSettings found;
   Rebuilt rebuilt;
@@ -213,7 +214,10 @@ AtSettings EvaluateAtSettings(const Problem& problem, const Design& design) {
   found.source = SourceWindow(free, rebuilt.candidate);
   const OperatingPoint point = PointOf(design);
   if (point.source_pa < found.source.low_pa || point.source_pa > found.source.high_pa) return found;
+  const Workbench bench{.stop = stop};
+  rebuilt.candidate.bench = &bench;
   const Evaluation evaluation = Evaluate(free, rebuilt.candidate, point);
+  found.unknown = evaluation.failed;
   if (!evaluation.works) return found;
   found.design = Describe(problem, rebuilt.candidate, point, evaluation);
   if (found.design->totals.cost_eur || problem.unpriced_allowed) return found;

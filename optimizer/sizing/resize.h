@@ -42,13 +42,16 @@ std::optional<std::vector<Margin>> MarginsOf(const Problem& problem, const Probl
 
 // The design's parts at its own settings, whatever they meet: totals, performance and margins,
 // negative where a requirement is missed. No design where a part is missing, where the parts do not
-// stand the source pressure, or where a stroke takes longer than half of the period.
+// stand the source pressure, where a stroke takes longer than half of the period, or where that is
+// not known.
 struct AtSettings {
   Window source{kUnlimited,
                 -kUnlimited};  // pressures that the parts stand; empty: a part is missing
+  bool unknown = false;        // the strokes' periodic state was not found, or `stop` said so
   std::optional<Design> design;
 };
-AtSettings EvaluateAtSettings(const Problem& problem, const Design& design);
+AtSettings EvaluateAtSettings(const Problem& problem, const Design& design,
+                              const std::function<bool()>& stop = {});
 
 }  // namespace plenum::optimizer
 

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <memory>
 
@@ -19,6 +20,7 @@ struct VerifyOptions {
   std::string catalog = "catalog.db";
   bool json = false;
   bool brute_force = false;
+  std::optional<double> time_limit_s;
   long long combinations_max = verify::kBruteForceMax;
 };
 
@@ -62,7 +64,17 @@ std::string VerificationText(const api::Json& json) {
     }
     text += "\n";
   }
+  if (json["stopped"]) return text + "Not accepted: stopped before all was looked at.\n";
   return text + (json["accepted"] ? "Accepted.\n" : "Refused.\n");
+}
+
+// Interrupted, or out of time.
+std::function<bool()> StopOf(std::optional<double> time_limit_s) {
+  using Clock = std::chrono::steady_clock;
+  return [time_limit_s, start = Clock::now()] {
+    return Interrupted() ||
+           (time_limit_s && Clock::now() - start > std::chrono::duration<double>(*time_limit_s));
+  };
 }
 
 // A refused result gives a failing status, so that scripts see it; why is on standard error.
@@ -70,14 +82,14 @@ int Verify(const VerifyOptions& options) {
   const auto result = ReadJson(options.file, api::kResultBytesMax);
   const auto [revision, parts] =
       OpenCatalog(options.catalog, catalog::Access::kRead).ListWithHead();
+  CatchInterrupts();
   std::optional<api::BruteForce> brute_force;
   ShareLine line;
-  if (options.brute_force) {
-    CatchInterrupts();
-    brute_force = api::BruteForce{options.combinations_max, Interrupted,
-                                  [&](double share) { line.Show(share); }};
-  }
-  const auto json = ValueOrRefuse(api::VerifyAnswer(result, parts, revision, brute_force));
+  if (options.brute_force)
+    brute_force =
+        api::BruteForce{options.combinations_max, [&](double share) { line.Show(share); }};
+  const auto json = ValueOrRefuse(
+      api::VerifyAnswer(result, parts, revision, brute_force, StopOf(options.time_limit_s)));
   std::fputs(options.json ? (Dump(json) + "\n").c_str() : VerificationText(json).c_str(), stdout);
   if (json["accepted"]) return kAnswered;
   if (Interrupted()) return kInterrupted;
@@ -85,6 +97,9 @@ int Verify(const VerifyOptions& options) {
     if (!check["ok"])
       std::fprintf(stderr, "refused: %s: %s\n", check["check"].get<std::string>().c_str(),
                    check["detail"].get<std::string>().c_str());
+  if (json["stopped"])
+    std::fprintf(stderr, "not accepted: out of time after %g s, before all was looked at\n",
+                 *options.time_limit_s);
   return kBadInput;
 }
 
@@ -100,6 +115,10 @@ Command VerifyCommand() {
             "More than these are not looked at one by one",
             &options->combinations_max,
             {.value_name = "N", .shows_default = true, .allowed = Positive{}}},
+           {"--time-limit",
+            "Seconds to check; what is not looked at by then is not accepted",
+            &options->time_limit_s,
+            {.value_name = "S", .allowed = Positive{}}},
            JsonFlag(options->json),
            CatalogOption(options->catalog)},
           [options] { return Verify(*options); }};

@@ -22,7 +22,10 @@ Json Example(const std::string& name);  // a request
 Json Answered(const Json& request);     // as it is read back from a file
 
 Json Verified(const Json& answer);
+// Stopped the time after it has been asked so often whether to stop.
+Json VerifiedWithin(const Json& answer, int looks);
 // Names of the checks that refuse, and what they say.
+std::string RefusalsIn(const Json& verified);
 std::string Refusals(const Json& answer);
 
 struct Tampering {

@@ -22,7 +22,8 @@ namespace plenum::fuzz {
 namespace {
 
 constexpr double kSeconds = 0.05;
-constexpr int kLooks = 200;  // at whether to stop
+constexpr int kLooks = 200;          // at whether to stop
+constexpr int kLooksOfVerify = 100;  // a look may come after many steps of the simulator
 constexpr int kDraws = 4;
 
 const std::vector<catalog::Part>& Parts() {
@@ -75,7 +76,7 @@ void Design(std::string_view text) {
 
 void Evaluation(std::string_view text) {
   if (const auto document = DocumentOf(text))
-    RequireSound(api::RunEvaluation(*document, Parts(), {}));
+    RequireSound(api::RunEvaluation(*document, Parts(), {}, kSeconds));
 }
 
 void Simulation(std::string_view text) {
@@ -112,16 +113,18 @@ void Import(std::string_view text) {
   if (auto* request = std::get_if<api::DesignRequest>(&parsed)) Run(std::move(*request), parts);
 }
 
-void Verify(std::string_view text) {
-  const auto document = DocumentOf(text);
-  if (!document) return;
+api::Parsed<api::Json> VerifyWithinLimit(const api::Json& answer) {
   // The revision that the answer names is the one on the table.
   catalog::Revision revision;
-  const auto hash = document->contains("/catalogue_revision/hash"_json_pointer)
-                        ? document->at("/catalogue_revision/hash"_json_pointer)
+  const auto hash = answer.contains("/catalogue_revision/hash"_json_pointer)
+                        ? answer.at("/catalogue_revision/hash"_json_pointer)
                         : api::Json();
   if (hash.is_string()) revision.hash = hash.get<std::string>();
-  RequireSound(api::VerifyAnswer(*document, Parts(), revision));
+  return api::VerifyAnswer(answer, Parts(), revision, {}, AfterLooks(kLooksOfVerify));
+}
+
+void Verify(std::string_view text) {
+  if (const auto document = DocumentOf(text)) RequireSound(VerifyWithinLimit(*document));
 }
 
 }  // namespace plenum::fuzz

@@ -6,6 +6,8 @@
 
 #include <string_view>
 
+#include "api/json/json.h"
+
 namespace plenum::fuzz {
 
 void Design(std::string_view text);
@@ -14,6 +16,7 @@ void Simulation(std::string_view text);
 void Diagnosis(std::string_view text);
 void Import(std::string_view text);  // CSV of a family by the first byte; then a search with it
 void Verify(std::string_view text);  // an answer, as saved or changed
+api::Parsed<api::Json> VerifyWithinLimit(const api::Json& answer);
 
 }  // namespace plenum::fuzz
 

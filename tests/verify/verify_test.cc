@@ -70,8 +70,8 @@ std::string Refusals(const verify::Verification& verification) {
 }
 
 std::string Refusals(const Problem& problem, const Answer& answer) {
-  const verify::BruteForceOptions brute_force;
-  return Refusals(verify::Verify(problem, answer, &brute_force));
+  return Refusals(
+      verify::Verify(problem, answer, {.stop = {}, .brute_force = true, .progress = {}}));
 }
 
 bool Refuses(const std::string& refusals, const std::string& check) {
@@ -85,8 +85,8 @@ TEST(VerifyTest, AcceptsWhatTheSearchFoundAndLeavesNothingOpen) {
     SCOPED_TRACE(seed);
     const Problem problem = Drawn(seed);
     const Answer answer = Recorded(problem);
-    const verify::BruteForceOptions brute_force;
-    const verify::Verification verification = verify::Verify(problem, answer, &brute_force);
+    const verify::Verification verification =
+        verify::Verify(problem, answer, {.stop = {}, .brute_force = true, .progress = {}});
     EXPECT_EQ(Refusals(verification), "");
     for (const verify::NotRechecked& left : verification.not_rechecked) {
       std::printf("seed %d: %s × %s\n", static_cast<int>(seed), left.combinations.str().c_str(),
@@ -313,15 +313,15 @@ TEST(VerifyTest, FindsAnObjectiveThatIsNotThatOfTheParts) {
 TEST(VerifyTest, BruteForceStopsWhenItIsToldTo) {
   const auto lists = FullLists(8);  // some of which take long enough to be asked
   int asked = 0, shown = 0;
-  const verify::BruteForceOptions options{[&asked] { return ++asked > 0; },
-                                          [&shown](const optimizer::BigCount&) { ++shown; }};
+  const verify::VerifyOptions options{[&asked] { return ++asked > 0; }, true,
+                                      [&shown](const optimizer::BigCount&) { ++shown; }};
   bool stopped = false;
   for (const auto& [problem, answer] : lists) {
     Problem all = problem;
     all.count = 1'000'000;  // nothing is beyond the list
     Answer without = answer;
     without.proof.record.reset();
-    const auto verification = verify::Verify(all, without, &options);
+    const auto verification = verify::Verify(all, without, options);
     ASSERT_TRUE(verification.brute_force);
     if (verification.brute_force->cancelled) {
       stopped = true;

@@ -94,12 +94,13 @@ model::Rig MakeRig(const Problem& problem, const Settings& settings, const Assem
   return rig;
 }
 
-model::SimulateOptions OptionsOf(const Problem& problem, double end_s) {
+model::SimulateOptions OptionsOf(const Problem& problem, double end_s, const Stop& stop) {
   model::SimulateOptions options;
   options.end_s = end_s;
   options.rise_fraction = problem.rise_fraction;
   options.fall_fraction = problem.fall_fraction;
   options.linear_ratio = kLinear;
+  options.cancelled = stop;
   return options;
 }
 
@@ -123,10 +124,10 @@ void EmptyBeforeNext(const Problem& problem, const Settings& settings, model::Ri
 
 // The state at the start of a cycle that repeats; none where the simulator does not get there.
 std::optional<State> Repeating(const Problem& problem, const Settings& settings,
-                               const Assembly& assembly, double rising_m3) {
+                               const Assembly& assembly, double rising_m3, const Stop& stop) {
   State state{settings.source_pressure_pa,
               std::vector<double>(problem.groups.size(), problem.ambient.pressure_pa)};
-  const model::SimulateOptions options = OptionsOf(problem, 1.0 / problem.frequency_hz);
+  const model::SimulateOptions options = OptionsOf(problem, 1.0 / problem.frequency_hz, stop);
   for (int cycle = 0; cycle < kCyclesMax; ++cycle) {
     model::Rig rig = MakeRig(problem, settings, assembly, state, 1, rising_m3);
     EmptyBeforeNext(problem, settings, rig);
@@ -170,14 +171,15 @@ void AddNeeds(const Problem& problem, const Assembly& assembly, Cycle& cycle) {
 }
 
 std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
-                               const Assembly& assembly, double rising_m3) {
-  const std::optional<State> state = Repeating(problem, settings, assembly, rising_m3);
+                               const Assembly& assembly, double rising_m3, const Stop& stop) {
+  const std::optional<State> state = Repeating(problem, settings, assembly, rising_m3, stop);
   if (!state) return std::nullopt;
   const double period_s = 1.0 / problem.frequency_hz;
   const model::Rig rig = MakeRig(problem, settings, assembly, *state, 2, rising_m3);
   model::Rig emptied = rig;
   EmptyBeforeNext(problem, settings, emptied);
-  const model::Response response = model::Simulate(emptied, OptionsOf(problem, 2.0 * period_s));
+  const model::Response response =
+      model::Simulate(emptied, OptionsOf(problem, 2.0 * period_s, stop));
   if (response.status != model::SimulateStatus::kDone) return std::nullopt;
   const std::size_t groups = problem.groups.size();
   Cycle cycle;
@@ -193,8 +195,11 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
     cycle.rise_s[stroke.group] = stroke.to_target_s;
     cycle.inflate_s[stroke.group] = stroke.to_operating_s;
   }
-  for (const model::FullStroke& stroke : model::FullStrokes(rig, OptionsOf(problem, period_s)))
+  for (const model::FullStroke& stroke :
+       model::FullStrokes(rig, OptionsOf(problem, period_s, stop))) {
+    if (stroke.status == model::SimulateStatus::kCancelled) return std::nullopt;
     cycle.fall_s.push_back(stroke.fall_time_s);
+  }
   cycle.pump_on_s = 0.5 * response.compressor_on_s;
   cycle.pump_j = 0.5 * response.compressor_energy_j;
   cycle.pump_air_m3 = 0.5 * response.compressor_air_m3;
@@ -210,12 +215,12 @@ double Target(const Problem& problem, const ActuatorGroup& group, double fractio
 }  // namespace
 
 std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& settings,
-                                   const Assembly& assembly) {
-  return Simulated(problem, settings, assembly, settings.reservoir_volume_m3.value_or(0.0));
+                                   const Assembly& assembly, const Stop& stop) {
+  return Simulated(problem, settings, assembly, settings.reservoir_volume_m3.value_or(0.0), stop);
 }
 
-QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly)
-    : problem_(problem), assembly_(assembly) {
+QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop stop)
+    : problem_(problem), assembly_(assembly), stop_(std::move(stop)) {
   const double temperature_k = problem.ambient.temperature_k;
   const double factor = model::FlowFactor(assembly.co2 ? model::Gas::kCo2 : model::Gas::kAir) *
                         std::sqrt(model::kReferenceTemperatureK / temperature_k);
@@ -307,7 +312,7 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
   const bool held = std::all_of(rigs_.begin(), rigs_.end(),
                                 [](const model::GroupRig& rig) { return rig.close_at_operating; });
   if (groups > 1 && (problem_.simultaneous || (assembly_.compressor && !held)))
-    return Simulated(problem_, settings, assembly_, rising_m3);
+    return Simulated(problem_, settings, assembly_, rising_m3, stop_);
   const double turn_s = 1.0 / problem_.frequency_hz / static_cast<double>(groups);
   Cycle cycle;
   cycle.rise_s.assign(groups, model::kNever);
@@ -319,7 +324,7 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
     const double over_s = assembly_.compressor ? FillFromReservoir(settings, rising_m3, g, cycle)
                                                : FillFromRegulator(settings, g, cycle);
     if (groups > 1 && !(over_s <= turn_s))
-      return Simulated(problem_, settings, assembly_, rising_m3);
+      return Simulated(problem_, settings, assembly_, rising_m3, stop_);
   }
   AddNeeds(problem_, assembly_, cycle);
   return cycle;

@@ -9,6 +9,7 @@
 #include "model/flow/series.h"
 #include "model/simulate/simulate.h"
 #include "verify/design/verify_design.h"
+#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
@@ -24,15 +25,15 @@ struct Cycle {
 };
 
 // By the simulator, from the first cycle until the source repeats. None where it does not get
-// there.
+// there, or is stopped.
 std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& settings,
-                                   const Assembly& assembly);
+                                   const Assembly& assembly, const Stop& stop = {});
 
 // The same at many settings: by one quadrature or integration for each group, where groups do not
 // meet on the source; else by the simulator, too.
 class QuickCycles {
  public:
-  QuickCycles(const Problem& problem, const Assembly& assembly);
+  QuickCycles(const Problem& problem, const Assembly& assembly, Stop stop = {});
 
   // `rising_m3`: the reservoir's volume while its pressure rises, where it is to bound those of an
   // interval of volumes (model/strokes/reservoir_stroke.h).
@@ -46,6 +47,7 @@ class QuickCycles {
 
   const Problem& problem_;
   const Assembly& assembly_;
+  const Stop stop_;
   std::vector<model::GroupRig> rigs_;
   std::vector<model::Series> fills_;  // with the regulator's share
   std::vector<model::FlowTable> fill_tables_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
@@ -43,9 +44,9 @@ void CheckAmounts(const Problem& problem, const Design& design, const Assembly& 
                   Findings& findings);
 
 // Strokes, air, energy, duties and margins against a simulation of the periodic state. False where
-// the simulator did not get there: nothing is known then.
+// the simulator did not get there, or was stopped: nothing is known then.
 bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& assembly,
-                      Findings& findings);
+                      const Stop& stop, Findings& findings);
 
 // Sums over all pieces, without energy; a made-to-measure reservoir is that of the settings.
 Totals TotalsOf(const Problem& problem, const Assembly& assembly, const Settings& settings);

@@ -15,8 +15,8 @@ namespace plenum::verify {
 // QuickCycles that remembers. Strokes are the same beside any battery and any number of bottles.
 class KnownCycles {
  public:
-  KnownCycles(const Problem& problem, const Assembly& assembly)
-      : problem_(problem), assembly_(assembly), quick_(problem, assembly_) {}
+  KnownCycles(const Problem& problem, const Assembly& assembly, const Stop& stop)
+      : problem_(problem), assembly_(assembly), quick_(problem, assembly_, stop) {}
   KnownCycles(const KnownCycles&) = delete;
   KnownCycles& operator=(const KnownCycles&) = delete;
 

@@ -35,15 +35,15 @@ void CheckOrder(const Problem& problem, const std::vector<Design>& designs, Find
   }
 }
 
-void CheckDesigns(const Problem& problem, const std::vector<Design>& designs, Findings& findings,
-                  std::vector<NotRechecked>& open) {
+void CheckDesigns(const Problem& problem, const std::vector<Design>& designs, const Stop& stop,
+                  Findings& findings, std::vector<NotRechecked>& open) {
   BigCount not_simulated = 0;
   for (std::size_t i = 0; i < designs.size(); ++i) {
     Findings own;
     const Design& design = designs[i];
     if (const std::optional<Assembly> assembly = Assemble(problem, design, own)) {
       CheckAmounts(problem, design, *assembly, own);
-      if (!CheckPerformance(problem, design, *assembly, own)) not_simulated += 1;
+      if (!CheckPerformance(problem, design, *assembly, stop, own)) not_simulated += 1;
     }
     for (Finding& finding : own) {
       finding.detail = "rank " + std::to_string(i + 1) + ": " + finding.detail;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
@@ -14,8 +15,8 @@ namespace plenum::verify {
 void CheckOrder(const Problem& problem, const std::vector<Design>& designs, Findings& findings);
 
 // Each design's parts, amounts and performance (verify_design.h).
-void CheckDesigns(const Problem& problem, const std::vector<Design>& designs, Findings& findings,
-                  std::vector<NotRechecked>& open);
+void CheckDesigns(const Problem& problem, const std::vector<Design>& designs, const Stop& stop,
+                  Findings& findings, std::vector<NotRechecked>& open);
 
 // Of each check its name and what holds where it finds nothing.
 using CheckNames = std::vector<std::pair<const char*, const char*>>;

@@ -40,9 +40,9 @@ void CheckMargins(const std::map<std::string, Reached>& requirements, const Desi
 // quadratures count.
 constexpr double kHardlyAbove = 1.0 + 1e-6;
 
-std::optional<Cycle> CycleOf(const Problem& problem, const Design& design,
-                             const Assembly& assembly) {
-  std::optional<Cycle> cycle = SimulateCycle(problem, design.settings, assembly);
+std::optional<Cycle> CycleOf(const Problem& problem, const Design& design, const Assembly& assembly,
+                             const Stop& stop) {
+  std::optional<Cycle> cycle = SimulateCycle(problem, design.settings, assembly, stop);
   const bool hardly_above =
       std::any_of(problem.groups.begin(), problem.groups.end(), [&](const ActuatorGroup& group) {
         return design.settings.source_pressure_pa <
@@ -50,7 +50,7 @@ std::optional<Cycle> CycleOf(const Problem& problem, const Design& design,
       });
   if (!cycle || !hardly_above) return cycle;
   const std::optional<Cycle> quick =
-      QuickCycles(problem, assembly)
+      QuickCycles(problem, assembly, stop)
           .At(design.settings, design.settings.reservoir_volume_m3.value_or(0.0));
   if (!quick) return std::nullopt;
   cycle->rise_s = quick->rise_s;
@@ -62,7 +62,7 @@ std::optional<Cycle> CycleOf(const Problem& problem, const Design& design,
 }  // namespace
 
 bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& assembly,
-                      Findings& findings) {
+                      const Stop& stop, Findings& findings) {
   const Pressures stood = StoodPressures(problem, assembly);
   const double source_pa = design.settings.source_pressure_pa;
   if (source_pa < stood.low_pa * (1.0 - kSumTolerance) ||
@@ -72,7 +72,7 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
       !Near(design.settings.reservoir_volume_m3.value_or(0.0),
             assembly.reservoirs * assembly.reservoir->volume_m3, kSumTolerance))
     findings.push_back({"supply", "the reservoir's volume is not that of the part"});
-  const std::optional<Cycle> cycle = CycleOf(problem, design, assembly);
+  const std::optional<Cycle> cycle = CycleOf(problem, design, assembly, stop);
   if (!cycle) return false;
 
   const Performance& claimed = design.performance;

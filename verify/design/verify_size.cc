@@ -288,7 +288,7 @@ Sizing SizeMade(const Problem& problem, const Assembly& assembly, KnownCycles& c
 }  // namespace
 
 Sizing Sizer::Size(const Assembly& assembly, double slack, double enough) {
-  if (!cycles_ || !cycles_->Serves(assembly)) cycles_.emplace(problem_, assembly);
+  if (!cycles_ || !cycles_->Serves(assembly)) cycles_.emplace(problem_, assembly, stop_);
   if (assembly.compressor && !assembly.reservoir)
     return SizeMade(problem_, assembly, *cycles_, slack, enough);
   const double volume_m3 =

@@ -26,15 +26,17 @@ struct Sizing {
 // reservoir alone share what is known of their strokes.
 class Sizer {
  public:
-  explicit Sizer(const Problem& problem) : problem_(problem) {}
+  explicit Sizer(const Problem& problem, Stop stop = {})
+      : problem_(problem), stop_(std::move(stop)) {}
 
   // Every requirement may be missed by `slack`, relative; negative: met with that to spare. Ends as
-  // soon as the lower bound passes `enough`, with status kUnknown where nothing was found till
-  // then.
+  // soon as the lower bound passes `enough`, or when stopped, with status kUnknown where nothing
+  // was found till then.
   Sizing Size(const Assembly& assembly, double slack, double enough);
 
  private:
   const Problem& problem_;
+  const Stop stop_;
   std::optional<KnownCycles> cycles_;
 };
 

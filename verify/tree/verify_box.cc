@@ -40,14 +40,16 @@ Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges&
   return assembly;
 }
 
-BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claims& claims)
+BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claims& claims,
+                   const Stop& stop)
     : problem_(problem),
       plan_(plan),
       claims_(claims),
       series_(problem, plan),
+      stop_(stop),
       strokes_(problem, plan),
       corners_(problem, plan, strokes_),
-      sizer_(problem) {}
+      sizer_(problem, stop) {}
 
 // Whether a combination with this objective, or more, bears out the claim.
 bool BoxCheck::Holds(const Claim& claim, double objective, const Ranges& single) const {
@@ -134,9 +136,10 @@ BigCount BoxCheck::Recheck(const Ranges& ranges, Findings& findings) {
     ++looks_;
     Ranges part = std::move(waiting.back());
     waiting.pop_back();
+    const bool stopped = Stopped(stop_);
     const Claim& claim = ClaimOn(part);
-    if (IsBeyond(claim, part)) continue;
-    if (looks_ > kLooksMax) {
+    if (!stopped && IsBeyond(claim, part)) continue;
+    if (stopped || looks_ > kLooksMax) {
       open += CountOf(part);
       continue;
     }

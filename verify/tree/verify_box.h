@@ -29,7 +29,7 @@ int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges);
 
 class BoxCheck {
  public:
-  BoxCheck(const Problem& problem, const ProofPlan& plan, const Claims& claims);
+  BoxCheck(const Problem& problem, const ProofPlan& plan, const Claims& claims, const Stop& stop);
 
   // What the answer says of all in a box.
   const Claim& ClaimOn(const Ranges& ranges) const { return series_.ClaimOn(claims_, ranges); }
@@ -51,6 +51,7 @@ class BoxCheck {
   const ProofPlan& plan_;
   const Claims& claims_;
   SeriesOfPlan series_;
+  const Stop stop_;
   KnownStrokes strokes_;
   Corners corners_;
   Sizer sizer_;

@@ -36,7 +36,8 @@ class Enumeration {
         answer_(answer),
         options_(options),
         claims_(problem, answer),
-        findings_(findings) {
+        findings_(findings),
+        sizer_(problem, options.stop) {
     enough_ = claims_.all().enough();
     if (!answer.designs.empty())
       enough_ = std::max(enough_, answer.designs.back().objective * (1.0 + kTieTolerance));
@@ -186,7 +187,7 @@ class Enumeration {
   }
 
   void Report() {
-    counts_.cancelled = counts_.cancelled || (options_.cancelled && options_.cancelled());
+    counts_.cancelled = counts_.cancelled || Stopped(options_.stop);
     if (options_.progress)
       options_.progress(counts_.incompatible + counts_.unpriced + counts_.beyond +
                         counts_.infeasible + counts_.feasible + counts_.undecided);
@@ -227,7 +228,7 @@ class Enumeration {
   std::optional<SeriesOfPlan> series_;
   Ranges single_;
   std::vector<std::vector<ItemAmounts>> amounts_;
-  Sizer sizer_{problem_};
+  Sizer sizer_;
   BruteForceCounts counts_;
   long long looked_ = 0, sized_ = 0;
 };

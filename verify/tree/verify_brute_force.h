@@ -6,12 +6,13 @@
 #include <functional>
 
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
 
 struct BruteForceOptions {
-  std::function<bool()> cancelled;                       // may be empty
+  Stop stop;
   std::function<void(const BigCount& looked)> progress;  // now and then; may be empty
 };
 

@@ -31,7 +31,7 @@ bool NoWorse(const Point& a, const Point& b) {
 
 }  // namespace
 
-void CheckFront(const Problem& problem, const Front& front, Findings& findings,
+void CheckFront(const Problem& problem, const Front& front, const Stop& stop, Findings& findings,
                 std::vector<NotRechecked>& open) {
   const Answer& answer = front.answer;
   std::vector<Amount> amounts = front.amounts;  // the one that has no resolution first
@@ -70,7 +70,7 @@ void CheckFront(const Problem& problem, const Front& front, Findings& findings,
       point[i] *= (1.0 - kTieTolerance) * (i > 0 ? 1.0 - front.resolution : 1.0);
   std::sort(bettered.begin(), bettered.end());
   const BigCount count =
-      CheckGaps(problem, amounts, points, GapsBetween(bettered, amounts.size()), findings);
+      CheckGaps(problem, amounts, points, GapsBetween(bettered, amounts.size()), stop, findings);
   if (count > 0) open.push_back({"combinations that may lie between points", count});
 }
 

@@ -3,6 +3,7 @@
 #define PLENUM_VERIFY_TREE_VERIFY_FRONT_H_
 
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
@@ -12,7 +13,7 @@ namespace plenum::verify {
 // A whole front claims that every other design is matched or beaten by a point, within the front's
 // resolution: all combinations of the catalogue are divided until each part of them bears that out
 // or is sized (verify_gaps.h). Of other fronts what is not listed is not looked at.
-void CheckFront(const Problem& problem, const Front& front, Findings& findings,
+void CheckFront(const Problem& problem, const Front& front, const Stop& stop, Findings& findings,
                 std::vector<NotRechecked>& open);
 
 }  // namespace plenum::verify

@@ -106,12 +106,13 @@ ProofPlan WholePlan(const Problem& problem, Configuration configuration) {
 class GapCheck {
  public:
   GapCheck(const Problem& problem, const std::vector<Amount>& amounts,
-           const std::vector<Point>& points, const std::vector<Point>& gaps)
+           const std::vector<Point>& points, const std::vector<Point>& gaps, const Stop& stop)
       : problem_(problem),
         amounts_(amounts),
         gaps_(gaps),
+        stop_(stop),
         within_(Weighted(problem, amounts, Single(amounts.size(), 0))),
-        sizer_(within_) {
+        sizer_(within_, stop) {
     for (std::size_t i = 0; i < amounts.size(); ++i) weights_.push_back(Single(amounts.size(), i));
     for (Amount amount : amounts)
       limits_.push_back(amount == Amount::kEnergy ? kUnlimited : LimitOf(amount, within_));
@@ -141,7 +142,7 @@ class GapCheck {
       ++looks_;
       Part part = std::move(waiting.back());
       waiting.pop_back();
-      if (looks_ > kLooksMax) {
+      if (looks_ > kLooksMax || Stopped(stop_)) {
         open += CountOf(part.ranges);
         continue;
       }
@@ -235,6 +236,7 @@ class GapCheck {
   const Problem& problem_;
   const std::vector<Amount>& amounts_;
   const std::vector<Point>& gaps_;
+  const Stop& stop_;
   Point limits_;                // of the problem
   std::vector<Point> weights_;  // of the single amounts, then of sums
   std::vector<double> least_;   // of the points, by these
@@ -269,8 +271,8 @@ std::vector<Point> GapsBetween(const std::vector<Point>& points, std::size_t amo
 
 BigCount CheckGaps(const Problem& problem, const std::vector<Amount>& amounts,
                    const std::vector<Point>& points, const std::vector<Point>& gaps,
-                   Findings& findings) {
-  GapCheck check(problem, amounts, points, gaps);
+                   const Stop& stop, Findings& findings) {
+  GapCheck check(problem, amounts, points, gaps, stop);
   BigCount open = 0;
   for (Configuration configuration : problem.configurations)
     open += check.Run(configuration, findings);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
@@ -21,7 +22,7 @@ std::vector<Point> GapsBetween(const std::vector<Point>& points, std::size_t amo
 // open; a design in a gap is a finding. Energy, which has no limit, may only be the first amount.
 BigCount CheckGaps(const Problem& problem, const std::vector<Amount>& amounts,
                    const std::vector<Point>& points, const std::vector<Point>& gaps,
-                   Findings& findings);
+                   const Stop& stop, Findings& findings);
 
 }  // namespace plenum::verify
 

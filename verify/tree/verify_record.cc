@@ -47,8 +47,12 @@ bool Holds(const Ranges& ranges, const std::vector<int>& positions) {
 
 class RecordCheck {
  public:
-  RecordCheck(const Problem& problem, const Answer& answer, Findings& findings)
-      : problem_(problem), answer_(answer), claims_(problem, answer), findings_(findings) {}
+  RecordCheck(const Problem& problem, const Answer& answer, const Stop& stop, Findings& findings)
+      : problem_(problem),
+        answer_(answer),
+        claims_(problem, answer),
+        stop_(stop),
+        findings_(findings) {}
 
   void Run(std::vector<NotRechecked>& open) {
     const ProofRecord& record = *answer_.proof.record;
@@ -77,8 +81,8 @@ class RecordCheck {
  private:
   struct Replayed {
     Replayed(const Problem& problem, const ProofPlan& replayed, const Claims& claims,
-             Findings& findings)
-        : plan(replayed), closed(Replay(plan, findings)), check(problem, plan, claims) {}
+             const Stop& stop, Findings& findings)
+        : plan(replayed), closed(Replay(plan, findings)), check(problem, plan, claims, stop) {}
     const ProofPlan& plan;
     std::vector<ClosedBox> closed;
     BoxCheck check;
@@ -99,7 +103,7 @@ class RecordCheck {
     CheckSlots(problem_, plan, counts_, findings_);
     for (const Finding& finding : Findings(findings_.begin() + before, findings_.end()))
       if (finding.check == "choices") return;  // the boxes mean nothing then
-    Replayed& replayed = replayed_.emplace_back(problem_, plan, claims_, findings_);
+    Replayed& replayed = replayed_.emplace_back(problem_, plan, claims_, stop_, findings_);
     const std::vector<ClosedBox>& closed = replayed.closed;
     for (const ClosedBox& box : closed) CheckBox(plan, box, replayed.check);
     for (std::size_t i = 0; i < answer_.designs.size(); ++i)
@@ -224,6 +228,7 @@ class RecordCheck {
   const Problem& problem_;
   const Answer& answer_;
   const Claims claims_;
+  const Stop& stop_;
   Findings& findings_;
   Pruned counts_;
   BigCount evaluated_ = 0;
@@ -247,9 +252,9 @@ bool FlowMustBeEqual(const Problem& problem, Configuration configuration) {
                       });
 }
 
-void CheckRecord(const Problem& problem, const Answer& answer, Findings& findings,
+void CheckRecord(const Problem& problem, const Answer& answer, const Stop& stop, Findings& findings,
                  std::vector<NotRechecked>& open) {
-  RecordCheck(problem, answer, findings).Run(open);
+  RecordCheck(problem, answer, stop, findings).Run(open);
 }
 
 }  // namespace plenum::verify

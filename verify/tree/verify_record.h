@@ -3,6 +3,7 @@
 #define PLENUM_VERIFY_TREE_VERIFY_RECORD_H_
 
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
@@ -12,7 +13,7 @@ bool FlowMustBeEqual(const Problem& problem, Configuration configuration);
 
 // Replays the boxes of an answer that has a record, recounts them, looks at each closed one again,
 // and finds the box of each listed design.
-void CheckRecord(const Problem& problem, const Answer& answer, Findings& findings,
+void CheckRecord(const Problem& problem, const Answer& answer, const Stop& stop, Findings& findings,
                  std::vector<NotRechecked>& open);
 
 }  // namespace plenum::verify

@@ -220,7 +220,9 @@ std::string EvaluationText(const Json& answer) {
   }
   std::string text = fmt::format("The parts stand source pressures from {} to {} kPa gauge.\n",
                                  Short(range[0]), Short(range[1]));
-  if (answer.at("works").get<bool>())
+  if (answer.at("works").is_null())
+    text += "It is not known whether it works: " + answer.at("detail").get<std::string>() + ".\n";
+  else if (answer.at("works").get<bool>())
     text += SettingsText(answer) + TotalsText(answer) + "\n" + MarginsTable(answer);
   else
     text +=

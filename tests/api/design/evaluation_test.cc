@@ -123,6 +123,32 @@ TEST_P(Evaluation, DoesNotWorkBeyondWhatThePartsStand) {
   EXPECT_LT(burst.at("source_pressure_range_kpa_gauge").at(1), 4e4);
 }
 
+// Groups that are not alike and inflate at once out of one reservoir are simulated.
+TEST(EvaluationInTime, OutOfTimeItSaysThatNothingIsKnown) {
+  std::ifstream file(test::SourceDir() / "tests/fuzz/corpus/evaluation/two_groups");
+  Json request = Parse(std::string(std::istreambuf_iterator<char>(file), {}));
+  request["requirements"]["duty"]["simultaneous"] = true;
+  request["requirements"]["actuators"][1]["rest_volume_ml"] = 40.0;
+  const auto run = [&](double seconds_max) {
+    return std::get<Json>(RunEvaluation(request, SmallCatalogue(), {}, seconds_max));
+  };
+  const Json whole = run(600.0), cut = run(0.0);
+  EXPECT_EQ(whole.at("works"), true);
+  EXPECT_FALSE(whole.contains("detail"));
+  EXPECT_TRUE(cut.at("works").is_null());
+  EXPECT_NE(cut.at("detail").get<std::string>().find("out of time after 0 s"), std::string::npos);
+  EXPECT_EQ(cut.at("source_pressure_range_kpa_gauge"), whole.at("source_pressure_range_kpa_gauge"));
+  EXPECT_FALSE(cut.contains("margins"));
+}
+
+// What needs no simulation takes no time that could run out.
+TEST_P(Evaluation, ASingleGroupNeedsNoTime) {
+  if (requirements_["actuators"].size() > 1) GTEST_SKIP();
+  const Json request = {
+      {"schema", "evaluation/1"}, {"requirements", requirements_}, {"design", given_}};
+  EXPECT_EQ(std::get<Json>(RunEvaluation(request, parts_, {}, 0.0)), Answer(requirements_, given_));
+}
+
 INSTANTIATE_TEST_SUITE_P(Examples, Evaluation, testing::Values("exosuit", "gripper", "crawler"));
 
 }  // namespace

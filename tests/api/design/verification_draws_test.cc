@@ -77,6 +77,15 @@ TEST(VerifyDraws, AcceptsDesignsWithRoomToSpareWhereNoneOfTheBestReachIt) {
 }
 #endif
 
+TEST(VerifyDraws, StoppedAtAnyTimeItFindsNothingWrongAndAcceptsNothing) {
+  for (const int looks : {0, 1, 30, 100, 300, 1000}) {
+    SCOPED_TRACE(looks);
+    const Json stopped = VerifiedWithin(Gripper(), looks);
+    EXPECT_EQ(stopped["accepted"], !stopped["stopped"].get<bool>());
+    EXPECT_EQ(RefusalsIn(stopped), "");
+  }
+}
+
 TEST(VerifyDraws, AsksForTheRecordOfAListThatReachesAProbability) {
   const auto errors = ErrorsOf(VerifyAnswer(With(Gripper(), "/requirements/ranking/proof", false),
                                             Project().parts, Project().revision));

@@ -91,7 +91,7 @@ TEST(Verify, APumpsDesignStatesItsReservoir) {
 TEST(Verify, EnumeratesEveryCombinationWhereThatEnds) {
   const Json gripper = Listed("gripper", 5);
   double shown = 0.0;
-  const BruteForce all{verify::kBruteForceMax, {}, [&](double share) { shown = share; }};
+  const BruteForce all{verify::kBruteForceMax, [&](double share) { shown = share; }};
   const Json verified =
       std::get<Json>(VerifyAnswer(gripper, Project().parts, Project().revision, all));
   EXPECT_EQ(verified["accepted"], true);
@@ -110,17 +110,36 @@ TEST(Verify, EnumeratesEveryCombinationWhereThatEnds) {
   for (const Json& check : refused["checks"])
     EXPECT_TRUE(check["check"] != "brute_force" || !check["ok"].get<bool>());
 
-  const BruteForce stopped{verify::kBruteForceMax, [] { return true; }, {}};
-  const Json cancelled =
-      std::get<Json>(VerifyAnswer(gripper, Project().parts, Project().revision, stopped));
+  const Json cancelled = std::get<Json>(VerifyAnswer(gripper, Project().parts, Project().revision,
+                                                     BruteForce{}, [] { return true; }));
   EXPECT_EQ(cancelled["brute_force"]["cancelled"], true);
   EXPECT_EQ(cancelled["accepted"], false);
+}
+
+TEST(Verify, StoppedAtAnyTimeItFindsNothingWrongAndAcceptsNothing) {
+  const Json crawler = Listed("crawler", 1);  // groups that meet on the source are simulated
+  for (const Json* answer : {&Exosuit(), &crawler})
+    for (const int looks : {0, 1, 5, 21, 85, 341}) {
+      SCOPED_TRACE(looks);
+      const Json verified = VerifiedWithin(*answer, looks);
+      EXPECT_EQ(verified["stopped"], true);
+      EXPECT_EQ(verified["accepted"], false);
+      EXPECT_EQ(RefusalsIn(verified), "");
+      EXPECT_FALSE(verified["not_rechecked"].empty());
+    }
+  EXPECT_EQ(Verified(Exosuit())["stopped"], false);
+}
+
+TEST(Verify, StoppedAtOnceItStillFindsWhatTakesNoTime) {
+  Json answer = Exosuit();
+  Scale(answer["designs"][0]["totals"]["mass_kg"], 1.01);
+  EXPECT_THAT(RefusalsIn(VerifiedWithin(answer, 0)), testing::HasSubstr("amounts: "));
 }
 
 TEST(Verify, RefusesToEnumerateMoreThanTheLimit) {
   const auto errors = [](const Json& answer, long long most) {
     return ErrorsOf(
-        VerifyAnswer(answer, Project().parts, Project().revision, BruteForce{most, {}, {}}));
+        VerifyAnswer(answer, Project().parts, Project().revision, BruteForce{most, {}}));
   };
   const std::string detail =
       DetailAt(errors(Exosuit(), verify::kBruteForceMax), "/proof/combinations");

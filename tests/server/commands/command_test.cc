@@ -75,6 +75,10 @@ TEST(Command, VerifyAcceptsAnAnswerAndRefusesAChangedOne) {
   EXPECT_EQ(accepted.status, 0) << accepted.err;
   EXPECT_EQ(OneDocument(accepted.out)["accepted"], true);
   EXPECT_THAT(bench.Run("verify result.json").out, HasSubstr("Accepted."));
+  const auto cut = bench.Run("verify result.json --time-limit 1e-9");
+  EXPECT_EQ(cut.status, 2);
+  EXPECT_THAT(cut.out, HasSubstr("Not accepted: stopped"));
+  EXPECT_THAT(cut.err, HasSubstr("not accepted: out of time after 1e-09 s"));
 
   answer["designs"][0]["totals"]["mass_kg"] = 0.1;
   bench.Write("changed.json", answer.dump());

@@ -3,7 +3,8 @@ import { post } from './api';
 import type { Design, Margin, Requirements } from './types';
 
 export interface Evaluation {
-  works: boolean;
+  works: boolean | null; // null: not known
+  detail?: string; // why not
   source_pressure_range_kpa_gauge: [number, number | null] | null;
   totals?: Design['totals'];
   performance?: Design['performance'];

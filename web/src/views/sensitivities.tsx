@@ -117,7 +117,9 @@ export function Sensitivities({
                 })
               ) : (
                 <td colSpan={used.length} class="muted">
-                  {found ? 'the parts do not stand it, or a stroke does not end' : 'not possible'}
+                  {!found
+                    ? 'not possible'
+                    : (found.detail ?? 'the parts do not stand it, or a stroke does not end')}
                 </td>
               )}
               <td>{found?.works && <Then found={found} requirements={requirements} />}</td>

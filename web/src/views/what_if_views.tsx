@@ -144,9 +144,11 @@ export function Met({
     <div class="met">
       {!trial.works && (
         <Notice kind="warn">
-          {low === undefined
-            ? 'A part is no longer in the catalogue.'
-            : `It does not work: a stroke takes longer than half of the period, or the source is outside ${shown('pressure', low)} to ${shown('pressure', high)} ${unitOf('pressure')}.`}
+          {trial.works === null
+            ? `It is not known whether it works: ${trial.detail}.`
+            : low === undefined
+              ? 'A part is no longer in the catalogue.'
+              : `It does not work: a stroke takes longer than half of the period, or the source is outside ${shown('pressure', low)} to ${shown('pressure', high)} ${unitOf('pressure')}.`}
         </Notice>
       )}
       <Table
