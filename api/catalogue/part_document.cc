@@ -312,25 +312,4 @@ Json RenderChange(const catalog::Change& change) {
           {"after", change.after ? RenderPart(*change.after) : Json()}};
 }
 
-Json RenderPlausibility(const std::vector<catalog::Outlier>& outliers,
-                        const std::vector<catalog::Gap>& gaps) {
-  Json json = {{"outliers", Json::array()}, {"gaps", Json::array()}};
-  for (const auto& outlier : outliers) {
-    json["outliers"].push_back({{"id", outlier.id},
-                                {"family", outlier.family},
-                                {"field", outlier.field},
-                                {"value", Number(outlier.value)},
-                                {"family_median", Number(outlier.median)},
-                                {"robust_z", Number(outlier.robust_z)}});
-  }
-  for (const auto& gap : gaps) {
-    json["gaps"].push_back({{"family", gap.family},
-                            {"field", gap.field},
-                            {"blocks", gap.blocks},
-                            {"parts", gap.parts},
-                            {"missing", gap.ids}});
-  }
-  return json;
-}
-
 }  // namespace plenum::api

@@ -1,12 +1,9 @@
-// Parts, revisions and what is odd about parts as JSON.
+// Parts and revisions as JSON.
 #ifndef PLENUM_API_CATALOGUE_PART_DOCUMENT_H_
 #define PLENUM_API_CATALOGUE_PART_DOCUMENT_H_
 
-#include <vector>
-
 #include "api/json/json.h"
 #include "catalog/fields/part.h"
-#include "catalog/fields/plausibility.h"
 #include "catalog/store/revision.h"
 #include "catalog/store/store.h"
 
@@ -22,10 +19,6 @@ Json RenderRevisionName(const catalog::Revision& revision);
 Json RenderRevision(const catalog::Revision& revision);
 // { id, before, after }, each a part or null.
 Json RenderChange(const catalog::Change& change);
-// { "outliers": [{ id, family, field, value, family_median, robust_z }],
-// "gaps": [{ family, field, blocks, parts, missing: ids }] }.
-Json RenderPlausibility(const std::vector<catalog::Outlier>& outliers,
-                        const std::vector<catalog::Gap>& gaps);
 
 }  // namespace plenum::api
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <optional>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -25,38 +26,16 @@ constexpr std::string_view kUncertainty = ".uncertainty";
 // Names whose ends give the units of a curve point.
 constexpr std::string_view kPointUnits[] = {"_kpa_gauge", "_l_per_min", "_a"};
 
+// Beside the fields of a family.
+constexpr std::string_view kPlainColumns[] = {"id",      "manufacturer", "part_number",
+                                              "notes",   "series",       "orderable",
+                                              "aliases", "offers",       "documents"};
+
 // What a curve gives, each with an origin of its own.
 constexpr std::string_view kCurveNumbers[] = {"free_air", "current"};
 
 std::string Column(std::string_view field, std::string_view suffix) {
   return std::string(field) + std::string(suffix);
-}
-
-// Every column of the family, in the order in which they are written.
-std::vector<std::string> Columns(const Family& family) {
-  std::vector<std::string> columns{"id",        "manufacturer", "part_number", "notes",    "series",
-                                   "orderable", "aliases",      "offers",      "documents"};
-  const auto add_origin = [&](std::string_view name) {
-    columns.push_back(Column(name, kProvenance));
-    columns.push_back(Column(name, kSource));
-  };
-  for (const NumberField& field : family.numbers) {
-    columns.emplace_back(field.name);
-    add_origin(field.name);
-    columns.push_back(Column(field.name, kUncertainty));
-  }
-  for (const TextField& field : family.texts) {
-    columns.emplace_back(field.name);
-    add_origin(field.name);
-  }
-  if (family.has_curve()) {
-    columns.emplace_back("curve");
-    for (const std::string_view name : kCurveNumbers) {
-      add_origin(name);
-      columns.push_back(Column(name, kUncertainty));
-    }
-  }
-  return columns;
 }
 
 // One row being turned into a part; collects what is wrong with it.
@@ -220,16 +199,16 @@ class RowReader {
   std::vector<CsvError> errors_;
 };
 
-std::vector<CsvError> CheckHeader(const Family& family, const CsvRow& header) {
-  const std::vector<std::string> columns = Columns(family);
+std::vector<CsvError> CheckHeader(const Family& family, const CsvRow& header, int row) {
+  const std::vector<std::string> columns = CsvColumns(family);
   const std::vector<std::string_view> known(columns.begin(), columns.end());
   std::vector<CsvError> errors;
   std::set<std::string> seen;
   for (const std::string& name : header) {
     if (!seen.insert(name).second)
-      errors.push_back({1, name, "column appears twice"});
+      errors.push_back({row, name, "column appears twice"});
     else if (std::find(known.begin(), known.end(), name) == known.end())
-      errors.push_back({1, name,
+      errors.push_back({row, name,
                         "unknown column of family " + std::string(family.name) +
                             "; nearest: " + std::string(NearestName(name, known))});
   }
@@ -294,28 +273,71 @@ CsvRow ToRow(const Family& family, const Part& part) {
 
 }  // namespace
 
-CsvErrors ReadCsv(std::string_view family_name, std::string_view text, const TakePart& take) {
+std::vector<std::string> CsvColumns(const Family& family) {
+  std::vector<std::string> columns(std::begin(kPlainColumns), std::end(kPlainColumns));
+  const auto add_origin = [&](std::string_view name) {
+    columns.push_back(Column(name, kProvenance));
+    columns.push_back(Column(name, kSource));
+  };
+  for (const NumberField& field : family.numbers) {
+    columns.emplace_back(field.name);
+    add_origin(field.name);
+    columns.push_back(Column(field.name, kUncertainty));
+  }
+  for (const TextField& field : family.texts) {
+    columns.emplace_back(field.name);
+    add_origin(field.name);
+  }
+  if (family.has_curve()) {
+    columns.emplace_back("curve");
+    for (const std::string_view name : kCurveNumbers) {
+      add_origin(name);
+      columns.push_back(Column(name, kUncertainty));
+    }
+  }
+  return columns;
+}
+
+bool IsCsvColumn(const Family& family, std::string_view name) {
+  const std::size_t dot = name.find('.');
+  const std::string_view field = name.substr(0, dot), suffix = name.substr(field.size());
+  const bool of_text = suffix.empty() || suffix == kProvenance || suffix == kSource;
+  const bool of_number = of_text || suffix == kUncertainty;
+  const auto is_field = [&](const auto& one) { return one.name == field; };
+  if (suffix.empty() && std::find(std::begin(kPlainColumns), std::end(kPlainColumns), field) !=
+                            std::end(kPlainColumns))
+    return true;
+  if (std::any_of(family.numbers.begin(), family.numbers.end(), is_field)) return of_number;
+  if (std::any_of(family.texts.begin(), family.texts.end(), is_field)) return of_text;
+  if (!family.has_curve()) return false;
+  if (name == "curve") return true;
+  return std::find(std::begin(kCurveNumbers), std::end(kCurveNumbers), field) !=
+             std::end(kCurveNumbers) &&
+         !suffix.empty() && of_number;
+}
+
+CsvErrors ReadRows(std::string_view family_name, const RowSource& rows, const TakePart& take) {
   const Family* family = FindFamily(family_name);
   if (family == nullptr)
     return {{{1, "", "unknown family \"" + std::string(family_name) + "\""}}, 1};
-  CsvRow header;
+  std::optional<CsvRow> header;
   std::unordered_map<std::string, int> row_of_id;
   CsvErrors of_table, of_rows;
   const auto read_row = [&](CsvRow cells, int row) {
-    if (row == 1) {
+    if (!header) {
       header = std::move(cells);
-      for (CsvError& error : CheckHeader(*family, header)) Add(std::move(error), of_rows);
+      for (CsvError& error : CheckHeader(*family, *header, row)) Add(std::move(error), of_rows);
       return;
     }
     if (of_table.count > 0) return;  // what its cells are is uncertain
-    if (cells.size() != header.size()) {
+    if (cells.size() != header->size()) {
       Add({row, "",
            "has " + std::to_string(cells.size()) + " cells, the header has " +
-               std::to_string(header.size())},
+               std::to_string(header->size())},
           of_rows);
       return;
     }
-    RowReader reader(*family, header, cells, row);
+    RowReader reader(*family, *header, cells, row);
     Part part = reader.Read();
     for (CsvError& error : reader.TakeErrors()) Add(std::move(error), of_rows);
     // Of one that is too long, an error already, the beginning is enough.
@@ -325,10 +347,17 @@ CsvErrors ReadCsv(std::string_view family_name, std::string_view text, const Tak
           of_rows);
     take(std::move(part), row);
   };
-  ForEachRow(text, read_row, [&](CsvError error) { Add(std::move(error), of_table); });
+  rows(read_row, [&](CsvError error) { Add(std::move(error), of_table); });
   if (of_table.count > 0) return of_table;
-  if (header.empty()) return {{{1, "", "the header row is missing"}}, 1};
+  if (!header) return {{{1, "", "the header row is missing"}}, 1};
   return of_rows;
+}
+
+CsvErrors ReadCsv(std::string_view family, std::string_view text, const TakePart& take) {
+  const RowSource rows = [&](const TakeRow& take_row, const TakeError& fail) {
+    ForEachRow(text, take_row, fail);
+  };
+  return ReadRows(family, rows, take);
 }
 
 CsvParts ReadCsv(std::string_view family, std::string_view text) {
@@ -343,7 +372,7 @@ CsvParts ReadCsv(std::string_view family, std::string_view text) {
 std::string WriteCsv(std::string_view family_name, const std::vector<Part>& parts) {
   const Family* family = FindFamily(family_name);
   if (family == nullptr) return {};
-  std::string text = FormatRow(Columns(*family));
+  std::string text = FormatRow(CsvColumns(*family));
   for (const Part& part : parts) text += FormatRow(ToRow(*family, part));
   return text;
 }

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "catalog/fields/csv_table.h"
+#include "catalog/fields/fields.h"
 #include "catalog/fields/part.h"
 
 namespace plenum::catalog {
@@ -38,8 +39,16 @@ struct CsvParts {
 // one, so that a file of any length takes little memory: after an error they are of no use.
 using TakePart = std::function<void(Part part, int row)>;
 CsvErrors ReadCsv(std::string_view family, std::string_view text, const TakePart& take);
+// The same of rows that come from elsewhere, the header first; each with its number in the file.
+using RowSource = std::function<void(const TakeRow& take, const TakeError& fail)>;
+CsvErrors ReadRows(std::string_view family, const RowSource& rows, const TakePart& take);
 // The same at once.
 CsvParts ReadCsv(std::string_view family, std::string_view text);
+
+// Every column of a family, in the order in which they are written.
+std::vector<std::string> CsvColumns(const Family& family);
+// Whether it is one of them.
+bool IsCsvColumn(const Family& family, std::string_view name);
 
 // `parts` are all of `family`.
 std::string WriteCsv(std::string_view family, const std::vector<Part>& parts);

@@ -12,8 +12,8 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 class Parser {
  public:
-  Parser(std::string_view text, const TakeRow& take, const TakeError& fail)
-      : text_(text), take_(take), fail_(fail) {}
+  Parser(std::string_view text, const TakeRow& take, const TakeError& fail, char delimiter)
+      : text_(text), take_(take), fail_(fail), delimiter_(delimiter) {}
 
   void Parse() {
     int empty = 0;  // rows that are dropped if no other follows
@@ -44,7 +44,7 @@ class Parser {
         cells.push_back(std::move(cell));
       else
         overlong_ = true;
-      if (at_ < text_.size() && text_[at_] == ',') {
+      if (at_ < text_.size() && text_[at_] == delimiter_) {
         ++at_;
         continue;
       }
@@ -64,7 +64,7 @@ class Parser {
 
   std::string Plain(std::size_t column) {
     const std::size_t begin = at_;
-    while (!AtLineEnd() && text_[at_] != ',') ++at_;
+    while (!AtLineEnd() && text_[at_] != delimiter_) ++at_;
     std::string cell(text_.substr(begin, std::min(at_ - begin, kCsvCellBytesMax + 1)));
     if (cell.find('"') != std::string::npos)
       Fail(column, "a quote inside a cell that does not start with one");
@@ -76,7 +76,7 @@ class Parser {
     for (++at_; at_ < text_.size(); ++at_) {
       if (text_[at_] == '"' && text_.substr(at_ + 1, 1) != "\"") {
         ++at_;
-        if (!AtLineEnd() && text_[at_] != ',') {
+        if (!AtLineEnd() && text_[at_] != delimiter_) {
           Fail(column, "text after a closing quote");
           Plain(column);
         }
@@ -106,6 +106,7 @@ class Parser {
   std::string_view text_;
   const TakeRow& take_;
   const TakeError& fail_;
+  char delimiter_;
   std::size_t at_ = 0;
   int row_ = 0;
   CsvRow header_;
@@ -114,9 +115,9 @@ class Parser {
 
 }  // namespace
 
-void ForEachRow(std::string_view text, const TakeRow& take, const TakeError& fail) {
+void ForEachRow(std::string_view text, const TakeRow& take, const TakeError& fail, char delimiter) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  Parser(text, take, fail).Parse();
+  Parser(text, take, fail, delimiter).Parse();
 }
 
 CsvTable ParseTable(std::string_view text) {

@@ -35,7 +35,8 @@ CsvTable ParseTable(std::string_view text);
 // The same row by row, 1 the first: takes no more memory than one row.
 using TakeRow = std::function<void(CsvRow cells, int row)>;
 using TakeError = std::function<void(CsvError error)>;
-void ForEachRow(std::string_view text, const TakeRow& take, const TakeError& fail);
+void ForEachRow(std::string_view text, const TakeRow& take, const TakeError& fail,
+                char delimiter = ',');
 
 std::string FormatRow(const CsvRow& cells);
 

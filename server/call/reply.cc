@@ -30,12 +30,15 @@ Reply ProblemReply(int status, const std::string& detail) {
           {}};
 }
 
-api::Errors CheckQuery(const Call& call, const std::vector<std::string_view>& known) {
+api::Errors CheckQuery(const Call& call, const std::vector<std::string_view>& known,
+                       const std::vector<std::string_view>& repeated) {
   std::string list;
-  for (const auto name : known) list += (list.empty() ? "" : ", ") + std::string(name);
+  for (const auto* names : {&known, &repeated})
+    for (const auto name : *names) list += (list.empty() ? "" : ", ") + std::string(name);
   api::Errors errors;
   for (auto it = call.query.begin(); it != call.query.end();
        it = call.query.upper_bound(it->first)) {
+    if (std::find(repeated.begin(), repeated.end(), it->first) != repeated.end()) continue;
     if (std::find(known.begin(), known.end(), it->first) == known.end()) {
       errors.push_back({"/" + it->first, "unknown query parameter; known are: " +
                                              (list.empty() ? std::string("none") : list)});

@@ -41,8 +41,9 @@ Reply JsonReply(int status, const api::Json& json);
 Reply ProblemReply(int status, const api::Errors& errors);
 Reply ProblemReply(int status, const std::string& detail);
 
-// Errors on query parameters that are not among `known` or given twice.
-api::Errors CheckQuery(const Call& call, const std::vector<std::string_view>& known);
+// Errors on query parameters that are not known, or given twice and not among `repeated`.
+api::Errors CheckQuery(const Call& call, const std::vector<std::string_view>& known,
+                       const std::vector<std::string_view>& repeated = {});
 std::optional<std::string> QueryValue(const Call& call, const std::string& name);
 // "true" or "false", anything else is an error; false where it is missing.
 bool ReadFlag(const Call& call, const std::string& name, api::Errors& errors);

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "api/catalogue/catalog_check.h"
 #include "api/catalogue/part_document.h"
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
@@ -103,15 +104,14 @@ int CheckCatalog(const CatalogOptions& options) {
   for (const auto& fault : faults) std::fprintf(stderr, "%s\n", fault.c_str());
   std::vector<catalog::Part> parts;
   if (readable) parts = store.List();  // what is damaged cannot be read
-  const auto outliers = catalog::FindOutliers(parts);
-  const auto gaps = catalog::FindGaps(parts);
+  const auto check = api::CheckParts(parts);
   if (options.json) {
     api::Json json = {{"parts", readable ? api::Json(parts.size()) : api::Json()},
                       {"faults", faults}};
-    json.update(api::RenderPlausibility(outliers, gaps));
+    json.update(api::RenderCheck(check));
     Print(Dump(json) + "\n");
   } else if (faults.empty()) {
-    Print(std::to_string(parts.size()) + " parts, no faults\n" + PlausibilityText(outliers, gaps));
+    Print(std::to_string(parts.size()) + " parts, no faults\n" + CheckText(check));
   }
   return faults.empty() ? kAnswered : kBadInput;
 }

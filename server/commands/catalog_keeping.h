@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "api/catalogue/table_reading.h"
+
 namespace plenum::server {
 
 // Options of all subcommands; each uses its own.
@@ -16,6 +18,8 @@ struct CatalogOptions {
   std::vector<std::string> filters;
   std::optional<std::int64_t> revision;
   int limit = 20;
+  catalog::TableOptions table;  // of import
+  std::vector<std::string> columns, set;
   bool json = false, csv = false, dry_run = false;
 };
 

@@ -106,17 +106,28 @@ void Remove(const CatalogOptions& options) {
   Print("removed " + options.id + "\n");
 }
 
+catalog::TableOptions TableOptionsOf(const CatalogOptions& options) {
+  catalog::TableOptions table = options.table;
+  api::Errors errors;
+  api::ReadTableColumns(options.columns, table, errors);
+  api::ReadTableSet(options.set, table, errors);
+  if (!errors.empty()) Refuse(errors);
+  return table;
+}
+
 void Import(const CatalogOptions& options) {
-  const auto text = ReadText(options.file);
+  const auto bytes = ReadText(options.file);
   auto store = OpenCatalog(options.catalog, Access::kWrite);
-  if (const auto wrong = CheckCsv(options.family, text); !wrong.empty()) Refuse(wrong);
-  const auto result = ImportCsv(store, options.family, text, options.dry_run, CommandSignature());
+  const auto reading = catalog::ReadTable(options.family, bytes, TableOptionsOf(options));
+  if (!reading.questions.empty()) throw BadInput(QuestionsText(reading));
+  if (const auto wrong = CheckTable(reading, bytes); !wrong.empty()) Refuse(wrong);
+  const auto result = ImportTable(store, reading, bytes, options.dry_run, CommandSignature());
   if (!result.errors.empty()) Refuse(result.errors);
-  if (options.json) return Print(Dump(ToJson(result, options.dry_run)) + "\n");
+  if (options.json) return Print(Dump(ToJson(result, reading, options.dry_run)) + "\n");
   const auto& plan = result.plan;
-  Print((options.dry_run ? "would add " : "added ") + std::to_string(plan.added.size()) +
-        ", replace " + std::to_string(plan.replaced.size()) + ", leave " +
-        std::to_string(plan.unchanged.size()) + " unchanged\n");
+  Print(UnderstoodText(reading) + (options.dry_run ? "would add " : "added ") +
+        std::to_string(plan.added.size()) + ", replace " + std::to_string(plan.replaced.size()) +
+        ", leave " + std::to_string(plan.unchanged.size()) + " unchanged\n");
 }
 
 void Export(const CatalogOptions& options) {
@@ -185,11 +196,38 @@ Table HistoryTable(CatalogOptions& options) {
           JsonFlag(options.json)};
 }
 
-Table ImportTable(CatalogOptions& options) {
-  return {RequiredFamily(options),
-          Argument("FILE", "CSV; - is standard input", &options.file),
-          {"--dry-run", "Says what it would do", &options.dry_run},
-          JsonFlag(options.json)};
+Table ImportOptions(CatalogOptions& options) {
+  catalog::TableOptions& table = options.table;
+  return {
+      RequiredFamily(options),
+      Argument("FILE", "CSV or TSV of any dialect; - is standard input", &options.file),
+      {"--dry-run", "Says what it would do", &options.dry_run},
+      {"--encoding",
+       "utf-8, utf-16le, utf-16be or windows-1252; found without",
+       &table.encoding,
+       {.value_name = "NAME", .allowed = OneOf(catalog::EncodingNames())}},
+      {"--delimiter",
+       "comma, semicolon, tab or pipe; found without",
+       &table.delimiter,
+       {.value_name = "NAME", .allowed = OneOf(catalog::DelimiterNames())}},
+      {"--decimal",
+       "What stands before decimals: point or comma; found without",
+       &table.decimal,
+       {.value_name = "MARK", .allowed = OneOf{"point", "comma"}}},
+      {"--header-row",
+       "Row with the headings; found without",
+       &table.header_row,
+       {.value_name = "N", .allowed = Within{1, 1'000'000}}},
+      {"--column",
+       "HEADING=COLUMN or \"HEADING=COLUMN [UNIT]\", HEADING= to leave it out, *= all that is not "
+       "known; may be repeated",
+       &options.columns,
+       {.value_name = "MEANING"}},
+      {"--set",
+       "COLUMN=VALUE for all rows; may be repeated",
+       &options.set,
+       {.value_name = "VALUE"}},
+      JsonFlag(options.json)};
 }
 
 // One argument by its place.
@@ -221,14 +259,15 @@ Command CatalogCommand() {
        Below("add", "Adds a part", Answered<Add>,
              FileTable("JSON as show --json prints it; - is standard input")),
        Below("remove", "Removes a part", Answered<Remove>, id),
-       Below("import", "Adds and replaces parts from CSV", Answered<Import>, ImportTable),
+       Below("import", "Adds and replaces parts from a table", Answered<Import>, ImportOptions),
        Below("export", "Parts of a family as CSV", Answered<Export>, family),
        Below("backup", "Copies the catalogue while it is in use", Answered<BackupCatalog>,
              FileTable("The copy; replaced if there is one")),
        Below("restore", "Puts parts and history of a copy in place", Answered<RestoreCatalog>,
              FileTable("The copy")),
-       Below("check", "Checks the file, every row, the history and odd numbers", CheckCatalog,
-             json)}};
+       Below("check",
+             "Checks the file and its history, finds duplicates, odd numbers and what is missing",
+             CheckCatalog, json)}};
 }
 
 }  // namespace plenum::server

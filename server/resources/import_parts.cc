@@ -17,11 +17,11 @@ std::string PointerTo(int row, const std::string& column) {
   return "/" + std::to_string(row) + "/" + column;
 }
 
-api::Errors ToErrors(const catalog::CsvErrors& found) {
+api::Errors ToErrors(const catalog::CsvErrors& found, const catalog::TableReading& reading) {
   api::Errors errors;
   for (const auto& error : found.errors) {
     if (errors.size() == kErrorsShown) break;
-    errors.push_back({PointerTo(error.row, error.column), error.detail});
+    errors.push_back({PointerTo(error.row, HeadingOf(reading, error.column)), error.detail});
   }
   if (found.count > errors.size())
     errors.push_back({"", std::to_string(found.count - errors.size()) + " more errors"});
@@ -29,17 +29,18 @@ api::Errors ToErrors(const catalog::CsvErrors& found) {
 }
 
 // Of the rows whose ids are those of parts of another family.
-api::Errors TakenErrors(const std::string& family, std::string_view text,
+api::Errors TakenErrors(const catalog::TableReading& reading, std::string_view bytes,
                         const std::vector<std::string>& taken) {
   const std::set<std::string> ids(taken.begin(), taken.end());
   catalog::CsvErrors errors;
-  catalog::ReadCsv(family, text, [&](const catalog::Part& part, int row) {
+  const auto rows = catalog::RowsOf(reading, bytes);
+  catalog::ReadRows(reading.family, rows, [&](const catalog::Part& part, int row) {
     if (!ids.contains(part.id)) return;
     if (++errors.count <= catalog::kCsvErrorsMax)
       errors.errors.push_back(
           {row, "id", "\"" + part.id + "\" is taken by a part of another family"});
   });
-  return ToErrors(errors);
+  return ToErrors(errors, reading);
 }
 
 }  // namespace
@@ -62,17 +63,21 @@ api::Errors FieldErrors(const std::vector<catalog::FieldError>& field_errors) {
 
 // Once for the errors, so that nothing is written before all of it is known to be right, then again
 // as the parts are wanted: all at once would take many times the text.
-api::Errors CheckCsv(const std::string& family, std::string_view text) {
-  if (catalog::FindFamily(family) == nullptr)
-    return {{"/family", "must be one of " + FamilyNames() + ", not \"" + family + "\""}};
-  return ToErrors(catalog::ReadCsv(family, text, [](const catalog::Part&, int) {}));
+api::Errors CheckTable(const catalog::TableReading& reading, std::string_view bytes) {
+  if (catalog::FindFamily(reading.family) == nullptr)
+    return {{"/family", "must be one of " + FamilyNames() + ", not \"" + reading.family + "\""}};
+  if (auto open = api::ErrorsOf(reading); !open.empty()) return open;
+  return ToErrors(catalog::ReadRows(reading.family, catalog::RowsOf(reading, bytes),
+                                    [](const catalog::Part&, int) {}),
+                  reading);
 }
 
-CsvImport ImportCsv(catalog::Store& store, const std::string& family, std::string_view text,
-                    bool dry_run, const catalog::Signature& by) {
-  CsvImport result;
+TableImport ImportTable(catalog::Store& store, const catalog::TableReading& reading,
+                        std::string_view bytes, bool dry_run, const catalog::Signature& by) {
+  TableImport result;
+  const auto rows = catalog::RowsOf(reading, bytes);
   const catalog::PartSource parts = [&](const catalog::TakeEach& take) {
-    catalog::ReadCsv(family, text, [&](const catalog::Part& part, int) { take(part); });
+    catalog::ReadRows(reading.family, rows, [&](const catalog::Part& part, int) { take(part); });
   };
   if (dry_run) {
     result.plan = store.PlanImport(parts);
@@ -83,16 +88,17 @@ CsvImport ImportCsv(catalog::Store& store, const std::string& family, std::strin
     result.status = imported.write.status;
     result.revision = std::move(imported.write.revision);
   }
-  if (!result.plan.taken.empty()) result.errors = TakenErrors(family, text, result.plan.taken);
+  if (!result.plan.taken.empty()) result.errors = TakenErrors(reading, bytes, result.plan.taken);
   return result;
 }
 
-api::Json ToJson(const CsvImport& import, bool dry_run) {
+api::Json ToJson(const TableImport& import, const catalog::TableReading& reading, bool dry_run) {
   return {{"added", import.plan.added},
           {"replaced", import.plan.replaced},
           {"unchanged", import.plan.unchanged},
           {"dry_run", dry_run},
-          {"catalogue_revision", api::RenderRevisionName(import.revision)}};
+          {"catalogue_revision", api::RenderRevisionName(import.revision)},
+          {"understood", api::RenderUnderstood(reading)}};
 }
 
 }  // namespace plenum::server

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "api/catalogue/table_reading.h"
 #include "api/describe/descriptions.h"
 
 namespace plenum::server {
@@ -51,7 +52,12 @@ const std::map<std::string, Operation>& Operations() {
       {"POST /v1/parts", {kWrite, "Part", {{201, "StoredPart"}}, {400, 409, 422}}},
       {"GET /v1/parts/export", {{"family"}, "", {{200, "Csv", kCsv}}, {422}}},
       {"POST /v1/parts/import",
-       {{"family", "dry_run", "Idempotency-Key", "From"}, "csv", {{200, "Import"}}, {422}}},
+       {{"family", "dry_run", "encoding", "delimiter", "decimal", "header_row", "column", "set",
+         "Idempotency-Key", "From"},
+        "csv",
+        {{200, "Import"}},
+        {413, 422}}},
+      {"GET /v1/parts/check", {{}, "", {{200, "CatalogCheck"}}, {422}}},
       {"GET /v1/parts/{id}",
        {{"revision", "If-None-Match"}, "", {{200, "StoredPart"}, {304, ""}}, {404, 422}}},
       {"PUT /v1/parts/{id}",
@@ -129,6 +135,14 @@ Json Parameters() {
       {"cursor", Query("cursor", text, "next_cursor of the page before")},
       {"family", Query("family", text, "of parts")},
       {"dry_run", Query("dry_run", flag, "say what would be done, write nothing")},
+      {"encoding", Query("encoding", {{"enum", catalog::EncodingNames()}}, "of the table")},
+      {"delimiter", Query("delimiter", {{"enum", catalog::DelimiterNames()}}, "of the table")},
+      {"decimal", Query("decimal", {{"enum", {"point", "comma"}}}, "what stands before decimals")},
+      {"header_row",
+       Query("header_row", {{"type", "integer"}, {"minimum", 1}}, "the row with the headings")},
+      {"column", Query("column", {{"type", "array"}, {"items", text}},
+                       "HEADING=COLUMN [UNIT]; HEADING= leaves a column out, *= all not known")},
+      {"set", Query("set", {{"type", "array"}, {"items", text}}, "COLUMN=VALUE for all rows")},
       {"validate_only", Query("validate_only", flag, "check the document, start no job")},
       {"revision", Query("revision", {{"type", "integer"}, {"minimum", 0}},
                          "as it was in this revision of the catalogue")},
@@ -159,6 +173,31 @@ Json Versioned(const char* schema) {
           {"required", {"schema", "plenum"}}};
 }
 
+// Of the answers on many parts at once.
+Json CatalogueSchemas() {
+  const Json text = {{"type", "string"}}, number = {{"type", "number"}};
+  const Json integer = {{"type", "integer"}}, flag = {{"type", "boolean"}};
+  const Json ids = ListOf(text);
+  return {{"Import", Object({{"added", ids},
+                             {"replaced", ids},
+                             {"unchanged", ids},
+                             {"dry_run", flag},
+                             {"understood", Json::object()}})},
+          {"CatalogCheck",
+           Object({{"parts", integer},
+                   {"duplicates", ListOf(Object({{"family", text}, {"why", text}, {"ids", ids}}))},
+                   {"outliers", ListOf(Object({{"id", text}, {"field", text}, {"value", number}}))},
+                   {"gaps", ListOf(Object({{"family", text}, {"field", text}, {"missing", ids}}))},
+                   {"families", ListOf(Object({{"family", text},
+                                               {"parts", integer},
+                                               {"without_price", ids},
+                                               {"without_document", ids},
+                                               {"values", integer},
+                                               {"estimated", integer},
+                                               {"estimated_share", number}}))},
+                   {"catalogue_revision", Object({{"number", integer}, {"hash", text}})}})}};
+}
+
 // Of answers: the fields that callers may rely on; more may come.
 Json AnswerSchemas() {
   const Json text = {{"type", "string"}}, number = {{"type", "number"}};
@@ -179,7 +218,9 @@ Json AnswerSchemas() {
           {"status", integer},
           {"detail", text},
           {"errors", ListOf(Object({{"pointer", text}, {"detail", text}}))},
-          {"limit", Object({{"name", text}, {"value", any}})}}},
+          {"limit", Object({{"name", text}, {"value", any}})},
+          {"questions", ListOf(any)},
+          {"understood", any}}},
         {"required", {"type", "title", "status"}}}},
       {"Anything", any},
       {"Text", text},
@@ -220,8 +261,6 @@ Json AnswerSchemas() {
                             {"next_cursor", maybe_text},
                             {"total", integer},
                             {"catalogue_revision", name_of_revision}})},
-      {"Import",
-       Object({{"added", ids}, {"replaced", ids}, {"unchanged", ids}, {"dry_run", flag}})},
       {"Families", NamedListOf("families", Object({{"name", text},
                                                    {"numbers", ListOf(any)},
                                                    {"texts", ListOf(any)},
@@ -261,6 +300,7 @@ Json Schemas() {
       {{"name", {{"type", "string"}, {"maxLength", 200}}}, {"model", Ref("schemas", "Model")}});
   schemas["NamedModel"]["additionalProperties"] = false;
   schemas.update(AnswerSchemas());
+  schemas.update(CatalogueSchemas());
   return schemas;
 }
 

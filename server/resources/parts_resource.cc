@@ -1,11 +1,14 @@
 #include "server/resources/parts_resource.h"
 
 #include <algorithm>
+#include <charconv>
 
+#include "api/catalogue/catalog_check.h"
 #include "api/catalogue/part_document.h"
 #include "api/catalogue/part_query.h"
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
+#include "api/json/problem_document.h"
 #include "api/json/request_limits.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
@@ -265,6 +268,15 @@ Reply ExportParts(SharedCatalog& catalog, const Call& call) {
           {}};
 }
 
+Reply GetPartsCheck(SharedCatalog& catalog, const Call& call) {
+  if (const auto errors = CheckQuery(call, {}); !errors.empty()) return ProblemReply(422, errors);
+  const auto view = catalog.View();
+  api::Json json = {{"parts", view.parts->size()}};
+  json.update(api::RenderCheck(api::CheckParts(*view.parts)));
+  json["catalogue_revision"] = api::RenderRevisionName(view.revision);
+  return JsonReply(200, json);
+}
+
 namespace {
 
 std::optional<Reply> RefuseTable(std::string_view text) {
@@ -274,25 +286,63 @@ std::optional<Reply> RefuseTable(std::string_view text) {
                     "the table has too many rows; send it in parts");
 }
 
+std::vector<std::string> QueryValues(const Call& call, const std::string& name) {
+  std::vector<std::string> values;
+  const auto [begin, end] = call.query.equal_range(name);
+  for (auto it = begin; it != end; ++it) values.push_back(it->second);
+  return values;
+}
+
+catalog::TableOptions ReadTableOptions(const Call& call, api::Errors& errors) {
+  catalog::TableOptions options;
+  options.encoding = QueryValue(call, "encoding").value_or("");
+  options.delimiter = QueryValue(call, "delimiter").value_or("");
+  options.decimal = QueryValue(call, "decimal").value_or("");
+  if (const auto row = QueryValue(call, "header_row")) {
+    const auto [end, error] =
+        std::from_chars(row->data(), row->data() + row->size(), options.header_row);
+    if (error != std::errc() || end != row->data() + row->size() || options.header_row < 1)
+      errors.push_back({"/header_row", "must be a row of the table, from 1, not " + *row});
+  }
+  api::ReadTableColumns(QueryValues(call, "column"), options, errors);
+  api::ReadTableSet(QueryValues(call, "set"), options, errors);
+  return options;
+}
+
+// With what is asked and what was understood so far.
+Reply TableProblem(const api::Errors& errors, const catalog::TableReading& reading) {
+  api::Json problem = api::ProblemDocument(422, errors);
+  problem["questions"] = api::RenderQuestions(reading);
+  problem["understood"] = api::RenderUnderstood(reading);
+  Reply reply = JsonReply(422, problem);
+  reply.content_type = "application/problem+json";
+  return reply;
+}
+
 }  // namespace
 
 Reply ImportParts(SharedCatalog& catalog, const Call& call) {
-  auto errors = CheckQuery(call, {"family", "dry_run"});
+  auto errors =
+      CheckQuery(call, {"family", "dry_run", "encoding", "delimiter", "decimal", "header_row"},
+                 {"column", "set"});
   const auto family = QueryValue(call, "family");
   if (!family) errors.push_back({"/family", "is missing; one of " + FamilyNames()});
   const bool dry_run = ReadFlag(call, "dry_run", errors);
+  const auto options = ReadTableOptions(call, errors);
   if (!errors.empty()) return ProblemReply(422, errors);
   if (auto refused = RefuseTable(call.body)) return *refused;
   const auto signature = SignatureOf(call);
   if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
-  auto wrong = CheckCsv(*family, call.body);  // without the store: others may have it meanwhile
-  if (!wrong.empty()) return ProblemReply(422, wrong);
+  // Without the store: others may have it meanwhile.
+  const auto reading = catalog::ReadTable(*family, call.body, options);
+  const auto wrong = CheckTable(reading, call.body);
+  if (!wrong.empty()) return TableProblem(wrong, reading);
   const auto result = catalog.WithLong([&](catalog::Store& store) {
-    return ImportCsv(store, *family, call.body, dry_run, std::get<catalog::Signature>(signature));
+    return ImportTable(store, reading, call.body, dry_run, std::get<catalog::Signature>(signature));
   });
-  if (!result.errors.empty()) return ProblemReply(422, result.errors);
+  if (!result.errors.empty()) return TableProblem(result.errors, reading);
   if (result.status == catalog::WriteStatus::kKeyReused) return KeyReused();
-  return JsonReply(200, ToJson(result, dry_run));
+  return JsonReply(200, ToJson(result, reading, dry_run));
 }
 
 }  // namespace plenum::server

@@ -20,6 +20,10 @@ Reply ReplacePart(SharedCatalog& catalog, const Call& call);
 Reply RemovePart(SharedCatalog& catalog, const Call& call);
 
 Reply ExportParts(SharedCatalog& catalog, const Call& call);
+// Duplicates, odd numbers, what is missing or estimated: api/catalogue/catalog_check.h.
+Reply GetPartsCheck(SharedCatalog& catalog, const Call& call);
+// A table of any dialect; what it leaves open is refused with questions, which the query answers
+// (encoding, delimiter, decimal, header_row, column=HEADING=COLUMN [UNIT], set=COLUMN=VALUE).
 // All rows or none when a row is invalid. Rows whose id exists are replaced. `dry_run=true` answers
 // what would be done. Takes an Idempotency-Key as AddPart does.
 Reply ImportParts(SharedCatalog& catalog, const Call& call);

@@ -1,5 +1,8 @@
 #include "server/resources/routes.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "api/catalogue/families.h"
 #include "api/design/evaluation.h"
 #include "api/json/json.h"
@@ -60,6 +63,24 @@ void AddJobRoutes(const JobsResource& jobs, std::vector<Route>& routes) {
                     [jobs](const Call& call) { return JobEvents(jobs, call); }});
 }
 
+// Before "/v1/parts/{id}", which would take their last words for ids.
+void AddManyPartsRoutes(SharedCatalog& catalog, std::vector<Route>& routes) {
+  const auto parts = [&](Reply (*answer)(SharedCatalog&, const Call&)) {
+    return [&catalog, answer](const Call& call) { return answer(catalog, call); };
+  };
+  const auto one = std::find_if(routes.begin(), routes.end(),
+                                [](const Route& route) { return route.path == "/v1/parts/{id}"; });
+  const Route many[] = {
+      {"GET", "/v1/parts/export", "parts of a family as CSV; query family", Access::kRead,
+       parts(ExportParts)},
+      {"POST", "/v1/parts/import",
+       "parts of a family from a table; query family, dry_run, what the table leaves open",
+       Access::kWrite, parts(ImportParts)},
+      {"GET", "/v1/parts/check", "duplicates, odd numbers, what is missing or estimated",
+       Access::kRead, parts(GetPartsCheck)}};
+  routes.insert(one, std::begin(many), std::end(many));
+}
+
 }  // namespace
 
 std::vector<Route> Routes(const Services& services) {
@@ -100,10 +121,6 @@ std::vector<Route> Routes(const Services& services) {
        "parts; query family, field_min, field_max, sort, facets, limit, cursor, revision",
        Access::kRead, parts(ListParts)},
       {"POST", "/v1/parts", "adds a part", Access::kWrite, parts(AddPart)},
-      {"GET", "/v1/parts/export", "parts of a family as CSV; query family", Access::kRead,
-       parts(ExportParts)},
-      {"POST", "/v1/parts/import", "parts of a family from CSV; query family, dry_run",
-       Access::kWrite, parts(ImportParts)},
       {"GET", "/v1/parts/{id}", "one part, with ETag", Access::kRead, parts(GetPart)},
       {"PUT", "/v1/parts/{id}", "replaces the part that If-Match names", Access::kWrite,
        parts(ReplacePart)},
@@ -138,6 +155,7 @@ std::vector<Route> Routes(const Services& services) {
          return JsonReply(200, {{"limits", limits}});
        }},
   };
+  AddManyPartsRoutes(catalog, routes);
   AddJobRoutes(design_jobs, routes);
   AddJobRoutes(diagnosis_jobs, routes);
   routes.push_back({"GET", "/", "the web page", Access::kOpen, GetPage});

@@ -11,6 +11,8 @@
 #include "api/measure/measurement.h"
 #include "catalog/fields/csv.h"
 #include "catalog/fields/fields.h"
+#include "catalog/tables/part_rows.h"
+#include "catalog/tables/reading.h"
 #include "server/wire/request_frame.h"
 
 namespace plenum::fuzz {
@@ -29,10 +31,23 @@ void Measurement(std::string_view text) {
   if (const auto* document = std::get_if<api::Json>(&json)) api::ParseMeasurement(*document);
 }
 
+// As a table of any dialect: parts that are right, or errors, or questions.
+void Table(std::string_view family, std::string_view bytes) {
+  const auto reading = catalog::ReadTable(family, bytes);
+  if (!reading.questions.empty() || !reading.errors.empty()) return;
+  std::vector<catalog::Part> parts;
+  const auto errors =
+      catalog::ReadRows(family, catalog::RowsOf(reading, bytes),
+                        [&](catalog::Part part, int) { parts.push_back(std::move(part)); });
+  if (errors.count > 0) return;
+  for (const catalog::Part& part : parts) Require(catalog::Validate(part).empty());
+}
+
 void Csv(std::string_view text) {
   if (text.empty()) return;
   const auto families = catalog::Families();
   const auto& family = families[static_cast<unsigned char>(text[0]) % families.size()];
+  Table(family.name, text.substr(1));
   const auto csv = catalog::ReadCsv(std::string(family.name), text.substr(1));
   if (!csv.errors.empty()) return;
   // What was read without an error is written and read again as it was.

@@ -104,6 +104,35 @@ TEST_F(Http, ImportRefusesAFileWithABadRowAltogether) {
   ExpectProblem(client_->Get("/v1/parts/bench-f1"), 404);
 }
 
+TEST_F(Http, ImportAsksWhatAForeignTableLeavesOpen) {
+  const std::string table = "Hersteller;Modell;Stations;Weight [g]\nFesto;VX-9;4;1,234\n";
+  const std::string path = "/v1/parts/import?family=manifold&dry_run=true";
+  const auto asked = client_->Post(path, table, "text/csv");
+  ExpectProblem(asked, 422, "/decimal/Weight [g]");
+  EXPECT_EQ(Body(asked)["questions"][0]["option"], "decimal");
+  EXPECT_EQ(Body(asked)["understood"]["columns"][3]["targets"][0], "mass_kg [g]");
+  const auto read = client_->Post(path + "&decimal=comma", table, "text/csv");
+  ASSERT_EQ(read->status, 200) << read->body;
+  EXPECT_EQ(Body(read)["added"], Json::array({"festo-vx-9"}));
+  EXPECT_EQ(Body(read)["understood"]["delimiter"], "semicolon");
+  // Of two columns one is left out, and all rows share what no column says.
+  const auto answered = client_->Post(path + "&column=A=stations&column=B=&set=manufacturer=Me",
+                                      "Model;A;B\nx;4;7\n", "text/csv");
+  ASSERT_EQ(answered->status, 200) << answered->body;
+  EXPECT_EQ(Body(answered)["added"], Json::array({"me-x"}));
+  ExpectProblem(client_->Post(path + "&decimal=dot", table, "text/csv"), 422, "/decimal");
+  ExpectProblem(client_->Post(path + "&header_row=x", table, "text/csv"), 422, "/header_row");
+}
+
+TEST_F(Http, CheckCountsWhatTheCatalogueHolds) {
+  const auto check = Body(client_->Get("/v1/parts/check"));
+  int parts = 0;
+  for (const Json& family : check["families"]) parts += family["parts"].get<int>();
+  EXPECT_EQ(parts, check["parts"]);
+  EXPECT_TRUE(check["duplicates"].is_array());
+  EXPECT_TRUE(check["catalogue_revision"].contains("hash"));
+}
+
 TEST_F(Http, FamiliesNameTheirFields) {
   const Json families = Body(client_->Get("/v1/families"))["families"];
   EXPECT_EQ(families.size(), catalog::Families().size());

@@ -185,7 +185,7 @@ test('an import is previewed, its errors named, then written', async () => {
   const csv = await (await fetch(`${service.base}/v1/parts/export?family=tubing`)).text();
   const [head, row] = csv.split('\n');
   const { page, close } = await openPage(browser, service.base, '#/catalogue/tubing');
-  await page.getByRole('button', { name: 'Import CSV' }).click();
+  await page.getByRole('button', { name: 'Import a table' }).click();
   const box = page.getByLabel('or paste it here');
   await box.fill(`${head}\nonly-an-id\n`);
   await page.getByText(/errors; nothing can be imported/).waitFor();

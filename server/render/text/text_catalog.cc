@@ -10,6 +10,8 @@ namespace {
 
 using catalog::Part;
 
+constexpr std::size_t kAnswersShown = 6;
+
 std::string NumberOrDash(const Part& part, const char* field) {
   const auto it = part.numbers.find(field);
   return it == part.numbers.end() ? "–" : Short(it->second.value);
@@ -73,6 +75,81 @@ std::string DetailsText(const Part& part) {
     text += "\n";
   }
   return text;
+}
+
+std::string TargetsText(const catalog::ColumnRead& column) {
+  std::string text;
+  for (const auto& target : column.targets)
+    text += (text.empty() ? "" : " + ") + FormatTarget(target);
+  return text.empty() ? "left out" : text;
+}
+
+std::string DecimalText(const catalog::ColumnRead& column) {
+  if (!column.has_decimals) return "";
+  return column.decimal == catalog::Decimal::kComma ? "decimal comma" : "decimal point";
+}
+
+// "--column 'Druck=pressure_max_kpa_gauge [bar]'"
+std::string AnswerText(const catalog::Question& question, const std::string& answer) {
+  if (question.option == "header_row") return "--header-row " + answer;
+  if (question.option != "column") return "--" + question.option + " " + answer;
+  return fmt::format("--column '{}={}'", question.heading, answer);
+}
+
+std::string OutliersText(const std::vector<catalog::Outlier>& outliers) {
+  using enum Table::Align;
+  if (outliers.empty()) return "";
+  Table table({{"id", kLeft}, {"field", kLeft}, {"value"}, {"family median"}, {"robust z"}}, 2);
+  for (const auto& outlier : outliers) {
+    table.Add({outlier.id, outlier.field, Short(outlier.value), Short(outlier.median),
+               fmt::format("{:+.1f}", outlier.robust_z)});
+  }
+  return "\nFar from the rest of their family, worth a second look:\n" + table.Text();
+}
+
+std::string DuplicatesText(const std::vector<catalog::Duplicates>& all) {
+  using enum Table::Align;
+  if (all.empty()) return "";
+  Table table({{"family", kLeft}, {"parts", kLeft}, {"why", kLeft}}, 2);
+  for (const auto& duplicates : all) {
+    std::string ids;
+    for (const auto& id : duplicates.ids) ids += (ids.empty() ? "" : ", ") + id;
+    table.Add({duplicates.family, Cut(ids, 80), duplicates.why});
+  }
+  return "\nMaybe one part under several names:\n" + table.Text();
+}
+
+std::string GapsText(const std::vector<catalog::Gap>& gaps) {
+  using enum Table::Align;
+  if (gaps.empty()) return "";
+  Table table({{"family", kLeft}, {"field", kLeft}, {"missing"}, {"of"}, {"blocks", kLeft}}, 2);
+  for (const auto& gap : gaps) {
+    table.Add({gap.family, gap.field, std::to_string(gap.ids.size()), std::to_string(gap.parts),
+               gap.blocks});
+  }
+  return "\nMissing, which keeps parts out of rankings by what the field blocks:\n" + table.Text();
+}
+
+std::string CoverageText(const std::vector<catalog::Coverage>& families) {
+  using enum Table::Align;
+  Table table(
+      {{"family", kLeft}, {"parts"}, {"no price"}, {"no document"}, {"values"}, {"estimated"}}, 2);
+  catalog::Coverage all;
+  std::size_t no_price = 0, no_document = 0;
+  const auto share = [](const catalog::Coverage& of) {
+    return of.values > 0 ? fmt::format("{:.0f} %", 100.0 * of.estimated / of.values) : "–";
+  };
+  for (const auto& family : families) {
+    table.Add({family.family, std::to_string(family.parts),
+               std::to_string(family.without_price.size()),
+               std::to_string(family.without_document.size()), std::to_string(family.values),
+               share(family)});
+    all.parts += family.parts, all.values += family.values, all.estimated += family.estimated;
+    no_price += family.without_price.size(), no_document += family.without_document.size();
+  }
+  table.Add({"all", std::to_string(all.parts), std::to_string(no_price),
+             std::to_string(no_document), std::to_string(all.values), share(all)});
+  return "\nHow much is known, and how much of that is estimated:\n" + table.Text();
 }
 
 }  // namespace
@@ -151,27 +228,45 @@ std::string HistoryText(const std::vector<catalog::Change>& changes) {
   return text;
 }
 
-std::string PlausibilityText(const std::vector<catalog::Outlier>& outliers,
-                             const std::vector<catalog::Gap>& gaps) {
+std::string CheckText(const api::CatalogCheck& check) {
+  return DuplicatesText(check.duplicates) + OutliersText(check.outliers) + GapsText(check.gaps) +
+         CoverageText(check.coverage);
+}
+
+std::string UnderstoodText(const catalog::TableReading& reading) {
   using enum Table::Align;
-  std::string text;
-  if (!outliers.empty()) {
-    Table table({{"id", kLeft}, {"field", kLeft}, {"value"}, {"family median"}, {"robust z"}}, 2);
-    for (const auto& outlier : outliers) {
-      table.Add({outlier.id, outlier.field, Short(outlier.value), Short(outlier.median),
-                 fmt::format("{:+.1f}", outlier.robust_z)});
-    }
-    text += "\nFar from the rest of their family, worth a second look:\n" + table.Text();
-  }
-  if (!gaps.empty()) {
-    Table table({{"family", kLeft}, {"field", kLeft}, {"missing"}, {"of"}, {"blocks", kLeft}}, 2);
-    for (const auto& gap : gaps) {
-      table.Add({gap.family, gap.field, std::to_string(gap.ids.size()), std::to_string(gap.parts),
-                 gap.blocks});
-    }
+  if (reading.as_exported) return "";
+  std::string text = fmt::format("read as {}, {}-delimited, header in row {}{}\n", reading.encoding,
+                                 reading.delimiter, reading.header_row,
+                                 reading.makes_ids ? ", ids made of maker and part number" : "");
+  Table table({{"heading", kLeft}, {"column", kLeft}, {"", kLeft}, {"first cell", kLeft}}, 2);
+  for (const auto& column : reading.columns)
+    if (!column.samples.empty())
+      table.Add({Cut(column.key, 40), TargetsText(column), DecimalText(column),
+                 Cut(column.samples.front(), 30)});
+  text += table.Text();
+  for (const auto& [column, value] : reading.set)
+    text += fmt::format("  {} is {} for all rows\n", column, value);
+  for (const auto& one : reading.left_out)
+    text += fmt::format("  row {} left out: {}\n", one.row, one.why);
+  if (reading.left_out_count > reading.left_out.size())
     text +=
-        "\nMissing, which keeps parts out of rankings by what the field blocks:\n" + table.Text();
+        fmt::format("  {} more rows left out\n", reading.left_out_count - reading.left_out.size());
+  return text;
+}
+
+std::string QuestionsText(const catalog::TableReading& reading) {
+  std::string text;
+  for (const auto& error : reading.errors)
+    text += fmt::format("{}: {}\n", error.column, error.detail);
+  for (const auto& question : reading.questions) {
+    text += question.text + "\n";
+    std::vector<std::string> answers = question.answers;
+    if (answers.empty()) answers = {"COLUMN [UNIT]", ""};
+    for (std::size_t i = 0; i < answers.size() && i < kAnswersShown; ++i)
+      text += "  " + AnswerText(question, answers[i]) + "\n";
   }
+  while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
 }
 

@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "api/catalogue/catalog_check.h"
 #include "api/catalogue/part_document.h"
 #include "api/catalogue/stores.h"
+#include "api/catalogue/table_reading.h"
 
 namespace plenum::server {
 
@@ -20,9 +22,13 @@ std::string RevisionsText(const std::vector<catalog::Revision>& revisions);
 // One line a change and one for each field that it changed.
 std::string HistoryText(const std::vector<catalog::Change>& changes);
 
-// Numbers that look wrong and fields that are missing.
-std::string PlausibilityText(const std::vector<catalog::Outlier>& outliers,
-                             const std::vector<catalog::Gap>& gaps);
+// What a person who tends the catalogue should look at.
+std::string CheckText(const api::CatalogCheck& check);
+
+// How a table was understood; empty for one that is read as it was exported.
+std::string UnderstoodText(const catalog::TableReading& reading);
+// Each question that a table leaves open, with the option that answers it.
+std::string QuestionsText(const catalog::TableReading& reading);
 
 }  // namespace plenum::server
 

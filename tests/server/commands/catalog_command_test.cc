@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 
 #include "api/catalogue/stores.h"
@@ -128,6 +129,48 @@ TEST(CatalogCommand, CheckPointsOutOddNumbersAndGaps) {
     gap |= field["family"] == "fitting" && field["field"] == "price_eur";
   EXPECT_TRUE(gap);
   EXPECT_THAT(bench.Run("catalog check").out, HasSubstr("worth a second look"));
+}
+
+TEST(CatalogCommand, CheckNamesDuplicatesAndCountsEstimates) {
+  const Workbench bench;
+  auto again = Document(bench.Run("catalog list fitting --json").out)["parts"][0];
+  again["id"] = "again";
+  std::string number = again["part_number"];
+  for (char& c : number) c = c == '-' ? ' ' : static_cast<char>(std::tolower(c));
+  again["part_number"] = number;
+  ASSERT_EQ(bench.Run("catalog add -", again.dump()).status, 0);
+  const Json json = Document(bench.Run("catalog check --json").out);
+  int found = 0;
+  for (const Json& duplicates : json["duplicates"])
+    for (const Json& id : duplicates["ids"]) found += id == "again";
+  EXPECT_EQ(found, 1);
+  int parts = 0;
+  for (const Json& family : json["families"]) {
+    parts += family["parts"].get<int>();
+    EXPECT_LE(family["estimated"], family["values"]);
+    EXPECT_LE(family["without_price"].size(), family["parts"]);
+  }
+  EXPECT_EQ(parts, json["parts"]);
+  EXPECT_THAT(bench.Run("catalog check").out, HasSubstr("Maybe one part under several names"));
+}
+
+TEST(CatalogCommand, ImportsAForeignTableOnceItsQuestionsAreAnswered) {
+  const Workbench bench;
+  bench.Write("parts.csv", "Verteiler\nModell;Stations;Gewicht\nVX 4;4;210,5\nSumme;4;\n");
+  const auto asked = bench.Run("catalog import manifold parts.csv");
+  EXPECT_EQ(asked.status, 2);
+  EXPECT_THAT(asked.err, HasSubstr("--column 'Gewicht=mass_kg [g]'"));
+  const std::string answer =
+      "catalog import manifold parts.csv --set manufacturer=Festo --column "
+      "'Gewicht=mass_kg [g]'";
+  EXPECT_THAT(bench.Run(answer + " --dry-run").out, HasSubstr("would add 1"));
+  const auto done = bench.Run(answer);
+  EXPECT_EQ(done.status, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("semicolon-delimited, header in row 2"));
+  EXPECT_THAT(done.out, HasSubstr("row 4 left out: a row of totals"));
+  EXPECT_EQ(Document(bench.Run("catalog show festo-vx-4 --json").out)["mass_kg"], 0.2105);
+  EXPECT_THAT(bench.Run("catalog import manifold parts.csv --column Gewicht").err,
+              HasSubstr("HEADING=COLUMN"));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ export class Problem extends Error {
     readonly status: number,
     message: string,
     readonly errors: FieldError[] = [],
+    readonly body: Record<string, unknown> = {}, // the whole problem document
   ) {
     super(message);
   }
@@ -46,7 +47,7 @@ async function problemOf(response: Response): Promise<Problem> {
     const body = await response.json();
     const errors: FieldError[] = body.errors ?? [];
     const detail = body.detail ?? body.title ?? response.statusText;
-    return new Problem(response.status, detail, errors);
+    return new Problem(response.status, detail, errors, body);
   } catch {
     return new Problem(response.status, `the service answered ${response.status}`);
   }
@@ -57,13 +58,13 @@ export async function ask<T>(
   path: string,
   options: {
     body?: unknown;
-    text?: string;
+    text?: string | Blob;
     headers?: Record<string, string>;
     signal?: AbortSignal;
   } = {},
 ): Promise<Answered<T>> {
   const headers = withToken({ ...options.headers });
-  let body: string | undefined = options.text;
+  let body: string | Blob | undefined = options.text;
   if (options.body !== undefined) {
     headers['Content-Type'] = 'application/json';
     body = JSON.stringify(options.body);

@@ -8,6 +8,7 @@ import { go, link, route, setQuery } from '../lib/route';
 import type { Part } from '../lib/types';
 import { Notice, Panel } from '../ui/controls';
 import { ExportButton } from '../ui/files';
+import { CheckDialog } from './catalogue_check';
 import { Facets, filters, passes } from './facets';
 import { RevisionsDialog } from './history';
 import { ImportDialog } from './part_import';
@@ -32,7 +33,7 @@ export async function reload(family: string): Promise<void> {
 export function CatalogueView() {
   const [, asked] = route.value.path;
   const family = asked ?? 'valve';
-  const dialog = useSignal<'add' | 'import' | 'history' | null>(null);
+  const dialog = useSignal<'add' | 'import' | 'check' | 'history' | null>(null);
   useEffect(() => void reload(family), [family]);
   const meta = families.value.find((f) => f.name === family);
   const list = parts.value.family === family ? parts.value.list : [];
@@ -70,9 +71,12 @@ export function CatalogueView() {
               Add a part
             </button>
             <button type="button" onClick={() => (dialog.value = 'import')}>
-              Import CSV
+              Import a table
             </button>
             <ExportButton family={family} label="Export CSV" />
+            <button type="button" onClick={() => (dialog.value = 'check')}>
+              Check
+            </button>
             <button type="button" onClick={() => (dialog.value = 'history')}>
               History
             </button>
@@ -101,14 +105,17 @@ export function CatalogueView() {
           }}
         />
       )}
-      {dialog.value === 'import' && (
+      {dialog.value === 'import' && meta && (
         <ImportDialog
-          family={family}
+          meta={meta}
           onClose={(done) => {
             dialog.value = null;
             if (done) void reload(family);
           }}
         />
+      )}
+      {dialog.value === 'check' && (
+        <CheckDialog family={family} onClose={() => (dialog.value = null)} />
       )}
       {dialog.value === 'history' && (
         <RevisionsDialog

@@ -1,6 +1,6 @@
 // What is allowed, but looks wrong or will be missed: for a person who tends the catalogue.
-#ifndef PLENUM_CATALOG_FIELDS_PLAUSIBILITY_H_
-#define PLENUM_CATALOG_FIELDS_PLAUSIBILITY_H_
+#ifndef PLENUM_CATALOG_CHECK_PLAUSIBILITY_H_
+#define PLENUM_CATALOG_CHECK_PLAUSIBILITY_H_
 
 #include <string>
 #include <vector>
@@ -44,4 +44,4 @@ std::vector<Gap> FindGaps(const std::vector<Part>& parts);
 
 }  // namespace plenum::catalog
 
-#endif  // PLENUM_CATALOG_FIELDS_PLAUSIBILITY_H_
+#endif  // PLENUM_CATALOG_CHECK_PLAUSIBILITY_H_

@@ -1,4 +1,4 @@
-#include "catalog/fields/plausibility.h"
+#include "catalog/check/plausibility.h"
 
 #include <algorithm>
 #include <cmath>

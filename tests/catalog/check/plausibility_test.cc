@@ -1,4 +1,4 @@
-#include "catalog/fields/plausibility.h"
+#include "catalog/check/plausibility.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

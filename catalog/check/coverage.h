@@ -1,0 +1,27 @@
+// How much of each family is known, and how much of that is estimated.
+#ifndef PLENUM_CATALOG_CHECK_COVERAGE_H_
+#define PLENUM_CATALOG_CHECK_COVERAGE_H_
+
+#include <string>
+#include <vector>
+
+#include "catalog/fields/part.h"
+
+namespace plenum::catalog {
+
+struct Coverage {
+  std::string family;
+  int parts = 0;
+  std::vector<std::string> without_price, without_document;  // ids
+  // Numbers and texts with a provenance; flow and current of a curve are one each.
+  int values = 0;
+  int estimated = 0;  // of these
+  bool operator==(const Coverage&) const = default;
+};
+
+// Of every family that has parts, in the order of Families().
+std::vector<Coverage> CoverageOf(const std::vector<Part>& parts);
+
+}  // namespace plenum::catalog
+
+#endif  // PLENUM_CATALOG_CHECK_COVERAGE_H_

@@ -1,0 +1,143 @@
+#include "catalog/tables/cell_evidence.h"
+
+#include <algorithm>
+
+#include "catalog/tables/layout.h"
+#include "catalog/units/quantity.h"
+#include "catalog/units/text.h"
+
+namespace plenum::catalog {
+namespace {
+
+constexpr std::size_t kSamples = 3;
+constexpr std::size_t kSampleBytes = 60;
+
+bool HasNumbers(const Family& family, const ColumnRead& column) {
+  return std::any_of(column.targets.begin(), column.targets.end(), [&](const Target& target) {
+    return FindNumber(family, target.column) != nullptr;
+  });
+}
+
+void Note(const std::string& cell, ColumnEvidence& evidence) {
+  const CellNumber number = FrontOf(cell);
+  if (number.digits.empty()) return;
+  const auto show = [&](std::string& example) {
+    if (example.empty()) example = cell.substr(0, kSampleBytes);
+  };
+  if (number.is_bare()) show(evidence.bare);
+  switch (EvidenceOf(number.digits)) {
+    case Evidence::kPoint:
+      return show(evidence.point);
+    case Evidence::kComma:
+      return show(evidence.comma);
+    case Evidence::kEitherComma:
+      return show(evidence.either_comma);
+    case Evidence::kEitherPoint:
+      return show(evidence.either_point);
+    case Evidence::kNone:
+    case Evidence::kBroken:
+      return;
+  }
+}
+
+void AskForDecimal(const ColumnRead& column, const std::string& why, TableReading& reading) {
+  reading.questions.push_back(
+      {"decimal", column.key, Shown(column.key) + ": " + why, {"point", "comma"}});
+}
+
+std::string EitherWay(const std::string& example) {
+  return "is " + Shown(example) + " a number with decimals or with thousands?";
+}
+
+std::string Cut(const std::string& cell) {
+  const std::string shown = Shown(cell);
+  return cell.size() <= kSampleBytes ? cell : shown.substr(1, shown.size() - 2);
+}
+
+}  // namespace
+
+std::vector<ColumnEvidence> LookAtCells(const Family& family, std::string_view text,
+                                        TableReading& reading) {
+  std::vector<ColumnEvidence> evidence(reading.columns.size());
+  std::vector<bool> has_numbers;
+  for (const ColumnRead& column : reading.columns)
+    has_numbers.push_back(HasNumbers(family, column));
+  const auto leave_out = [&](int row, const char* why) {
+    if (++reading.left_out_count <= kRowsLeftOutShown) reading.left_out.push_back({row, why});
+  };
+  const auto take = [&](const CsvRow& cells, int row) {
+    if (row == reading.header_row || CountFilled(cells) == 0) return;
+    if (row < reading.header_row) return leave_out(row, "above the header");
+    if (row == reading.units_row) return leave_out(row, "units of the columns");
+    if (const char* why = WhyNoPart(family, reading.columns, cells)) return leave_out(row, why);
+    for (std::size_t i = 0; i < std::min(cells.size(), evidence.size()); ++i) {
+      if (IsBlank(cells[i])) continue;
+      auto& samples = reading.columns[i].samples;
+      if (samples.size() < kSamples) samples.push_back(Cut(cells[i]));
+      if (has_numbers[i]) Note(cells[i], evidence[i]);
+    }
+  };
+  ForEachRow(
+      text, take, [](const CsvError&) {}, DelimiterOf(reading.delimiter));
+  return evidence;
+}
+
+void FindDecimals(const std::vector<ColumnEvidence>& evidence, const TableOptions& options,
+                  TableReading& reading) {
+  const auto any = [&](const std::string ColumnEvidence::*mark) {
+    return std::any_of(evidence.begin(), evidence.end(),
+                       [&](const ColumnEvidence& one) { return !(one.*mark).empty(); });
+  };
+  const bool like_commas =
+      any(&ColumnEvidence::comma) || (reading.delimiter != "comma" && !any(&ColumnEvidence::point));
+  for (std::size_t i = 0; i < evidence.size(); ++i) {
+    const ColumnEvidence& shown = evidence[i];
+    ColumnRead& column = reading.columns[i];
+    column.has_decimals = !shown.point.empty() || !shown.comma.empty() ||
+                          !shown.either_comma.empty() || !shown.either_point.empty();
+    if (!options.decimal.empty()) {
+      column.decimal = options.decimal == "comma" ? Decimal::kComma : Decimal::kPoint;
+    } else if (!shown.point.empty() && !shown.comma.empty()) {
+      AskForDecimal(column,
+                    "has " + Shown(shown.point) + " and " + Shown(shown.comma) +
+                        ": does a point or a comma stand before decimals?",
+                    reading);
+    } else if (!shown.comma.empty() || !shown.point.empty()) {
+      column.decimal = shown.comma.empty() ? Decimal::kPoint : Decimal::kComma;
+    } else if (!shown.either_comma.empty()) {
+      AskForDecimal(column, EitherWay(shown.either_comma), reading);
+    } else if (!shown.either_point.empty() && like_commas) {
+      AskForDecimal(column, EitherWay(shown.either_point), reading);
+    }
+  }
+}
+
+void AskForUnits(const Family& family, const std::vector<ColumnEvidence>& evidence,
+                 TableReading& reading) {
+  for (std::size_t i = 0; i < evidence.size(); ++i) {
+    const ColumnRead& column = reading.columns[i];
+    if (evidence[i].bare.empty()) continue;
+    for (const Target& target : column.targets) {
+      const bool needs_one = FindNumber(family, target.column) != nullptr && target.unit.empty() &&
+                             !target.by_full_name;
+      std::string_view field = target.column;
+      if (target.notation)
+        for (const FlowNotationSpec& spec : FlowNotations())
+          if (spec.notation == *target.notation) field = spec.field;
+      if (!needs_one || UnitOf(field).empty()) continue;
+      Question question{"column", column.key, "", {}};
+      question.text = Shown(column.key) + ": in which unit is " + Shown(evidence[i].bare) +
+                      "? Units of " + target.column + " are " + UnitNames(field);
+      const std::string units = UnitNames(field);
+      for (const std::string_view unit : Split(units, ',')) {
+        Target answer = target;
+        answer.unit = unit.substr(unit.find_first_not_of(' '));
+        question.answers.push_back(FormatTarget(answer));
+      }
+      reading.questions.push_back(std::move(question));
+      break;
+    }
+  }
+}
+
+}  // namespace plenum::catalog

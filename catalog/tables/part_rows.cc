@@ -1,0 +1,164 @@
+#include "catalog/tables/part_rows.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "catalog/fields/list_cell.h"
+#include "catalog/tables/heading_words.h"
+#include "catalog/tables/layout.h"
+#include "catalog/units/quantity.h"
+#include "catalog/units/text.h"
+
+namespace plenum::catalog {
+namespace {
+
+constexpr std::size_t kIdLongest = 100;
+
+std::string Trimmed(const std::string& cell) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  std::string_view text = cell;
+  for (bool more = true; more;) {
+    const std::size_t size = text.size();
+    while (!text.empty() && kBlanks.find(text.front()) != std::string_view::npos)
+      text.remove_prefix(1);
+    while (!text.empty() && kBlanks.find(text.back()) != std::string_view::npos)
+      text.remove_suffix(1);
+    if (text.starts_with("\u00A0")) text.remove_prefix(2);
+    if (text.ends_with("\u00A0")) text.remove_suffix(2);
+    more = text.size() != size;
+  }
+  return std::string(text);
+}
+
+// "-" and the like, where a number should stand.
+bool SaysNothing(std::string_view cell) {
+  static constexpr std::string_view kNothing[] = {"-", "–", "—", "n/a", "N/A", "k.A.", "k. A."};
+  return std::find(std::begin(kNothing), std::end(kNothing), cell) != std::end(kNothing);
+}
+
+std::string_view WordOf(FlowNotation notation) {
+  const auto& specs = FlowNotations();
+  return std::find_if(specs.begin(), specs.end(),
+                      [&](const FlowNotationSpec& spec) { return spec.notation == notation; })
+      ->word;
+}
+
+class RowMaker {
+ public:
+  RowMaker(const TableReading& reading, const TakeError& fail)
+      : reading_(reading), family_(*FindFamily(reading.family)), fail_(fail) {}
+
+  CsvRow Header() const {
+    CsvRow header;
+    for (const ColumnRead& column : reading_.columns)
+      for (const Target& target : column.targets) header.push_back(target.column);
+    for (const auto& [column, value] : reading_.set) header.push_back(column);
+    if (reading_.makes_ids) header.emplace_back("id");
+    return header;
+  }
+
+  // The cells of a row that may be a part.
+  CsvRow Make(const CsvRow& cells, int row) {
+    row_ = row;
+    CsvRow made;
+    manufacturer_ = SetTo("manufacturer"), part_number_ = SetTo("part_number");
+    for (std::size_t i = 0; i < reading_.columns.size(); ++i) {
+      const std::string cell = i < cells.size() ? Trimmed(cells[i]) : "";
+      for (const Target& target : reading_.columns[i].targets)
+        made.push_back(CellOf(reading_.columns[i], target, cell));
+    }
+    for (std::size_t i = reading_.columns.size(); i < cells.size(); ++i)
+      if (!IsBlank(cells[i])) {
+        fail_({row_, "column " + std::to_string(i + 1), "stands beyond the columns of the header"});
+        break;
+      }
+    for (const auto& [column, value] : reading_.set) made.push_back(value);
+    if (reading_.makes_ids) made.push_back(MadeId());
+    return made;
+  }
+
+ private:
+  std::string SetTo(const char* column) const {
+    const auto found = reading_.set.find(column);
+    return found == reading_.set.end() ? "" : found->second;
+  }
+
+  std::string CellOf(const ColumnRead& column, const Target& target, const std::string& cell) {
+    if (FindNumber(family_, target.column) != nullptr) return NumberOf(column, target, cell);
+    if (target.column == "manufacturer") manufacturer_ = cell;
+    if (target.column == "part_number") part_number_ = cell;
+    if (cell.empty() || cell.front() == '[') return cell;
+    if (target.column == "aliases") return "[" + QuoteJson(cell) + "]";
+    if (target.column == "documents") return "[{\"link\":" + QuoteJson(cell) + "}]";
+    return cell;
+  }
+
+  std::string NumberOf(const ColumnRead& column, const Target& target, const std::string& cell) {
+    if (cell.empty() || SaysNothing(cell)) return "";
+    const CellNumber number = FrontOf(cell);
+    if (number.digits.empty()) return cell;  // a printed flow, or what ReadRows refuses
+    const auto digits = WithPoint(number.digits, column.decimal);
+    if (!digits) {
+      fail_({row_, column.key,
+             Shown(cell) + " is not written with a decimal " +
+                 (column.decimal == Decimal::kComma ? "comma" : "point")});
+      return "";
+    }
+    const std::string plain = (number.negative ? "-" : "") + *digits + number.tail;
+    const std::string unit(number.rest.empty() ? std::string_view(target.unit) : number.rest);
+    const std::string text = unit.empty() ? plain : plain + " " + unit;
+    if (target.notation) return std::string(WordOf(*target.notation)) + " " + text;
+    if (unit.empty() && number.tail.find('/') == std::string::npos) return plain;
+    const Quantity quantity = ParseQuantity(text, target.column);
+    if (quantity.value) return FormatNumber(*quantity.value);
+    fail_({row_, column.key, quantity.error});
+    return "";
+  }
+
+  // "smc-v114-5ls" of SMC, V114-5LS.
+  std::string MadeId() const {
+    if (part_number_.empty()) return "";
+    std::string id;
+    for (const char c : PlainWords(manufacturer_ + " " + part_number_))
+      if (c != ' ' || (!id.empty() && id.back() != '-')) id += c == ' ' ? '-' : c;
+    id.resize(std::min(id.size(), kIdLongest));
+    while (!id.empty() && id.back() == '-') id.pop_back();
+    return id;
+  }
+
+  const TableReading& reading_;
+  const Family& family_;
+  const TakeError& fail_;
+  int row_ = 0;
+  std::string manufacturer_, part_number_;  // of the row
+};
+
+}  // namespace
+
+RowSource RowsOf(const TableReading& reading, std::string_view bytes) {
+  if (reading.as_exported)
+    return [bytes](const TakeRow& take, const TakeError& fail) { ForEachRow(bytes, take, fail); };
+  const std::string_view text = reading.text.empty() ? bytes : reading.text;
+  return [&reading, text](const TakeRow& take, const TakeError& fail) {
+    const Family* family = FindFamily(reading.family);
+    RowMaker maker(reading, fail);
+    take(maker.Header(), reading.header_row);
+    const auto take_part = [&](const CsvRow& cells, int row) {
+      if (row <= std::max(reading.header_row, reading.units_row) || CountFilled(cells) == 0 ||
+          WhyNoPart(*family, reading.columns, cells) != nullptr)
+        return;
+      take(maker.Make(cells, row), row);
+    };
+    ForEachRow(text, take_part, fail, DelimiterOf(reading.delimiter));
+  };
+}
+
+std::string HeadingOf(const TableReading& reading, std::string_view column) {
+  for (const ColumnRead& read : reading.columns)
+    for (const Target& target : read.targets)
+      if (target.column == column) return read.key;
+  return std::string(column);
+}
+
+}  // namespace plenum::catalog
