@@ -64,7 +64,13 @@ class Parser {
 
   std::string Plain(std::size_t column) {
     const std::size_t begin = at_;
-    while (!AtLineEnd() && text_[at_] != delimiter_) ++at_;
+    const auto ends = [&](std::size_t at) {
+      const char c = text_[at];
+      return c == delimiter_ || c == '\n' || (c == '\r' && text_.substr(at, 2) == "\r\n");
+    };
+    std::size_t end = begin;
+    while (end < text_.size() && !ends(end)) ++end;
+    at_ = end;
     std::string cell(text_.substr(begin, std::min(at_ - begin, kCsvCellBytesMax + 1)));
     if (cell.find('"') != std::string::npos)
       Fail(column, "a quote inside a cell that does not start with one");

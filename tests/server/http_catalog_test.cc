@@ -116,8 +116,9 @@ TEST_F(Http, ImportAsksWhatAForeignTableLeavesOpen) {
   EXPECT_EQ(Body(read)["added"], Json::array({"festo-vx-9"}));
   EXPECT_EQ(Body(read)["understood"]["delimiter"], "semicolon");
   // Of two columns one is left out, and all rows share what no column says.
-  const auto answered = client_->Post(path + "&column=A=stations&column=B=&set=manufacturer=Me",
-                                      "Model;A;B\nx;4;7\n", "text/csv");
+  const auto answered =
+      client_->Post(path + "&column=A%3Dstations&column=B%3D&set=manufacturer%3DMe",
+                    "Model;A;B\nx;4;7\n", "text/csv");
   ASSERT_EQ(answered->status, 200) << answered->body;
   EXPECT_EQ(Body(answered)["added"], Json::array({"me-x"}));
   ExpectProblem(client_->Post(path + "&decimal=dot", table, "text/csv"), 422, "/decimal");

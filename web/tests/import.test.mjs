@@ -76,8 +76,8 @@ test('the first sheet of a workbook is read in the page', async () => {
     ['XL-8', 8, 405],
   ];
   await choose(page, { name: 'parts.xlsx', mimeType: '', buffer: workbook(rows) });
-  await page.getByLabel('manufacturer', { exact: true }).fill('Excel & Co');
-  await page.getByLabel('manufacturer', { exact: true }).blur();
+  await page.getByRole('dialog').getByLabel('manufacturer', { exact: true }).fill('Excel & Co');
+  await page.getByRole('dialog').getByLabel('manufacturer', { exact: true }).blur();
   await page.getByRole('button', { name: 'Import 2 parts' }).click();
   await page.getByRole('dialog').waitFor({ state: 'detached' });
   assert.equal((await service.get('/v1/parts/excel-co-xl-4')).mass_kg, 0.210125);
