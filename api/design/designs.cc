@@ -38,6 +38,15 @@ Json RenderProof(const optimizer::Proof& proof, const model::Parts& parts) {
   return json;
 }
 
+// How many of the first designs keep their places, since nothing that is not listed beats them.
+int ProvedOf(const optimizer::Answer& answer) {
+  constexpr double kRounding = 1e-9;
+  const double bound = answer.proof.lower_bound * (1.0 + kRounding);
+  return static_cast<int>(
+      std::count_if(answer.designs.begin(), answer.designs.end(),
+                    [&](const optimizer::Design& design) { return design.objective <= bound; }));
+}
+
 Json RenderConflict(const std::vector<optimizer::Conflict>& conflict) {
   Json list = Json::array();
   for (const optimizer::Conflict& entry : conflict) {
@@ -166,6 +175,7 @@ Json RenderAnswer(const DesignRequest& request, const optimizer::Answer& answer,
   }
   document["best_on_measured_flow"] = best_on_measured_flow;
   document["proof"] = RenderProof(answer.proof, request.problem.parts);
+  if (request.pareto.empty()) document["proof"]["proved_designs"] = ProvedOf(answer);
   if (answer.status == optimizer::Status::kInfeasible)
     AddInfeasibility(answer.infeasibility, document);
   document["seconds"] = Number(answer.seconds);

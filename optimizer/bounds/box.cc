@@ -48,7 +48,7 @@ bool Bounds::CoreIsSingle(const Box& box, int except) const {
   return true;
 }
 
-int Bounds::WidestSlot(const Box& box) const {
+int Bounds::WidestSlot(const Box& box, bool kinds_first) const {
   // What a pump or a reservoir adds to the others of its source is not in its own share. Fittings
   // hold back less than valves and tubes do, and by how much they weigh the bound on lines alone
   // (FindChoices) divides them already.
@@ -65,11 +65,11 @@ int Bounds::WidestSlot(const Box& box) const {
     return spread(a) != spread(b) ? spread(a) > spread(b)
                                   : Node(box, a).size() > Node(box, b).size();
   };
-  // What decides the kind comes first, where kinds are listed. Reservoirs are divided within the
+  // Reservoirs are divided within the
   // box (VolumeNeed) until all that decides the source with them is chosen; bottles and batteries
   // are found by what they must bear.
   const auto turn = [&](int s) {
-    if (Node(box, s).series < 0) return 0;
+    if (kinds_first && Node(box, s).series < 0) return 0;
     return s == plan_.reservoir_slot ? 2 : DecidesSource(s) ? 1 : 3;
   };
   int widest = -1;

@@ -122,7 +122,8 @@ class Bounds {
   bool IsSingle(const Box& box) const;
   // The slot to divide: of those that decide the source pressure the one whose choices differ most
   // in their share of the objective, then bottles and batteries.
-  int WidestSlot(const Box& box) const;
+  // `kinds_first`: where kinds are listed, what decides the kind before all else.
+  int WidestSlot(const Box& box, bool kinds_first = false) const;
   BigCount Count(const Box& box) const;
   // Whether each combination comes behind as many better ones as are wanted, by the choices that
   // dominate its own (dominance.h).

@@ -6,9 +6,9 @@
 
 namespace plenum::optimizer {
 
-Halves Divide(const Bounds& bounds, const Box& box) {
+Halves Divide(const Bounds& bounds, const Box& box, bool kinds_first) {
   Halves halves;
-  halves.slot = bounds.WidestSlot(box);
+  halves.slot = bounds.WidestSlot(box, kinds_first);
   const std::vector<BoxNode>& tree = *bounds.plan().slots[halves.slot].nodes;
   const BoxNode& divided = tree[box.nodes[halves.slot]];
   halves.middle = tree[divided.right].first;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNearly = 1.01;  // of the best objective
 constexpr std::size_t kVariantsMost = 100;
-// Steps of the searches for variants: of one kind, of a whole list.
+// Steps of the searches for variants: of one kind, of a whole list, the first designs first.
 constexpr long long kStepsOfKind = 10'000, kStepsOfList = 60'000;
 
 using Clock = std::chrono::steady_clock;
@@ -69,13 +69,14 @@ Problem OfKind(const Problem& problem, const Design& best) {
   return own;
 }
 
-Variants VariantsOf(const Problem& problem, SearchOptions options, long long steps,
-                    const Design& best) {
+Variants VariantsOf(const Problem& problem, SearchOptions options, const Design& best,
+                    long long& steps_left) {
   Problem own = OfKind(problem, best);
   own.count = static_cast<int>(kVariantsMost) + 2;  // the best itself, and one too many
   options.objective_max = kNearly * best.objective;
-  options.steps_max = steps;
+  options.steps_max = std::min(kStepsOfKind, steps_left);
   Listed listed = ListCombinations(own, options);
+  steps_left -= listed.steps;
   const Kind kind = KindOf(problem.parts, best.configuration, best.parts);
   Variants variants;
   variants.complete = listed.complete && static_cast<int>(listed.combinations.size()) < own.count;
@@ -133,10 +134,10 @@ BestDesign BestOfConfiguration(const Problem& problem, const TimeLeft& time,
 void AddVariants(const Problem& problem, const SearchOptions& options, double used_s,
                  Answer& answer) {
   const TimeLeft time(options, used_s);
-  const long long steps =
-      std::min(kStepsOfKind, kStepsOfList / std::max<long long>(1, std::ssize(answer.designs)));
+  long long steps_left = kStepsOfList;
   for (Design& design : answer.designs)
-    design.variants = VariantsOf(problem, time.Options(), steps, design);
+    design.variants =
+        steps_left > 0 ? VariantsOf(problem, time.Options(), design, steps_left) : Variants{};
 }
 
 void AddBests(const Problem& problem, const SearchOptions& options, double used_s, Answer& answer) {

@@ -25,9 +25,9 @@ constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;     // of the time limit
 constexpr double kFirstFrom = 0.01, kFirstShare = 0.1;  // the same
 constexpr int kCrowdDives = 20;                         // for each design that is wanted
 constexpr int kBoxesPerDiveStep = 2, kDiveStepsLeast = 10'000;
-// Work beside a look at a box: a step of sizing a made-to-measure reservoir, and a design whose
-// strokes are simulated.
-constexpr int kStepsPerRefine = 32, kStepsPerSimulation = 1000;
+// Work beside a look at a box: a step of sizing a made-to-measure reservoir, and a pump's source
+// pressure with several groups, which may take simulations.
+constexpr int kStepsPerRefine = 32, kStepsPerSimulation = 3000;
 constexpr int kHardDesigns = 16;  // no design takes more than this part of the steps of dives
 
 class BoxSearch {
@@ -52,8 +52,9 @@ class BoxSearch {
   }
 
   Listed List() {
+    lists_ = true;
     Enumerate();
-    Listed listed{{}, !stopped() && proof_.undecided == 0};
+    Listed listed{{}, !stopped() && proof_.undecided == 0, steps_};
     for (const Found& found : ranking_.list()) {
       if (static_cast<int>(listed.combinations.size()) == problem_.count) break;
       listed.combinations.push_back(
@@ -121,8 +122,10 @@ class BoxSearch {
   void Enumerate() {
     while (!Stopped() && PlantReached() && !open_.empty()) {
       Report();
-      SeekFirstDesigns();
-      DiveIfSlow();
+      if (!lists_) {
+        SeekFirstDesigns();
+        DiveIfSlow();
+      }
       SaveRoomIfCrowded();
       const double lowest = open_.top()->box.bound;
       if (lowest > objective_limit_ || lowest > ranking_.run_end()) return;
@@ -158,13 +161,13 @@ class BoxSearch {
 
   void Step(NodePtr node) {
     ++proof_.boxes;
-    steps_ += node->box.core ? kStepsPerRefine : 1;
+    steps_ += StepsOf(*node);
     Bounds& bounds = *node->bounds;
     if (bounds.CanFindSource(node->box)) {
       Constraint missed = bounds.FindSource(node->box);
       while (missed == Constraint::kNone && IsNext(*node) && bounds.CanFindSource(node->box)) {
         ++proof_.boxes;
-        steps_ += node->box.core ? kStepsPerRefine : 1;
+        steps_ += StepsOf(*node);
         missed = bounds.FindSource(node->box);
       }
       Keep(std::move(node), missed);
@@ -182,8 +185,23 @@ class BoxSearch {
            node.box.bound < open_.top()->box.bound;
   }
 
+  // Of a look at a box.
+  long long StepsOf(const Node& node) const {
+    if (node.box.core) return kStepsPerRefine;
+    const Plan& plan = node.bounds->plan();
+    if (problem_.groups.size() == 1 || plan.compressor_slot < 0) return 1;
+    for (std::size_t s = 0; s < plan.slots.size(); ++s)
+      if (plan.slots[s].family != Family::kBattery &&
+          !(*plan.slots[s].nodes)[node.box.nodes[s]].single())
+        return 1;
+    return kStepsPerSimulation;
+  }
+
   void Divide(Node& node) {
-    Halves halves = optimizer::Divide(*node.bounds, node.box);
+    // As long as a box may hold the best of all its kind is no matter.
+    const bool kinds_first =
+        !ranking_.list().empty() && node.box.bound >= ranking_.list().front().leaf.objective;
+    Halves halves = optimizer::Divide(*node.bounds, node.box, kinds_first);
     const auto [left, right] = recorder_.Split(node.record, halves.slot, halves.middle);
     for (int half : {0, 1}) {
       auto part = std::make_unique<Node>();
@@ -211,8 +229,7 @@ class BoxSearch {
       return;
     }
     const Candidate candidate = node->bounds->CandidateOf(node->box);
-    const bool simulated = GroupsMeet(problem_) && candidate.compressor.index != kNone;
-    steps_ += simulated ? kStepsPerSimulation : node->sizing ? kStepsPerRefine : 1;
+    steps_ += node->sizing ? kStepsPerRefine : StepsOf(*node);
     const std::optional<Leaf> sized = SizeLeaf(problem_, candidate, node->box, node->sizing);
     if (!sized) {  // as its bound rises the box goes back into the queue
       Push(std::move(node));
@@ -426,6 +443,7 @@ class BoxSearch {
   std::size_t crowd_ = options_.crowd, crowd_to_dive_ = options_.crowd;
   double reported_s_ = 0.0;
   long long serial_ = 0, steps_ = 0;
+  bool lists_ = false;  // all there is: no dives, which depend on the clock
 };
 
 }  // namespace

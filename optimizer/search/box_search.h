@@ -20,6 +20,7 @@ Answer SearchBoxes(const Problem& problem, const SearchOptions& options);
 struct Listed {
   std::vector<Variant> combinations;
   bool complete = false;  // the search came to its end, and no combination stayed undecided
+  long long steps = 0;    // that it took
 };
 Listed ListCombinations(const Problem& problem, const SearchOptions& options);
 

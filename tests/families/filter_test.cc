@@ -20,6 +20,7 @@
 #include "tests/support/small_catalogue.h"
 #include "verify/corner/verify_best.h"
 #include "verify/corner/verify_dominance.h"
+#include "verify/tree/verify_tree.h"
 
 namespace plenum::test {
 namespace {

@@ -155,8 +155,14 @@ std::string StatusText(const Json& answer) {
   if (status == "infeasible") return "Proved: every combination was ruled out.";
   const std::string reason = status == "cancelled" ? "Stopped on request" : "Not proved";
   if (answer.at("designs").empty()) return reason + ": no design found so far.";
-  return reason + fmt::format(": a design not listed may reach {}, {} below the last one shown.",
-                              Short(proof.at("lower_bound")), Percent(proof.at("gap")));
+  const Json proved = proof.value("proved_designs", Json(0));
+  const std::string first = proved == 0   ? ""
+                            : proved == 1 ? " The first is proved."
+                                          : " The first " + Grouped(proved) + " are proved.";
+  return reason +
+         fmt::format(": a design not listed may reach {}, {} below the last one shown.",
+                     Short(proof.at("lower_bound")), Percent(proof.at("gap"))) +
+         first;
 }
 
 // "Left out were 3 parts by exclude, 40 by prices.": the proof speaks of the others.

@@ -162,6 +162,7 @@ export interface Proof {
   complete: boolean;
   lower_bound: number | null;
   gap: number | null;
+  proved_designs?: number; // the first so many
   evaluated: number | string;
   simulated: number;
   undecided: number;

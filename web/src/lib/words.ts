@@ -3,6 +3,13 @@ import { count, duration, percent, scientific } from './format';
 import type { Diagnosis } from './measurement';
 import type { Answer } from './types';
 
+const provedFirst = (designs: number): string =>
+  designs === 0
+    ? ''
+    : designs === 1
+      ? ' The first is proved.'
+      : ` The first ${designs} are proved.`;
+
 // What the proof does not speak of.
 function leftOut(answer: Answer): string {
   const parts = Object.entries(answer.left_out ?? {}).map(([why, what]) => {
@@ -37,7 +44,7 @@ export function proofInWords(answer: Answer): string {
         return `Nothing was found in the time given, and nothing was proved: there may be designs. ${did}`;
       return proof.gap === null || proof.gap > 0.99
         ? `Best found so far; nothing was proved. ${did}`
-        : `Best found, not proved: a design that is not listed could be up to ${percent(proof.gap)} better. ${did}`;
+        : `Best found, not proved: a design that is not listed could be up to ${percent(proof.gap)} better than the last one.${provedFirst(proof.proved_designs ?? 0)} ${did}`;
     case 'infeasible':
       return `Proved: no combination of catalogue parts meets all requirements together. ${did}`;
     case 'cancelled':
