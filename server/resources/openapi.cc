@@ -56,7 +56,7 @@ const std::map<std::string, Operation>& Operations() {
          "Idempotency-Key", "From"},
         "csv",
         {{200, "Import"}},
-        {413, 422}}},
+        {422}}},
       {"GET /v1/parts/check", {{}, "", {{200, "CatalogCheck"}}, {422}}},
       {"GET /v1/parts/{id}",
        {{"revision", "If-None-Match"}, "", {{200, "StoredPart"}, {304, ""}}, {404, 422}}},

@@ -94,7 +94,8 @@ TEST(RenderAnswer, HasEveryFieldOfTheContract) {
                       "lower_bound": 2.31, "gap": 0.0, "evaluated": 812, "simulated": 240,
                       "undecided": 0,
                       "pruned": {"incompatible": "1", "infeasible": "2", "bound": "3",
-                                 "dominated": "4", "unpriced": "5"}})"));
+                                 "dominated": "4", "unpriced": "5"},
+                      "proved_designs": 1})"));
 }
 
 TEST(RenderAnswer, SaysWhatRestsOnEstimates) {

@@ -245,6 +245,8 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   remove(id, tag, 412);
   remove("none", "*", 404);
   remove(id, "*", 204);
+  Get("/v1/parts/check", "", 200);
+  Get("/v1/parts/check", "?family=battery", 422);
   Get("/v1/parts/export", "?family=battery", 200);
   Get("/v1/parts/export", "", 422);
   const auto csv = client_.Get("/v1/parts/export?family=battery")->body;
