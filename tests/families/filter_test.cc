@@ -103,6 +103,7 @@ bool IsBetter(const Filter& a, const Filter& b, bool equal_flow) {
 TEST(Filter, GoesThroughCsv) {
   std::mt19937 random(7);
   std::vector<catalog::Part> parts;
+  parts.reserve(20);
   for (int i = 0; i < 20; ++i)
     parts.push_back(catalog::AnyPart(Table(), "m" + std::to_string(i), random));
   const std::string text = catalog::WriteCsv("filter", parts);

@@ -99,7 +99,7 @@ class Described : public testing::Test {
     const auto found = content.begin().key();
     EXPECT_TRUE(found == "*/*" || type.starts_with(found)) << path << ": " << type;
     if (found != kJson && found != kProblem) return {};
-    const Json document = JsonOf(result->body);
+    Json document = JsonOf(result->body);
     EXPECT_EQ(Violations(content.begin().value()["schema"], document), "") << method << path;
     return document;
   }
@@ -133,7 +133,7 @@ TEST_F(Described, EveryRouteOfTheTable) {
     for (const auto& [method, operation] : methods.items()) {
       std::string upper = method;
       for (char& c : upper) c = static_cast<char>(std::toupper(c));
-      described.insert(upper + " " + path);
+      described.insert(upper.append(" ").append(path));
     }
   EXPECT_EQ(routes, described);
   EXPECT_EQ(api_["openapi"], "3.1.0");
@@ -324,7 +324,8 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   for (const auto& [path, methods] : api_["paths"].items())
     for (const auto& [method, operation] : methods.items())
       for (const auto& [status, response] : operation["responses"].items()) {
-        const std::string name = method + " " + path + " " + status;
+        std::string name = method;
+        name.append(" ").append(path).append(" ").append(status);
         const bool busy = status == "429" && path != "/v1/designs" && path != "/v1/diagnoses";
         if (status != "default" && !busy && !seen_.contains(name)) missing.insert(name);
       }
