@@ -30,6 +30,7 @@ TEST(Threads, GiveTheSameDocumentsHoweverManyThereAre) {
   const std::filesystem::path root = test::SourceDir();
   const auto parts = catalog::Store(root / "catalog.db", catalog::Access::kRead).List();
   std::vector<Json> requests{Example("gripper"), Example("exosuit"), Example("exosuit")};
+  for (std::size_t i : {1, 2}) requests[i]["ranking"]["count"] = 4;
   // Made-to-measure reservoirs, so that the solvers run too.
   requests[2]["supply"]["configurations"] = {"compressor"};
   requests[2]["objective"] = {{"minimize", "volume_l"}};

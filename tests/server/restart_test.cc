@@ -97,6 +97,7 @@ TEST_P(Restart, UnfinishedJobsEndWithTheSameAnswer) {
   catalog::Store(bench_.catalog(), catalog::Access::kWrite).SaveModel("bench", Model(0.1), "me");
   Json drawn = Exosuit(600.0), revised = Exosuit(0.3);
   drawn["ranking"]["count"] = 20;
+  drawn["ranking"]["list"] = "combinations";
   drawn["robust"] = {{"draws", 10}, {"time_limit_s", 600.0}};  // long enough to be killed in
   revised["model"] = "bench";
   Start();
