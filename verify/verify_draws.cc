@@ -34,8 +34,10 @@ Drawn Draw(Problem& problem, const Design& design, model::Parts parts, const Sto
   std::optional<Assembly> assembly = Assemble(problem, design, missing);
   if (!assembly) return {};
   // What was made to measure is there by now, with a volume of its own.
-  if (assembly->compressor && !assembly->reservoir)
-    assembly->reservoir = &problem.parts.reservoirs.at(0);
+  if (assembly->compressor && !assembly->reservoir) {
+    if (problem.parts.reservoirs.empty()) return {};
+    assembly->reservoir = &problem.parts.reservoirs.front();
+  }
   const double unsure = problem.objective.energy_wh > 0.0 ? kEnergyUnsure : kSumTolerance;
   Sizer sizer(problem, stop);
   const Sizing surely = sizer.Size(*assembly, -kToSpare, kUnlimited);

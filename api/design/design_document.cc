@@ -7,7 +7,8 @@
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/read/selection.h"
 #include "api/json/units.h"
-#include "optimizer/problem/kind.h"
+#include "optimizer/problem/family_specs.h"
+#include "optimizer/sizing/report.h"
 
 namespace plenum::api {
 namespace {
@@ -151,11 +152,9 @@ Json RenderVariant(const optimizer::Variant& variant, const optimizer::Design& b
                    std::set<std::string>& differ_in) {
   Json parts = Json::array();
   for (const optimizer::Choice& choice : variant.parts) {
-    const bool same =
-        std::any_of(best.parts.begin(), best.parts.end(), [&](const optimizer::Choice& other) {
-          return other.family == choice.family && other.group == choice.group &&
-                 other.id == choice.id && other.quantity == choice.quantity;
-        });
+    const bool same = std::any_of(
+        best.parts.begin(), best.parts.end(),
+        [&](const optimizer::Choice& other) { return optimizer::SameRow(other, choice); });
     if (same) continue;
     differ_in.insert(optimizer::Name(choice.family));
     parts.push_back(RenderChoice(choice, problem, rows));

@@ -3,6 +3,7 @@
 #define PLENUM_API_DESIGN_DESIGN_DOCUMENT_H_
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>

@@ -108,32 +108,6 @@ void AddBests(const optimizer::Answer& answer, const optimizer::Problem& problem
   if (!answer.orderable->design) document["orderable"]["configuration"] = nullptr;
 }
 
-// What of the catalogue the search could not choose, and why: ids that are excluded, else how many
-// of each family.
-Json RenderLeftOut(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
-                   bool priced) {
-  std::map<std::string, std::map<std::string, int>> counts;
-  Json excluded = Json::array();
-  for (const optimizer::FamilySpec& spec : optimizer::Families())
-    for (const catalog::Part& part : parts) {
-      if (part.family != spec.name) continue;
-      const char* price = part.family == "tubing" ? "price_eur_per_m" : "price_eur";
-      const auto required = problem.require.find(spec.family);
-      if (problem.exclude.contains(part.id))
-        excluded.push_back(part.id);
-      else if (required != problem.require.end() && !required->second.contains(part.id))
-        ++counts["require"][part.family];
-      else if (problem.orderable_only && !part.orderable.value_or(true))
-        ++counts["orderable"][part.family];
-      else if (priced && !part.numbers.contains(price))
-        ++counts["prices"][part.family];
-    }
-  Json left_out = Json::object();
-  if (!excluded.empty()) left_out["exclude"] = std::move(excluded);
-  for (const auto& [why, families] : counts) left_out[why] = families;
-  return left_out;
-}
-
 // How many parts of each family have no price; families without such parts are left out.
 Json RenderUnpriced(const model::Parts& parts) {
   Json counts = Json::object();
@@ -144,6 +118,31 @@ Json RenderUnpriced(const model::Parts& parts) {
     if (unpriced > 0) counts[spec.name] = unpriced;
   }
   return counts;
+}
+
+// What of the catalogue the search could not choose, and why: ids that are excluded, else how many
+// of each family.
+Json RenderLeftOut(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
+                   bool priced) {
+  std::map<std::string, std::map<std::string, int>> counts;
+  Json excluded = Json::array();
+  for (const optimizer::FamilySpec& spec : optimizer::Families())
+    for (const catalog::Part& part : parts) {
+      if (part.family != spec.name) continue;
+      const auto required = problem.require.find(spec.family);
+      if (problem.exclude.contains(part.id))
+        excluded.push_back(part.id);
+      else if (required != problem.require.end() && !required->second.contains(part.id))
+        ++counts["require"][part.family];
+      else if (problem.orderable_only && !part.orderable.value_or(true))
+        ++counts["orderable"][part.family];
+    }
+  Json left_out = Json::object();
+  if (!excluded.empty()) left_out["exclude"] = std::move(excluded);
+  for (const auto& [why, families] : counts) left_out[why] = families;
+  Json unpriced = priced ? RenderUnpriced(problem.parts) : Json::object();
+  if (!unpriced.empty()) left_out["prices"] = std::move(unpriced);
+  return left_out;
 }
 
 }  // namespace

@@ -31,22 +31,6 @@ std::uint8_t Byte(std::string_view text, std::size_t i) {
 
 bool IsAsciiLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-void Append(std::uint32_t code, std::string& text) {
-  const auto byte = [&](std::uint32_t value) { text += static_cast<char>(value); };
-  if (code < 0x80) return byte(code);
-  if (code < 0x800) {
-    byte(0xC0 | code >> 6);
-  } else if (code < 0x10000) {
-    byte(0xE0 | code >> 12);
-    byte(0x80 | (code >> 6 & 0x3F));
-  } else {
-    byte(0xF0 | code >> 18);
-    byte(0x80 | (code >> 12 & 0x3F));
-    byte(0x80 | (code >> 6 & 0x3F));
-  }
-  byte(0x80 | (code & 0x3F));
-}
-
 std::string OfWindows1252(std::string_view bytes) {
   std::string text;
   text.reserve(bytes.size());
@@ -54,7 +38,7 @@ std::string OfWindows1252(std::string_view bytes) {
     const std::uint8_t byte = Byte(bytes, i);
     const bool upper = byte >= 0x80 && byte < 0xA0;
     const std::uint32_t code = upper ? kUpperControls[byte - 0x80] : byte;
-    Append(upper && code == 0 ? kReplacement : code, text);
+    AppendUtf8(upper && code == 0 ? kReplacement : code, text);
   }
   return text;
 }
@@ -76,7 +60,7 @@ std::optional<std::string> OfUtf16(std::string_view bytes, bool big) {
       if (low < 0xDC00 || low >= 0xE000) return std::nullopt;
       code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
     }
-    Append(code, text);
+    AppendUtf8(code, text);
   }
   return text;
 }

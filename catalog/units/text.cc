@@ -57,6 +57,22 @@ std::size_t EditDistance(std::string_view a, std::string_view b, std::size_t mos
 
 }  // namespace
 
+void AppendUtf8(std::uint32_t code, std::string& text) {
+  const auto byte = [&](std::uint32_t value) { text += static_cast<char>(value); };
+  if (code < 0x80) return byte(code);
+  if (code < 0x800) {
+    byte(0xC0 | code >> 6);
+  } else if (code < 0x10000) {
+    byte(0xE0 | code >> 12);
+    byte(0x80 | (code >> 6 & 0x3F));
+  } else {
+    byte(0xF0 | code >> 18);
+    byte(0x80 | (code >> 12 & 0x3F));
+    byte(0x80 | (code >> 6 & 0x3F));
+  }
+  byte(0x80 | (code & 0x3F));
+}
+
 std::string FormatNumber(double value) {
   std::array<char, 32> buffer;
   // The sum has no minus zero, which the database does not keep.

@@ -2,6 +2,7 @@
 #ifndef PLENUM_CATALOG_UNITS_TEXT_H_
 #define PLENUM_CATALOG_UNITS_TEXT_H_
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,9 @@ std::string Shown(std::string_view text);
 
 // The pieces between separators, empty ones too; of an empty text one empty piece.
 std::vector<std::string_view> Split(std::string_view text, char separator);
+
+// Writes a code point, at most 0x10FFFF, as UTF-8.
+void AppendUtf8(std::uint32_t code, std::string& text);
 
 // Well-formed UTF-8 without control characters but tab, line feed and carriage return.
 bool IsCleanText(std::string_view text);

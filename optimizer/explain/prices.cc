@@ -8,6 +8,7 @@
 #include "optimizer/explain/requirements.h"
 #include "optimizer/problem/family_specs.h"
 #include "optimizer/search/tree_search.h"
+#include "optimizer/sizing/report.h"
 #include "optimizer/sizing/resize.h"
 
 namespace plenum::optimizer {
@@ -42,14 +43,6 @@ class Budget {
   double limit_s_;
   Clock::time_point start_ = Clock::now();
 };
-
-bool SameParts(const Design& a, const Design& b) {
-  return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(),
-                    [](const Choice& x, const Choice& y) {
-                      return x.family == y.family && x.id == y.id && x.group == y.group &&
-                             x.quantity == y.quantity;
-                    });
-}
 
 // Objective that all pieces of a part carry in a design; gas charges do not change with the part.
 double Carried(const Problem& problem, const Design& design, const model::PartBasics& basics) {
@@ -98,7 +91,7 @@ std::optional<PartFlip> FlipPart(const Problem& problem, const std::vector<Desig
     const Answer answer = budget.Best(changed, 0.3);
     if (answer.status != Status::kOptimal) return flip;
     Design best = answer.designs.front();
-    if (SameParts(best, designs[rank])) {
+    if (SameParts(best.parts, designs[rank].parts)) {
       flip.confirmed = true;
       return flip;
     }
@@ -160,8 +153,8 @@ std::optional<RequirementFlip> FlipRequirement(const Problem& problem,
   Problem tightened = problem;
   requirement.set(tightened, flip.tightened);
   const Answer answer = budget.Best(std::move(tightened), 0.3);
-  flip.confirmed =
-      answer.status == Status::kOptimal && SameParts(answer.designs.front(), designs[rank]);
+  flip.confirmed = answer.status == Status::kOptimal &&
+                   SameParts(answer.designs.front().parts, designs[rank].parts);
   return flip;
 }
 

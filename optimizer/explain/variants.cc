@@ -8,6 +8,7 @@
 #include "optimizer/problem/kind.h"
 #include "optimizer/search/box_search.h"
 #include "optimizer/search/tree_search.h"
+#include "optimizer/sizing/report.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -40,20 +41,13 @@ class TimeLeft {
   Clock::time_point start_ = Clock::now();
 };
 
-bool SamePieces(const std::vector<Choice>& a, const std::vector<Choice>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Choice& x, const Choice& y) {
-    return x.family == y.family && x.group == y.group && x.id == y.id && x.quantity == y.quantity;
-  });
-}
-
-// The problem of the design's configuration, and of the series of its kind alone.
-Problem OfKind(const Problem& problem, const Design& best) {
+// The problem of the configuration and the series of a kind alone.
+Problem OfKind(const Problem& problem, const DesignKinds& kinds, const Kind& kind) {
   Problem own = problem;
-  own.configurations = {best.configuration};
+  own.configurations = {kind.configuration};
   own.list = ListOf::kCombinations;
-  const Kind kind = KindOf(problem.parts, best.configuration, best.parts);
   const auto keep = [&](auto& parts, Family family, const auto& wanted) {
-    const std::vector<int> series = SeriesOf(problem.parts, family);
+    const std::vector<int>& series = kinds.SeriesOf(family);
     std::size_t i = 0;
     std::erase_if(parts, [&](const auto&) { return !wanted(series[i++]); });
   };
@@ -69,21 +63,20 @@ Problem OfKind(const Problem& problem, const Design& best) {
   return own;
 }
 
-Variants VariantsOf(const Problem& problem, SearchOptions options, const Design& best,
-                    long long& steps_left) {
-  Problem own = OfKind(problem, best);
+Variants VariantsOf(const Problem& problem, const DesignKinds& kinds, SearchOptions options,
+                    const Design& best, long long& steps_left) {
+  const Kind kind = kinds.Of(best.configuration, best.parts);
+  Problem own = OfKind(problem, kinds, kind);
   own.count = static_cast<int>(kVariantsMost) + 2;  // the best itself, and one too many
   options.objective_max = kNearly * best.objective;
   options.steps_max = std::min(kStepsOfKind, steps_left);
   Listed listed = ListCombinations(own, options);
   steps_left -= listed.steps;
-  const Kind kind = KindOf(problem.parts, best.configuration, best.parts);
   Variants variants;
   variants.complete = listed.complete && static_cast<int>(listed.combinations.size()) < own.count;
   for (Variant& variant : listed.combinations) {
-    if (variant.objective > options.objective_max || SamePieces(variant.parts, best.parts))
-      continue;
-    if (!(KindOf(problem.parts, best.configuration, variant.parts) == kind)) continue;
+    if (variant.objective > options.objective_max || SameParts(variant.parts, best.parts)) continue;
+    if (!(kinds.Of(best.configuration, variant.parts) == kind)) continue;
     if (variants.found.size() < kVariantsMost) variants.found.push_back(std::move(variant));
   }
   return variants;
@@ -104,7 +97,7 @@ BestDesign BestOf(Problem own, const SearchOptions& options, const Answer& answe
   const auto listed =
       std::find_if(answer.designs.begin(), answer.designs.end(), [&](const Design& design) {
         return design.configuration == best.configuration &&
-               SamePieces(design.parts, best.design->parts);
+               SameParts(design.parts, best.design->parts);
       });
   if (listed != answer.designs.end())
     best.rank = static_cast<int>(listed - answer.designs.begin()) + 1;
@@ -134,10 +127,12 @@ BestDesign BestOfConfiguration(const Problem& problem, const TimeLeft& time,
 void AddVariants(const Problem& problem, const SearchOptions& options, double used_s,
                  Answer& answer) {
   const TimeLeft time(options, used_s);
+  const DesignKinds kinds(problem.parts);
   long long steps_left = kStepsOfList;
   for (Design& design : answer.designs)
-    design.variants =
-        steps_left > 0 ? VariantsOf(problem, time.Options(), design, steps_left) : Variants{};
+    design.variants = steps_left > 0
+                          ? VariantsOf(problem, kinds, time.Options(), design, steps_left)
+                          : Variants{};
 }
 
 void AddBests(const Problem& problem, const SearchOptions& options, double used_s, Answer& answer) {

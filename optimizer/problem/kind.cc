@@ -6,6 +6,14 @@
 
 namespace plenum::optimizer {
 
+void Kind::Add(KindRole role, int number) {
+  if (role == KindRole::kSource) source = number;
+  if (role == KindRole::kRegulator) regulator = number;
+  if (role != KindRole::kValve) return;
+  const auto place = std::lower_bound(valves.begin(), valves.end(), number);
+  if (place == valves.end() || *place != number) valves.insert(place, number);
+}
+
 std::vector<int> SeriesOf(const model::Parts& parts, Family family) {
   std::unordered_map<std::string_view, int> first;
   std::vector<int> series(static_cast<std::size_t>(FamilySize(parts, family)));
@@ -16,21 +24,23 @@ std::vector<int> SeriesOf(const model::Parts& parts, Family family) {
   return series;
 }
 
-Kind KindOf(const model::Parts& parts, Configuration configuration,
-            const std::vector<Choice>& choices) {
+DesignKinds::DesignKinds(const model::Parts& parts) {
+  for (const FamilySpec& spec : Families()) {
+    if (spec.kind_role == KindRole::kApart) continue;
+    const std::vector<int>& series = series_[spec.family] = optimizer::SeriesOf(parts, spec.family);
+    for (std::size_t i = 0; i < series.size(); ++i)
+      of_id_[spec.family].emplace(BasicsOf(parts, spec.family, static_cast<int>(i)).id, series[i]);
+  }
+}
+
+Kind DesignKinds::Of(Configuration configuration, const std::vector<Choice>& choices) const {
   Kind kind{.configuration = configuration};
   for (const Choice& choice : choices) {
-    const KindRole role = SpecOf(choice.family).kind_role;
-    if (role == KindRole::kApart) continue;
-    const int part = FindPart(parts, choice.family, choice.id);
-    if (part < 0) continue;
-    const int series = SeriesOf(parts, choice.family)[part];
-    if (role == KindRole::kSource) kind.source = series;
-    if (role == KindRole::kRegulator) kind.regulator = series;
-    if (role == KindRole::kValve) kind.valves.push_back(series);
+    const auto family = of_id_.find(choice.family);
+    if (family == of_id_.end()) continue;
+    const auto found = family->second.find(choice.id);
+    if (found != family->second.end()) kind.Add(SpecOf(choice.family).kind_role, found->second);
   }
-  std::sort(kind.valves.begin(), kind.valves.end());
-  kind.valves.erase(std::unique(kind.valves.begin(), kind.valves.end()), kind.valves.end());
   return kind;
 }
 

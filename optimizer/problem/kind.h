@@ -8,7 +8,11 @@
 #ifndef PLENUM_OPTIMIZER_PROBLEM_KIND_H_
 #define PLENUM_OPTIMIZER_PROBLEM_KIND_H_
 
+#include <map>
+#include <string_view>
 #include <tuple>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "optimizer/problem/family_specs.h"
@@ -20,6 +24,8 @@ struct Kind {
   int source = -1, regulator = -1;  // series, by number; −1: there is none
   std::vector<int> valves = {};     // the same, ascending, each once
 
+  // A part of this series, in this role.
+  void Add(KindRole role, int number);
   std::pair<Configuration, int> Source() const { return {configuration, source}; }
   bool operator<(const Kind& other) const {
     return std::tie(configuration, source, regulator, valves) <
@@ -31,9 +37,20 @@ struct Kind {
 // A series by number: the index of the first part of the family that has it. Of each part.
 std::vector<int> SeriesOf(const model::Parts& parts, Family family);
 
-// Of a design with these rows in its parts list.
-Kind KindOf(const model::Parts& parts, Configuration configuration,
-            const std::vector<Choice>& choices);
+// Kinds of designs made of these parts.
+class DesignKinds {
+ public:
+  explicit DesignKinds(const model::Parts& parts);
+
+  // Of each part of a family that has to do with kinds.
+  const std::vector<int>& SeriesOf(Family family) const { return series_.at(family); }
+  // Of a design with these rows in its parts list.
+  Kind Of(Configuration configuration, const std::vector<Choice>& choices) const;
+
+ private:
+  std::map<Family, std::vector<int>> series_;
+  std::map<Family, std::unordered_map<std::string_view, int>> of_id_;  // the ids are the parts'
+};
 
 // A family's choices that cannot be the best of their kind, or be among the kinds that are listed,
 // may be left out: those for which one of the same series, or this many of different other series,

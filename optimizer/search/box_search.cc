@@ -23,12 +23,9 @@ constexpr double kProgressIntervalS = 0.2;
 constexpr double kGraceS = 0.1;
 constexpr double kDiveFrom = 0.3, kDiveShare = 0.2;     // of the time limit
 constexpr double kFirstFrom = 0.01, kFirstShare = 0.1;  // the same
-constexpr int kCrowdDives = 20;                         // for each design that is wanted
-constexpr int kBoxesPerDiveStep = 2, kDiveStepsLeast = 10'000;
 // Work beside a look at a box: a step of sizing a made-to-measure reservoir, and a pump's source
 // pressure with several groups, which may take simulations.
 constexpr int kStepsPerRefine = 32, kStepsPerSimulation = 3000;
-constexpr int kHardDesigns = 16;  // no design takes more than this part of the steps of dives
 
 class BoxSearch {
  public:
@@ -293,32 +290,11 @@ class BoxSearch {
   void SaveRoomIfCrowded() {
     if (open_.size() >= crowd_to_dive_) {
       crowd_to_dive_ += crowd_to_dive_;
-      DiveFromNext();
+      DiveFromNext(open_, problem_, bench_.stop, proof_.boxes, ranking_);
     }
     if (open_.size() < crowd_) return;
     crowd_ += crowd_ / 4 + 1;
     open_.ForEach([&](const NodePtr& node) { SaveRoom(*node); });
-  }
-
-  // From the boxes that come out next, then off the way from those that led to better designs; not
-  // for longer than a share of what the search has done.
-  void DiveFromNext() {
-    DiveSteps steps{static_cast<long long>(proof_.boxes) / kBoxesPerDiveStep + kDiveStepsLeast, 0};
-    steps.of_design = steps.left / kHardDesigns;
-    const auto improves = [&](const Node& node, int turns) {
-      const double before = ranking_.run_end();
-      DiveFrom(node.box, turns, problem_, *node.bounds, bench_.stop, steps, ranking_);
-      return ranking_.run_end() < before;
-    };
-    std::vector<NodePtr> first;
-    std::vector<const Node*> led;  // the best last
-    while (!open_.empty() && static_cast<int>(first.size()) < kCrowdDives * problem_.count) {
-      first.push_back(open_.Pop());
-      if (improves(*first.back(), 0)) led.push_back(first.back().get());
-    }
-    for (int i = 0; i < problem_.count && !led.empty(); ++i, led.pop_back())
-      improves(*led.back(), 1);
-    for (NodePtr& node : first) open_.Push(std::move(node));
   }
 
   void SaveRoom(Node& node) const {

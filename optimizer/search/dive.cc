@@ -9,6 +9,9 @@ namespace plenum::optimizer {
 namespace {
 
 constexpr int kTurnsMax = 12;
+constexpr int kCrowdDives = 20;  // for each design that is wanted
+constexpr int kBoxesPerDiveStep = 2, kDiveStepsLeast = 10'000;
+constexpr int kHardDesigns = 16;     // no design takes more than this part of the steps of dives
 constexpr int kStepsPerRefine = 32;  // CustomSizing::Refine() takes the time of so many looks
 constexpr long long kUnlimitedSteps = std::numeric_limits<long long>::max();
 
@@ -102,6 +105,25 @@ void Dive(const Problem& problem, Bounds& bounds, bool any, const std::function<
 void DiveFrom(Box box, int turns, const Problem& problem, Bounds& bounds,
               const std::function<bool()>& stop, DiveSteps& steps, Ranking& ranking) {
   Diver(problem, bounds, false, stop, steps, ranking).From(std::move(box), turns);
+}
+
+void DiveFromNext(Queue<NodePtr, LowestBound>& open, const Problem& problem,
+                  const std::function<bool()>& stop, long long boxes_done, Ranking& ranking) {
+  DiveSteps steps{boxes_done / kBoxesPerDiveStep + kDiveStepsLeast, 0};
+  steps.of_design = steps.left / kHardDesigns;
+  const auto improves = [&](const Node& node, int turns) {
+    const double before = ranking.run_end();
+    DiveFrom(node.box, turns, problem, *node.bounds, stop, steps, ranking);
+    return ranking.run_end() < before;
+  };
+  std::vector<NodePtr> first;
+  std::vector<const Node*> led;  // the best last
+  while (!open.empty() && static_cast<int>(first.size()) < kCrowdDives * problem.count) {
+    first.push_back(open.Pop());
+    if (improves(*first.back(), 0)) led.push_back(first.back().get());
+  }
+  for (int i = 0; i < problem.count && !led.empty(); ++i, led.pop_back()) improves(*led.back(), 1);
+  for (NodePtr& node : first) open.Push(std::move(node));
 }
 
 }  // namespace plenum::optimizer

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "optimizer/search/ranking.h"
+#include "optimizer/search/search_node.h"
 
 namespace plenum::optimizer {
 
@@ -21,6 +22,11 @@ struct DiveSteps {
 // The same from a box on: along the lower bounds but for so many turns, until no steps are left.
 void DiveFrom(Box box, int turns, const Problem& problem, Bounds& bounds,
               const std::function<bool()>& stop, DiveSteps& steps, Ranking& ranking);
+
+// From the boxes that come out of a search's queue next, which stay in it, then off the way from
+// those that led to better designs; not for longer than a share of what the search has done.
+void DiveFromNext(Queue<NodePtr, LowestBound>& open, const Problem& problem,
+                  const std::function<bool()>& stop, long long boxes_done, Ranking& ranking);
 
 }  // namespace plenum::optimizer
 

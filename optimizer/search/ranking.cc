@@ -42,12 +42,8 @@ std::optional<Kind> KindAt(const Plan& plan, const Box& box) {
     if (role == KindRole::kApart) continue;
     const int series = (*plan.slots[s].nodes)[box.nodes[s]].series;
     if (series < 0) return std::nullopt;
-    if (role == KindRole::kSource) kind.source = series;
-    if (role == KindRole::kRegulator) kind.regulator = series;
-    if (role == KindRole::kValve) kind.valves.push_back(series);
+    kind.Add(role, series);
   }
-  std::sort(kind.valves.begin(), kind.valves.end());
-  kind.valves.erase(std::unique(kind.valves.begin(), kind.valves.end()), kind.valves.end());
   return kind;
 }
 

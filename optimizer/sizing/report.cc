@@ -145,6 +145,14 @@ std::optional<OperatingPoint> ConfirmNear(const Problem& problem, const Candidat
 
 }  // namespace
 
+bool SameRow(const Choice& a, const Choice& b) {
+  return a.family == b.family && a.group == b.group && a.id == b.id && a.quantity == b.quantity;
+}
+
+bool SameParts(const std::vector<Choice>& a, const std::vector<Choice>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), SameRow);
+}
+
 std::vector<Choice> ListParts(const Problem& problem, const Candidate& candidate,
                               const OperatingPoint& point) {
   std::vector<Choice> parts;

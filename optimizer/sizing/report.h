@@ -19,6 +19,10 @@ std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candid
 std::vector<Choice> ListParts(const Problem& problem, const Candidate& candidate,
                               const OperatingPoint& point);
 
+// Whether two rows are the same part in the same number for the same group; and two lists.
+bool SameRow(const Choice& a, const Choice& b);
+bool SameParts(const std::vector<Choice>& a, const std::vector<Choice>& b);
+
 // The candidate at a point as it was evaluated there, whatever it meets, without a trace.
 Design Describe(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
                 const Evaluation& evaluation);

@@ -307,6 +307,7 @@ double QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3
 }
 
 std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3) const {
+  if (Stopped(stop_)) return std::nullopt;
   const std::size_t groups = problem_.groups.size();
   // A valve that cannot hold lets its actuators draw while others do.
   const bool held = std::all_of(rigs_.begin(), rigs_.end(),

@@ -36,7 +36,8 @@ class QuickCycles {
   QuickCycles(const Problem& problem, const Assembly& assembly, Stop stop = {});
 
   // `rising_m3`: the reservoir's volume while its pressure rises, where it is to bound those of an
-  // interval of volumes (model/strokes/reservoir_stroke.h).
+  // interval of volumes (model/strokes/reservoir_stroke.h). None where the simulator does not get
+  // to a cycle that repeats, or when stopped, which is asked at each call.
   std::optional<Cycle> At(const Settings& settings, double rising_m3) const;
 
  private:

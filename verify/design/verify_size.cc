@@ -225,7 +225,7 @@ class PressureSizing {
 
 // A made-to-measure reservoir: intervals of volumes, the one with the lowest bound first.
 Sizing SizeMade(const Problem& problem, const Assembly& assembly, KnownCycles& cycles, double slack,
-                double enough) {
+                double enough, const Stop& stop) {
   struct Interval {
     Volumes volumes;
     double bound;
@@ -253,7 +253,7 @@ Sizing SizeMade(const Problem& problem, const Assembly& assembly, KnownCycles& c
   for (int i = 0; i < kFirstVolumes; ++i, low_m3 *= ratio) add(low_m3, low_m3 * ratio, 0.0, 0.0);
   Sizing best;
   for (int i = 0; !open.empty() && open.top().bound < best.objective * (1.0 - kGap); ++i) {
-    if (open.top().bound > enough || i > kVolumesMax) break;
+    if (open.top().bound > enough || i > kVolumesMax || Stopped(stop)) break;
     Interval interval = open.top();
     open.pop();
     const Volumes& v = interval.volumes;
@@ -290,7 +290,7 @@ Sizing SizeMade(const Problem& problem, const Assembly& assembly, KnownCycles& c
 Sizing Sizer::Size(const Assembly& assembly, double slack, double enough) {
   if (!cycles_ || !cycles_->Serves(assembly)) cycles_.emplace(problem_, assembly, stop_);
   if (assembly.compressor && !assembly.reservoir)
-    return SizeMade(problem_, assembly, *cycles_, slack, enough);
+    return SizeMade(problem_, assembly, *cycles_, slack, enough, stop_);
   const double volume_m3 =
       assembly.reservoir ? assembly.reservoirs * assembly.reservoir->volume_m3 : 0.0;
   return PressureSizing(problem_, assembly, *cycles_, {volume_m3, volume_m3}, slack).Run(enough);

@@ -10,6 +10,26 @@ std::string IdOf(const Problem& problem, Family family, const ProofItem& item) {
   return item.part == -2 ? "custom" : BasicsOf(problem.parts, family, item.part).id;
 }
 
+int SizeOf(const std::pair<int, int>& range) { return range.second - range.first; }
+
+// Of the slots that may be divided the one whose choices differ most in their share of the
+// objective, those chosen by need last; −1: there is none.
+int Widest(const ProofPlan& plan, Corners& corners, const Ranges& ranges, const auto& may_be) {
+  int widest = -1;
+  std::pair<bool, double> most;
+  for (int s = 0; s < static_cast<int>(ranges.size()); ++s) {
+    if (!may_be(s)) continue;
+    const LeastAmounts& amounts = corners.Least(ranges, s);
+    const std::pair<bool, double> spread{!SpecOf(plan.slots[s].family).by_need,
+                                         amounts.objective_most - amounts.least.objective};
+    if (widest < 0 || spread > most) {
+      widest = s;
+      most = spread;
+    }
+  }
+  return widest;
+}
+
 }  // namespace
 
 Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
@@ -58,19 +78,7 @@ bool BoxCheck::Holds(const Claim& claim, double objective, const Ranges& single)
 }
 
 int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges) {
-  int widest = -1;
-  std::pair<bool, double> most{false, -1.0};
-  for (int s = 0; s < static_cast<int>(ranges.size()); ++s) {
-    if (ranges[s].second - ranges[s].first < 2) continue;
-    const LeastAmounts& amounts = corners.Least(ranges, s);
-    const std::pair<bool, double> spread{!SpecOf(plan.slots[s].family).by_need,
-                                         amounts.objective_most - amounts.least.objective};
-    if (widest < 0 || spread > most) {
-      widest = s;
-      most = spread;
-    }
-  }
-  return widest;
+  return Widest(plan, corners, ranges, [&](int slot) { return SizeOf(ranges[slot]) > 1; });
 }
 
 bool BoxCheck::IsSettled(const Claim& claim, const Ranges& single, Findings& findings) {
@@ -115,18 +123,8 @@ bool BoxCheck::IsCoreBeyond(const Claim& claim, const Ranges& ranges, int batter
 
 // Of a list of kinds what decides the kind is divided first; −1 where it is known.
 int BoxCheck::SlotOfKinds(const Ranges& ranges) {
-  int widest = -1;
-  double most = -1.0;
-  for (int s = 0; s < static_cast<int>(ranges.size()); ++s) {
-    if (!series_.AreSeveral(s, ranges[s])) continue;
-    const LeastAmounts& amounts = corners_.Least(ranges, s);
-    const double spread = amounts.objective_most - amounts.least.objective;
-    if (widest < 0 || spread > most) {
-      widest = s;
-      most = spread;
-    }
-  }
-  return widest;
+  return Widest(plan_, corners_, ranges,
+                [&](int slot) { return series_.AreSeveral(slot, ranges[slot]); });
 }
 
 BigCount BoxCheck::Recheck(const Ranges& ranges, Findings& findings) {

@@ -45,21 +45,20 @@ double WithinRange(const catalog::Part& row, std::string_view field, double valu
   return value;
 }
 
-// What the design's made-to-measure reservoir is as a part.
+// What the made-to-measure reservoir of a design that says its volume is as a part.
 catalog::Part MadeReservoirRow(const optimizer::Problem& problem, const optimizer::Design& design,
                                const optimizer::Choice& choice) {
   using catalog::Provenance;
   catalog::Part row;
   row.id = choice.id;
   row.family = "reservoir";
-  row.numbers = {
-      {"mass_kg", {choice.mass_kg, Provenance::kEstimated, ""}},
-      {"body_volume_ml", {MlFromM3(choice.volume_m3), Provenance::kEstimated, ""}},
-      {"internal_volume_ml",
-       {MlFromM3(design.settings.reservoir_volume_m3.value()), Provenance::kDatasheet, ""}},
-      {"pressure_max_kpa_gauge",
-       {KpaGaugeFromPa(optimizer::CustomRatingPa(problem), problem.ambient), Provenance::kDatasheet,
-        ""}}};
+  row.numbers = {{"mass_kg", {choice.mass_kg, Provenance::kEstimated, ""}},
+                 {"body_volume_ml", {MlFromM3(choice.volume_m3), Provenance::kEstimated, ""}},
+                 {"internal_volume_ml",
+                  {MlFromM3(*design.settings.reservoir_volume_m3), Provenance::kDatasheet, ""}},
+                 {"pressure_max_kpa_gauge",
+                  {KpaGaugeFromPa(optimizer::CustomRatingPa(problem), problem.ambient),
+                   Provenance::kDatasheet, ""}}};
   return row;
 }
 
@@ -129,11 +128,13 @@ optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
     std::set<std::string> seen;  // groups may share a part
     for (const optimizer::Choice& choice : design.parts) {
       if (!seen.insert(choice.id).second) continue;
-      const bool made =
-          choice.id == kCustomReservoir && optimizer::SpecOf(choice.family).made_to_measure;
-      drawn.push_back(
-          Perturbed(made ? MadeReservoirRow(problem, design, choice) : *by_id.at(choice.id),
-                    tolerance, seed, draw));
+      if (choice.id == kCustomReservoir && optimizer::SpecOf(choice.family).made_to_measure &&
+          design.settings.reservoir_volume_m3) {
+        drawn.push_back(
+            Perturbed(MadeReservoirRow(problem, design, choice), tolerance, seed, draw));
+      } else if (const auto row = by_id.find(choice.id); row != by_id.end()) {
+        drawn.push_back(Perturbed(*row->second, tolerance, seed, draw));
+      }
     }
     return ToModelParts(drawn, problem.ambient);
   };

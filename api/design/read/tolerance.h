@@ -38,7 +38,7 @@ catalog::Part Perturbed(catalog::Part row, const Tolerance& tolerance, std::uint
 
 // The draws of `rows`; they must outlive it. A made-to-measure reservoir becomes a part of the
 // volume that the design gave it, as exact as a data sheet, with the estimated mass and outer
-// volume of its rule.
+// volume of its rule. A part that no row has is in no draw.
 optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
                                const optimizer::Problem& problem, const Tolerance& tolerance,
                                std::uint64_t seed);

@@ -86,6 +86,24 @@ TEST(VerifyDraws, StoppedAtAnyTimeItFindsNothingWrongAndAcceptsNothing) {
   }
 }
 
+// A list of another catalogue, or one that was tampered with.
+TEST(VerifyDraws, RefusesPartsThatAreInNoDraw) {
+  Json request = Example("exosuit");
+  request["robust"] = {{"draws", 3}};
+  request["ranking"]["count"] = 1;
+  const Json answer = Answered(request);
+  const Json unsized = Without(answer, "/designs/0/settings/reservoir_volume_ml");
+  for (std::size_t i = 0; i < answer["designs"][0]["parts"].size(); ++i) {
+    SCOPED_TRACE(i);
+    const std::string part = "/designs/0/parts/" + std::to_string(i);
+    EXPECT_NE(Refusals(With(answer, part + "/id", "gone")), "");
+    Json fewer = answer;
+    fewer["designs"][0]["parts"].erase(i);
+    EXPECT_NE(Refusals(fewer), "");
+    EXPECT_NE(Refusals(With(unsized, part + "/id", "custom")), "");
+  }
+}
+
 TEST(VerifyDraws, AsksForTheRecordOfAListThatReachesAProbability) {
   const auto errors = ErrorsOf(VerifyAnswer(With(Gripper(), "/requirements/ranking/proof", false),
                                             Project().parts, Project().revision));

@@ -91,6 +91,13 @@ TableOptions BySetting(std::map<std::string, std::string> columns,
   return options;
 }
 
+// The same table with the thousands of two languages.
+const std::vector<Fact> kLuxfer{{0, kVolume, 1500.5},
+                                {0, kMass, 1.23425},
+                                {0, kBody, 2000},
+                                {0, kPressure, 1000},
+                                {1, kPressure, 1600}};
+
 const ForeignTable kTables[] = {
     {"semicolon.csv",
      "reservoir",
@@ -141,22 +148,8 @@ const ForeignTable kTables[] = {
      "reservoir",
      {"smc-vbat02a", "smc-vbat03a"},
      {{0, kVolume, 200}, {0, kMass, 0.1605}, {0, kBody, 310.5}, {1, kPressure, 1000}}},
-    {"thousands.csv",
-     "reservoir",
-     {"luxfer-l1", "luxfer-l2"},
-     {{0, kVolume, 1500.5},
-      {0, kMass, 1.23425},
-      {0, kBody, 2000},
-      {0, kPressure, 1000},
-      {1, kPressure, 1600}}},
-    {"thousands_german.csv",
-     "reservoir",
-     {"luxfer-l1", "luxfer-l2"},
-     {{0, kVolume, 1500.5},
-      {0, kMass, 1.23425},
-      {0, kBody, 2000},
-      {0, kPressure, 1000},
-      {1, kPressure, 1600}}},
+    {"thousands.csv", "reservoir", {"luxfer-l1", "luxfer-l2"}, kLuxfer},
+    {"thousands_german.csv", "reservoir", {"luxfer-l1", "luxfer-l2"}, kLuxfer},
     {"thousands_swiss.csv",
      "reservoir",
      {"luxfer-l1"},
