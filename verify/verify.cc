@@ -51,7 +51,7 @@ const CheckNames kOfDesigns{
     {"strokes", "times, air and energy are those of the simulated periodic state"},
     {"supply", "every requirement is met, and no part is overstrained"},
     {"margins", "margins are those of the simulated design"},
-    {"order", "designs are ordered by objective, ties by part ids"},
+    {"order", "designs are ordered by objective, ties by mass, cost and part ids"},
     {"combinations", "their number is the catalogue's, and all are accounted for"},
     {"status", "the status claims no more than was proved"}};
 

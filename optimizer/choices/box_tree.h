@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "optimizer/choices/tie_key.h"
 #include "optimizer/evaluate/candidate.h"
 
 namespace plenum::optimizer {
@@ -22,15 +23,17 @@ struct Item {
   Corner corner;
   int outdone = 0;  // by how many choices of the family it is dominated
   int series = 0;   // where kinds are listed (kind.h): by number, of its part
+  TieShare tie = {};
 };
 
 struct BoxNode {
   int left = -1, right = -1;  // −1: a single choice
   int first = 0, last = 0;    // the choices [first, last) of the tree's order
   double objective_low = 0.0, objective_high = 0.0;
-  int earliest = 0;  // the choice of the lowest rank
-  int outdone = 0;   // each choice is dominated by so many others at least
-  int series = 0;    // of all its choices; −1: of several
+  int earliest = 0;   // the choice of the lowest rank
+  int outdone = 0;    // each choice is dominated by so many others at least
+  int series = 0;     // of all its choices; −1: of several
+  TieShare tie = {};  // the least of each
   bool single() const { return left < 0; }
   int size() const { return last - first; }
 };
@@ -162,11 +165,13 @@ class Builder {
     tree_.corners.emplace_back();
     double low, high;
     int earliest = first, outdone, series;
+    TieShare tie = {};
     if (last - first == 1) {
       tree_.corners[index] = items_[order_[first]]->corner;
       low = high = tree_.corners[index].objective;
       outdone = items_[order_[first]]->outdone;
       series = items_[order_[first]]->series;
+      tie = items_[order_[first]]->tie;
     } else {
       const int middle = Divide(first, last, several);
       const int left = Grow(first, middle, several);
@@ -180,6 +185,7 @@ class Builder {
       outdone = std::min(tree_.nodes[left].outdone, tree_.nodes[right].outdone);
       series = tree_.nodes[left].series;
       if (tree_.nodes[right].series != series) series = -1;
+      tie = Least(tree_.nodes[left].tie, tree_.nodes[right].tie);
       earliest = tree_.nodes[left].earliest;
       if (Rank(tree_.nodes[right].earliest) < Rank(earliest))
         earliest = tree_.nodes[right].earliest;
@@ -189,6 +195,7 @@ class Builder {
     tree_.nodes[index].earliest = earliest;
     tree_.nodes[index].outdone = outdone;
     tree_.nodes[index].series = series;
+    tree_.nodes[index].tie = tie;
     return index;
   }
 

@@ -10,9 +10,13 @@
 namespace plenum::optimizer {
 namespace {
 
-bool ListedFirst(const Contender& a, const Contender& b) {
+bool EarlierId(const Contender& a, const Contender& b) {
   const bool same = a.id.data() == b.id.data() || a.id == b.id;
   return same ? a.item.quantity < b.item.quantity : a.id < b.id;
+}
+
+bool ListedFirst(const Contender& a, const Contender& b) {
+  return a.tie != b.tie ? a.tie < b.tie : EarlierId(a, b);
 }
 
 // The contenders by id and quantity. Most ids differ in their first characters, which are kept with
@@ -34,7 +38,7 @@ void SortById(const std::vector<Contender>& contenders, std::vector<int>& chosen
   }
   std::sort(names.begin(), names.end(), [&](const Named& a, const Named& b) {
     return a.head != b.head ? a.head < b.head
-                            : ListedFirst(contenders[a.contender], contenders[b.contender]);
+                            : EarlierId(contenders[a.contender], contenders[b.contender]);
   });
   for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = names[i].contender;
 }

@@ -4,12 +4,12 @@
 //
 // A dominates B when it mates with the same parts, is no worse in any number that a requirement or
 // the objective depends on, and is listed first: its share of the objective is smaller by more than
-// a tie, or no larger with the earlier id. Any design with B then has k better designs, one with
-// each of B's dominators in its place: each meets what that design meets, at the same settings,
-// with an objective that is no larger. The relation is a strict order, so that dominators which are
-// left out themselves have k dominators that stay. Of a design whose choices are dominated by
-// a, b, c… others each, any of them can take the place of any of its choices: (1 + a)(1 + b)… − 1
-// designs are better.
+// a tie, or no larger with the earlier mass, cost and id (tie_key.h). Any design with B then has k
+// better designs, one with each of B's dominators in its place: each meets what that design meets,
+// at the same settings, with an objective that is no larger. The relation is a strict order, so
+// that dominators which are left out themselves have k dominators that stay. Of a design whose
+// choices are dominated by a, b, c… others each, any of them can take the place of any of its
+// choices: (1 + a)(1 + b)… − 1 designs are better.
 #ifndef PLENUM_OPTIMIZER_CHOICES_DOMINANCE_H_
 #define PLENUM_OPTIMIZER_CHOICES_DOMINANCE_H_
 
@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "optimizer/choices/tie_key.h"
 #include "optimizer/problem/proof.h"
 
 namespace plenum::optimizer {
@@ -32,7 +33,8 @@ struct Contender {
   double objective = 0.0;  // its share
   int mates = 0;           // from 0; equal for parts that mate with the same parts and behave alike
   int series = -1;         // from 0; −1: its own
-  Losses losses;           // smaller is better, as many for each choice of a family
+  TieShare tie = {};
+  Losses losses;  // smaller is better, as many for each choice of a family
 };
 
 struct Skyband {

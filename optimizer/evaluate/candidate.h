@@ -9,7 +9,7 @@
 
 namespace plenum::optimizer {
 
-// Objectives within this relative distance are ties, ordered by part ids.
+// Objectives within this relative distance are ties (tie_key.h).
 inline constexpr double kTie = 1e-6;
 
 inline constexpr int kNone = -1;

@@ -141,8 +141,8 @@ struct Entry {
   std::size_t searched;  // its place there; past the end: it has room
 };
 
-// By objective; ties, counted from the first of each run of them, by ids.
-void Order(std::vector<Entry>& entries) {
+// By objective; ties, counted from the first of each run of them, by mass, cost and ids.
+void Order(const Problem& problem, std::vector<Entry>& entries) {
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return a.design->objective < b.design->objective;
   });
@@ -150,8 +150,8 @@ void Order(std::vector<Entry>& entries) {
     const double most = run->design->objective * (1.0 + kTie);
     const auto end = std::find_if(
         run, entries.end(), [&](const Entry& entry) { return entry.design->objective > most; });
-    std::sort(run, end, [](const Entry& a, const Entry& b) {
-      return CombinationOf(*a.design) < CombinationOf(*b.design);
+    std::sort(run, end, [&](const Entry& a, const Entry& b) {
+      return TieKeyOf(problem, *a.design) < TieKeyOf(problem, *b.design);
     });
     run = end;
   }
@@ -175,7 +175,7 @@ RobustAnswer Choose(const Problem& problem, Searched searched, const std::vector
   }
   for (const Design& design : with_room)
     if (listed.insert(CombinationOf(design)).second) entries.push_back({&design, designs.size()});
-  Order(entries);
+  Order(problem, entries);
 
   Answer& answer = result.answer;
   answer = searched.answer;

@@ -7,13 +7,7 @@
 
 namespace plenum::optimizer {
 
-Combination CombinationOf(const Design& design) {
-  Combination combination{{}, design.configuration};
-  for (const Choice& choice : design.parts)
-    combination.first.emplace_back(choice.id,
-                                   choice.group < 0 ? static_cast<int>(choice.quantity) : 1);
-  return combination;
-}
+Combination CombinationOf(const Design& design) { return {IdsOf(design), design.configuration}; }
 
 Draws::Draws(const Problem& problem, const SearchOptions& search_options,
              const RobustOptions& options, const DrawParts& draw_parts)

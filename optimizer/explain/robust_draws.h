@@ -8,12 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "optimizer/choices/tie_key.h"
 #include "optimizer/problem/robust_answer.h"
 
 namespace plenum::optimizer {
 
-// Which combination a design is: ids with numbers in parallel, by which ties are ordered.
-using Combination = std::pair<std::vector<std::pair<std::string, int>>, Configuration>;
+// Which combination a design is: ids with numbers in parallel.
+using Combination = std::pair<PartIds, Configuration>;
 Combination CombinationOf(const Design& design);
 
 // Objective of one design per draw; +∞ where the draw is not met.

@@ -40,12 +40,11 @@
 //                     (more is not better: both ends), misses `constraint`;
 //      kBound         no design in the box has an objective below `bound`;
 //      kOrder         as kBound, and every design in it whose objective ties with the last one
-//                     listed comes after it by ids; also where the choices that dominate those of
-//                     the box make as many better combinations of each in it as are wanted;
+//                     listed comes after it (tie_key.h); also where the choices that dominate those
+//                     of the box make as many better combinations of each in it as are wanted;
 //      kKind          as kBound; all in it are of a kind of which a design is listed that is no
-//      worse
-//                     than `bound` (where they tie, by ids), or of a source of which as many kinds
-//                     are listed before it as there may be;
+//                     worse than `bound` (where they tie, earlier), or of a source of which as
+//                     many kinds are listed before it as there may be;
 //      kDesign        a single combination that is listed; `design` is its index in the answer;
 //      kNotListed     a single combination that is feasible, with its objective as `bound`;
 //      kRefuted       a single combination for which no setting meets the requirements;

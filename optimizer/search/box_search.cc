@@ -108,7 +108,7 @@ class BoxSearch {
   void Push(NodePtr node) {
     node->serial = serial_++;
     if (ordering_ties_ && node->box.bound <= ranking_.run_end()) {
-      node->earliest = EarliestIds(problem_, node->bounds->plan(), node->box);
+      node->earliest = EarliestKey(problem_, node->bounds->plan(), node->box);
       ties_.Push(std::move(node));
     } else {
       SaveRoom(*node);
@@ -146,7 +146,7 @@ class BoxSearch {
   }
 
   // All boxes that hold better designs are done. Those that may tie with the last place are
-  // searched in the order of ids until none of them can come before it.
+  // searched in the order of ties until none of them can come before it.
   void OrderTies() {
     ordering_ties_ = true;
     while (!open_.empty() && open_.top()->box.bound <= ranking_.run_end()) Push(open_.Pop());
@@ -217,8 +217,8 @@ class BoxSearch {
   }
 
   void Size(NodePtr node) {
-    PartIds ids = EarliestIds(problem_, node->bounds->plan(), node->box);
-    if (Found* known = ranking_.Find(ids)) {  // by the dive
+    TieKey key = EarliestKey(problem_, node->bounds->plan(), node->box);
+    if (Found* known = ranking_.Find(key)) {  // by the dive
       proof_.evaluated += 1;
       ranking_.Place(*known, node->record);
       CountGap(known->leaf);
@@ -247,7 +247,7 @@ class BoxSearch {
     leaf.lower_bound = std::clamp(node->box.bound, leaf.lower_bound, leaf.objective);
     CountGap(leaf);
     ranking_.Add(
-        {std::move(node->box), node->bounds, leaf, std::move(ids), node->record, nullptr, {}});
+        {std::move(node->box), node->bounds, leaf, std::move(key), node->record, nullptr, {}});
   }
 
   void Undecided(double bound, int record) {
@@ -373,16 +373,15 @@ class BoxSearch {
       const bool over = bound > objective_limit_;
       (over ? proof_.pruned.infeasible : proof_.pruned.bound) += node->bounds->Count(node->box);
       if (!over) least = std::min(least, bound);
-      const bool ties = ranking_.full() && bound <= ranking_.run_end();
-      recorder_.Close(node->record, {.kind = over   ? BoxKind::kInfeasible
-                                             : ties ? BoxKind::kOrder
-                                                    : BoxKind::kBound,
-                                     .constraint = over ? Constraint::kAmounts : Constraint::kNone,
-                                     .bound = bound});
+      recorder_.Close(node->record,
+                      {.kind = over ? BoxKind::kInfeasible : ranking_.EndBehind(bound),
+                       .constraint = over ? Constraint::kAmounts : Constraint::kNone,
+                       .bound = bound});
     });
     for (const NodePtr& node : settled_) {
       proof_.pruned.bound += node->bounds->Count(node->box);
-      recorder_.Close(node->record, {.kind = BoxKind::kKind, .bound = node->box.bound});
+      const BoxKind kind = ranking_.EndOfSettled(node->bounds->plan(), node->box);
+      recorder_.Close(node->record, {.kind = kind, .bound = node->box.bound});
     }
     return least;
   }
@@ -403,7 +402,7 @@ class BoxSearch {
   Watch watch_;
   double objective_limit_;  // a bound above it breaks a limit
   Queue<NodePtr, LowestBound> open_;
-  Queue<NodePtr, EarliestIdsFirst> ties_;
+  Queue<NodePtr, EarliestFirst> ties_;
   bool ordering_ties_ = false;
   std::vector<NodePtr> settled_;  // whose kind or source is (ranking.h)
   Ranking ranking_;

@@ -4,7 +4,7 @@
 // configuration that is not planted yet (configurations.h). A box that comes out is divided, and
 // the corner of each part is assessed; a single combination is sized. When the lowest bound lies
 // above the last place of the list no box can improve it, and the list is complete. Boxes that only
-// tie with the last place are searched by part ids instead, since ids order ties: that ends as soon
+// tie with the last place are searched in the order of ties instead (tie_key.h): that ends as soon
 // as no box can hold an earlier combination.
 #ifndef PLENUM_OPTIMIZER_SEARCH_BOX_SEARCH_H_
 #define PLENUM_OPTIMIZER_SEARCH_BOX_SEARCH_H_

@@ -74,8 +74,8 @@ class Diver {
   }
 
   void Try(Box box) {
-    PartIds ids = EarliestIds(problem_, bounds_.plan(), box);
-    if (ranking_.Find(ids) != nullptr) return;
+    TieKey key = EarliestKey(problem_, bounds_.plan(), box);
+    if (ranking_.Find(key) != nullptr) return;
     const Candidate candidate = bounds_.CandidateOf(box);
     std::unique_ptr<CustomSizing> sizing;
     std::optional<Leaf> sized;
@@ -83,7 +83,7 @@ class Diver {
          steps += kStepsPerRefine, steps_.left -= kStepsPerRefine)
       sized = SizeLeaf(problem_, candidate, box, sizing);
     if (sized && sized->status == LeafStatus::kFeasible)
-      ranking_.Add({std::move(box), &bounds_, *sized, std::move(ids), -1, nullptr, {}});
+      ranking_.Add({std::move(box), &bounds_, *sized, std::move(key), -1, nullptr, {}});
   }
 
   const Problem& problem_;

@@ -30,14 +30,14 @@ struct Walk {
 
 // Whether it is a design that the ranking did not have.
 bool Size(const Walk& walk, Node& node) {
-  PartIds ids = EarliestIds(walk.problem, walk.bounds.plan(), node.box);
-  if (walk.ranking.Find(ids) != nullptr) return false;
+  TieKey key = EarliestKey(walk.problem, walk.bounds.plan(), node.box);
+  if (walk.ranking.Find(key) != nullptr) return false;
   const Candidate candidate = walk.bounds.CandidateOf(node.box);
   std::optional<Leaf> sized;
   for (int i = 0; !sized && i < kRefinements && !walk.stop(); ++i)
     sized = SizeLeaf(walk.problem, candidate, node.box, node.sizing);
   if (!sized || sized->status != LeafStatus::kFeasible) return false;
-  walk.ranking.Add({std::move(node.box), &walk.bounds, *sized, std::move(ids), -1, nullptr, {}});
+  walk.ranking.Add({std::move(node.box), &walk.bounds, *sized, std::move(key), -1, nullptr, {}});
   return true;
 }
 

@@ -18,21 +18,23 @@ std::string IdOf(const model::Parts& parts, Family family, int index) {
 
 }  // namespace
 
-PartIds EarliestIds(const Problem& problem, const Plan& plan, const Box& box) {
-  PartIds ids;
+TieKey EarliestKey(const Problem& problem, const Plan& plan, const Box& box) {
+  TieKey key;
   const auto add = [&](int s) {
     if (s < 0) return;
     const Slot& slot = plan.slots[s];
-    const Option& option = (*slot.options)[(*slot.nodes)[box.nodes[s]].earliest];
+    const BoxNode& node = (*slot.nodes)[box.nodes[s]];
+    const Option& option = (*slot.options)[node.earliest];
     std::string id = IdOf(problem.parts, slot.family, option.index);
-    if (!id.empty()) ids.emplace_back(std::move(id), option.quantity);
+    if (!id.empty()) key.ids.emplace_back(std::move(id), option.quantity);
+    key.share += node.tie;
   };
   for (int g = 0; g < static_cast<int>(plan.groups.size()); ++g)
     for (int s : {2, 1, 0}) add(kSlotsPerGroup * g + s);  // valve, fitting, tube
   for (int s : {plan.regulator_slot, plan.bottle_slot, plan.compressor_slot, plan.battery_slot,
                 plan.reservoir_slot})
     add(s);
-  return ids;
+  return key;
 }
 
 std::optional<Kind> KindAt(const Plan& plan, const Box& box) {
@@ -46,6 +48,19 @@ std::optional<Kind> KindAt(const Plan& plan, const Box& box) {
   }
   return kind;
 }
+
+namespace {
+
+// The configuration and the series of the source of all combinations in the box.
+std::optional<std::pair<Configuration, int>> SourceAt(const Plan& plan, const Box& box) {
+  const int slot = plan.compressor_slot >= 0 ? plan.compressor_slot : plan.bottle_slot;
+  if (slot < 0) return std::pair(plan.configuration, -1);
+  const int source = (*plan.slots[slot].nodes)[box.nodes[slot]].series;
+  if (source < 0) return std::nullopt;
+  return std::pair(plan.configuration, source);
+}
+
+}  // namespace
 
 void Ranking::Add(Found found) {
   if (ListsKinds()) {
@@ -76,19 +91,17 @@ void Ranking::Remove(std::size_t position) {
   Sort();
 }
 
-Found* Ranking::Find(const PartIds& ids) {
+Found* Ranking::Find(const TieKey& key) {
   for (std::vector<Found>* group : {&list_, &spare_})
     for (Found& found : *group)
-      if (found.ids == ids) return &found;
+      if (found.key == key) return &found;
   return nullptr;
 }
 
 bool Ranking::IsSettled(const Plan& plan, const Box& box) const {
   if (!ListsKinds()) return false;
-  const int slot = plan.compressor_slot >= 0 ? plan.compressor_slot : plan.bottle_slot;
-  const int source = slot < 0 ? -1 : (*plan.slots[slot].nodes)[box.nodes[slot]].series;
-  if (slot < 0 || source >= 0) {
-    const auto end = source_end_.find({plan.configuration, source});
+  if (const auto source = SourceAt(plan, box)) {
+    const auto end = source_end_.find(*source);
     if (end != source_end_.end() && box.bound > end->second) return true;
   }
   const std::optional<Kind> kind = KindAt(plan, box);
@@ -96,14 +109,24 @@ bool Ranking::IsSettled(const Plan& plan, const Box& box) const {
   if (known == kinds_.end() || box.bound < known->second.begin) return false;
   const Run& run = known->second;
   if (box.bound > run.end) return true;
-  const PartIds earliest = EarliestIds(problem_, plan, box);
-  return run.ids < earliest || (run.ids == earliest && run.seen);
+  const TieKey earliest = EarliestKey(problem_, plan, box);
+  return run.key < earliest || (run.key == earliest && run.seen);
+}
+
+BoxKind Ranking::EndOfSettled(const Plan& plan, const Box& box) const {
+  const auto source = SourceAt(plan, box);
+  const auto kind = KindAt(plan, box);
+  const auto is_listed = [&](const Found& listed) { return kind && listed.kind == *kind; };
+  return (source && source_end_.contains(*source)) ||
+                 std::any_of(list_.begin(), list_.end(), is_listed)
+             ? BoxKind::kKind
+             : EndBehind(box.bound);
 }
 
 void Ranking::Place(Found& found, int record) {
   found.record = record;
   const auto run = kinds_.find(found.kind);
-  if (ListsKinds() && run != kinds_.end() && run->second.ids == found.ids)
+  if (ListsKinds() && run != kinds_.end() && run->second.key == found.key)
     run->second.seen = record >= 0;
 }
 
@@ -124,7 +147,7 @@ double Ranking::BoundBehind() const {
 namespace {
 
 bool ByObjective(const Found& a, const Found& b) {
-  return a.leaf.objective != b.leaf.objective ? a.leaf.objective < b.leaf.objective : a.ids < b.ids;
+  return a.leaf.objective != b.leaf.objective ? a.leaf.objective < b.leaf.objective : a.key < b.key;
 }
 
 double EndOfTies(double objective) { return objective + kTie * std::abs(objective); }
@@ -136,7 +159,7 @@ std::size_t OrderRun(std::vector<Found>& designs, std::size_t first) {
   while (end < designs.size() && designs[end].leaf.objective <= limit) ++end;
   std::sort(designs.begin() + static_cast<std::ptrdiff_t>(first),
             designs.begin() + static_cast<std::ptrdiff_t>(end),
-            [](const Found& a, const Found& b) { return a.ids < b.ids; });
+            [](const Found& a, const Found& b) { return a.key < b.key; });
   return end;
 }
 
@@ -173,7 +196,7 @@ std::vector<Found> Ranking::TakeBestOfKinds() {
     const auto [run, fresh] =
         kinds_.try_emplace(found.kind, Run{objective, EndOfTies(objective), {}, false});
     const auto [place, first] = best.try_emplace(found.kind, i);
-    if (objective <= run->second.end && found.ids < spare_[place->second].ids) place->second = i;
+    if (objective <= run->second.end && found.key < spare_[place->second].key) place->second = i;
   }
   std::vector<Found> taken;
   taken.reserve(best.size());
@@ -185,7 +208,7 @@ std::vector<Found> Ranking::TakeBestOfKinds() {
       continue;
     }
     Run& run = kinds_.at(found.kind);
-    run.ids = found.ids;
+    run.key = found.key;
     run.seen = found.record >= 0;
     taken.push_back(std::move(found));
   }

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "optimizer/choices/tie_key.h"
 #include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/relaxation.h"
 #include "optimizer/search/box_search.h"
@@ -29,22 +30,16 @@ PartsKey KeyOf(const Design& design) {
   return key;
 }
 
-std::vector<std::string> IdsOf(const Design& design) {
-  std::vector<std::string> ids;
-  for (const Choice& part : design.parts) ids.push_back(part.id);
-  return ids;
-}
-
 struct Found {
   Design design;
   std::optional<double> lower_bound;  // of its objective, once the relaxed problem has come to it
 };
 
-bool Before(const Found& a, const Found& b) {
+bool Before(const Problem& problem, const Found& a, const Found& b) {
   const double objective_a = a.design.objective, objective_b = b.design.objective;
   if (std::abs(objective_a - objective_b) > kTie * std::max(objective_a, objective_b))
     return objective_a < objective_b;
-  return IdsOf(a.design) < IdsOf(b.design);
+  return TieKeyOf(problem, a.design) < TieKeyOf(problem, b.design);
 }
 
 class Revision {
@@ -144,8 +139,10 @@ class Revision {
       ++simulated_;
       Found found{std::move(*remade.design),
                   bounds_ ? std::optional(design.objective) : std::nullopt};
-      found_.insert(std::upper_bound(found_.begin(), found_.end(), found, Before),
-                    std::move(found));
+      found_.insert(
+          std::upper_bound(found_.begin(), found_.end(), found,
+                           [&](const Found& a, const Found& b) { return Before(problem_, a, b); }),
+          std::move(found));
     }
   }
 

@@ -18,7 +18,7 @@ struct Node {
   int depth = 0;
   int record = -1;
   std::unique_ptr<CustomSizing> sizing;  // a made-to-measure reservoir that is being sized
-  PartIds earliest;                      // while ties are searched
+  TieKey earliest;                       // while ties are searched
 };
 using NodePtr = std::unique_ptr<Node>;
 
@@ -28,7 +28,7 @@ struct LowestBound {  // among equals, the nearest to a design
   }
 };
 
-struct EarliestIdsFirst {
+struct EarliestFirst {
   struct Place {
     const Node* node;
     bool operator<(const Place& other) const {

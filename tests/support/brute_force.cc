@@ -157,17 +157,22 @@ long long Combinations(const Problem& problem, Configuration configuration) {
 
 }  // namespace
 
+bool GoesBefore(const Enumerated& a, const Enumerated& b) {
+  if (std::abs(a.mass_kg - b.mass_kg) > 1e-10) return a.mass_kg < b.mass_kg;
+  if (std::abs(a.cost_eur - b.cost_eur) > 1e-7) return a.cost_eur < b.cost_eur;
+  return a.key < b.key;
+}
+
 void Rank(std::vector<Enumerated>& designs) {
   const auto by_objective = [](const Enumerated& a, const Enumerated& b) {
     return a.leaf.objective < b.leaf.objective;
   };
-  const auto by_key = [](const Enumerated& a, const Enumerated& b) { return a.key < b.key; };
   std::sort(designs.begin(), designs.end(), by_objective);
   for (auto first = designs.begin(); first != designs.end();) {
     const double limit = first->leaf.objective * (1.0 + 1e-6);
     auto last = first;
     while (last != designs.end() && last->leaf.objective <= limit) ++last;
-    std::sort(first, last, by_key);
+    std::sort(first, last, GoesBefore);
     first = last;
   }
 }
@@ -262,8 +267,15 @@ BruteForce Enumerate(const Problem& problem) {
         made ? SizeByScan(problem, candidate) : SizeAlone(problem, candidate);
     ++result.sized;
     if (leaf.status == optimizer::LeafStatus::kUndecided) ++result.undecided;
-    if (leaf.status == optimizer::LeafStatus::kFeasible)
-      result.designs.push_back({KeyOf(problem, candidate), candidate.configuration, leaf});
+    if (leaf.status != optimizer::LeafStatus::kFeasible) return;
+    const optimizer::Amounts parts = optimizer::TotalAmounts(
+        problem, candidate, optimizer::LeastPoint(problem, model::kMadeReservoirSmallestM3));
+    const optimizer::Objective& goal = problem.objective;
+    const bool others = goal.volume_l > 0.0 || goal.energy_wh > 0.0;
+    const bool mass_counts = others || goal.cost_eur > 0.0;
+    const bool cost_counts = others || goal.mass_kg > 0.0;
+    result.designs.push_back({KeyOf(problem, candidate), mass_counts ? parts.mass_kg : 0.0,
+                              cost_counts ? parts.cost_eur : 0.0, candidate.configuration, leaf});
   });
   Rank(result.designs);
   return result;

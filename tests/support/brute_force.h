@@ -21,12 +21,14 @@ PartsKey KeyOf(const optimizer::Design& design);
 
 struct Enumerated {
   PartsKey key;
+  double mass_kg = 0.0, cost_eur = 0.0;  // of the parts, the least of a made-to-measure one; 0
+                                         // where it is all of the objective
   optimizer::Configuration configuration;
   optimizer::Leaf leaf;
 };
 
 struct BruteForce {
-  std::vector<Enumerated> designs;  // feasible, ranked: ties within 1e-6 by part ids
+  std::vector<Enumerated> designs;  // feasible, ranked: ties within 1e-6 by mass, cost, ids
   long long combinations = 0;       // by the contract's product
   long long undecided = 0;
   long long sized = 0;
@@ -45,7 +47,10 @@ optimizer::Leaf SizeAlone(const optimizer::Problem& problem, const optimizer::Ca
 
 BruteForce Enumerate(const optimizer::Problem& problem);
 
-// Runs of designs within 1e-6 of the first of the run are ties and go by part ids.
+// Whether one that ties with another goes before it.
+bool GoesBefore(const Enumerated& a, const Enumerated& b);
+
+// Runs of designs within 1e-6 of the first of the run are ties and go by mass, cost and part ids.
 void Rank(std::vector<Enumerated>& designs);
 
 optimizer::SearchOptions Within(double seconds);

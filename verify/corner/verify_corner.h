@@ -6,9 +6,9 @@
 #include <map>
 
 #include "verify/corner/verify_best.h"
-#include "verify/corner/verify_dominance.h"
 #include "verify/corner/verify_line.h"
 #include "verify/corner/verify_pump.h"
+#include "verify/design/verify_choice.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {

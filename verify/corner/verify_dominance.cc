@@ -6,6 +6,7 @@
 #include "model/physics/storage.h"
 #include "verify/design/verify_families.h"
 #include "verify/design/verify_finding.h"
+#include "verify/design/verify_ids.h"
 
 namespace plenum::verify {
 namespace {
@@ -132,48 +133,6 @@ bool NoWorse(const Problem& problem, const ProofPlan& plan, const ProofSlot& slo
 
 }  // namespace
 
-ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const ProofItem& item) {
-  if (item.part == -1) return {};
-  ItemAmounts sum;
-  double energy_j = 0.0;  // whatever the strokes
-  if (item.part == -2) {
-    double least_pa = problem.ambient.pressure_pa;  // that any source stops at
-    for (const ActuatorGroup& group : problem.groups)
-      least_pa = std::max(least_pa, group.chamber.operating_pressure_pa);
-    const model::MadeReservoir made = model::MakeReservoir(model::kMadeReservoirSmallestM3,
-                                                           least_pa - problem.ambient.pressure_pa);
-    sum = {made.mass_kg, made.body_volume_m3, 0.0, 0.0};
-  } else {
-    const model::PartBasics& basics = BasicsOf(problem.parts, slot.family, item.part);
-    double pieces = item.quantity, gas_kg = 0.0;
-    if (slot.group >= 0) {
-      const ActuatorGroup& group = problem.groups[slot.group];
-      pieces = group.count *
-               (slot.family == Family::kTubing ? group.tube_length_m : group.fittings_per_line);
-      if (slot.family == Family::kValve) {
-        const model::Valve& valve = problem.parts.valves[item.part];
-        pieces = std::ceil(static_cast<double>(group.count) / valve.channels);
-        energy_j = problem.actuations * group.count * valve.coil_power_w / problem.frequency_hz / 2;
-      }
-    }
-    if (slot.family == Family::kRegulator)
-      energy_j = problem.actuations / problem.frequency_hz *
-                 problem.parts.regulators[item.part].electrical_power_w;
-    if (slot.family == Family::kCylinder) {
-      const model::Cylinder& cylinder = problem.parts.cylinders[item.part];
-      gas_kg = model::CylinderCharge(cylinder.water_volume_m3, cylinder.fill_pressure_pa,
-                                     problem.ambient.temperature_k);
-    }
-    if (slot.family == Family::kCo2) gas_kg = problem.parts.co2[item.part].co2_mass_kg;
-    sum = {pieces * (basics.mass_kg + gas_kg), pieces * basics.body_volume_m3,
-           pieces * basics.cost_eur.value_or(0.0), 0.0};
-  }
-  const Objective& weight = problem.objective;
-  sum.objective = weight.mass_kg * sum.mass_kg + weight.volume_l * sum.volume_m3 * 1e3 +
-                  weight.cost_eur * sum.cost_eur + weight.energy_wh * energy_j / 3600.0;
-  return sum;
-}
-
 bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
                const ProofItem& better, const ProofItem& worse) {
   if (better.part < 0 || worse.part < 0 || better == worse) return false;
@@ -183,9 +142,12 @@ bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& s
       (std::isfinite(problem.volume_max_l) && !Least(a.volume_m3, b.volume_m3)) ||
       (std::isfinite(problem.cost_max_eur) && !Least(a.cost_eur, b.cost_eur)))
     return false;
+  const TieShare share = ShareOfTies(problem, a), other_share = ShareOfTies(problem, b);
   const std::string& id = BasicsOf(problem.parts, slot.family, better.part).id;
   const std::string& other = BasicsOf(problem.parts, slot.family, worse.part).id;
-  const bool first = id != other ? id < other : better.quantity < worse.quantity;
+  const bool first = share != other_share ? share < other_share
+                     : id != other        ? id < other
+                                          : better.quantity < worse.quantity;
   return (a.objective < b.objective - plan.tie || (first && Least(a.objective, b.objective))) &&
          NoWorse(problem, plan, slot, better, worse);
 }

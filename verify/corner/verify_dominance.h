@@ -6,15 +6,6 @@
 
 namespace plenum::verify {
 
-struct ItemAmounts {
-  double mass_kg = 0.0, volume_m3 = 0.0, cost_eur = 0.0;
-  // Share of the objective, with the energy that a coil or regulator takes at any speed.
-  double objective = 0.0;
-};
-
-// All pieces of a choice, gas included; the least of a made-to-measure reservoir.
-ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const ProofItem& item);
-
 bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
                const ProofItem& better, const ProofItem& worse);
 

@@ -17,8 +17,8 @@
 #include <map>
 #include <vector>
 
-#include "verify/corner/verify_dominance.h"
 #include "verify/corner/verify_known_strokes.h"
+#include "verify/design/verify_choice.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {

@@ -34,7 +34,8 @@ struct NotRechecked {
 inline constexpr double kSumTolerance = 1e-9;
 inline constexpr double kTimeTolerance = 1e-4;
 inline constexpr double kEnergyTolerance = 1e-3;
-inline constexpr double kTieTolerance = 1e-6;  // objectives this close go by part ids
+inline constexpr double kSettled = 0.5;  // of a tie, that settings may cost which it leaves free
+inline constexpr double kTieTolerance = 1e-6;  // objectives this close are ties (verify_ids.h)
 
 inline bool Near(double a, double b, double relative) {
   return a == b || std::abs(a - b) <= relative * std::max(std::abs(a), std::abs(b));

@@ -1,5 +1,9 @@
 #include "verify/design/verify_ids.h"
 
+#include <cmath>
+
+#include "verify/design/verify_families.h"
+
 namespace plenum::verify {
 
 Ids IdsOf(const Design& design) {
@@ -17,6 +21,30 @@ std::string Text(const Ids& ids) {
     text += id;
   }
   return text;
+}
+
+TieShare ShareOfTies(const Problem& problem, const ItemAmounts& amounts) {
+  const Objective& weight = problem.objective;
+  const bool others = weight.volume_l > 0.0 || weight.energy_wh > 0.0;
+  const bool mass_alone = !others && !(weight.cost_eur > 0.0);
+  const bool cost_alone = !others && !(weight.mass_kg > 0.0);
+  return {mass_alone ? 0 : std::llround(amounts.mass_kg * 1e9),
+          cost_alone ? 0 : std::llround(amounts.cost_eur * 1e6)};
+}
+
+TieKey TieKeyOf(const Problem& problem, const Design& design) {
+  TieKey key{{}, IdsOf(design)};
+  for (const Choice& row : design.parts) {
+    const bool made = row.family == Family::kReservoir && row.id == "custom";
+    const ProofItem item{made ? -2 : FindPart(problem.parts, row.family, row.id),
+                         row.group < 0 ? static_cast<int>(row.quantity) : 1};
+    if (item.part == -1) continue;  // no part of the catalogue, which another check tells
+    const TieShare share =
+        ShareOfTies(problem, ChoiceAmounts(problem, {row.family, row.group, {}, {}}, item));
+    key.share.mass += share.mass;
+    key.share.cost += share.cost;
+  }
+  return key;
 }
 
 }  // namespace plenum::verify

@@ -1,12 +1,14 @@
-// The part ids of a design, by which ties are ordered. Internal to verify*.cc.
+// The part ids of a design, and what orders designs whose objectives tie: mass, then cost, then
+// ids. Internal to verify*.cc.
 #ifndef PLENUM_VERIFY_DESIGN_VERIFY_IDS_H_
 #define PLENUM_VERIFY_DESIGN_VERIFY_IDS_H_
 
+#include <compare>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "verify/design/verify_values.h"
+#include "verify/design/verify_choice.h"
 
 namespace plenum::verify {
 
@@ -14,6 +16,22 @@ namespace plenum::verify {
 using Ids = std::vector<std::pair<std::string, int>>;
 Ids IdsOf(const Design& design);
 std::string Text(const Ids& ids);
+
+// Nanokilograms and millionths of a euro, which add up without rounding; 0 where the amount is all
+// of the objective. A price that is not known is 0; a made-to-measure reservoir counts as the least
+// one.
+struct TieShare {
+  long long mass = 0, cost = 0;
+  auto operator<=>(const TieShare&) const = default;
+};
+TieShare ShareOfTies(const Problem& problem, const ItemAmounts& amounts);
+
+struct TieKey {
+  TieShare share;
+  Ids ids;
+  auto operator<=>(const TieKey&) const = default;
+};
+TieKey TieKeyOf(const Problem& problem, const Design& design);
 
 }  // namespace plenum::verify
 

@@ -1,5 +1,7 @@
 #include "verify/design/verify_list.h"
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "verify/design/verify_design.h"
@@ -16,22 +18,24 @@ void CheckOrder(const Problem& problem, const std::vector<Design>& designs, Find
   if (static_cast<int>(designs.size()) > problem.count)
     findings.push_back({"order", "more designs than were asked for"});
   std::set<std::pair<Configuration, Ids>> seen;
-  double run = -kUnlimited;  // objective of the first of a run of ties
+  std::vector<double> least_behind(designs.size() + 1, kUnlimited);  // from each rank on
+  for (std::size_t i = designs.size(); i-- > 0;)
+    least_behind[i] = std::min(least_behind[i + 1], designs[i].objective);
+  double begin = -kUnlimited;  // of the run of ties
   for (std::size_t i = 0; i < designs.size(); ++i) {
     const std::string rank = "rank " + std::to_string(i + 1);
     if (!seen.insert({designs[i].configuration, IdsOf(designs[i])}).second)
       findings.push_back({"order", rank + " is listed twice"});
-    const double objective = designs[i].objective;
-    if (i > 0 && objective <= run + kTieTolerance * std::abs(run) * (1.0 + kTieTolerance) &&
-        objective >= run) {
-      if (IdsOf(designs[i]) < IdsOf(designs[i - 1]) &&
-          objective <= run + kTieTolerance * std::abs(run) * (1.0 - kTieTolerance))
-        findings.push_back({"order", rank + " ties with the one before and comes first by ids"});
-      continue;
+    const double objective = designs[i].objective, tie = kTieTolerance * std::abs(begin);
+    if (i == 0 || objective > begin + (1.0 + kSettled) * tie) {
+      begin = least_behind[i];
+      if (objective > begin + (1.0 + kSettled) * kTieTolerance * std::abs(begin))
+        findings.push_back({"order", rank + " comes before a better one"});
+    } else if (objective <= begin + (1.0 - kSettled) * tie &&
+               TieKeyOf(problem, designs[i]) < TieKeyOf(problem, designs[i - 1])) {
+      findings.push_back(
+          {"order", rank + " ties with the one before and comes first by mass, cost or ids"});
     }
-    if (objective < run - kTieTolerance * std::abs(run))
-      findings.push_back({"order", rank + " is better than the one before"});
-    run = std::max(run, objective);
   }
 }
 

@@ -11,7 +11,7 @@
 
 namespace plenum::verify {
 
-// Designs by objective, ties by ids, none twice, no more than were asked for.
+// Designs by objective, ties by mass, cost and ids, none twice, no more than were asked for.
 void CheckOrder(const Problem& problem, const std::vector<Design>& designs, Findings& findings);
 
 // Each design's parts, amounts and performance (verify_design.h).

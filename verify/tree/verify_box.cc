@@ -50,6 +50,23 @@ Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   return ids;
 }
 
+TieKey EarliestKey(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
+  TieKey key{{}, EarliestIds(problem, plan, ranges)};
+  for (std::size_t s = 0; s < ranges.size(); ++s) {
+    std::optional<TieShare> least;
+    for (int i = ranges[s].first; i < ranges[s].second; ++i) {
+      const ProofSlot& slot = plan.slots[s];
+      const TieShare share = ShareOfTies(problem, ChoiceAmounts(problem, slot, slot.choices[i]));
+      least = least ? TieShare{std::min(least->mass, share.mass), std::min(least->cost, share.cost)}
+                    : share;
+    }
+    if (!least) continue;
+    key.share.mass += least->mass;
+    key.share.cost += least->cost;
+  }
+  return key;
+}
+
 Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges& single) {
   Assembly assembly;
   assembly.configuration = plan.configuration;
@@ -74,7 +91,7 @@ BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claims& 
 // Whether a combination with this objective, or more, bears out the claim.
 bool BoxCheck::Holds(const Claim& claim, double objective, const Ranges& single) const {
   if (!(objective >= claim.least)) return false;
-  return objective > claim.tie_end || EarliestIds(problem_, plan_, single) > claim.last;
+  return objective > claim.tie_end || EarliestKey(problem_, plan_, single) > claim.last;
 }
 
 int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges) {
@@ -93,13 +110,13 @@ bool BoxCheck::IsSettled(const Claim& claim, const Ranges& single, Findings& fin
   return true;
 }
 
-// Whether bounds alone bear out the claim; ids, which cost more, are asked only where they may
-// help.
+// Whether bounds alone bear out the claim; the order of ties, which costs more, is asked only where
+// it may help.
 bool BoxCheck::IsBeyond(const Claim& claim, const Ranges& ranges) {
   const double past_ties = claim.enough();
   const double bound = corners_.LeastObjective(ranges, past_ties);
   if (bound > past_ties || (bound >= claim.least && std::isinf(claim.tie_end))) return true;
-  return std::isfinite(claim.tie_end) && EarliestIds(problem_, plan_, ranges) > claim.last &&
+  return std::isfinite(claim.tie_end) && EarliestKey(problem_, plan_, ranges) > claim.last &&
          corners_.LeastObjective(ranges, claim.least) > claim.least;
 }
 

@@ -10,8 +10,10 @@
 
 namespace plenum::verify {
 
-// Of each slot the choice with the first id: no combination in the box comes before these.
+// Of each slot the choice with the first id; and the least mass and cost, too: no combination in
+// the box that ties comes before these.
 Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ranges);
+TieKey EarliestKey(const Problem& problem, const ProofPlan& plan, const Ranges& ranges);
 
 // The parts at one place of each slot.
 Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges& single);

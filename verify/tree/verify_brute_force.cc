@@ -4,7 +4,7 @@
 #include <optional>
 #include <set>
 
-#include "verify/corner/verify_dominance.h"
+#include "verify/design/verify_choice.h"
 #include "verify/design/verify_families.h"
 #include "verify/design/verify_size.h"
 #include "verify/tree/verify_box.h"
@@ -180,7 +180,8 @@ class Enumeration {
     }
     const Claim& claim = series_->ClaimOn(claims_, single_);
     const bool worse = objective * (1.0 + tolerance) >= claim.least &&
-                       (objective * (1.0 + tolerance) > claim.tie_end || ids > claim.last);
+                       (objective * (1.0 + tolerance) > claim.tie_end ||
+                        EarliestKey(problem_, plan(), single_) > claim.last);
     if (!surely || worse) return;
     Add("a " + std::string(Name(plan().configuration)) + " design that is not listed comes to " +
         std::to_string(objective) + ": " + Text(ids));

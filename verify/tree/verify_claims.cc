@@ -7,27 +7,37 @@
 namespace plenum::verify {
 namespace {
 
-// The run of ties that the last design of a full list is in goes by ids.
+// The least that the objective of what ties with a listed design may be.
+double BestOfRun(double objective) {
+  return objective - (1.0 + kSettled) * kTieTolerance * std::abs(objective);
+}
+
+bool Ties(double one, double other) {
+  return std::min(one, other) >= BestOfRun(std::max(one, other));
+}
+
+// The run of ties that the last design of a full list is in goes by mass, cost and ids.
 Claim OnAll(const Problem& problem, const Answer& answer) {
   if (!answer.proof.complete)
     return {answer.proof.lower_bound * (1.0 - kSumTolerance), -kUnlimited, {}};
   if (static_cast<int>(answer.designs.size()) < problem.count) return {kUnlimited, -kUnlimited, {}};
-  double run = -kUnlimited;  // objective of the first of the run of ties that the last one is in
-  for (const Design& design : answer.designs)
-    if (!(design.objective <= run + kTieTolerance * std::abs(run))) run = design.objective;
-  const double tie = kTieTolerance * std::abs(run);
-  return {run - tie, run + tie, IdsOf(answer.designs.back())};
+  // The worst of the run of ties that the last one is in.
+  double last = -kUnlimited;
+  for (std::size_t i = answer.designs.size(); i-- > 0;) {
+    const double objective = answer.designs[i].objective;
+    if (std::isfinite(last) && !Ties(objective, last)) break;
+    last = std::max(last, objective);
+  }
+  return {BestOfRun(last), last * (1.0 + kSumTolerance), TieKeyOf(problem, answer.designs.back())};
 }
 
-// On what belongs behind a listed design, by its kind or source. It is the first by ids of what
-// ties with the best of these, so that may be better by a tie.
-Claim Behind(const Design& design, const Answer& answer) {
-  const double tie = kTieTolerance * std::abs(design.objective);
+// On what belongs behind a listed design, by its kind or source. It is the earliest of what ties
+// with the best of these, so that may be better by a tie.
+Claim Behind(const Problem& problem, const Design& design, const Answer& answer) {
+  const double best = BestOfRun(design.objective);
   if (!answer.proof.complete)
-    return {std::min(answer.proof.lower_bound, design.objective - tie) * (1.0 - kSumTolerance),
-            -kUnlimited,
-            {}};
-  return {design.objective - tie, design.objective * (1.0 + kSumTolerance), IdsOf(design)};
+    return {std::min(answer.proof.lower_bound, best) * (1.0 - kSumTolerance), -kUnlimited, {}};
+  return {best, design.objective * (1.0 + kSumTolerance), TieKeyOf(problem, design)};
 }
 
 }  // namespace
@@ -37,9 +47,9 @@ Claims::Claims(const Problem& problem, const Answer& answer) : all_(OnAll(proble
   std::map<SourceName, int> listed;
   for (const Design& design : answer.designs) {
     const KindName kind = KindOf(problem, design);
-    kinds_.emplace(kind, Behind(design, answer));
+    kinds_.emplace(kind, Behind(problem, design, answer));
     if (++listed[kind.source] == problem.per_source)
-      sources_.emplace(kind.source, Behind(design, answer));
+      sources_.emplace(kind.source, Behind(problem, design, answer));
   }
 }
 

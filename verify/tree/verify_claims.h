@@ -14,10 +14,10 @@
 namespace plenum::verify {
 
 // The objective of every combination of a set that is not listed is `least` or more, and past
-// `tie_end` unless its ids come after `last`.
+// `tie_end` unless it comes after `last` among ties.
 struct Claim {
   double least = 0.0, tie_end = -kUnlimited;
-  Ids last;
+  TieKey last;
   double enough() const { return std::max(least, tie_end); }  // past it nothing is to be shown
 };
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <numeric>
 
+#include "verify/corner/verify_dominance.h"
 #include "verify/design/verify_families.h"
 #include "verify/tree/verify_box.h"
 #include "verify/tree/verify_record.h"

@@ -242,10 +242,11 @@ class Planter {
     if (kinds) SetSeries(family, entries);
     for (std::size_t i = 0; i < contenders.size(); ++i) {
       Contender& contender = contenders[i];
-      const Item<Corner>& item = entries.items[i];
+      Item<Corner>& item = entries.items[i];
       contender.item = {item.option.index, item.option.quantity};
       contender.objective = item.corner.objective;
       const Amounts& amounts = item.corner.amounts;
+      item.tie = contender.tie = TieShareOf(problem_.objective, amounts);
       if (std::isfinite(problem_.mass_max_kg)) contender.losses.push_back(amounts.mass_kg);
       if (std::isfinite(problem_.volume_max_l)) contender.losses.push_back(amounts.volume_m3);
       if (std::isfinite(problem_.cost_max_eur)) contender.losses.push_back(amounts.cost_eur);

@@ -1,0 +1,53 @@
+#include "verify/design/verify_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/physics/storage.h"
+#include "verify/design/verify_families.h"
+
+namespace plenum::verify {
+
+ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const ProofItem& item) {
+  if (item.part == -1) return {};
+  ItemAmounts sum;
+  double energy_j = 0.0;  // whatever the strokes
+  if (item.part == -2) {
+    double least_pa = problem.ambient.pressure_pa;  // that any source stops at
+    for (const ActuatorGroup& group : problem.groups)
+      least_pa = std::max(least_pa, group.chamber.operating_pressure_pa);
+    const model::MadeReservoir made = model::MakeReservoir(model::kMadeReservoirSmallestM3,
+                                                           least_pa - problem.ambient.pressure_pa);
+    sum = {made.mass_kg, made.body_volume_m3, 0.0, 0.0};
+  } else {
+    const model::PartBasics& basics = BasicsOf(problem.parts, slot.family, item.part);
+    double pieces = item.quantity, gas_kg = 0.0;
+    if (slot.group >= 0) {
+      const ActuatorGroup& group = problem.groups[slot.group];
+      pieces = group.count *
+               (slot.family == Family::kTubing ? group.tube_length_m : group.fittings_per_line);
+      if (slot.family == Family::kValve) {
+        const model::Valve& valve = problem.parts.valves[item.part];
+        pieces = std::ceil(static_cast<double>(group.count) / valve.channels);
+        energy_j = problem.actuations * group.count * valve.coil_power_w / problem.frequency_hz / 2;
+      }
+    }
+    if (slot.family == Family::kRegulator)
+      energy_j = problem.actuations / problem.frequency_hz *
+                 problem.parts.regulators[item.part].electrical_power_w;
+    if (slot.family == Family::kCylinder) {
+      const model::Cylinder& cylinder = problem.parts.cylinders[item.part];
+      gas_kg = model::CylinderCharge(cylinder.water_volume_m3, cylinder.fill_pressure_pa,
+                                     problem.ambient.temperature_k);
+    }
+    if (slot.family == Family::kCo2) gas_kg = problem.parts.co2[item.part].co2_mass_kg;
+    sum = {pieces * (basics.mass_kg + gas_kg), pieces * basics.body_volume_m3,
+           pieces * basics.cost_eur.value_or(0.0), 0.0};
+  }
+  const Objective& weight = problem.objective;
+  sum.objective = weight.mass_kg * sum.mass_kg + weight.volume_l * sum.volume_m3 * 1e3 +
+                  weight.cost_eur * sum.cost_eur + weight.energy_wh * energy_j / 3600.0;
+  return sum;
+}
+
+}  // namespace plenum::verify

@@ -1,0 +1,20 @@
+// What one choice of a slot weighs, takes and costs. Internal to verify*.cc.
+#ifndef PLENUM_VERIFY_DESIGN_VERIFY_CHOICE_H_
+#define PLENUM_VERIFY_DESIGN_VERIFY_CHOICE_H_
+
+#include "verify/design/verify_values.h"
+
+namespace plenum::verify {
+
+struct ItemAmounts {
+  double mass_kg = 0.0, volume_m3 = 0.0, cost_eur = 0.0;
+  // Share of the objective, with the energy that a coil or regulator takes at any speed.
+  double objective = 0.0;
+};
+
+// All pieces of a choice, gas included; the least of a made-to-measure reservoir.
+ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const ProofItem& item);
+
+}  // namespace plenum::verify
+
+#endif  // PLENUM_VERIFY_DESIGN_VERIFY_CHOICE_H_
