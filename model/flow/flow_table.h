@@ -21,8 +21,11 @@ class FlowTable {
   // As FlowAtRatio(series, ratio), m³/(s·Pa).
   double operator()(double ratio) const;
 
- private:
+  // Where its pieces meet, from equal pressures (0) to the choked ratio (kCells).
   static constexpr int kCells = 48;
+  double KnotRatio(int i) const { return 1.0 - i / cells_per_ratio_; }
+
+ private:
   double choked_flow_ = 0.0, choked_ratio_ = 0.0, cells_per_ratio_ = 0.0;
   // 1 − c and its slope per cell where cells begin, from equal pressures to the choked ratio: each
   // cell is the cubic that both ends have in common.

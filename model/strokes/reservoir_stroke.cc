@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "model/physics/air.h"
 
@@ -65,6 +67,20 @@ class Stroke {
 template <class Function>
 double Integral(const Function& f, double from, double to) {
   return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(f, from, to, 12, 1e-9);
+}
+
+// The values of u = √(1 − p/p_s) from which on a fill out of a full reservoir is smooth, in order:
+// where the pieces of the line's table and of a measured volume meet.
+std::vector<double> Panels(const ReservoirStrokeInput& in, double first, double last) {
+  std::vector<double> borders{first, last};
+  const auto add = [&](double p) {
+    const double u = std::sqrt(std::max(0.0, 1.0 - p / in.stop_pa));
+    if (u > first && u < last) borders.push_back(u);
+  };
+  for (int i = 1; i <= FlowTable::kCells; ++i) add(in.fill->KnotRatio(i) * in.stop_pa);
+  for (double p : in.chamber->volume_curve.x()) add(p);
+  std::sort(borders.begin(), borders.end());
+  return borders;
 }
 
 // How far the reservoir stays above the chambers while both rise together: by what drives a line's
@@ -130,7 +146,12 @@ bool FillFromFull(const ReservoirStrokeInput& in, State& y, double from, double 
            (content_per_volume * (*in.fill)(ratio));
   };
   const double begin = std::sqrt(1.0 - from / in.stop_pa), end = std::sqrt(1.0 - to / in.stop_pa);
-  if (begin > kLast) y[0] += Integral(seconds_per_u, std::max(end, kLast), begin);
+  if (begin > kLast) {
+    const std::vector<double> borders = Panels(in, std::max(end, kLast), begin);
+    for (std::size_t i = 1; i < borders.size(); ++i)
+      y[0] += boost::math::quadrature::gauss<double, 7>::integrate(seconds_per_u, borders[i - 1],
+                                                                   borders[i]);
+  }
   if (end < kLast) y[0] += (std::min(begin, kLast) - end) * seconds_per_u(kLast);
   const double air_m3 =
       in.count * (Content(*in.chamber, to) - Content(*in.chamber, from)) / content_per_volume;

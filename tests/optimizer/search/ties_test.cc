@@ -81,27 +81,27 @@ void Compare(const Problem& problem, Compared& compared) {
 
 TEST(Ties, GoByMassThenCostThenIds) {
   Compared compared;
-  for (std::uint64_t seed = 1; seed <= 80; ++seed)
+  for (std::uint64_t seed = 1; seed <= 28; ++seed)
     for (const Objective& objective : {Objective{0.0, 0.0, 0.0, 1.0}, Objective{0.0, 1.0, 0.0, 0.0},
                                        Objective{1.0, 0.0, 0.0, 0.0}}) {
       SCOPED_TRACE(seed);
       Compare(Drawn(seed, objective), compared);
     }
   RecordProperty("designs", compared.designs);
-  EXPECT_GT(compared.designs, 500);
-  EXPECT_GT(compared.ties, 200);
-  EXPECT_GT(compared.by_mass, 50);
-  EXPECT_GT(compared.by_cost, 20);
+  EXPECT_GT(compared.designs, 200);
+  EXPECT_GT(compared.ties, 80);
+  EXPECT_GT(compared.by_mass, 20);
+  EXPECT_GT(compared.by_cost, 8);
 }
 
 // Prices of all parts are needed where cost counts.
 TEST(Ties, OfCostGoByMass) {
   Compared compared;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
     SCOPED_TRACE(seed);
     Compare(Drawn(seed, {0.0, 0.0, 1.0, 0.0}), compared);
   }
-  EXPECT_GT(compared.by_mass, 5);
+  EXPECT_GT(compared.by_mass, 2);
 }
 
 TEST(Ties, ThePriceAndTheMassOfAnObjectiveTellNothingApart) {
