@@ -61,7 +61,7 @@ Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions option
   options.time_limit_s = request.time_limit_s;
   options.record = request.proof;
   options.select = [&parts](const optimizer::Problem& problem) {
-    return ToModelParts(AllowedParts(parts, problem), problem.ambient);
+    return AllowedModelParts(parts, problem);
   };
   if (!request.pareto.empty()) return AnswerFront(request, options, parts);
   if (request.model) return AnswerRevised(request, options, parts);

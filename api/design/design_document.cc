@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "api/catalogue/catalogue_parts.h"
+#include "api/design/read/power.h"
 #include "api/design/read/selection.h"
 #include "api/json/units.h"
 #include "optimizer/problem/family_specs.h"
@@ -31,16 +32,18 @@ Json RenderChoice(const optimizer::Choice& choice, const optimizer::Problem& pro
   const auto found = rows.find(choice.id);
   const bool known = found != rows.end();
   const bool is_tube = choice.family == optimizer::Family::kTubing;
-  return {{"family", optimizer::Name(choice.family)},
-          {"id", choice.id},
-          {"manufacturer", known ? found->second->manufacturer : "made to measure"},
-          {"part_number", known ? found->second->part_number : choice.id},
-          {"group", choice.group < 0 ? Json(nullptr) : Json(problem.groups[choice.group].name)},
-          {"quantity", Number(choice.quantity)},
-          {"unit", is_tube ? "m" : "piece"},
-          {"mass_kg", Number(choice.mass_kg)},
-          {"volume_l", Number(LFromM3(choice.volume_m3))},
-          {"cost_eur", OrNull(choice.cost_eur)}};
+  Json row = {{"family", optimizer::Name(choice.family)},
+              {"id", choice.id},
+              {"manufacturer", known ? found->second->manufacturer : "made to measure"},
+              {"part_number", known ? found->second->part_number : choice.id},
+              {"group", choice.group < 0 ? Json(nullptr) : Json(problem.groups[choice.group].name)},
+              {"quantity", Number(choice.quantity)},
+              {"unit", is_tube ? "m" : "piece"},
+              {"mass_kg", Number(choice.mass_kg)},
+              {"volume_l", Number(LFromM3(choice.volume_m3))},
+              {"cost_eur", OrNull(choice.cost_eur)}};
+  if (problem.own.contains(choice.id)) row["own"] = true;
+  return row;
 }
 
 Json RenderSettings(const optimizer::Settings& settings, const model::Ambient& ambient) {
@@ -155,7 +158,7 @@ Json RenderVariant(const optimizer::Variant& variant, const optimizer::Design& b
     const bool same = std::any_of(
         best.parts.begin(), best.parts.end(),
         [&](const optimizer::Choice& other) { return optimizer::SameRow(other, choice); });
-    if (same) continue;
+    if (same || IsOutsidePower(choice, problem)) continue;
     differ_in.insert(optimizer::Name(choice.family));
     parts.push_back(RenderChoice(choice, problem, rows));
   }
@@ -197,7 +200,9 @@ Quality QualityOf(const optimizer::Design& design, const Rows& rows) {
 }
 
 Json RenderFigures(const optimizer::Design& design, const optimizer::Problem& problem) {
-  return {{"settings", RenderSettings(design.settings, problem.ambient)},
+  Json settings = RenderSettings(design.settings, problem.ambient);
+  settings["power"] = RenderPower(design, problem);
+  return {{"settings", std::move(settings)},
           {"totals", RenderTotals(design.totals)},
           {"performance", RenderPerformance(design.performance, problem)},
           {"margins", RenderMargins(design.margins)}};
@@ -207,7 +212,7 @@ Json RenderClaim(const optimizer::Design& design, int rank, const optimizer::Pro
                  const Rows& rows) {
   Json parts = Json::array();
   for (const optimizer::Choice& choice : design.parts)
-    parts.push_back(RenderChoice(choice, problem, rows));
+    if (!IsOutsidePower(choice, problem)) parts.push_back(RenderChoice(choice, problem, rows));
   Json json = {{"rank", rank},
                {"configuration", optimizer::Name(design.configuration)},
                {"objective", Number(design.objective)},

@@ -5,6 +5,7 @@
 #include "api/design/design_document.h"
 #include "api/design/read/combination.h"
 #include "api/design/read/design_reader.h"
+#include "api/design/read/power.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/json/json.h"
 #include "api/json/remarks.h"
@@ -55,6 +56,7 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
   TellAmbient(problem.ambient);
   optimizer::Design given = ReadGivenDesign(reader.Object("design"), problem);
   reader.Finish();
+  AddOutsidePower(problem, given);
   if (errors.empty()) CheckCombination(given, problem, parts, "/design", errors);
   if (!errors.empty()) return errors;
   given = WithReservoirVolume(std::move(given), problem);

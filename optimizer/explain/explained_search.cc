@@ -24,6 +24,11 @@ Answer Search(const Problem& problem, const SearchOptions& options) {
     answer = SearchTrees(searched, left);
   }
   answer.lower_bound_prices = searched.unpriced_allowed;
+  if (answer.status == Status::kInfeasible && options.progress)
+    options.progress({.seconds = seconds(),
+                      .evaluated = static_cast<long long>(answer.proof.evaluated.ToDouble()),
+                      .best = {},
+                      .infeasible = true});
   if (answer.status == Status::kInfeasible)
     answer.infeasibility = FindConflicts(searched, options, seconds());
   if (searched.list == ListOf::kKinds && !answer.designs.empty()) {

@@ -18,6 +18,18 @@ const char* Name(Configuration configuration) {
 
 const char* Name(NlpSolver solver) { return solver == NlpSolver::kIpopt ? "ipopt" : "nlopt"; }
 
+const char* Name(PowerKind kind) {
+  switch (kind) {
+    case PowerKind::kBattery:
+      return "battery";
+    case PowerKind::kWall:
+      return "wall";
+    case PowerKind::kRobot:
+      return "robot";
+  }
+  return "";
+}
+
 const char* Name(ListOf list) { return list == ListOf::kKinds ? "kinds" : "combinations"; }
 
 const char* Name(Status status) {

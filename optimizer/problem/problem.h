@@ -62,6 +62,16 @@ struct Objective {  // weighted sum; a plain objective has one weight of 1
   bool operator==(const Objective&) const = default;
 };
 
+// What drives pumps, valves and regulators. Of the wall or the robot `batteries` of the parts holds
+// a supply without mass in place of each battery.
+enum class PowerKind { kBattery, kWall, kRobot };
+const char* Name(PowerKind kind);  // "battery", "wall", "robot"
+struct Power {
+  PowerKind kind = PowerKind::kBattery;
+  double voltage_v = 0.0;  // of the robot
+  std::optional<double> energy_wh_max, current_a_max;
+};
+
 struct Mains {
   double pressure_pa = 0.0;
   double flow_max_m3_per_s = kUnlimited;
@@ -85,6 +95,7 @@ struct Problem {
   double fall_fraction = 0.05;
   std::set<Configuration> configurations;
   Mains mains;
+  Power power;
   double source_pressure_max_pa = kUnlimited;
   double mass_max_kg = kUnlimited;
   double volume_max_l = kUnlimited;
@@ -96,6 +107,7 @@ struct Problem {
   std::map<Family, std::set<std::string>>
       require;                    // only these ids of the family; "custom" reservoir
   std::set<std::string> exclude;  // may hold "custom"
+  std::set<std::string> own;      // at hand: these cost nothing
   bool orderable_only = false;    // no parts that are no products
   int count = 20;
   ListOf list = ListOf::kCombinations;
@@ -114,6 +126,7 @@ struct Progress {
   long long open = 0;  // nodes that wait
   std::optional<double> best;
   double lower_bound = 0.0;
+  bool infeasible = false;  // it is proved; what goes on looks for the reasons
 };
 
 // Finds the periodic state of a rig: model::FindPeriodicState, unless a test takes its place.

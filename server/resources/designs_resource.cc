@@ -18,12 +18,14 @@ api::Json ObjectiveOf(const api::Json& requirements) {
 }
 
 api::Json ToJson(const optimizer::Progress& progress, const api::Json& objective) {
-  return {{"seconds", api::Number(progress.seconds)},
-          {"evaluated", progress.evaluated},
-          {"open", progress.open},
-          {"best", progress.best ? api::Number(*progress.best) : api::Json()},
-          {"lower_bound", api::Number(progress.lower_bound)},
-          {"objective", objective}};
+  api::Json json = {{"seconds", api::Number(progress.seconds)},
+                    {"evaluated", progress.evaluated},
+                    {"open", progress.open},
+                    {"best", progress.best ? api::Number(*progress.best) : api::Json()},
+                    {"lower_bound", api::Number(progress.lower_bound)},
+                    {"objective", objective}};
+  if (progress.infeasible) json["status"] = "infeasible";
+  return json;
 }
 
 // The last progress, which a list of jobs shows in place of the answer.

@@ -4,6 +4,7 @@
 
 #include "api/design/proof_record.h"
 #include "api/design/read/design_reader.h"
+#include "api/design/read/power.h"
 #include "api/json/request_limits.h"
 #include "api/json/units.h"
 #include "verify/verify.h"
@@ -71,6 +72,7 @@ Design ReadDesign(const Element& element, int rank, const Problem& problem, Erro
   design.objective = reader.Number("objective", kAnyNumber);
   for (const Element& row : reader.List("parts", 1, kDesignRowsMax))
     design.parts.push_back(ReadRow(Reader(row, errors), problem));
+  AddOutsidePower(problem, design);
   Reader settings = reader.Object("settings");
   design.settings = ReadPoint(settings, problem);
   if (design.configuration == optimizer::Configuration::kCompressor &&

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "api/design/read/power.h"
 #include "api/design/read/selection.h"
 #include "api/json/units.h"
 #include "api/json/words.h"
@@ -114,6 +115,12 @@ class Check {
   }
 
   void CheckRow(const Choice& choice) {
+    if (IsOutsidePower(choice, problem_)) {
+      if (Find(problem_.parts.batteries, &choice) == nullptr)
+        FailRow(choice, "/id",
+                std::string("is no choice: power comes from the ") + Name(problem_.power.kind));
+      return;
+    }
     const std::string piece = Piece(choice.family);
     const optimizer::FamilySpec& spec = optimizer::SpecOf(choice.family);
     const bool of_line = spec.in_line;

@@ -19,6 +19,14 @@ int GroupNamed(const Problem& problem, const std::string& name) {
   return -1;
 }
 
+// What an answer says beside it of a design that it lists.
+void PassOver(Reader& reader, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    reader.Raw(name);
+    reader.Describe(name, {{"description", "of a design of an answer; not read"}});
+  }
+}
+
 }  // namespace
 
 Configuration ReadConfiguration(Reader& design) {
@@ -56,11 +64,16 @@ optimizer::Design ReadGivenDesign(Reader reader, const Problem& problem) {
   for (const Element& element : reader.List("parts", 1, kDesignRowsMax)) {
     Reader row(element, reader.errors());
     design.parts.push_back(ReadChoice(row, problem));
+    PassOver(row,
+             {"manufacturer", "part_number", "unit", "mass_kg", "volume_l", "cost_eur", "own"});
     row.Finish();
   }
   Reader settings = reader.Object("settings");
   design.settings = ReadPoint(settings, problem);
+  PassOver(settings, {"valve_duty", "valve_duty_groups", "compressor_duty", "power"});
   settings.Finish();
+  PassOver(reader, {"rank", "objective", "totals", "performance", "margins", "response", "kind",
+                    "variants", "data_quality", "robustness", "place"});
   reader.Finish();
   return design;
 }

@@ -6,6 +6,7 @@
 
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/read/design_reader.h"
+#include "api/design/read/power.h"
 #include "api/design/read/selection.h"
 #include "api/json/json.h"
 #include "api/json/request_limits.h"
@@ -103,6 +104,7 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
     mains->Finish();
   }
   ReadConfigurations(supply, mains.has_value(), problem);
+  ReadPower(supply, problem);
   const auto source = supply.OptionalNumber("source_pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
   if (source) problem.source_pressure_max_pa = PaFromKpaGauge(*source, problem.ambient);
   const auto limit = [&](const char* name) {
@@ -114,6 +116,15 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
   if (supply.Has("parts"))
     problem.orderable_only = supply.Choice("parts", {"any", "orderable"}) == "orderable";
   supply.Finish();
+}
+
+// Only one supply from the wall or the robot is there.
+void CheckPower(Reader& request, optimizer::Problem& problem) {
+  if (problem.power.kind == optimizer::PowerKind::kBattery) return;
+  problem.limits.batteries = 1;
+  if (problem.require.contains(optimizer::Family::kBattery))
+    request.FailAt("require/battery", std::string("is no choice where /supply/power is the ") +
+                                          optimizer::Name(problem.power.kind) + "'s");
 }
 
 // A source must reach the operating pressure of every group: what no choice of parts can mend is an
@@ -320,6 +331,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
     reader.FailAt("explain/ranks", "must be 0 with /ranking/probability_min");
   problem.limits = ReadLimits(reader);
   ReadSelection(reader, parts, problem);
+  CheckPower(reader, problem);
   ReadModel(reader, models, parsed);
   if (reader.Has("prices"))
     problem.unpriced_allowed = reader.Choice("prices", {"known", "lower_bound"}) == "lower_bound";
@@ -338,7 +350,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   if (!HasErrorIn(errors, {"/supply", "/require", "/exclude"}))
     CheckFamilies(parts, problem, needs_fittings, errors);
   if (!errors.empty()) return errors;
-  problem.parts = ToModelParts(AllowedParts(parts, problem), problem.ambient);
+  problem.parts = AllowedModelParts(parts, problem);
   parsed.request = request;
   parsed.remarks = recorder.Take();
   return parsed;

@@ -4,6 +4,8 @@
 #include <map>
 #include <string>
 
+#include "api/catalogue/catalogue_parts.h"
+#include "api/design/read/power.h"
 #include "api/json/request_limits.h"
 #include "api/json/words.h"
 #include "optimizer/problem/family_specs.h"
@@ -18,6 +20,8 @@ using optimizer::Family;
 bool HasChoice(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
                Family family) {
   if (optimizer::MadeToMeasureAllowed(problem, family)) return true;
+  if (family == Family::kBattery && problem.power.kind != optimizer::PowerKind::kBattery)
+    return true;
   return std::any_of(parts.begin(), parts.end(), [&](const catalog::Part& part) {
     return part.family == optimizer::Name(family) && IsAllowed(problem, family, part);
   });
@@ -81,13 +85,35 @@ void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
     require->Finish();
   }
 
-  if (!request.Has("exclude")) return;
-  const std::vector<std::string> unwanted = request.Texts("exclude", 0, kExcludedMax);
-  for (std::size_t i = 0; i < unwanted.size() && !request.Full(); ++i)
-    if (const std::string& id = unwanted[i];
-        !id.empty() && id != kCustomReservoir && !family_of.contains(id))
-      request.FailAt("exclude/" + std::to_string(i), unknown(id));
-  problem.exclude = {unwanted.begin(), unwanted.end()};
+  const auto read = [&](const std::string& field, bool custom) -> std::set<std::string> {
+    if (!request.Has(field)) return {};
+    const std::vector<std::string> listed = request.Texts(field, 0, kExcludedMax);
+    for (std::size_t i = 0; i < listed.size() && !request.Full(); ++i)
+      if (const std::string& id = listed[i];
+          !id.empty() && !(custom && id == kCustomReservoir) && !family_of.contains(id))
+        request.FailAt(field + "/" + std::to_string(i), unknown(id));
+    return {listed.begin(), listed.end()};
+  };
+  problem.exclude = read("exclude", true);
+  problem.own = read("own", false);
+}
+
+void MakeOwnFree(const optimizer::Problem& problem, model::Parts& parts) {
+  const auto free = [&](model::PartBasics& basics) {
+    if (problem.own.contains(basics.id)) basics.cost_eur = 0.0;
+  };
+  for (model::Tubing& tube : parts.tubing) free(tube.per_metre);
+  const auto free_all = [&](auto& family) {
+    for (auto& part : family) free(part.basics);
+  };
+  free_all(parts.fittings);
+  free_all(parts.valves);
+  free_all(parts.regulators);
+  free_all(parts.cylinders);
+  free_all(parts.co2);
+  free_all(parts.compressors);
+  free_all(parts.reservoirs);
+  free_all(parts.batteries);
 }
 
 std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
@@ -97,6 +123,14 @@ std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
     for (const catalog::Part& part : parts)
       if (part.family == spec.name && IsAllowed(problem, spec.family, part))
         allowed.push_back(part);
+  return allowed;
+}
+
+model::Parts AllowedModelParts(const std::vector<catalog::Part>& parts,
+                               const optimizer::Problem& problem) {
+  model::Parts allowed = ToModelParts(AllowedParts(parts, problem), problem.ambient);
+  MakeOwnFree(problem, allowed);
+  ReplaceBatteries(problem, allowed);
   return allowed;
 }
 

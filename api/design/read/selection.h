@@ -18,14 +18,21 @@ bool IsAllowed(const optimizer::Problem& problem, optimizer::Family family, cons
 bool IsAllowed(const optimizer::Problem& problem, optimizer::Family family,
                const catalog::Part& part);
 
-// Reads "require" and "exclude" into the problem; ids must exist in `parts`, and required ones
-// belong to their family.
+// Reads "require", "exclude" and "own" into the problem; ids must exist in `parts`, and required
+// ones belong to their family.
 void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
                    optimizer::Problem& problem);
 
 // The parts that the problem leaves; by family, else in their order.
 std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
                                         const optimizer::Problem& problem);
+
+// Parts at hand cost nothing.
+void MakeOwnFree(const optimizer::Problem& problem, model::Parts& parts);
+
+// These as the search takes them, with the power that the problem has.
+model::Parts AllowedModelParts(const std::vector<catalog::Part>& parts,
+                               const optimizer::Problem& problem);
 
 // Records an error for each empty family if that leaves no allowed configuration: at
 // /require/<family> or /exclude where the request emptied it, at "" where the catalogue has none.

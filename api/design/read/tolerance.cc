@@ -136,7 +136,11 @@ optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
         drawn.push_back(Perturbed(*row->second, tolerance, seed, draw));
       }
     }
-    return ToModelParts(drawn, problem.ambient);
+    model::Parts parts = ToModelParts(drawn, problem.ambient);
+    MakeOwnFree(problem, parts);
+    if (problem.power.kind != optimizer::PowerKind::kBattery)
+      parts.batteries = problem.parts.batteries;
+    return parts;
   };
 }
 

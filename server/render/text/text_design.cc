@@ -44,6 +44,11 @@ std::string SettingsText(const Json& design) {
   if (settings.at("reservoir_volume_ml").is_number()) {
     text += fmt::format(", reservoir {} mL", Short(settings.at("reservoir_volume_ml")));
   }
+  if (const Json power = settings.value("power", Json()); power.is_object()) {
+    text += fmt::format("\n  Power: from the {}", power.at("kind").get<std::string>());
+    if (power.at("voltage_v").is_number())
+      text += fmt::format(", {} V", Short(power.at("voltage_v")));
+  }
   return text + "\n";
 }
 
@@ -238,6 +243,8 @@ std::string EvaluationText(const Json& answer) {
 }
 
 std::string ProgressText(const optimizer::Progress& progress) {
+  if (progress.infeasible)
+    return fmt::format("{:.0f} s  infeasible, proved; looking for the reasons", progress.seconds);
   return fmt::format("{:.0f} s  {} evaluated  {} boxes open  best {}  bound {}", progress.seconds,
                      progress.evaluated, progress.open, progress.best ? Short(*progress.best) : "–",
                      Short(progress.lower_bound));

@@ -119,6 +119,12 @@ std::string Times(const Json& part) {
   return fmt::format("{:.0f}", quantity);
 }
 
+// Its battery, or whose supply it is.
+std::string PowerOf(const Json& design) {
+  const Json power = design.at("settings").value("power", Json());
+  return power.is_object() ? power.at("kind").get<std::string>() : NamesOf(design, {"battery"});
+}
+
 const Json* Binding(const Json& design) {
   const auto& margins = design.at("margins");
   const auto least = std::min_element(margins.begin(), margins.end(), [](auto& a, auto& b) {
@@ -147,7 +153,7 @@ std::string RankedTable(const Json& answer) {
     std::vector<std::string> row{Grouped(design.at("rank")),
                                  Cut(SourceOf(design), 20 - narrower),
                                  Cut(NamesOf(design, {"valve"}), 20 - narrower),
-                                 Cut(NamesOf(design, {"battery"}), 10),
+                                 Cut(PowerOf(design), 10),
                                  TankOf(design),
                                  Mass(design)};
     if (cost) row.push_back(Short(design.at("totals").at("cost_eur")));
@@ -182,9 +188,9 @@ std::string WideTable(const Json& designs) {
     const Json variants = design.value("variants", Json::object());
     table.Add({Grouped(design.at("rank")), design.at("configuration").get<std::string>(),
                NamesOf(design, {"compressor", "cylinder", "co2"}), NamesOf(design, {"valve"}),
-               NamesOf(design, {"battery"}), NamesOf(design, {"reservoir"}),
-               NamesOf(design, {"regulator"}), NamesOf(design, {"tubing"}), Mass(design),
-               Short(totals.at("volume_l")), Short(totals.at("cost_eur")),
+               PowerOf(design), NamesOf(design, {"reservoir"}), NamesOf(design, {"regulator"}),
+               NamesOf(design, {"tubing"}), Mass(design), Short(totals.at("volume_l")),
+               Short(totals.at("cost_eur")),
                Short(design.at("settings").at("source_pressure_kpa_gauge")),
                fmt::format("{:.3f}", Worst(design, "rise_time_s")),
                fmt::format("{:.3f}", Worst(design, "fall_time_s")), BindingText(design),

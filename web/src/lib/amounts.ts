@@ -114,6 +114,14 @@ export const axes: Axis[] = [
 ];
 
 const supplyWords = { compressor: 'compressor', cylinder: 'cylinder', co2: 'CO₂', mains: 'wall' };
+export const powerWord = ({
+  kind,
+  voltage_v,
+}: {
+  kind: string;
+  voltage_v: number | null;
+}): string =>
+  `power from the ${kind}${voltage_v === null ? '' : `, ${significant(voltage_v, 3)} V`}`;
 export const supplyWord = ({ configuration }: Pick<Design, 'configuration'>): string =>
   supplyWords[configuration];
 

@@ -22,6 +22,8 @@ export interface Group {
 export type Configuration = 'cylinder' | 'co2' | 'compressor' | 'mains';
 export type Amount = 'mass_kg' | 'volume_l' | 'cost_eur' | 'energy_wh';
 
+export type PowerKind = 'battery' | 'wall' | 'robot';
+
 export interface Requirements {
   schema: 'requirements/1';
   name?: string;
@@ -37,6 +39,12 @@ export interface Requirements {
     volume_l_max?: number | null;
     cost_eur_max?: number | null;
     parts?: 'any' | 'orderable';
+    power?: {
+      kind: PowerKind;
+      voltage_v?: number;
+      energy_wh_max?: number;
+      current_a_max?: number;
+    };
   };
   ambient?: { pressure_kpa_abs: number; temperature_k: number };
   objective?: { minimize?: Amount | Partial<Record<Amount, number>>; pareto?: Amount[] };
@@ -52,6 +60,7 @@ export interface Requirements {
   limits?: Record<string, number>;
   require?: Record<string, string[]>;
   exclude?: string[];
+  own?: string[]; // at hand, free
   robust?: Record<string, unknown>;
   explain?: { prices?: boolean; ranks?: number; time_limit_s?: number };
   model?: string;
@@ -95,6 +104,7 @@ export interface Design {
     valve_duty_groups?: number[];
     compressor_duty: number | null;
     reservoir_volume_ml: number | null;
+    power?: { kind: PowerKind; voltage_v: number | null } | null;
   };
   totals: {
     mass_kg: number;
@@ -245,6 +255,7 @@ export interface Progress {
   best: number | null;
   lower_bound: number | null;
   objective?: Requirements['objective']; // what they are amounts of
+  status?: 'infeasible'; // proved; the reasons are looked for
   outcome?: Answer['status']; // in the end
 }
 

@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
-import { supplyWord } from '../lib/amounts';
+import { powerWord, supplyWord } from '../lib/amounts';
 import { type Parts, partsOf } from '../lib/rig';
 import { link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
@@ -39,6 +39,7 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
             <a href={link(['designs', id])}>{answer.name || 'Designs'}</a> › design {rank}
           </h1>
           <Chip>{supplyWord(design)}</Chip>
+          {design.settings.power && <Chip>{powerWord(design.settings.power)}</Chip>}
           <span class="toolbar-group">
             {rank > 1 && (
               <a class="button" href={link(['designs', id, String(rank - 1)])}>

@@ -97,7 +97,8 @@ export function PartDialog(props: {
 
 // Leaves the part out of the requirements, or asks for it.
 function Wish({ part }: { part: Part }) {
-  const { exclude = [], require = {} } = requirements.value;
+  const { exclude = [], require = {}, own = [] } = requirements.value;
+  const isOwn = own.includes(part.id);
   const isOut = exclude.includes(part.id);
   const isAsked = require[part.family]?.includes(part.id) ?? false;
   const without = (ids: string[]) => ids.filter((id) => id !== part.id);
@@ -122,6 +123,14 @@ function Wish({ part }: { part: Part }) {
         }
       >
         Require
+      </button>
+      <button
+        type="button"
+        aria-pressed={isOwn}
+        data-tip="It is at hand: the next searches count it as free"
+        onClick={() => edit(['own'], orNone(isOwn ? without(own) : [...own, part.id]))}
+      >
+        I have it
       </button>
     </>
   );

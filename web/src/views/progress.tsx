@@ -38,6 +38,12 @@ export function ProgressPanel({ watched, self }: { watched: Watched; self: strin
         ]}
       />
       <Bar label="How far the proof has closed" share={gap ? 1 - gap : null} />
+      {progress?.status === 'infeasible' && (
+        <p role="status">
+          No combination of parts meets the requirements: that is proved. What stands in the way is
+          being looked for.
+        </p>
+      )}
       {gap === 0 && (
         <p role="status">
           Nothing beats the best so far; what else belongs on the list is still being proved.

@@ -1,6 +1,6 @@
 // The panels of the requirements beside the actuators and the objective: duty, supply, conditions.
 import { edit, errorAt, requirements } from '../lib/requirements';
-import type { Configuration } from '../lib/types';
+import type { Configuration, PowerKind } from '../lib/types';
 import { Check, Panel, Segmented } from '../ui/controls';
 import { RequirementField } from './requirement_field';
 
@@ -45,7 +45,44 @@ export function Supply() {
         ))}
       </div>
       {wrong && <p class="error">{wrong}</p>}
+      <Segmented<PowerKind>
+        label="Power from"
+        options={[
+          { value: 'battery', label: 'a battery' },
+          { value: 'wall', label: 'the wall' },
+          { value: 'robot', label: 'the robot' },
+        ]}
+        value={supply.power?.kind ?? 'battery'}
+        onChange={(kind) =>
+          edit(
+            ['supply', 'power'],
+            kind === 'battery' ? undefined : kind === 'wall' ? { kind } : { kind, voltage_v: 24 },
+          )
+        }
+      />
       <div class="fields">
+        {supply.power?.kind === 'robot' && (
+          <>
+            <RequirementField
+              label="Voltage of the robot"
+              unit="V"
+              path={['supply', 'power', 'voltage_v']}
+              range={[0.1, 1000]}
+            />
+            <RequirementField
+              label="Its energy, at most"
+              unit="Wh"
+              optional
+              path={['supply', 'power', 'energy_wh_max']}
+            />
+            <RequirementField
+              label="Its current, at most"
+              unit="A"
+              optional
+              path={['supply', 'power', 'current_a_max']}
+            />
+          </>
+        )}
         {supply.mains && (
           <>
             <RequirementField
@@ -139,7 +176,7 @@ export function Duty() {
 }
 
 export function Conditions() {
-  const { exclude, require } = requirements.value;
+  const { exclude, require, own } = requirements.value;
   const most = [
     ['compressors_max', 'Compressors', 2],
     ['batteries_max', 'Batteries', 4],
@@ -188,7 +225,14 @@ export function Conditions() {
           onChange={(next) => edit(['require', family], next.length ? next : undefined)}
         />
       ))}
-      <p class="hint">Parts are left out or required on their page in the catalogue.</p>
+      <IdList
+        label="At hand, free"
+        ids={own ?? []}
+        onChange={(ids) => edit(['own'], ids.length ? ids : undefined)}
+      />
+      <p class="hint">
+        Parts are left out, required or said to be at hand on their page in the catalogue.
+      </p>
     </details>
   );
 }
