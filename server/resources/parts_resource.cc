@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "api/catalogue/catalog_check.h"
+#include "api/catalogue/part_comparison.h"
 #include "api/catalogue/part_document.h"
 #include "api/catalogue/part_query.h"
 #include "api/catalogue/stores.h"
@@ -46,6 +47,14 @@ bool Holds(const std::string& list, const std::string& etag, Compare compare) {
 }
 
 Reply NoPart(const std::string& id) { return ProblemReply(404, "no part has the id " + id); }
+
+// nullptr where none of them, in order of id, has the id.
+const catalog::Part* FindPart(const std::vector<catalog::Part>& parts, const std::string& id) {
+  const auto part = std::lower_bound(
+      parts.begin(), parts.end(), id,
+      [](const catalog::Part& one, const auto& wanted) { return one.id < wanted; });
+  return part == parts.end() || part->id != id ? nullptr : &*part;
+}
 
 // `revision` is one in which the part is as shown.
 Reply PartReply(int status, const catalog::Part& part, const catalog::Revision& revision) {
@@ -137,10 +146,8 @@ namespace {
 Reply GetNewest(SharedCatalog& catalog, const Call& call) {
   auto shown = catalog.replies().Find(catalog.Head(), call.argument);
   if (const auto view = shown ? std::nullopt : catalog.ViewBeforeWrite()) {
-    const auto part =
-        std::lower_bound(view->parts->begin(), view->parts->end(), call.argument,
-                         [](const catalog::Part& one, const auto& id) { return one.id < id; });
-    if (part == view->parts->end() || part->id != call.argument) return NoPart(call.argument);
+    const auto* part = FindPart(*view->parts, call.argument);
+    if (part == nullptr) return NoPart(call.argument);
     shown = std::make_shared<const Reply>(PartReply(200, *part, view->revision));
   }
   if (!shown) {
@@ -273,6 +280,24 @@ Reply GetPartsCheck(SharedCatalog& catalog, const Call& call) {
   const auto view = catalog.View();
   api::Json json = {{"parts", view.parts->size()}};
   json.update(api::RenderCheck(api::CheckParts(*view.parts)));
+  json["catalogue_revision"] = api::RenderRevisionName(view.revision);
+  return JsonReply(200, json);
+}
+
+Reply GetPartsComparison(SharedCatalog& catalog, const Call& call) {
+  if (const auto errors = CheckQuery(call, {"ids"}); !errors.empty())
+    return ProblemReply(422, errors);
+  const auto ids = api::SplitIds(QueryValue(call, "ids").value_or(""));
+  if (const auto wrong = api::CheckCompared(ids); !wrong.empty()) return ProblemReply(422, wrong);
+  const auto view = catalog.View();
+  std::vector<catalog::Part> parts;
+  parts.reserve(ids.size());
+  for (const auto& id : ids) {
+    const auto part = FindPart(*view.parts, id);
+    if (part == nullptr) return NoPart(id);
+    parts.push_back(*part);
+  }
+  api::Json json = api::RenderComparison(parts);
   json["catalogue_revision"] = api::RenderRevisionName(view.revision);
   return JsonReply(200, json);
 }
