@@ -7,6 +7,7 @@
 #include "api/catalogue/part_query.h"
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
+#include "api/json/remarks.h"
 #include "server/call/reply.h"
 #include "server/commands/catalog_keeping.h"
 #include "server/commands/commands.h"
@@ -14,6 +15,7 @@
 #include "server/commands/input.h"
 #include "server/render/text/text_catalog.h"
 #include "server/render/text/text_parts.h"
+#include "server/render/text/text_remarks.h"
 #include "server/resources/import_parts.h"
 
 namespace plenum::server {
@@ -113,13 +115,15 @@ void Show(const CatalogOptions& options) {
 }
 
 void Add(const CatalogOptions& options) {
+  api::RemarkRecorder recorder;
   const auto part = ValueOrRefuse(api::ParsePart(ReadJson(options.file)));
+  api::Json remarks = {{"understood", recorder.Take().understood}};
   const auto written = OpenCatalog(options.catalog, Access::kWrite).Add(part, CommandSignature());
   if (written.status == WriteStatus::kExists) {
     throw BadInput("/id: " + part.id + " is taken; choose another id or remove that part first");
   }
   if (written.status == WriteStatus::kInvalid) Refuse(FieldErrors(written.errors));
-  Print("added " + part.id + "\n");
+  Print("added " + part.id + "\n" + RemarksText(remarks));
 }
 
 void Remove(const CatalogOptions& options) {

@@ -10,6 +10,7 @@
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
 #include "api/json/problem_document.h"
+#include "api/json/remarks.h"
 #include "api/json/request_limits.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
@@ -88,6 +89,17 @@ std::string Location(const std::string& id) {
     }
   }
   return path;
+}
+
+// The reply of a write, with what was understood of its body. A part's notes are its own.
+Reply WrittenReply(int status, const catalog::Part& part, const catalog::Revision& revision,
+                   const api::Remarks& remarks) {
+  auto reply = PartReply(status, part, revision);
+  api::Json document = api::RenderPart(part);
+  if (!remarks.understood.empty()) document["understood"] = remarks.understood;
+  if (!remarks.warnings.empty()) document["warnings"] = remarks.warnings;
+  reply.body = JsonReply(status, document).body;
+  return reply;
 }
 
 // The part in the body, or the reply that says what is wrong with it.
@@ -185,6 +197,7 @@ Reply GetPart(SharedCatalog& catalog, const Call& call) {
 }
 
 Reply AddPart(SharedCatalog& catalog, const Call& call) {
+  api::RemarkRecorder recorder;
   auto body = PartInBody(call);
   if (auto* reply = std::get_if<Reply>(&body)) return std::move(*reply);
   const auto& part = std::get<catalog::Part>(body);
@@ -204,13 +217,14 @@ Reply AddPart(SharedCatalog& catalog, const Call& call) {
     }
     // As it was added, also if it was changed between the request and its repetition.
     const auto added = store.GetAt(part.id, written.revision.number).value_or(part);
-    auto reply = PartReply(201, added, written.revision);
+    auto reply = WrittenReply(201, added, written.revision, recorder.Take());
     reply.headers.emplace_back("Location", Location(part.id));
     return reply;
   });
 }
 
 Reply ReplacePart(SharedCatalog& catalog, const Call& call) {
+  api::RemarkRecorder recorder;
   auto body = PartInBody(call);
   if (auto* reply = std::get_if<Reply>(&body)) return std::move(*reply);
   const auto& part = std::get<catalog::Part>(body);
@@ -236,7 +250,7 @@ Reply ReplacePart(SharedCatalog& catalog, const Call& call) {
       case catalog::WriteStatus::kChanged:
         return Changed(etag);
       default:
-        return PartReply(200, part, written.revision);
+        return WrittenReply(200, part, written.revision, recorder.Take());
     }
   });
 }

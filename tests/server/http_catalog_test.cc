@@ -81,6 +81,30 @@ TEST_F(Http, SearchesInTheRevisionThatIsAskedFor) {
   }
 }
 
+TEST_F(Http, SaysWhatItUnderstoodOfAPart) {
+  Json part = NewFitting("f");
+  part["mass_kg"] = "3 g";
+  part["sonic_conductance_dm3_per_s_bar"] = {{"orifice_mm", 2}};
+  const auto added = client_->Post("/v1/parts", part.dump(), kJson);
+  ASSERT_EQ(added->status, 201) << added->body;
+  const Json answer = Body(added);
+  ASSERT_EQ(answer["understood"].size(), 2u) << answer;
+  for (const Json& one : answer["understood"]) {
+    const auto field = one["pointer"].get<std::string>().substr(1);
+    EXPECT_EQ(one["given"], part[field]);
+    EXPECT_EQ(one["value"], answer[field]);
+    EXPECT_EQ(one.contains("formula"), field != "mass_kg");
+  }
+  const Json kept = Body(client_->Get("/v1/parts/f"));
+  EXPECT_FALSE(kept.contains("understood"));
+  EXPECT_EQ(kept["mass_kg"], 0.003);
+  // The answer goes back as it is.
+  const auto put = client_->Put("/v1/parts/f", {{"If-Match", added->get_header_value("ETag")}},
+                                answer.dump(), kJson);
+  EXPECT_EQ(put->status, 200) << put->body;
+  EXPECT_FALSE(Body(put).contains("understood"));
+}
+
 TEST_F(Http, ComparesParts) {
   Json heavy = NewFitting("g");
   heavy["mass_kg"] = 0.5;
