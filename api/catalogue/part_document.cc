@@ -100,7 +100,8 @@ void DerivePrinted(Reader& reader, const catalog::Family& family, catalog::Part&
       reader.Fail(name, "comes to " + Decimal(derived.conductance_dm3_per_s_bar) + " (" +
                             derived.formula + "); must be " + range.Text());
     if (auto* recorder = RemarkRecorder::Current())
-      recorder->Understood("/" + name, {{"given", *reader.Raw(name)},
+      recorder->Understood("/" + name, {{"name", name},
+                                        {"given", *reader.Raw(name)},
                                         {"value", derived.conductance_dm3_per_s_bar},
                                         {"unit", "dm3/(s·bar)"},
                                         {"formula", derived.formula}});

@@ -69,7 +69,8 @@ TEST(CatalogCommand, FindsPartsByWordsAndShowsChosenColumns) {
   EXPECT_THAT(shown.out, HasSubstr("https://maker.example/odd.pdf"));
   EXPECT_THAT(shown.out, HasSubstr("0.00300"));
   EXPECT_THAT(shown.out, testing::Not(HasSubstr("manufacturer")));
-  EXPECT_THAT(bench.Run("catalog list --columns mass_kgg").err, HasSubstr("nearest known: mass_kg"));
+  EXPECT_THAT(bench.Run("catalog list --columns mass_kgg").err,
+              HasSubstr("nearest known: mass_kg"));
   EXPECT_THAT(bench.Run("catalog list --where q=x").err, HasSubstr("q is not a field"));
   EXPECT_EQ(bench.Run("catalog list --search " + std::string(501, 'a')).status, 2);
   const auto facets = bench.Run("catalog list fitting --search oddment --facets");
@@ -77,6 +78,19 @@ TEST(CatalogCommand, FindsPartsByWordsAndShowsChosenColumns) {
   const Json document =
       Document(bench.Run("catalog list fitting --search oddment --facets --json").out);
   EXPECT_EQ(document["facets"]["texts"]["family"]["fitting"], 1);
+}
+
+TEST(CatalogCommand, SaysWhatItUnderstoodOfAnAddedPart) {
+  const Workbench bench;
+  Json part = NewFitting("printed");
+  part["mass_kg"] = "3 g";
+  part["sonic_conductance_dm3_per_s_bar"] = "Cv 0.05";
+  const auto added = bench.Run("catalog add -", part.dump());
+  EXPECT_EQ(added.status, 0) << added.err;
+  EXPECT_THAT(added.out, StartsWith("added printed\n"));
+  EXPECT_THAT(added.out, HasSubstr("\"3 g\" = 0.003 kg"));
+  EXPECT_THAT(added.out, HasSubstr("sonic_conductance_dm3_per_s_bar = "));
+  EXPECT_EQ(bench.Run("catalog add -", NewFitting("plain").dump()).out, "added plain\n");
 }
 
 TEST(CatalogCommand, ComparesPartsSideBySide) {
