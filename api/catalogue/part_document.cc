@@ -8,6 +8,7 @@
 #include "api/catalogue/part_details.h"
 #include "api/json/json.h"
 #include "api/json/reader.h"
+#include "api/json/remarks.h"
 #include "api/json/request_limits.h"
 #include "api/json/words.h"
 #include "catalog/fields/fields.h"
@@ -98,6 +99,12 @@ void DerivePrinted(Reader& reader, const catalog::Family& family, catalog::Part&
     if (!range.Contains(derived.conductance_dm3_per_s_bar))
       reader.Fail(name, "comes to " + Decimal(derived.conductance_dm3_per_s_bar) + " (" +
                             derived.formula + "); must be " + range.Text());
+    if (auto* recorder = RemarkRecorder::Current())
+      recorder->Understood("/" + name, {{"name", name},
+                                        {"given", *reader.Raw(name)},
+                                        {"value", derived.conductance_dm3_per_s_bar},
+                                        {"unit", "dm3/(s·bar)"},
+                                        {"formula", derived.formula}});
     part.numbers[name] = {derived.conductance_dm3_per_s_bar, catalog::Provenance::kDerived,
                           derived.formula};
   }
@@ -279,7 +286,7 @@ Parsed<catalog::Part> ParsePart(const Json& request) {
   part.manufacturer = reader.Text("manufacturer");
   part.part_number = reader.Text("part_number");
   part.id = reader.Text("id", Slug(part.manufacturer + "-" + part.part_number));
-  reader.Raw("origin");
+  for (const char* of_answers : {"origin", "understood", "warnings"}) reader.Raw(of_answers);
   part.notes = ReadFreeText(reader, "notes", kNotesMax);
   ReadDetails(reader, part);
   ReadNumbers(reader, *family, part);

@@ -10,8 +10,9 @@
 namespace plenum::api {
 
 Json RenderPart(const catalog::Part& part);
-// `request` is what RenderPart gives, or a part of a user's own; what the server sets (origin) is
-// accepted and ignored.
+// `request` is what RenderPart gives, or a part of a user's own; what answers add (origin,
+// understood, warnings) is accepted and ignored. A RemarkRecorder hears what was given with a unit
+// or as it is printed.
 Parsed<catalog::Part> ParsePart(const Json& request);
 // { number, hash }: `catalogue_revision` of an answer, which names the parts it was computed from.
 Json RenderRevisionName(const catalog::Revision& revision);

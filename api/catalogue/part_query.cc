@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "api/catalogue/part_document.h"
+#include "api/catalogue/part_facets.h"
 #include "api/json/json.h"
 #include "api/json/request_limits.h"
 #include "api/json/words.h"
@@ -17,11 +18,10 @@
 namespace plenum::api {
 namespace {
 
-// Texts that parts of every family may have, beside their id; orderable is "true" or "false".
+// Texts that parts of every family may have, beside their id and the derived flags of the table.
 const char* const kCommonTexts[] = {"family", "manufacturer", "part_number",
                                     "origin", "series",       "orderable"};
-// Which no facet counts: part numbers are all different.
-constexpr std::string_view kUncounted = "part_number";
+constexpr std::string_view kByMatch = "match";
 
 // Field names of one family, or of all.
 struct Vocabulary {
@@ -36,11 +36,13 @@ Vocabulary VocabularyOf(const std::optional<std::string>& family) {
     for (const catalog::TextField& field : known.texts) vocabulary.texts.emplace(field.name);
   }
   for (const char* field : kCommonTexts) vocabulary.texts.emplace(field);
+  for (const std::string_view flag : DerivedFlags()) vocabulary.texts.emplace(flag);
+  for (const std::string_view share : ProvenanceShares()) vocabulary.numbers.emplace(share);
   return vocabulary;
 }
 
 std::vector<std::string> KnownNames(const Vocabulary& vocabulary) {
-  std::vector<std::string> names = {"limit", "cursor", "sort", "facets", "revision"};
+  std::vector<std::string> names = {"q", "limit", "cursor", "sort", "facets", "revision"};
   for (const std::string& field : vocabulary.texts) names.push_back(field);
   for (const std::string& field : vocabulary.numbers)
     for (const char* suffix : {"_min", "_max", ""}) names.push_back(field + suffix);
@@ -75,6 +77,7 @@ class QueryReader {
       if (range.min > range.max)
         Fail(field + "_min", "must be at most " + field + "_max, " + Decimal(range.max) + ", not " +
                                  Decimal(range.min));
+    if (!result_.search.empty() && query_.count("sort") == 0) result_.sort = kByMatch;
     const auto& cursor = result_.cursor;
     if (cursor && result_.revision && *result_.revision != cursor->revision)
       Fail("revision", "must be that of the cursor, " + std::to_string(cursor->revision));
@@ -87,6 +90,7 @@ class QueryReader {
   }
 
   void Take(const std::string& name, const std::string& value) {
+    if (name == "q") return TakeSearch(value);
     if (name == "limit") return TakeLimit(value);
     if (name == "cursor") return TakeCursor(value);
     if (name == "sort") return TakeSort(value);
@@ -97,7 +101,7 @@ class QueryReader {
       for (const catalog::Family& known : catalog::Families()) names.emplace_back(known.name);
       return Fail(name, "must be " + OneOf(names) + ", not " + Quoted(value));
     }
-    if (name == "orderable" && value != "true" && value != "false")
+    if (IsFlag(name) && value != "true" && value != "false")
       return Fail(name, "must be true or false, not " + Quoted(value));
     if (vocabulary_.texts.contains(name)) {
       result_.texts[name] = value;
@@ -107,6 +111,18 @@ class QueryReader {
       const std::vector<std::string> known = KnownNames(vocabulary_);
       Fail(name, "unknown query parameter; nearest known: " + Nearest(name, known));
     }
+  }
+
+  static bool IsFlag(const std::string& name) {
+    const auto flags = DerivedFlags();
+    return name == "orderable" || std::find(flags.begin(), flags.end(), name) != flags.end();
+  }
+
+  void TakeSearch(const std::string& value) {
+    result_.search = value;
+    if (value.size() > kSearchBytesMax)
+      Fail("q", "must have at most " + std::to_string(kSearchBytesMax) + " bytes, not " +
+                    std::to_string(value.size()));
   }
 
   // A field's own name comes first: duty_max is a field, duty_max_max its upper limit.
@@ -152,10 +168,10 @@ class QueryReader {
   void TakeSort(const std::string& value) {
     result_.descending = value.starts_with('-');
     result_.sort = value.substr(result_.descending ? 1 : 0);
-    if (result_.sort == "id" || vocabulary_.texts.contains(result_.sort) ||
-        vocabulary_.numbers.contains(result_.sort))
+    if (result_.sort == "id" || result_.sort == kByMatch ||
+        vocabulary_.texts.contains(result_.sort) || vocabulary_.numbers.contains(result_.sort))
       return;
-    std::vector<std::string> fields = {"id"};
+    std::vector<std::string> fields = {"id", std::string(kByMatch)};
     fields.insert(fields.end(), vocabulary_.texts.begin(), vocabulary_.texts.end());
     fields.insert(fields.end(), vocabulary_.numbers.begin(), vocabulary_.numbers.end());
     Fail("sort", "must be a field, with - before it for the opposite order, not " + Quoted(value) +
@@ -188,10 +204,14 @@ void Filter(Rows& rows, const Keep& keep) {
   std::erase_if(rows, [&](std::uint32_t row) { return !keep(row); });
 }
 
+using Grades = std::vector<std::uint8_t>;  // of all parts, by row
+
 // In order of id.
-Rows Matching(const PartQuery& query, const PartTable& table) {
+Rows Matching(const PartQuery& query, const Grades& grades, const PartTable& table) {
   Rows rows(table.parts().size());
   std::iota(rows.begin(), rows.end(), 0u);
+  if (!query.search.empty())
+    Filter(rows, [&](std::uint32_t row) { return grades[row] != kNotFound; });
   for (const auto& [field, wanted] : query.texts) {
     const TextColumn* column = table.Texts(field);
     if (column == nullptr) return {};
@@ -210,18 +230,28 @@ Rows Matching(const PartQuery& query, const PartTable& table) {
   return rows;
 }
 
+// None where nothing is searched for.
+Grades GradesOf(const PartQuery& query, const PartTable& table) {
+  return query.search.empty() ? Grades() : table.Search(query.search);
+}
+
 // The order that the query asks for: by its field, missing values last in either order, equal ones
-// by id. No two parts are equal in it.
+// by id; or by how well parts match, the best first. No two parts are equal in it.
 class Order {
  public:
-  Order(const PartQuery& query, const PartTable& table)
+  Order(const PartQuery& query, const Grades& grades, const PartTable& table)
       : descending_(query.descending),
         by_id_(query.sort == "id"),
+        grades_(query.sort == kByMatch && !grades.empty() ? &grades : nullptr),
         numbers_(table.Numbers(query.sort)),
         texts_(table.Texts(query.sort)) {}
 
   bool operator()(std::uint32_t a, std::uint32_t b) const {
     if (by_id_) return descending_ ? b < a : a < b;
+    if (grades_ != nullptr) {
+      const std::uint8_t x = (*grades_)[a], y = (*grades_)[b];
+      return x == y ? a < b : (x > y) != descending_;
+    }
     if (numbers_ != nullptr) {
       const double x = (*numbers_)[a], y = (*numbers_)[b];
       if (std::isnan(x) || std::isnan(y))
@@ -237,6 +267,7 @@ class Order {
 
  private:
   bool descending_, by_id_;
+  const Grades* grades_;
   const std::vector<double>* numbers_;
   const TextColumn* texts_;
 };
@@ -255,45 +286,6 @@ std::string TextOf(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Json CountsOf(const TextColumn& column, const Rows& rows) {
-  std::vector<int> counts(column.values.size());
-  for (const std::uint32_t row : rows)
-    if (column.place[row] != TextColumn::kNone) ++counts[column.place[row]];
-  Json json = Json::object();
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    if (counts[i] > 0) json[std::string(column.values[i])] = counts[i];
-  return json;
-}
-
-// Null where none of the parts has the number.
-Json SpreadOf(const std::vector<double>& column, const Rows& rows) {
-  int count = 0;
-  double least = 0.0, greatest = 0.0;
-  for (const std::uint32_t row : rows) {
-    const double value = column[row];
-    if (std::isnan(value)) continue;
-    least = count == 0 ? value : std::min(least, value);
-    greatest = count == 0 ? value : std::max(greatest, value);
-    ++count;
-  }
-  if (count == 0) return nullptr;
-  return {{"count", count}, {"min", least}, {"max", greatest}};
-}
-
-Json Facets(const Rows& rows, const PartTable& table) {
-  Json facets = {{"texts", Json::object()}, {"numbers", Json::object()}};
-  for (const auto& [field, column] : table.texts()) {
-    if (field == kUncounted) continue;
-    Json counts = CountsOf(column, rows);
-    if (!counts.empty()) facets["texts"][field] = std::move(counts);
-  }
-  for (const auto& [field, column] : table.numbers()) {
-    Json spread = SpreadOf(column, rows);
-    if (!spread.is_null()) facets["numbers"][field] = std::move(spread);
-  }
-  return facets;
-}
-
 }  // namespace
 
 Parsed<PartQuery> ParsePartQuery(const std::multimap<std::string, std::string>& query) {
@@ -304,17 +296,37 @@ Parsed<PartQuery> ParsePartQuery(const std::multimap<std::string, std::string>& 
 }
 
 std::vector<const catalog::Part*> Select(const PartQuery& query, const PartTable& table) {
-  Rows rows = Matching(query, table);
-  std::sort(rows.begin(), rows.end(), Order(query, table));
+  const Grades grades = GradesOf(query, table);
+  Rows rows = Matching(query, grades, table);
+  std::sort(rows.begin(), rows.end(), Order(query, grades, table));
   std::vector<const catalog::Part*> selected;
   for (const std::uint32_t row : rows) selected.push_back(&table.parts()[row]);
   return selected;
 }
 
+Json FacetsOf(const PartQuery& query, const PartTable& table) {
+  return RenderFacets(Matching(query, GradesOf(query, table), table), table);
+}
+
+Errors CheckColumns(const std::vector<std::string>& columns,
+                    const std::optional<std::string>& family) {
+  const Vocabulary vocabulary = VocabularyOf(family);
+  std::vector<std::string> known = {"id", "documents"};
+  known.insert(known.end(), vocabulary.texts.begin(), vocabulary.texts.end());
+  known.insert(known.end(), vocabulary.numbers.begin(), vocabulary.numbers.end());
+  Errors errors;
+  for (const std::string& column : columns)
+    if (std::find(known.begin(), known.end(), column) == known.end())
+      errors.push_back({"/columns", Quoted(Clip(column)) +
+                                        " is no field; nearest known: " + Nearest(column, known)});
+  return errors;
+}
+
 Parsed<std::string> RenderPage(const PartQuery& query, const catalog::Revision& revision,
                                const PartTable& table) {
-  const Rows matching = Matching(query, table);
-  const Order order(query, table);
+  const Grades grades = GradesOf(query, table);
+  const Rows matching = Matching(query, grades, table);
+  const Order order(query, grades, table);
   Rows rows = matching;
   if (query.cursor) {
     const auto last = RowOf(query.cursor->id, matching, table);
@@ -331,7 +343,7 @@ Parsed<std::string> RenderPage(const PartQuery& query, const catalog::Revision& 
   Json page = {{"next_cursor", nullptr}, {"total", matching.size()}};
   if (shown < rows.size())
     page["next_cursor"] = std::to_string(revision.number) + "." + table.parts()[rows[shown - 1]].id;
-  if (query.facets) page["facets"] = Facets(matching, table);
+  if (query.facets) page["facets"] = RenderFacets(matching, table);
   page["catalogue_revision"] = RenderRevisionName(revision);
   return "{\"parts\":[" + parts + "]," + TextOf(page).substr(1);
 }

@@ -1,13 +1,18 @@
 // Which parts a list holds, in which order, and the page of it that is asked for.
 //
-//   family=valve  mass_kg_min=0.01  mass_kg_max=0.1  port=M5  sort=-mass_kg  limit=20  cursor=…
+//   q=mhe2 m5  family=valve  mass_kg_min=0.01  mass_kg_max=0.1  port=M5  sort=-mass_kg  limit=20
+//   cursor=…
+//   cursor=…
 //
 // Every number field F has F_min and F_max (inclusive, in the unit of its name) and F itself
 // (equal); every text field, manufacturer, part_number, origin, series and orderable (true, false)
-// match exactly. A part without the field does not match. `sort` takes any of these fields or id,
-// "-" before it turns the order round; parts without the field come last, equal ones in order of
-// id. `facets=true` adds what the matching parts hold: parts a value, and count, least and greatest
-// of every number.
+// match exactly. So do two flags that every part has: `priced`, and `documented` (a document is
+// named); and datasheet_share, … estimated_share filter like numbers: the share of a part's numbers
+// and texts that has this provenance. A part without the field does not match. `q` finds words in
+// all texts (part_search.h). `sort` takes any of these fields, id or match, "-" before it turns the
+// order round; parts without the field come last, equal ones in order of id. `match`, the order of
+// a search that names none, has parts first whose names hold all words. `facets=true` adds what the
+// matching parts hold (part_facets.h).
 #ifndef PLENUM_API_CATALOGUE_PART_QUERY_H_
 #define PLENUM_API_CATALOGUE_PART_QUERY_H_
 
@@ -25,6 +30,8 @@
 
 namespace plenum::api {
 
+inline constexpr std::size_t kSearchBytesMax = 500;
+
 struct NumberRange {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
@@ -40,6 +47,7 @@ struct Cursor {
 struct PartQuery {
   std::map<std::string, NumberRange> numbers;  // by field
   std::map<std::string, std::string> texts;    // by field, family among them
+  std::string search;                          // empty: none
   std::string sort = "id";
   bool descending = false;
   bool facets = false;
@@ -53,6 +61,14 @@ Parsed<PartQuery> ParsePartQuery(const std::multimap<std::string, std::string>& 
 
 // The matching parts, in order.
 std::vector<const catalog::Part*> Select(const PartQuery& query, const PartTable& table);
+
+// What all of them hold: part_facets.h.
+Json FacetsOf(const PartQuery& query, const PartTable& table);
+
+// Names that a list of parts can show: id, the texts and numbers of a family (of all without one),
+// and documents. Errors name the nearest known one.
+Errors CheckColumns(const std::vector<std::string>& columns,
+                    const std::optional<std::string>& family);
 
 // { "parts", "next_cursor": text or null, "total": matching parts, "facets" if asked for,
 // "catalogue_revision" } as text: for a thousand parts a tree takes twice the time. The table is of

@@ -5,8 +5,15 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "catalog/check/coverage.h"
+
 namespace plenum::api {
 namespace {
+
+constexpr std::string_view kDerivedFlags[] = {"priced", "documented"};
+// In the order of catalog::ProvenanceNames().
+constexpr std::string_view kShares[] = {"datasheet_share", "third_party_share", "derived_share",
+                                        "estimated_share", "measured_share"};
 
 // Collects one text field part by part.
 class TextColumnBuilder {
@@ -46,13 +53,35 @@ const Column* Find(const std::map<std::string, Column, std::less<>>& columns,
   return found == columns.end() ? nullptr : &found->second;
 }
 
+// NaN where the part has no value at all.
+std::vector<double> SharesOf(const catalog::Part& part) {
+  const auto counts = catalog::CountValues(part);
+  const double all = std::accumulate(counts.begin(), counts.end(), 0);
+  std::vector<double> shares;
+  shares.reserve(counts.size());
+  for (const int count : counts) shares.push_back(count / all);
+  return shares;
+}
+
 }  // namespace
+
+std::span<const std::string_view> DerivedFlags() { return kDerivedFlags; }
+std::span<const std::string_view> ProvenanceShares() { return kShares; }
 
 PartTable::PartTable(const std::vector<catalog::Part>& parts) : parts_(parts) {
   std::unordered_map<std::string_view, std::vector<double>*> numbers;
   std::map<std::string, TextColumnBuilder, std::less<>> texts;
   const auto set_text = [&](const std::string& field, std::size_t part, std::string_view value) {
     texts.try_emplace(field, parts.size()).first->second.Set(part, value);
+  };
+  const auto set_number = [&](std::string_view field, std::size_t part, double value) {
+    std::vector<double>*& column = numbers[field];
+    if (column == nullptr)
+      column = &numbers_
+                    .try_emplace(std::string(field), parts.size(),
+                                 std::numeric_limits<double>::quiet_NaN())
+                    .first->second;
+    (*column)[part] = value;
   };
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const catalog::Part& part = parts[i];
@@ -63,16 +92,18 @@ PartTable::PartTable(const std::vector<catalog::Part>& parts) : parts_(parts) {
     if (!part.series.empty()) set_text("series", i, part.series);
     if (part.orderable) set_text("orderable", i, *part.orderable ? "true" : "false");
     for (const auto& [field, text] : part.texts) set_text(field, i, text.value);
-    for (const auto& [field, number] : part.numbers) {
-      std::vector<double>*& column = numbers[field];
-      if (column == nullptr)
-        column =
-            &numbers_.try_emplace(field, parts.size(), std::numeric_limits<double>::quiet_NaN())
-                 .first->second;
-      (*column)[i] = number.value;
-    }
+    for (const auto& [field, number] : part.numbers) set_number(field, i, number.value);
+    set_text("priced", i, catalog::HasPrice(part) ? "true" : "false");
+    set_text("documented", i, part.documents.empty() ? "false" : "true");
+    const std::vector<double> shares = SharesOf(part);
+    for (std::size_t k = 0; k < shares.size(); ++k) set_number(kShares[k], i, shares[k]);
   }
   for (auto& [field, builder] : texts) texts_.emplace(field, builder.Build());
+}
+
+std::vector<std::uint8_t> PartTable::Search(std::string_view text) const {
+  std::call_once(search_made_, [&] { search_ = std::make_unique<const PartSearch>(parts_); });
+  return search_->Find(text);
 }
 
 const std::vector<double>* PartTable::Numbers(const std::string& field) const {

@@ -5,10 +5,14 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "api/catalogue/part_search.h"
 #include "catalog/fields/part.h"
 
 namespace plenum::api {
@@ -20,6 +24,11 @@ struct TextColumn {
   std::vector<std::uint32_t> place;
 };
 
+// Beside the fields of parts: what the table knows of each, "true" or "false", …
+std::span<const std::string_view> DerivedFlags();
+// … and which share of its numbers and texts has each provenance (catalog/check/coverage.h).
+std::span<const std::string_view> ProvenanceShares();
+
 class PartTable {
  public:
   // `parts`, in order of id, must outlive the table.
@@ -28,7 +37,8 @@ class PartTable {
   const std::vector<catalog::Part>& parts() const { return parts_; }
   // A number a part, NaN where it has none; nullptr where no part has the field.
   const std::vector<double>* Numbers(const std::string& field) const;
-  // Also family, manufacturer, part_number and origin; series and orderable where a part has them.
+  // Also family, manufacturer, part_number, origin and the derived flags; series and orderable
+  // where a part has them.
   const TextColumn* Texts(const std::string& field) const;
   // By name of the field.
   const std::map<std::string, std::vector<double>, std::less<>>& numbers() const {
@@ -36,10 +46,15 @@ class PartTable {
   }
   const std::map<std::string, TextColumn, std::less<>>& texts() const { return texts_; }
 
+  // Its index is made when a search first needs it.
+  std::vector<std::uint8_t> Search(std::string_view text) const;
+
  private:
   const std::vector<catalog::Part>& parts_;
   std::map<std::string, std::vector<double>, std::less<>> numbers_;
   std::map<std::string, TextColumn, std::less<>> texts_;
+  mutable std::once_flag search_made_;
+  mutable std::unique_ptr<const PartSearch> search_;
 };
 
 }  // namespace plenum::api

@@ -213,11 +213,6 @@ Json PartOf(const catalog::Family& family) {
           {"additionalProperties", false}};
 }
 
-Json Parameter(const std::string& name, Json schema, std::string_view description) {
-  return {
-      {"name", name}, {"in", "query"}, {"schema", std::move(schema)}, {"description", description}};
-}
-
 }  // namespace
 
 Json DescribeRequirements() {
@@ -271,43 +266,6 @@ Json DescribePart() {
   Json forms = Json::array();
   for (const catalog::Family& family : catalog::Families()) forms.push_back(PartOf(family));
   return {{"oneOf", std::move(forms)}};
-}
-
-Json DescribePartFilters() {
-  Json filters = Json::array();
-  Json seen = Json::object();  // fields by name; several families share some
-  const auto is_new = [&](std::string_view name) {
-    return std::exchange(seen[std::string(name)], true).is_null();
-  };
-  Json families = Json::array();
-  for (const catalog::Family& family : catalog::Families()) families.push_back(family.name);
-  filters.push_back(Parameter("family", {{"enum", families}}, "only parts of this family"));
-  for (const char* name : {"manufacturer", "part_number", "origin", "series"})
-    filters.push_back(Parameter(name, {{"type", "string"}}, "exactly this"));
-  filters.push_back(Parameter("orderable", {{"enum", {"true", "false"}}},
-                              "known to be a product that one can order, or known not to be"));
-  for (const catalog::Family& family : catalog::Families()) {
-    for (const catalog::NumberField& field : family.numbers) {
-      if (!is_new(field.name)) continue;
-      const std::string name(field.name);
-      const Json number = {{"type", "number"}};
-      filters.push_back(Parameter(name, number, field.meaning));
-      filters.push_back(Parameter(name + "_min", number, "at least"));
-      filters.push_back(Parameter(name + "_max", number, "at most"));
-    }
-    for (const catalog::TextField& field : family.texts)
-      if (is_new(field.name))
-        filters.push_back(Parameter(std::string(field.name), {{"type", "string"}}, field.meaning));
-  }
-  filters.push_back(Parameter("sort", {{"type", "string"}}, "a field; - before it turns it round"));
-  filters.push_back(
-      Parameter("facets", {{"type", "boolean"}}, "counts and ranges of what matches"));
-  filters.push_back(Parameter("limit", {{"type", "integer"}, {"minimum", 1}, {"maximum", kPageMax}},
-                              "parts of a page"));
-  filters.push_back(Parameter("cursor", {{"type", "string"}}, "next_cursor of the page before"));
-  filters.push_back(Parameter("revision", {{"type", "integer"}, {"minimum", 0}},
-                              "parts as they were in this revision"));
-  return filters;
 }
 
 Json ExampleRequirements() {

@@ -14,8 +14,6 @@ Json DescribeMap();           // map/1
 Json DescribeModel();         // model/1
 Json DescribeGivenDesign();   // "design" of evaluation/1
 Json DescribePart();
-// Of a query for parts: [{ "name", "in": "query", "schema", "description" }] of every filter.
-Json DescribePartFilters();
 
 // Documents that are valid with the catalogue that comes with plenum, the first ones short.
 Json ExampleRequirements();

@@ -23,6 +23,12 @@ PAGES = [
     "manufacturer=maker+7&sort=-mass_kg&limit=100",
     "mass_kg_min=0.01&mass_kg_max=0.02&sort=mass_kg&limit=1000",
     "family=valve&mass_kg_max=0.1&facets=true&limit=20",
+    "q=bench-0123&limit=20",
+    "q=maker+7+m5&limit=20",
+    "q=valve&limit=20",
+    "q=valve&facets=true&limit=20",
+    "q=m5&family=valve&mass_kg_max=0.1&sort=-mass_kg&facets=true&limit=20",
+    "q=none+of+these&facets=true&limit=20",
 ]
 
 
@@ -104,6 +110,7 @@ def import_over_http(folder):
 def pages(port):
     connection = http.client.HTTPConnection("127.0.0.1", port)
     timed("first page (reads the catalogue)", lambda: get(connection, "/v1/parts?limit=1"))
+    timed("first search (makes the index)", lambda: get(connection, "/v1/parts?q=valve&limit=1"))
     for query in PAGES:
         samples = []
         for _ in range(50):

@@ -2,6 +2,7 @@
 #ifndef PLENUM_CATALOG_CHECK_COVERAGE_H_
 #define PLENUM_CATALOG_CHECK_COVERAGE_H_
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -9,13 +10,17 @@
 
 namespace plenum::catalog {
 
+// Numbers and texts of a part by provenance, in the order of ProvenanceNames(); flow and current of
+// a curve are one each.
+std::array<int, 5> CountValues(const Part& part);
+bool HasPrice(const Part& part);
+
 struct Coverage {
   std::string family;
   int parts = 0;
   std::vector<std::string> without_price, without_document;  // ids
-  // Numbers and texts with a provenance; flow and current of a curve are one each.
-  int values = 0;
-  int estimated = 0;  // of these
+  int values = 0;                                            // see CountValues
+  int estimated = 0;                                         // of these
   bool operator==(const Coverage&) const = default;
 };
 

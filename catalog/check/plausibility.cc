@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kOutlierZ = 3.5;
 constexpr double kMedianToSigma = 1.4826;
+constexpr double kLeastFactor = 1.5;  // what numbers of a family differ by anyway
 constexpr std::size_t kFewest = 8;
 constexpr char kDensity[] = "mass_kg / body_volume_ml";
 
@@ -27,6 +28,15 @@ double Median(std::vector<double> values) {
   return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
+// Whether no other maker has a part with about this number. Makers seldom make the same slip, but a
+// family may hold parts of several kinds.
+bool StandsAlone(const Sample& sample, const std::vector<Sample>& samples) {
+  return std::none_of(samples.begin(), samples.end(), [&](const Sample& other) {
+    return other.part->manufacturer != sample.part->manufacturer &&
+           std::abs(other.log - sample.log) <= std::log(kLeastFactor);
+  });
+}
+
 void Judge(const Family& family, const std::string& field, const std::vector<Sample>& samples,
            std::vector<Outlier>& outliers) {
   if (samples.size() < kFewest) return;
@@ -34,10 +44,10 @@ void Judge(const Family& family, const std::string& field, const std::vector<Sam
   for (const Sample& sample : samples) logs.push_back(sample.log);
   const double median = Median(logs);
   for (const double log : logs) deviations.push_back(std::abs(log - median));
-  const double sigma = std::max(kMedianToSigma * Median(deviations), std::log(1.5));
+  const double sigma = std::max(kMedianToSigma * Median(deviations), std::log(kLeastFactor));
   for (const Sample& sample : samples) {
     const double z = (sample.log - median) / sigma;
-    if (std::abs(z) > kOutlierZ)
+    if (std::abs(z) > kOutlierZ && StandsAlone(sample, samples))
       outliers.push_back(
           {sample.part->id, std::string(family.name), field, sample.value, std::exp(median), z});
   }

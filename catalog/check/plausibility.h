@@ -9,7 +9,7 @@
 
 namespace plenum::catalog {
 
-// A number far from those of its family.
+// A number far from those of its family, which no other maker has.
 struct Outlier {
   std::string id, family, field;
   double value = 0.0;
@@ -25,8 +25,10 @@ struct Outlier {
 // (Iglewicz and Hoaglin, How to Detect and Handle Outliers, 1993; 1.4826 makes the median deviation
 // a standard deviation where the logarithms are normal). The floor keeps fields in which most parts
 // agree from calling every other value wrong: less than a factor 4.1 off the median never counts.
-// Numbers ≤ 0 and fields with fewer than eight numbers in the family are not judged. `mass_kg /
-// body_volume_ml`, the density, is judged as a field too: it shows grams taken for kilograms.
+// A number that a part of another maker has, too, to within a factor 1.5, does not count either:
+// makers seldom make the same slip, but a family may hold parts of several kinds. Numbers ≤ 0 and
+// fields with fewer than eight numbers in the family are not judged. `mass_kg / body_volume_ml`,
+// the density, is judged as a field too: it shows grams taken for kilograms.
 std::vector<Outlier> FindOutliers(const std::vector<Part>& parts);
 
 // A field without which a part does not take part in some ranking.

@@ -11,11 +11,18 @@
 
 namespace plenum::server {
 
+// Which parts a list or a comparison holds, and what it shows of them.
+struct ListOptions {
+  std::string search, sort;
+  std::vector<std::string> filters, columns, ids;
+  bool facets = false;
+};
+
 // Options of all subcommands; each uses its own.
 struct CatalogOptions {
   std::string catalog = "catalog.db";
-  std::string family, file, id, sort;
-  std::vector<std::string> filters;
+  std::string family, file, id;
+  ListOptions list;
   std::optional<std::int64_t> revision;
   int limit = 20;
   catalog::TableOptions table;  // of import

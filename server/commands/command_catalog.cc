@@ -2,16 +2,20 @@
 #include <cstdio>
 #include <memory>
 
+#include "api/catalogue/part_comparison.h"
 #include "api/catalogue/part_document.h"
 #include "api/catalogue/part_query.h"
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
+#include "api/json/remarks.h"
 #include "server/call/reply.h"
 #include "server/commands/catalog_keeping.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
 #include "server/render/text/text_catalog.h"
+#include "server/render/text/text_parts.h"
+#include "server/render/text/text_remarks.h"
 #include "server/resources/import_parts.h"
 
 namespace plenum::server {
@@ -40,22 +44,21 @@ catalog::Revision RevisionOrHead(const catalog::Store& store,
 api::PartQuery ListQuery(const CatalogOptions& options) {
   std::multimap<std::string, std::string> query;
   if (!options.family.empty()) query.emplace("family", options.family);
-  if (!options.sort.empty()) query.emplace("sort", options.sort);
-  for (const auto& filter : options.filters) {
+  if (!options.list.sort.empty()) query.emplace("sort", options.list.sort);
+  if (!options.list.search.empty()) query.emplace("q", options.list.search);
+  for (const auto& filter : options.list.filters) {
     const auto equals = filter.find('=');
     if (equals == std::string::npos) {
       throw BadInput("--where: must be FIELD=VALUE, FIELD_min=VALUE or FIELD_max=VALUE, not \"" +
                      filter + "\"");
     }
-    query.emplace(filter.substr(0, equals), filter.substr(equals + 1));
-  }
-  const auto parsed = ValueOrRefuse(api::ParsePartQuery(query));
-  for (const char* of_pages : {"limit", "cursor", "facets", "revision"}) {
-    if (query.count(of_pages) > 0) {
-      throw BadInput(std::string("--where: ") + of_pages + " is not a field");
+    const std::string field = filter.substr(0, equals);
+    for (const char* of_pages : {"q", "limit", "cursor", "facets", "revision"}) {
+      if (field == of_pages) throw BadInput("--where: " + field + " is not a field");
     }
+    query.emplace(field, filter.substr(equals + 1));
   }
-  return parsed;
+  return ValueOrRefuse(api::ParsePartQuery(query));
 }
 
 void List(const CatalogOptions& options) {
@@ -64,16 +67,40 @@ void List(const CatalogOptions& options) {
     throw BadInput("--csv: needs a family, one of " + FamilyNames());
   }
   const auto query = ListQuery(options);
+  const auto family = options.family.empty() ? std::nullopt : std::optional(options.family);
+  if (const auto wrong = api::CheckColumns(options.list.columns, family); !wrong.empty())
+    Refuse(wrong);
   const auto store = OpenCatalog(options.catalog, Access::kRead);
   const auto revision = RevisionOrHead(store, options.revision);
   const auto all = store.ListAt(revision.number);
   std::vector<catalog::Part> parts;
-  for (const auto* part : api::Select(query, api::PartTable(all))) parts.push_back(*part);
+  const api::PartTable table(all);
+  for (const auto* part : api::Select(query, table)) parts.push_back(*part);
   if (options.csv) return Print(catalog::WriteCsv(options.family, parts));
-  if (!options.json) return Print(PartsText(parts));
+  const auto facets = options.list.facets ? api::FacetsOf(query, table) : api::Json();
+  if (!options.json)
+    return Print(PartsText(parts, options.list.columns) +
+                 (options.list.facets ? FacetsText(facets) : ""));
   api::Json list = api::Json::array();
   for (const auto& part : parts) list.push_back(api::RenderPart(part));
-  Print(Dump({{"parts", list}, {"catalogue_revision", api::RenderRevisionName(revision)}}) + "\n");
+  api::Json answer = {{"parts", std::move(list)},
+                      {"catalogue_revision", api::RenderRevisionName(revision)}};
+  if (options.list.facets) answer["facets"] = facets;
+  Print(Dump(answer) + "\n");
+}
+
+void Compare(const CatalogOptions& options) {
+  if (const auto wrong = api::CheckCompared(options.list.ids); !wrong.empty()) Refuse(wrong);
+  const auto store = OpenCatalog(options.catalog, Access::kRead);
+  std::vector<catalog::Part> parts;
+  parts.reserve(options.list.ids.size());
+  for (const auto& id : options.list.ids) {
+    auto part = store.Get(id);
+    if (!part) throw BadInput("ID: no part has the id " + id);
+    parts.push_back(std::move(*part));
+  }
+  const auto comparison = api::RenderComparison(parts);
+  Print(options.json ? Dump(comparison) + "\n" : ComparisonText(comparison));
 }
 
 void Show(const CatalogOptions& options) {
@@ -88,13 +115,15 @@ void Show(const CatalogOptions& options) {
 }
 
 void Add(const CatalogOptions& options) {
+  api::RemarkRecorder recorder;
   const auto part = ValueOrRefuse(api::ParsePart(ReadJson(options.file)));
+  api::Json remarks = {{"understood", recorder.Take().understood}};
   const auto written = OpenCatalog(options.catalog, Access::kWrite).Add(part, CommandSignature());
   if (written.status == WriteStatus::kExists) {
     throw BadInput("/id: " + part.id + " is taken; choose another id or remove that part first");
   }
   if (written.status == WriteStatus::kInvalid) Refuse(FieldErrors(written.errors));
-  Print("added " + part.id + "\n");
+  Print("added " + part.id + "\n" + RemarksText(remarks));
 }
 
 void Remove(const CatalogOptions& options) {
@@ -175,9 +204,21 @@ Table ListTable(CatalogOptions& options) {
       Family(options),
       {"--where",
        "FIELD=VALUE, FIELD_min=VALUE or FIELD_max=VALUE; may be repeated",
-       &options.filters,
+       &options.list.filters,
        {.value_name = "FILTER"}},
-      {"--sort", "Field; -FIELD for the opposite order", &options.sort, {.value_name = "FIELD"}},
+      {"--search",
+       "Words in any text of a part, in any order",
+       &options.list.search,
+       {.value_name = "WORDS"}},
+      {"--sort",
+       "Field; -FIELD for the opposite order",
+       &options.list.sort,
+       {.value_name = "FIELD"}},
+      {"--columns",
+       "Fields to show instead of mass and conductance; may be repeated",
+       &options.list.columns,
+       {.value_name = "FIELD"}},
+      {"--facets", "Also what the parts hold: values and ranges with counts", &options.list.facets},
       RevisionOption(options),
       JsonFlag(options.json),
       {"--csv", "CSV, as import takes it", &options.csv, {.excludes = "--json"}}};
@@ -185,6 +226,10 @@ Table ListTable(CatalogOptions& options) {
 
 Table ShowTable(CatalogOptions& options) {
   return {Argument("ID", "Its id", &options.id), RevisionOption(options), JsonFlag(options.json)};
+}
+
+Table CompareTable(CatalogOptions& options) {
+  return {Argument("ID", "Ids of two to eight parts", &options.list.ids), JsonFlag(options.json)};
 }
 
 Table HistoryTable(CatalogOptions& options) {
@@ -254,6 +299,7 @@ Command CatalogCommand() {
       {},
       {Below("list", "The parts, of one family or all", Answered<List>, ListTable),
        Below("show", "One part with the source of every number", Answered<Show>, ShowTable),
+       Below("compare", "Parts side by side, what differs marked", Answered<Compare>, CompareTable),
        Below("history", "Changes of a part, or all writes", Answered<ShowHistory>, HistoryTable),
        Below("undo", "Takes the changes of a revision back", Answered<UndoWrite>, revision),
        Below("add", "Adds a part", Answered<Add>,

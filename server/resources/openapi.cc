@@ -5,6 +5,7 @@
 #include <string>
 
 #include "api/catalogue/table_reading.h"
+#include "api/describe/catalogue_answers.h"
 #include "api/describe/descriptions.h"
 
 namespace plenum::server {
@@ -57,6 +58,7 @@ const std::map<std::string, Operation>& Operations() {
         "csv",
         {{200, "Import"}},
         {422}}},
+      {"GET /v1/parts/compare", {{"ids"}, "", {{200, "Comparison"}}, {404, 422}}},
       {"GET /v1/parts/check", {{}, "", {{200, "CatalogCheck"}}, {422}}},
       {"GET /v1/parts/{id}",
        {{"revision", "If-None-Match"}, "", {{200, "StoredPart"}, {304, ""}}, {404, 422}}},
@@ -134,6 +136,7 @@ Json Parameters() {
                       "entries of a page")},
       {"cursor", Query("cursor", text, "next_cursor of the page before")},
       {"family", Query("family", text, "of parts")},
+      {"ids", Query("ids", text, "of two to eight parts, with commas between")},
       {"dry_run", Query("dry_run", flag, "say what would be done, write nothing")},
       {"encoding", Query("encoding", {{"enum", catalog::EncodingNames()}}, "of the table")},
       {"delimiter", Query("delimiter", {{"enum", catalog::DelimiterNames()}}, "of the table")},
@@ -171,31 +174,6 @@ Json Versioned(const char* schema) {
   return {{"type", "object"},
           {"properties", std::move(properties)},
           {"required", {"schema", "plenum"}}};
-}
-
-// Of the answers on many parts at once.
-Json CatalogueSchemas() {
-  const Json text = {{"type", "string"}}, number = {{"type", "number"}};
-  const Json integer = {{"type", "integer"}}, flag = {{"type", "boolean"}};
-  const Json ids = ListOf(text);
-  return {{"Import", Object({{"added", ids},
-                             {"replaced", ids},
-                             {"unchanged", ids},
-                             {"dry_run", flag},
-                             {"understood", Json::object()}})},
-          {"CatalogCheck",
-           Object({{"parts", integer},
-                   {"duplicates", ListOf(Object({{"family", text}, {"why", text}, {"ids", ids}}))},
-                   {"outliers", ListOf(Object({{"id", text}, {"field", text}, {"value", number}}))},
-                   {"gaps", ListOf(Object({{"family", text}, {"field", text}, {"missing", ids}}))},
-                   {"families", ListOf(Object({{"family", text},
-                                               {"parts", integer},
-                                               {"without_price", ids},
-                                               {"without_document", ids},
-                                               {"values", integer},
-                                               {"estimated", integer},
-                                               {"estimated_share", number}}))},
-                   {"catalogue_revision", Object({{"number", integer}, {"hash", text}})}})}};
 }
 
 // Of answers: the fields that callers may rely on; more may come.
@@ -257,10 +235,6 @@ Json AnswerSchemas() {
       {"EvaluationAnswer", Versioned("evaluation_answer/1")},
       {"StoredPart",
        {{"allOf", {Ref("schemas", "Part"), {{"type", "object"}, {"required", {"id", "origin"}}}}}}},
-      {"PartsPage", Object({{"parts", ListOf(Ref("schemas", "StoredPart"))},
-                            {"next_cursor", maybe_text},
-                            {"total", integer},
-                            {"catalogue_revision", name_of_revision}})},
       {"Families", NamedListOf("families", Object({{"name", text},
                                                    {"numbers", ListOf(any)},
                                                    {"texts", ListOf(any)},
@@ -300,7 +274,7 @@ Json Schemas() {
       {{"name", {{"type", "string"}, {"maxLength", 200}}}, {"model", Ref("schemas", "Model")}});
   schemas["NamedModel"]["additionalProperties"] = false;
   schemas.update(AnswerSchemas());
-  schemas.update(CatalogueSchemas());
+  schemas.update(api::DescribeCatalogueAnswers());
   return schemas;
 }
 

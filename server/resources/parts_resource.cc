@@ -4,11 +4,13 @@
 #include <charconv>
 
 #include "api/catalogue/catalog_check.h"
+#include "api/catalogue/part_comparison.h"
 #include "api/catalogue/part_document.h"
 #include "api/catalogue/part_query.h"
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
 #include "api/json/problem_document.h"
+#include "api/json/remarks.h"
 #include "api/json/request_limits.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
@@ -47,6 +49,14 @@ bool Holds(const std::string& list, const std::string& etag, Compare compare) {
 
 Reply NoPart(const std::string& id) { return ProblemReply(404, "no part has the id " + id); }
 
+// nullptr where none of them, in order of id, has the id.
+const catalog::Part* FindPart(const std::vector<catalog::Part>& parts, const std::string& id) {
+  const auto part = std::lower_bound(
+      parts.begin(), parts.end(), id,
+      [](const catalog::Part& one, const auto& wanted) { return one.id < wanted; });
+  return part == parts.end() || part->id != id ? nullptr : &*part;
+}
+
 // `revision` is one in which the part is as shown.
 Reply PartReply(int status, const catalog::Part& part, const catalog::Revision& revision) {
   auto reply = JsonReply(status, api::RenderPart(part));
@@ -79,6 +89,17 @@ std::string Location(const std::string& id) {
     }
   }
   return path;
+}
+
+// The reply of a write, with what was understood of its body. A part's notes are its own.
+Reply WrittenReply(int status, const catalog::Part& part, const catalog::Revision& revision,
+                   const api::Remarks& remarks) {
+  auto reply = PartReply(status, part, revision);
+  api::Json document = api::RenderPart(part);
+  if (!remarks.understood.empty()) document["understood"] = remarks.understood;
+  if (!remarks.warnings.empty()) document["warnings"] = remarks.warnings;
+  reply.body = JsonReply(status, document).body;
+  return reply;
 }
 
 // The part in the body, or the reply that says what is wrong with it.
@@ -137,10 +158,8 @@ namespace {
 Reply GetNewest(SharedCatalog& catalog, const Call& call) {
   auto shown = catalog.replies().Find(catalog.Head(), call.argument);
   if (const auto view = shown ? std::nullopt : catalog.ViewBeforeWrite()) {
-    const auto part =
-        std::lower_bound(view->parts->begin(), view->parts->end(), call.argument,
-                         [](const catalog::Part& one, const auto& id) { return one.id < id; });
-    if (part == view->parts->end() || part->id != call.argument) return NoPart(call.argument);
+    const auto* part = FindPart(*view->parts, call.argument);
+    if (part == nullptr) return NoPart(call.argument);
     shown = std::make_shared<const Reply>(PartReply(200, *part, view->revision));
   }
   if (!shown) {
@@ -178,6 +197,7 @@ Reply GetPart(SharedCatalog& catalog, const Call& call) {
 }
 
 Reply AddPart(SharedCatalog& catalog, const Call& call) {
+  api::RemarkRecorder recorder;
   auto body = PartInBody(call);
   if (auto* reply = std::get_if<Reply>(&body)) return std::move(*reply);
   const auto& part = std::get<catalog::Part>(body);
@@ -197,13 +217,14 @@ Reply AddPart(SharedCatalog& catalog, const Call& call) {
     }
     // As it was added, also if it was changed between the request and its repetition.
     const auto added = store.GetAt(part.id, written.revision.number).value_or(part);
-    auto reply = PartReply(201, added, written.revision);
+    auto reply = WrittenReply(201, added, written.revision, recorder.Take());
     reply.headers.emplace_back("Location", Location(part.id));
     return reply;
   });
 }
 
 Reply ReplacePart(SharedCatalog& catalog, const Call& call) {
+  api::RemarkRecorder recorder;
   auto body = PartInBody(call);
   if (auto* reply = std::get_if<Reply>(&body)) return std::move(*reply);
   const auto& part = std::get<catalog::Part>(body);
@@ -229,7 +250,7 @@ Reply ReplacePart(SharedCatalog& catalog, const Call& call) {
       case catalog::WriteStatus::kChanged:
         return Changed(etag);
       default:
-        return PartReply(200, part, written.revision);
+        return WrittenReply(200, part, written.revision, recorder.Take());
     }
   });
 }
@@ -273,6 +294,24 @@ Reply GetPartsCheck(SharedCatalog& catalog, const Call& call) {
   const auto view = catalog.View();
   api::Json json = {{"parts", view.parts->size()}};
   json.update(api::RenderCheck(api::CheckParts(*view.parts)));
+  json["catalogue_revision"] = api::RenderRevisionName(view.revision);
+  return JsonReply(200, json);
+}
+
+Reply GetPartsComparison(SharedCatalog& catalog, const Call& call) {
+  if (const auto errors = CheckQuery(call, {"ids"}); !errors.empty())
+    return ProblemReply(422, errors);
+  const auto ids = api::SplitIds(QueryValue(call, "ids").value_or(""));
+  if (const auto wrong = api::CheckCompared(ids); !wrong.empty()) return ProblemReply(422, wrong);
+  const auto view = catalog.View();
+  std::vector<catalog::Part> parts;
+  parts.reserve(ids.size());
+  for (const auto& id : ids) {
+    const auto part = FindPart(*view.parts, id);
+    if (part == nullptr) return NoPart(id);
+    parts.push_back(*part);
+  }
+  api::Json json = api::RenderComparison(parts);
   json["catalogue_revision"] = api::RenderRevisionName(view.revision);
   return JsonReply(200, json);
 }

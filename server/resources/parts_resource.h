@@ -20,6 +20,8 @@ Reply ReplacePart(SharedCatalog& catalog, const Call& call);
 Reply RemovePart(SharedCatalog& catalog, const Call& call);
 
 Reply ExportParts(SharedCatalog& catalog, const Call& call);
+// The parts that the query's `ids` name, with commas between: api/catalogue/part_comparison.h.
+Reply GetPartsComparison(SharedCatalog& catalog, const Call& call);
 // Duplicates, odd numbers, what is missing or estimated: api/catalogue/catalog_check.h.
 Reply GetPartsCheck(SharedCatalog& catalog, const Call& call);
 // A table of any dialect; what it leaves open is refused with questions, which the query answers

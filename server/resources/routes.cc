@@ -76,6 +76,8 @@ void AddManyPartsRoutes(SharedCatalog& catalog, std::vector<Route>& routes) {
       {"POST", "/v1/parts/import",
        "parts of a family from a table; query family, dry_run, what the table leaves open",
        Access::kWrite, parts(ImportParts)},
+      {"GET", "/v1/parts/compare", "parts side by side, what differs marked; query ids",
+       Access::kRead, parts(GetPartsComparison)},
       {"GET", "/v1/parts/check", "duplicates, odd numbers, what is missing or estimated",
        Access::kRead, parts(GetPartsCheck)}};
   routes.insert(one, std::begin(many), std::end(many));
@@ -118,7 +120,7 @@ std::vector<Route> Routes(const Services& services) {
       {"POST", "/v1/maps", "map/1 in, rise time, fall time and frequency over the grid out",
        Access::kRead, [](const Call& call) { return AnswerAtOnce(call, api::RunMap); }},
       {"GET", "/v1/parts",
-       "parts; query family, field_min, field_max, sort, facets, limit, cursor, revision",
+       "parts; query q, family, field_min, field_max, sort, facets, limit, cursor, revision",
        Access::kRead, parts(ListParts)},
       {"POST", "/v1/parts", "adds a part", Access::kWrite, parts(AddPart)},
       {"GET", "/v1/parts/{id}", "one part, with ETag", Access::kRead, parts(GetPart)},

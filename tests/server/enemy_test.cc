@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "api/describe/catalogue_answers.h"
 #include "api/describe/descriptions.h"
 #include "tests/server/service.h"
 

@@ -55,6 +55,70 @@ TEST_F(Http, RefusesABadPart) {
   ExpectProblem(client_->Post("/v1/parts", part.dump(), kJson), 422, "/mass_kg");
 }
 
+TEST_F(Http, SearchesInTheRevisionThatIsAskedFor) {
+  const auto ids = [&](const std::string& query) {
+    std::vector<std::string> all;
+    const Json page = Body(client_->Get("/v1/parts?" + query));
+    for (const Json& part : page["parts"]) all.push_back(part["id"]);
+    return all;
+  };
+  const Json before = Body(client_->Get("/v1/parts?limit=1"))["catalogue_revision"]["number"];
+  Json part = NewFitting("odd-one");
+  part["notes"] = "An oddment";
+  ASSERT_EQ(client_->Post("/v1/parts", part.dump(), kJson)->status, 201);
+  EXPECT_EQ(ids("q=oddment"), std::vector<std::string>{"odd-one"});
+  EXPECT_EQ(ids("q=oddment&revision=" + before.dump()), std::vector<std::string>{});
+  part["notes"] = "A thing";
+  ASSERT_EQ(client_->Put("/v1/parts/odd-one", {{"If-Match", "*"}}, part.dump(), kJson)->status,
+            200);
+  EXPECT_EQ(ids("q=oddment"), std::vector<std::string>{});
+  EXPECT_EQ(ids("q=thing%20odd"), std::vector<std::string>{"odd-one"});
+  // Any bytes are text.
+  for (const char* text : {"%22", "%27%3B--", "NEAR(a+b", "a*+OR", "%FF%C3", "%00", "^a", "a:b"}) {
+    const auto answer = client_->Get(std::string("/v1/parts?facets=true&q=") + text);
+    ASSERT_TRUE(answer) << text;
+    EXPECT_EQ(answer->status, 200) << text << answer->body;
+  }
+}
+
+TEST_F(Http, SaysWhatItUnderstoodOfAPart) {
+  Json part = NewFitting("f");
+  part["mass_kg"] = "3 g";
+  part["sonic_conductance_dm3_per_s_bar"] = {{"orifice_mm", 2}};
+  const auto added = client_->Post("/v1/parts", part.dump(), kJson);
+  ASSERT_EQ(added->status, 201) << added->body;
+  const Json answer = Body(added);
+  ASSERT_EQ(answer["understood"].size(), 2u) << answer;
+  for (const Json& one : answer["understood"]) {
+    const auto field = one["pointer"].get<std::string>().substr(1);
+    EXPECT_EQ(one["given"], part[field]);
+    EXPECT_EQ(one["value"], answer[field]);
+    EXPECT_EQ(one.contains("formula"), field != "mass_kg");
+  }
+  const Json kept = Body(client_->Get("/v1/parts/f"));
+  EXPECT_FALSE(kept.contains("understood"));
+  EXPECT_EQ(kept["mass_kg"], 0.003);
+  // The answer goes back as it is.
+  const auto put = client_->Put("/v1/parts/f", {{"If-Match", added->get_header_value("ETag")}},
+                                answer.dump(), kJson);
+  EXPECT_EQ(put->status, 200) << put->body;
+  EXPECT_FALSE(Body(put).contains("understood"));
+}
+
+TEST_F(Http, ComparesParts) {
+  Json heavy = NewFitting("g");
+  heavy["mass_kg"] = 0.5;
+  for (const Json& part : {NewFitting("f"), heavy})
+    ASSERT_EQ(client_->Post("/v1/parts", part.dump(), kJson)->status, 201);
+  const Json comparison = Body(client_->Get("/v1/parts/compare?ids=g,f"));
+  EXPECT_EQ(comparison["parts"][0]["id"], "g");
+  int differing = 0;
+  for (const Json& field : comparison["fields"]) differing += field["differs"].get<bool>();
+  EXPECT_GE(differing, 1);
+  EXPECT_EQ(client_->Get("/v1/parts/compare")->status, 422);
+  EXPECT_EQ(client_->Get("/v1/parts/compare?ids=f,none")->status, 404);
+}
+
 TEST_F(Http, PagesThroughAllPartsOnce) {
   std::vector<std::string> ids;
   std::string cursor;

@@ -78,6 +78,22 @@ export async function makeViews(service) {
       ready: (p) => p.locator('.parts tbody tr').first().waitFor(),
     },
     {
+      name: 'catalogue-found',
+      hash: '#/catalogue/valve?q=festo&pick=festo-cpe10~festo-vuvg-l10~festo-vuvg-lk10-b52-m7',
+      ready: async (p) => {
+        await p.locator('.parts tbody tr').first().waitFor();
+        await p.getByText('Columns').click();
+      },
+    },
+    {
+      name: 'parts-compared',
+      hash: '#/catalogue/valve?q=festo&pick=festo-cpe10~festo-vuvg-l10~festo-vuvg-lk10-b52-m7',
+      ready: async (p) => {
+        await p.getByRole('button', { name: 'Compare 3' }).click();
+        await p.getByText('Only what differs').waitFor();
+      },
+    },
+    {
       name: 'part',
       hash: '#/catalogue/compressor?part=adafruit-zr370-02pm',
       ready: (p) => p.getByText('Delivery').first().waitFor(),

@@ -12,25 +12,6 @@ using catalog::Part;
 
 constexpr std::size_t kAnswersShown = 6;
 
-std::string NumberOrDash(const Part& part, const char* field) {
-  const auto it = part.numbers.find(field);
-  return it == part.numbers.end() ? "–" : Short(it->second.value);
-}
-
-std::string Mass(const Part& part) {
-  if (part.numbers.count("mass_kg_per_m") > 0) return NumberOrDash(part, "mass_kg_per_m") + " /m";
-  return NumberOrDash(part, "mass_kg");
-}
-
-// Of a valve, filling and venting.
-std::string Conductance(const Part& part) {
-  if (part.numbers.count("sonic_conductance_fill_dm3_per_s_bar") == 0) {
-    return NumberOrDash(part, "sonic_conductance_dm3_per_s_bar");
-  }
-  return NumberOrDash(part, "sonic_conductance_fill_dm3_per_s_bar") + " / " +
-         NumberOrDash(part, "sonic_conductance_exhaust_dm3_per_s_bar");
-}
-
 // "mass_kg: 0.003 → 0.004" for every field of the document that differs.
 std::string DifferenceText(const api::Json& before, const api::Json& after) {
   std::string text;
@@ -153,22 +134,6 @@ std::string CoverageText(const std::vector<catalog::Coverage>& families) {
 }
 
 }  // namespace
-
-std::string PartsText(const std::vector<Part>& parts) {
-  using enum Table::Align;
-  Table table({{"id", kLeft},
-               {"family", kLeft},
-               {"manufacturer", kLeft},
-               {"part number", kLeft},
-               {"mass kg"},
-               {"C dm³/(s·bar)"},
-               {"origin", kLeft}});
-  for (const auto& part : parts) {
-    table.Add({part.id, part.family, Cut(part.manufacturer, 24), Cut(part.part_number, 28),
-               Mass(part), Conductance(part), part.origin});
-  }
-  return table.Text() + fmt::format("{} parts\n", parts.size());
-}
 
 std::string PartText(const Part& part) {
   using enum Table::Align;

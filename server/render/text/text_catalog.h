@@ -1,4 +1,4 @@
-// Parts for a person.
+// A part, its history and the state of the catalogue for a person.
 #ifndef PLENUM_SERVER_RENDER_TEXT_TEXT_CATALOG_H_
 #define PLENUM_SERVER_RENDER_TEXT_TEXT_CATALOG_H_
 
@@ -12,8 +12,6 @@
 
 namespace plenum::server {
 
-// One line a part.
-std::string PartsText(const std::vector<catalog::Part>& parts);
 // One part with every number, where it comes from, and its curve.
 std::string PartText(const catalog::Part& part);
 

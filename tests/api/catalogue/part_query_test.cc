@@ -138,14 +138,20 @@ TEST(PartQuery, FacetsCountWhatMatchesOnAllPages) {
   EXPECT_EQ(page["facets"]["texts"]["manufacturer"], Parse(R"({"Even": 3, "Odd": 3})"));
   EXPECT_EQ(page["facets"]["texts"]["port"], Parse(R"({"1/4": 1, "1/8": 1})"));
   EXPECT_EQ(page["facets"]["numbers"]["price_eur"],
-            Parse(R"({"count": 2, "min": 40.0, "max": 80.0})"));
-  EXPECT_EQ(page["facets"]["numbers"]["mass_kg"], Parse(R"({"count": 6, "min": 4.0, "max": 9.0})"));
+            Parse(R"({"count": 2, "min": 40.0, "max": 80.0, "ranges": [
+                        {"count": 1, "min": 40.0, "max": 40.0},
+                        {"count": 1, "min": 80.0, "max": 80.0}]})"));
+  const Json& mass = page["facets"]["numbers"]["mass_kg"];
+  EXPECT_EQ(mass["count"], 6);
+  EXPECT_EQ(mass["min"], 4.0);
+  EXPECT_EQ(mass["max"], 9.0);
   EXPECT_EQ(page["catalogue_revision"], Parse(R"({"number": 5, "hash": "abc"})"));
 }
 
 TEST(PartQuery, PagesCoverTheListOnceInEveryOrder) {
   const auto shelf = Shelf();
-  for (const char* sort : {"id", "-id", "-price_eur", "internal_volume_ml", "-manufacturer"}) {
+  for (const char* sort :
+       {"id", "-id", "match", "-price_eur", "internal_volume_ml", "-manufacturer"}) {
     const auto all = Ids({{"sort", sort}}, shelf);
     std::vector<std::string> paged;
     Query query = {{"sort", sort}, {"limit", "2"}};
@@ -165,6 +171,50 @@ TEST(PartQuery, PagesCoverTheListOnceInEveryOrder) {
       RenderPage(std::get<PartQuery>(ParsePartQuery({{"cursor", "7.r1"}, {"mass_kg_min", "2"}})),
                  {7, "", "", "", ""}, PartTable(shelf));
   EXPECT_THAT(DetailAt(ErrorsOf(foreign), "/cursor"), HasSubstr("another query"));
+}
+
+TEST(PartQuery, SearchesAndShowsTheBestMatchesFirst) {
+  auto shelf = Shelf();
+  shelf[0].notes = "fits the Even tank";
+  shelf[4].aliases = {"even so"};
+  EXPECT_THAT(Ids({{"q", "even"}}, shelf), ElementsAre("r2", "r4", "r5", "r6", "r8", "r1"));
+  EXPECT_THAT(Ids({{"q", "even"}, {"sort", "id"}, {"mass_kg_max", "5"}}, shelf),
+              ElementsAre("r1", "r2", "r4", "r5"));
+  EXPECT_THAT(Ids({{"q", "tank EVEN"}}, shelf), ElementsAre("r1"));
+  EXPECT_EQ(Ids({{"q", ""}}, shelf), Ids({}, shelf));
+  EXPECT_EQ(Ids({{"q", "\"*"}}, shelf), Ids({}, shelf));
+  // Page by page, in the order of the search.
+  std::vector<std::string> paged;
+  Query query = {{"q", "even"}, {"limit", "2"}};
+  for (Json next = ""; !next.is_null();) {
+    query.erase("cursor");
+    query.emplace("cursor", next.get<std::string>());
+    const Json page = PageOf(RenderPage(std::get<PartQuery>(ParsePartQuery(query)),
+                                        {7, "", "", "", ""}, PartTable(shelf)));
+    EXPECT_EQ(page["total"], 6);
+    for (const Json& part : page["parts"]) paged.push_back(part["id"]);
+    next = page["next_cursor"];
+  }
+  EXPECT_THAT(paged, ElementsAre("r2", "r4", "r5", "r6", "r8", "r1"));
+}
+
+TEST(PartQuery, FiltersByPriceDocumentAndProvenance) {
+  auto shelf = Shelf();  // r4 and r8 have a price
+  shelf[2].documents = {{"https://maker.example", ""}};
+  shelf[5].numbers["mass_kg"].provenance = catalog::Provenance::kEstimated;
+  EXPECT_THAT(Ids({{"priced", "true"}}, shelf), ElementsAre("r4", "r8"));
+  EXPECT_EQ(Ids({{"priced", "false"}}, shelf).size(), 7u);
+  EXPECT_THAT(Ids({{"documented", "true"}}, shelf), ElementsAre("r3"));
+  EXPECT_THAT(Ids({{"estimated_share_min", "0.01"}}, shelf), ElementsAre("r6"));
+  EXPECT_THAT(Ids({{"estimated_share", "0.25"}}, shelf), ElementsAre("r6"));
+  EXPECT_THAT(Ids({{"sort", "-estimated_share"}, {"mass_kg_min", "5"}}, shelf),
+              ElementsAre("r6", "r5", "r7", "r8", "r9"));
+}
+
+TEST(PartQuery, ChecksColumns) {
+  EXPECT_TRUE(CheckColumns({"id", "mass_kg", "documents", "priced", "port"}, "reservoir").empty());
+  EXPECT_THAT(DetailAt(CheckColumns({"mas_kg"}, std::nullopt), "/columns"), HasSubstr("mass_kg"));
+  EXPECT_FALSE(CheckColumns({"coil_power_w"}, "reservoir").empty());
 }
 
 TEST(PartQuery, NamesEveryParameterThatIsWrong) {
@@ -191,6 +241,8 @@ TEST(PartQuery, NamesEveryParameterThatIsWrong) {
       {{{"revision", "x"}}, "/revision", "number of a revision"},
       {{{"revision", "3"}, {"cursor", "4.r1"}}, "/revision", "that of the cursor, 4"},
       {{{"facets", "yes"}}, "/facets", "true or false"},
+      {{{"priced", "yes"}}, "/priced", "true or false"},
+      {{{"q", std::string(501, 'a')}}, "/q", "at most 500 bytes, not 501"},
   };
   for (const auto& [query, pointer, detail] : cases)
     EXPECT_THAT(DetailAt(ErrorsOf(ParsePartQuery(query)), pointer), HasSubstr(detail)) << pointer;
@@ -199,9 +251,9 @@ TEST(PartQuery, NamesEveryParameterThatIsWrong) {
 TEST(PartQuery, MutatedQueriesAreReadOrRefused) {
   std::mt19937 random(20240613);
   const auto shelf = Shelf();
-  const char* const names[] = {"family", "mass_kg_min", "mass_kg_max", "port",        "limit",
-                               "sort",   "cursor",      "facets",      "revision",    "origin",
-                               "",       "_min",        "duty_max",    "duty_max_max"};
+  const char* const names[] = {"family", "mass_kg_min", "mass_kg_max", "port",         "limit",
+                               "sort",   "cursor",      "facets",      "revision",     "origin",
+                               "",       "_min",        "duty_max",    "duty_max_max", "q"};
   const char* const values[] = {"reservoir",
                                 "1",
                                 "-1",

@@ -48,6 +48,18 @@ TEST(Plausibility, FindsGramsTakenForKilograms) {
               1e-9);
 }
 
+TEST(Plausibility, ANumberThatAnotherMakerHasIsNotOdd) {
+  std::vector<Part> parts = Doubling(11);
+  for (Part& part : parts) part.numbers["price_eur"] = {10, Provenance::kDatasheet, ""};
+  const auto price = [&](int i, double eur) { parts[i].numbers["price_eur"].value = eur; };
+  price(2, 1000), price(3, 1400);
+  EXPECT_EQ(FindOutliers(parts).size(), 2u);  // both of one maker
+  parts[3].manufacturer = "Another";
+  EXPECT_THAT(FindOutliers(parts), IsEmpty());
+  price(3, 1600);  // more than a factor 1.5 apart
+  EXPECT_EQ(FindOutliers(parts).size(), 2u);
+}
+
 TEST(Plausibility, JudgesNeitherZerosNorSmallFamilies) {
   std::vector<Part> few = Doubling(7);
   few[0].numbers["mass_kg"].value = 1e-6;

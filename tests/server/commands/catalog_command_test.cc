@@ -48,6 +48,66 @@ TEST(CatalogCommand, ShowsHistoryAndTakesChangesBack) {
   EXPECT_EQ(then["catalogue_revision"]["hash"], writes[0]["hash"]);
 }
 
+TEST(CatalogCommand, FindsPartsByWordsAndShowsChosenColumns) {
+  const Workbench bench;
+  Json part = NewFitting("odd-one");
+  part["notes"] = "Sits beside the oddment's door";
+  part["documents"] = {{{"link", "https://maker.example/odd.pdf"}}};
+  ASSERT_EQ(bench.Run("catalog add -", part.dump()).status, 0);
+  const auto ids = [&](const std::string& options) {
+    std::vector<std::string> all;
+    const Json list = Document(bench.Run("catalog list --json " + options).out);
+    for (const Json& found : list["parts"]) all.push_back(found["id"]);
+    return all;
+  };
+  EXPECT_THAT(ids("--search 'door oddment'"), testing::ElementsAre("odd-one"));
+  EXPECT_THAT(ids("fitting --search 'ODD.PDF \"maker'"), testing::ElementsAre("odd-one"));
+  EXPECT_THAT(ids("valve --search oddment"), testing::ElementsAre());
+  EXPECT_THAT(ids("--search oddment --where priced=true"), testing::ElementsAre());
+  const auto shown =
+      bench.Run("catalog list --search oddment --columns mass_kg --columns documents");
+  EXPECT_THAT(shown.out, HasSubstr("https://maker.example/odd.pdf"));
+  EXPECT_THAT(shown.out, HasSubstr("0.00300"));
+  EXPECT_THAT(shown.out, testing::Not(HasSubstr("manufacturer")));
+  EXPECT_THAT(bench.Run("catalog list --columns mass_kgg").err,
+              HasSubstr("nearest known: mass_kg"));
+  EXPECT_THAT(bench.Run("catalog list --where q=x").err, HasSubstr("q is not a field"));
+  EXPECT_EQ(bench.Run("catalog list --search " + std::string(501, 'a')).status, 2);
+  const auto facets = bench.Run("catalog list fitting --search oddment --facets");
+  EXPECT_THAT(facets.out, HasSubstr("estimated_share"));
+  const Json document =
+      Document(bench.Run("catalog list fitting --search oddment --facets --json").out);
+  EXPECT_EQ(document["facets"]["texts"]["family"]["fitting"], 1);
+}
+
+TEST(CatalogCommand, SaysWhatItUnderstoodOfAnAddedPart) {
+  const Workbench bench;
+  Json part = NewFitting("printed");
+  part["mass_kg"] = "3 g";
+  part["sonic_conductance_dm3_per_s_bar"] = "Cv 0.05";
+  const auto added = bench.Run("catalog add -", part.dump());
+  EXPECT_EQ(added.status, 0) << added.err;
+  EXPECT_THAT(added.out, StartsWith("added printed\n"));
+  EXPECT_THAT(added.out, HasSubstr("\"3 g\" = 0.003 kg"));
+  EXPECT_THAT(added.out, HasSubstr("sonic_conductance_dm3_per_s_bar = "));
+  EXPECT_EQ(bench.Run("catalog add -", NewFitting("plain").dump()).out, "added plain\n");
+}
+
+TEST(CatalogCommand, ComparesPartsSideBySide) {
+  const Workbench bench;
+  Json heavy = NewFitting("heavy");
+  heavy["mass_kg"] = 0.05;
+  heavy["provenance"]["mass_kg"] = {{"kind", "estimated"}, {"source", "guess"}};
+  ASSERT_EQ(bench.Run("catalog add -", NewFitting("light").dump()).status, 0);
+  ASSERT_EQ(bench.Run("catalog add -", heavy.dump()).status, 0);
+  const auto text = bench.Run("catalog compare light heavy");
+  EXPECT_THAT(text.out, testing::ContainsRegex("≠  mass_kg +0.00300 +~0.0500\n"));
+  const Json document = Document(bench.Run("catalog compare light heavy --json").out);
+  EXPECT_EQ(document["parts"][1]["id"], "heavy");
+  EXPECT_EQ(bench.Run("catalog compare light").status, 2);
+  EXPECT_THAT(bench.Run("catalog compare light none").err, HasSubstr("no part has the id none"));
+}
+
 TEST(CatalogCommand, ChecksTheJobsBesideTheCatalogue) {
   const Workbench bench;
   const std::string jobs = std::string(bench.catalog()) + "-jobs";

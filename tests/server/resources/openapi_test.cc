@@ -245,6 +245,12 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   remove(id, tag, 412);
   remove("none", "*", 404);
   remove(id, "*", 204);
+  Get("/v1/parts", "?q=valve&priced=true&estimated_share_max=0.5", 200);
+  Get("/v1/parts/compare", "?ids=co2-1,co2-1", 422);
+  Get("/v1/parts/compare", "?ids=none,none-too", 404);
+  const Json two = JsonOf(client_.Get("/v1/parts?limit=2")->body)["parts"];
+  const auto id_of = [&](std::size_t i) { return two[i]["id"].get<std::string>(); };
+  Get("/v1/parts/compare", "?ids=" + id_of(0) + "," + id_of(1), 200);
   Get("/v1/parts/check", "", 200);
   Get("/v1/parts/check", "?family=battery", 422);
   Get("/v1/parts/export", "?family=battery", 200);

@@ -1,6 +1,7 @@
 // The catalogue: families, filters with counts, a table that shows where each number comes from.
 import { signal, useSignal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
+import { Fragment } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
 
 import { asProblem } from '../lib/api';
 import { families, familyCounts, loadFamilies, loadFamily, revision } from '../lib/catalogue';
@@ -15,26 +16,84 @@ import { ImportDialog } from './part_import';
 import { PartDialog } from './part_dialogs';
 import { PartForm } from './part_form';
 import { PartTable } from './part_table';
+import { Tray } from './part_tray';
 
 const parts = signal<{ family: string; list: Part[] }>({ family: '', list: [] });
 
 const problem = signal('');
 
+let loads = 0;
+
+// Only the newest of several at once is shown.
 export async function reload(family: string): Promise<void> {
+  const mine = ++loads;
+  const words = route.peek().query.get('q') ?? '';
   try {
-    await loadFamilies();
-    parts.value = { family, list: await loadFamily(family) };
+    await loadFamilies(words);
+    const list = await loadFamily(family, words);
+    if (mine !== loads) return;
+    parts.value = { family, list };
     problem.value = '';
   } catch (error) {
-    problem.value = asProblem(error).message;
+    if (mine === loads) problem.value = asProblem(error).message;
   }
+}
+
+// What is asked for now, and where else it is found.
+function keptQuery(): Record<string, string | undefined> {
+  const { query } = route.value;
+  return { q: query.get('q') ?? undefined, pick: query.get('pick') ?? undefined };
+}
+
+function Search() {
+  const later = useRef(0);
+  const words = route.value.query.get('q') ?? '';
+  const typed = useSignal(words);
+  useEffect(() => {
+    if (typed.peek().trim() !== words) typed.value = words;
+  }, [words]);
+  const ask = (text: string) => {
+    typed.value = text;
+    clearTimeout(later.current);
+    later.current = window.setTimeout(() => setQuery({ q: text.trim() }), 200);
+  };
+  return (
+    <input
+      type="search"
+      class="search"
+      aria-label="Find parts"
+      placeholder="Maker, number, notes …"
+      maxLength={200}
+      value={typed.value}
+      onInput={(event) => ask(event.currentTarget.value)}
+    />
+  );
+}
+
+function Elsewhere({ family }: { family: string }) {
+  const others = Object.entries(familyCounts.value).filter(([name]) => name !== family);
+  return (
+    <Notice kind="info">
+      No {family} has these words
+      {others.length > 0 ? ', but ' : '.'}
+      {others.map(([name, count], i) => (
+        <Fragment key={name}>
+          {i > 0 && ', '}
+          <a href={link(['catalogue', name], keptQuery())}>
+            {count} {name}
+          </a>
+        </Fragment>
+      ))}
+    </Notice>
+  );
 }
 
 export function CatalogueView() {
   const [, asked] = route.value.path;
   const family = asked ?? 'valve';
   const dialog = useSignal<'add' | 'import' | 'check' | 'history' | null>(null);
-  useEffect(() => void reload(family), [family]);
+  const words = route.value.query.get('q') ?? '';
+  useEffect(() => void reload(family), [family, words]);
   const meta = families.value.find((f) => f.name === family);
   const list = parts.value.family === family ? parts.value.list : [];
   const shown = list.filter((part) => passes(part, filters.value));
@@ -48,11 +107,12 @@ export function CatalogueView() {
         class="families"
         aside={revision.value && <span class="muted">revision {revision.value.number}</span>}
       >
+        <Search />
         <ul>
           {families.value.map((f) => (
             <li key={f.name}>
               <a
-                href={link(['catalogue', f.name])}
+                href={link(['catalogue', f.name], keptQuery())}
                 aria-current={f.name === family ? 'true' : undefined}
               >
                 {f.name === 'co2' ? 'CO₂' : f.name}{' '}
@@ -87,6 +147,9 @@ export function CatalogueView() {
         {asked && families.value.length > 0 && !meta && (
           <Notice kind="bad">There is no family {asked}.</Notice>
         )}
+        {words && parts.value.family === family && list.length === 0 && (
+          <Elsewhere family={family} />
+        )}
         {meta && <PartTable meta={meta} rows={shown} />}
         <p class="hint">
           <span class="from datasheet">data sheet</span>{' '}
@@ -95,6 +158,7 @@ export function CatalogueView() {
           — the source is on each number.
         </p>
       </Panel>
+      <Tray />
       {dialog.value === 'add' && meta && (
         <PartForm
           meta={meta}

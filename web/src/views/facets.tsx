@@ -1,7 +1,7 @@
 // Filters of the catalogue: ranges of numbers and values of texts, with counts.
 import { computed } from '@preact/signals';
 
-import { numberOf } from '../lib/catalogue';
+import { derivedTexts, estimatedShare, numberOf } from '../lib/catalogue';
 import { fieldKind, fieldName, short } from '../lib/format';
 import { route, setQuery } from '../lib/route';
 import type { Family, Part } from '../lib/types';
@@ -58,8 +58,19 @@ export function passes(part: Part, chosen: Filters, but = ''): boolean {
 
 export function Facets({ meta, list }: { meta: Family; list: Part[] }) {
   const chosen = filters.value;
-  const texts = ['manufacturer', 'series', ...meta.texts.map((t) => t.name), 'orderable', 'origin'];
-  const numbers = meta.numbers.filter((field) =>
+  const texts = [
+    'manufacturer',
+    'series',
+    ...meta.texts.map((t) => t.name),
+    'orderable',
+    ...derivedTexts,
+    'origin',
+  ];
+  const estimated = {
+    name: estimatedShare,
+    meaning: "how much of the part's numbers and texts is estimated, 0 to 1",
+  };
+  const numbers = [...meta.numbers, estimated].filter((field) =>
     list.some((part) => numberOf(part, field.name) !== null),
   );
   const toggle = (field: string, value: string, on: boolean) => {

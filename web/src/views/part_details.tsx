@@ -1,12 +1,12 @@
 // What a part carries beside its numbers: series, aliases, offers, documents.
+import { isAddress } from '../lib/catalogue';
 import type { Document, Offer, Part } from '../lib/types';
 import { Chip } from '../ui/controls';
 import { number, Table } from '../ui/table';
 
-// A text of the catalogue as a link, only where it is an address of the web: any other scheme could
-// run a script or open a file.
+// A text of the catalogue as a link, only where it is an address of the web.
 export function Address({ text }: { text: string }) {
-  return /^https?:\/\/\S+$/i.test(text) ? (
+  return isAddress(text) ? (
     <a href={text} target="_blank" rel="noopener noreferrer">
       {text}
     </a>
