@@ -122,14 +122,22 @@ bool FitsNoBetter(const Contender& set, std::span<const Contender> contenders) {
 }
 
 std::size_t Standing(std::span<const Contender> contenders, double memory) {
-  std::vector<Contender> fitting;
-  std::vector<std::size_t> place;
+  std::vector<std::size_t> best(kEffectsMax + 1, contenders.size());
   for (std::size_t i = 0; i < contenders.size(); ++i) {
-    if (FitsNoBetter(contenders[i], contenders)) continue;
-    fitting.push_back(contenders[i]);
-    place.push_back(i);
+    std::size_t& leader = best[contenders[i].effects.size()];
+    if (!contenders[i].fit.Usable() || FitsNoBetter(contenders[i], contenders)) continue;
+    if (leader == contenders.size() ||
+        BicWith(contenders[i].fit, memory) < BicWith(contenders[leader].fit, memory))
+      leader = i;
   }
-  return place[Named(fitting, [memory](const Fit& fit) { return BicWith(fit, memory); })];
+  std::size_t standing = best.front();
+  for (std::size_t size = 1; size < best.size() && best[size] < contenders.size(); ++size) {
+    if (BicWith(contenders[best[size]].fit, memory) >
+        BicWith(contenders[standing].fit, memory) - kAccept)
+      break;
+    standing = best[size];
+  }
+  return standing;
 }
 
 std::size_t StandingBesideSubsets(const FitData& data, const FitOptions& options, double memory,

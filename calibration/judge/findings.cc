@@ -181,6 +181,10 @@ void AddReasons(const SearchResult& search, double memory,
     else if (FitsNoBetterThanAPart(candidate, diagnosis.candidates))
       candidate.reason =
           "leaves no less of the readings than a part of it: only declared numbers are nearer";
+    else if (gain > kAccept)
+      candidate.reason = "is " + Tenths(gain) +
+                         " of BIC ahead, but no set of fewer effects on the way to it is worth its "
+                         "name";
     else if (more > 0)
       candidate.reason = "gains " + Tenths(gain) + " of BIC by " + std::to_string(more) +
                          (more == 1u ? " more effect" : " more effects") + "; each must gain " +

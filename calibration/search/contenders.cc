@@ -53,19 +53,6 @@ bool SameEffects(const Contender& a, const Contender& b) {
   return a.effects.size() == b.effects.size() && Contains(a, b);
 }
 
-std::size_t Named(std::span<const Contender> contenders,
-                  const std::function<double(const Fit&)>& bic) {
-  std::size_t named = 0;
-  double least = kNever;
-  for (std::size_t i = 0; i < contenders.size(); ++i) {
-    if (!contenders[i].fit.Usable()) continue;
-    const double price = kAccept * static_cast<double>(contenders[i].effects.size());
-    const double score = bic(contenders[i].fit) + price;
-    if (score < least) least = score, named = i;
-  }
-  return named;
-}
-
 bool MayComeTo(double goal, const Fit& cut_short, double bic_before) {
   return cut_short.bic < goal + kNear + kHopeful * std::max(0.0, bic_before - goal);
 }

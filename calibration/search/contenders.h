@@ -7,7 +7,6 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -36,12 +35,6 @@ bool MayComeTo(double goal, const Fit& cut_short, double bic_before);
 
 // The fitted state with only the effects of `rest`.
 ModelState StateOf(const Contender& contender, const EffectSet& rest);
-
-// The set that is named, by its place in the list: that of the least BIC + kAccept for each of its
-// effects (thresholds.h), so that none of its subsets beats it and each effect is worth its name.
-// `bic` is of a usable fit.
-std::size_t Named(std::span<const Contender> contenders,
-                  const std::function<double(const Fit&)>& bic);
 
 struct SearchOptions {
   int threads = UsableCores();

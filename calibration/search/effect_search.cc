@@ -466,7 +466,12 @@ class Search {
     SearchResult result{sets_.data, {}, 0, 0, !sets_.Cancelled(), false};
     for (std::size_t i = 0; i < sets_.list.size(); ++i)
       if (sets_[i].effects.empty()) result.base = i;
-    result.chosen = calibration::Named(sets_.list, [](const Fit& fit) { return fit.bic; });
+    result.chosen = result.base;
+    for (int size = 1; size <= size_max; ++size) {
+      const std::optional<std::size_t> best = sets_.Best(size);
+      if (best && sets_[*best].fit.bic < sets_[result.chosen].fit.bic - kAccept)
+        result.chosen = *best;
+    }
     result.enough = enough_(sets_[result.chosen].fit);
     result.contenders = std::move(sets_.list);
     return result;

@@ -61,20 +61,6 @@ Contender With(std::vector<const model::EffectSpec*> effects, double chi2) {
   return contender;
 }
 
-// Each effect must be worth its name: 9 of BIC are too few for one, 19 for two.
-TEST(Evidence, EachEffectMustBeWorthItsName) {
-  const auto* leak = model::FindEffect("leak", "laminar");
-  const auto* lag = model::FindEffect("sensor_lag");
-  const auto named = [](const std::vector<Contender>& contenders, std::vector<double> bic) {
-    return Named(contenders, [&, i = std::size_t{0}](const Fit&) mutable { return bic[i++]; });
-  };
-  const std::vector<Contender> contenders = {With({}, 1.0), With({leak}, 1.0),
-                                             With({leak, lag}, 1.0)};
-  EXPECT_EQ(named(contenders, {100.0, 91.0, 81.0}), 0u);
-  EXPECT_EQ(named(contenders, {100.0, 89.0, 80.0}), 1u);
-  EXPECT_EQ(named(contenders, {100.0, 91.0, 79.0}), 2u);
-}
-
 // A set that is ahead only because its declared numbers are nearer to what was declared.
 TEST(Evidence, ASetThatLeavesMoreOfTheReadingsThanAPartOfItDoesNotStand) {
   const auto* ramp = model::FindEffect("valve_ramp");
