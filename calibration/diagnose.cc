@@ -8,6 +8,7 @@
 #include "calibration/judge/evidence.h"
 #include "calibration/judge/findings.h"
 #include "calibration/judge/identifiability.h"
+#include "calibration/judge/stated.h"
 #include "calibration/judge/ties.h"
 #include "calibration/judge/verdict.h"
 #include "calibration/learn/discrepancy.h"
@@ -34,14 +35,15 @@ class Diagnosing {
         cancelled_(options.cancelled),
         forward_(dataset),
         observed_(Observe(dataset)),
-        bench_{dataset, forward_, observed_, {}, {}, {}} {
+        bench_{dataset, forward_, observed_, {}, {}, OriginalsOf(dataset), {}} {
     options_.cancelled = [this] { return Stopped(); };
     options_.threads = ThreadsFor(dataset, options.threads);
     bench_.data.forward = &forward_;
     bench_.data.observed = &observed_;
     bench_.data.sizes = SizesOf(dataset);
     for (std::size_t i = 0; i < dataset.runs.size(); ++i)
-      (HeldOut(bench_, i) ? bench_.held_out : bench_.data.runs).push_back(i);
+      if (!IsCopy(bench_, i))
+        (HeldOut(bench_, i) ? bench_.held_out : bench_.data.runs).push_back(i);
     bench_.tight.noise_share = 1e-3;
     bench_.tight.steps_max = kFinalSteps;
     bench_.tight.threads = options_.threads;
@@ -71,18 +73,18 @@ class Diagnosing {
     Fit aligned = FitModel(bench_.data, state, options);
     if (LearnReadings(aligned)) aligned = FitModel(bench_.data, aligned.state, options);
     diagnosis_.noise_pa = NoiseOf(bench_, bench_.data.runs);
-    diagnosis_.declared = ErrorOf(bench_, forward_.Declared());
+    StateDeclared(bench_, diagnosis_);
     if (!aligned.Usable()) {
       diagnosis_.sentence = "The saved model cannot be run on these data: " + aligned.detail + ".";
       return std::move(diagnosis_);
     }
     const Leftover left = LeftoverOf(bench_, aligned, false);
-    diagnosis_.before = diagnosis_.after = ErrorOf(bench_, aligned.state);
+    StateModels(bench_, aligned, aligned, diagnosis_);
     diagnosis_.residual = left.residual;
     diagnosis_.verdict = IsNoise(left) ? Verdict::kAdequate : Verdict::kUnexplained;
     diagnosis_.unexplained_fraction =
         diagnosis_.verdict == Verdict::kAdequate ? 0.0 : UnexplainedFraction(left, left);
-    AddSeries(bench_, aligned.state, aligned.state, diagnosis_);
+    AddSeries(bench_, diagnosis_);
     AddWarnings(bench_, diagnosis_);
     diagnosis_.sentence = diagnosis_.verdict == Verdict::kAdequate
                               ? "The saved model predicts these runs to within their noise."
@@ -182,9 +184,8 @@ class Diagnosing {
     Evidence evidence;
     evidence.complete = Complete();
     diagnosis_.noise_pa = NoiseOf(bench_, bench_.data.runs);
-    diagnosis_.declared = ErrorOf(bench_, forward_.Declared());
+    if (!base_->fit.Usable()) StateDeclared(bench_, diagnosis_);
     if (!base_->fit.Usable() && Stopped()) {
-      diagnosis_.before = diagnosis_.after = diagnosis_.declared;
       diagnosis_.sentence = Sentence(bench_, search_, diagnosis_);
       return;
     }
@@ -208,26 +209,25 @@ class Diagnosing {
       const double memory = MemoryOf(WhitenedOf(bench_, Chosen().fit));
       const Fit base = base_->fit;
       Reweigh(bench_.data, bench_.tight, memory, search_.contenders);
-      search_.chosen = Standing(search_.contenders, memory);
+      search_.chosen = StandingBesideSubsets(bench_.data, bench_.tight, memory, search_.contenders);
+      base_ = &search_.contenders[search_.base];
       Weigh(memory, evidence);
       search_.contenders[search_.base].fit = base;  // what it leaves is told of its least squares
+      KeepEstablished(evidence);
       if (evidence.complete && IsTieBesideStructure(evidence)) {
         evidence.imitated = IsImitated();
         if (!evidence.imitated) diagnosis_.verdict = Verdict::kTie;
       }
     }
     const Contender& chosen = Chosen();
-    diagnosis_.before = ErrorOf(bench_, base_->fit.state);
-    const ErrorReport after =
-        evidence.accepted ? ErrorOf(bench_, chosen.fit.state) : diagnosis_.before;
-    AddCandidates(bench_, search_,
+    AddCandidates(bench_, search_, memory_,
                   {{&base_->fit, evidence.before.holdout_rms_pa},
                    {&chosen.fit, evidence.after.holdout_rms_pa}},
                   diagnosis_);
     // Effects are established where they account for most of the residual and a term learned
     // without them does not do as well; which of several they are may still be open.
-    bool established =
-        evidence.accepted && UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
+    bool established = evidence.accepted && !PredictsWorse(evidence.before, evidence.after) &&
+                       UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
     const bool open = diagnosis_.verdict == Verdict::kTie ||
                       (diagnosis_.verdict == Verdict::kUnexplained && established &&
                        !evidence.imitated && tied_.size() > 1u);
@@ -241,20 +241,21 @@ class Diagnosing {
         if (!Stopped() && !IsNoise(LeftoverOf(bench_, learned.fit, false))) {
           LearnedModel beside =
               LearnDiscrepancy(bench_.data, chosen.fit, bench_.held_out, bench_.tight);
-          established = beside.fit.bic < learned.fit.bic - kAccept;
+          established = beside.fit.bic < learned.fit.bic - kAccept ||
+                        HoldsAll(learned.discrepancy, chosen.effects);
           if (established) learned = std::move(beside);
         }
       }
-      if (!established) shown = base_, evidence.after = evidence.before;
+      if (!established) doubt_ = DoubtOf(evidence), shown = base_, evidence.after = evidence.before;
       diagnosis_.discrepancy = std::move(learned.discrepancy);
-      AddEstimates(bench_, learned.fit, diagnosis_);
-      if (diagnosis_.discrepancy->learned) diagnosis_.effects.pop_back();
-    } else if (diagnosis_.verdict != Verdict::kUndecided) {
-      AddEstimates(bench_, chosen.fit, diagnosis_);
+      if (diagnosis_.discrepancy->learned) StateLearned(bench_, learned.fit, diagnosis_);
     }
-    diagnosis_.after = shown == base_ ? diagnosis_.before : after;
-    diagnosis_.before.holdout_rms_pa = evidence.before.holdout_rms_pa;
-    diagnosis_.after.holdout_rms_pa = evidence.after.holdout_rms_pa;
+    StateDeclared(bench_, diagnosis_);
+    StateModels(bench_, base_->fit, shown->fit, diagnosis_);
+    if (diagnosis_.verdict != Verdict::kUndecided)
+      static_cast<Estimates&>(diagnosis_) =
+          EstimatesOf(bench_, shown->fit, IntervalsFrom::kProfile);
+    if (bench_.held_out.empty()) TakeLeftOut(evidence);
     diagnosis_.residual = evidence.after.residual;
     diagnosis_.unexplained_fraction = UnexplainedFraction(evidence.before, evidence.after);
     if (open) {
@@ -263,9 +264,10 @@ class Diagnosing {
       Propose();
     }
     Progress(0.99, "report");
-    AddSeries(bench_, base_->fit.state, shown->fit.state, diagnosis_);
+    AddSeries(bench_, diagnosis_);
     AddWarnings(bench_, diagnosis_);
-    if (diagnosis_.verdict == Verdict::kUnexplained) AddDoubts(evidence);
+    AddReasons(search_, memory_, open ? tied_ : std::vector<const Contender*>{shown}, doubt_,
+               diagnosis_);
     if (Stopped()) {
       diagnosis_.warnings.push_back(
           diagnosis_.verdict == Verdict::kUndecided
@@ -280,28 +282,50 @@ class Diagnosing {
     diagnosis_.sentence = Sentence(bench_, search_, diagnosis_);
   }
 
+  // Where no run is held out the errors are those of runs left out in turn.
+  void TakeLeftOut(const Evidence& evidence) {
+    diagnosis_.before.holdout_rms_pa = evidence.before.holdout_rms_pa;
+    diagnosis_.after.holdout_rms_pa = evidence.after.holdout_rms_pa;
+  }
+
   void Propose() {
     Progress(0.96, "a run that would decide");
     diagnosis_.next_experiment = ExperimentFor(bench_, tied_, by_the_clock_);
-    if (Stopped()) return;
-    if (!diagnosis_.next_experiment)
-      diagnosis_.warnings.push_back("no run that could tell them apart can be simulated");
-    else if (diagnosis_.next_experiment->expected_delta_bic < kDecisiveDeltaBic)
+    if (!diagnosis_.next_experiment) {
+      diagnosis_.no_experiment = Stopped() ? "there was no time left to look for a run"
+                                           : "no run that could tell them apart can be simulated";
+    } else if (diagnosis_.next_experiment->expected_delta_bic < kTie) {
+      diagnosis_.next_experiment.reset();
+      diagnosis_.no_experiment =
+          "no run within the range of these data would part them: each set can follow what any "
+          "other would show";
+    } else if (diagnosis_.next_experiment->expected_delta_bic < kDecisiveDeltaBic) {
       diagnosis_.warnings.push_back(
           "no run within the range of these data is expected to tell them apart for sure: the one "
           "proposed comes nearest");
+    }
+  }
+
+  // Whether the learned term is in the equation that all the effects are in: a leak that takes any
+  // course is a leak, and that it fits as well is no doubt of one.
+  static bool HoldsAll(const Discrepancy& discrepancy, const EffectSet& effects) {
+    return discrepancy.learned &&
+           std::all_of(effects.begin(), effects.end(), [&](const model::EffectSpec* spec) {
+             return spec->place == discrepancy.equation;
+           });
   }
 
   // Why the set that fits best is not taken for the explanation.
-  void AddDoubts(const Evidence& evidence) {
-    if (!evidence.accepted) return;
-    std::string set;
-    for (const std::string& id : IdsOf(Chosen())) set += (set.empty() ? "" : " + ") + id;
-    if (evidence.imitated)
-      diagnosis_.warnings.push_back(set + " fits no better than one learned term in its place");
+  static std::string DoubtOf(const Evidence& evidence) {
+    if (!evidence.accepted) return "";
+    if (PredictsWorse(evidence.before, evidence.after))
+      return "predicts runs that no fit saw worse than the model without it";
+    if (evidence.imitated) return "fits no better than one learned term in its place";
     if (!evidence.after.priors_hold)
-      diagnosis_.warnings.push_back(
-          set + " fits only with declared numbers that are beyond their uncertainties");
+      return "fits only with declared numbers that are beyond their uncertainties";
+    if (UnexplainedFraction(evidence.before, evidence.after) > kEstablished)
+      return "leaves more than a fifth of what the base model leaves";
+    return "does no better beside a learned term than the term alone";
   }
 
   const Contender& Chosen() const { return search_.contenders[search_.chosen]; }
@@ -313,12 +337,24 @@ class Diagnosing {
     return TermRivals(bench_.data, base_->fit, Chosen().fit, bench_.tight);
   }
 
+  // Beside structure a set of a tie must account for most of the residual itself: among few
+  // readings of little worth one that does nothing comes near.
+  void KeepEstablished(Evidence& evidence) {
+    std::erase_if(tied_, [&](const Contender* one) {
+      if (one == &Chosen()) return false;
+      return UnexplainedFraction(evidence.before, LeftoverOf(bench_, one->fit, false)) >
+             kEstablished;
+    });
+    evidence.tied = static_cast<int>(tied_.size()) - 1;
+  }
+
   // What the chosen set leaves and what does as well, by residuals that are worth 1/memory of their
   // number.
   void Weigh(double memory, Evidence& evidence) {
     evidence.accepted = &Chosen() != base_;
     evidence.after =
         evidence.accepted ? LeftoverOf(bench_, Chosen().fit, !Stopped()) : evidence.before;
+    memory_ = memory;
     tied_ = TiedWith(bench_, search_.contenders, Chosen(), memory, kTie);
     evidence.tied = static_cast<int>(tied_.size()) - 1;
     if (Stopped()) evidence.complete = false;
@@ -334,6 +370,8 @@ class Diagnosing {
   SearchResult search_;
   const Contender* base_ = nullptr;
   std::vector<const Contender*> tied_;  // the chosen set first
+  double memory_ = 1.0;                 // of the residuals that the choice was made by
+  std::string doubt_;                   // why the chosen set is not named, where it is not
   Fit by_the_clock_;                    // usable if the clock of the only run does as well as they
   Diagnosis diagnosis_;
 };

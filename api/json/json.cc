@@ -28,9 +28,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   bool number_integer(number_integer_t value) override { return Put(value); }
   bool number_unsigned(number_unsigned_t value) override { return Put(value); }
   bool number_float(number_float_t value, const string_t& digits) override {
-    // The library falls back to a float for an integer past 64 bits.
-    if (digits.find_first_of(".eE") == std::string::npos)
-      return Fail("integer " + Clip(digits) + " does not fit into 64 bits");
+    // Also an integer past 64 bits: other programs write 3.07e20 as 307000000000000000000.
     if (!std::isfinite(value)) return Fail("number " + Clip(digits) + " is not finite");
     return Put(value);
   }

@@ -26,8 +26,9 @@ template <typename T>
 using Parsed = std::variant<T, Errors>;
 
 // Strict parse: depth ≤ 64, no duplicate keys, no bytes after the document (NUL included), numbers
-// finite; integers that do not fit are errors. NaN and Infinity are not JSON and are refused, and
-// so is what takes more than `bytes_max` of memory; kJsonBytesMax (request_limits.h) without it.
+// finite; an integer past 64 bits is the nearest double. NaN and Infinity are not JSON and are
+// refused, and so is what takes more than `bytes_max` of memory; kJsonBytesMax (request_limits.h)
+// without it.
 Parsed<Json> ParseJson(std::string_view text);
 Parsed<Json> ParseJson(std::string_view text, std::size_t bytes_max);
 

@@ -1,5 +1,6 @@
 #include "api/measure/diagnose_request.h"
 
+#include "api/measure/inputs_document.h"
 #include "api/measure/revision_of_diagnosis.h"
 #include "calibration/diagnose.h"
 #include "catalog/store/content_hash.h"
@@ -32,6 +33,7 @@ DiagnosisAnswer RunDiagnosis(const DiagnosisRequest& request, const DiagnosisPro
   DiagnosisAnswer answer;
   answer.answer = RenderDiagnosis(diagnosis, request.dataset, request.provenance);
   AddRemarks(request.remarks, answer.answer);
+  answer.answer["measurement"] = InputsOf(request.measurement);
   if (!request.model && diagnosis.tied.empty() &&
       diagnosis.verdict != calibration::Verdict::kUndecided)
     answer.revision = RevisionOf(diagnosis, request.provenance);

@@ -18,6 +18,7 @@ inline constexpr double kDiagnosisTimeS = 60.0, kDiagnosisTimeMaxS = 3600.0;
 
 struct DiagnosisRequest {
   calibration::Dataset dataset;
+  Json measurement;                 // the document that the data set was read from
   std::optional<SavedModel> model;  // predicts the runs; none: they are diagnosed
   Provenance provenance;
   Remarks remarks;  // of the measurement

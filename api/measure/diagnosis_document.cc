@@ -7,6 +7,7 @@
 
 #include "api/json/units.h"
 #include "api/json/version.h"
+#include "api/measure/stated_document.h"
 #include "api/simulate/effects.h"
 #include "calibration/noise/phases.h"
 
@@ -129,7 +130,8 @@ Json RenderCandidate(const calibration::Candidate& candidate) {
           {"parameters", candidate.parameters},
           {"converged", candidate.converged},
           {"starts", candidate.starts},
-          {"found_again", candidate.found_again}};
+          {"found_again", candidate.found_again},
+          {"reason", candidate.reason.empty() ? Json(nullptr) : Json(candidate.reason)}};
 }
 
 Json RenderResidual(const calibration::ResidualReport& residual) {
@@ -200,9 +202,10 @@ std::optional<DeclaredNumber> DeclaredIn(const Run& run, Declared number) {
   return {};
 }
 
-Json RenderFitted(const Diagnosis& diagnosis, const Dataset& dataset) {
+Json RenderFitted(const std::vector<std::pair<Declared, Estimate>>& factors,
+                  const Dataset& dataset) {
   Json fitted = Json::object();
-  for (const auto& [number, factor] : diagnosis.fitted) {
+  for (const auto& [number, factor] : factors) {
     std::optional<DeclaredNumber> declared;
     for (const Run& run : dataset.runs)
       if (!declared) declared = DeclaredIn(run, number);
@@ -250,14 +253,20 @@ Json RenderExperiment(const calibration::Experiment& experiment) {
   return document;
 }
 
-Json RenderDiscrepancy(const calibration::Discrepancy& discrepancy) {
+// Effects and fitted numbers beside a learned term are not those without it.
+Json RenderDiscrepancy(const calibration::Discrepancy& discrepancy, const Dataset& dataset) {
   Json places = Json::array();
   for (const auto& place : discrepancy.places)
     places.push_back(
         {{"axis", place.axis}, {"where", place.where}, {"share", Number(place.share)}});
+  Json effects = Json::array();
+  for (std::size_t i = 0; i + 1 < discrepancy.beside.effects.size(); ++i)
+    effects.push_back(RenderEffect(discrepancy.beside.effects[i]));
   return {{"equation", Name(discrepancy.equation)},
           {"features", discrepancy.features},
           {"learned", discrepancy.learned ? RenderEffect(*discrepancy.learned) : Json(nullptr)},
+          {"effects", std::move(effects)},
+          {"fitted", RenderFitted(discrepancy.beside.fitted, dataset)},
           {"rms_before_kpa", Kpa(discrepancy.rms_before_pa)},
           {"rms_after_kpa", Kpa(discrepancy.rms_after_pa)},
           {"holdout_before_kpa", Kpa(discrepancy.holdout_before_pa)},
@@ -317,22 +326,26 @@ Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
                    {"noise_kpa", Kpa(diagnosis.noise_pa)},
                    {"declared", RenderError(diagnosis.declared)},
                    {"before", RenderError(diagnosis.before)},
-                   {"after", RenderError(diagnosis.after)}});
+                   {"after", RenderError(diagnosis.after)},
+                   {"learned", diagnosis.learned ? RenderError(*diagnosis.learned) : Json()}});
   document["effects"] = List(diagnosis.effects, RenderEffect);
   document["candidates"] = List(diagnosis.candidates, RenderCandidate);
   document["tied"] = List(diagnosis.tied, Ids);
   document["tied_laws"] = List(diagnosis.tied, Laws);
   document["next_experiment"] =
       diagnosis.next_experiment ? RenderExperiment(*diagnosis.next_experiment) : Json(nullptr);
+  document["reason"] =
+      diagnosis.no_experiment.empty() ? Json(nullptr) : Json(diagnosis.no_experiment);
   document["residual"] = RenderResidual(diagnosis.residual);
-  document["fitted"] = RenderFitted(diagnosis, dataset);
+  document["fitted"] = RenderFitted(diagnosis.fitted, dataset);
   document["discrepancy"] =
-      diagnosis.discrepancy ? RenderDiscrepancy(*diagnosis.discrepancy) : Json(nullptr);
+      diagnosis.discrepancy ? RenderDiscrepancy(*diagnosis.discrepancy, dataset) : Json(nullptr);
   document["unexplained_fraction"] = Number(diagnosis.unexplained_fraction);
   document["warnings"] = diagnosis.warnings;
   document["series"] =
       List(diagnosis.series, [&](const auto& series) { return RenderSeries(series, dataset); });
   document["provenance"] = RenderProvenance(provenance);
+  AddStatedModels(diagnosis, dataset, document);
   return document;
 }
 

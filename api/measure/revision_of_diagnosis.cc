@@ -28,10 +28,10 @@ Unit UnitOf(const model::Effect& effect, std::size_t parameter) {
 SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance& provenance) {
   SavedModel model;
   std::vector<double> sizes;
-  std::vector<calibration::FittedEffect> effects = diagnosis.effects;
-  if (diagnosis.discrepancy && diagnosis.discrepancy->learned)
-    effects.push_back(*diagnosis.discrepancy->learned);
-  for (const calibration::FittedEffect& fitted : effects) {
+  const calibration::Estimates& estimates =
+      diagnosis.learned ? diagnosis.discrepancy->beside : diagnosis;
+  const calibration::ErrorReport& after = diagnosis.learned ? *diagnosis.learned : diagnosis.after;
+  for (const calibration::FittedEffect& fitted : estimates.effects) {
     model.effects.push_back(fitted.effect);
     for (std::size_t i = 0; i < fitted.parameters.size(); ++i) {
       if (model::OfEachRun(fitted.effect.spec->parameters[i])) continue;
@@ -40,12 +40,12 @@ SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance&
       sizes.push_back(unit.size);
     }
   }
-  for (const auto& [number, estimate] : diagnosis.fitted) {
+  for (const auto& [number, estimate] : estimates.fitted) {
     model.factors.emplace_back(number, estimate.value);
     model.covariance.parameters.emplace_back(calibration::Name(number));
     sizes.push_back(1.0);
   }
-  model.covariance.rows = diagnosis.covariance;
+  model.covariance.rows = estimates.covariance;
   for (std::size_t i = 0; i < sizes.size(); ++i)
     for (std::size_t j = 0; j < sizes.size(); ++j)
       model.covariance.rows[i][j] *= sizes[i] * sizes[j];
@@ -53,8 +53,8 @@ SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance&
     model.data.push_back({file.name, file.sha256});
   model.noise_pa = diagnosis.noise_pa;
   model.before_rms_pa = diagnosis.before.rms_pa;
-  model.after_rms_pa = diagnosis.after.rms_pa;
-  model.holdout_rms_pa = diagnosis.after.holdout_rms_pa;
+  model.after_rms_pa = after.rms_pa;
+  model.holdout_rms_pa = after.holdout_rms_pa;
   return model;
 }
 

@@ -7,7 +7,8 @@
 
 namespace plenum::api {
 
-// Effects, a learned term among them, and factors at their estimates, with their covariance.
+// Effects and factors of `after` at their estimates, with their covariance; where a term was
+// learned, the term with the effects and factors fitted beside it, and the errors with it.
 SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance& provenance);
 
 }  // namespace plenum::api

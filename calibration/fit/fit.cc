@@ -260,13 +260,17 @@ Fit FitModel(const FitData& data, const ModelState& from, const FitOptions& opti
   return fit;
 }
 
-ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run,
-                   FitOptions options) {
+Fit AlignedFit(const FitData& data, const ModelState& state, std::size_t run, FitOptions options) {
   FitData alone = data;
   alone.runs = {run};
   options.nuisance_only = true;
   options.own_pairs = HasOwnPairs(data, run);
-  const Fit aligned = FitModel(alone, state, options);
+  return FitModel(alone, state, options);
+}
+
+ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run,
+                   FitOptions options) {
+  const Fit aligned = AlignedFit(data, state, run, std::move(options));
   return aligned.Usable() ? aligned.state : state;
 }
 

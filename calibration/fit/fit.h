@@ -69,6 +69,8 @@ bool HasOwnPairs(const FitData& data, std::size_t run);
 // initial pressure, where unknown, and the pairs (C, b) of a line that no run of the data has.
 // Nothing that was learned from other runs can tell them, so that they alone are fitted, the pairs
 // within their uncertainties.
+Fit AlignedFit(const FitData& data, const ModelState& state, std::size_t run, FitOptions options);
+// Its state; the one given where it failed.
 ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run,
                    FitOptions options);
 

@@ -18,23 +18,11 @@
 #include <vector>
 
 #include "calibration/values/dataset.h"
+#include "calibration/values/model_state.h"
 #include "model/effects/effect.h"
 #include "model/simulate/simulate.h"
 
 namespace plenum::calibration {
-
-struct ModelState {
-  ModelState() { factor.fill(1.0); }
-
-  std::array<double, kDeclaredCount> factor;
-  std::vector<model::Effect> effects;
-  std::vector<double> initial_pressure_pa;    // absolute, by run of the data set
-  std::vector<double> initial_temperature_k;  // by run; matters with an energy balance alone
-  std::vector<double> clock_s;                // by run
-  std::vector<double> phase_rad;              // by run
-  // By run and command; empty: none is late but by what the effect itself says.
-  std::vector<std::vector<double>> late_s;
-};
 
 // One number of a model state.
 struct Parameter {

@@ -12,6 +12,18 @@ namespace {
 
 constexpr std::size_t kReportSteps = 20'000;  // when there is no time left
 
+bool IsHeldOut(const Dataset& dataset, std::size_t run) {
+  return std::find(dataset.holdout.begin(), dataset.holdout.end(), dataset.runs[run].id) !=
+         dataset.holdout.end();
+}
+
+bool SameReadings(const Run& a, const Run& b) {
+  return a.valve.size() == b.valve.size() &&
+         std::equal(a.pressure_pa.begin(), a.pressure_pa.end(), b.pressure_pa.begin(),
+                    b.pressure_pa.end(),
+                    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+
 // Σ ∂p/∂uᵀ·Σ·∂p/∂u over the run's pressure samples; 0 where it cannot be simulated.
 double PredictionVariance(const FitData& data, const Fit& fit, std::size_t run,
                           const FitOptions& options) {
@@ -69,10 +81,21 @@ Reading Shown(const Bench& bench, const ModelState& state, std::size_t run) {
   return Predicted(bench.data, state, run, options);
 }
 
-bool HeldOut(const Bench& bench, std::size_t run) {
-  const std::string& id = bench.dataset.runs[run].id;
-  return std::find(bench.dataset.holdout.begin(), bench.dataset.holdout.end(), id) !=
-         bench.dataset.holdout.end();
+bool HeldOut(const Bench& bench, std::size_t run) { return IsHeldOut(bench.dataset, run); }
+
+std::vector<std::size_t> OriginalsOf(const Dataset& dataset) {
+  const std::size_t runs = dataset.runs.size();
+  std::vector<std::size_t> original(runs);
+  for (std::size_t i = 0; i < runs; ++i) {
+    original[i] = i;
+    for (std::size_t j = 0; j < runs && original[i] == i; ++j) {
+      const bool before = IsHeldOut(dataset, i) == IsHeldOut(dataset, j)
+                              ? j < i
+                              : IsHeldOut(dataset, i);  // what is fitted comes first
+      if (before && SameReadings(dataset.runs[i], dataset.runs[j])) original[i] = j;
+    }
+  }
+  return original;
 }
 
 Squares ErrorsOf(const Bench& bench, std::size_t run, const ModelState& state) {
@@ -87,29 +110,15 @@ Squares ErrorsOf(const Bench& bench, std::size_t run, const ModelState& state) {
   return squares;
 }
 
-ErrorReport ErrorOf(const Bench& bench, const ModelState& state) {
-  std::vector<Squares> of_runs(bench.dataset.runs.size());
-  ForAll(of_runs.size(), bench.tight.threads, [&](std::size_t i) {
-    of_runs[i] = HeldOut(bench, i) ? ErrorsUnseen(bench, i, state) : ErrorsOf(bench, i, state);
-  });
-  ErrorReport report;
-  Squares fitted, held_out;
-  for (std::size_t i = 0; i < of_runs.size(); ++i) {
-    report.run_rms_pa.emplace_back(bench.dataset.runs[i].id, of_runs[i].Rms());
-    (HeldOut(bench, i) ? held_out : fitted).Add(of_runs[i]);
-  }
-  const model::Chamber& chamber = bench.dataset.runs.front().chamber;
-  report.rms_pa = fitted.Rms();
-  report.peak_pa = fitted.peak;
-  report.rms_share = report.rms_pa / (chamber.operating_pressure_pa - chamber.ambient_pressure_pa);
-  if (held_out.count > 0) report.holdout_rms_pa = held_out.Rms();
-  return report;
+Fit AlignedFit(const Bench& bench, std::size_t run, const ModelState& state) {
+  FitData data = bench.data;
+  data.clocks = data.clocks || data.runs.size() == 1u;
+  return AlignedFit(data, state, run, bench.tight);
 }
 
 ModelState Aligned(const Bench& bench, std::size_t run, const ModelState& state) {
-  FitData data = bench.data;
-  data.clocks = data.clocks || data.runs.size() == 1u;
-  return Aligned(data, state, run, bench.tight);
+  const Fit aligned = AlignedFit(bench, run, state);
+  return aligned.Usable() ? aligned.state : state;
 }
 
 Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& state) {

@@ -20,11 +20,20 @@ struct Bench {
   const ForwardModel& forward;
   const std::vector<ObservedRun>& observed;
   FitData data;                       // the runs that fits may see
-  std::vector<std::size_t> held_out;  // the others
-  FitOptions tight;                   // of final fits; `cancelled` is the end of all
+  std::vector<std::size_t> held_out;  // the others, without copies
+  // By run: the first run with the same readings; the run itself where it is that one. Copies are
+  // no evidence of their own, and nothing is fitted to them.
+  std::vector<std::size_t> original;
+  FitOptions tight;  // of final fits; `cancelled` is the end of all
 };
 
 bool Stopped(const Bench& bench);
+
+// By run: the run whose readings it repeats, itself for most. Among equal ones it is the first that
+// is fitted. A recording that was copied is no second measurement: noise does not repeat itself.
+std::vector<std::size_t> OriginalsOf(const Dataset& dataset);
+inline bool IsCopy(const Bench& bench, std::size_t run) { return bench.original[run] != run; }
+
 bool HeldOut(const Bench& bench, std::size_t run);
 
 // Sum of squares and worst of many residuals.
@@ -53,13 +62,11 @@ Squares ErrorsOf(const Bench& bench, std::size_t run, const ModelState& state);
 
 // The state aligned to a run that the fit did not see (fit.h). Whether clocks are off one fitted
 // run does not show.
+Fit AlignedFit(const Bench& bench, std::size_t run, const ModelState& state);
 ModelState Aligned(const Bench& bench, std::size_t run, const ModelState& state);
 
 // Of a run that it did not see, by the aligned state.
 Squares ErrorsUnseen(const Bench& bench, std::size_t run, const ModelState& state);
-
-// Of all runs; those held out as unseen.
-ErrorReport ErrorOf(const Bench& bench, const ModelState& state);
 
 // Root mean square of the noise of the usable samples of these runs.
 double NoiseOf(const Bench& bench, const std::vector<std::size_t>& runs);

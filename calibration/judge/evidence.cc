@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kReweighed = 6;
 constexpr double kNear = 20.0;      // of BIC, were the priors free
+constexpr int kRounds = 3;          // of subsets, each of the set that stands then
 constexpr double kFixedBic = 0.01;  // by how much less the last step may change it
 
 // Σ e_i·e_{i−k} by lag k: the inverse transform of |ê|², with as many zeros behind e that no lag
@@ -54,6 +55,40 @@ double BicWith(const Fit& fit, double memory) {
   return worth * std::log(fit.chi2_data / n) + fit.chi2_prior + Penalty(fit, memory);
 }
 
+namespace {
+
+// The fit from there with the weight of readings that are worth 1/memory of their number.
+Fit Weighed(const FitData& data, FitOptions options, double memory, const Fit& from,
+            const ModelState& start) {
+  const double n = static_cast<double>(from.rows);
+  options.weight = 1.0 / (memory * std::max(1.0, from.chi2_data / n));
+  options.noise_share /= std::sqrt(options.weight);  // readings of less worth need less
+  options.function_tolerance = std::max(options.function_tolerance, kFixedBic * memory / n);
+  Fit fit = FitModel(data, start, options);
+  Narrow(data, options, fit);
+  return fit;
+}
+
+// A subset of the standing set that was fitted from elsewhere may have missed the optimum that is
+// there without one of the effects: it is fitted from where the set is.
+void FitSubsets(const FitData& data, const FitOptions& options, double memory, std::size_t standing,
+                std::vector<Contender>& contenders) {
+  const Contender set = contenders[standing];
+  for (const model::EffectSpec* out : set.effects) {
+    const EffectSet rest = Without(set.effects, out);
+    Fit fit = Weighed(data, options, memory, set.fit, StateOf(set, rest));
+    if (!fit.Usable()) continue;
+    const auto known = std::find_if(contenders.begin(), contenders.end(),
+                                    [&](const Contender& one) { return one.effects == rest; });
+    if (known == contenders.end())
+      contenders.push_back({.effects = rest, .fit = std::move(fit), .starts = 1, .found_again = 1});
+    else if (!known->fit.Usable() || BicWith(fit, memory) < BicWith(known->fit, memory))
+      known->fit = std::move(fit);
+  }
+}
+
+}  // namespace
+
 void Reweigh(const FitData& data, const FitOptions& options, double memory,
              std::vector<Contender>& contenders) {
   for (std::size_t size = 0; size <= kEffectsMax; ++size) {
@@ -70,27 +105,27 @@ void Reweigh(const FitData& data, const FitOptions& options, double memory,
     });
     ForAll(best.size(), options.threads, [&](std::size_t i) {
       Contender& contender = *best[i];
-      FitOptions weighed = options;
-      weighed.threads = ThreadsWithin(i, best.size(), options.threads);
-      weighed.weight = 1.0 / (memory * std::max(1.0, contender.fit.chi2_data /
-                                                         static_cast<double>(contender.fit.rows)));
-      // Readings of less worth need less.
-      weighed.noise_share /= std::sqrt(weighed.weight);
-      weighed.function_tolerance = std::max(
-          options.function_tolerance, kFixedBic * memory / static_cast<double>(contender.fit.rows));
-      Fit fit = FitModel(data, contender.fit.state, weighed);
-      Narrow(data, weighed, fit);
+      FitOptions each = options;
+      each.threads = ThreadsWithin(i, best.size(), options.threads);
+      Fit fit = Weighed(data, each, memory, contender.fit, contender.fit.state);
       if (fit.Usable() && BicWith(fit, memory) < BicWith(contender.fit, memory))
         contender.fit = std::move(fit);
     });
   }
 }
 
+bool FitsNoBetter(const Contender& set, std::span<const Contender> contenders) {
+  return std::any_of(contenders.begin(), contenders.end(), [&](const Contender& part) {
+    return part.effects.size() < set.effects.size() && part.fit.Usable() && Contains(set, part) &&
+           part.fit.chi2_data <= set.fit.chi2_data;
+  });
+}
+
 std::size_t Standing(std::span<const Contender> contenders, double memory) {
   std::vector<std::size_t> best(kEffectsMax + 1, contenders.size());
   for (std::size_t i = 0; i < contenders.size(); ++i) {
     std::size_t& leader = best[contenders[i].effects.size()];
-    if (!contenders[i].fit.Usable()) continue;
+    if (!contenders[i].fit.Usable() || FitsNoBetter(contenders[i], contenders)) continue;
     if (leader == contenders.size() ||
         BicWith(contenders[i].fit, memory) < BicWith(contenders[leader].fit, memory))
       leader = i;
@@ -101,6 +136,18 @@ std::size_t Standing(std::span<const Contender> contenders, double memory) {
         BicWith(contenders[standing].fit, memory) - kAccept)
       break;
     standing = best[size];
+  }
+  return standing;
+}
+
+std::size_t StandingBesideSubsets(const FitData& data, const FitOptions& options, double memory,
+                                  std::vector<Contender>& contenders) {
+  std::size_t standing = Standing(contenders, memory);
+  for (int round = 0; round < kRounds; ++round) {
+    const EffectSet set = contenders[standing].effects;
+    FitSubsets(data, options, memory, standing, contenders);
+    standing = Standing(contenders, memory);
+    if (contenders[standing].effects == set) break;
   }
   return standing;
 }

@@ -31,9 +31,18 @@ double BicWith(const Fit& fit, double memory);
 void Reweigh(const FitData& data, const FitOptions& options, double memory,
              std::vector<Contender>& contenders);
 
+// Whether a set of some of its effects leaves no more of the readings: what the set has ahead then
+// is only that declared numbers are nearer to what was declared.
+bool FitsNoBetter(const Contender& set, std::span<const Contender> contenders);
+
 // The place in the list of the set that stands then: forwards from the base model, a larger set
-// being better by kAccept than the best smaller one.
+// being better by kAccept than the best smaller one, of those that fit the readings better than any
+// part of them.
 std::size_t Standing(std::span<const Contender> contenders, double memory);
+
+// The same after the subsets of what stands were fitted from where it is.
+std::size_t StandingBesideSubsets(const FitData& data, const FitOptions& options, double memory,
+                                  std::vector<Contender>& contenders);
 
 }  // namespace plenum::calibration
 

@@ -1,30 +1,74 @@
 #include "calibration/judge/findings.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "calibration/fit/profile.h"
 #include "calibration/judge/evidence.h"
 #include "calibration/noise/phases.h"
 #include "calibration/values/parallel.h"
+#include "calibration/values/thresholds.h"
 
 namespace plenum::calibration {
 namespace {
 
 constexpr std::size_t kCandidatesShown = 30, kStoppedShown = 2;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFinalists = 5;  // whose held-out error is found by leaving out each run
+
+std::string Joined(const std::vector<std::string>& ids) {
+  std::string text;
+  for (const std::string& id : ids) text += (text.empty() ? "" : " + ") + id;
+  return text;
+}
 
 std::string TitleOf(const model::EffectSpec& spec) {
   return spec.law.empty() ? std::string(spec.id)
                           : std::string(spec.id) + ":" + std::string(spec.law);
 }
 
+std::vector<std::string> TitlesOf(const EffectSet& effects) {
+  std::vector<std::string> titles;
+  titles.reserve(effects.size());
+  for (const model::EffectSpec* spec : effects) titles.push_back(TitleOf(*spec));
+  return titles;
+}
+
+// Places in the list: those that could be fitted first, by BIC.
+std::vector<std::size_t> ByBic(const std::vector<Contender>& contenders, double memory) {
+  std::vector<double> bic(contenders.size(), kNever);
+  for (std::size_t i = 0; i < bic.size(); ++i)
+    if (contenders[i].fit.Usable()) bic[i] = BicWith(contenders[i].fit, memory);
+  std::vector<std::size_t> order(contenders.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return bic[a] < bic[b]; });
+  return order;
+}
+
+bool FitsNoBetterThanAPart(const Candidate& set, const std::vector<Candidate>& candidates) {
+  return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& part) {
+    return part.effects.size() < set.effects.size() && part.rms_pa <= set.rms_pa &&
+           std::all_of(part.effects.begin(), part.effects.end(), [&](const std::string& title) {
+             return std::count(set.effects.begin(), set.effects.end(), title) > 0;
+           });
+  });
+}
+
+std::string Tenths(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", value);
+  return text;
+}
+
 Candidate CandidateOf(const Bench& bench, const Contender& contender, bool finalist,
                       const HoldoutByFit& known) {
   Candidate candidate;
-  for (const model::EffectSpec* spec : contender.effects)
-    candidate.effects.push_back(TitleOf(*spec));
+  candidate.effects = TitlesOf(contender.effects);
   const Fit& fit = contender.fit;
   candidate.bic = fit.bic;
   candidate.converged = fit.status == FitStatus::kConverged;
@@ -56,25 +100,26 @@ std::vector<std::string> IdsOf(const Contender& contender) {
   return ids;
 }
 
-void AddEstimates(const Bench& bench, const Fit& fit, Diagnosis& diagnosis) {
+Estimates EstimatesOf(const Bench& bench, const Fit& fit, IntervalsFrom source) {
   FitOptions options = bench.tight;
   options.cancelled = nullptr;  // one evaluation
   const double memory = MemoryOf(WhitenedOf(bench, fit));
   const Eigen::MatrixXd covariance = Covariance(bench.data, fit, options, memory);
-  std::vector<Estimate> estimates = Intervals(fit, covariance);
-  if (!Stopped(bench))
-    ProfileIntervals(bench.data, fit, covariance, Inflation(fit, memory), bench.tight, estimates);
+  std::vector<Estimate> intervals = Intervals(fit, covariance);
+  if (source == IntervalsFrom::kProfile && !Stopped(bench))
+    ProfileIntervals(bench.data, fit, covariance, Inflation(fit, memory), bench.tight, intervals);
+  Estimates estimates;
   std::vector<std::size_t> effects, fitted;  // which coordinates
   for (const model::Effect& effect : fit.state.effects)
-    diagnosis.effects.push_back({effect, std::vector<Estimate>(effect.parameters.size())});
-  for (std::size_t j = 0; j < estimates.size(); ++j) {
+    estimates.effects.push_back({effect, std::vector<Estimate>(effect.parameters.size())});
+  for (std::size_t j = 0; j < intervals.size(); ++j) {
     const Parameter& parameter = fit.coordinates[j].parameter;
     if (parameter.kind == Parameter::Kind::kEffect) {
-      diagnosis.effects[parameter.effect].parameters[parameter.number] = estimates[j];
+      estimates.effects[parameter.effect].parameters[parameter.number] = intervals[j];
       effects.push_back(j);
     }
     if (parameter.kind == Parameter::Kind::kDeclared) {
-      diagnosis.fitted.emplace_back(parameter.declared, estimates[j]);
+      estimates.fitted.emplace_back(parameter.declared, intervals[j]);
       fitted.push_back(j);
     }
   }
@@ -84,32 +129,72 @@ void AddEstimates(const Bench& bench, const Fit& fit, Diagnosis& diagnosis) {
     return fit.coordinates[j].Slope(fit.u[static_cast<Eigen::Index>(j)]);
   };
   for (const std::size_t i : shown) {
-    std::vector<double>& row = diagnosis.covariance.emplace_back();
+    std::vector<double>& row = estimates.covariance.emplace_back();
     for (const std::size_t j : shown)
       row.push_back(slope(i) * slope(j) *
                     covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
   }
+  return estimates;
 }
 
-void AddCandidates(const Bench& bench, const SearchResult& search, const HoldoutByFit& known,
-                   Diagnosis& diagnosis) {
-  const double best = search.contenders.front().fit.bic;
+void AddCandidates(const Bench& bench, const SearchResult& search, double memory,
+                   const HoldoutByFit& known, Diagnosis& diagnosis) {
+  const std::vector<std::size_t> order = ByBic(search.contenders, memory);
+  const double best = BicWith(search.contenders[order.front()].fit, memory);
   std::vector<std::optional<Candidate>> candidates(search.contenders.size());
   const int threads = bench.tight.threads;
   ForAll(candidates.size(), threads, [&](std::size_t i) {
     const std::size_t shown = Stopped(bench) ? kStoppedShown : kCandidatesShown;
-    if (i >= shown && i != search.base) return;
+    if (i >= shown && order[i] != search.base && order[i] != search.chosen) return;
     Bench each = bench;
     each.tight.threads = 1;
-    candidates[i] = CandidateOf(each, search.contenders[i], i < kFinalists, known);
+    const Contender& contender = search.contenders[order[i]];
+    candidates[i] = CandidateOf(each, contender, i < kFinalists, known);
+    candidates[i]->bic = BicWith(contender.fit, memory);
     candidates[i]->delta_bic = candidates[i]->bic - best;
   });
   for (std::optional<Candidate>& candidate : candidates)
     if (candidate) diagnosis.candidates.push_back(std::move(*candidate));
 }
 
-void AddSeries(const Bench& bench, const ModelState& before, const ModelState& after,
-               Diagnosis& diagnosis) {
+void AddReasons(const SearchResult& search, double memory,
+                const std::vector<const Contender*>& named, const std::string& doubt,
+                Diagnosis& diagnosis) {
+  double bic = kNever;
+  std::vector<std::vector<std::string>> titles;
+  for (const Contender* one : named) {
+    bic = std::min(bic, BicWith(one->fit, memory));
+    titles.push_back(TitlesOf(one->effects));
+  }
+  const Contender& chosen = search.contenders[search.chosen];
+  if (!doubt.empty()) diagnosis.warnings.push_back(Joined(IdsOf(chosen)) + " " + doubt);
+  const EffectSet& first = named.front()->effects;
+  for (Candidate& candidate : diagnosis.candidates) {
+    const double gain = bic - candidate.bic;
+    if (!(gain > 0.0) || std::count(titles.begin(), titles.end(), candidate.effects) > 0) continue;
+    const std::size_t more =
+        candidate.effects.size() - std::min(candidate.effects.size(), first.size());
+    if (!doubt.empty())
+      candidate.reason = candidate.effects == TitlesOf(chosen.effects)
+                             ? doubt
+                             : "no better than the best set, which is not named either";
+    else if (FitsNoBetterThanAPart(candidate, diagnosis.candidates))
+      candidate.reason =
+          "leaves no less of the readings than a part of it: only declared numbers are nearer";
+    else if (gain > kAccept)
+      candidate.reason = "is " + Tenths(gain) +
+                         " of BIC ahead, but no set of fewer effects on the way to it is worth its "
+                         "name";
+    else if (more > 0)
+      candidate.reason = "gains " + Tenths(gain) + " of BIC by " + std::to_string(more) +
+                         (more == 1u ? " more effect" : " more effects") + "; each must gain " +
+                         Tenths(kAccept) + " to be named";
+    else
+      candidate.reason = "has the effects of a set that is named, by another law";
+  }
+}
+
+void AddSeries(const Bench& bench, Diagnosis& diagnosis) {
   std::size_t samples = 0;
   for (const Run& run : bench.dataset.runs) samples += run.t_s.size();
   const std::size_t stride = (samples + kSeriesSamplesMax - 1) / kSeriesSamplesMax;
@@ -128,15 +213,14 @@ void AddSeries(const Bench& bench, const ModelState& before, const ModelState& a
     series.measured_pa = chosen(run.pressure_pa);
     const std::vector<PhaseSpan> phases = PhasesOf(run);
     for (const double t_s : series.t_s) series.phase.push_back(phases[PhaseAt(phases, t_s)].phase);
-    const auto predict = [&](const ModelState& state) {
-      const ModelState shown = series.held_out ? Aligned(bench, i, state) : state;
-      std::vector<double> pressure_pa = Shown(bench, shown, i).pressure_pa;
+    const auto predict = [&](const StatedModel& model) {
+      std::vector<double> pressure_pa = Shown(bench, OfRun(model, i), i).pressure_pa;
       pressure_pa.resize(run.t_s.size(), std::numeric_limits<double>::quiet_NaN());
       return chosen(pressure_pa);
     };
-    series.declared_pa = predict(bench.forward.Declared());
-    series.before_pa = predict(before);
-    series.after_pa = predict(after);
+    series.declared_pa = predict(diagnosis.models.declared);
+    series.before_pa = predict(diagnosis.models.before);
+    series.after_pa = predict(diagnosis.models.after);
   });
 }
 
@@ -155,6 +239,10 @@ void AddWarnings(const Bench& bench, Diagnosis& diagnosis) {
   if (staircases > 0)
     warnings.push_back("the readings' steps are coarser than their noise in " +
                        std::to_string(staircases) + " runs");
+  for (std::size_t run = 0; run < bench.original.size(); ++run)
+    if (IsCopy(bench, run))
+      warnings.push_back("the runs " + bench.dataset.runs[bench.original[run]].id + " and " +
+                         bench.dataset.runs[run].id + " have the same readings: they count once");
   if (bench.data.clocks)
     warnings.push_back(
         "the clocks of readings and valve are off by a part of a sample; each run's was fitted");
@@ -165,21 +253,23 @@ void AddWarnings(const Bench& bench, Diagnosis& diagnosis) {
   }
 }
 
+// Whether the tests of the residual that are shown all pass.
+static bool PassesTests(const ResidualReport& residual) {
+  return residual.tested && residual.white && residual.independent_of_inputs &&
+         residual.lack_of_fit <= residual.lack_of_fit_limit;
+}
+
 std::string Sentence(const Bench& bench, const SearchResult& search, const Diagnosis& diagnosis) {
-  const auto list = [](const std::vector<std::string>& ids) {
-    std::string text;
-    for (const std::string& id : ids) text += (text.empty() ? "" : " + ") + id;
-    return text;
-  };
   std::string either;
-  for (const auto& ids : diagnosis.tied) either += (either.empty() ? "" : " or ") + list(ids);
+  for (const auto& ids : diagnosis.tied) either += (either.empty() ? "" : " or ") + Joined(ids);
   switch (diagnosis.verdict) {
     case Verdict::kAdequate:
       return "The model is good enough: after its uncertain numbers were fitted, only noise is "
              "left.";
     case Verdict::kExplained:
-      return "The model lacks " + list(IdsOf(search.contenders[search.chosen])) +
-             "; with it, only noise is left.";
+      return "The model lacks " + Joined(IdsOf(search.contenders[search.chosen])) +
+             (PassesTests(diagnosis.residual) ? "; with it, only noise is left."
+                                              : "; with it, little is left beside the noise.");
     case Verdict::kTie:
       return "The data cannot tell which is missing: " + either +
              (diagnosis.unexplained_fraction > 0.0 ? "; and some structure is left." : ".");
@@ -189,7 +279,7 @@ std::string Sentence(const Bench& bench, const SearchResult& search, const Diagn
                "; and structure is left that no known effect accounts for.";
       return diagnosis.effects.empty()
                  ? "Structure is left that no known effect accounts for."
-                 : "The model lacks " + list(IdsOf(search.contenders[search.chosen])) +
+                 : "The model lacks " + Joined(IdsOf(search.contenders[search.chosen])) +
                        ", but structure is left that no known effect accounts for.";
     case Verdict::kUndecided:
       break;

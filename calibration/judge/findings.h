@@ -14,20 +14,26 @@ namespace plenum::calibration {
 
 std::vector<std::string> IdsOf(const Contender& contender);
 
-// `effects` and `fitted` with their intervals, and the covariance of both.
-void AddEstimates(const Bench& bench, const Fit& fit, Diagnosis& diagnosis);
+// The numbers of a fit; their intervals from the profile of the likelihood where there is time and
+// that is asked for, else from its curvature.
+enum class IntervalsFrom { kProfile, kCurvature };
+Estimates EstimatesOf(const Bench& bench, const Fit& fit, IntervalsFrom source);
 
 // Errors on unseen runs that are known already, by the fit that they are of.
 using HoldoutByFit = std::vector<std::pair<const Fit*, std::optional<double>>>;
 
-// The best sets and the base model. Fewer, and without errors on unseen runs that are not `known`,
-// when time is over.
-void AddCandidates(const Bench& bench, const SearchResult& search, const HoldoutByFit& known,
-                   Diagnosis& diagnosis);
+// The best sets and the base model, by BIC of readings that are worth 1/memory of their number: by
+// what the choice among them was made. Fewer, and without errors on unseen runs that are not
+// `known`, when time is over. Sets with less than the named set's BIC carry the reason; `doubt` is
+// that of the chosen set where the base model is what stands.
+void AddCandidates(const Bench& bench, const SearchResult& search, double memory,
+                   const HoldoutByFit& known, Diagnosis& diagnosis);
+void AddReasons(const SearchResult& search, double memory,
+                const std::vector<const Contender*>& named, const std::string& doubt,
+                Diagnosis& diagnosis);
 
-// Every run as measured and as the declared model and two fitted ones have it.
-void AddSeries(const Bench& bench, const ModelState& before, const ModelState& after,
-               Diagnosis& diagnosis);
+// Every run as measured and as the models of the diagnosis have it.
+void AddSeries(const Bench& bench, Diagnosis& diagnosis);
 
 // On readings and clocks, and on what the found effects are hard to tell from.
 void AddWarnings(const Bench& bench, Diagnosis& diagnosis);

@@ -10,6 +10,19 @@
 
 namespace plenum::calibration {
 
+namespace {
+
+// Whether the set does better than every set of some of its effects.
+bool Improves(std::span<const Contender> contenders, const Contender& set, double memory) {
+  const double bic = BicWith(set.fit, memory);
+  return std::none_of(contenders.begin(), contenders.end(), [&](const Contender& part) {
+    return part.effects.size() < set.effects.size() && Contains(set, part) && part.fit.Usable() &&
+           BicWith(part.fit, memory) <= bic;
+  });
+}
+
+}  // namespace
+
 std::vector<const Contender*> TiedWith(const Bench& bench, std::span<const Contender> contenders,
                                        const Contender& chosen, double memory, double reach) {
   const bool alone = bench.data.runs.size() == 1u && bench.held_out.empty();
@@ -30,6 +43,10 @@ std::vector<const Contender*> TiedWith(const Bench& bench, std::span<const Conte
     });
     if (!known) tied.push_back(&contender);
   }
+  std::erase_if(tied, [&](const Contender* one) {
+    return one != &chosen &&
+           (!Improves(contenders, *one, memory) || FitsNoBetter(*one, contenders));
+  });
   const std::vector<const Contender*> all = tied;
   std::erase_if(tied, [&](const Contender* wide) {
     return wide != &chosen && std::any_of(all.begin(), all.end(), [&](const Contender* narrow) {

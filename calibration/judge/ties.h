@@ -15,7 +15,8 @@ namespace plenum::calibration {
 // The chosen set and those of its size that do as well, the chosen one first, each set of ids once:
 // within `reach` of its BIC, residuals worth 1/memory of their number. Where one run is all there
 // is also those within `reach` of its evidence, and those whose gap is within kTieScatter times its
-// scatter (closeness.h). Not those that stand at the limit of a wider law alone (wider_laws.h).
+// scatter (closeness.h). Not those that do no better than a set of some of their effects, or stand
+// at the limit of a wider law alone (wider_laws.h).
 std::vector<const Contender*> TiedWith(const Bench& bench, std::span<const Contender> contenders,
                                        const Contender& chosen, double memory, double reach);
 

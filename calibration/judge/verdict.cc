@@ -32,6 +32,12 @@ bool IsNoise(const Leftover& leftover) {
          residual.lack_of_fit <= residual.lack_of_fit_limit && leftover.learnable_bic <= kAccept;
 }
 
+bool PredictsWorse(const Leftover& before, const Leftover& after) {
+  if (!before.holdout_rms_pa || !after.holdout_rms_pa) return false;
+  const double noise_pa = after.holdout_noise_pa.value_or(after.noise_pa);
+  return *after.holdout_rms_pa > std::max(*before.holdout_rms_pa, kHoldout * noise_pa);
+}
+
 double UnexplainedFraction(const Leftover& before, const Leftover& after) {
   if (IsNoise(after) || Above(before) == 0.0) return 0.0;
   return std::min(1.0, Above(after) / Above(before));
@@ -42,7 +48,8 @@ Verdict Judge(const Evidence& evidence) {
   if (!evidence.accepted)
     return IsNoise(evidence.before) ? Verdict::kAdequate : Verdict::kUnexplained;
   const bool clean = IsNoise(evidence.after) || IsSmall(evidence.before, evidence.after);
-  const bool imitation = evidence.imitated || !evidence.after.priors_hold;
+  const bool imitation = evidence.imitated || !evidence.after.priors_hold ||
+                         PredictsWorse(evidence.before, evidence.after);
   if (!clean || !HoldsOut(evidence.after) || imitation) return Verdict::kUnexplained;
   return evidence.tied > 0 ? Verdict::kTie : Verdict::kExplained;
 }
@@ -50,6 +57,7 @@ Verdict Judge(const Evidence& evidence) {
 bool IsTieBesideStructure(const Evidence& evidence) {
   return evidence.accepted && evidence.tied > 0 && HoldsOut(evidence.after) &&
          evidence.after.priors_hold && !evidence.imitated &&
+         !PredictsWorse(evidence.before, evidence.after) &&
          UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
 }
 

@@ -24,6 +24,10 @@ struct Leftover {
 // nothing in it that a learned term could take up.
 bool IsNoise(const Leftover& leftover);
 
+// Whether the fit predicts runs that it did not see worse than the base model does, and not to
+// within their noise.
+bool PredictsWorse(const Leftover& before, const Leftover& after);
+
 // Share of the variance above the noise that is left of what the base model left.
 double UnexplainedFraction(const Leftover& before, const Leftover& after);
 
@@ -39,8 +43,9 @@ struct Evidence {
 // leaves noise alone, else kUnexplained. With one, kUnexplained where structure is left that is
 // neither noise nor small (kLeftOver, kNegligible), where runs that the fit did not see are off
 // by more than √(kHoldout²·noise² + kHoldoutSpread·spread²), and where the set only imitates what
-// is missing: it needs declared numbers beyond their uncertainties, or one term of unknown cause
-// does what it takes several effects for. Then kTie if others are as good; else kExplained.
+// is missing: it needs declared numbers beyond their uncertainties, one term of unknown cause does
+// what it takes several effects for, or it predicts worse than the base model. Then kTie if others
+// are as good; else kExplained.
 Verdict Judge(const Evidence& evidence);
 
 // A tie claims less than an explanation: it stands where each of several sets leaves at most

@@ -19,6 +19,9 @@ constexpr int kQuietPairsMin = 30;
 constexpr double kStillShareMax = 0.5;      // more: a staircase that stands by itself
 constexpr double kReversalShareMin = 0.02;  // less: a smooth signal that may well stand still
 constexpr std::size_t kNeighbours = 5;
+constexpr std::size_t kStoppedMin = 8;     // readings at which a moving signal stands still
+constexpr double kStoppedShareMax = 0.05;  // of repeated readings elsewhere
+constexpr double kStoppedSteps = 10.0;     // of the last decimal place, into them
 constexpr double kOutlierSigmas = 6.0;
 
 std::vector<double> Finite(std::span<const double> y) {
@@ -107,6 +110,33 @@ bool IsOffGrid(const std::vector<double>& values, double end, double same) {
   return std::abs(steps - std::round(steps)) > kGridTolerance;
 }
 
+// The last decimal place that any of the values needs, at most to a thousand millionth of the
+// largest.
+double LastPlace(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  double place = std::pow(10.0, std::floor(std::log10(largest)));
+  const auto fits = [&](double value) {
+    return std::abs(value / place - std::round(value / place)) < 1e-3;
+  };
+  for (int k = 0; k < 9 && !std::all_of(values.begin(), values.end(), fits); ++k) place /= 10.0;
+  return place;
+}
+
+// Whether the signal moves up to the stretch and then stands still, while no valve acts.
+bool RunsInto(const Readings& readings, const std::vector<std::size_t>& stretch, double step) {
+  if (stretch.size() < kStoppedMin || stretch.front() < 2) return false;
+  const std::size_t first = stretch.front();
+  const std::span<const double> t_s = readings.t_s, y = readings.y;
+  const auto holds = [&](const TimeSpan& span) {
+    return span.start_s <= t_s[first - 2] && t_s[first + 1] < span.end_s;
+  };
+  const bool undisturbed = std::any_of(readings.quiet.begin(), readings.quiet.end(), holds) ||
+                           std::any_of(readings.strokes.begin(), readings.strokes.end(), holds);
+  return undisturbed && std::isfinite(y[first - 2]) && std::abs(y[first] - y[first - 1]) > step &&
+         (y[first] - y[first - 1]) * (y[first - 1] - y[first - 2]) > 0.0;
+}
+
 }  // namespace
 
 double Quantum(std::span<const double> y) {
@@ -140,7 +170,8 @@ std::vector<std::size_t> Clipped(const Readings& readings) {
   std::vector<std::size_t> clipped;
   for (const double end : {*lowest, *highest}) {
     const bool off_grid = IsOffGrid(values, end, same);
-    if (!tells && !off_grid) continue;
+    const bool smooth = !tells && share <= kStoppedShareMax;
+    if (!tells && !off_grid && !smooth) continue;
     std::vector<std::vector<std::size_t>> stretches(1);
     for (std::size_t i = 0; i < y.size(); ++i) {
       if (!std::isfinite(y[i])) continue;
@@ -149,8 +180,14 @@ std::vector<std::size_t> Clipped(const Readings& readings) {
       else if (!stretches.back().empty())
         stretches.emplace_back();
     }
-    const bool all = off_grid || Crowded(stretches, share);
+    const bool all = off_grid || (tells && Crowded(stretches, share));
+    const double step = kStoppedSteps * std::max(LastPlace(values), Quantum(values));
     for (const std::vector<std::size_t>& stretch : stretches) {
+      if (!all && smooth) {
+        if (RunsInto(readings, stretch, step))
+          clipped.insert(clipped.end(), stretch.begin(), stretch.end());
+        continue;
+      }
       const double length = static_cast<double>(stretch.size());
       const double chance = static_cast<double>(values.size()) * std::pow(share, length - 1.0);
       if (all || (stretch.size() >= kClipLengthMin && chance < kClipChance))

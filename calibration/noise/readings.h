@@ -30,8 +30,11 @@ double Quantum(std::span<const double> y);
 // floor of a converter half the noise or more is cut off, while an extreme that nothing cuts off is
 // the tail of the noise and hardly ever repeats.
 // None where that cannot be told: p above one half (a coarse grid) or no visible noise. But
-// (c) whatever the noise, where four or more are at that value and it lies between the lines of the
-// grid that all others lie on, by more than a tenth of its step.
+// (d) without visible noise a stretch of eight or more that a moving signal runs into: the step
+// into it is more than ten of the last decimal place, which a signal that settles by itself passes
+// in ever smaller steps, and no valve acts there. Or (c) whatever the noise, where four or more are
+// at that value and it lies between the lines of the grid that all others lie on, by more than a
+// tenth of its step.
 std::vector<std::size_t> Clipped(const Readings& readings);
 
 // Indices of readings whose median with five neighbours on either side comes within `margin` of an

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibration/values/dataset.h"
+#include "calibration/values/model_state.h"
 #include "model/effects/effect.h"
 
 namespace plenum::calibration {
@@ -37,6 +38,15 @@ struct FittedEffect {
   std::vector<Estimate> parameters;  // in the order of the effect's spec
 };
 
+// The numbers of one fit with their intervals.
+struct Estimates {
+  std::vector<FittedEffect> effects;
+  std::vector<std::pair<Declared, Estimate>> fitted;  // factors times declared: see RenderDiagnosis
+  // Of the effects' parameters, in their order, then of the fitted factors; SI. From the curvature
+  // of χ² at the optimum (calibration/fit/fit.h).
+  std::vector<std::vector<double>> covariance;
+};
+
 struct Candidate {
   std::vector<std::string> effects;  // ids; "leak:porous" where an id has several laws
   double bic = 0.0, delta_bic = 0.0;
@@ -45,6 +55,7 @@ struct Candidate {
   int parameters = 0;
   bool converged = false;
   int starts = 1, found_again = 1;  // multi-start: how many ended in the same optimum
+  std::string reason;  // why it is not named though its BIC is less than that of what is
 };
 
 enum class Phase { kRest, kRise, kHold, kFall };
@@ -86,6 +97,7 @@ struct Discrepancy {
   model::EffectPlace equation = model::EffectPlace::kChamber;
   std::vector<std::string> features;    // of what it is a function, e.g. "pressure"
   std::optional<FittedEffect> learned;  // the term as an effect of its own
+  Estimates beside;                     // as fitted with the term, which is the last of the effects
   double rms_before_pa = 0.0, rms_after_pa = 0.0;
   std::optional<double> holdout_before_pa, holdout_after_pa;
   struct Place {              // where the residual lives, by share of its energy
@@ -105,20 +117,26 @@ struct Series {
   std::vector<double> t_s, measured_pa, declared_pa, before_pa, after_pa;
 };
 
-struct Diagnosis {
+// Models that a diagnosis compares; `learned` is `after` fitted anew beside a learned term.
+struct StatedModels {
+  StatedModel declared, before, after;
+  std::optional<StatedModel> learned;
+  std::vector<StatedRun> runs;  // how their errors were got, by run
+};
+
+// `effects`, `fitted` and `covariance` are those of `after`.
+struct Diagnosis : Estimates {
   Verdict verdict = Verdict::kUndecided;
   std::string sentence;  // the verdict for a person
   double noise_pa = 0.0;
   ErrorReport declared, before, after;
-  std::vector<FittedEffect> effects;
+  std::optional<ErrorReport> learned;
+  StatedModels models;  // whose errors those are; without runs where nothing could be fitted
   std::vector<Candidate> candidates;  // by BIC
   std::vector<std::vector<std::string>> tied;
-  std::optional<Experiment> next_experiment;  // none where no run can be simulated
+  std::optional<Experiment> next_experiment;  // none where no run would tell tied sets apart
+  std::string no_experiment;                  // why there is none for a tie
   ResidualReport residual;
-  std::vector<std::pair<Declared, Estimate>> fitted;  // factors times declared: see RenderDiagnosis
-  // Of the effects' parameters, in their order, then of the learned term's and of the fitted
-  // factors; SI. From the curvature of χ² at the optimum (calibration/fit/fit.h).
-  std::vector<std::vector<double>> covariance;
   std::optional<Discrepancy> discrepancy;
   double unexplained_fraction = 0.0;  // of the residual's variance above the noise, 0 to 1
   std::vector<std::string> warnings;  // outliers, clipped readings, what the data do not identify

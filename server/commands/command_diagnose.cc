@@ -13,6 +13,7 @@
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
 #include "server/commands/interrupt.h"
+#include "server/commands/measurement_files.h"
 #include "server/render/report_diagnosis.h"
 #include "server/render/text/text_diagnosis.h"
 
@@ -44,29 +45,6 @@ class ProgressLine {
   const bool terminal_ = isatty(STDERR_FILENO) != 0;
 };
 
-api::Json DocumentOf(const std::string& text) { return ValueOrRefuse(api::ParseJson(text)); }
-
-// Every file as a measurement document; CSV with the rig file.
-std::vector<api::Json> ReadDocuments(const DiagnoseOptions& options, api::Provenance& provenance) {
-  std::vector<api::Json> documents;
-  for (const std::string& file : options.files) {
-    const std::string text = ReadText(file);
-    provenance.files.push_back(api::FileOf(file, text));
-    const std::size_t first = text.find_first_not_of(" \t\r\n");
-    if (first != std::string::npos && (text[first] == '{' || text[first] == '[')) {
-      documents.push_back(DocumentOf(text));
-      continue;
-    }
-    if (options.rig.empty()) {
-      if (!file.ends_with(".csv")) documents.push_back(DocumentOf(text));  // says what is wrong
-      Refuse({{"--rig", "is required with CSV: the JSON file that describes the rig"}});
-    }
-    documents.push_back(
-        ValueOrRefuse(api::MeasurementFromCsv(text, DocumentOf(ReadText(options.rig)))));
-  }
-  return documents;
-}
-
 std::optional<api::SavedModel> KnownModel(const DiagnoseOptions& options) {
   if (options.model.empty() || options.model == "nominal") return std::nullopt;
   const auto models = OpenCatalog(options.catalog, catalog::Access::kRead).Models();
@@ -75,10 +53,10 @@ std::optional<api::SavedModel> KnownModel(const DiagnoseOptions& options) {
 
 api::DiagnosisRequest ReadRequest(const DiagnoseOptions& options) {
   api::DiagnosisRequest request;
-  api::Json document =
-      ValueOrRefuse(api::MergeMeasurements(ReadDocuments(options, request.provenance)));
+  api::Json document = ReadMeasurement(options.files, options.rig, request.provenance);
   if (!options.holdout.empty() && document.is_object()) document["holdout"] = options.holdout;
   request.dataset = ValueOrRefuse(api::ParseMeasurement(document, &request.remarks));
+  request.measurement = std::move(document);
   request.model = KnownModel(options);
   request.time_limit_s = options.time_limit_s;
   return request;

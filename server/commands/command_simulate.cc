@@ -1,15 +1,21 @@
 #include <cstdio>
+#include <iterator>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "api/catalogue/stores.h"
 #include "api/design/evaluation.h"
 #include "api/json/json.h"
+#include "api/measure/curves.h"
+#include "api/measure/stated_document.h"
 #include "api/simulate/map.h"
 #include "api/simulate/simulation.h"
 #include "server/call/reply.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
+#include "server/commands/measurement_files.h"
 #include "server/render/text/text_design.h"
 #include "server/render/text/text_response.h"
 
@@ -31,13 +37,42 @@ bool NamesParts(const api::Json& json) {
   return false;
 }
 
-void Simulate(const FileOptions& options) {
-  const auto request = ReadJson(options.file);
-  std::vector<catalog::Part> parts;
-  if (NamesParts(request)) parts = OpenCatalog(options.catalog, catalog::Access::kRead).List();
-  const auto response = ValueOrRefuse(api::RunSimulation(request, parts));
-  std::fputs(options.json ? (Dump(response) + "\n").c_str() : ResponseText(response).c_str(),
-             stdout);
+struct SimulateOptions {
+  std::string file, from, run, model = "after", rig;
+  std::vector<std::string> measurement;
+  std::string catalog = "catalog.db";
+  bool json = false;
+};
+
+// The request that the options stand for.
+api::Json CurvesRequest(const SimulateOptions& options) {
+  api::Json request = {{"schema", "simulation/1"},
+                       {"from", ReadJson(options.from, api::kResultBytesMax)},
+                       {"model", options.model}};
+  if (!options.run.empty()) request["run"] = options.run;
+  api::Provenance files;
+  if (!options.measurement.empty())
+    request["measurement"] = ReadMeasurement(options.measurement, options.rig, files);
+  return request;
+}
+
+int Simulate(const SimulateOptions& options) {
+  if (options.file.empty() == options.from.empty())
+    Refuse({{"FILE", "or --from is required, and not both: a simulation, or a diagnosis"}});
+  const auto request = options.from.empty() ? ReadJson(options.file) : CurvesRequest(options);
+  api::Json response;
+  std::string text;
+  if (api::AsksForCurves(request)) {
+    response = ValueOrRefuse(api::RunCurves(request));
+    text = CurvesText(response);
+  } else {
+    std::vector<catalog::Part> parts;
+    if (NamesParts(request)) parts = OpenCatalog(options.catalog, catalog::Access::kRead).List();
+    response = ValueOrRefuse(api::RunSimulation(request, parts));
+    text = ResponseText(response);
+  }
+  std::fputs(options.json ? (Dump(response) + "\n").c_str() : text.c_str(), stdout);
+  return kAnswered;
 }
 
 void Evaluate(const FileOptions& options) {
@@ -67,7 +102,27 @@ Command FileCommand(const char* name, const char* help, void (*run)(const FileOp
 }  // namespace
 
 Command SimulateCommand() {
-  return FileCommand("simulate", "Pressures of one given design over time", Simulate);
+  auto options = std::make_shared<SimulateOptions>();
+  return {
+      "simulate",
+      "Pressures of one given design, or of a model of a diagnosis, over time",
+      {{"FILE", "Request as JSON; - is standard input", &options->file, {.value_name = ""}},
+       {"--from", "The answer of a diagnosis: its curves", &options->from, {.value_name = "FILE"}},
+       {"--run", "One of its runs; all without it", &options->run, {.value_name = "ID"}},
+       {"--model",
+        "The model of the diagnosis",
+        &options->model,
+        {.shows_default = true,
+         .allowed =
+             OneOf(std::begin(api::kModelsOfADiagnosis), std::end(api::kModelsOfADiagnosis))}},
+       {"--measurement",
+        "What was measured, where the answer names readings by hash",
+        &options->measurement,
+        {.value_name = "FILE"}},
+       {"--rig", "The rig of CSV files, as JSON", &options->rig, {.value_name = "FILE"}},
+       JsonFlag(options->json),
+       CatalogOption(options->catalog)},
+      [options] { return Simulate(*options); }};
 }
 
 Command EvaluateCommand() {

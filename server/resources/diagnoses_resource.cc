@@ -77,6 +77,7 @@ api::Parsed<Request> ReadRequest(std::string_view body,
   request.diagnosis.dataset =
       ValueOrAdd(api::ParseMeasurement(document, &request.diagnosis.remarks), errors);
   if (!errors.empty()) return errors;
+  request.diagnosis.measurement = std::move(document);
   request.diagnosis.provenance.files = {api::FileOf(request.diagnosis.dataset.name, body)};
   return request;
 }

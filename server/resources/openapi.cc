@@ -7,6 +7,8 @@
 #include "api/catalogue/table_reading.h"
 #include "api/describe/catalogue_answers.h"
 #include "api/describe/descriptions.h"
+#include "server/resources/schemas/diagnosis_schemas.h"
+#include "server/resources/schemas/schema_forms.h"
 
 namespace plenum::server {
 namespace {
@@ -46,7 +48,8 @@ const std::map<std::string, Operation>& Operations() {
         "Measurement",
         {{200, "Diagnosis"}, {202, "JobAccepted"}},
         {400, 422, 429}}},
-      {"POST /v1/simulations", {{}, "Simulation", {{200, "Response"}}, {400, 422, 429}}},
+      {"POST /v1/simulations",
+       {{}, "SimulationOrCurves", {{200, "ResponseOrCurves"}}, {400, 422, 429}}},
       {"POST /v1/evaluations", {{}, "Evaluation", {{200, "EvaluationAnswer"}}, {400, 422, 429}}},
       {"POST /v1/maps", {{}, "Map", {{200, "MapAnswer"}}, {400, 422, 429}}},
       {"GET /v1/parts", {{"If-None-Match"}, "", {{200, "PartsPage"}, {304, ""}}, {404, 422}}},
@@ -103,20 +106,6 @@ const Operation& OperationOf(const Route& route) {
   throw std::logic_error("no description of " + route.method + " " + route.path);
 }
 
-Json Ref(const std::string& kind, const std::string& name) {
-  return {{"$ref", "#/components/" + kind + "/" + name}};
-}
-
-Json Object(const Json& properties) {
-  Json required = Json::array();
-  for (const auto& [name, schema] : properties.items()) required.push_back(name);
-  return {{"type", "object"}, {"properties", properties}, {"required", required}};
-}
-Json ListOf(const Json& items) { return {{"type", "array"}, {"items", items}}; }
-Json NamedListOf(const std::string& name, const Json& items) {
-  return Object({{name, ListOf(items)}});
-}
-
 Json Header(const char* name, const char* description) {
   return {{"name", name},
           {"in", "header"},
@@ -155,25 +144,6 @@ Json Parameters() {
       {"If-Match", Header("If-Match", "ETag of what is replaced or removed; needed")},
       {"If-None-Match", Header("If-None-Match", "ETag of what the client has")}};
   return parameters;
-}
-
-// What an answer says of its request, each where there is something to say.
-Json RemarkSchemas() {
-  const Json text = {{"type", "string"}}, any = Json::object();
-  Json understood =
-      Object({{"pointer", text}, {"given", any}, {"value", {{"type", "number"}}}, {"unit", text}});
-  for (const char* name : {"condition", "name", "formula"}) understood["properties"][name] = text;
-  return {{"understood", ListOf(understood)},
-          {"warnings", ListOf({{"anyOf", {Object({{"pointer", text}, {"detail", text}}), text}}})},
-          {"notes", ListOf(Object({{"pointer", text}, {"note", any}}))}};
-}
-
-Json Versioned(const char* schema) {
-  Json properties = {{"schema", {{"const", schema}}}, {"plenum", {{"type", "string"}}}};
-  properties.update(RemarkSchemas());
-  return {{"type", "object"},
-          {"properties", std::move(properties)},
-          {"required", {"schema", "plenum"}}};
 }
 
 // Of answers: the fields that callers may rely on; more may come.
@@ -229,7 +199,6 @@ Json AnswerSchemas() {
       {"Designs", Versioned("designs/1")},
       {"DesignsOrValid",
        {{"anyOf", {Ref("schemas", "Designs"), Object({{"valid", {{"const", true}}}})}}}},
-      {"Diagnosis", Versioned("diagnosis/1")},
       {"Response", Versioned("response/1")},
       {"MapAnswer", Versioned("map_answer/1")},
       {"EvaluationAnswer", Versioned("evaluation_answer/1")},
@@ -265,6 +234,7 @@ Json Schemas() {
                   {"Map", api::DescribeMap()},
                   {"Model", api::DescribeModel()},
                   {"Part", api::DescribePart()}};
+  schemas.update(DiagnosisSchemas());
   schemas["Evaluation"] = Object({{"schema", {{"const", "evaluation/1"}}},
                                   {"requirements", Ref("schemas", "Requirements")},
                                   {"design", api::DescribeGivenDesign()}});
@@ -281,7 +251,7 @@ Json Schemas() {
 Json ExampleOf(const std::string& schema) {
   if (schema == "Requirements") return api::ExampleRequirements();
   if (schema == "Measurement") return api::ExampleMeasurement();
-  if (schema == "Simulation") return api::ExampleSimulation();
+  if (schema == "SimulationOrCurves") return api::ExampleSimulation();
   if (schema == "Map") return api::ExampleMap();
   if (schema == "Evaluation") return api::ExampleEvaluation();
   if (schema == "Part") return api::ExamplePart();

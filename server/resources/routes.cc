@@ -7,6 +7,7 @@
 #include "api/design/evaluation.h"
 #include "api/json/json.h"
 #include "api/json/request_limits.h"
+#include "api/measure/curves.h"
 #include "api/simulate/map.h"
 #include "api/simulate/simulation.h"
 #include "server/call/service_limits.h"
@@ -39,6 +40,14 @@ Reply AnswerAtOnce(const Call& call, F&& run) {
   auto answer = run(std::get<api::Json>(json));
   if (auto* errors = std::get_if<api::Errors>(&answer)) return ProblemReply(422, *errors);
   return JsonReply(200, std::get<api::Json>(answer));
+}
+
+// The request with the answer of the diagnosis that its "from" names by id.
+api::Json WithDiagnosis(api::Json request, const Jobs& diagnoses) {
+  api::Json& from = request["from"];
+  if (!from.is_string()) return request;
+  if (const std::optional<Job> job = diagnoses.Get(from.get<std::string>())) from = job->result;
+  return request;
 }
 
 api::Json RouteTable(const std::vector<Route>& routes) {
@@ -104,10 +113,12 @@ std::vector<Route> Routes(const Services& services) {
        [&catalog, diagnosis_jobs](const Call& call) {
          return PostDiagnosis(catalog, diagnosis_jobs, call);
        }},
-      {"POST", "/v1/simulations", "simulation/1 in, response/1 out", Access::kRead,
-       [&](const Call& call) {
+      {"POST", "/v1/simulations",
+       "simulation/1 in, response/1 out; with from, a diagnosis or its id, curves/1", Access::kRead,
+       [&catalog, &diagnoses = services.diagnoses](const Call& call) {
          return AnswerAtOnce(call, [&](const api::Json& request) {
-           return api::RunSimulation(request, *catalog.Snapshot());
+           return api::AsksForCurves(request) ? api::RunCurves(WithDiagnosis(request, diagnoses))
+                                              : api::RunSimulation(request, *catalog.Snapshot());
          });
        }},
       {"POST", "/v1/evaluations", "evaluation/1 in: parts at settings against requirements",

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "tests/calibration/bench.h"
 #include "tests/calibration/noise/processes.h"
@@ -22,6 +23,19 @@ Diagnosis Of(const Change& change, std::uint64_t seed) {
   return Diagnose(MeasuredBench(change, seed), {});
 }
 
+// One rule orders the table: what is better by it and not named says why.
+void ExpectOneOrder(const Diagnosis& d, const std::vector<std::string>& named) {
+  double before = -std::numeric_limits<double>::infinity();
+  bool ahead = true;
+  for (const Candidate& candidate : d.candidates) {
+    EXPECT_GE(candidate.bic, before);
+    before = candidate.bic;
+    ahead = ahead && candidate.effects != named;
+    EXPECT_EQ(ahead, !candidate.reason.empty()) << ::testing::PrintToString(candidate.effects);
+  }
+  EXPECT_FALSE(ahead);
+}
+
 TEST(Diagnose, ACleanBenchIsAdequate) {
   const Diagnosis d = Of(
       [](EffectRig& rig) {
@@ -34,6 +48,7 @@ TEST(Diagnose, ACleanBenchIsAdequate) {
   EXPECT_EQ(d.after.rms_pa, d.before.rms_pa);
   EXPECT_GT(d.declared.rms_pa, d.before.rms_pa);
   EXPECT_NEAR(d.noise_pa, test::kBenchNoisePa, 0.1 * test::kBenchNoisePa);
+  ExpectOneOrder(d, {});
 }
 
 TEST(Diagnose, ALeakIsNamedWithItsSizeAndHoldsOnTheRunNotSeen) {
@@ -46,6 +61,7 @@ TEST(Diagnose, ALeakIsNamedWithItsSizeAndHoldsOnTheRunNotSeen) {
   EXPECT_GT(*d.before.holdout_rms_pa, 1.5 * test::kBenchNoisePa);
   EXPECT_EQ(d.series.size(), 4u);
   EXPECT_EQ(d.unexplained_fraction, 0.0);
+  ExpectOneOrder(d, {"leak:orifice"});
 }
 
 // Beside a gap, where a stroke begins, the readings alone do not show it as wild.

@@ -196,7 +196,6 @@ TEST_F(Enemy, WhatIsNotJsonIsRefused) {
                                     "[\"\xED\xA0\x80\"]",
                                     "[1e400]",
                                     "[-1e400]",
-                                    "[123456789012345678901234]",
                                     std::string(100000, '['),
                                     std::string(100000, '{'),
                                     "[" + std::string(100000, ' '),

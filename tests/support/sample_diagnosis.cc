@@ -127,8 +127,9 @@ SampleDiagnosis MakeSampleDiagnosis(int samples) {
                            3,
                            true,
                            4,
-                           4},
-                          {{"leak:porous"}, -8002.0, 121.0, 480.0, 510.0, 3, true, 4, 3},
+                           4,
+                           {}},
+                          {{"leak:porous"}, -8002.0, 121.0, 480.0, 510.0, 3, true, 4, 3, {}},
                           {{},
                            -3100.0,
                            5023.0,
@@ -137,8 +138,9 @@ SampleDiagnosis MakeSampleDiagnosis(int samples) {
                            1,
                            true,
                            1,
-                           1},
-                          {{"heat_transfer"}, -2100.0, 6023.0, 9e3, {}, 2, false, 4, 1}};
+                           1,
+                           {}},
+                          {{"heat_transfer"}, -2100.0, 6023.0, 9e3, {}, 2, false, 4, 1, {}}};
   diagnosis.tied = {{"creep"}, {"leak:porous"}};
   calibration::Experiment experiment;
   experiment.run = MakeRun("next", 3e5, 801);

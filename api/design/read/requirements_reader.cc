@@ -267,6 +267,14 @@ optimizer::Limits ReadLimits(Reader& request) {
   return limits;
 }
 
+// How many pieces and which parts there may be.
+void ReadChoices(Reader& request, const std::vector<catalog::Part>& parts,
+                 optimizer::Problem& problem) {
+  problem.limits = ReadLimits(request);
+  ReadSelection(request, parts, problem);
+  CheckPower(request, problem);
+}
+
 // Effects of the revision go to every group; those of its sensor change no actuator.
 void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& models,
                DesignRequest& parsed) {
@@ -329,9 +337,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
     reader.Fail("explain", "explains a list by one objective, not a front");
   if (parsed.explain && parsed.explain->ranks > 0 && probability_min)
     reader.FailAt("explain/ranks", "must be 0 with /ranking/probability_min");
-  problem.limits = ReadLimits(reader);
-  ReadSelection(reader, parts, problem);
-  CheckPower(reader, problem);
+  ReadChoices(reader, parts, problem);
   ReadModel(reader, models, parsed);
   if (reader.Has("prices"))
     problem.unpriced_allowed = reader.Choice("prices", {"known", "lower_bound"}) == "lower_bound";

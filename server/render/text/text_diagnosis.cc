@@ -23,9 +23,13 @@ std::string Percent(const Json& share) {
 std::string ErrorsTable(const Json& answer) {
   Table table({{"error", Align::kLeft}, {"RMS kPa"}, {"RMS %"}, {"peak kPa"}, {"held out kPa"}}, 2);
   static constexpr std::pair<const char*, const char*> kRows[] = {
-      {"declared", "as declared"}, {"before", "base model, refitted"}, {"after", "with effects"}};
+      {"declared", "as declared"},
+      {"before", "base model, refitted"},
+      {"after", "with effects"},
+      {"learned", "with a learned term"}};
   for (const auto& [field, title] : kRows) {
-    const Json& error = answer.at(field);
+    const Json error = answer.value(field, Json());
+    if (error.is_null()) continue;
     table.Add({title, Short(error.at("rms_kpa")), Short(error.at("rms_percent")),
                Short(error.at("peak_kpa")), Short(error.at("holdout_rms_kpa"))});
   }
@@ -68,6 +72,12 @@ std::string EstimatesTable(const Json& answer) {
   return any ? table.Text() + "\n" : "";
 }
 
+// Why a set is not named though it fits better than what is.
+std::string NotNamed(const Json& candidate) {
+  const Json reason = candidate.value("reason", Json());
+  return reason.is_string() ? reason.get<std::string>() : "";
+}
+
 std::string CandidatesTable(const Json& answer) {
   const Json& candidates = answer.at("candidates");
   if (candidates.empty()) return "";
@@ -86,7 +96,7 @@ std::string CandidatesTable(const Json& answer) {
                Short(candidate.at("delta_bic")), Short(candidate.at("rms_kpa")),
                Short(candidate.at("holdout_rms_kpa")), candidate.at("parameters").dump(),
                candidate.at("found_again").dump() + " of " + candidate.at("starts").dump(),
-               candidate.at("converged") == true ? "" : "did not converge"});
+               candidate.at("converged") == true ? NotNamed(candidate) : "did not converge"});
   }
   std::string text = table.Text();
   if (candidates.size() > kShown)
@@ -97,6 +107,8 @@ std::string CandidatesTable(const Json& answer) {
 std::string TieText(const Json& answer) {
   std::string text;
   const Json& next = answer.at("next_experiment");
+  if (const Json reason = answer.value("reason", Json()); next.is_null() && reason.is_string())
+    return fmt::format("No next run: {}.\n\n", reason.get<std::string>());
   if (next.is_null()) return text;
   text += fmt::format("Next run: {}\n", next.at("why").get<std::string>());
   std::string valve;

@@ -63,6 +63,26 @@ std::string PressureTable(const Json& response) {
 
 }  // namespace
 
+std::string CurvesText(const Json& answer) {
+  Table table({{"run", Table::Align::kLeft},
+               {"readings"},
+               {"RMS kPa"},
+               {"stated kPa"},
+               {"peak kPa"},
+               {"", Table::Align::kLeft}});
+  for (const Json& run : answer.at("runs")) {
+    const bool done = run.at("status") == "done";
+    table.Add({run.at("id").get<std::string>(), done ? std::to_string(run.at("t_s").size()) : "–",
+               done ? Short(run.at("rms_kpa")) : "–", Short(run.at("stated_rms_kpa")),
+               done ? Short(run.at("peak_kpa")) : "–",
+               !done                        ? run.at("detail").get<std::string>()
+               : run.at("held_out") == true ? "held out"
+                                            : ""});
+  }
+  return "Curves of the model \"" + answer.at("model").get<std::string>() + "\":\n" + table.Text() +
+         "--json gives the curves\n";
+}
+
 std::string ResponseText(const Json& response) {
   std::string text = PerformanceTable(response.at("performance")) + "\n" + PressureTable(response);
   if (response.contains("detail") && response.at("detail").is_string()) {

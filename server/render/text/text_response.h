@@ -1,4 +1,4 @@
-// response/1 and map answers for a person.
+// response/1, curves/1 and map answers for a person.
 #ifndef PLENUM_SERVER_RENDER_TEXT_TEXT_RESPONSE_H_
 #define PLENUM_SERVER_RENDER_TEXT_TEXT_RESPONSE_H_
 
@@ -9,6 +9,7 @@
 namespace plenum::server {
 
 std::string ResponseText(const api::Json& response);
+std::string CurvesText(const api::Json& answer);
 std::string MapText(const api::Json& answer);
 
 }  // namespace plenum::server

@@ -156,7 +156,16 @@ TEST(RenderDiagnosis, SurvivesAnyNumberAndAnyLength) {
         estimate = {number(), number(), number(), pick(2) > 0};
     }
     for (auto& candidate : diagnosis.candidates)
-      candidate = {{text(), text() + ":" + text()}, number(), number(), number(), number()};
+      candidate = {{text(), text() + ":" + text()},
+                   number(),
+                   number(),
+                   number(),
+                   number(),
+                   1,
+                   true,
+                   1,
+                   1,
+                   text()};
     diagnosis.fitted.clear();
     for (int i = 0; i < calibration::kDeclaredCount; ++i)
       diagnosis.fitted.push_back(

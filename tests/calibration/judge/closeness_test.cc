@@ -20,7 +20,7 @@ struct OneRun {
       : dataset(Measured(change, seed)),
         forward(dataset),
         observed(Observe(dataset)),
-        bench{dataset, forward, observed, {}, {}, {}} {
+        bench{dataset, forward, observed, {}, {}, OriginalsOf(dataset), {}} {
     bench.data.forward = &forward;
     bench.data.observed = &observed;
     bench.data.sizes = SizesOf(dataset);

@@ -61,6 +61,19 @@ Contender With(std::vector<const model::EffectSpec*> effects, double chi2) {
   return contender;
 }
 
+// A set that is ahead only because its declared numbers are nearer to what was declared.
+TEST(Evidence, ASetThatLeavesMoreOfTheReadingsThanAPartOfItDoesNotStand) {
+  const auto* ramp = model::FindEffect("valve_ramp");
+  const auto* play = model::FindEffect("hysteresis");
+  std::vector<Contender> contenders = {With({}, 9000.0), With({ramp}, 1200.0),
+                                       With({ramp, play}, 1210.0)};
+  contenders[1].fit.chi2_prior = 40.0;
+  EXPECT_LT(BicWith(contenders[2].fit, 10.0) + 10.0, BicWith(contenders[1].fit, 10.0));
+  EXPECT_EQ(Standing(contenders, 10.0), 1u);
+  contenders[2].fit.chi2_data = 1190.0;
+  EXPECT_EQ(Standing(contenders, 10.0), 2u);
+}
+
 TEST(Evidence, WhatStandsShrinksWithTheMemory) {
   const auto* leak = model::FindEffect("leak", "laminar");
   const auto* lag = model::FindEffect("sensor_lag");

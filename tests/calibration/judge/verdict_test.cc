@@ -61,15 +61,21 @@ TEST(Verdict, WhatATermCouldLearnIsNoNoise) {
 }
 
 TEST(Verdict, RunsNotSeenMayNotBeOff) {
-  Leftover after = Noise();
+  Leftover before = Structure(900), after = Noise();
+  before.holdout_rms_pa = 900.0;
   after.holdout_rms_pa = 200.0;
-  EXPECT_EQ(Judge({true, true, 0, Structure(900), after}), Verdict::kUnexplained);
+  EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kUnexplained);
   after.holdout_spread_pa = 60.0;  // of one number, which may be two or three deviations off
-  EXPECT_EQ(Judge({true, true, 0, Structure(900), after}), Verdict::kExplained);
+  EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kExplained);
+  before.holdout_rms_pa = 180.0;  // without the effects they are predicted better
+  EXPECT_TRUE(PredictsWorse(before, after));
+  EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kUnexplained);
+  EXPECT_FALSE(PredictsWorse(before, Noise()));
+  before.holdout_rms_pa = 900.0;
   after.holdout_rms_pa = 300.0;
-  EXPECT_EQ(Judge({true, true, 0, Structure(900), after}), Verdict::kUnexplained);
+  EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kUnexplained);
   after.holdout_rms_pa.reset();
-  EXPECT_EQ(Judge({true, true, 0, Structure(900), after}), Verdict::kExplained);
+  EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kExplained);
 }
 
 TEST(Verdict, UnexplainedFractionIsOfTheVarianceAboveTheNoise) {

@@ -34,9 +34,10 @@ Dataset Made(const std::vector<model::Effect>& effects, double noise_pa) {
 
 struct Fitted {
   explicit Fitted(const Dataset& measured)
-      : dataset(measured), forward(dataset), observed(Observe(dataset)), bench{dataset,  forward,
-                                                                               observed, {},
-                                                                               {},       {}} {
+      : dataset(measured),
+        forward(dataset),
+        observed(Observe(dataset)),
+        bench{dataset, forward, observed, {}, {}, OriginalsOf(dataset), {}} {
     bench.data.forward = &forward;
     bench.data.observed = &observed;
     bench.data.sizes = SizesOf(dataset);

@@ -209,6 +209,26 @@ TEST(Noise, ReadingsThatStandAtTheEndOfTheRangeAreClipped) {
   for (const std::size_t i : cut)
     EXPECT_TRUE(std::find(coarse.clipped.begin(), coarse.clipped.end(), i) != coarse.clipped.end());
   EXPECT_NEAR(coarse.quantum_pa, 2e3, 1.0);
+  // Without noise: a signal that runs into the end, but not one that settles there, nor one that a
+  // valve stops.
+  const auto rise = [&](double end_pa) {
+    std::vector<double> smooth;
+    for (const double t : t_s)
+      smooth.push_back(std::round(100.0 * std::min(2e5 - 1e5 * std::exp(-5.0 * t), end_pa)) /
+                       100.0);
+    return smooth;
+  };
+  const std::vector<double> cut_off = rise(1.9e5);
+  const Noise stopped = OfHold(t_s, cut_off);
+  ASSERT_FALSE(stopped.clipped.empty());
+  EXPECT_EQ(
+      stopped.clipped.front(),
+      static_cast<std::size_t>(std::find(cut_off.begin(), cut_off.end(), 1.9e5) - cut_off.begin()));
+  EXPECT_EQ(stopped.clipped.back(), t_s.size() - 1);
+  EXPECT_TRUE(OfHold(t_s, rise(3e5)).clipped.empty());
+  const double shut_s = t_s[stopped.clipped.front()];
+  const std::vector<TimeSpan> quiet = {{shut_s, 10.0}}, stroke = {{0.0, shut_s}};
+  EXPECT_TRUE(EstimateNoise({t_s, cut_off, quiet, stroke}).clipped.empty());
   // Neither noise nor grid: a signal at rest.
   EXPECT_TRUE(OfHold(t_s, std::vector<double>(t_s.size(), 1e5)).clipped.empty());
 }

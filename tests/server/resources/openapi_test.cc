@@ -301,7 +301,12 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
     for (const auto& [path, example] :
          {std::pair{std::string("/v1/designs"), api::ExampleRequirements()},
           std::pair{std::string("/v1/diagnoses"), api::ExampleMeasurement()}}) {
-      Check(client.Post(path, {{"Prefer", wait}}, example.dump(), kJson), "post", path, 200);
+      const Json answer =
+          Check(client.Post(path, {{"Prefer", wait}}, example.dump(), kJson), "post", path, 200);
+      if (path == "/v1/diagnoses") {
+        const Json from = {{"schema", "simulation/1"}, {"from", answer}, {"run", "r1"}};
+        Check(client.Post("/v1/simulations", from.dump(), kJson), "post", "/v1/simulations", 200);
+      }
       const Json job = Check(client.Post(path, example.dump(), kJson), "post", path, 202);
       const std::string one = path + "/" + job["id"].get<std::string>();
       Check(client.Get(one), "get", path + "/{id}", 200);

@@ -49,6 +49,18 @@ export interface ErrorReport {
   peak_kpa: number;
   holdout_rms_kpa?: number | null;
   runs?: Record<string, number>;
+  effects?: { id: string; parameters: Record<string, number | string> }[];
+  factors?: Record<string, number>;
+}
+
+export type ModelName = 'declared' | 'before' | 'after' | 'learned';
+
+// What a model of a diagnosis has of one run alone.
+export interface RunNumbers {
+  initial_pressure_kpa_gauge: number;
+  initial_temperature_k: number;
+  clock_s: number;
+  fitted_alone?: string[]; // of a run held out
 }
 
 export interface FittedEffect {
@@ -71,6 +83,7 @@ export interface Discrepancy {
   equation: string;
   features: string[];
   learned: FittedEffect | null;
+  effects?: FittedEffect[]; // as fitted beside the term
   rms_before_kpa: number;
   rms_after_kpa: number | null;
   holdout_before_kpa: number | null;
@@ -87,6 +100,11 @@ export interface Diagnosis {
   declared: ErrorReport;
   before: ErrorReport;
   after: ErrorReport;
+  learned?: ErrorReport | null;
+  runs?: ({ id: string; held_out: boolean; left_out: number[]; copy_of?: string } & Partial<
+    Record<ModelName, RunNumbers>
+  >)[];
+  held_out_fitted?: { run: string; numbers: string[] }[];
   effects: FittedEffect[];
   candidates: {
     effects: string[];
@@ -96,10 +114,12 @@ export interface Diagnosis {
     rms_kpa: number;
     holdout_rms_kpa: number | null;
     converged: boolean;
+    reason?: string | null; // why it is not named though it fits better than what is
   }[];
   tied: string[][];
   tied_laws: Record<string, string>[];
   next_experiment: Experiment | null;
+  reason?: string | null; // why a tie has none
   residual: {
     white: boolean | null;
     independent_of_inputs: boolean | null;

@@ -11,6 +11,7 @@ import { saveFile } from '../ui/files';
 import { Effects, EstimateTable } from './diagnosis_effects';
 import { Candidates, Errors, Phases } from './diagnosis_tables';
 import { NextExperiment } from './next_experiment';
+import { NumbersOfRuns } from './run_numbers';
 import { PhaseKey, pickRun, RunPicker } from './runs';
 import { SaveModel } from './save_model';
 
@@ -52,12 +53,14 @@ export function DiagnosisView({
       </Panel>
       {d.series.length > 0 && <Curves d={d} />}
       {d.next_experiment && <NextExperiment d={d} data={data} />}
+      {d.tied.length > 0 && d.reason && <Notice kind="warn">No next run: {d.reason}.</Notice>}
       <div class="plots even">
         <Effects d={d} />
         <Phases d={d} />
       </div>
       {d.discrepancy && <Learned d={d} />}
       <Candidates d={d} />
+      <NumbersOfRuns d={d} />
       {d.revision && <SaveModel diagnosis={d} model={d.revision} />}
     </>
   );
@@ -136,7 +139,7 @@ const equations: Record<string, string> = {
 
 // What no known effect accounts for: where it lives, and the term learned in its place.
 function Learned({ d }: { d: Diagnosis }) {
-  const { equation, features, learned, places } = d.discrepancy!;
+  const { equation, features, learned, places, effects = [] } = d.discrepancy!;
   return (
     <Panel
       title="What no known effect accounts for"
@@ -169,6 +172,19 @@ function Learned({ d }: { d: Diagnosis }) {
                 of="parameter"
                 rows={Object.entries(learned.parameters).filter(([name]) => name !== 'law')}
               />
+              {effects.map((effect) => (
+                <div key={effect.id}>
+                  <h3>
+                    Beside it: {effectName(effect.id, String(effect.parameters.law ?? ''))}{' '}
+                    <code>{effect.id}</code>
+                  </h3>
+                  <EstimateTable
+                    name={effect.id}
+                    of="parameter"
+                    rows={Object.entries(effect.parameters).filter(([name]) => name !== 'law')}
+                  />
+                </div>
+              ))}
             </>
           ) : (
             <p>No term was learned: none made other runs come out better.</p>

@@ -1,6 +1,6 @@
 // The tables of a diagnosis: errors, residuals by phase, candidates.
 import { beside, shown, significant } from '../lib/format';
-import { effectNames } from '../lib/effect_words';
+import { effectNames, inWords } from '../lib/effect_words';
 import { type Diagnosis } from '../lib/measurement';
 import { toShown, unitOf } from '../lib/units';
 import { Chip, Panel } from '../ui/controls';
@@ -17,14 +17,7 @@ export function Errors({ d }: { d: Diagnosis }) {
         ? [['with the best of those tied', d.after] as [string, Diagnosis['after']]]
         : []),
   ];
-  if (d.discrepancy?.learned)
-    rows.push([
-      'with the learned term',
-      {
-        rms_kpa: d.discrepancy.rms_after_kpa ?? undefined,
-        holdout_rms_kpa: d.discrepancy.holdout_after_kpa,
-      },
-    ]);
+  if (d.learned) rows.push(['with the learned term', d.learned]);
   return (
     <Table
       label="Errors of the model"
@@ -150,6 +143,11 @@ export function Candidates({ d }: { d: Diagnosis }) {
               {effectNames(c.effects, c.laws)} {isChosen(d, c) && <Chip kind="good">taken</Chip>}
               {tied.has(c.effects.join()) && <Chip kind="warn">tied</Chip>}
               {!c.converged && <Chip>did not converge</Chip>}
+              {c.reason && (
+                <div>
+                  <small class="muted">not named: {inWords(c.reason)}</small>
+                </div>
+              )}
             </th>
             <td class="num">{significant(c.delta_bic)}</td>
             <td class="num">{shown('difference', c.rms_kpa)}</td>

@@ -1,0 +1,164 @@
+#include "api/measure/stated_document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "api/json/reader.h"
+#include "api/json/request_limits.h"
+#include "api/json/units.h"
+#include "api/json/words.h"
+#include "api/simulate/effects.h"
+
+namespace plenum::api {
+namespace {
+
+using calibration::Dataset;
+using calibration::Factors;
+using calibration::Run;
+using calibration::StatedModel;
+using calibration::StatedRun;
+
+constexpr double kFactorMax = 1e6, kAnySeconds = 1e9, kAnyKpa = 1e9;
+
+Json RenderFactors(const Factors& factors) {
+  Json document = Json::object();
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    if (factors[i] != 1.0)
+      document[std::string(calibration::Name(static_cast<calibration::Declared>(i)))] =
+          Number(factors[i]);
+  return document;
+}
+
+Factors ReadFactors(Reader& owner) {
+  Factors factors;
+  factors.fill(1.0);
+  auto reader = owner.OptionalObject("factors");
+  if (!reader) return factors;
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    factors[i] = reader->Number(calibration::Name(static_cast<calibration::Declared>(i)),
+                                Above(0, kFactorMax), 1.0);
+  reader->Finish();
+  return factors;
+}
+
+Json RenderOwn(const StatedModel& model, std::size_t index, const Run& run) {
+  const calibration::ModelState& state = model.state;
+  Json own = {{"initial_pressure_kpa_gauge",
+               Number(KpaGaugeFromPa(state.initial_pressure_pa[index], run.ambient))},
+              {"initial_temperature_k", Number(state.initial_temperature_k[index])},
+              {"clock_s", Number(state.clock_s[index])}};
+  if (state.phase_rad[index] != 0.0) own["phase_rad"] = Number(state.phase_rad[index]);
+  for (const double late_s : state.late_s[index]) own["late_s"].push_back(Number(late_s));
+  if (model.run_factor[index] != state.factor)
+    own["factors"] = RenderFactors(model.run_factor[index]);
+  if (!model.fitted_alone[index].empty()) own["fitted_alone"] = model.fitted_alone[index];
+  return own;
+}
+
+void ReadOwn(Reader own, const Run& run, std::size_t index, StatedModel& model) {
+  calibration::ModelState& state = model.state;
+  const double kpa = own.Number("initial_pressure_kpa_gauge", {-kAnyKpa, kAnyKpa});
+  state.initial_pressure_pa[index] = PaFromKpaGauge(kpa, run.ambient);
+  state.initial_temperature_k[index] = own.Number("initial_temperature_k", Above(0, 1e6));
+  state.clock_s[index] = own.Number("clock_s", {-kAnySeconds, kAnySeconds});
+  state.phase_rad[index] = own.Number("phase_rad", {-kAnySeconds, kAnySeconds}, 0.0);
+  if (own.Has("late_s"))
+    state.late_s[index] = own.Numbers("late_s", kCommandsMax, {-kAnySeconds, kAnySeconds});
+  if (!state.late_s[index].empty() && state.late_s[index].size() != run.valve.size())
+    own.Fail("late_s", "must have a time for each of the run's " +
+                           std::to_string(run.valve.size()) + " commands");
+  model.run_factor[index] = own.Has("factors") ? ReadFactors(own) : state.factor;
+}
+
+Json RenderLeftOut(const std::vector<std::size_t>& left_out) {
+  Json list = Json::array();
+  for (const std::size_t i : left_out) list.push_back(static_cast<std::uint64_t>(i));
+  return list;
+}
+
+StatedRun ReadHow(Reader& reader, const Dataset& dataset, const Run& run) {
+  StatedRun how;
+  const std::string original = reader.Text("copy_of", "");
+  for (std::size_t i = 0; i < dataset.runs.size(); ++i)
+    if (dataset.runs[i].id == original) how.copy_of = i;
+  how.relative_tolerance = reader.Number("relative_tolerance", Above(0, 1));
+  if (!reader.Has("left_out") || reader.Raw("left_out")->empty()) return how;
+  const Range indices{0, static_cast<double>(run.t_s.size()) - 1};
+  for (const double i : reader.Numbers("left_out", run.t_s.size(), indices))
+    if (!std::isnan(i)) how.left_out.push_back(static_cast<std::size_t>(i));
+  std::sort(how.left_out.begin(), how.left_out.end());
+  return how;
+}
+
+// The models that a diagnosis states, by name.
+std::vector<std::pair<const char*, const StatedModel*>> ModelsOf(
+    const calibration::Diagnosis& diagnosis) {
+  const calibration::StatedModels& models = diagnosis.models;
+  std::vector<std::pair<const char*, const StatedModel*>> named = {
+      {"declared", &models.declared}, {"before", &models.before}, {"after", &models.after}};
+  if (models.learned) named.emplace_back("learned", &*models.learned);
+  return named;
+}
+
+}  // namespace
+
+void AddStatedModels(const calibration::Diagnosis& diagnosis, const Dataset& dataset,
+                     Json& answer) {
+  answer["runs"] = answer["held_out_fitted"] = Json::array();
+  const auto models = ModelsOf(diagnosis);
+  for (const auto& [name, model] : models) {
+    answer[name]["effects"] = RenderEffects(model->state.effects);
+    answer[name]["factors"] = RenderFactors(model->state.factor);
+  }
+  for (std::size_t i = 0; i < diagnosis.models.runs.size(); ++i) {
+    const Run& run = dataset.runs[i];
+    const bool held_out =
+        std::find(dataset.holdout.begin(), dataset.holdout.end(), run.id) != dataset.holdout.end();
+    Json document = {{"id", run.id},
+                     {"held_out", held_out},
+                     {"relative_tolerance", Number(diagnosis.models.runs[i].relative_tolerance)},
+                     {"left_out", RenderLeftOut(diagnosis.models.runs[i].left_out)}};
+    if (const auto original = diagnosis.models.runs[i].copy_of)
+      document["copy_of"] = dataset.runs[*original].id;
+    for (const auto& [name, model] : models) document[name] = RenderOwn(*model, i, run);
+    answer["runs"].push_back(std::move(document));
+    const std::vector<std::string>& alone = diagnosis.models.after.fitted_alone[i];
+    if (!alone.empty()) answer["held_out_fitted"].push_back({{"run", run.id}, {"numbers", alone}});
+  }
+}
+
+Parsed<StatedAnswer> ParseStatedModel(const Json& answer, const std::string& model,
+                                      const Dataset& dataset) {
+  Errors errors;
+  StatedAnswer stated;
+  Reader reader(answer, "", errors);
+  if (!reader.Has(model)) return Errors{{"/" + model, "the diagnosis has no such model"}};
+  Reader of_all = reader.Object(model);
+  const std::size_t count = dataset.runs.size();
+  calibration::ModelState& state = stated.model.state;
+  state.effects = ReadEffects(of_all);
+  state.factor = ReadFactors(of_all);
+  state.initial_pressure_pa.resize(count);
+  state.initial_temperature_k.resize(count);
+  state.clock_s.resize(count);
+  state.phase_rad.resize(count);
+  state.late_s.resize(count);
+  stated.model.run_factor.resize(count);
+  stated.model.fitted_alone.resize(count);
+  const std::vector<Element> runs = reader.List("runs", count, count);
+  for (std::size_t i = 0; i < runs.size() && i < count; ++i) {
+    Reader run(runs[i], errors);
+    if (const std::string id = run.Text("id"); id != dataset.runs[i].id)
+      run.Fail("id", "must be " + Quoted(dataset.runs[i].id) + ", as in the measurement");
+    stated.runs.push_back(ReadHow(run, dataset, dataset.runs[i]));
+    ReadOwn(run.Object(model), dataset.runs[i], i, stated.model);
+  }
+  if (errors.empty())
+    if (const std::string why = model::WhyInvalid(state.effects); !why.empty())
+      errors.push_back({"/" + model + "/effects", why});
+  if (!errors.empty()) return errors;
+  return stated;
+}
+
+}  // namespace plenum::api

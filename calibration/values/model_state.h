@@ -1,0 +1,56 @@
+// The numbers of a model of a data set's runs (forward.h), and a model as an answer states it.
+#ifndef PLENUM_CALIBRATION_VALUES_MODEL_STATE_H_
+#define PLENUM_CALIBRATION_VALUES_MODEL_STATE_H_
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/values/dataset.h"
+#include "model/effects/effect.h"
+
+namespace plenum::calibration {
+
+using Factors = std::array<double, kDeclaredCount>;  // by Declared
+
+struct ModelState {
+  ModelState() { factor.fill(1.0); }
+
+  Factors factor;
+  std::vector<model::Effect> effects;
+  std::vector<double> initial_pressure_pa;    // absolute, by run of the data set
+  std::vector<double> initial_temperature_k;  // by run; matters with an energy balance alone
+  std::vector<double> clock_s;                // by run
+  std::vector<double> phase_rad;              // by run
+  // By run and command; empty: none is late but by what the effect itself says.
+  std::vector<std::vector<double>> late_s;
+};
+
+// Every number that a model's curves follow from. What a run that no fit saw has of its own was
+// fitted to that run alone; where its line is of no other run, so were the factors on its pairs
+// (C, b), and `run_factor` differs from the state's.
+struct StatedModel {
+  ModelState state;
+  std::vector<Factors> run_factor;                     // by run
+  std::vector<std::vector<std::string>> fitted_alone;  // by run: "initial pressure of r5"
+};
+
+// The model as the run has it.
+inline ModelState OfRun(const StatedModel& model, std::size_t run) {
+  ModelState state = model.state;
+  state.factor = model.run_factor[run];
+  return state;
+}
+
+// How errors on a run were got: simulated to this tolerance, at all readings but those left out.
+struct StatedRun {
+  double relative_tolerance = 0.0;
+  std::vector<std::size_t> left_out;   // not missing, but wild or at an end of the sensor's range
+  std::optional<std::size_t> copy_of;  // an earlier run with the same readings, which alone counts
+};
+
+}  // namespace plenum::calibration
+
+#endif  // PLENUM_CALIBRATION_VALUES_MODEL_STATE_H_
