@@ -203,8 +203,7 @@ class RecordCheck {
   // Takes note of a bound of what is not listed.
   void Behind(double bound, const std::string& why) {
     behind_ = std::min(behind_, bound);
-    if (answer_.proof.complete && bound < claims_.all().least)
-      findings_.push_back({"bound", why});
+    if (answer_.proof.complete && bound < claims_.all().least) findings_.push_back({"bound", why});
   }
 
   double LeastBehind() const { return counts_.dominated > 0 ? std::min(behind_, last()) : behind_; }
