@@ -52,7 +52,9 @@ Json AllRequirements() {
     "supply": { "configurations": ["mains"],
                 "mains": { "pressure_kpa_gauge": 600, "flow_l_per_min_anr_max": 200 },
                 "source_pressure_kpa_gauge_max": 600, "mass_kg_max": 10, "volume_l_max": 10,
-                "cost_eur_max": 1000, "parts": "any" },
+                "cost_eur_max": 1000, "parts": "any",
+                "power": { "kind": "robot", "voltage_v": 24, "energy_wh_max": 50,
+                           "current_a_max": 5 } },
     "ambient": { "pressure_kpa_abs": 100, "temperature_k": 293.15 },
     "objective": { "minimize": { "mass_kg": 1 }, "pareto": ["mass_kg", "volume_l"] },
     "ranking": { "count": 1, "time_limit_s": 1, "probability_min": 0, "proof": false,
@@ -67,7 +69,7 @@ Json AllRequirements() {
     "require": { "tubing": ["x"], "fitting": ["x"], "valve": ["x"], "compressor": ["x"],
                  "battery": ["x"], "cylinder": ["x"], "co2": ["x"], "regulator": ["x"],
                  "reservoir": ["x"] },
-    "exclude": ["x"], "model": "nominal" })");
+    "exclude": ["x"], "own": ["x"], "model": "nominal" })");
 }
 
 // The ways to write a line, a source and a schedule that the example does not use. It runs

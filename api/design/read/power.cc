@@ -70,7 +70,9 @@ void ReadPower(Reader& supply, optimizer::Problem& problem) {
   read.kind = ReadEnum<PowerKind>(*power, "kind",
                                   {PowerKind::kBattery, PowerKind::kWall, PowerKind::kRobot});
   if (read.kind == PowerKind::kRobot) {
-    read.voltage_v = power->Number("voltage_v", Above(0, kVoltageMax));
+    const auto voltage_v = power->OptionalNumber("voltage_v", Above(0, kVoltageMax));
+    if (!voltage_v) power->Fail("voltage_v", "is required of a robot");
+    read.voltage_v = voltage_v.value_or(1.0);
     read.energy_wh_max = power->OptionalNumber("energy_wh_max", Above(0, kEnergyMaxWh));
     read.current_a_max = power->OptionalNumber("current_a_max", Above(0, kCurrentMaxA));
   }

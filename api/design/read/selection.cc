@@ -85,13 +85,13 @@ void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
     require->Finish();
   }
 
-  const auto read = [&](const std::string& field, bool custom) -> std::set<std::string> {
+  const auto read = [&](const char* field, bool custom) -> std::set<std::string> {
     if (!request.Has(field)) return {};
     const std::vector<std::string> listed = request.Texts(field, 0, kExcludedMax);
     for (std::size_t i = 0; i < listed.size() && !request.Full(); ++i)
       if (const std::string& id = listed[i];
           !id.empty() && !(custom && id == kCustomReservoir) && !family_of.contains(id))
-        request.FailAt(field + "/" + std::to_string(i), unknown(id));
+        request.FailAt(std::string(field) + "/" + std::to_string(i), unknown(id));
     return {listed.begin(), listed.end()};
   };
   problem.exclude = read("exclude", true);
