@@ -99,6 +99,31 @@ Design::Trace TraceCycle(const Problem& problem, const Candidate& candidate,
   return trace;
 }
 
+// Whether simulated strokes are in time, with room for the simulator's own error: of the times, and
+// of the pressure that they begin at. Pumps that run all the time leave the source where air in and
+// out balance, which amplifies the error, and the slower it fills the more time a pascal is worth.
+bool InTime(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+            const Strokes& strokes, const Evaluation& evaluation) {
+  const auto excess = [&](const std::vector<double>& rise_s, const std::vector<double>& inflate_s) {
+    double most = -kUnlimited;
+    for (std::size_t g = 0; g < problem.groups.size(); ++g)
+      most = std::max({most, rise_s[g] / problem.groups[g].rise_time_max_s - 1.0,
+                       inflate_s[g] / HalfPeriod(problem) - 1.0});
+    return most;
+  };
+  if (excess(strokes.rise_s, strokes.inflate_s) <= kConfirmTolerance) return true;
+  OperatingPoint raised = point;
+  raised.source_pa *= 1.0 + kConfirmTolerance;
+  const Evaluation above = Evaluate(problem, candidate, raised);
+  if (!above.works) return false;
+  std::vector<double> rise_s = strokes.rise_s, inflate_s = strokes.inflate_s;
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    rise_s[g] -= evaluation.groups[g].rise_time_s - above.groups[g].rise_time_s;
+    inflate_s[g] -= evaluation.groups[g].inflate_time_s - above.groups[g].inflate_time_s;
+  }
+  return excess(rise_s, inflate_s) <= kConfirmTolerance;
+}
+
 // Whether the simulator confirms the strokes and what the pumps bear at this point. Where groups
 // meet its times are taken.
 bool Confirm(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
@@ -109,11 +134,7 @@ bool Confirm(const Problem& problem, const Candidate& candidate, const Operating
   if (HasEffects(problem)) return true;  // the evaluation was the simulator's
   const Strokes strokes = SimulateStrokes(problem, candidate, point);
   if (!strokes.works) return false;
-  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
-    if (strokes.rise_s[g] > problem.groups[g].rise_time_max_s * (1.0 + kConfirmTolerance))
-      return false;
-    if (strokes.inflate_s[g] > HalfPeriod(problem) * (1.0 + kConfirmTolerance)) return false;
-  }
+  if (!InTime(problem, candidate, point, strokes, evaluation)) return false;
   if (candidate.compressor.index == kNone) {
     const Evaluation simulated =
         GroupsMeet(problem) ? EvaluateWith(strokes, problem, candidate, point) : evaluation;

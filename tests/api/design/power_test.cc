@@ -101,6 +101,21 @@ TEST(PowerTest, OfARobotHasItsVoltageEnergyAndCurrent) {
   EXPECT_EQ(Answered(request_weak)["status"], "infeasible");
 }
 
+// Their rise time binds, too, and what the simulator's error moves the balance by, it must not leave
+// undecided.
+TEST(PowerTest, DesignsWhosePumpsRunAllTheTimeAreDecided) {
+  Json request = Example("exosuit");
+  request["supply"]["power"] = {{"kind", "wall"}};
+  request["supply"]["configurations"] = {"compressor"};
+  const Json answer = Answered(request);
+  EXPECT_EQ(answer["proof"]["undecided"], 0);
+  EXPECT_EQ(answer["status"], "optimal");
+  int always_on = 0;
+  for (const Json& design : answer["designs"])
+    always_on += design["settings"]["compressor_duty"].get<double>() > 0.9999;
+  EXPECT_GT(always_on, 0);
+}
+
 TEST(PowerTest, OfBottlesTakesTheBatteryAway) {
   Json request = Powered("gripper", {{"kind", "wall"}});
   request["supply"]["configurations"] = {"cylinder", "co2"};
