@@ -49,7 +49,7 @@ test('a search is written and started with the keyboard alone', async () => {
       break;
   }
   await page.keyboard.press('Enter');
-  await page.getByText('Proved: no other combination').waitFor();
+  await page.getByText('Proved: no kind of design').waitFor();
   await page.keyboard.press('Alt+3');
   await page.getByRole('heading', { name: 'Catalogue' }).waitFor();
   await close();

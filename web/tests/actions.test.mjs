@@ -38,7 +38,7 @@ test('a number is typed with its unit, a volume by what the actuator is', async 
   await page.getByText(/mL at rest, .* at the operating pressure: × 2/).waitFor();
   await page.getByText('These requirements can be searched.').waitFor();
   await page.getByRole('button', { name: 'Find the best designs' }).click();
-  await page.getByText('Proved: no other combination').waitFor();
+  await page.getByText('Proved: no kind of design').waitFor();
   await page.getByText('“15 psi” is 103.421 kPa gauge').waitFor();
   const listed = await service.get(`/v1/designs/${page.url().split('/').at(-1)}`);
   const [group] = listed.result.requirements.actuators;
@@ -64,7 +64,7 @@ test('requirements are posted and the list is browsed', async () => {
   await page.getByLabel('Rise time, at most').fill('0.2');
   await page.getByText('These requirements can be searched.').waitFor();
   await page.getByRole('button', { name: 'Find the best designs' }).click();
-  await page.getByText('Proved: no other combination').waitFor();
+  await page.getByText('Proved: no kind of design').waitFor();
   assert.match(page.url(), /#\/designs\/[0-9a-f]+$/);
   const listed = await service.get(`/v1/designs/${page.url().split('/').at(-1)}`);
   assert.equal(listed.result.requirements.actuators[0].rise_time_s_max, 0.2);

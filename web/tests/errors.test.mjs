@@ -138,7 +138,7 @@ test('an infeasible problem says what conflicts', async () => {
   await conflicts.getByRole('button', { name: 'Ask for that' }).click();
   await page.getByText('These requirements can be searched.').waitFor();
   await page.getByRole('button', { name: 'Find the best designs' }).click();
-  await page.getByText('Proved: no other combination').waitFor();
+  await page.getByText('Proved: no kind of design').waitFor();
   await close();
 });
 
@@ -276,7 +276,7 @@ test('a service that others can reach asks for a token; one to read may not sear
   await use(guarded.tokens.write);
   await page.getByText('can be searched').waitFor();
   await page.getByRole('button', { name: 'Find the best designs' }).click();
-  await page.getByText('Proved: no other combination').waitFor();
+  await page.getByText('Proved: no kind of design').waitFor();
   await page.getByRole('link', { name: 'Jobs' }).click();
   await page.getByRole('row', { name: /exosuit proved \d\.\d+ kg/ }).waitFor();
   await close([401, 403]);

@@ -97,7 +97,7 @@ function CompareDialog({ ids, onClose }: { ids: string[]; onClose: () => void })
           <Table
             label="Comparison"
             class="side-by-side"
-            heads={['', ...now.parts.map((part) => number(part.part_number))]}
+            heads={['what', ...now.parts.map((part) => number(part.part_number))]}
           >
             {rows.map((row) => (
               <CompareRow key={row.field} row={row} />

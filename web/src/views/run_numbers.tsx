@@ -38,10 +38,12 @@ export function NumbersOfRuns({ d }: { d: Diagnosis }) {
         {d.runs.flatMap((run) =>
           named.map(([name, label], i) => (
             <tr key={run.id + name}>
-              <th scope="row">
-                {i === 0 && run.id} {i === 0 && run.held_out && <Chip>held out</Chip>}
-                {i === 0 && run.copy_of && <Chip kind="warn">same readings as {run.copy_of}</Chip>}
-              </th>
+              {i === 0 && (
+                <th scope="row" rowSpan={named.length}>
+                  {run.id} {run.held_out && <Chip>held out</Chip>}
+                  {run.copy_of && <Chip kind="warn">same readings as {run.copy_of}</Chip>}
+                </th>
+              )}
               <td>{label}</td>
               <td class="num">{shown('pressure', run[name]?.initial_pressure_kpa_gauge, 5)}</td>
               <td class="num extra">{significant(run[name]?.initial_temperature_k, 4)}</td>
