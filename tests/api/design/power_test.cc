@@ -101,8 +101,8 @@ TEST(PowerTest, OfARobotHasItsVoltageEnergyAndCurrent) {
   EXPECT_EQ(Answered(request_weak)["status"], "infeasible");
 }
 
-// Their rise time binds, too, and what the simulator's error moves the balance by, it must not leave
-// undecided.
+// Their rise time binds, too, and what the simulator's error moves the balance by, it must not
+// leave undecided.
 TEST(PowerTest, DesignsWhosePumpsRunAllTheTimeAreDecided) {
   Json request = Example("exosuit");
   request["supply"]["power"] = {{"kind", "wall"}};
