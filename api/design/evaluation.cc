@@ -47,7 +47,7 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
   if (!errors.empty()) return errors;
   auto parsed = ParseRequirements(*requirements, parts, models);
   if (auto* wrong = std::get_if<Errors>(&parsed)) {
-    for (Error& error : *wrong) error.pointer.insert(0, "/requirements");
+    PutUnder("/requirements", *wrong);
     return *wrong;
   }
   const optimizer::Problem& problem = std::get<DesignRequest>(parsed).problem;

@@ -2,6 +2,7 @@
 
 #include "api/design/read/answer_reader.h"
 #include "api/design/read/requirements_reader.h"
+#include "api/json/remarks.h"
 #include "api/json/version.h"
 #include "api/json/words.h"
 #include "verify/verify_draws.h"
@@ -130,7 +131,7 @@ Parsed<Json> VerifyAnswer(const Json& result, const std::vector<catalog::Part>& 
       return Errors{{"/requirements/model", "only answers of the nominal model can be verified"}};
     auto parsed = ParseRequirements(*request, parts);
     if (auto* wrong = std::get_if<Errors>(&parsed)) {
-      for (Error& error : *wrong) error.pointer.insert(0, "/requirements");
+      PutUnder("/requirements", *wrong);
       return *wrong;
     }
     const DesignRequest& asked = std::get<DesignRequest>(parsed);

@@ -21,6 +21,10 @@ void Remarks::PutUnder(std::string_view pointer) {
       remark["pointer"] = std::string(pointer) + remark["pointer"].get<std::string>();
 }
 
+void PutUnder(std::string_view pointer, Errors& errors) {
+  for (Error& error : errors) error.pointer.insert(0, pointer);
+}
+
 void Remarks::Append(const Remarks& more) {
   understood.insert(understood.end(), more.understood.begin(), more.understood.end());
   warnings.insert(warnings.end(), more.warnings.begin(), more.warnings.end());

@@ -29,6 +29,9 @@ struct Remarks {
   void Append(const Remarks& more);
 };
 
+// The same of errors.
+void PutUnder(std::string_view pointer, Errors& errors);
+
 class RemarkRecorder {
  public:
   RemarkRecorder();  // hears all readers of this thread, until another one does in its stead

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/json/reader.h"
+#include "api/json/remarks.h"
 #include "api/json/units.h"
 #include "api/json/version.h"
 #include "api/json/words.h"
@@ -29,15 +30,11 @@ struct Request {
   StatedAnswer stated;
 };
 
-Errors Under(const std::string& pointer, Errors errors) {
-  for (Error& error : errors) error.pointer = pointer + error.pointer;
-  return errors;
-}
-
 template <typename T>
 bool Take(Parsed<T> parsed, const std::string& pointer, T& value, Errors& errors) {
   if (auto* found = std::get_if<Errors>(&parsed)) {
-    errors = Under(pointer, std::move(*found));
+    errors = std::move(*found);
+    PutUnder(pointer, errors);
     return false;
   }
   value = std::get<T>(std::move(parsed));

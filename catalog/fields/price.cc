@@ -86,4 +86,9 @@ void DerivePrice(Part& part) {
   part.numbers[field] = {*EuroAPiece(*offer), Provenance::kDerived, SourceOf(*offer)};
 }
 
+void MakeFree(Part& part) {
+  const std::string field = PriceField(part.family);
+  if (!field.empty()) part.numbers[field] = {0.0, Provenance::kDerived, "at hand"};
+}
+
 }  // namespace plenum::catalog

@@ -41,6 +41,9 @@ const Offer* NewestOffer(const std::vector<Offer>& offers);
 // `pack` counts metres. A part without an offer that counts keeps its price.
 void DerivePrice(Part& part);
 
+// Makes the part's price 0, as of one that is at hand.
+void MakeFree(Part& part);
+
 }  // namespace plenum::catalog
 
 #endif  // PLENUM_CATALOG_FIELDS_PRICE_H_

@@ -16,6 +16,15 @@ std::string IdOf(const model::Parts& parts, Family family, int index) {
   return BasicsOf(parts, family, index).id;
 }
 
+// The configuration and the series of the source of all combinations in the box.
+std::optional<std::pair<Configuration, int>> SourceAt(const Plan& plan, const Box& box) {
+  const int slot = plan.compressor_slot >= 0 ? plan.compressor_slot : plan.bottle_slot;
+  if (slot < 0) return std::pair(plan.configuration, -1);
+  const int source = (*plan.slots[slot].nodes)[box.nodes[slot]].series;
+  if (source < 0) return std::nullopt;
+  return std::pair(plan.configuration, source);
+}
+
 }  // namespace
 
 TieKey EarliestKey(const Problem& problem, const Plan& plan, const Box& box) {
@@ -48,19 +57,6 @@ std::optional<Kind> KindAt(const Plan& plan, const Box& box) {
   }
   return kind;
 }
-
-namespace {
-
-// The configuration and the series of the source of all combinations in the box.
-std::optional<std::pair<Configuration, int>> SourceAt(const Plan& plan, const Box& box) {
-  const int slot = plan.compressor_slot >= 0 ? plan.compressor_slot : plan.bottle_slot;
-  if (slot < 0) return std::pair(plan.configuration, -1);
-  const int source = (*plan.slots[slot].nodes)[box.nodes[slot]].series;
-  if (source < 0) return std::nullopt;
-  return std::pair(plan.configuration, source);
-}
-
-}  // namespace
 
 void Ranking::Add(Found found) {
   if (ListsKinds()) {

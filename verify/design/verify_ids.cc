@@ -23,6 +23,12 @@ std::string Text(const Ids& ids) {
   return text;
 }
 
+TieShare& TieShare::operator+=(const TieShare& other) {
+  mass += other.mass;
+  cost += other.cost;
+  return *this;
+}
+
 TieShare ShareOfTies(const Problem& problem, const ItemAmounts& amounts) {
   const Objective& weight = problem.objective;
   const bool others = weight.volume_l > 0.0 || weight.energy_wh > 0.0;
@@ -39,10 +45,8 @@ TieKey TieKeyOf(const Problem& problem, const Design& design) {
     const ProofItem item{made ? -2 : FindPart(problem.parts, row.family, row.id),
                          row.group < 0 ? static_cast<int>(row.quantity) : 1};
     if (item.part == -1) continue;  // no part of the catalogue, which another check tells
-    const TieShare share =
+    key.share +=
         ShareOfTies(problem, ChoiceAmounts(problem, {row.family, row.group, {}, {}}, item));
-    key.share.mass += share.mass;
-    key.share.cost += share.cost;
   }
   return key;
 }

@@ -22,6 +22,7 @@ std::string Text(const Ids& ids);
 // one.
 struct TieShare {
   long long mass = 0, cost = 0;
+  TieShare& operator+=(const TieShare& other);
   auto operator<=>(const TieShare&) const = default;
 };
 TieShare ShareOfTies(const Problem& problem, const ItemAmounts& amounts);

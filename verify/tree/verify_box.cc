@@ -50,23 +50,6 @@ Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   return ids;
 }
 
-TieKey EarliestKey(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
-  TieKey key{{}, EarliestIds(problem, plan, ranges)};
-  for (std::size_t s = 0; s < ranges.size(); ++s) {
-    std::optional<TieShare> least;
-    for (int i = ranges[s].first; i < ranges[s].second; ++i) {
-      const ProofSlot& slot = plan.slots[s];
-      const TieShare share = ShareOfTies(problem, ChoiceAmounts(problem, slot, slot.choices[i]));
-      least = least ? TieShare{std::min(least->mass, share.mass), std::min(least->cost, share.cost)}
-                    : share;
-    }
-    if (!least) continue;
-    key.share.mass += least->mass;
-    key.share.cost += least->cost;
-  }
-  return key;
-}
-
 Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges& single) {
   Assembly assembly;
   assembly.configuration = plan.configuration;
@@ -88,10 +71,17 @@ BoxCheck::BoxCheck(const Problem& problem, const ProofPlan& plan, const Claims& 
       corners_(problem, plan, strokes_),
       sizer_(problem, stop) {}
 
+TieKey BoxCheck::EarliestKey(const Ranges& ranges) {
+  TieKey key{{}, EarliestIds(problem_, plan_, ranges)};
+  for (int s = 0; s < static_cast<int>(ranges.size()); ++s)
+    key.share += ShareOfTies(problem_, corners_.Least(ranges, s).least);
+  return key;
+}
+
 // Whether a combination with this objective, or more, bears out the claim.
-bool BoxCheck::Holds(const Claim& claim, double objective, const Ranges& single) const {
+bool BoxCheck::Holds(const Claim& claim, double objective, const Ranges& single) {
   if (!(objective >= claim.least)) return false;
-  return objective > claim.tie_end || EarliestKey(problem_, plan_, single) > claim.last;
+  return objective > claim.tie_end || EarliestKey(single) > claim.last;
 }
 
 int SlotToDivide(const ProofPlan& plan, Corners& corners, const Ranges& ranges) {
@@ -116,7 +106,7 @@ bool BoxCheck::IsBeyond(const Claim& claim, const Ranges& ranges) {
   const double past_ties = claim.enough();
   const double bound = corners_.LeastObjective(ranges, past_ties);
   if (bound > past_ties || (bound >= claim.least && std::isinf(claim.tie_end))) return true;
-  return std::isfinite(claim.tie_end) && EarliestKey(problem_, plan_, ranges) > claim.last &&
+  return std::isfinite(claim.tie_end) && EarliestKey(ranges) > claim.last &&
          corners_.LeastObjective(ranges, claim.least) > claim.least;
 }
 

@@ -10,10 +10,8 @@
 
 namespace plenum::verify {
 
-// Of each slot the choice with the first id; and the least mass and cost, too: no combination in
-// the box that ties comes before these.
+// Of each slot the choice with the first id.
 Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ranges);
-TieKey EarliestKey(const Problem& problem, const ProofPlan& plan, const Ranges& ranges);
 
 // The parts at one place of each slot.
 Assembly AssemblyAt(const Problem& problem, const ProofPlan& plan, const Ranges& single);
@@ -43,7 +41,9 @@ class BoxCheck {
   BigCount Recheck(const Ranges& ranges, Findings& findings);
 
  private:
-  bool Holds(const Claim& claim, double objective, const Ranges& single) const;
+  // With the least mass and cost of each slot: no combination in the box that ties comes before it.
+  TieKey EarliestKey(const Ranges& ranges);
+  bool Holds(const Claim& claim, double objective, const Ranges& single);
   bool IsBeyond(const Claim& claim, const Ranges& ranges);
   bool IsCoreBeyond(const Claim& claim, const Ranges& ranges, int battery_slot);
   bool IsSettled(const Claim& claim, const Ranges& single, Findings& findings);

@@ -178,10 +178,12 @@ class Enumeration {
             ", not " + std::to_string(given));
       return;
     }
+    TieKey key{{}, ids};
+    for (std::size_t s = 0; s < single_.size(); ++s)
+      key.share += ShareOfTies(problem_, amounts_[s][single_[s].first]);
     const Claim& claim = series_->ClaimOn(claims_, single_);
     const bool worse = objective * (1.0 + tolerance) >= claim.least &&
-                       (objective * (1.0 + tolerance) > claim.tie_end ||
-                        EarliestKey(problem_, plan(), single_) > claim.last);
+                       (objective * (1.0 + tolerance) > claim.tie_end || key > claim.last);
     if (!surely || worse) return;
     Add("a " + std::string(Name(plan().configuration)) + " design that is not listed comes to " +
         std::to_string(objective) + ": " + Text(ids));

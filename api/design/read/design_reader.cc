@@ -19,7 +19,7 @@ int GroupNamed(const Problem& problem, const std::string& name) {
   return -1;
 }
 
-// What an answer says beside it of a design that it lists.
+// Fields that an answer has in a design that it lists, and that a given one may keep.
 void PassOver(Reader& reader, std::initializer_list<const char*> names) {
   for (const char* name : names) {
     reader.Raw(name);
@@ -73,7 +73,7 @@ optimizer::Design ReadGivenDesign(Reader reader, const Problem& problem) {
   PassOver(settings, {"valve_duty", "valve_duty_groups", "compressor_duty", "power"});
   settings.Finish();
   PassOver(reader, {"rank", "objective", "totals", "performance", "margins", "response", "kind",
-                    "variants", "data_quality", "robustness", "place"});
+                    "variants", "data_quality", "robustness"});
   reader.Finish();
   return design;
 }

@@ -18,8 +18,9 @@ using optimizer::PowerKind;
 
 // More than a supply from the wall is asked for.
 constexpr double kWallAh = 1e6, kWallA = 1e6;
-// Of a pump's voltage: within what a pump takes (storage.h).
+// Of a pump's voltage: as high as a pump surely takes.
 constexpr double kHigher = 1.149;
+static_assert(kHigher < 1.0 + model::kVoltageTolerance);
 constexpr double kVoltageMax = 1000.0, kEnergyMaxWh = 1e6, kCurrentMaxA = 1e4;
 
 model::Battery Supply(std::string id, double voltage_v, double capacity_ah, double current_max_a) {
@@ -91,13 +92,17 @@ void ReplaceBatteries(const optimizer::Problem& problem, model::Parts& parts) {
   }
 }
 
+bool HasOutsidePower(const optimizer::Problem& problem) {
+  return problem.power.kind != PowerKind::kBattery;
+}
+
 bool IsOutsidePower(const optimizer::Choice& choice, const optimizer::Problem& problem) {
-  return choice.family == Family::kBattery && problem.power.kind != PowerKind::kBattery;
+  return choice.family == Family::kBattery && HasOutsidePower(problem);
 }
 
 void AddOutsidePower(const optimizer::Problem& problem, optimizer::Design& design) {
   const std::vector<model::Battery>& supplies = problem.parts.batteries;
-  if (problem.power.kind == PowerKind::kBattery || supplies.empty() ||
+  if (!HasOutsidePower(problem) || supplies.empty() ||
       !optimizer::SpecOf(Family::kBattery).InSourceOf(design.configuration) ||
       std::any_of(design.parts.begin(), design.parts.end(),
                   [](const auto& row) { return row.family == Family::kBattery; }))
@@ -120,7 +125,7 @@ void AddOutsidePower(const optimizer::Problem& problem, optimizer::Design& desig
 }
 
 Json RenderPower(const optimizer::Design& design, const optimizer::Problem& problem) {
-  if (problem.power.kind == PowerKind::kBattery) return nullptr;
+  if (!HasOutsidePower(problem)) return nullptr;
   Json power = {{"kind", optimizer::Name(problem.power.kind)}};
   const model::Compressor* pump = PumpOf(design, problem);
   if (problem.power.kind == PowerKind::kRobot)

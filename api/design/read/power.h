@@ -17,7 +17,9 @@ void ReadPower(Reader& supply, optimizer::Problem& problem);
 // `parts` asks for.
 void ReplaceBatteries(const optimizer::Problem& problem, model::Parts& parts);
 
-// Whether the row is such a supply.
+// Whether the problem has no batteries to choose from; and whether the row stands for what it has
+// in their place.
+bool HasOutsidePower(const optimizer::Problem& problem);
 bool IsOutsidePower(const optimizer::Choice& choice, const optimizer::Problem& problem);
 
 // Adds the row to a design as the user sees it, where its configuration has one.

@@ -120,7 +120,7 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
 
 // Only one supply from the wall or the robot is there.
 void CheckPower(Reader& request, optimizer::Problem& problem) {
-  if (problem.power.kind == optimizer::PowerKind::kBattery) return;
+  if (!HasOutsidePower(problem)) return;
   problem.limits.batteries = 1;
   if (problem.require.contains(optimizer::Family::kBattery))
     request.FailAt("require/battery", std::string("is no choice where /supply/power is the ") +

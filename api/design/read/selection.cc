@@ -8,6 +8,7 @@
 #include "api/design/read/power.h"
 #include "api/json/request_limits.h"
 #include "api/json/words.h"
+#include "catalog/fields/price.h"
 #include "optimizer/problem/family_specs.h"
 
 namespace plenum::api {
@@ -20,8 +21,7 @@ using optimizer::Family;
 bool HasChoice(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
                Family family) {
   if (optimizer::MadeToMeasureAllowed(problem, family)) return true;
-  if (family == Family::kBattery && problem.power.kind != optimizer::PowerKind::kBattery)
-    return true;
+  if (family == Family::kBattery && HasOutsidePower(problem)) return true;
   return std::any_of(parts.begin(), parts.end(), [&](const catalog::Part& part) {
     return part.family == optimizer::Name(family) && IsAllowed(problem, family, part);
   });
@@ -98,22 +98,9 @@ void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
   problem.own = read("own", false);
 }
 
-void MakeOwnFree(const optimizer::Problem& problem, model::Parts& parts) {
-  const auto free = [&](model::PartBasics& basics) {
-    if (problem.own.contains(basics.id)) basics.cost_eur = 0.0;
-  };
-  for (model::Tubing& tube : parts.tubing) free(tube.per_metre);
-  const auto free_all = [&](auto& family) {
-    for (auto& part : family) free(part.basics);
-  };
-  free_all(parts.fittings);
-  free_all(parts.valves);
-  free_all(parts.regulators);
-  free_all(parts.cylinders);
-  free_all(parts.co2);
-  free_all(parts.compressors);
-  free_all(parts.reservoirs);
-  free_all(parts.batteries);
+catalog::Part AsCounted(catalog::Part part, const optimizer::Problem& problem) {
+  if (problem.own.contains(part.id)) catalog::MakeFree(part);
+  return part;
 }
 
 std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
@@ -122,14 +109,13 @@ std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
   for (const optimizer::FamilySpec& spec : optimizer::Families())
     for (const catalog::Part& part : parts)
       if (part.family == spec.name && IsAllowed(problem, spec.family, part))
-        allowed.push_back(part);
+        allowed.push_back(AsCounted(part, problem));
   return allowed;
 }
 
 model::Parts AllowedModelParts(const std::vector<catalog::Part>& parts,
                                const optimizer::Problem& problem) {
   model::Parts allowed = ToModelParts(AllowedParts(parts, problem), problem.ambient);
-  MakeOwnFree(problem, allowed);
   ReplaceBatteries(problem, allowed);
   return allowed;
 }

@@ -23,12 +23,12 @@ bool IsAllowed(const optimizer::Problem& problem, optimizer::Family family,
 void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
                    optimizer::Problem& problem);
 
-// The parts that the problem leaves; by family, else in their order.
+// The row as the problem counts it: a part at hand costs nothing.
+catalog::Part AsCounted(catalog::Part part, const optimizer::Problem& problem);
+
+// The parts that the problem leaves, as it counts them; by family, else in their order.
 std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
                                         const optimizer::Problem& problem);
-
-// Parts at hand cost nothing.
-void MakeOwnFree(const optimizer::Problem& problem, model::Parts& parts);
 
 // These as the search takes them, with the power that the problem has.
 model::Parts AllowedModelParts(const std::vector<catalog::Part>& parts,

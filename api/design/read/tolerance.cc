@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "api/catalogue/catalogue_parts.h"
+#include "api/design/read/power.h"
 #include "api/design/read/selection.h"
 #include "api/json/units.h"
 #include "catalog/fields/fields.h"
@@ -133,13 +134,11 @@ optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
         drawn.push_back(
             Perturbed(MadeReservoirRow(problem, design, choice), tolerance, seed, draw));
       } else if (const auto row = by_id.find(choice.id); row != by_id.end()) {
-        drawn.push_back(Perturbed(*row->second, tolerance, seed, draw));
+        drawn.push_back(Perturbed(AsCounted(*row->second, problem), tolerance, seed, draw));
       }
     }
     model::Parts parts = ToModelParts(drawn, problem.ambient);
-    MakeOwnFree(problem, parts);
-    if (problem.power.kind != optimizer::PowerKind::kBattery)
-      parts.batteries = problem.parts.batteries;
+    if (HasOutsidePower(problem)) parts.batteries = problem.parts.batteries;
     return parts;
   };
 }

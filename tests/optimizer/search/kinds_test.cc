@@ -181,25 +181,21 @@ TEST(KindsTest, SeveralGroupsAsEnumerated) {
   EXPECT_GT(CompareDraws(400, 10, {Configuration::kMains}, 3, {1, 2, 3, 1, 0, 0, 0, 0, 0}), 2);
 }
 
-// Each part its own series, and all places for one source: the kinds are sets of parts.
-TEST(KindsTest, CostAsEnumerated) {
-  for (std::uint64_t seed = 500; seed < 510; ++seed) {
+void CompareRegulated(std::uint64_t first, std::uint64_t end,
+                      const optimizer::Objective& objective) {
+  for (std::uint64_t seed = first; seed < end; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Problem problem = Drawn(seed, kRegulated, 1, {3, 3, 5, 4, 4, 3, 0, 3, 0});
-    problem.objective = {.cost_eur = 1.0};
+    problem.objective = objective;
     Compare(problem);
   }
 }
 
+// Each part its own series, and all places for one source: the kinds are sets of parts.
+TEST(KindsTest, CostAsEnumerated) { CompareRegulated(500, 510, {0.0, 0.0, 1.0, 0.0}); }
+
 // Where designs of a kind tie, and kinds do, the lightest is listed.
-TEST(KindsTest, LeastEnergyAsEnumerated) {
-  for (std::uint64_t seed = 520; seed < 550; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    Problem problem = Drawn(seed, kRegulated, 1, {3, 3, 5, 4, 4, 3, 0, 3, 0});
-    problem.objective = {.energy_wh = 1.0};
-    Compare(problem);
-  }
-}
+TEST(KindsTest, LeastEnergyAsEnumerated) { CompareRegulated(520, 550, {0.0, 0.0, 0.0, 1.0}); }
 
 // The first is the best of all combinations; more kinds of a source leave the first ones as they
 // were.
