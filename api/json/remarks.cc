@@ -37,14 +37,14 @@ RemarkRecorder::RemarkRecorder() : outer_(std::exchange(current, this)) {
 RemarkRecorder::~RemarkRecorder() { current = outer_; }
 RemarkRecorder* RemarkRecorder::Current() { return current; }
 
-void RemarkRecorder::Add(Json& list, const std::string& pointer, Json remark) {
+void RemarkRecorder::Add(Json& list, const std::string& pointer, const Json& remark) {
   Json placed = {{"pointer", pointer}};
   placed.update(remark);
   if (known_.insert(placed.dump()).second) list.push_back(std::move(placed));
 }
 
-void RemarkRecorder::Understood(const std::string& pointer, Json understood) {
-  Add(remarks_.understood, pointer, std::move(understood));
+void RemarkRecorder::Understood(const std::string& pointer, const Json& understood) {
+  Add(remarks_.understood, pointer, understood);
 }
 
 void RemarkRecorder::Warn(const std::string& pointer, const std::string& detail) {
@@ -54,7 +54,7 @@ void RemarkRecorder::Warn(const std::string& pointer, const std::string& detail)
 void RemarkRecorder::Note(const std::string& pointer, const Json& note) {
   Json remark = Json::object();
   remark["note"] = note;
-  Add(remarks_.notes, pointer, std::move(remark));
+  Add(remarks_.notes, pointer, remark);
 }
 
 Remarks RemarkRecorder::Take() { return std::exchange(remarks_, {}); }

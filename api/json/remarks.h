@@ -47,7 +47,7 @@ class RemarkRecorder {
   std::optional<double> ambient_kpa_abs() const { return ambient_kpa_abs_; }
 
   // Each remark is kept once, however often its place is read.
-  void Understood(const std::string& pointer, Json understood);
+  void Understood(const std::string& pointer, const Json& understood);
   void Warn(const std::string& pointer, const std::string& detail);
   void Note(const std::string& pointer, const Json& note);
 
@@ -56,7 +56,7 @@ class RemarkRecorder {
   void TellOuter(const std::function<std::string(const std::string&)>& place);
 
  private:
-  void Add(Json& list, const std::string& pointer, Json remark);
+  void Add(Json& list, const std::string& pointer, const Json& remark);
 
   RemarkRecorder* outer_;
   std::optional<double> ambient_kpa_abs_;

@@ -15,6 +15,7 @@ inline constexpr std::size_t kDesignRowsMax = 1000;
 template <typename Enum>
 Enum ReadEnum(Reader& reader, const char* field, const std::vector<Enum>& values) {
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const Enum value : values) names.emplace_back(optimizer::Name(value));
   const std::string chosen = reader.Choice(field, names);
   for (std::size_t i = 0; i < names.size(); ++i)
