@@ -186,7 +186,9 @@ double Corners::LeastStores(const Ranges& ranges, const BestNumbers& regulator, 
   sum += least(SlotOf(plan_, family, -1), [&](const ProofItem& item) {
     const model::Parts& parts = problem_.parts;
     const bool fits = cylinder
-                          ? parts.cylinders[item.part].fill_pressure_pa <= inlet_max_pa
+                          ? parts.cylinders[item.part].fill_pressure_pa +
+                                    parts.cylinders[item.part].fill_pressure_spread_pa <=
+                                inlet_max_pa
                           : item.quantity * parts.co2[item.part].flow_sustained_m3_per_s * kSlack >=
                                 stored.air_m3 * problem_.frequency_hz;
     return fits &&

@@ -147,6 +147,34 @@ std::optional<State> Repeating(const Problem& problem, const Settings& settings,
   return std::nullopt;
 }
 
+// With a guarantee a valve that cannot hold may pass more than the part that stands for it, and
+// fill its actuators up to the source pressure. Pumps run no longer than for the stroke of that
+// part and then, for what it leaves, against the stop pressure, at no more than their greatest
+// power.
+void FillOpenOnes(const Problem& problem, const Settings& settings, const Assembly& assembly,
+                  Cycle& cycle) {
+  if (!problem.guarantee || assembly.at_best) return;
+  double more_m3 = 0.0;
+  bool open = false;
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    if (model::Holds(assembly.lines[g].valve->kind)) continue;
+    open = true;
+    const model::Chamber chamber = ChamberOf(problem.groups[g], assembly.lines[g]);
+    more_m3 += problem.groups[g].count *
+               model::StandardVolume(model::Content(chamber, settings.source_pressure_pa) -
+                                         model::Content(chamber, cycle.filled_pa[g]),
+                                     problem.ambient.temperature_k);
+    cycle.filled_pa[g] = settings.source_pressure_pa;
+  }
+  if (!open || !assembly.compressor) return;
+  const model::CompressorCurve& curve = assembly.compressor->curve;
+  const double stop_pa = settings.source_pressure_pa;
+  cycle.pump_air_m3 += more_m3;
+  cycle.pump_on_s += more_m3 / (assembly.compressors * model::FreeAirDelivery(curve, stop_pa));
+  cycle.pump_j = cycle.pump_on_s * assembly.compressors * curve.voltage_v *
+                 model::LargestCurrent(curve, problem.ambient.pressure_pa, stop_pa);
+}
+
 // What is the same for every way to the strokes: air, coils and regulator.
 void AddNeeds(const Problem& problem, const Assembly& assembly, Cycle& cycle) {
   const double period_s = 1.0 / problem.frequency_hz;
@@ -203,6 +231,7 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
   cycle.pump_on_s = 0.5 * response.compressor_on_s;
   cycle.pump_j = 0.5 * response.compressor_energy_j;
   cycle.pump_air_m3 = 0.5 * response.compressor_air_m3;
+  FillOpenOnes(problem, settings, assembly, cycle);
   AddNeeds(problem, assembly, cycle);
   return cycle;
 }
@@ -216,7 +245,8 @@ double Target(const Problem& problem, const ActuatorGroup& group, double fractio
 
 std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& settings,
                                    const Assembly& assembly, const Stop& stop) {
-  return Simulated(problem, settings, assembly, settings.reservoir_volume_m3.value_or(0.0), stop);
+  return Simulated(problem, settings, assembly,
+                   settings.reservoir_volume_m3.value_or(0.0) + assembly.ReservoirSpread(), stop);
 }
 
 QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop stop)
@@ -327,6 +357,7 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
     if (groups > 1 && !(over_s <= turn_s))
       return Simulated(problem_, settings, assembly_, rising_m3, stop_);
   }
+  FillOpenOnes(problem_, settings, assembly_, cycle);
   AddNeeds(problem_, assembly_, cycle);
   return cycle;
 }

@@ -30,6 +30,12 @@ struct Assembly {
   const model::Battery* battery = nullptr;
   const model::Reservoir* reservoir = nullptr;  // null with a compressor: made to measure
   int bottles = 0, compressors = 0, batteries = 0, reservoirs = 0;
+  bool at_best = false;  // with a guarantee: valves that cannot hold as the parts are
+  // Volume of stock reservoirs, and how much more they have while they rise.
+  double ReservoirVolume() const { return reservoir ? reservoirs * reservoir->volume_m3 : 0.0; }
+  double ReservoirSpread() const {
+    return reservoir ? reservoirs * reservoir->volume_spread_m3 : 0.0;
+  }
 };
 
 // Puts a choice of a family into its place. ProofItem::part as there: −1 and −2 leave it empty.
@@ -50,6 +56,8 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
 
 // Sums over all pieces, without energy; a made-to-measure reservoir is that of the settings.
 Totals TotalsOf(const Problem& problem, const Assembly& assembly, const Settings& settings);
+// What mass and volume may be more, as limits on them have it.
+Totals SlackOf(const Problem& problem, const Assembly& assembly, const Settings& settings);
 double ObjectiveOf(const Problem& problem, const Totals& totals);
 
 // Which parts fit together.

@@ -23,7 +23,8 @@ class KnownCycles {
   bool Serves(const Assembly& other) const {
     return other.configuration == assembly_.configuration && other.lines == assembly_.lines &&
            other.regulator == assembly_.regulator && other.co2 == assembly_.co2 &&
-           other.compressor == assembly_.compressor && other.compressors == assembly_.compressors;
+           other.compressor == assembly_.compressor && other.compressors == assembly_.compressors &&
+           other.at_best == assembly_.at_best;
   }
 
   // By energy per air, or by power where groups take turns (verify_size.h); of all the pressures

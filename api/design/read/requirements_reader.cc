@@ -32,10 +32,15 @@ const Range kAmount = Above(0, 1e6);  // kg, L, EUR
 constexpr Configuration kAllConfigurations[] = {Configuration::kCylinder, Configuration::kCo2,
                                                 Configuration::kCompressor, Configuration::kMains};
 
-// `operating_kpa` is set to the operating gauge pressure as given.
+// What a group says beside the group itself.
+struct GroupRemarks {
+  double operating_kpa = 0.0;  // gauge, as given
+  GroupUncertainty uncertainty;
+};
+
 optimizer::ActuatorGroup ReadGroup(const Element& element, std::size_t index,
                                    const model::Ambient& ambient, std::vector<std::string>& names,
-                                   double& operating_kpa, Errors& errors) {
+                                   GroupRemarks& remarks, Errors& errors) {
   Reader reader(element, errors);
   optimizer::ActuatorGroup group;
   group.name = ReadName(reader, index, names);
@@ -48,7 +53,9 @@ optimizer::ActuatorGroup ReadGroup(const Element& element, std::size_t index,
   group.fall_time_max_s =
       reader.OptionalNumber("fall_time_s_max", kTimeLimitS).value_or(optimizer::kUnlimited);
 
-  operating_kpa = KpaGaugeFromPa(group.chamber.operating_pressure_pa, ambient);
+  remarks.uncertainty = ReadGroupUncertainty(reader);
+  const double operating_kpa = remarks.operating_kpa =
+      KpaGaugeFromPa(group.chamber.operating_pressure_pa, ambient);
   const auto limit_kpa = reader.OptionalNumber("pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
   if (limit_kpa && *limit_kpa < operating_kpa - 1e-9)
     reader.Fail("pressure_kpa_gauge_max", "must be ≥ the operating pressure of " +
@@ -129,14 +136,14 @@ void CheckPower(Reader& request, optimizer::Problem& problem) {
 
 // A source must reach the operating pressure of every group: what no choice of parts can mend is an
 // error of the request.
-void CheckPressures(const optimizer::Problem& problem, const std::vector<double>& operating_kpa,
+void CheckPressures(const optimizer::Problem& problem, const std::vector<GroupRemarks>& groups,
                     Errors& errors) {
   const bool only_mains = problem.configurations == std::set<Configuration>{Configuration::kMains};
   const auto kpa = [&](double pa) { return Rounded(KpaGaugeFromPa(pa, problem.ambient)); };
-  for (std::size_t i = 0; i < operating_kpa.size(); ++i) {
+  for (std::size_t i = 0; i < groups.size(); ++i) {
     const double operating_pa = problem.groups[i].chamber.operating_pressure_pa;
     const std::string pointer = "/actuators/" + std::to_string(i) + "/operating_pressure_kpa_gauge";
-    const std::string is = "is " + Decimal(Rounded(operating_kpa[i])) + ", above ";
+    const std::string is = "is " + Decimal(Rounded(groups[i].operating_kpa)) + ", above ";
     if (operating_pa > problem.source_pressure_max_pa)
       errors.push_back({pointer, is +
                                      "the highest source pressure allowed: "
@@ -293,6 +300,18 @@ void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& model
                                [&](const auto& model) { return model.name == name; });
 }
 
+void CheckGuarantee(Reader& request, const DesignRequest& parsed) {
+  if (!parsed.guarantee) return;
+  std::string why = WhyNotGuaranteed(parsed.problem);
+  if (!parsed.pareto.empty()) why = "is for a list by one objective, not a front";
+  if (parsed.model) why = "is for the nominal model";
+  if (parsed.robust)
+    why =
+        "stands alone: draws and probability_min are for a list on paper; what is guaranteed "
+        "meets its requirements in each of them";
+  if (!why.empty()) request.Fail("guarantee", why);
+}
+
 bool HasErrorIn(const Errors& errors, std::initializer_list<std::string_view> places) {
   return std::any_of(errors.begin(), errors.end(), [&](const Error& error) {
     return std::any_of(places.begin(), places.end(),
@@ -315,19 +334,23 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   problem.ambient = ReadAmbient(reader);
 
   std::vector<std::string> names;
-  std::vector<double> operating_kpa;
+  std::vector<GroupRemarks> groups;
   for (const Element& element : reader.List("actuators", 1, kGroupsMax))
     problem.groups.push_back(ReadGroup(element, problem.groups.size(), problem.ambient, names,
-                                       operating_kpa.emplace_back(), errors));
+                                       groups.emplace_back(), errors));
   ReadDuty(reader, problem);
   const Fractions fractions = ReadFractions(reader);
   problem.rise_fraction = fractions.rise;
   problem.fall_fraction = fractions.fall;
   ReadSupply(reader, problem);
-  CheckPressures(problem, operating_kpa, errors);
+  CheckPressures(problem, groups, errors);
   ReadObjective(reader, parsed);
   const std::optional<double> probability_min = ReadRanking(reader, parsed);
   parsed.robust = ReadRobust(reader, probability_min);
+  std::vector<GroupUncertainty> uncertainties;
+  uncertainties.reserve(groups.size());
+  for (const GroupRemarks& group : groups) uncertainties.push_back(group.uncertainty);
+  parsed.guarantee = ReadGuarantee(reader, std::move(uncertainties));
   parsed.explain = ReadExplain(reader);
   if (!parsed.pareto.empty() && parsed.proof)
     reader.FailAt("ranking/proof", "is for a list by one objective");
@@ -346,6 +369,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   if (problem.unpriced_allowed && front_of_cost)
     reader.Fail("prices", "must be known for a front with cost_eur");
   ChooseList(reader, probability_min.has_value(), parsed);
+  CheckGuarantee(reader, parsed);
   if (parsed.model && parsed.proof)
     reader.FailAt("ranking/proof", "is for the nominal model: its record cannot be verified");
   reader.Finish();

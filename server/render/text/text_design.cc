@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "server/render/text/text_explain.h"
+#include "server/render/text/text_guarantee.h"
 #include "server/render/text/text_ranked.h"
 #include "server/render/text/text_remarks.h"
 #include "server/render/text/text_table.h"
@@ -218,7 +219,8 @@ std::string DesignText(const Json& answer, bool wide) {
                 : std::string(".\n\n");
     text += BestsText(answer) + Details(designs.front()) + "\n";
   }
-  text += FrontText(answer) + RobustText(answer) + PricesText(answer) + FlipsText(answer);
+  text += GuaranteeText(answer) + FrontText(answer) + RobustText(answer) + PricesText(answer) +
+          FlipsText(answer);
   return text + ProofText(answer) + RemarksText(answer);
 }
 
