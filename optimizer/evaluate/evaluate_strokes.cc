@@ -101,23 +101,46 @@ Pumped PumpedFor(const model::ReservoirStrokeInput& input, const model::Reservoi
                                     input.temperature_k)};
 }
 
-// The same of a line that stands open and passes any more than this one does, at most: it fills to
-// the source pressure. With a line that passes more, chamber and pumps are ahead at each time
-// (where contents are equal its reservoir holds no less, where the pumped air is equal it holds no
-// more, and pumps deliver more into less). So pumps run no longer than for the least stroke, and
-// then for the rest of the air against the stop pressure; their power is the most below it.
+// Pressure at which a reservoir of `volume_m3` at the stop pressure and empty chambers come to
+// rest, with so much air (Pa·m³) added.
+double Equalised(const model::ReservoirStrokeInput& input, double volume_m3, double added) {
+  const double held = volume_m3 * input.stop_pa + added +
+                      input.count * model::Content(*input.chamber, input.from_pa);
+  const auto room = [&](double p) {
+    return held - volume_m3 * p - input.count * model::Content(*input.chamber, p);
+  };
+  if (room(input.stop_pa) >= 0.0) return input.stop_pa;
+  return NarrowBracket(room, input.from_pa, room(input.from_pa), input.stop_pa, room(input.stop_pa),
+                       kFilledTolerance)
+      .high;
+}
+
+// The same of a line that stands open and passes any more than this one does, at most. Chambers
+// never hold more than at rest with the reservoir, which never falls below where it comes to rest
+// without pumps. With a line that passes more, chamber and pumped air are ahead at each time (where
+// contents are equal the reservoir holds no less, where the pumped air is equal it holds no more,
+// and pumps deliver more into less). So pumps run no longer than for the least stroke, and then for
+// the rest of the air against the stop pressure; their power is the most below it. Pumps that
+// deliver more run no longer: of what they deliver more while the line is open the chamber takes a
+// part at most, and the rest is the sooner pumped.
 Pumped OpenPumped(const Problem& problem, const model::ReservoirStrokeInput& input,
                   const Pumped& least) {
   const model::CompressorCurve& curve = *input.compressor;
+  const double unit_m3 = model::StandardVolume(1.0, input.temperature_k);
+  const double lowest_pa = Equalised(input, input.volume_falling_m3, 0.0);
+  const double pumped_m3 =
+      input.compressors * model::FreeAirDelivery(curve, lowest_pa) * input.open_s;
+  const double filled_pa =
+      std::max(least.filled_pa, Equalised(input, input.volume_rising_m3, pumped_m3 / unit_m3));
   const double rest_m3 = input.count *
-                         (model::Content(*input.chamber, input.stop_pa) -
+                         (model::Content(*input.chamber, filled_pa) -
                           model::Content(*input.chamber, least.filled_pa)) *
-                         model::StandardVolume(1.0, input.temperature_k);
+                         unit_m3;
   const double on_s =
       least.on_s + rest_m3 / (input.compressors * model::FreeAirDelivery(curve, input.stop_pa));
   const double power_w =
       curve.voltage_v * model::LargestCurrent(curve, problem.ambient.pressure_pa, input.stop_pa);
-  return {input.stop_pa, on_s, on_s * input.compressors * power_w, least.air_m3 + rest_m3};
+  return {filled_pa, on_s, on_s * input.compressors * power_w, least.air_m3 + rest_m3};
 }
 
 // Stroke of one group alone on the full reservoir, if that is the whole story: the reservoir is

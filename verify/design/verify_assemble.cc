@@ -1,6 +1,7 @@
 // Parts of a design, whether they fit, and what they weigh, take and cost.
 #include <set>
 
+#include "model/flow/tube.h"
 #include "model/physics/storage.h"
 #include "verify/design/verify_design.h"
 #include "verify/design/verify_families.h"
@@ -114,6 +115,12 @@ void ForEachRow(const Problem& problem, const Assembly& a, const Settings& setti
 }
 
 }  // namespace
+
+model::Chamber ChamberOf(const ActuatorGroup& group, const LineParts& line) {
+  model::Chamber chamber = group.chamber;
+  chamber.dead_volume_m3 += model::BoreVolume(line.tube->inner_diameter_m, group.tube_length_m);
+  return chamber;
+}
 
 double ObjectiveOf(const Problem& problem, const Totals& totals) {
   const Objective& weight = problem.objective;

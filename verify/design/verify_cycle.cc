@@ -6,6 +6,7 @@
 #include "model/simulate/simulate.h"
 #include "model/strokes/reservoir_stroke.h"
 #include "model/strokes/stroke.h"
+#include "verify/design/verify_open_valves.h"
 
 namespace plenum::verify {
 namespace {
@@ -17,12 +18,6 @@ constexpr double kPeriodic = 1e-8;  // relative change of the source from cycle 
 // default: a straight line from 1 − 1e-7 on would still delay the end of such a stroke by a
 // thousandth.
 constexpr double kLinear = 1.0 - 1e-9;
-
-model::Chamber ChamberOf(const ActuatorGroup& group, const LineParts& line) {
-  model::Chamber chamber = group.chamber;
-  chamber.dead_volume_m3 += model::BoreVolume(line.tube->inner_diameter_m, group.tube_length_m);
-  return chamber;
-}
 
 model::GroupRig MakeGroup(const Problem& problem, const Assembly& assembly, int g,
                           double pressure_pa, int cycles) {
@@ -104,8 +99,8 @@ model::SimulateOptions OptionsOf(const Problem& problem, double end_s, const Sto
   return options;
 }
 
-// Strokes count from ambient: an actuator that would still hold air when its next one begins gets a
-// wider exhaust. How fast it empties is nothing to the source.
+// Strokes count from ambient: an actuator that would still hold air at its next one gets a wider
+// exhaust. How fast it empties is nothing to the source.
 void EmptyBeforeNext(const Problem& problem, const Settings& settings, model::Rig& rig) {
   constexpr double kShare = 0.45;  // of the period
   const double factor = model::FlowFactor(rig.gas) *
@@ -145,34 +140,6 @@ std::optional<State> Repeating(const Problem& problem, const Settings& settings,
     if (same) return state;
   }
   return std::nullopt;
-}
-
-// With a guarantee a valve that cannot hold may pass more than the part that stands for it, and
-// fill its actuators up to the source pressure. Pumps run no longer than for the stroke of that
-// part and then, for what it leaves, against the stop pressure, at no more than their greatest
-// power.
-void FillOpenOnes(const Problem& problem, const Settings& settings, const Assembly& assembly,
-                  Cycle& cycle) {
-  if (!problem.guarantee || assembly.at_best) return;
-  double more_m3 = 0.0;
-  bool open = false;
-  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
-    if (model::Holds(assembly.lines[g].valve->kind)) continue;
-    open = true;
-    const model::Chamber chamber = ChamberOf(problem.groups[g], assembly.lines[g]);
-    more_m3 += problem.groups[g].count *
-               model::StandardVolume(model::Content(chamber, settings.source_pressure_pa) -
-                                         model::Content(chamber, cycle.filled_pa[g]),
-                                     problem.ambient.temperature_k);
-    cycle.filled_pa[g] = settings.source_pressure_pa;
-  }
-  if (!open || !assembly.compressor) return;
-  const model::CompressorCurve& curve = assembly.compressor->curve;
-  const double stop_pa = settings.source_pressure_pa;
-  cycle.pump_air_m3 += more_m3;
-  cycle.pump_on_s += more_m3 / (assembly.compressors * model::FreeAirDelivery(curve, stop_pa));
-  cycle.pump_j = cycle.pump_on_s * assembly.compressors * curve.voltage_v *
-                 model::LargestCurrent(curve, problem.ambient.pressure_pa, stop_pa);
 }
 
 // What is the same for every way to the strokes: air, coils and regulator.
@@ -340,9 +307,7 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
   if (Stopped(stop_)) return std::nullopt;
   const std::size_t groups = problem_.groups.size();
   // A valve that cannot hold lets its actuators draw while others do.
-  const bool held = std::all_of(rigs_.begin(), rigs_.end(),
-                                [](const model::GroupRig& rig) { return rig.close_at_operating; });
-  if (groups > 1 && (problem_.simultaneous || (assembly_.compressor && !held)))
+  if (groups > 1 && (problem_.simultaneous || (assembly_.compressor && !Holding(assembly_))))
     return Simulated(problem_, settings, assembly_, rising_m3, stop_);
   const double turn_s = 1.0 / problem_.frequency_hz / static_cast<double>(groups);
   Cycle cycle;

@@ -38,6 +38,20 @@ struct Assembly {
   }
 };
 
+// Strokes, air and energy of one cycle of the periodic state.
+struct Cycle {
+  std::vector<double> rise_s, inflate_s, fall_s;  // per group; +∞: never reached
+  std::vector<double> filled_pa;                  // per group, when its valve closes or it vents
+  double air_m3 = 0.0;                            // ANR, by the contents at rest and filled
+  double pump_on_s = 0.0, pump_j = 0.0, pump_air_m3 = 0.0;
+  double coil_w = 0.0;                       // all on at once, with the regulator
+  double steady_j = 0.0, inflating_j = 0.0;  // coils and regulator; of it what strokes shorten
+  double electric_j() const { return steady_j + inflating_j; }
+};
+
+// An actuator of the group with the bore of its tube.
+model::Chamber ChamberOf(const ActuatorGroup& group, const LineParts& line);
+
 // Puts a choice of a family into its place. ProofItem::part as there: −1 and −2 leave it empty.
 void Place(const Problem& problem, Family family, int group, const ProofItem& item,
            Assembly& assembly);

@@ -300,6 +300,18 @@ void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& model
                                [&](const auto& model) { return model.name == name; });
 }
 
+// What a front cannot have, and what one of two things asked for excludes.
+void CheckTogether(Reader& request, const DesignRequest& parsed, bool probability_min) {
+  if (!parsed.pareto.empty() && parsed.proof)
+    request.FailAt("ranking/proof", "is for a list by one objective");
+  if (!parsed.pareto.empty() && probability_min)
+    request.FailAt("ranking/probability_min", "is for a list by one objective");
+  if (parsed.explain && !parsed.pareto.empty())
+    request.Fail("explain", "explains a list by one objective, not a front");
+  if (parsed.explain && parsed.explain->ranks > 0 && probability_min)
+    request.FailAt("explain/ranks", "must be 0 with /ranking/probability_min");
+}
+
 void CheckGuarantee(Reader& request, const DesignRequest& parsed) {
   if (!parsed.guarantee) return;
   std::string why = WhyNotGuaranteed(parsed.problem);
@@ -352,14 +364,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   for (const GroupRemarks& group : groups) uncertainties.push_back(group.uncertainty);
   parsed.guarantee = ReadGuarantee(reader, std::move(uncertainties));
   parsed.explain = ReadExplain(reader);
-  if (!parsed.pareto.empty() && parsed.proof)
-    reader.FailAt("ranking/proof", "is for a list by one objective");
-  if (!parsed.pareto.empty() && probability_min)
-    reader.FailAt("ranking/probability_min", "is for a list by one objective");
-  if (parsed.explain && !parsed.pareto.empty())
-    reader.Fail("explain", "explains a list by one objective, not a front");
-  if (parsed.explain && parsed.explain->ranks > 0 && probability_min)
-    reader.FailAt("explain/ranks", "must be 0 with /ranking/probability_min");
+  CheckTogether(reader, parsed, probability_min.has_value());
   ReadChoices(reader, parts, problem);
   ReadModel(reader, models, parsed);
   if (reader.Has("prices"))
