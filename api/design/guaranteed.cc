@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "api/design/designs.h"
+#include "api/design/explanation.h"
 #include "api/design/measure_first.h"
 #include "api/design/read/selection.h"
 #include "optimizer/explain/explained_search.h"
@@ -97,6 +98,7 @@ Json AnswerGuaranteed(const DesignRequest& request, const optimizer::SearchOptio
   optimizer::SearchOptions rest = options;
   rest.time_limit_s = std::max(0.0, options.time_limit_s - seconds());
   document["measure_first"] = MeasureFirst(request, guaranteed, on_paper, rest, rows);
+  if (request.explain) AddExplanation(*request.explain, problem, guaranteed, of_a_list, document);
   document["seconds"] = Number(seconds());
   return document;
 }

@@ -152,9 +152,11 @@ std::string StatusText(const Json& answer) {
     if (status == "optimal") return "Proved: no other combination belongs to the front.";
     if (status != "infeasible") return "Not proved: the front may lack points.";
   }
+  const std::string guaranteed = answer.contains("guarantee") ? "guaranteed " : "";
   if (status == "optimal" && answer.value("list", "") == "kinds")
-    return "Proved: no kind of design that is not shown beats the last one, but for further kinds "
-           "with a source that is shown.";
+    return "Proved: no kind of " + guaranteed +
+           "design that is not shown beats the last one, but for further kinds with a source that "
+           "is shown.";
   if (status == "optimal") {
     return "Proved: no other combination of catalogue parts beats the last design shown.";
   }
