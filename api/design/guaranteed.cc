@@ -97,7 +97,7 @@ Json AnswerGuaranteed(const DesignRequest& request, const optimizer::SearchOptio
   document["on_paper"] = OfTheList(RenderAnswer(request, on_paper, rows));
   optimizer::SearchOptions rest = options;
   rest.time_limit_s = std::max(0.0, options.time_limit_s - seconds());
-  document["measure_first"] = MeasureFirst(request, guaranteed, on_paper, rest, rows);
+  AddMeasureFirst(request, guaranteed, on_paper, rest, rows, document);
   if (request.explain) AddExplanation(*request.explain, problem, guaranteed, of_a_list, document);
   document["seconds"] = Number(seconds());
   return document;

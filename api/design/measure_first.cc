@@ -22,6 +22,7 @@ struct Test {
   const catalog::Part* part;
   std::string protocol;
   std::vector<std::string> numbers;
+  double width = 0.0;  // half-width of the least certain of them
 };
 
 struct Saving {
@@ -29,7 +30,7 @@ struct Saving {
   double least = 0.0, most = 0.0;  // equal where the search was proved
 };
 
-// Tests of the parts of these designs that would settle anything.
+// Tests of the parts of these designs that would settle anything, the least certain first.
 std::vector<Test> TestsOf(const std::vector<const optimizer::Design*>& designs,
                           const std::vector<catalog::Part>& rows, const Tolerance& tolerance) {
   std::map<std::string, const catalog::Part*> by_id;
@@ -43,11 +44,16 @@ std::vector<Test> TestsOf(const std::vector<const optimizer::Design*>& designs,
       for (const Protocol& protocol : Protocols()) {
         if (protocol.family != row->second->family) continue;
         Test test{row->second, std::string(protocol.name), {}};
-        for (const std::string_view number : protocol.numbers)
-          if (HalfWidth(*row->second, number, tolerance) > 0.0) test.numbers.emplace_back(number);
+        for (const std::string_view number : protocol.numbers) {
+          const double width = HalfWidth(*row->second, number, tolerance);
+          if (width > 0.0) test.numbers.emplace_back(number);
+          test.width = std::max(test.width, width);
+        }
         if (!test.numbers.empty()) tests.push_back(std::move(test));
       }
     }
+  std::stable_sort(tests.begin(), tests.end(),
+                   [](const Test& a, const Test& b) { return a.width > b.width; });
   return tests;
 }
 
@@ -151,11 +157,12 @@ const std::vector<Protocol>& Protocols() {
   return kProtocols;
 }
 
-Json MeasureFirst(const DesignRequest& request, const optimizer::Answer& guaranteed,
-                  const optimizer::Answer& on_paper, const optimizer::SearchOptions& options,
-                  const std::vector<catalog::Part>& rows) {
-  Json told = Json::array();
-  if (guaranteed.designs.empty()) return told;
+void AddMeasureFirst(const DesignRequest& request, const optimizer::Answer& guaranteed,
+                     const optimizer::Answer& on_paper, const optimizer::SearchOptions& options,
+                     const std::vector<catalog::Part>& rows, Json& document) {
+  document["measure_first"] = Json::array();
+  document["measure_first_complete"] = !guaranteed.designs.empty();
+  if (guaranteed.designs.empty()) return;
   const double objective = guaranteed.designs.front().objective;
   std::vector<const optimizer::Design*> designs{&guaranteed.designs.front()};
   for (const optimizer::Design& design : on_paper.designs)
@@ -164,17 +171,21 @@ Json MeasureFirst(const DesignRequest& request, const optimizer::Answer& guarant
   const std::vector<Test> tests = TestsOf(designs, rows, request.guarantee->tolerance);
   const Retrial retrial(request, rows, objective, options);
   std::vector<Saving> savings;
-  for (const Test& test : tests)
-    if (!retrial.OutOfTime()) savings.push_back(retrial.With({&test}));
+  bool complete = true;
+  const auto look = [&](std::vector<const Test*> at) {
+    complete = complete && !retrial.OutOfTime();
+    if (complete) savings.push_back(retrial.With(std::move(at)));
+  };
+  for (const Test& test : tests) look({&test});
   savings = retrial.Told(std::move(savings));
   if (savings.empty()) {
     for (std::size_t i = 0; i < tests.size(); ++i)
-      for (std::size_t j = i + 1; j < tests.size() && !retrial.OutOfTime(); ++j)
-        savings.push_back(retrial.With({&tests[i], &tests[j]}));
+      for (std::size_t j = i + 1; j < tests.size(); ++j) look({&tests[i], &tests[j]});
     savings = retrial.Told(std::move(savings));
   }
-  for (const Saving& saving : savings) told.push_back(RenderSaving(saving, objective));
-  return told;
+  for (const Saving& saving : savings)
+    document["measure_first"].push_back(RenderSaving(saving, objective));
+  document["measure_first_complete"] = complete;
 }
 
 }  // namespace plenum::api

@@ -24,10 +24,11 @@ const std::vector<Protocol>& Protocols();
 // numbers of the test are exact; null with a "saving_interval" where that search was not proved.
 // Looked at are the parts of the best guaranteed design and of the designs on paper that beat it;
 // the three that save most are told. Where no single test saves, pairs of tests of two parts are
-// looked at, and "with" names the second one. Searches until `options` end it.
-Json MeasureFirst(const DesignRequest& request, const optimizer::Answer& guaranteed,
-                  const optimizer::Answer& on_paper, const optimizer::SearchOptions& options,
-                  const std::vector<catalog::Part>& rows);
+// looked at, and "with" names the second one. The least certain numbers come first, and
+// "measure_first_complete" says whether `options` left time for all.
+void AddMeasureFirst(const DesignRequest& request, const optimizer::Answer& guaranteed,
+                     const optimizer::Answer& on_paper, const optimizer::SearchOptions& options,
+                     const std::vector<catalog::Part>& rows, Json& document);
 
 }  // namespace plenum::api
 

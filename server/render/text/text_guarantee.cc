@@ -39,8 +39,9 @@ std::string TestName(const Json& test) {
   return test.at("part").get<std::string>() + " (" + test.at("protocol").get<std::string>() + ")";
 }
 
-std::string TestsText(const Json& tests) {
-  if (tests.empty()) return "";
+std::string TestsText(const Json& tests, bool complete) {
+  const std::string rest = complete ? "" : "  Time ran out before all tests were looked at.\n";
+  if (tests.empty()) return rest;
   Table table({{"measure first", Align::kLeft}, {"numbers", Align::kLeft}, {"saves"}}, 2);
   for (const Json& test : tests) {
     std::string numbers;
@@ -50,7 +51,7 @@ std::string TestsText(const Json& tests) {
     if (test.contains("with")) name += " with " + TestName(test.at("with"));
     table.Add({Cut(name, 48), Cut(numbers, 36), Saved(test)});
   }
-  return table.Text();
+  return table.Text() + rest;
 }
 
 }  // namespace
@@ -63,7 +64,9 @@ std::string GuaranteeText(const Json& answer) {
   text += LineOf("guaranteed", answer) + LineOf("on paper", answer.at("on_paper"));
   if (guarantee.at("costs_share").is_number())
     text += "  certainty costs " + Percent(guarantee.at("costs_share")) + "\n";
-  return text + TestsText(answer.at("measure_first")) + "\n";
+  return text +
+         TestsText(answer.at("measure_first"), answer.at("measure_first_complete").get<bool>()) +
+         "\n";
 }
 
 }  // namespace plenum::server

@@ -255,6 +255,7 @@ export interface Answer extends Remarked {
   };
   on_paper?: Pick<Answer, 'status' | 'designs' | 'proof'>;
   measure_first?: Saving[];
+  measure_first_complete?: boolean;
   seconds: number;
   model?: { name: string; version: number; proved: boolean; effects: Effect[] };
   against_nominal?: {

@@ -58,6 +58,9 @@ export function Guarantee({ answer }: { answer: Answer }) {
         ))}
       </Table>
       <Tests savings={answer.measure_first ?? []} unit={unit} />
+      {answer.measure_first_complete === false && (
+        <p class="muted">Time ran out before all tests of parts were looked at.</p>
+      )}
     </Panel>
   );
 }
@@ -68,7 +71,7 @@ const numbersOf = (test: PartTest): string =>
 
 function Tests({ savings, unit }: { savings: Saving[]; unit: string }) {
   if (savings.length === 0)
-    return <p class="muted">No test of one or two parts would make the best design better.</p>;
+    return <p class="muted">No test of one or two parts was found to make the best better.</p>;
   return (
     <Table
       label="What to measure first"
