@@ -23,6 +23,7 @@ constexpr Slip kSlips[] = {
     {"/mains/pressure_kpa_gauge", 1, 20, "bar"},
     {"/source_pressure_kpa_gauge", 1, 12, "bar"},
     {"/source_pressure_kpa_gauge_max", 1, 20, "bar"},
+    {"/tank_fill_kpa_gauge_max", 1, 20, "bar"},
     {"/rise_time_s_max", 20, 1e6, "ms"},
     {"/fall_time_s_max", 20, 1e6, "ms"},
     {"/rest_volume_ml", 0, 1, "L"},

@@ -12,7 +12,8 @@
 
 namespace plenum::verify {
 
-// QuickCycles that remembers. Strokes are the same beside any battery and any number of bottles.
+// QuickCycles that remembers. Strokes are the same beside any battery and any number of bottles,
+// and of any tank behind a regulator.
 class KnownCycles {
  public:
   KnownCycles(const Problem& problem, const Assembly& assembly, const Stop& stop)
@@ -23,7 +24,8 @@ class KnownCycles {
   bool Serves(const Assembly& other) const {
     return other.configuration == assembly_.configuration && other.lines == assembly_.lines &&
            other.regulator == assembly_.regulator && other.co2 == assembly_.co2 &&
-           other.compressor == assembly_.compressor && other.compressors == assembly_.compressors;
+           other.compressor == assembly_.compressor && other.compressors == assembly_.compressors &&
+           (other.regulator || (other.tank == assembly_.tank && other.tanks == assembly_.tanks));
   }
 
   // By energy per air, or by power where groups take turns (verify_size.h); of all the pressures

@@ -1,6 +1,7 @@
 // Strokes, air, energy and margins of a listed design against a simulation of its periodic state.
 #include "verify/design/verify_cycle.h"
 #include "verify/design/verify_supply.h"
+#include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
 namespace {
@@ -59,6 +60,19 @@ std::optional<Cycle> CycleOf(const Problem& problem, const Design& design, const
   return cycle;
 }
 
+// A tank's volume and its fill: of a source without a regulator the source pressure.
+void CheckFill(const Problem& problem, const Settings& settings, const Assembly& assembly,
+               Findings& findings) {
+  if (!Near(settings.reservoir_volume_m3.value_or(0.0), TankVolume(assembly), kSumTolerance))
+    findings.push_back({"supply", "the tank's volume is not that of the parts"});
+  const double fill_pa = settings.tank_fill_pa.value_or(0.0);
+  if (fill_pa < LeastLeftPa(problem) ||
+      fill_pa > MostFillPa(problem, assembly) * (1.0 + kSumTolerance))
+    findings.push_back({"supply", "the tank's fill is outside what it may be"});
+  if (IsOpen(assembly) && !Near(fill_pa, settings.source_pressure_pa, kSumTolerance))
+    findings.push_back({"supply", "without a regulator the tank's fill is the source pressure"});
+}
+
 }  // namespace
 
 bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& assembly,
@@ -72,6 +86,7 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
       !Near(design.settings.reservoir_volume_m3.value_or(0.0),
             assembly.reservoirs * assembly.reservoir->volume_m3, kSumTolerance))
     findings.push_back({"supply", "the reservoir's volume is not that of the part"});
+  if (assembly.tank) CheckFill(problem, design.settings, assembly, findings);
   const std::optional<Cycle> cycle = CycleOf(problem, design, assembly, stop);
   if (!cycle) return false;
 

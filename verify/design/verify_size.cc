@@ -6,6 +6,7 @@
 
 #include "model/physics/storage.h"
 #include "verify/design/verify_supply.h"
+#include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
 namespace {
@@ -179,7 +180,9 @@ class PressureSizing {
 
   // Largest share by which the cycle misses a requirement, and the objective.
   std::pair<double, double> Judge(double source_pa, const Cycle& cycle) const {
-    const Settings settings = SettingsAt(source_pa, volumes_.low_m3);
+    Settings settings = SettingsAt(source_pa, volumes_.low_m3);
+    if (assembly_.tank)
+      settings.tank_fill_pa = LeastFillPa(problem_, assembly_, source_pa, cycle.air_m3);
     const Supply supply = SupplyOf(problem_, settings, assembly_, cycle);
     double excess = StrokeExcess(cycle);
     Totals totals = TotalsOf(problem_, assembly_, settings);
