@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "optimizer/explain/explained_search.h"
+#include "optimizer/problem/kind.h"
 #include "optimizer/search/tree_search.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
