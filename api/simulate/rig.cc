@@ -86,6 +86,14 @@ model::ReservoirSource ReadCompressor(Reader& source, const model::Ambient& ambi
   return reservoir;
 }
 
+model::ReservoirSource ReadTank(Reader& source, const model::Ambient& ambient) {
+  model::ReservoirSource tank;
+  tank.volume_m3 = M3FromMl(source.Number("reservoir_volume_ml", {1, 1e6}));
+  tank.initial_pressure_pa =
+      PaFromKpaGauge(source.Number("initial_pressure_kpa_gauge", {0, kGaugeMaxKpa}), ambient);
+  return tank;
+}
+
 model::RegulatedSource ReadRegulated(Reader& source, const model::Ambient& ambient) {
   model::RegulatedSource regulated;
   regulated.pressure_pa =
@@ -132,10 +140,11 @@ Line ReadLine(Reader& group, const std::vector<catalog::Part>& parts) {
 
 model::Source ReadSource(Reader& request, const model::Ambient& ambient) {
   Reader source = request.Object("source");
-  const std::string kind = source.Choice("kind", {"regulated", "compressor", "none"});
+  const std::string kind = source.Choice("kind", {"regulated", "compressor", "tank", "none"});
   model::Source result = model::NoSource{};
   if (kind == "regulated") result = ReadRegulated(source, ambient);
   if (kind == "compressor") result = ReadCompressor(source, ambient);
+  if (kind == "tank") result = ReadTank(source, ambient);
   if (!kind.empty()) source.Finish();
   return result;
 }

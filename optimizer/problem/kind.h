@@ -1,7 +1,7 @@
 // The kind of a design: what people take for the same idea, whatever the numbers of pieces, tubes,
-// fittings, batteries and reservoirs. That is its configuration, the series of its source (pump or
-// bottle or tank; none for the mains), of its regulator, and the set of the series of its valves,
-// whichever group has which. A part without a series is its own.
+// fittings, batteries and reservoirs. That is its configuration, the series of its source (pump,
+// bottle or tank; none for the mains), of its regulator (none for some tanks), and the set of the
+// series of its valves, whichever group has which. A part without a series is its own.
 //
 // A list of kinds holds the best design of each of the best kinds, of kinds with the same
 // configuration and source at most Problem::per_source.

@@ -45,6 +45,10 @@ class PressureSizing {
         slack_(slack),
         stood_(StoodPressures(problem, assembly)) {
     stood_.low_pa = std::max(stood_.low_pa, floor_pa);
+    // All that an open tank bears grows with its fill but for the air, which is more.
+    if (IsOpen(assembly))
+      stood_.low_pa = std::max(
+          stood_.low_pa, LeastOpenFillPa(problem, assembly, (1.0 - slack) * problem.actuations));
     if (volumes.high_m3 > volumes.low_m3)
       resolution_ =
           std::clamp(kPressureShare * (volumes.high_m3 / volumes.low_m3 - 1.0), kFinest, kCoarsest);
@@ -182,7 +186,8 @@ class PressureSizing {
   std::pair<double, double> Judge(double source_pa, const Cycle& cycle) const {
     Settings settings = SettingsAt(source_pa, volumes_.low_m3);
     if (assembly_.tank)
-      settings.tank_fill_pa = LeastFillPa(problem_, assembly_, source_pa, cycle.air_m3);
+      settings.tank_fill_pa = LeastFillPa(problem_, assembly_, source_pa,
+                                          (1.0 - slack_) * problem_.actuations * cycle.air_m3);
     const Supply supply = SupplyOf(problem_, settings, assembly_, cycle);
     double excess = StrokeExcess(cycle);
     Totals totals = TotalsOf(problem_, assembly_, settings);

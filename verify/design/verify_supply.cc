@@ -24,7 +24,7 @@ Pressures StoodPressures(const Problem& problem, const Assembly& a) {
   if (IsOpen(a)) {
     for (const LineParts& line : a.lines)
       if (!model::Holds(line.valve->kind)) return {kUnlimited, 0.0};
-    low_pa = std::max(low_pa, InletPa(problem, a, 0.0) + FallPa(problem, a, problem.actuations));
+    low_pa = std::max(low_pa, InletPa(problem, a, 0.0));
     high_pa = std::min(high_pa, MostFillPa(problem, a));
   }
   if (a.configuration == Configuration::kMains)

@@ -10,6 +10,8 @@
 
 namespace plenum::verify {
 
+inline constexpr double kFillRoom = 1.0 + 1e-9;
+
 // Whether strokes come straight out of the tank.
 inline bool IsOpen(const Assembly& a) { return a.tank != nullptr && a.regulator == nullptr; }
 
@@ -66,14 +68,18 @@ inline double FallPa(const Problem& problem, const Assembly& a, double periods) 
   return periods * air_m3 / model::StandardVolume(TankVolume(a), problem.ambient.temperature_k);
 }
 
-// The least fill for so much air in a period; of an open tank the source pressure.
+// The least fill for so much air, with room for rounding; of an open tank the source pressure.
 inline double LeastFillPa(const Problem& problem, const Assembly& a, double source_pa,
                           double air_m3) {
-  constexpr double kRoom = 1.0 + 1e-9;  // for rounding
   if (IsOpen(a)) return source_pa;
-  const double fall_pa = problem.actuations * air_m3 /
-                         model::StandardVolume(TankVolume(a), problem.ambient.temperature_k);
-  return std::min(MostFillPa(problem, a), InletPa(problem, a, source_pa) + kRoom * fall_pa);
+  const double fall_pa =
+      air_m3 / model::StandardVolume(TankVolume(a), problem.ambient.temperature_k);
+  return std::min(MostFillPa(problem, a), InletPa(problem, a, source_pa) + kFillRoom * fall_pa);
+}
+
+// The same of an open tank for the strokes of so many periods.
+inline double LeastOpenFillPa(const Problem& problem, const Assembly& a, double periods) {
+  return InletPa(problem, a, 0.0) + kFillRoom * FallPa(problem, a, periods);
 }
 
 }  // namespace plenum::verify

@@ -26,7 +26,7 @@ Problem Drawn(std::uint64_t seed, int groups = 1, bool simultaneous = true) {
   Draw draw;
   draw.seed = 7000 + seed;
   draw.configurations = {Configuration::kTank};
-  draw.severity = 0.02 * static_cast<double>(seed % 20);
+  draw.severity = 0.03 * static_cast<double>(seed % 25);
   draw.groups = groups;
   draw.simultaneous = simultaneous;
   draw.size = groups == 1 ? CatalogueSize{3, 3, 4, 2, 0, 0, 0, 2, 4}
@@ -76,7 +76,7 @@ void Compare(const Problem& problem, Tally& tally) {
 
 TEST(TankSearch, ListsWhatEnumerationLists) {
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     Compare(Drawn(seed), tally);
   }

@@ -19,7 +19,7 @@ export interface Group {
   pressure_kpa_gauge_max?: number | null;
 }
 
-export type Configuration = 'cylinder' | 'co2' | 'compressor' | 'mains';
+export type Configuration = 'cylinder' | 'co2' | 'compressor' | 'mains' | 'tank';
 export type Amount = 'mass_kg' | 'volume_l' | 'cost_eur' | 'energy_wh';
 
 export type PowerKind = 'battery' | 'wall' | 'robot';
@@ -35,6 +35,7 @@ export interface Requirements {
     configurations?: Configuration[];
     mains?: { pressure_kpa_gauge: number; flow_l_per_min_anr_max?: number };
     source_pressure_kpa_gauge_max?: number | null;
+    tank_fill_kpa_gauge_max?: number | null;
     mass_kg_max?: number | null;
     volume_l_max?: number | null;
     cost_eur_max?: number | null;
@@ -104,6 +105,7 @@ export interface Design {
     valve_duty_groups?: number[];
     compressor_duty: number | null;
     reservoir_volume_ml: number | null;
+    tank_fill_kpa_gauge?: number | null;
     power?: { kind: PowerKind; voltage_v: number | null } | null;
   };
   totals: {
