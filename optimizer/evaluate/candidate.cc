@@ -26,7 +26,7 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
     window.low_pa = std::max(window.low_pa, regulator.outlet_pressure_min_pa);
     window.high_pa = std::min(window.high_pa, regulator.outlet_pressure_max_pa);
   }
-  if (IsOpenTank(candidate)) {
+  if (IsOpenTank(candidate) && candidate.bottle.index != kNone) {
     const bool hold = std::all_of(candidate.lines.begin(), candidate.lines.end(),
                                   [](const Line* line) { return line->holds; });
     if (!hold) return {kUnlimited, 0.0};
