@@ -121,6 +121,7 @@ std::map<std::string, Enum> NamesOf(const Enum (&values)[size]) {
 template <typename Enum>
 Enum ReadName(Reader& reader, const char* field, const std::map<std::string, Enum>& names) {
   std::vector<std::string> allowed;
+  allowed.reserve(names.size());
   for (const auto& [name, value] : names) allowed.push_back(name);
   const std::string chosen = reader.Choice(field, allowed);
   return chosen.empty() ? names.begin()->second : names.at(chosen);

@@ -69,6 +69,24 @@ std::optional<Cycle> CycleOf(const Problem& problem, const Design& design, const
   return cycle;
 }
 
+// Of times to the operating pressure, relative, what a millionth of the source pressure is worth,
+// where several groups come to the end of a tank without a regulator at once; else 0. Two
+// simulations of the same strokes may differ by that.
+double WorthOfPressure(const Problem& problem, const Design& design, const Assembly& assembly,
+                       const Cycle& cycle, const Stop& stop) {
+  constexpr double kRaised = 1.0 + 1e-6;
+  if (!IsOpen(assembly) || problem.groups.size() == 1 || !problem.simultaneous ||
+      LowestSource(problem, design, assembly) >= LeastLeftPa(problem))
+    return 0.0;
+  Settings settings = design.settings;
+  settings.source_pressure_pa *= kRaised;
+  const std::optional<Cycle> raised = SimulateCycle(problem, settings, assembly, stop);
+  double worth = 0.0;
+  for (std::size_t g = 0; raised && g < problem.groups.size(); ++g)
+    worth = std::max(worth, 1.0 - raised->inflate_s[g] / cycle.inflate_s[g]);
+  return worth;
+}
+
 // A tank's volume and its fill: of a source without a regulator the source pressure.
 void CheckFill(const Problem& problem, const Settings& settings, const Assembly& assembly,
                Findings& findings) {
@@ -99,6 +117,7 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
   const std::optional<Cycle> cycle = CycleOf(problem, design, assembly, stop);
   if (!cycle) return false;
 
+  const double worth = WorthOfPressure(problem, design, assembly, *cycle, stop);
   const Performance& claimed = design.performance;
   const auto expect = [&](const std::string& what, double given, double found, double tolerance) {
     if (!Near(given, found, tolerance))
@@ -109,11 +128,12 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
     const GroupPerformance& group = claimed.groups[g];
     expect(name + "rise_time_s", group.rise_time_s, cycle->rise_s[g], kTimeTolerance);
     expect(name + "fall_time_s", group.fall_time_s, cycle->fall_s[g], kTimeTolerance);
-    expect(name + "inflate_time_s", group.inflate_time_s, cycle->inflate_s[g], kTimeTolerance);
+    expect(name + "inflate_time_s", group.inflate_time_s, cycle->inflate_s[g],
+           kTimeTolerance + worth);
     expect(name + "frequency_hz_max", group.frequency_max_hz,
            1.0 / (cycle->rise_s[g] + cycle->fall_s[g]), kTimeTolerance);
     expect(name + "valve_duty", design.settings.valve_duty[g],
-           cycle->inflate_s[g] * problem.frequency_hz, kTimeTolerance);
+           cycle->inflate_s[g] * problem.frequency_hz, kTimeTolerance + worth);
     if (cycle->inflate_s[g] > 0.5 / problem.frequency_hz * (1.0 + kTimeTolerance) ||
         cycle->fall_s[g] > 0.5 / problem.frequency_hz * (1.0 + kTimeTolerance))
       findings.push_back({"strokes", name + "a stroke takes longer than half of the period"});
