@@ -70,12 +70,12 @@ std::optional<Cycle> CycleOf(const Problem& problem, const Design& design, const
 }
 
 // Of times to the operating pressure, relative, what a millionth of the source pressure is worth,
-// where several groups come to the end of a tank without a regulator at once; else 0. Two
-// simulations of the same strokes may differ by that.
+// where several groups at once come close to a source that has hardly more, or to the end of a tank
+// without a regulator; else 0. Two simulations of the same strokes may differ by that.
 double WorthOfPressure(const Problem& problem, const Design& design, const Assembly& assembly,
                        const Cycle& cycle, const Stop& stop) {
   constexpr double kRaised = 1.0 + 1e-6;
-  if (!IsOpen(assembly) || problem.groups.size() == 1 || !problem.simultaneous ||
+  if (problem.groups.size() == 1 || !problem.simultaneous ||
       LowestSource(problem, design, assembly) >= LeastLeftPa(problem))
     return 0.0;
   Settings settings = design.settings;

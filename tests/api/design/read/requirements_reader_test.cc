@@ -157,7 +157,7 @@ TEST(Requirements, NamesEveryFieldOutOfRange) {
       {"/duty/simultaneous", "\"yes\"", "true or false"},
       {"/rise/to_fraction", "0", "> 0 and ≤ 1"},
       {"/fall/to_fraction", "1", "≥ 0 and < 1"},
-      {"/supply/configurations", "[]", "1 to 4"},
+      {"/supply/configurations", "[]", "1 to 5"},
       {"/supply/configurations/1", "\"diesel\"", "cylinder, co2, compressor, mains or tank"},
       {"/supply/configurations/3", "\"co2\"", "\"co2\" is listed twice"},
       {"/supply/mains", "null", "required by the configuration mains"},
