@@ -31,7 +31,8 @@ void CheckMargins(const std::map<std::string, Reached>& requirements, const Desi
     if (!Near(claimed.required, reached.required, kSumTolerance) ||
         !Near(claimed.achieved, reached.achieved, reached.tolerance))
       findings.push_back({"margins", Numbers(pointer, claimed.achieved, reached.achieved)});
-    else if (std::abs(claimed.relative_margin - claimed_margin) > kSumTolerance)
+    else if (std::abs(claimed.relative_margin - claimed_margin) >
+             kSumTolerance * std::max(1.0, std::abs(claimed_margin)))
       findings.push_back({"margins", pointer + ": the margin is not that of its two numbers"});
   }
 }
