@@ -48,6 +48,7 @@ class LineBuilder {
                                    [&](const catalog::Part& row) { return row.id == id; });
     if (part == parts.end()) {
       std::vector<std::string> ids;
+      ids.reserve(parts.size());
       for (const catalog::Part& row : parts) ids.push_back(row.id);
       const std::string nearest = Nearest(id, ids);
       if (!id.empty())

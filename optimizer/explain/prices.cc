@@ -215,6 +215,7 @@ std::vector<Flip> FindFlips(const Problem& problem, const std::vector<Design>& d
                             const SearchOptions& options) {
   Budget budget(options);
   std::vector<Problem> own;
+  own.reserve(designs.size());
   for (const Design& design : designs) own.push_back(WithPartsOf(problem, design));
   std::vector<Flip> flips;
   for (std::size_t rank = 1; rank < std::min<std::size_t>(designs.size(), ranks); ++rank)

@@ -114,6 +114,20 @@ TEST(TankSearch, SeveralGroups) {
   EXPECT_GT(tally.feasible, 2);
 }
 
+TEST(TankSearch, BesideOtherSupplies) {
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    Problem problem = Drawn(800 + seed);
+    Random random(seed);
+    problem.parts.cylinders = RandomParts(random, {0, 0, 0, 0, 2, 0, 0, 0, 0}).cylinders;
+    problem.configurations = {Configuration::kTank, Configuration::kCylinder,
+                              Configuration::kMains};
+    Compare(problem, tally);
+  }
+  EXPECT_GT(tally.feasible, 8);
+}
+
 TEST(TankSearch, EnergyAsTheObjective) {
   Tally tally;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
