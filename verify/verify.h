@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "verify/design/verify_finding.h"
-#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 #include "verify/tree/verify_brute_force.h"
 

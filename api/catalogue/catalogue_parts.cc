@@ -163,6 +163,7 @@ model::Parts ToModelParts(const std::vector<catalog::Part>& rows, const model::A
     if (row.family == "co2") parts.co2.push_back(Co2Bottle(row));
     if (row.family == "regulator") parts.regulators.push_back(Regulator(row, ambient));
     if (row.family == "reservoir") parts.reservoirs.push_back(Reservoir(row, ambient));
+    if (row.family == "reservoir") parts.tanks.push_back(Reservoir(row, ambient));
   }
   return parts;
 }

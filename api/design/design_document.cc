@@ -56,6 +56,9 @@ Json RenderSettings(const optimizer::Settings& settings, const model::Ambient& a
           {"compressor_duty", OrNull(settings.compressor_duty)},
           {"reservoir_volume_ml", settings.reservoir_volume_m3
                                       ? Number(MlFromM3(*settings.reservoir_volume_m3))
+                                      : Json(nullptr)},
+          {"tank_fill_kpa_gauge", settings.tank_fill_pa
+                                      ? Number(KpaGaugeFromPa(*settings.tank_fill_pa, ambient))
                                       : Json(nullptr)}};
 }
 

@@ -128,7 +128,8 @@ Json RenderLeftOut(const std::vector<catalog::Part>& parts, const optimizer::Pro
   Json excluded = Json::array();
   for (const optimizer::FamilySpec& spec : optimizer::Families())
     for (const catalog::Part& part : parts) {
-      if (part.family != spec.name) continue;
+      if (part.family != spec.name || optimizer::CatalogueFamily(spec.family) != spec.family)
+        continue;
       const auto required = problem.require.find(spec.family);
       if (problem.exclude.contains(part.id))
         excluded.push_back(part.id);

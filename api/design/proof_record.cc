@@ -127,9 +127,11 @@ Enum ReadName(Reader& reader, const char* field, const std::map<std::string, Enu
   return chosen.empty() ? names.begin()->second : names.at(chosen);
 }
 
-ProofSlot ReadSlot(Reader& reader, const model::Parts& parts) {
+ProofSlot ReadSlot(Reader& reader, Configuration configuration, const model::Parts& parts) {
   std::map<std::string, Family> families;
-  for (const optimizer::FamilySpec& spec : optimizer::Families()) families[spec.name] = spec.family;
+  for (const optimizer::FamilySpec& spec : optimizer::Families())
+    families[spec.name] =
+        optimizer::FamilyIn(configuration, optimizer::CatalogueFamily(spec.family));
   ProofSlot slot{ReadName(reader, "family", families), -1, {}, {}};
   if (reader.Has("group")) slot.group = reader.Integer("group", 0, 1000);
   std::map<std::string, int> part_of;
@@ -198,9 +200,9 @@ Json RenderRecord(const optimizer::ProofRecord& record, const model::Parts& part
 }
 
 optimizer::ProofRecord ReadRecord(Reader& reader, const model::Parts& parts) {
-  static const auto kConfigurations =
-      NamesOf<Configuration>({Configuration::kCylinder, Configuration::kCo2,
-                              Configuration::kCompressor, Configuration::kMains});
+  static const auto kConfigurations = NamesOf<Configuration>(
+      {Configuration::kCylinder, Configuration::kCo2, Configuration::kCompressor,
+       Configuration::kMains, Configuration::kTank});
   optimizer::ProofRecord record;
   record.count = reader.Integer("count", 1, 1'000'000);
   for (const Element& element : reader.List("plans", 0, optimizer::kConfigurations)) {
@@ -211,7 +213,7 @@ optimizer::ProofRecord ReadRecord(Reader& reader, const model::Parts& parts) {
     plan.tie = given.Number("tie", {0, 1e12});
     for (const Element& slot : given.List("slots", 0, 1000)) {
       Reader slot_reader(slot, reader.errors());
-      plan.slots.push_back(ReadSlot(slot_reader, parts));
+      plan.slots.push_back(ReadSlot(slot_reader, plan.configuration, parts));
     }
     for (const Element& box : given.List("boxes", 0, kMany)) {
       const auto parsed = ParseBox(*box.value);

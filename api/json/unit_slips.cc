@@ -23,6 +23,7 @@ constexpr Slip kSlips[] = {
     {"/mains/pressure_kpa_gauge", 1, 20, "bar"},
     {"/source_pressure_kpa_gauge", 1, 12, "bar"},
     {"/source_pressure_kpa_gauge_max", 1, 20, "bar"},
+    {"/tank_fill_kpa_gauge_max", 1, 20, "bar"},
     {"/rise_time_s_max", 20, 1e6, "ms"},
     {"/fall_time_s_max", 20, 1e6, "ms"},
     {"/rest_volume_ml", 0, 1, "L"},
@@ -35,17 +36,20 @@ constexpr Slip kSlips[] = {
     {"/sonic_conductance_dm3_per_s_bar", 30, 1e4, "L/(min·bar)"},
 };
 
+std::string Question(const Slip& slip, double value) {
+  const std::string unit(catalog::UnitOf(slip.place));
+  const std::string other = Decimal(value) + " " + std::string(slip.unit);
+  const auto meant = catalog::ParseQuantity(other, slip.place).value.value_or(value);
+  return "is read as " + Decimal(value) + " " + unit + "; is " + other + " meant, " +
+         Decimal(Rounded(meant)) + " " + unit + "? Then write \"" + other + "\"";
+}
+
 }  // namespace
 
 std::string LooksLikeAnotherUnit(std::string_view pointer, double value) {
-  for (const Slip& slip : kSlips) {
-    if (!pointer.ends_with(slip.place) || !(value >= slip.low && value < slip.high)) continue;
-    const std::string other = Decimal(value) + " " + std::string(slip.unit);
-    const std::string own = Decimal(value) + " " + std::string(catalog::UnitOf(slip.place));
-    const auto meant = catalog::ParseQuantity(other, slip.place).value.value_or(value);
-    return "is read as " + own + "; is " + other + " meant, " + Decimal(Rounded(meant)) + " " +
-           std::string(catalog::UnitOf(slip.place)) + "? Then write \"" + other + "\"";
-  }
+  for (const Slip& slip : kSlips)
+    if (pointer.ends_with(slip.place) && value >= slip.low && value < slip.high)
+      return Question(slip, value);
   return "";
 }
 

@@ -48,6 +48,7 @@ class LineBuilder {
                                    [&](const catalog::Part& row) { return row.id == id; });
     if (part == parts.end()) {
       std::vector<std::string> ids;
+      ids.reserve(parts.size());
       for (const catalog::Part& row : parts) ids.push_back(row.id);
       const std::string nearest = Nearest(id, ids);
       if (!id.empty())
@@ -84,6 +85,14 @@ model::ReservoirSource ReadCompressor(Reader& source, const model::Ambient& ambi
   if (const auto stop = source.OptionalNumber("stop_pressure_kpa_gauge", {0, kGaugeMaxKpa}))
     reservoir.stop_pressure_pa = PaFromKpaGauge(*stop, ambient);
   return reservoir;
+}
+
+model::ReservoirSource ReadTank(Reader& source, const model::Ambient& ambient) {
+  model::ReservoirSource tank;
+  tank.volume_m3 = M3FromMl(source.Number("reservoir_volume_ml", {1, 1e6}));
+  tank.initial_pressure_pa =
+      PaFromKpaGauge(source.Number("initial_pressure_kpa_gauge", {0, kGaugeMaxKpa}), ambient);
+  return tank;
 }
 
 model::RegulatedSource ReadRegulated(Reader& source, const model::Ambient& ambient) {
@@ -132,10 +141,11 @@ Line ReadLine(Reader& group, const std::vector<catalog::Part>& parts) {
 
 model::Source ReadSource(Reader& request, const model::Ambient& ambient) {
   Reader source = request.Object("source");
-  const std::string kind = source.Choice("kind", {"regulated", "compressor", "none"});
+  const std::string kind = source.Choice("kind", {"regulated", "compressor", "tank", "none"});
   model::Source result = model::NoSource{};
   if (kind == "regulated") result = ReadRegulated(source, ambient);
   if (kind == "compressor") result = ReadCompressor(source, ambient);
+  if (kind == "tank") result = ReadTank(source, ambient);
   if (!kind.empty()) source.Finish();
   return result;
 }

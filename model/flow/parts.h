@@ -128,6 +128,7 @@ struct Parts {
   std::vector<Co2Bottle> co2;
   std::vector<Regulator> regulators;
   std::vector<Reservoir> reservoirs;
+  std::vector<Reservoir> tanks;  // the same parts, filled beforehand
 };
 
 }  // namespace plenum::model

@@ -55,6 +55,10 @@ double CylinderUsableVolume(double water_volume_m3, double fill_pressure_pa,
   return StandardVolume(water_volume_m3 * drop, temperature_k);
 }
 
+double TankCharge(double volume_m3, double pressure_pa, double temperature_k) {
+  return volume_m3 * pressure_pa / (kGasConstantAirJPerKgK * temperature_k);
+}
+
 double Co2UsableVolume(double co2_mass_kg, double water_volume_m3, double inlet_pressure_min_pa,
                        double temperature_k) {
   const double released = co2_mass_kg / kReferenceDensityCo2KgPerM3;

@@ -28,6 +28,10 @@ double CylinderCharge(double water_volume_m3, double fill_pressure_pa, double te
 double CylinderUsableVolume(double water_volume_m3, double fill_pressure_pa,
                             double inlet_pressure_min_pa, double temperature_k);
 
+// Air in a tank, kg: m = p·V/(R·T). Ideal, since tanks for tools and robots hold 2 MPa at most,
+// where Z is above 0.995.
+double TankCharge(double volume_m3, double pressure_pa, double temperature_k);
+
 // Gas that a mass of liquid CO2 gives, m³ ANR (1 g is 0.554 L), less what stays behind as gas at
 // the regulator's lowest inlet pressure in the bottle of `water_volume_m3` (0 where not known).
 double Co2UsableVolume(double co2_mass_kg, double water_volume_m3, double inlet_pressure_min_pa,

@@ -6,6 +6,7 @@
 #include "model/physics/storage.h"
 #include "optimizer/bounds/box.h"
 #include "optimizer/choices/hash.h"
+#include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/sizing/sizing.h"
@@ -154,6 +155,7 @@ Constraint Bounds::FindSource(Box& box) {
   } else {
     box.source_known = true;
     const Candidate candidate = CandidateOf(box);
+    if (IsOpenTank(candidate)) return Constraint::kNone;  // each tank has its own
     const bool meet = GroupsMeet(problem_);
     if (meet && !FastAtHighest(problem_, candidate)) return Constraint::kRise;
     // Where groups meet it is found no closer than bottles have to know it.

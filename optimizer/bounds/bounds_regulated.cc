@@ -1,4 +1,6 @@
-// Boxes of the configurations with a regulator: cylinder, CO2 and mains.
+// Boxes of the configurations with a regulator: cylinder, CO2, mains and tank. Where a tank may do
+// without one the source pressure of a box is at most its fill and at least what the last stroke
+// finds: strokes are bounded by those on a source that stays at the highest.
 #include <algorithm>
 #include <cmath>
 
@@ -36,7 +38,8 @@ Constraint Bounds::AssessRegulated(Box& box, bool source_changed) {
 // pressure that parts stand: neighbours and lower pressures only slow them.
 Constraint Bounds::NeedOfRegulated(Box& box) {
   const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
-  if (plan_.configuration != Configuration::kCylinder) {
+  const bool tank = plan_.configuration == Configuration::kTank;
+  if (plan_.configuration != Configuration::kCylinder && !tank) {
     const double inlet_pa = plan_.configuration == Configuration::kCo2
                                 ? model::Co2SaturationPressure(problem_.ambient.temperature_k)
                                 : problem_.mains.pressure_pa;
@@ -50,6 +53,9 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
     box.window.high_pa = std::min(box.window.high_pa, problem_.mains.pressure_pa);
   const double flow_max = FlowMax(regulator);
   if (box.window.empty()) return Constraint::kPressure;
+  if (regulator.all_none)
+    for (const std::shared_ptr<const Line>& line : box.lines)
+      if (!line->holds) return Constraint::kPressure;
 
   const double seconds = problem_.actuations / problem_.frequency_hz;
   box.air_m3 = 0.0;
@@ -120,18 +126,31 @@ Constraint Bounds::RestOfRegulated(Box& box) {
   if (plan_.bottle_slot >= 0) {
     const double inlet_pa = std::max(box.window.low_pa, regulator.inlet_min_pa);
     const double air_m3 = problem_.actuations * box.air_m3;
+    // Without a regulator the last stroke may take a tank below the least that it asks.
+    const double above_m3 = regulator.some_none ? air_m3 - box.air_m3 : air_m3;
+    const bool tank = plan_.configuration == Configuration::kTank;
+    const double fill_max_pa = regulator.all_none ? box.window.high_pa : regulator.inlet_max_pa;
+    const auto holds = [&](const BottleCorner& c) {
+      const double fall_pa = std::min(c.fill_max_pa, fill_max_pa) - inlet_pa;
+      return !tank || model::StandardVolume(c.water_m3 * fall_pa, problem_.ambient.temperature_k) >=
+                          above_m3 / kRounding;
+    };
+    const double air_kg = tank ? air_m3 / kRounding * model::kReferenceDensityKgPerM3 : 0.0;
+    bound += problem_.objective.mass_kg * air_kg;
     const double low = GasLeft(problem_, plan_.configuration, plan_.bottle_range.low_pa);
     const double high = GasLeft(problem_, plan_.configuration, plan_.bottle_range.high_pa);
     const double left = GasLeft(problem_, plan_.configuration, inlet_pa);
     const double share = high > low ? std::max(0.0, (left - low) / (high - low)) : 0.0;
     const Amounts all = LeastOfAll(box);
     const Amounts& counted = CornerAt(plan_.bottles, box, plan_.bottle_slot).amounts;
-    const Amounts others{all.mass_kg - counted.mass_kg, all.volume_m3 - counted.volume_m3,
+    const Amounts others{all.mass_kg - counted.mass_kg + air_kg, all.volume_m3 - counted.volume_m3,
                          all.cost_eur - counted.cost_eur};
     const double bottle =
         LeastObjective(plan_.bottles, box.nodes[plan_.bottle_slot], [&](const BottleCorner& c) {
           return c.fill_pressure_pa <= regulator.inlet_max_pa &&
-                 (1.0 - share) * c.gas_to_low_m3 + share * c.gas_to_high_m3 >= air_m3 / kRounding &&
+                 (1.0 - share) * c.gas_to_low_m3 + share * c.gas_to_high_m3 >=
+                     above_m3 / kRounding &&
+                 holds(c) &&
                  c.flow_sustained_m3_per_s * kRounding >= box.air_m3 * problem_.frequency_hz &&
                  WithinLimits(others, c.amounts);
         });

@@ -54,6 +54,7 @@ struct RegulatorCorner {
   double inlet_min_pa = 0.0, inlet_max_pa = 0.0;
   double outlet_min_pa = 0.0, outlet_max_pa = 0.0;
   double electrical_power_w = 0.0;
+  bool some_none = false, all_none = false;  // a tank may do without
 };
 
 // Gas, m³ ANR, that comes out until the inlet has fallen to the lowest and to the highest pressure
@@ -63,7 +64,8 @@ struct BottleCorner {
   Amounts amounts;
   double objective = 0.0;
   double gas_to_low_m3 = 0.0, gas_to_high_m3 = 0.0;
-  double fill_pressure_pa = 0.0;  // a regulator must stand it
+  double fill_pressure_pa = 0.0;             // a regulator must stand it
+  double water_m3 = 0.0, fill_max_pa = 0.0;  // of a tank, whose fill is a setting
   double flow_sustained_m3_per_s = 0.0;
 };
 
@@ -118,7 +120,7 @@ inline Kinds MatingClass(const FittingCorner& c) {
   return c.threads * 0x9e3779b97f4a7c15u + c.diameters;
 }
 inline Kinds MatingClass(const ValveCorner& c) { return 2 * c.threads + c.some_hold; }
-inline Kinds MatingClass(const RegulatorCorner&) { return 0; }
+inline Kinds MatingClass(const RegulatorCorner& c) { return c.some_none; }
 inline Kinds MatingClass(const BottleCorner&) { return 0; }
 inline Kinds MatingClass(const CompressorCorner& c) { return c.voltages; }
 inline Kinds MatingClass(const BatteryCorner& c) { return c.voltages; }

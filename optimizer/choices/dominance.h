@@ -31,6 +31,7 @@ struct Contender {
   ProofItem item;
   std::string_view id;     // of the part, which outlives this
   double objective = 0.0;  // its share
+  double beyond = 0.0;     // that it takes besides, at most; no less than others of which more is
   int mates = 0;           // from 0; equal for parts that mate with the same parts and behave alike
   int series = -1;         // from 0; −1: its own
   TieShare tie = {};

@@ -4,6 +4,7 @@
 
 #include "model/physics/storage.h"
 #include "optimizer/choices/plan.h"
+#include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/problem/family_specs.h"
 
@@ -27,10 +28,12 @@ class Sketch {
       Add(parts.compressors, most.compressors, Pieces());
       AddReservoirs();
     } else {
-      Add(parts.regulators, 1, Pieces());
+      const bool none = MayLack(outline_.configuration, Family::kRegulator);
+      Add(parts.regulators, 1, Pieces(), none ? 1 : 0, none ? 0.0 : kUnlimited, true);
     }
     if (outline_.configuration == Configuration::kCylinder) AddCylinders();
     if (outline_.configuration == Configuration::kCo2) AddCo2();
+    if (outline_.configuration == Configuration::kTank) AddTanks();
     if (outline_.configuration != Configuration::kMains) AddBatteries();
     outline_.bound *= kRounding;
     return outline_;
@@ -50,12 +53,13 @@ class Sketch {
   PiecesShare Pieces(int pieces = 1) const { return {problem_.objective, pieces}; }
 
   // `share(part, quantity)` of the objective, +∞ where no design can have that; `made`: choices
-  // beside the parts, with their least share.
+  // beside the parts, with their least share; `free`: these need no price.
   template <typename Part, typename ShareOf>
   void Add(const std::vector<Part>& parts, int quantity_max, const ShareOf& share, int made = 0,
-           double made_share = kUnlimited) {
-    long long priced = PricesNeeded(problem_) ? 0 : made;
-    double least = PricesNeeded(problem_) ? kUnlimited : made_share;
+           double made_share = kUnlimited, bool free = false) {
+    const bool left_out = PricesNeeded(problem_) && !free;
+    long long priced = left_out ? 0 : made;
+    double least = left_out ? kUnlimited : made_share;
     for (const Part& part : parts) {
       if (PricesNeeded(problem_) && !BasicsOf(part).cost_eur) continue;
       priced += quantity_max;
@@ -133,6 +137,17 @@ class Sketch {
                          part.co2_mass_kg / model::kReferenceDensityCo2KgPerM3,
                          part.water_volume_m3);
     });
+  }
+
+  void AddTanks() {
+    Add(problem_.parts.tanks, problem_.limits.reservoirs,
+        [&](const model::Reservoir& part, int quantity) {
+          const int i = static_cast<int>(&part - problem_.parts.tanks.data());
+          const double share =
+              BottleShare(part.basics, quantity, LeastTankCharge(problem_, i),
+                          part.volume_m3 * GasAt(TankRatingPa(problem_, i)), part.volume_m3);
+          return share + problem_.objective.mass_kg * air_m3_ * model::kReferenceDensityKgPerM3;
+        });
   }
 
   void AddBatteries() {

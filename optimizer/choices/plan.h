@@ -1,7 +1,7 @@
 // What a configuration offers: the choices of every family as trees of boxes, one slot each.
 //
 //   regulated:   tube, fitting, valve of each group; regulator, bottle, battery
-//                (mains: no bottle, no battery)
+//                (mains: no bottle, no battery; a tank stands in the place of a bottle)
 //   compressor:  tube, fitting, valve of each group; compressor, reservoir, battery
 #ifndef PLENUM_OPTIMIZER_CHOICES_PLAN_H_
 #define PLENUM_OPTIMIZER_CHOICES_PLAN_H_

@@ -20,6 +20,14 @@ bool IsCostAlone(const Objective& objective) {
   return objective == Objective{0.0, 0.0, objective.cost_eur, 0.0};
 }
 
+// With the air that any fill leaves in it, summed as for a choice of the search.
+double LeastTankMass(const Problem& problem, const Choice& row) {
+  const int part = FindPart(problem.parts, Family::kTank, row.id);
+  if (part < 0) return row.mass_kg;
+  return row.quantity * problem.parts.tanks[part].basics.mass_kg +
+         row.quantity * LeastTankCharge(problem, part);
+}
+
 }  // namespace
 
 TieShare& TieShare::operator+=(const TieShare& other) {
@@ -48,11 +56,11 @@ PartIds IdsOf(const Design& design) {
 TieKey TieKeyOf(const Problem& problem, const Design& design) {
   TieKey key{{}, IdsOf(design)};
   for (const Choice& row : design.parts) {
-    const bool made = SpecOf(row.family).made_to_measure && row.id == "custom";
-    key.share += TieShareOf(
-        problem.objective,
-        made ? CustomReservoir(problem, model::kMadeReservoirSmallestM3, LeastSourcePa(problem))
-             : Amounts{row.mass_kg, row.volume_m3, row.cost_eur.value_or(0.0)});
+    Amounts amounts{row.mass_kg, row.volume_m3, row.cost_eur.value_or(0.0)};
+    if (SpecOf(row.family).made_to_measure && row.id == "custom")
+      amounts = CustomReservoir(problem, model::kMadeReservoirSmallestM3, LeastSourcePa(problem));
+    if (row.family == Family::kTank) amounts.mass_kg = LeastTankMass(problem, row);
+    key.share += TieShareOf(problem.objective, amounts);
   }
   return key;
 }

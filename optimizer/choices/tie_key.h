@@ -13,7 +13,8 @@ namespace plenum::optimizer {
 
 // Mass and cost in whole 10⁻⁹ kg and 10⁻⁶ EUR, so that sums of shares are exact and do not depend
 // on their order. An amount that is the whole objective is 0: it tells no ties apart. An unknown
-// price counts as 0, and a made-to-measure reservoir as the least that it can be.
+// price counts as 0, a made-to-measure reservoir as the least that it can be, and a tank with the
+// least air.
 struct TieShare {
   long long mass = 0, cost = 0;
   TieShare& operator+=(const TieShare& other);

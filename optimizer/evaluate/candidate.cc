@@ -7,6 +7,12 @@
 #include "model/physics/storage.h"
 
 namespace plenum::optimizer {
+namespace {
+
+// Room for rounding where a fill is just enough: relative, of what the tank gives.
+constexpr double kRoom = 1.0 + 1e-9;
+
+}  // namespace
 
 Window SourceWindow(const Problem& problem, const Candidate& candidate) {
   Window window{std::max(problem.ambient.pressure_pa, candidate.source_floor_pa),
@@ -19,6 +25,13 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
     const model::Regulator& regulator = problem.parts.regulators[candidate.regulator.index];
     window.low_pa = std::max(window.low_pa, regulator.outlet_pressure_min_pa);
     window.high_pa = std::min(window.high_pa, regulator.outlet_pressure_max_pa);
+  }
+  if (IsOpenTank(candidate) && candidate.bottle.index != kNone) {
+    const bool hold = std::all_of(candidate.lines.begin(), candidate.lines.end(),
+                                  [](const Line* line) { return line->holds; });
+    if (!hold) return {kUnlimited, 0.0};
+    window.low_pa = std::max(window.low_pa, LeastOpenFillPa(problem, candidate));
+    window.high_pa = std::min(window.high_pa, TankFillMaxPa(problem, candidate));
   }
   if (candidate.configuration == Configuration::kMains)
     window.high_pa = std::min(window.high_pa, problem.mains.pressure_pa);
@@ -36,6 +49,7 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
 }
 
 double ReservoirVolume(const Problem& problem, const Candidate& candidate) {
+  if (candidate.configuration == Configuration::kTank) return TankVolume(problem, candidate);
   const Option& reservoir = candidate.reservoir;
   return reservoir.index < 0
              ? 0.0
@@ -80,6 +94,8 @@ AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
   for (const Option* option : {&candidate.regulator, &candidate.bottle, &candidate.compressor,
                                &candidate.battery, &candidate.reservoir})
     total += option->amounts;
+  if (point.tank_fill_pa > 0.0)
+    total.mass_kg += ChargeBeyondLeast(problem, candidate, point.tank_fill_pa);
   if (candidate.reservoir.index != kCustom) return total;
   // Made to measure, all of it is linear in the volume, and its walls in the pressure.
   const double volume_m3 = model::ValueOf(point.reservoir_m3);
@@ -101,5 +117,84 @@ AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
 template Amounts TotalAmounts(const Problem&, const Candidate&, const OperatingPoint&);
 template AmountsOf<model::Dual> TotalAmounts(const Problem&, const Candidate&,
                                              const OperatingPointOf<model::Dual>&);
+
+bool IsOpenTank(const Candidate& candidate) {
+  return candidate.configuration == Configuration::kTank && candidate.regulator.index == kNone;
+}
+
+double TankVolume(const Problem& problem, const Candidate& candidate) {
+  const Option& tank = candidate.bottle;
+  if (candidate.configuration != Configuration::kTank || tank.index == kNone) return 0.0;
+  return tank.quantity * problem.parts.tanks[tank.index].volume_m3;
+}
+
+double TankRatingPa(const Problem& problem, int part) {
+  return std::min(problem.tank_fill_max_pa, problem.parts.tanks[part].pressure_max_pa);
+}
+
+double HighestTankPa(const Problem& problem) {
+  double highest_pa = 0.0;
+  for (int i = 0; i < static_cast<int>(problem.parts.tanks.size()); ++i)
+    highest_pa = std::max(highest_pa, TankRatingPa(problem, i));
+  return highest_pa;
+}
+
+double TankFillMaxPa(const Problem& problem, const Candidate& candidate) {
+  const double rating_pa = TankRatingPa(problem, candidate.bottle.index);
+  if (candidate.regulator.index == kNone) return rating_pa;
+  return std::min(rating_pa,
+                  problem.parts.regulators[candidate.regulator.index].inlet_pressure_max_pa);
+}
+
+double TankFallPa(const Problem& problem, const Candidate& candidate, double air_m3) {
+  return air_m3 /
+         model::StandardVolume(TankVolume(problem, candidate), problem.ambient.temperature_k);
+}
+
+double TankAir(const Problem& problem, const Candidate& candidate, double from_pa, double to_pa) {
+  return model::StandardVolume(TankVolume(problem, candidate) * std::max(0.0, from_pa - to_pa),
+                               problem.ambient.temperature_k);
+}
+
+double AirPerCycle(const Problem& problem, const Candidate& candidate) {
+  double air_m3 = 0.0;
+  for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g)
+    air_m3 += LeastAirPerStroke(problem, g, *candidate.lines[g]);
+  return air_m3;
+}
+
+double KeptPa(const Problem& problem, const Candidate& candidate) {
+  double kept_pa = LeastSourcePa(problem);
+  for (const Line* line : candidate.lines)
+    kept_pa = std::max(kept_pa, problem.parts.valves[line->valve].pressure_min_pa);
+  return kept_pa;
+}
+
+double LeastOpenFillPa(const Problem& problem, const Candidate& candidate) {
+  return KeptPa(problem, candidate) +
+         kRoom *
+             TankFallPa(problem, candidate, problem.actuations * AirPerCycle(problem, candidate));
+}
+
+double LastPeriodPa(const Problem& problem, const Candidate& candidate, double fill_pa) {
+  return fill_pa - TankFallPa(problem, candidate,
+                              (problem.actuations - 1.0) * AirPerCycle(problem, candidate));
+}
+
+double FillForPa(const Problem& problem, const Candidate& candidate, double inlet_pa,
+                 double air_m3) {
+  return std::min(TankFillMaxPa(problem, candidate),
+                  inlet_pa + kRoom * TankFallPa(problem, candidate, air_m3));
+}
+
+double LeastTankCharge(const Problem& problem, int part) {
+  return model::TankCharge(problem.parts.tanks[part].volume_m3, LeastSourcePa(problem),
+                           problem.ambient.temperature_k);
+}
+
+double ChargeBeyondLeast(const Problem& problem, const Candidate& candidate, double fill_pa) {
+  return model::TankCharge(TankVolume(problem, candidate), fill_pa - LeastSourcePa(problem),
+                           problem.ambient.temperature_k);
+}
 
 }  // namespace plenum::optimizer

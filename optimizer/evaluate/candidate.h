@@ -46,7 +46,8 @@ struct Candidate {
 };
 
 // Where a candidate is run. For the regulated configurations the source pressure is the regulator's
-// outlet, for a compressor it is the pressure at which it stops.
+// outlet, for a compressor it is the pressure at which it stops, for a tank without a regulator its
+// fill.
 template <class T>
 struct OperatingPointOf {
   T source_pa = T(0.0);
@@ -54,6 +55,7 @@ struct OperatingPointOf {
   // Volume while the reservoir rises; equal to reservoir_m3 but for bounds over an interval of
   // volumes (model/strokes/reservoir_stroke.h).
   T reservoir_rising_m3 = T(0.0);
+  double tank_fill_pa = 0.0;  // 0: the least that does (candidate.h)
 };
 using OperatingPoint = OperatingPointOf<double>;
 
@@ -67,13 +69,14 @@ struct Window {
 };
 Window SourceWindow(const Problem& problem, const Candidate& candidate);
 
-// Volume of a stock reservoir; 0 where there is none, or where it is made to measure.
+// Volume of a stock reservoir or a tank; 0 where there is none, or where it is made to measure.
 double ReservoirVolume(const Problem& problem, const Candidate& candidate);
 // The candidate run with such a volume, which a stock reservoir with tolerances has while it falls.
 OperatingPoint PointAt(const Problem& problem, const Candidate& candidate, double source_pa,
                        double reservoir_m3);
 
-// Parts of the candidate; a made-to-measure reservoir is built for its volume and stop pressure.
+// Parts of the candidate; a made-to-measure reservoir is built for its volume and stop pressure,
+// and a tank holds the fill of the point, where that is known, else the least air that it may.
 template <class T>
 AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
                           const OperatingPointOf<T>& point);
@@ -85,6 +88,55 @@ double LeastSourcePa(const Problem& problem);
 inline OperatingPoint LeastPoint(const Problem& problem, double reservoir_m3) {
   return {LeastSourcePa(problem), reservoir_m3, reservoir_m3};
 }
+
+// Tanks.
+//
+// A tank is some reservoirs that are filled before the mission and emptied by it, with or without a
+// regulator behind them. Isothermal and ideal, as the strokes are: what a stroke takes, m³ ANR,
+// lowers the tank's pressure by P0·(T/T0)/V of it.
+//
+// With a regulator the tank must hold, above the regulator's inlet pressure, the air of all
+// strokes. Without one ("open") the tank is the source, and its fill the source pressure: all of
+// the line must stand it. Every stroke finds less pressure than the one before, so that the last
+// one is the slowest; the tank must keep the highest operating pressure and what its valves ask at
+// their inlets. Such a tank feeds only valves that hold: one that cannot would fill its actuator to
+// whatever the tank has.
+//
+// The fill is a setting. Where it is not given it is the least that does, which weighs least.
+
+// Whether the candidate, whose regulator is chosen, has a tank and no regulator.
+bool IsOpenTank(const Candidate& candidate);
+
+// Of the pieces of the tank together; 0 where it is not chosen.
+double TankVolume(const Problem& problem, const Candidate& candidate);
+
+// Absolute pressure that a part may be filled to: its rating, or less if the request says so.
+double TankRatingPa(const Problem& problem, int part);
+double HighestTankPa(const Problem& problem);  // of all parts
+// The same of the candidate's tank before its regulator, whose inlet must stand it too.
+double TankFillMaxPa(const Problem& problem, const Candidate& candidate);
+
+// Fall of the tank's pressure by so much air, m³ ANR.
+double TankFallPa(const Problem& problem, const Candidate& candidate, double air_m3);
+// Air that it gives while it falls from one pressure to another, m³ ANR; 0 where it does not fall.
+double TankAir(const Problem& problem, const Candidate& candidate, double from_pa, double to_pa);
+
+// Of one stroke of every actuator, m³ ANR, where all valves hold.
+double AirPerCycle(const Problem& problem, const Candidate& candidate);
+// Open: the pressure that the tank must keep, and the least fill that keeps it to the end.
+double KeptPa(const Problem& problem, const Candidate& candidate);
+double LeastOpenFillPa(const Problem& problem, const Candidate& candidate);
+// Open: the pressure when the last period of the mission begins.
+double LastPeriodPa(const Problem& problem, const Candidate& candidate, double fill_pa);
+
+// The fill that holds so much air above an inlet pressure, or as much of it as may be.
+double FillForPa(const Problem& problem, const Candidate& candidate, double inlet_pa,
+                 double air_m3);
+
+// Air that any design with this tank carries, kg: what stays in it at the highest operating
+// pressure. And what more of it a fill is.
+double LeastTankCharge(const Problem& problem, int part);
+double ChargeBeyondLeast(const Problem& problem, const Candidate& candidate, double fill_pa);
 
 }  // namespace plenum::optimizer
 

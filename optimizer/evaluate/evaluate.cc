@@ -5,11 +5,19 @@
 
 #include "model/flow/scalar.h"
 #include "model/physics/storage.h"
+#include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/effect_strokes.h"
 #include "optimizer/evaluate/evaluate_strokes.h"
 
 namespace plenum::optimizer {
 namespace {
+
+// The pressure down to which a tank gives its air.
+double TankInletPa(const Problem& problem, const Candidate& candidate, double source_pa) {
+  if (IsOpenTank(candidate)) return KeptPa(problem, candidate);
+  return std::max(source_pa,
+                  problem.parts.regulators[candidate.regulator.index].inlet_pressure_min_pa);
+}
 
 // Gas on board that reaches the regulator's outlet, m³ ANR.
 double AirAvailable(const Problem& problem, const Candidate& candidate, double source_pa) {
@@ -105,10 +113,25 @@ void AddBattery(const Problem& problem, const Candidate& candidate, double coil_
 }  // namespace
 
 template <class T>
+OperatingPointOf<T> Filled(const Problem& problem, const Candidate& candidate,
+                           OperatingPointOf<T> point, const EvaluationOf<T>& evaluation) {
+  if (TankVolume(problem, candidate) == 0.0) return point;
+  const double source_pa = model::ValueOf(point.source_pa);
+  if (IsOpenTank(candidate))
+    point.tank_fill_pa = source_pa;
+  else if (point.tank_fill_pa == 0.0)
+    point.tank_fill_pa = FillForPa(problem, candidate, TankInletPa(problem, candidate, source_pa),
+                                   model::ValueOf(evaluation.air_total_m3));
+  return point;
+}
+
+template <class T>
 T ObjectiveValue(const Problem& problem, const Candidate& candidate,
                  const OperatingPointOf<T>& point, const EvaluationOf<T>& evaluation) {
   constexpr double kJoulePerWattHour = 3600.0;
-  return ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, point)) +
+  return ObjectiveOf(
+             problem.objective,
+             TotalAmounts(problem, candidate, Filled(problem, candidate, point, evaluation))) +
          problem.objective.energy_wh * evaluation.energy_total_j / kJoulePerWattHour;
 }
 
@@ -156,7 +179,12 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
     coil_power_w += power_w;
   }
   if (candidate.compressor.index != kNone) AddPump(problem, candidate, point, strokes, evaluation);
-  evaluation.air_available_m3 = AirAvailable(problem, candidate, model::ValueOf(point.source_pa));
+  if (candidate.configuration == Configuration::kTank && candidate.bottle.index != kNone)
+    evaluation.air_available_m3 =
+        TankAir(problem, candidate, Filled(problem, candidate, point, evaluation).tank_fill_pa,
+                TankInletPa(problem, candidate, model::ValueOf(point.source_pa)));
+  else
+    evaluation.air_available_m3 = AirAvailable(problem, candidate, model::ValueOf(point.source_pa));
   AddBattery(problem, candidate, coil_power_w, evaluation);
   evaluation.energy_total_j =
       evaluation.energy_first_fill_j + problem.actuations * evaluation.energy_per_cycle_j;
@@ -167,6 +195,10 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
 
 template Evaluation EvaluateWith(const Strokes&, const Problem&, const Candidate&,
                                  const OperatingPoint&, const EvaluateOptions&);
+template OperatingPoint Filled(const Problem&, const Candidate&, OperatingPoint, const Evaluation&);
+template OperatingPointOf<model::Dual> Filled(const Problem&, const Candidate&,
+                                              OperatingPointOf<model::Dual>,
+                                              const EvaluationOf<model::Dual>&);
 template double ObjectiveValue(const Problem&, const Candidate&, const OperatingPoint&,
                                const Evaluation&);
 template EvaluationOf<model::Dual> EvaluateWith(const StrokesOf<model::Dual>&, const Problem&,

@@ -48,6 +48,12 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
                              const Candidate& candidate, const OperatingPointOf<T>& point,
                              const EvaluateOptions& options = {});
 
+// The point with the tank's fill: its own, or the least that holds the air of the evaluation; of
+// a candidate without a tank as it is.
+template <class T>
+OperatingPointOf<T> Filled(const Problem& problem, const Candidate& candidate,
+                           OperatingPointOf<T> point, const EvaluationOf<T>& evaluation);
+
 // Objective at an operating point.
 template <class T>
 T ObjectiveValue(const Problem& problem, const Candidate& candidate,

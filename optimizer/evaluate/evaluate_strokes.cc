@@ -7,6 +7,7 @@
 #include "model/simulate/periodic.h"
 #include "model/strokes/reservoir_stroke.h"
 #include "model/strokes/stroke.h"
+#include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/effect_strokes.h"
 #include "optimizer/evaluate/root.h"
 #include "optimizer/evaluate/shared_filling.h"
@@ -211,6 +212,59 @@ Strokes StrokesAlike(const Problem& problem, const Candidate& candidate,
   return strokes;
 }
 
+// The last period of a mission out of a tank without a regulator: one quadrature a group where no
+// two draw at once, else one simulation.
+Strokes OpenTankStrokes(const Problem& problem, const Candidate& candidate,
+                        const OperatingPoint& point) {
+  const int groups = static_cast<int>(problem.groups.size());
+  const bool alike = GroupsMeet(problem) && FillAlike(candidate);
+  if (GroupsMeet(problem) && !alike) return SimulateStrokes(problem, candidate, point);
+  int together = 0;
+  for (const ActuatorGroup& group : problem.groups) together += group.count;
+  double tank_pa = LastPeriodPa(problem, candidate, point.source_pa);
+  Strokes strokes = EmptyStrokes(problem);
+  const double factor = FlowFactor(problem, model::Gas::kAir);
+  const double turn_s = 1.0 / problem.frequency_hz / groups;
+  for (int g = 0; g < groups; ++g) {
+    const Line& line = *candidate.lines[g];
+    const model::Series fill = model::MakeSeries(line.fill, factor);
+    const auto seconds = [&](double to_pa) {
+      return model::FillTimeFromReservoir(
+          fill, line.chamber, alike ? together : problem.groups[g].count, point.reservoir_m3,
+          tank_pa, problem.ambient.pressure_pa, to_pa, problem.ambient.temperature_k);
+    };
+    strokes.rise_s[g] = seconds(RiseTarget(problem, problem.groups[g]));
+    strokes.inflate_s[g] = seconds(line.chamber.operating_pressure_pa);
+    if (alike) continue;
+    if (g + 1 < groups && !(strokes.inflate_s[g] <= turn_s))
+      return SimulateStrokes(problem, candidate, point);
+    tank_pa -= TankFallPa(problem, candidate, LeastAirPerStroke(problem, g, line));
+  }
+  strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
+                              [](double s) { return std::isfinite(s); });
+  return strokes;
+}
+
+// The same by the simulator.
+Strokes SimulateOpenTank(const Problem& problem, const Candidate& candidate,
+                         const OperatingPoint& point, const std::function<bool()>& stop) {
+  Strokes strokes = EmptyStrokes(problem);
+  model::SimulateOptions options = StrokeOptions(problem);
+  options.end_s = 1.5 / problem.frequency_hz;  // the latest command is to deflate, before that
+  options.cancelled = stop;
+  const model::Response response = model::Simulate(MakeRig(problem, candidate, point), options);
+  strokes.failed = response.status != model::SimulateStatus::kDone;
+  if (strokes.failed) return strokes;
+  for (const model::Stroke& stroke : response.strokes) {
+    if (stroke.state != model::ValveState::kInflate) continue;
+    strokes.rise_s[stroke.group] = stroke.to_target_s;
+    strokes.inflate_s[stroke.group] = stroke.to_operating_s;
+  }
+  strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
+                              [](double s) { return std::isfinite(s); });
+  return strokes;
+}
+
 }  // namespace
 
 bool WorstIsEnclosed(const Problem& problem, const Candidate& candidate) {
@@ -233,6 +287,7 @@ double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
 
 Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
+  if (IsOpenTank(candidate)) return OpenTankStrokes(problem, candidate, point);
   const int groups = static_cast<int>(problem.groups.size());
   const bool alone = !GroupsMeet(problem);
   const bool pumped = candidate.configuration == Configuration::kCompressor;
@@ -265,11 +320,12 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
 Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
   if (HasEffects(problem)) return SimulateWithEffects(problem, candidate, point);
+  const Workbench own;
+  const Workbench& bench = candidate.bench != nullptr ? *candidate.bench : own;
+  if (IsOpenTank(candidate)) return SimulateOpenTank(problem, candidate, point, bench.stop);
   Strokes strokes = EmptyStrokes(problem);
   const model::Rig rig = MakePeriodicRig(problem, candidate, point);
   model::SimulateOptions options = StrokeOptions(problem);
-  const Workbench own;
-  const Workbench& bench = candidate.bench != nullptr ? *candidate.bench : own;
   options.cancelled = bench.stop;
   const model::PeriodicState state =
       bench.periodic(rig, 1.0 / problem.frequency_hz, options, {.tolerance = kPeriodicTolerance});

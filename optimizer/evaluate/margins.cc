@@ -60,7 +60,12 @@ std::vector<MarginOf<T>> SupplyMargins(const Problem& problem, const Candidate& 
     margins.push_back(AtMost<T>("/supply/source_pressure_kpa_gauge_max",
                                 (problem.source_pressure_max_pa - ambient_pa) / kPaPerKpa,
                                 (point.source_pa - ambient_pa) / kPaPerKpa));
-  const AmountsOf<T> total = TotalAmounts(problem, candidate, point);
+  const OperatingPointOf<T> filled = Filled(problem, candidate, point, evaluation);
+  if (filled.tank_fill_pa > 0.0 && std::isfinite(problem.tank_fill_max_pa))
+    margins.push_back(AtMost<T>("/supply/tank_fill_kpa_gauge_max",
+                                (problem.tank_fill_max_pa - ambient_pa) / kPaPerKpa,
+                                T((filled.tank_fill_pa - ambient_pa) / kPaPerKpa)));
+  const AmountsOf<T> total = TotalAmounts(problem, candidate, filled);
   if (std::isfinite(problem.mass_max_kg))
     margins.push_back(
         AtMost<T>("/supply/mass_kg_max", problem.mass_max_kg, total.mass_kg + total.mass_slack_kg));

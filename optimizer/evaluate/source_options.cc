@@ -1,6 +1,7 @@
 #include "optimizer/evaluate/source_options.h"
 
 #include "model/physics/storage.h"
+#include "optimizer/evaluate/candidate.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -33,6 +34,7 @@ double ChargeKg(const Problem& problem, Family family, int part) {
     return model::CylinderCharge(cylinder.water_volume_m3, cylinder.fill_pressure_pa,
                                  problem.ambient.temperature_k);
   }
+  if (family == Family::kTank) return LeastTankCharge(problem, part);
   return family == Family::kCo2 ? problem.parts.co2[part].co2_mass_kg : 0.0;
 }
 

@@ -5,6 +5,7 @@
 
 #include "model/flow/series.h"
 #include "model/strokes/stroke.h"
+#include "optimizer/evaluate/candidate.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -45,7 +46,13 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
   model::Rig rig;
   rig.ambient = problem.ambient;
   rig.gas = GasOf(candidate.configuration);
-  if (candidate.configuration != Configuration::kCompressor) {
+  const bool open_tank = IsOpenTank(candidate);
+  if (open_tank) {
+    model::ReservoirSource source;
+    source.volume_m3 = TankVolume(problem, candidate);
+    source.initial_pressure_pa = LastPeriodPa(problem, candidate, point.source_pa);
+    rig.source = source;
+  } else if (candidate.configuration != Configuration::kCompressor) {
     rig.source = model::RegulatedSource{point.source_pa,
                                         problem.parts.regulators[candidate.regulator.index].flow,
                                         FlowMax(problem, candidate)};
@@ -73,7 +80,8 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
     group.initial_pressure_pa = problem.ambient.pressure_pa;
     group.effects = ActingEffects(problem.groups[g], candidate.configuration);
     const double inflate_s = problem.simultaneous ? 0.0 : period_s * g / groups;
-    const double deflate_s = std::fmod(inflate_s + 0.5 * period_s, period_s);
+    const double after_s = inflate_s + 0.5 * period_s;
+    const double deflate_s = open_tank ? after_s : std::fmod(after_s, period_s);
     group.schedule = {{inflate_s, model::ValveState::kInflate},
                       {deflate_s, model::ValveState::kDeflate}};
     if (deflate_s < inflate_s) std::swap(group.schedule[0], group.schedule[1]);

@@ -40,7 +40,8 @@ bool HasEffects(const Problem& problem);
 std::vector<model::Effect> ActingEffects(const ActuatorGroup& group, Configuration configuration);
 
 // The candidate as a rig for the simulator, with the commands of one cycle: actuators at rest and a
-// full reservoir.
+// full reservoir. Of a tank without a regulator (candidate.h) the last cycle of the mission, with
+// all strokes before it done; a group's commands are then in order and may reach beyond the period.
 model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
 
 // The same, where every stroke begins at ambient, as its rise time is defined, also where the fall

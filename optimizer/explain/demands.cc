@@ -66,12 +66,12 @@ void AddLimits(const Problem& problem, std::vector<Demand>& list) {
                               }));
   };
   const Configuration pump = Configuration::kCompressor, bottle = Configuration::kCylinder,
-                      co2 = Configuration::kCo2;
+                      co2 = Configuration::kCo2, tank = Configuration::kTank;
   add("/limits/compressors_max", &Limits::compressors, {pump});
-  add("/limits/batteries_max", &Limits::batteries, {pump, bottle, co2});
+  add("/limits/batteries_max", &Limits::batteries, {pump, bottle, co2, tank});
   add("/limits/cylinders_max", &Limits::cylinders, {bottle});
   add("/limits/co2_max", &Limits::co2, {co2});
-  add("/limits/reservoirs_max", &Limits::reservoirs, {pump});
+  add("/limits/reservoirs_max", &Limits::reservoirs, {pump, tank});
 }
 
 void AddProducts(const Problem& problem, const SearchOptions& options, std::vector<Demand>& list) {
@@ -117,6 +117,7 @@ void EraseUnpriced(model::Parts& parts) {
   EraseUnpriced(parts.co2);
   EraseUnpriced(parts.regulators);
   EraseUnpriced(parts.reservoirs);
+  EraseUnpriced(parts.tanks);
 }
 
 }  // namespace

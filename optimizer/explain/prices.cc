@@ -85,9 +85,14 @@ std::optional<PartFlip> FlipPart(const Problem& problem, const std::vector<Desig
   for (std::size_t i = 0; i < rank; ++i)
     if (!pass(designs[i])) return std::nullopt;
   for (int cut = 0; cut < kCutsMax && !budget.Out(); ++cut) {
-    model::PartBasics& scaled = BasicsOf(changed.parts, choice.family, part);
-    scaled = basics;
-    Scale(scaled, 1.0 - flip.share);
+    for (const FamilySpec& spec : Families()) {  // a reservoir in each of its roles
+      if (CatalogueFamily(spec.family) != CatalogueFamily(choice.family)) continue;
+      const int same = FindPart(changed.parts, spec.family, choice.id);
+      if (same < 0) continue;
+      model::PartBasics& scaled = BasicsOf(changed.parts, spec.family, same);
+      scaled = basics;
+      Scale(scaled, 1.0 - flip.share);
+    }
     const Answer answer = budget.Best(changed, 0.3);
     if (answer.status != Status::kOptimal) return flip;
     Design best = answer.designs.front();

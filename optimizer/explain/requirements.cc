@@ -62,6 +62,14 @@ std::vector<Requirement> Requirements(const Problem& problem) {
                     },
                     std::nullopt});
   }
+  if (std::isfinite(problem.tank_fill_max_pa) &&
+      problem.configurations.contains(Configuration::kTank)) {
+    const double ambient_pa = problem.ambient.pressure_pa;
+    list.push_back(
+        {"/supply/tank_fill_kpa_gauge_max", (problem.tank_fill_max_pa - ambient_pa) / 1e3, 1e5,
+         [ambient_pa](Problem& p, double value) { p.tank_fill_max_pa = ambient_pa + value * 1e3; },
+         std::nullopt});
+  }
   return list;
 }
 

@@ -41,10 +41,13 @@ bool MadeReservoirAllowed(const Problem& problem, const std::vector<Amount>& amo
          MadeToMeasureAllowed(problem, Family::kReservoir);
 }
 
+// Where energy counts a tank's fill trades its air against the time that coils are on.
 double Resolution(const Problem& problem, const std::vector<Amount>& amounts) {
-  if (!MadeReservoirAllowed(problem, amounts)) return kTie;
+  const bool made = MadeReservoirAllowed(problem, amounts);
+  const bool tank = problem.configurations.contains(Configuration::kTank);
   const bool energy = std::find(amounts.begin(), amounts.end(), Amount::kEnergy) != amounts.end();
-  return energy ? kCurveResolution : kMadeResolution;
+  if (energy && (made || tank)) return kCurveResolution;
+  return made ? kMadeResolution : kTie;
 }
 
 double ObjectiveOfTotals(const Objective& objective, const Totals& totals) {

@@ -62,7 +62,8 @@ std::vector<Family> InOrder(std::vector<Family> families) {
 std::vector<FamilySpec> OwnFamilies() {
   using model::Parts;
   constexpr auto kCylinder = Configuration::kCylinder, kCo2 = Configuration::kCo2,
-                 kCompressor = Configuration::kCompressor, kMains = Configuration::kMains;
+                 kCompressor = Configuration::kCompressor, kMains = Configuration::kMains,
+                 kTank = Configuration::kTank;
   return {
       Spec<&Parts::tubing>(Family::kTubing, "tubing", kTubingFields, {.place = 2, .in_line = true}),
       Spec<&Parts::fittings>(Family::kFitting, "fitting", kFittingFields,
@@ -88,18 +89,25 @@ std::vector<FamilySpec> OwnFamilies() {
                          .kind_role = KindRole::kSource}),
       Spec<&Parts::batteries>(Family::kBattery, "battery", kBatteryFields,
                               {.place = 7,
-                               .sources = {kCylinder, kCo2, kCompressor},
+                               .sources = {kCylinder, kCo2, kCompressor, kTank},
                                .most = &Limits::batteries,
                                .by_need = true}),
-      Spec<&Parts::regulators>(
-          Family::kRegulator, "regulator", kRegulatorFields,
-          {.place = 3, .sources = {kCylinder, kCo2, kMains}, .kind_role = KindRole::kRegulator}),
+      Spec<&Parts::regulators>(Family::kRegulator, "regulator", kRegulatorFields,
+                               {.place = 3,
+                                .sources = {kCylinder, kCo2, kMains, kTank},
+                                .kind_role = KindRole::kRegulator}),
       Spec<&Parts::reservoirs>(Family::kReservoir, "reservoir", kReservoirFields,
                                {.place = 8,
                                 .sources = {kCompressor},
                                 .most = &Limits::reservoirs,
                                 .by_need = true,
                                 .made_to_measure = true}),
+      Spec<&Parts::tanks>(Family::kTank, "reservoir", kTankFields,
+                          {.place = 5,
+                           .sources = {kTank},
+                           .most = &Limits::reservoirs,
+                           .by_need = true,
+                           .kind_role = KindRole::kSource}),
   };
 }
 
@@ -123,6 +131,19 @@ int FindPart(const model::Parts& parts, Family family, const std::string& id) {
   for (int i = 0; i < FamilySize(parts, family); ++i)
     if (BasicsOf(parts, family, i).id == id) return i;
   return -1;
+}
+
+Family FamilyIn(Configuration configuration, Family named) {
+  const bool tank = configuration == Configuration::kTank && named == Family::kReservoir;
+  return tank ? Family::kTank : named;
+}
+
+Family CatalogueFamily(Family family) {
+  return family == Family::kTank ? Family::kReservoir : family;
+}
+
+bool MayLack(Configuration configuration, Family family) {
+  return configuration == Configuration::kTank && family == Family::kRegulator;
 }
 
 int QuantityMax(const Problem& problem, Family family) {

@@ -18,7 +18,7 @@ enum class KindRole { kApart, kSource, kRegulator, kValve };
 
 struct FamilySpec {
   Family family;
-  const char* name;  // as in the catalogue
+  const char* name;  // as in the catalogue; reservoirs have two families, one for each role
   std::span<const PartField> fields;
   std::size_t (*size)(const model::Parts& parts);
   const model::PartBasics& (*basics)(const model::Parts& parts, int part);
@@ -48,6 +48,14 @@ const model::PartBasics& BasicsOf(const model::Parts& parts, Family family, int 
 model::PartBasics& BasicsOf(model::Parts& parts, Family family, int part);
 // Index of the part with this id; −1: the family has none.
 int FindPart(const model::Parts& parts, Family family, const std::string& id);
+// The family of the same name that a design of the configuration has: of a tank, its tank.
+Family FamilyIn(Configuration configuration, Family named);
+// The family under whose name the catalogue and a request hold its parts: of a tank, the
+// reservoirs.
+Family CatalogueFamily(Family family);
+// Whether a source of the configuration may do without a part of the family: a tank without a
+// regulator.
+bool MayLack(Configuration configuration, Family family);
 
 int QuantityMax(const Problem& problem, Family family);
 bool MadeToMeasureAllowed(const Problem& problem, Family family);

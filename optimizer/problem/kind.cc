@@ -7,6 +7,7 @@
 namespace plenum::optimizer {
 
 void Kind::Add(KindRole role, int number) {
+  if (number == kNoPart) return;
   if (role == KindRole::kSource) source = number;
   if (role == KindRole::kRegulator) regulator = number;
   if (role != KindRole::kValve) return;

@@ -1,13 +1,14 @@
 // The kind of a design: what people take for the same idea, whatever the numbers of pieces, tubes,
-// fittings, batteries and reservoirs. That is its configuration, the series of its source (pump or
-// bottle; none for the mains), of its regulator, and the set of the series of its valves, whichever
-// group has which. A part without a series is its own.
+// fittings, batteries and reservoirs. That is its configuration, the series of its source (pump,
+// bottle or tank; none for the mains), of its regulator (none for some tanks), and the set of the
+// series of its valves, whichever group has which. A part without a series is its own.
 //
 // A list of kinds holds the best design of each of the best kinds, of kinds with the same
 // configuration and source at most Problem::per_source.
 #ifndef PLENUM_OPTIMIZER_PROBLEM_KIND_H_
 #define PLENUM_OPTIMIZER_PROBLEM_KIND_H_
 
+#include <limits>
 #include <map>
 #include <string_view>
 #include <tuple>
@@ -19,12 +20,15 @@
 
 namespace plenum::optimizer {
 
+// The number of a choice of no part.
+inline constexpr int kNoPart = std::numeric_limits<int>::max();
+
 struct Kind {
   Configuration configuration{};
   int source = -1, regulator = -1;  // series, by number; −1: there is none
   std::vector<int> valves = {};     // the same, ascending, each once
 
-  // A part of this series, in this role.
+  // A part of this series, in this role; kNoPart changes nothing.
   void Add(KindRole role, int number);
   std::pair<Configuration, int> Source() const { return {configuration, source}; }
   bool operator<(const Kind& other) const {

@@ -28,6 +28,8 @@ template <auto get>
 inline constexpr auto kRegulator = &ValueIn<&model::Parts::regulators, get>;
 template <auto get>
 inline constexpr auto kReservoir = &ValueIn<&model::Parts::reservoirs, get>;
+template <auto get>
+inline constexpr auto kTank = &ValueIn<&model::Parts::tanks, get>;
 
 inline bool Holds(const model::Valve& valve) { return model::Holds(valve.kind); }
 inline double PumpVoltage(const model::Compressor& pump) { return pump.curve.voltage_v; }
@@ -194,6 +196,16 @@ inline constexpr PartField kReservoirFields[] = {
      .use = Use::kMore,
      .of = read::kReservoir<&model::Reservoir::pressure_max_pa>,
      .weight = 0.1},
+};
+
+inline constexpr PartField kTankFields[] = {
+    {.name = "internal_volume_ml",
+     .use = Use::kMore,
+     .of = read::kTank<&model::Reservoir::volume_m3>,
+     .pieces = Pieces::kSum},
+    {.name = "pressure_max_kpa_gauge",  // it is filled to that at most
+     .use = Use::kMore,
+     .of = read::kTank<&model::Reservoir::pressure_max_pa>},
 };
 
 }  // namespace plenum::optimizer

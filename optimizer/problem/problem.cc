@@ -12,6 +12,8 @@ const char* Name(Configuration configuration) {
       return "compressor";
     case Configuration::kMains:
       return "mains";
+    case Configuration::kTank:
+      return "tank";
   }
   return "";
 }

@@ -28,9 +28,10 @@ inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 enum class NlpSolver { kIpopt, kNlopt };
 const char* Name(NlpSolver solver);  // "ipopt", "nlopt"
 
-enum class Configuration { kCylinder, kCo2, kCompressor, kMains };
-inline constexpr int kConfigurations = 4;
-const char* Name(Configuration configuration);  // "cylinder", "co2", "compressor", "mains"
+enum class Configuration { kCylinder, kCo2, kCompressor, kMains, kTank };
+inline constexpr int kConfigurations = 5;
+// "cylinder", "co2", "compressor", "mains", "tank"
+const char* Name(Configuration configuration);
 
 enum class Family {
   kTubing,
@@ -41,7 +42,8 @@ enum class Family {
   kCo2,
   kBattery,
   kRegulator,
-  kReservoir
+  kReservoir,
+  kTank  // a reservoir that is filled beforehand
 };
 const char* Name(Family family);  // as in the catalogue: "tubing", "fitting", …
 
@@ -105,6 +107,7 @@ struct Problem {
   Mains mains;
   Power power;
   double source_pressure_max_pa = kUnlimited;
+  double tank_fill_max_pa = kUnlimited;  // a tank is filled to its rating at most, too
   double mass_max_kg = kUnlimited;
   double volume_max_l = kUnlimited;
   double cost_max_eur = kUnlimited;
@@ -173,6 +176,7 @@ struct Settings {
   std::optional<double> compressor_duty;
   std::optional<double> reservoir_volume_m3;
   std::vector<double> valve_duty;  // per group
+  std::optional<double> tank_fill_pa = {};
 };
 
 struct Totals {

@@ -21,12 +21,15 @@
 //        valve: same port, both hold or neither does, C and b of fill and exhaust no smaller, coil
 //        power of the group no larger, pressure_max no smaller, pressure_min no larger;
 //        regulator: C, b, flow_max, inlet and outlet maximum no smaller, inlet and outlet minimum
-//        and power no larger;
+//        and power no larger; a tank's choice of no regulator stands for no other, nor one for it;
 //        cylinder, CO2 bottle: usable gas no smaller at every inlet pressure in use, fill pressure
 //        no higher, sustained flow no smaller;
 //        compressor: same curve and number, duty_max no smaller;
 //        battery: drives the same compressors, usable energy, current, voltage no smaller;
-//        reservoir: same volume, pressure_max no smaller.
+//        reservoir: same volume, pressure_max no smaller;
+//        tank: volume and pressure_max no smaller; its amounts count with the air of the highest
+//        inlet pressure in use, or the highest that a tank is filled to, since a larger one keeps
+//        more at the end.
 //      Where Plan::equal_flow is set, C and b of a line's parts must be equal: several groups on
 //      one source may take air from each other, and a pump may take more energy per air at low
 //      pressure than at high. But for mains they must also be equal of valves that cannot hold, and
@@ -53,14 +56,16 @@
 //
 // The corner at its best takes: the exact march through the largest C and b of each element into
 // the smallest dead volume, from the highest source pressure that any of the choices stands; the
-// least air, coil power and amounts; and for bottles, batteries and reservoirs the least objective
+// least air, coil power and amounts (a tank with the air that is left at the highest operating
+// pressure, and what the mission takes on top); and for bottles, tanks, batteries and reservoirs the least objective
 // of those in the box that bear this need. A bound may also rest on divisions of the box
 // that are not recorded: of the lines in it only those count that mate and are fast enough on an
 // unlimited source; and behind a regulator that several groups draw from at once, those that make
 // do with the mean pressure that the least air of the others leaves at the node behind it, at the
 // highest of the source pressures that they work at. In a compressor's box each group counts as if
 // it were alone on the reservoir, with the largest delivery of the box at each pressure; of two
-// groups that take turns each leaves enough for the other.
+// groups that take turns each leaves enough for the other. In a box that has a tank without a
+// regulator strokes are those on a source that keeps the highest pressure.
 #ifndef PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 #define PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 
@@ -74,7 +79,7 @@ enum class Family;
 
 struct ProofItem {
   std::int32_t part = 0;  // index into the family's list of Problem::parts; −2 made to measure,
-                          // −1 none (fittings of a group that needs none)
+                          // −1 none (fittings of a group that needs none, a tank's regulator)
   std::int32_t quantity = 1;
   bool operator==(const ProofItem&) const = default;
 };

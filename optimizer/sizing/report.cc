@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/physics/storage.h"
+#include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/effect_strokes.h"
 #include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/evaluate/source_options.h"
@@ -113,6 +114,7 @@ bool InTime(const Problem& problem, const Candidate& candidate, const OperatingP
   };
   if (excess(strokes.rise_s, strokes.inflate_s) <= kConfirmTolerance) return true;
   OperatingPoint raised = point;
+  raised.tank_fill_pa = 0.0;
   raised.source_pa *= 1.0 + kConfirmTolerance;
   const Evaluation above = Evaluate(problem, candidate, raised);
   if (!above.works) return false;
@@ -154,6 +156,7 @@ std::optional<OperatingPoint> ConfirmNear(const Problem& problem, const Candidat
   const double high_pa = SourceWindow(problem, candidate).high_pa;
   for (const double step : kSteps) {
     OperatingPoint point = leaf.point;
+    point.tank_fill_pa = 0.0;
     point.source_pa *= 1.0 + step;
     if (step > 0.0 && point.source_pa > high_pa) break;
     evaluation = Evaluate(problem, candidate, point);
@@ -179,8 +182,11 @@ std::vector<Choice> ListParts(const Problem& problem, const Candidate& candidate
   std::vector<Choice> parts;
   for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g)
     AddLine(problem, g, *candidate.lines[g], parts);
-  for (const Family family : SourceFamilies(candidate.configuration))
+  for (const Family family : SourceFamilies(candidate.configuration)) {
     AddChoice(problem, family, OptionOf(candidate, family), parts);
+    if (family == Family::kTank && point.tank_fill_pa > 0.0)
+      parts.back().mass_kg += ChargeBeyondLeast(problem, candidate, point.tank_fill_pa);
+  }
   if (candidate.reservoir.index == kCustom) {
     const Amounts amounts = CustomReservoir(problem, point.reservoir_m3, point.source_pa);
     parts.push_back(
@@ -210,9 +216,10 @@ std::optional<Design> MakeDesign(const Problem& problem, const Candidate& candid
 
 Design Describe(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
                 const Evaluation& evaluation) {
+  const OperatingPoint filled = Filled(problem, candidate, point, evaluation);
   Design design;
   design.configuration = candidate.configuration;
-  design.parts = ListParts(problem, candidate, point);
+  design.parts = ListParts(problem, candidate, filled);
   design.totals = TotalsOf(design.parts);
   design.totals.energy_j = evaluation.energy_total_j;
   design.settings.source_pressure_pa = point.source_pa;
@@ -220,6 +227,10 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
     design.settings.compressor_duty = evaluation.compressor_duty;
     // With tolerances halfway between what it has while it falls and while it rises.
     design.settings.reservoir_volume_m3 = 0.5 * (point.reservoir_m3 + point.reservoir_rising_m3);
+  }
+  if (filled.tank_fill_pa > 0.0) {
+    design.settings.reservoir_volume_m3 = point.reservoir_m3;
+    design.settings.tank_fill_pa = filled.tank_fill_pa;
   }
   for (const GroupPerformance& group : evaluation.groups)
     design.settings.valve_duty.push_back(group.inflate_time_s * problem.frequency_hz);

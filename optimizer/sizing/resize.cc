@@ -124,7 +124,8 @@ bool Rebuild(const Problem& problem, const Problem& relaxed, const Design& desig
 
 OperatingPoint PointOf(const Design& design) {
   const double reservoir_m3 = design.settings.reservoir_volume_m3.value_or(0.0);
-  return {design.settings.source_pressure_pa, reservoir_m3, reservoir_m3};
+  return {design.settings.source_pressure_pa, reservoir_m3, reservoir_m3,
+          design.settings.tank_fill_pa.value_or(0.0)};
 }
 
 // Strokes as slow as the period allows are looked at, too.
@@ -149,7 +150,8 @@ Problem WithPartsOf(const Problem& problem, const Design& design) {
                .cylinders = Kept(all.cylinders, ids),
                .co2 = Kept(all.co2, ids),
                .regulators = Kept(all.regulators, ids),
-               .reservoirs = Kept(all.reservoirs, ids)};
+               .reservoirs = Kept(all.reservoirs, ids),
+               .tanks = Kept(all.tanks, ids)};
   return own;
 }
 

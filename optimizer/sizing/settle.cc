@@ -12,14 +12,26 @@ namespace {
 constexpr double kBalanceTolerance = 1e-4;
 constexpr double kMoves = 1e-9;  // a margin that the pressure moves
 
-// Source pressures from that of a feasible leaf to the highest that the parts stand, as a share.
+// The highest that the parts stand; behind a tank's regulator no more than its inlet asks anyhow,
+// so that the tank needs no more air.
+double HighestFree(const Problem& problem, const Candidate& candidate) {
+  const double high_pa = SourceWindow(problem, candidate).high_pa;
+  if (candidate.configuration != Configuration::kTank) return high_pa;
+  const bool hold = std::all_of(candidate.lines.begin(), candidate.lines.end(),
+                                [](const Line* line) { return line->holds; });
+  if (IsOpenTank(candidate) || !hold) return 0.0;
+  return std::min(high_pa,
+                  problem.parts.regulators[candidate.regulator.index].inlet_pressure_min_pa);
+}
+
+// Source pressures from that of a feasible leaf to the highest that is free, as a share.
 class Freedom {
  public:
   Freedom(const Problem& problem, const Candidate& candidate, const Leaf& leaf)
       : problem_(problem),
         candidate_(candidate),
         leaf_(leaf),
-        span_pa_(SourceWindow(problem, candidate).high_pa - leaf.point.source_pa) {}
+        span_pa_(HighestFree(problem, candidate) - leaf.point.source_pa) {}
 
   bool empty() const { return !(span_pa_ > 0.0); }
 

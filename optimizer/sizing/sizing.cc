@@ -63,7 +63,10 @@ class PressureSearch {
         ObjectiveOf(problem_.objective, TotalAmounts(problem_, candidate_, At(low_pa)));
     const Evaluation low = Try(low_pa);
     // Without energy in the objective no pressure that works is better than the lowest.
-    if (std::isfinite(leaf_.objective) && problem_.objective.energy_wh == 0.0) return Done();
+    if (std::isfinite(leaf_.objective) && problem_.objective.energy_wh == 0.0) {
+      parts_objective_ = leaf_.objective;
+      return Done();
+    }
     if (high_pa > low_pa) Open(low_pa, low, high_pa, Try(high_pa));
     while (!open_.empty() && evaluations_ < evaluations_max_ && !failed_ && !candidate_.stopped()) {
       if (open_.top().bound >= leaf_.objective * (1.0 - kObjectiveTolerance)) return Done();
@@ -100,7 +103,7 @@ class PressureSearch {
     const double objective = ObjectiveValue(problem_, candidate_, point, evaluation);
     if (objective < leaf_.objective) {
       leaf_.objective = objective;
-      leaf_.point = point;
+      leaf_.point = Filled(problem_, candidate_, point, evaluation);
     }
     return evaluation;
   }
@@ -241,8 +244,9 @@ bool FastAtHighest(const Problem& problem, const Candidate& candidate) {
 Leaf SizeQuickly(const Problem& problem, const Candidate& candidate, double reservoir_m3) {
   const OperatingPoint highest =
       PointAt(problem, candidate, SourceWindow(problem, candidate).high_pa, reservoir_m3);
+  // The lowest pressure is the best for a tank, which weighs least then.
   if (!GroupsMeet(problem) || problem.objective.energy_wh > 0.0 ||
-      SourceWindow(problem, candidate).empty())
+      candidate.configuration == Configuration::kTank || SourceWindow(problem, candidate).empty())
     return SizeAtVolume(problem, candidate, reservoir_m3);
   const Evaluation evaluation = Evaluate(problem, candidate, highest);
   const double parts = ObjectiveOf(problem.objective, TotalAmounts(problem, candidate, highest));

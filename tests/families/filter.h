@@ -13,7 +13,7 @@
 
 namespace plenum::test {
 
-inline constexpr auto kFilter = static_cast<optimizer::Family>(9);
+inline constexpr auto kFilter = static_cast<optimizer::Family>(10);
 
 struct Filter {
   model::PartBasics basics;

@@ -230,7 +230,7 @@ ProofPlan PlanWith(const Problem& problem, const optimizer::Skyband& skyband) {
   ProofPlan plan = verify::EmptyPlan(problem, Configuration::kMains);
   plan.tie = 1e-9;
   for (ProofSlot& slot : plan.slots) {
-    slot.choices = verify::EntriesOf(problem, slot);
+    slot.choices = verify::EntriesOf(problem, plan.configuration, slot);
     if (slot.family != kFilter) continue;
     slot.choices.clear();
     for (const int i : skyband.kept) slot.choices.push_back({i, 1});

@@ -6,6 +6,7 @@
 #include "model/physics/storage.h"
 #include "tests/support/scan_sizing.h"
 #include "tests/support/small_catalogue.h"
+#include "tests/support/tank_sizing.h"
 
 namespace plenum::test {
 namespace {
@@ -67,6 +68,7 @@ std::vector<Option> Reservoirs(const Problem& problem) {
 }
 
 bool RegulatorStands(const Problem& problem, const Candidate& candidate) {
+  if (candidate.configuration == Configuration::kTank) return true;  // its fill is a setting
   const model::Regulator& regulator = problem.parts.regulators[candidate.regulator.index];
   double inlet_pa = 0.0;
   if (candidate.configuration == Configuration::kCylinder)
@@ -102,12 +104,15 @@ void ForEachSource(const Problem& problem, Candidate& candidate, const Visit& vi
         }
     return;
   }
-  const std::vector<Option> regulators = Options(problem, Family::kRegulator, parts.regulators, 1);
+  std::vector<Option> regulators = Options(problem, Family::kRegulator, parts.regulators, 1);
+  if (candidate.configuration == Configuration::kTank) regulators.emplace_back();  // or none
   std::vector<Option> bottles{{}};
   if (candidate.configuration == Configuration::kCylinder)
     bottles = Options(problem, Family::kCylinder, parts.cylinders, problem.limits.cylinders);
   if (candidate.configuration == Configuration::kCo2)
     bottles = Options(problem, Family::kCo2, parts.co2, problem.limits.co2);
+  if (candidate.configuration == Configuration::kTank)
+    bottles = Options(problem, Family::kTank, parts.tanks, problem.limits.reservoirs);
   const bool mains = candidate.configuration == Configuration::kMains;
   for (const Option& regulator : regulators)
     for (const Option& bottle : bottles)
@@ -148,6 +153,9 @@ long long Combinations(const Problem& problem, Configuration configuration) {
     return product * count(parts.compressors, limits.compressors) *
            count(parts.batteries, limits.batteries) *
            (count(parts.reservoirs, limits.reservoirs) + (CustomAllowed(problem) ? 1 : 0));
+  if (configuration == Configuration::kTank)
+    return product * (count(parts.regulators, 1) + 1) * count(parts.tanks, limits.reservoirs) *
+           count(parts.batteries, limits.batteries);
   product *= count(parts.regulators, 1);
   if (configuration == Configuration::kMains) return product;
   return product * count(parts.batteries, limits.batteries) *
@@ -197,6 +205,7 @@ PartsKey KeyOf(const Problem& problem, const Candidate& candidate) {
   add(parts.regulators, candidate.regulator);
   if (candidate.configuration == Configuration::kCylinder) add(parts.cylinders, candidate.bottle);
   if (candidate.configuration == Configuration::kCo2) add(parts.co2, candidate.bottle);
+  if (candidate.configuration == Configuration::kTank) add(parts.tanks, candidate.bottle);
   add(parts.compressors, candidate.compressor);
   add(parts.batteries, candidate.battery);
   add(parts.reservoirs, candidate.reservoir);
@@ -228,12 +237,15 @@ void ForEachCombination(const Problem& problem, const Visit& visit) {
 }
 
 double StockVolume(const Problem& problem, const Candidate& candidate) {
+  if (candidate.configuration == Configuration::kTank && candidate.bottle.index >= 0)
+    return candidate.bottle.quantity * problem.parts.tanks[candidate.bottle.index].volume_m3;
   if (candidate.reservoir.index < 0) return 0.0;
   return candidate.reservoir.quantity *
          problem.parts.reservoirs[candidate.reservoir.index].volume_m3;
 }
 
 optimizer::Leaf SizeAlone(const Problem& problem, const Candidate& candidate) {
+  if (CanSizeTank(problem, candidate)) return SizeTank(problem, candidate);
   if (candidate.reservoir.index != optimizer::kCustom)
     return optimizer::SizeAtVolume(problem, candidate, StockVolume(problem, candidate));
   optimizer::CustomSizing sizing(problem, candidate);

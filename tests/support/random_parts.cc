@@ -201,6 +201,7 @@ model::Parts RandomParts(Random& random, const CatalogueSize& size) {
   parts.compressors = RandomFamily<model::Compressor>(random, size.compressors, RandomCompressor);
   parts.batteries = RandomFamily<model::Battery>(random, size.batteries, RandomBattery);
   parts.reservoirs = RandomFamily<model::Reservoir>(random, size.reservoirs, RandomReservoir);
+  parts.tanks = parts.reservoirs;
   SellTwice(random, parts.valves);
   SellTwice(random, parts.batteries);
   SellTwice(random, parts.cylinders);

@@ -206,6 +206,15 @@ optimizer::Option MakeOption(const Problem& problem, Family family, int index, i
     case Family::kBattery:
       take(parts.batteries[index].basics, 0.0);
       break;
+    case Family::kTank: {
+      // What every fill leaves in it: air at the highest operating pressure.
+      double left_pa = 0.0;
+      for (const optimizer::ActuatorGroup& group : problem.groups)
+        left_pa = std::max(left_pa, group.chamber.operating_pressure_pa);
+      take(parts.tanks[index].basics,
+           parts.tanks[index].volume_m3 * left_pa / (287.05 * problem.ambient.temperature_k));
+      break;
+    }
     default:
       take(parts.reservoirs[index].basics, 0.0);
   }

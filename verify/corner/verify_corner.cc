@@ -1,5 +1,7 @@
 #include "verify/corner/verify_corner.h"
 
+#include <functional>
+
 #include "model/physics/storage.h"
 #include "model/strokes/stroke.h"
 #include "verify/design/verify_design.h"
@@ -77,6 +79,7 @@ bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
       return Fit(problem_, source);
     });
   }
+  if (plan_.configuration == Configuration::kTank) return true;  // its fill is a setting
   source.regulator = &parts.regulators[item.part];
   if (plan_.configuration == Configuration::kCylinder)
     return Any(plan_, ranges, SlotOf(plan_, Family::kCylinder, -1), [&](const ProofItem& bottle) {
@@ -112,24 +115,38 @@ bool Corners::TooMuch(const Ranges& ranges) {
          sum.cost_eur > problem_.cost_max_eur * kSlack;
 }
 
+// Of the best regulator and the lines.
+Corners::SourceBounds Corners::SourceOf(const Ranges& ranges, const BestNumbers& regulator) {
+  const int slot = SlotOf(plan_, Family::kRegulator, -1);
+  const auto is_none = [](const ProofItem& item) { return item.part < 0; };
+  SourceBounds source;
+  source.low_pa = problem_.ambient.pressure_pa;
+  source.high_pa = problem_.source_pressure_max_pa;
+  source.some_open = Any(plan_, ranges, slot, is_none);
+  source.all_open = !Any(plan_, ranges, slot, std::not_fn(is_none));
+  if (!source.some_open) {
+    source.low_pa = std::max(source.low_pa, regulator.Number("outlet_pressure_min_kpa_gauge"));
+    source.high_pa = std::min(source.high_pa, regulator.Number("outlet_pressure_max_kpa_gauge"));
+    source.flow_max = regulator.Number("flow_max_l_per_min_anr");
+  }
+  if (plan_.configuration == Configuration::kMains) {
+    source.high_pa = std::min(source.high_pa, problem_.mains.pressure_pa);
+    source.flow_max = std::min(source.flow_max, problem_.mains.flow_max_m3_per_s);
+  }
+  for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
+    const BestLine& line = strokes_.Line(ranges, g);
+    source.low_pa = std::max(source.low_pa, line.source_low_pa);
+    source.high_pa = std::min(source.high_pa, line.source_high_pa);
+    if (source.all_open && !line.some_hold) source.high_pa = 0.0;
+  }
+  return source;
+}
+
 // Each group alone on the best regulator, then the least bottle and battery that bear the needs.
 double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   const BestNumbers regulator(problem_, plan_, ranges, SlotOf(plan_, Family::kRegulator, -1));
-  double low_pa =
-      std::max(problem_.ambient.pressure_pa, regulator.Number("outlet_pressure_min_kpa_gauge"));
-  double high_pa =
-      std::min(problem_.source_pressure_max_pa, regulator.Number("outlet_pressure_max_kpa_gauge"));
-  double flow_max = regulator.Number("flow_max_l_per_min_anr");
-  if (plan_.configuration == Configuration::kMains) {
-    high_pa = std::min(high_pa, problem_.mains.pressure_pa);
-    flow_max = std::min(flow_max, problem_.mains.flow_max_m3_per_s);
-  }
-  const int groups = static_cast<int>(problem_.groups.size());
-  for (int g = 0; g < groups; ++g) {
-    low_pa = std::max(low_pa, strokes_.Line(ranges, g).source_low_pa);
-    high_pa = std::min(high_pa, strokes_.Line(ranges, g).source_high_pa);
-  }
-  if (!(low_pa <= high_pa)) return kUnlimited;
+  const SourceBounds source = SourceOf(ranges, regulator);
+  if (!(source.low_pa <= source.high_pa)) return kUnlimited;
 
   const double temperature_k = problem_.ambient.temperature_k;
   const model::Gas gas =
@@ -138,16 +155,19 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
       model::FlowFactor(gas) * std::sqrt(model::kReferenceTemperatureK / temperature_k);
   const double half_s = 0.5 / problem_.frequency_hz;
   double air_m3 = 0.0, coil_j = 0.0, inflating_j = 0.0;  // per cycle
-  for (int g = 0; g < groups; ++g) {
+  for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
     const BestLine& line = strokes_.Line(ranges, g);
     const ActuatorGroup& group = problem_.groups[g];
-    std::vector<model::FlowElement> elements{regulator.Flow("sonic_conductance_dm3_per_s_bar")};
-    elements.front().sonic_conductance_m3_per_s_pa /= group.count;
-    elements.insert(elements.end(), line.fill.begin(), line.fill.end());
+    std::vector<model::FlowElement> elements = line.fill;
+    if (!source.some_open) {
+      model::FlowElement share = regulator.Flow("sonic_conductance_dm3_per_s_bar");
+      share.sonic_conductance_m3_per_s_pa /= group.count;
+      elements.insert(elements.begin(), share);
+    }
     const model::Series fill = model::MakeSeries(elements, factor);
     const auto seconds = [&](double to_pa) {
-      return model::FillTime(fill, line.chamber, high_pa, problem_.ambient.pressure_pa, to_pa,
-                             temperature_k, flow_max / group.count);
+      return model::FillTime(fill, line.chamber, source.high_pa, problem_.ambient.pressure_pa,
+                             to_pa, temperature_k, source.flow_max / group.count);
     };
     const double inflate_s = seconds(group.chamber.operating_pressure_pa);
     if (inflate_s > half_s * kSlack) return kUnlimited;
@@ -164,10 +184,50 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   double sum = chosen + problem_.objective.energy_wh * beyond_j / 3600.0;
   if (plan_.configuration == Configuration::kMains) return sum;
 
-  const double energy_j =
-      beyond_j + problem_.actuations * coil_j +
-      regulator.Number("electrical_power_w") * problem_.actuations / problem_.frequency_hz;
-  return LeastStores(ranges, regulator, low_pa, {air_m3, energy_j}, sum);
+  const double energy_j = beyond_j + problem_.actuations * coil_j +
+                          (source.some_open ? 0.0 : regulator.Number("electrical_power_w")) *
+                              problem_.actuations / problem_.frequency_hz;
+  if (plan_.configuration == Configuration::kTank)
+    return sum + LeastTank(ranges, regulator, source, air_m3) + LeastBattery(ranges, energy_j);
+  return LeastStores(ranges, regulator, source.low_pa, {air_m3, energy_j}, sum);
+}
+
+// The air of the mission is in any fill, above what stays; without a regulator the last stroke may
+// take the tank below what it asks.
+double Corners::LeastTank(const Ranges& ranges, const BestNumbers& regulator,
+                          const SourceBounds& source, double air_m3) {
+  double inlet_pa = source.low_pa, most_pa = source.all_open ? source.high_pa : kUnlimited;
+  if (!source.some_open) {
+    inlet_pa = std::max(inlet_pa, regulator.Number("inlet_pressure_min_kpa_gauge"));
+    most_pa = regulator.Number("inlet_pressure_max_kpa_gauge");
+  }
+  const int slot = SlotOf(plan_, Family::kTank, -1);
+  const double mission_m3 = problem_.actuations * air_m3;
+  const double above_m3 = source.some_open ? mission_m3 - air_m3 : mission_m3;
+  double objective = kUnlimited;
+  for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
+    const ProofItem& item = plan_.slots[slot].choices[i];
+    const model::Reservoir& tank = problem_.parts.tanks[item.part];
+    const double fill_pa = std::min({tank.pressure_max_pa, problem_.tank_fill_max_pa, most_pa});
+    const double given_m3 = model::StandardVolume(
+        item.quantity * tank.volume_m3 * (fill_pa - inlet_pa), problem_.ambient.temperature_k);
+    if (given_m3 * kSlack >= above_m3) objective = std::min(objective, amounts_[slot][i].objective);
+  }
+  return objective +
+         problem_.objective.mass_kg * mission_m3 / kSlack * model::kReferenceDensityKgPerM3;
+}
+
+double Corners::LeastBattery(const Ranges& ranges, double energy_j) {
+  const int slot = SlotOf(plan_, Family::kBattery, -1);
+  double objective = kUnlimited;
+  for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
+    const ProofItem& item = plan_.slots[slot].choices[i];
+    const model::Battery& pack = problem_.parts.batteries[item.part];
+    if (item.quantity * model::UsableEnergy(pack.capacity_ah, pack.nominal_voltage_v) * kSlack >=
+        energy_j)
+      objective = std::min(objective, amounts_[slot][i].objective);
+  }
+  return objective;
 }
 
 double Corners::LeastStores(const Ranges& ranges, const BestNumbers& regulator, double low_pa,
@@ -176,14 +236,10 @@ double Corners::LeastStores(const Ranges& ranges, const BestNumbers& regulator, 
   const double inlet_max_pa = regulator.Number("inlet_pressure_max_kpa_gauge");
   const bool cylinder = plan_.configuration == Configuration::kCylinder;
   const Family family = cylinder ? Family::kCylinder : Family::kCo2;
-  const auto least = [&](int slot, const auto& bears) {
-    double objective = kUnlimited;
-    for (int i = ranges[slot].first; i < ranges[slot].second; ++i)
-      if (amounts_[slot][i].objective < objective && bears(plan_.slots[slot].choices[i]))
-        objective = amounts_[slot][i].objective;
-    return objective;
-  };
-  sum += least(SlotOf(plan_, family, -1), [&](const ProofItem& item) {
+  const int slot = SlotOf(plan_, family, -1);
+  double bottle = kUnlimited;
+  for (int i = ranges[slot].first; i < ranges[slot].second; ++i) {
+    const ProofItem& item = plan_.slots[slot].choices[i];
     const model::Parts& parts = problem_.parts;
     const bool fits = cylinder
                           ? parts.cylinders[item.part].fill_pressure_pa +
@@ -191,15 +247,11 @@ double Corners::LeastStores(const Ranges& ranges, const BestNumbers& regulator, 
                                 inlet_max_pa
                           : item.quantity * parts.co2[item.part].flow_sustained_m3_per_s * kSlack >=
                                 stored.air_m3 * problem_.frequency_hz;
-    return fits &&
-           GasOf(problem_, family, item, inlet_pa) * kSlack >= problem_.actuations * stored.air_m3;
-  });
-  return sum + least(SlotOf(plan_, Family::kBattery, -1), [&](const ProofItem& item) {
-           const model::Battery& pack = problem_.parts.batteries[item.part];
-           return item.quantity * model::UsableEnergy(pack.capacity_ah, pack.nominal_voltage_v) *
-                      kSlack >=
-                  stored.energy_j;
-         });
+    if (fits &&
+        GasOf(problem_, family, item, inlet_pa) * kSlack >= problem_.actuations * stored.air_m3)
+      bottle = std::min(bottle, amounts_[slot][i].objective);
+  }
+  return sum + bottle + LeastBattery(ranges, stored.energy_j);
 }
 
 double Corners::LeastObjective(const Ranges& ranges, double enough) {

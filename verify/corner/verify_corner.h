@@ -45,6 +45,14 @@ class Corners {
     double air_m3;    // per cycle
     double energy_j;  // of the mission
   };
+  struct SourceBounds {
+    double low_pa = 0.0, high_pa = kUnlimited, flow_max = kUnlimited;
+    bool some_open = false, all_open = false;  // a tank without a regulator
+  };
+  SourceBounds SourceOf(const Ranges& ranges, const BestNumbers& regulator);
+  double LeastTank(const Ranges& ranges, const BestNumbers& regulator, const SourceBounds& source,
+                   double air_m3);
+  double LeastBattery(const Ranges& ranges, double energy_j);
   // `sum` with the least of the bottles and batteries that hold so much.
   double LeastStores(const Ranges& ranges, const BestNumbers& regulator, double low_pa,
                      const Stored& stored, double sum);

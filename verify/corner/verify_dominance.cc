@@ -7,6 +7,7 @@
 #include "verify/design/verify_families.h"
 #include "verify/design/verify_finding.h"
 #include "verify/design/verify_ids.h"
+#include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
 namespace {
@@ -131,20 +132,36 @@ bool NoWorse(const Problem& problem, const ProofPlan& plan, const ProofSlot& slo
   return RuleNoWorse(problem, plan, slot.family, a, b);
 }
 
+// What a tank keeps at most: the more the larger it is, so that a larger one takes the place of
+// another only if it weighs no more then.
+void AddMostLeft(const Problem& problem, const ProofItem& item, ItemAmounts& amounts) {
+  double left_pa = InletPressures(problem).second;
+  for (const model::Reservoir& tank : problem.parts.tanks)
+    left_pa = std::max(left_pa, std::min(tank.pressure_max_pa, problem.tank_fill_max_pa));
+  const model::Reservoir& tank = problem.parts.tanks[item.part];
+  const double more_kg = item.quantity * (ChargeKg(problem, tank, left_pa) -
+                                          ChargeKg(problem, tank, LeastLeftPa(problem)));
+  amounts.mass_kg += more_kg;
+  amounts.objective += problem.objective.mass_kg * more_kg;
+}
+
 }  // namespace
 
 bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
                const ProofItem& better, const ProofItem& worse) {
   if (better.part < 0 || worse.part < 0 || better == worse) return false;
-  const ItemAmounts a = ChoiceAmounts(problem, slot, better),
-                    b = ChoiceAmounts(problem, slot, worse);
+  ItemAmounts a = ChoiceAmounts(problem, slot, better), b = ChoiceAmounts(problem, slot, worse);
+  const TieShare share = ShareOfTies(problem, a), other_share = ShareOfTies(problem, b);
+  if (slot.family == Family::kTank) {
+    AddMostLeft(problem, better, a);
+    AddMostLeft(problem, worse, b);
+  }
   if ((std::isfinite(problem.mass_max_kg) &&
        !Least(a.mass_kg + a.mass_slack_kg, b.mass_kg + b.mass_slack_kg)) ||
       (std::isfinite(problem.volume_max_l) &&
        !Least(a.volume_m3 + a.volume_slack_m3, b.volume_m3 + b.volume_slack_m3)) ||
       (std::isfinite(problem.cost_max_eur) && !Least(a.cost_eur, b.cost_eur)))
     return false;
-  const TieShare share = ShareOfTies(problem, a), other_share = ShareOfTies(problem, b);
   const std::string& id = BasicsOf(problem.parts, slot.family, better.part).id;
   const std::string& other = BasicsOf(problem.parts, slot.family, worse.part).id;
   const bool first = share != other_share ? share < other_share

@@ -5,6 +5,7 @@
 #include "model/physics/storage.h"
 #include "verify/design/verify_design.h"
 #include "verify/design/verify_families.h"
+#include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
 namespace {
@@ -39,8 +40,10 @@ bool Whole(const Problem& problem, const Assembly& a) {
       return false;
   const Configuration c = a.configuration;
   const bool pump = c == Configuration::kCompressor;
-  return (a.regulator != nullptr) == !pump && (a.compressor != nullptr) == pump &&
-         (a.reservoirs > 0) == pump && (a.battery != nullptr) == (c != Configuration::kMains) &&
+  const bool tank = c == Configuration::kTank;
+  return (tank || (a.regulator != nullptr) == !pump) && (a.tank != nullptr) == tank &&
+         (a.compressor != nullptr) == pump && (a.reservoirs > 0) == pump &&
+         (a.battery != nullptr) == (c != Configuration::kMains) &&
          (a.cylinder != nullptr) == (c == Configuration::kCylinder) &&
          (a.co2 != nullptr) == (c == Configuration::kCo2);
 }
@@ -77,12 +80,22 @@ Expected Filled(const Problem& problem, int quantity, const model::Cylinder& cyl
                                      problem.ambient.temperature_k));
 }
 
+// Of a fill that is not known the least air that there may be.
+Expected Filled(const Problem& problem, int quantity, const model::Reservoir& tank,
+                const Settings& settings) {
+  return Times(quantity, tank.basics,
+               ChargeKg(problem, tank, settings.tank_fill_pa.value_or(LeastLeftPa(problem))));
+}
+
 Expected ExpectedRow(const Problem& problem, const Design& design, const Choice& choice) {
   const int part = ItemOf(problem, choice)->part;
   if (part < 0) return Made(problem, design.settings);
   double gas_kg = 0.0;
   if (choice.family == Family::kCylinder)
     return Filled(problem, static_cast<int>(choice.quantity), problem.parts.cylinders[part]);
+  if (choice.family == Family::kTank)
+    return Filled(problem, static_cast<int>(choice.quantity), problem.parts.tanks[part],
+                  design.settings);
   if (choice.family == Family::kCo2) gas_kg = problem.parts.co2[part].co2_mass_kg;
   return Times(choice.quantity, BasicsOf(problem.parts, choice.family, part), gas_kg);
 }
@@ -105,6 +118,7 @@ void ForEachRow(const Problem& problem, const Assembly& a, const Settings& setti
   }
   if (a.regulator) add(Times(1, a.regulator->basics));
   if (a.cylinder) add(Filled(problem, a.bottles, *a.cylinder));
+  if (a.tank) add(Filled(problem, a.tanks, *a.tank, settings));
   if (a.co2) add(Times(a.bottles, a.co2->basics, a.co2->co2_mass_kg));
   if (a.compressor) add(Times(a.compressors, a.compressor->basics));
   if (a.battery) add(Times(a.batteries, a.battery->basics));
@@ -164,6 +178,7 @@ bool Fit(const Problem& problem, const Assembly& source) {
   if (source.compressor)
     return model::VoltageMatches(source.battery->nominal_voltage_v,
                                  source.compressor->curve.voltage_v);
+  if (source.configuration == Configuration::kTank) return true;  // its fill is a setting
   const model::Regulator& regulator = *source.regulator;
   // A cylinder may be fuller than the regulator needs; other supplies have one pressure.
   if (source.cylinder)
@@ -203,6 +218,9 @@ void Place(const Problem& problem, Family family, int group, const ProofItem& it
     case Family::kReservoir:
       a.reservoirs = item.quantity;
       return put(parts.reservoirs, a.reservoir);
+    case Family::kTank:
+      a.tanks = item.quantity;
+      return put(parts.tanks, a.tank);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "model/physics/storage.h"
 #include "verify/design/verify_families.h"
+#include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
 
@@ -42,6 +43,8 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const P
       gas_kg = model::CylinderCharge(cylinder.water_volume_m3, cylinder.fill_pressure_pa,
                                      problem.ambient.temperature_k);
     }
+    if (slot.family == Family::kTank)
+      gas_kg = ChargeKg(problem, problem.parts.tanks[item.part], LeastLeftPa(problem));
     if (slot.family == Family::kCo2) gas_kg = problem.parts.co2[item.part].co2_mass_kg;
     sum = {pieces * (basics.mass_kg + gas_kg),     pieces * basics.body_volume_m3,
            pieces * basics.cost_eur.value_or(0.0), 0.0,

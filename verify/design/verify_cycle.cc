@@ -7,6 +7,7 @@
 #include "model/strokes/reservoir_stroke.h"
 #include "model/strokes/stroke.h"
 #include "verify/design/verify_open_valves.h"
+#include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
 namespace {
@@ -26,7 +27,7 @@ model::GroupRig MakeGroup(const Problem& problem, const Assembly& assembly, int 
   model::GroupRig rig;
   rig.name = group.name;
   rig.count = group.count;
-  rig.chamber = ChamberOf(group, line);
+  rig.chamber = ChamberWithBore(group, *line.tube);
   std::vector<model::FlowElement> between;  // from valve to actuator
   const model::FlowElement tube =
       model::TubeElement(line.tube->inner_diameter_m, group.tube_length_m);
@@ -77,6 +78,11 @@ model::Rig MakeRig(const Problem& problem, const Settings& settings, const Assem
     source.compressor_count = assembly.compressors;
     source.stop_pressure_pa = settings.source_pressure_pa;
     rig.source = source;
+  } else if (IsOpen(assembly)) {
+    model::ReservoirSource source;
+    source.volume_m3 = TankVolume(assembly);
+    source.initial_pressure_pa = state.source_pa;
+    rig.source = source;
   } else {
     double flow_max = assembly.regulator->flow_max_m3_per_s;
     if (assembly.configuration == Configuration::kMains)
@@ -117,6 +123,11 @@ void EmptyBeforeNext(const Problem& problem, const Settings& settings, model::Ri
   }
 }
 
+// Pressure of an open tank when the last period of the mission begins.
+double LastStart(const Problem& problem, const Settings& settings, const Assembly& assembly) {
+  return settings.source_pressure_pa - FallPa(problem, assembly, problem.actuations - 1.0);
+}
+
 // The state at the start of a cycle that repeats; none where the simulator does not get there.
 std::optional<State> Repeating(const Problem& problem, const Settings& settings,
                                const Assembly& assembly, double rising_m3, const Stop& stop) {
@@ -147,7 +158,7 @@ void AddNeeds(const Problem& problem, const Assembly& assembly, Cycle& cycle) {
   const double period_s = 1.0 / problem.frequency_hz;
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
     const model::Valve& valve = *assembly.lines[g].valve;
-    const model::Chamber chamber = ChamberOf(problem.groups[g], assembly.lines[g]);
+    const model::Chamber chamber = ChamberWithBore(problem.groups[g], *assembly.lines[g].tube);
     const bool holds = model::Holds(valve.kind);
     const double full_pa = holds ? chamber.operating_pressure_pa : cycle.filled_pa[g];
     cycle.air_m3 += problem.groups[g].count *
@@ -165,8 +176,43 @@ void AddNeeds(const Problem& problem, const Assembly& assembly, Cycle& cycle) {
   }
 }
 
+// Times without end and no air, for the groups of a problem.
+Cycle EmptyCycle(const Problem& problem) {
+  Cycle cycle;
+  cycle.rise_s.assign(problem.groups.size(), model::kNever);
+  cycle.inflate_s = cycle.rise_s;
+  for (const ActuatorGroup& group : problem.groups)
+    cycle.filled_pa.push_back(group.chamber.operating_pressure_pa);
+  return cycle;
+}
+
+// The last period out of an open tank, its strokes to their ends.
+std::optional<Cycle> SimulatedLast(const Problem& problem, const Settings& settings,
+                                   const Assembly& assembly, const Stop& stop) {
+  const State start{LastStart(problem, settings, assembly),
+                    std::vector<double>(problem.groups.size(), problem.ambient.pressure_pa)};
+  const model::Rig rig = MakeRig(problem, settings, assembly, start, 1, 0.0);
+  const double period_s = 1.0 / problem.frequency_hz;
+  const model::Response response = model::Simulate(rig, OptionsOf(problem, 1.5 * period_s, stop));
+  if (response.status != model::SimulateStatus::kDone) return std::nullopt;
+  Cycle cycle = EmptyCycle(problem);
+  for (const model::Stroke& stroke : response.strokes) {
+    if (stroke.state != model::ValveState::kInflate) continue;
+    cycle.rise_s[stroke.group] = stroke.to_target_s;
+    cycle.inflate_s[stroke.group] = stroke.to_operating_s;
+  }
+  for (const model::FullStroke& stroke :
+       model::FullStrokes(rig, OptionsOf(problem, period_s, stop))) {
+    if (stroke.status == model::SimulateStatus::kCancelled) return std::nullopt;
+    cycle.fall_s.push_back(stroke.fall_time_s);
+  }
+  AddNeeds(problem, assembly, cycle);
+  return cycle;
+}
+
 std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
                                const Assembly& assembly, double rising_m3, const Stop& stop) {
+  if (IsOpen(assembly)) return SimulatedLast(problem, settings, assembly, stop);
   const std::optional<State> state = Repeating(problem, settings, assembly, rising_m3, stop);
   if (!state) return std::nullopt;
   const double period_s = 1.0 / problem.frequency_hz;
@@ -176,11 +222,7 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
   const model::Response response =
       model::Simulate(emptied, OptionsOf(problem, 2.0 * period_s, stop));
   if (response.status != model::SimulateStatus::kDone) return std::nullopt;
-  const std::size_t groups = problem.groups.size();
-  Cycle cycle;
-  cycle.rise_s.assign(groups, model::kNever);
-  cycle.inflate_s.assign(groups, model::kNever);
-  cycle.filled_pa.resize(groups);
+  Cycle cycle = EmptyCycle(problem);
   for (const model::Stroke& stroke : response.strokes) {
     const bool carried_over = stroke.command_s == 0.0 && !problem.simultaneous && stroke.group > 0;
     if (stroke.state == model::ValveState::kDeflate && !carried_over)  // the last one counts
@@ -303,6 +345,21 @@ double QuickCycles::FillFromReservoir(const Settings& settings, double rising_m3
   return std::max(stroke.inflate_s, input.open_s) + refill_s;
 }
 
+// What it takes lowers the tank for the groups after it.
+double QuickCycles::FillFromTank(double& tank_pa, int g, Cycle& cycle) const {
+  const model::GroupRig& rig = rigs_[g];
+  const auto seconds = [&](double to_pa) {
+    return model::FillTimeFromReservoir(fills_[g], rig.chamber, rig.count, TankVolume(assembly_),
+                                        tank_pa, problem_.ambient.pressure_pa, to_pa,
+                                        problem_.ambient.temperature_k);
+  };
+  cycle.rise_s[g] = seconds(Target(problem_, problem_.groups[g], problem_.rise_fraction));
+  cycle.inflate_s[g] = seconds(rig.chamber.operating_pressure_pa);
+  tank_pa -= StrokeAir(problem_, assembly_, g) /
+             model::StandardVolume(TankVolume(assembly_), problem_.ambient.temperature_k);
+  return cycle.inflate_s[g];
+}
+
 std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3) const {
   if (Stopped(stop_)) return std::nullopt;
   const std::size_t groups = problem_.groups.size();
@@ -310,14 +367,12 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
   if (groups > 1 && (problem_.simultaneous || (assembly_.compressor && !Holding(assembly_))))
     return Simulated(problem_, settings, assembly_, rising_m3, stop_);
   const double turn_s = 1.0 / problem_.frequency_hz / static_cast<double>(groups);
-  Cycle cycle;
-  cycle.rise_s.assign(groups, model::kNever);
-  cycle.inflate_s.assign(groups, model::kNever);
-  for (const model::GroupRig& rig : rigs_)
-    cycle.filled_pa.push_back(rig.chamber.operating_pressure_pa);
+  Cycle cycle = EmptyCycle(problem_);
   cycle.fall_s = fall_s_;
+  double tank_pa = IsOpen(assembly_) ? LastStart(problem_, settings, assembly_) : 0.0;
   for (int g = 0; g < static_cast<int>(groups); ++g) {
     const double over_s = assembly_.compressor ? FillFromReservoir(settings, rising_m3, g, cycle)
+                          : IsOpen(assembly_)  ? FillFromTank(tank_pa, g, cycle)
                                                : FillFromRegulator(settings, g, cycle);
     if (groups > 1 && !(over_s <= turn_s))
       return Simulated(problem_, settings, assembly_, rising_m3, stop_);

@@ -9,13 +9,13 @@
 #include "model/flow/series.h"
 #include "model/simulate/simulate.h"
 #include "verify/design/verify_design.h"
-#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
 
-// By the simulator, from the first cycle until the source repeats. None where it does not get
-// there, or is stopped.
+// By the simulator, from the first cycle until the source repeats; out of a tank without a
+// regulator the last of the mission, which is the slowest. None where it does not get there, or is
+// stopped.
 std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& settings,
                                    const Assembly& assembly, const Stop& stop = {});
 
@@ -35,6 +35,7 @@ class QuickCycles {
   double FillFromRegulator(const Settings& settings, int group, Cycle& cycle) const;
   double FillFromReservoir(const Settings& settings, double rising_m3, int group,
                            Cycle& cycle) const;
+  double FillFromTank(double& tank_pa, int group, Cycle& cycle) const;
 
   const Problem& problem_;
   const Assembly& assembly_;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "verify/design/verify_finding.h"
-#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
@@ -29,7 +28,8 @@ struct Assembly {
   const model::Compressor* compressor = nullptr;
   const model::Battery* battery = nullptr;
   const model::Reservoir* reservoir = nullptr;  // null with a compressor: made to measure
-  int bottles = 0, compressors = 0, batteries = 0, reservoirs = 0;
+  const model::Reservoir* tank = nullptr;       // with or without a regulator
+  int bottles = 0, compressors = 0, batteries = 0, reservoirs = 0, tanks = 0;
   bool at_best = false;  // with a guarantee: valves that cannot hold as the parts are
   // Volume of stock reservoirs, and how much more they have while they rise.
   double ReservoirVolume() const { return reservoir ? reservoirs * reservoir->volume_m3 : 0.0; }

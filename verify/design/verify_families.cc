@@ -9,7 +9,8 @@ bool PricesNeeded(const Problem& problem) {
          (problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur));
 }
 
-std::vector<ProofItem> EntriesOf(const Problem& problem, const ProofSlot& slot) {
+std::vector<ProofItem> EntriesOf(const Problem& problem, Configuration configuration,
+                                 const ProofSlot& slot) {
   const Family family = slot.family;
   if (family == Family::kFitting && problem.groups[slot.group].fittings_per_line == 0)
     return {{-1, 0}};
@@ -20,6 +21,7 @@ std::vector<ProofItem> EntriesOf(const Problem& problem, const ProofSlot& slot) 
       if (!cost || BasicsOf(problem.parts, family, part).cost_eur)
         entries.push_back({part, quantity});
   if (MadeToMeasureAllowed(problem, family) && !cost) entries.push_back({-2, 1});
+  if (MayLack(configuration, family)) entries.push_back({-1, 0});
   return entries;
 }
 
@@ -39,7 +41,8 @@ BigCount Combinations(const Problem& problem, Configuration configuration) {
     if (slot.family == Family::kFitting && problem.groups[slot.group].fittings_per_line == 0)
       continue;
     count *= FamilySize(problem.parts, slot.family) * QuantityMax(problem, slot.family) +
-             (MadeToMeasureAllowed(problem, slot.family) ? 1 : 0);
+             (MadeToMeasureAllowed(problem, slot.family) ? 1 : 0) +
+             (MayLack(configuration, slot.family) ? 1 : 0);
   }
   return count;
 }

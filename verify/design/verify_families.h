@@ -17,6 +17,7 @@ using optimizer::FieldValue;
 using optimizer::FindPart;
 using optimizer::LineFamilies;
 using optimizer::MadeToMeasureAllowed;
+using optimizer::MayLack;
 using optimizer::PartField;
 using optimizer::Pieces;
 using optimizer::QuantityMax;
@@ -27,8 +28,10 @@ using optimizer::Use;
 // Whether a part without a price is no choice.
 bool PricesNeeded(const Problem& problem);
 
-// What a slot can be filled with: every part in every number, priced ones alone where cost matters.
-std::vector<ProofItem> EntriesOf(const Problem& problem, const ProofSlot& slot);
+// What a slot can be filled with: every part in every number, priced ones alone where cost matters,
+// and no part where the source may lack one.
+std::vector<ProofItem> EntriesOf(const Problem& problem, Configuration configuration,
+                                 const ProofSlot& slot);
 
 // A plan of a configuration with a slot for each family that it needs, without choices: of each
 // group, then of the source.

@@ -12,6 +12,7 @@ Place PlaceOf(Family family) {
     case Family::kCompressor:
     case Family::kCylinder:
     case Family::kCo2:
+    case Family::kTank:
       return Place::kSource;
     case Family::kRegulator:
       return Place::kRegulator;
@@ -33,6 +34,7 @@ std::string SeriesName(const Problem& problem, Family family, int part) {
 }
 
 void AddSeries(Family family, const std::string& series, KindName& kind) {
+  if (series.empty()) return;  // a choice of no part
   const Place place = PlaceOf(family);
   if (place == Place::kSource) kind.source.second.insert(series);
   if (place == Place::kRegulator) kind.regulators.insert(series);

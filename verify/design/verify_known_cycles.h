@@ -12,7 +12,8 @@
 
 namespace plenum::verify {
 
-// QuickCycles that remembers. Strokes are the same beside any battery and any number of bottles.
+// QuickCycles that remembers. Strokes are the same beside any battery and any number of bottles,
+// and of any tank behind a regulator.
 class KnownCycles {
  public:
   KnownCycles(const Problem& problem, const Assembly& assembly, const Stop& stop)
@@ -24,7 +25,8 @@ class KnownCycles {
     return other.configuration == assembly_.configuration && other.lines == assembly_.lines &&
            other.regulator == assembly_.regulator && other.co2 == assembly_.co2 &&
            other.compressor == assembly_.compressor && other.compressors == assembly_.compressors &&
-           other.at_best == assembly_.at_best;
+           other.at_best == assembly_.at_best &&
+           (other.regulator || (other.tank == assembly_.tank && other.tanks == assembly_.tanks));
   }
 
   // By energy per air, or by power where groups take turns (verify_size.h); of all the pressures

@@ -6,6 +6,7 @@
 
 #include "model/physics/storage.h"
 #include "verify/design/verify_supply.h"
+#include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
 namespace {
@@ -44,6 +45,10 @@ class PressureSizing {
         slack_(slack),
         stood_(StoodPressures(problem, assembly)) {
     stood_.low_pa = std::max(stood_.low_pa, floor_pa);
+    // All that an open tank bears grows with its fill but for the air, which is more.
+    if (IsOpen(assembly))
+      stood_.low_pa = std::max(
+          stood_.low_pa, LeastOpenFillPa(problem, assembly, (1.0 - slack) * problem.actuations));
     if (volumes.high_m3 > volumes.low_m3)
       resolution_ =
           std::clamp(kPressureShare * (volumes.high_m3 / volumes.low_m3 - 1.0), kFinest, kCoarsest);
@@ -184,7 +189,10 @@ class PressureSizing {
 
   // Largest share by which the cycle misses a requirement, and the objective.
   std::pair<double, double> Judge(double source_pa, const Cycle& cycle) const {
-    const Settings settings = SettingsAt(source_pa, volumes_.low_m3);
+    Settings settings = SettingsAt(source_pa, volumes_.low_m3);
+    if (assembly_.tank)
+      settings.tank_fill_pa = LeastFillPa(problem_, assembly_, source_pa,
+                                          (1.0 - slack_) * problem_.actuations * cycle.air_m3);
     const Supply supply = SupplyOf(problem_, settings, assembly_, cycle);
     double excess = StrokeExcess(cycle);
     Totals totals = TotalsOf(problem_, assembly_, settings);

@@ -2,6 +2,7 @@
 #include "verify/design/verify_supply.h"
 
 #include "model/physics/storage.h"
+#include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
 
@@ -19,6 +20,12 @@ Pressures StoodPressures(const Problem& problem, const Assembly& a) {
   if (a.regulator) {
     low_pa = std::max(low_pa, a.regulator->outlet_pressure_min_pa);
     high_pa = std::min(high_pa, a.regulator->outlet_pressure_max_pa);
+  }
+  if (IsOpen(a)) {
+    for (const LineParts& line : a.lines)
+      if (!model::Holds(line.valve->kind)) return {kUnlimited, 0.0};
+    low_pa = std::max(low_pa, InletPa(problem, a, 0.0));
+    high_pa = std::min(high_pa, MostFillPa(problem, a));
   }
   if (a.configuration == Configuration::kMains)
     high_pa = std::min(high_pa, problem.mains.pressure_pa);
@@ -45,6 +52,10 @@ Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly
     supply.gas_m3 = a.bottles * model::CylinderUsableVolume(a.cylinder->water_volume_m3,
                                                             a.cylinder->fill_pressure_pa, inlet_pa,
                                                             temperature_k);
+  if (a.tank) {
+    const double fall_pa = settings.tank_fill_pa.value_or(0.0) - InletPa(problem, a, source_pa);
+    supply.gas_m3 = model::StandardVolume(TankVolume(a) * std::max(0.0, fall_pa), temperature_k);
+  }
   if (a.co2) {
     supply.gas_m3 = a.bottles * model::Co2UsableVolume(a.co2->co2_mass_kg, a.co2->water_volume_m3,
                                                        inlet_pa, temperature_k);
@@ -103,6 +114,9 @@ std::map<std::string, Reached> Requirements(const Problem& problem, const Settin
     all["/duty/actuations"] = {problem.actuations, actuations, false, kEnergyTolerance};
   at_most("/supply/source_pressure_kpa_gauge_max", gauge(problem.source_pressure_max_pa),
           gauge(source_pa), kSumTolerance);
+  if (a.tank)
+    at_most("/supply/tank_fill_kpa_gauge_max", gauge(problem.tank_fill_max_pa),
+            gauge(settings.tank_fill_pa.value_or(0.0)), kSumTolerance);
   const Totals slack = SlackOf(problem, a, settings);
   at_most("/supply/mass_kg_max", problem.mass_max_kg, totals.mass_kg + slack.mass_kg,
           kSumTolerance);

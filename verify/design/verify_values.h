@@ -3,6 +3,8 @@
 #ifndef PLENUM_VERIFY_DESIGN_VERIFY_VALUES_H_
 #define PLENUM_VERIFY_DESIGN_VERIFY_VALUES_H_
 
+#include <functional>
+
 #include "optimizer/problem/amount.h"
 #include "optimizer/problem/big_count.h"
 #include "optimizer/problem/pareto_front.h"
@@ -45,6 +47,11 @@ using optimizer::Searched;
 using optimizer::Settings;
 using optimizer::Status;
 using optimizer::Totals;
+
+// Whether somebody wants a check to end before it has looked at all. May be empty; true from some
+// time on. What is not looked at by then stays open.
+using Stop = std::function<bool()>;
+inline bool Stopped(const Stop& stop) { return stop && stop(); }
 
 }  // namespace plenum::verify
 

@@ -18,13 +18,13 @@ constexpr long long kReportEvery = 1 << 16;  // combinations
 
 // Sums of parts are exact; where settings count they are sought in two ways that agree to this.
 double ObjectiveTolerance(const Problem& problem, const Assembly& assembly) {
-  const bool made = assembly.compressor && !assembly.reservoir;
-  return problem.objective.energy_wh > 0.0 ? 1e-4 : made ? 1e-5 : kSumTolerance;
+  const bool settings = assembly.tank || (assembly.compressor && !assembly.reservoir);
+  return problem.objective.energy_wh > 0.0 ? 1e-4 : settings ? 1e-5 : kSumTolerance;
 }
 
 ProofPlan AllOf(const Problem& problem, Configuration configuration) {
   ProofPlan plan = EmptyPlan(problem, configuration);
-  for (ProofSlot& slot : plan.slots) slot.choices = EntriesOf(problem, slot);
+  for (ProofSlot& slot : plan.slots) slot.choices = EntriesOf(problem, configuration, slot);
   return plan;
 }
 
@@ -116,6 +116,7 @@ class Enumeration {
       }
       case Family::kRegulator:
         if (plan().configuration == Configuration::kCylinder) return true;  // asked with the bottle
+        if (plan().configuration == Configuration::kTank) return true;
         source.regulator = &parts.regulators[part];
         if (plan().configuration == Configuration::kCo2 && !parts.co2.empty())
           source.co2 = &parts.co2.front();

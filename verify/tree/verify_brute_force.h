@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "verify/design/verify_finding.h"
-#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {

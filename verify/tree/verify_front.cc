@@ -51,7 +51,8 @@ void CheckFront(const Problem& problem, const Front& front, const Stop& stop, Fi
                                          std::to_string(j + 1)});
   const bool energy = std::find(amounts.begin(), amounts.end(), Amount::kEnergy) != amounts.end();
   const bool made = problem.configurations.contains(Configuration::kCompressor);
-  if (front.resolution > (!made ? kExact : energy ? kCurve : kMade))
+  const bool curve = energy && (made || problem.configurations.contains(Configuration::kTank));
+  if (front.resolution > (curve ? kCurve : made ? kMade : kExact))
     findings.push_back({"front", "the resolution hides points"});
   const bool whole = answer.status == Status::kOptimal || answer.status == Status::kInfeasible;
   if (whole != front.unexplored.empty() || whole != answer.proof.complete ||

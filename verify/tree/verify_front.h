@@ -3,7 +3,6 @@
 #define PLENUM_VERIFY_TREE_VERIFY_FRONT_H_
 
 #include "verify/design/verify_finding.h"
-#include "verify/design/verify_stop.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {

@@ -90,7 +90,7 @@ ProofPlan WholePlan(const Problem& problem, Configuration configuration) {
   ProofPlan plan = EmptyPlan(problem, configuration);
   plan.equal_flow = FlowMustBeEqual(problem, configuration);
   for (ProofSlot& slot : plan.slots) {
-    const std::vector<ProofItem> entries = EntriesOf(problem, slot);
+    const std::vector<ProofItem> entries = EntriesOf(problem, configuration, slot);
     std::vector<std::pair<double, ProofItem>> kept;
     for (const ProofItem& item : entries)
       if (std::none_of(entries.begin(), entries.end(), [&](const ProofItem& other) {

@@ -113,7 +113,7 @@ void CheckSlots(const Problem& problem, const ProofPlan& plan, Pruned& counts, F
   }
   BigCount priced = 1, kept = 1;
   for (const ProofSlot& slot : plan.slots) {
-    const std::vector<ProofItem> entries = EntriesOf(problem, slot);
+    const std::vector<ProofItem> entries = EntriesOf(problem, plan.configuration, slot);
     CheckSlot(problem, plan, slot, entries, findings);
     priced *= entries.size();
     kept *= slot.choices.size();

@@ -34,8 +34,8 @@ BigCount ReadCount(Reader& reader, const char* field) {
   return 0;
 }
 
-Choice ReadRow(Reader row, const Problem& problem) {
-  Choice choice = ReadChoice(row, problem);
+Choice ReadRow(Reader row, const Problem& problem, optimizer::Configuration configuration) {
+  Choice choice = ReadChoice(row, problem, configuration);
   choice.mass_kg = row.Number("mass_kg", kAnyNumber);
   choice.volume_m3 = M3FromL(row.Number("volume_l", kAnyNumber));
   choice.cost_eur = row.OptionalNumber("cost_eur", kAnyNumber);
@@ -71,7 +71,7 @@ Design ReadDesign(const Element& element, int rank, const Problem& problem, Erro
   design.configuration = ReadConfiguration(reader);
   design.objective = reader.Number("objective", kAnyNumber);
   for (const Element& row : reader.List("parts", 1, kDesignRowsMax))
-    design.parts.push_back(ReadRow(Reader(row, errors), problem));
+    design.parts.push_back(ReadRow(Reader(row, errors), problem, design.configuration));
   AddOutsidePower(problem, design);
   Reader settings = reader.Object("settings");
   design.settings = ReadPoint(settings, problem);

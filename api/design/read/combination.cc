@@ -62,6 +62,7 @@ const char* LimitField(Family family) {
     case Family::kCo2:
       return "co2_max";
     case Family::kReservoir:
+    case Family::kTank:
       return "reservoirs_max";
     default:
       return nullptr;
@@ -214,7 +215,8 @@ class Check {
           Fail("/parts", Piece(family) + " for group " + group.name + " is missing");
     }
     for (const Family family : optimizer::SourceFamilies(design_.configuration))
-      if (!RowOf(family)) Fail("/parts", Piece(family) + " is missing: " + Is() + " has one");
+      if (!RowOf(family) && !optimizer::MayLack(design_.configuration, family))
+        Fail("/parts", Piece(family) + " is missing: " + Is() + " has one");
   }
 
   void CheckLine(int g) {
@@ -247,6 +249,7 @@ class Check {
                     Decimal(pump->curve.voltage_v) + " V, within 15 %");
       return;
     }
+    if (design_.configuration == Configuration::kTank) return CheckTank();
     const Choice* row = RowOf(Family::kRegulator);
     const model::Regulator& regulator = *Find(parts.regulators, row);
     const auto* cylinder = Find(parts.cylinders, RowOf(Family::kCylinder));
@@ -265,15 +268,42 @@ class Check {
                   supply);
   }
 
+  // Its fill, and without a regulator the valves.
+  void CheckTank() {
+    const model::Parts& parts = problem_.parts;
+    const auto* regulator = Find(parts.regulators, RowOf(Family::kRegulator));
+    const auto* tank = Find(parts.tanks, RowOf(Family::kTank));
+    double most_pa = std::min(tank->pressure_max_pa, problem_.tank_fill_max_pa);
+    if (regulator) most_pa = std::min(most_pa, regulator->inlet_pressure_max_pa);
+    const char* place = "/settings/tank_fill_kpa_gauge";
+    const std::optional<double> given = design_.settings.tank_fill_pa;
+    if (given && *given > most_pa * (1.0 + kRounding))
+      Fail(place, "must be ≤ " + KpaGauge(most_pa, problem_) +
+                      ", what the tank and what it feeds stand and the request allows, not " +
+                      KpaGauge(*given, problem_));
+    if (regulator) return;
+    if (given && !Near(*given, design_.settings.source_pressure_pa))
+      Fail(place, "must be the source pressure, or left out: there is no regulator");
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
+      const Choice* row = RowOf(Family::kValve, g);
+      if (!model::Holds(Find(parts.valves, row)->kind))
+        FailRow(*row, "/id",
+                "cannot hold: a tank without a regulator would fill its actuators to "
+                "whatever pressure it has");
+    }
+  }
+
   void CheckVolume() {
     const char* place = "/settings/reservoir_volume_ml";
     const std::optional<double> given = design_.settings.reservoir_volume_m3;
     const std::string is = given ? ", not " + Decimal(Rounded(MlFromM3(*given))) : "";
-    const Choice* row = RowOf(Family::kReservoir);
+    const Choice* row = RowOf(optimizer::FamilyIn(design_.configuration, Family::kReservoir));
+    if (design_.settings.tank_fill_pa && design_.configuration != Configuration::kTank)
+      Fail("/settings/tank_fill_kpa_gauge", "must be left out: " + Is() + " has no tank");
     if (row == nullptr) {
       if (given) Fail(place, "must be left out: " + Is() + " has no reservoir");
     } else if (!IsCustom(*row)) {
-      const double stock_m3 = row->quantity * Find(problem_.parts.reservoirs, row)->volume_m3;
+      const double stock_m3 = row->quantity * Find(problem_.parts.tanks, row)->volume_m3;
       if (given && !Near(*given, stock_m3))
         Fail(place, "must be " + Decimal(Rounded(MlFromM3(stock_m3))) + ", the volume of " +
                         Quoted(row->id) + ", or left out" + is);
@@ -304,9 +334,9 @@ void CheckCombination(const Design& design, const Problem& problem,
 
 Design WithReservoirVolume(Design design, const Problem& problem) {
   for (const Choice& choice : design.parts)
-    if (choice.family == Family::kReservoir && !IsCustom(choice))
+    if (optimizer::CatalogueFamily(choice.family) == Family::kReservoir && !IsCustom(choice))
       design.settings.reservoir_volume_m3 =
-          choice.quantity * Find(problem.parts.reservoirs, &choice)->volume_m3;
+          choice.quantity * Find(problem.parts.tanks, &choice)->volume_m3;
   return design;
 }
 

@@ -30,16 +30,18 @@ void PassOver(Reader& reader, std::initializer_list<const char*> names) {
 }  // namespace
 
 Configuration ReadConfiguration(Reader& design) {
-  return ReadEnum<Configuration>(design, "configuration",
-                                 {Configuration::kCylinder, Configuration::kCo2,
-                                  Configuration::kCompressor, Configuration::kMains});
+  return ReadEnum<Configuration>(
+      design, "configuration",
+      {Configuration::kCylinder, Configuration::kCo2, Configuration::kCompressor,
+       Configuration::kMains, Configuration::kTank});
 }
 
-optimizer::Choice ReadChoice(Reader& row, const Problem& problem) {
+optimizer::Choice ReadChoice(Reader& row, const Problem& problem, Configuration configuration) {
   optimizer::Choice choice;
   std::vector<Family> families;
-  for (const optimizer::FamilySpec& spec : optimizer::Families()) families.push_back(spec.family);
-  choice.family = ReadEnum<Family>(row, "family", families);
+  for (const optimizer::FamilySpec& spec : optimizer::Families())
+    if (optimizer::CatalogueFamily(spec.family) == spec.family) families.push_back(spec.family);
+  choice.family = optimizer::FamilyIn(configuration, ReadEnum<Family>(row, "family", families));
   choice.id = row.Text("id");
   if (row.Has("group")) {
     choice.group = GroupNamed(problem, row.Text("group"));
@@ -55,6 +57,8 @@ optimizer::Settings ReadPoint(Reader& reader, const Problem& problem) {
       reader.Number("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}), problem.ambient);
   if (const auto ml = reader.OptionalNumber("reservoir_volume_ml", kReservoirMl))
     settings.reservoir_volume_m3 = M3FromMl(*ml);
+  if (const auto kpa = reader.OptionalNumber("tank_fill_kpa_gauge", {0, kGaugeMaxKpa}))
+    settings.tank_fill_pa = PaFromKpaGauge(*kpa, problem.ambient);
   return settings;
 }
 
@@ -63,7 +67,7 @@ optimizer::Design ReadGivenDesign(Reader reader, const Problem& problem) {
   design.configuration = ReadConfiguration(reader);
   for (const Element& element : reader.List("parts", 1, kDesignRowsMax)) {
     Reader row(element, reader.errors());
-    design.parts.push_back(ReadChoice(row, problem));
+    design.parts.push_back(ReadChoice(row, problem, design.configuration));
     PassOver(row,
              {"manufacturer", "part_number", "unit", "mass_kg", "volume_l", "cost_eur", "own"});
     row.Finish();

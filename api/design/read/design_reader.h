@@ -27,9 +27,11 @@ Enum ReadEnum(Reader& reader, const char* field, const std::vector<Enum>& values
 optimizer::Configuration ReadConfiguration(Reader& design);
 
 // "family", "id", "group" and "quantity" of a row of "parts".
-optimizer::Choice ReadChoice(Reader& row, const optimizer::Problem& problem);
+optimizer::Choice ReadChoice(Reader& row, const optimizer::Problem& problem,
+                             optimizer::Configuration configuration);
 
-// "source_pressure_kpa_gauge" and "reservoir_volume_ml" of "settings": positive and finite.
+// "source_pressure_kpa_gauge", "reservoir_volume_ml" and "tank_fill_kpa_gauge" of "settings":
+// positive and finite.
 optimizer::Settings ReadPoint(Reader& settings, const optimizer::Problem& problem);
 
 // The three together: a design that is to be evaluated.

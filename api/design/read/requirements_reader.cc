@@ -29,8 +29,11 @@ constexpr double kPressureMarginDefault = 1.05;
 const Range kTimeLimitS = Above(0, 1e6);
 const Range kAmount = Above(0, 1e6);  // kg, L, EUR
 
+// A request that names none asks for all but a tank, which has to be filled somewhere, and for the
+// mains only if it has them.
 constexpr Configuration kAllConfigurations[] = {Configuration::kCylinder, Configuration::kCo2,
-                                                Configuration::kCompressor, Configuration::kMains};
+                                                Configuration::kCompressor, Configuration::kMains,
+                                                Configuration::kTank};
 
 // What a group says beside the group itself.
 struct GroupRemarks {
@@ -78,7 +81,8 @@ void ReadDuty(Reader& request, optimizer::Problem& problem) {
 void ReadConfigurations(Reader& supply, bool has_mains, optimizer::Problem& problem) {
   if (!supply.Has("configurations")) {
     for (const Configuration configuration : kAllConfigurations)
-      if (configuration != Configuration::kMains || has_mains)
+      if (configuration != Configuration::kTank &&
+          (configuration != Configuration::kMains || has_mains))
         problem.configurations.insert(configuration);
     return;
   }
@@ -114,6 +118,11 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
   ReadPower(supply, problem);
   const auto source = supply.OptionalNumber("source_pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
   if (source) problem.source_pressure_max_pa = PaFromKpaGauge(*source, problem.ambient);
+  const auto fill = supply.OptionalNumber("tank_fill_kpa_gauge_max", {1, kGaugeMaxKpa});
+  if (fill) problem.tank_fill_max_pa = PaFromKpaGauge(*fill, problem.ambient);
+  if (fill && !problem.configurations.contains(Configuration::kTank))
+    supply.Fail("tank_fill_kpa_gauge_max",
+                "is for the configuration tank, which supply.configurations does not name");
   const auto limit = [&](const char* name) {
     return supply.OptionalNumber(name, kAmount).value_or(optimizer::kUnlimited);
   };
@@ -298,6 +307,10 @@ void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& model
   }
   parsed.model = *std::find_if(models.begin(), models.end(),
                                [&](const auto& model) { return model.name == name; });
+  if (parsed.problem.configurations.contains(Configuration::kTank))
+    request.FailAt("supply/configurations",
+                   "must be without tank where a model is named, whose effects are judged in a "
+                   "cycle that repeats");
 }
 
 // What a front cannot have, and what one of two things asked for excludes.

@@ -31,7 +31,7 @@ bool HasChoice(const std::vector<catalog::Part>& parts, const optimizer::Problem
 std::string PointerFor(const std::vector<catalog::Part>& parts, const optimizer::Problem& problem,
                        Family family) {
   const std::string name = optimizer::Name(family);
-  if (problem.require.contains(family)) return "/require/" + name;
+  if (problem.require.contains(optimizer::CatalogueFamily(family))) return "/require/" + name;
   const bool in_catalogue = std::any_of(
       parts.begin(), parts.end(), [&](const catalog::Part& part) { return part.family == name; });
   if (!in_catalogue && !optimizer::SpecOf(family).made_to_measure) return "";
@@ -41,7 +41,7 @@ std::string PointerFor(const std::vector<catalog::Part>& parts, const optimizer:
 }  // namespace
 
 bool IsAllowed(const optimizer::Problem& problem, Family family, const std::string& id) {
-  const auto required = problem.require.find(family);
+  const auto required = problem.require.find(optimizer::CatalogueFamily(family));
   return !problem.exclude.contains(id) &&
          (required == problem.require.end() || required->second.contains(id));
 }
@@ -68,7 +68,7 @@ void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
   if (auto require = request.OptionalObject("require")) {
     for (const optimizer::FamilySpec& spec : optimizer::Families()) {
       const std::string name = spec.name;
-      if (!require->Has(name)) continue;
+      if (optimizer::CatalogueFamily(spec.family) != spec.family || !require->Has(name)) continue;
       const std::vector<std::string> wanted = require->Texts(name, 1, kExcludedMax);
       for (std::size_t i = 0; i < wanted.size() && !require->Full(); ++i) {
         const std::string& id = wanted[i];
@@ -108,7 +108,8 @@ std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
   std::vector<catalog::Part> allowed;
   for (const optimizer::FamilySpec& spec : optimizer::Families())
     for (const catalog::Part& part : parts)
-      if (part.family == spec.name && IsAllowed(problem, spec.family, part))
+      if (part.family == spec.name && optimizer::CatalogueFamily(spec.family) == spec.family &&
+          IsAllowed(problem, spec.family, part))
         allowed.push_back(AsCounted(part, problem));
   return allowed;
 }
@@ -130,7 +131,7 @@ void CheckFamilies(const std::vector<catalog::Part>& parts, const optimizer::Pro
     std::vector<Family> needed = optimizer::SourceFamilies(configuration);
     needed.insert(needed.begin(), shared.begin(), shared.end());
     for (const Family family : needed) {
-      if (HasChoice(parts, problem, family)) continue;
+      if (optimizer::MayLack(configuration, family) || HasChoice(parts, problem, family)) continue;
       possible = false;
       if (std::find(empty.begin(), empty.end(), family) == empty.end()) empty.push_back(family);
     }

@@ -163,7 +163,8 @@ model::Parts ToWorstParts(const std::vector<catalog::Part>& rows, const model::A
   std::array<std::size_t, static_cast<std::size_t>(optimizer::Family::kReservoir) + 1> seen{};
   for (const catalog::Part& row : rows) {
     for (const optimizer::FamilySpec& spec : optimizer::Families()) {
-      if (row.family != spec.name) continue;
+      // Reservoirs as tanks: a guarantee has none (guarantee.h).
+      if (row.family != spec.name || spec.family == optimizer::Family::kTank) continue;
       const std::size_t part = seen[static_cast<std::size_t>(spec.family)]++;
       AddSlack(row, tolerance, settled,
                optimizer::BasicsOf(parts, spec.family, static_cast<int>(part)));

@@ -1,6 +1,8 @@
-// Cylinders and CO2 bottles: some of one kind, whose gas depends on the regulators behind them.
+// Cylinders, CO2 bottles and tanks: some of one kind, whose gas depends on the regulators behind
+// them.
 #include "optimizer/choices/plant/corner_table.h"
 #include "optimizer/choices/plant/planter.h"
+#include "optimizer/evaluate/candidate.h"
 #include "optimizer/problem/part_tables.h"
 
 namespace plenum::optimizer {
@@ -13,7 +15,9 @@ constexpr std::tuple kRows{
     Ruled{Use::kMore, 0.0, &BottleCorner::gas_to_high_m3},
     Best{FieldNamed(kCylinderFields, "fill_pressure_kpa_gauge"), &BottleCorner::fill_pressure_pa},
     Best{FieldNamed(kCo2Fields, "flow_sustained_l_per_min_anr"),
-         &BottleCorner::flow_sustained_m3_per_s}};
+         &BottleCorner::flow_sustained_m3_per_s},
+    Ruled{Use::kMore, 0.0, &BottleCorner::water_m3},
+    Ruled{Use::kMore, 0.0, &BottleCorner::fill_max_pa}};
 
 }  // namespace
 
@@ -21,7 +25,7 @@ void Widen(BottleCorner& a, const BottleCorner& b) { WidenBy(kRows, a, b); }
 std::array<double, 4> SplitKeys(const BottleCorner& c) {
   return KeysBy<KeyCountOf(kRows)>(kRows, c);
 }
-// They are of two families: SetBottle() and the rules below set them.
+// They are of three families: SetBottle() and the rules below set them.
 void SetNumbers(const PartNumbers&, BottleCorner&) {}
 
 void Planter::SetBottle(double gas_kg, double full_m3, double water_m3,
@@ -64,6 +68,28 @@ int Planter::PlantCo2() {
   };
   return PlantSlot(Family::kCo2, -1, ChoicesOf(Family::kCo2),
                    MakeSourceEntries<BottleCorner>(Family::kCo2, rule), plan_->bottles);
+}
+
+// What any design with it carries of air counts as its own. A larger one may keep more at the end,
+// at the highest inlet pressure most: it takes the place of another only if it weighs no more then.
+int Planter::PlantTanks() {
+  const auto rule = [&](int i, int quantity, const Entry<BottleCorner>& entry) {
+    const model::Reservoir& part = problem_.parts.tanks[i];
+    const double fill_pa = TankRatingPa(problem_, i), water_m3 = quantity * part.volume_m3;
+    SetBottle(quantity * LeastTankCharge(problem_, i),
+              water_m3 * GasLeft(problem_, plan_->configuration, fill_pa), water_m3, entry);
+    BottleCorner& corner = entry.item.corner;
+    corner.flow_sustained_m3_per_s = kUnlimited;
+    corner.water_m3 = water_m3;
+    corner.fill_max_pa = fill_pa;
+    const double beyond_kg =
+        model::TankCharge(water_m3, plan_->bottle_range.high_pa - LeastSourcePa(problem_),
+                          problem_.ambient.temperature_k);
+    entry.contender.beyond = problem_.objective.mass_kg * beyond_kg;
+    entry.contender.losses.push_back(corner.amounts.mass_kg + beyond_kg);
+  };
+  return PlantSlot(Family::kTank, -1, ChoicesOf(Family::kTank),
+                   MakeSourceEntries<BottleCorner>(Family::kTank, rule), plan_->bottles);
 }
 
 }  // namespace plenum::optimizer

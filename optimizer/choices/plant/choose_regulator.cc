@@ -1,4 +1,4 @@
-// The regulator of a cylinder, a CO2 bottle or the mains: one.
+// The regulator of a cylinder, a CO2 bottle or the mains: one. A tank may do without.
 #include "optimizer/choices/plant/corner_table.h"
 #include "optimizer/choices/plant/planter.h"
 #include "optimizer/problem/part_tables.h"
@@ -8,7 +8,22 @@ namespace {
 
 using namespace corner_table;
 
+// Whether all are none, or some.
+struct Lacking {};
+void Widen(const Lacking&, RegulatorCorner& a, const RegulatorCorner& b) {
+  a.some_none = a.some_none || b.some_none;
+  a.all_none = a.all_none && b.all_none;
+}
+constexpr std::size_t KeyCount(const Lacking&) { return 0; }
+void AddKeys(const Lacking&, const RegulatorCorner&, const auto&) {}
+void SetNumber(const Lacking&, const PartNumbers&, RegulatorCorner&) {}
+
+// None holds nothing back: a conductance that no line comes near, and pressures that no tank has.
+constexpr double kEndless = 1.0;  // m³/(s·Pa)
+constexpr double kEndlessPa = 1e12;
+
 constexpr std::tuple kRows{
+    Lacking{},
     Flow{FieldNamed(kRegulatorFields, "sonic_conductance_dm3_per_s_bar"), &RegulatorCorner::flow},
     Best{FieldNamed(kRegulatorFields, "flow_max_l_per_min_anr"),
          &RegulatorCorner::flow_max_m3_per_s},
@@ -21,6 +36,23 @@ constexpr std::tuple kRows{
     Best{FieldNamed(kRegulatorFields, "outlet_pressure_max_kpa_gauge"),
          &RegulatorCorner::outlet_max_pa},
     Best{FieldNamed(kRegulatorFields, "electrical_power_w"), &RegulatorCorner::electrical_power_w}};
+
+// No regulator stands for another choice, and none stands for it.
+void AddNone(const Problem& problem, Entries<RegulatorCorner>& entries) {
+  const int mates = entries.classes.size();
+  const std::size_t losses =
+      entries.contenders.empty() ? 0 : entries.contenders.front().losses.size();
+  const Entry<RegulatorCorner> none = entries.Add();
+  none.item.option.index = kNone;
+  RegulatorCorner& corner = none.item.corner;
+  corner.some_none = corner.all_none = true;
+  corner.flow = {kEndless, 0.5};
+  corner.flow_max_m3_per_s = kUnlimited;
+  corner.inlet_max_pa = kEndlessPa;
+  corner.outlet_max_pa = HighestTankPa(problem);
+  none.contender.mates = mates;
+  none.contender.losses.assign(losses, 0.0);
+}
 
 }  // namespace
 
@@ -38,8 +70,13 @@ int Planter::PlantRegulators() {
     corner.objective += EnergyWeight(problem_) * problem_.actuations * corner.electrical_power_w /
                         problem_.frequency_hz;
   };
-  return PlantSlot(Family::kRegulator, -1, ChoicesOf(Family::kRegulator),
-                   MakeSourceEntries<RegulatorCorner>(Family::kRegulator, rule), plan_->regulators);
+  Entries<RegulatorCorner> entries = MakeSourceEntries<RegulatorCorner>(Family::kRegulator, rule);
+  long long total = ChoicesOf(Family::kRegulator);
+  if (MayLack(plan_->configuration, Family::kRegulator)) {
+    ++total;
+    AddNone(problem_, entries);
+  }
+  return PlantSlot(Family::kRegulator, -1, total, std::move(entries), plan_->regulators);
 }
 
 }  // namespace plenum::optimizer

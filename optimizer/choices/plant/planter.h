@@ -19,6 +19,7 @@
 #include "optimizer/choices/dominance.h"
 #include "optimizer/choices/plan.h"
 #include "optimizer/choices/plant/compared.h"
+#include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/problem/family_specs.h"
 #include "optimizer/problem/kind.h"
@@ -116,6 +117,7 @@ class Planter {
       plan_->regulator_slot = PlantRegulators();
       if (plan_->configuration == Configuration::kCylinder) plan_->bottle_slot = PlantCylinders();
       if (plan_->configuration == Configuration::kCo2) plan_->bottle_slot = PlantCo2();
+      if (plan_->configuration == Configuration::kTank) plan_->bottle_slot = PlantTanks();
     }
     if (plan_->configuration != Configuration::kMains) plan_->battery_slot = PlantBatteries();
     if (stopped()) return nullptr;
@@ -164,6 +166,8 @@ class Planter {
       for (const model::Regulator& regulator : problem_.parts.regulators)
         highest_pa = std::max(highest_pa, regulator.outlet_pressure_max_pa);
     }
+    if (plan_->configuration == Configuration::kTank)
+      highest_pa = std::max(highest_pa, HighestTankPa(problem_));
     return std::min(problem_.source_pressure_max_pa, highest_pa);
   }
 
@@ -175,6 +179,8 @@ class Planter {
       range.high_pa = std::max(range.high_pa, regulator.inlet_pressure_min_pa);
     }
     range.high_pa = std::max(range.high_pa, std::min(outlet_pa, problem_.source_pressure_max_pa));
+    if (plan_->configuration == Configuration::kTank)
+      range.high_pa = std::max(range.high_pa, HighestTankPa(problem_));
     return range;
   }
 
@@ -203,13 +209,18 @@ class Planter {
     add(parts.compressors, problem_.limits.compressors);
     add(parts.batteries, problem_.limits.batteries);
     add(parts.reservoirs, problem_.limits.reservoirs);
+    add(parts.tanks, problem_.limits.reservoirs);
     for (const model::Cylinder& c : parts.cylinders)
       gas_kg_ = std::max(gas_kg_, model::CylinderCharge(c.water_volume_m3, c.fill_pressure_pa,
                                                         problem_.ambient.temperature_k));
     for (const model::Co2Bottle& bottle : parts.co2)
       gas_kg_ = std::max(gas_kg_, bottle.co2_mass_kg);
+    for (int i = 0; i < static_cast<int>(parts.tanks.size()); ++i)
+      gas_kg_ = std::max(gas_kg_,
+                         model::TankCharge(parts.tanks[i].volume_m3, parts.tanks[i].pressure_max_pa,
+                                           problem_.ambient.temperature_k));
     sum += problem_.objective.mass_kg * gas_kg_ *
-           std::max(problem_.limits.cylinders, problem_.limits.co2);
+           std::max({problem_.limits.cylinders, problem_.limits.co2, problem_.limits.reservoirs});
     sum += ObjectiveOf(problem_.objective, CustomReservoir(problem_, model::kMadeReservoirLargestM3,
                                                            CustomRatingPa(problem_)));
     double energy_j = 0.0;  // no design uses more than its batteries give
@@ -244,7 +255,7 @@ class Planter {
       Contender& contender = contenders[i];
       Item<Corner>& item = entries.items[i];
       contender.item = {item.option.index, item.option.quantity};
-      contender.objective = item.corner.objective;
+      contender.objective = item.corner.objective + contender.beyond;
       const Amounts& amounts = item.corner.amounts;
       item.tie = contender.tie = TieShareOf(problem_.objective, amounts);
       if (std::isfinite(problem_.mass_max_kg))
@@ -278,7 +289,9 @@ class Planter {
     if (SpecOf(family).kind_role != KindRole::kApart) series = SeriesOf(problem_.parts, family);
     for (std::size_t i = 0; i < entries.items.size(); ++i) {
       const int part = entries.items[i].option.index;
-      entries.items[i].series = entries.contenders[i].series = series.empty() ? 0 : series[part];
+      const bool none = part == kNone && !series.empty();
+      entries.items[i].series = none ? kNoPart : series.empty() ? 0 : series[part];
+      entries.contenders[i].series = none ? -1 : entries.items[i].series;
     }
   }
 
@@ -352,6 +365,7 @@ class Planter {
   int PlantRegulators();
   int PlantCylinders();
   int PlantCo2();
+  int PlantTanks();
   int PlantCompressors();
   int PlantReservoirs();
   int PlantBatteries();

@@ -33,9 +33,15 @@ std::string NamesOf(const Json& design, std::initializer_list<std::string_view> 
   return text.empty() ? "–" : text;
 }
 
+// Pump, bottle, or reservoir that is filled beforehand.
+std::string StoreOf(const Json& design) {
+  return design.at("configuration") == "tank" ? NamesOf(design, {"reservoir"})
+                                              : NamesOf(design, {"compressor", "cylinder", "co2"});
+}
+
 std::string SourceOf(const Json& design) {
-  const std::string bottle = NamesOf(design, {"compressor", "cylinder", "co2"});
-  return bottle == "–" ? "mains, " + NamesOf(design, {"regulator"}) : bottle;
+  const std::string store = StoreOf(design);
+  return store == "–" ? "mains, " + NamesOf(design, {"regulator"}) : store;
 }
 
 std::string TankOf(const Json& design) {
@@ -191,8 +197,8 @@ std::string WideTable(const Json& designs) {
     const auto& totals = design.at("totals");
     const Json variants = design.value("variants", Json::object());
     table.Add({Grouped(design.at("rank")), design.at("configuration").get<std::string>(),
-               NamesOf(design, {"compressor", "cylinder", "co2"}), NamesOf(design, {"valve"}),
-               PowerOf(design), NamesOf(design, {"reservoir"}), NamesOf(design, {"regulator"}),
+               StoreOf(design), NamesOf(design, {"valve"}), PowerOf(design),
+               NamesOf(design, {"reservoir"}), NamesOf(design, {"regulator"}),
                NamesOf(design, {"tubing"}), Mass(design), Short(totals.at("volume_l")),
                Short(totals.at("cost_eur")),
                Short(design.at("settings").at("source_pressure_kpa_gauge")),

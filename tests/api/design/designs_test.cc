@@ -75,7 +75,7 @@ TEST(RenderAnswer, HasEveryFieldOfTheContract) {
   EXPECT_EQ(design["parts"][3]["id"], "custom");
   EXPECT_EQ(design["settings"], Parse(R"({"source_pressure_kpa_gauge": 92.0, "valve_duty": 0.046,
                       "valve_duty_groups": [0.046], "compressor_duty": 0.78,
-                      "reservoir_volume_ml": 730.0, "power": null})"));
+                      "reservoir_volume_ml": 730.0, "tank_fill_kpa_gauge": null, "power": null})"));
   EXPECT_EQ(design["totals"], Parse(R"({"mass_kg": 1.387, "volume_l": 1.7617, "cost_eur": null,
                                         "cost_eur_min": 0.0, "energy_wh": 61.0})"));
   EXPECT_EQ(design["performance"],

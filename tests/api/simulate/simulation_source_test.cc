@@ -75,5 +75,28 @@ TEST(SimulationSource, PumpsStopAtTheirPressure) {
   EXPECT_NEAR(source[200].get<double>(), 25.0, 1e-3);
 }
 
+// 20 strokes of 15 kPa each out of a litre at 800 kPa gauge (physics of a blowdown, worked out by
+// hand: (200·100 − 100·50) kPa·mL).
+TEST(SimulationSource, ATankFallsByWhatEachStrokeTakes) {
+  Json request = Rig();
+  request["actuators"][0]["line"] =
+      Parse(R"({"sonic_conductance_dm3_per_s_bar": 0.2, "critical_ratio": 0.3})");
+  request["actuators"][0]["close_at_operating_pressure"] = true;
+  request["source"] = Parse(
+      R"({ "kind": "tank", "reservoir_volume_ml": 1000, "initial_pressure_kpa_gauge": 800 })");
+  request.erase("valve");
+  request["cycle"] = Parse(R"({"frequency_hz": 0.5, "inflate_fraction": 0.5, "cycles": 20})");
+  request["t_end_s"] = 40;
+  const Json source = Simulated(request)["source_pressure_kpa_gauge"];
+  for (const int strokes : {1, 10, 20})
+    EXPECT_NEAR(source[static_cast<std::size_t>(strokes * 100 - 1)].get<double>(),
+                800.0 - 15.0 * strokes, 1e-3)
+        << strokes;
+  request["source"].erase("initial_pressure_kpa_gauge");
+  const auto errors = ErrorsOf(RunSimulation(request, SmallCatalogue()));
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].pointer, "/source/initial_pressure_kpa_gauge");
+}
+
 }  // namespace
 }  // namespace plenum::api

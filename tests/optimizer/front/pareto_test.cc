@@ -183,6 +183,24 @@ TEST(ParetoTest, TwoAmountsOfRegulatedSupplies) {
   EXPECT_GT(tally.largest, 2u);
 }
 
+// The mass of a tank depends on its fill.
+TEST(ParetoTest, TwoAmountsOfTanks) {
+  constexpr Amount kPairs[][2] = {{Amount::kMass, Amount::kVolume},
+                                  {Amount::kCost, Amount::kMass},
+                                  {Amount::kVolume, Amount::kCost}};
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+    const auto& pair = kPairs[seed % 3];
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Problem problem = Drawn(2600 + seed, {Configuration::kTank}, {2, 2, 3, 2, 0, 0, 0, 2, 4});
+    problem.actuations = 1.0 + static_cast<double>(seed);
+    problem.limits.reservoirs = 2;
+    Compare(problem, {pair[0], pair[1]}, tally);
+  }
+  EXPECT_EQ(tally.whole, tally.problems);
+  EXPECT_GT(tally.largest, 2u);
+}
+
 // Lighter parts are larger, by laws that bend either way, so that fronts are long and have points
 // on their hull and above it.
 Problem WithLongFront(std::uint64_t seed) {

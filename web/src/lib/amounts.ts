@@ -76,10 +76,19 @@ export const axes: Axis[] = [
     'reservoir',
     'reservoir',
     '',
-    'Volume between pump and valves',
+    'Volume between pump and valves, or of the tank',
     settings((s) => s.reservoir_volume_ml),
     'low',
     'volume_ml',
+  ),
+  plain(
+    'tank_fill',
+    'tank fill',
+    '',
+    'Pressure that the tank is filled to beforehand',
+    settings((s) => s.tank_fill_kpa_gauge ?? null),
+    'low',
+    'pressure',
   ),
   plain(
     'sustained',
@@ -113,7 +122,13 @@ export const axes: Axis[] = [
   ),
 ];
 
-const supplyWords = { compressor: 'compressor', cylinder: 'cylinder', co2: 'CO₂', mains: 'wall' };
+const supplyWords = {
+  compressor: 'compressor',
+  cylinder: 'cylinder',
+  co2: 'CO₂',
+  mains: 'wall',
+  tank: 'tank',
+};
 export const powerWord = ({
   kind,
   voltage_v,
@@ -163,6 +178,7 @@ export function requirementName(pointer: string, groups: { name: string }[]): st
     '/duty/frequency_hz': 'frequency',
     '/duty/actuations': 'actuations',
     '/supply/source_pressure_kpa_gauge_max': 'source pressure',
+    '/supply/tank_fill_kpa_gauge_max': 'tank fill',
     '/supply/mass_kg_max': 'mass',
     '/supply/volume_l_max': 'volume',
     '/supply/cost_eur_max': 'cost',

@@ -52,6 +52,13 @@ function sourceOf(design: Design, requirements: Requirements, parts: Parts, chan
     };
   }
   const row = rowOf(design, 'regulator');
+  if (design.configuration === 'tank' && !row) {
+    return {
+      kind: 'tank',
+      reservoir_volume_ml: design.settings.reservoir_volume_ml,
+      initial_pressure_kpa_gauge: change.source_kpa,
+    };
+  }
   const regulator = row && parts.get(row.id);
   const flows = [
     regulator ? numberOf(regulator, 'flow_max_l_per_min_anr') : null,

@@ -20,7 +20,7 @@ export interface Group {
   relative_uncertainty?: { rest_volume?: number; expansion_ratio?: number };
 }
 
-export type Configuration = 'cylinder' | 'co2' | 'compressor' | 'mains';
+export type Configuration = 'cylinder' | 'co2' | 'compressor' | 'mains' | 'tank';
 export type Amount = 'mass_kg' | 'volume_l' | 'cost_eur' | 'energy_wh';
 
 // Where a number comes from, and how far it is trusted.
@@ -39,6 +39,7 @@ export interface Requirements {
     configurations?: Configuration[];
     mains?: { pressure_kpa_gauge: number; flow_l_per_min_anr_max?: number };
     source_pressure_kpa_gauge_max?: number | null;
+    tank_fill_kpa_gauge_max?: number | null;
     mass_kg_max?: number | null;
     volume_l_max?: number | null;
     cost_eur_max?: number | null;
@@ -109,6 +110,7 @@ export interface Design {
     valve_duty_groups?: number[];
     compressor_duty: number | null;
     reservoir_volume_ml: number | null;
+    tank_fill_kpa_gauge?: number | null;
     power?: { kind: PowerKind; voltage_v: number | null } | null;
   };
   totals: {

@@ -8,6 +8,7 @@ const names: Record<Configuration, string> = {
   cylinder: 'cylinder',
   co2: 'CO₂',
   mains: 'wall',
+  tank: 'tank',
 };
 
 // Signs in the manner of ISO 1219, 30 × 30 around the middle.
@@ -29,6 +30,8 @@ function SourceSign({ kind }: { kind: Configuration }) {
           <path d="M-13 2 H12" stroke-dasharray="2 2" />
         </>
       );
+    case 'tank':
+      return <Reservoir />;
     case 'mains':
       return (
         <>

@@ -17,12 +17,12 @@ const named = (parts: PartRow[]): string =>
     ),
   ].join(' + ');
 
-// What tells people one design from another: pump or bottle, and valves.
+// What tells people one design from another: pump, bottle or tank, and valves.
 export function identity(design: Pick<Design, 'parts'>): { source: string; valves: string } {
   const of = (...families: string[]) =>
     named(design.parts.filter((p) => families.includes(p.family)));
   return {
-    source: of('compressor', 'cylinder', 'co2') || `wall, ${of('regulator')}`,
+    source: of('compressor', 'cylinder', 'co2') || of('reservoir') || `wall, ${of('regulator')}`,
     valves: of('valve'),
   };
 }

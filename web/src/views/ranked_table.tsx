@@ -58,7 +58,8 @@ export function partsInShort(design: Design, base: Design | undefined): string {
     (p) =>
       !known.has(key(p)) &&
       (design !== base ||
-        ['compressor', 'cylinder', 'co2', 'regulator', 'valve'].includes(p.family)),
+        ['compressor', 'cylinder', 'co2', 'regulator', 'valve'].includes(p.family) ||
+        (p.family === 'reservoir' && design.configuration === 'tank')),
   );
   return rows
     .map((p) =>

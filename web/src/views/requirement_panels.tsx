@@ -9,6 +9,7 @@ const configurations: { value: Configuration; label: string }[] = [
   { value: 'cylinder', label: 'Compressed air cylinder' },
   { value: 'co2', label: 'Liquid CO₂' },
   { value: 'mains', label: 'Wall supply' },
+  { value: 'tank', label: 'Tank filled beforehand' },
 ];
 
 export function Supply() {
@@ -24,6 +25,7 @@ export function Supply() {
         ['supply', 'mains'],
         on ? { pressure_kpa_gauge: 600, flow_l_per_min_anr_max: 200 } : undefined,
       );
+    if (name === 'tank' && !on) edit(['supply', 'tank_fill_kpa_gauge_max'], undefined);
   };
   const wrong = errorAt('/supply/configurations') ?? errorAt('/supply/mains');
   return (
@@ -107,6 +109,16 @@ export function Supply() {
           path={['supply', 'source_pressure_kpa_gauge_max']}
           range={[1, 50000]}
         />
+        {chosen.includes('tank') && (
+          <RequirementField
+            label="Tank filled to, at most"
+            kind="pressure"
+            optional
+            path={['supply', 'tank_fill_kpa_gauge_max']}
+            range={[1, 50000]}
+            hint="and never above its rating"
+          />
+        )}
         <RequirementField
           label="Mass, at most"
           unit="kg"
