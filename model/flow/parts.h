@@ -112,9 +112,9 @@ struct Regulator {
 
 struct Reservoir {
   PartBasics basics;
-  double volume_m3 = 0.0;         // while it is drawn from
-  double volume_spread_m3 = 0.0;  // more while it is filled
+  double volume_m3 = 0.0;  // while it is drawn from
   double pressure_max_pa = 0.0;
+  double volume_spread_m3 = 0.0;  // more while it is filled
   bool operator==(const Reservoir&) const = default;
 };
 
