@@ -40,7 +40,8 @@ Json AllRequirements() {
         "pressure_volume": [ { "pressure_kpa_gauge": 0, "volume_ml": 50 },
                              { "pressure_kpa_gauge": 120, "volume_ml": 90 } ],
         "tube_length_m": 0.5, "fittings_per_line": 2, "rise_time_s_max": 1, "fall_time_s_max": 1,
-        "pressure_kpa_gauge_max": 105 },
+        "pressure_kpa_gauge_max": 105,
+        "relative_uncertainty": { "rest_volume": 0.02, "expansion_ratio": 0.02 } },
       { "cylinder": { "bore_mm": 10, "stroke_mm": 50, "rod_mm": 4, "acting": "single",
                       "dead_volume_ml": 1 } },
       { "muscle": { "length_mm": 100, "diameter_mm": 10, "braid_angle_deg": 25,
@@ -64,6 +65,9 @@ Json AllRequirements() {
     "robust": { "draws": 1, "time_limit_s": 1, "seed": 0,
                 "tolerance": { "datasheet": 0, "third_party": 0, "derived": 0, "estimated": 0,
                                "measured": 0 } },
+    "guarantee": { "retune": false,
+                   "tolerance": { "datasheet": 0, "third_party": 0, "derived": 0, "estimated": 0,
+                                  "measured": 0 } },
     "explain": { "prices": false, "ranks": 0, "time_limit_s": 1 },
     "limits": { "compressors_max": 1, "batteries_max": 1, "cylinders_max": 1, "co2_max": 1,
                 "reservoirs_max": 1 },
@@ -219,7 +223,7 @@ Json PartOf(const catalog::Family& family) {
 }  // namespace
 
 Json DescribeRequirements() {
-  return Heard({ExampleRequirements(), AllRequirements()},
+  return Heard({ExampleRequirements(), AllRequirements(), Document(R"({ "guarantee": true })")},
                [](const Json& document) { ParseRequirements(document, {}); });
 }
 

@@ -3,6 +3,7 @@
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/designs.h"
 #include "api/design/front.h"
+#include "api/design/guaranteed.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/design/read/selection.h"
 #include "api/design/revised_ranking.h"
@@ -65,6 +66,7 @@ Json AnswerRequest(const DesignRequest& request, optimizer::SearchOptions option
   };
   if (!request.pareto.empty()) return AnswerFront(request, options, parts);
   if (request.model) return AnswerRevised(request, options, parts);
+  if (request.guarantee) return AnswerGuaranteed(request, options, parts);
   return AnswerList(request, options, parts).document;
 }
 

@@ -3,24 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/design/read/guarantee.h"
+
 namespace plenum::api {
 namespace {
-
-Tolerance ReadTolerance(Reader& robust) {
-  Tolerance tolerance;
-  auto reader = robust.OptionalObject("tolerance");
-  if (!reader) return tolerance;
-  const auto read = [&](const char* name, double& share) {
-    share = reader->Number(name, Below(0, 1), share);
-  };
-  read("datasheet", tolerance.datasheet);
-  read("third_party", tolerance.third_party);
-  read("derived", tolerance.derived);
-  read("estimated", tolerance.estimated);
-  read("measured", tolerance.measured);
-  reader->Finish();
-  return tolerance;
-}
 
 // 95 % interval of a probability of which `met` of `draws` trials were seen (Wilson 1927).
 Json WilsonInterval(int met, int draws) {
@@ -62,17 +48,11 @@ void AddRobustness(const RobustRequest& request, const optimizer::RobustAnswer& 
                                 {"probability_ci95", WilsonInterval(robustness.met, result.draws)},
                                 {"share_rank_1", Share(robustness.first, result.draws)}};
   }
-  const Tolerance& tolerance = request.tolerance;
   document["robust"] = {
       {"draws", result.draws},
       {"draws_asked", request.options.draws},
       {"seed", request.seed},
-      {"tolerance",
-       {{"datasheet", tolerance.datasheet},
-        {"third_party", tolerance.third_party},
-        {"derived", tolerance.derived},
-        {"estimated", tolerance.estimated},
-        {"measured", tolerance.measured}}},
+      {"tolerance", RenderTolerance(request.tolerance)},
       {"probability_min",
        request.options.probability_min ? Json(*request.options.probability_min) : Json(nullptr)},
       {"left_out", result.below}};

@@ -67,7 +67,7 @@ void RemarkRecorder::TellOuter(const std::function<std::string(const std::string
     for (Json remark : from) {
       const std::string pointer = place(remark["pointer"].get<std::string>());
       remark.erase("pointer");
-      outer_->Add(to, pointer, std::move(remark));
+      outer_->Add(to, pointer, remark);
     }
   };
   tell(told.understood, outer_->remarks_.understood);

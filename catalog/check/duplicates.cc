@@ -70,11 +70,12 @@ class Finder {
     const std::string maker = MakerKey(part.manufacturer);
     const std::string number = NumberKey(part.part_number, maker);
     if (number.empty()) return;
-    Put(by_name_, maker + "|" + number, part);
-    Put(by_any_name_, maker + "|" + number, part);
+    const auto named = [&maker](std::string key) { return key.insert(0, maker + '|'); };
+    Put(by_name_, named(number), part);
+    Put(by_any_name_, named(number), part);
     for (const std::string& alias : part.aliases)
       if (const std::string key = NumberKey(alias, maker); !key.empty())
-        Put(by_any_name_, maker + "|" + key, part);
+        Put(by_any_name_, named(key), part);
     if (Tells(number)) Put(by_number_, number, part);
   }
 

@@ -105,7 +105,7 @@ class RowMaker {
                  (column.decimal == Decimal::kComma ? "comma" : "point")});
       return "";
     }
-    const std::string plain = (number.negative ? "-" : "") + *digits + number.tail;
+    std::string plain = (number.negative ? "-" : "") + *digits + number.tail;
     const std::string unit(number.rest.empty() ? std::string_view(target.unit) : number.rest);
     const std::string text = unit.empty() ? plain : plain + " " + unit;
     if (target.notation) return std::string(WordOf(*target.notation)) + " " + text;

@@ -1,5 +1,8 @@
 // Parts as the search sees them: SI, absolute pressures, numbers only. The catalogue's rows with
 // their provenance become these in api/.
+//
+// A part may stand for all that its tolerances allow: each number is then at its worst, and what
+// counts at both of its ends has a slack or a spread beside it, which is 0 else.
 #ifndef PLENUM_MODEL_FLOW_PARTS_H_
 #define PLENUM_MODEL_FLOW_PARTS_H_
 
@@ -18,6 +21,8 @@ struct PartBasics {
   double body_volume_m3 = 0.0;     // outer envelope
   std::optional<double> cost_eur;  // none: not known
   std::string series = {};         // that its variants share; empty: it is its own
+  double mass_slack_kg = 0.0;      // what it may weigh more; limits hold with it
+  double body_volume_slack_m3 = 0.0;
   bool operator==(const PartBasics&) const = default;
 };
 
@@ -80,6 +85,7 @@ struct Cylinder {
   PartBasics basics;
   double water_volume_m3 = 0.0;
   double fill_pressure_pa = 0.0;
+  double fill_pressure_spread_pa = 0.0;  // what a regulator may have to stand above it
   bool operator==(const Cylinder&) const = default;
 };
 
@@ -106,7 +112,8 @@ struct Regulator {
 
 struct Reservoir {
   PartBasics basics;
-  double volume_m3 = 0.0;
+  double volume_m3 = 0.0;         // while it is drawn from
+  double volume_spread_m3 = 0.0;  // more while it is filled
   double pressure_max_pa = 0.0;
   bool operator==(const Reservoir&) const = default;
 };

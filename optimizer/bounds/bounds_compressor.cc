@@ -89,7 +89,9 @@ void Bounds::RenewLooks(Box& box) const {
   }
   if (limited_) {
     const Amounts amounts = LeastBesidesBattery(box);
-    for (double value : {amounts.mass_kg, amounts.volume_m3, amounts.cost_eur}) rest.Add(value);
+    for (double value : {amounts.mass_kg, amounts.volume_m3, amounts.cost_eur,
+                         amounts.mass_slack_kg, amounts.volume_slack_m3})
+      rest.Add(value);
   }
   if (needs.value() != box.needs_of) ++box.look;
   if (rest.value() != box.rest_of) ++box.rest_look;

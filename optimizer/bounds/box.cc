@@ -118,8 +118,8 @@ Constraint Bounds::Assess(Box& box, int changed) {
 bool Bounds::WithinLimits(Amounts amounts, const Amounts& more) const {
   constexpr double kRounding = 1.0 + 1e-12;  // sums in another order
   amounts += more;
-  return amounts.mass_kg <= problem_.mass_max_kg * kRounding &&
-         amounts.volume_m3 * 1e3 <= problem_.volume_max_l * kRounding &&
+  return amounts.mass_kg + amounts.mass_slack_kg <= problem_.mass_max_kg * kRounding &&
+         (amounts.volume_m3 + amounts.volume_slack_m3) * 1e3 <= problem_.volume_max_l * kRounding &&
          amounts.cost_eur <= problem_.cost_max_eur * kRounding && (!useful_ || useful_(amounts));
 }
 

@@ -55,7 +55,7 @@ class SeriesSeen {
   explicit SeriesSeen(const std::vector<Contender>& contenders) {
     int most = -1;
     for (const Contender& contender : contenders) most = std::max(most, contender.series);
-    last_.resize(static_cast<std::size_t>(most + 1), -1);
+    last_.resize(static_cast<std::size_t>(most) + 1, -1);
   }
   // Whether it is the first of its series for this contender.
   bool IsFirst(int series, int contender) {

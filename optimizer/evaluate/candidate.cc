@@ -56,6 +56,16 @@ double ReservoirVolume(const Problem& problem, const Candidate& candidate) {
              : reservoir.quantity * problem.parts.reservoirs[reservoir.index].volume_m3;
 }
 
+OperatingPoint PointAt(const Problem& problem, const Candidate& candidate, double source_pa,
+                       double reservoir_m3) {
+  const Option& reservoir = candidate.reservoir;
+  const double spread_m3 =
+      reservoir.index < 0
+          ? 0.0
+          : reservoir.quantity * problem.parts.reservoirs[reservoir.index].volume_spread_m3;
+  return {source_pa, reservoir_m3, reservoir_m3 + spread_m3};
+}
+
 double CustomRatingPa(const Problem& problem) {
   return std::min(problem.source_pressure_max_pa,
                   problem.ambient.pressure_pa + model::kMadeReservoirPressureMaxGaugePa);
@@ -71,7 +81,9 @@ double LeastSourcePa(const Problem& problem) {
 Amounts CustomReservoir(const Problem& problem, double volume_m3, double source_pa) {
   const model::MadeReservoir made =
       model::MakeReservoir(volume_m3, std::max(0.0, source_pa - problem.ambient.pressure_pa));
-  return {made.mass_kg, made.body_volume_m3, 0.0};
+  const double share = problem.guarantee ? problem.guarantee->made_share : 0.0;
+  return {made.mass_kg, made.body_volume_m3, 0.0, share * made.mass_kg,
+          share * made.body_volume_m3};
 }
 
 template <class T>
@@ -93,8 +105,12 @@ AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
   const auto grown = [&](double here, double fixed) {
     return model::Chain(point.reservoir_m3, here, (here - fixed) / volume_m3);
   };
-  total += AmountsOf<T>{grown(made.mass_kg, none.mass_kg), grown(made.volume_m3, none.volume_m3)};
-  total.mass_kg += volume_m3 * model::kMadeReservoirMassPerM3Pa * (point.source_pa - source_pa);
+  AmountsOf<T> reservoir{grown(made.mass_kg, none.mass_kg), grown(made.volume_m3, none.volume_m3)};
+  reservoir.mass_kg += volume_m3 * model::kMadeReservoirMassPerM3Pa * (point.source_pa - source_pa);
+  const double share = problem.guarantee ? problem.guarantee->made_share : 0.0;
+  reservoir.mass_slack_kg = share * reservoir.mass_kg;
+  reservoir.volume_slack_m3 = share * reservoir.volume_m3;
+  total += reservoir;
   return total;
 }
 

@@ -38,6 +38,9 @@ struct Candidate {
   // Source pressures outside are known to be too slow, or more than the source bears.
   double source_floor_pa = 0.0;
   double source_cap_pa = kUnlimited;
+  // Of a problem with a guarantee: valves that cannot hold as they are with these parts, which is
+  // the best that may be said of them; else at their worst.
+  bool at_best = false;
   const Workbench* bench = nullptr;  // null: the simulator of the model, never stopped
   bool stopped() const { return bench != nullptr && bench->stopped(); }
 };
@@ -68,6 +71,9 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate);
 
 // Volume of a stock reservoir or a tank; 0 where there is none, or where it is made to measure.
 double ReservoirVolume(const Problem& problem, const Candidate& candidate);
+// The candidate run with such a volume, which a stock reservoir with tolerances has while it falls.
+OperatingPoint PointAt(const Problem& problem, const Candidate& candidate, double source_pa,
+                       double reservoir_m3);
 
 // Parts of the candidate; a made-to-measure reservoir is built for its volume and stop pressure,
 // and a tank holds the fill of the point, where that is known, else the least air that it may.

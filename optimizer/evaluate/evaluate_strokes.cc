@@ -18,6 +18,11 @@ namespace {
 constexpr double kPeriodicTolerance = 1e-7;
 constexpr double kFilledTolerance = 1e-10;  // of a pressure
 
+// Whether the line stands open for half of the period, and its worst counts.
+bool OpenAtWorst(const Problem& problem, const Candidate& candidate, const Line& line) {
+  return problem.guarantee && !candidate.at_best && !line.holds;
+}
+
 // Strokes of one group alone on the regulator, and how long it draws.
 double RegulatedStroke(const Problem& problem, const Candidate& candidate, double source_pa, int g,
                        Strokes& strokes) {
@@ -40,6 +45,10 @@ double RegulatedStroke(const Problem& problem, const Candidate& candidate, doubl
   strokes.rise_s[g] = fill_time(RiseTarget(problem, group));
   strokes.inflate_s[g] = inflate_s;
   if (line.holds || !(inflate_s < half_s)) return inflate_s;
+  if (OpenAtWorst(problem, candidate, line)) {
+    strokes.filled_pa[g] = source_pa;
+    return half_s;
+  }
   const auto left_s = [&](double to_pa) { return half_s - fill_time(to_pa); };
   const double full_left_s = left_s(source_pa);
   strokes.filled_pa[g] = full_left_s >= 0.0
@@ -76,6 +85,65 @@ double RiseLimit(const Problem& problem, int g) {
 
 enum class Alone { kYes, kNo, kTooSlow };
 
+// What pumps do for one stroke of a group, and the pressure that it ends at.
+struct Pumped {
+  double filled_pa, on_s, energy_j, air_m3;
+};
+
+Pumped PumpedFor(const model::ReservoirStrokeInput& input, const model::ReservoirStroke& stroke,
+                 double refill_s) {
+  const double volume_m3 = input.volume_rising_m3;
+  return {stroke.chamber_end_pa, stroke.pump_on_s + refill_s,
+          stroke.pump_energy_j + model::EnergyToFill(*input.compressor, volume_m3,
+                                                     stroke.reservoir_end_pa, input.stop_pa,
+                                                     input.temperature_k),
+          stroke.pump_air_m3 +
+              model::StandardVolume(volume_m3 * (input.stop_pa - stroke.reservoir_end_pa),
+                                    input.temperature_k)};
+}
+
+// Pressure at which a reservoir of `volume_m3` at the stop pressure and empty chambers come to
+// rest, with so much air (Pa·m³) added.
+double Equalised(const model::ReservoirStrokeInput& input, double volume_m3, double added) {
+  const double held = volume_m3 * input.stop_pa + added +
+                      input.count * model::Content(*input.chamber, input.from_pa);
+  const auto room = [&](double p) {
+    return held - volume_m3 * p - input.count * model::Content(*input.chamber, p);
+  };
+  if (room(input.stop_pa) >= 0.0) return input.stop_pa;
+  return NarrowBracket(room, input.from_pa, room(input.from_pa), input.stop_pa, room(input.stop_pa),
+                       kFilledTolerance)
+      .high;
+}
+
+// The same of a line that stands open and passes any more than this one does, at most. Chambers
+// never hold more than at rest with the reservoir, which never falls below where it comes to rest
+// without pumps. With a line that passes more, chamber and pumped air are ahead at each time (where
+// contents are equal the reservoir holds no less, where the pumped air is equal it holds no more,
+// and pumps deliver more into less). So pumps run no longer than for the least stroke, and then for
+// the rest of the air against the stop pressure; their power is the most below it. Pumps that
+// deliver more run no longer: of what they deliver more while the line is open the chamber takes a
+// part at most, and the rest is the sooner pumped.
+Pumped OpenPumped(const Problem& problem, const model::ReservoirStrokeInput& input,
+                  const Pumped& least) {
+  const model::CompressorCurve& curve = *input.compressor;
+  const double unit_m3 = model::StandardVolume(1.0, input.temperature_k);
+  const double lowest_pa = Equalised(input, input.volume_falling_m3, 0.0);
+  const double pumped_m3 =
+      input.compressors * model::FreeAirDelivery(curve, lowest_pa) * input.open_s;
+  const double filled_pa =
+      std::max(least.filled_pa, Equalised(input, input.volume_rising_m3, pumped_m3 / unit_m3));
+  const double rest_m3 = input.count *
+                         (model::Content(*input.chamber, filled_pa) -
+                          model::Content(*input.chamber, least.filled_pa)) *
+                         unit_m3;
+  const double on_s =
+      least.on_s + rest_m3 / (input.compressors * model::FreeAirDelivery(curve, input.stop_pa));
+  const double power_w =
+      curve.voltage_v * model::LargestCurrent(curve, problem.ambient.pressure_pa, input.stop_pa);
+  return {filled_pa, on_s, on_s * input.compressors * power_w, least.air_m3 + rest_m3};
+}
+
 // Stroke of one group alone on the full reservoir, if that is the whole story: the reservoir is
 // full again before another group's stroke, `time_s` later. A single group's own next stroke may
 // come too early: the running time then exceeds the period, and the duty refuses this stop
@@ -88,22 +156,22 @@ Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
   if (!stroke.reached) return Alone::kTooSlow;
   strokes.rise_s[g] = stroke.rise_s;
   strokes.inflate_s[g] = stroke.inflate_s;
-  strokes.filled_pa[g] = stroke.chamber_end_pa;
   const double refill_s =
       model::PumpUpTime(*input.compressor, input.compressors, point.reservoir_rising_m3,
                         stroke.reservoir_end_pa, point.source_pa, input.temperature_k);
+  Pumped pumped = PumpedFor(input, stroke, refill_s);
+  double over_s = std::max(stroke.inflate_s, input.open_s) + refill_s;
+  if (OpenAtWorst(problem, candidate, *candidate.lines[g])) {
+    const Pumped most = OpenPumped(problem, input, pumped);
+    over_s += most.on_s - pumped.on_s;
+    pumped = most;
+  }
   const bool last_word = problem.groups.size() == 1 || problem.simultaneous;
-  if (!last_word && !(std::max(stroke.inflate_s, input.open_s) + refill_s <= time_s))
-    return Alone::kNo;
-  strokes.pump_on_s += stroke.pump_on_s + refill_s;
-  strokes.pump_energy_j +=
-      stroke.pump_energy_j + model::EnergyToFill(*input.compressor, point.reservoir_rising_m3,
-                                                 stroke.reservoir_end_pa, point.source_pa,
-                                                 input.temperature_k);
-  strokes.pump_air_m3 +=
-      stroke.pump_air_m3 +
-      model::StandardVolume(point.reservoir_rising_m3 * (point.source_pa - stroke.reservoir_end_pa),
-                            input.temperature_k);
+  if (!last_word && !(over_s <= time_s)) return Alone::kNo;
+  strokes.filled_pa[g] = pumped.filled_pa;
+  strokes.pump_on_s += pumped.on_s;
+  strokes.pump_energy_j += pumped.energy_j;
+  strokes.pump_air_m3 += pumped.air_m3;
   return Alone::kYes;
 }
 
@@ -198,6 +266,11 @@ Strokes SimulateOpenTank(const Problem& problem, const Candidate& candidate,
 }
 
 }  // namespace
+
+bool WorstIsEnclosed(const Problem& problem, const Candidate& candidate) {
+  return problem.guarantee && std::any_of(candidate.lines.begin(), candidate.lines.end(),
+                                          [](const Line* line) { return !line->holds; });
+}
 
 double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
                          const OperatingPoint& point) {

@@ -19,6 +19,10 @@ inline bool GroupsMeet(const Problem& problem) {
 Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point);
 
+// Whether the worst of a guarantee is enclosed for this candidate: it is then no combination of its
+// parts' worst numbers, and Candidate::at_best makes a difference.
+bool WorstIsEnclosed(const Problem& problem, const Candidate& candidate);
+
 // Largest relative excess of the strokes over their limits on a compressor's reservoir, each group
 // as if it were alone and found the reservoir full: a bound from below, by one integration a group.
 double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,

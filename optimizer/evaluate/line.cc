@@ -25,7 +25,8 @@ bool PartsMate(const Problem& problem, int tubing, int fitting, int valve) {
 
 Amounts operator*(double quantity, const model::PartBasics& basics) {
   return {quantity * basics.mass_kg, quantity * basics.body_volume_m3,
-          quantity * basics.cost_eur.value_or(0.0)};
+          quantity * basics.cost_eur.value_or(0.0), quantity * basics.mass_slack_kg,
+          quantity * basics.body_volume_slack_m3};
 }
 
 bool CostCounts(const Problem& problem) {

@@ -20,11 +20,14 @@ namespace plenum::optimizer {
 template <class T>
 struct AmountsOf {
   T mass_kg = T(0.0), volume_m3 = T(0.0), cost_eur = T(0.0);
+  T mass_slack_kg = T(0.0), volume_slack_m3 = T(0.0);  // of tolerances: limits hold with them
   template <class U>
   AmountsOf& operator+=(const AmountsOf<U>& other) {
     mass_kg += other.mass_kg;
     volume_m3 += other.volume_m3;
     cost_eur += other.cost_eur;
+    mass_slack_kg += other.mass_slack_kg;
+    volume_slack_m3 += other.volume_slack_m3;
     return *this;
   }
 };

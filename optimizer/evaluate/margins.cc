@@ -67,10 +67,11 @@ std::vector<MarginOf<T>> SupplyMargins(const Problem& problem, const Candidate& 
                                 T((filled.tank_fill_pa - ambient_pa) / kPaPerKpa)));
   const AmountsOf<T> total = TotalAmounts(problem, candidate, filled);
   if (std::isfinite(problem.mass_max_kg))
-    margins.push_back(AtMost<T>("/supply/mass_kg_max", problem.mass_max_kg, total.mass_kg));
-  if (std::isfinite(problem.volume_max_l))
     margins.push_back(
-        AtMost<T>("/supply/volume_l_max", problem.volume_max_l, total.volume_m3 * 1e3));
+        AtMost<T>("/supply/mass_kg_max", problem.mass_max_kg, total.mass_kg + total.mass_slack_kg));
+  if (std::isfinite(problem.volume_max_l))
+    margins.push_back(AtMost<T>("/supply/volume_l_max", problem.volume_max_l,
+                                (total.volume_m3 + total.volume_slack_m3) * 1e3));
   if (std::isfinite(problem.cost_max_eur))
     margins.push_back(AtMost<T>("/supply/cost_eur_max", problem.cost_max_eur, total.cost_eur));
   return margins;

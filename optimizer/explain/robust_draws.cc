@@ -21,6 +21,7 @@ Draws::Draws(const Problem& problem, const SearchOptions& search_options,
 int Draws::Run(const std::vector<Design>& designs) {
   start_ = std::chrono::steady_clock::now();
   std::vector<Objectives*> drawn;
+  drawn.reserve(designs.size());
   for (const Design& design : designs) drawn.push_back(&objectives_[KeyOf(design)]);
   int draw = 0;
   for (bool whole = true; draw < options_.draws && whole; draw += whole)

@@ -34,6 +34,12 @@ inline constexpr auto kTank = &ValueIn<&model::Parts::tanks, get>;
 inline bool Holds(const model::Valve& valve) { return model::Holds(valve.kind); }
 inline double PumpVoltage(const model::Compressor& pump) { return pump.curve.voltage_v; }
 inline double PumpPressure(const model::Compressor& pump) { return pump.curve.pressure_max_pa; }
+inline double FullPressure(const model::Cylinder& cylinder) {  // at most
+  return cylinder.fill_pressure_pa + cylinder.fill_pressure_spread_pa;
+}
+inline double RisingVolume(const model::Reservoir& reservoir) {
+  return reservoir.volume_m3 + reservoir.volume_spread_m3;
+}
 inline double PackEnergy(const model::Battery& pack) {
   return model::UsableEnergy(pack.capacity_ah, pack.nominal_voltage_v);
 }
@@ -118,7 +124,7 @@ inline constexpr PartField kCylinderFields[] = {
      .of = read::kCylinder<&model::Cylinder::water_volume_m3>},
     {.name = "fill_pressure_kpa_gauge",  // the regulator must stand it
      .use = Use::kLess,
-     .of = read::kCylinder<&model::Cylinder::fill_pressure_pa>,
+     .of = read::kCylinder<&read::FullPressure>,
      .weight = 0.5},
 };
 

@@ -88,6 +88,14 @@ struct Limits {  // most identical parts in parallel
   int compressors = 2, batteries = 4, cylinders = 4, co2 = 4, reservoirs = 2;
 };
 
+// The parts are at the worst of their tolerances (model/flow/parts.h): a design that meets the
+// requirements with them meets them with all numbers within. That holds of one group and of groups
+// that take turns, where valves hold: parts that pass more never harm. Of one group, valves that
+// cannot hold are enclosed (evaluate_strokes.cc).
+struct Guarantee {
+  double made_share = 0.0;  // half-width of mass and outer volume of a made-to-measure reservoir
+};
+
 struct Problem {
   std::vector<ActuatorGroup> groups;  // at least one
   double frequency_hz = 0.0;
@@ -116,6 +124,7 @@ struct Problem {
   ListOf list = ListOf::kCombinations;
   int per_source = 3;                    // most kinds on the list with the same sources
   NlpSolver solver = NlpSolver::kIpopt;  // of continuous settings, the one that is asked first
+  std::optional<Guarantee> guarantee;
   model::Parts parts;
 };
 

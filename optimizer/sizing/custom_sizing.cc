@@ -114,7 +114,8 @@ void CustomSizing::Examine(Region region) {
 
 bool CustomSizing::WithinLimits(const OperatingPoint& least) const {
   const Amounts total = TotalAmounts(problem_, candidate_, least);
-  return total.mass_kg <= problem_.mass_max_kg && total.volume_m3 * 1e3 <= problem_.volume_max_l;
+  return total.mass_kg + total.mass_slack_kg <= problem_.mass_max_kg &&
+         (total.volume_m3 + total.volume_slack_m3) * 1e3 <= problem_.volume_max_l;
 }
 
 // Raises the rectangle's bound and lowers its highest pressure to what the supply bears; false

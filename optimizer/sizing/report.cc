@@ -225,7 +225,8 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
   design.settings.source_pressure_pa = point.source_pa;
   if (candidate.compressor.index != kNone) {
     design.settings.compressor_duty = evaluation.compressor_duty;
-    design.settings.reservoir_volume_m3 = point.reservoir_m3;
+    // With tolerances halfway between what it has while it falls and while it rises.
+    design.settings.reservoir_volume_m3 = 0.5 * (point.reservoir_m3 + point.reservoir_rising_m3);
   }
   if (filled.tank_fill_pa > 0.0) {
     design.settings.reservoir_volume_m3 = point.reservoir_m3;

@@ -90,7 +90,9 @@ class PressureSearch {
     }
   };
 
-  OperatingPoint At(double source_pa) const { return {source_pa, reservoir_m3_, reservoir_m3_}; }
+  OperatingPoint At(double source_pa) const {
+    return PointAt(problem_, candidate_, source_pa, reservoir_m3_);
+  }
 
   Evaluation Try(double source_pa) {
     ++evaluations_;
@@ -221,7 +223,7 @@ NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& can
 Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
                   int evaluations_max) {
   const NeededPressure needed =
-      NeededSourcePressure(problem, candidate, {0.0, reservoir_m3, reservoir_m3});
+      NeededSourcePressure(problem, candidate, PointAt(problem, candidate, 0.0, reservoir_m3));
   if (needed.status == LeafStatus::kFeasible)
     return PressureSearch(problem, candidate, reservoir_m3, evaluations_max)
         .Run(needed.source_pa, SourceWindow(problem, candidate).high_pa);
@@ -240,8 +242,8 @@ bool FastAtHighest(const Problem& problem, const Candidate& candidate) {
 }
 
 Leaf SizeQuickly(const Problem& problem, const Candidate& candidate, double reservoir_m3) {
-  const OperatingPoint highest{SourceWindow(problem, candidate).high_pa, reservoir_m3,
-                               reservoir_m3};
+  const OperatingPoint highest =
+      PointAt(problem, candidate, SourceWindow(problem, candidate).high_pa, reservoir_m3);
   // The lowest pressure is the best for a tank, which weighs least then.
   if (!GroupsMeet(problem) || problem.objective.energy_wh > 0.0 ||
       candidate.configuration == Configuration::kTank || SourceWindow(problem, candidate).empty())

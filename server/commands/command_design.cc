@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -14,6 +15,7 @@
 #include "server/commands/input.h"
 #include "server/commands/interrupt.h"
 #include "server/render/text/text_design.h"
+#include "server/render/text/text_guarantee.h"
 
 namespace plenum::server {
 namespace {
@@ -70,6 +72,23 @@ api::Json AnswerWithProgress(const api::DesignRequest& request,
   return api::AnswerRequest(request, options, parts);
 }
 
+// What a person sees beside a list on paper: the best design that is guaranteed, and what to
+// measure first. Empty where the request says itself what it wants of a guarantee, or has no best
+// design.
+std::string GuaranteeBeside(const api::DesignRequest& request,
+                            const std::vector<catalog::Part>& parts) {
+  constexpr double kSecondsMost = 10.0;
+  if (request.request.contains("guarantee") || !request.pareto.empty() || request.robust ||
+      request.model || request.proof || !api::WhyNotGuaranteed(request.problem).empty())
+    return "";
+  api::DesignRequest best = request;
+  best.guarantee = api::GuaranteeRequest{};
+  best.problem.count = 1;
+  best.problem.list = optimizer::ListOf::kCombinations;
+  best.time_limit_s = std::min(request.time_limit_s, kSecondsMost);
+  return GuaranteeText(AnswerWithProgress(best, parts));
+}
+
 int Design(const DesignOptions& options) {
   CatchInterrupts();
   const auto requirements = ReadRequirements(options);
@@ -80,6 +99,10 @@ int Design(const DesignOptions& options) {
   json["catalogue_revision"] = api::RenderRevisionName(revision);
   std::fputs(options.json ? (Dump(json) + "\n").c_str() : DesignText(json, options.wide).c_str(),
              stdout);
+  if (!options.json && !json.at("designs").empty() && !Interrupted()) {
+    std::fflush(stdout);
+    std::fputs(("\n" + GuaranteeBeside(request, parts)).c_str(), stdout);
+  }
   return Interrupted() ? kInterrupted : kAnswered;
 }
 

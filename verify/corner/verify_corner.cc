@@ -242,7 +242,9 @@ double Corners::LeastStores(const Ranges& ranges, const BestNumbers& regulator, 
     const ProofItem& item = plan_.slots[slot].choices[i];
     const model::Parts& parts = problem_.parts;
     const bool fits = cylinder
-                          ? parts.cylinders[item.part].fill_pressure_pa <= inlet_max_pa
+                          ? parts.cylinders[item.part].fill_pressure_pa +
+                                    parts.cylinders[item.part].fill_pressure_spread_pa <=
+                                inlet_max_pa
                           : item.quantity * parts.co2[item.part].flow_sustained_m3_per_s * kSlack >=
                                 stored.air_m3 * problem_.frequency_hz;
     if (fits &&

@@ -156,8 +156,10 @@ bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& s
     AddMostLeft(problem, better, a);
     AddMostLeft(problem, worse, b);
   }
-  if ((std::isfinite(problem.mass_max_kg) && !Least(a.mass_kg, b.mass_kg)) ||
-      (std::isfinite(problem.volume_max_l) && !Least(a.volume_m3, b.volume_m3)) ||
+  if ((std::isfinite(problem.mass_max_kg) &&
+       !Least(a.mass_kg + a.mass_slack_kg, b.mass_kg + b.mass_slack_kg)) ||
+      (std::isfinite(problem.volume_max_l) &&
+       !Least(a.volume_m3 + a.volume_slack_m3, b.volume_m3 + b.volume_slack_m3)) ||
       (std::isfinite(problem.cost_max_eur) && !Least(a.cost_eur, b.cost_eur)))
     return false;
   const std::string& id = BasicsOf(problem.parts, slot.family, better.part).id;

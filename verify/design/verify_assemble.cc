@@ -1,6 +1,7 @@
 // Parts of a design, whether they fit, and what they weigh, take and cost.
 #include <set>
 
+#include "model/flow/tube.h"
 #include "model/physics/storage.h"
 #include "verify/design/verify_design.h"
 #include "verify/design/verify_families.h"
@@ -51,10 +52,15 @@ bool Whole(const Problem& problem, const Assembly& a) {
 struct Expected {
   double mass_kg = 0.0, volume_m3 = 0.0;
   std::optional<double> cost_eur;
+  double mass_slack_kg = 0.0, volume_slack_m3 = 0.0;
 };
 
 Expected Times(double quantity, const model::PartBasics& basics, double gas_kg = 0.0) {
-  Expected expected{quantity * (basics.mass_kg + gas_kg), quantity * basics.body_volume_m3, {}};
+  Expected expected{quantity * (basics.mass_kg + gas_kg),
+                    quantity * basics.body_volume_m3,
+                    {},
+                    quantity * basics.mass_slack_kg,
+                    quantity * basics.body_volume_slack_m3};
   if (basics.cost_eur) expected.cost_eur = quantity * *basics.cost_eur;
   return expected;
 }
@@ -64,7 +70,8 @@ Expected Made(const Problem& problem, const Settings& settings) {
   const model::MadeReservoir made =
       model::MakeReservoir(settings.reservoir_volume_m3.value_or(0.0),
                            settings.source_pressure_pa - problem.ambient.pressure_pa);
-  return {made.mass_kg, made.body_volume_m3, {}};
+  const double share = problem.guarantee ? problem.guarantee->made_share : 0.0;
+  return {made.mass_kg, made.body_volume_m3, {}, share * made.mass_kg, share * made.body_volume_m3};
 }
 
 Expected Filled(const Problem& problem, int quantity, const model::Cylinder& cylinder) {
@@ -97,26 +104,10 @@ bool SameCost(const std::optional<double>& a, const std::optional<double>& b) {
   return a.has_value() == b.has_value() && (!a || Near(*a, *b, kSumTolerance));
 }
 
-}  // namespace
-
-double ObjectiveOf(const Problem& problem, const Totals& totals) {
-  const Objective& weight = problem.objective;
-  return weight.mass_kg * totals.mass_kg + weight.volume_l * totals.volume_m3 * 1e3 +
-         weight.cost_eur * totals.cost_known_eur + weight.energy_wh * totals.energy_j / 3600.0;
-}
-
-Totals TotalsOf(const Problem& problem, const Assembly& a, const Settings& settings) {
-  Totals totals;
-  totals.cost_eur = 0.0;
-  const auto add = [&](const Expected& part) {
-    totals.mass_kg += part.mass_kg;
-    totals.volume_m3 += part.volume_m3;
-    totals.cost_known_eur += part.cost_eur.value_or(0.0);
-    if (totals.cost_eur && part.cost_eur)
-      *totals.cost_eur += *part.cost_eur;
-    else
-      totals.cost_eur.reset();
-  };
+// Each kind of piece of a design, all of them together.
+template <typename Add>
+void ForEachRow(const Problem& problem, const Assembly& a, const Settings& settings,
+                const Add& add) {
   for (std::size_t g = 0; g < a.lines.size(); ++g) {
     const ActuatorGroup& group = problem.groups[g];
     const LineParts& line = a.lines[g];
@@ -135,7 +126,44 @@ Totals TotalsOf(const Problem& problem, const Assembly& a, const Settings& setti
     add(Times(a.reservoirs, a.reservoir->basics));
   else if (a.compressor)
     add(Made(problem, settings));
+}
+
+}  // namespace
+
+model::Chamber ChamberOf(const ActuatorGroup& group, const LineParts& line) {
+  model::Chamber chamber = group.chamber;
+  chamber.dead_volume_m3 += model::BoreVolume(line.tube->inner_diameter_m, group.tube_length_m);
+  return chamber;
+}
+
+double ObjectiveOf(const Problem& problem, const Totals& totals) {
+  const Objective& weight = problem.objective;
+  return weight.mass_kg * totals.mass_kg + weight.volume_l * totals.volume_m3 * 1e3 +
+         weight.cost_eur * totals.cost_known_eur + weight.energy_wh * totals.energy_j / 3600.0;
+}
+
+Totals TotalsOf(const Problem& problem, const Assembly& a, const Settings& settings) {
+  Totals totals;
+  totals.cost_eur = 0.0;
+  ForEachRow(problem, a, settings, [&](const Expected& part) {
+    totals.mass_kg += part.mass_kg;
+    totals.volume_m3 += part.volume_m3;
+    totals.cost_known_eur += part.cost_eur.value_or(0.0);
+    if (totals.cost_eur && part.cost_eur)
+      *totals.cost_eur += *part.cost_eur;
+    else
+      totals.cost_eur.reset();
+  });
   return totals;
+}
+
+Totals SlackOf(const Problem& problem, const Assembly& a, const Settings& settings) {
+  Totals slack;
+  ForEachRow(problem, a, settings, [&](const Expected& part) {
+    slack.mass_kg += part.mass_slack_kg;
+    slack.volume_m3 += part.volume_slack_m3;
+  });
+  return slack;
 }
 
 bool Fit(const model::Tubing& tube, const model::Fitting& fitting) {
@@ -153,7 +181,9 @@ bool Fit(const Problem& problem, const Assembly& source) {
   if (source.configuration == Configuration::kTank) return true;  // its fill is a setting
   const model::Regulator& regulator = *source.regulator;
   // A cylinder may be fuller than the regulator needs; other supplies have one pressure.
-  if (source.cylinder) return source.cylinder->fill_pressure_pa <= regulator.inlet_pressure_max_pa;
+  if (source.cylinder)
+    return source.cylinder->fill_pressure_pa + source.cylinder->fill_pressure_spread_pa <=
+           regulator.inlet_pressure_max_pa;
   const double inlet_pa = source.co2 ? model::Co2SaturationPressure(problem.ambient.temperature_k)
                                      : problem.mains.pressure_pa;
   return regulator.inlet_pressure_min_pa <= inlet_pa && inlet_pa <= regulator.inlet_pressure_max_pa;

@@ -19,7 +19,9 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const P
       least_pa = std::max(least_pa, group.chamber.operating_pressure_pa);
     const model::MadeReservoir made = model::MakeReservoir(model::kMadeReservoirSmallestM3,
                                                            least_pa - problem.ambient.pressure_pa);
-    sum = {made.mass_kg, made.body_volume_m3, 0.0, 0.0};
+    const double share = problem.guarantee ? problem.guarantee->made_share : 0.0;
+    sum = {made.mass_kg, made.body_volume_m3,  0.0,
+           0.0,          share * made.mass_kg, share * made.body_volume_m3};
   } else {
     const model::PartBasics& basics = BasicsOf(problem.parts, slot.family, item.part);
     double pieces = item.quantity, gas_kg = 0.0;
@@ -44,8 +46,9 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const P
     if (slot.family == Family::kTank)
       gas_kg = ChargeKg(problem, problem.parts.tanks[item.part], LeastLeftPa(problem));
     if (slot.family == Family::kCo2) gas_kg = problem.parts.co2[item.part].co2_mass_kg;
-    sum = {pieces * (basics.mass_kg + gas_kg), pieces * basics.body_volume_m3,
-           pieces * basics.cost_eur.value_or(0.0), 0.0};
+    sum = {pieces * (basics.mass_kg + gas_kg),     pieces * basics.body_volume_m3,
+           pieces * basics.cost_eur.value_or(0.0), 0.0,
+           pieces * basics.mass_slack_kg,          pieces * basics.body_volume_slack_m3};
   }
   const Objective& weight = problem.objective;
   sum.objective = weight.mass_kg * sum.mass_kg + weight.volume_l * sum.volume_m3 * 1e3 +

@@ -10,6 +10,7 @@ struct ItemAmounts {
   double mass_kg = 0.0, volume_m3 = 0.0, cost_eur = 0.0;
   // Share of the objective, with the energy that a coil or regulator takes at any speed.
   double objective = 0.0;
+  double mass_slack_kg = 0.0, volume_slack_m3 = 0.0;  // of tolerances
 };
 
 // All pieces of a choice, gas included; the least of a made-to-measure reservoir.

@@ -6,6 +6,7 @@
 #include "model/simulate/simulate.h"
 #include "model/strokes/reservoir_stroke.h"
 #include "model/strokes/stroke.h"
+#include "verify/design/verify_open_valves.h"
 #include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
@@ -26,7 +27,7 @@ model::GroupRig MakeGroup(const Problem& problem, const Assembly& assembly, int 
   model::GroupRig rig;
   rig.name = group.name;
   rig.count = group.count;
-  rig.chamber = ChamberWithBore(group, *line.tube);
+  rig.chamber = ChamberOf(group, line);
   std::vector<model::FlowElement> between;  // from valve to actuator
   const model::FlowElement tube =
       model::TubeElement(line.tube->inner_diameter_m, group.tube_length_m);
@@ -104,8 +105,8 @@ model::SimulateOptions OptionsOf(const Problem& problem, double end_s, const Sto
   return options;
 }
 
-// Strokes count from ambient: an actuator that would still hold air when its next one begins gets a
-// wider exhaust. How fast it empties is nothing to the source.
+// Strokes count from ambient: an actuator that would still hold air at its next one gets a wider
+// exhaust. How fast it empties is nothing to the source.
 void EmptyBeforeNext(const Problem& problem, const Settings& settings, model::Rig& rig) {
   constexpr double kShare = 0.45;  // of the period
   const double factor = model::FlowFactor(rig.gas) *
@@ -157,7 +158,7 @@ void AddNeeds(const Problem& problem, const Assembly& assembly, Cycle& cycle) {
   const double period_s = 1.0 / problem.frequency_hz;
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
     const model::Valve& valve = *assembly.lines[g].valve;
-    const model::Chamber chamber = ChamberWithBore(problem.groups[g], *assembly.lines[g].tube);
+    const model::Chamber chamber = ChamberOf(problem.groups[g], assembly.lines[g]);
     const bool holds = model::Holds(valve.kind);
     const double full_pa = holds ? chamber.operating_pressure_pa : cycle.filled_pa[g];
     cycle.air_m3 += problem.groups[g].count *
@@ -239,6 +240,7 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
   cycle.pump_on_s = 0.5 * response.compressor_on_s;
   cycle.pump_j = 0.5 * response.compressor_energy_j;
   cycle.pump_air_m3 = 0.5 * response.compressor_air_m3;
+  FillOpenOnes(problem, settings, assembly, cycle);
   AddNeeds(problem, assembly, cycle);
   return cycle;
 }
@@ -252,7 +254,8 @@ double Target(const Problem& problem, const ActuatorGroup& group, double fractio
 
 std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& settings,
                                    const Assembly& assembly, const Stop& stop) {
-  return Simulated(problem, settings, assembly, settings.reservoir_volume_m3.value_or(0.0), stop);
+  return Simulated(problem, settings, assembly,
+                   settings.reservoir_volume_m3.value_or(0.0) + assembly.ReservoirSpread(), stop);
 }
 
 QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop stop)
@@ -361,9 +364,7 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
   if (Stopped(stop_)) return std::nullopt;
   const std::size_t groups = problem_.groups.size();
   // A valve that cannot hold lets its actuators draw while others do.
-  const bool held = std::all_of(rigs_.begin(), rigs_.end(),
-                                [](const model::GroupRig& rig) { return rig.close_at_operating; });
-  if (groups > 1 && (problem_.simultaneous || (assembly_.compressor && !held)))
+  if (groups > 1 && (problem_.simultaneous || (assembly_.compressor && !Holding(assembly_))))
     return Simulated(problem_, settings, assembly_, rising_m3, stop_);
   const double turn_s = 1.0 / problem_.frequency_hz / static_cast<double>(groups);
   Cycle cycle = EmptyCycle(problem_);
@@ -376,6 +377,7 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
     if (groups > 1 && !(over_s <= turn_s))
       return Simulated(problem_, settings, assembly_, rising_m3, stop_);
   }
+  FillOpenOnes(problem_, settings, assembly_, cycle);
   AddNeeds(problem_, assembly_, cycle);
   return cycle;
 }

@@ -13,16 +13,6 @@
 
 namespace plenum::verify {
 
-struct Cycle {
-  std::vector<double> rise_s, inflate_s, fall_s;  // per group; +∞: never reached
-  std::vector<double> filled_pa;                  // per group, when its valve closes or it vents
-  double air_m3 = 0.0;                            // ANR, by the contents at rest and filled
-  double pump_on_s = 0.0, pump_j = 0.0, pump_air_m3 = 0.0;
-  double coil_w = 0.0;                       // all on at once, with the regulator
-  double steady_j = 0.0, inflating_j = 0.0;  // coils and regulator; of it what strokes shorten
-  double electric_j() const { return steady_j + inflating_j; }
-};
-
 // By the simulator, from the first cycle until the source repeats; out of a tank without a
 // regulator the last of the mission, which is the slowest. None where it does not get there, or is
 // stopped.

@@ -30,7 +30,27 @@ struct Assembly {
   const model::Reservoir* reservoir = nullptr;  // null with a compressor: made to measure
   const model::Reservoir* tank = nullptr;       // with or without a regulator
   int bottles = 0, compressors = 0, batteries = 0, reservoirs = 0, tanks = 0;
+  bool at_best = false;  // with a guarantee: valves that cannot hold as the parts are
+  // Volume of stock reservoirs, and how much more they have while they rise.
+  double ReservoirVolume() const { return reservoir ? reservoirs * reservoir->volume_m3 : 0.0; }
+  double ReservoirSpread() const {
+    return reservoir ? reservoirs * reservoir->volume_spread_m3 : 0.0;
+  }
 };
+
+// Strokes, air and energy of one cycle of the periodic state.
+struct Cycle {
+  std::vector<double> rise_s, inflate_s, fall_s;  // per group; +∞: never reached
+  std::vector<double> filled_pa;                  // per group, when its valve closes or it vents
+  double air_m3 = 0.0;                            // ANR, by the contents at rest and filled
+  double pump_on_s = 0.0, pump_j = 0.0, pump_air_m3 = 0.0;
+  double coil_w = 0.0;                       // all on at once, with the regulator
+  double steady_j = 0.0, inflating_j = 0.0;  // coils and regulator; of it what strokes shorten
+  double electric_j() const { return steady_j + inflating_j; }
+};
+
+// An actuator of the group with the bore of its tube.
+model::Chamber ChamberOf(const ActuatorGroup& group, const LineParts& line);
 
 // Puts a choice of a family into its place. ProofItem::part as there: −1 and −2 leave it empty.
 void Place(const Problem& problem, Family family, int group, const ProofItem& item,
@@ -50,6 +70,8 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
 
 // Sums over all pieces, without energy; a made-to-measure reservoir is that of the settings.
 Totals TotalsOf(const Problem& problem, const Assembly& assembly, const Settings& settings);
+// What mass and volume may be more, as limits on them have it.
+Totals SlackOf(const Problem& problem, const Assembly& assembly, const Settings& settings);
 double ObjectiveOf(const Problem& problem, const Totals& totals);
 
 // Which parts fit together.

@@ -25,6 +25,7 @@ class KnownCycles {
     return other.configuration == assembly_.configuration && other.lines == assembly_.lines &&
            other.regulator == assembly_.regulator && other.co2 == assembly_.co2 &&
            other.compressor == assembly_.compressor && other.compressors == assembly_.compressors &&
+           other.at_best == assembly_.at_best &&
            (other.regulator || (other.tank == assembly_.tank && other.tanks == assembly_.tanks));
   }
 

@@ -53,8 +53,8 @@ double LowestSource(const Problem& problem, const Design& design, const Assembly
 }
 
 std::optional<Cycle> CycleOf(const Problem& problem, const Design& design, const Assembly& assembly,
-                             const Stop& stop) {
-  std::optional<Cycle> cycle = SimulateCycle(problem, design.settings, assembly, stop);
+                             const Settings& settings, const Stop& stop) {
+  std::optional<Cycle> cycle = SimulateCycle(problem, settings, assembly, stop);
   const bool hardly_above =
       std::any_of(problem.groups.begin(), problem.groups.end(), [&](const ActuatorGroup& group) {
         return LowestSource(problem, design, assembly) < group.chamber.operating_pressure_pa;
@@ -62,7 +62,7 @@ std::optional<Cycle> CycleOf(const Problem& problem, const Design& design, const
   if (!cycle || !hardly_above) return cycle;
   const std::optional<Cycle> quick =
       QuickCycles(problem, assembly, stop)
-          .At(design.settings, design.settings.reservoir_volume_m3.value_or(0.0));
+          .At(settings, settings.reservoir_volume_m3.value_or(0.0) + assembly.ReservoirSpread());
   if (!quick) return std::nullopt;
   cycle->rise_s = quick->rise_s;
   cycle->inflate_s = quick->inflate_s;
@@ -112,10 +112,12 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
     findings.push_back({"supply", "the source pressure is outside what the parts stand"});
   if (assembly.reservoir &&
       !Near(design.settings.reservoir_volume_m3.value_or(0.0),
-            assembly.reservoirs * assembly.reservoir->volume_m3, kSumTolerance))
+            assembly.ReservoirVolume() + 0.5 * assembly.ReservoirSpread(), kSumTolerance))
     findings.push_back({"supply", "the reservoir's volume is not that of the part"});
   if (assembly.tank) CheckFill(problem, design.settings, assembly, findings);
-  const std::optional<Cycle> cycle = CycleOf(problem, design, assembly, stop);
+  Settings settings = design.settings;
+  if (assembly.reservoir) settings.reservoir_volume_m3 = assembly.ReservoirVolume();
+  const std::optional<Cycle> cycle = CycleOf(problem, design, assembly, settings, stop);
   if (!cycle) return false;
 
   const double worth = WorthOfPressure(problem, design, assembly, *cycle, stop);
@@ -139,7 +141,7 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
         cycle->fall_s[g] > 0.5 / problem.frequency_hz * (1.0 + kTimeTolerance))
       findings.push_back({"strokes", name + "a stroke takes longer than half of the period"});
   }
-  const Supply supply = SupplyOf(problem, design.settings, assembly, *cycle);
+  const Supply supply = SupplyOf(problem, settings, assembly, *cycle);
   int actuators = 0;
   for (const ActuatorGroup& group : problem.groups) actuators += group.count;
   expect("air_per_actuation", claimed.air_per_actuation_m3, cycle->air_m3 / actuators,
@@ -155,8 +157,8 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
   if (assembly.battery && supply.current_a > assembly.batteries * assembly.battery->current_max_a *
                                                  (1.0 + kEnergyTolerance))
     findings.push_back({"supply", "the batteries do not give the current"});
-  CheckMargins(Requirements(problem, design.settings, design.totals, assembly, *cycle, supply),
-               design, findings);
+  CheckMargins(Requirements(problem, settings, design.totals, assembly, *cycle, supply), design,
+               findings);
   return true;
 }
 

@@ -63,7 +63,7 @@ class PressureSizing {
     sizing.status = Sized::kInfeasible;
     sizing.lower_bound = kUnlimited;
     if (!(stood_.low_pa <= stood_.high_pa)) return sizing;
-    const auto fastest = cycles_.At(SettingsAt(stood_.high_pa, volumes_.high_m3), volumes_.low_m3);
+    const auto fastest = CycleAt(stood_.high_pa);
     if (!fastest) return {};
     if (StrokeExcess(*fastest) > slack_) return sizing;
     const std::optional<double> lowest_pa = FastEnough();
@@ -111,10 +111,15 @@ class PressureSizing {
     return settings;
   }
 
+  // With strokes at most as slow as with each of the volumes.
+  const std::optional<Cycle>& CycleAt(double source_pa) {
+    return cycles_.At(SettingsAt(source_pa, volumes_.high_m3),
+                      volumes_.low_m3 + assembly_.ReservoirSpread());
+  }
+
   std::optional<Look> At(double source_pa) {
     ++looks_;
-    std::optional<Cycle> cycle =
-        cycles_.At(SettingsAt(source_pa, volumes_.high_m3), volumes_.low_m3);
+    std::optional<Cycle> cycle = CycleAt(source_pa);
     if (!cycle) return std::nullopt;
     const double pump_j = held_ * cycle->pump_j;
     if (!(volumes_.high_m3 > volumes_.low_m3)) return Look{source_pa, std::move(*cycle), pump_j};
@@ -162,7 +167,7 @@ class PressureSizing {
     bool known = true;
     const auto too_slow = [&](double source_pa) {
       ++looks_;
-      const auto cycle = cycles_.At(SettingsAt(source_pa, volumes_.high_m3), volumes_.low_m3);
+      const auto& cycle = CycleAt(source_pa);
       known = known && cycle;
       return !cycle || StrokeExcess(*cycle) > slack_;
     };
@@ -295,12 +300,23 @@ Sizing SizeMade(const Problem& problem, const Assembly& assembly, KnownCycles& c
 
 }  // namespace
 
+// What is infeasible at the worst of a guarantee where that is bounded is told as such only if it
+// is at the best that may be said of it, too.
 Sizing Sizer::Size(const Assembly& assembly, double slack, double enough) {
+  Sizing sizing = SizeAsIs(assembly, slack, enough);
+  if (!problem_.guarantee || assembly.at_best || sizing.status != Sized::kInfeasible) return sizing;
+  Assembly at_best = assembly;
+  at_best.at_best = true;
+  if (SizeAsIs(at_best, slack, enough).status != Sized::kInfeasible)
+    sizing.status = Sized::kUnknown;
+  return sizing;
+}
+
+Sizing Sizer::SizeAsIs(const Assembly& assembly, double slack, double enough) {
   if (!cycles_ || !cycles_->Serves(assembly)) cycles_.emplace(problem_, assembly, stop_);
   if (assembly.compressor && !assembly.reservoir)
     return SizeMade(problem_, assembly, *cycles_, slack, enough, stop_);
-  const double volume_m3 =
-      assembly.reservoir ? assembly.reservoirs * assembly.reservoir->volume_m3 : 0.0;
+  const double volume_m3 = assembly.ReservoirVolume();
   return PressureSizing(problem_, assembly, *cycles_, {volume_m3, volume_m3}, slack).Run(enough);
 }
 

@@ -35,6 +35,8 @@ class Sizer {
   Sizing Size(const Assembly& assembly, double slack, double enough);
 
  private:
+  Sizing SizeAsIs(const Assembly& assembly, double slack, double enough);
+
   const Problem& problem_;
   const Stop stop_;
   std::optional<KnownCycles> cycles_;

@@ -64,7 +64,7 @@ Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly
   }
   if (a.compressor) {
     const double ambient_pa = problem.ambient.pressure_pa;
-    const double volume_m3 = settings.reservoir_volume_m3.value_or(0.0);
+    const double volume_m3 = settings.reservoir_volume_m3.value_or(0.0) + a.ReservoirSpread();
     supply.first_fill_j =
         model::EnergyToFill(a.compressor->curve, volume_m3, ambient_pa, source_pa, temperature_k);
     supply.first_fill_m3 =
@@ -117,8 +117,11 @@ std::map<std::string, Reached> Requirements(const Problem& problem, const Settin
   if (a.tank)
     at_most("/supply/tank_fill_kpa_gauge_max", gauge(problem.tank_fill_max_pa),
             gauge(settings.tank_fill_pa.value_or(0.0)), kSumTolerance);
-  at_most("/supply/mass_kg_max", problem.mass_max_kg, totals.mass_kg, kSumTolerance);
-  at_most("/supply/volume_l_max", problem.volume_max_l, totals.volume_m3 * 1e3, kSumTolerance);
+  const Totals slack = SlackOf(problem, a, settings);
+  at_most("/supply/mass_kg_max", problem.mass_max_kg, totals.mass_kg + slack.mass_kg,
+          kSumTolerance);
+  at_most("/supply/volume_l_max", problem.volume_max_l, (totals.volume_m3 + slack.volume_m3) * 1e3,
+          kSumTolerance);
   at_most("/supply/cost_eur_max", problem.cost_max_eur,
           problem.unpriced_allowed ? totals.cost_known_eur : totals.cost_eur.value_or(kUnlimited),
           kSumTolerance);

@@ -57,6 +57,31 @@ test('a number is typed with its unit, a volume by what the actuator is', async 
   await close();
 });
 
+test('designs are guaranteed, and what to measure first is a link to the part', async () => {
+  const { page, close } = await openPage(browser, service.base);
+  await page.getByText('These requirements can be searched.').waitFor();
+  await page.getByRole('button', { name: 'gripper' }).click();
+  await page.getByLabel(/^Guarantee/).check();
+  await page.getByText('These requirements can be searched.').waitFor();
+  await page.getByRole('button', { name: 'Find the best designs' }).click();
+  await page.getByText('Proved: no kind of guaranteed design').waitFor();
+  const { result } = await service.get(`/v1/designs/${idOf(page)}`);
+  assert.equal(result.requirements.guarantee, true);
+  assert.ok(result.guarantee.costs_share > 0);
+  await page
+    .getByText(`Certainty costs ${(100 * result.guarantee.costs_share).toFixed(1)} %`)
+    .waitFor();
+  const [test] = result.measure_first;
+  await page.getByRole('link', { name: test.part }).first().click();
+  await page
+    .getByRole('heading', { name: new RegExp(test.part.replace(/-/g, '.'), 'i') })
+    .waitFor();
+  await page.goBack();
+  await rows(page).first().getByRole('link').click();
+  await page.getByText('Guaranteed: performance, energy and margins').waitFor();
+  await close();
+});
+
 test('requirements are posted and the list is browsed', async () => {
   const { page, close } = await openPage(browser, service.base);
   await page.getByText('These requirements can be searched.').waitFor();

@@ -6,6 +6,7 @@
 
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/read/design_reader.h"
+#include "api/design/read/objective_reader.h"
 #include "api/design/read/power.h"
 #include "api/design/read/selection.h"
 #include "api/json/json.h"
@@ -35,10 +36,15 @@ constexpr Configuration kAllConfigurations[] = {Configuration::kCylinder, Config
                                                 Configuration::kCompressor, Configuration::kMains,
                                                 Configuration::kTank};
 
-// `operating_kpa` is set to the operating gauge pressure as given.
+// What a group says beside the group itself.
+struct GroupRemarks {
+  double operating_kpa = 0.0;  // gauge, as given
+  GroupUncertainty uncertainty;
+};
+
 optimizer::ActuatorGroup ReadGroup(const Element& element, std::size_t index,
                                    const model::Ambient& ambient, std::vector<std::string>& names,
-                                   double& operating_kpa, Errors& errors) {
+                                   GroupRemarks& remarks, Errors& errors) {
   Reader reader(element, errors);
   optimizer::ActuatorGroup group;
   group.name = ReadName(reader, index, names);
@@ -51,7 +57,9 @@ optimizer::ActuatorGroup ReadGroup(const Element& element, std::size_t index,
   group.fall_time_max_s =
       reader.OptionalNumber("fall_time_s_max", kTimeLimitS).value_or(optimizer::kUnlimited);
 
-  operating_kpa = KpaGaugeFromPa(group.chamber.operating_pressure_pa, ambient);
+  remarks.uncertainty = ReadGroupUncertainty(reader);
+  const double operating_kpa = remarks.operating_kpa =
+      KpaGaugeFromPa(group.chamber.operating_pressure_pa, ambient);
   const auto limit_kpa = reader.OptionalNumber("pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
   if (limit_kpa && *limit_kpa < operating_kpa - 1e-9)
     reader.Fail("pressure_kpa_gauge_max", "must be ≥ the operating pressure of " +
@@ -138,14 +146,14 @@ void CheckPower(Reader& request, optimizer::Problem& problem) {
 
 // A source must reach the operating pressure of every group: what no choice of parts can mend is an
 // error of the request.
-void CheckPressures(const optimizer::Problem& problem, const std::vector<double>& operating_kpa,
+void CheckPressures(const optimizer::Problem& problem, const std::vector<GroupRemarks>& groups,
                     Errors& errors) {
   const bool only_mains = problem.configurations == std::set<Configuration>{Configuration::kMains};
   const auto kpa = [&](double pa) { return Rounded(KpaGaugeFromPa(pa, problem.ambient)); };
-  for (std::size_t i = 0; i < operating_kpa.size(); ++i) {
+  for (std::size_t i = 0; i < groups.size(); ++i) {
     const double operating_pa = problem.groups[i].chamber.operating_pressure_pa;
     const std::string pointer = "/actuators/" + std::to_string(i) + "/operating_pressure_kpa_gauge";
-    const std::string is = "is " + Decimal(Rounded(operating_kpa[i])) + ", above ";
+    const std::string is = "is " + Decimal(Rounded(groups[i].operating_kpa)) + ", above ";
     if (operating_pa > problem.source_pressure_max_pa)
       errors.push_back({pointer, is +
                                      "the highest source pressure allowed: "
@@ -155,78 +163,6 @@ void CheckPressures(const optimizer::Problem& problem, const std::vector<double>
       errors.push_back({pointer, is + "the only source: /supply/mains/pressure_kpa_gauge is " +
                                      Decimal(kpa(problem.mains.pressure_pa))});
   }
-}
-
-struct NamedWeight {
-  const char* name;
-  double optimizer::Objective::*weight;
-};
-constexpr NamedWeight kWeights[] = {{"mass_kg", &optimizer::Objective::mass_kg},
-                                    {"volume_l", &optimizer::Objective::volume_l},
-                                    {"cost_eur", &optimizer::Objective::cost_eur},
-                                    {"energy_wh", &optimizer::Objective::energy_wh}};
-
-// The amounts of a front; without "minimize" its designs are listed by the first of them.
-void ReadPareto(Reader& reader, DesignRequest& parsed) {
-  constexpr optimizer::Amount kAmounts[] = {optimizer::Amount::kMass, optimizer::Amount::kVolume,
-                                            optimizer::Amount::kCost, optimizer::Amount::kEnergy};
-  std::vector<std::string> names;
-  for (const optimizer::Amount amount : kAmounts) names.emplace_back(optimizer::Name(amount));
-  const std::vector<std::string> given = reader.Texts("pareto", 2, 3);
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    const auto found = std::find(names.begin(), names.end(), given[i]);
-    if (found != names.end())
-      parsed.pareto.push_back(kAmounts[found - names.begin()]);
-    else if (!given[i].empty())
-      reader.FailAt("pareto/" + std::to_string(i),
-                    "must be " + OneOf(names) + ", not " + Quoted(given[i]));
-  }
-}
-
-optimizer::Objective ReadMinimize(Reader& reader) {
-  optimizer::Objective objective;
-  const Json* minimize = reader.Raw("minimize");
-  if (minimize != nullptr && minimize->is_object()) {
-    Reader weights = reader.Object("minimize");
-    double sum = 0.0;
-    for (const auto& [name, weight] : kWeights)
-      sum += objective.*weight = weights.Number(name, {0, 1e6}, 0.0);
-    weights.Finish();
-    if (sum == 0.0) weights.FailHere("at least one weight must be > 0");
-    return objective;
-  }
-  std::vector<std::string> names;
-  for (const NamedWeight& weight : kWeights) names.emplace_back(weight.name);
-  const std::string chosen = reader.Choice("minimize", names);
-  for (const auto& [name, weight] : kWeights) objective.*weight = chosen == name ? 1.0 : 0.0;
-  return objective;
-}
-
-void ReadObjective(Reader& request, DesignRequest& parsed) {
-  optimizer::Objective& objective = parsed.problem.objective;
-  auto reader = request.OptionalObject("objective");
-  if (!reader) {
-    objective.mass_kg = 1.0;
-    return;
-  }
-  if (reader->Has("pareto")) ReadPareto(*reader, parsed);
-  if (reader->Has("minimize") || !reader->Has("pareto"))
-    objective = ReadMinimize(*reader);
-  else if (!parsed.pareto.empty())
-    for (const auto& [name, weight] : kWeights)
-      if (std::string_view(name) == optimizer::Name(parsed.pareto.front())) objective.*weight = 1.0;
-  if (!parsed.pareto.empty())
-    for (const auto& [name, weight] : kWeights)
-      if (objective.*weight > 0.0 &&
-          std::none_of(parsed.pareto.begin(), parsed.pareto.end(),
-                       [wanted = std::string_view(name)](optimizer::Amount amount) {
-                         return wanted == optimizer::Name(amount);
-                       }))
-        reader->Fail("minimize",
-                     std::string(name) +
-                         " is not an amount of the front; it orders the front's designs "
-                         "and must be made of these");
-  reader->Finish();
 }
 
 // A list by one objective is one of kinds, unless it must reach a probability or the model is a
@@ -306,6 +242,30 @@ void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& model
                    "cycle that repeats");
 }
 
+// What a front cannot have, and what one of two things asked for excludes.
+void CheckTogether(Reader& request, const DesignRequest& parsed, bool probability_min) {
+  if (!parsed.pareto.empty() && parsed.proof)
+    request.FailAt("ranking/proof", "is for a list by one objective");
+  if (!parsed.pareto.empty() && probability_min)
+    request.FailAt("ranking/probability_min", "is for a list by one objective");
+  if (parsed.explain && !parsed.pareto.empty())
+    request.Fail("explain", "explains a list by one objective, not a front");
+  if (parsed.explain && parsed.explain->ranks > 0 && probability_min)
+    request.FailAt("explain/ranks", "must be 0 with /ranking/probability_min");
+}
+
+void CheckGuarantee(Reader& request, const DesignRequest& parsed) {
+  if (!parsed.guarantee) return;
+  std::string why = WhyNotGuaranteed(parsed.problem);
+  if (!parsed.pareto.empty()) why = "is for a list by one objective, not a front";
+  if (parsed.model) why = "is for the nominal model";
+  if (parsed.robust)
+    why =
+        "stands alone: draws and probability_min are for a list on paper; what is guaranteed "
+        "meets its requirements in each of them";
+  if (!why.empty()) request.Fail("guarantee", why);
+}
+
 bool HasErrorIn(const Errors& errors, std::initializer_list<std::string_view> places) {
   return std::any_of(errors.begin(), errors.end(), [&](const Error& error) {
     return std::any_of(places.begin(), places.end(),
@@ -328,28 +288,25 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   problem.ambient = ReadAmbient(reader);
 
   std::vector<std::string> names;
-  std::vector<double> operating_kpa;
+  std::vector<GroupRemarks> groups;
   for (const Element& element : reader.List("actuators", 1, kGroupsMax))
     problem.groups.push_back(ReadGroup(element, problem.groups.size(), problem.ambient, names,
-                                       operating_kpa.emplace_back(), errors));
+                                       groups.emplace_back(), errors));
   ReadDuty(reader, problem);
   const Fractions fractions = ReadFractions(reader);
   problem.rise_fraction = fractions.rise;
   problem.fall_fraction = fractions.fall;
   ReadSupply(reader, problem);
-  CheckPressures(problem, operating_kpa, errors);
-  ReadObjective(reader, parsed);
+  CheckPressures(problem, groups, errors);
+  ReadObjective(reader, problem.objective, parsed.pareto);
   const std::optional<double> probability_min = ReadRanking(reader, parsed);
   parsed.robust = ReadRobust(reader, probability_min);
+  std::vector<GroupUncertainty> uncertainties;
+  uncertainties.reserve(groups.size());
+  for (const GroupRemarks& group : groups) uncertainties.push_back(group.uncertainty);
+  parsed.guarantee = ReadGuarantee(reader, std::move(uncertainties));
   parsed.explain = ReadExplain(reader);
-  if (!parsed.pareto.empty() && parsed.proof)
-    reader.FailAt("ranking/proof", "is for a list by one objective");
-  if (!parsed.pareto.empty() && probability_min)
-    reader.FailAt("ranking/probability_min", "is for a list by one objective");
-  if (parsed.explain && !parsed.pareto.empty())
-    reader.Fail("explain", "explains a list by one objective, not a front");
-  if (parsed.explain && parsed.explain->ranks > 0 && probability_min)
-    reader.FailAt("explain/ranks", "must be 0 with /ranking/probability_min");
+  CheckTogether(reader, parsed, probability_min.has_value());
   ReadChoices(reader, parts, problem);
   ReadModel(reader, models, parsed);
   if (reader.Has("prices"))
@@ -359,6 +316,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   if (problem.unpriced_allowed && front_of_cost)
     reader.Fail("prices", "must be known for a front with cost_eur");
   ChooseList(reader, probability_min.has_value(), parsed);
+  CheckGuarantee(reader, parsed);
   if (parsed.model && parsed.proof)
     reader.FailAt("ranking/proof", "is for the nominal model: its record cannot be verified");
   reader.Finish();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/design/explanation.h"
+#include "api/design/read/guarantee.h"
 #include "api/design/robustness.h"
 #include "api/json/json.h"
 #include "api/json/remarks.h"
@@ -24,6 +25,7 @@ struct DesignRequest {
   std::string name;
   std::vector<optimizer::Amount> pareto;  // amounts of a front; empty: one objective
   std::optional<RobustRequest> robust;
+  std::optional<GuaranteeRequest> guarantee;    // with one objective only
   std::optional<ExplainRequest> explain;        // with one objective only
   std::optional<catalog::ModelRevision> model;  // that ranks instead of the nominal one
   Json request;  // as it was given; the answer echoes it, so that a saved answer can be checked

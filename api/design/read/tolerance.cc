@@ -32,20 +32,6 @@ std::uint64_t Mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-bool IsExact(std::string_view field) {
-  static const std::set<std::string_view> kExact{"outer_diameter_mm", "tube_outer_diameter_mm",
-                                                 "channels",          "cells_series",
-                                                 "voltage_v",         "nominal_voltage_v"};
-  return kExact.contains(field);
-}
-
-double WithinRange(const catalog::Part& row, std::string_view field, double value) {
-  if (const catalog::Family* family = catalog::FindFamily(row.family))
-    for (const catalog::NumberField& known : family->numbers)
-      if (known.name == field) return std::clamp(value, known.min, known.max);
-  return value;
-}
-
 // What the made-to-measure reservoir of a design that says its volume is as a part.
 catalog::Part MadeReservoirRow(const optimizer::Problem& problem, const optimizer::Design& design,
                                const optimizer::Choice& choice) {
@@ -64,6 +50,21 @@ catalog::Part MadeReservoirRow(const optimizer::Problem& problem, const optimize
 }
 
 }  // namespace
+
+bool IsExact(std::string_view field) {
+  static const std::set<std::string_view> kExact{"outer_diameter_mm", "tube_outer_diameter_mm",
+                                                 "inner_diameter_mm", "channels",
+                                                 "cells_series",      "voltage_v",
+                                                 "nominal_voltage_v"};
+  return kExact.contains(field);
+}
+
+double WithinRange(const catalog::Part& row, std::string_view field, double value) {
+  if (const catalog::Family* family = catalog::FindFamily(row.family))
+    for (const catalog::NumberField& known : family->numbers)
+      if (known.name == field) return std::clamp(value, known.min, known.max);
+  return value;
+}
 
 double Tolerance::Of(catalog::Provenance provenance) const {
   switch (provenance) {
@@ -119,28 +120,34 @@ catalog::Part Perturbed(catalog::Part row, const Tolerance& tolerance, std::uint
 }
 
 optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
-                               const optimizer::Problem& problem, const Tolerance& tolerance,
-                               std::uint64_t seed) {
+                               const optimizer::Problem& problem, PerturbRow perturb) {
   std::map<std::string, const catalog::Part*> by_id;
   for (const catalog::Part& row : rows) by_id[row.id] = &row;
-  return [by_id = std::move(by_id), &problem, tolerance, seed](const optimizer::Design& design,
-                                                               int draw) {
+  return [by_id = std::move(by_id), &problem, perturb = std::move(perturb)](
+             const optimizer::Design& design, int draw) {
     std::vector<catalog::Part> drawn;
     std::set<std::string> seen;  // groups may share a part
     for (const optimizer::Choice& choice : design.parts) {
       if (!seen.insert(choice.id).second) continue;
       if (choice.id == kCustomReservoir && optimizer::SpecOf(choice.family).made_to_measure &&
           design.settings.reservoir_volume_m3) {
-        drawn.push_back(
-            Perturbed(MadeReservoirRow(problem, design, choice), tolerance, seed, draw));
+        drawn.push_back(perturb(MadeReservoirRow(problem, design, choice), draw));
       } else if (const auto row = by_id.find(choice.id); row != by_id.end()) {
-        drawn.push_back(Perturbed(AsCounted(*row->second, problem), tolerance, seed, draw));
+        drawn.push_back(perturb(AsCounted(*row->second, problem), draw));
       }
     }
     model::Parts parts = ToModelParts(drawn, problem.ambient);
     if (HasOutsidePower(problem)) parts.batteries = problem.parts.batteries;
     return parts;
   };
+}
+
+optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
+                               const optimizer::Problem& problem, const Tolerance& tolerance,
+                               std::uint64_t seed) {
+  return MakeDraws(rows, problem, [tolerance, seed](catalog::Part row, int draw) {
+    return Perturbed(std::move(row), tolerance, seed, draw);
+  });
 }
 
 }  // namespace plenum::api

@@ -3,7 +3,10 @@
 #define PLENUM_API_DESIGN_READ_TOLERANCE_H_
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "catalog/fields/part.h"
@@ -12,11 +15,11 @@
 namespace plenum::api {
 
 // Half-widths, as shares of the number, by provenance. Defaults: data sheets of pneumatic parts
-// give flow and mass within a few per cent; another's measurement or bill of materials is coarser;
-// what is computed inherits; the rules of catalog/data/README.md miss by a quarter; and what was
-// fitted to measurements of the part itself is as good as a data sheet.
+// give flow and mass within a few per cent; another's measurement or bill of materials is coarser,
+// and so is what is computed from such numbers; the rules of catalog/data/README.md miss by a
+// quarter; what was fitted to measurements of the part itself is the best that there is.
 struct Tolerance {
-  double datasheet = 0.02, third_party = 0.05, derived = 0.10, estimated = 0.25, measured = 0.02;
+  double datasheet = 0.05, third_party = 0.10, derived = 0.10, estimated = 0.25, measured = 0.02;
   double Of(catalog::Provenance provenance) const;
   // Of a number that says how uncertain it is: twice that, at most 0.95 of the number; else that of
   // its provenance.
@@ -24,21 +27,32 @@ struct Tolerance {
   bool operator==(const Tolerance&) const = default;
 };
 
+// What says which parts go together, and what is counted or cut: counts, diameters, nominal
+// voltages.
+bool IsExact(std::string_view field);
+// The number within what the catalogue takes for this field.
+double WithinRange(const catalog::Part& row, std::string_view field, double value);
+
 // A number uniform in [1 − half_width, 1 + half_width] that depends on nothing but its arguments:
 // the same part has the same error wherever it is used. (Uniform is what GUM 4.3.7 asks where only
 // limits are known.)
 double Factor(std::uint64_t seed, int draw, const std::string& id, const std::string& field,
               double half_width);
 
-// The row with each number times its factor, kept within the field's range; a pump's delivery and
-// current have one factor each for the whole curve. What says which parts go together is exact:
-// counts, outer diameters of tubes, nominal voltages.
+// The row with each number that is not exact times its factor, kept within the field's range; a
+// pump's delivery and current have one factor each for the whole curve.
 catalog::Part Perturbed(catalog::Part row, const Tolerance& tolerance, std::uint64_t seed,
                         int draw);
 
-// The draws of `rows`; they must outlive it. A made-to-measure reservoir becomes a part of the
-// volume that the design gave it, as exact as a data sheet, with the estimated mass and outer
-// volume of its rule. A part that no row has is in no draw.
+// Rows of a draw.
+using PerturbRow = std::function<catalog::Part(catalog::Part row, int draw)>;
+
+// The parts of a design's rows as `perturb` has them; `rows` must outlive it. A made-to-measure
+// reservoir becomes a part of the volume that the design gave it, as exact as a data sheet, with
+// the estimated mass and outer volume of its rule. A part that no row has is in no draw.
+optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
+                               const optimizer::Problem& problem, PerturbRow perturb);
+// The same of Perturbed rows.
 optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
                                const optimizer::Problem& problem, const Tolerance& tolerance,
                                std::uint64_t seed);

@@ -51,7 +51,7 @@ int Planter::PlantCylinders() {
     SetBottle(quantity *
                   model::CylinderCharge(part.water_volume_m3, part.fill_pressure_pa, temperature_k),
               quantity * full_m3, quantity * part.water_volume_m3, entry);
-    entry.item.corner.fill_pressure_pa = part.fill_pressure_pa;
+    entry.item.corner.fill_pressure_pa = read::FullPressure(part);
     entry.item.corner.flow_sustained_m3_per_s = kUnlimited;
   };
   return PlantSlot(Family::kCylinder, -1, ChoicesOf(Family::kCylinder),

@@ -160,6 +160,8 @@ void SetNumber(const Ruled<Corner>&, const Reading&, Corner&) {}
 template <typename Corner, typename... Rows>
 void WidenBy(const std::tuple<Rows...>& rows, Corner& a, const Corner& b) {
   ToLeast(a.amounts.mass_kg, b.amounts.mass_kg);
+  ToLeast(a.amounts.mass_slack_kg, b.amounts.mass_slack_kg);
+  ToLeast(a.amounts.volume_slack_m3, b.amounts.volume_slack_m3);
   ToLeast(a.amounts.volume_m3, b.amounts.volume_m3);
   ToLeast(a.amounts.cost_eur, b.amounts.cost_eur);
   ToLeast(a.objective, b.objective);

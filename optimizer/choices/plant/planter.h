@@ -258,8 +258,10 @@ class Planter {
       contender.objective = item.corner.objective + contender.beyond;
       const Amounts& amounts = item.corner.amounts;
       item.tie = contender.tie = TieShareOf(problem_.objective, amounts);
-      if (std::isfinite(problem_.mass_max_kg)) contender.losses.push_back(amounts.mass_kg);
-      if (std::isfinite(problem_.volume_max_l)) contender.losses.push_back(amounts.volume_m3);
+      if (std::isfinite(problem_.mass_max_kg))
+        contender.losses.push_back(amounts.mass_kg + amounts.mass_slack_kg);
+      if (std::isfinite(problem_.volume_max_l))
+        contender.losses.push_back(amounts.volume_m3 + amounts.volume_slack_m3);
       if (std::isfinite(problem_.cost_max_eur)) contender.losses.push_back(amounts.cost_eur);
     }
     const int others = kinds ? OtherSeriesNeeded(problem_, family) : problem_.count;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "server/render/text/text_explain.h"
+#include "server/render/text/text_guarantee.h"
 #include "server/render/text/text_ranked.h"
 #include "server/render/text/text_remarks.h"
 #include "server/render/text/text_table.h"
@@ -154,9 +155,11 @@ std::string StatusText(const Json& answer) {
     if (status == "optimal") return "Proved: no other combination belongs to the front.";
     if (status != "infeasible") return "Not proved: the front may lack points.";
   }
+  const std::string guaranteed = answer.contains("guarantee") ? "guaranteed " : "";
   if (status == "optimal" && answer.value("list", "") == "kinds")
-    return "Proved: no kind of design that is not shown beats the last one, but for further kinds "
-           "with a source that is shown.";
+    return "Proved: no kind of " + guaranteed +
+           "design that is not shown beats the last one, but for further kinds with a source that "
+           "is shown.";
   if (status == "optimal") {
     return "Proved: no other combination of catalogue parts beats the last design shown.";
   }
@@ -221,7 +224,8 @@ std::string DesignText(const Json& answer, bool wide) {
                 : std::string(".\n\n");
     text += BestsText(answer) + Details(designs.front()) + "\n";
   }
-  text += FrontText(answer) + RobustText(answer) + PricesText(answer) + FlipsText(answer);
+  text += GuaranteeText(answer) + FrontText(answer) + RobustText(answer) + PricesText(answer) +
+          FlipsText(answer);
   return text + ProofText(answer) + RemarksText(answer);
 }
 

@@ -109,11 +109,15 @@ std::string BestText(const std::string& name, const Json& best) {
   text += Mass(design) + " kg";
   if (best.at("relative_distance").is_number())
     text += fmt::format(", {:+.1f} %", 100.0 * best.at("relative_distance").get<double>());
-  text += ", " + Cut(SourceOf(design), 30) + ", " + Cut(NamesOf(design, {"valve"}), 30);
+  text += ", " + SourceAndValves(design);
   return text + (best.at("status") == "optimal" ? "\n" : " (not proved)\n");
 }
 
 }  // namespace
+
+std::string SourceAndValves(const Json& design) {
+  return Cut(SourceOf(design), 30) + ", " + Cut(NamesOf(design, {"valve"}), 30);
+}
 
 std::string Percent(const Json& share) {
   return share.is_number() ? fmt::format("{:.1f} %", 100.0 * share.get<double>()) : "–";

@@ -19,6 +19,9 @@ std::string WideTable(const api::Json& designs);
 // empty where the answer has nothing of it that the list does not show.
 std::string BestsText(const api::Json& answer);
 
+// "2× JSG BD-03AB, 6× ASCO pair of RHB20xx80x": what a design is first.
+std::string SourceAndValves(const api::Json& design);
+
 // What else there is of the design's kind; empty where nobody looked.
 std::string VariantsText(const api::Json& design);
 

@@ -15,7 +15,8 @@ export async function explain(id: string, answer: Answer): Promise<void> {
   const requirements = answer.asked ?? answer.requirements;
   const job = await start({
     ...requirements,
-    robust: requirements.robust ?? {},
+    // What is guaranteed meets its requirements in every draw.
+    ...(!answer.guarantee && { robust: requirements.robust ?? {} }),
     ...(!answer.front && { explain: { prices: true, ranks: 4 } }),
   });
   asked.value = { ...asked.peek(), [id]: job };

@@ -17,10 +17,14 @@ export interface Group {
   rise_time_s_max?: number | null;
   fall_time_s_max?: number | null;
   pressure_kpa_gauge_max?: number | null;
+  relative_uncertainty?: { rest_volume?: number; expansion_ratio?: number };
 }
 
 export type Configuration = 'cylinder' | 'co2' | 'compressor' | 'mains' | 'tank';
 export type Amount = 'mass_kg' | 'volume_l' | 'cost_eur' | 'energy_wh';
+
+// Where a number comes from, and how far it is trusted.
+export type Trust = 'measured' | 'datasheet' | 'third_party' | 'derived' | 'estimated';
 
 export type PowerKind = 'battery' | 'wall' | 'robot';
 
@@ -58,6 +62,7 @@ export interface Requirements {
     per_source?: number;
   };
   prices?: 'known' | 'lower_bound';
+  guarantee?: boolean | { tolerance?: Partial<Record<Trust, number>> };
   limits?: Record<string, number>;
   require?: Record<string, string[]>;
   exclude?: string[];
@@ -143,6 +148,7 @@ export interface Design {
     differ_in: string[];
     examples: { objective: number; parts: PartRow[] }[];
   };
+  guarantee?: { mass_kg_max: number; volume_l_max: number };
   robustness?: { probability: number; probability_ci95: [number, number]; share_rank_1: number };
   // What would have to change for it to be first.
   to_be_first?: {
@@ -202,6 +208,20 @@ export interface Relaxed {
   value: number | null;
 }
 
+// A test of one part, and what it would save of the best guaranteed design.
+export interface PartTest {
+  part: string;
+  family: string;
+  protocol: string;
+  numbers: string[];
+}
+export interface Saving extends PartTest {
+  saving: number | null;
+  saving_share: number | null;
+  saving_interval?: [number, number];
+  with?: PartTest;
+}
+
 export interface Answer extends Remarked {
   schema: 'designs/1';
   name?: string;
@@ -228,6 +248,16 @@ export interface Answer extends Remarked {
     status: string;
   }[];
   robust?: { draws: number; left_out?: number; seconds?: number };
+  guarantee?: {
+    tolerance: Record<Trust, number>;
+    objective_on_paper: number | null;
+    objective_guaranteed: number | null;
+    costs: number | null;
+    costs_share: number | null;
+  };
+  on_paper?: Pick<Answer, 'status' | 'designs' | 'proof'>;
+  measure_first?: Saving[];
+  measure_first_complete?: boolean;
   seconds: number;
   model?: { name: string; version: number; proved: boolean; effects: Effect[] };
   against_nominal?: {

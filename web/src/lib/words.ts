@@ -37,8 +37,8 @@ export function proofInWords(answer: Answer): string {
       return listed === 0
         ? `Proved: nothing can be listed. ${did}`
         : answer.list === 'kinds'
-          ? `Proved: no kind of design that is not listed beats ${listed === 1 ? 'this one' : `the last of these ${listed}`}, but for further kinds with a source that is listed.${leftOut(answer)} ${did}`
-          : `Proved: no other combination of catalogue parts beats ${listed === 1 ? 'this design' : `the last of these ${listed} designs`}.${leftOut(answer)} ${did}`;
+          ? `Proved: no kind of ${answer.guarantee ? 'guaranteed ' : ''}design that is not listed beats ${listed === 1 ? 'this one' : `the last of these ${listed}`}, but for further kinds with a source that is listed.${leftOut(answer)} ${did}`
+          : `Proved: no other combination of catalogue parts${answer.guarantee ? ' that is guaranteed' : ''} beats ${listed === 1 ? 'this design' : `the last of these ${listed} designs`}.${leftOut(answer)} ${did}`;
     case 'feasible':
       if (listed === 0)
         return `Nothing was found in the time given, and nothing was proved: there may be designs. ${did}`;

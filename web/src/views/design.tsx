@@ -3,6 +3,7 @@ import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
 import { powerWord, supplyWord } from '../lib/amounts';
+import { significant } from '../lib/format';
 import { type Parts, partsOf } from '../lib/rig';
 import { link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
@@ -76,6 +77,13 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
         </div>
         <MovedOn answer={answer} />
         <Facts design={design} />
+        {design.guarantee && (
+          <p class="proof">
+            Guaranteed: performance, energy and margins are those of the worst case within the
+            tolerances of its parts. It may weigh up to {significant(design.guarantee.mass_kg_max)}{' '}
+            kg.
+          </p>
+        )}
         <p class="only-printed">
           {proofInWords(answer)} Catalogue revision {answer.catalogue_revision?.number ?? '–'}.
         </p>

@@ -15,6 +15,7 @@ import { NothingLeft } from './against_nominal';
 import { ComparePanel } from './compare';
 import { Conflicts } from './conflicts';
 import { DesignPage } from './design';
+import { Guarantee } from './guarantee';
 import { Bests } from './kinds';
 import { ListChangesPanel } from './list_changes';
 import { MovedOn } from './moved_on';
@@ -118,6 +119,7 @@ function List(props: {
       {answer.conflicts && <Conflicts answer={answer} />}
       {!isEmpty && (
         <>
+          <Guarantee answer={answer} />
           <Why answer={answer} id={id} explanation={explanation} />
           <Ranked
             answer={answer}

@@ -13,7 +13,8 @@ const amounts: { value: Amount; label: string }[] = [
 ];
 
 export function Objective() {
-  const { objective, ranking, robust, explain, model, supply, prices } = requirements.value;
+  const { objective, ranking, robust, explain, guarantee, model, supply, prices } =
+    requirements.value;
   const pareto = objective?.pareto;
   const minimize = typeof objective?.minimize === 'string' ? objective.minimize : 'mass_kg';
   const weights = typeof objective?.minimize === 'object' ? objective.minimize : undefined;
@@ -147,6 +148,14 @@ export function Objective() {
           checked={robust !== undefined}
           onChange={(on) => edit(['robust'], on ? {} : undefined)}
         />
+        {mode !== 'front' && (
+          <Check
+            label="Guarantee: everything is met with every number of the parts within its tolerance"
+            checked={guarantee !== undefined && guarantee !== false}
+            onChange={(on) => edit(['guarantee'], on ? true : undefined)}
+          />
+        )}
+        {errorAt('/guarantee') && <p class="error">{errorAt('/guarantee')}</p>}
         {mode !== 'front' && (
           <Check
             label="What each requirement costs"

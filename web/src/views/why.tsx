@@ -46,6 +46,7 @@ export function Why({
           <ul class="reasons">
             <li>
               It has the least {objectiveName(answer.requirements)} of all combinations
+              {answer.guarantee ? ' that are guaranteed' : ''}
               {answer.status === 'optimal' ? '' : ' found'}:{' '}
               <b>
                 {significant(first.objective, 4)} {objectiveUnit(answer.requirements)}
@@ -166,7 +167,8 @@ function Explain(props: { answer: Answer; id: string; explanation: Explanation |
   const { answer, id, explanation } = props;
   const problem = useSignal('');
   const busy = useSignal(false);
-  if (answer.robust && (answer.prices || answer.front)) return null;
+  const isSure = answer.robust !== undefined || answer.guarantee !== undefined;
+  if (isSure && (answer.prices || answer.front)) return null;
   if (explanation && isUnderWay(explanation)) return <CancelButton self={explanation.self} />;
   const run = async () => {
     busy.value = true;
@@ -182,7 +184,11 @@ function Explain(props: { answer: Answer; id: string; explanation: Explanation |
     <>
       {problem.value && <Notice kind="bad">{problem.value}</Notice>}
       <button type="button" disabled={busy.value} onClick={() => void run()}>
-        {answer.front ? 'How sure is it?' : 'What do requirements cost, how sure is it?'}
+        {answer.front
+          ? 'How sure is it?'
+          : answer.guarantee
+            ? 'What do requirements cost?'
+            : 'What do requirements cost, how sure is it?'}
       </button>
     </>
   );

@@ -1,0 +1,117 @@
+#include "api/design/read/guarantee.h"
+
+#include <algorithm>
+#include <string>
+
+#include "api/design/read/power.h"
+#include "api/design/read/selection.h"
+
+namespace plenum::api {
+namespace {
+
+constexpr double kDeviations = 2.0;       // of a half-width
+constexpr double kUncertaintyMax = 0.45;  // so that a half-width is below 1
+
+// Largest volumes at each pressure.
+void Enlarge(const GroupUncertainty& uncertainty, model::Chamber& chamber) {
+  const double rest = 1.0 + kDeviations * uncertainty.rest_volume;
+  const double ratio = chamber.expansion_ratio;
+  const double larger = ratio * (1.0 + kDeviations * uncertainty.expansion_ratio);
+  if (!chamber.volume_curve.empty()) {
+    const double growth = ratio > 1.0 ? (larger - 1.0) / (ratio - 1.0) : 1.0;
+    std::vector<double> volumes_m3;
+    for (const double volume_m3 : chamber.volume_curve.y()) {
+      const double grown_m3 = volume_m3 - chamber.rest_volume_m3;
+      volumes_m3.push_back(rest * (chamber.rest_volume_m3 + std::max(grown_m3, grown_m3 * growth)));
+    }
+    const auto pressures = chamber.volume_curve.x();
+    chamber.volume_curve = {{pressures.begin(), pressures.end()}, std::move(volumes_m3)};
+  }
+  chamber.rest_volume_m3 *= rest;
+  chamber.expansion_ratio = larger;
+}
+
+}  // namespace
+
+Tolerance ReadTolerance(Reader& request) {
+  Tolerance tolerance;
+  auto reader = request.OptionalObject("tolerance");
+  if (!reader) return tolerance;
+  const auto read = [&](const char* name, double& share) {
+    share = reader->Number(name, Below(0, 1), share);
+  };
+  read("datasheet", tolerance.datasheet);
+  read("third_party", tolerance.third_party);
+  read("derived", tolerance.derived);
+  read("estimated", tolerance.estimated);
+  read("measured", tolerance.measured);
+  reader->Finish();
+  return tolerance;
+}
+
+Json RenderTolerance(const Tolerance& tolerance) {
+  return {{"datasheet", tolerance.datasheet},
+          {"third_party", tolerance.third_party},
+          {"derived", tolerance.derived},
+          {"estimated", tolerance.estimated},
+          {"measured", tolerance.measured}};
+}
+
+GroupUncertainty ReadGroupUncertainty(Reader& group) {
+  GroupUncertainty uncertainty;
+  auto reader = group.OptionalObject("relative_uncertainty");
+  if (!reader) return uncertainty;
+  const Range range{0, kUncertaintyMax};
+  uncertainty.rest_volume = reader->Number("rest_volume", range, 0.0);
+  uncertainty.expansion_ratio = reader->Number("expansion_ratio", range, 0.0);
+  reader->Finish();
+  return uncertainty;
+}
+
+std::optional<GuaranteeRequest> ReadGuarantee(Reader& request,
+                                              std::vector<GroupUncertainty> groups) {
+  const Json* given = request.Raw("guarantee");
+  if (given != nullptr && given->is_boolean()) {
+    if (!request.Bool("guarantee", false)) return std::nullopt;
+    return GuaranteeRequest{{}, std::move(groups)};
+  }
+  auto reader = request.OptionalObject("guarantee");
+  if (!reader) return std::nullopt;
+  GuaranteeRequest guarantee{ReadTolerance(*reader), std::move(groups)};
+  if (reader->Bool("retune", false))
+    reader->Fail("retune", "must be false: settings are chosen once for all worlds");
+  reader->Finish();
+  return guarantee;
+}
+
+std::string WhyNotGuaranteed(const optimizer::Problem& problem) {
+  if (problem.objective.energy_wh > 0.0)
+    return "ranks by mass, volume and cost; energy is told at its upper value and not minimised";
+  if (problem.configurations.contains(optimizer::Configuration::kTank))
+    return "is not for tanks yet: leave tank out of /supply/configurations";
+  if (problem.groups.size() > 1 && problem.simultaneous)
+    return "is for one group and for groups that take turns (/duty/simultaneous false): where "
+           "groups inflate at once, a part that passes more may slow another group";
+  return "";
+}
+
+bool NeedsHoldingValves(const optimizer::Problem& problem) { return problem.groups.size() > 1; }
+
+optimizer::Problem GuaranteedProblem(const optimizer::Problem& problem,
+                                     const GuaranteeRequest& guarantee,
+                                     const std::vector<catalog::Part>& rows,
+                                     const Settled& settled) {
+  optimizer::Problem guaranteed = problem;
+  guaranteed.guarantee = optimizer::Guarantee{guarantee.tolerance.estimated};
+  for (std::size_t g = 0; g < guarantee.groups.size(); ++g)
+    Enlarge(guarantee.groups[g], guaranteed.groups[g].chamber);
+  guaranteed.parts =
+      ToWorstParts(AllowedParts(rows, problem), problem.ambient, guarantee.tolerance, settled);
+  if (NeedsHoldingValves(problem))
+    std::erase_if(guaranteed.parts.valves,
+                  [](const model::Valve& valve) { return !model::Holds(valve.kind); });
+  ReplaceBatteries(guaranteed, guaranteed.parts);
+  return guaranteed;
+}
+
+}  // namespace plenum::api
