@@ -55,7 +55,7 @@ struct OperatingPointOf {
   // Volume while the reservoir rises; equal to reservoir_m3 but for bounds over an interval of
   // volumes (model/strokes/reservoir_stroke.h).
   T reservoir_rising_m3 = T(0.0);
-  double tank_fill_pa = 0.0;  // 0: the least that does (candidate.h)
+  double tank_fill_pa = 0.0;  // 0: the least that does (see below)
 };
 using OperatingPoint = OperatingPointOf<double>;
 

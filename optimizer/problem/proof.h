@@ -57,15 +57,15 @@
 // The corner at its best takes: the exact march through the largest C and b of each element into
 // the smallest dead volume, from the highest source pressure that any of the choices stands; the
 // least air, coil power and amounts (a tank with the air that is left at the highest operating
-// pressure, and what the mission takes on top); and for bottles, tanks, batteries and reservoirs the least objective
-// of those in the box that bear this need. A bound may also rest on divisions of the box
-// that are not recorded: of the lines in it only those count that mate and are fast enough on an
-// unlimited source; and behind a regulator that several groups draw from at once, those that make
-// do with the mean pressure that the least air of the others leaves at the node behind it, at the
-// highest of the source pressures that they work at. In a compressor's box each group counts as if
-// it were alone on the reservoir, with the largest delivery of the box at each pressure; of two
-// groups that take turns each leaves enough for the other. In a box that has a tank without a
-// regulator strokes are those on a source that keeps the highest pressure.
+// pressure, and what the mission takes on top); and for bottles, tanks, batteries and reservoirs
+// the least objective of those in the box that bear this need. A bound may also rest on divisions
+// of the box that are not recorded: of the lines in it only those count that mate and are fast
+// enough on an unlimited source; and behind a regulator that several groups draw from at once,
+// those that make do with the mean pressure that the least air of the others leaves at the node
+// behind it, at the highest of the source pressures that they work at. In a compressor's box each
+// group counts as if it were alone on the reservoir, with the largest delivery of the box at each
+// pressure; of two groups that take turns each leaves enough for the other. In a box that has a
+// tank without a regulator strokes are those on a source that keeps the highest pressure.
 #ifndef PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 #define PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 

@@ -27,7 +27,7 @@ model::GroupRig MakeGroup(const Problem& problem, const Assembly& assembly, int 
   model::GroupRig rig;
   rig.name = group.name;
   rig.count = group.count;
-  rig.chamber = ChamberWithBore(group, *line.tube);
+  rig.chamber = ChamberOf(group, line);
   std::vector<model::FlowElement> between;  // from valve to actuator
   const model::FlowElement tube =
       model::TubeElement(line.tube->inner_diameter_m, group.tube_length_m);
@@ -158,7 +158,7 @@ void AddNeeds(const Problem& problem, const Assembly& assembly, Cycle& cycle) {
   const double period_s = 1.0 / problem.frequency_hz;
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
     const model::Valve& valve = *assembly.lines[g].valve;
-    const model::Chamber chamber = ChamberWithBore(problem.groups[g], *assembly.lines[g].tube);
+    const model::Chamber chamber = ChamberOf(problem.groups[g], assembly.lines[g]);
     const bool holds = model::Holds(valve.kind);
     const double full_pa = holds ? chamber.operating_pressure_pa : cycle.filled_pa[g];
     cycle.air_m3 += problem.groups[g].count *

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "model/flow/tube.h"
 #include "model/physics/storage.h"
 #include "verify/design/verify_design.h"
 
@@ -45,16 +44,9 @@ inline double InletPa(const Problem& problem, const Assembly& a, double source_p
   return inlet_pa;
 }
 
-// Chamber of one actuator with its tube.
-inline model::Chamber ChamberWithBore(const ActuatorGroup& group, const model::Tubing& tube) {
-  model::Chamber chamber = group.chamber;
-  chamber.dead_volume_m3 += model::BoreVolume(tube.inner_diameter_m, group.tube_length_m);
-  return chamber;
-}
-
 // Air of one stroke of a group that fills up to its operating pressure, m³ ANR.
 inline double StrokeAir(const Problem& problem, const Assembly& a, int g) {
-  const model::Chamber chamber = ChamberWithBore(problem.groups[g], *a.lines[g].tube);
+  const model::Chamber chamber = ChamberOf(problem.groups[g], a.lines[g]);
   return problem.groups[g].count *
          model::StandardVolume(model::Content(chamber, chamber.operating_pressure_pa) -
                                    model::Content(chamber, problem.ambient.pressure_pa),

@@ -23,7 +23,8 @@ using optimizer::Problem;
 
 constexpr double kConductance = 1e-8;  // m³/(s·Pa) in 1 dm³/(s·bar)
 
-// 50 mL, ε 2, p_op 100 kPa gauge, through C 0.2 and b 0.3 out of 1 L; hardly any tube, and a wide one.
+// 50 mL, ε 2, p_op 100 kPa gauge, through C 0.2 and b 0.3 out of 1 L; hardly any tube, and a wide
+// one.
 Problem Oracle(double actuations) {
   Problem problem;
   optimizer::ActuatorGroup group;
@@ -50,7 +51,11 @@ Problem Oracle(double actuations) {
   valve.coil_power_w = 0.5;
   parts.valves = {valve};
   parts.batteries = {{{"pack", 0.1, 1e-5, 1.0}, 12.0, 10.0, 10.0}};
-  parts.tanks = parts.reservoirs = {{{"tank", 0.4, 1e-3, 1.0}, 1e-3, 1.1e6}};
+  model::Reservoir tank;
+  tank.basics = {.id = "tank", .mass_kg = 0.4, .body_volume_m3 = 1e-3, .cost_eur = 1.0};
+  tank.volume_m3 = 1e-3;
+  tank.pressure_max_pa = 1.1e6;
+  parts.tanks = parts.reservoirs = {tank};
   problem.limits.reservoirs = 1;
   problem.limits.batteries = 1;
   return problem;
