@@ -26,6 +26,11 @@ double MemoryOf(std::span<const std::vector<double>> series);
 // BIC of a fit whose residuals are worth 1/memory of their number.
 double BicWith(const Fit& fit, double memory);
 
+// A fit from `start` to readings that are worth 1/memory of their number; `from` is of the same
+// readings, or of as many.
+Fit FitWeighed(const FitData& data, FitOptions options, double memory, const Fit& from,
+               const ModelState& start);
+
 // Fits the base model and the best few of each size again with that weight, where less weight may
 // make one the best.
 void Reweigh(const FitData& data, const FitOptions& options, double memory,

@@ -53,15 +53,23 @@ bool SameEffects(const Contender& a, const Contender& b) {
   return a.effects.size() == b.effects.size() && Contains(a, b);
 }
 
+bool IsNested(const Contender& a, const Contender& b) { return Contains(a, b) || Contains(b, a); }
+
 bool MayComeTo(double goal, const Fit& cut_short, double bic_before) {
   return cut_short.bic < goal + kNear + kHopeful * std::max(0.0, bic_before - goal);
 }
 
 ModelState StateOf(const Contender& contender, const EffectSet& rest) {
   ModelState state = contender.fit.state;
-  std::erase_if(state.effects, [&](const model::Effect& effect) {
-    return std::find(rest.begin(), rest.end(), effect.spec) == rest.end();
-  });
+  const auto holds = [&](const model::EffectSpec* spec) {
+    return std::find(rest.begin(), rest.end(), spec) != rest.end();
+  };
+  std::erase_if(state.effects, [&](const model::Effect& effect) { return !holds(effect.spec); });
+  for (std::size_t k = 0; k < kDeclaredCount; ++k) {
+    if (!state.freed[k] || holds(&Freeing(static_cast<Declared>(k)))) continue;
+    state.freed[k] = false;
+    state.factor[k] = 1.0;
+  }
   return state;
 }
 
@@ -160,6 +168,11 @@ void Contenders::AddJobs(const Contender& from, const model::EffectSpec* added,
     return;
   }
   const ModelState beside = Unstretched(data, from.fit);
+  if (const std::optional<Declared> number = FreedBy(*added)) {
+    jobs.push_back({set, beside, from.fit.bic});
+    jobs.back().start.freed[static_cast<std::size_t>(*number)] = true;
+    return;
+  }
   for (const model::Effect& start : StartsBeside(from, added)) {
     Job job{set, beside, from.fit.bic};
     job.start.effects.push_back(start);
