@@ -24,6 +24,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 struct Changed {
   std::string what;
   double memory = 1.0;
+  bool shifted = false;  // by an offset
   std::vector<std::size_t> runs = {};
   std::vector<ObservedRun> observed = {};
   std::unique_ptr<Dataset> dataset = nullptr;
@@ -97,6 +98,7 @@ std::vector<Changed> ChangesOf(const Bench& bench, double memory) {
   const double shift_pa = kShiftShare * RangeOf(bench);
   changes.push_back(WithReadings(bench, "a shift of 0.1 % of the range", memory,
                                  [&](std::size_t, double pa) { return pa + shift_pa; }));
+  changes.back().shifted = true;
   changes.push_back(WithNoise(bench, memory));
   return changes;
 }
@@ -135,6 +137,18 @@ Table TableOf(std::span<const Contender> contenders, const std::vector<const Con
   return table;
 }
 
+// Beside a set that has none, an offset of the sensor to begin with none: whether one was added.
+bool AddOffset(ModelState& state) {
+  const model::EffectSpec* offset = model::FindEffect("sensor_offset");
+  const auto has = [&](const model::Effect& effect) { return effect.spec == offset; };
+  if (std::any_of(state.effects.begin(), state.effects.end(), has)) return false;
+  const auto place =
+      std::find_if(state.effects.begin(), state.effects.end(),
+                   [&](const model::Effect& effect) { return Precedes(offset, effect.spec); });
+  state.effects.insert(place, {offset, {0.0}});
+  return true;
+}
+
 double BicOf(const Bench& bench, const Changed& changed, const Contender& contender) {
   FitOptions options = bench.tight;
   options.threads = 1;
@@ -142,7 +156,8 @@ double BicOf(const Bench& bench, const Changed& changed, const Contender& conten
   options.function_tolerance = kTolerance;
   options.iterations_max = kIterations;
   const FitData data = DataOf(bench, changed);
-  const ModelState& start = contender.fit.state;
+  ModelState start = contender.fit.state;
+  const bool with_offset = changed.shifted && AddOffset(start);
   Fit fit;
   if (changed.memory > 1.0) {
     fit = FitWeighed(data, options, changed.memory, contender.fit, start);
@@ -150,7 +165,9 @@ double BicOf(const Bench& bench, const Changed& changed, const Contender& conten
     fit = FitModel(data, start, options);
     Narrow(data, options, fit);
   }
-  return fit.Usable() ? BicWith(fit, changed.memory) : kNever;
+  if (!fit.Usable()) return kNever;
+  const double worth = std::max(1.0, static_cast<double>(fit.rows) / changed.memory);
+  return BicWith(fit, changed.memory) - (with_offset ? std::log(worth) : 0.0);
 }
 
 }  // namespace
