@@ -220,10 +220,8 @@ class Diagnosing {
     bool established = evidence.accepted && !PredictsWorse(evidence.before, evidence.after) &&
                        UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
     if (evidence.imitated && tied_.size() > 1u) established = false;
-    if (evidence.complete && established && !NamesHold(evidence)) {
-      established = false;
-      doubt = "does not hold when the readings are changed";
-    }
+    if (evidence.complete && established) doubt = DoubtOfNames(evidence);
+    if (!doubt.empty()) established = false;
     const bool open = diagnosis_.verdict == Verdict::kTie ||
                       (diagnosis_.verdict == Verdict::kUnexplained && established &&
                        !evidence.imitated && tied_.size() > 1u);
@@ -303,13 +301,13 @@ class Diagnosing {
     return established ? beside : learned;
   }
 
-  // Whether the chosen set, or the tie of sets, may be named. Sets that do better when the readings
-  // are changed, and account for as much, join it as a tie; where none can it is not named.
-  bool NamesHold(Evidence& evidence) {
+  // Why the chosen set, or the tie of sets, may not be named; empty where it may. Sets that do
+  // better when the readings are changed, and account for as much, join it as a tie.
+  std::string DoubtOfNames(Evidence& evidence) {
     Progress(0.94, "whether names hold");
     const Stability found = StabilityOf(bench_, search_.contenders, tied_, memory_);
     diagnosis_.stability = found.changes;
-    if (found.Holds()) return true;
+    if (found.Holds()) return "";
     for (const Contender* other : found.beaten_by)
       if (std::none_of(tied_.begin(), tied_.end(),
                        [&](const Contender* one) { return IsNested(*one, *other); }))
@@ -320,7 +318,7 @@ class Diagnosing {
     });
     if (!joined) diagnosis_.verdict = Verdict::kUnexplained;
     if (diagnosis_.verdict == Verdict::kExplained) diagnosis_.verdict = Verdict::kTie;
-    return joined && !evidence.imitated;
+    return joined && !evidence.imitated ? "" : "does not hold when the readings are changed";
   }
 
   // Where no run is held out the errors are those of runs left out in turn.

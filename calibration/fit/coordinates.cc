@@ -331,7 +331,7 @@ std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
     coordinate.origin = std::max(declared.initial_pressure_pa[i], kLeastPressurePa);
     coordinate.scale = kPressureStepPa;
     coordinate.low = coordinate.At(kLeastPressurePa);
-    coordinate.high = coordinate.At(10.0 * (coordinate.origin + kPressureStepPa));
+    coordinate.high = coordinate.At(10.0 * coordinate.origin);
     coordinates.push_back(coordinate);
   }
   for (const std::size_t i : runs) {

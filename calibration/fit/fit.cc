@@ -61,6 +61,10 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
   for (std::size_t i = 0; i < start.effects.size(); ++i)
     for (const Coordinate& coordinate : EffectCoordinates(*start.effects[i].spec, i, data.sizes))
       coordinates.push_back(coordinate);
+  if (options.declared_stay)
+    std::erase_if(coordinates, [](const Coordinate& coordinate) {
+      return coordinate.parameter.kind == Parameter::Kind::kDeclared && coordinate.prior;
+    });
   if (options.fixed)
     std::erase_if(coordinates, [&](const Coordinate& coordinate) {
       return coordinate.parameter == *options.fixed;

@@ -116,7 +116,7 @@ void Reweigh(const FitData& data, const FitOptions& options, double memory,
 bool FitsNoBetter(const Contender& set, std::span<const Contender> contenders) {
   return std::any_of(contenders.begin(), contenders.end(), [&](const Contender& part) {
     return part.effects.size() < set.effects.size() && part.fit.Usable() && Contains(set, part) &&
-           part.fit.chi2_data <= set.fit.chi2_data;
+           part.fit.state.freed == set.fit.state.freed && part.fit.chi2_data <= set.fit.chi2_data;
   });
 }
 

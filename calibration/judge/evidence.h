@@ -36,8 +36,9 @@ Fit FitWeighed(const FitData& data, FitOptions options, double memory, const Fit
 void Reweigh(const FitData& data, const FitOptions& options, double memory,
              std::vector<Contender>& contenders);
 
-// Whether a set of some of its effects leaves no more of the readings: what the set has ahead then
-// is only that declared numbers are nearer to what was declared.
+// Whether a set of some of its effects, with the same numbers freed, leaves no more of the
+// readings: what the set has ahead then is only that declared numbers are nearer to what was
+// declared. To be so is what a number is freed for.
 bool FitsNoBetter(const Contender& set, std::span<const Contender> contenders);
 
 // The place in the list of the set that stands then: forwards from the base model, a larger set

@@ -18,12 +18,12 @@ namespace plenum::calibration {
 namespace {
 
 constexpr std::size_t kCandidatesShown = 30, kStoppedShown = 2;
+constexpr std::string_view kNumber = "number:";
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFinalists = 5;  // whose held-out error is found by leaving out each run
 
 // "creep + another rest_volume".
 std::string Joined(const std::vector<std::string>& ids) {
-  constexpr std::string_view kNumber = "number:";
   std::string text;
   for (const std::string& id : ids) {
     text += text.empty() ? "" : " + ";
@@ -56,9 +56,16 @@ std::vector<std::size_t> ByBic(const std::vector<Contender>& contenders, double 
   return order;
 }
 
+std::ptrdiff_t NumbersIn(const Candidate& candidate) {
+  return std::count_if(candidate.effects.begin(), candidate.effects.end(),
+                       [](const std::string& title) { return title.starts_with(kNumber); });
+}
+
+// As FitsNoBetter (evidence.h).
 bool FitsNoBetterThanAPart(const Candidate& set, const std::vector<Candidate>& candidates) {
   return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& part) {
     return part.effects.size() < set.effects.size() && part.rms_pa <= set.rms_pa &&
+           NumbersIn(part) == NumbersIn(set) &&
            std::all_of(part.effects.begin(), part.effects.end(), [&](const std::string& title) {
              return std::count(set.effects.begin(), set.effects.end(), title) > 0;
            });

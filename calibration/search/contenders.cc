@@ -211,6 +211,7 @@ void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_sh
   for (Job& job : jobs) all.push_back(&job);
   const double middle = 0.5 * (from_share + to_share);
   const std::size_t size = jobs.front().set.size();
+  StartFreed(all, from_share, what);
   Continue(
       all, [&](const Job& job) { return FirstLook(job.set); }, from_share, middle, what);
   FitOptions rest = Screening();
@@ -222,6 +223,20 @@ void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_sh
       all, [&](const Job&) { return Screening(); }, to_share, to_share, what);
   for (Job& job : jobs) Take(std::move(job));
   Refine(static_cast<int>(size), goal);
+}
+
+// Numbers of which the readings fix a product alone share what is to be explained along a bent
+// valley, in which fits crawl: a freed number takes it up first, while those with a prior stay.
+void Contenders::StartFreed(std::vector<Job*> jobs, double share, const std::string& what) {
+  std::erase_if(jobs, [](const Job* job) { return EffectsAlone(job->set) == job->set; });
+  Continue(
+      jobs,
+      [&](const Job& job) {
+        FitOptions options = FirstLook(job.set);
+        options.declared_stay = true;
+        return options;
+      },
+      share, share, what);
 }
 
 void Contenders::Continue(const std::vector<Job*>& jobs,

@@ -109,6 +109,7 @@ class Contenders {
   void Continue(const std::vector<Job*>& jobs,
                 const std::function<FitOptions(const Job&)>& options_of, double from_share,
                 double to_share, const std::string& what);
+  void StartFreed(std::vector<Job*> jobs, double share, const std::string& what);
   std::vector<Job*> Hopeful(std::vector<Job*> jobs, std::optional<double> goal) const;
   void Refine(int size, std::optional<double> goal);
   void FitModels(const FitOptions& options, std::vector<Fit>& fits) const;

@@ -84,6 +84,23 @@ TEST(WrongNumbers, ConductanceAndVolumeAreATie) {
   EXPECT_THAT(d.sentence, testing::HasSubstr("another rest_volume"));
 }
 
+// With little noise the numbers that are not freed must not keep what the freed one is to take up:
+// fits crawl along the bent valley of equal C/V.
+TEST(WrongNumbers, UncertainConductanceAndVolumeAreATieInQuietReadings) {
+  const auto change = [](EffectRig& rig) {
+    rig.rest_volume_m3 *= 1.27;
+    rig.expansion_ratio *= 0.99;
+    rig.fill[0].conductance *= 1.03, rig.exhaust[0].conductance *= 1.03;
+  };
+  Dataset dataset = test::MeasuredBench(change, 33, 25.0);
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kRestVolume)] = 0.01;
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kExpansionRatio)] = 0.01;
+  const Diagnosis d = Diagnose(dataset, {});
+  ASSERT_EQ(d.verdict, Verdict::kTie) << d.sentence;
+  EXPECT_THAT(d.tied,
+              UnorderedElementsAre(Set{"number:rest_volume"}, Set{"number:sonic_conductance"}));
+}
+
 TEST(WrongNumbers, OneMayStandBesideAnEffect) {
   const Diagnosis d = Diagnose(Measured(
                                    [](EffectRig& rig) {
