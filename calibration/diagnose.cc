@@ -13,6 +13,8 @@
 #include "calibration/judge/verdict.h"
 #include "calibration/learn/discrepancy.h"
 #include "calibration/learn/slips.h"
+#include "calibration/names/stability.h"
+#include "calibration/names/wrong_numbers.h"
 #include "calibration/values/thresholds.h"
 
 namespace plenum::calibration {
@@ -205,48 +207,29 @@ class Diagnosing {
       evidence.imitated = IsImitated();
       diagnosis_.verdict = Judge(evidence);
     }
-    if (diagnosis_.verdict == Verdict::kUnexplained && evidence.accepted) {
-      const double memory = MemoryOf(WhitenedOf(bench_, Chosen().fit));
-      const Fit base = base_->fit;
-      Reweigh(bench_.data, bench_.tight, memory, search_.contenders);
-      search_.chosen = StandingBesideSubsets(bench_.data, bench_.tight, memory, search_.contenders);
-      base_ = &search_.contenders[search_.base];
-      Weigh(memory, evidence);
-      search_.contenders[search_.base].fit = base;  // what it leaves is told of its least squares
-      KeepEstablished(evidence);
-      if (evidence.complete && IsTieBesideStructure(evidence)) {
-        evidence.imitated = IsImitated();
-        if (!evidence.imitated) diagnosis_.verdict = Verdict::kTie;
-      }
-    }
+    if (diagnosis_.verdict == Verdict::kUnexplained && evidence.accepted)
+      ChooseBesideStructure(evidence);
     const Contender& chosen = Chosen();
     AddCandidates(bench_, search_, memory_,
                   {{&base_->fit, evidence.before.holdout_rms_pa},
                    {&chosen.fit, evidence.after.holdout_rms_pa}},
                   diagnosis_);
+    std::string doubt;  // why the chosen set is not named, where it is not
     // Effects are established where they account for most of the residual and a term learned
     // without them does not do as well; which of several they are may still be open.
     bool established = evidence.accepted && !PredictsWorse(evidence.before, evidence.after) &&
                        UnexplainedFraction(evidence.before, evidence.after) <= kEstablished;
+    if (evidence.imitated && tied_.size() > 1u) established = false;
+    if (evidence.complete && established) doubt = DoubtOfNames(evidence);
+    if (!doubt.empty()) established = false;
     const bool open = diagnosis_.verdict == Verdict::kTie ||
                       (diagnosis_.verdict == Verdict::kUnexplained && established &&
                        !evidence.imitated && tied_.size() > 1u);
     const Contender* shown = &chosen;
     if (diagnosis_.verdict == Verdict::kUnexplained) {
-      Progress(0.95, "what is left unexplained");
-      LearnedModel learned = LearnDiscrepancy(bench_.data, open ? chosen.fit : base_->fit,
-                                              bench_.held_out, bench_.tight);
-      if (established && !open) {
-        established = false;
-        if (!Stopped() && !IsNoise(LeftoverOf(bench_, learned.fit, false))) {
-          LearnedModel beside =
-              LearnDiscrepancy(bench_.data, chosen.fit, bench_.held_out, bench_.tight);
-          established = beside.fit.bic < learned.fit.bic - kAccept ||
-                        HoldsAll(learned.discrepancy, chosen.effects);
-          if (established) learned = std::move(beside);
-        }
-      }
-      if (!established) doubt_ = DoubtOf(evidence), shown = base_, evidence.after = evidence.before;
+      LearnedModel learned = Learn(open, established);
+      if (!established && doubt.empty()) doubt = DoubtOf(evidence);
+      if (!established) shown = base_, evidence.after = evidence.before;
       diagnosis_.discrepancy = std::move(learned.discrepancy);
       if (diagnosis_.discrepancy->learned) StateLearned(bench_, learned.fit, diagnosis_);
     }
@@ -258,6 +241,8 @@ class Diagnosing {
     if (bench_.held_out.empty()) TakeLeftOut(evidence);
     diagnosis_.residual = evidence.after.residual;
     diagnosis_.unexplained_fraction = UnexplainedFraction(evidence.before, evidence.after);
+    if (diagnosis_.verdict != Verdict::kUndecided && !open)
+      diagnosis_.numbers = WrongNumbersOf(bench_.dataset, *shown, search_.contenders, memory_);
     if (open) {
       diagnosis_.effects.clear();
       for (const Contender* contender : tied_) diagnosis_.tied.push_back(IdsOf(*contender));
@@ -266,7 +251,9 @@ class Diagnosing {
     Progress(0.99, "report");
     AddSeries(bench_, diagnosis_);
     AddWarnings(bench_, diagnosis_);
-    AddReasons(search_, memory_, open ? tied_ : std::vector<const Contender*>{shown}, doubt_,
+    for (std::string& sentence : FarNumbers(shown->fit))
+      diagnosis_.warnings.push_back(std::move(sentence));
+    AddReasons(search_, memory_, open ? tied_ : std::vector<const Contender*>{shown}, doubt,
                diagnosis_);
     if (Stopped()) {
       diagnosis_.warnings.push_back(
@@ -282,6 +269,58 @@ class Diagnosing {
     diagnosis_.sentence = Sentence(bench_, search_, diagnosis_);
   }
 
+  // Where structure is left: the choice again, by what readings that remember each other are worth.
+  void ChooseBesideStructure(Evidence& evidence) {
+    const double memory = MemoryOf(WhitenedOf(bench_, Chosen().fit));
+    const Fit base = base_->fit;
+    Reweigh(bench_.data, bench_.tight, memory, search_.contenders);
+    search_.chosen = StandingBesideSubsets(bench_.data, bench_.tight, memory, search_.contenders);
+    base_ = &search_.contenders[search_.base];
+    Weigh(memory, evidence);
+    search_.contenders[search_.base].fit = base;  // what it leaves is told of its least squares
+    KeepEstablished(evidence);
+    if (evidence.complete && IsTieBesideStructure(evidence)) {
+      evidence.imitated = IsImitated();
+      if (!evidence.imitated) diagnosis_.verdict = Verdict::kTie;
+    }
+  }
+
+  // A term for what is left, beside the chosen set where that is established; whether it is shows
+  // by what a term does without it.
+  LearnedModel Learn(bool open, bool& established) {
+    Progress(0.95, "what is left unexplained");
+    const Fit& chosen = Chosen().fit;
+    LearnedModel learned =
+        LearnDiscrepancy(bench_.data, open ? chosen : base_->fit, bench_.held_out, bench_.tight);
+    if (!established || open) return learned;
+    established = false;
+    if (Stopped() || IsNoise(LeftoverOf(bench_, learned.fit, false))) return learned;
+    LearnedModel beside = LearnDiscrepancy(bench_.data, chosen, bench_.held_out, bench_.tight);
+    established = beside.fit.bic < learned.fit.bic - kAccept ||
+                  HoldsAll(learned.discrepancy, Chosen().effects);
+    return established ? beside : learned;
+  }
+
+  // Why the chosen set, or the tie of sets, may not be named; empty where it may. Sets that do
+  // better when the readings are changed, and account for as much, join it as a tie.
+  std::string DoubtOfNames(Evidence& evidence) {
+    Progress(0.94, "whether names hold");
+    const Stability found = StabilityOf(bench_, search_.contenders, tied_, memory_);
+    diagnosis_.stability = found.changes;
+    if (found.Holds()) return "";
+    for (const Contender* other : found.beaten_by)
+      if (std::none_of(tied_.begin(), tied_.end(),
+                       [&](const Contender* one) { return IsNested(*one, *other); }))
+        tied_.push_back(other);
+    KeepEstablished(evidence);
+    const bool joined = std::any_of(tied_.begin(), tied_.end(), [&](const Contender* one) {
+      return std::count(found.beaten_by.begin(), found.beaten_by.end(), one) > 0;
+    });
+    if (!joined) diagnosis_.verdict = Verdict::kUnexplained;
+    if (diagnosis_.verdict == Verdict::kExplained) diagnosis_.verdict = Verdict::kTie;
+    return joined && !evidence.imitated ? "" : "does not hold when the readings are changed";
+  }
+
   // Where no run is held out the errors are those of runs left out in turn.
   void TakeLeftOut(const Evidence& evidence) {
     diagnosis_.before.holdout_rms_pa = evidence.before.holdout_rms_pa;
@@ -290,42 +329,10 @@ class Diagnosing {
 
   void Propose() {
     Progress(0.96, "a run that would decide");
-    diagnosis_.next_experiment = ExperimentFor(bench_, tied_, by_the_clock_);
-    if (!diagnosis_.next_experiment) {
-      diagnosis_.no_experiment = Stopped() ? "there was no time left to look for a run"
-                                           : "no run that could tell them apart can be simulated";
-    } else if (diagnosis_.next_experiment->expected_delta_bic < kTie) {
-      diagnosis_.next_experiment.reset();
-      diagnosis_.no_experiment =
-          "no run within the range of these data would part them: each set can follow what any "
-          "other would show";
-    } else if (diagnosis_.next_experiment->expected_delta_bic < kDecisiveDeltaBic) {
-      diagnosis_.warnings.push_back(
-          "no run within the range of these data is expected to tell them apart for sure: the one "
-          "proposed comes nearest");
-    }
-  }
-
-  // Whether the learned term is in the equation that all the effects are in: a leak that takes any
-  // course is a leak, and that it fits as well is no doubt of one.
-  static bool HoldsAll(const Discrepancy& discrepancy, const EffectSet& effects) {
-    return discrepancy.learned &&
-           std::all_of(effects.begin(), effects.end(), [&](const model::EffectSpec* spec) {
-             return spec->place == discrepancy.equation;
-           });
-  }
-
-  // Why the set that fits best is not taken for the explanation.
-  static std::string DoubtOf(const Evidence& evidence) {
-    if (!evidence.accepted) return "";
-    if (PredictsWorse(evidence.before, evidence.after))
-      return "predicts runs that no fit saw worse than the model without it";
-    if (evidence.imitated) return "fits no better than one learned term in its place";
-    if (!evidence.after.priors_hold)
-      return "fits only with declared numbers that are beyond their uncertainties";
-    if (UnexplainedFraction(evidence.before, evidence.after) > kEstablished)
-      return "leaves more than a fifth of what the base model leaves";
-    return "does no better beside a learned term than the term alone";
+    Proposal proposal = ProposalFor(bench_, tied_, by_the_clock_);
+    diagnosis_.next_experiment = std::move(proposal.experiment);
+    diagnosis_.no_experiment = std::move(proposal.why_none);
+    if (!proposal.caution.empty()) diagnosis_.warnings.push_back(std::move(proposal.caution));
   }
 
   const Contender& Chosen() const { return search_.contenders[search_.chosen]; }
@@ -371,7 +378,6 @@ class Diagnosing {
   const Contender* base_ = nullptr;
   std::vector<const Contender*> tied_;  // the chosen set first
   double memory_ = 1.0;                 // of the residuals that the choice was made by
-  std::string doubt_;                   // why the chosen set is not named, where it is not
   Fit by_the_clock_;                    // usable if the clock of the only run does as well as they
   Diagnosis diagnosis_;
 };

@@ -100,10 +100,10 @@ Json RenderEffect(const calibration::FittedEffect& fitted) {
   return {{"id", spec.id}, {"parameters", std::move(parameters)}};
 }
 
-// "leak:porous" as id and law.
+// "leak:porous" as id and law; "number:source_pressure" is an id.
 std::pair<std::string, std::string> IdAndLaw(const std::string& name) {
   const std::size_t colon = name.find(':');
-  if (colon == std::string::npos) return {name, ""};
+  if (colon == std::string::npos || name.starts_with("number:")) return {name, ""};
   return {name.substr(0, colon), name.substr(colon + 1)};
 }
 
@@ -202,13 +202,19 @@ std::optional<DeclaredNumber> DeclaredIn(const Run& run, Declared number) {
   return {};
 }
 
+// Of all runs: the first that has it.
+std::optional<DeclaredNumber> DeclaredIn(const Dataset& dataset, Declared number) {
+  std::optional<DeclaredNumber> declared;
+  for (const Run& run : dataset.runs)
+    if (!declared) declared = DeclaredIn(run, number);
+  return declared;
+}
+
 Json RenderFitted(const std::vector<std::pair<Declared, Estimate>>& factors,
                   const Dataset& dataset) {
   Json fitted = Json::object();
   for (const auto& [number, factor] : factors) {
-    std::optional<DeclaredNumber> declared;
-    for (const Run& run : dataset.runs)
-      if (!declared) declared = DeclaredIn(run, number);
+    const std::optional<DeclaredNumber> declared = DeclaredIn(dataset, number);
     if (!declared) continue;
     const double one = declared->value / declared->factor;
     Json rendered = RenderEstimate(factor, 1.0 / one);
@@ -218,6 +224,26 @@ Json RenderFitted(const std::vector<std::pair<Declared, Estimate>>& factors,
     fitted[std::string(calibration::Name(number))] = std::move(rendered);
   }
   return fitted;
+}
+
+Json RenderNumber(const calibration::WrongNumber& wrong, const Dataset& dataset) {
+  const std::optional<DeclaredNumber> declared = DeclaredIn(dataset, wrong.number);
+  const double one = declared ? declared->value / declared->factor : 1.0;
+  Json instead_of = Json::array();
+  for (const std::string& id : wrong.instead_of) instead_of.push_back(id);
+  return {
+      {"name", calibration::Name(wrong.number)},
+      {"declared", Number(one)},
+      {"fitted", Number(wrong.factor * one)},
+      {"unit", declared ? declared->unit : "1"},
+      {"deviation_sigma", wrong.deviation_sigma ? Number(*wrong.deviation_sigma) : Json(nullptr)},
+      {"instead_of", std::move(instead_of)}};
+}
+
+Json RenderStability(const calibration::StabilityChange& change) {
+  return {{"change", change.change},
+          {"delta_bic", change.delta_bic ? Number(*change.delta_bic) : Json(nullptr)},
+          {"holds", change.holds}};
 }
 
 // As a measurement's run, with what to measure and what to expect; the samples are even.
@@ -329,6 +355,9 @@ Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
                    {"after", RenderError(diagnosis.after)},
                    {"learned", diagnosis.learned ? RenderError(*diagnosis.learned) : Json()}});
   document["effects"] = List(diagnosis.effects, RenderEffect);
+  document["numbers"] =
+      List(diagnosis.numbers, [&](const auto& wrong) { return RenderNumber(wrong, dataset); });
+  document["stability"] = List(diagnosis.stability, RenderStability);
   document["candidates"] = List(diagnosis.candidates, RenderCandidate);
   document["tied"] = List(diagnosis.tied, Ids);
   document["tied_laws"] = List(diagnosis.tied, Laws);

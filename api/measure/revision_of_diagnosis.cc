@@ -1,5 +1,7 @@
 #include "api/measure/revision_of_diagnosis.h"
 
+#include <algorithm>
+
 #include "api/simulate/effects.h"
 #include "model/effects/learned/learned.h"
 
@@ -23,11 +25,19 @@ Unit UnitOf(const model::Effect& effect, std::size_t parameter) {
   return {std::string(effect.spec->id)};
 }
 
+bool IsWrong(const calibration::Diagnosis& diagnosis, calibration::Declared number) {
+  return std::any_of(diagnosis.numbers.begin(), diagnosis.numbers.end(),
+                     [&](const auto& wrong) { return wrong.number == number; });
+}
+
 }  // namespace
 
+// A declared number that is wrong is the measured rig's and no property of the part: it stays out.
 SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance& provenance) {
   SavedModel model;
-  std::vector<double> sizes;
+  std::vector<double> sizes;      // of what is kept, 1 in SI in its unit
+  std::vector<std::size_t> kept;  // of the rows of the estimates' covariance
+  std::size_t row = 0;
   const calibration::Estimates& estimates =
       diagnosis.learned ? diagnosis.discrepancy->beside : diagnosis;
   const calibration::ErrorReport& after = diagnosis.learned ? *diagnosis.learned : diagnosis.after;
@@ -38,17 +48,22 @@ SavedModel RevisionOf(const calibration::Diagnosis& diagnosis, const Provenance&
       const Unit unit = UnitOf(fitted.effect, i);
       model.covariance.parameters.push_back(unit.name);
       sizes.push_back(unit.size);
+      kept.push_back(row++);
     }
   }
   for (const auto& [number, estimate] : estimates.fitted) {
+    const std::size_t own = row++;
+    if (IsWrong(diagnosis, number)) continue;
+    kept.push_back(own);
     model.factors.emplace_back(number, estimate.value);
     model.covariance.parameters.emplace_back(calibration::Name(number));
     sizes.push_back(1.0);
   }
-  model.covariance.rows = estimates.covariance;
-  for (std::size_t i = 0; i < sizes.size(); ++i)
-    for (std::size_t j = 0; j < sizes.size(); ++j)
-      model.covariance.rows[i][j] *= sizes[i] * sizes[j];
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    std::vector<double>& of_one = model.covariance.rows.emplace_back();
+    for (std::size_t j = 0; j < kept.size(); ++j)
+      of_one.push_back(sizes[i] * sizes[j] * estimates.covariance[kept[i]][kept[j]]);
+  }
   for (const Provenance::File& file : provenance.files)
     model.data.push_back({file.name, file.sha256});
   model.noise_pa = diagnosis.noise_pa;

@@ -17,10 +17,11 @@ constexpr double kUnknownSpan = 14.0;                      // e-folds either way
 constexpr double kSeriesLow = 1e-3, kSeriesHigh = 1e6;     // of u
 constexpr double kClockIntervals = 2.0;                    // most that a clock may be off
 constexpr double kClockRoom = 1.0;                         // intervals before the first stroke
-constexpr double kStroked = 0.05;        // gauge, of the operating pressure: a stroke came before
-constexpr double kRoomOfStroke = 0.9;    // of the time to the next command
-constexpr double kPressureStepPa = 1e3;  // scale of an initial pressure
-constexpr double kSoundMPerS = 290.0;    // isothermal
+constexpr double kStroked = 0.05;         // gauge, of the operating pressure: a stroke came before
+constexpr double kRoomOfStroke = 0.9;     // of the time to the next command
+constexpr double kPressureStepPa = 1e3;   // scale of an initial pressure
+constexpr double kLeastPressurePa = 1.0;  // absolute: a reading near vacuum may be below 0
+constexpr double kSoundMPerS = 290.0;     // isothermal
 
 enum class Size {
   kOne,
@@ -194,31 +195,7 @@ Coordinate CoordinateOf(const model::EffectSpec& effect, const model::ParameterS
   return coordinate;
 }
 
-bool Has(const Run& run, Declared number) {
-  const auto any = [&](bool tube) {
-    return std::any_of(run.line.begin(), run.line.end(),
-                       [&](const LinePiece& piece) { return piece.tube.has_value() == tube; });
-  };
-  switch (number) {
-    case Declared::kExpansionRatio:
-    case Declared::kOperatingPressure:
-      return !run.blocked && run.chamber.expansion_ratio > 1.0;
-    case Declared::kSourcePressure:
-      return run.supply != Supply::kNone;
-    case Declared::kSonicConductance:
-    case Declared::kCriticalRatio:
-      return any(false);
-    case Declared::kTubeInnerDiameter:
-      return any(true);
-    case Declared::kReservoirVolume:
-      return run.supply == Supply::kCompressor;
-    case Declared::kRestVolume:
-      break;
-  }
-  return true;
-}
-
-Coordinate FactorCoordinate(Declared number, double uncertainty) {
+Coordinate FactorCoordinate(Declared number, double uncertainty, bool freed) {
   Coordinate coordinate;
   coordinate.parameter = {.kind = Parameter::Kind::kDeclared, .declared = number};
   if (uncertainty == kUnknown) {
@@ -226,10 +203,10 @@ Coordinate FactorCoordinate(Declared number, double uncertainty) {
     coordinate.low = -kUnknownSpan, coordinate.high = kUnknownSpan;
   } else {
     coordinate.origin = 1.0;
-    coordinate.scale = uncertainty;
-    coordinate.low = (kLeastFactor - 1.0) / uncertainty;
-    coordinate.high = (kMostFactor - 1.0) / uncertainty;
-    coordinate.prior = true;
+    coordinate.scale = uncertainty > 0.0 ? uncertainty : kExactUncertainty;
+    coordinate.low = (kLeastFactor - 1.0) / coordinate.scale;
+    coordinate.high = (kMostFactor - 1.0) / coordinate.scale;
+    coordinate.prior = !freed;
   }
   return coordinate;
 }
@@ -334,25 +311,27 @@ TypicalSizes SizesOf(const Dataset& dataset, const ModelState& fitted) {
 }
 
 std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
-                                        const std::vector<std::size_t>& runs, bool clocks) {
+                                        const std::vector<std::size_t>& runs, bool clocks,
+                                        const Freed& freed) {
   const Dataset& dataset = forward.dataset();
   std::vector<Coordinate> coordinates;
-  for (int k = 0; k < kDeclaredCount; ++k) {
+  for (std::size_t k = 0; k < kDeclaredCount; ++k) {
     const auto number = static_cast<Declared>(k);
-    const double uncertainty = dataset.relative_uncertainty[static_cast<std::size_t>(k)];
+    const double uncertainty = dataset.relative_uncertainty[k];
     const bool has = std::any_of(runs.begin(), runs.end(),
                                  [&](std::size_t i) { return Has(dataset.runs[i], number); });
-    if (uncertainty > 0.0 && has) coordinates.push_back(FactorCoordinate(number, uncertainty));
+    if ((uncertainty > 0.0 || freed[k]) && has)
+      coordinates.push_back(FactorCoordinate(number, uncertainty, freed[k]));
   }
   const ModelState declared = forward.Declared();
   for (const std::size_t i : runs) {
     if (!InitialIsRead(dataset.runs[i])) continue;
     Coordinate coordinate;
     coordinate.parameter = {.kind = Parameter::Kind::kInitialPressure, .run = i};
-    coordinate.origin = declared.initial_pressure_pa[i];
+    coordinate.origin = std::max(declared.initial_pressure_pa[i], kLeastPressurePa);
     coordinate.scale = kPressureStepPa;
-    coordinate.low = (1.0 - coordinate.origin) / kPressureStepPa;
-    coordinate.high = 9.0 * coordinate.origin / kPressureStepPa;
+    coordinate.low = coordinate.At(kLeastPressurePa);
+    coordinate.high = coordinate.At(10.0 * coordinate.origin);
     coordinates.push_back(coordinate);
   }
   for (const std::size_t i : runs) {

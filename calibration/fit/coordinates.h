@@ -43,11 +43,14 @@ TypicalSizes SizesOf(const Dataset& dataset);
 TypicalSizes SizesOf(const Dataset& dataset, const ModelState& fitted);
 
 // The declared numbers that may move, and the initial pressures that are not known better than by a
-// reading: of the runs given. A declared number that no such run has is left out. With `clocks`,
-// each run's clock too: commands fall between samples, so that the prior is that of a time rounded
-// to the sampling, 1/√12 of the interval. Not of a run that begins with a stroke within a sample.
+// reading: of the runs given. A declared number that no such run has is left out; one that is freed
+// has no prior, and the scale of its uncertainty or, declared exact, kExactUncertainty. With
+// `clocks`, each run's clock too: commands fall between samples, so that the prior is that of a
+// time rounded to the sampling, 1/√12 of the interval. Not of a run that begins with a stroke
+// within a sample.
 std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
-                                        const std::vector<std::size_t>& runs, bool clocks);
+                                        const std::vector<std::size_t>& runs, bool clocks,
+                                        const Freed& freed = {});
 
 // The initial temperatures, of those of the runs given whose gas may have come from a stroke just
 // before: it began off the ambient pressure by a reading, and no temperature is declared. The prior

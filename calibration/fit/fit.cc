@@ -36,7 +36,8 @@ bool HasPrior(const std::vector<Coordinate>& coordinates) {
 
 std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& start,
                                       const FitOptions& options) {
-  std::vector<Coordinate> coordinates = BaseCoordinates(*data.forward, data.runs, data.clocks);
+  std::vector<Coordinate> coordinates =
+      BaseCoordinates(*data.forward, data.runs, data.clocks, start.freed);
   const bool heated =
       std::any_of(start.effects.begin(), start.effects.end(), [](const model::Effect& effect) {
         return effect.spec->place == model::EffectPlace::kEnergy;
@@ -60,6 +61,10 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
   for (std::size_t i = 0; i < start.effects.size(); ++i)
     for (const Coordinate& coordinate : EffectCoordinates(*start.effects[i].spec, i, data.sizes))
       coordinates.push_back(coordinate);
+  if (options.declared_stay)
+    std::erase_if(coordinates, [](const Coordinate& coordinate) {
+      return coordinate.parameter.kind == Parameter::Kind::kDeclared && coordinate.prior;
+    });
   if (options.fixed)
     std::erase_if(coordinates, [&](const Coordinate& coordinate) {
       return coordinate.parameter == *options.fixed;
@@ -265,7 +270,9 @@ Fit AlignedFit(const FitData& data, const ModelState& state, std::size_t run, Fi
   alone.runs = {run};
   options.nuisance_only = true;
   options.own_pairs = HasOwnPairs(data, run);
-  return FitModel(alone, state, options);
+  ModelState own = state;
+  own.freed = {};
+  return FitModel(alone, own, options);
 }
 
 ModelState Aligned(const FitData& data, const ModelState& state, std::size_t run,

@@ -27,6 +27,7 @@ struct FitOptions {
   int iterations_max = 40;
   std::size_t steps_max = 3'000;        // of one run's integration; beyond, a step is not taken
   bool nuisance_only = false;           // only what each run has of its own moves
+  bool declared_stay = false;           // declared numbers with a prior stay where they start
   bool own_pairs = false;               // with nuisance_only: and the declared pairs (C, b)
   std::optional<Parameter> fixed = {};  // stays where it starts
   double weight = 1.0;  // of Σ e² beside the priors, in the search for the optimum

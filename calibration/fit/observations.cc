@@ -54,6 +54,14 @@ bool Beside(const std::vector<double>& turns_s, const std::vector<double>& t_s, 
   return turn != turns_s.end() && *turn <= after_s;
 }
 
+// The whitening of the usable samples.
+void TakeSteps(const Run& run, ObservedSignal& signal) {
+  std::vector<double> t_s;
+  t_s.reserve(signal.samples.size());
+  for (const std::size_t i : signal.samples) t_s.push_back(run.t_s[i]);
+  signal.steps = StepsOf(t_s, signal.memory);
+}
+
 ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
                         const Noise& noise) {
   ObservedSignal signal;
@@ -68,9 +76,8 @@ ObservedSignal SignalOf(const Run& run, std::vector<double> Channels::*channel,
     if (std::isfinite(measured[i]) && !dropped && !either_side) signal.samples.push_back(i);
   }
   if (noise.staircase && !channel) signal.grid = Grid(noise.quantum_pa, noise.quantum_pa);
-  std::vector<double> t_s;
-  for (const std::size_t i : signal.samples) t_s.push_back(run.t_s[i]);
-  signal.steps = StepsOf(t_s, noise.memory);
+  signal.memory = noise.memory;
+  TakeSteps(run, signal);
   return signal;
 }
 
@@ -165,6 +172,20 @@ std::vector<ObservedRun> Observe(const Dataset& dataset) {
   return observed;
 }
 
+std::vector<ObservedRun> EverySecond(const Dataset& dataset,
+                                     const std::vector<ObservedRun>& observed, std::size_t from) {
+  std::vector<ObservedRun> halved = observed;
+  for (std::size_t run = 0; run < halved.size(); ++run)
+    for (ObservedSignal& signal : halved[run].signals) {
+      std::vector<std::size_t> kept;
+      for (std::size_t k = from; k < signal.samples.size(); k += 2)
+        kept.push_back(signal.samples[k]);
+      signal.samples = std::move(kept);
+      TakeSteps(dataset.runs[run], signal);
+    }
+  return halved;
+}
+
 void Residuals(const Run& run, const ObservedRun& observed, const Reading& predicted,
                std::span<double> rows) {
   double* row = rows.data();
@@ -245,9 +266,7 @@ bool LeaveOutWild(const Dataset& dataset, const std::vector<std::size_t>& runs,
     std::sort(noise.outliers.begin(), noise.outliers.end());
     std::erase_if(pressure.samples,
                   [&](std::size_t i) { return std::binary_search(wild.begin(), wild.end(), i); });
-    std::vector<double> t_s;
-    for (const std::size_t i : pressure.samples) t_s.push_back(run.t_s[i]);
-    pressure.steps = StepsOf(t_s, noise.memory);
+    TakeSteps(run, pressure);
   }
   return any;
 }

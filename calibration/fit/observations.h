@@ -27,7 +27,8 @@ inline constexpr double kChannelAccuracy = 0.01;
 struct ObservedSignal {
   std::vector<double> Channels::*channel = nullptr;  // null: the pressure
   std::vector<std::size_t> samples;                  // usable, by index into the run
-  std::vector<Innovation> steps;                     // by usable sample
+  NoiseMemory memory;
+  std::vector<Innovation> steps;  // by usable sample, of that memory
   double sigma = 1.0;
   Grid grid;  // of readings coarser than twice their noise, with the noise behind it
 };
@@ -44,6 +45,10 @@ std::vector<Innovation> StepsOf(std::span<const double> t_s, NoiseMemory memory)
 // Of every run; the pressure's σ is shared by the runs (one sensor) unless they differ by more than
 // their errors allow.
 std::vector<ObservedRun> Observe(const Dataset& dataset);
+
+// Every second usable sample of each signal, from the first or the second on.
+std::vector<ObservedRun> EverySecond(const Dataset& dataset,
+                                     const std::vector<ObservedRun>& observed, std::size_t from);
 
 // Whitened residuals; a channel that the model does not give (an empty one) counts zero. `rows`
 // holds run.rows() numbers.

@@ -55,11 +55,8 @@ double BicWith(const Fit& fit, double memory) {
   return worth * std::log(fit.chi2_data / n) + fit.chi2_prior + Penalty(fit, memory);
 }
 
-namespace {
-
-// The fit from there with the weight of readings that are worth 1/memory of their number.
-Fit Weighed(const FitData& data, FitOptions options, double memory, const Fit& from,
-            const ModelState& start) {
+Fit FitWeighed(const FitData& data, FitOptions options, double memory, const Fit& from,
+               const ModelState& start) {
   const double n = static_cast<double>(from.rows);
   options.weight = 1.0 / (memory * std::max(1.0, from.chi2_data / n));
   options.noise_share /= std::sqrt(options.weight);  // readings of less worth need less
@@ -69,6 +66,8 @@ Fit Weighed(const FitData& data, FitOptions options, double memory, const Fit& f
   return fit;
 }
 
+namespace {
+
 // A subset of the standing set that was fitted from elsewhere may have missed the optimum that is
 // there without one of the effects: it is fitted from where the set is.
 void FitSubsets(const FitData& data, const FitOptions& options, double memory, std::size_t standing,
@@ -76,7 +75,7 @@ void FitSubsets(const FitData& data, const FitOptions& options, double memory, s
   const Contender set = contenders[standing];
   for (const model::EffectSpec* out : set.effects) {
     const EffectSet rest = Without(set.effects, out);
-    Fit fit = Weighed(data, options, memory, set.fit, StateOf(set, rest));
+    Fit fit = FitWeighed(data, options, memory, set.fit, StateOf(set, rest));
     if (!fit.Usable()) continue;
     const auto known = std::find_if(contenders.begin(), contenders.end(),
                                     [&](const Contender& one) { return one.effects == rest; });
@@ -107,7 +106,7 @@ void Reweigh(const FitData& data, const FitOptions& options, double memory,
       Contender& contender = *best[i];
       FitOptions each = options;
       each.threads = ThreadsWithin(i, best.size(), options.threads);
-      Fit fit = Weighed(data, each, memory, contender.fit, contender.fit.state);
+      Fit fit = FitWeighed(data, each, memory, contender.fit, contender.fit.state);
       if (fit.Usable() && BicWith(fit, memory) < BicWith(contender.fit, memory))
         contender.fit = std::move(fit);
     });
@@ -117,7 +116,7 @@ void Reweigh(const FitData& data, const FitOptions& options, double memory,
 bool FitsNoBetter(const Contender& set, std::span<const Contender> contenders) {
   return std::any_of(contenders.begin(), contenders.end(), [&](const Contender& part) {
     return part.effects.size() < set.effects.size() && part.fit.Usable() && Contains(set, part) &&
-           part.fit.chi2_data <= set.fit.chi2_data;
+           part.fit.state.freed == set.fit.state.freed && part.fit.chi2_data <= set.fit.chi2_data;
   });
 }
 

@@ -26,13 +26,19 @@ double MemoryOf(std::span<const std::vector<double>> series);
 // BIC of a fit whose residuals are worth 1/memory of their number.
 double BicWith(const Fit& fit, double memory);
 
+// A fit from `start` to readings that are worth 1/memory of their number; `from` is of the same
+// readings, or of as many.
+Fit FitWeighed(const FitData& data, FitOptions options, double memory, const Fit& from,
+               const ModelState& start);
+
 // Fits the base model and the best few of each size again with that weight, where less weight may
 // make one the best.
 void Reweigh(const FitData& data, const FitOptions& options, double memory,
              std::vector<Contender>& contenders);
 
-// Whether a set of some of its effects leaves no more of the readings: what the set has ahead then
-// is only that declared numbers are nearer to what was declared.
+// Whether a set of some of its effects, with the same numbers freed, leaves no more of the
+// readings: what the set has ahead then is only that declared numbers are nearer to what was
+// declared. To be so is what a number is freed for.
 bool FitsNoBetter(const Contender& set, std::span<const Contender> contenders);
 
 // The place in the list of the set that stands then: forwards from the base model, a larger set

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <string_view>
 
 #include "calibration/fit/profile.h"
 #include "calibration/judge/evidence.h"
@@ -17,12 +18,17 @@ namespace plenum::calibration {
 namespace {
 
 constexpr std::size_t kCandidatesShown = 30, kStoppedShown = 2;
+constexpr std::string_view kNumber = "number:";
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFinalists = 5;  // whose held-out error is found by leaving out each run
 
+// "creep + another rest_volume".
 std::string Joined(const std::vector<std::string>& ids) {
   std::string text;
-  for (const std::string& id : ids) text += (text.empty() ? "" : " + ") + id;
+  for (const std::string& id : ids) {
+    text += text.empty() ? "" : " + ";
+    text += id.starts_with(kNumber) ? "another " + id.substr(kNumber.size()) : id;
+  }
   return text;
 }
 
@@ -50,9 +56,16 @@ std::vector<std::size_t> ByBic(const std::vector<Contender>& contenders, double 
   return order;
 }
 
+std::ptrdiff_t NumbersIn(const Candidate& candidate) {
+  return std::count_if(candidate.effects.begin(), candidate.effects.end(),
+                       [](const std::string& title) { return title.starts_with(kNumber); });
+}
+
+// As FitsNoBetter (evidence.h).
 bool FitsNoBetterThanAPart(const Candidate& set, const std::vector<Candidate>& candidates) {
   return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& part) {
     return part.effects.size() < set.effects.size() && part.rms_pa <= set.rms_pa &&
+           NumbersIn(part) == NumbersIn(set) &&
            std::all_of(part.effects.begin(), part.effects.end(), [&](const std::string& title) {
              return std::count(set.effects.begin(), set.effects.end(), title) > 0;
            });
@@ -259,28 +272,59 @@ static bool PassesTests(const ResidualReport& residual) {
          residual.lack_of_fit <= residual.lack_of_fit_limit;
 }
 
+// "source_pressure is 13 % less than declared".
+static std::string InWords(const WrongNumber& wrong) {
+  char text[64];
+  if (wrong.factor > 2.0 || wrong.factor < 0.5)
+    std::snprintf(text, sizeof text, " is %.2g times what was declared", wrong.factor);
+  else
+    std::snprintf(text, sizeof text, " is %.2g %% %s than declared",
+                  100.0 * std::abs(wrong.factor - 1.0), wrong.factor > 1.0 ? "more" : "less");
+  return std::string(Name(wrong.number)) + text;
+}
+
+// What the diagnosis names: "The model lacks creep, and rest_volume is 9 % more than declared".
+static std::string Named(const Contender& chosen, const Diagnosis& diagnosis) {
+  std::vector<std::string> numbers, ids;
+  for (const WrongNumber& wrong : diagnosis.numbers) numbers.push_back(InWords(wrong));
+  for (const model::EffectSpec* spec : EffectsAlone(chosen.effects)) ids.emplace_back(spec->id);
+  std::string text = ids.empty() ? "" : "The model lacks " + Joined(ids);
+  if (numbers.empty()) return text;
+  text += ids.empty() ? "A declared number is wrong: " : ", and a declared number is wrong: ";
+  for (std::size_t k = 0; k < numbers.size(); ++k) text += (k > 0 ? " and " : "") + numbers[k];
+  return text;
+}
+
+static std::string UnexplainedSentence(const Contender& chosen, const std::string& either,
+                                       const Diagnosis& diagnosis) {
+  if (!diagnosis.tied.empty())
+    return "The data cannot tell which is missing: " + either +
+           "; and structure is left that no known effect accounts for.";
+  if (!diagnosis.effects.empty() || !diagnosis.numbers.empty())
+    return Named(chosen, diagnosis) + ", but structure is left that no known effect accounts for.";
+  const bool withdrawn = std::any_of(diagnosis.stability.begin(), diagnosis.stability.end(),
+                                     [](const StabilityChange& change) { return !change.holds; });
+  return withdrawn ? "No explanation holds when the readings are changed a little."
+                   : "Structure is left that no known effect accounts for.";
+}
+
 std::string Sentence(const Bench& bench, const SearchResult& search, const Diagnosis& diagnosis) {
   std::string either;
   for (const auto& ids : diagnosis.tied) either += (either.empty() ? "" : " or ") + Joined(ids);
+  const Contender& chosen = search.contenders[search.chosen];
   switch (diagnosis.verdict) {
     case Verdict::kAdequate:
       return "The model is good enough: after its uncertain numbers were fitted, only noise is "
              "left.";
     case Verdict::kExplained:
-      return "The model lacks " + Joined(IdsOf(search.contenders[search.chosen])) +
-             (PassesTests(diagnosis.residual) ? "; with it, only noise is left."
-                                              : "; with it, little is left beside the noise.");
+      return Named(chosen, diagnosis) + (PassesTests(diagnosis.residual)
+                                             ? "; with it, only noise is left."
+                                             : "; with it, little is left beside the noise.");
     case Verdict::kTie:
       return "The data cannot tell which is missing: " + either +
              (diagnosis.unexplained_fraction > 0.0 ? "; and some structure is left." : ".");
     case Verdict::kUnexplained:
-      if (!diagnosis.tied.empty())
-        return "The data cannot tell which is missing: " + either +
-               "; and structure is left that no known effect accounts for.";
-      return diagnosis.effects.empty()
-                 ? "Structure is left that no known effect accounts for."
-                 : "The model lacks " + Joined(IdsOf(search.contenders[search.chosen])) +
-                       ", but structure is left that no known effect accounts for.";
+      return UnexplainedSentence(chosen, either, diagnosis);
     case Verdict::kUndecided:
       break;
   }

@@ -21,6 +21,25 @@ bool Improves(std::span<const Contender> contenders, const Contender& set, doubl
   });
 }
 
+std::optional<Experiment> ExperimentFor(const Bench& bench,
+                                        const std::vector<const Contender*>& tied,
+                                        const Fit& by_the_clock) {
+  FitData data = bench.data;
+  std::vector<Fit> with_clocks;
+  if (by_the_clock.Usable()) {
+    data.clocks = true;
+    for (const Contender* contender : tied)
+      with_clocks.push_back(FitModel(data, contender->fit.state, bench.tight));
+  }
+  std::vector<TiedFit> fits;
+  for (std::size_t i = 0; i < tied.size(); ++i)
+    fits.push_back({IdsOf(*tied[i]), with_clocks.empty() ? &tied[i]->fit : &with_clocks[i]});
+  if (by_the_clock.Usable()) fits.push_back({{}, &by_the_clock});
+  const bool usable =
+      std::all_of(fits.begin(), fits.end(), [](const TiedFit& one) { return one.fit->Usable(); });
+  return usable ? DesignExperiment(data, fits, bench.tight) : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<const Contender*> TiedWith(const Bench& bench, std::span<const Contender> contenders,
@@ -56,23 +75,23 @@ std::vector<const Contender*> TiedWith(const Bench& bench, std::span<const Conte
   return tied;
 }
 
-std::optional<Experiment> ExperimentFor(const Bench& bench,
-                                        const std::vector<const Contender*>& tied,
-                                        const Fit& by_the_clock) {
-  FitData data = bench.data;
-  std::vector<Fit> with_clocks;
-  if (by_the_clock.Usable()) {
-    data.clocks = true;
-    for (const Contender* contender : tied)
-      with_clocks.push_back(FitModel(data, contender->fit.state, bench.tight));
+Proposal ProposalFor(const Bench& bench, const std::vector<const Contender*>& tied,
+                     const Fit& by_the_clock) {
+  Proposal proposal{ExperimentFor(bench, tied, by_the_clock), {}, {}};
+  if (!proposal.experiment) {
+    proposal.why_none = Stopped(bench) ? "there was no time left to look for a run"
+                                       : "no run that could tell them apart can be simulated";
+  } else if (proposal.experiment->expected_delta_bic < kTie) {
+    proposal.experiment.reset();
+    proposal.why_none =
+        "no run within the range of these data would part them: each set can follow what any "
+        "other would show";
+  } else if (proposal.experiment->expected_delta_bic < kDecisiveDeltaBic) {
+    proposal.caution =
+        "no run within the range of these data is expected to tell them apart for sure: the one "
+        "proposed comes nearest";
   }
-  std::vector<TiedFit> fits;
-  for (std::size_t i = 0; i < tied.size(); ++i)
-    fits.push_back({IdsOf(*tied[i]), with_clocks.empty() ? &tied[i]->fit : &with_clocks[i]});
-  if (by_the_clock.Usable()) fits.push_back({{}, &by_the_clock});
-  const bool usable =
-      std::all_of(fits.begin(), fits.end(), [](const TiedFit& one) { return one.fit->Usable(); });
-  return usable ? DesignExperiment(data, fits, bench.tight) : std::nullopt;
+  return proposal;
 }
 
 }  // namespace plenum::calibration

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "calibration/experiment/experiment.h"
@@ -20,11 +21,16 @@ namespace plenum::calibration {
 std::vector<const Contender*> TiedWith(const Bench& bench, std::span<const Contender> contenders,
                                        const Contender& chosen, double memory, double reach);
 
+// The run that would tell them apart; else why there is none, or why it may not.
+struct Proposal {
+  std::optional<Experiment> experiment;
+  std::string why_none, caution;
+};
+
 // With a usable `by_the_clock`, no effects but the clock of the only run off, the run must part
 // them from that too, and all may move the clocks.
-std::optional<Experiment> ExperimentFor(const Bench& bench,
-                                        const std::vector<const Contender*>& tied,
-                                        const Fit& by_the_clock);
+Proposal ProposalFor(const Bench& bench, const std::vector<const Contender*>& tied,
+                     const Fit& by_the_clock);
 
 }  // namespace plenum::calibration
 

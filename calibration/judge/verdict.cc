@@ -54,6 +54,18 @@ Verdict Judge(const Evidence& evidence) {
   return evidence.tied > 0 ? Verdict::kTie : Verdict::kExplained;
 }
 
+std::string DoubtOf(const Evidence& evidence) {
+  if (!evidence.accepted) return "";
+  if (PredictsWorse(evidence.before, evidence.after))
+    return "predicts runs that no fit saw worse than the model without it";
+  if (evidence.imitated) return "fits no better than one learned term in its place";
+  if (!evidence.after.priors_hold)
+    return "fits only with declared numbers that are beyond their uncertainties";
+  if (UnexplainedFraction(evidence.before, evidence.after) > kEstablished)
+    return "leaves more than a fifth of what the base model leaves";
+  return "does no better beside a learned term than the term alone";
+}
+
 bool IsTieBesideStructure(const Evidence& evidence) {
   return evidence.accepted && evidence.tied > 0 && HoldsOut(evidence.after) &&
          evidence.after.priors_hold && !evidence.imitated &&

@@ -3,6 +3,7 @@
 #define PLENUM_CALIBRATION_JUDGE_VERDICT_H_
 
 #include <optional>
+#include <string>
 
 #include "calibration/values/diagnosis.h"
 
@@ -47,6 +48,9 @@ struct Evidence {
 // what it takes several effects for, or it predicts worse than the base model. Then kTie if others
 // are as good; else kExplained.
 Verdict Judge(const Evidence& evidence);
+
+// Why the set that fits best is not taken for the explanation; empty of the base model.
+std::string DoubtOf(const Evidence& evidence);
 
 // A tie claims less than an explanation: it stands where each of several sets leaves at most
 // kEstablished of what the base model left, though that is structure, and holds out.

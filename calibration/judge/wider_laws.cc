@@ -15,7 +15,8 @@ bool HasNumber(const model::EffectSpec& spec, std::string_view name) {
 }
 
 bool Widens(const model::EffectSpec& wide, const model::EffectSpec& narrow) {
-  return wide.place == narrow.place && wide.parameters.size() > narrow.parameters.size() &&
+  return !FreedBy(narrow) && wide.place == narrow.place &&
+         wide.parameters.size() > narrow.parameters.size() &&
          std::all_of(narrow.parameters.begin(), narrow.parameters.end(),
                      [&](const model::ParameterSpec& p) { return HasNumber(wide, p.name); });
 }

@@ -22,10 +22,12 @@
 #ifndef PLENUM_CALIBRATION_LEARN_DISCREPANCY_H_
 #define PLENUM_CALIBRATION_LEARN_DISCREPANCY_H_
 
+#include <algorithm>
 #include <vector>
 
 #include "calibration/fit/fit.h"
 #include "calibration/values/diagnosis.h"
+#include "calibration/values/effect_sets.h"
 
 namespace plenum::calibration {
 
@@ -38,6 +40,15 @@ struct LearnedModel {
 // alone: where there are none, the errors of the runs left out in turn take their place.
 LearnedModel LearnDiscrepancy(const FitData& data, const Fit& established,
                               const std::vector<std::size_t>& holdout, const FitOptions& options);
+
+// Whether the learned term is in the equation that all the effects are in: a leak that takes any
+// course is a leak, and that it fits as well is no doubt of one.
+inline bool HoldsAll(const Discrepancy& discrepancy, const EffectSet& effects) {
+  return discrepancy.learned &&
+         std::all_of(effects.begin(), effects.end(), [&](const model::EffectSpec* spec) {
+           return spec->place == discrepancy.equation;
+         });
+}
 
 // Whether one learned term beside the base model fits the runs as well as the set of effects does:
 // within kAccept of its BIC (thresholds.h). Several effects that do no better than one term of

@@ -53,15 +53,23 @@ bool SameEffects(const Contender& a, const Contender& b) {
   return a.effects.size() == b.effects.size() && Contains(a, b);
 }
 
+bool IsNested(const Contender& a, const Contender& b) { return Contains(a, b) || Contains(b, a); }
+
 bool MayComeTo(double goal, const Fit& cut_short, double bic_before) {
   return cut_short.bic < goal + kNear + kHopeful * std::max(0.0, bic_before - goal);
 }
 
 ModelState StateOf(const Contender& contender, const EffectSet& rest) {
   ModelState state = contender.fit.state;
-  std::erase_if(state.effects, [&](const model::Effect& effect) {
-    return std::find(rest.begin(), rest.end(), effect.spec) == rest.end();
-  });
+  const auto holds = [&](const model::EffectSpec* spec) {
+    return std::find(rest.begin(), rest.end(), spec) != rest.end();
+  };
+  std::erase_if(state.effects, [&](const model::Effect& effect) { return !holds(effect.spec); });
+  for (std::size_t k = 0; k < kDeclaredCount; ++k) {
+    if (!state.freed[k] || holds(&Freeing(static_cast<Declared>(k)))) continue;
+    state.freed[k] = false;
+    state.factor[k] = 1.0;
+  }
   return state;
 }
 
@@ -160,6 +168,11 @@ void Contenders::AddJobs(const Contender& from, const model::EffectSpec* added,
     return;
   }
   const ModelState beside = Unstretched(data, from.fit);
+  if (const std::optional<Declared> number = FreedBy(*added)) {
+    jobs.push_back({set, beside, from.fit.bic});
+    jobs.back().start.freed[static_cast<std::size_t>(*number)] = true;
+    return;
+  }
   for (const model::Effect& start : StartsBeside(from, added)) {
     Job job{set, beside, from.fit.bic};
     job.start.effects.push_back(start);
@@ -198,6 +211,7 @@ void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_sh
   for (Job& job : jobs) all.push_back(&job);
   const double middle = 0.5 * (from_share + to_share);
   const std::size_t size = jobs.front().set.size();
+  StartFreed(all, from_share, what);
   Continue(
       all, [&](const Job& job) { return FirstLook(job.set); }, from_share, middle, what);
   FitOptions rest = Screening();
@@ -209,6 +223,20 @@ void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_sh
       all, [&](const Job&) { return Screening(); }, to_share, to_share, what);
   for (Job& job : jobs) Take(std::move(job));
   Refine(static_cast<int>(size), goal);
+}
+
+// Numbers of which the readings fix a product alone share what is to be explained along a bent
+// valley, in which fits crawl: a freed number takes it up first, while those with a prior stay.
+void Contenders::StartFreed(std::vector<Job*> jobs, double share, const std::string& what) {
+  std::erase_if(jobs, [](const Job* job) { return EffectsAlone(job->set) == job->set; });
+  Continue(
+      jobs,
+      [&](const Job& job) {
+        FitOptions options = FirstLook(job.set);
+        options.declared_stay = true;
+        return options;
+      },
+      share, share, what);
 }
 
 void Contenders::Continue(const std::vector<Job*>& jobs,

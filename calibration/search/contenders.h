@@ -29,11 +29,14 @@ bool SameEffects(const Contender& a, const Contender& b);
 // Every id of `inner` is in `outer`.
 bool Contains(const Contender& outer, const Contender& inner);
 
+// Whether one holds the other.
+bool IsNested(const Contender& a, const Contender& b);
+
 // Whether a fit cut short may still come to a BIC: where it has come by a good share of the way
 // there from the BIC of the set without its last effect.
 bool MayComeTo(double goal, const Fit& cut_short, double bic_before);
 
-// The fitted state with only the effects of `rest`.
+// The fitted state with only the effects and freed numbers of `rest`.
 ModelState StateOf(const Contender& contender, const EffectSet& rest);
 
 struct SearchOptions {
@@ -106,6 +109,7 @@ class Contenders {
   void Continue(const std::vector<Job*>& jobs,
                 const std::function<FitOptions(const Job&)>& options_of, double from_share,
                 double to_share, const std::string& what);
+  void StartFreed(std::vector<Job*> jobs, double share, const std::string& what);
   std::vector<Job*> Hopeful(std::vector<Job*> jobs, std::optional<double> goal) const;
   void Refine(int size, std::optional<double> goal);
   void FitModels(const FitOptions& options, std::vector<Fit>& fits) const;

@@ -241,7 +241,7 @@ class Search {
     return chosen;
   }
 
-  EffectSet Named() const { return NamedEffects(sets_.data.forward->dataset().runs); }
+  EffectSet Named() const { return Nameable(sets_.data.forward->dataset()); }
 
   void FitSingles() {
     std::vector<Job> jobs;
@@ -324,12 +324,6 @@ class Search {
     sets_.RunJobs(jobs, share, share, "clocks", goal);
   }
 
-  static std::size_t NumbersOf(const EffectSet& set) {
-    std::size_t numbers = 0;
-    for (const Spec spec : set) numbers += spec->parameters.size();
-    return numbers;
-  }
-
   // The other laws of each member of the best set of a size: which law stands shows only once the
   // other effects are there.
   void TryLaws(int size) {
@@ -374,9 +368,9 @@ class Search {
   void CarryNumbers(const EffectSet& set) {
     std::vector<Job> jobs;
     const Contender from = *sets_.Find(set);
-    for (std::size_t k = 0; k < set.size(); ++k) {
+    for (std::size_t k = 0; k < from.fit.state.effects.size(); ++k) {
       const EffectSet rest = Without(set, set[k]);
-      for (const Spec spec : Named()) {
+      for (const Spec spec : EffectsAlone(Named())) {
         const bool fewer = spec->parameters.size() < set[k]->parameters.size();
         if (!fewer || HoldsId(rest, spec->id)) continue;
         const std::optional<model::Effect> carried =

@@ -69,6 +69,9 @@ struct Run {
   Channels channels;
 };
 
+// Whether the run's readings depend on that number.
+bool Has(const Run& run, Declared number);
+
 struct Dataset {
   std::string name;
   std::vector<Run> runs;

@@ -47,8 +47,25 @@ struct Estimates {
   std::vector<std::vector<double>> covariance;
 };
 
+// A declared number that is found wrong: `factor` times the declared one.
+struct WrongNumber {
+  Declared number = Declared::kRestVolume;
+  double factor = 1.0;
+  std::optional<double> deviation_sigma;  // of the declared uncertainty, kExactUncertainty of none
+  std::vector<std::string> instead_of;    // effects that would be named were all numbers right
+};
+
+// What the candidates fitted again to changed readings say of the names (names/stability.h).
+struct StabilityChange {
+  std::string change;
+  std::optional<double> delta_bic;  // by which the best other set is behind; none without another
+  bool holds = true;
+};
+
 struct Candidate {
-  std::vector<std::string> effects;  // ids; "leak:porous" where an id has several laws
+  // Ids; "leak:porous" where an id has several laws, "number:source_pressure" for a declared
+  // number.
+  std::vector<std::string> effects;
   double bic = 0.0, delta_bic = 0.0;
   double rms_pa = 0.0;
   std::optional<double> holdout_rms_pa;
@@ -124,8 +141,14 @@ struct StatedModels {
   std::vector<StatedRun> runs;  // how their errors were got, by run
 };
 
+// What is named beside the effects, and whether all names hold.
+struct Names {
+  std::vector<WrongNumber> numbers;
+  std::vector<StabilityChange> stability;  // of what is, or would have been, named
+};
+
 // `effects`, `fitted` and `covariance` are those of `after`.
-struct Diagnosis : Estimates {
+struct Diagnosis : Estimates, Names {
   Verdict verdict = Verdict::kUndecided;
   std::string sentence;  // the verdict for a person
   double noise_pa = 0.0;

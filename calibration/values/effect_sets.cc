@@ -1,15 +1,61 @@
 #include "calibration/values/effect_sets.h"
 
 #include <algorithm>
+#include <array>
+#include <string>
 
 #include "model/effects/registry.h"
 
 namespace plenum::calibration {
 namespace {
 
+using NumberSpecs = std::array<model::EffectSpec, kDeclaredCount>;
+
+model::EffectPlace PlaceOf(Declared number) {
+  switch (number) {
+    case Declared::kSourcePressure:
+    case Declared::kReservoirVolume:
+      return model::EffectPlace::kSupply;
+    case Declared::kSonicConductance:
+    case Declared::kCriticalRatio:
+    case Declared::kTubeInnerDiameter:
+      return model::EffectPlace::kLine;
+    case Declared::kRestVolume:
+    case Declared::kExpansionRatio:
+    case Declared::kOperatingPressure:
+      break;
+  }
+  return model::EffectPlace::kVolume;
+}
+
+const NumberSpecs& Numbers() {
+  static const std::array<std::string, kDeclaredCount> kIds = [] {
+    std::array<std::string, kDeclaredCount> ids;
+    for (std::size_t k = 0; k < ids.size(); ++k)
+      ids[k] = "number:" + std::string(Name(static_cast<Declared>(k)));
+    return ids;
+  }();
+  static const NumberSpecs kSpecs = [] {
+    NumberSpecs specs;
+    for (std::size_t k = 0; k < specs.size(); ++k)
+      specs[k] = {kIds[k], {}, PlaceOf(static_cast<Declared>(k)), {}};
+    return specs;
+  }();
+  return kSpecs;
+}
+
 std::size_t Place(const model::EffectSpec* spec) {
   const auto all = model::Effects();
+  if (const std::optional<Declared> number = FreedBy(*spec))
+    return all.size() + static_cast<std::size_t>(*number);
   return static_cast<std::size_t>(std::find(all.begin(), all.end(), spec) - all.begin());
+}
+
+// Whether a factor on the critical ratios is one on anything: not where all are 0.
+bool HasRatio(const Run& run) {
+  return std::any_of(run.line.begin(), run.line.end(), [](const LinePiece& piece) {
+    return !piece.tube && (piece.fill.critical_ratio > 0.0 || piece.exhaust.critical_ratio > 0.0);
+  });
 }
 
 bool Exercised(const model::EffectSpec& spec, const std::vector<Run>& runs) {
@@ -24,6 +70,22 @@ bool Exercised(const model::EffectSpec& spec, const std::vector<Run>& runs) {
 }
 
 }  // namespace
+
+const model::EffectSpec& Freeing(Declared number) {
+  return Numbers()[static_cast<std::size_t>(number)];
+}
+
+std::optional<Declared> FreedBy(const model::EffectSpec& spec) {
+  const NumberSpecs& numbers = Numbers();
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    if (&spec == &numbers[k]) return static_cast<Declared>(k);
+  return {};
+}
+
+EffectSet EffectsAlone(EffectSet set) {
+  std::erase_if(set, [](const model::EffectSpec* spec) { return FreedBy(*spec).has_value(); });
+  return set;
+}
 
 bool Precedes(const model::EffectSpec* a, const model::EffectSpec* b) {
   return Place(a) < Place(b);
@@ -51,6 +113,35 @@ EffectSet NamedEffects(const std::vector<Run>& runs) {
   for (const model::EffectSpec* spec : model::Effects())
     if (!IsLearned(*spec) && Exercised(*spec, runs)) named.push_back(spec);
   return named;
+}
+
+EffectSet NumbersThatMayBeWrong(const Dataset& dataset) {
+  EffectSet numbers;
+  for (std::size_t k = 0; k < kDeclaredCount; ++k) {
+    const auto number = static_cast<Declared>(k);
+    const model::EffectSpec& spec = Freeing(number);
+    const bool known = dataset.relative_uncertainty[k] != kUnknown;
+    const bool has = std::any_of(dataset.runs.begin(), dataset.runs.end(), [&](const Run& run) {
+      return Has(run, number) && (number != Declared::kCriticalRatio || HasRatio(run));
+    });
+    if (known && has && number != Declared::kOperatingPressure && Exercised(spec, dataset.runs))
+      numbers.push_back(&spec);
+  }
+  return numbers;
+}
+
+EffectSet Nameable(const Dataset& dataset) {
+  EffectSet named = NamedEffects(dataset.runs);
+  const EffectSet numbers = NumbersThatMayBeWrong(dataset);
+  named.insert(named.end(), numbers.begin(), numbers.end());
+  return named;
+}
+
+std::size_t NumbersOf(const EffectSet& set) {
+  std::size_t numbers = 0;
+  for (const model::EffectSpec* spec : set)
+    numbers += FreedBy(*spec) ? 1u : spec->parameters.size();
+  return numbers;
 }
 
 bool ActsInTime(const model::EffectSpec& spec) {

@@ -1,7 +1,9 @@
-// Sets of effects that a search tries.
+// Sets of effects that a search tries. A declared number that may be wrong stands in them as an
+// effect without parameters: a set that holds it frees the number (model_state.h).
 #ifndef PLENUM_CALIBRATION_VALUES_EFFECT_SETS_H_
 #define PLENUM_CALIBRATION_VALUES_EFFECT_SETS_H_
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -12,7 +14,12 @@ namespace plenum::calibration {
 
 using EffectSet = std::vector<const model::EffectSpec*>;  // in the order of the registry
 
-// Whether the registry has `a` before `b`.
+// "number:source_pressure".
+const model::EffectSpec& Freeing(Declared number);
+std::optional<Declared> FreedBy(const model::EffectSpec& spec);
+EffectSet EffectsAlone(EffectSet set);
+
+// Whether the registry has `a` before `b`; numbers come after all effects.
 bool Precedes(const model::EffectSpec* a, const model::EffectSpec* b);
 
 EffectSet With(EffectSet set, const model::EffectSpec* in);
@@ -26,6 +33,17 @@ bool IsLearned(const model::EffectSpec& spec);
 // The effects that have a name, of which the runs can tell: a valve that never opens tells nothing
 // of itself, of its line and of what feeds it.
 EffectSet NamedEffects(const std::vector<Run>& runs);
+
+// The declared numbers that may be wrong and of which the runs can tell, the unknown ones apart,
+// which are fitted freely as it is. Nor is the operating pressure one: it is no property of the rig
+// but the point at which the expansion ratio holds, and both have one effect on the volume.
+EffectSet NumbersThatMayBeWrong(const Dataset& dataset);
+
+// What a set may hold: those effects, then those numbers.
+EffectSet Nameable(const Dataset& dataset);
+
+// How many numbers the set adds to a model.
+std::size_t NumbersOf(const EffectSet& set);
 
 // Effects that shift strokes in time, as a clock does.
 bool ActsInTime(const model::EffectSpec& spec);

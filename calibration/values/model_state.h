@@ -14,11 +14,16 @@
 namespace plenum::calibration {
 
 using Factors = std::array<double, kDeclaredCount>;  // by Declared
+using Freed = std::array<bool, kDeclaredCount>;      // by Declared
+
+// The relative uncertainty by which a number that is declared exact counts its deviation.
+inline constexpr double kExactUncertainty = 0.01;
 
 struct ModelState {
   ModelState() { factor.fill(1.0); }
 
   Factors factor;
+  Freed freed{};  // which of them a fit moves as far as the readings ask, without a prior
   std::vector<model::Effect> effects;
   std::vector<double> initial_pressure_pa;    // absolute, by run of the data set
   std::vector<double> initial_temperature_k;  // by run; matters with an energy balance alone

@@ -73,6 +73,36 @@ std::string Estimates(const Json& answer) {
                                                 rows);
 }
 
+std::string WrongNumbers(const Json& answer) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& number : answer.value("numbers", Json::array())) {
+    const std::string unit = number.at("unit");
+    const auto [name, spoken] =
+        Spoken(number.at("name").get<std::string>() + (unit == "1" ? "" : "_" + unit));
+    rows.push_back({name, Short(number.at("declared")), Short(number.at("fitted")), spoken,
+                    Short(number.at("deviation_sigma")),
+                    EffectsText(number.at("instead_of"), Json::object())});
+  }
+  if (rows.empty()) return "";
+  return Heading("Declared numbers that are wrong") + HtmlTable({{"number", true},
+                                                                 {"declared"},
+                                                                 {"fitted"},
+                                                                 {"unit", true},
+                                                                 {"deviation, σ"},
+                                                                 {"instead of", true}},
+                                                                rows);
+}
+
+std::string Stability(const Json& answer) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& change : answer.value("stability", Json::array()))
+    rows.push_back({change.at("change").get<std::string>(), Short(change.at("delta_bic")),
+                    change.at("holds") == true ? "yes" : "no"});
+  if (rows.empty()) return "";
+  return Heading("Whether the names hold when the readings change") +
+         HtmlTable({{"change", true}, {"best other set, ΔBIC"}, {"holds", true}}, rows);
+}
+
 std::string NextRun(const Json& answer) {
   const Json& next = answer.at("next_experiment");
   if (next.is_null()) return "";
@@ -200,11 +230,11 @@ std::string DiagnosisReport(const Json& answer) {
   const double noise_kpa = noise.is_number() ? noise.get<double>() : std::nan("");
   std::string html = Paragraph("Verdict: " + answer.at("verdict").get<std::string>(), "faint");
   html += Paragraph(VerdictText(answer), "verdict");
-  html += Errors(answer) + Estimates(answer) + NextRun(answer);
+  html += Errors(answer) + WrongNumbers(answer) + Estimates(answer) + NextRun(answer);
   if (!answer.at("series").empty()) html += Heading("Measured and model");
   for (const Json& series : answer.at("series")) html += RunPlots(series, noise_kpa);
-  html += Residual(answer, noise_kpa) + Candidates(answer) + Discrepancy(answer) +
-          Warnings(answer) + Provenance(answer);
+  html += Residual(answer, noise_kpa) + Candidates(answer) + Stability(answer) +
+          Discrepancy(answer) + Warnings(answer) + Provenance(answer);
   return HtmlDocument(title, html);
 }
 

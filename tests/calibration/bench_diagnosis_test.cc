@@ -29,9 +29,18 @@ Diagnosis Diagnosed(const BenchCase& bench) {
   return calibration::Diagnose(dataset, options);
 }
 
+// What the stability of the names says, for a message.
+std::string Held(const Diagnosis& diagnosis) {
+  std::string text;
+  for (const calibration::StabilityChange& change : diagnosis.stability)
+    text += "\n  " + change.change + ": " + std::to_string(change.delta_bic.value_or(0.0)) +
+            (change.holds ? "" : " does not hold");
+  return text;
+}
+
 TEST(BenchDiagnosis, CleanCaseIsAdequate) {
   const Diagnosis diagnosis = Diagnosed(Small(DrawCase(1, CaseKind::kClean)));
-  EXPECT_EQ(diagnosis.verdict, Verdict::kAdequate) << diagnosis.sentence;
+  EXPECT_EQ(diagnosis.verdict, Verdict::kAdequate) << diagnosis.sentence << Held(diagnosis);
   EXPECT_TRUE(diagnosis.effects.empty());
 }
 
@@ -49,7 +58,7 @@ std::set<std::set<std::string>> SetsOf(const Diagnosis& diagnosis) {
 // says nothing of other pairs of the tie: it is to be measured all the same.
 TEST(BenchDiagnosis, ATieAsksForTheChannelThatAnyOfItsPairsNeeds) {
   const Diagnosis diagnosis = Diagnosed(TieOfSeries(44, 88));
-  ASSERT_EQ(diagnosis.verdict, Verdict::kTie) << diagnosis.sentence;
+  ASSERT_EQ(diagnosis.verdict, Verdict::kTie) << diagnosis.sentence << Held(diagnosis);
   const std::set<std::set<std::string>> sets = SetsOf(diagnosis);
   ASSERT_TRUE(sets.contains({"supply_droop"}) && sets.contains({"directional_conductance"}));
   ASSERT_TRUE(diagnosis.next_experiment.has_value());
@@ -61,14 +70,16 @@ TEST(BenchDiagnosis, ATieAsksForTheChannelThatAnyOfItsPairsNeeds) {
 // heat is exchanged at all, far worse than the base model.
 TEST(BenchDiagnosis, FastHeatTransferIsFound) {
   const Diagnosis diagnosis = Diagnosed(TieOfSeries(50, 73));
-  EXPECT_TRUE(SetsOf(diagnosis).contains({"heat_transfer"})) << diagnosis.sentence;
+  EXPECT_TRUE(SetsOf(diagnosis).contains({"heat_transfer"}))
+      << diagnosis.sentence << Held(diagnosis);
 }
 
 // Clocks that are off by parts of a sample, with which the restriction alone does better than with
 // an effect that imitates them.
 TEST(BenchDiagnosis, ClocksAreTriedInThePlaceOfEachEffect) {
   const Diagnosis diagnosis = Diagnosed(TieOfSeries(50, 89));
-  EXPECT_TRUE(SetsOf(diagnosis).contains({"exhaust_restriction"})) << diagnosis.sentence;
+  EXPECT_TRUE(SetsOf(diagnosis).contains({"exhaust_restriction"}))
+      << diagnosis.sentence << Held(diagnosis);
 }
 
 // Heat to a wall that stays warm is a limit of heat to any wall: where the second fits, the first
@@ -77,14 +88,15 @@ TEST(BenchDiagnosis, ALimitOfAnEffectIsFoundWithIt) {
   const BenchCase bench = TieOfSeries(44, 5);
   ASSERT_EQ(bench.effects.front().id, "heat_transfer");
   const Diagnosis diagnosis = Diagnosed(bench);
-  EXPECT_TRUE(SetsOf(diagnosis).contains({"heat_transfer"})) << diagnosis.sentence;
+  EXPECT_TRUE(SetsOf(diagnosis).contains({"heat_transfer"}))
+      << diagnosis.sentence << Held(diagnosis);
 }
 
 // With the clocks fitted creep leaves noise by all tests; a few readings at the start of each
 // stroke show that the valve also opens slowly.
 TEST(BenchDiagnosis, EffectsThatActInTimeAreTriedBesideTheClocks) {
   const Diagnosis diagnosis = Diagnosed(Small(CaseOfSeries(25, 153)));
-  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence;
+  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence << Held(diagnosis);
   const std::set<std::set<std::string>> named = {{"creep", "valve_ramp"}};
   EXPECT_EQ(SetsOf(diagnosis), named);
 }
@@ -94,7 +106,7 @@ TEST(BenchDiagnosis, EffectsThatActInTimeAreTriedBesideTheClocks) {
 // finds the better one, from where the offset is not needed.
 TEST(BenchDiagnosis, AnOptimumThatAPairFindsIsTriedWithEachOfItsEffects) {
   const Diagnosis diagnosis = Diagnosed(CaseOfSeries(25, 71));
-  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence;
+  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence << Held(diagnosis);
   const std::set<std::set<std::string>> named = {{"supply_droop"}};
   EXPECT_EQ(SetsOf(diagnosis), named);
 }
@@ -103,7 +115,7 @@ TEST(BenchDiagnosis, AnOptimumThatAPairFindsIsTriedWithEachOfItsEffects) {
 // that leaves.
 TEST(BenchDiagnosis, LengthsOfALineAreTriedWithoutTheEffectsBesideIt) {
   const Diagnosis diagnosis = Diagnosed(CaseOfSeries(26, 131));
-  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence;
+  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence << Held(diagnosis);
   const std::set<std::set<std::string>> named = {{"line_dynamics"}};
   EXPECT_EQ(SetsOf(diagnosis), named);
 }
@@ -112,7 +124,7 @@ TEST(BenchDiagnosis, LengthsOfALineAreTriedWithoutTheEffectsBesideIt) {
 // them does alone.
 TEST(BenchDiagnosis, PairsAreMadeOfMoreEffectsBeforeAThirdIsAdded) {
   const Diagnosis diagnosis = Diagnosed(CaseOfSeries(25, 238));
-  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence;
+  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence << Held(diagnosis);
   const std::set<std::set<std::string>> named = {{"cracking_pressure", "directional_conductance"}};
   EXPECT_EQ(SetsOf(diagnosis), named);
 }
@@ -121,7 +133,7 @@ TEST(BenchDiagnosis, PairsAreMadeOfMoreEffectsBeforeAThirdIsAdded) {
 // the sensor's gain have one each and do better.
 TEST(BenchDiagnosis, TwoEffectsOfFewerNumbersAreTriedBesideOne) {
   const Diagnosis diagnosis = Diagnosed(CaseOfSeries(24, 58));
-  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence;
+  ASSERT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence << Held(diagnosis);
   const std::set<std::set<std::string>> named = {{"directional_conductance", "sensor_gain"}};
   EXPECT_EQ(SetsOf(diagnosis), named);
 }

@@ -72,6 +72,37 @@ std::string EstimatesTable(const Json& answer) {
   return any ? table.Text() + "\n" : "";
 }
 
+std::string NumbersTable(const Json& answer) {
+  const Json numbers = answer.value("numbers", Json::array());
+  if (numbers.empty()) return "";
+  Table table({{"wrong number", Align::kLeft},
+               {"declared"},
+               {"fitted"},
+               {"unit", Align::kLeft},
+               {"deviation in σ"},
+               {"instead of", Align::kLeft}},
+              2);
+  for (const Json& number : numbers) {
+    const std::string unit = number.at("unit");
+    const auto [name, spoken] =
+        Spoken(number.at("name").get<std::string>() + (unit == "1" ? "" : "_" + unit));
+    table.Add({name, Short(number.at("declared")), Short(number.at("fitted")), spoken,
+               Short(number.at("deviation_sigma")),
+               EffectsText(number.at("instead_of"), Json::object())});
+  }
+  return table.Text() + "\n";
+}
+
+std::string StabilityTable(const Json& answer) {
+  const Json stability = answer.value("stability", Json::array());
+  if (stability.empty()) return "";
+  Table table({{"names under a change", Align::kLeft}, {"best other set, ΔBIC"}, {"hold"}}, 2);
+  for (const Json& change : stability)
+    table.Add({change.at("change").get<std::string>(), Short(change.at("delta_bic")),
+               change.at("holds") == true ? "yes" : "no"});
+  return table.Text() + "\n";
+}
+
 // Why a set is not named though it fits better than what is.
 std::string NotNamed(const Json& candidate) {
   const Json reason = candidate.value("reason", Json());
@@ -216,6 +247,8 @@ std::string EffectsText(const Json& effects, const Json& laws) {
     std::string name = effect.get<std::string>();
     const std::string law = laws.is_object() ? laws.value(name, "") : "";
     std::replace(name.begin(), name.end(), '_', ' ');
+    if (constexpr std::string_view kNumber = "number:"; name.starts_with(kNumber))
+      name = "another " + name.substr(kNumber.size());
     text += (text.empty() ? "" : " + ") + name + (law.empty() ? "" : " (" + law + ")");
   }
   return text.empty() ? "none" : text;
@@ -228,9 +261,9 @@ std::string VerdictText(const Json& answer) {
 }
 
 std::string DiagnosisText(const Json& answer) {
-  std::string text = VerdictText(answer) + "\n\n" + ErrorsTable(answer) + EstimatesTable(answer);
-  text +=
-      TieText(answer) + CandidatesTable(answer) + DiscrepancyText(answer) + ResidualText(answer);
+  std::string text = VerdictText(answer) + "\n\n" + ErrorsTable(answer) + NumbersTable(answer) +
+                     EstimatesTable(answer) + TieText(answer) + CandidatesTable(answer) +
+                     StabilityTable(answer) + DiscrepancyText(answer) + ResidualText(answer);
   for (const Json& warning : answer.at("warnings"))
     text += "note: " + warning.get<std::string>() + "\n";
   return text + RemarksText(answer);

@@ -10,6 +10,24 @@ namespace {
 
 using api::Json;
 
+// Declared numbers that are named as wrong.
+Json NumbersSchema() {
+  const Json text = {{"type", "string"}}, number = {{"type", {"number", "null"}}};
+  return ListOf(Object({{"name", text},
+                        {"declared", number},
+                        {"fitted", number},
+                        {"unit", text},
+                        {"deviation_sigma", number},
+                        {"instead_of", ListOf(text)}}));
+}
+
+// What changed readings say of the names.
+Json StabilitySchema() {
+  return ListOf(Object({{"change", {{"type", "string"}}},
+                        {"delta_bic", {{"type", {"number", "null"}}}},
+                        {"holds", {{"type", "boolean"}}}}));
+}
+
 // The numbers of one model of a diagnosis, with its error.
 Json ModelSchema() {
   const Json number = {{"type", {"number", "null"}}};
@@ -40,6 +58,8 @@ Json DiagnosisSchema() {
                                {"left_out", ListOf({{"type", "integer"}})}}))},
        {"held_out_fitted", ListOf(Object({{"run", text}, {"numbers", ListOf(text)}}))},
        {"measurement", {{"type", "object"}}},
+       {"numbers", NumbersSchema()},
+       {"stability", StabilitySchema()},
        {"candidates",
         ListOf({{"type", "object"}, {"properties", {{"reason", {{"type", {"string", "null"}}}}}}})},
        {"next_experiment", {{"type", {"object", "null"}}}},

@@ -27,8 +27,14 @@ const effectWords: Record<string, string> = {
 // A learned law says how many knots it has: "pressure_5".
 const lawWord = (law: string): string => law.replace(/_(\d+)$/, ', $1 knots').replaceAll('_', ' ');
 
+// A set may hold a declared number that is wrong: "number:source_pressure".
+const numberOf = (id: string): string | null =>
+  id.startsWith('number:') ? id.slice('number:'.length).replaceAll('_', ' ') : null;
+
 export const effectName = (id: string, law?: string): string =>
-  `${effectWords[id] ?? id.replaceAll('_', ' ')}${law ? ` (${lawWord(law)})` : ''}`;
+  numberOf(id) !== null
+    ? `another ${numberOf(id)}`
+    : `${effectWords[id] ?? id.replaceAll('_', ' ')}${law ? ` (${lawWord(law)})` : ''}`;
 
 export const effectNames = (ids: string[], laws: Record<string, string> = {}): string =>
   ids.map((id) => effectName(id, laws[id])).join(' + ') || 'base model';

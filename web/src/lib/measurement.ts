@@ -91,6 +91,16 @@ export interface Discrepancy {
   places: { axis: string; where: string; share: number }[];
 }
 
+// A declared number that is found wrong.
+export interface WrongNumber {
+  name: string;
+  declared: number;
+  fitted: number;
+  unit: string;
+  deviation_sigma: number | null;
+  instead_of: string[];
+}
+
 export interface Diagnosis {
   schema: 'diagnosis/1';
   name?: string;
@@ -106,6 +116,8 @@ export interface Diagnosis {
   >)[];
   held_out_fitted?: { run: string; numbers: string[] }[];
   effects: FittedEffect[];
+  numbers?: WrongNumber[];
+  stability?: { change: string; delta_bic: number | null; holds: boolean }[];
   candidates: {
     effects: string[];
     laws: Record<string, string>;

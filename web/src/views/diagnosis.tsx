@@ -9,7 +9,7 @@ import { Lines } from '../plots/lines';
 import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';
 import { Effects, EstimateTable } from './diagnosis_effects';
-import { Candidates, Errors, Phases } from './diagnosis_tables';
+import { Candidates, Errors, Phases, Stability } from './diagnosis_tables';
 import { NextExperiment } from './next_experiment';
 import { NumbersOfRuns } from './run_numbers';
 import { PhaseKey, pickRun, RunPicker } from './runs';
@@ -60,6 +60,7 @@ export function DiagnosisView({
       </div>
       {d.discrepancy && <Learned d={d} />}
       <Candidates d={d} />
+      <Stability d={d} />
       <NumbersOfRuns d={d} />
       {d.revision && <SaveModel diagnosis={d} model={d.revision} />}
     </>

@@ -1,7 +1,7 @@
 // The effects that a diagnosis established, and the declared numbers as they were fitted.
 import { beside, fieldKind, fieldName, significant } from '../lib/format';
-import { effectName } from '../lib/effect_words';
-import { type Diagnosis, type Estimate } from '../lib/measurement';
+import { effectName, effectNames } from '../lib/effect_words';
+import { type Diagnosis, type Estimate, type WrongNumber } from '../lib/measurement';
 import { type Kind, toShown } from '../lib/units';
 import { Panel } from '../ui/controls';
 import { number, Table } from '../ui/table';
@@ -57,14 +57,45 @@ export const EstimateTable = (props: {
   </Table>
 );
 
+// Declared numbers that are wrong, and what would be named were they right.
+function WrongNumbers({ numbers }: { numbers: WrongNumber[] }) {
+  return (
+    <>
+      <h3>Declared numbers that are wrong</h3>
+      <Table
+        label="Wrong numbers"
+        heads={['number', number('declared'), number('fitted'), 'otherwise one would name']}
+      >
+        {numbers.map((n) => {
+          const field = n.unit === '1' ? n.name : `${n.name}_${n.unit}`;
+          const { label, unit } = fieldName(field);
+          const kind = fieldKind(field);
+          return (
+            <tr key={n.name}>
+              <td>
+                {label} <small class="muted">{unit}</small>
+              </td>
+              <td class="num">{significant(toShown(kind, n.declared))}</td>
+              <td class="num">{significant(toShown(kind, n.fitted))}</td>
+              <td>{n.instead_of.length > 0 ? effectNames(n.instead_of) : 'nothing'}</td>
+            </tr>
+          );
+        })}
+      </Table>
+    </>
+  );
+}
+
 export function Effects({ d }: { d: Diagnosis }) {
   const fitted = Object.entries(d.fitted).map(([name, value]): [string, Estimate] => [
     value.unit === '1' ? name : `${name}_${value.unit}`,
     value,
   ]);
+  const numbers = d.numbers ?? [];
   return (
     <Panel title="What the model gets">
-      {d.effects.length === 0 && (
+      {numbers.length > 0 && <WrongNumbers numbers={numbers} />}
+      {d.effects.length === 0 && numbers.length === 0 && (
         <p>
           {d.verdict === 'tie'
             ? 'Nothing yet: the tie has to be decided first.'

@@ -11,8 +11,8 @@ export function Errors({ d }: { d: Diagnosis }) {
   const rows: [string, Partial<Diagnosis['after']>][] = [
     ['as declared', d.declared],
     ['re-fitted, no effects', d.before],
-    ...(d.effects.length > 0
-      ? [['with effects', d.after] as [string, Diagnosis['after']]]
+    ...(d.effects.length > 0 || d.numbers?.length
+      ? [['with what is named', d.after] as [string, Diagnosis['after']]]
       : d.tied.length > 0
         ? [['with the best of those tied', d.after] as [string, Diagnosis['after']]]
         : []),
@@ -110,7 +110,9 @@ export function Phases({ d }: { d: Diagnosis }) {
 // Whether it is the set of effects that the verdict takes.
 function isChosen(d: Diagnosis, c: Diagnosis['candidates'][number]): boolean {
   const key = (id: string, law: unknown) => `${id} ${law ?? ''}`;
-  const taken = d.effects.map((effect) => key(effect.id, effect.parameters.law)).sort();
+  const numbers = (d.numbers ?? []).map((n) => key(`number:${n.name}`, ''));
+  const effects = d.effects.map((effect) => key(effect.id, effect.parameters.law));
+  const taken = [...effects, ...numbers].sort();
   const own = c.effects.map((id) => key(id, c.laws[id])).sort();
   return d.verdict !== 'undecided' && d.tied.length === 0 && taken.join() === own.join();
 }
@@ -152,6 +154,34 @@ export function Candidates({ d }: { d: Diagnosis }) {
             <td class="num">{significant(c.delta_bic)}</td>
             <td class="num">{shown('difference', c.rms_kpa)}</td>
             <td class="num">{shown('difference', c.holdout_rms_kpa)}</td>
+          </tr>
+        ))}
+      </Table>
+    </Panel>
+  );
+}
+
+// Whether the names hold when the readings are others.
+export function Stability({ d }: { d: Diagnosis }) {
+  if (!d.stability?.length) return null;
+  return (
+    <Panel
+      title="Do the names hold?"
+      aside={
+        <span class="muted">the best sets fitted again to changed readings; −10 is the limit</span>
+      }
+    >
+      <Table
+        label="Stability of the names"
+        heads={['change', number('best other set, ΔBIC'), 'names']}
+      >
+        {d.stability.map((s) => (
+          <tr key={s.change}>
+            <th scope="row">{s.change}</th>
+            <td class="num">{s.delta_bic === null ? '–' : significant(s.delta_bic)}</td>
+            <td>
+              <Chip kind={s.holds ? 'good' : 'warn'}>{s.holds ? 'hold' : 'do not hold'}</Chip>
+            </td>
           </tr>
         ))}
       </Table>

@@ -1,0 +1,129 @@
+// Declared numbers that are wrong, in the answer and out of the saved model.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "api/measure/curves.h"
+#include "api/measure/diagnose_request.h"
+#include "api/measure/diagnosis_document.h"
+#include "api/measure/revision_of_diagnosis.h"
+#include "tests/api/support.h"
+#include "tests/support/effects/effect_form.h"
+#include "tests/support/sample_diagnosis.h"
+
+namespace plenum::api {
+namespace {
+
+using calibration::Declared;
+
+test::SampleDiagnosis WithAWrongSource() {
+  test::SampleDiagnosis sample = test::MakeSampleDiagnosis(101);
+  sample.diagnosis.numbers = {{.number = Declared::kSourcePressure,
+                               .factor = 0.8,
+                               .deviation_sigma = -20.0,
+                               .instead_of = {"supply_droop", "leak"}}};
+  sample.diagnosis.stability = {{"even readings", 31.5, true}, {"without r1", {}, false}};
+  sample.diagnosis.candidates[0].effects = {"creep", "number:source_pressure"};
+  sample.diagnosis.fitted = {{Declared::kSourcePressure, {0.8, 0.79, 0.81, true}},
+                             {Declared::kSonicConductance, {1.02, 1.015, 1.025, true}}};
+  return sample;
+}
+
+TEST(WrongNumbersDocument, SaysDeclaredAndFittedInTheContractsUnits) {
+  const test::SampleDiagnosis sample = WithAWrongSource();
+  const Json answer = RenderDiagnosis(sample.diagnosis, sample.dataset);
+  ASSERT_EQ(answer.at("numbers").size(), 1u);
+  const Json& number = answer.at("numbers")[0];
+  EXPECT_EQ(number.at("name"), "source_pressure");
+  EXPECT_NEAR(number.at("declared").get<double>(), 150.0, 1e-9);  // of the first run, kPa gauge
+  EXPECT_NEAR(number.at("fitted").get<double>(), 120.0, 1e-9);
+  EXPECT_EQ(number.at("unit"), "kpa_gauge");
+  EXPECT_EQ(number.at("deviation_sigma"), -20.0);
+  EXPECT_EQ(number.at("instead_of"), Json({"supply_droop", "leak"}));
+  EXPECT_EQ(answer.at("candidates")[0].at("effects"), Json({"creep", "number:source_pressure"}));
+  EXPECT_TRUE(answer.at("candidates")[0].at("laws").empty());
+  EXPECT_EQ(answer.at("stability"),
+            Json::parse(R"([{ "change": "even readings", "delta_bic": 31.5, "holds": true },
+                            { "change": "without r1", "delta_bic": null, "holds": false }])"));
+}
+
+// The rows of what stays, in their order.
+TEST(WrongNumbersDocument, StaysOutOfTheSavedModel) {
+  test::SampleDiagnosis sample = WithAWrongSource();
+  sample.diagnosis.covariance.assign(4, std::vector<double>(4, 0.0));
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j)
+      sample.diagnosis.covariance[i][j] = static_cast<double>(10 * std::min(i, j) + std::max(i, j));
+  const SavedModel saved = RevisionOf(sample.diagnosis, {});
+  ASSERT_EQ(saved.factors.size(), 1u);
+  EXPECT_EQ(saved.factors[0].first, Declared::kSonicConductance);
+  EXPECT_THAT(saved.covariance.parameters,
+              testing::ElementsAre("creep.fraction", "creep.time_constant_s", "sonic_conductance"));
+  const std::vector<std::vector<double>> rows = {{0, 1, 3}, {1, 11, 13}, {3, 13, 33}};
+  EXPECT_EQ(saved.covariance.rows, rows);
+}
+
+// Two runs of a chamber that is fed from 120 kPa where 150 are declared, by the independent
+// simulator; what the answer states gives back its curves.
+Json Measured() {
+  Json document = Parse(R"({
+    "schema": "measurement/1",
+    "rig": {
+      "actuator": { "rest_volume_ml": 50, "expansion_ratio": 2,
+                    "operating_pressure_kpa_gauge": 100 },
+      "line": { "sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3 },
+      "supply": { "kind": "regulated" },
+      "ambient": { "pressure_kpa_abs": 100, "temperature_k": 293.15 } },
+    "runs": [] })");
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> noise(0.0, 0.15);
+  for (const double source_kpa : {150.0, 200.0}) {
+    test::EffectRig rig;
+    rig.source_pa = 1e5 + 0.8e3 * source_kpa;
+    rig.fill = rig.exhaust = {{0.05e-8, 0.3}};
+    rig.schedule = {{0.0, 0}, {0.2, 1}, {1.2, 0}, {2.0, -1}, {3.5, 0}};
+    std::vector<double> t_s;
+    for (int i = 0; i <= 200; ++i) t_s.push_back(0.02 * i);
+    Json run = {{"id", source_kpa == 150.0 ? "low" : "high"},
+                {"source_pressure_kpa_gauge", source_kpa},
+                {"initial", {{"pressure_kpa_gauge", 0}}},
+                {"t_s", t_s}};
+    run["valve"] =
+        Json::parse(R"([{ "t_s": 0, "state": "hold" }, { "t_s": 0.2, "state": "inflate" },
+      { "t_s": 1.2, "state": "hold" }, { "t_s": 2.0, "state": "deflate" },
+      { "t_s": 3.5, "state": "hold" }])");
+    for (const double pa : test::SimulateEffects(rig, t_s, 5e-4).measured_pa)
+      run["pressure_kpa_gauge"].push_back((pa - 1e5) / 1e3 + noise(random));
+    document["runs"].push_back(std::move(run));
+  }
+  return document;
+}
+
+TEST(WrongNumbersDocument, AnAnswerOfANumberAloneIsItsModel) {
+  DiagnosisRequest request;
+  request.measurement = Measured();
+  request.dataset = std::get<calibration::Dataset>(ParseMeasurement(request.measurement));
+  const DiagnosisAnswer found = RunDiagnosis(request, {});
+  const Json& answer = found.answer;
+  ASSERT_EQ(answer.at("verdict"), "explained") << answer.at("sentence");
+  EXPECT_TRUE(answer.at("effects").empty());
+  ASSERT_EQ(answer.at("numbers").size(), 1u);
+  EXPECT_EQ(answer.at("numbers")[0].at("name"), "source_pressure");
+  EXPECT_NEAR(answer.at("numbers")[0].at("fitted").get<double>(), 120.0, 1.2);
+  EXPECT_NEAR(answer.at("after").at("factors").at("source_pressure").get<double>(), 0.8, 0.008);
+  EXPECT_EQ(answer.at("stability").size(), 6u);
+  const Json printed = Parse(answer.dump());
+  const Parsed<Json> curves =
+      RunCurves({{"schema", "simulation/1"}, {"from", printed}, {"model", "after"}});
+  ASSERT_TRUE(std::holds_alternative<Json>(curves));
+  EXPECT_NEAR(std::get<Json>(curves).at("rms_kpa").get<double>() /
+                  answer.at("after").at("rms_kpa").get<double>(),
+              1.0, 1e-6);
+  ASSERT_TRUE(found.revision.has_value());
+  EXPECT_TRUE(found.revision->factors.empty());
+}
+
+}  // namespace
+}  // namespace plenum::api

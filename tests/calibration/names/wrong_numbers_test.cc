@@ -1,0 +1,176 @@
+// Declared numbers that are wrong, on data of the independent simulator.
+#include "calibration/names/wrong_numbers.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calibration/diagnose.h"
+#include "tests/calibration/bench.h"
+
+namespace plenum::calibration {
+namespace {
+
+using test::EffectRig;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::UnorderedElementsAre;
+using Set = std::vector<std::string>;
+
+// All of a bench's declared numbers are exact, or those that a bench usually states are not.
+Dataset Measured(const test::Change& change, bool exact) {
+  Dataset dataset = test::MeasuredBench(change, 31);
+  if (exact) dataset.relative_uncertainty.fill(0.0);
+  return dataset;
+}
+
+// The declared source is 15 % above the true one.
+void WeakSource(EffectRig& rig) { rig.source_pa = 1e5 + (rig.source_pa - 1e5) / 1.15; }
+
+void ExpectOnlyNumber(const Diagnosis& d, Declared number, double factor, double sigma) {
+  ASSERT_EQ(d.verdict, Verdict::kExplained) << d.sentence;
+  EXPECT_TRUE(d.effects.empty());
+  ASSERT_EQ(d.numbers.size(), 1u) << d.sentence;
+  EXPECT_EQ(d.numbers[0].number, number);
+  EXPECT_NEAR(d.numbers[0].factor, factor, 0.01 * factor);
+  ASSERT_TRUE(d.numbers[0].deviation_sigma.has_value());
+  EXPECT_NEAR(*d.numbers[0].deviation_sigma, (factor - 1.0) / sigma, 0.01 * factor / sigma);
+  EXPECT_LT(d.after.rms_pa, 1.1 * test::kBenchNoisePa);
+  EXPECT_LT(*d.after.holdout_rms_pa, 1.1 * test::kBenchNoisePa);
+  EXPECT_EQ(d.models.after.state.factor[static_cast<std::size_t>(number)], d.numbers[0].factor);
+  const std::string title = "number:" + std::string(Name(number));
+  ASSERT_FALSE(d.candidates.empty());
+  EXPECT_EQ(d.candidates.front().effects, Set{title});
+  EXPECT_TRUE(std::all_of(d.stability.begin(), d.stability.end(),
+                          [](const StabilityChange& change) { return change.holds; }));
+  EXPECT_THAT(d.sentence, testing::HasSubstr(std::string(Name(number))));
+}
+
+TEST(WrongNumbers, ASourceThatIsLowerThanDeclaredIsNamedAndNoEffect) {
+  const Diagnosis d = Diagnose(Measured(WeakSource, true), {});
+  ExpectOnlyNumber(d, Declared::kSourcePressure, 1.0 / 1.15, kExactUncertainty);
+  EXPECT_FALSE(d.numbers[0].instead_of.empty());
+  for (const std::string& id : d.numbers[0].instead_of) EXPECT_FALSE(id.starts_with("number:"));
+}
+
+TEST(WrongNumbers, AnExpansionRatioIsNamedWithTheTrueOne) {
+  const Diagnosis d =
+      Diagnose(Measured([](EffectRig& rig) { rig.expansion_ratio = 1.3; }, false), {});
+  ExpectOnlyNumber(d, Declared::kExpansionRatio, 1.3 / 2.0, kExactUncertainty);
+}
+
+// Six and a half standard deviations: fits do not stretch it so far, and no effect is named.
+TEST(WrongNumbers, AnUncertainNumberMayLeaveItsUncertaintyAtAPrice) {
+  Dataset dataset = Measured(WeakSource, false);
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kSourcePressure)] = 0.02;
+  ExpectOnlyNumber(Diagnose(dataset, {}), Declared::kSourcePressure, 1.0 / 1.15, 0.02);
+}
+
+// C/V is all that the pressure of an isothermal chamber shows of either: a flow would tell them
+// apart.
+TEST(WrongNumbers, ConductanceAndVolumeAreATie) {
+  Dataset dataset = Measured([](EffectRig& rig) { rig.rest_volume_m3 *= 1.2; }, true);
+  const Diagnosis d = Diagnose(dataset, {});
+  ASSERT_EQ(d.verdict, Verdict::kTie) << d.sentence;
+  EXPECT_THAT(d.tied,
+              UnorderedElementsAre(Set{"number:rest_volume"}, Set{"number:sonic_conductance"}));
+  EXPECT_TRUE(d.numbers.empty());
+  ASSERT_TRUE(d.next_experiment.has_value());
+  EXPECT_FALSE(d.next_experiment->measure.empty());
+  EXPECT_THAT(d.sentence, testing::HasSubstr("another rest_volume"));
+}
+
+// With little noise the numbers that are not freed must not keep what the freed one is to take up:
+// fits crawl along the bent valley of equal C/V.
+TEST(WrongNumbers, UncertainConductanceAndVolumeAreATieInQuietReadings) {
+  const auto change = [](EffectRig& rig) {
+    rig.rest_volume_m3 *= 1.27;
+    rig.expansion_ratio *= 0.99;
+    rig.fill[0].conductance *= 1.03, rig.exhaust[0].conductance *= 1.03;
+  };
+  Dataset dataset = test::MeasuredBench(change, 33, 25.0);
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kRestVolume)] = 0.01;
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kExpansionRatio)] = 0.01;
+  const Diagnosis d = Diagnose(dataset, {});
+  ASSERT_EQ(d.verdict, Verdict::kTie) << d.sentence;
+  EXPECT_THAT(d.tied,
+              UnorderedElementsAre(Set{"number:rest_volume"}, Set{"number:sonic_conductance"}));
+}
+
+TEST(WrongNumbers, OneMayStandBesideAnEffect) {
+  const Diagnosis d = Diagnose(Measured(
+                                   [](EffectRig& rig) {
+                                     WeakSource(rig);
+                                     rig.leak = test::OrificeLeak{6e-12, 0.3};
+                                   },
+                                   false),
+                               {});
+  ASSERT_EQ(d.verdict, Verdict::kExplained) << d.sentence;
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects[0].effect.spec->id, "leak");
+  ASSERT_EQ(d.numbers.size(), 1u);
+  EXPECT_EQ(d.numbers[0].number, Declared::kSourcePressure);
+  EXPECT_NEAR(d.numbers[0].factor, 1.0 / 1.15, 0.01);
+}
+
+TEST(WrongNumbers, NoneWhereEveryNumberIsWithinItsUncertainty) {
+  const Diagnosis d = Diagnose(Measured(
+                                   [](EffectRig& rig) {
+                                     rig.rest_volume_m3 *= 0.97;
+                                     rig.leak = test::OrificeLeak{6e-12, 0.3};
+                                   },
+                                   false),
+                               {});
+  ASSERT_EQ(d.verdict, Verdict::kExplained) << d.sentence;
+  EXPECT_EQ(d.effects.size(), 1u);
+  EXPECT_TRUE(d.numbers.empty()) << d.sentence;
+}
+
+// The operating pressure is where the expansion ratio holds; a ratio of 0 times anything is 0; what
+// is unknown is fitted freely without a name.
+TEST(WrongNumbers, OnlyThoseThatReadingsCanTellMayBeWrong) {
+  Dataset dataset = test::MeasuredBench({}, 32);
+  const auto names = [&] {
+    Set ids;
+    for (const model::EffectSpec* spec : NumbersThatMayBeWrong(dataset)) ids.emplace_back(spec->id);
+    return ids;
+  };
+  EXPECT_THAT(names(),
+              ElementsAre("number:rest_volume", "number:expansion_ratio", "number:source_pressure",
+                          "number:sonic_conductance", "number:critical_ratio"));
+  dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kSourcePressure)] = kUnknown;
+  for (calibration::Run& run : dataset.runs)
+    run.line[0].fill.critical_ratio = run.line[0].exhaust.critical_ratio = 0.0;
+  EXPECT_THAT(names(), ElementsAre("number:rest_volume", "number:expansion_ratio",
+                                   "number:sonic_conductance"));
+  for (calibration::Run& run : dataset.runs) run.blocked = true, run.valve.clear();
+  EXPECT_THAT(names(), ElementsAre("number:rest_volume"));
+}
+
+TEST(WrongNumbers, NumbersAtAnEndOrFarOffAreSaid) {
+  Fit fit;
+  const auto add = [&](Declared number, double u, bool prior) {
+    Coordinate coordinate{.parameter = {.kind = Parameter::Kind::kDeclared, .declared = number},
+                          .low = -10.0,
+                          .high = 20.0,
+                          .prior = prior};
+    fit.coordinates.push_back(coordinate);
+    fit.u.conservativeResize(static_cast<Eigen::Index>(fit.coordinates.size()));
+    fit.u[fit.u.size() - 1] = u;
+  };
+  add(Declared::kRestVolume, 2.9, true);
+  add(Declared::kSonicConductance, -3.4, true);
+  add(Declared::kSourcePressure, 20.0, false);
+  add(Declared::kExpansionRatio, 15.0, false);
+  const std::vector<std::string> said = FarNumbers(fit);
+  ASSERT_EQ(said.size(), 2u);
+  EXPECT_THAT(said, Contains(testing::HasSubstr("sonic_conductance was fitted 3.4")));
+  EXPECT_THAT(said, Contains(testing::HasSubstr("source_pressure ended at an end")));
+}
+
+}  // namespace
+}  // namespace plenum::calibration
