@@ -127,7 +127,7 @@ TEST(MakeDraws, AMadeReservoirKeepsItsVolumeWithinADataSheetsTolerance) {
     EXPECT_TRUE(parts.valves.empty());
     ASSERT_EQ(parts.reservoirs.size(), 1u);
     EXPECT_EQ(parts.reservoirs[0].basics.id, "custom");
-    EXPECT_NEAR(parts.reservoirs[0].volume_m3, 700e-6, 0.02 * 700e-6 * (1.0 + 1e-9));
+    EXPECT_NEAR(parts.reservoirs[0].volume_m3, 700e-6, 0.05 * 700e-6 * (1.0 + 1e-9));
     EXPECT_NEAR(parts.reservoirs[0].basics.mass_kg, 0.2, 0.25 * 0.2 * (1.0 + 1e-9));
   }
 }
@@ -139,7 +139,7 @@ TEST(Robust, RequestsAreReadAndAnswered) {
   const auto rows = SmallCatalogue();
   const DesignRequest request = std::get<DesignRequest>(ParseRequirements(requirements, rows));
   ASSERT_TRUE(request.robust.has_value());
-  EXPECT_EQ(request.robust->tolerance, (Tolerance{0.02, 0.05, 0.10, 0.4}));
+  EXPECT_EQ(request.robust->tolerance, (Tolerance{0.05, 0.10, 0.10, 0.4}));
   optimizer::RobustAnswer result;
   result.answer.designs.resize(1);
   result.robustness = {{20, 5}};
@@ -154,7 +154,7 @@ TEST(Robust, RequestsAreReadAndAnswered) {
   EXPECT_NEAR(robustness["probability_ci95"][0].get<double>(), 0.6087, 1e-4);
   EXPECT_NEAR(robustness["probability_ci95"][1].get<double>(), 0.9114, 1e-4);
   EXPECT_EQ(document["robust"], Parse(R"({"draws": 25, "draws_asked": 30, "seed": 4,
-    "tolerance": {"datasheet": 0.02, "third_party": 0.05, "derived": 0.1, "estimated": 0.4,
+    "tolerance": {"datasheet": 0.05, "third_party": 0.1, "derived": 0.1, "estimated": 0.4,
                   "measured": 0.02},
     "probability_min": 0.5, "left_out": 3})"));
 }
