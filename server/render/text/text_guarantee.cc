@@ -40,7 +40,7 @@ std::string TestName(const Json& test) {
 }
 
 std::string TestsText(const Json& tests, bool complete) {
-  const std::string rest = complete ? "" : "  Time ran out before all tests were looked at.\n";
+  std::string rest = complete ? "" : "  Time ran out before all tests were looked at.\n";
   if (tests.empty()) return rest;
   Table table({{"measure first", Align::kLeft}, {"numbers", Align::kLeft}, {"saves"}}, 2);
   for (const Json& test : tests) {
