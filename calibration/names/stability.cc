@@ -14,7 +14,7 @@
 namespace plenum::calibration {
 namespace {
 
-constexpr std::size_t kRivals = 4, kCompanies = 2;
+constexpr std::size_t kRivals = 4, kCompanies = 2, kParts = 4;
 constexpr int kIterations = 12;
 constexpr double kNoiseShare = 1e-2, kTolerance = 1e-5;
 constexpr std::uint64_t kSeed = 20'260'101;
@@ -103,12 +103,14 @@ std::vector<Changed> ChangesOf(const Bench& bench, double memory) {
   return changes;
 }
 
-// The sets that are fitted again: the named ones, sets that hold one of them, and others.
+// The sets that are fitted again: the named ones, sets that hold one of them, parts of them, the
+// base model among these, and others.
 struct Table {
-  std::vector<const Contender*> named, companies, rivals;
+  std::vector<const Contender*> named, companies, parts, rivals;
   std::vector<const Contender*> All() const {
     std::vector<const Contender*> all = named;
     all.insert(all.end(), companies.begin(), companies.end());
+    all.insert(all.end(), parts.begin(), parts.end());
     all.insert(all.end(), rivals.begin(), rivals.end());
     return all;
   }
@@ -122,16 +124,18 @@ Table TableOf(std::span<const Contender> contenders, const std::vector<const Con
   std::stable_sort(order.begin(), order.end(), [&](const Contender* a, const Contender* b) {
     return BicWith(a->fit, memory) < BicWith(b->fit, memory);
   });
-  Table table{named, {}, {}};
+  Table table{named, {}, {}, {}};
   const auto any = [](const std::vector<const Contender*>& list, const auto& is) {
     return std::any_of(list.begin(), list.end(), is);
   };
   for (const Contender* one : order) {
     const auto same = [&](const Contender* other) { return SameEffects(*one, *other); };
-    if (any(table.named, same) || any(table.companies, same) || any(table.rivals, same)) continue;
+    if (any(table.All(), same)) continue;
     const bool larger = any(named, [&](const Contender* other) { return Contains(*one, *other); });
     const bool nested = any(named, [&](const Contender* other) { return IsNested(*one, *other); });
+    const bool part = any(named, [&](const Contender* other) { return Contains(*other, *one); });
     if (larger && table.companies.size() < kCompanies) table.companies.push_back(one);
+    if (part && !larger && table.parts.size() < kParts) table.parts.push_back(one);
     if (!nested && table.rivals.size() < kRivals) table.rivals.push_back(one);
   }
   return table;

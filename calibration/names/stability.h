@@ -4,8 +4,9 @@
 // a new search, to changed readings: every second one, all runs but one, all readings shifted by
 // kShiftShare of their range, and with noise of their own size added. Under a change the named sets
 // hold while no set that is neither a part of one of them nor has one as its part is better by more
-// than kTie than the best of them, or than the best set that has one of them as its part: that they
-// lose significance, or need company, is no failure. Under the shift every set may take it up as an
+// than kTie than the best of them, of their parts (the base model is one), or than the best set
+// that has one of them as its part: that they lose significance, as where the runs that show them
+// are left out, or need company, is no failure. Under the shift every set may take it up as an
 // offset of the sensor, free of charge: a zero that is a little off must not speak for the sets
 // that happen to hold an offset.
 #ifndef PLENUM_CALIBRATION_NAMES_STABILITY_H_

@@ -172,7 +172,7 @@ export function Stability({ d }: { d: Diagnosis }) {
       }
     >
       <Table
-        label="Stability of the names"
+        label="Stability under changes"
         heads={['change', number('best other set, ΔBIC'), 'names']}
       >
         {d.stability.map((s) => (
