@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -114,7 +113,7 @@ TEST(Stability, ANameMayLoseItsSignificance) {
                    [](const StabilityChange& change) { return change.change == "without high"; });
   ASSERT_NE(without, found.changes.end());
   ASSERT_TRUE(without->delta_bic.has_value());
-  EXPECT_LT(std::abs(*without->delta_bic), 10.0);
+  EXPECT_GT(*without->delta_bic, 0.0);  // creep itself is worse than the offset by a number
 }
 
 TEST(Stability, ATieHoldsWhereOneOfItsSetsDoes) {
