@@ -208,6 +208,7 @@ void Contenders::RunJobs(std::vector<Job>& jobs, double from_share, double to_sh
                          const std::string& what, std::optional<double> goal) {
   if (jobs.empty()) return;
   std::vector<Job*> all;
+  all.reserve(jobs.size());
   for (Job& job : jobs) all.push_back(&job);
   const double middle = 0.5 * (from_share + to_share);
   const std::size_t size = jobs.front().set.size();
