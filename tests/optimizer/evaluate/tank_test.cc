@@ -126,6 +126,7 @@ TEST(Tank, TheSearchFindsTheOraclesFill) {
 
 std::vector<MassElement> Elements(const std::vector<model::FlowElement>& elements) {
   std::vector<MassElement> result;
+  result.reserve(elements.size());
   for (const model::FlowElement& e : elements)
     result.push_back({e.sonic_conductance_m3_per_s_pa, e.critical_ratio, e.subsonic_index, 0.0});
   return result;
@@ -183,6 +184,7 @@ Problem Mission(bool simultaneous, int groups) {
 
 void CompareMission(const Problem& problem) {
   std::vector<optimizer::Line> lines;
+  lines.reserve(problem.groups.size());
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
     lines.push_back(AssembleLine(problem, g, 0, -1, 0, model::Gas::kAir));
   Only only = OnlyOf(problem, 850e3);
