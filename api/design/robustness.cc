@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/design/read/guarantee.h"
-
 namespace plenum::api {
 namespace {
 

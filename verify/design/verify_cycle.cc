@@ -186,6 +186,16 @@ Cycle EmptyCycle(const Problem& problem) {
   return cycle;
 }
 
+// Fall times of the rig's groups, each by itself; false where it was told to stop.
+bool AddFalls(const Problem& problem, const model::Rig& rig, const Stop& stop, Cycle& cycle) {
+  for (const model::FullStroke& stroke :
+       model::FullStrokes(rig, OptionsOf(problem, 1.0 / problem.frequency_hz, stop))) {
+    if (stroke.status == model::SimulateStatus::kCancelled) return false;
+    cycle.fall_s.push_back(stroke.fall_time_s);
+  }
+  return true;
+}
+
 // The last period out of an open tank, its strokes to their ends.
 std::optional<Cycle> SimulatedLast(const Problem& problem, const Settings& settings,
                                    const Assembly& assembly, const Stop& stop) {
@@ -201,11 +211,7 @@ std::optional<Cycle> SimulatedLast(const Problem& problem, const Settings& setti
     cycle.rise_s[stroke.group] = stroke.to_target_s;
     cycle.inflate_s[stroke.group] = stroke.to_operating_s;
   }
-  for (const model::FullStroke& stroke :
-       model::FullStrokes(rig, OptionsOf(problem, period_s, stop))) {
-    if (stroke.status == model::SimulateStatus::kCancelled) return std::nullopt;
-    cycle.fall_s.push_back(stroke.fall_time_s);
-  }
+  if (!AddFalls(problem, rig, stop, cycle)) return std::nullopt;
   AddNeeds(problem, assembly, cycle);
   return cycle;
 }
@@ -232,11 +238,7 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
     cycle.rise_s[stroke.group] = stroke.to_target_s;
     cycle.inflate_s[stroke.group] = stroke.to_operating_s;
   }
-  for (const model::FullStroke& stroke :
-       model::FullStrokes(rig, OptionsOf(problem, period_s, stop))) {
-    if (stroke.status == model::SimulateStatus::kCancelled) return std::nullopt;
-    cycle.fall_s.push_back(stroke.fall_time_s);
-  }
+  if (!AddFalls(problem, rig, stop, cycle)) return std::nullopt;
   cycle.pump_on_s = 0.5 * response.compressor_on_s;
   cycle.pump_j = 0.5 * response.compressor_energy_j;
   cycle.pump_air_m3 = 0.5 * response.compressor_air_m3;

@@ -33,30 +33,6 @@ void Enlarge(const GroupUncertainty& uncertainty, model::Chamber& chamber) {
 
 }  // namespace
 
-Tolerance ReadTolerance(Reader& request) {
-  Tolerance tolerance;
-  auto reader = request.OptionalObject("tolerance");
-  if (!reader) return tolerance;
-  const auto read = [&](const char* name, double& share) {
-    share = reader->Number(name, Below(0, 1), share);
-  };
-  read("datasheet", tolerance.datasheet);
-  read("third_party", tolerance.third_party);
-  read("derived", tolerance.derived);
-  read("estimated", tolerance.estimated);
-  read("measured", tolerance.measured);
-  reader->Finish();
-  return tolerance;
-}
-
-Json RenderTolerance(const Tolerance& tolerance) {
-  return {{"datasheet", tolerance.datasheet},
-          {"third_party", tolerance.third_party},
-          {"derived", tolerance.derived},
-          {"estimated", tolerance.estimated},
-          {"measured", tolerance.measured}};
-}
-
 GroupUncertainty ReadGroupUncertainty(Reader& group) {
   GroupUncertainty uncertainty;
   auto reader = group.OptionalObject("relative_uncertainty");

@@ -42,10 +42,6 @@ optimizer::Problem GuaranteedProblem(const optimizer::Problem& problem,
                                      const std::vector<catalog::Part>& rows,
                                      const Settled& settled = {});
 
-// Tolerances of the request's "tolerance", also of "robust".
-Tolerance ReadTolerance(Reader& reader);
-Json RenderTolerance(const Tolerance& tolerance);
-
 }  // namespace plenum::api
 
 #endif  // PLENUM_API_DESIGN_READ_GUARANTEE_H_

@@ -51,6 +51,30 @@ catalog::Part MadeReservoirRow(const optimizer::Problem& problem, const optimize
 
 }  // namespace
 
+Tolerance ReadTolerance(Reader& request) {
+  Tolerance tolerance;
+  auto reader = request.OptionalObject("tolerance");
+  if (!reader) return tolerance;
+  const auto read = [&](const char* name, double& share) {
+    share = reader->Number(name, Below(0, 1), share);
+  };
+  read("datasheet", tolerance.datasheet);
+  read("third_party", tolerance.third_party);
+  read("derived", tolerance.derived);
+  read("estimated", tolerance.estimated);
+  read("measured", tolerance.measured);
+  reader->Finish();
+  return tolerance;
+}
+
+Json RenderTolerance(const Tolerance& tolerance) {
+  return {{"datasheet", tolerance.datasheet},
+          {"third_party", tolerance.third_party},
+          {"derived", tolerance.derived},
+          {"estimated", tolerance.estimated},
+          {"measured", tolerance.measured}};
+}
+
 bool IsExact(std::string_view field) {
   static const std::set<std::string_view> kExact{"outer_diameter_mm", "tube_outer_diameter_mm",
                                                  "inner_diameter_mm", "channels",

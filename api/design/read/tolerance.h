@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/json/reader.h"
 #include "catalog/fields/part.h"
 #include "optimizer/explain/robust.h"
 
@@ -26,6 +27,10 @@ struct Tolerance {
   double Of(catalog::Provenance provenance, const std::optional<double>& uncertainty) const;
   bool operator==(const Tolerance&) const = default;
 };
+
+// "tolerance" of "robust" and "guarantee".
+Tolerance ReadTolerance(Reader& request);
+Json RenderTolerance(const Tolerance& tolerance);
 
 // What says which parts go together, and what is counted or cut: counts, diameters, nominal
 // voltages.
