@@ -1,6 +1,7 @@
 #include "verify/corner/verify_known_strokes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/strokes/stroke.h"
 #include "verify/design/verify_finding.h"
@@ -43,10 +44,31 @@ bool KnownStrokes::IsTooSlow(const Query& query, double start_pa) const {
   }
   const double limit_s = std::min(problem_.groups[g].rise_time_max_s, 0.5 / problem_.frequency_hz);
   const double pumped_m3 = limit_s * pumps_->DeliveryAt(pumps, low_pa);
-  return model::FillTimeFromReservoir(line.fill_series, line.chamber, problem_.groups[g].count,
-                                      v.high_m3,
-                                      start_pa + ContentPerVolume(problem_) * pumped_m3 / v.low_m3,
-                                      ambient_pa, target_pa, temperature_k) > limit_s * kSlack;
+  if (model::FillTimeFromReservoir(line.fill_series, line.chamber, problem_.groups[g].count,
+                                   v.high_m3,
+                                   start_pa + ContentPerVolume(problem_) * pumped_m3 / v.low_m3,
+                                   ambient_pa, target_pa, temperature_k) > limit_s * kSlack)
+    return true;
+  const PumpedStroke fastest = FastestStroke(problem_, *pumps_, pumps, line, g, v, start_pa);
+  return fastest.rise_s > limit_s * kSlack || std::isinf(fastest.inflate_s);
+}
+
+std::optional<double> KnownStrokes::LeastStartLeaving(const Query& query, double end_pa,
+                                                      double low_pa, double high_pa) const {
+  const auto leaves = [&](double start_pa) {
+    return FastestStroke(problem_, *pumps_, query.pumps, query.line, query.group, query.volumes,
+                         start_pa)
+                   .end_pa *
+               kSlack >=
+           end_pa;
+  };
+  if (leaves(low_pa)) return low_pa;
+  if (!leaves(high_pa)) return std::nullopt;
+  while (high_pa - low_pa > kStartTolerance * high_pa) {
+    const double middle_pa = 0.5 * (low_pa + high_pa);
+    (leaves(middle_pa) ? high_pa : low_pa) = middle_pa;
+  }
+  return low_pa;
 }
 
 KnownStrokes::Starts& KnownStrokes::KnownOf(const Query& query) {

@@ -7,14 +7,10 @@
 #include <optional>
 #include <tuple>
 
-#include "verify/corner/verify_pump_choices.h"
+#include "verify/corner/verify_pumped_stroke.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
-
-struct Volumes {  // of a reservoir
-  double low_m3, high_m3;
-};
 
 // Keeps what it found: boxes of one tree share most of their ranges, and several objectives may be
 // asked of each box.
@@ -42,6 +38,10 @@ class KnownStrokes {
   bool TooSlow(const Query& query, double start_pa);
   // The least that is fast enough, or a little less; none where even the highest is too slow.
   std::optional<double> LeastStart(const Query& query, double low_pa, double high_pa);
+  // The least start from low_pa on, or a little less, that leaves end_pa after half of the period;
+  // none where even the highest does not.
+  std::optional<double> LeastStartLeaving(const Query& query, double end_pa, double low_pa,
+                                          double high_pa) const;
 
  private:
   using LineRange = std::array<int, 7>;  // group, ranges of its slots

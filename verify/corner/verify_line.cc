@@ -136,6 +136,7 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   }
   best.source_low_pa = low_pa;
   if (best.all_hold) best.inflate_s = seconds(best.source_high_pa, operating_pa);
+  best.fill_flow = model::FlowTable(best.fill_series);
   best.works = true;
   return best;
 }

@@ -2,7 +2,7 @@
 #ifndef PLENUM_VERIFY_CORNER_VERIFY_LINE_H_
 #define PLENUM_VERIFY_CORNER_VERIFY_LINE_H_
 
-#include "model/flow/series.h"
+#include "model/flow/flow_table.h"
 #include "verify/corner/verify_ranges.h"
 #include "verify/design/verify_values.h"
 
@@ -14,6 +14,7 @@ struct BestLine {
   bool mates = false, works = false;
   std::vector<model::FlowElement> fill;  // in the order crossed, largest C and b of each element
   model::Series fill_series;             // of these, with gas and temperature factor
+  model::FlowTable fill_flow;            // the same as a table
   model::Chamber chamber;                // with the narrowest bore
   double widest_dead_m3 = 0.0;           // dead volume of the widest
   double source_low_pa = 0.0;            // least source pressure that is fast enough

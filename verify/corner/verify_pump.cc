@@ -197,6 +197,20 @@ double Pumps::LeastTogether(const Case& c, double enough, double low_pa, double 
   return bound;
 }
 
+// Each of two groups leaves after half of the period what the other needs. False: at no pressure.
+bool Pumps::RaiseStarts(const Case& c, double high_pa, Volumes v,
+                        std::vector<double>& starts_pa) const {
+  constexpr int kRaisesMax = 40;  // fewer leave bounds that hold
+  for (int quiet = 0, raises = 0, g = 0; quiet < 2 && raises < kRaisesMax; g = 1 - g, ++raises) {
+    const auto needed_pa =
+        strokes_.LeastStartLeaving(QueryOf(c, g, v), starts_pa[1 - g], starts_pa[g], high_pa);
+    if (!needed_pa) return false;
+    quiet = *needed_pa > starts_pa[g] ? 0 : quiet + 1;
+    starts_pa[g] = *needed_pa;
+  }
+  return true;
+}
+
 // Of two groups each finds at least what the other was filled to: air only flows downhill.
 double Pumps::LeastInTurns(const Case& c, double enough, double low_pa, double high_pa, Volumes v) {
   const int groups = static_cast<int>(c.lines.size());
@@ -216,6 +230,7 @@ double Pumps::LeastInTurns(const Case& c, double enough, double low_pa, double h
     if (!needed_pa) return kUnlimited;
     starts_pa[g] = *needed_pa;
   }
+  if (groups == 2 && !RaiseStarts(c, high_pa, v, starts_pa)) return kUnlimited;
   return least();
 }
 

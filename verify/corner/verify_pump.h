@@ -70,6 +70,7 @@ class Pumps {
   KnownStrokes::Query QueryOf(const Case& c, int group, Volumes v) const;
   double LeastTogether(const Case& c, double enough, double low_pa, double high_pa, Volumes v);
   double LeastInTurns(const Case& c, double enough, double low_pa, double high_pa, Volumes v);
+  bool RaiseStarts(const Case& c, double high_pa, Volumes v, std::vector<double>& starts_pa) const;
   double LeastAt(const Case& c, double reservoir, Volumes v);
   double LeastMade(const Case& c, Volumes v);
   double Rest(const Case& c, const std::vector<double>& starts_pa, double stop_pa, Volumes v) const;
