@@ -128,6 +128,16 @@ OperatingPoint PointOf(const Design& design) {
           design.settings.tank_fill_pa.value_or(0.0)};
 }
 
+Leaf SizeRebuilt(const Problem& problem, const Workbench& bench, Rebuilt& rebuilt) {
+  rebuilt.candidate.bench = &bench;
+  if (rebuilt.candidate.reservoir.index != kCustom)
+    return SizeAtVolume(problem, rebuilt.candidate, ReservoirVolume(problem, rebuilt.candidate));
+  CustomSizing sizing(problem, rebuilt.candidate);
+  while (!bench.stopped() && !sizing.Refine()) {
+  }
+  return sizing.leaf();
+}
+
 // Strokes as slow as the period allows are looked at, too.
 Problem WithoutStrokeLimits(Problem problem) {
   for (ActuatorGroup& group : problem.groups)
@@ -163,13 +173,21 @@ Leaf Resize(const Problem& problem, const Design& design, const std::function<bo
     return infeasible;
   }
   const Workbench bench{.stop = stop};
-  rebuilt.candidate.bench = &bench;
-  if (rebuilt.candidate.reservoir.index != kCustom)
-    return SizeAtVolume(problem, rebuilt.candidate, ReservoirVolume(problem, rebuilt.candidate));
-  CustomSizing sizing(problem, rebuilt.candidate);
-  while (!bench.stopped() && !sizing.Refine()) {
-  }
-  return sizing.leaf();
+  return SizeRebuilt(problem, bench, rebuilt);
+}
+
+Remade AtBestSettings(const Problem& problem, const Design& design,
+                      const std::function<bool()>& stop) {
+  if (HasEffects(problem)) return Remake(problem, Relaxed(problem), design, stop);
+  Rebuilt rebuilt;
+  if (!Rebuild(problem, problem, design, rebuilt)) return {LeafStatus::kInfeasible, {}};
+  const Workbench bench{.stop = stop};
+  const Leaf leaf = SizeRebuilt(problem, bench, rebuilt);
+  Remade made{leaf.status, {}};
+  if (leaf.status != LeafStatus::kFeasible) return made;
+  made.design = MakeDesign(problem, rebuilt.candidate, leaf);
+  if (!made.design) made.status = LeafStatus::kUndecided;
+  return made;
 }
 
 std::optional<Design> WithSettingsAnew(const Problem& problem, const Design& design,

@@ -26,12 +26,19 @@ Leaf Resize(const Problem& problem, const Design& design, const std::function<bo
 std::optional<Design> WithSettingsAnew(const Problem& problem, const Design& design,
                                        const std::function<bool()>& stop);
 
-// The design's parts under a revised model: sized by SizeWithEffects (effect_sizing.h) and made
-// anew. `relaxed` (relaxation.h) says what a line can do at best, the design comes from there.
+// The design's parts with other settings.
 struct Remade {
   LeafStatus status = LeafStatus::kUndecided;
   std::optional<Design> design;  // kFeasible
 };
+
+// At the settings that suit them best; a made-to-measure reservoir is sized, too, but under a
+// revised model.
+Remade AtBestSettings(const Problem& problem, const Design& design,
+                      const std::function<bool()>& stop);
+
+// Under a revised model: sized by SizeWithEffects (effect_sizing.h) and made anew. `relaxed`
+// (relaxation.h) says what a line can do at best, the design comes from there.
 Remade Remake(const Problem& problem, const Problem& relaxed, const Design& design,
               const std::function<bool()>& stop);
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "api/catalogue/stores.h"
-#include "api/design/evaluation.h"
+#include "api/design/given/evaluation.h"
 #include "api/json/json.h"
 #include "api/measure/curves.h"
 #include "api/measure/stated_document.h"
@@ -75,8 +75,25 @@ int Simulate(const SimulateOptions& options) {
   return kAnswered;
 }
 
-void Evaluate(const FileOptions& options) {
-  const auto request = ReadJson(options.file);
+struct EvaluateOptions {
+  std::string file, beside;
+  std::string catalog = "catalog.db";
+  bool json = false;
+};
+
+// The first design of a saved answer.
+api::Json FirstDesign(const std::string& file) {
+  const api::Json answer = ReadJson(file);
+  if (answer.is_object() && answer.contains("designs") && answer["designs"].is_array() &&
+      !answer["designs"].empty())
+    return answer["designs"][0];
+  throw BadInput("--beside " + file + ": must be the answer of plenum design with a design in it");
+}
+
+void Evaluate(const EvaluateOptions& options) {
+  auto request = ReadJson(options.file);
+  if (!options.beside.empty() && request.is_object())
+    request["beside"] = FirstDesign(options.beside);
   const catalog::Store store = OpenCatalog(options.catalog, catalog::Access::kRead);
   const auto answer = ValueOrRefuse(api::RunEvaluation(request, store.List(), store.Models()));
   std::fputs(options.json ? (Dump(answer) + "\n").c_str() : EvaluationText(answer).c_str(), stdout);
@@ -126,7 +143,20 @@ Command SimulateCommand() {
 }
 
 Command EvaluateCommand() {
-  return FileCommand("evaluate", "A given design against requirements", Evaluate);
+  auto options = std::make_shared<EvaluateOptions>();
+  return {"evaluate",
+          "A given design against requirements",
+          {Argument("FILE", "Request as JSON; - is standard input", &options->file),
+           {"--beside",
+            "A saved answer: why the given design is not its first",
+            &options->beside,
+            {.value_name = "RESULT"}},
+           JsonFlag(options->json),
+           CatalogOption(options->catalog)},
+          [options] {
+            Evaluate(*options);
+            return kAnswered;
+          }};
 }
 
 Command MapCommand() {

@@ -239,6 +239,7 @@ Json Schemas() {
                                   {"requirements", Ref("schemas", "Requirements")},
                                   {"design", api::DescribeGivenDesign()}});
   schemas["Evaluation"]["properties"]["note"] = Json::object();
+  schemas["Evaluation"]["properties"]["beside"] = api::DescribeGivenDesign();
   schemas["Evaluation"]["additionalProperties"] = false;
   schemas["NamedModel"] = Object(
       {{"name", {{"type", "string"}, {"maxLength", 200}}}, {"model", Ref("schemas", "Model")}});

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "api/catalogue/families.h"
-#include "api/design/evaluation.h"
+#include "api/design/given/evaluation.h"
 #include "api/json/json.h"
 #include "api/json/request_limits.h"
 #include "api/measure/curves.h"

@@ -9,7 +9,7 @@
 
 #include "api/describe/descriptions.h"
 #include "api/design/answer.h"
-#include "api/design/evaluation.h"
+#include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/json/words.h"
 #include "api/measure/diagnose_request.h"

@@ -6,7 +6,7 @@
 
 #include "api/catalogue/stores.h"
 #include "api/design/answer.h"
-#include "api/design/evaluation.h"
+#include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/design/verification.h"
 #include "api/json/json.h"

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "api/describe/descriptions.h"
-#include "api/design/evaluation.h"
+#include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/measure/diagnose_request.h"
 #include "api/simulate/simulation.h"

@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "api/design/answer.h"
-#include "api/design/evaluation.h"
+#include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "tests/api/support.h"
 #include "tests/fuzz/computations.h"

@@ -229,12 +229,22 @@ std::string DesignText(const Json& answer, bool wide) {
   return text + ProofText(answer) + RemarksText(answer);
 }
 
+std::string WhyNotFirstText(const Json& answer) {
+  if (!answer.contains("why_not_first")) return "";
+  if (answer.at("why_not_first").is_null())
+    return "\nWhy it is not first is not known: time ran out.\n";
+  std::string text = "\nBeside the first of the list:\n";
+  for (const auto& sentence : answer.at("why_not_first").at("words"))
+    text += "  " + sentence.get<std::string>() + "\n";
+  return text;
+}
+
 std::string EvaluationText(const Json& answer) {
   const auto& range = answer.at("source_pressure_range_kpa_gauge");
   if (range.is_null()) {
     return "It does not work: at no source pressure that the parts stand does every stroke end "
            "within half of the period.\n" +
-           RemarksText(answer);
+           WhyNotFirstText(answer) + RemarksText(answer);
   }
   std::string text = fmt::format("The parts stand source pressures from {} to {} kPa gauge.\n",
                                  Short(range[0]), Short(range[1]));
@@ -246,7 +256,7 @@ std::string EvaluationText(const Json& answer) {
     text +=
         "It does not work: the source pressure is none of these, or a stroke does not "
         "end within half of the period.\n";
-  return text + RemarksText(answer);
+  return text + WhyNotFirstText(answer) + RemarksText(answer);
 }
 
 std::string ProgressText(const optimizer::Progress& progress) {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "api/design/answer.h"
-#include "api/design/evaluation.h"
+#include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "tests/api/support.h"
 #include "tests/api/verified.h"

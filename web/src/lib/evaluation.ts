@@ -1,6 +1,7 @@
 // How a design's parts do at settings and requirements of one's own, as the service evaluates it.
 import { post } from './api';
-import type { Design, Margin, Requirements } from './types';
+import { loadPart, numberOf } from './catalogue';
+import type { Design, Margin, PartRow, Requirements } from './types';
 
 export interface Evaluation {
   works: boolean | null; // null: not known
@@ -9,7 +10,53 @@ export interface Evaluation {
   totals?: Design['totals'];
   performance?: Design['performance'];
   margins?: Margin[];
+  why_not_first?: { words: string[] } | null;
 }
+
+// A design with some of its parts exchanged: for each place in the list of parts the id of another.
+export const placeOf = (row: PartRow): string => `${row.family} ${row.group ?? ''}`;
+
+export async function exchanged(
+  design: Design,
+  requirements: Requirements,
+  ids: Record<string, string>,
+): Promise<object> {
+  const count = (name: string | null): number =>
+    requirements.actuators.find((g, i) => (g.name ?? `group ${i + 1}`) === name)?.count ?? 1;
+  const parts = await Promise.all(
+    design.parts.map(async (row) => {
+      const id = ids[placeOf(row)] ?? row.id;
+      const place = { family: row.family, id, ...(row.group !== null && { group: row.group }) };
+      if (row.family !== 'valve' || id === row.id) return { ...place, quantity: row.quantity };
+      const channels = numberOf((await loadPart(id)).part, 'channels') || 1;
+      return { ...place, quantity: Math.ceil(count(row.group) / channels) };
+    }),
+  );
+  const { source_pressure_kpa_gauge, reservoir_volume_ml, tank_fill_kpa_gauge } = design.settings;
+  const made = parts.some(({ family, id }) => family === 'reservoir' && id === 'custom');
+  return {
+    configuration: design.configuration,
+    parts,
+    settings: {
+      source_pressure_kpa_gauge,
+      ...(made && { reservoir_volume_ml }),
+      ...(Object.keys(ids).length === 0 && { tank_fill_kpa_gauge }),
+    },
+  };
+}
+
+// Why a design is not before another, at its settings and at those that suit its parts best.
+export const compareWith = (
+  first: Design,
+  design: object,
+  requirements: Requirements,
+): Promise<Evaluation> =>
+  post<Evaluation>('/v1/evaluations', {
+    schema: 'evaluation/1',
+    requirements,
+    design,
+    beside: first,
+  });
 
 // What may be tried on a design; 1 or the design's own value changes nothing.
 export interface Change {

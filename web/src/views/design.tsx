@@ -11,6 +11,7 @@ import { proofInWords } from '../lib/words';
 import { Chip, Notice } from '../ui/controls';
 import { csv, saveFile } from '../ui/files';
 import { VariantsPanel } from './kinds';
+import { Exchange } from './exchange';
 import { Maps } from './maps';
 import { MovedOn } from './moved_on';
 import { Sensitivities } from './sensitivities';
@@ -93,6 +94,7 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
         <MarginsPanel design={design} answer={answer} />
       </div>
       <VariantsPanel design={design} />
+      <Exchange answer={answer} design={design} />
       {parts.value && (
         <WhatIf
           design={design}

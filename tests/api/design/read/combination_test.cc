@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "api/catalogue/stores.h"
-#include "api/design/evaluation.h"
+#include "api/design/given/evaluation.h"
 #include "api/json/json.h"
 #include "tests/api/support.h"
 

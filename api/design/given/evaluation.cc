@@ -1,8 +1,10 @@
-#include "api/design/evaluation.h"
+#include "api/design/given/evaluation.h"
 
 #include <chrono>
+#include <optional>
 
 #include "api/design/design_document.h"
+#include "api/design/given/why_not_first.h"
 #include "api/design/read/combination.h"
 #include "api/design/read/design_reader.h"
 #include "api/design/read/power.h"
@@ -54,12 +56,19 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
   Remarks remarks = std::get<DesignRequest>(parsed).remarks;
   remarks.PutUnder("/requirements");
   TellAmbient(problem.ambient);
+  std::optional<optimizer::Design> beside;
+  if (const std::optional<Reader> other = reader.OptionalObject("beside"))
+    beside = ReadGivenDesign(*other, problem);
   optimizer::Design given = ReadGivenDesign(reader.Object("design"), problem);
   reader.Finish();
-  AddOutsidePower(problem, given);
-  if (errors.empty()) CheckCombination(given, problem, parts, "/design", errors);
+  const auto complete = [&](optimizer::Design& design, const char* pointer) {
+    AddOutsidePower(problem, design);
+    if (errors.empty()) CheckCombination(design, problem, parts, pointer, errors);
+    if (errors.empty()) design = WithReservoirVolume(std::move(design), problem);
+  };
+  complete(given, "/design");
+  if (beside) complete(*beside, "/beside");
   if (!errors.empty()) return errors;
-  given = WithReservoirVolume(std::move(given), problem);
   const auto out_of_time = After(seconds_max);
   const auto [source, unknown, design] =
       optimizer::EvaluateAtSettings(optimizer::WithPartsOf(problem, given), given, out_of_time);
@@ -70,6 +79,15 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
   answer["source_pressure_range_kpa_gauge"] =
       source.empty() ? Json(nullptr) : Json{gauge(source.low_pa), gauge(source.high_pa)};
   if (design) answer.update(RenderFigures(*design, problem));
+  if (beside) {
+    const optimizer::AtSettings first = optimizer::EvaluateAtSettings(
+        optimizer::WithPartsOf(problem, *beside), *beside, out_of_time);
+    if (!first.design && !first.unknown)
+      return Errors{{"/beside", "does not work at its settings with these requirements and parts"}};
+    answer["why_not_first"] =
+        first.design ? WhyNotFirst(problem, parts, {given, design, *first.design}, out_of_time)
+                     : Json(nullptr);
+  }
   remarks.Append(recorder.Take());
   remarks.AddTo(answer);
   return answer;

@@ -1,5 +1,5 @@
 // Given parts at given settings, against the search that listed them and the simulator.
-#include "api/design/evaluation.h"
+#include "api/design/given/evaluation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,104 @@
+#include "api/design/given/exchanges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+
+#include "api/design/read/combination.h"
+#include "optimizer/problem/family_specs.h"
+#include "optimizer/sizing/report.h"
+
+namespace plenum::api {
+namespace {
+
+using optimizer::Choice;
+using optimizer::Design;
+
+bool SamePlace(const Choice& a, const Choice& b) {
+  return a.family == b.family && a.group == b.group;
+}
+
+const Choice* RowAt(const Design& design, const Choice& place) {
+  const auto found = std::find_if(design.parts.begin(), design.parts.end(),
+                                  [&](const Choice& row) { return SamePlace(row, place); });
+  return found == design.parts.end() ? nullptr : &*found;
+}
+
+bool SameAmounts(const Choice& a, const Choice& b) {
+  constexpr double kRounding = 1e-9;
+  const auto near = [](double x, double y) { return std::abs(x - y) <= kRounding * std::abs(y); };
+  return near(a.mass_kg, b.mass_kg) && near(a.volume_m3, b.volume_m3);
+}
+
+int GroupOf(const RowPair& pair) { return (pair.given ? pair.given : pair.other)->group; }
+
+bool HasReservoir(const RowPair& pair) {
+  return pair.other && optimizer::SpecOf(pair.other->family).made_to_measure;
+}
+
+Design Exchanged(Design design, const Design& other, const std::vector<RowPair>& rows) {
+  for (const RowPair& pair : rows) {
+    const Choice& place = pair.given ? *pair.given : *pair.other;
+    std::erase_if(design.parts, [&](const Choice& row) { return SamePlace(row, place); });
+    if (pair.other) design.parts.push_back(*pair.other);
+    if (HasReservoir(pair))
+      design.settings.reservoir_volume_m3 = other.settings.reservoir_volume_m3;
+  }
+  return design;
+}
+
+}  // namespace
+
+bool SamePart(const RowPair& pair) {
+  return pair.given && pair.other && optimizer::SameRow(*pair.given, *pair.other);
+}
+
+std::vector<RowPair> Differences(const Design& given, const Design& other) {
+  std::vector<RowPair> pairs;
+  for (const Choice& row : given.parts) {
+    const Choice* beside = RowAt(other, row);
+    if (!beside || !optimizer::SameRow(row, *beside) || !SameAmounts(row, *beside))
+      pairs.push_back({&row, beside});
+  }
+  for (const Choice& row : other.parts)
+    if (!RowAt(given, row)) pairs.push_back({nullptr, &row});
+  return pairs;
+}
+
+std::vector<Exchange> Exchanges(const optimizer::Problem& problem,
+                                const std::vector<catalog::Part>& catalogue, const Design& given,
+                                const Design& other, const std::function<bool()>& stop) {
+  std::vector<RowPair> differing = Differences(given, other);
+  std::erase_if(differing, SamePart);
+  const auto fits = [&](const std::vector<RowPair>& rows) {
+    Errors errors;
+    CheckCombination(Exchanged(given, other, rows), problem, catalogue, "", errors);
+    return errors.empty();
+  };
+  std::vector<std::vector<RowPair>> tries;
+  std::set<int> bundled;
+  for (const RowPair& pair : differing) {
+    if (fits({pair})) {
+      tries.push_back({pair});
+      continue;
+    }
+    if (!bundled.insert(GroupOf(pair)).second) continue;
+    std::vector<RowPair> place;
+    std::copy_if(differing.begin(), differing.end(), std::back_inserter(place),
+                 [&](const RowPair& one) { return GroupOf(one) == GroupOf(pair); });
+    if (fits(place)) tries.push_back(std::move(place));
+  }
+  std::vector<Exchange> exchanges;
+  exchanges.reserve(tries.size());
+  for (std::vector<RowPair>& rows : tries) {
+    const Design design = WithReservoirVolume(Exchanged(given, other, rows), problem);
+    exchanges.push_back({std::move(rows), {}});
+    if (!stop())
+      exchanges.back().made =
+          optimizer::AtBestSettings(optimizer::WithPartsOf(problem, design), design, stop);
+  }
+  return exchanges;
+}
+
+}  // namespace plenum::api

@@ -1,0 +1,77 @@
+#include "api/design/given/requirement_words.h"
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "api/json/words.h"
+#include "optimizer/problem/family_specs.h"
+
+namespace plenum::api {
+namespace {
+
+struct Words {
+  std::string_view field, name, unit;
+  bool at_least = false;
+};
+
+constexpr std::array kWords{
+    Words{"/rise_time_s_max", "rise time", " s"},
+    Words{"/fall_time_s_max", "fall time", " s"},
+    Words{"/pressure_kpa_gauge_max", "highest pressure", " kPa gauge"},
+    Words{"/duty/frequency_hz", "frequency that it sustains", " Hz", true},
+    Words{"/duty/actuations", "number of actuations that it lasts for", "", true},
+    Words{"/supply/source_pressure_kpa_gauge_max", "source pressure", " kPa gauge"},
+    Words{"/supply/tank_fill_kpa_gauge_max", "tank's fill", " kPa gauge"},
+    Words{"/supply/mass_kg_max", "mass", " kg"},
+    Words{"/supply/volume_l_max", "volume", " L"},
+    Words{"/supply/cost_eur_max", "cost", " €"}};
+
+}  // namespace
+
+std::string Told(double number) {
+  if (number == 0.0 || !std::isfinite(number)) return Decimal(number);
+  const double scale = std::pow(10.0, 3.0 - std::floor(std::log10(std::abs(number))));
+  return Decimal(Rounded(std::round(number * scale) / scale));
+}
+
+std::string MarginInWords(const optimizer::Margin& margin, const optimizer::Problem& problem) {
+  const std::string& pointer = margin.requirement;
+  Words words{"", pointer, ""};
+  for (const Words& one : kWords)
+    if (pointer.ends_with(one.field)) words = one;
+  std::string name(words.name);
+  constexpr std::string_view kActuators = "/actuators/";
+  if (pointer.starts_with(kActuators) && problem.groups.size() > 1)
+    name += " of " + problem.groups.at(std::stoul(pointer.substr(kActuators.size()))).name;
+  const std::string unit(words.unit);
+  const std::string achieved = std::isfinite(margin.achieved) ? "is " + Told(margin.achieved) + unit
+                                                              : std::string("is not known");
+  return "the " + name + " " + achieved + ", asked is " + Told(margin.required) + unit +
+         (words.at_least ? " at least" : " at most");
+}
+
+std::string ObjectiveInWords(double objective, const optimizer::Objective& of) {
+  const std::string number = Told(objective);
+  if (of == optimizer::Objective{.mass_kg = 1.0}) return number + " kg";
+  if (of == optimizer::Objective{.volume_l = 1.0}) return number + " L";
+  if (of == optimizer::Objective{.cost_eur = 1.0}) return number + " €";
+  if (of == optimizer::Objective{.energy_wh = 1.0}) return number + " Wh";
+  return number;
+}
+
+std::string PartInWords(const optimizer::Choice& choice, const optimizer::Problem& problem,
+                        const Rows& rows) {
+  const auto row = rows.find(choice.id);
+  std::string text;
+  const bool is_tube = choice.family == optimizer::Family::kTubing;
+  if (choice.quantity > 1 && !is_tube) text += Decimal(choice.quantity) + " × ";
+  text += optimizer::Name(choice.family);
+  text += row == rows.end() ? " made to measure"
+                            : " " + row->second->manufacturer + " " + row->second->part_number;
+  if (choice.group >= 0 && problem.groups.size() > 1)
+    text += " of " + problem.groups[choice.group].name;
+  return text;
+}
+
+}  // namespace plenum::api
