@@ -4,6 +4,7 @@
 
 #include "model/physics/storage.h"
 #include "model/strokes/stroke.h"
+#include "verify/corner/verify_node.h"
 #include "verify/design/verify_design.h"
 
 namespace plenum::verify {
@@ -153,6 +154,16 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
       plan_.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
   const double factor =
       model::FlowFactor(gas) * std::sqrt(model::kReferenceTemperatureK / temperature_k);
+  if (problem_.simultaneous && problem_.groups.size() > 1 && !source.some_open) {
+    std::vector<const BestLine*> lines;
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
+      lines.push_back(&strokes_.Line(ranges, g));
+    if (TooSlowTogether(problem_,
+                        {regulator.Flow("sonic_conductance_dm3_per_s_bar"), factor, source.high_pa,
+                         source.flow_max},
+                        lines))
+      return kUnlimited;
+  }
   const double half_s = 0.5 / problem_.frequency_hz;
   double air_m3 = 0.0, coil_j = 0.0, inflating_j = 0.0;  // per cycle
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/strokes/stroke.h"
+#include "verify/corner/verify_node.h"
 #include "verify/design/verify_finding.h"
 
 namespace plenum::verify {
@@ -24,8 +25,11 @@ const BestLine& KnownStrokes::Line(const Ranges& ranges, int g) {
   const auto& valves = ranges[SlotOf(plan_, Family::kValve, g)];
   const auto [entry, fresh] = lines_.try_emplace(
       {g, tubes.first, tubes.second, fittings.first, fittings.second, valves.first, valves.second});
-  if (fresh) entry->second = BestOf(problem_, plan_, ranges, g);
-  return entry->second;
+  if (!fresh) return entry->second;
+  BestLine& line = entry->second = BestOf(problem_, plan_, ranges, g);
+  if (line.works && problem_.simultaneous && problem_.groups.size() > 1)
+    line.least_means = LeastMeans(problem_, g, line);
+  return line;
 }
 
 bool KnownStrokes::IsTooSlow(const Query& query, double start_pa) const {

@@ -8,6 +8,11 @@
 
 namespace plenum::verify {
 
+// Of the pressure behind a regulator, Pa absolute, by the rise time and by half of the period.
+struct NodeMeans {
+  double rise_pa = 0.0, inflate_pa = 0.0;
+};
+
 struct BestLine {
   // False: no choices fit together; or the best of each, alone on a source without limits, miss a
   // pressure or a time. Nothing below is valid then.
@@ -22,6 +27,7 @@ struct BestLine {
   double coil_w = 0.0;                   // whole group
   double inflate_s = 0.0;                // at the highest pressure; 0 unless all valves hold
   bool some_hold = false, all_hold = true;
+  NodeMeans least_means;  // with which it is fast enough, of groups that inflate at once
 };
 
 BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ranges, int group);
