@@ -136,8 +136,8 @@ void ReadMeasuredDelivery(Reader& supply, MeasuredRig& rig) {
 void ReadMeasuredVolume(Reader& actuator, MeasuredRig& rig) {
   const Measure measure = ReadMeasure(actuator, {"internal_volume"});
   if (measure.names.empty()) return;
-  if (rig.chamber.expansion_ratio != 1.0)
-    actuator.Fail("expansion_ratio", "must be 1 where the volume is measured");
+  if (rig.chamber.expansion_ratio != 1.0 || !rig.chamber.volume_curve.empty())
+    actuator.Fail("expansion_ratio", "must be 1, without another volume, to be measured");
   rig.measured.push_back({{.part = measure.part,
                            .name = "internal_volume",
                            .kind = Kind::kVolume,
