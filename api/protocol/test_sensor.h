@@ -15,7 +15,7 @@ struct TestSensor {
   double noise_kpa = 0.2;  // one standard deviation of a reading
   double resolution_kpa = 0.1;
   double sampling_hz = 100.0;
-  std::optional<double> bottle_l;
+  std::optional<double> bottle_l = {};
 };
 
 inline Range SensorKpaRange() { return {0, 100}; }

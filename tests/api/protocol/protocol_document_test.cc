@@ -43,9 +43,9 @@ TEST(Protocol, EveryTestHasStepsAndAPrecisionForEachOfItsNumbers) {
                     std::hypot(row["from_noise"].get<double>(), row["from_rig"].get<double>()),
                     1e-9);
       }
+      told.insert("pressure_min_kpa_gauge");  // of a valve that has none
       for (const Json& number : test["numbers"])
-        if (number != "pressure_min_kpa_gauge")  // of a valve that has none
-          EXPECT_TRUE(told.contains(number.get<std::string>())) << part.family << number;
+        EXPECT_TRUE(told.contains(number.get<std::string>())) << part.family << number;
     }
   }
 }
