@@ -8,6 +8,8 @@ heat with the bottle's wall, and is read with noise and rounding.
     plenum protocol PART --template template.json
     examples/simulate_bottle_test.py template.json 0.21 0.28 > recording.csv
     plenum diagnose recording.csv --rig template.json --save-part PART
+
+Of a pump: --pump 0:2.1,50:1.6,100:0.9,150:0, its free air in L/min at pressures in kPa above ambient.
 """
 import argparse
 import csv
@@ -33,12 +35,41 @@ def mass_flow(conductance, ratio, upstream_pa, downstream_pa, upstream_k):
     return choked * math.sqrt(max(0.0, 1.0 - ((over - ratio) / (1.0 - ratio)) ** 2))
 
 
+def delivery(points, gauge_pa):
+    """Free air of a pump, m3/s, straight between the points (Pa, m3/s), nothing beyond them."""
+    if gauge_pa >= points[-1][0]:
+        return 0.0
+    for (low_pa, low), (high_pa, high) in zip(points, points[1:]):
+        if gauge_pa <= high_pa:
+            share = max(0.0, (gauge_pa - low_pa) / (high_pa - low_pa))
+            return low + share * (high - low)
+    return 0.0
+
+
+def read_pump(text):
+    pairs = [item.split(":") for item in text.split(",")] if text else []
+    return [(1e3 * float(kpa), float(l_per_min) / 6e4) for kpa, l_per_min in pairs]
+
+
+def volume_of(template):
+    """Of the bottle, with the tube and the space behind a pump, m3."""
+    rig = template["rig"]
+    volume_ml = rig["actuator"]["rest_volume_ml"]
+    volume_ml += float(str(rig["supply"].get("reservoir_volume_ml", 0.0)).split()[0])
+    for element in rig["line"]["elements"]:
+        tube = element.get("tube", {"inner_diameter_mm": 0.0, "length_m": 0.0})
+        volume_ml += math.pi / 4.0 * tube["inner_diameter_mm"] ** 2 * tube["length_m"]
+    return 1e-6 * volume_ml
+
+
 def rates(mass_kg, energy_j, state, rig):
     """Change of mass and inner energy of the bottle's gas."""
     pressure_pa = (KAPPA - 1.0) * energy_j / rig["volume_m3"]
     gas_k = pressure_pa * rig["volume_m3"] / (mass_kg * R)
     inflow = outflow = 0.0
-    if state == "inflate":
+    if state == "inflate" and rig["pump"]:
+        inflow = RHO_0 * delivery(rig["pump"], pressure_pa - AMBIENT_PA)
+    elif state == "inflate":
         inflow = mass_flow(*rig["fill"], rig["source_pa"], pressure_pa, AMBIENT_K)
     if state == "deflate":
         outflow = mass_flow(*rig["exhaust"], pressure_pa, AMBIENT_PA, gas_k)
@@ -80,8 +111,10 @@ def record(run, rig, sampling_hz, end_s):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("template", help="the file of plenum protocol --template")
-    parser.add_argument("fill_c", type=float, help="true C when filling, dm3/(s bar)")
-    parser.add_argument("fill_b", type=float, help="true b when filling")
+    parser.add_argument("fill_c", type=float, nargs="?", default=0.0,
+                        help="true C when filling, dm3/(s bar)")
+    parser.add_argument("fill_b", type=float, nargs="?", default=0.3, help="true b when filling")
+    parser.add_argument("--pump", help="true free air of a pump, KPA:L_PER_MIN,...")
     parser.add_argument("--exhaust-c", type=float, help="true C when emptying; fill_c without it")
     parser.add_argument("--exhaust-b", type=float, help="true b when emptying; fill_b without it")
     parser.add_argument("--noise-kpa", type=float, default=0.2)
@@ -96,8 +129,9 @@ def main():
     draw = random.Random(options.seed)
     actuator = template["rig"]["actuator"]
     highest_pa = AMBIENT_PA + 1e3 * actuator["operating_pressure_kpa_gauge"]
-    volume_m3 = 1e-6 * actuator["rest_volume_ml"] * (1.0 + options.volume_error)
+    volume_m3 = volume_of(template) * (1.0 + options.volume_error)
     rig = {"volume_m3": volume_m3,
+           "pump": read_pump(options.pump),
            "fill": (1e-8 * options.fill_c, options.fill_b),
            "exhaust": (1e-8 * (options.exhaust_c or options.fill_c),
                        options.fill_b if options.exhaust_b is None else options.exhaust_b),
@@ -106,7 +140,7 @@ def main():
     rows = csv.writer(sys.stdout, lineterminator="\n")
     rows.writerow(["run", "t_s", "valve", "pressure_kpa_gauge"])
     for run in template["runs"]:
-        rig["source_pa"] = AMBIENT_PA + 1e3 * run["source_pressure_kpa_gauge"]
+        rig["source_pa"] = AMBIENT_PA + 1e3 * run.get("source_pressure_kpa_gauge", 0.0)
         end_s = run["valve"][-1]["t_s"] + 5.0
         for t_s, state, gauge_pa in record(run, rig, options.sampling_hz, end_s):
             read_kpa = gauge_pa / 1e3 + draw.gauss(0.0, options.noise_kpa)

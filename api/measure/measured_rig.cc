@@ -83,19 +83,11 @@ const std::vector<PairNumber>& PairNumbers(bool directed) {
 }
 
 double DeclaredAt(const LinePiece& piece, Of of) {
-  switch (of) {
-    case Of::kFillConductance:
-      return piece.fill.sonic_conductance_m3_per_s_pa;
-    case Of::kFillRatio:
-      return piece.fill.critical_ratio;
-    case Of::kExhaustConductance:
-      return piece.exhaust.sonic_conductance_m3_per_s_pa;
-    case Of::kExhaustRatio:
-      break;
-    case Of::kVolume:
-      break;
-  }
-  return piece.exhaust.critical_ratio;
+  const bool fill = of == Of::kFillConductance || of == Of::kFillRatio;
+  const model::FlowElement& pair = fill ? piece.fill : piece.exhaust;
+  return of == Of::kFillConductance || of == Of::kExhaustConductance
+             ? pair.sonic_conductance_m3_per_s_pa
+             : pair.critical_ratio;
 }
 
 void ReadMeasuredPair(Reader& reader, const LinePiece& piece, std::size_t at,

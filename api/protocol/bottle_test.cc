@@ -19,10 +19,11 @@ constexpr double kSourceShare = 0.005;  // of a regulator's setting, read by the
 constexpr double kRestS = 1.0, kSettleS = 5.0;
 constexpr double kSamplesMost = 4'000.0;  // of a run: more tell little more
 constexpr int kRepeats = 3;
-constexpr double kPumpS = 60.0;          // that a pump should take for its bottle
-constexpr double kPumpReach = 0.95;      // of the last pressure at which it delivers
-constexpr double kRegulatorOpen = 0.7;   // of its highest setting: a source that keeps it open
-constexpr double kRegulatorReach = 0.6;  // of its highest setting, below which it is open
+constexpr const char* kBehindPump = "2 mL";  // between the pump's valve and the hose
+constexpr double kPumpS = 60.0;              // that a pump should take for its bottle
+constexpr double kPumpReach = 0.95;          // of the last pressure at which it delivers
+constexpr double kRegulatorOpen = 0.7;       // of its highest setting: a source that keeps it open
+constexpr double kRegulatorReach = 0.6;      // of its highest setting, below which it is open
 // Time constant of a bare plastic bottle of 1 L at 200 kPa: 5 W/(m²·K) on 0.06 m² of wall.
 constexpr double kBottleHeatS = 5.0;
 
@@ -214,7 +215,10 @@ std::optional<BottleTest> PumpTest(const catalog::Part& part, const TestSensor& 
   Json& rig = test.measurement["rig"];
   rig["line"] = {
       {"elements", Json::array({{{"tube", {{"inner_diameter_mm", 4.0}, {"length_m", 0.3}}}}})}};
-  rig["supply"] = {{"kind", "compressor"}, {"part", part.id}, {"measure", {"free_air"}}};
+  rig["supply"] = {{"kind", "compressor"},
+                   {"part", part.id},
+                   {"measure", {"free_air"}},
+                   {"reservoir_volume_ml", kBehindPump}};
   AddRuns({seconds_per_l * test.bottle_l, 0.0}, 0.0, sensor.sampling_hz, test);
   AddHeat(end_kpa, test);
   return test;

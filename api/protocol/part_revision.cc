@@ -162,8 +162,9 @@ class Revising {
     bool contradicted = false;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       double& flow = points[i].free_air_l_per_min;
+      // The end of the table, where the pump may well deliver nothing, stays.
+      if (flow == 0.0 && rows[i]->at("interval_95")[0].get<double>() <= 0.0) continue;
       const double value = rows[i]->at("fitted").get<double>();
-      // The end of the table, where nothing is delivered, has no uncertainty of its own.
       const double deviation = rows[i]->at("uncertainty").is_null()
                                    ? 0.0
                                    : value * rows[i]->at("uncertainty").get<double>();

@@ -1,6 +1,5 @@
 #include "api/protocol/test_steps.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace plenum::api {
@@ -14,97 +13,99 @@ constexpr double kBottleShare = 0.002;  // uncertainty of the known volume
 constexpr double kSharedKpa = 400.0;    // in the known volume before it is opened
 constexpr double kReadings = 10.0;      // that are averaged: more share their error
 
-struct Steps {
-  std::string_view protocol, family;
-  std::vector<std::string> steps;
-};
-
-const std::vector<std::string> kFlowSteps = {
+constexpr std::string_view kWeigh =
     "Weigh the bottle empty and full of water: its volume is the difference, 1 g for 1 mL. Write "
     "it "
-    "into rest_volume_ml of the template.",
+    "into rest_volume_ml of the template.";
+constexpr std::string_view kValve =
     "Connect in this order: regulated source, the part, bottle. Mount the sensor on the bottle "
-    "itself, on a port of its own. Keep what lies between part and bottle short and wide.",
-    "Set the source, read it with the same sensor, and write it into source_pressure_kpa_gauge.",
+    "itself, on a port of its own. Keep what lies between part and bottle short and wide.";
+constexpr std::string_view kFitting =
+    "Connect in this order: regulated source, a ball valve that is wide against the part, the "
+    "part, "
+    "bottle. Mount the sensor on the bottle itself.";
+constexpr std::string_view kRegulator =
+    "Connect in this order: source, ball valve, regulator, bottle, and turn the regulator to its "
+    "highest outlet pressure: the source of this test lies below it where it can, so that the "
+    "regulator stays open to the end.";
+constexpr std::string_view kSource =
+    "Set the source, read it with the same sensor, and write it into source_pressure_kpa_gauge.";
+constexpr std::string_view kWatch =
     "Close the bottle under pressure and watch it for a minute: a fall that goes on after the gas "
-    "has cooled is a leak, to be sealed first.",
+    "has cooled is a leak, to be sealed first.";
+constexpr std::string_view kRecord =
     "Record: rest, fill, close, empty, rest, at the times of the template, and note the valve's "
-    "state in each row. Repeat from ambient pressure and temperature."};
+    "state in each row. Repeat from ambient pressure and temperature.";
+constexpr std::string_view kRecordFilling =
+    "Open the ball valve and record the filling at the times of the template. Empty the bottle "
+    "unrecorded. Repeat from ambient pressure and temperature.";
+constexpr std::string_view kPump =
+    "Connect the pump to the bottle by 0.3 m of 4 mm tube (or write the one that you use into the "
+    "template), and mount the sensor on the bottle. Run the pump from a supply at the voltage of "
+    "its "
+    "curve.";
+constexpr std::string_view kPumpRecord =
+    "Start pump and recording together; stop when the template's time is over, or when the "
+    "pressure "
+    "no longer rises. A pump that stalls earlier than its table ends is recorded up to there.";
+constexpr std::string_view kPumpHold =
+    "With the pump off record the template's hold: what the pressure falls by, once the gas has "
+    "cooled, is what the pump lets back or the bottle leaks.";
+constexpr std::string_view kPumpRead =
+    "Note the current at the pressures of the table, and the pressure at which the pump stalls. "
+    "Let "
+    "the pump cool down before each repeat.";
+constexpr std::string_view kWater =
+    "Weigh the reservoir dry, fill it with water to the port without bubbles, weigh it again: the "
+    "difference is its volume, 1 g for 1 mL (0.998 g at 20 °C).";
+constexpr std::string_view kShare =
+    "Where no water may come in: pressurise a bottle of known volume V1 to p1, connect it to the "
+    "vessel at ambient pressure, wait until the reading stands, read p2 (gauge): "
+    "V2 = V1·(p1 − p2)/p2.";
+constexpr std::string_view kReservoirMean = "Repeat twice; write the mean into internal_volume_ml.";
+constexpr std::string_view kCylinder =
+    "Weigh the cylinder empty and, with its valve removed, full of water, if its inspection allows "
+    "it.";
+constexpr std::string_view kCylinderMean = "Repeat twice; write the mean into water_volume_l.";
+constexpr std::string_view kDuty =
+    "Run the pump at its worst pressure in a cycle of five minutes, first half on, half off.";
+constexpr std::string_view kDutyHeat =
+    "Measure the temperature of the motor's body at the end of each on-time until two cycles "
+    "differ "
+    "by less than 1 K.";
+constexpr std::string_view kDutyMost =
+    "Lengthen the on-time until that temperature is the highest that its maker allows (60 °C on "
+    "the "
+    "body where nothing is said): on-time over cycle is duty_max.";
+constexpr std::string_view kSwitching =
+    "Lower the inlet pressure in steps of 10 kPa and switch ten times at each: the lowest pressure "
+    "at which all ten switch is pressure_min_kpa_gauge.";
+constexpr std::string_view kCoil =
+    "Measure voltage and current of one coil after a minute energised: their product is "
+    "coil_power_w.";
+constexpr std::string_view kDischarge =
+    "Charge to the full voltage and discharge at the current that the pump draws, down to the "
+    "cut-off voltage of the pack.";
+constexpr std::string_view kCapacity =
+    "Current times hours is capacity_ah; the largest current at which the pack stays below its "
+    "temperature limit to the end is current_max_a.";
 
-const std::vector<Steps>& BottleSteps() {
-  static const std::vector<Steps> kAll = {
-      {"bottle_test", "valve", kFlowSteps},
-      {"bottle_test",
-       "fitting",
-       {kFlowSteps[0],
-        "Connect in this order: regulated source, a ball valve that is wide against the part, the "
-        "part, bottle. Mount the sensor on the bottle itself.",
-        kFlowSteps[2], kFlowSteps[3], kFlowSteps[4]}},
-      {"bottle_test",
-       "regulator",
-       {kFlowSteps[0],
-        "Connect in this order: source, ball valve, regulator, bottle, and turn the regulator to its "
-        "highest outlet pressure: the source of this test lies below it where it can, so that the "
-        "regulator stays open to the end.",
-        "Read the source with the same sensor and write it into source_pressure_kpa_gauge.",
-        kFlowSteps[3],
-        "Open the ball valve and record the filling at the times of the template. Empty the bottle "
-        "unrecorded. Repeat from ambient pressure and temperature."}},
-      {"bottle_test",
-       "compressor",
-       {kFlowSteps[0],
-        "Connect the pump to the bottle by 0.3 m of 4 mm tube (or write the one that you use into "
-        "the template), and mount the sensor on the bottle. Run the pump from a supply at the "
-        "voltage of its curve.",
-        "Start pump and recording together; stop when the template's time is over, or when the "
-        "pressure no longer rises. A pump that stalls earlier than its table ends is recorded up "
-        "to "
-        "there.",
-        "With the pump off record the template's hold: what the pressure falls by, once the gas "
-        "has "
-        "cooled, is what the pump lets back or the bottle leaks.",
-        "Note the current at the pressures of the table, and the pressure at which the pump "
-        "stalls. "
-        "Let the pump cool down before each repeat."}}};
-  return kAll;
-}
+struct Steps {
+  std::string_view protocol, family;
+  std::vector<std::string_view> steps;
+};
 
-const std::vector<Steps>& HandSteps() {
+const std::vector<Steps>& AllSteps() {
   static const std::vector<Steps> kAll = {
-      {"volume_test",
-       "reservoir",
-       {"Weigh the reservoir dry, fill it with water to the port without bubbles, weigh it again: "
-        "the difference is its volume, 1 g for 1 mL (0.998 g at 20 °C).",
-        "Where no water may come in: pressurise a bottle of known volume V1 to p1, connect it to "
-        "the "
-        "reservoir at ambient pressure, wait until the reading stands, read p2 (gauge): "
-        "V2 = V1·(p1 − p2)/p2.",
-        "Repeat twice; write the mean into internal_volume_ml."}},
-      {"volume_test",
-       "cylinder",
-       {"Weigh the cylinder empty and, with its valve removed, full of water, if its inspection "
-        "allows it; else share gas with a bottle of known volume V1 at p1: V2 = V1·(p1 − p2)/p2.",
-        "Repeat twice; write the mean into water_volume_l."}},
-      {"duty_test",
-       "compressor",
-       {"Run the pump at its worst pressure in a cycle of five minutes, first half on, half off.",
-        "Measure the temperature of the motor's body at the end of each on-time until two cycles "
-        "differ by less than 1 K.",
-        "Lengthen the on-time until that temperature is the highest that its maker allows (60 °C "
-        "on "
-        "the body where nothing is said): on-time over cycle is duty_max."}},
-      {"switching_test",
-       "valve",
-       {"Lower the inlet pressure in steps of 10 kPa and switch ten times at each: the lowest "
-        "pressure at which all ten switch is pressure_min_kpa_gauge.",
-        "Measure voltage and current of one coil after a minute energised: their product is "
-        "coil_power_w."}},
-      {"discharge_test",
-       "battery",
-       {"Charge to the full voltage and discharge at the current that the pump draws, down to the "
-        "cut-off voltage of the pack.",
-        "Current times hours is capacity_ah; the largest current at which the pack stays below its "
-        "temperature limit to the end is current_max_a."}}};
+      {"bottle_test", "valve", {kWeigh, kValve, kSource, kWatch, kRecord}},
+      {"bottle_test", "fitting", {kWeigh, kFitting, kSource, kWatch, kRecord}},
+      {"bottle_test", "regulator", {kWeigh, kRegulator, kSource, kWatch, kRecordFilling}},
+      {"bottle_test", "compressor", {kWeigh, kPump, kPumpRecord, kPumpHold, kPumpRead}},
+      {"volume_test", "reservoir", {kWater, kShare, kReservoirMean}},
+      {"volume_test", "cylinder", {kCylinder, kShare, kCylinderMean}},
+      {"duty_test", "compressor", {kDuty, kDutyHeat, kDutyMost}},
+      {"switching_test", "valve", {kSwitching, kCoil}},
+      {"discharge_test", "battery", {kDischarge, kCapacity}}};
   return kAll;
 }
 
@@ -140,9 +141,9 @@ std::vector<ReadNumber> OfVolume(const char* field, double volume_ml, const Test
 }  // namespace
 
 std::vector<std::string> StepsOf(std::string_view protocol, std::string_view family) {
-  for (const std::vector<Steps>* all : {&BottleSteps(), &HandSteps()})
-    for (const Steps& one : *all)
-      if (one.protocol == protocol && one.family == family) return one.steps;
+  for (const Steps& one : AllSteps())
+    if (one.protocol == protocol && one.family == family)
+      return {one.steps.begin(), one.steps.end()};
   return {};
 }
 

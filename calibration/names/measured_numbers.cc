@@ -51,9 +51,9 @@ void OfRivals(const Dataset& dataset, std::vector<std::string>& reasons) {
     const bool has = std::any_of(dataset.runs.begin(), dataset.runs.end(),
                                  [&](const Run& run) { return Has(run, rival); });
     if (!has || UncertaintyOf(dataset, rival) > 0.0 || !seen.insert(rival).second) continue;
-    const std::string name(Name(rival));
-    reasons.push_back("relative_uncertainty." + name + " is not declared: " + number.name +
-                      " is fixed only as well as " + name + " is known");
+    std::string& reason = reasons.emplace_back("relative_uncertainty.");
+    reason += Name(rival);
+    reason += " is not declared, and " + number.name + " is fixed only as well as it is known";
   }
 }
 
@@ -116,8 +116,8 @@ std::vector<std::string> WhyNoRevision(const Dataset& dataset, const Diagnosis& 
 
 std::string WhyNotKept(const Dataset& dataset, const MeasuredEstimate& estimate) {
   const MeasuredNumber& number = dataset.measured[estimate.number];
-  if (number.kind == Kind::kDelivery && estimate.declared <= 0.0 && estimate.value <= 0.0)
-    return "";  // the end of the table, where the pump delivers nothing
+  if (number.kind == Kind::kDelivery && estimate.declared <= 0.0 && estimate.low <= 0.0)
+    return "";  // the end of the table, where the pump may well deliver nothing
   if (estimate.at_bound) return "ended at an end of what was searched: the readings do not fix it";
   if (estimate.deviation <= kMostUncertain * estimate.value) return "";
   return "is known to " + Percent(estimate.deviation / estimate.value) +
