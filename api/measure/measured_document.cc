@@ -39,7 +39,7 @@ Json Render(const calibration::MeasuredEstimate& estimate, const calibration::Da
               {"fitted", Number(estimate.value / unit.factor)},
               {"unit", unit.name},
               {"uncertainty",
-               estimate.value > 0.0 ? Number(estimate.deviation / estimate.value) : Json(nullptr)},
+               estimate.low > 0.0 ? Number(estimate.deviation / estimate.value) : Json(nullptr)},
               {"interval_95", Json::array({Number(estimate.low / unit.factor),
                                            Number(estimate.high / unit.factor)})},
               {"refused", refused.empty() ? Json(nullptr) : Json(refused)}};

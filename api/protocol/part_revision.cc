@@ -204,6 +204,7 @@ class Revising {
 
   void AddDocuments() {
     for (const auto& file : files_) part_.documents.push_back({file.name, file.sha256});
+    part_.origin = "user";  // new seed rows do not take it back
   }
 
   catalog::Part part_;

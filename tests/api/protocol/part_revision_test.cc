@@ -42,6 +42,7 @@ TEST(PartRevision, ANumberIsMeasuredFromThenOn) {
   EXPECT_EQ(number.provenance, Origin::kMeasured);
   EXPECT_DOUBLE_EQ(number.uncertainty.value(), 0.01);
   EXPECT_THAT(number.source, HasSubstr("recording.csv"));
+  EXPECT_EQ(revised.part->origin, "user");  // so that new seed rows leave it alone
   ASSERT_EQ(revised.part->documents.size(), part.documents.size() + 1);
   EXPECT_EQ(revised.part->documents.back().sha256, kHash);
   EXPECT_EQ(revised.part->numbers.at("critical_ratio_fill"),
