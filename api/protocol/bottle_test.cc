@@ -84,7 +84,8 @@ Json Measurement(const catalog::Part& part, double bottle_l, double highest_kpa)
            {{"actuator",
              {{"rest_volume_ml", Number(1e3 * bottle_l)},
               {"expansion_ratio", 1.0},
-              {"operating_pressure_kpa_gauge", Number(highest_kpa)}}}}},
+              {"operating_pressure_kpa_gauge", Number(highest_kpa)}}},
+            {"ambient", {{"pressure_kpa_abs", 100.0}, {"temperature_k", 293.15}}}}},
           {"relative_uncertainty", {{"rest_volume", kBottleShare}}},
           {"runs", Json::array()}};
 }

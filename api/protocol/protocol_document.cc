@@ -60,8 +60,8 @@ void Warn(const std::string& name, double uncertainty, double from_noise, bool t
                                  " only. Take a faster or finer sensor, or a larger bottle.");
   else if (std::pow(from_noise / uncertainty, 2) < 1.0 - kRigShare)
     precision.warnings.push_back(name +
-                                 " will be as precise as the bottle's volume and the source "
-                                 "are known: weigh the bottle full of water.");
+                                 " will be as precise as the bottle's volume, the source and "
+                                 "the room's temperature are known.");
 }
 
 Precision PrecisionOfTest(const BottleTest& test, const catalog::Part& part,

@@ -14,12 +14,12 @@ constexpr double kSharedKpa = 400.0;    // in the known volume before it is open
 constexpr double kReadings = 10.0;      // that are averaged: more share their error
 
 constexpr std::string_view kWeigh =
-    "Weigh the bottle empty and full of water: its volume is the difference, 1 g for 1 mL. Write "
-    "it "
-    "into rest_volume_ml of the template.";
+    "Weigh the bottle empty and full of water, with what lies between it and the part: its volume "
+    "is the difference, 1 g for 1 mL. Write it into rest_volume_ml of the template.";
 constexpr std::string_view kValve =
     "Connect in this order: regulated source, the part, bottle. Mount the sensor on the bottle "
-    "itself, on a port of its own. Keep what lies between part and bottle short and wide.";
+    "itself, on a port of its own. Keep what lies between part and bottle short and wide, and "
+    "leave the exhaust port open, without a silencer.";
 constexpr std::string_view kFitting =
     "Connect in this order: regulated source, a ball valve that is wide against the part, the "
     "part, "
@@ -29,10 +29,13 @@ constexpr std::string_view kRegulator =
     "highest outlet pressure: the source of this test lies below it where it can, so that the "
     "regulator stays open to the end.";
 constexpr std::string_view kSource =
-    "Set the source, read it with the same sensor, and write it into source_pressure_kpa_gauge.";
+    "Set the source, read it with the same sensor, and write it into source_pressure_kpa_gauge. A "
+    "source that sags while the bottle fills looks like another critical ratio: if it moves by "
+    "more than 1 %, record it too (column source_pressure_kpa_gauge, supply kind measured).";
 constexpr std::string_view kWatch =
     "Close the bottle under pressure and watch it for a minute: a fall that goes on after the gas "
-    "has cooled is a leak, to be sealed first.";
+    "has cooled is a leak, to be sealed first. Write the room's temperature and air pressure into "
+    "ambient.";
 constexpr std::string_view kRecord =
     "Record: rest, fill, close, empty, rest, at the times of the template, and note the valve's "
     "state in each row. Repeat from ambient pressure and temperature.";

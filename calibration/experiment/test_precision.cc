@@ -67,6 +67,7 @@ std::optional<TestPrecision> PrecisionOf(Dataset dataset, const std::vector<mode
   data.sizes = SizesOf(dataset);
   TestPrecision precision;
   precision.numbers = Estimated(data, effects, false);
+  WidenByRoom(dataset, precision.numbers);
   for (const MeasuredEstimate& estimate : Estimated(data, effects, true))
     precision.from_noise.push_back(estimate.deviation);
   if (precision.numbers.empty() || precision.from_noise.size() != precision.numbers.size())

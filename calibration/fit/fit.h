@@ -101,6 +101,11 @@ std::vector<Estimate> Intervals(const Fit& fit, const Eigen::MatrixXd& covarianc
 std::vector<MeasuredEstimate> MeasuredEstimates(const Dataset& dataset, const Fit& fit,
                                                 const Eigen::MatrixXd& covariance);
 
+// Adds to their intervals and deviations what a room thermometer leaves open: kRoomK, one standard
+// deviation. Of one pressure record C and V go with T^(−1/2) and T^(1/2), a pump's delivery with 1/T.
+inline constexpr double kRoomK = 2.0;
+void WidenByRoom(const Dataset& dataset, std::vector<MeasuredEstimate>& estimates);
+
 // Readings of a run that the fitted model predicts. Empty where the simulation failed.
 Reading Predicted(const FitData& data, const ModelState& state, std::size_t run,
                   const FitOptions& options);

@@ -162,6 +162,20 @@ std::vector<MeasuredEstimate> MeasuredEstimates(const Dataset& dataset, const Fi
   return estimates;
 }
 
+void WidenByRoom(const Dataset& dataset, std::vector<MeasuredEstimate>& estimates) {
+  const double kelvin_share = kRoomK / dataset.runs.front().ambient.temperature_k;
+  for (MeasuredEstimate& estimate : estimates) {
+    const Kind kind = dataset.measured[estimate.number].kind;
+    if (kind == Kind::kRatio) continue;
+    const double room = (kind == Kind::kDelivery ? 1.0 : 0.5) * kelvin_share * estimate.value;
+    const double half = kTwoSided95 * room;
+    estimate.low = estimate.value - std::hypot(estimate.value - estimate.low, half);
+    estimate.low = std::max(0.0, estimate.low);
+    estimate.high = estimate.value + std::hypot(estimate.high - estimate.value, half);
+    estimate.deviation = std::hypot(estimate.deviation, room);
+  }
+}
+
 void AddDeliverySlopes(const ForwardModel& forward, std::size_t run, const ModelState& state,
                        std::span<const Parameter> parameters, const PredictOptions& options,
                        Prediction& prediction) {

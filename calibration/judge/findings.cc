@@ -123,6 +123,7 @@ Estimates EstimatesOf(const Bench& bench, const Fit& fit, IntervalsFrom source) 
     ProfileIntervals(bench.data, fit, covariance, Inflation(fit, memory), bench.tight, intervals);
   Estimates estimates;
   estimates.measured = MeasuredEstimates(bench.dataset, fit, covariance);
+  WidenByRoom(bench.dataset, estimates.measured);
   std::vector<std::size_t> effects, fitted;  // which coordinates
   for (const model::Effect& effect : fit.state.effects)
     estimates.effects.push_back({effect, std::vector<Estimate>(effect.parameters.size())});

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/fit/fit.h"
 #include "calibration/values/dataset.h"
 #include "tests/calibration/noise/processes.h"
 #include "tests/support/effects/effect_form.h"
@@ -19,6 +20,7 @@ struct HiddenBottle {
   double fill_c = 1.0, exhaust_c = 1.0;  // times the declared C
   double fill_b = 0.3, exhaust_b = 0.3;  // declared 0.3
   double volume = 1.0, source = 1.0;     // times the declared volume and gauge pressure
+  double ambient_k = 293.15;             // as declared
   std::optional<double> heat_s;
   std::optional<OrificeLeak> leak;
   double noise_pa = 300.0;
@@ -73,6 +75,7 @@ inline calibration::Dataset BottleTestOfAValve(const HiddenBottle& truth, std::u
     rig.source_pa = 1e5 + truth.source * (kBottleSourcePa - 1e5);
     rig.fill = {{kValveC * truth.fill_c, truth.fill_b}};
     rig.exhaust = {{kValveC * truth.exhaust_c, truth.exhaust_b}};
+    rig.ambient_k = truth.ambient_k;
     rig.heat_time_constant_s = truth.heat_s;
     if (truth.leak) rig.leak = *truth.leak;
     for (const model::ValveCommand& command : run.valve)
@@ -100,14 +103,17 @@ inline HiddenBottle DrawBottle(std::uint64_t seed) {
   std::normal_distribution<double> normal;
   truth.volume = 1.0 + kBottleUncertainty * normal(generator);
   truth.source = 1.0 + kBottleSourceUncertainty * normal(generator);
+  truth.ambient_k += calibration::kRoomK * normal(generator);
   return truth;
 }
 
-// A pump with 0.1 L behind it fills 1 L through a wide hose; `delivery` is the truth at the declared pressures.
+// A pump with 0.1 L behind it fills 1 L through a wide hose; `delivery` is the truth at the
+// declared pressures.
 inline const std::vector<double> kPumpPa = {1e5, 1.5e5, 2e5, 2.5e5, 3e5};
 inline const std::vector<double> kPumpDelivery = {1e-4, 8e-5, 6e-5, 3.5e-5, 1e-5};  // m³/s ANR
 inline calibration::Dataset BottleTestOfAPump(const std::vector<double>& delivery, double volume,
-                                              std::uint64_t seed, double noise_pa = 200.0) {
+                                              std::uint64_t seed, double ambient_k = 293.15,
+                                              double noise_pa = 200.0) {
   calibration::Dataset dataset;
   dataset.name = "pump";
   for (std::size_t i = 0; i < kPumpPa.size(); ++i)
@@ -140,6 +146,7 @@ inline calibration::Dataset BottleTestOfAPump(const std::vector<double>& deliver
     rig.rest_volume_m3 = kBottleM3 * volume;
     rig.expansion_ratio = 1.0;
     rig.operating_pa = 3e5;
+    rig.ambient_k = ambient_k;
     rig.source = EffectRig::Source::kReservoir;
     rig.source_pa = 1e5;
     rig.reservoir_m3 = 1e-4;
