@@ -112,7 +112,7 @@ TEST(MeasuredNumbers, APumpThatStallsIsNotMeasuredBeyond) {
   const Dataset dataset = BottleTestOfAPump({1e-4, 7e-5, 2e-5, 0.0, 0.0}, 1.0, 7);
   const Diagnosis diagnosis = Diagnosed(dataset);
   const bool refused = !WhyNoRevision(dataset, diagnosis).empty();
-  EXPECT_TRUE(refused || WhyNotKept(dataset, At(diagnosis, 3)) != "");
+  EXPECT_TRUE(refused || !WhyNotKept(dataset, At(diagnosis, 3)).empty());
 }
 
 }  // namespace
