@@ -13,6 +13,7 @@
 #include "calibration/judge/verdict.h"
 #include "calibration/learn/discrepancy.h"
 #include "calibration/learn/slips.h"
+#include "calibration/names/measured_numbers.h"
 #include "calibration/names/stability.h"
 #include "calibration/names/wrong_numbers.h"
 #include "calibration/values/thresholds.h"
@@ -60,6 +61,7 @@ class Diagnosing {
       Search(data, options_);
     } while (LearnReadings(Chosen().fit) && !Stopped());
     Assess();
+    if (!diagnosis_.tied.empty()) WidenByTied(bench_.dataset, tied_, diagnosis_.measured);
     return std::move(diagnosis_);
   }
 

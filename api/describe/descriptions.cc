@@ -10,6 +10,7 @@
 #include "api/json/reader.h"
 #include "api/json/request_limits.h"
 #include "api/json/schema_recorder.h"
+#include "api/json/shared_fields.h"
 #include "api/measure/diagnose_request.h"
 #include "api/measure/measurement.h"
 #include "api/measure/model_document.h"
@@ -105,17 +106,18 @@ std::vector<Json> AllMeasurements() {
   return {Document(R"({
     "schema": "measurement/1", "relative_uncertainty": {}, "holdout": [],
     "rig": { "ambient": { "pressure_kpa_abs": 200 },
-             "actuator": { "pressure_volume": [ {}, {} ], "cylinder": {}, "muscle": {}, "pouch": {},
+             "actuator": { "measure": [], "pressure_volume": [ {}, {} ], "cylinder": {}, "muscle": {}, "pouch": {},
                            "body": {} },
              "line": { "sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3,
                        "exhaust": {}, "tube": {} },
-             "supply": { "kind": "compressor", "curve": [ {} ] } },
+             "supply": { "kind": "compressor", "measure": [], "curve": [ {} ] } },
     "runs": [ { "initial": {}, "channels": { "source_pressure_kpa_gauge": [],
                 "inlet_pressure_kpa_gauge": [], "temperature_k": [], "volume_ml": [],
                 "flow_l_per_min_anr": [] }, "valve": [ {} ], "cycle": {} } ] })"),
           Document(R"({
     "schema": "measurement/1",
-    "rig": { "actuator": {}, "line": { "elements": [ { "exhaust": {} }, { "tube": {} } ] },
+    "rig": { "actuator": {}, "line": { "elements": [ { "measure": [], "exhaust": {} },
+                                                         { "tube": {} } ] },
              "supply": { "kind": "regulated" } },
     "runs": [ { "cycle": {} } ] })")};
 }
@@ -232,6 +234,8 @@ Json DescribeMeasurement() {
   documents.push_back(ExampleMeasurement());
   Json schema = Heard(documents, [](const Json& document) { ParseMeasurement(document); });
   Json& properties = schema["properties"];
+  properties["rig"]["properties"]["line"]["properties"]["elements"]["items"]["properties"]
+            ["length_m"] = NumberForm(TubeLengthRange());  // of tubing of the catalogue
   properties["rig"] = InParts(properties["rig"]);
   properties["runs"]["items"]["properties"]["rig"] = properties["rig"];
   properties["model"] = {{"type", {"string", "null"}},
@@ -240,6 +244,13 @@ Json DescribeMeasurement() {
   properties["save"] = {{"type", {"string", "null"}},
                         {"maxLength", kTextCharactersMax},
                         {"description", "the name to save the model under"}};
+  properties["save_part"] = {
+      {"type", {"string", "null"}},
+      {"maxLength", kTextCharactersMax},
+      {"description", "the part that the measured numbers are written into"}};
+  properties["save_part_anyway"] = {
+      {"type", {"boolean", "null"}},
+      {"description", "also where they contradict what stands there"}};
   properties["time_limit_s"] = NumberOrQuantityForm("time_limit_s", {0.01, kDiagnosisTimeMaxS});
   return schema;
 }

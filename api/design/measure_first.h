@@ -10,14 +10,6 @@
 
 namespace plenum::api {
 
-// What one test of a part gives.
-struct Protocol {
-  std::string_view name;  // "bottle_test", …
-  std::string_view family;
-  std::vector<std::string_view> numbers;  // fields of the catalogue, or "free_air", "current"
-};
-const std::vector<Protocol>& Protocols();
-
 // "measure_first": [{ "part", "protocol", "numbers", "saving", "saving_share",
 //                     "saving_interval", "with" }]
 // `saving` is the objective of the best guaranteed design less that of a proved search in which the

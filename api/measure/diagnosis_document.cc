@@ -7,6 +7,7 @@
 
 #include "api/json/units.h"
 #include "api/json/version.h"
+#include "api/measure/measured_document.h"
 #include "api/measure/stated_document.h"
 #include "api/simulate/effects.h"
 #include "calibration/noise/phases.h"
@@ -374,6 +375,7 @@ Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
   document["series"] =
       List(diagnosis.series, [&](const auto& series) { return RenderSeries(series, dataset); });
   document["provenance"] = RenderProvenance(provenance);
+  AddMeasured(diagnosis, dataset, document);
   AddStatedModels(diagnosis, dataset, document);
   return document;
 }

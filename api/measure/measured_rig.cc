@@ -5,6 +5,7 @@
 #include "api/json/remarks.h"
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"
+#include "api/json/words.h"
 #include "api/simulate/group_chamber.h"
 #include "api/simulate/rig.h"
 
@@ -12,6 +13,8 @@ namespace plenum::api {
 namespace {
 
 using calibration::LinePiece;
+using calibration::MeasuredNumber;
+using calibration::MeasuredPlace;
 using calibration::Supply;
 
 constexpr std::size_t kElementsMax = 16;
@@ -39,12 +42,112 @@ LinePiece ReadTube(Reader tube) {
   return piece;
 }
 
-std::vector<LinePiece> ReadPieces(Reader line) {
+using Of = MeasuredPlace::Of;
+using Kind = MeasuredNumber::Kind;
+
+// "part" and "measure" of an object of the rig: the part's id and the names to be measured.
+struct Measure {
+  std::string part;
+  std::vector<std::string> names;
+};
+Measure ReadMeasure(Reader& reader, const std::vector<std::string>& allowed) {
+  Measure measure;
+  measure.part = reader.Text("part", "");
+  if (!reader.Has("measure")) return measure;
+  measure.names = reader.Texts("measure", 1, allowed.size());
+  if (measure.part.empty()) reader.Fail("part", "is required with measure: the id of the part");
+  for (std::size_t i = 0; i < measure.names.size(); ++i)
+    if (std::find(allowed.begin(), allowed.end(), measure.names[i]) == allowed.end())
+      reader.FailAt("measure/" + std::to_string(i),
+                    "must be " + OneOf(allowed) + ", not " + Quoted(measure.names[i]));
+  return measure;
+}
+
+struct PairNumber {
+  const char* name;
+  Kind kind;
+  std::vector<Of> places;
+};
+
+// Of an element with one pair for both directions, and of one with a pair for each.
+const std::vector<PairNumber>& PairNumbers(bool directed) {
+  static const std::vector<PairNumber> kBoth = {
+      {"sonic_conductance", Kind::kConductance, {Of::kFillConductance, Of::kExhaustConductance}},
+      {"critical_ratio", Kind::kRatio, {Of::kFillRatio, Of::kExhaustRatio}}};
+  static const std::vector<PairNumber> kDirected = {
+      {"sonic_conductance_fill", Kind::kConductance, {Of::kFillConductance}},
+      {"critical_ratio_fill", Kind::kRatio, {Of::kFillRatio}},
+      {"sonic_conductance_exhaust", Kind::kConductance, {Of::kExhaustConductance}},
+      {"critical_ratio_exhaust", Kind::kRatio, {Of::kExhaustRatio}}};
+  return directed ? kDirected : kBoth;
+}
+
+double DeclaredAt(const LinePiece& piece, Of of) {
+  const bool fill = of == Of::kFillConductance || of == Of::kFillRatio;
+  const model::FlowElement& pair = fill ? piece.fill : piece.exhaust;
+  return of == Of::kFillConductance || of == Of::kExhaustConductance
+             ? pair.sonic_conductance_m3_per_s_pa
+             : pair.critical_ratio;
+}
+
+void ReadMeasuredPair(Reader& reader, const LinePiece& piece, std::size_t at,
+                      std::vector<MeasuredInRig>& measured) {
+  const std::vector<PairNumber>& numbers = PairNumbers(reader.Has("exhaust"));
+  std::vector<std::string> allowed;
+  allowed.reserve(numbers.size());
+  for (const PairNumber& number : numbers) allowed.emplace_back(number.name);
+  const Measure measure = ReadMeasure(reader, allowed);
+  for (const PairNumber& number : numbers) {
+    if (std::count(measure.names.begin(), measure.names.end(), number.name) == 0) continue;
+    MeasuredInRig& in_rig = measured.emplace_back();
+    in_rig.number = {.part = measure.part,
+                     .name = number.name,
+                     .kind = number.kind,
+                     .declared = DeclaredAt(piece, number.places.front())};
+    for (const Of of : number.places) in_rig.places.push_back({.of = of, .piece = at});
+  }
+}
+
+// What the pump's delivery falls by from each point of its table to the next.
+void ReadMeasuredDelivery(Reader& supply, MeasuredRig& rig) {
+  const Measure measure = ReadMeasure(supply, {"free_air"});
+  const model::MonotoneCurve& curve = rig.compressor.free_air_m3_per_s;
+  if (measure.names.empty() || curve.empty()) return;
+  if (!(curve.y().front() > 0.0)) supply.Fail("curve", "must deliver something to be measured");
+  for (std::size_t i = 0; i < curve.x().size(); ++i) {
+    const double next = i + 1 < curve.y().size() ? curve.y()[i + 1] : 0.0;
+    rig.measured.push_back({{.part = measure.part,
+                             .name = "free_air",
+                             .kind = Kind::kDelivery,
+                             .declared = curve.y()[i] - next,
+                             .pressure_pa = curve.x()[i]},
+                            {}});
+  }
+}
+
+void ReadMeasuredVolume(Reader& actuator, MeasuredRig& rig) {
+  const Measure measure = ReadMeasure(actuator, {"internal_volume"});
+  if (measure.names.empty()) return;
+  if (rig.chamber.expansion_ratio != 1.0 || !rig.chamber.volume_curve.empty())
+    actuator.Fail("expansion_ratio", "must be 1, without another volume, to be measured");
+  rig.measured.push_back({{.part = measure.part,
+                           .name = "internal_volume",
+                           .kind = Kind::kVolume,
+                           .declared = rig.chamber.rest_volume_m3},
+                          {{.of = Of::kVolume}}});
+}
+
+std::vector<LinePiece> ReadPieces(Reader line, std::vector<MeasuredInRig>& measured) {
   std::vector<LinePiece> pieces;
   if (line.Has("elements")) {
     for (const Element& element : line.List("elements", 1, kElementsMax)) {
       Reader reader(element, line.errors());
-      pieces.push_back(reader.Has("tube") ? ReadTube(reader.Object("tube")) : ReadPairs(reader));
+      if (reader.Has("tube")) {
+        pieces.push_back(ReadTube(reader.Object("tube")));
+      } else {
+        pieces.push_back(ReadPairs(reader));
+        ReadMeasuredPair(reader, pieces.back(), pieces.size() - 1, measured);
+      }
       reader.Finish();
     }
   } else {
@@ -64,6 +167,7 @@ void ReadSupply(Reader& rig, MeasuredRig& part) {
   if (kind == "compressor") {
     part.supply = Supply::kCompressor;
     part.compressor = ReadPumpCurve(*supply, part.ambient);
+    ReadMeasuredDelivery(*supply, part);
     part.reservoir_volume_m3 =
         M3FromMl(supply->Number("reservoir_volume_ml", {1, 1e6}, kSmallReservoirMl));
   }
@@ -80,8 +184,9 @@ MeasuredRig ReadRig(const Json& document, const std::string& pointer, Errors& er
   Reader actuator = reader.Object("actuator");
   AllowRemarks(actuator);
   part.chamber = ReadChamber(actuator, part.ambient);
+  ReadMeasuredVolume(actuator, part);
   actuator.Finish();
-  if (reader.Has("line")) part.line = ReadPieces(reader.Object("line"));
+  if (reader.Has("line")) part.line = ReadPieces(reader.Object("line"), part.measured);
   ReadSupply(reader, part);
   reader.Finish();
   return part;

@@ -11,6 +11,13 @@
 
 namespace plenum::api {
 
+// A number of a part that the rig measures, and where it stands there: places of a line or volume,
+// or points of the compressor's curve.
+struct MeasuredInRig {
+  calibration::MeasuredNumber number;
+  std::vector<calibration::MeasuredPlace> places;
+};
+
 // What a rig declares, before the run adds its own. Pressures absolute.
 struct MeasuredRig {
   model::Ambient ambient;
@@ -20,6 +27,7 @@ struct MeasuredRig {
   std::optional<double> source_pressure_pa;
   model::CompressorCurve compressor;
   double reservoir_volume_m3 = 0.0;
+  std::vector<MeasuredInRig> measured;
 };
 
 // The document's `shared` rig with a run's `own` merged over it (JSON merge patch; null: none).

@@ -16,6 +16,8 @@
 namespace plenum::api {
 namespace {
 
+using calibration::MeasuredNumber;
+using calibration::MeasuredPlace;
 using calibration::Run;
 using calibration::Supply;
 
@@ -144,6 +146,25 @@ void CheckAgreement(Reader& owner, const Run& run, bool has_source_pressure) {
     owner.Fail("channels", "source_pressure_kpa_gauge is required with supply.kind measured");
 }
 
+// The run's measured numbers, by their place among those of all runs.
+void TakeMeasured(const std::vector<MeasuredInRig>& rig, std::vector<MeasuredNumber>& measured,
+                  Run& run) {
+  for (const MeasuredInRig& one : rig) {
+    const auto known =
+        std::find_if(measured.begin(), measured.end(), [&](const MeasuredNumber& other) {
+          return other.part == one.number.part && other.name == one.number.name &&
+                 other.pressure_pa == one.number.pressure_pa;
+        });
+    const auto number = static_cast<std::size_t>(known - measured.begin());
+    if (known == measured.end()) measured.push_back(one.number);
+    for (MeasuredPlace place : one.places) {
+      place.number = number;
+      run.measured.places.push_back(place);
+    }
+    if (one.number.kind == MeasuredNumber::Kind::kDelivery) run.measured.delivery.push_back(number);
+  }
+}
+
 // Readings that can tell something.
 void CheckReadings(Reader& owner, const Run& run) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -179,7 +200,7 @@ void CheckReadings(Reader& owner, const Run& run) {
 }  // namespace
 
 Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& ids,
-            Errors& errors) {
+            std::vector<MeasuredNumber>& measured, Errors& errors) {
   Reader reader(element, errors);
   AllowRemarks(reader);
   Run run;
@@ -194,6 +215,7 @@ Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& i
   run.supply = rig.supply;
   run.compressor = rig.compressor;
   run.reservoir_volume_m3 = rig.reservoir_volume_m3;
+  TakeMeasured(rig.measured, measured, run);
   run.blocked = reader.Bool("blocked", false);
   const auto source_kpa = reader.OptionalNumber("source_pressure_kpa_gauge", {0, kGaugeMaxKpa});
   const bool has_source = source_kpa || rig.source_pressure_pa;

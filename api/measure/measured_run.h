@@ -15,9 +15,10 @@ inline constexpr std::size_t kSeriesErrors = 5;  // at most, of one list of samp
 
 // The run at `element` on the document's `shared` rig, in SI and absolute pressures. Its id joins
 // `ids`, in which it must be new. What the readings cannot be (too few, constant, far above all
-// that could cause them) and what the rig cannot do is an error.
+// that could cause them) and what the rig cannot do is an error. Numbers of parts that the run
+// measures join `measured`, unless an earlier run did so.
 calibration::Run ReadRun(const Element& element, const Json& shared, std::set<std::string>& ids,
-                         Errors& errors);
+                         std::vector<calibration::MeasuredNumber>& measured, Errors& errors);
 
 }  // namespace plenum::api
 

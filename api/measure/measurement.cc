@@ -34,6 +34,19 @@ void ReadUncertainty(Reader& document, Dataset& dataset) {
   reader->Finish();
 }
 
+// A pump that is measured has one curve, whose points are those of all runs.
+void CheckDelivery(Reader& document, const Dataset& dataset) {
+  const std::vector<std::size_t>* first = nullptr;
+  for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
+    const std::vector<std::size_t>& points = dataset.runs[i].measured.delivery;
+    if (points.empty()) continue;
+    if (first != nullptr && points != *first)
+      document.FailAt("runs/" + std::to_string(i) + "/rig",
+                      "measures another pump or another curve than an earlier run");
+    first = &points;
+  }
+}
+
 void CheckHoldout(Reader& document, const std::set<std::string>& ids, const Dataset& dataset) {
   for (std::size_t i = 0; i < dataset.holdout.size(); ++i) {
     if (ids.contains(dataset.holdout[i])) continue;
@@ -62,7 +75,8 @@ Parsed<Dataset> ParseMeasurement(const Json& document, Remarks* remarks) {
   ReadUncertainty(reader, dataset);
   std::set<std::string> ids;
   for (const Element& element : reader.List("runs", 1, kRunsMax))
-    dataset.runs.push_back(ReadRun(element, *shared, ids, errors));
+    dataset.runs.push_back(ReadRun(element, *shared, ids, dataset.measured, errors));
+  CheckDelivery(reader, dataset);
   dataset.holdout = reader.Texts("holdout", 0, kRunsMax);
   CheckHoldout(reader, ids, dataset);
   reader.Finish();

@@ -19,6 +19,7 @@ using calibration::Run;
 using calibration::StatedModel;
 using calibration::StatedRun;
 
+constexpr double kMeasuredMax = 1e3;
 constexpr double kFactorMax = 1e6, kAnySeconds = 1e9, kAnyKpa = 1e9;
 
 Json RenderFactors(const Factors& factors) {
@@ -40,6 +41,24 @@ Factors ReadFactors(Reader& owner) {
                                 Above(0, kFactorMax), 1.0);
   reader->Finish();
   return factors;
+}
+
+// By Dataset::measured, in SI; of a pump what its delivery falls by from point to point.
+Json RenderMeasured(const std::vector<double>& measured) {
+  Json list = Json::array();
+  for (const double value : measured) list.push_back(Number(value));
+  return list;
+}
+
+std::vector<double> ReadMeasured(Reader& owner, const Dataset& dataset) {
+  const std::size_t count = dataset.measured.size();
+  if (count == 0) return {};
+  std::vector<double> measured = owner.Numbers("measured_si", count, {0, kMeasuredMax});
+  if (measured.size() != count)
+    owner.Fail("measured_si", "must have a value for each of the " + std::to_string(count) +
+                                  " numbers that the rigs measure");
+  measured.resize(count);
+  return measured;
 }
 
 Json RenderOwn(const StatedModel& model, std::size_t index, const Run& run) {
@@ -110,6 +129,8 @@ void AddStatedModels(const calibration::Diagnosis& diagnosis, const Dataset& dat
   for (const auto& [name, model] : models) {
     answer[name]["effects"] = RenderEffects(model->state.effects);
     answer[name]["factors"] = RenderFactors(model->state.factor);
+    if (!dataset.measured.empty())
+      answer[name]["measured_si"] = RenderMeasured(model->state.measured);
   }
   for (std::size_t i = 0; i < diagnosis.models.runs.size(); ++i) {
     const Run& run = dataset.runs[i];
@@ -139,6 +160,7 @@ Parsed<StatedAnswer> ParseStatedModel(const Json& answer, const std::string& mod
   calibration::ModelState& state = stated.model.state;
   state.effects = ReadEffects(of_all);
   state.factor = ReadFactors(of_all);
+  state.measured = ReadMeasured(of_all, dataset);
   state.initial_pressure_pa.resize(count);
   state.initial_temperature_k.resize(count);
   state.clock_s.resize(count);

@@ -5,7 +5,7 @@
 // arrives there in a few steps; times and volumes that only make sense above zero are exp(u); a
 // conductance in series, which vanishes as it grows, is C = S·u^(−1/2), so that u is its resistance
 // in the square law of series. A declared number of known uncertainty s is 1 + s·u, which makes its
-// prior a unit normal; one of unknown size is exp(u).
+// prior a unit normal; one of unknown size is exp(u), as is a measured conductance or volume.
 #ifndef PLENUM_CALIBRATION_FIT_COORDINATES_H_
 #define PLENUM_CALIBRATION_FIT_COORDINATES_H_
 
@@ -51,6 +51,10 @@ TypicalSizes SizesOf(const Dataset& dataset, const ModelState& fitted);
 std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
                                         const std::vector<std::size_t>& runs, bool clocks,
                                         const Freed& freed = {});
+
+// The measured numbers of the runs given: without a prior, whatever is declared (measured.cc).
+std::vector<Coordinate> MeasuredCoordinates(const Dataset& dataset,
+                                            const std::vector<std::size_t>& runs);
 
 // The initial temperatures, of those of the runs given whose gas may have come from a stroke just
 // before: it began off the ambient pressure by a reading, and no temperature is declared. The prior

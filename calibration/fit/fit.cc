@@ -38,6 +38,9 @@ std::vector<Coordinate> CoordinatesOf(const FitData& data, const ModelState& sta
                                       const FitOptions& options) {
   std::vector<Coordinate> coordinates =
       BaseCoordinates(*data.forward, data.runs, data.clocks, start.freed);
+  if (!options.nuisance_only)
+    for (const Coordinate& coordinate : MeasuredCoordinates(data.forward->dataset(), data.runs))
+      coordinates.push_back(coordinate);
   const bool heated =
       std::any_of(start.effects.begin(), start.effects.end(), [](const model::Effect& effect) {
         return effect.spec->place == model::EffectPlace::kEnergy;

@@ -13,7 +13,7 @@
 // standard deviation is above kUnidentified (in e-folds, or of a declared number's prior) is not
 // identified.
 //
-// fit_intervals.cc: what a fit tells of its numbers.
+// fit_intervals.cc: what a fit tells of its numbers; measured.cc: of those that are measured.
 #ifndef PLENUM_CALIBRATION_FIT_FIT_H_
 #define PLENUM_CALIBRATION_FIT_FIT_H_
 
@@ -95,6 +95,16 @@ Eigen::MatrixXd Covariance(const FitData& data, const Fit& fit, const FitOptions
 
 // Per coordinate, from their covariance.
 std::vector<Estimate> Intervals(const Fit& fit, const Eigen::MatrixXd& covariance);
+
+// The measured numbers (dataset.h) among the coordinates; of a pump the delivery at each point of
+// its table in place of what it falls by.
+std::vector<MeasuredEstimate> MeasuredEstimates(const Dataset& dataset, const Fit& fit,
+                                                const Eigen::MatrixXd& covariance);
+
+// Adds to their intervals and deviations what a room thermometer leaves open: kRoomK, one standard
+// deviation. Of one pressure record C and V go with T^(−1/2) and T^(1/2), a pump's delivery with 1/T.
+inline constexpr double kRoomK = 2.0;
+void WidenByRoom(const Dataset& dataset, std::vector<MeasuredEstimate>& estimates);
 
 // Readings of a run that the fitted model predicts. Empty where the simulation failed.
 Reading Predicted(const FitData& data, const ModelState& state, std::size_t run,

@@ -5,6 +5,7 @@
 
 #include "calibration/fit/source_record.h"
 #include "calibration/noise/noise.h"
+#include "calibration/values/measured_place.h"
 #include "model/effects/learned/learned.h"
 #include "model/flow/tube.h"
 #include "model/simulate/sensitivity.h"
@@ -66,6 +67,14 @@ class DirectionOf {
     switch (parameter.kind) {
       case Parameter::Kind::kDeclared:
         OfFactor(parameter.declared);
+        for (const MeasuredPlace& place : run_.measured.places)
+          std::erase_if(direction_, [&](const model::WeightedNumber& moved) {
+            return moved.number == &NumberAt(rig_, place);
+          });
+        break;
+      case Parameter::Kind::kMeasured:
+        for (const MeasuredPlace& place : run_.measured.places)
+          if (place.number == parameter.number) Add(NumberAt(rig_, place), 1.0);
         break;
       case Parameter::Kind::kEffect:
         Add(group_.effects[parameter.effect].parameters[parameter.number], 1.0);
@@ -223,38 +232,6 @@ double FirstReading(const Run& run) {
 
 }  // namespace
 
-double& NumberOf(ModelState& state, const Parameter& parameter) {
-  switch (parameter.kind) {
-    case Parameter::Kind::kEffect:
-      return state.effects[parameter.effect].parameters[parameter.number];
-    case Parameter::Kind::kInitialPressure:
-      return state.initial_pressure_pa[parameter.run];
-    case Parameter::Kind::kInitialTemperature:
-      return state.initial_temperature_k[parameter.run];
-    case Parameter::Kind::kClock:
-      return state.clock_s[parameter.run];
-    case Parameter::Kind::kPhase:
-      return state.phase_rad[parameter.run];
-    case Parameter::Kind::kLateness:
-      return state.late_s[parameter.run][parameter.number];
-    case Parameter::Kind::kDeclared:
-      break;
-  }
-  return state.factor[static_cast<std::size_t>(parameter.declared)];
-}
-
-double NumberOf(const ModelState& state, const Parameter& parameter) {
-  return NumberOf(const_cast<ModelState&>(state), parameter);
-}
-
-void CopyRun(const ModelState& from, std::size_t run, ModelState& to) {
-  to.initial_pressure_pa[run] = from.initial_pressure_pa[run];
-  to.initial_temperature_k[run] = from.initial_temperature_k[run];
-  to.clock_s[run] = from.clock_s[run];
-  to.phase_rad[run] = from.phase_rad[run];
-  to.late_s[run] = from.late_s[run];
-}
-
 double StartOf(const Run& run) {
   const double first_sample_s = run.t_s.empty() ? 0.0 : run.t_s.front();
   return run.valve.empty() ? first_sample_s : std::min(first_sample_s, run.valve.front().time_s);
@@ -274,6 +251,7 @@ ForwardModel::ForwardModel(const Dataset& dataset)
 
 ModelState ForwardModel::Declared() const {
   ModelState state;
+  for (const MeasuredNumber& number : dataset_->measured) state.measured.push_back(number.declared);
   for (const Run& run : dataset_->runs) {
     state.initial_pressure_pa.push_back(run.initial_pressure_pa.value_or(FirstReading(run)));
     state.initial_temperature_k.push_back(
@@ -349,6 +327,7 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
       group.schedule[k].time_s += state.late_s[index][k];
   }
   rig.groups = {std::move(group)};
+  PutMeasured(run, state.measured, rig);
   return rig;
 }
 
@@ -387,6 +366,7 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
     prediction.reading = ReadingOf(std::move(response));
     FillTemperature(run, prediction.reading);
     prediction.derivatives.resize(parameters.size());
+    AddDeliverySlopes(*this, index, state, parameters, options, prediction);
     return prediction;
   }
   model::SensitivityResponse result = model::SimulateAlongDirections(rig, simulate, directions);
@@ -398,6 +378,7 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
   prediction.derivatives.resize(parameters.size());
   for (std::size_t j = 0; j < result.derivatives.size(); ++j)
     prediction.derivatives[moved[j]] = ReadingOf(std::move(result.derivatives[j]));
+  AddDeliverySlopes(*this, index, state, parameters, options, prediction);
   return prediction;
 }
 

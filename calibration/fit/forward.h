@@ -24,30 +24,6 @@
 
 namespace plenum::calibration {
 
-// One number of a model state.
-struct Parameter {
-  enum class Kind {
-    kDeclared,
-    kEffect,
-    kInitialPressure,
-    kInitialTemperature,
-    kClock,
-    kPhase,
-    kLateness
-  };
-  Kind kind = Kind::kDeclared;
-  Declared declared = Declared::kRestVolume;  // kDeclared
-  std::size_t effect = 0, number = 0;  // kEffect: of the list, of its parameters; kLateness: of the
-                                       // run's commands
-  std::size_t run = 0;                 // of one run's own number
-  bool operator==(const Parameter&) const = default;
-};
-double& NumberOf(ModelState& state, const Parameter& parameter);
-double NumberOf(const ModelState& state, const Parameter& parameter);
-
-// Gives a state the numbers of one run's own as another has them.
-void CopyRun(const ModelState& from, std::size_t run, ModelState& to);
-
 // At the run's sample times. Channels that the model does not give are empty: the source without a
 // source, the inlet without a tube in the line.
 struct Reading {
@@ -95,6 +71,12 @@ class ForwardModel {
   const Dataset* dataset_;
   std::vector<model::DrivenSource> measured_;  // by run; without points where not measured
 };
+
+// Adds the derivatives to a pump's delivery, which the simulator does not give: one-sided
+// differences, as falls of the delivery may be at their bound of 0 (measured.cc).
+void AddDeliverySlopes(const ForwardModel& forward, std::size_t run, const ModelState& state,
+                       std::span<const Parameter> parameters, const PredictOptions& options,
+                       Prediction& prediction);
 
 // The time at which a run begins: the first sample or the first command, whichever is earlier.
 double StartOf(const Run& run);

@@ -122,6 +122,8 @@ Estimates EstimatesOf(const Bench& bench, const Fit& fit, IntervalsFrom source) 
   if (source == IntervalsFrom::kProfile && !Stopped(bench))
     ProfileIntervals(bench.data, fit, covariance, Inflation(fit, memory), bench.tight, intervals);
   Estimates estimates;
+  estimates.measured = MeasuredEstimates(bench.dataset, fit, covariance);
+  WidenByRoom(bench.dataset, estimates.measured);
   std::vector<std::size_t> effects, fitted;  // which coordinates
   for (const model::Effect& effect : fit.state.effects)
     estimates.effects.push_back({effect, std::vector<Estimate>(effect.parameters.size())});

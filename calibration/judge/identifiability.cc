@@ -33,6 +33,10 @@ std::string NameOf(const Parameter& parameter, const ModelState& state, const Da
       const model::EffectSpec& spec = *state.effects[parameter.effect].spec;
       return std::string(spec.id) + "." + std::string(spec.parameters[parameter.number].name);
     }
+    case Parameter::Kind::kMeasured: {
+      const MeasuredNumber& number = dataset.measured[parameter.number];
+      return number.name + " of " + number.part;
+    }
     case Parameter::Kind::kInitialPressure:
       return "initial pressure of " + dataset.runs[parameter.run].id;
     case Parameter::Kind::kInitialTemperature:

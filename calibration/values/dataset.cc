@@ -11,7 +11,24 @@ std::string_view Name(Declared number) {
   return kNames[static_cast<std::size_t>(number)];
 }
 
+namespace {
+
+// Whether the line has a pair whose number at one of both places is not measured.
+bool HasUnmeasured(const Run& run, MeasuredPlace::Of fill, MeasuredPlace::Of exhaust) {
+  const auto measures = [&](std::size_t piece, MeasuredPlace::Of of) {
+    return std::any_of(
+        run.measured.places.begin(), run.measured.places.end(),
+        [&](const MeasuredPlace& place) { return place.of == of && place.piece == piece; });
+  };
+  for (std::size_t i = 0; i < run.line.size(); ++i)
+    if (!run.line[i].tube && !(measures(i, fill) && measures(i, exhaust))) return true;
+  return false;
+}
+
+}  // namespace
+
 bool Has(const Run& run, Declared number) {
+  using Of = MeasuredPlace::Of;
   const auto any = [&](bool tube) {
     return std::any_of(run.line.begin(), run.line.end(),
                        [&](const LinePiece& piece) { return piece.tube.has_value() == tube; });
@@ -23,8 +40,9 @@ bool Has(const Run& run, Declared number) {
     case Declared::kSourcePressure:
       return run.supply != Supply::kNone;
     case Declared::kSonicConductance:
+      return HasUnmeasured(run, Of::kFillConductance, Of::kExhaustConductance);
     case Declared::kCriticalRatio:
-      return any(false);
+      return HasUnmeasured(run, Of::kFillRatio, Of::kExhaustRatio);
     case Declared::kTubeInnerDiameter:
       return any(true);
     case Declared::kReservoirVolume:
@@ -32,7 +50,8 @@ bool Has(const Run& run, Declared number) {
     case Declared::kRestVolume:
       break;
   }
-  return true;
+  return std::none_of(run.measured.places.begin(), run.measured.places.end(),
+                      [](const MeasuredPlace& place) { return place.of == Of::kVolume; });
 }
 
 }  // namespace plenum::calibration

@@ -50,6 +50,32 @@ struct Channels {  // each empty, or as long as t_s
   std::vector<double> flow_m3_per_s;  // ANR, into the line
 };
 
+// A number of a part of the catalogue that runs are to measure: fitted freely, whatever is
+// declared. A pump's delivery is measured at the points of its table, as what it falls by from each
+// point to the next and what is left at the last: none below 0 makes a curve that does not rise.
+struct MeasuredNumber {
+  enum class Kind { kConductance, kRatio, kVolume, kDelivery };
+  std::string part;  // id
+  std::string name;  // as in the contract: "sonic_conductance_fill"
+  Kind kind = Kind::kConductance;
+  double declared = 0.0;     // SI
+  double pressure_pa = 0.0;  // kDelivery: of the point, absolute
+};
+
+// Where a measured number stands in the rig of a run. A number that both directions share has two
+// places.
+struct MeasuredPlace {
+  enum class Of { kFillConductance, kFillRatio, kExhaustConductance, kExhaustRatio, kVolume };
+  std::size_t number = 0;  // of Dataset::measured
+  Of of = Of::kVolume;
+  std::size_t piece = 0;  // of the line
+};
+
+struct MeasuredPlaces {
+  std::vector<MeasuredPlace> places;
+  std::vector<std::size_t> delivery;  // by point of the compressor's curve, or none
+};
+
 struct Run {
   std::string id;
   // The rig as declared for this run.
@@ -63,13 +89,14 @@ struct Run {
   bool blocked = false;
   std::optional<double> initial_pressure_pa, initial_temperature_k;
   std::vector<model::ValveCommand> valve;
+  MeasuredPlaces measured;
 
   std::vector<double> t_s;
   std::vector<double> pressure_pa;  // reading of the gauge sensor + ambient pressure
   Channels channels;
 };
 
-// Whether the run's readings depend on that number.
+// Whether the run's readings depend on that number, beside those that it measures.
 bool Has(const Run& run, Declared number);
 
 struct Dataset {
@@ -78,6 +105,7 @@ struct Dataset {
   // One standard deviation relative to the declared value: 0 exact, kUnknown free.
   std::array<double, kDeclaredCount> relative_uncertainty{};
   std::vector<std::string> holdout;  // ids of runs that no fit may see
+  std::vector<MeasuredNumber> measured;
 };
 
 }  // namespace plenum::calibration

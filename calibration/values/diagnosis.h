@@ -38,6 +38,15 @@ struct FittedEffect {
   std::vector<Estimate> parameters;  // in the order of the effect's spec
 };
 
+// A number that the runs measure, in SI.
+struct MeasuredEstimate {
+  std::size_t number = 0;  // of Dataset::measured
+  double declared = 0.0;
+  double value = 0.0, low = 0.0, high = 0.0;  // 95 %
+  double deviation = 0.0;                     // one standard deviation
+  bool at_bound = false;                      // ended where the search ends: not fixed
+};
+
 // The numbers of one fit with their intervals.
 struct Estimates {
   std::vector<FittedEffect> effects;
@@ -45,6 +54,7 @@ struct Estimates {
   // Of the effects' parameters, in their order, then of the fitted factors; SI. From the curvature
   // of χ² at the optimum (calibration/fit/fit.h).
   std::vector<std::vector<double>> covariance;
+  std::vector<MeasuredEstimate> measured;
 };
 
 // A declared number that is found wrong: `factor` times the declared one.

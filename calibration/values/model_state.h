@@ -1,4 +1,5 @@
-// The numbers of a model of a data set's runs (forward.h), and a model as an answer states it.
+// The numbers of a model of a data set's runs (fit/forward.h), one of them, and a model as an
+// answer states it.
 #ifndef PLENUM_CALIBRATION_VALUES_MODEL_STATE_H_
 #define PLENUM_CALIBRATION_VALUES_MODEL_STATE_H_
 
@@ -25,6 +26,7 @@ struct ModelState {
   Factors factor;
   Freed freed{};  // which of them a fit moves as far as the readings ask, without a prior
   std::vector<model::Effect> effects;
+  std::vector<double> measured;               // SI, by Dataset::measured
   std::vector<double> initial_pressure_pa;    // absolute, by run of the data set
   std::vector<double> initial_temperature_k;  // by run; matters with an energy balance alone
   std::vector<double> clock_s;                // by run
@@ -32,6 +34,31 @@ struct ModelState {
   // By run and command; empty: none is late but by what the effect itself says.
   std::vector<std::vector<double>> late_s;
 };
+
+// One number of a model state.
+struct Parameter {
+  enum class Kind {
+    kDeclared,
+    kMeasured,
+    kEffect,
+    kInitialPressure,
+    kInitialTemperature,
+    kClock,
+    kPhase,
+    kLateness
+  };
+  Kind kind = Kind::kDeclared;
+  Declared declared = Declared::kRestVolume;  // kDeclared
+  std::size_t effect = 0, number = 0;  // kEffect: of the list, of its parameters; kMeasured: of
+                                       // Dataset::measured; kLateness: of the run's commands
+  std::size_t run = 0;                 // of one run's own number
+  bool operator==(const Parameter&) const = default;
+};
+double& NumberOf(ModelState& state, const Parameter& parameter);
+double NumberOf(const ModelState& state, const Parameter& parameter);
+
+// Gives a state the numbers of one run's own as another has them.
+void CopyRun(const ModelState& from, std::size_t run, ModelState& to);
 
 // Every number that a model's curves follow from. What a run that no fit saw has of its own was
 // fitted to that run alone; where its line is of no other run, so were the factors on its pairs

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "api/measure/diagnose_request.h"
+#include "api/measure/rig_parts.h"
+#include "api/protocol/part_revision.h"
 #include "server/call/reply.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
@@ -16,17 +18,18 @@
 #include "server/commands/measurement_files.h"
 #include "server/render/report_diagnosis.h"
 #include "server/render/text/text_diagnosis.h"
+#include "server/render/text/text_protocol.h"
 
 namespace plenum::server {
 namespace {
 
 struct DiagnoseOptions {
   std::vector<std::string> files;
-  std::string rig, model, save, report;
+  std::string rig, model, save, report, save_part;
   std::string catalog = "catalog.db";
   std::vector<std::string> holdout;
   double time_limit_s = api::kDiagnosisTimeS;
-  bool json = false;
+  bool json = false, save_part_anyway = false;
 };
 
 // One line on the terminal, written over and over.
@@ -55,7 +58,12 @@ api::DiagnosisRequest ReadRequest(const DiagnoseOptions& options) {
   api::DiagnosisRequest request;
   api::Json document = ReadMeasurement(options.files, options.rig, request.provenance);
   if (!options.holdout.empty() && document.is_object()) document["holdout"] = options.holdout;
+  if (api::NamesParts(document))
+    document = ValueOrRefuse(api::WithParts(
+        std::move(document), OpenCatalog(options.catalog, catalog::Access::kRead).List()));
   request.dataset = ValueOrRefuse(api::ParseMeasurement(document, &request.remarks));
+  if (const std::string why = api::WhyNotMeasured(request.dataset, options.save_part); !why.empty())
+    Refuse({{"--save-part", why}});
   request.measurement = std::move(document);
   request.model = KnownModel(options);
   request.time_limit_s = options.time_limit_s;
@@ -95,8 +103,15 @@ int Diagnose(const DiagnoseOptions& options) {
                     line.Show(share, what);
                   }});
   }
-  const api::Json& answer = result.answer;
-  std::fputs(options.json ? (Dump(answer) + "\n").c_str() : DiagnosisText(answer).c_str(), stdout);
+  api::Json& answer = result.answer;
+  if (!options.save_part.empty()) {
+    catalog::Store store = OpenCatalog(options.catalog, catalog::Access::kWrite);
+    answer["saved_part"] = api::SavePart(store, options.save_part, answer, request.provenance.files,
+                                         options.save_part_anyway, CommandSignature());
+  }
+  std::fputs(options.json ? (Dump(answer) + "\n").c_str()
+                          : (MeasuredText(answer) + DiagnosisText(answer)).c_str(),
+             stdout);
   if (!options.report.empty()) WriteReport(options.report, answer);
   if (!options.save.empty()) SaveModel(options, result.revision);
   return Interrupted() ? kInterrupted : kAnswered;
@@ -116,6 +131,12 @@ Command DiagnoseCommand() {
             &options->model,
             {.value_name = "NAME"}},
            {"--save", "Keep the revised model for designs", &options->save, {.value_name = "NAME"}},
+           {"--save-part",
+            "Write the measured numbers of this part into the catalogue",
+            &options->save_part,
+            {.value_name = "ID"}},
+           {"--save-part-anyway", "Also where they contradict what stands there",
+            &options->save_part_anyway},
            {"--report", "Write an HTML report", &options->report, {.value_name = "FILE"}},
            {"--time-limit",
             "Seconds to search",

@@ -12,6 +12,7 @@ Command EvaluateCommand();
 Command SimulateCommand();
 Command MapCommand();
 Command DiagnoseCommand();
+Command ProtocolCommand();
 Command CatalogCommand();
 Command ServeCommand();
 Command JobsCommand();

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,8 @@
 #include "api/json/reader.h"
 #include "api/json/request_limits.h"
 #include "api/measure/diagnose_request.h"
+#include "api/measure/rig_parts.h"
+#include "api/protocol/part_revision.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
 #include "server/jobs/job_inputs.h"
@@ -19,11 +22,14 @@ namespace {
 constexpr std::chrono::seconds kSavePatience{60};
 constexpr const char* kModel = "model";
 constexpr const char* kSave = "save";
+constexpr const char* kSavePart = "save_part";
+constexpr const char* kSavePartAnyway = "save_part_anyway";
 constexpr const char* kTimeLimit = "time_limit_s";
 
 // What the service takes beside the measurement.
 struct Names {
-  std::string model, save;  // empty: none
+  std::string model, save, save_part;  // empty: none
+  bool save_part_anyway = false;
   double time_limit_s = api::kDiagnosisTimeS;
 };
 
@@ -33,6 +39,8 @@ Names ReadNames(const api::Json& document, api::Errors& errors) {
   api::Reader reader(document, "", errors);
   if (reader.Has(kModel)) names.model = reader.Text(kModel);
   if (reader.Has(kSave)) names.save = reader.Text(kSave);
+  if (reader.Has(kSavePart)) names.save_part = reader.Text(kSavePart);
+  names.save_part_anyway = reader.Bool(kSavePartAnyway, false);
   names.time_limit_s =
       reader.Number(kTimeLimit, {0.01, api::kDiagnosisTimeMaxS}, api::kDiagnosisTimeS);
   const std::string why = names.save.empty() ? "" : catalog::WhyInvalidModelName(names.save);
@@ -51,18 +59,30 @@ T ValueOrAdd(api::Parsed<T> parsed, api::Errors& errors) {
 
 struct Request {
   api::DiagnosisRequest diagnosis;
-  std::string save;
+  Names names;
   std::optional<catalog::ModelRevision> model;  // of the diagnosis
 };
 
-// `models` are the newest of each name that "model" may ask for.
+// The measurement with the numbers of the parts that its rigs name.
+api::Json ReadParts(api::Json document, const std::function<Parts()>& parts, api::Errors& errors) {
+  if (!api::NamesParts(document)) return document;
+  const Parts found = parts();
+  if (!found) {
+    errors.push_back({"/rig", "names parts, and the catalogue of the job is no longer there"});
+    return document;
+  }
+  return ValueOrAdd(api::WithParts(std::move(document), *found), errors);
+}
+
+// `models` are the newest of each name that "model" may ask for, `parts` those that rigs may name;
+// null: they cannot be found.
 api::Parsed<Request> ReadRequest(std::string_view body,
                                  const std::vector<catalog::ModelRevision>& models,
-                                 api::Json document) {
+                                 const std::function<Parts()>& parts, api::Json document) {
   api::Errors errors;
   Request request;
   const Names names = ReadNames(document, errors);
-  request.save = names.save;
+  request.names = names;
   request.diagnosis.time_limit_s = names.time_limit_s;
   if (!names.model.empty() && names.model != "nominal") {
     request.diagnosis.model = ValueOrAdd(api::FindModel(names.model, models, "/model"), errors);
@@ -72,11 +92,18 @@ api::Parsed<Request> ReadRequest(std::string_view body,
   if (document.is_object()) {
     document.erase(kModel);
     document.erase(kSave);
+    document.erase(kSavePart);
+    document.erase(kSavePartAnyway);
     document.erase(kTimeLimit);
   }
+  document = ReadParts(std::move(document), parts, errors);
+  if (!errors.empty()) return errors;
   request.diagnosis.dataset =
       ValueOrAdd(api::ParseMeasurement(document, &request.diagnosis.remarks), errors);
   if (!errors.empty()) return errors;
+  if (const std::string why = api::WhyNotMeasured(request.diagnosis.dataset, names.save_part);
+      !why.empty())
+    return api::Errors{{std::string("/") + kSavePart, why}};
   request.diagnosis.measurement = std::move(document);
   request.diagnosis.provenance.files = {api::FileOf(request.diagnosis.dataset.name, body)};
   return request;
@@ -124,6 +151,26 @@ void Save(SharedCatalog& catalog, const std::string& name, const std::string& wh
   }
 }
 
+// Puts what was written into the part, or why nothing was, into the answer.
+void SavePart(SharedCatalog& catalog, const Names& names, const std::string& who,
+              const std::vector<api::Provenance::File>& files, api::Json& answer) {
+  try {
+    answer["saved_part"] = catalog.With(
+        [&](catalog::Store& store) {
+          return api::SavePart(store, names.save_part, answer, files, names.save_part_anyway,
+                               {.who = who, .key = "", .request = ""});
+        },
+        kSavePatience);
+  } catch (const catalog::StoreError& error) {
+    std::fprintf(stderr, "part %s was not saved: %s\n", names.save_part.c_str(), error.what());
+    answer["saved_part"] = {
+        {"part", names.save_part},
+        {"numbers", api::Json::array()},
+        {"refused", api::Json::array({"the catalogue could not be written: post again"})},
+        {"revision", nullptr}};
+  }
+}
+
 }  // namespace
 
 Work DiagnosisWork(SharedCatalog& catalog) {
@@ -134,8 +181,13 @@ Work DiagnosisWork(SharedCatalog& catalog) {
     if (auto* errors = std::get_if<api::Errors>(&models)) return *errors;
     auto json = api::ParseJson(order.request);
     if (auto* errors = std::get_if<api::Errors>(&json)) return *errors;
+    const auto parts_of_order = [&]() -> Parts {
+      const auto view = PartsOf(catalog, order);
+      return std::holds_alternative<CatalogView>(view) ? std::get<CatalogView>(view).parts
+                                                       : nullptr;
+    };
     auto parsed = ReadRequest(order.request, std::get<std::vector<catalog::ModelRevision>>(models),
-                              std::get<api::Json>(std::move(json)));
+                              parts_of_order, std::get<api::Json>(std::move(json)));
     if (auto* errors = std::get_if<api::Errors>(&parsed)) return *errors;
     const auto& request = std::get<Request>(parsed);
 
@@ -156,8 +208,11 @@ Work DiagnosisWork(SharedCatalog& catalog) {
     };
     auto diagnosis =
         api::RunDiagnosis(request.diagnosis, {.cancelled = cancelled, .progress = report});
-    if (!request.save.empty())
-      Save(catalog, request.save, order.by.who, diagnosis.revision, diagnosis.answer);
+    const Names& names = request.names;
+    if (!names.save.empty())
+      Save(catalog, names.save, order.by.who, diagnosis.revision, diagnosis.answer);
+    if (!names.save_part.empty())
+      SavePart(catalog, names, order.by.who, request.diagnosis.provenance.files, diagnosis.answer);
     // The last progress, which a list of jobs shows in place of the answer.
     auto outcome = report_of(1.0, "ended");
     outcome["outcome"] = diagnosis.answer.at("verdict");
@@ -170,7 +225,8 @@ Reply PostDiagnosis(SharedCatalog& catalog, const JobsResource& diagnoses, const
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
   const auto models = catalog.Models();
-  auto parsed = ReadRequest(call.body, models, std::move(std::get<api::Json>(json)));
+  auto parsed = ReadRequest(
+      call.body, models, [&] { return catalog.Snapshot(); }, std::move(std::get<api::Json>(json)));
   if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
   const auto signature = SignatureOf(call);
   if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;

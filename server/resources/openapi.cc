@@ -7,6 +7,8 @@
 #include "api/catalogue/table_reading.h"
 #include "api/describe/catalogue_answers.h"
 #include "api/describe/descriptions.h"
+#include "api/json/schema_recorder.h"
+#include "api/protocol/test_sensor.h"
 #include "server/resources/schemas/diagnosis_schemas.h"
 #include "server/resources/schemas/schema_forms.h"
 
@@ -34,6 +36,8 @@ struct Operation {
 
 const std::map<std::string, Operation>& Operations() {
   static const std::vector<std::string> kPage = {"limit", "cursor"};
+  static const std::vector<std::string> kSensor = {"sensor_noise_kpa", "sensor_resolution_kpa",
+                                                   "sampling_hz", "bottle_l"};
   static const std::vector<std::string> kWrite = {"Idempotency-Key", "From"};
   static const std::vector<std::string> kJobPost = {"validate_only", "Prefer", "Idempotency-Key",
                                                     "From"};
@@ -68,6 +72,7 @@ const std::map<std::string, Operation>& Operations() {
       {"PUT /v1/parts/{id}",
        {{"If-Match", "From"}, "Part", {{200, "StoredPart"}}, {400, 404, 412, 422}}},
       {"DELETE /v1/parts/{id}", {{"If-Match", "From"}, "", {{204, ""}}, {404, 412}}},
+      {"GET /v1/parts/{id}/protocol", {kSensor, "", {{200, "Protocol"}}, {404, 422}}},
       {"GET /v1/parts/{id}/history", {kPage, "", {{200, "History"}}, {404, 422}}},
       {"GET /v1/families", {{}, "", {{200, "Families"}}, {}}},
       {"GET /v1/limits", {{}, "", {{200, "Limits"}}, {}}},
@@ -135,6 +140,15 @@ Json Parameters() {
       {"column", Query("column", {{"type", "array"}, {"items", text}},
                        "HEADING=COLUMN [UNIT]; HEADING= leaves a column out, *= all not known")},
       {"set", Query("set", {{"type", "array"}, {"items", text}}, "COLUMN=VALUE for all rows")},
+      {"sensor_noise_kpa", Query("sensor_noise_kpa", api::NumberForm(api::SensorKpaRange()),
+                                 "of a reading, one standard deviation; 0.2 without it")},
+      {"sensor_resolution_kpa",
+       Query("sensor_resolution_kpa", api::NumberForm(api::SensorKpaRange()),
+             "step of the readings; 0.1 without it")},
+      {"sampling_hz", Query("sampling_hz", api::NumberForm(api::SamplingRange()),
+                            "readings a second, at most; 100 without it")},
+      {"bottle_l", Query("bottle_l", api::NumberForm(api::BottleRange()),
+                         "volume of the bottle; a fitting one without it")},
       {"validate_only", Query("validate_only", flag, "check the document, start no job")},
       {"revision", Query("revision", {{"type", "integer"}, {"minimum", 0}},
                          "as it was in this revision of the catalogue")},

@@ -12,6 +12,7 @@
 #include "api/json/problem_document.h"
 #include "api/json/remarks.h"
 #include "api/json/request_limits.h"
+#include "api/protocol/protocol_document.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
 #include "server/resources/import_parts.h"
@@ -194,6 +195,18 @@ Reply GetPart(SharedCatalog& catalog, const Call& call) {
     if (!part) return NoPart(call.argument);
     return UnlessKnown(call, ETag(*part), PartReply(200, *part, *revision));
   });
+}
+
+Reply GetProtocol(SharedCatalog& catalog, const Call& call) {
+  const auto errors =
+      CheckQuery(call, {"sensor_noise_kpa", "sensor_resolution_kpa", "sampling_hz", "bottle_l"});
+  if (!errors.empty()) return ProblemReply(422, errors);
+  const auto sensor = api::ParseTestSensor(call.query);
+  if (const auto* wrong = std::get_if<api::Errors>(&sensor)) return ProblemReply(422, *wrong);
+  const Parts parts = catalog.Snapshot();
+  const catalog::Part* part = FindPart(*parts, call.argument);
+  if (part == nullptr) return NoPart(call.argument);
+  return JsonReply(200, api::RenderProtocol(*part, std::get<api::TestSensor>(sensor)));
 }
 
 Reply AddPart(SharedCatalog& catalog, const Call& call) {

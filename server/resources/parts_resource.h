@@ -12,6 +12,8 @@ Reply ListParts(SharedCatalog& catalog, const Call& call);
 // With ETag; 304 when If-None-Match holds it. The header Catalogue-Revision has the number and the
 // hash of the revision shown: the newest, or the one that the query's `revision` names.
 Reply GetPart(SharedCatalog& catalog, const Call& call);
+// How to measure the part; the query tells of the sensor: api/protocol/protocol_document.h.
+Reply GetProtocol(SharedCatalog& catalog, const Call& call);
 // With an Idempotency-Key the request acts once: a repetition gets the same answer, also after a
 // restart (server/call/signature.h).
 Reply AddPart(SharedCatalog& catalog, const Call& call);

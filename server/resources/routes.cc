@@ -88,7 +88,11 @@ void AddManyPartsRoutes(SharedCatalog& catalog, std::vector<Route>& routes) {
       {"GET", "/v1/parts/compare", "parts side by side, what differs marked; query ids",
        Access::kRead, parts(GetPartsComparison)},
       {"GET", "/v1/parts/check", "duplicates, odd numbers, what is missing or estimated",
-       Access::kRead, parts(GetPartsCheck)}};
+       Access::kRead, parts(GetPartsCheck)},
+      {"GET", "/v1/parts/{id}/protocol",
+       "how to measure a part; query sensor_noise_kpa, sensor_resolution_kpa, sampling_hz, "
+       "bottle_l",
+       Access::kRead, parts(GetProtocol)}};
   routes.insert(one, std::begin(many), std::end(many));
 }
 

@@ -90,28 +90,6 @@ double WithinRange(const catalog::Part& row, std::string_view field, double valu
   return value;
 }
 
-double Tolerance::Of(catalog::Provenance provenance) const {
-  switch (provenance) {
-    case catalog::Provenance::kDatasheet:
-      return datasheet;
-    case catalog::Provenance::kThirdParty:
-      return third_party;
-    case catalog::Provenance::kDerived:
-      return derived;
-    case catalog::Provenance::kEstimated:
-      return estimated;
-    case catalog::Provenance::kMeasured:
-      return measured;
-  }
-  return estimated;
-}
-
-double Tolerance::Of(catalog::Provenance provenance,
-                     const std::optional<double>& uncertainty) const {
-  constexpr double kWidest = 0.95;
-  return uncertainty ? std::min(2.0 * *uncertainty, kWidest) : Of(provenance);
-}
-
 double Factor(std::uint64_t seed, int draw, const std::string& id, const std::string& field,
               double half_width) {
   const std::uint64_t number =

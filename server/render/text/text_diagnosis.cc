@@ -215,10 +215,11 @@ std::string PassedText(const Json& passed) {
 }
 
 NameAndUnit Spoken(const std::string& parameter) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kUnits = {{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits = {{
       {"_dm3_per_s_bar", "dm³/(s·bar)"},
       {"_l_per_min_bar", "l/(min·bar)"},
       {"_l_per_min_anr", "l/min ANR"},
+      {"_l_per_min", "l/min"},
       {"_rad_per_s", "rad/s"},
       {"_pa2_s2_per_kg2", "Pa²·s²/kg²"},
       {"_pa2_s_per_kg", "Pa²·s/kg"},

@@ -28,6 +28,27 @@ Json StabilitySchema() {
                         {"holds", {{"type", "boolean"}}}}));
 }
 
+// Numbers of parts that the runs measure, and what was written into the catalogue.
+Json MeasuredSchema() {
+  const Json text = {{"type", "string"}}, number = {{"type", {"number", "null"}}};
+  return ListOf(Object({{"part", text},
+                        {"number", text},
+                        {"field", text},
+                        {"declared", number},
+                        {"fitted", number},
+                        {"unit", text},
+                        {"uncertainty", number},
+                        {"interval_95", ListOf(number)},
+                        {"refused", {{"type", {"string", "null"}}}}}));
+}
+Json SavedPartSchema() {
+  const Json text = {{"type", "string"}};
+  return Object({{"part", text},
+                 {"numbers", ListOf({{"type", "object"}})},
+                 {"refused", ListOf(text)},
+                 {"revision", {{"type", {"object", "null"}}}}});
+}
+
 // The numbers of one model of a diagnosis, with its error.
 Json ModelSchema() {
   const Json number = {{"type", {"number", "null"}}};
@@ -58,13 +79,39 @@ Json DiagnosisSchema() {
                                {"left_out", ListOf({{"type", "integer"}})}}))},
        {"held_out_fitted", ListOf(Object({{"run", text}, {"numbers", ListOf(text)}}))},
        {"measurement", {{"type", "object"}}},
+       {"saved_part", Ref("schemas", "SavedPart")},
        {"numbers", NumbersSchema()},
        {"stability", StabilitySchema()},
+       {"measured", MeasuredSchema()},
+       {"measured_refused", ListOf(text)},
        {"candidates",
         ListOf({{"type", "object"}, {"properties", {{"reason", {{"type", {"string", "null"}}}}}}})},
        {"next_experiment", {{"type", {"object", "null"}}}},
        {"reason",
         {{"type", {"string", "null"}}, {"description", "why a tie has no next experiment"}}}});
+  return schema;
+}
+
+Json ProtocolSchema() {
+  const Json text = {{"type", "string"}}, number = {{"type", "number"}};
+  const Json maybe_object = {{"type", {"object", "null"}}};
+  const Json precision = Object({{"field", text},
+                                 {"uncertainty", number},
+                                 {"from_noise", number},
+                                 {"from_rig", number},
+                                 {"told", {{"type", "boolean"}}},
+                                 {"how", text}});
+  Json schema = Versioned("protocol/1");
+  schema["properties"].update({{"part", text},
+                               {"family", text},
+                               {"sensor", {{"type", "object"}}},
+                               {"tests", ListOf(Object({{"protocol", text},
+                                                        {"numbers", ListOf(text)},
+                                                        {"steps", ListOf(text)},
+                                                        {"equipment", maybe_object},
+                                                        {"recording", maybe_object},
+                                                        {"precision", ListOf(precision)},
+                                                        {"warnings", ListOf(text)}}))}});
   return schema;
 }
 
@@ -104,6 +151,8 @@ Json DiagnosisSchemas() {
     return Json{{"anyOf", {Ref("schemas", a), Ref("schemas", b)}}};
   };
   return {{"Diagnosis", DiagnosisSchema()},
+          {"SavedPart", SavedPartSchema()},
+          {"Protocol", ProtocolSchema()},
           {"Curves", CurvesSchema()},
           {"CurvesRequest", CurvesRequestSchema()},
           {"SimulationOrCurves", either("Simulation", "CurvesRequest")},

@@ -222,6 +222,9 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   Get(part, "?revision=x", 422, {}, id);
   const auto tag = client_.Get("/v1/parts/" + id)->get_header_value("ETag");
   Get(part, "", 304, {{"If-None-Match", tag}}, id);
+  Get(part + "/protocol", "?sampling_hz=20", 200, {}, id);
+  Get(part + "/protocol", "", 404, {}, "none");
+  Get(part + "/protocol", "?bottle_l=0", 422, {}, id);
   Get(part + "/history", "", 200, {}, id);
   Get(part + "/history", "", 404, {}, "none");
   Get(part + "/history", "?limit=0", 422, {}, id);

@@ -101,6 +101,35 @@ export interface WrongNumber {
   instead_of: string[];
 }
 
+// A number of a part that the runs measure; of a pump one for each pressure of its table.
+export interface MeasuredNumber {
+  part: string;
+  number: string;
+  field: string;
+  pressure_kpa_gauge?: number;
+  declared: number;
+  fitted: number;
+  unit: string;
+  uncertainty: number | null; // relative, one standard deviation
+  interval_95: [number, number];
+  refused: string | null;
+}
+
+// What was written into a part of the catalogue, or why nothing was.
+export interface SavedPart {
+  part: string;
+  numbers: {
+    field: string;
+    before: number;
+    value: number;
+    uncertainty: number;
+    combined: boolean;
+    contradiction: string | null;
+  }[];
+  refused: string[];
+  revision: { number: number; hash: string } | null;
+}
+
 export interface Diagnosis {
   schema: 'diagnosis/1';
   name?: string;
@@ -117,6 +146,10 @@ export interface Diagnosis {
   held_out_fitted?: { run: string; numbers: string[] }[];
   effects: FittedEffect[];
   numbers?: WrongNumber[];
+  measured?: MeasuredNumber[];
+  measured_refused?: string[];
+  saved_part?: SavedPart;
+  measurement?: Measurement; // lists of more than 20,000 readings by their hash
   stability?: { change: string; delta_bic: number | null; holds: boolean }[];
   candidates: {
     effects: string[];

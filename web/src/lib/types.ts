@@ -222,6 +222,36 @@ export interface Saving extends PartTest {
   with?: PartTest;
 }
 
+// How a part is measured, and how precise that will be.
+export interface ProtocolTest {
+  protocol: string;
+  numbers: string[];
+  steps: string[];
+  equipment: {
+    bottle_l: number;
+    source_pressure_kpa_gauge: number | null;
+    sampling_hz: number;
+    duration_s: number;
+    repeats: number;
+  } | null;
+  recording: { template: unknown; columns: string[]; command: string } | null;
+  precision: {
+    field: string;
+    pressure_kpa_gauge?: number;
+    uncertainty: number; // relative, one standard deviation
+    from_noise: number;
+    from_rig: number;
+    told: boolean;
+    how: string;
+  }[];
+  warnings: string[];
+}
+export interface Protocol {
+  schema: 'protocol/1';
+  part: string;
+  tests: ProtocolTest[];
+}
+
 export interface Answer extends Remarked {
   schema: 'designs/1';
   name?: string;

@@ -98,7 +98,7 @@ export function CatalogueView() {
   const list = parts.value.family === family ? parts.value.list : [];
   const shown = list.filter((part) => passes(part, filters.value));
   const opened = route.value.query.get('part');
-  const closePart = () => setQuery({ part: undefined });
+  const closePart = () => setQuery({ part: undefined, protocol: undefined });
   return (
     <div class="catalogue">
       <Panel

@@ -10,6 +10,7 @@ import { Chip, Notice, Panel } from '../ui/controls';
 import { saveFile } from '../ui/files';
 import { Effects, EstimateTable } from './diagnosis_effects';
 import { Candidates, Errors, Phases, Stability } from './diagnosis_tables';
+import { MeasuredNumbers } from './measured_numbers';
 import { NextExperiment } from './next_experiment';
 import { NumbersOfRuns } from './run_numbers';
 import { PhaseKey, pickRun, RunPicker } from './runs';
@@ -51,6 +52,7 @@ export function DiagnosisView({
           </Notice>
         ))}
       </Panel>
+      {(d.measured?.length ?? 0) > 0 && <MeasuredNumbers d={d} data={data} />}
       {d.series.length > 0 && <Curves d={d} />}
       {d.next_experiment && <NextExperiment d={d} data={data} />}
       {d.tied.length > 0 && d.reason && <Notice kind="warn">No next run: {d.reason}.</Notice>}

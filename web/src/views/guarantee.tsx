@@ -90,7 +90,14 @@ function Tests({ savings, unit }: { savings: Saving[]; unit: string }) {
               </>
             )}
           </th>
-          <td>{testName(saving)}</td>
+          <td>
+            <a
+              href={link(['catalogue', saving.family], { part: saving.part, protocol: 'open' })}
+              data-tip="Steps, precision and a template"
+            >
+              {testName(saving)}
+            </a>
+          </td>
           <td>{numbersOf(saving)}</td>
           <td class="num">
             {saving.saving !== null

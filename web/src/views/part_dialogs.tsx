@@ -14,6 +14,7 @@ import { number, Table } from '../ui/table';
 import { PartHistory } from './history';
 import { Address, OrderableChip, PartDetails } from './part_details';
 import { PartForm } from './part_form';
+import { Protocols } from './protocols';
 
 export function PartDialog(props: {
   id: string;
@@ -88,6 +89,7 @@ export function PartDialog(props: {
           <PartDetails part={now.part} />
           <FieldTable part={now.part} meta={meta} />
           {now.part.curve && <Curve part={now.part} />}
+          <Protocols id={id} />
           <PartHistory id={id} />
         </>
       )}

@@ -1,0 +1,140 @@
+// What a diagnosis writes into a part.
+#include "api/protocol/part_revision.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "api/catalogue/stores.h"
+#include "tests/api/support.h"
+#include "tests/catalog/folder.h"
+
+namespace plenum::api {
+namespace {
+
+using Origin = catalog::Provenance;
+using testing::HasSubstr;
+
+constexpr const char* kField = "sonic_conductance_fill_dm3_per_s_bar";
+const std::string kHash(64, 'a'), kOther(64, 'b');
+
+Json Row(const char* field, double fitted, double uncertainty) {
+  return {{"part", "valve-1"}, {"number", "n"},    {"field", field},
+          {"declared", 0.3},   {"fitted", fitted}, {"uncertainty", uncertainty},
+          {"refused", nullptr}};
+}
+Json Answer(Json rows) {
+  return {{"measured", std::move(rows)}, {"measured_refused", Json::array()}};
+}
+std::vector<Provenance::File> Files(const std::string& hash = kHash) {
+  return {{"recording.csv", hash}};
+}
+
+TEST(PartRevision, ANumberIsMeasuredFromThenOn) {
+  catalog::Part part = PartOf("valve");
+  part.numbers[kField].provenance = Origin::kEstimated;
+  const PartRevision revised =
+      RevisePart(part, Answer(Json::array({Row(kField, 0.28, 0.01)})), Files(), false);
+  ASSERT_TRUE(revised.part);
+  const catalog::Number& number = revised.part->numbers.at(kField);
+  EXPECT_DOUBLE_EQ(number.value, 0.28);
+  EXPECT_EQ(number.provenance, Origin::kMeasured);
+  EXPECT_DOUBLE_EQ(number.uncertainty.value(), 0.01);
+  EXPECT_THAT(number.source, HasSubstr("recording.csv"));
+  EXPECT_EQ(revised.part->origin, "user");  // so that new seed rows leave it alone
+  ASSERT_EQ(revised.part->documents.size(), part.documents.size() + 1);
+  EXPECT_EQ(revised.part->documents.back().sha256, kHash);
+  EXPECT_EQ(revised.part->numbers.at("critical_ratio_fill"),
+            part.numbers.at("critical_ratio_fill"));
+}
+
+// By hand: 0.30 ± 0.003 and 0.294 ± 0.00294.
+TEST(PartRevision, TwoTestsCombineByTheirVariances) {
+  catalog::Part part = PartOf("valve");
+  part.numbers[kField] = {0.30, Origin::kMeasured, "first", 0.01};
+  const PartRevision revised =
+      RevisePart(part, Answer(Json::array({Row(kField, 0.294, 0.01)})), Files(), false);
+  ASSERT_TRUE(revised.part);
+  const catalog::Number& number = revised.part->numbers.at(kField);
+  const double w1 = 1.0 / (0.003 * 0.003), w2 = 1.0 / (0.00294 * 0.00294);
+  EXPECT_NEAR(number.value, (0.30 * w1 + 0.294 * w2) / (w1 + w2), 1e-6);
+  EXPECT_NEAR(*number.uncertainty, 1.0 / std::sqrt(w1 + w2) / number.value, 1e-4);
+  EXPECT_EQ(revised.told["numbers"][0]["combined"], true);
+}
+
+TEST(PartRevision, AContradictionIsShownAndNotAveraged) {
+  catalog::Part part = PartOf("valve");
+  part.numbers[kField] = {0.30, Origin::kMeasured, "first", 0.01};
+  const Json answer = Answer(Json::array({Row(kField, 0.27, 0.01)}));
+  const PartRevision refused = RevisePart(part, answer, Files(), false);
+  EXPECT_FALSE(refused.part);
+  EXPECT_THAT(refused.told["numbers"][0]["contradiction"].get<std::string>(),
+              HasSubstr("more than the uncertainties"));
+  const PartRevision anyway = RevisePart(part, answer, Files(), true);
+  ASSERT_TRUE(anyway.part);
+  EXPECT_DOUBLE_EQ(anyway.part->numbers.at(kField).value, 0.27);
+  EXPECT_EQ(anyway.told["numbers"][0]["combined"], false);
+  part.numbers[kField] = {0.30, Origin::kDatasheet, "sheet"};
+  EXPECT_FALSE(RevisePart(part, answer, Files(), false).part);  // a sheet: 5 %
+  part.numbers[kField].provenance = Origin::kEstimated;         // a rule: 25 %
+  EXPECT_TRUE(RevisePart(part, answer, Files(), false).part);
+}
+
+TEST(PartRevision, WhatTheDiagnosisRefusesIsNotWritten) {
+  Json answer = Answer(Json::array({Row(kField, 0.3, 0.01)}));
+  answer["measured_refused"].push_back("the diagnosis is undecided");
+  const PartRevision revised = RevisePart(PartOf("valve"), answer, Files(), true);
+  EXPECT_FALSE(revised.part);
+  EXPECT_EQ(revised.told["refused"][0], "the diagnosis is undecided");
+  Json row = Row(kField, 0.3, 0.5);
+  row["refused"] = "is known to 50 % only";
+  EXPECT_FALSE(RevisePart(PartOf("valve"), Answer(Json::array({row})), Files(), true).part);
+}
+
+TEST(PartRevision, ARecordingCountsOnce) {
+  catalog::Part part = PartOf("valve");
+  part.documents.push_back({"recording.csv", kHash});
+  const Json answer = Answer(Json::array({Row(kField, 0.3, 0.01)}));
+  EXPECT_FALSE(RevisePart(part, answer, Files(), true).part);
+  EXPECT_TRUE(RevisePart(part, answer, Files(kOther), true).part);
+}
+
+TEST(PartRevision, ACurveIsOneNumberAtAllItsPoints) {
+  const catalog::Part part = PartOf("compressor");
+  Json rows = Json::array();
+  const double fitted[] = {25.0, 14.0, 6.6}, uncertainty[] = {0.01, 0.02, 0.03};
+  for (std::size_t i = 0; i < 3; ++i) {
+    Json row = Row("free_air", fitted[i], uncertainty[i]);
+    row["part"] = part.id;
+    row["pressure_kpa_gauge"] = part.curve->points[i].pressure_kpa_gauge;
+    rows.push_back(row);
+  }
+  const PartRevision revised = RevisePart(part, Answer(rows), Files(), false);
+  ASSERT_TRUE(revised.part) << revised.told.dump();
+  EXPECT_DOUBLE_EQ(revised.part->curve->points[1].free_air_l_per_min, 14.0);
+  EXPECT_EQ(revised.part->curve->points[1].current_a, 8.0);
+  EXPECT_DOUBLE_EQ(revised.part->curve->free_air_uncertainty.value(), 0.03);
+  EXPECT_EQ(revised.part->curve->free_air_provenance, Origin::kMeasured);
+}
+
+// History and undo are the catalogue's.
+using PartRevisionInStore = catalog::InFolder;
+TEST_F(PartRevisionInStore, IsOneRevisionThatCanBeUndone) {
+  catalog::Store store = Write();
+  catalog::Part part = PartOf("valve");
+  ASSERT_EQ(store.Add(part).status, catalog::WriteStatus::kDone);
+  const Json answer = Answer(Json::array({Row(kField, 0.29, 0.01)}));
+  const Json told =
+      SavePart(store, part.id, answer, Files(), false, {.who = "ann", .key = "", .request = ""});
+  ASSERT_TRUE(told["revision"].is_object()) << told.dump();
+  EXPECT_DOUBLE_EQ(store.Get(part.id)->numbers.at(kField).value, 0.29);
+  EXPECT_EQ(store.History(part.id, 1000, 10).size(), 2u);
+  const auto number = told["revision"]["number"].get<std::int64_t>();
+  EXPECT_EQ(store.Undo(number, {}).status, catalog::WriteStatus::kDone);
+  EXPECT_EQ(store.Get(part.id)->numbers.at(kField), part.numbers.at(kField));
+  EXPECT_FALSE(SavePart(store, "none", answer, Files(), false, {})["refused"].empty());
+}
+
+}  // namespace
+}  // namespace plenum::api
