@@ -3,8 +3,8 @@
 // The runs are simulated with what the rig declares, and the Fisher information of their readings
 // for the measured numbers, the declared numbers of known uncertainty and the effects beside them
 // gives the covariance of all (calibration/fit/fit.h, Covariance), with the room's temperature as a
-// diagnosis of the recording will state it. The noise of the readings is white. Valid to first order: for numbers near those
-// that the rig declares.
+// diagnosis of the recording will state it. The noise of the readings is white. Valid to first
+// order: for numbers near those that the rig declares.
 #ifndef PLENUM_CALIBRATION_EXPERIMENT_TEST_PRECISION_H_
 #define PLENUM_CALIBRATION_EXPERIMENT_TEST_PRECISION_H_
 

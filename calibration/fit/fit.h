@@ -102,7 +102,8 @@ std::vector<MeasuredEstimate> MeasuredEstimates(const Dataset& dataset, const Fi
                                                 const Eigen::MatrixXd& covariance);
 
 // Adds to their intervals and deviations what a room thermometer leaves open: kRoomK, one standard
-// deviation. Of one pressure record C and V go with T^(−1/2) and T^(1/2), a pump's delivery with 1/T.
+// deviation. Of one pressure record C and V go with T^(−1/2) and T^(1/2), a pump's delivery with
+// 1/T.
 inline constexpr double kRoomK = 2.0;
 void WidenByRoom(const Dataset& dataset, std::vector<MeasuredEstimate>& estimates);
 

@@ -65,7 +65,8 @@ int RunCommandLine(int argc, const char* const* argv) {
   try {
     for (const Command& command :
          {DesignCommand(), VerifyCommand(), EvaluateCommand(), SimulateCommand(), MapCommand(),
-          DiagnoseCommand(), ProtocolCommand(), CatalogCommand(), ServeCommand(), JobsCommand(), TokenCommand()})
+          DiagnoseCommand(), ProtocolCommand(), CatalogCommand(), ServeCommand(), JobsCommand(),
+          TokenCommand()})
       Add(app, command, status);
     app.parse(argc, argv);
     return status;

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "api/json/reader.h"
-#include "catalog/fields/part.h"
 #include "catalog/fields/half_width.h"
+#include "catalog/fields/part.h"
 #include "optimizer/explain/robust.h"
 
 namespace plenum::api {
