@@ -1,8 +1,12 @@
-// How what a pump takes changes with pressure, on a fine grid. Internal to verify*.cc.
+// How what a pump takes changes with pressure, on a fine grid; and the strokes that pumps fill
+// themselves, without a reservoir. Internal to verify*.cc.
 #ifndef PLENUM_VERIFY_DESIGN_VERIFY_PUMP_CURVE_H_
 #define PLENUM_VERIFY_DESIGN_VERIFY_PUMP_CURVE_H_
 
+#include "model/flow/series.h"
 #include "model/physics/compressor.h"
+#include "model/simulate/simulate_rig.h"
+#include "verify/design/verify_design.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
@@ -11,6 +15,23 @@ namespace plenum::verify {
 // at a lower one, as a ratio: 1 where it rises all the way.
 double EnergyPerAirHeld(const model::CompressorCurve& curve, double low_pa, double high_pa);
 double PowerHeld(const model::CompressorCurve& curve, double low_pa, double high_pa);
+
+// Most time that a group may take to fill: half of the period, or its turn at such pumps.
+double FillSecondsMax(const Problem& problem, const Assembly& assembly);
+
+// Pressure between pumps and valves at which all pumps of the assembly deliver what `count` lines
+// take to chambers at `chamber_pa`, or the highest that pumps reach where lines take less.
+double NodePressure(const Assembly& assembly, const model::Series& fill, int count,
+                    double chamber_pa);
+
+// The highest of groups that fill one after another; `factor` on what their lines conduct.
+double HighestNode(const Assembly& assembly, const std::vector<model::GroupRig>& groups,
+                   double factor);
+
+// Adds the stroke of a group that the pumps of the assembly fill: Gauss' rule over panels of the
+// chamber's pressure.
+void FillDirect(const Problem& problem, const Assembly& assembly, int group,
+                const model::Series& fill, Cycle& cycle);
 
 }  // namespace plenum::verify
 

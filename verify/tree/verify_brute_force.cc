@@ -126,7 +126,7 @@ class Enumeration {
         source.cylinder = &parts.cylinders[part];
         return Fit(problem_, source);
       case Family::kBattery:
-        if (plan().configuration != Configuration::kCompressor) return true;
+        if (!IsPumped(plan().configuration)) return true;
         source.compressor = &parts.compressors[part_of(Family::kCompressor)];
         source.battery = &parts.batteries[part];
         return Fit(problem_, source);
