@@ -7,7 +7,6 @@
 #include "model/strokes/reservoir_stroke.h"
 #include "model/strokes/stroke.h"
 #include "verify/design/verify_open_valves.h"
-#include "verify/design/verify_pump_curve.h"
 #include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
@@ -270,8 +269,9 @@ std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& setti
                    settings.reservoir_volume_m3.value_or(0.0) + assembly.ReservoirSpread(), stop);
 }
 
-QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop stop)
-    : problem_(problem), assembly_(assembly), stop_(std::move(stop)) {
+QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop stop,
+                         DirectFills* fills)
+    : problem_(problem), assembly_(assembly), stop_(std::move(stop)), direct_fills_(fills) {
   const double temperature_k = problem.ambient.temperature_k;
   const double factor = FactorOf(problem, assembly);
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
@@ -383,7 +383,7 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
   double tank_pa = IsOpen(assembly_) ? LastStart(problem_, settings, assembly_) : 0.0;
   for (int g = 0; g < static_cast<int>(groups); ++g) {
     if (assembly_.direct()) {  // what is not over when its turn is over is refused (verify_size.h)
-      FillDirect(problem_, assembly_, g, fills_[g], cycle);
+      (direct_fills_ ? *direct_fills_ : own_fills_).Add(problem_, assembly_, g, fills_[g], cycle);
       continue;
     }
     const double over_s = assembly_.compressor ? FillFromReservoir(settings, rising_m3, g, cycle)

@@ -91,8 +91,8 @@ double HighestNode(const Assembly& assembly, const std::vector<model::GroupRig>&
   return highest_pa;
 }
 
-void FillDirect(const Problem& problem, const Assembly& assembly, int g, const model::Series& fill,
-                Cycle& cycle) {
+DirectFills::Fill DirectFills::Make(const Problem& problem, const Assembly& assembly, int g,
+                                    const model::Series& fill) {
   const ActuatorGroup& group = problem.groups[g];
   const model::Chamber chamber = ChamberOf(group, assembly.lines[g]);
   const model::CompressorCurve& curve = assembly.compressor->curve;
@@ -101,8 +101,9 @@ void FillDirect(const Problem& problem, const Assembly& assembly, int g, const m
   const double target_pa = ambient_pa + problem.rise_fraction * (operating_pa - ambient_pa);
   const double air_per_content = model::StandardVolume(1.0, problem.ambient.temperature_k);
   const double end_pa = NodePressure(assembly, fill, group.count, operating_pa);
-  cycle.node_pa = std::max(cycle.node_pa, end_pa);
-  if (!std::isfinite(end_pa) || !(DeliveryUpToTheEnd(curve, end_pa) > 0.0)) return;
+  Fill found;
+  found.node_pa = end_pa;
+  if (!std::isfinite(end_pa) || !(DeliveryUpToTheEnd(curve, end_pa) > 0.0)) return found;
   double seconds = 0.0, joules = 0.0;
   const auto panel = [&](double from_pa, double to_pa) {
     for (int i = 0; i < 3; ++i) {
@@ -127,11 +128,25 @@ void FillDirect(const Problem& problem, const Assembly& assembly, int g, const m
     panel(to_pa - left_pa, to_pa);
   };
   fill_to(ambient_pa, target_pa);
-  cycle.rise_s[g] = seconds;
+  found.rise_s = seconds;
   if (operating_pa > target_pa) fill_to(target_pa, operating_pa);
-  cycle.inflate_s[g] = seconds;
-  cycle.pump_on_s += seconds;
-  cycle.pump_j += joules;
+  found.inflate_s = seconds;
+  found.pump_j = joules;
+  return found;
+}
+
+void DirectFills::Add(const Problem& problem, const Assembly& assembly, int g,
+                      const model::Series& fill, Cycle& cycle) {
+  const LineParts& line = assembly.lines[g];
+  const auto [entry, fresh] = known_.try_emplace(
+      {g, line.tube, line.fitting, line.valve, assembly.compressor, assembly.compressors});
+  if (fresh) entry->second = Make(problem, assembly, g, fill);
+  const Fill& found = entry->second;
+  cycle.rise_s[g] = found.rise_s;
+  cycle.inflate_s[g] = found.inflate_s;
+  cycle.pump_on_s += found.inflate_s;
+  cycle.pump_j += found.pump_j;
+  cycle.node_pa = std::max(cycle.node_pa, found.node_pa);
 }
 
 }  // namespace plenum::verify

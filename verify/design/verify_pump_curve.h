@@ -3,6 +3,10 @@
 #ifndef PLENUM_VERIFY_DESIGN_VERIFY_PUMP_CURVE_H_
 #define PLENUM_VERIFY_DESIGN_VERIFY_PUMP_CURVE_H_
 
+#include <map>
+#include <tuple>
+#include <vector>
+
 #include "model/flow/series.h"
 #include "model/physics/compressor.h"
 #include "model/simulate/simulate_rig.h"
@@ -28,10 +32,25 @@ double NodePressure(const Assembly& assembly, const model::Series& fill, int cou
 double HighestNode(const Assembly& assembly, const std::vector<model::GroupRig>& groups,
                    double factor);
 
-// Adds the stroke of a group that the pumps of the assembly fill: Gauss' rule over panels of the
-// chamber's pressure.
-void FillDirect(const Problem& problem, const Assembly& assembly, int group,
-                const model::Series& fill, Cycle& cycle);
+// Strokes of groups that the pumps of an assembly fill, by Gauss' rule over panels of the chamber's
+// pressure. Keeps them: combinations that come after each other share most of their lines.
+class DirectFills {
+ public:
+  // Adds the stroke of a group, whose lines are `fill`.
+  void Add(const Problem& problem, const Assembly& assembly, int group, const model::Series& fill,
+           Cycle& cycle);
+
+ private:
+  struct Fill {
+    double rise_s = kUnlimited, inflate_s = kUnlimited, pump_j = 0.0, node_pa = 0.0;
+  };
+  using Key = std::tuple<int, const model::Tubing*, const model::Fitting*, const model::Valve*,
+                         const model::Compressor*, int>;
+  static Fill Make(const Problem& problem, const Assembly& assembly, int group,
+                   const model::Series& fill);
+
+  std::map<Key, Fill> known_;
+};
 
 }  // namespace plenum::verify
 

@@ -330,7 +330,7 @@ Sizing Sizer::Size(const Assembly& assembly, double slack, double enough) {
 }
 
 Sizing Sizer::SizeAsIs(const Assembly& assembly, double slack, double enough) {
-  if (!cycles_ || !cycles_->Serves(assembly)) cycles_.emplace(problem_, assembly, stop_);
+  if (!cycles_ || !cycles_->Serves(assembly)) cycles_.emplace(problem_, assembly, stop_, &fills_);
   if (assembly.direct())
     return PressureSizing(problem_, assembly, *cycles_, {0.0, 0.0}, slack).RunDirect();
   if (assembly.compressor && !assembly.reservoir)
