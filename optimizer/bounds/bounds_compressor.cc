@@ -47,7 +47,10 @@ Constraint Bounds::NeedOfDirect(Box& box) {
       return Constraint::kPressure;
     lines.push_back(box.lines[g].get());
   }
-  const std::optional<DirectNeed> need = direct_.Least(PumpOf(box), lines, box.window.high_pa);
+  const bool chosen = CoreIsSingle(box);
+  const Candidate candidate = chosen ? CandidateOf(box) : Candidate{};
+  const std::optional<DirectNeed> need =
+      direct_.Least(PumpOf(box), lines, box.window.high_pa, chosen ? &candidate : nullptr);
   if (!need) return Constraint::kRise;
   box.window.low_pa = std::max(box.window.low_pa, need->node_pa);
   if (box.window.empty()) return Constraint::kPressure;

@@ -13,6 +13,7 @@ constexpr double kWidth = 1e-6;  // of a bracket of pressures, of the highest
 // Flows of tables are within 3e-5 of the lines' (tests/model/flow/flow_table_test.cc), and so are
 // the pressures that follow from them.
 constexpr double kSlack = 1.0 + 1e-4;
+constexpr double kQuadrature = 1.0 + 1e-8;  // two computations of one stroke
 
 class Stroke {
  public:
@@ -98,30 +99,36 @@ class Stroke {
 }  // namespace
 
 const DirectStrokeBound& DirectBounds::StrokeOf(const PumpFacts& facts, const Line& line, int g,
-                                                double highest_pa) {
+                                                double highest_pa, const Candidate* chosen) {
   constexpr std::size_t kKept = 1'000'000;
   if (known_.size() > kKept) known_.clear();
-  const auto [entry, fresh] = known_.try_emplace({&facts, line.strokes, highest_pa});
-  if (fresh)
-    entry->second =
-        Stroke(problem_, facts, line, g, highest_pa).Run(RiseTarget(problem_, problem_.groups[g]));
-  return entry->second;
+  const auto [entry, fresh] = known_.try_emplace({&facts, line.strokes, chosen ? 0.0 : highest_pa});
+  if (!fresh) return entry->second;
+  if (!chosen)
+    return entry->second = Stroke(problem_, facts, line, g, highest_pa)
+                               .Run(RiseTarget(problem_, problem_.groups[g]));
+  const model::PumpStroke stroke = DirectStroke(problem_, *chosen, g);
+  return entry->second = stroke.reached
+                             ? DirectStrokeBound{stroke.rise_s, stroke.inflate_s,
+                                                 stroke.pump_energy_j, stroke.node_end_pa}
+                             : DirectStrokeBound{kUnlimited, kUnlimited, 0.0, 0.0};
 }
 
 std::optional<DirectNeed> DirectBounds::Least(const PumpFacts& facts,
                                               const std::vector<const Line*>& lines,
-                                              double highest_pa) {
+                                              double highest_pa, const Candidate* chosen) {
+  const double slack = chosen ? kQuadrature : kSlack;
   DirectNeed need;
   for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
     const Line& line = *lines[g];
-    const DirectStrokeBound& stroke = StrokeOf(facts, line, g, highest_pa);
-    if (stroke.inflate_s > TurnSeconds(problem_) * kSlack ||
-        stroke.rise_s > problem_.groups[g].rise_time_max_s * kSlack)
+    const DirectStrokeBound& stroke = StrokeOf(facts, line, g, highest_pa, chosen);
+    if (stroke.inflate_s > TurnSeconds(problem_) * slack ||
+        stroke.rise_s > problem_.groups[g].rise_time_max_s * slack)
       return std::nullopt;
-    need.on_s += stroke.inflate_s / kSlack;
-    need.energy_j += stroke.pump_j / kSlack;
-    if (line.all_hold) need.energy_j += line.coil_power_w * stroke.inflate_s / kSlack;
-    need.node_pa = std::max(need.node_pa, stroke.node_pa);
+    need.on_s += stroke.inflate_s / slack;
+    need.energy_j += stroke.pump_j / slack;
+    if (line.all_hold) need.energy_j += line.coil_power_w * stroke.inflate_s / slack;
+    need.node_pa = std::max(need.node_pa, stroke.node_pa / slack);
   }
   return need;
 }

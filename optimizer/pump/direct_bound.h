@@ -39,14 +39,16 @@ class DirectBounds {
 
   // Of the pumps of `facts`, which stay where they are, with `lines`, one per group, with curves
   // and strokes that are counted; none where a group is too slow. No part stands more than
-  // `highest_pa`.
+  // `highest_pa`. `chosen`: of which all but the battery is chosen; its strokes are computed and
+  // not bounded.
   std::optional<DirectNeed> Least(const PumpFacts& facts, const std::vector<const Line*>& lines,
-                                  double highest_pa);
+                                  double highest_pa, const Candidate* chosen);
 
  private:
-  using Key = std::tuple<const PumpFacts*, int, double>;  // pumps, strokes of the line, highest_pa
+  // Pumps, strokes of the line, highest_pa or 0 of what is chosen.
+  using Key = std::tuple<const PumpFacts*, int, double>;
   const DirectStrokeBound& StrokeOf(const PumpFacts& facts, const Line& line, int group,
-                                    double highest_pa);
+                                    double highest_pa, const Candidate* chosen);
 
   const Problem& problem_;
   std::map<Key, DirectStrokeBound> known_;

@@ -47,6 +47,15 @@ TEST(DirectPumpTest, IsDesignedAndVerified) {
   }
 }
 
+TEST(DirectPumpTest, DrawsAreVerified) {
+  Json request = Asked(2);
+  request["robust"] = {{"draws", 10}};
+  const Json answer = Answered(request);
+  const double probability = answer["designs"][0]["robustness"]["probability"];
+  EXPECT_GT(probability, 0.0);
+  EXPECT_EQ(Refusals(answer), "");
+}
+
 TEST(DirectPumpTest, VerifyRefusesWhatIsTamperedWith) {
   const Tampering kTamperings[] = {
       {"another pressure", "strokes",
