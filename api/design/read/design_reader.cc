@@ -53,7 +53,7 @@ optimizer::Choice ReadChoice(Reader& row, const Problem& problem, Configuration 
 
 optimizer::Settings ReadPoint(Reader& reader, const Problem& problem, Configuration configuration) {
   optimizer::Settings settings;
-  if (configuration != Configuration::kDirectPump || reader.Has("source_pressure_kpa_gauge"))
+  if (reader.Has("source_pressure_kpa_gauge") || configuration != Configuration::kDirectPump)
     settings.source_pressure_pa = PaFromKpaGauge(
         reader.Number("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}), problem.ambient);
   if (const auto ml = reader.OptionalNumber("reservoir_volume_ml", kReservoirMl))
