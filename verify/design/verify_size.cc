@@ -52,7 +52,7 @@ class PressureSizing {
     if (volumes.high_m3 > volumes.low_m3)
       resolution_ =
           std::clamp(kPressureShare * (volumes.high_m3 / volumes.low_m3 - 1.0), kFinest, kCoarsest);
-    if (assembly.reservoirs > 0) held_ = cycles.PumpHeld(stood_.high_pa);
+    if (assembly.compressor && !assembly.direct()) held_ = cycles.PumpHeld(stood_.high_pa);
   }
 
   // Known after Run: no lower source pressure is fast enough.
@@ -123,7 +123,7 @@ class PressureSizing {
   Settings SettingsAt(double source_pa, double volume_m3) const {
     Settings settings;
     settings.source_pressure_pa = source_pa;
-    if (assembly_.reservoirs > 0) settings.reservoir_volume_m3 = volume_m3;
+    if (assembly_.compressor && !assembly_.direct()) settings.reservoir_volume_m3 = volume_m3;
     return settings;
   }
 
