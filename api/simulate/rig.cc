@@ -87,6 +87,14 @@ model::ReservoirSource ReadCompressor(Reader& source, const model::Ambient& ambi
   return reservoir;
 }
 
+model::PumpSource ReadDirectPump(Reader& source, const model::Ambient& ambient) {
+  model::PumpSource pumps;
+  pumps.compressor = ReadPumpCurve(source, ambient);
+  pumps.duty = source.Number("duty", {0, 1}, 1.0);
+  pumps.compressor_count = source.Integer("count", 1, kCountMax, 1);
+  return pumps;
+}
+
 model::ReservoirSource ReadTank(Reader& source, const model::Ambient& ambient) {
   model::ReservoirSource tank;
   tank.volume_m3 = M3FromMl(source.Number("reservoir_volume_ml", {1, 1e6}));
@@ -141,10 +149,12 @@ Line ReadLine(Reader& group, const std::vector<catalog::Part>& parts) {
 
 model::Source ReadSource(Reader& request, const model::Ambient& ambient) {
   Reader source = request.Object("source");
-  const std::string kind = source.Choice("kind", {"regulated", "compressor", "tank", "none"});
+  const std::string kind =
+      source.Choice("kind", {"regulated", "compressor", "direct_pump", "tank", "none"});
   model::Source result = model::NoSource{};
   if (kind == "regulated") result = ReadRegulated(source, ambient);
   if (kind == "compressor") result = ReadCompressor(source, ambient);
+  if (kind == "direct_pump") result = ReadDirectPump(source, ambient);
   if (kind == "tank") result = ReadTank(source, ambient);
   if (!kind.empty()) source.Finish();
   return result;

@@ -23,7 +23,8 @@ struct Line {
 // (tubing with "length_m", fitting, valve).
 Line ReadLine(Reader& group, const std::vector<catalog::Part>& parts);
 
-// "source": regulated, compressor, tank (filled beforehand, without a pump) or none.
+// "source": regulated, compressor, direct_pump (without a reservoir), tank (filled beforehand,
+// without a pump) or none.
 model::Source ReadSource(Reader& request, const model::Ambient& ambient);
 
 // A schedule and how long it lasts, where it says so.

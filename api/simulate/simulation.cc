@@ -89,6 +89,13 @@ void ReadTimes(Reader& request, double duration_s, model::SimulateOptions& optio
                                   " samples), not " + Decimal(options.sample_hz));
 }
 
+bool ActOnSupply(const model::Rig& rig) {
+  for (const model::GroupRig& group : rig.groups)
+    for (const model::Effect& effect : group.effects)
+      if (effect.spec->place == model::EffectPlace::kSupply) return true;
+  return false;
+}
+
 Parsed<Simulation> ParseSimulation(const Json& request, const std::vector<catalog::Part>& parts) {
   Errors errors;
   Simulation simulation;
@@ -107,6 +114,11 @@ Parsed<Simulation> ParseSimulation(const Json& request, const std::vector<catalo
     simulation.rig.groups.push_back(ReadGroup(element, simulation.rig.groups.size(), simulation,
                                               parts, shared, effects, names, duration_s, errors));
   simulation.rig.source = ReadSource(reader, simulation.rig.ambient);
+  if (std::holds_alternative<model::PumpSource>(simulation.rig.source) &&
+      ActOnSupply(simulation.rig))
+    reader.FailAt("source/kind",
+                  "must be other than direct_pump with an effect on the supply: pumps without a "
+                  "reservoir have no pressure of their own that it could change");
   const Initial initial = ReadInitial(reader, simulation.rig.ambient);
   for (model::GroupRig& group : simulation.rig.groups) {
     group.initial_pressure_pa = initial.pressure_pa;

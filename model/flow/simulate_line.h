@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "model/flow/iso6358.h"
 #include "model/flow/scalar.h"
@@ -23,6 +24,19 @@ struct LineElement {
   T cracking_pressure_pa = T(0.0);
   double subsonic_index = 0.5;
 };
+
+// Elements of a rig with a factor on what they conduct.
+template <class T>
+std::vector<LineElement<T>> Lifted(std::span<const FlowElement> elements, const T& factor,
+                                   const Lift& lift) {
+  std::vector<LineElement<T>> lifted;
+  for (const FlowElement& element : elements) {
+    lifted.push_back({lift.operator()<T>(element.sonic_conductance_m3_per_s_pa) * factor,
+                      lift.operator()<T>(element.critical_ratio),
+                      lift.operator()<T>(element.cracking_pressure_pa), element.subsonic_index});
+  }
+  return lifted;
+}
 
 struct LineOptions {
   double linear_ratio = kLinearRatio;

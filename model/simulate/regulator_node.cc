@@ -6,11 +6,24 @@
 #include "model/integrate/simulate_root.h"
 
 namespace plenum::model {
+namespace {
+
+// Along the table, with its end values outside.
+template <class T>
+T Delivery(const NodeSupply<T>& supply, const T& node_pa) {
+  const MonotoneCurve& table = supply.pump->free_air_m3_per_s;
+  const T within_pa = node_pa < table.front()  ? T(table.front())
+                      : node_pa > table.back() ? T(table.back())
+                                               : node_pa;
+  return CurveAt(table, within_pa) * supply.pumps * supply.duty;
+}
+
+}  // namespace
 
 template <class T>
 T NodePressure(const NodeSupply<T>& supply, std::span<const NodeOutlet<T>> outlets) {
   const auto surplus = [&](const T& node_pa) {
-    T flow(supply.flow_max_m3_per_s);
+    T flow = supply.pump ? Delivery(supply, node_pa) : T(supply.flow_max_m3_per_s);
     if (supply.regulator) {
       const T regulated = supply.regulator->Flow(supply.pressure_pa, node_pa);
       if (regulated < flow) flow = regulated;

@@ -1,4 +1,4 @@
-// The node behind a shared regulator: one element feeds several lines.
+// The node behind a shared regulator, or behind pumps without a reservoir: it feeds several lines.
 #ifndef PLENUM_MODEL_SIMULATE_REGULATOR_NODE_H_
 #define PLENUM_MODEL_SIMULATE_REGULATOR_NODE_H_
 
@@ -8,6 +8,7 @@
 #include <span>
 
 #include "model/flow/simulate_line.h"
+#include "model/physics/compressor.h"
 
 namespace plenum::model {
 
@@ -26,11 +27,18 @@ struct NodeSupply {
   T pressure_pa = T(0.0);            // in front of the regulator
   std::optional<Line<T>> regulator;  // none: the node is at the supply's pressure
   double flow_max_m3_per_s = std::numeric_limits<double>::infinity();
+  // In place of a regulator so many of this pump; `pressure_pa` is the highest that they reach, and
+  // `node_pa` the node's pressure that was found last, ambient while they are off.
+  const CompressorCurve* pump = nullptr;
+  double pumps = 1.0;
+  T duty = T(1.0);  // factor on their delivery
+  T node_pa = T(0.0);
 };
 
-// Pressure p of the node: min(regulator flow(p_s → p), flow_max) = Σ copies·line flow(p → p_i). The
-// left side does not rise with p and the right side rises from zero at the lowest outlet, so there
-// is one root, found to rounding. The supply's pressure where nothing flows.
+// Pressure p of the node: min(regulator flow(p_s → p), flow_max) = Σ copies·line flow(p → p_i), or
+// with pumps duty·n·Q_c(p) on the left. The left side does not rise with p and the right side rises
+// from zero at the lowest outlet, so there is one root, found to rounding. The supply's pressure
+// where nothing flows, or where pumps deliver more than the lines take up to there.
 template <class T>
 T NodePressure(const NodeSupply<T>& supply, std::span<const NodeOutlet<T>> outlets);
 

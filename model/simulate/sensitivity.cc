@@ -44,6 +44,8 @@ void AddSource(const ReservoirSource& source, Collector& all) {
   all.Add("source.stop_pressure_pa", source.stop_pressure_pa);
 }
 
+void AddSource(const PumpSource& source, Collector& all) { all.Add("source.duty", source.duty); }
+
 void AddSource(const DrivenSource& source, Collector& all) {
   all.Add("source.factor", source.factor);
 }

@@ -71,7 +71,17 @@ struct ReservoirSource {
   double stop_pressure_pa = std::numeric_limits<double>::infinity();
 };
 
-using Source = std::variant<NoSource, RegulatedSource, ReservoirSource, DrivenSource>;
+// Pumps that feed the lines themselves. What lies between them and the valves has no volume: its
+// pressure is where the pumps deliver what the lines take,
+//   duty·n·Q_c(p_n) = Σ n_i·Q_i(p_n, p_i).
+// They run while a valve is open to inflate, and nothing flows back through them.
+struct PumpSource {
+  CompressorCurve compressor;
+  int compressor_count = 1;
+  double duty = 1.0;  // factor on the delivery, a mean over fast switching
+};
+
+using Source = std::variant<NoSource, RegulatedSource, ReservoirSource, DrivenSource, PumpSource>;
 
 struct Rig {
   Ambient ambient;
@@ -154,7 +164,9 @@ struct ResponseOf {
   std::string detail;  // for any status but kDone: where and why
   std::vector<double> t_s;
   std::vector<GroupResponseOf<T>> groups;
-  std::vector<T> source_pressure_pa;  // at t_s; empty without a source
+  // At t_s; empty without a source. Of pumps without a reservoir that between them and the valves,
+  // ambient while they are off.
+  std::vector<T> source_pressure_pa;
   T source_final_pressure_pa = T(0.0);
   T source_lowest_pressure_pa = T(0.0);  // of the run; of a swinging source at steps' ends
   // ∫ share of time that each pump runs: the duty while on; at the stop pressure the part of it

@@ -6,47 +6,19 @@
 #include <variant>
 
 #include "model/effects/registry.h"
-#include "model/integrate/simulate_root.h"
+#include "model/simulate/pressure_at.h"
 
 namespace plenum::model {
 namespace {
 
 // A trial stage may leave the physical range; the step is then rejected for its error.
 constexpr double kLowestPressurePa = 1e-3;
-constexpr double kInletTolerancePa = 1e-5, kInletStepPa = 1.0;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // By how much more the states of what may ring too fast to move the pressures may be off. So the
 // pressures of short lines come out as exactly as those of long ones, whose steps they hold down
 // themselves; with 100 a line of 0.05 m takes four times the steps. An inlet sensor sees such
 // states: a tenth of the room keeps a line of 0.1 m within 0.1 % RMS there at a tolerance of 1e-6.
 constexpr double kHiddenRoom = 1e3, kInletRoom = 1e2;
-
-template <class T>
-std::vector<LineElement<T>> Lifted(std::span<const FlowElement> elements, const T& factor,
-                                   const Lift& lift) {
-  std::vector<LineElement<T>> lifted;
-  for (const FlowElement& element : elements) {
-    lifted.push_back({lift.operator()<T>(element.sonic_conductance_m3_per_s_pa) * factor,
-                      lift.operator()<T>(element.critical_ratio),
-                      lift.operator()<T>(element.cracking_pressure_pa), element.subsonic_index});
-  }
-  return lifted;
-}
-
-// Where between two pressures a monotone flow is this one; by a step of Newton's method with the
-// derivatives of T.
-template <class T, class Flow>
-T PressureAt(const Flow& flow_at, const T& flow, const T& low_pa, const T& high_pa) {
-  const auto above = [&](double pressure_pa) { return ValueOf(T(flow_at(T(pressure_pa)) - flow)); };
-  const double low = ValueOf(low_pa), high = ValueOf(high_pa);
-  const double above_low = above(low), above_high = above(high);
-  if ((above_low > 0.0) == (above_high > 0.0))
-    return std::abs(above_low) < std::abs(above_high) ? low_pa : high_pa;
-  const double root = RootBetween(above, low, above_low, high, above_high, kInletTolerancePa);
-  const double slope =
-      (above(root + kInletStepPa) - above(root - kInletStepPa)) / (2.0 * kInletStepPa);
-  return slope == 0.0 ? T(root) : T(root - (flow_at(T(root)) - flow) / slope);
-}
 
 }  // namespace
 
@@ -86,6 +58,14 @@ System<T>::System(const Rig& rig, const LineOptions& lines, const Lift& lift, bo
                                 line_options_);
     }
     node_at_supply_ = !supply_.regulator && std::isinf(supply_.flow_max_m3_per_s);
+  }
+  if (const auto* pumps = std::get_if<PumpSource>(&rig.source)) {
+    supply_.pump = &pumps->compressor;
+    supply_.pumps = pumps->compressor_count;
+    supply_.duty = duty_ = lift.operator()<T>(pumps->duty);
+    supply_.node_pa = ambient_pa_;
+    supply_.pressure_pa = pump_limit_pa_ = T(HighestPressure(pumps->compressor));
+    node_at_supply_ = false;
   }
   if (driven_) {
     driven_factor_ = lift.operator()<T>(driven_->factor);
@@ -232,6 +212,7 @@ T System<T>::SourcePressure(const T& t, std::span<const T> y) const {
 template <class T>
 T System<T>::DeclaredSource(const T& t, std::span<const T> y) const {
   if (regulated_) return regulated_pa_;
+  if (supply_.pump) return supply_.node_pa;
   if (driven_) {
     const DrivenSource::Point at = driven_->RecordedAt(ValueOf(t), record_near_);
     return ambient_pa_ +
@@ -287,10 +268,10 @@ T System<T>::Delivery(const T& source_pa) const {
 
 template <class T>
 T System<T>::PumpPower(const T& source_pa) const {
-  const CompressorCurve& curve = reservoir_->compressor;
+  const CompressorCurve& curve = reservoir_ ? reservoir_->compressor : *supply_.pump;
   if (curve.current_a.empty()) return T(0.0);
-  return AlongTable(curve.current_a, source_pa) *
-         (curve.voltage_v * static_cast<double>(reservoir_->compressor_count));
+  const double pumps = reservoir_ ? reservoir_->compressor_count : supply_.pumps;
+  return AlongTable(curve.current_a, source_pa) * (curve.voltage_v * pumps);
 }
 
 template <class T>
@@ -302,7 +283,8 @@ template <class T>
 T System<T>::FinalPressure(std::size_t i, const T& source_pa) const {
   const Group& group = groups_[i];
   if (group.venting.end > 0.0) return ambient_pa_ + group.lines[kExhaust].cracking_pressure_pa();
-  const T behind_pa = source_pa - group.lines[kFill].cracking_pressure_pa();
+  const T& highest_pa = supply_.pump ? supply_.pressure_pa : source_pa;
+  const T behind_pa = highest_pa - group.lines[kFill].cracking_pressure_pa();
   return supply_.regulator ? T(behind_pa - supply_.regulator->cracking_pressure_pa()) : behind_pa;
 }
 
@@ -383,13 +365,20 @@ void System<T>::UpdateFlows(const T& t, std::span<const T> y) {
           {&group.lines[kFill], group.count * filling, m.tail_pa, i, group.regime[kFill]});
     }
   }
+  if (supply_.pump && std::none_of(groups_.begin(), groups_.end(), [&](const Group& group) {
+        return !group.settled && group.filling.At(t) > 0.0;
+      })) {
+    outlets_.clear();  // the pumps are off
+    supply_.node_pa = ambient_pa_;
+  }
   if (outlets_.empty()) return;
   T node_pa = source_pa;
   T in_series;
   bool solved = false;
   if (!node_at_supply_) {
-    solved = outlets_.size() == 1 && TakeFlowInSeries(outlets_[0], in_series);
+    solved = !supply_.pump && outlets_.size() == 1 && TakeFlowInSeries(outlets_[0], in_series);
     if (!solved) node_pa = NodePressure<T>(supply_, outlets_);
+    if (supply_.pump) supply_.node_pa = node_pa;
   }
   for (const NodeOutlet<T>& outlet : outlets_) {
     Group& group = groups_[outlet.group];
@@ -469,6 +458,11 @@ void System<T>::SourceRates(const T& draw, std::span<const T> y, std::span<T> dy
     on = share * duty_;
     delivered = holding ? draw : delivery;
     if (account_) power = on * PumpPower(y[source_]);
+  }
+  if (supply_.pump && !outlets_.empty()) {
+    on = duty_;
+    delivered = draw;
+    if (account_) power = on * PumpPower(supply_.node_pa);
   }
   if (reservoir_) {
     const T net = delivered - draw;

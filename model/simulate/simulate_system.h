@@ -77,6 +77,7 @@ class System {
 
   // Places in the state vector.
   std::size_t pressure(std::size_t group) const { return groups_[group].at; }
+  // Of pumps without a reservoir that of the moment (regulator_node.h).
   T SourcePressure(const T& t, std::span<const T> y) const;
   // At the head of the group's line, and which state that is, if it is one.
   T HeadPressure(std::size_t group, const T& t, std::span<const T> y) const;
@@ -103,7 +104,7 @@ class System {
   PumpState pump() const { return pump_; }
   void set_pump(PumpState pump) { pump_ = pump; }
   const T& pump_limit_pa() const { return pump_limit_pa_; }  // stop pressure or end of the table
-  bool has_source() const { return regulated_ || reservoir_ || driven_; }
+  bool has_source() const { return regulated_ || reservoir_ || driven_ || supply_.pump; }
   bool has_reservoir() const { return reservoir_ != nullptr; }
 
   // m³/s ANR that the lines take from the source, and what all pumps deliver while running.

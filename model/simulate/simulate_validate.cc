@@ -107,11 +107,9 @@ void CheckSource(const RegulatedSource& source, Check& check) {
                 "above 0");
 }
 
-void CheckSource(const ReservoirSource& source, Check& check) {
-  check.Positive("volume_m3", source.volume_m3);
-  check.NotNegative("volume_rising_m3", source.volume_rising_m3);
-  check.Positive("initial_pressure_pa", source.initial_pressure_pa);
-  if (source.compressor.free_air_m3_per_s.empty()) return;
+// Of a reservoir's pumps, or of pumps without one.
+template <class PumpedSource>
+void CheckPumps(const PumpedSource& source, Check& check) {
   for (double flow : source.compressor.free_air_m3_per_s.y()) {
     check.NotNegative("compressor.free_air_m3_per_s", flow);
   }
@@ -123,8 +121,22 @@ void CheckSource(const ReservoirSource& source, Check& check) {
   check.Require(source.compressor_count >= 1, "compressor_count", source.compressor_count,
                 "at least 1");
   check.Require(source.duty >= 0.0 && source.duty <= 1.0, "duty", source.duty, "in [0, 1]");
+}
+
+void CheckSource(const ReservoirSource& source, Check& check) {
+  check.Positive("volume_m3", source.volume_m3);
+  check.NotNegative("volume_rising_m3", source.volume_rising_m3);
+  check.Positive("initial_pressure_pa", source.initial_pressure_pa);
+  if (source.compressor.free_air_m3_per_s.empty()) return;
+  CheckPumps(source, check);
   check.Require(source.stop_pressure_pa > 0.0, "stop_pressure_pa", source.stop_pressure_pa,
                 "above 0");
+}
+
+void CheckSource(const PumpSource& source, Check& check) {
+  if (source.compressor.free_air_m3_per_s.empty())
+    check.Fails("compressor.free_air_m3_per_s", "is empty, must hold a point");
+  CheckPumps(source, check);
 }
 
 void CheckSource(const DrivenSource& source, Check& check) {
@@ -160,6 +172,11 @@ std::string WhyInvalid(const Rig& rig) {
   for (std::size_t i = 0; i < rig.groups.size(); ++i) {
     std::string reason = WhyGroupInvalid(rig.groups[i], i, rig.ambient);
     if (!reason.empty()) return reason;
+    if (!std::holds_alternative<PumpSource>(rig.source)) continue;
+    for (const Effect& effect : rig.groups[i].effects)
+      if (effect.spec->place == EffectPlace::kSupply)
+        return "groups[" + std::to_string(i) + "].effects: " + std::string(effect.spec->id) +
+               " acts on a source that has a pressure of its own, not on pumps alone";
   }
   return {};
 }

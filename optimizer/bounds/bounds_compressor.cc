@@ -1,5 +1,6 @@
 // Boxes of the compressor configuration, whose families share one source pressure: it rises as the
-// reservoir shrinks, and the battery grows with it.
+// reservoir shrinks, and the battery grows with it. And boxes of pumps without a reservoir, which
+// have no settings.
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +9,7 @@
 #include "optimizer/choices/hash.h"
 #include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/filling.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/sizing/sizing.h"
 
@@ -19,15 +21,51 @@ constexpr double kMeetTolerance = 1e-3;
 
 }  // namespace
 
+// True also while one of the two is not chosen.
+bool Bounds::PackDrivesPump(const Box& box) const {
+  if (!Node(box, plan_.compressor_slot).single() || !Node(box, plan_.battery_slot).single())
+    return true;
+  return model::VoltageMatches(
+      problem_.parts.batteries[OptionOf(box, plan_.battery_slot).index].nominal_voltage_v,
+      problem_.parts.compressors[OptionOf(box, plan_.compressor_slot).index].curve.voltage_v);
+}
+
+// Window, strokes and needs of pumps without a reservoir. The lower end of the window is what is
+// between pumps and valves at least: a constant source at the highest pressure there is faster, so
+// that what lines ask of one bounds it, too.
+Constraint Bounds::NeedOfDirect(Box& box) {
+  AddLines(box);
+  const CompressorCorner& pump = CornerAt(plan_.compressors, box, plan_.compressor_slot);
+  box.window.high_pa = std::min(box.window.high_pa, pump.pressure_max_pa);
+  if (box.window.empty() || GroupsMeet(problem_)) return Constraint::kPressure;
+  std::vector<const Line*> lines;
+  lines.reserve(box.lines.size());
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
+    const int valve_slot = kSlotsPerGroup * (g + 1) - 1;  // after tube and fitting
+    const double inlet_pa = CornerAt(plan_.groups[g].valves, box, valve_slot).pressure_min_pa;
+    if (!box.lines[g]->holds || inlet_pa > problem_.ambient.pressure_pa)
+      return Constraint::kPressure;
+    lines.push_back(box.lines[g].get());
+  }
+  const bool chosen = CoreIsSingle(box);
+  const Candidate candidate = chosen ? CandidateOf(box) : Candidate{};
+  const std::optional<DirectNeed> need =
+      direct_.Least(PumpOf(box), lines, box.window.high_pa, chosen ? &candidate : nullptr);
+  if (!need) return Constraint::kRise;
+  box.window.low_pa = std::max(box.window.low_pa, need->node_pa);
+  if (box.window.empty()) return Constraint::kPressure;
+  if (need->on_s * problem_.frequency_hz > pump.duty_max * kBoxSlack) return Constraint::kPump;
+  box.energy_beyond_j = problem_.actuations * need->energy_j;
+  box.energy_j =
+      box.energy_beyond_j + problem_.actuations * HalfPeriod(problem_) * box.coil_power_w;
+  return Constraint::kNone;
+}
+
 Constraint Bounds::AssessCompressor(Box& box, int changed) {
   const bool all = changed < 0;
   if (all || DecidesSource(changed))
     if (const Constraint missed = NeedOfCompressor(box); missed != Constraint::kNone) return missed;
-  if (Node(box, plan_.compressor_slot).single() && Node(box, plan_.battery_slot).single() &&
-      !model::VoltageMatches(
-          problem_.parts.batteries[OptionOf(box, plan_.battery_slot).index].nominal_voltage_v,
-          problem_.parts.compressors[OptionOf(box, plan_.compressor_slot).index].curve.voltage_v))
-    return Constraint::kMating;
+  if (!PackDrivesPump(box)) return Constraint::kMating;
   if (all || changed == plan_.reservoir_slot) RestrictVolumes(box);
   if (changed == plan_.battery_slot)
     for (VolumeNeed& volume : box.volumes.Own()) BoundRest(box, volume);
@@ -124,6 +162,7 @@ void Bounds::BoundRest(const Box& box, VolumeNeed& volume) {
 
 bool Bounds::CanFindSource(const Box& box) const {
   if (IsForgotten(box)) return true;
+  if (plan_.configuration == Configuration::kDirectPump) return false;
   if (plan_.configuration == Configuration::kCompressor &&
       !(box.lines_finished && IsSettled(box, (*box.volumes)[box.lowest])))
     return true;

@@ -197,7 +197,7 @@ Constraint Bounds::FinishLines(Box& box) {
       const LineParts parts = PartsOf(key);
       made.finished = true;
       FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
-                 plan_.configuration == Configuration::kCompressor, *made.line);
+                 IsPumped(plan_.configuration), *made.line);
       made.line->strokes = ++strokes_;
     }
     box.lines[g] = made.line;

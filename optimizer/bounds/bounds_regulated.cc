@@ -1,6 +1,7 @@
-// Boxes of the configurations with a regulator: cylinder, CO2, mains and tank. Where a tank may do
-// without one the source pressure of a box is at most its fill and at least what the last stroke
-// finds: strokes are bounded by those on a source that stays at the highest.
+// Boxes of the configurations with a regulator: cylinder, CO2, mains and tank; and what is the same
+// of pumps without a reservoir (bounds_compressor.cc). Where a tank may do without a regulator the
+// source pressure of a box is at most its fill and at least what the last stroke finds: strokes are
+// bounded by those on a source that stays at the highest.
 #include <algorithm>
 #include <cmath>
 
@@ -26,11 +27,22 @@ std::vector<model::FlowElement> Elements(model::FlowElement regulator, const Lin
   return elements;
 }
 
+double FlowMax(const Problem& problem, Configuration configuration,
+               const RegulatorCorner& regulator) {
+  return configuration == Configuration::kMains
+             ? std::min(regulator.flow_max_m3_per_s, problem.mains.flow_max_m3_per_s)
+             : regulator.flow_max_m3_per_s;
+}
+
 }  // namespace
 
 Constraint Bounds::AssessRegulated(Box& box, bool source_changed) {
+  const bool direct = plan_.configuration == Configuration::kDirectPump;
   if (source_changed)
-    if (const Constraint missed = NeedOfRegulated(box); missed != Constraint::kNone) return missed;
+    if (const Constraint missed = direct ? NeedOfDirect(box) : NeedOfRegulated(box);
+        missed != Constraint::kNone)
+      return missed;
+  if (direct && !PackDrivesPump(box)) return Constraint::kMating;
   return RestOfRegulated(box);
 }
 
@@ -51,7 +63,7 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
   box.window.high_pa = std::min(box.window.high_pa, regulator.outlet_max_pa);
   if (plan_.configuration == Configuration::kMains)
     box.window.high_pa = std::min(box.window.high_pa, problem_.mains.pressure_pa);
-  const double flow_max = FlowMax(regulator);
+  const double flow_max = FlowMax(problem_, plan_.configuration, regulator);
   if (box.window.empty()) return Constraint::kPressure;
   if (regulator.all_none)
     for (const std::shared_ptr<const Line>& line : box.lines)
@@ -95,12 +107,6 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
   return Constraint::kNone;
 }
 
-double Bounds::FlowMax(const RegulatorCorner& regulator) const {
-  return plan_.configuration == Configuration::kMains
-             ? std::min(regulator.flow_max_m3_per_s, problem_.mains.flow_max_m3_per_s)
-             : regulator.flow_max_m3_per_s;
-}
-
 // A source pressure below which some group, alone on the regulator, is too slow.
 double Bounds::RegulatedFloor(const Box& box) const {
   const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
@@ -110,7 +116,7 @@ double Bounds::RegulatedFloor(const Box& box) const {
     const int count = problem_.groups[g].count;
     const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, count);
     Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
-                    FlowMax(regulator) / count);
+                    FlowMax(problem_, plan_.configuration, regulator) / count);
     const auto late = [&](double source_pa) {
       return filling.LatenessAtLeast(source_pa).value_or(0.0);
     };
@@ -121,9 +127,12 @@ double Bounds::RegulatedFloor(const Box& box) const {
 
 // The lightest bottle and battery of the box that bear the needs.
 Constraint Bounds::RestOfRegulated(Box& box) {
-  const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
-  double bound = regulator.objective + EnergyShare(box.energy_beyond_j);
+  const bool direct = plan_.configuration == Configuration::kDirectPump;
+  const double source = direct ? CornerAt(plan_.compressors, box, plan_.compressor_slot).objective
+                               : CornerAt(plan_.regulators, box, plan_.regulator_slot).objective;
+  double bound = source + EnergyShare(box.energy_beyond_j);
   if (plan_.bottle_slot >= 0) {
+    const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
     const double inlet_pa = std::max(box.window.low_pa, regulator.inlet_min_pa);
     const double air_m3 = problem_.actuations * box.air_m3;
     // Without a regulator the last stroke may take a tank below the least that it asks.
@@ -158,7 +167,9 @@ Constraint Bounds::RestOfRegulated(Box& box) {
     bound += bottle;
   }
   int unknown = -1;
-  const BatteryLoad load{box.energy_j / kRounding, 0.0, box.coil_power_w, LeastBesidesBattery(box)};
+  const double pump_current_a = direct ? PumpOf(box).rates.CurrentAt(box.window.low_pa) : 0.0;
+  const BatteryLoad load{box.energy_j / kRounding, pump_current_a, box.coil_power_w,
+                         LeastBesidesBattery(box)};
   const double battery = LeastBattery(box, load, unknown);
   const double lines = std::isinf(battery) ? battery : LeastWithLines(box, load, battery);
   if (std::isinf(lines)) return Constraint::kBattery;

@@ -26,9 +26,10 @@ Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
       lines_(plan.groups.size()),
       groups_(plan.groups.size() > 1 ? std::make_unique<GroupLines>(problem, plan, bench)
                                      : nullptr),
-      shared_(GroupsMeet(problem) && plan.configuration != Configuration::kCompressor),
+      shared_(GroupsMeet(problem) && !IsPumped(plan.configuration)),
       limited_(useful_ || std::isfinite(problem.mass_max_kg) ||
-               std::isfinite(problem.volume_max_l) || std::isfinite(problem.cost_max_eur)) {}
+               std::isfinite(problem.volume_max_l) || std::isfinite(problem.cost_max_eur)),
+      direct_(problem) {}
 
 Box Bounds::Root() const {
   Box box;
@@ -234,7 +235,7 @@ double Bounds::LeastWithLines(const Box& box, const BatteryLoad& load, double ba
   return least;
 }
 
-double Bounds::LinesObjective(const Box& box) {
+double LinesObjective(const Box& box) {
   double objective = 0.0;
   for (const std::shared_ptr<const Line>& line : box.lines) objective += line->objective;
   return objective;

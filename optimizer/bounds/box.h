@@ -7,8 +7,8 @@
 //
 // box.cc: boxes and their division. bounds_lines.cc: lines, whatever the source.
 // group_lines.cc: lines of several groups at a common node. bounds_regulated.cc: cylinder, CO2
-// and mains. bounds_compressor.cc: compressor. bounds_volumes.cc: reservoirs. core_sizing.cc:
-// made-to-measure reservoirs.
+// and mains. bounds_compressor.cc: compressor, and pumps without a reservoir. bounds_volumes.cc:
+// reservoirs. core_sizing.cc: made-to-measure reservoirs.
 #ifndef PLENUM_OPTIMIZER_BOUNDS_BOX_H_
 #define PLENUM_OPTIMIZER_BOUNDS_BOX_H_
 
@@ -28,6 +28,7 @@
 #include "optimizer/choices/plan.h"
 #include "optimizer/choices/shared.h"
 #include "optimizer/evaluate/evaluate.h"
+#include "optimizer/pump/direct_bound.h"
 
 namespace plenum::optimizer {
 
@@ -59,7 +60,7 @@ struct Box {
   double source_floor_pa = 0.0, source_cap_pa = kUnlimited;  // as in Candidate
   double air_m3 = 0.0;                                       // per cycle
   double coil_power_w = 0.0;                                 // with the regulator's
-  double energy_j = 0.0;                    // of the mission; regulated configurations
+  double energy_j = 0.0;                    // of the mission; without a compressor's reservoir
   double energy_beyond_j = 0.0;             // what of it the shares of the choices do not count
   Shared<std::vector<VolumeNeed>> volumes;  // compressor
   std::size_t lowest = 0;                   // of them: whose bound is that of the box
@@ -76,6 +77,7 @@ struct Box {
 std::vector<ReservoirNeed> NeedsOf(const Box& box);
 // Puts the choices of all lines together.
 void CombineChoices(Box& box);
+double LinesObjective(const Box& box);
 
 class Bounds {
  public:
@@ -191,10 +193,11 @@ class Bounds {
 
   Constraint AssessRegulated(Box& box, bool source_changed);
   Constraint NeedOfRegulated(Box& box);
-  double FlowMax(const RegulatorCorner& regulator) const;
   double RegulatedFloor(const Box& box) const;
   Constraint RestOfRegulated(Box& box);
 
+  bool PackDrivesPump(const Box& box) const;
+  Constraint NeedOfDirect(Box& box);
   Constraint AssessCompressor(Box& box, int changed);
   Constraint NeedOfCompressor(Box& box) const;
   void RenewLooks(Box& box) const;
@@ -204,7 +207,6 @@ class Bounds {
     return volume.look == box.look && volume.rest_look == box.rest_look;
   }
   bool IsSettled(const Box& box, const VolumeNeed& volume) const;
-  static double LinesObjective(const Box& box);
   // Of the objective of all but the compressor, with these reservoirs.
   static double BoundOf(double lines, const VolumeNeed& volume) {
     return std::max(lines + volume.rest, volume.with_lines);
@@ -256,6 +258,7 @@ class Bounds {
   int weights_ = 0, strokes_ = 0;
   // Per node of the compressors' tree: with boxes of lines, with single lines.
   std::unordered_map<int, PumpFacts> pumps_, chosen_pumps_;
+  DirectBounds direct_;
 };
 
 }  // namespace plenum::optimizer

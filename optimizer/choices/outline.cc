@@ -24,9 +24,9 @@ class Sketch {
     const model::Parts& parts = problem_.parts;
     const Limits& most = problem_.limits;
     for (const ActuatorGroup& group : problem_.groups) AddGroup(group);
-    if (outline_.configuration == Configuration::kCompressor) {
+    if (IsPumped(outline_.configuration)) {
       Add(parts.compressors, most.compressors, Pieces());
-      AddReservoirs();
+      if (outline_.configuration == Configuration::kCompressor) AddReservoirs();
     } else {
       const bool none = MayLack(outline_.configuration, Family::kRegulator);
       Add(parts.regulators, 1, Pieces(), none ? 1 : 0, none ? 0.0 : kUnlimited, true);

@@ -3,6 +3,7 @@
 //   regulated:   tube, fitting, valve of each group; regulator, bottle, battery
 //                (mains: no bottle, no battery; a tank stands in the place of a bottle)
 //   compressor:  tube, fitting, valve of each group; compressor, reservoir, battery
+//   direct pump: tube, fitting, valve of each group; compressor, battery
 #ifndef PLENUM_OPTIMIZER_CHOICES_PLAN_H_
 #define PLENUM_OPTIMIZER_CHOICES_PLAN_H_
 

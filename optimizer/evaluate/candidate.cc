@@ -9,6 +9,14 @@
 namespace plenum::optimizer {
 namespace {
 
+// Whether valves keep what pumps without a reservoir gave, and switch without pressure.
+bool SuitDirectPumps(const Problem& problem, const Candidate& candidate) {
+  return std::all_of(candidate.lines.begin(), candidate.lines.end(), [&](const Line* line) {
+    return line->holds &&
+           problem.parts.valves[line->valve].pressure_min_pa <= problem.ambient.pressure_pa;
+  });
+}
+
 // Room for rounding where a fill is just enough: relative, of what the tank gives.
 constexpr double kRoom = 1.0 + 1e-9;
 
@@ -32,6 +40,10 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
     if (!hold) return {kUnlimited, 0.0};
     window.low_pa = std::max(window.low_pa, LeastOpenFillPa(problem, candidate));
     window.high_pa = std::min(window.high_pa, TankFillMaxPa(problem, candidate));
+  }
+  if (candidate.configuration == Configuration::kDirectPump) {
+    const bool at_once = problem.groups.size() > 1 && problem.simultaneous;
+    if (at_once || !SuitDirectPumps(problem, candidate)) return {kUnlimited, 0.0};
   }
   if (candidate.configuration == Configuration::kMains)
     window.high_pa = std::min(window.high_pa, problem.mains.pressure_pa);
@@ -117,6 +129,35 @@ AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
 template Amounts TotalAmounts(const Problem&, const Candidate&, const OperatingPoint&);
 template AmountsOf<model::Dual> TotalAmounts(const Problem&, const Candidate&,
                                              const OperatingPointOf<model::Dual>&);
+
+double TurnSeconds(const Problem& problem) {
+  return std::min(0.5, 1.0 / static_cast<double>(problem.groups.size())) / problem.frequency_hz;
+}
+
+model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidate, int g) {
+  const Line& line = *candidate.lines[g];
+  const model::Series fill = model::MakeSeries(line.fill, FlowFactor(problem, model::Gas::kAir));
+  model::PumpStrokeInput input;
+  input.fill = &fill;
+  input.chamber = &line.chamber;
+  input.count = problem.groups[g].count;
+  input.compressor = &problem.parts.compressors[candidate.compressor.index].curve;
+  input.compressors = candidate.compressor.quantity;
+  input.from_pa = problem.ambient.pressure_pa;
+  input.target_pa = RiseTarget(problem, problem.groups[g]);
+  input.operating_pa = line.chamber.operating_pressure_pa;
+  input.temperature_k = problem.ambient.temperature_k;
+  return model::FillFromPumps(input);
+}
+
+OperatingPoint DirectPoint(const Problem& problem, const Candidate& candidate) {
+  OperatingPoint point{problem.ambient.pressure_pa};
+  for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g) {
+    const model::PumpStroke stroke = DirectStroke(problem, candidate, g);
+    point.source_pa = std::max(point.source_pa, stroke.reached ? stroke.node_end_pa : kUnlimited);
+  }
+  return point;
+}
 
 bool IsOpenTank(const Candidate& candidate) {
   return candidate.configuration == Configuration::kTank && candidate.regulator.index == kNone;

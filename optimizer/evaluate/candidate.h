@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "model/strokes/pump_stroke.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/problem/problem.h"
 
@@ -47,7 +48,8 @@ struct Candidate {
 
 // Where a candidate is run. For the regulated configurations the source pressure is the regulator's
 // outlet, for a compressor it is the pressure at which it stops, for a tank without a regulator its
-// fill.
+// fill, and for pumps without a reservoir, where it is no setting, the highest between them and the
+// valves.
 template <class T>
 struct OperatingPointOf {
   T source_pa = T(0.0);
@@ -88,6 +90,21 @@ double LeastSourcePa(const Problem& problem);
 inline OperatingPoint LeastPoint(const Problem& problem, double reservoir_m3) {
   return {LeastSourcePa(problem), reservoir_m3, reservoir_m3};
 }
+
+// Pumps without a reservoir ("direct").
+//
+// All pumps together fill one group after another, each from its command until its valve closes at
+// the operating pressure, and are off else (model/strokes/pump_stroke.h). A group must be full
+// before the next one's turn: groups that would fill at once have no such design. Between two
+// strokes only the valve keeps an actuator full, so that it must hold; and since a stroke begins at
+// ambient pressure in front of it, it must switch without any at its inlet.
+
+// Full before this time after its command: half of the period, or its turn.
+double TurnSeconds(const Problem& problem);
+// The stroke of one group.
+model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidate, int group);
+// The pressure at which all parts of the lines must stand it; +∞ where some group is never full.
+OperatingPoint DirectPoint(const Problem& problem, const Candidate& candidate);
 
 // Tanks.
 //

@@ -42,13 +42,18 @@ double AirAvailable(const Problem& problem, const Candidate& candidate, double s
   return kUnlimited;
 }
 
-// Highest frequency that the source sustains, by thermal duty or by evaporation.
+// Highest frequency that the source sustains, by thermal duty, by evaporation or by turns of
+// `slowest_s`.
 template <class T>
 T SourceFrequency(const Problem& problem, const Candidate& candidate,
-                  const EvaluationOf<T>& evaluation) {
-  if (candidate.configuration == Configuration::kCompressor)
-    return problem.frequency_hz * problem.parts.compressors[candidate.compressor.index].duty_max /
-           evaluation.compressor_duty;
+                  const EvaluationOf<T>& evaluation, const T& slowest_s) {
+  if (IsPumped(candidate.configuration)) {
+    const T by_duty = problem.frequency_hz *
+                      problem.parts.compressors[candidate.compressor.index].duty_max /
+                      evaluation.compressor_duty;
+    if (candidate.configuration == Configuration::kCompressor) return by_duty;
+    return std::min(by_duty, T(1.0 / (static_cast<double>(problem.groups.size()) * slowest_s)));
+  }
   if (candidate.configuration == Configuration::kCo2 && candidate.bottle.index != kNone)
     return candidate.bottle.quantity *
            problem.parts.co2[candidate.bottle.index].flow_sustained_m3_per_s /
@@ -91,9 +96,11 @@ void AddPump(const Problem& problem, const Candidate& candidate, const Operating
   const double ambient_pa = problem.ambient.pressure_pa;
   evaluation.compressor_duty = strokes.pump_on_s * problem.frequency_hz;
   evaluation.energy_per_cycle_j += strokes.pump_energy_j;
-  evaluation.energy_first_fill_j = FirstFill(problem, curve, point);
-  evaluation.air_total_m3 += point.reservoir_rising_m3 * (point.source_pa - ambient_pa) *
-                             model::StandardVolume(1.0, problem.ambient.temperature_k);
+  if (candidate.configuration == Configuration::kCompressor) {
+    evaluation.energy_first_fill_j = FirstFill(problem, curve, point);
+    evaluation.air_total_m3 += point.reservoir_rising_m3 * (point.source_pa - ambient_pa) *
+                               model::StandardVolume(1.0, problem.ambient.temperature_k);
+  }
   evaluation.battery_current_a += static_cast<double>(candidate.compressor.quantity) *
                                   LargestCurrent(curve, ambient_pa, point.source_pa);
 }
@@ -154,7 +161,7 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
   const bool revised = HasEffects(problem);
   evaluation.air_per_cycle_m3 = T(revised ? strokes.air_m3 : 0.0);
   double coil_power_w = 0.0;
-  T slowest_s = T(0.0);
+  T slowest_s = T(0.0), slowest_rise_s = T(0.0);
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const Line& line = *candidate.lines[g];
     const T rise_s = strokes.rise_s[g];
@@ -169,6 +176,7 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
         CoilEnergyPerCycle(problem, line,
                            options.least_coil_energy ? T(line.inflate_time_least_s) : inflate_s);
     coil_power_w += line.coil_power_w;
+    slowest_rise_s = std::max(slowest_rise_s, inflate_s);
     slowest_s = std::max({slowest_s, inflate_s, T(fall_s)});
   }
   evaluation.air_total_m3 = problem.actuations * evaluation.air_per_cycle_m3;
@@ -189,7 +197,7 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
   evaluation.energy_total_j =
       evaluation.energy_first_fill_j + problem.actuations * evaluation.energy_per_cycle_j;
   evaluation.frequency_sustained_hz =
-      std::min(SourceFrequency(problem, candidate, evaluation), T(0.5 / slowest_s));
+      std::min(SourceFrequency(problem, candidate, evaluation, slowest_rise_s), T(0.5 / slowest_s));
   return evaluation;
 }
 

@@ -212,6 +212,24 @@ Strokes StrokesAlike(const Problem& problem, const Candidate& candidate,
   return strokes;
 }
 
+// One group after another, straight from the pumps; none works that is not full before its turn is
+// over.
+Strokes DirectStrokes(const Problem& problem, const Candidate& candidate) {
+  Strokes strokes = EmptyStrokes(problem);
+  strokes.works = true;
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    const model::PumpStroke stroke = DirectStroke(problem, candidate, g);
+    if (!stroke.reached) return EmptyStrokes(problem);
+    strokes.rise_s[g] = stroke.rise_s;
+    strokes.inflate_s[g] = stroke.inflate_s;
+    strokes.pump_on_s += stroke.inflate_s;
+    strokes.pump_energy_j += stroke.pump_energy_j;
+    strokes.pump_air_m3 += LeastAirPerStroke(problem, g, *candidate.lines[g]);
+    strokes.works = strokes.works && stroke.inflate_s <= TurnSeconds(problem);
+  }
+  return strokes;
+}
+
 // The last period of a mission out of a tank without a regulator: one quadrature a group where no
 // two draw at once, else one simulation.
 Strokes OpenTankStrokes(const Problem& problem, const Candidate& candidate,
@@ -288,6 +306,8 @@ double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
 Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
   if (IsOpenTank(candidate)) return OpenTankStrokes(problem, candidate, point);
+  if (candidate.configuration == Configuration::kDirectPump)
+    return DirectStrokes(problem, candidate);
   const int groups = static_cast<int>(problem.groups.size());
   const bool alone = !GroupsMeet(problem);
   const bool pumped = candidate.configuration == Configuration::kCompressor;

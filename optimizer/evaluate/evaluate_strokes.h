@@ -15,7 +15,8 @@ inline bool GroupsMeet(const Problem& problem) {
 // rise time is missed. One quadrature or one small integration per group where groups do not meet
 // on the source (a single group, or staggered strokes that end before the next begins), and one for
 // all that fill alike from a reservoir; FillTogether() behind a regulator; else the simulator. Of a
-// tank without a regulator those of the last period, which is the slowest (candidate.h).
+// tank without a regulator those of the last period, which is the slowest; of pumps without a
+// reservoir `works` is false, too, where a group is not full when its turn is over (candidate.h).
 Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point);
 

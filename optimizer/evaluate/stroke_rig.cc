@@ -52,6 +52,9 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
     source.volume_m3 = TankVolume(problem, candidate);
     source.initial_pressure_pa = LastPeriodPa(problem, candidate, point.source_pa);
     rig.source = source;
+  } else if (candidate.configuration == Configuration::kDirectPump) {
+    rig.source = model::PumpSource{problem.parts.compressors[candidate.compressor.index].curve,
+                                   candidate.compressor.quantity};
   } else if (candidate.configuration != Configuration::kCompressor) {
     rig.source = model::RegulatedSource{point.source_pa,
                                         problem.parts.regulators[candidate.regulator.index].flow,

@@ -66,9 +66,10 @@ void AddLimits(const Problem& problem, std::vector<Demand>& list) {
                               }));
   };
   const Configuration pump = Configuration::kCompressor, bottle = Configuration::kCylinder,
-                      co2 = Configuration::kCo2, tank = Configuration::kTank;
-  add("/limits/compressors_max", &Limits::compressors, {pump});
-  add("/limits/batteries_max", &Limits::batteries, {pump, bottle, co2, tank});
+                      co2 = Configuration::kCo2, tank = Configuration::kTank,
+                      direct = Configuration::kDirectPump;
+  add("/limits/compressors_max", &Limits::compressors, {pump, direct});
+  add("/limits/batteries_max", &Limits::batteries, {pump, bottle, co2, tank, direct});
   add("/limits/cylinders_max", &Limits::cylinders, {bottle});
   add("/limits/co2_max", &Limits::co2, {co2});
   add("/limits/reservoirs_max", &Limits::reservoirs, {pump, tank});

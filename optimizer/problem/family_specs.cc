@@ -63,7 +63,7 @@ std::vector<FamilySpec> OwnFamilies() {
   using model::Parts;
   constexpr auto kCylinder = Configuration::kCylinder, kCo2 = Configuration::kCo2,
                  kCompressor = Configuration::kCompressor, kMains = Configuration::kMains,
-                 kTank = Configuration::kTank;
+                 kTank = Configuration::kTank, kDirectPump = Configuration::kDirectPump;
   return {
       Spec<&Parts::tubing>(Family::kTubing, "tubing", kTubingFields, {.place = 2, .in_line = true}),
       Spec<&Parts::fittings>(Family::kFitting, "fitting", kFittingFields,
@@ -72,7 +72,7 @@ std::vector<FamilySpec> OwnFamilies() {
                            {.place = 0, .in_line = true, .kind_role = KindRole::kValve}),
       Spec<&Parts::compressors>(Family::kCompressor, "compressor", kCompressorFields,
                                 {.place = 6,
-                                 .sources = {kCompressor},
+                                 .sources = {kCompressor, kDirectPump},
                                  .most = &Limits::compressors,
                                  .kind_role = KindRole::kSource}),
       Spec<&Parts::cylinders>(Family::kCylinder, "cylinder", kCylinderFields,
@@ -89,7 +89,7 @@ std::vector<FamilySpec> OwnFamilies() {
                          .kind_role = KindRole::kSource}),
       Spec<&Parts::batteries>(Family::kBattery, "battery", kBatteryFields,
                               {.place = 7,
-                               .sources = {kCylinder, kCo2, kCompressor, kTank},
+                               .sources = {kCylinder, kCo2, kCompressor, kTank, kDirectPump},
                                .most = &Limits::batteries,
                                .by_need = true}),
       Spec<&Parts::regulators>(Family::kRegulator, "regulator", kRegulatorFields,

@@ -14,6 +14,8 @@ const char* Name(Configuration configuration) {
       return "mains";
     case Configuration::kTank:
       return "tank";
+    case Configuration::kDirectPump:
+      return "direct_pump";
   }
   return "";
 }

@@ -28,10 +28,15 @@ inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 enum class NlpSolver { kIpopt, kNlopt };
 const char* Name(NlpSolver solver);  // "ipopt", "nlopt"
 
-enum class Configuration { kCylinder, kCo2, kCompressor, kMains, kTank };
-inline constexpr int kConfigurations = 5;
-// "cylinder", "co2", "compressor", "mains", "tank"
+// kDirectPump: pumps without a reservoir that fill one group after another (candidate.h).
+enum class Configuration { kCylinder, kCo2, kCompressor, kMains, kTank, kDirectPump };
+inline constexpr int kConfigurations = 6;
+// "cylinder", "co2", "compressor", "mains", "tank", "direct_pump"
 const char* Name(Configuration configuration);
+// Whether pumps compress the air meanwhile.
+inline bool IsPumped(Configuration configuration) {
+  return configuration == Configuration::kCompressor || configuration == Configuration::kDirectPump;
+}
 
 enum class Family {
   kTubing,

@@ -64,8 +64,8 @@
 // those that make do with the mean pressure that the least air of the others leaves at the node
 // behind it, at the highest of the source pressures that they work at. In a compressor's box each
 // group counts as if it were alone on the reservoir, with the largest delivery of the box at each
-// pressure; of two groups that take turns each leaves enough for the other. In a box that has a
-// tank without a regulator strokes are those on a source that keeps the highest pressure.
+// pressure; of two groups that take turns each leaves enough for the other. A tank without a
+// regulator keeps its highest pressure; of pumps alone optimizer/pump/direct_bound.h says the rest.
 #ifndef PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 #define PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 

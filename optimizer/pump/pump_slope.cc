@@ -5,7 +5,6 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr int kLooks = 32;  // between two points of a table
 constexpr double kNoDelivery = 1e12;
 
 // The points of both tables in between, and both ends.
@@ -62,13 +61,14 @@ bool PowerRises(const model::CompressorCurve& curve, double low_pa, double high_
 
 // Where power rises so does its share per air, since delivery falls; elsewhere both are cubic
 // between the points of their tables, and their quotient is looked at closely.
-bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa) {
+bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa,
+                       int looks) {
   if (PowerRises(curve, low_pa, high_pa)) return true;
   const std::vector<double> knots = Knots(curve, low_pa, high_pa);
   double before = 0.0;
   for (std::size_t i = 0; i + 1 < knots.size(); ++i)
-    for (int look = 0; look < kLooks; ++look) {
-      const double pressure_pa = knots[i] + (knots[i + 1] - knots[i]) * look / kLooks;
+    for (int look = 0; look < looks; ++look) {
+      const double pressure_pa = knots[i] + (knots[i + 1] - knots[i]) * look / looks;
       const double delivery = model::FreeAirDelivery(curve, pressure_pa);
       const double per_air =
           delivery > 0.0 ? model::ElectricalPower(curve, pressure_pa) / delivery : kNoDelivery;

@@ -25,9 +25,12 @@
 
 namespace plenum::optimizer {
 
-// Whether electrical power, and power over delivery, do not fall with pressure in between.
+// Whether electrical power, and power over delivery, do not fall with pressure in between. The
+// latter is looked at so often between two points of the pump's tables, where power falls.
+inline constexpr int kLooks = 32;
 bool PowerRises(const model::CompressorCurve& curve, double low_pa, double high_pa);
-bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa);
+bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa,
+                       int looks = kLooks);
 
 // Bounds from above on how steeply P (W/Pa) and P/Q (J/(m³·Pa), one pump) fall anywhere between
 // `low_pa` and a pressure; 0 where they do not.

@@ -155,6 +155,7 @@ std::optional<OperatingPoint> ConfirmNear(const Problem& problem, const Candidat
   constexpr double kSteps[] = {0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3};  // of the source pressure
   const double high_pa = SourceWindow(problem, candidate).high_pa;
   for (const double step : kSteps) {
+    if (step > 0.0 && candidate.configuration == Configuration::kDirectPump) break;  // no setting
     OperatingPoint point = leaf.point;
     point.tank_fill_pa = 0.0;
     point.source_pa *= 1.0 + step;
@@ -226,7 +227,8 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
   if (candidate.compressor.index != kNone) {
     design.settings.compressor_duty = evaluation.compressor_duty;
     // With tolerances halfway between what it has while it falls and while it rises.
-    design.settings.reservoir_volume_m3 = 0.5 * (point.reservoir_m3 + point.reservoir_rising_m3);
+    if (candidate.configuration == Configuration::kCompressor)
+      design.settings.reservoir_volume_m3 = 0.5 * (point.reservoir_m3 + point.reservoir_rising_m3);
   }
   if (filled.tank_fill_pa > 0.0) {
     design.settings.reservoir_volume_m3 = point.reservoir_m3;

@@ -122,7 +122,9 @@ bool Rebuild(const Problem& problem, const Problem& relaxed, const Design& desig
   return SetOptions(problem, design, rebuilt.candidate);
 }
 
-OperatingPoint PointOf(const Design& design) {
+// Of pumps without a reservoir the pressure is no setting.
+OperatingPoint PointOf(const Problem& problem, const Candidate& candidate, const Design& design) {
+  if (design.configuration == Configuration::kDirectPump) return DirectPoint(problem, candidate);
   const double reservoir_m3 = design.settings.reservoir_volume_m3.value_or(0.0);
   return {design.settings.source_pressure_pa, reservoir_m3, reservoir_m3,
           design.settings.tank_fill_pa.value_or(0.0)};
@@ -219,7 +221,7 @@ std::optional<std::vector<Margin>> MarginsOf(const Problem& problem, const Probl
                                              const Design& design) {
   Rebuilt rebuilt;
   if (!Rebuild(problem, relaxed, design, rebuilt)) return std::nullopt;
-  const OperatingPoint point = PointOf(design);
+  const OperatingPoint point = PointOf(problem, rebuilt.candidate, design);
   const Evaluation evaluation = Evaluate(problem, rebuilt.candidate, point);
   if (!evaluation.works) return std::nullopt;
   return Margins(problem, rebuilt.candidate, point, evaluation);
@@ -232,7 +234,7 @@ AtSettings EvaluateAtSettings(const Problem& problem, const Design& design,
   Rebuilt rebuilt;
   if (!Rebuild(free, Relaxed(free), design, rebuilt)) return found;
   found.source = SourceWindow(free, rebuilt.candidate);
-  const OperatingPoint point = PointOf(design);
+  const OperatingPoint point = PointOf(free, rebuilt.candidate, design);
   if (point.source_pa < found.source.low_pa || point.source_pa > found.source.high_pa) return found;
   const Workbench bench{.stop = stop};
   rebuilt.candidate.bench = &bench;

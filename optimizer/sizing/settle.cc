@@ -89,8 +89,10 @@ class Freedom {
 
 OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const Leaf& leaf) {
   // An objective that the pressure moves leaves no freedom, nor does a made-to-measure reservoir at
-  // its smallest volume.
-  if (problem.objective.energy_wh > 0.0 || candidate.reservoir.index == kCustom) return leaf.point;
+  // its smallest volume. Pumps without a reservoir have no setting.
+  if (problem.objective.energy_wh > 0.0 || candidate.reservoir.index == kCustom ||
+      candidate.configuration == Configuration::kDirectPump)
+    return leaf.point;
   Freedom freedom(problem, candidate, leaf);
   if (freedom.empty()) return leaf.point;
   const double share = freedom.Balance();

@@ -171,6 +171,19 @@ class PressureSearch {
   bool failed_ = false;
 };
 
+// Pumps without a reservoir have no settings: they are feasible or not.
+Leaf SizeDirect(const Problem& problem, const Candidate& candidate) {
+  Leaf leaf;
+  leaf.status = LeafStatus::kInfeasible;
+  leaf.point = DirectPoint(problem, candidate);
+  if (!(leaf.point.source_pa <= SourceWindow(problem, candidate).high_pa)) return leaf;
+  const Evaluation evaluation = Evaluate(problem, candidate, leaf.point);
+  if (!(SmallestMargin(problem, candidate, leaf.point, evaluation) >= 0.0)) return leaf;
+  leaf.status = LeafStatus::kFeasible;
+  leaf.objective = leaf.lower_bound = ObjectiveValue(problem, candidate, leaf.point, evaluation);
+  return leaf;
+}
+
 }  // namespace
 
 double SmallestMargin(const Problem& problem, const Candidate& candidate,
@@ -222,6 +235,7 @@ NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& can
 
 Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
                   int evaluations_max) {
+  if (candidate.configuration == Configuration::kDirectPump) return SizeDirect(problem, candidate);
   const NeededPressure needed =
       NeededSourcePressure(problem, candidate, PointAt(problem, candidate, 0.0, reservoir_m3));
   if (needed.status == LeafStatus::kFeasible)
@@ -242,6 +256,7 @@ bool FastAtHighest(const Problem& problem, const Candidate& candidate) {
 }
 
 Leaf SizeQuickly(const Problem& problem, const Candidate& candidate, double reservoir_m3) {
+  if (candidate.configuration == Configuration::kDirectPump) return SizeDirect(problem, candidate);
   const OperatingPoint highest =
       PointAt(problem, candidate, SourceWindow(problem, candidate).high_pa, reservoir_m3);
   // The lowest pressure is the best for a tank, which weighs least then.

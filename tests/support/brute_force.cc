@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/physics/storage.h"
+#include "tests/support/pumps/direct_sizing.h"
 #include "tests/support/scan_sizing.h"
 #include "tests/support/small_catalogue.h"
 #include "tests/support/tank_sizing.h"
@@ -92,6 +93,16 @@ void ForEachSource(const Problem& problem, Candidate& candidate, const Visit& vi
   const model::Parts& parts = problem.parts;
   const std::vector<Option> batteries =
       Options(problem, Family::kBattery, parts.batteries, problem.limits.batteries);
+  if (candidate.configuration == Configuration::kDirectPump) {
+    for (const Option& compressor :
+         Options(problem, Family::kCompressor, parts.compressors, problem.limits.compressors))
+      for (const Option& battery : batteries) {
+        candidate.compressor = compressor;
+        candidate.battery = battery;
+        if (VoltagesMatch(problem, candidate)) visit(candidate);
+      }
+    return;
+  }
   if (candidate.configuration == Configuration::kCompressor) {
     for (const Option& compressor :
          Options(problem, Family::kCompressor, parts.compressors, problem.limits.compressors))
@@ -149,6 +160,9 @@ long long Combinations(const Problem& problem, Configuration configuration) {
     product *= count(parts.tubing, 1) * count(parts.valves, 1) *
                (group.fittings_per_line > 0 ? count(parts.fittings, 1) : 1);
   const optimizer::Limits& limits = problem.limits;
+  if (configuration == Configuration::kDirectPump)
+    return product * count(parts.compressors, limits.compressors) *
+           count(parts.batteries, limits.batteries);
   if (configuration == Configuration::kCompressor)
     return product * count(parts.compressors, limits.compressors) *
            count(parts.batteries, limits.batteries) *
@@ -246,6 +260,8 @@ double StockVolume(const Problem& problem, const Candidate& candidate) {
 
 optimizer::Leaf SizeAlone(const Problem& problem, const Candidate& candidate) {
   if (CanSizeTank(problem, candidate)) return SizeTank(problem, candidate);
+  if (candidate.configuration == Configuration::kDirectPump)
+    return SizeDirectPump(problem, candidate);
   if (candidate.reservoir.index != optimizer::kCustom)
     return optimizer::SizeAtVolume(problem, candidate, StockVolume(problem, candidate));
   optimizer::CustomSizing sizing(problem, candidate);

@@ -1,7 +1,7 @@
 // Every combination of a small problem, one after the other: nothing of the tree search is used.
 // Made-to-measure reservoirs are sized by dense scans, tanks of one group from the laws
-// (tank_sizing.h), all others by the sizing at a given volume,
-// which sizing_test checks against dense scans.
+// (tank_sizing.h), and pumps without a reservoir (direct_sizing.h), all others by the sizing at a
+// given volume, which sizing_test checks against dense scans.
 #ifndef PLENUM_TESTS_SUPPORT_BRUTE_FORCE_H_
 #define PLENUM_TESTS_SUPPORT_BRUTE_FORCE_H_
 

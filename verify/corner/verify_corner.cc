@@ -50,6 +50,8 @@ Corners::Corners(const Problem& problem, const ProofPlan& plan, KnownStrokes& st
     : problem_(problem), plan_(plan), strokes_(strokes), amounts_(AmountsOfAll(problem, plan)) {
   if (plan.configuration == Configuration::kCompressor)
     pumps_.emplace(problem, plan, amounts_, strokes);
+  if (plan.configuration == Configuration::kDirectPump)
+    direct_.emplace(problem, plan, amounts_, strokes);
 }
 
 const LeastAmounts& Corners::Least(const Ranges& ranges, int slot) {
@@ -73,7 +75,7 @@ bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
   const model::Parts& parts = problem_.parts;
   Assembly source;
   source.configuration = plan_.configuration;
-  if (plan_.configuration == Configuration::kCompressor) {
+  if (IsPumped(plan_.configuration)) {
     source.compressor = &parts.compressors[item.part];
     return Any(plan_, ranges, SlotOf(plan_, Family::kBattery, -1), [&](const ProofItem& pack) {
       source.battery = &parts.batteries[pack.part];
@@ -92,7 +94,7 @@ bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
 }
 
 bool Corners::SourceMates(const Ranges& ranges) const {
-  const bool pump = plan_.configuration == Configuration::kCompressor;
+  const bool pump = IsPumped(plan_.configuration);
   const int slot = SlotOf(plan_, pump ? Family::kCompressor : Family::kRegulator, -1);
   return Any(plan_, ranges, slot, [&](const ProofItem& item) { return SourceMates(ranges, item); });
 }
@@ -280,6 +282,7 @@ double Corners::LeastObjective(const Ranges& ranges, double enough) {
     if (!lines.back()->works) return kUnlimited;
   }
   if (!SourceMates(ranges)) return kUnlimited;
+  if (direct_) return direct_->Least(ranges, lines, chosen);
   return pumps_ ? pumps_->Least(ranges, lines, chosen, sum, enough)
                 : LeastRegulated(ranges, chosen);
 }

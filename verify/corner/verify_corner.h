@@ -6,6 +6,7 @@
 #include <map>
 
 #include "verify/corner/verify_best.h"
+#include "verify/corner/verify_direct.h"
 #include "verify/corner/verify_line.h"
 #include "verify/corner/verify_pump.h"
 #include "verify/design/verify_choice.h"
@@ -63,6 +64,7 @@ class Corners {
   std::vector<std::vector<ItemAmounts>> amounts_;  // per slot and choice
   std::map<SlotRange, LeastAmounts> least_;
   std::optional<Pumps> pumps_;
+  std::optional<DirectPumps> direct_;
 };
 
 }  // namespace plenum::verify

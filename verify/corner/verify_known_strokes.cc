@@ -16,7 +16,7 @@ constexpr double kSlack = 1.0 + kSumTolerance;
 
 KnownStrokes::KnownStrokes(const Problem& problem, const ProofPlan& plan)
     : problem_(problem), plan_(plan) {
-  if (plan.configuration == Configuration::kCompressor) pumps_.emplace(problem, plan);
+  if (IsPumped(plan.configuration)) pumps_.emplace(problem, plan);
 }
 
 const BestLine& KnownStrokes::Line(const Ranges& ranges, int g) {

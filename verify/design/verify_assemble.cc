@@ -39,10 +39,11 @@ bool Whole(const Problem& problem, const Assembly& a) {
         (problem.groups[g].fittings_per_line > 0) != (a.lines[g].fitting != nullptr))
       return false;
   const Configuration c = a.configuration;
-  const bool pump = c == Configuration::kCompressor;
+  const bool pump = IsPumped(c);
   const bool tank = c == Configuration::kTank;
   return (tank || (a.regulator != nullptr) == !pump) && (a.tank != nullptr) == tank &&
-         (a.compressor != nullptr) == pump && (a.reservoirs > 0) == pump &&
+         (a.compressor != nullptr) == pump &&
+         (a.reservoirs > 0) == (c == Configuration::kCompressor) &&
          (a.battery != nullptr) == (c != Configuration::kMains) &&
          (a.cylinder != nullptr) == (c == Configuration::kCylinder) &&
          (a.co2 != nullptr) == (c == Configuration::kCo2);
@@ -124,7 +125,7 @@ void ForEachRow(const Problem& problem, const Assembly& a, const Settings& setti
   if (a.battery) add(Times(a.batteries, a.battery->basics));
   if (a.reservoir)
     add(Times(a.reservoirs, a.reservoir->basics));
-  else if (a.compressor)
+  else if (a.compressor && !a.direct())
     add(Made(problem, settings));
 }
 

@@ -69,7 +69,9 @@ model::Rig MakeRig(const Problem& problem, const Settings& settings, const Assem
   model::Rig rig;
   rig.ambient = problem.ambient;
   if (assembly.co2) rig.gas = model::Gas::kCo2;
-  if (assembly.compressor) {
+  if (assembly.direct()) {
+    rig.source = model::PumpSource{assembly.compressor->curve, assembly.compressors};
+  } else if (assembly.compressor) {
     model::ReservoirSource source;
     source.volume_m3 = settings.reservoir_volume_m3.value_or(0.0);
     source.volume_rising_m3 = rising_m3;
@@ -105,12 +107,17 @@ model::SimulateOptions OptionsOf(const Problem& problem, double end_s, const Sto
   return options;
 }
 
+double FactorOf(const Problem& problem, const Assembly& assembly) {
+  return model::FlowFactor(assembly.co2 ? model::Gas::kCo2 : model::Gas::kAir) *
+         std::sqrt(model::kReferenceTemperatureK / problem.ambient.temperature_k);
+}
+
 // Strokes count from ambient: an actuator that would still hold air at its next one gets a wider
 // exhaust. How fast it empties is nothing to the source.
-void EmptyBeforeNext(const Problem& problem, const Settings& settings, model::Rig& rig) {
+void EmptyBeforeNext(const Problem& problem, const Settings& settings, const Assembly& assembly,
+                     model::Rig& rig) {
   constexpr double kShare = 0.45;  // of the period
-  const double factor = model::FlowFactor(rig.gas) *
-                        std::sqrt(model::kReferenceTemperatureK / problem.ambient.temperature_k);
+  const double factor = FactorOf(problem, assembly);
   for (model::GroupRig& group : rig.groups) {
     const double full_pa = group.close_at_operating ? group.chamber.operating_pressure_pa
                                                     : settings.source_pressure_pa;
@@ -136,7 +143,7 @@ std::optional<State> Repeating(const Problem& problem, const Settings& settings,
   const model::SimulateOptions options = OptionsOf(problem, 1.0 / problem.frequency_hz, stop);
   for (int cycle = 0; cycle < kCyclesMax; ++cycle) {
     model::Rig rig = MakeRig(problem, settings, assembly, state, 1, rising_m3);
-    EmptyBeforeNext(problem, settings, rig);
+    EmptyBeforeNext(problem, settings, assembly, rig);
     const model::Response response = model::Simulate(rig, options);
     if (response.status != model::SimulateStatus::kDone) return std::nullopt;
     State next = state;
@@ -224,7 +231,7 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
   const double period_s = 1.0 / problem.frequency_hz;
   const model::Rig rig = MakeRig(problem, settings, assembly, *state, 2, rising_m3);
   model::Rig emptied = rig;
-  EmptyBeforeNext(problem, settings, emptied);
+  EmptyBeforeNext(problem, settings, assembly, emptied);
   const model::Response response =
       model::Simulate(emptied, OptionsOf(problem, 2.0 * period_s, stop));
   if (response.status != model::SimulateStatus::kDone) return std::nullopt;
@@ -242,6 +249,8 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
   cycle.pump_on_s = 0.5 * response.compressor_on_s;
   cycle.pump_j = 0.5 * response.compressor_energy_j;
   cycle.pump_air_m3 = 0.5 * response.compressor_air_m3;
+  if (assembly.direct())
+    cycle.node_pa = HighestNode(assembly, rig.groups, FactorOf(problem, assembly));
   FillOpenOnes(problem, settings, assembly, cycle);
   AddNeeds(problem, assembly, cycle);
   return cycle;
@@ -260,11 +269,11 @@ std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& setti
                    settings.reservoir_volume_m3.value_or(0.0) + assembly.ReservoirSpread(), stop);
 }
 
-QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop stop)
-    : problem_(problem), assembly_(assembly), stop_(std::move(stop)) {
+QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop stop,
+                         DirectFills* fills)
+    : problem_(problem), assembly_(assembly), stop_(std::move(stop)), direct_fills_(fills) {
   const double temperature_k = problem.ambient.temperature_k;
-  const double factor = model::FlowFactor(assembly.co2 ? model::Gas::kCo2 : model::Gas::kAir) *
-                        std::sqrt(model::kReferenceTemperatureK / temperature_k);
+  const double factor = FactorOf(problem, assembly);
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const model::GroupRig rig = MakeGroup(problem, assembly, g, 0.0, 0);
     std::vector<model::FlowElement> elements = rig.fill;
@@ -373,6 +382,10 @@ std::optional<Cycle> QuickCycles::At(const Settings& settings, double rising_m3)
   cycle.fall_s = fall_s_;
   double tank_pa = IsOpen(assembly_) ? LastStart(problem_, settings, assembly_) : 0.0;
   for (int g = 0; g < static_cast<int>(groups); ++g) {
+    if (assembly_.direct()) {  // what is not over when its turn is over is refused (verify_size.h)
+      (direct_fills_ ? *direct_fills_ : own_fills_).Add(problem_, assembly_, g, fills_[g], cycle);
+      continue;
+    }
     const double over_s = assembly_.compressor ? FillFromReservoir(settings, rising_m3, g, cycle)
                           : IsOpen(assembly_)  ? FillFromTank(tank_pa, g, cycle)
                                                : FillFromRegulator(settings, g, cycle);

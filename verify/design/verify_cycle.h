@@ -9,6 +9,7 @@
 #include "model/flow/series.h"
 #include "model/simulate/simulate.h"
 #include "verify/design/verify_design.h"
+#include "verify/design/verify_pump_curve.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
@@ -23,7 +24,9 @@ std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& setti
 // meet on the source; else by the simulator, too.
 class QuickCycles {
  public:
-  QuickCycles(const Problem& problem, const Assembly& assembly, Stop stop = {});
+  // `fills`: where strokes that pumps fill themselves are kept; null: here.
+  QuickCycles(const Problem& problem, const Assembly& assembly, Stop stop = {},
+              DirectFills* fills = nullptr);
 
   // `rising_m3`: the reservoir's volume while its pressure rises, where it is to bound those of an
   // interval of volumes (model/strokes/reservoir_stroke.h). None where the simulator does not get
@@ -44,6 +47,8 @@ class QuickCycles {
   std::vector<model::Series> fills_;  // with the regulator's share
   std::vector<model::FlowTable> fill_tables_;
   std::vector<double> fall_s_;
+  DirectFills* direct_fills_;
+  mutable DirectFills own_fills_;
 };
 
 }  // namespace plenum::verify

@@ -30,6 +30,7 @@ struct Assembly {
   const model::Reservoir* reservoir = nullptr;  // null with a compressor: made to measure
   const model::Reservoir* tank = nullptr;       // with or without a regulator
   int bottles = 0, compressors = 0, batteries = 0, reservoirs = 0, tanks = 0;
+  bool direct() const { return configuration == Configuration::kDirectPump; }
   bool at_best = false;  // with a guarantee: valves that cannot hold as the parts are
   // Volume of stock reservoirs, and how much more they have while they rise.
   double ReservoirVolume() const { return reservoir ? reservoirs * reservoir->volume_m3 : 0.0; }
@@ -44,7 +45,8 @@ struct Cycle {
   std::vector<double> filled_pa;                  // per group, when its valve closes or it vents
   double air_m3 = 0.0;                            // ANR, by the contents at rest and filled
   double pump_on_s = 0.0, pump_j = 0.0, pump_air_m3 = 0.0;
-  double coil_w = 0.0;                       // all on at once, with the regulator
+  double node_pa = 0.0;  // of pumps without a reservoir: the highest between them and the valves
+  double coil_w = 0.0;   // all on at once, with the regulator
   double steady_j = 0.0, inflating_j = 0.0;  // coils and regulator; of it what strokes shorten
   double electric_j() const { return steady_j + inflating_j; }
 };

@@ -16,8 +16,9 @@ namespace plenum::verify {
 // and of any tank behind a regulator.
 class KnownCycles {
  public:
-  KnownCycles(const Problem& problem, const Assembly& assembly, const Stop& stop)
-      : problem_(problem), assembly_(assembly), quick_(problem, assembly_, stop) {}
+  KnownCycles(const Problem& problem, const Assembly& assembly, const Stop& stop,
+              DirectFills* fills = nullptr)
+      : problem_(problem), assembly_(assembly), quick_(problem, assembly_, stop, fills) {}
   KnownCycles(const KnownCycles&) = delete;
   KnownCycles& operator=(const KnownCycles&) = delete;
 

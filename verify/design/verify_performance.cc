@@ -1,5 +1,6 @@
 // Strokes, air, energy and margins of a listed design against a simulation of its periodic state.
 #include "verify/design/verify_cycle.h"
+#include "verify/design/verify_pump_curve.h"
 #include "verify/design/verify_supply.h"
 #include "verify/design/verify_tank.h"
 
@@ -88,6 +89,15 @@ double WorthOfPressure(const Problem& problem, const Design& design, const Assem
   return worth;
 }
 
+void CheckVolume(const Settings& settings, const Assembly& assembly, Findings& findings) {
+  if (assembly.reservoir &&
+      !Near(settings.reservoir_volume_m3.value_or(0.0),
+            assembly.ReservoirVolume() + 0.5 * assembly.ReservoirSpread(), kSumTolerance))
+    findings.push_back({"supply", "the reservoir's volume is not that of the part"});
+  if (assembly.direct() && settings.reservoir_volume_m3)
+    findings.push_back({"supply", "pumps without a reservoir have no volume of one"});
+}
+
 // A tank's volume and its fill: of a source without a regulator the source pressure.
 void CheckFill(const Problem& problem, const Settings& settings, const Assembly& assembly,
                Findings& findings) {
@@ -110,10 +120,7 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
   if (source_pa < stood.low_pa * (1.0 - kSumTolerance) ||
       source_pa > stood.high_pa * (1.0 + kSumTolerance))
     findings.push_back({"supply", "the source pressure is outside what the parts stand"});
-  if (assembly.reservoir &&
-      !Near(design.settings.reservoir_volume_m3.value_or(0.0),
-            assembly.ReservoirVolume() + 0.5 * assembly.ReservoirSpread(), kSumTolerance))
-    findings.push_back({"supply", "the reservoir's volume is not that of the part"});
+  CheckVolume(design.settings, assembly, findings);
   if (assembly.tank) CheckFill(problem, design.settings, assembly, findings);
   Settings settings = design.settings;
   if (assembly.reservoir) settings.reservoir_volume_m3 = assembly.ReservoirVolume();
@@ -137,10 +144,12 @@ bool CheckPerformance(const Problem& problem, const Design& design, const Assemb
            1.0 / (cycle->rise_s[g] + cycle->fall_s[g]), kTimeTolerance);
     expect(name + "valve_duty", design.settings.valve_duty[g],
            cycle->inflate_s[g] * problem.frequency_hz, kTimeTolerance + worth);
-    if (cycle->inflate_s[g] > 0.5 / problem.frequency_hz * (1.0 + kTimeTolerance) ||
+    if (cycle->inflate_s[g] > FillSecondsMax(problem, assembly) * (1.0 + kTimeTolerance) ||
         cycle->fall_s[g] > 0.5 / problem.frequency_hz * (1.0 + kTimeTolerance))
-      findings.push_back({"strokes", name + "a stroke takes longer than half of the period"});
+      findings.push_back(
+          {"strokes", name + "a stroke takes longer than half of the period or its turn"});
   }
+  if (assembly.direct()) expect("source_pressure", source_pa, cycle->node_pa, kTimeTolerance);
   const Supply supply = SupplyOf(problem, settings, assembly, *cycle);
   int actuators = 0;
   for (const ActuatorGroup& group : problem.groups) actuators += group.count;

@@ -1,13 +1,26 @@
 #include "verify/design/verify_pump_curve.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "model/physics/storage.h"
 #include "verify/design/verify_finding.h"
 
 namespace plenum::verify {
 namespace {
 
 constexpr int kGrid = 500;
+constexpr double kNodeTolerance = 1e-13;  // of a pressure
+constexpr int kPanels = 64, kHalvings = 12;
+// Gauss' rule with three points.
+constexpr double kGaussNodes[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
+constexpr double kGaussWeights[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+
+// Of one pump; the highest pressure itself is reached.
+double DeliveryUpToTheEnd(const model::CompressorCurve& curve, double pressure_pa) {
+  const model::MonotoneCurve& flow = curve.free_air_m3_per_s;
+  return flow(std::clamp(pressure_pa, flow.front(), flow.back()));
+}
 
 template <typename Value>
 double Held(const model::CompressorCurve& curve, double low_pa, double high_pa,
@@ -33,6 +46,107 @@ double EnergyPerAirHeld(const model::CompressorCurve& curve, double low_pa, doub
 
 double PowerHeld(const model::CompressorCurve& curve, double low_pa, double high_pa) {
   return Held(curve, low_pa, high_pa, [&](double pa) { return model::ElectricalPower(curve, pa); });
+}
+
+double FillSecondsMax(const Problem& problem, const Assembly& assembly) {
+  const double groups = static_cast<double>(problem.groups.size());
+  return (assembly.direct() ? std::min(0.5, 1.0 / groups) : 0.5) / problem.frequency_hz;
+}
+
+double NodePressure(const Assembly& assembly, const model::Series& fill, int count,
+                    double chamber_pa) {
+  const model::CompressorCurve& curve = assembly.compressor->curve;
+  const auto more_than_taken = [&](double p) {
+    return assembly.compressors * DeliveryUpToTheEnd(curve, p) -
+           count * p * model::FlowAtRatio(fill, chamber_pa / p);
+  };
+  double low_pa = chamber_pa, high_pa = model::HighestPressure(curve);
+  if (!(low_pa < high_pa)) return kUnlimited;
+  double low = more_than_taken(low_pa), high = more_than_taken(high_pa);
+  if (high >= 0.0) return high_pa;
+  // Regula falsi, with the value that stays halved (Illinois).
+  while (high_pa - low_pa > kNodeTolerance * high_pa) {
+    double p = low_pa + (high_pa - low_pa) * low / (low - high);
+    if (!(p > low_pa && p < high_pa)) p = 0.5 * (low_pa + high_pa);
+    const double value = more_than_taken(p);
+    if (value == 0.0) return p;
+    if (value > 0.0) {
+      low_pa = p, low = value;
+      high *= 0.5;
+    } else {
+      high_pa = p, high = value;
+      low *= 0.5;
+    }
+  }
+  return 0.5 * (low_pa + high_pa);
+}
+
+double HighestNode(const Assembly& assembly, const std::vector<model::GroupRig>& groups,
+                   double factor) {
+  double highest_pa = 0.0;
+  for (const model::GroupRig& group : groups)
+    highest_pa =
+        std::max(highest_pa, NodePressure(assembly, model::MakeSeries(group.fill, factor),
+                                          group.count, group.chamber.operating_pressure_pa));
+  return highest_pa;
+}
+
+DirectFills::Fill DirectFills::Make(const Problem& problem, const Assembly& assembly, int g,
+                                    const model::Series& fill) {
+  const ActuatorGroup& group = problem.groups[g];
+  const model::Chamber chamber = ChamberOf(group, assembly.lines[g]);
+  const model::CompressorCurve& curve = assembly.compressor->curve;
+  const double ambient_pa = problem.ambient.pressure_pa;
+  const double operating_pa = chamber.operating_pressure_pa;
+  const double target_pa = ambient_pa + problem.rise_fraction * (operating_pa - ambient_pa);
+  const double air_per_content = model::StandardVolume(1.0, problem.ambient.temperature_k);
+  const double end_pa = NodePressure(assembly, fill, group.count, operating_pa);
+  Fill found;
+  found.node_pa = end_pa;
+  if (!std::isfinite(end_pa) || !(DeliveryUpToTheEnd(curve, end_pa) > 0.0)) return found;
+  double seconds = 0.0, joules = 0.0;
+  const auto panel = [&](double from_pa, double to_pa) {
+    for (int i = 0; i < 3; ++i) {
+      const double p = 0.5 * (from_pa + to_pa) + 0.5 * (to_pa - from_pa) * kGaussNodes[i];
+      const double node_pa = NodePressure(assembly, fill, group.count, p);
+      const double flow = std::min(assembly.compressors * DeliveryUpToTheEnd(curve, node_pa),
+                                   group.count * node_pa * model::FlowAtRatio(fill, p / node_pa));
+      const double time = 0.5 * (to_pa - from_pa) * kGaussWeights[i] * group.count *
+                          model::ContentSlope(chamber, p) * air_per_content / flow;
+      seconds += time;
+      joules += time * assembly.compressors * model::ElectricalPower(curve, node_pa);
+    }
+  };
+  // Finer towards the end, where the flow may nearly vanish.
+  const auto fill_to = [&](double from_pa, double to_pa) {
+    const double width_pa = (to_pa - from_pa) / kPanels;
+    for (int i = 0; i + 1 < kPanels; ++i)
+      panel(from_pa + i * width_pa, from_pa + (i + 1) * width_pa);
+    double left_pa = width_pa;
+    for (int i = 0; i < kHalvings; ++i, left_pa *= 0.5)
+      panel(to_pa - left_pa, to_pa - 0.5 * left_pa);
+    panel(to_pa - left_pa, to_pa);
+  };
+  fill_to(ambient_pa, target_pa);
+  found.rise_s = seconds;
+  if (operating_pa > target_pa) fill_to(target_pa, operating_pa);
+  found.inflate_s = seconds;
+  found.pump_j = joules;
+  return found;
+}
+
+void DirectFills::Add(const Problem& problem, const Assembly& assembly, int g,
+                      const model::Series& fill, Cycle& cycle) {
+  const LineParts& line = assembly.lines[g];
+  const auto [entry, fresh] = known_.try_emplace(
+      {g, line.tube, line.fitting, line.valve, assembly.compressor, assembly.compressors});
+  if (fresh) entry->second = Make(problem, assembly, g, fill);
+  const Fill& found = entry->second;
+  cycle.rise_s[g] = found.rise_s;
+  cycle.inflate_s[g] = found.inflate_s;
+  cycle.pump_on_s += found.inflate_s;
+  cycle.pump_j += found.pump_j;
+  cycle.node_pa = std::max(cycle.node_pa, found.node_pa);
 }
 
 }  // namespace plenum::verify

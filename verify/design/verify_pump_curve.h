@@ -1,8 +1,16 @@
-// How what a pump takes changes with pressure, on a fine grid. Internal to verify*.cc.
+// How what a pump takes changes with pressure, on a fine grid; and the strokes that pumps fill
+// themselves, without a reservoir. Internal to verify*.cc.
 #ifndef PLENUM_VERIFY_DESIGN_VERIFY_PUMP_CURVE_H_
 #define PLENUM_VERIFY_DESIGN_VERIFY_PUMP_CURVE_H_
 
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "model/flow/series.h"
 #include "model/physics/compressor.h"
+#include "model/simulate/simulate_rig.h"
+#include "verify/design/verify_design.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
@@ -11,6 +19,38 @@ namespace plenum::verify {
 // at a lower one, as a ratio: 1 where it rises all the way.
 double EnergyPerAirHeld(const model::CompressorCurve& curve, double low_pa, double high_pa);
 double PowerHeld(const model::CompressorCurve& curve, double low_pa, double high_pa);
+
+// Most time that a group may take to fill: half of the period, or its turn at such pumps.
+double FillSecondsMax(const Problem& problem, const Assembly& assembly);
+
+// Pressure between pumps and valves at which all pumps of the assembly deliver what `count` lines
+// take to chambers at `chamber_pa`, or the highest that pumps reach where lines take less.
+double NodePressure(const Assembly& assembly, const model::Series& fill, int count,
+                    double chamber_pa);
+
+// The highest of groups that fill one after another; `factor` on what their lines conduct.
+double HighestNode(const Assembly& assembly, const std::vector<model::GroupRig>& groups,
+                   double factor);
+
+// Strokes of groups that the pumps of an assembly fill, by Gauss' rule over panels of the chamber's
+// pressure. Keeps them: combinations that come after each other share most of their lines.
+class DirectFills {
+ public:
+  // Adds the stroke of a group, whose lines are `fill`.
+  void Add(const Problem& problem, const Assembly& assembly, int group, const model::Series& fill,
+           Cycle& cycle);
+
+ private:
+  struct Fill {
+    double rise_s = kUnlimited, inflate_s = kUnlimited, pump_j = 0.0, node_pa = 0.0;
+  };
+  using Key = std::tuple<int, const model::Tubing*, const model::Fitting*, const model::Valve*,
+                         const model::Compressor*, int>;
+  static Fill Make(const Problem& problem, const Assembly& assembly, int group,
+                   const model::Series& fill);
+
+  std::map<Key, Fill> known_;
+};
 
 }  // namespace plenum::verify
 

@@ -52,7 +52,7 @@ class PressureSizing {
     if (volumes.high_m3 > volumes.low_m3)
       resolution_ =
           std::clamp(kPressureShare * (volumes.high_m3 / volumes.low_m3 - 1.0), kFinest, kCoarsest);
-    if (assembly.compressor) held_ = cycles.PumpHeld(stood_.high_pa);
+    if (assembly.compressor && !assembly.direct()) held_ = cycles.PumpHeld(stood_.high_pa);
   }
 
   // Known after Run: no lower source pressure is fast enough.
@@ -93,6 +93,22 @@ class PressureSizing {
     return sizing;
   }
 
+  // Pumps without a reservoir have no settings.
+  Sizing RunDirect() {
+    Sizing sizing;
+    sizing.status = Sized::kInfeasible;
+    sizing.lower_bound = kUnlimited;
+    if (!(stood_.low_pa <= stood_.high_pa)) return sizing;
+    const auto cycle = CycleAt(stood_.high_pa);
+    if (!cycle) return {};
+    if (!(cycle->node_pa <= stood_.high_pa * (1.0 + slack_))) return sizing;
+    const auto [excess, objective] = Judge(cycle->node_pa, *cycle);
+    if (!(excess <= slack_)) return sizing;
+    sizing.status = Sized::kFeasible;
+    sizing.objective = sizing.lower_bound = objective;
+    return sizing;
+  }
+
  private:
   struct Interval {
     Look low, high;
@@ -107,7 +123,7 @@ class PressureSizing {
   Settings SettingsAt(double source_pa, double volume_m3) const {
     Settings settings;
     settings.source_pressure_pa = source_pa;
-    if (assembly_.compressor) settings.reservoir_volume_m3 = volume_m3;
+    if (assembly_.compressor && !assembly_.direct()) settings.reservoir_volume_m3 = volume_m3;
     return settings;
   }
 
@@ -153,8 +169,9 @@ class PressureSizing {
   double StrokeExcess(const Cycle& cycle) const {
     double excess = -kUnlimited;
     const double half_s = 0.5 / problem_.frequency_hz;
+    const double fill_max_s = FillSecondsMax(problem_, assembly_);
     for (std::size_t g = 0; g < problem_.groups.size(); ++g)
-      excess = std::max({excess, cycle.inflate_s[g] / half_s - 1.0,
+      excess = std::max({excess, cycle.inflate_s[g] / fill_max_s - 1.0,
                          cycle.rise_s[g] / problem_.groups[g].rise_time_max_s - 1.0,
                          cycle.fall_s[g] / half_s - 1.0,
                          cycle.fall_s[g] / problem_.groups[g].fall_time_max_s - 1.0});
@@ -313,7 +330,9 @@ Sizing Sizer::Size(const Assembly& assembly, double slack, double enough) {
 }
 
 Sizing Sizer::SizeAsIs(const Assembly& assembly, double slack, double enough) {
-  if (!cycles_ || !cycles_->Serves(assembly)) cycles_.emplace(problem_, assembly, stop_);
+  if (!cycles_ || !cycles_->Serves(assembly)) cycles_.emplace(problem_, assembly, stop_, &fills_);
+  if (assembly.direct())
+    return PressureSizing(problem_, assembly, *cycles_, {0.0, 0.0}, slack).RunDirect();
   if (assembly.compressor && !assembly.reservoir)
     return SizeMade(problem_, assembly, *cycles_, slack, enough, stop_);
   const double volume_m3 = assembly.ReservoirVolume();

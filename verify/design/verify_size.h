@@ -39,7 +39,8 @@ class Sizer {
 
   const Problem& problem_;
   const Stop stop_;
-  std::optional<KnownCycles> cycles_;
+  DirectFills fills_;
+  std::optional<KnownCycles> cycles_;  // look at the fills
 };
 
 }  // namespace plenum::verify

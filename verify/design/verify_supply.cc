@@ -2,6 +2,7 @@
 #include "verify/design/verify_supply.h"
 
 #include "model/physics/storage.h"
+#include "verify/design/verify_pump_curve.h"
 #include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
@@ -27,11 +28,18 @@ Pressures StoodPressures(const Problem& problem, const Assembly& a) {
     low_pa = std::max(low_pa, InletPa(problem, a, 0.0));
     high_pa = std::min(high_pa, MostFillPa(problem, a));
   }
+  if (a.direct()) {
+    if (problem.groups.size() > 1 && problem.simultaneous) return {kUnlimited, 0.0};
+    for (const LineParts& line : a.lines)
+      if (!model::Holds(line.valve->kind) ||
+          line.valve->pressure_min_pa > problem.ambient.pressure_pa)
+        return {kUnlimited, 0.0};
+  }
   if (a.configuration == Configuration::kMains)
     high_pa = std::min(high_pa, problem.mains.pressure_pa);
   if (a.compressor) high_pa = std::min(high_pa, model::HighestPressure(a.compressor->curve));
   if (a.reservoir) high_pa = std::min(high_pa, a.reservoir->pressure_max_pa);
-  if (a.compressor && !a.reservoir)
+  if (a.compressor && !a.reservoir && !a.direct())
     high_pa =
         std::min(high_pa, problem.ambient.pressure_pa + model::kMadeReservoirPressureMaxGaugePa);
   return {low_pa, high_pa};
@@ -65,10 +73,16 @@ Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly
   if (a.compressor) {
     const double ambient_pa = problem.ambient.pressure_pa;
     const double volume_m3 = settings.reservoir_volume_m3.value_or(0.0) + a.ReservoirSpread();
-    supply.first_fill_j =
-        model::EnergyToFill(a.compressor->curve, volume_m3, ambient_pa, source_pa, temperature_k);
-    supply.first_fill_m3 =
-        model::StandardVolume(volume_m3 * (source_pa - ambient_pa), temperature_k);
+    if (a.direct()) {
+      for (const double inflate_s : cycle.inflate_s)
+        supply.frequency_hz = std::min(
+            supply.frequency_hz, FillSecondsMax(problem, a) * problem.frequency_hz / inflate_s);
+    } else {
+      supply.first_fill_j =
+          model::EnergyToFill(a.compressor->curve, volume_m3, ambient_pa, source_pa, temperature_k);
+      supply.first_fill_m3 =
+          model::StandardVolume(volume_m3 * (source_pa - ambient_pa), temperature_k);
+    }
     supply.current_a =
         a.compressors * model::LargestCurrent(a.compressor->curve, ambient_pa, source_pa);
     supply.frequency_hz = std::min(supply.frequency_hz, a.compressor->duty_max / cycle.pump_on_s);

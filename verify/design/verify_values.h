@@ -27,6 +27,7 @@ using optimizer::DrawParts;
 using optimizer::Family;
 using optimizer::Front;
 using optimizer::GroupPerformance;
+using optimizer::IsPumped;
 using optimizer::kUnlimited;
 using optimizer::Limits;
 using optimizer::Margin;

@@ -18,7 +18,8 @@ constexpr long long kReportEvery = 1 << 16;  // combinations
 
 // Sums of parts are exact; where settings count they are sought in two ways that agree to this.
 double ObjectiveTolerance(const Problem& problem, const Assembly& assembly) {
-  const bool settings = assembly.tank || (assembly.compressor && !assembly.reservoir);
+  const bool settings =
+      assembly.tank || (assembly.compressor && !assembly.reservoir && !assembly.direct());
   return problem.objective.energy_wh > 0.0 ? 1e-4 : settings ? 1e-5 : kSumTolerance;
 }
 
@@ -126,7 +127,7 @@ class Enumeration {
         source.cylinder = &parts.cylinders[part];
         return Fit(problem_, source);
       case Family::kBattery:
-        if (plan().configuration != Configuration::kCompressor) return true;
+        if (!IsPumped(plan().configuration)) return true;
         source.compressor = &parts.compressors[part_of(Family::kCompressor)];
         source.battery = &parts.batteries[part];
         return Fit(problem_, source);

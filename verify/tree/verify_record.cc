@@ -241,9 +241,8 @@ class RecordCheck {
 
 bool FlowMustBeEqual(const Problem& problem, Configuration configuration) {
   const std::size_t groups = problem.groups.size();
-  if (configuration != Configuration::kCompressor)
-    return groups > 1 && (problem.simultaneous || groups > 2);
-  return groups > 1 ||
+  if (!IsPumped(configuration)) return groups > 1 && (problem.simultaneous || groups > 2);
+  return (groups > 1 && configuration == Configuration::kCompressor) ||
          !std::all_of(problem.parts.compressors.begin(), problem.parts.compressors.end(),
                       [&](const model::Compressor& pump) {
                         return EnergyPerAirHeld(pump.curve, problem.ambient.pressure_pa,

@@ -74,7 +74,7 @@ Design ReadDesign(const Element& element, int rank, const Problem& problem, Erro
     design.parts.push_back(ReadRow(Reader(row, errors), problem, design.configuration));
   AddOutsidePower(problem, design);
   Reader settings = reader.Object("settings");
-  design.settings = ReadPoint(settings, problem);
+  design.settings = ReadPoint(settings, problem, design.configuration);
   if (design.configuration == optimizer::Configuration::kCompressor &&
       !design.settings.reservoir_volume_m3)
     settings.Fail("reservoir_volume_ml", "is missing: a pump's design has a reservoir");

@@ -247,6 +247,7 @@ class Check {
         FailRow(*battery_row, "/id",
                 "has " + Decimal(pack_v) + " V, but " + Quoted(IdOf(*pump)) + " runs at " +
                     Decimal(pump->curve.voltage_v) + " V, within 15 %");
+      if (design_.configuration == Configuration::kDirectPump) CheckDirectValves();
       return;
     }
     if (design_.configuration == Configuration::kTank) return CheckTank();
@@ -266,6 +267,20 @@ class Check {
       FailRow(*row, "/id",
               "needs " + KpaGauge(regulator.inlet_pressure_min_pa, problem_) + " at its inlet" +
                   supply);
+  }
+
+  // Pumps that are off keep no actuator full, and give valves no pressure to switch with.
+  void CheckDirectValves() {
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
+      const Choice* row = RowOf(Family::kValve, g);
+      const model::Valve& valve = *Find(problem_.parts.valves, row);
+      if (!model::Holds(valve.kind))
+        FailRow(*row, "/id", "cannot hold: pumps without a reservoir are off while it should");
+      else if (valve.pressure_min_pa > problem_.ambient.pressure_pa)
+        FailRow(*row, "/id",
+                "needs " + KpaGauge(valve.pressure_min_pa, problem_) +
+                    " at its inlet to switch, where pumps without a reservoir begin at ambient");
+    }
   }
 
   // Its fill, and without a regulator the valves.

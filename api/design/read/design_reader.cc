@@ -33,7 +33,7 @@ Configuration ReadConfiguration(Reader& design) {
   return ReadEnum<Configuration>(
       design, "configuration",
       {Configuration::kCylinder, Configuration::kCo2, Configuration::kCompressor,
-       Configuration::kMains, Configuration::kTank});
+       Configuration::kMains, Configuration::kTank, Configuration::kDirectPump});
 }
 
 optimizer::Choice ReadChoice(Reader& row, const Problem& problem, Configuration configuration) {
@@ -51,10 +51,11 @@ optimizer::Choice ReadChoice(Reader& row, const Problem& problem, Configuration 
   return choice;
 }
 
-optimizer::Settings ReadPoint(Reader& reader, const Problem& problem) {
+optimizer::Settings ReadPoint(Reader& reader, const Problem& problem, Configuration configuration) {
   optimizer::Settings settings;
-  settings.source_pressure_pa = PaFromKpaGauge(
-      reader.Number("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}), problem.ambient);
+  if (reader.Has("source_pressure_kpa_gauge") || configuration != Configuration::kDirectPump)
+    settings.source_pressure_pa = PaFromKpaGauge(
+        reader.Number("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}), problem.ambient);
   if (const auto ml = reader.OptionalNumber("reservoir_volume_ml", kReservoirMl))
     settings.reservoir_volume_m3 = M3FromMl(*ml);
   if (const auto kpa = reader.OptionalNumber("tank_fill_kpa_gauge", {0, kGaugeMaxKpa}))
@@ -73,7 +74,7 @@ optimizer::Design ReadGivenDesign(Reader reader, const Problem& problem) {
     row.Finish();
   }
   Reader settings = reader.Object("settings");
-  design.settings = ReadPoint(settings, problem);
+  design.settings = ReadPoint(settings, problem, design.configuration);
   PassOver(settings, {"valve_duty", "valve_duty_groups", "compressor_duty", "power"});
   settings.Finish();
   PassOver(reader, {"rank", "objective", "totals", "performance", "margins", "response", "kind",

@@ -31,8 +31,9 @@ optimizer::Choice ReadChoice(Reader& row, const optimizer::Problem& problem,
                              optimizer::Configuration configuration);
 
 // "source_pressure_kpa_gauge", "reservoir_volume_ml" and "tank_fill_kpa_gauge" of "settings":
-// positive and finite.
-optimizer::Settings ReadPoint(Reader& settings, const optimizer::Problem& problem);
+// positive and finite. Of pumps without a reservoir the pressure is no setting and may be left out.
+optimizer::Settings ReadPoint(Reader& settings, const optimizer::Problem& problem,
+                              optimizer::Configuration configuration);
 
 // The three together: a design that is to be evaluated.
 optimizer::Design ReadGivenDesign(Reader design, const optimizer::Problem& problem);

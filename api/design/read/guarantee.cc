@@ -65,6 +65,9 @@ std::string WhyNotGuaranteed(const optimizer::Problem& problem) {
     return "ranks by mass, volume and cost; energy is told at its upper value and not minimised";
   if (problem.configurations.contains(optimizer::Configuration::kTank))
     return "is not for tanks yet: leave tank out of /supply/configurations";
+  if (problem.configurations.contains(optimizer::Configuration::kDirectPump))
+    return "is not for pumps without a reservoir yet: leave direct_pump out of "
+           "/supply/configurations";
   if (problem.groups.size() > 1 && problem.simultaneous)
     return "is for one group and for groups that take turns (/duty/simultaneous false): where "
            "groups inflate at once, a part that passes more may slow another group";

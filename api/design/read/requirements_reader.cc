@@ -30,11 +30,11 @@ constexpr double kPressureMarginDefault = 1.05;
 const Range kTimeLimitS = Above(0, 1e6);
 const Range kAmount = Above(0, 1e6);  // kg, L, EUR
 
-// A request that names none asks for all but a tank, which has to be filled somewhere, and for the
-// mains only if it has them.
-constexpr Configuration kAllConfigurations[] = {Configuration::kCylinder, Configuration::kCo2,
-                                                Configuration::kCompressor, Configuration::kMains,
-                                                Configuration::kTank};
+// A request that names none asks for all but a tank, which has to be filled somewhere, and pumps
+// without a reservoir, and for the mains only if it has them.
+constexpr Configuration kAllConfigurations[] = {
+    Configuration::kCylinder, Configuration::kCo2,  Configuration::kCompressor,
+    Configuration::kMains,    Configuration::kTank, Configuration::kDirectPump};
 
 // What a group says beside the group itself.
 struct GroupRemarks {
@@ -82,7 +82,7 @@ void ReadDuty(Reader& request, optimizer::Problem& problem) {
 void ReadConfigurations(Reader& supply, bool has_mains, optimizer::Problem& problem) {
   if (!supply.Has("configurations")) {
     for (const Configuration configuration : kAllConfigurations)
-      if (configuration != Configuration::kTank &&
+      if (configuration != Configuration::kTank && configuration != Configuration::kDirectPump &&
           (configuration != Configuration::kMains || has_mains))
         problem.configurations.insert(configuration);
     return;
@@ -103,6 +103,29 @@ void ReadConfigurations(Reader& supply, bool has_mains, optimizer::Problem& prob
     supply.Fail("mains", "is required by the configuration mains");
 }
 
+// What pumps without a reservoir feed.
+void ReadPumps(Reader& request, Reader& supply, const optimizer::Problem& problem) {
+  const bool named = problem.configurations.contains(Configuration::kDirectPump);
+  const bool several = problem.groups.size() > 1;
+  std::string pumps = "shared";
+  if (supply.Has("pumps")) pumps = supply.Choice("pumps", {"shared", "per_group", "per_actuator"});
+  if (supply.Has("pumps") && !named)
+    supply.Fail("pumps",
+                "is for the configuration direct_pump, which supply.configurations does not name");
+  if (pumps == "per_actuator")
+    supply.Fail("pumps",
+                "must be shared or per_group, not \"per_actuator\": a pump for each actuator needs "
+                "a 2/2 vent valve, which the catalogue has no type for");
+  if (pumps == "per_group" && several)
+    supply.Fail("pumps",
+                "must be shared where there are several groups, not \"per_group\": pumps of their "
+                "own for each group are not searched yet");
+  if (named && several && problem.simultaneous)
+    request.FailAt("duty/simultaneous",
+                   "must be false with the configuration direct_pump, whose pumps fill one group "
+                   "after another");
+}
+
 void ReadSupply(Reader& request, optimizer::Problem& problem) {
   static const Json kNothing = Json::object();
   auto given = request.OptionalObject("supply");
@@ -116,6 +139,7 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
     mains->Finish();
   }
   ReadConfigurations(supply, mains.has_value(), problem);
+  ReadPumps(request, supply, problem);
   ReadPower(supply, problem);
   const auto source = supply.OptionalNumber("source_pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
   if (source) problem.source_pressure_max_pa = PaFromKpaGauge(*source, problem.ambient);
@@ -240,6 +264,10 @@ void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& model
     request.FailAt("supply/configurations",
                    "must be without tank where a model is named, whose effects are judged in a "
                    "cycle that repeats");
+  if (parsed.problem.configurations.contains(Configuration::kDirectPump))
+    request.FailAt("supply/configurations",
+                   "must be without direct_pump where a model is named, whose effects are judged "
+                   "on a source with a pressure of its own");
 }
 
 // What a front cannot have, and what one of two things asked for excludes.

@@ -56,7 +56,10 @@ void Planter::PlantValves(int g, const LineMates& mates) {
           mates.threads.Where([&](const std::string& thread) { return thread == port; });
     ValveCorner& corner = entry.item.corner;
     corner.threads = kinds->second;
-    corner.pressure_min_pa = std::max(corner.pressure_min_pa, group.chamber.operating_pressure_pa);
+    // Of sources with a pressure of their own, which is no lower than the operating pressure.
+    if (plan_->configuration != Configuration::kDirectPump)
+      corner.pressure_min_pa =
+          std::max(corner.pressure_min_pa, group.chamber.operating_pressure_pa);
     // A coil takes power for half of the period at least.
     corner.objective +=
         EnergyWeight(problem_) * problem_.actuations * corner.coil_power_w * HalfPeriod(problem_);

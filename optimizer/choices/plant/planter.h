@@ -28,6 +28,8 @@
 namespace plenum::optimizer {
 
 inline constexpr double kJoulePerWattHour = 3600.0;
+// Between two points of a pump's tables, once a plan: a dip just above ambient may be narrow.
+inline constexpr int kCloseLooks = 1024;
 
 // Numbers distinct values, so that parts can tell by bits which they mate with.
 template <typename Value>
@@ -110,9 +112,10 @@ class Planter {
     total_ = priced_ = kept_ = 1;
     for (int g = 0; g < static_cast<int>(groups) && !stopped(); ++g) PlantGroup(g);
     if (stopped()) return nullptr;
-    if (plan_->configuration == Configuration::kCompressor) {
+    if (IsPumped(plan_->configuration)) {
       plan_->compressor_slot = PlantCompressors();
-      plan_->reservoir_slot = PlantReservoirs();
+      if (plan_->configuration == Configuration::kCompressor)
+        plan_->reservoir_slot = PlantReservoirs();
     } else {
       plan_->regulator_slot = PlantRegulators();
       if (plan_->configuration == Configuration::kCylinder) plan_->bottle_slot = PlantCylinders();
@@ -131,16 +134,16 @@ class Planter {
   bool stopped() const { return stop_ && stop_(); }
 
   // A faster line is only sure to be no worse for the other groups where no two strokes take air at
-  // the same time, and for a pump only where more pressure costs more energy per air.
+  // the same time, as they never do of pumps without a reservoir, and for a pump only where more
+  // pressure costs more energy per air.
   bool LinesMeet() const {
     const int groups = static_cast<int>(problem_.groups.size());
-    if (plan_->configuration != Configuration::kCompressor)
-      return groups > 1 && (problem_.simultaneous || groups > 2);
-    if (groups > 1) return true;
+    if (!IsPumped(plan_->configuration)) return groups > 1 && (problem_.simultaneous || groups > 2);
+    if (groups > 1 && plan_->configuration == Configuration::kCompressor) return true;
     return !std::all_of(problem_.parts.compressors.begin(), problem_.parts.compressors.end(),
                         [&](const model::Compressor& c) {
                           return EnergyPerAirRises(c.curve, problem_.ambient.pressure_pa,
-                                                   model::HighestPressure(c.curve));
+                                                   model::HighestPressure(c.curve), kCloseLooks);
                         });
   }
 
@@ -161,7 +164,7 @@ class Planter {
   // No source gives more: ratings beyond it are all the same.
   double HighestUseful() const {
     double highest_pa = plan_->highest_pump_pa;
-    if (plan_->configuration != Configuration::kCompressor) {
+    if (!IsPumped(plan_->configuration)) {
       highest_pa = 0.0;
       for (const model::Regulator& regulator : problem_.parts.regulators)
         highest_pa = std::max(highest_pa, regulator.outlet_pressure_max_pa);

@@ -98,5 +98,29 @@ TEST(SimulationSource, ATankFallsByWhatEachStrokeTakes) {
   EXPECT_EQ(errors[0].pointer, "/source/initial_pressure_kpa_gauge");
 }
 
+// physics, 2.15: 6 L/min straight to nothing at 100 kPa gauge, 50 mL that double up to 60 kPa.
+TEST(SimulationSource, APumpWithoutAReservoirFillsTheActuatorItself) {
+  Json request = Rig();
+  request["actuators"][0]["operating_pressure_kpa_gauge"] = 60;
+  request["actuators"][0]["line"] =
+      Parse(R"({"sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3})");
+  request["actuators"][0]["close_at_operating_pressure"] = true;
+  request["source"] = Parse(R"({ "kind": "direct_pump",
+    "curve": [ { "pressure_kpa_gauge": 0, "free_air_l_per_min": 6 },
+               { "pressure_kpa_gauge": 100, "free_air_l_per_min": 0 } ] })");
+  const Json answer = Simulated(request);
+  EXPECT_NEAR(answer["performance"]["groups"][0]["rise_time_s"].get<double>(), 2.296567, 2e-5);
+  EXPECT_NEAR(At(answer, 4.0), 60.0, 1e-3);
+  // Off again once the valve is closed.
+  const Json& source = answer["source_pressure_kpa_gauge"];
+  EXPECT_GT(source[50].get<double>(), At(answer, 1.0));
+  EXPECT_NEAR(source[200].get<double>(), 0.0, 1e-9);
+  request["effects"] = Parse(R"([{"id": "supply_droop", "parameters": {"volume_ml": 100,
+    "sonic_conductance_dm3_per_s_bar": 0.1, "critical_ratio": 0.3}}])");
+  const auto errors = ErrorsOf(RunSimulation(request, SmallCatalogue()));
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].pointer, "/source/kind");
+}
+
 }  // namespace
 }  // namespace plenum::api

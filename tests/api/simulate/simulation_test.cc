@@ -178,7 +178,7 @@ TEST(Simulation, NamesEveryFieldThatIsWrong) {
       {"/actuators/0/line/elements/2/part", "\"tubing-2\"", "nearest id: tubing-1"},
       {"/actuators/0/line/elements/2/part", "\"battery-1\"", "tubing, fitting or valve"},
       {"/actuators/0/line/elements/2/length_m", "null", "is required"},
-      {"/source/kind", "\"wind\"", "regulated, compressor, tank or none"},
+      {"/source/kind", "\"wind\"", "regulated, compressor, direct_pump, tank or none"},
       {"/source/source_pressure_kpa_gauge", "-5", "≥ 0"},
       {"/valve/1/t_s", "-1", "≥ 0"},
       {"/valve/2/t_s", "1", "1 follows 1.07"},

@@ -67,7 +67,7 @@ export const axes: Axis[] = [
     'source',
     'source',
     '',
-    'Pressure that the lines are fed from',
+    'Pressure that the lines are fed from; without a reservoir the highest',
     settings((s) => s.source_pressure_kpa_gauge),
     'low',
     'pressure',
@@ -128,6 +128,7 @@ const supplyWords = {
   co2: 'CO₂',
   mains: 'wall',
   tank: 'tank',
+  direct_pump: 'pump without a reservoir',
 };
 export const powerWord = ({
   kind,

@@ -39,13 +39,17 @@ export function lineOf(design: Design, group: Group) {
 function sourceOf(design: Design, requirements: Requirements, parts: Parts, change: Change) {
   const pump = rowOf(design, 'compressor');
   if (pump) {
-    return {
-      kind: 'compressor',
+    const pumps = {
       curve: parts.get(pump.id)!.curve!.map(({ pressure_kpa_gauge, free_air_l_per_min }) => ({
         pressure_kpa_gauge,
         free_air_l_per_min,
       })),
       count: pump.quantity,
+    };
+    if (design.configuration === 'direct_pump') return { kind: 'direct_pump', ...pumps };
+    return {
+      kind: 'compressor',
+      ...pumps,
       reservoir_volume_ml: change.reservoir_ml ?? design.settings.reservoir_volume_ml,
       initial_pressure_kpa_gauge: change.source_kpa,
       stop_pressure_kpa_gauge: change.source_kpa,

@@ -20,7 +20,7 @@ export interface Group {
   relative_uncertainty?: { rest_volume?: number; expansion_ratio?: number };
 }
 
-export type Configuration = 'cylinder' | 'co2' | 'compressor' | 'mains' | 'tank';
+export type Configuration = 'cylinder' | 'co2' | 'compressor' | 'mains' | 'tank' | 'direct_pump';
 export type Amount = 'mass_kg' | 'volume_l' | 'cost_eur' | 'energy_wh';
 
 // Where a number comes from, and how far it is trusted.
@@ -38,6 +38,7 @@ export interface Requirements {
   supply?: {
     configurations?: Configuration[];
     mains?: { pressure_kpa_gauge: number; flow_l_per_min_anr_max?: number };
+    pumps?: 'shared' | 'per_group';
     source_pressure_kpa_gauge_max?: number | null;
     tank_fill_kpa_gauge_max?: number | null;
     mass_kg_max?: number | null;

@@ -9,12 +9,14 @@ const names: Record<Configuration, string> = {
   co2: 'CO₂',
   mains: 'wall',
   tank: 'tank',
+  direct_pump: 'pump',
 };
 
 // Signs in the manner of ISO 1219, 30 × 30 around the middle.
 function SourceSign({ kind }: { kind: Configuration }) {
   switch (kind) {
     case 'compressor':
+    case 'direct_pump':
       return (
         <>
           <circle r="13" />
@@ -109,15 +111,19 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
             <g transform={place(34, y)} class="sign source">
               <SourceSign kind={kind} />
             </g>
-            <g transform={place(104, y)} class="sign">
-              {kind === 'compressor' ? <Reservoir /> : <Regulator />}
-            </g>
+            {kind !== 'direct_pump' && (
+              <g transform={place(104, y)} class="sign">
+                {kind === 'compressor' ? <Reservoir /> : <Regulator />}
+              </g>
+            )}
             <text x="34" y={y + 27}>
               {names[kind]}
             </text>
-            <text x="104" y={y + 27}>
-              {kind === 'compressor' ? 'reservoir' : 'regulator'}
-            </text>
+            {kind !== 'direct_pump' && (
+              <text x="104" y={y + 27}>
+                {kind === 'compressor' ? 'reservoir' : 'regulator'}
+              </text>
+            )}
           </g>
         );
       })}

@@ -10,6 +10,7 @@ const configurations: { value: Configuration; label: string }[] = [
   { value: 'co2', label: 'Liquid CO₂' },
   { value: 'mains', label: 'Wall supply' },
   { value: 'tank', label: 'Tank filled beforehand' },
+  { value: 'direct_pump', label: 'Pump without a reservoir' },
 ];
 
 export function Supply() {
@@ -26,6 +27,7 @@ export function Supply() {
         on ? { pressure_kpa_gauge: 600, flow_l_per_min_anr_max: 200 } : undefined,
       );
     if (name === 'tank' && !on) edit(['supply', 'tank_fill_kpa_gauge_max'], undefined);
+    if (name === 'direct_pump' && !on) edit(['supply', 'pumps'], undefined);
   };
   const wrong = errorAt('/supply/configurations') ?? errorAt('/supply/mains');
   return (

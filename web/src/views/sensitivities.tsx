@@ -36,8 +36,13 @@ const effects: Effect[] = [
   { label: 'mass', of: (e) => e.totals!.mass_kg, better: 'low' },
 ];
 
-const causes = (start: Change, factor: number): [string, Partial<Change>][] => [
-  ['source pressure', { source_kpa: start.source_kpa * factor }],
+const causes = (design: Design, start: Change, factor: number): [string, Partial<Change>][] => [
+  // Without a reservoir it is no setting.
+  ...(design.configuration === 'direct_pump'
+    ? []
+    : [
+        ['source pressure', { source_kpa: start.source_kpa * factor }] as [string, Partial<Change>],
+      ]),
   ...(start.reservoir_ml === null
     ? []
     : [['reservoir', { reservoir_ml: start.reservoir_ml * factor }] as [string, Partial<Change>]]),
@@ -65,7 +70,7 @@ export function Sensitivities({
     const load = async () => {
       base.value = await evaluate(design, requirements, start);
       rows.value = await Promise.all(
-        causes(start, 1 + Number(by) / 100).map(async ([label, patch]) => ({
+        causes(design, start, 1 + Number(by) / 100).map(async ([label, patch]) => ({
           label,
           // Some changes cannot be asked for: an operating pressure above what its limit allows.
           found: await evaluate(design, requirements, { ...start, ...patch }).catch(() => null),

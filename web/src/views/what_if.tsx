@@ -144,14 +144,16 @@ export function WhatIf({
         </div>
         {/* Not before it is known how far they go: a source the design cannot have says nothing. */}
         <fieldset class="sliders" disabled={base.value === null}>
-          <Slider
-            label="Source pressure"
-            kind="pressure"
-            value={change.value.source_kpa}
-            low={Math.min(lowest ?? start.source_kpa, start.source_kpa)}
-            high={Math.min(highest ?? Infinity, Math.max(3 * start.source_kpa, 300))}
-            onInput={(v) => set({ source_kpa: v })}
-          />
+          {design.configuration !== 'direct_pump' && (
+            <Slider
+              label="Source pressure"
+              kind="pressure"
+              value={change.value.source_kpa}
+              low={Math.min(lowest ?? start.source_kpa, start.source_kpa)}
+              high={Math.min(highest ?? Infinity, Math.max(3 * start.source_kpa, 300))}
+              onInput={(v) => set({ source_kpa: v })}
+            />
+          )}
           <Slider
             label={requirements.actuators.length > 1 ? 'Tube length, times' : 'Tube length'}
             unit={requirements.actuators.length > 1 ? '×' : 'm'}

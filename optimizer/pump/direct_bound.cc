@@ -1,0 +1,136 @@
+#include "optimizer/pump/direct_bound.h"
+
+#include <algorithm>
+
+#include "model/physics/storage.h"
+
+namespace plenum::optimizer {
+namespace {
+
+constexpr int kPanels = 64;      // of one choice of pumps
+constexpr int kFewPanels = 24;   // of many
+constexpr double kWidth = 1e-6;  // of a bracket of pressures, of the highest
+// Flows of tables are within 3e-5 of the lines' (tests/model/flow/flow_table_test.cc), and so are
+// the pressures that follow from them.
+constexpr double kSlack = 1.0 + 1e-4;
+constexpr double kQuadrature = 1.0 + 1e-8;  // two computations of one stroke
+
+class Stroke {
+ public:
+  Stroke(const Problem& problem, const PumpFacts& facts, const Line& line, int group,
+         double highest_pa)
+      : problem_(problem),
+        facts_(facts),
+        line_(line),
+        count_(problem.groups[group].count),
+        highest_pa_(highest_pa) {}
+
+  DirectStrokeBound Run(double target_pa) const {
+    const double from_pa = problem_.ambient.pressure_pa;
+    const double operating_pa = line_.chamber.operating_pressure_pa;
+    const int panels = facts_.exact ? kPanels : kFewPanels;
+    DirectStrokeBound stroke;
+    double low_pa = from_pa;
+    for (int i = 0; i < panels; ++i) {
+      // The target ends a panel, so that no time beyond it counts.
+      const double even_pa = from_pa + (operating_pa - from_pa) * (i + 1) / panels;
+      const double high_pa = i + 1 == panels ? operating_pa : even_pa;
+      if (low_pa < target_pa && target_pa < high_pa) {
+        Add(low_pa, target_pa, stroke);
+        stroke.rise_s = stroke.inflate_s;
+        low_pa = target_pa;
+      }
+      Add(low_pa, high_pa, stroke);
+      if (high_pa <= target_pa) stroke.rise_s = stroke.inflate_s;
+      low_pa = high_pa;
+    }
+    stroke.node_pa = facts_.exact ? NodeAtLeast(operating_pa) : operating_pa;
+    return stroke;
+  }
+
+ private:
+  double Taken(double node_pa, double chamber_pa) const {
+    return count_ * node_pa * line_.curve->flow(chamber_pa / node_pa);
+  }
+
+  // The pressures around the one where `before` ceases to hold, which holds at the chamber's.
+  template <class Before>
+  std::pair<double, double> Around(double chamber_pa, const Before& before) const {
+    double low_pa = chamber_pa, high_pa = std::max(highest_pa_, chamber_pa);
+    while (high_pa - low_pa > kWidth * high_pa) {
+      const double middle_pa = 0.5 * (low_pa + high_pa);
+      (before(middle_pa) ? low_pa : high_pa) = middle_pa;
+    }
+    return {low_pa, high_pa};
+  }
+
+  double FlowAtMost(double chamber_pa) const {
+    const auto [low_pa, high_pa] = Around(chamber_pa, [&](double node_pa) {
+      return facts_.rates.Delivery(node_pa) > Taken(node_pa, chamber_pa);
+    });
+    return Taken(high_pa, chamber_pa);
+  }
+
+  double NodeAtLeast(double chamber_pa) const {
+    const double node_pa = Around(chamber_pa, [&](double pa) {
+                             return 1.0 / facts_.rates.SecondsAtMost(pa) > Taken(pa, chamber_pa);
+                           }).first;
+    return std::max(chamber_pa, node_pa / kSlack);
+  }
+
+  void Add(double low_pa, double high_pa, DirectStrokeBound& stroke) const {
+    const model::Chamber& chamber = line_.chamber;
+    const double air_m3 = count_ * model::StandardVolume(model::Content(chamber, high_pa) -
+                                                             model::Content(chamber, low_pa),
+                                                         problem_.ambient.temperature_k);
+    const double flow = FlowAtMost(low_pa);
+    stroke.inflate_s += flow > 0.0 ? air_m3 / flow : kUnlimited;
+    const double node_pa = facts_.exact ? NodeAtLeast(low_pa) : low_pa;
+    stroke.pump_j += air_m3 * facts_.rates.At(node_pa).energy_j;
+  }
+
+  const Problem& problem_;
+  const PumpFacts& facts_;
+  const Line& line_;
+  int count_;
+  double highest_pa_;
+};
+
+}  // namespace
+
+const DirectStrokeBound& DirectBounds::StrokeOf(const PumpFacts& facts, const Line& line, int g,
+                                                double highest_pa, const Candidate* chosen) {
+  constexpr std::size_t kKept = 1'000'000;
+  if (known_.size() > kKept) known_.clear();
+  const auto [entry, fresh] = known_.try_emplace({&facts, line.strokes, chosen ? 0.0 : highest_pa});
+  if (!fresh) return entry->second;
+  if (!chosen)
+    return entry->second = Stroke(problem_, facts, line, g, highest_pa)
+                               .Run(RiseTarget(problem_, problem_.groups[g]));
+  const model::PumpStroke stroke = DirectStroke(problem_, *chosen, g);
+  return entry->second = stroke.reached
+                             ? DirectStrokeBound{stroke.rise_s, stroke.inflate_s,
+                                                 stroke.pump_energy_j, stroke.node_end_pa}
+                             : DirectStrokeBound{kUnlimited, kUnlimited, 0.0, 0.0};
+}
+
+std::optional<DirectNeed> DirectBounds::Least(const PumpFacts& facts,
+                                              const std::vector<const Line*>& lines,
+                                              double highest_pa, const Candidate* chosen) {
+  const double slack = chosen ? kQuadrature : kSlack;
+  DirectNeed need;
+  for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
+    const Line& line = *lines[g];
+    const DirectStrokeBound& stroke = StrokeOf(facts, line, g, highest_pa, chosen);
+    if (stroke.inflate_s > TurnSeconds(problem_) * slack ||
+        stroke.rise_s > problem_.groups[g].rise_time_max_s * slack)
+      return std::nullopt;
+    need.on_s += stroke.inflate_s / slack;
+    need.energy_j += stroke.pump_j / slack;
+    if (line.all_hold) need.energy_j += line.coil_power_w * stroke.inflate_s / slack;
+    need.node_pa = std::max(need.node_pa, stroke.node_pa / slack);
+  }
+  return need;
+}
+
+}  // namespace plenum::optimizer

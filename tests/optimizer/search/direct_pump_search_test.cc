@@ -1,0 +1,277 @@
+// Pumps without a reservoir in the search: against plain enumeration, against looser problems,
+// beside a compressor with a reservoir, and before the verifier.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "optimizer/explain/explained_search.h"
+#include "optimizer/problem/kind.h"
+#include "optimizer/search/tree_search.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/small_catalogue.h"
+#include "verify/verify.h"
+
+namespace plenum::test {
+namespace {
+
+using optimizer::Answer;
+using optimizer::Configuration;
+using optimizer::Design;
+using optimizer::Problem;
+using optimizer::Status;
+
+// Slow enough for pumps that fill the actuators themselves, with voltages that fit and valves that
+// mostly hold.
+Problem Drawn(std::uint64_t seed, int groups = 1) {
+  Draw draw;
+  draw.seed = 9000 + seed;
+  draw.configurations = {Configuration::kDirectPump};
+  draw.severity = 0.02 * static_cast<double>(seed % 20);
+  draw.groups = groups;
+  draw.simultaneous = groups == 1;
+  draw.size = groups == 1 ? CatalogueSize{3, 3, 4, 0, 0, 0, 4, 3, 0}
+                          : CatalogueSize{2, 2, 3, 0, 0, 0, 3, 2, 0};
+  Problem problem = RandomProblem(draw);
+  Random random(seed);
+  problem.frequency_hz *= 0.5;
+  for (model::Compressor& pump : problem.parts.compressors)
+    pump.curve.voltage_v = Chance(random, 0.7) ? 12.0 : 6.0;
+  for (model::Battery& pack : problem.parts.batteries)
+    pack.nominal_voltage_v = Chance(random, 0.7) ? 11.1 : 6.0;
+  for (model::Valve& valve : problem.parts.valves) {
+    if (Chance(random, 0.6)) valve.kind = model::ValveKind::kPair;
+    if (Chance(random, 0.8)) valve.pressure_min_pa = kAmbientPa;
+    if (Chance(random, 0.5)) valve.pressure_max_pa = kAmbientPa + Uniform(random, 0.4, 3.0) * kBar;
+  }
+  return problem;
+}
+
+struct Tally {
+  int feasible = 0, infeasible = 0, designs = 0;
+};
+
+void Compare(const Problem& problem, Tally& tally) {
+  const BruteForce truth = Enumerate(problem);
+  optimizer::SearchOptions options = Within(120.0);
+  options.record = true;
+  const Answer answer = optimizer::SearchTrees(problem, options);
+  EXPECT_EQ(answer.proof.combinations, optimizer::BigCount(truth.combinations));
+  EXPECT_EQ(answer.proof.undecided, 0);
+  EXPECT_EQ(answer.status, truth.designs.empty() ? Status::kInfeasible : Status::kOptimal);
+  const std::size_t expected =
+      std::min(truth.designs.size(), static_cast<std::size_t>(problem.count));
+  ASSERT_EQ(answer.designs.size(), expected);
+  for (std::size_t i = 0; i < expected; ++i) {
+    const Enumerated& enumerated = truth.designs[i];
+    EXPECT_EQ(KeyOf(answer.designs[i]), enumerated.key) << "rank " << i + 1;
+    EXPECT_NEAR(answer.designs[i].objective, enumerated.leaf.objective,
+                1e-6 * enumerated.leaf.objective)
+        << "rank " << i + 1;
+    if (enumerated.configuration != Configuration::kDirectPump) continue;
+    EXPECT_NEAR(answer.designs[i].settings.source_pressure_pa, enumerated.leaf.point.source_pa,
+                1e-6 * enumerated.leaf.point.source_pa);
+    ++tally.designs;
+  }
+  ++(expected > 0 ? tally.feasible : tally.infeasible);
+  for (const verify::Check& check :
+       verify::Verify(problem, answer, {.stop = {}, .brute_force = true, .progress = {}}).checks)
+    EXPECT_TRUE(check.ok) << check.name << ": " << check.detail;
+}
+
+TEST(DirectPumpSearch, ListsWhatEnumerationLists) {
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE(seed);
+    Compare(Drawn(seed), tally);
+  }
+  EXPECT_GT(tally.feasible, 30);
+  EXPECT_GT(tally.infeasible, 5);
+  EXPECT_GT(tally.designs, 150);
+}
+
+TEST(DirectPumpSearch, ListsWhatEnumerationListsForOtherObjectivesAndLimits) {
+  constexpr optimizer::Objective kObjectives[] = {
+      {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}, {1.0, 0.0, 0.0, 0.5}};
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Problem problem = Drawn(200 + seed);
+    problem.objective = kObjectives[seed % 4];
+    Random random(seed);
+    if (seed % 5 == 0)  // more pressure may then cost less energy
+      for (model::Compressor& pump : problem.parts.compressors) MakePowerFall(random, pump.curve);
+    const BruteForce all = Enumerate(problem);
+    if (all.designs.empty()) continue;
+    if (seed % 3 == 0) problem.mass_max_kg = 1.2 * all.designs[0].mass_kg + 0.3;
+    Compare(problem, tally);
+  }
+  EXPECT_GT(tally.feasible, 10);
+}
+
+TEST(DirectPumpSearch, GroupsOneAfterAnother) {
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    SCOPED_TRACE(seed);
+    Problem problem = Drawn(300 + seed, 2);
+    problem.limits.batteries = 1;
+    Compare(problem, tally);
+  }
+  EXPECT_GT(tally.feasible, 3);
+}
+
+TEST(DirectPumpSearch, ThreeGroups) {
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    Problem problem = Drawn(350 + seed, 3);
+    problem.frequency_hz *= 0.3;
+    problem.limits.batteries = 1;
+    problem.limits.compressors = 1;
+    problem.parts.tubing.resize(1);
+    Compare(problem, tally);
+  }
+  EXPECT_GT(tally.feasible, 1);
+}
+
+// Groups that are to fill at once have no such design.
+TEST(DirectPumpSearch, NoneForGroupsAtOnce) {
+  Problem problem = Drawn(301, 2);
+  problem.simultaneous = true;
+  problem.count = 1;
+  EXPECT_EQ(optimizer::SearchTrees(problem, Within(60.0)).status, Status::kInfeasible);
+}
+
+TEST(DirectPumpSearch, BesideACompressor) {
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(seed);
+    Problem problem = Drawn(400 + seed);
+    Random random(seed);
+    problem.parts.reservoirs = RandomParts(random, {0, 0, 0, 0, 0, 0, 0, 0, 2}).reservoirs;
+    problem.exclude = {"custom"};
+    problem.configurations = {Configuration::kDirectPump, Configuration::kCompressor};
+    Compare(problem, tally);
+  }
+  EXPECT_GT(tally.feasible, 2);
+}
+
+TEST(DirectPumpSearch, LooserIsNeverWorse) {
+  int compared = 0;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    SCOPED_TRACE(seed);
+    Problem problem = Drawn(500 + seed, 1 + static_cast<int>(seed % 2));
+    problem.count = 1;
+    problem.source_pressure_max_pa = kAmbientPa + 2.0 * kBar;
+    const Answer answer = optimizer::SearchTrees(problem, Within(60.0));
+    if (answer.designs.empty()) continue;
+    std::vector<Problem> looser(6, problem);
+    looser[0].source_pressure_max_pa += kBar;
+    for (model::Valve& valve : looser[1].parts.valves) valve.pressure_max_pa += kBar;
+    looser[2].actuations = std::max(1.0, std::round(0.7 * looser[2].actuations));
+    looser[3].groups[0].rise_time_max_s *= 1.3;
+    looser[4].limits.compressors += 1;
+    for (model::Valve& valve : looser[5].parts.valves)
+      valve.fill.sonic_conductance_m3_per_s_pa *= 1.2;
+    for (const Problem& loose : looser) {
+      const Answer better = optimizer::SearchTrees(loose, Within(60.0));
+      ASSERT_FALSE(better.designs.empty());
+      EXPECT_LE(better.designs[0].objective, answer.designs[0].objective * (1.0 + 1e-6));
+    }
+    ++compared;
+  }
+  EXPECT_GT(compared, 8);
+}
+
+TEST(DirectPumpSearch, KindsHaveThePumpsSeriesAsTheirSource) {
+  int listed = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    Problem problem = Drawn(600 + seed);
+    problem.list = optimizer::ListOf::kKinds;
+    problem.count = 6;
+    problem.per_source = 2;
+    for (std::size_t i = 0; i < problem.parts.compressors.size(); ++i)
+      problem.parts.compressors[i].basics.series = i % 2 == 0 ? "even" : "odd";
+    optimizer::SearchOptions options = Within(60.0);
+    options.record = true;
+    const Answer answer = optimizer::SearchTrees(problem, options);
+    const optimizer::DesignKinds kinds(problem.parts);
+    for (const Design& design : answer.designs) {
+      EXPECT_GE(kinds.Of(design.configuration, design.parts).source, 0);
+      ++listed;
+    }
+    for (const verify::Check& check :
+         verify::Verify(problem, answer, {.stop = {}, .brute_force = true, .progress = {}}).checks)
+      EXPECT_TRUE(check.ok) << check.name << ": " << check.detail;
+  }
+  EXPECT_GT(listed, 10);
+}
+
+// ── what the verifier refuses ──
+
+bool Accepts(const Problem& problem, const Answer& answer) {
+  const verify::Verification verification = verify::Verify(problem, answer);
+  return std::all_of(verification.checks.begin(), verification.checks.end(),
+                     [](const verify::Check& check) { return check.ok; });
+}
+
+TEST(DirectPumpSearch, TheVerifierRefusesWhatIsTamperedWith) {
+  int looked_at = 0;
+  for (std::uint64_t seed = 1; seed <= 30 && looked_at < 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const Problem problem = Drawn(700 + seed, 1 + static_cast<int>(seed % 2));
+    optimizer::SearchOptions options = Within(60.0);
+    options.record = true;
+    const Answer answer = optimizer::SearchTrees(problem, options);
+    if (answer.designs.empty()) continue;
+    ASSERT_TRUE(Accepts(problem, answer));
+    const auto refused = [&](const auto& change) {
+      Answer changed = answer;
+      change(changed.designs.front());
+      return !Accepts(problem, changed);
+    };
+    EXPECT_TRUE(refused([](Design& d) { d.settings.source_pressure_pa *= 1.001; }));
+    EXPECT_TRUE(refused([](Design& d) { d.settings.source_pressure_pa *= 0.999; }));
+    EXPECT_TRUE(refused([](Design& d) { *d.settings.compressor_duty *= 0.99; }));
+    EXPECT_TRUE(refused([](Design& d) { d.settings.reservoir_volume_m3 = 1e-3; }));
+    EXPECT_TRUE(refused([](Design& d) { d.performance.groups[0].rise_time_s *= 0.999; }));
+    EXPECT_TRUE(refused([](Design& d) { d.performance.air_total_m3 *= 1.01; }));
+    EXPECT_TRUE(refused([](Design& d) { d.totals.energy_j *= 0.99; }));
+    EXPECT_TRUE(refused([](Design& d) { d.configuration = Configuration::kCompressor; }));
+    EXPECT_TRUE(refused([](Design& d) { d.parts.pop_back(); }));
+    Problem tight = problem;
+    tight.source_pressure_max_pa = answer.designs.front().settings.source_pressure_pa * 0.999;
+    EXPECT_FALSE(Accepts(tight, answer));
+    Problem at_once = problem;
+    at_once.simultaneous = true;
+    EXPECT_EQ(Accepts(at_once, answer), problem.groups.size() == 1);
+    Answer shorter = answer;
+    shorter.designs.erase(shorter.designs.begin());
+    EXPECT_FALSE(Accepts(problem, shorter));
+    ++looked_at;
+  }
+  EXPECT_GE(looked_at, 2);
+}
+
+// "No design" is said with the field that is too tight.
+TEST(DirectPumpSearch, AConflictNamesWhatIsTooTight) {
+  int named = 0;
+  for (std::uint64_t seed = 1; seed <= 20 && named < 3; ++seed) {
+    SCOPED_TRACE(seed);
+    Problem problem = Drawn(800 + seed);
+    problem.count = 1;
+    if (optimizer::SearchTrees(problem, Within(60.0)).designs.empty()) continue;
+    problem.groups[0].rise_time_max_s = 1e-3;
+    const Answer answer = optimizer::Search(problem, Within(60.0));
+    ASSERT_EQ(answer.status, Status::kInfeasible);
+    ASSERT_FALSE(answer.infeasibility.conflicts.empty());
+    EXPECT_EQ(answer.infeasibility.conflicts.front().front().requirement,
+              "/actuators/0/rise_time_s_max");
+    ++named;
+  }
+  EXPECT_GE(named, 1);
+}
+
+}  // namespace
+}  // namespace plenum::test

@@ -1,0 +1,160 @@
+#include "verify/corner/verify_direct.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/physics/storage.h"
+#include "verify/design/verify_finding.h"
+
+namespace plenum::verify {
+namespace {
+
+constexpr double kSlack = 1.0 + kSumTolerance;
+constexpr int kPanels = 128;
+constexpr double kWidth = 1e-7;  // of a bracket of pressures, relative
+
+}  // namespace
+
+DirectPumps::DirectPumps(const Problem& problem, const ProofPlan& plan, const SlotAmounts& amounts,
+                         KnownStrokes& strokes)
+    : problem_(problem),
+      plan_(plan),
+      amounts_(amounts),
+      choices_(strokes.pumps()),
+      compressor_(SlotOf(plan, Family::kCompressor, -1)),
+      battery_(SlotOf(plan, Family::kBattery, -1)) {}
+
+const DirectPumps::Stroke& DirectPumps::StrokeOf(Range compressors, const BestLine& line, int g) {
+  const auto [entry, fresh] = known_.try_emplace({compressors, &line, g});
+  if (fresh) entry->second = MakeStroke(compressors, line, g);
+  return entry->second;
+}
+
+DirectPumps::Stroke DirectPumps::MakeStroke(Range compressors, const BestLine& line, int g) const {
+  const PumpCells& cells = choices_.CellsIn(compressors);
+  const ProofItem& first = plan_.slots[compressor_].choices[compressors.first];
+  const bool single = compressors.second == compressors.first + 1;
+  const model::CompressorCurve& curve = problem_.parts.compressors[first.part].curve;
+  const int count = problem_.groups[g].count;
+  const double highest_pa = std::min(cells.highest_pa, line.source_high_pa);
+  const auto delivered = [&](double p) {
+    if (!single) return choices_.DeliveryAt(cells, p);
+    const model::MonotoneCurve& flow = curve.free_air_m3_per_s;
+    return first.quantity * flow(std::clamp(p, flow.front(), flow.back()));
+  };
+  const auto taken = [&](double p, double chamber_pa) {
+    return count * p * model::FlowAtRatio(line.fill_series, chamber_pa / p);
+  };
+  // Around the pressure at which both are equal.
+  const auto node_around = [&](double chamber_pa) {
+    std::pair<double, double> around{chamber_pa, std::max(highest_pa, chamber_pa)};
+    while (around.second - around.first > kWidth * around.second) {
+      const double p = 0.5 * (around.first + around.second);
+      (delivered(p) > taken(p, chamber_pa) ? around.first : around.second) = p;
+    }
+    return around;
+  };
+  const double from_pa = problem_.ambient.pressure_pa;
+  const double operating_pa = problem_.groups[g].chamber.operating_pressure_pa;
+  const double target_pa = PressureAt(problem_, g, problem_.rise_fraction);
+  Stroke stroke;
+  const auto panel = [&](double low_pa, double high_pa) {
+    const double air_m3 =
+        (Drawn(problem_, g, line.chamber, high_pa) - Drawn(problem_, g, line.chamber, low_pa)) /
+        ContentPerVolume(problem_);
+    const auto [under_pa, over_pa] = node_around(low_pa);
+    const double flow = taken(over_pa, low_pa);
+    stroke.inflate_s += flow > 0.0 ? air_m3 / flow : kUnlimited;
+    const std::size_t cell = choices_.CellOf(single ? under_pa : low_pa);
+    stroke.pump_j += air_m3 * cells.energy_j_per_m3[cell];
+  };
+  double low_pa = from_pa;
+  for (int i = 1; i <= kPanels; ++i) {
+    const double high_pa =
+        i == kPanels ? operating_pa : from_pa + (operating_pa - from_pa) * i / kPanels;
+    if (low_pa < target_pa && target_pa < high_pa) {
+      panel(low_pa, target_pa);
+      stroke.rise_s = stroke.inflate_s;
+      low_pa = target_pa;
+    }
+    panel(low_pa, high_pa);
+    if (high_pa <= target_pa) stroke.rise_s = stroke.inflate_s;
+    low_pa = high_pa;
+  }
+  stroke.node_pa = single ? node_around(operating_pa).first : operating_pa;
+  return stroke;
+}
+
+// Whether some valve of each group holds, and some switches without pressure at its inlet.
+bool DirectPumps::Suits(const Ranges& ranges, const std::vector<const BestLine*>& lines) const {
+  if (problem_.groups.size() > 1 && problem_.simultaneous) return false;
+  for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
+    const int slot = SlotOf(plan_, Family::kValve, g);
+    bool switches = false;
+    for (int i = ranges[slot].first; i < ranges[slot].second && !switches; ++i)
+      switches = problem_.parts.valves[plan_.slots[slot].choices[i].part].pressure_min_pa <=
+                 problem_.ambient.pressure_pa;
+    if (!switches || !lines[g]->some_hold) return false;
+  }
+  return true;
+}
+
+// Of those that drive some pump of the box and give its current up to this pressure and the coils'.
+double DirectPumps::LeastBattery(const Ranges& ranges, double energy_j, double node_pa,
+                                 double coil_w) const {
+  const std::vector<model::Compressor>& compressors = problem_.parts.compressors;
+  double least = kUnlimited;
+  for (int i = ranges[battery_].first; i < ranges[battery_].second; ++i) {
+    const ProofItem& item = plan_.slots[battery_].choices[i];
+    const model::Battery& pack = problem_.parts.batteries[item.part];
+    if (item.quantity * model::UsableEnergy(pack.capacity_ah, pack.nominal_voltage_v) * kSlack <
+        energy_j)
+      continue;
+    const double pumps_a =
+        item.quantity * pack.current_max_a * kSlack - coil_w / pack.nominal_voltage_v;
+    for (int c = ranges[compressor_].first; c < ranges[compressor_].second; ++c) {
+      const ProofItem& pump = plan_.slots[compressor_].choices[c];
+      const model::CompressorCurve& curve = compressors[pump.part].curve;
+      if (!model::VoltageMatches(pack.nominal_voltage_v, curve.voltage_v) ||
+          pump.quantity * model::LargestCurrent(curve, problem_.ambient.pressure_pa, node_pa) >
+              pumps_a)
+        continue;
+      least = std::min(least, amounts_[battery_][i].objective);
+      break;
+    }
+  }
+  return least;
+}
+
+double DirectPumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& lines,
+                          double chosen) {
+  const PumpCells& cells = choices_.CellsIn(ranges[compressor_]);
+  if (!Suits(ranges, lines)) return kUnlimited;
+  const double groups = static_cast<double>(lines.size());
+  const double fill_max_s = std::min(0.5, 1.0 / groups) / problem_.frequency_hz;
+  double high_pa = std::min(cells.highest_pa, problem_.source_pressure_max_pa);
+  double node_pa = problem_.ambient.pressure_pa;
+  double on_s = 0.0, beyond_j = 0.0, coil_w = 0.0;  // per cycle
+  for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
+    const BestLine& line = *lines[g];
+    const Stroke& stroke = StrokeOf(ranges[compressor_], line, g);
+    if (stroke.inflate_s > fill_max_s * kSlack ||
+        stroke.rise_s > problem_.groups[g].rise_time_max_s * kSlack)
+      return kUnlimited;
+    on_s += stroke.inflate_s;
+    beyond_j += stroke.pump_j;
+    if (line.all_hold) beyond_j += line.coil_w * stroke.inflate_s;
+    coil_w += line.coil_w;
+    // A constant source at the highest pressure is faster.
+    node_pa = std::max({node_pa, stroke.node_pa, line.source_low_pa});
+    high_pa = std::min(high_pa, line.source_high_pa);
+  }
+  if (node_pa > high_pa * kSlack || on_s * problem_.frequency_hz > cells.duty_max * kSlack)
+    return kUnlimited;
+  beyond_j *= problem_.actuations;
+  const double coils_j = problem_.actuations * coil_w * 0.5 / problem_.frequency_hz;
+  return chosen + LeastBattery(ranges, beyond_j + coils_j, node_pa, coil_w) +
+         problem_.objective.energy_wh * beyond_j / 3600.0;
+}
+
+}  // namespace plenum::verify

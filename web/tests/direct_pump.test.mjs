@@ -1,0 +1,52 @@
+// A pump without a reservoir from the form to its design: no pressure is set, and none can be moved.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+
+import { example, openPage, rank, startBrowser, startService } from './support.mjs';
+
+let service, browser;
+before(async () => {
+  [service, browser] = await Promise.all([startService(), startBrowser()]);
+});
+after(async () => {
+  await browser?.close();
+  await service?.stop();
+});
+
+test('the form asks for a pump without a reservoir', async () => {
+  const { page, close } = await openPage(browser, service.base);
+  await page.getByText('These requirements can be searched.').waitFor();
+  await page.getByText('Pump without a reservoir').click();
+  await page.getByText('These requirements can be searched.').waitFor();
+  const asked = page.waitForRequest(
+    (request) => request.method() === 'POST' && request.url().endsWith('/v1/designs'),
+  );
+  await page.getByRole('button', { name: 'Find the best designs' }).click();
+  const { supply } = (await asked).postDataJSON();
+  assert.ok(supply.configurations.includes('direct_pump'));
+  await close();
+});
+
+test('a design on a pump alone can be tried', async () => {
+  const id = await rank(service, {
+    ...example('four_fingers'),
+    ranking: { count: 3, time_limit_s: 30 },
+  });
+  const { result } = await service.get(`/v1/designs/${id}`);
+  const design = result.designs[0];
+  assert.equal(design.configuration, 'direct_pump');
+  assert.equal(design.settings.reservoir_volume_ml, null);
+  const { page, close } = await openPage(browser, service.base, `#/designs/${id}/1`);
+  const simulated = page.waitForResponse((reply) => reply.url().endsWith('/v1/simulations'));
+  await page.reload();
+  assert.equal((await simulated).status(), 200);
+  await page.getByText('pump without a reservoir', { exact: true }).first().waitFor();
+  assert.equal(await page.getByLabel('Source pressure', { exact: true }).count(), 0);
+  const tried = await service.post('/v1/evaluations', {
+    schema: 'evaluation/1',
+    requirements: result.requirements,
+    design,
+  });
+  assert.equal(tried.works, true);
+  await close();
+});
