@@ -10,7 +10,7 @@
 namespace plenum::verify {
 namespace {
 
-constexpr double kSlack = 1e-5;  // of simulated strokes and of the flow table
+constexpr double kSlack = 1e-4;  // of simulated strokes and of the flow table
 constexpr int kPanels = 16;
 constexpr std::array kShares{0.0, 0.4, 0.7, 0.9, 1.0};  // μ in parts of ambient
 constexpr double kRatioWidth = 1e-3;

@@ -10,7 +10,7 @@ namespace {
 constexpr int kPanelsToTarget = 24, kPanelsBeyond = 4, kStepsClosed = 24;
 constexpr double kSourceTolerance = 1e-4;  // of pressures: what is pumped by the end of a panel
 constexpr double kEqualTolerance = 1e-4;   // of the pressure where all are equal
-constexpr double kFlowSlack = 1.0 + 1e-6;  // of the flow table
+constexpr double kFlowSlack = 1.0 + 1e-4;  // of the flow table
 
 class Stroke {
  public:

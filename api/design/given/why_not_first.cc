@@ -115,8 +115,11 @@ class WhyNot {
       words_.push_back("It misses a requirement: " + MarginInWords(margin, problem_) + ".");
   }
 
+  // Pumps without a reservoir have no setting.
   std::string SourceOf(const Design& design) const {
     const auto& settings = design.settings;
+    if (design.configuration == optimizer::Configuration::kDirectPump)
+      return "the pressures of their strokes";
     std::string text =
         Told((settings.source_pressure_pa - problem_.ambient.pressure_pa) / 1e3) + " kPa gauge";
     if (design.configuration == optimizer::Configuration::kCompressor)

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "api/design/answer.h"
-#include "api/design/evaluation.h"
+#include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/simulate/simulation.h"
 #include "tests/api/support.h"
