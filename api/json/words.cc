@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "catalog/units/text.h"
 
@@ -34,6 +37,13 @@ std::string Decimal(double value) {
   std::string sign = text[exponent + 1] == '-' ? "-" : "";
   const auto first = text.find_first_not_of("+-0", exponent + 1);
   return text.substr(0, exponent + 1) + sign + text.substr(first);
+}
+
+std::string Significant(double value, int digits) {
+  if (value == 0.0 || !std::isfinite(value)) return Decimal(value);
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*e", digits - 1, value);
+  return Decimal(std::strtod(text, nullptr));
 }
 
 std::string OneOf(std::span<const std::string> names) {

@@ -20,6 +20,9 @@ std::string Quoted(std::string_view text);
 // Shortest decimal form that reads back as the same number: 0.05, 1e6, -3.
 std::string Decimal(double value);
 
+// A number for a sentence: 1.31, 0.0456, 20400.
+std::string Significant(double value, int digits = 3);
+
 // "a, b or c"
 std::string OneOf(std::span<const std::string> names);
 

@@ -9,6 +9,7 @@
 #include "api/json/version.h"
 #include "api/measure/measured_document.h"
 #include "api/measure/stated_document.h"
+#include "api/measure/words/effect_words.h"
 #include "api/simulate/effects.h"
 #include "calibration/noise/phases.h"
 
@@ -90,7 +91,7 @@ Json RenderEstimate(const Estimate& estimate, double factor) {
 }
 
 // The parameters of the effect, where it has no estimates (a learned term) with no interval.
-Json RenderEffect(const calibration::FittedEffect& fitted) {
+Json RenderEffect(const calibration::FittedEffect& fitted, const Scale& scale) {
   const model::EffectSpec& spec = *fitted.effect.spec;
   Json parameters = Json::object();
   if (!spec.law.empty()) parameters["law"] = spec.law;
@@ -98,7 +99,9 @@ Json RenderEffect(const calibration::FittedEffect& fitted) {
     const ContractParameter parameter = InContract(spec.parameters[i]);
     parameters[parameter.name] = RenderEstimate(fitted.parameters[i], parameter.factor);
   }
-  return {{"id", spec.id}, {"parameters", std::move(parameters)}};
+  return {{"id", spec.id},
+          {"parameters", std::move(parameters)},
+          {"words", EffectInWords(fitted.effect, scale)}};
 }
 
 // "leak:porous" as id and law; "number:source_pressure" is an id.
@@ -238,7 +241,9 @@ Json RenderNumber(const calibration::WrongNumber& wrong, const Dataset& dataset)
       {"fitted", Number(wrong.factor * one)},
       {"unit", declared ? declared->unit : "1"},
       {"deviation_sigma", wrong.deviation_sigma ? Number(*wrong.deviation_sigma) : Json(nullptr)},
-      {"instead_of", std::move(instead_of)}};
+      {"instead_of", std::move(instead_of)},
+      {"words", NumberInWords(std::string(calibration::Name(wrong.number)), one, wrong.factor * one,
+                              declared ? std::string(declared->unit) : "1")}};
 }
 
 Json RenderStability(const calibration::StabilityChange& change) {
@@ -286,19 +291,21 @@ Json RenderDiscrepancy(const calibration::Discrepancy& discrepancy, const Datase
   for (const auto& place : discrepancy.places)
     places.push_back(
         {{"axis", place.axis}, {"where", place.where}, {"share", Number(place.share)}});
+  const Scale scale = ScaleOf(dataset);
   Json effects = Json::array();
   for (std::size_t i = 0; i + 1 < discrepancy.beside.effects.size(); ++i)
-    effects.push_back(RenderEffect(discrepancy.beside.effects[i]));
-  return {{"equation", Name(discrepancy.equation)},
-          {"features", discrepancy.features},
-          {"learned", discrepancy.learned ? RenderEffect(*discrepancy.learned) : Json(nullptr)},
-          {"effects", std::move(effects)},
-          {"fitted", RenderFitted(discrepancy.beside.fitted, dataset)},
-          {"rms_before_kpa", Kpa(discrepancy.rms_before_pa)},
-          {"rms_after_kpa", Kpa(discrepancy.rms_after_pa)},
-          {"holdout_before_kpa", Kpa(discrepancy.holdout_before_pa)},
-          {"holdout_after_kpa", Kpa(discrepancy.holdout_after_pa)},
-          {"places", std::move(places)}};
+    effects.push_back(RenderEffect(discrepancy.beside.effects[i], scale));
+  return {
+      {"equation", Name(discrepancy.equation)},
+      {"features", discrepancy.features},
+      {"learned", discrepancy.learned ? RenderEffect(*discrepancy.learned, scale) : Json(nullptr)},
+      {"effects", std::move(effects)},
+      {"fitted", RenderFitted(discrepancy.beside.fitted, dataset)},
+      {"rms_before_kpa", Kpa(discrepancy.rms_before_pa)},
+      {"rms_after_kpa", Kpa(discrepancy.rms_after_pa)},
+      {"holdout_before_kpa", Kpa(discrepancy.holdout_before_pa)},
+      {"holdout_after_kpa", Kpa(discrepancy.holdout_after_pa)},
+      {"places", std::move(places)}};
 }
 
 // Pressures to 0.1 Pa and times to 1 µs: below what any sensor shows.
@@ -355,7 +362,9 @@ Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
                    {"before", RenderError(diagnosis.before)},
                    {"after", RenderError(diagnosis.after)},
                    {"learned", diagnosis.learned ? RenderError(*diagnosis.learned) : Json()}});
-  document["effects"] = List(diagnosis.effects, RenderEffect);
+  document["effects"] = List(diagnosis.effects, [scale = ScaleOf(dataset)](const auto& effect) {
+    return RenderEffect(effect, scale);
+  });
   document["numbers"] =
       List(diagnosis.numbers, [&](const auto& wrong) { return RenderNumber(wrong, dataset); });
   document["stability"] = List(diagnosis.stability, RenderStability);

@@ -151,8 +151,7 @@ bool NamesParts(const Json& measurement) {
          });
 }
 
-Parsed<Json> WithParts(Json measurement, const std::vector<catalog::Part>& parts) {
-  Errors errors;
+Json WithParts(Json measurement, const std::vector<catalog::Part>& parts, Errors& errors) {
   Filling filling(parts, errors);
   if (!measurement.is_object()) return measurement;  // reported by the reader
   if (measurement.contains("rig")) filling.OfRig(measurement["rig"], "/rig");
@@ -163,7 +162,6 @@ Parsed<Json> WithParts(Json measurement, const std::vector<catalog::Part>& parts
       if (run.is_object() && run.contains("rig")) filling.OfRig(run["rig"], pointer);
     }
   }
-  if (!errors.empty()) return errors;
   return measurement;
 }
 

@@ -21,7 +21,8 @@ namespace plenum::api {
 // Whether a rig of the document names a part.
 bool NamesParts(const Json& measurement);
 
-Parsed<Json> WithParts(Json measurement, const std::vector<catalog::Part>& parts);
+// With errors the document has the numbers of those parts that could be found.
+Json WithParts(Json measurement, const std::vector<catalog::Part>& parts, Errors& errors);
 
 // The field of the part, or its curve "free_air", that a name of "measure" stands for.
 std::string FieldOfMeasured(std::string_view name);

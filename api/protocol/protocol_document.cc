@@ -41,9 +41,10 @@ Dataset DatasetOf(const BottleTest& test, const catalog::Part& part) {
     run["t_s"] = times;
     run["pressure_kpa_gauge"] = readings;
   }
-  const Parsed<Json> filled = WithParts(std::move(document), {part});
-  if (!std::holds_alternative<Json>(filled)) return {};
-  Parsed<Dataset> dataset = ParseMeasurement(std::get<Json>(filled));
+  Errors errors;
+  const Json filled = WithParts(std::move(document), {part}, errors);
+  if (!errors.empty()) return {};
+  Parsed<Dataset> dataset = ParseMeasurement(filled);
   return std::holds_alternative<Dataset>(dataset) ? std::get<Dataset>(std::move(dataset))
                                                   : Dataset();
 }

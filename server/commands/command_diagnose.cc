@@ -58,9 +58,11 @@ api::DiagnosisRequest ReadRequest(const DiagnoseOptions& options) {
   api::DiagnosisRequest request;
   api::Json document = ReadMeasurement(options.files, options.rig, request.provenance);
   if (!options.holdout.empty() && document.is_object()) document["holdout"] = options.holdout;
+  api::Errors errors;
   if (api::NamesParts(document))
-    document = ValueOrRefuse(api::WithParts(
-        std::move(document), OpenCatalog(options.catalog, catalog::Access::kRead).List()));
+    document = api::WithParts(std::move(document),
+                              OpenCatalog(options.catalog, catalog::Access::kRead).List(), errors);
+  if (!errors.empty()) Refuse(errors);
   request.dataset = ValueOrRefuse(api::ParseMeasurement(document, &request.remarks));
   if (const std::string why = api::WhyNotMeasured(request.dataset, options.save_part); !why.empty())
     Refuse({{"--save-part", why}});

@@ -230,6 +230,10 @@ std::string DiagnosisReport(const Json& answer) {
   const double noise_kpa = noise.is_number() ? noise.get<double>() : std::nan("");
   std::string html = Paragraph("Verdict: " + answer.at("verdict").get<std::string>(), "faint");
   html += Paragraph(VerdictText(answer), "verdict");
+  for (const char* field : {"numbers", "effects"})
+    for (const Json& found : answer.value(field, Json::array()))
+      if (const std::string words = found.value("words", ""); !words.empty())
+        html += Paragraph(words, "found");
   html += Errors(answer) + WrongNumbers(answer) + Estimates(answer) + NextRun(answer);
   if (!answer.at("series").empty()) html += Heading("Measured and model");
   for (const Json& series : answer.at("series")) html += RunPlots(series, noise_kpa);

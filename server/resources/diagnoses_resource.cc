@@ -71,7 +71,7 @@ api::Json ReadParts(api::Json document, const std::function<Parts()>& parts, api
     errors.push_back({"/rig", "names parts, and the catalogue of the job is no longer there"});
     return document;
   }
-  return ValueOrAdd(api::WithParts(std::move(document), *found), errors);
+  return api::WithParts(std::move(document), *found, errors);
 }
 
 // `models` are the newest of each name that "model" may ask for, `parts` those that rigs may name;
@@ -97,7 +97,6 @@ api::Parsed<Request> ReadRequest(std::string_view body,
     document.erase(kTimeLimit);
   }
   document = ReadParts(std::move(document), parts, errors);
-  if (!errors.empty()) return errors;
   request.diagnosis.dataset =
       ValueOrAdd(api::ParseMeasurement(document, &request.diagnosis.remarks), errors);
   if (!errors.empty()) return errors;

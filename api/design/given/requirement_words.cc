@@ -29,11 +29,7 @@ constexpr std::array kWords{
 
 }  // namespace
 
-std::string Told(double number) {
-  if (number == 0.0 || !std::isfinite(number)) return Decimal(number);
-  const double scale = std::pow(10.0, 3.0 - std::floor(std::log10(std::abs(number))));
-  return Decimal(Rounded(std::round(number * scale) / scale));
-}
+std::string Told(double number) { return Significant(number, 4); }
 
 std::string MarginInWords(const optimizer::Margin& margin, const optimizer::Problem& problem) {
   const std::string& pointer = margin.requirement;

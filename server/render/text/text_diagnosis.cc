@@ -72,6 +72,16 @@ std::string EstimatesTable(const Json& answer) {
   return any ? table.Text() + "\n" : "";
 }
 
+// What was found, as sentences.
+std::string FoundText(const Json& answer) {
+  std::string text;
+  for (const char* field : {"numbers", "effects"})
+    for (const Json& found : answer.value(field, Json::array()))
+      if (const std::string words = found.value("words", ""); !words.empty())
+        text += "  - " + words + "\n";
+  return text.empty() ? text : text + "\n";
+}
+
 std::string NumbersTable(const Json& answer) {
   const Json numbers = answer.value("numbers", Json::array());
   if (numbers.empty()) return "";
@@ -262,9 +272,10 @@ std::string VerdictText(const Json& answer) {
 }
 
 std::string DiagnosisText(const Json& answer) {
-  std::string text = VerdictText(answer) + "\n\n" + ErrorsTable(answer) + NumbersTable(answer) +
-                     EstimatesTable(answer) + TieText(answer) + CandidatesTable(answer) +
-                     StabilityTable(answer) + DiscrepancyText(answer) + ResidualText(answer);
+  std::string text = VerdictText(answer) + "\n\n" + FoundText(answer) + ErrorsTable(answer) +
+                     NumbersTable(answer) + EstimatesTable(answer) + TieText(answer) +
+                     CandidatesTable(answer) + StabilityTable(answer) + DiscrepancyText(answer) +
+                     ResidualText(answer);
   for (const Json& warning : answer.at("warnings"))
     text += "note: " + warning.get<std::string>() + "\n";
   return text + RemarksText(answer);

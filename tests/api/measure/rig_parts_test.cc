@@ -21,17 +21,19 @@ Json WithElement(Json element) {
 }
 
 calibration::Dataset Read(const Json& document) {
-  const auto filled = WithParts(document, SmallCatalogue());
-  EXPECT_TRUE(ErrorsOf(filled).empty());
-  const auto parsed = ParseMeasurement(std::get<Json>(filled));
+  Errors errors;
+  const Json filled = WithParts(document, SmallCatalogue(), errors);
+  EXPECT_TRUE(errors.empty());
+  const auto parsed = ParseMeasurement(filled);
   for (const Error& error : ErrorsOf(parsed)) ADD_FAILURE() << error.pointer << error.detail;
   return std::get<calibration::Dataset>(parsed);
 }
 
 Errors Refused(const Json& document) {
-  const auto filled = WithParts(document, SmallCatalogue());
-  if (!ErrorsOf(filled).empty()) return ErrorsOf(filled);
-  return ErrorsOf(ParseMeasurement(std::get<Json>(filled)));
+  Errors errors;
+  const Json filled = WithParts(document, SmallCatalogue(), errors);
+  if (!errors.empty()) return errors;
+  return ErrorsOf(ParseMeasurement(filled));
 }
 
 TEST(RigParts, AValveBringsItsPairsAndSaysWhatIsMeasured) {

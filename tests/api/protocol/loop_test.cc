@@ -34,7 +34,9 @@ Json Diagnosed(const std::vector<catalog::Part>& parts) {
   const auto recording = MeasurementFromCsv(ExampleText("bottle_test_simulated.csv"),
                                             Parse(ExampleText("bottle_test_rig.json")));
   DiagnosisRequest request;
-  request.measurement = std::get<Json>(WithParts(std::get<Json>(recording), parts));
+  Errors errors;
+  request.measurement = WithParts(std::get<Json>(recording), parts, errors);
+  EXPECT_TRUE(errors.empty());
   request.dataset = std::get<calibration::Dataset>(ParseMeasurement(request.measurement));
   return RunDiagnosis(request, {}).answer;
 }

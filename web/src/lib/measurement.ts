@@ -65,6 +65,7 @@ export interface RunNumbers {
 
 export interface FittedEffect {
   id: string;
+  words?: string; // what it does, in units for people
   parameters: Record<string, Estimate | string>;
 }
 
@@ -99,6 +100,7 @@ export interface WrongNumber {
   unit: string;
   deviation_sigma: number | null;
   instead_of: string[];
+  words?: string;
 }
 
 // A number of a part that the runs measure; of a pump one for each pressure of its table.

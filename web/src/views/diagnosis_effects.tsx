@@ -86,6 +86,8 @@ function WrongNumbers({ numbers }: { numbers: WrongNumber[] }) {
   );
 }
 
+const sentence = (words: string): string => `${words.charAt(0).toUpperCase()}${words.slice(1)}.`;
+
 export function Effects({ d }: { d: Diagnosis }) {
   const fitted = Object.entries(d.fitted).map(([name, value]): [string, Estimate] => [
     value.unit === '1' ? name : `${name}_${value.unit}`,
@@ -94,6 +96,7 @@ export function Effects({ d }: { d: Diagnosis }) {
   const numbers = d.numbers ?? [];
   return (
     <Panel title="What the model gets">
+      {numbers.map((n) => n.words && <p key={n.name}>{sentence(n.words)}</p>)}
       {numbers.length > 0 && <WrongNumbers numbers={numbers} />}
       {d.effects.length === 0 && numbers.length === 0 && (
         <p>
@@ -109,6 +112,7 @@ export function Effects({ d }: { d: Diagnosis }) {
           <h3>
             {effectName(effect.id)} <code>{effect.id}</code>
           </h3>
+          {effect.words && <p>{sentence(effect.words)}</p>}
           <EstimateTable name={effect.id} of="parameter" rows={Object.entries(effect.parameters)} />
         </div>
       ))}
