@@ -52,16 +52,15 @@ void AddEstimate(std::vector<std::vector<std::string>>& rows, std::string of,
 std::string Estimates(const Json& answer) {
   std::vector<std::vector<std::string>> rows;
   for (const Json& effect : answer.at("effects")) {
-    const std::string id = EffectsText(Json::array({effect.at("id")}), nullptr);
-    const std::string law = effect.at("parameters").value("law", "");
+    std::string id = EffectsText(Json::array({effect.at("id")}), nullptr);
+    if (const std::string law = effect.at("parameters").value("law", ""); !law.empty())
+      ((id += " (") += law) += ")";
     for (const auto& [name, value] : effect.at("parameters").items())
-      if (value.is_object())
-        AddEstimate(rows, law.empty() ? id : id + " (" + law + ")", name, value);
+      if (value.is_object()) AddEstimate(rows, id, name, value);
   }
   for (const auto& [name, value] : answer.at("fitted").items()) {
     const std::string unit = value.at("unit");
-    AddEstimate(rows, "declared " + Short(value.at("declared")),
-                unit == "1" ? name : name + "_" + unit, value);
+    AddEstimate(rows, "declared " + Short(value.at("declared")), WithUnit(name, unit), value);
   }
   if (rows.empty()) return "";
   return Heading("What was fitted") + HtmlTable({{"effect", true},
@@ -77,8 +76,7 @@ std::string WrongNumbers(const Json& answer) {
   std::vector<std::vector<std::string>> rows;
   for (const Json& number : answer.value("numbers", Json::array())) {
     const std::string unit = number.at("unit");
-    const auto [name, spoken] =
-        Spoken(number.at("name").get<std::string>() + (unit == "1" ? "" : "_" + unit));
+    const auto [name, spoken] = Spoken(WithUnit(number.at("name").get<std::string>(), unit));
     rows.push_back({name, Short(number.at("declared")), Short(number.at("fitted")), spoken,
                     Short(number.at("deviation_sigma")),
                     EffectsText(number.at("instead_of"), Json::object())});

@@ -158,6 +158,7 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
       model::FlowFactor(gas) * std::sqrt(model::kReferenceTemperatureK / temperature_k);
   if (problem_.simultaneous && problem_.groups.size() > 1 && !source.some_open) {
     std::vector<const BestLine*> lines;
+    lines.reserve(problem_.groups.size());
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
       lines.push_back(&strokes_.Line(ranges, g));
     if (TooSlowTogether(problem_,

@@ -48,7 +48,7 @@ std::string MarginInWords(const optimizer::Margin& margin, const optimizer::Prob
 }
 
 std::string ObjectiveInWords(double objective, const optimizer::Objective& of) {
-  const std::string number = Told(objective);
+  std::string number = Told(objective);
   if (of == optimizer::Objective{.mass_kg = 1.0}) return number + " kg";
   if (of == optimizer::Objective{.volume_l = 1.0}) return number + " L";
   if (of == optimizer::Objective{.cost_eur = 1.0}) return number + " €";

@@ -66,7 +66,7 @@ std::string EstimatesTable(const Json& answer) {
   std::string of = "declared";
   for (const auto& [name, value] : answer.at("fitted").items()) {
     const std::string unit = value.at("unit");
-    AddEstimate(table, std::exchange(of, ""), unit == "1" ? name : name + "_" + unit, value);
+    AddEstimate(table, std::exchange(of, ""), WithUnit(name, unit), value);
     any = true;
   }
   return any ? table.Text() + "\n" : "";
@@ -94,8 +94,7 @@ std::string NumbersTable(const Json& answer) {
               2);
   for (const Json& number : numbers) {
     const std::string unit = number.at("unit");
-    const auto [name, spoken] =
-        Spoken(number.at("name").get<std::string>() + (unit == "1" ? "" : "_" + unit));
+    const auto [name, spoken] = Spoken(WithUnit(number.at("name").get<std::string>(), unit));
     table.Add({name, Short(number.at("declared")), Short(number.at("fitted")), spoken,
                Short(number.at("deviation_sigma")),
                EffectsText(number.at("instead_of"), Json::object())});
@@ -224,6 +223,11 @@ std::string PassedText(const Json& passed) {
   return passed.is_null() ? "not tested" : passed == true ? "yes" : "no";
 }
 
+std::string WithUnit(std::string name, const std::string& unit) {
+  if (unit != "1") (name += '_') += unit;
+  return name;
+}
+
 NameAndUnit Spoken(const std::string& parameter) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits = {{
       {"_dm3_per_s_bar", "dm³/(s·bar)"},
@@ -266,7 +270,7 @@ std::string EffectsText(const Json& effects, const Json& laws) {
 }
 
 std::string VerdictText(const Json& answer) {
-  const std::string sentence = answer.at("sentence");
+  std::string sentence = answer.at("sentence");
   if (!sentence.empty()) return sentence;
   return "Verdict: " + answer.at("verdict").get<std::string>() + ".";
 }

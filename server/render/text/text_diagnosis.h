@@ -13,6 +13,9 @@ namespace plenum::server {
 // where it lives.
 std::string DiagnosisText(const api::Json& answer);
 
+// A number's name with its unit, as Spoken takes it; "1" is none.
+std::string WithUnit(std::string name, const std::string& unit);
+
 // Pieces of it, also for the report. A parameter's name as words and its unit: "sonic conductance",
 // "dm³/(s·bar)".
 struct NameAndUnit {

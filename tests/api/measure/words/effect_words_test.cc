@@ -72,7 +72,7 @@ TEST(EffectWords, EveryEffectHasASentenceWithItsFigures) {
     const std::string words = EffectInWords(effect, RigidLitre(3e5));
     EXPECT_EQ(words.empty(), spec->id.starts_with("learned")) << spec->id;
     EXPECT_EQ(words.find("nan"), std::string::npos) << words;
-    EXPECT_EQ(words.find("_"), std::string::npos) << words;
+    EXPECT_EQ(words.find('_'), std::string::npos) << words;
   }
   const Scale scale = RigidLitre(3e5);
   EXPECT_EQ(EffectInWords(Made("dead_volume", "", {9e-5}), scale),
