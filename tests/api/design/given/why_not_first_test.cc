@@ -95,7 +95,8 @@ TEST_P(WhyNotFirst, NoSearchFindsLessOfTheExchangedParts) {
   for (const Json& design : designs_) {
     if (design.at("configuration") != designs_.at(0).at("configuration")) continue;
     SCOPED_TRACE(design.at("rank"));
-    for (const Json& exchange : Why(design).at("exchanges")) {
+    const Json why = Why(design);
+    for (const Json& exchange : why.at("exchanges")) {
       Json exchanged = design;
       for (const Json& part : exchange.at("parts"))
         for (Json& row : exchanged["parts"])
