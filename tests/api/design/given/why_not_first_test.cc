@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <set>
 
 #include "api/catalogue/stores.h"
 #include "api/design/answer.h"
@@ -29,8 +31,9 @@ class WhyNotFirst : public testing::TestWithParam<const char*> {
   }
 
   Json Search(const Json& requirements) const {
-    return AnswerRequest(std::get<DesignRequest>(ParseRequirements(requirements, parts_)), {},
-                         parts_);
+    const auto parsed = ParseRequirements(requirements, parts_);
+    for (const Error& error : ErrorsOf(parsed)) ADD_FAILURE() << error.pointer << error.detail;
+    return AnswerRequest(std::get<DesignRequest>(parsed), {}, parts_);
   }
 
   Json Evaluated(const Json& requirements, const Json& design) const {
@@ -49,8 +52,9 @@ class WhyNotFirst : public testing::TestWithParam<const char*> {
     Json requirements = requirements_;
     requirements["ranking"] = {{"count", 1}, {"time_limit_s", 200}, {"list", "combinations"}};
     requirements["supply"]["configurations"] = {design.at("configuration")};
-    for (const Json& part : design.at("parts"))
-      requirements["require"][part.at("family").get<std::string>()].push_back(part.at("id"));
+    std::map<std::string, std::set<std::string>> ids;
+    for (const Json& part : design.at("parts")) ids[part.at("family")].insert(part.at("id"));
+    for (const auto& [family, of_family] : ids) requirements["require"][family] = of_family;
     const Json found = Search(requirements).at("designs");
     return found.empty() ? Json(nullptr) : found.at(0);
   }
