@@ -51,7 +51,7 @@ class WhyNotFirst : public testing::TestWithParam<const char*> {
   Json BestOf(const Json& design) const {
     Json requirements = requirements_;
     requirements["ranking"] = {{"count", 1}, {"time_limit_s", 200}, {"list", "combinations"}};
-    requirements["supply"]["configurations"] = {design.at("configuration")};
+    requirements["supply"]["configurations"] = Json::array({design.at("configuration")});
     std::map<std::string, std::set<std::string>> ids;
     for (const Json& part : design.at("parts")) ids[part.at("family")].insert(part.at("id"));
     for (const auto& [family, of_family] : ids) requirements["require"][family] = of_family;
