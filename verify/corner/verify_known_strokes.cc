@@ -37,13 +37,11 @@ bool KnownStrokes::IsTooSlow(const Query& query, double start_pa) const {
   const double ambient_pa = problem_.ambient.pressure_pa;
   const double temperature_k = problem_.ambient.temperature_k;
   const double target_pa = PressureAt(problem_, g, problem_.rise_fraction);
-  model::Chamber widest = line.chamber;
-  widest.dead_volume_m3 = line.widest_dead_m3;
   double low_pa = ambient_pa, high_pa = start_pa;  // around the lowest pressure of the stroke
   while (high_pa - low_pa > kStartTolerance * high_pa) {
     const double p = 0.5 * (low_pa + high_pa);
     const double held =
-        v.low_m3 * (p - start_pa) + Drawn(problem_, g, widest, std::min(p, target_pa));
+        v.low_m3 * (p - start_pa) + Drawn(problem_, g, line.widest, std::min(p, target_pa));
     (held < 0.0 ? low_pa : high_pa) = p;
   }
   const double limit_s = std::min(problem_.groups[g].rise_time_max_s, 0.5 / problem_.frequency_hz);

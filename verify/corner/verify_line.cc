@@ -65,8 +65,8 @@ BestLine Gather(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   best.fill.insert(best.fill.begin(), valve.Flow("sonic_conductance_fill_dm3_per_s_bar"));
   best.chamber = group.chamber;
   best.chamber.dead_volume_m3 += model::BoreVolume(narrowest_m, group.tube_length_m);
-  best.widest_dead_m3 =
-      group.chamber.dead_volume_m3 + model::BoreVolume(widest_m, group.tube_length_m);
+  best.widest = group.chamber;
+  best.widest.dead_volume_m3 += model::BoreVolume(widest_m, group.tube_length_m);
   return best;
 }
 

@@ -21,7 +21,7 @@ struct BestLine {
   model::Series fill_series;             // of these, with gas and temperature factor
   model::FlowTable fill_flow;            // the same as a table
   model::Chamber chamber;                // with the narrowest bore
-  double widest_dead_m3 = 0.0;           // dead volume of the widest
+  model::Chamber widest;                 // with the widest
   double source_low_pa = 0.0;            // least source pressure that is fast enough
   double source_high_pa = 0.0;           // most that the parts stand
   double coil_w = 0.0;                   // whole group

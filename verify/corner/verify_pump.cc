@@ -74,8 +74,7 @@ KnownStrokes::Query Pumps::QueryOf(const Case& c, int g, Volumes v) const {
 // lower a pressure than if it had closed.
 std::vector<double> Pumps::DrawnBy(const BestLine& line, int g) const {
   const bool one_group = problem_.groups.size() == 1;
-  model::Chamber chamber = line.chamber;
-  if (!one_group) chamber.dead_volume_m3 = line.widest_dead_m3;
+  const model::Chamber& chamber = one_group ? line.chamber : line.widest;
   const double full_pa = one_group || line.all_hold ? OperatingPa(problem_, g) : kUnlimited;
   std::vector<double> drawn;
   for (std::size_t cell = 0; cell <= kPumpCells; ++cell)

@@ -23,11 +23,8 @@ class Stroke {
         group_(group),
         volumes_(volumes),
         start_pa_(start_pa),
-        widest_(line.chamber),
         content_per_m3_(ContentPerVolume(problem)),
-        half_s_(0.5 / problem.frequency_hz * (1.0 + kSumTolerance)) {
-    widest_.dead_volume_m3 = line.widest_dead_m3;
-  }
+        half_s_(0.5 / problem.frequency_hz * (1.0 + kSumTolerance)) {}
 
   PumpedStroke Run() {
     PumpedStroke stroke;
@@ -50,7 +47,7 @@ class Stroke {
   // all of them would be equal.
   double LeastSource(double pumped, double full_pa) const {
     const auto left_by = [&](double p) {
-      const double drawn = Drawn(problem_, group_, widest_, p);
+      const double drawn = Drawn(problem_, group_, line_.widest, p);
       return start_pa_ + (pumped - drawn) / (pumped < drawn ? volumes_.low_m3 : volumes_.high_m3);
     };
     const double left_pa = left_by(full_pa);
@@ -123,7 +120,6 @@ class Stroke {
   int group_;
   Volumes volumes_;
   double start_pa_;
-  model::Chamber widest_;
   double content_per_m3_, half_s_;
   double pressure_pa_ = 0.0, pumped_ = 0.0, seconds_ = 0.0;
 };

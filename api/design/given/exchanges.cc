@@ -31,7 +31,7 @@ bool SameAmounts(const Choice& a, const Choice& b) {
   return near(a.mass_kg, b.mass_kg) && near(a.volume_m3, b.volume_m3);
 }
 
-int GroupOf(const RowPair& pair) { return (pair.given ? pair.given : pair.other)->group; }
+int GroupOf(const RowPair& pair) { return pair.place().group; }
 
 bool HasReservoir(const RowPair& pair) {
   return pair.other && optimizer::SpecOf(pair.other->family).made_to_measure;
@@ -39,8 +39,7 @@ bool HasReservoir(const RowPair& pair) {
 
 Design Exchanged(Design design, const Design& other, const std::vector<RowPair>& rows) {
   for (const RowPair& pair : rows) {
-    const Choice& place = pair.given ? *pair.given : *pair.other;
-    std::erase_if(design.parts, [&](const Choice& row) { return SamePlace(row, place); });
+    std::erase_if(design.parts, [&](const Choice& row) { return SamePlace(row, pair.place()); });
     if (pair.other) design.parts.push_back(*pair.other);
     if (HasReservoir(pair))
       design.settings.reservoir_volume_m3 = other.settings.reservoir_volume_m3;

@@ -15,6 +15,9 @@ namespace plenum::api {
 struct RowPair {
   const optimizer::Choice* given = nullptr;
   const optimizer::Choice* other = nullptr;
+
+  // Where it stands in the list: the family and group of either.
+  const optimizer::Choice& place() const { return given ? *given : *other; }
 };
 
 // Whether two rows are the same part in the same number; a reservoir made to measure is, whatever

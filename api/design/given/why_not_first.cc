@@ -151,7 +151,7 @@ class WhyNot {
   }
 
   Json Place(const RowPair& pair) const {
-    const optimizer::Choice& row = pair.given ? *pair.given : *pair.other;
+    const optimizer::Choice& row = pair.place();
     return {{"family", optimizer::Name(row.family)},
             {"group", row.group < 0 ? Json(nullptr) : Json(problem_.groups[row.group].name)}};
   }

@@ -7,10 +7,8 @@
 
 #include "optimizer/explain/explained_search.h"
 #include "optimizer/problem/kind.h"
-#include "optimizer/search/tree_search.h"
-#include "tests/support/brute_force.h"
+#include "tests/support/enumerated_search.h"
 #include "tests/support/small_catalogue.h"
-#include "verify/verify.h"
 
 namespace plenum::test {
 namespace {
@@ -52,31 +50,13 @@ struct Tally {
 };
 
 void Compare(const Problem& problem, Tally& tally) {
-  const BruteForce truth = Enumerate(problem);
-  optimizer::SearchOptions options = Within(120.0);
-  options.record = true;
-  const Answer answer = optimizer::SearchTrees(problem, options);
-  EXPECT_EQ(answer.proof.combinations, optimizer::BigCount(truth.combinations));
-  EXPECT_EQ(answer.proof.undecided, 0);
-  EXPECT_EQ(answer.status, truth.designs.empty() ? Status::kInfeasible : Status::kOptimal);
-  const std::size_t expected =
-      std::min(truth.designs.size(), static_cast<std::size_t>(problem.count));
-  ASSERT_EQ(answer.designs.size(), expected);
-  for (std::size_t i = 0; i < expected; ++i) {
-    const Enumerated& enumerated = truth.designs[i];
-    EXPECT_EQ(KeyOf(answer.designs[i]), enumerated.key) << "rank " << i + 1;
-    EXPECT_NEAR(answer.designs[i].objective, enumerated.leaf.objective,
-                1e-6 * enumerated.leaf.objective)
-        << "rank " << i + 1;
-    if (enumerated.configuration != Configuration::kDirectPump) continue;
-    EXPECT_NEAR(answer.designs[i].settings.source_pressure_pa, enumerated.leaf.point.source_pa,
-                1e-6 * enumerated.leaf.point.source_pa);
+  const bool found = ExpectAsEnumerated(problem, [&](const Design& design, const Enumerated& twin) {
+    if (twin.configuration != Configuration::kDirectPump) return;
+    EXPECT_NEAR(design.settings.source_pressure_pa, twin.leaf.point.source_pa,
+                1e-6 * twin.leaf.point.source_pa);
     ++tally.designs;
-  }
-  ++(expected > 0 ? tally.feasible : tally.infeasible);
-  for (const verify::Check& check :
-       verify::Verify(problem, answer, {.stop = {}, .brute_force = true, .progress = {}}).checks)
-    EXPECT_TRUE(check.ok) << check.name << ": " << check.detail;
+  });
+  ++(found ? tally.feasible : tally.infeasible);
 }
 
 TEST(DirectPumpSearch, ListsWhatEnumerationLists) {
@@ -193,37 +173,25 @@ TEST(DirectPumpSearch, KindsHaveThePumpsSeriesAsTheirSource) {
     problem.per_source = 2;
     for (std::size_t i = 0; i < problem.parts.compressors.size(); ++i)
       problem.parts.compressors[i].basics.series = i % 2 == 0 ? "even" : "odd";
-    optimizer::SearchOptions options = Within(60.0);
-    options.record = true;
-    const Answer answer = optimizer::SearchTrees(problem, options);
+    const Answer answer = Recorded(problem);
     const optimizer::DesignKinds kinds(problem.parts);
     for (const Design& design : answer.designs) {
       EXPECT_GE(kinds.Of(design.configuration, design.parts).source, 0);
       ++listed;
     }
-    for (const verify::Check& check :
-         verify::Verify(problem, answer, {.stop = {}, .brute_force = true, .progress = {}}).checks)
-      EXPECT_TRUE(check.ok) << check.name << ": " << check.detail;
+    ExpectVerified(problem, answer);
   }
   EXPECT_GT(listed, 10);
 }
 
 // ── what the verifier refuses ──
 
-bool Accepts(const Problem& problem, const Answer& answer) {
-  const verify::Verification verification = verify::Verify(problem, answer);
-  return std::all_of(verification.checks.begin(), verification.checks.end(),
-                     [](const verify::Check& check) { return check.ok; });
-}
-
 TEST(DirectPumpSearch, TheVerifierRefusesWhatIsTamperedWith) {
   int looked_at = 0;
   for (std::uint64_t seed = 1; seed <= 30 && looked_at < 4; ++seed) {
     SCOPED_TRACE(seed);
     const Problem problem = Drawn(700 + seed, 1 + static_cast<int>(seed % 2));
-    optimizer::SearchOptions options = Within(60.0);
-    options.record = true;
-    const Answer answer = optimizer::SearchTrees(problem, options);
+    const Answer answer = Recorded(problem);
     if (answer.designs.empty()) continue;
     ASSERT_TRUE(Accepts(problem, answer));
     const auto refused = [&](const auto& change) {

@@ -13,6 +13,10 @@ export interface Evaluation {
   why_not_first?: { words: string[] } | null;
 }
 
+// The group that a row of a list of parts serves.
+const groupOf = (requirements: Requirements, name: string | null) =>
+  requirements.actuators.find((g, i) => (g.name ?? `group ${i + 1}`) === name)!;
+
 // A design with some of its parts exchanged: for each place in the list of parts the id of another.
 export const placeOf = (row: PartRow): string => `${row.family} ${row.group ?? ''}`;
 
@@ -21,15 +25,16 @@ export async function exchanged(
   requirements: Requirements,
   ids: Record<string, string>,
 ): Promise<object> {
-  const count = (name: string | null): number =>
-    requirements.actuators.find((g, i) => (g.name ?? `group ${i + 1}`) === name)?.count ?? 1;
   const parts = await Promise.all(
     design.parts.map(async (row) => {
       const id = ids[placeOf(row)] ?? row.id;
       const place = { family: row.family, id, ...(row.group !== null && { group: row.group }) };
       if (row.family !== 'valve' || id === row.id) return { ...place, quantity: row.quantity };
       const channels = numberOf((await loadPart(id)).part, 'channels') || 1;
-      return { ...place, quantity: Math.ceil(count(row.group) / channels) };
+      return {
+        ...place,
+        quantity: Math.ceil((groupOf(requirements, row.group).count ?? 1) / channels),
+      };
     }),
   );
   const { source_pressure_kpa_gauge, reservoir_volume_ml, tank_fill_kpa_gauge } = design.settings;
@@ -118,7 +123,7 @@ export function changed(requirements: Requirements, change: Change): Requirement
 
 // Metres of tube that a group needs.
 const tubeOf = (requirements: Requirements, name: string | null): number => {
-  const group = requirements.actuators.find((g, i) => (g.name ?? `group ${i + 1}`) === name)!;
+  const group = groupOf(requirements, name);
   return (group.count ?? 1) * group.tube_length_m;
 };
 
