@@ -25,6 +25,12 @@ constexpr double kTogetherShare = 1e-9;
 // Nothing moves by more than this share of its size until the end: the state is steady.
 constexpr double kStalledShare = 1e-6;
 
+// What is due within rounding is due now: a step of a few units in the last place has no end.
+bool IsDue(double time_s, double now_s) {
+  constexpr double kSameInstant = 1e-13;
+  return time_s <= now_s * (1.0 + kSameInstant);
+}
+
 }  // namespace
 
 template <class T, class Stepper>
@@ -88,7 +94,7 @@ ResponseOf<T> Run<T, Stepper>::Execute(std::span<const T> start) {
   }
   ApplySwitches();
   SampleTo(0.0, SampleFrom::kRest);
-  while (ValueOf(t_s_) < options_.end_s && IntegrateTo(NextBoundary())) ApplySwitches();
+  while (!IsDue(options_.end_s, ValueOf(t_s_)) && IntegrateTo(NextBoundary())) ApplySwitches();
   RecordEnd();
   return std::move(response_);
 }
@@ -101,18 +107,18 @@ void Run<T, Stepper>::ApplySwitches() {
     const auto& schedule = rig_.groups[i].schedule;
     Valve& valve = valves_[i];
     while (valve.next_command < schedule.size() &&
-           schedule[valve.next_command].time_s <= ValueOf(t_s_)) {
+           IsDue(schedule[valve.next_command].time_s, ValueOf(t_s_))) {
       Command(i, schedule[valve.next_command++]);
     }
     while (valve.next_move < schedule.size()) {
       const ValveCommand& command = schedule[valve.next_move];
       const T at_s = lift_.operator()<T>(command.time_s) + system_.valve_delay_s(i);
-      if (at_s > t_s_) break;
+      if (!IsDue(ValueOf(at_s), ValueOf(t_s_))) break;
       SwitchAt(i, at_s, [&] { Move(i, command.state, at_s); });
       switched = true;
       ++valve.next_move;
     }
-    if (valve.close_at_s && *valve.close_at_s <= t_s_) {
+    if (valve.close_at_s && IsDue(ValueOf(*valve.close_at_s), ValueOf(t_s_))) {
       SwitchAt(i, *valve.close_at_s, [&] { system_.filling(i).Turn(*valve.close_at_s, 0.0); });
       valve.close_at_s.reset();
       switched = true;
@@ -182,7 +188,7 @@ template <class T, class Stepper>
 T Run<T, Stepper>::NextBoundary() const {
   T boundary_s(options_.end_s);
   const auto consider = [&](const T& time_s) {
-    if (time_s > t_s_ && time_s < boundary_s) boundary_s = time_s;
+    if (!IsDue(ValueOf(time_s), ValueOf(t_s_)) && time_s < boundary_s) boundary_s = time_s;
   };
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     const auto& schedule = rig_.groups[i].schedule;
