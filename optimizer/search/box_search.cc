@@ -315,8 +315,7 @@ class BoxSearch {
         candidate.bench = &report_bench_;
         std::optional<Design> design = MakeDesign(problem_, candidate, found.leaf, !Stopped());
         if (!design && report_bench_.stopped()) {  // the rest is left out, and bounds the list
-          for (; i < list.size(); ++i)
-            undecided_bound_ = std::min(undecided_bound_, list[i].leaf.lower_bound);
+          undecided_bound_ = std::min(undecided_bound_, ranking_.LeaveOutFrom(i));
           return false;
         }
         if (!design) {
@@ -381,6 +380,7 @@ class BoxSearch {
     for (const NodePtr& node : settled_) {
       proof_.pruned.bound += node->bounds->Count(node->box);
       const BoxKind kind = ranking_.EndOfSettled(node->bounds->plan(), node->box);
+      if (kind != BoxKind::kKind) least = std::min(least, node->box.bound);
       recorder_.Close(node->record, {.kind = kind, .bound = node->box.bound});
     }
     return least;

@@ -87,6 +87,19 @@ void Ranking::Remove(std::size_t position) {
   Sort();
 }
 
+double Ranking::LeaveOutFrom(std::size_t position) {
+  double bound = kUnlimited;
+  for (std::size_t i = position; i < list_.size(); ++i)
+    bound = std::min(bound, list_[i].leaf.lower_bound);
+  list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(position), list_.end());
+  std::erase_if(source_end_, [&](const auto& source) {
+    return std::count_if(list_.begin(), list_.end(), [&](const Found& found) {
+             return found.kind.Source() == source.first;
+           }) < problem_.per_source;
+  });
+  return bound;
+}
+
 Found* Ranking::Find(const TieKey& key) {
   for (std::vector<Found>* group : {&list_, &spare_})
     for (Found& found : *group)

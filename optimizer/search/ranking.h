@@ -42,7 +42,9 @@ class Ranking {
   explicit Ranking(const Problem& problem) : problem_(problem), wanted_(problem.count) {}
 
   void Add(Found found);
-  void Remove(std::size_t position);     // of one that did not hold
+  void Remove(std::size_t position);
+  // The designs from a place on are not listed: their least bound.
+  double LeaveOutFrom(std::size_t position);     // of one that did not hold
   Found* Find(const TieKey& key);        // null: not found yet
   void Place(Found& found, int record);  // the search has come to its box
 
