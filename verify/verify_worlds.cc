@@ -3,7 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "verify/design/verify_cycle.h"
+#include "verify/design/cycle/verify_cycle.h"
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_list.h"
 #include "verify/design/verify_supply.h"
 
@@ -24,10 +25,11 @@ std::optional<std::string> Missed(const Problem& world, const Design& design, co
     return "the parts do not stand the source pressure";
   const std::optional<Cycle> cycle = SimulateCycle(world, settings, *assembly, stop);
   if (!cycle) return std::nullopt;
-  const double half_s = 0.5 / world.frequency_hz * (1.0 + kTimeTolerance);
-  for (std::size_t g = 0; g < world.groups.size(); ++g)
-    if (cycle->inflate_s[g] > half_s || cycle->fall_s[g] > half_s)
-      return world.groups[g].name + ": a stroke takes longer than half of the period";
+  const double slack = 1.0 + kTimeTolerance;
+  for (int g = 0; g < static_cast<int>(world.groups.size()); ++g)
+    if (cycle->inflate_s[g] > FillWindow(world, g) * slack ||
+        cycle->fall_s[g] > VentWindow(world, g) * slack)
+      return world.groups[g].name + ": a stroke takes longer than its window";
   const Supply supply = SupplyOf(world, settings, *assembly, *cycle);
   if (assembly->battery && supply.current_a > assembly->batteries *
                                                   assembly->battery->current_max_a *

@@ -9,6 +9,7 @@
 #include "api/design/read/selection.h"
 #include "api/json/units.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/gait.h"
 #include "optimizer/sizing/report.h"
 
 namespace plenum::api {
@@ -128,9 +129,17 @@ Json RenderQuality(const Quality& quality, double mass_kg) {
 Json RenderResponse(const optimizer::Design::Trace& trace, const optimizer::Problem& problem) {
   const auto gauge = [&](double pa) { return KpaGaugeFromPa(pa, problem.ambient); };
   Json groups = Json::array();
-  for (std::size_t i = 0; i < trace.pressure_pa.size(); ++i)
-    groups.push_back({{"name", problem.groups[i].name},
-                      {"pressure_kpa_gauge", Numbers(trace.pressure_pa[i], gauge)}});
+  const std::vector<optimizer::Squad> squads = optimizer::SquadsOf(problem);
+  for (std::size_t i = 0; i < trace.pressure_pa.size(); ++i) {
+    const auto& [g, count, phase] = squads[i];
+    Json group = {{"name", problem.groups[g].name},
+                  {"pressure_kpa_gauge", Numbers(trace.pressure_pa[i], gauge)}};
+    if (count < problem.groups[g].count) {
+      group["count"] = count;
+      group["phase"] = Number(phase);
+    }
+    groups.push_back(std::move(group));
+  }
   return {{"t_s", Numbers(trace.t_s, [](double t) { return t; })},
           {"groups", groups},
           {"source_pressure_kpa_gauge", Numbers(trace.source_pressure_pa, gauge)}};

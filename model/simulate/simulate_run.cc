@@ -25,12 +25,6 @@ constexpr double kTogetherShare = 1e-9;
 // Nothing moves by more than this share of its size until the end: the state is steady.
 constexpr double kStalledShare = 1e-6;
 
-// What is due within rounding is due now: a step of a few units in the last place has no end.
-bool IsDue(double time_s, double now_s) {
-  constexpr double kSameInstant = 1e-13;
-  return time_s <= now_s * (1.0 + kSameInstant);
-}
-
 }  // namespace
 
 template <class T, class Stepper>

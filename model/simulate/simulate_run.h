@@ -22,6 +22,12 @@ namespace plenum::model {
 enum class RunUntil { kEnd, kTargets };
 
 // What the valve of a group is doing, on the clock of its run.
+// What is due within rounding is due now: a step of a few units in the last place has no end.
+inline bool IsDue(double time_s, double now_s) {
+  constexpr double kSameInstant = 1e-13;
+  return time_s <= now_s * (1.0 + kSameInstant);
+}
+
 template <class T>
 struct ValveProgress {
   std::size_t next_command = 0, next_move = 0;  // as given, and after the valve's delay

@@ -246,7 +246,7 @@ bool Advance(const ReservoirStrokeInput& in, State& y, double& p, double end,
 ReservoirStroke FillFromReservoir(const ReservoirStrokeInput& input) {
   ReservoirStroke result;
   if (!(input.volume_falling_m3 > 0.0 && input.volume_rising_m3 > 0.0)) return result;
-  State y{0.0, input.stop_pa, 0.0, 0.0, 0.0};
+  State y{0.0, input.start_pa > 0.0 ? input.start_pa : input.stop_pa, 0.0, 0.0, 0.0};
   double p = input.from_pa;
   if (!Advance(input, y, p, input.target_pa)) return result;
   result.rise_s = y[0];
@@ -282,6 +282,27 @@ double PumpUpTime(const CompressorCurve& curve, int compressors, double volume_m
   panel(high_pa);
   const double content_per_volume = kReferencePressurePa * temperature_k / kReferenceTemperatureK;
   return volume_m3 / (content_per_volume * compressors) * sum;
+}
+
+double PressureAfterPumping(const CompressorCurve& curve, int compressors, double volume_m3,
+                            double low_pa, double stop_pa, double seconds, double temperature_k) {
+  constexpr double kClose = 1e-11;  // of a pressure
+  const auto time_to = [&](double pa) {
+    return PumpUpTime(curve, compressors, volume_m3, low_pa, pa, temperature_k);
+  };
+  if (!(stop_pa > low_pa) || time_to(stop_pa) <= seconds) return std::max(low_pa, stop_pa);
+  // Newton's method between what is known to be too little and too much.
+  const double content_per_volume = kReferencePressurePa * temperature_k / kReferenceTemperatureK;
+  double below_pa = low_pa, above_pa = stop_pa, pa = low_pa;
+  for (double time_s = 0.0; above_pa - below_pa > kClose * above_pa; time_s = time_to(pa)) {
+    (time_s <= seconds ? below_pa : above_pa) = pa;
+    const double rise_pa =
+        (seconds - time_s) * content_per_volume * compressors * Delivery(curve, pa) / volume_m3;
+    if (std::abs(rise_pa) <= kClose * pa) return pa;
+    pa += rise_pa;
+    if (!(pa > below_pa && pa < above_pa)) pa = 0.5 * (below_pa + above_pa);
+  }
+  return below_pa;
 }
 
 }  // namespace plenum::model

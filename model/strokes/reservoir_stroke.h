@@ -28,7 +28,7 @@ struct ReservoirStrokeInput {
   int count = 1;
   const CompressorCurve* compressor = nullptr;
   int compressors = 1;
-  // The reservoir starts here, and the pumps stop here; at most the compressor's HighestPressure.
+  // The pumps stop here; at most the compressor's HighestPressure.
   double stop_pa = 0.0;
   // The volume that counts while the reservoir falls and while it rises. Equal for a simulation; an
   // interval of volumes [V1, V2] with V2 falling and V1 rising gives a time below that of each
@@ -42,6 +42,7 @@ struct ReservoirStrokeInput {
   double operating_pa = 0.0;  // the valve closes, ≥ target
   double open_s = 0.0;        // a valve that cannot hold closes no sooner than this
   double temperature_k = kReferenceTemperatureK;
+  double start_pa = 0.0;  // of the reservoir, at most stop_pa; 0: it is full
 };
 
 struct ReservoirStroke {
@@ -63,6 +64,10 @@ ReservoirStroke FillFromReservoir(const ReservoirStrokeInput& input);
 // delivery vanishes on the way or `high_pa` is above HighestPressure, which itself is reached.
 double PumpUpTime(const CompressorCurve& curve, int compressors, double volume_m3, double low_pa,
                   double high_pa, double temperature_k);
+
+// Pressure of such a volume after so long, at most `stop_pa`, where the pumps stop.
+double PressureAfterPumping(const CompressorCurve& curve, int compressors, double volume_m3,
+                            double low_pa, double stop_pa, double seconds, double temperature_k);
 
 }  // namespace plenum::model
 

@@ -8,9 +8,9 @@
 #include "optimizer/bounds/box.h"
 #include "optimizer/choices/hash.h"
 #include "optimizer/evaluate/candidate.h"
-#include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/evaluate/filling.h"
 #include "optimizer/evaluate/line.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/sizing/sizing.h"
 
 namespace plenum::optimizer {
@@ -37,7 +37,7 @@ Constraint Bounds::NeedOfDirect(Box& box) {
   AddLines(box);
   const CompressorCorner& pump = CornerAt(plan_.compressors, box, plan_.compressor_slot);
   box.window.high_pa = std::min(box.window.high_pa, pump.pressure_max_pa);
-  if (box.window.empty() || GroupsMeet(problem_)) return Constraint::kPressure;
+  if (box.window.empty() || StrokesMeet(problem_)) return Constraint::kPressure;
   std::vector<const Line*> lines;
   lines.reserve(box.lines.size());
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
@@ -56,8 +56,7 @@ Constraint Bounds::NeedOfDirect(Box& box) {
   if (box.window.empty()) return Constraint::kPressure;
   if (need->on_s * problem_.frequency_hz > pump.duty_max * kBoxSlack) return Constraint::kPump;
   box.energy_beyond_j = problem_.actuations * need->energy_j;
-  box.energy_j =
-      box.energy_beyond_j + problem_.actuations * HalfPeriod(problem_) * box.coil_power_w;
+  box.energy_j = box.energy_beyond_j + problem_.actuations * CoilEnergy(problem_, box);
   return Constraint::kNone;
 }
 
@@ -144,7 +143,7 @@ void Bounds::BoundRest(const Box& box, VolumeNeed& volume) {
   double beyond_j = volume.need.energy_j;  // what the shares of the lines do not count
   BatteryLoad load{volume.need.energy_j, 0.0, box.coil_power_w, LeastBesidesBattery(box)};
   if (volume.need.energy_j > 0.0) {
-    beyond_j -= problem_.actuations * HalfPeriod(problem_) * box.coil_power_w;
+    beyond_j -= problem_.actuations * CoilEnergy(problem_, box);
     load.pump_current_a =
         PumpOf(box).rates.CurrentAt(std::max(box.window.low_pa, volume.need.source_pa));
   }
@@ -195,7 +194,7 @@ Constraint Bounds::FindSource(Box& box) {
     box.source_known = true;
     const Candidate candidate = CandidateOf(box);
     if (IsOpenTank(candidate)) return Constraint::kNone;  // each tank has its own
-    const bool meet = GroupsMeet(problem_);
+    const bool meet = StrokesMeet(problem_);
     if (meet && !FastAtHighest(problem_, candidate)) return Constraint::kRise;
     // Where groups meet it is found no closer than bottles have to know it.
     if (meet && plan_.bottle_slot < 0) return Constraint::kNone;
@@ -250,7 +249,7 @@ Constraint Bounds::FindStockSource(Box& box) {
     const double duty_max = problem_.parts.compressors[candidate.compressor.index].duty_max;
     if (!(least.compressor_duty <= duty_max)) return Constraint::kPump;
     // Of several groups each look at another pressure would be a simulation.
-    const bool cheap = problem_.groups.size() == 1;
+    const bool cheap = MeetingOf(problem_) == Meeting::kAlone;
     volume.need.energy_j = std::max(
         volume.need.energy_j, cheap ? LeastEnergy(candidate, point, least) : least.energy_total_j);
   }

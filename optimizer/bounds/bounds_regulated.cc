@@ -75,20 +75,21 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
     const Line& line = *box.lines[g];
     const ActuatorGroup& group = problem_.groups[g];
-    const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, group.count);
+    const int count = FilledAtOnce(problem_, g);
+    const double strokes = group.gait.strokes_per_period;
+    const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, count);
     Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
-                    flow_max / group.count);
+                    flow_max / count);
     if (!filling.InTime(box.window.high_pa)) return Constraint::kRise;
-    box.air_m3 += LeastAirPerStroke(problem_, g, line);
+    box.air_m3 += strokes * LeastAirPerStroke(problem_, g, line);
     if (line.all_hold && line.coil_power_w > 0.0) {  // energised while they inflate, too
       const double inflate_s = problem_.objective.energy_wh > 0.0
                                    ? filling.InflateTime(box.window.high_pa)
                                    : filling.InflateTimeAtLeast(box.window.high_pa);
-      box.energy_beyond_j += problem_.actuations * line.coil_power_w * inflate_s;
+      box.energy_beyond_j += problem_.actuations * strokes * line.coil_power_w * inflate_s;
     }
   }
-  box.energy_j = box.energy_beyond_j +
-                 problem_.actuations * HalfPeriod(problem_) * box.coil_power_w +
+  box.energy_j = box.energy_beyond_j + problem_.actuations * CoilEnergy(problem_, box) +
                  regulator.electrical_power_w * seconds;
   box.coil_power_w += regulator.electrical_power_w;
   if (!shared_) return Constraint::kNone;
@@ -113,7 +114,7 @@ double Bounds::RegulatedFloor(const Box& box) const {
   double floor_pa = box.window.low_pa;
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
     const Line& line = *box.lines[g];
-    const int count = problem_.groups[g].count;
+    const int count = FilledAtOnce(problem_, g);
     const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, count);
     Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
                     FlowMax(problem_, plan_.configuration, regulator) / count);

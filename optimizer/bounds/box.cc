@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "optimizer/choices/make_line.h"
-#include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/evaluate/line.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 
 namespace plenum::optimizer {
 
@@ -26,7 +26,7 @@ Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
       lines_(plan.groups.size()),
       groups_(plan.groups.size() > 1 ? std::make_unique<GroupLines>(problem, plan, bench)
                                      : nullptr),
-      shared_(GroupsMeet(problem) && !IsPumped(plan.configuration)),
+      shared_(MeetingOf(problem) == Meeting::kTogether && !IsPumped(plan.configuration)),
       limited_(useful_ || std::isfinite(problem.mass_max_kg) ||
                std::isfinite(problem.volume_max_l) || std::isfinite(problem.cost_max_eur)),
       direct_(problem) {}
@@ -195,6 +195,13 @@ double Bounds::EnergyShare(double energy_j) const {
   return problem_.objective.energy_wh * energy_j / 3600.0;
 }
 
+double CoilEnergy(const Problem& problem, const Box& box) {
+  double energy_j = 0.0;
+  for (int g = 0; g < static_cast<int>(box.lines.size()); ++g)
+    energy_j += box.lines[g]->coil_power_w * CoilSeconds(problem, g, *box.lines[g]);
+  return energy_j;
+}
+
 double Bounds::LeastBattery(const Box& box, const BatteryLoad& load, int& known) const {
   if (plan_.battery_slot < 0) return 0.0;
   const Kinds pump = plan_.compressor_slot < 0
@@ -225,7 +232,7 @@ double Bounds::LeastWithLines(const Box& box, const BatteryLoad& load, double ba
     // More power never makes do with less of a battery.
     if (more_w > 0.0 && choice->objective + battery < least) {
       BatteryLoad more = load;
-      more.energy_j += problem_.actuations * HalfPeriod(problem_) * more_w;
+      more.energy_j += problem_.actuations * LeastCoilSeconds(problem_) * more_w;
       more.coil_power_w += more_w;
       int unknown = -1;
       battery = LeastBattery(box, more, unknown);

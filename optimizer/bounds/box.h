@@ -79,6 +79,9 @@ std::vector<ReservoirNeed> NeedsOf(const Box& box);
 void CombineChoices(Box& box);
 double LinesObjective(const Box& box);
 
+// Of all coils of a box per cycle, whatever the strokes, J.
+double CoilEnergy(const Problem& problem, const Box& box);
+
 class Bounds {
  public:
   // `bench`: handed to the candidates; may be null. `useful`: amounts that are of interest, a limit

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "optimizer/bounds/line_parts.h"
-#include "optimizer/evaluate/stroke_rig.h"
+#include "optimizer/evaluate/strokes/stroke_rig.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -48,7 +48,8 @@ std::vector<LineChoice> FrontOf(std::vector<LineChoice> choices) {
 bool AskedAlike(const ActuatorGroup& a, const ActuatorGroup& b) {
   return a.count == b.count && a.chamber == b.chamber && a.tube_length_m == b.tube_length_m &&
          a.fittings_per_line == b.fittings_per_line && a.rise_time_max_s == b.rise_time_max_s &&
-         a.fall_time_max_s == b.fall_time_max_s && a.pressure_max_pa == b.pressure_max_pa;
+         a.fall_time_max_s == b.fall_time_max_s && a.pressure_max_pa == b.pressure_max_pa &&
+         a.gait == b.gait;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "optimizer/bounds/core_sizing.h"
-#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 
 namespace plenum::optimizer {
 

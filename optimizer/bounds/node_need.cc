@@ -111,7 +111,7 @@ std::array<Due, 2> DuesOf(const Problem& problem, int g, const Line& line) {
     return group.count * Drawn(problem, line, pressure_pa);
   };
   return {Due{group.rise_time_max_s, air(RiseTarget(problem, group))},
-          Due{HalfPeriod(problem), air(group.chamber.operating_pressure_pa)}};
+          Due{InflateWindow(problem, g), air(group.chamber.operating_pressure_pa)}};
 }
 
 // Air that a group has taken by then, at least: what is due later may still come, no faster than
@@ -150,7 +150,7 @@ NodeMeans LeastNodeMeans(const Problem& problem, int g, model::Gas gas, const Li
                : 0.0;
   };
   least.rise_pa = mean(RiseTarget(problem, group), group.rise_time_max_s);
-  least.inflate_pa = mean(group.chamber.operating_pressure_pa, HalfPeriod(problem));
+  least.inflate_pa = mean(group.chamber.operating_pressure_pa, InflateWindow(problem, g));
   return least;
 }
 
@@ -161,6 +161,7 @@ std::vector<NodeMeans> HighestNodeMeans(const Problem& problem, model::Gas gas,
   const model::FlowElement elements[] = {source.regulator};
   const model::Series regulator = model::MakeSeries(elements, factor);
   const int groups = static_cast<int>(lines.size());
+  const bool meet = MeetingOf(problem) == Meeting::kTogether;
   const auto taken = [&](int g, double time_s) {
     return TakenBy(time_s, DuesOf(problem, g, *lines[g]),
                    source.source_pa * Choked(problem, g, factor, *lines[g]));
@@ -169,7 +170,7 @@ std::vector<NodeMeans> HighestNodeMeans(const Problem& problem, model::Gas gas,
     if (!std::isfinite(time_s)) return kUnlimited;
     double air_m3 = 0.0;
     for (int other = 0; other < groups; ++other)
-      if (problem.simultaneous || other == g) air_m3 += taken(other, time_s);
+      if (meet || other == g) air_m3 += taken(other, time_s);
     const double flow = air_m3 / time_s * (1.0 - kSlack);
     if (flow >
         std::min(source.flow_max_m3_per_s, regulator.choked_flow_m3_per_s_pa * source.source_pa))
@@ -179,7 +180,8 @@ std::vector<NodeMeans> HighestNodeMeans(const Problem& problem, model::Gas gas,
   std::vector<NodeMeans> highest;
   highest.reserve(lines.size());
   for (int g = 0; g < groups; ++g)
-    highest.push_back({mean(g, problem.groups[g].rise_time_max_s), mean(g, HalfPeriod(problem))});
+    highest.push_back(
+        {mean(g, problem.groups[g].rise_time_max_s), mean(g, InflateWindow(problem, g))});
   return highest;
 }
 

@@ -113,7 +113,7 @@ Constraint ScreenLine(const Problem& problem, int g, model::Gas gas, const LineC
   const double slack = exact ? 1.0 : kBoxSlack;
   const model::Chamber chamber = ChamberWith(group, corners.tube);
   const Crossed elements = ElementsOf(group, corners);
-  const double fall_max_s = std::min(group.fall_time_max_s, HalfPeriod(problem));
+  const double fall_max_s = std::min(group.fall_time_max_s, DeflateWindow(problem, g));
   if (!falls &&
       !FallsInTime(problem, group, elements.exhaust.span(), factor, chamber, fall_max_s * slack))
     return Constraint::kFall;
@@ -158,7 +158,7 @@ void FinishLine(const Problem& problem, int g, model::Gas gas, const ValveCorner
   const Bracket least =
       FeasibleBracket(late, operating_pa, line.source_max_pa, found ? 1e-9 : kBoxTolerance);
   line.source_min_pa = std::max(valve.pressure_min_pa, found ? least.high : least.low);
-  // A lone 3/2 is energised for half of the period whatever the stroke.
+  // A lone 3/2 is energised while its window lasts, whatever the stroke.
   if (line.all_hold && (exact || with_curve))
     line.inflate_time_least_s = filling.InflateTime(line.source_max_pa);
   if (exact) line.fall_time_s = FallTime(problem, group, line.exhaust, factor, line.chamber);

@@ -23,7 +23,7 @@ class Sketch {
   Outline Draw() {
     const model::Parts& parts = problem_.parts;
     const Limits& most = problem_.limits;
-    for (const ActuatorGroup& group : problem_.groups) AddGroup(group);
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) AddGroup(g);
     if (IsPumped(outline_.configuration)) {
       Add(parts.compressors, most.compressors, Pieces());
       if (outline_.configuration == Configuration::kCompressor) AddReservoirs();
@@ -77,7 +77,8 @@ class Sketch {
     return part.basics;
   }
 
-  void AddGroup(const ActuatorGroup& group) {
+  void AddGroup(int g) {
+    const ActuatorGroup& group = problem_.groups[g];
     const model::Parts& parts = problem_.parts;
     Add(parts.tubing, 1, [&](const model::Tubing& part, int) {
       return Share(group.count * group.tube_length_m * part.per_metre);
@@ -90,11 +91,12 @@ class Sketch {
     });
     double coil_w = kUnlimited;
     for (const model::Valve& valve : parts.valves) coil_w = std::min(coil_w, valve.coil_power_w);
-    coils_j_ += problem_.actuations * HalfPeriod(problem_) * group.count * coil_w;
+    const double coil_s = std::min(CoilSeconds(problem_, g, false), CoilSeconds(problem_, g, true));
+    coils_j_ += problem_.actuations * coil_s * group.count * coil_w;
     const model::Chamber& chamber = group.chamber;
     const double content = model::Content(chamber, chamber.operating_pressure_pa) -
                            model::Content(chamber, problem_.ambient.pressure_pa);
-    air_m3_ += problem_.actuations * group.count *
+    air_m3_ += problem_.actuations * group.gait.strokes_per_period * group.count *
                model::StandardVolume(content, problem_.ambient.temperature_k);
   }
 

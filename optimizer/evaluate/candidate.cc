@@ -42,7 +42,8 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
     window.high_pa = std::min(window.high_pa, TankFillMaxPa(problem, candidate));
   }
   if (candidate.configuration == Configuration::kDirectPump) {
-    const bool at_once = problem.groups.size() > 1 && problem.simultaneous;
+    const Meeting meeting = MeetingOf(problem);
+    const bool at_once = meeting == Meeting::kTogether || meeting == Meeting::kMixed;
     if (at_once || !SuitDirectPumps(problem, candidate)) return {kUnlimited, 0.0};
   }
   if (candidate.configuration == Configuration::kMains)
@@ -130,17 +131,31 @@ template Amounts TotalAmounts(const Problem&, const Candidate&, const OperatingP
 template AmountsOf<model::Dual> TotalAmounts(const Problem&, const Candidate&,
                                              const OperatingPointOf<model::Dual>&);
 
-double TurnSeconds(const Problem& problem) {
-  return std::min(0.5, 1.0 / static_cast<double>(problem.groups.size())) / problem.frequency_hz;
+std::vector<double> DirectTurns(const Problem& problem) {
+  const std::vector<Squad> squads = SquadsOf(problem);
+  std::vector<double> turns_s = TurnSeconds(problem, squads);
+  for (std::size_t s = 0; s < squads.size(); ++s)
+    turns_s[s] = std::min(turns_s[s], InflateWindow(problem, squads[s].group));
+  return turns_s;
 }
 
-model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidate, int g) {
+double DirectTurn(const Problem& problem, int group) {
+  const std::vector<Squad> squads = SquadsOf(problem);
+  const std::vector<double> turns_s = DirectTurns(problem);
+  double turn_s = kUnlimited;
+  for (std::size_t s = 0; s < squads.size(); ++s)
+    if (squads[s].group == group) turn_s = std::min(turn_s, turns_s[s]);
+  return turn_s;
+}
+
+model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidate, int g,
+                               int count) {
   const Line& line = *candidate.lines[g];
   const model::Series fill = model::MakeSeries(line.fill, FlowFactor(problem, model::Gas::kAir));
   model::PumpStrokeInput input;
   input.fill = &fill;
   input.chamber = &line.chamber;
-  input.count = problem.groups[g].count;
+  input.count = count;
   input.compressor = &problem.parts.compressors[candidate.compressor.index].curve;
   input.compressors = candidate.compressor.quantity;
   input.from_pa = problem.ambient.pressure_pa;
@@ -152,8 +167,8 @@ model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidat
 
 OperatingPoint DirectPoint(const Problem& problem, const Candidate& candidate) {
   OperatingPoint point{problem.ambient.pressure_pa};
-  for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g) {
-    const model::PumpStroke stroke = DirectStroke(problem, candidate, g);
+  for (const auto& [group, count, phase] : SquadsOf(problem)) {
+    const model::PumpStroke stroke = DirectStroke(problem, candidate, group, count);
     point.source_pa = std::max(point.source_pa, stroke.reached ? stroke.node_end_pa : kUnlimited);
   }
   return point;
@@ -200,7 +215,8 @@ double TankAir(const Problem& problem, const Candidate& candidate, double from_p
 double AirPerCycle(const Problem& problem, const Candidate& candidate) {
   double air_m3 = 0.0;
   for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g)
-    air_m3 += LeastAirPerStroke(problem, g, *candidate.lines[g]);
+    air_m3 += problem.groups[g].gait.strokes_per_period *
+              LeastAirPerStroke(problem, g, *candidate.lines[g]);
   return air_m3;
 }
 

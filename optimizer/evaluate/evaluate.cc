@@ -6,8 +6,8 @@
 #include "model/flow/scalar.h"
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/candidate.h"
-#include "optimizer/evaluate/effect_strokes.h"
-#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/effect_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -42,17 +42,43 @@ double AirAvailable(const Problem& problem, const Candidate& candidate, double s
   return kUnlimited;
 }
 
-// Highest frequency that the source sustains, by thermal duty, by evaporation or by turns of
-// `slowest_s`.
+// Highest frequency at which each stroke ends within its window.
+template <class T>
+T StrokeFrequency(const Problem& problem, const EvaluationOf<T>& evaluation) {
+  T highest = T(kUnlimited);
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    const auto& [inflating, strokes] =
+        std::pair{problem.groups[g].gait.inflate_fraction,
+                  static_cast<double>(problem.groups[g].gait.strokes_per_period)};
+    const GroupPerformanceOf<T>& group = evaluation.groups[g];
+    highest = std::min({highest, T(inflating / strokes / group.inflate_time_s),
+                        T((1.0 - inflating) / strokes / group.fall_time_s)});
+  }
+  return highest;
+}
+
+// The same of pumps without a reservoir, where each ends within its turn.
+template <class T>
+T TurnFrequency(const Problem& problem, const EvaluationOf<T>& evaluation) {
+  T highest = T(kUnlimited);
+  const std::vector<Squad> squads = SquadsOf(problem);
+  const std::vector<double> turns_s = DirectTurns(problem);
+  for (std::size_t s = 0; s < squads.size(); ++s)
+    highest = std::min(highest, T(turns_s[s] * problem.frequency_hz /
+                                  evaluation.groups[squads[s].group].inflate_time_s));
+  return highest;
+}
+
+// Highest frequency that the source sustains, by thermal duty, by evaporation or by turns.
 template <class T>
 T SourceFrequency(const Problem& problem, const Candidate& candidate,
-                  const EvaluationOf<T>& evaluation, const T& slowest_s) {
+                  const EvaluationOf<T>& evaluation) {
   if (IsPumped(candidate.configuration)) {
     const T by_duty = problem.frequency_hz *
                       problem.parts.compressors[candidate.compressor.index].duty_max /
                       evaluation.compressor_duty;
     if (candidate.configuration == Configuration::kCompressor) return by_duty;
-    return std::min(by_duty, T(1.0 / (static_cast<double>(problem.groups.size()) * slowest_s)));
+    return std::min(by_duty, TurnFrequency(problem, evaluation));
   }
   if (candidate.configuration == Configuration::kCo2 && candidate.bottle.index != kNone)
     return candidate.bottle.quantity *
@@ -161,23 +187,22 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
   const bool revised = HasEffects(problem);
   evaluation.air_per_cycle_m3 = T(revised ? strokes.air_m3 : 0.0);
   double coil_power_w = 0.0;
-  T slowest_s = T(0.0), slowest_rise_s = T(0.0);
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const Line& line = *candidate.lines[g];
+    const double strokes_per_period = problem.groups[g].gait.strokes_per_period;
     const T rise_s = strokes.rise_s[g];
     const T inflate_s = strokes.inflate_s[g];
     const double fall_s = revised ? strokes.fall_s[g] : line.fall_time_s;
     evaluation.groups.push_back({rise_s, T(fall_s), inflate_s, 1.0 / (rise_s + fall_s),
                                  T(revised ? strokes.highest_pa[g] : 0.0)});
     if (!revised)
-      evaluation.air_per_cycle_m3 += AirPerStroke(problem, g, line, strokes.filled_pa[g]);
+      evaluation.air_per_cycle_m3 +=
+          strokes_per_period * AirPerStroke(problem, g, line, strokes.filled_pa[g]);
     evaluation.energy_coils_j +=
         problem.actuations *
-        CoilEnergyPerCycle(problem, line,
+        CoilEnergyPerCycle(problem, g, line,
                            options.least_coil_energy ? T(line.inflate_time_least_s) : inflate_s);
     coil_power_w += line.coil_power_w;
-    slowest_rise_s = std::max(slowest_rise_s, inflate_s);
-    slowest_s = std::max({slowest_s, inflate_s, T(fall_s)});
   }
   evaluation.air_total_m3 = problem.actuations * evaluation.air_per_cycle_m3;
   evaluation.energy_per_cycle_j = evaluation.energy_coils_j / problem.actuations;
@@ -196,8 +221,8 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
   AddBattery(problem, candidate, coil_power_w, evaluation);
   evaluation.energy_total_j =
       evaluation.energy_first_fill_j + problem.actuations * evaluation.energy_per_cycle_j;
-  evaluation.frequency_sustained_hz =
-      std::min(SourceFrequency(problem, candidate, evaluation, slowest_rise_s), T(0.5 / slowest_s));
+  evaluation.frequency_sustained_hz = std::min(SourceFrequency(problem, candidate, evaluation),
+                                               StrokeFrequency(problem, evaluation));
   return evaluation;
 }
 

@@ -19,7 +19,7 @@ Filling::Filling(const Problem& problem, int group, std::span<const model::FlowE
       flow_max_m3_per_s_(flow_max_m3_per_s),
       operating_pa_(group_.chamber.operating_pressure_pa),
       rise_pa_(RiseTarget(problem, group_)),
-      half_period_s_(HalfPeriod(problem) * slack),
+      window_s_(InflateWindow(problem, group) * slack),
       rise_max_s_(group_.rise_time_max_s * slack) {}
 
 const model::Series& Filling::series() {
@@ -34,7 +34,7 @@ double Filling::FillTime(double source_pa, double to_pa) {
 
 double Filling::Lateness(double source_pa) {
   const double inflate_s = InflateTime(source_pa);
-  const double late_s = inflate_s - half_period_s_;
+  const double late_s = inflate_s - window_s_;
   if (std::isinf(rise_max_s_)) return late_s;
   // Reaching the target takes no longer than reaching the operating pressure.
   if (inflate_s <= group_.rise_time_max_s)
@@ -59,7 +59,7 @@ const Filling::Enclosures& Filling::Enclose(double source_pa) {
 std::optional<double> Filling::LatenessAtLeast(double source_pa) {
   const auto& [known, inflate, rise] = Enclose(source_pa);
   if (!known) return std::nullopt;
-  return std::max(inflate.low_s - half_period_s_, rise.low_s - rise_max_s_);
+  return std::max(inflate.low_s - window_s_, rise.low_s - rise_max_s_);
 }
 
 double Filling::InflateTimeAtLeast(double source_pa) { return Enclose(source_pa).inflate.low_s; }
@@ -71,11 +71,11 @@ bool Filling::InTime(double source_pa) {
                                  problem_.ambient.temperature_k, flow_max_m3_per_s_);
   };
   if (const double inflate_s = most_s(operating_pa_);
-      inflate_s <= half_period_s_ && (inflate_s <= rise_max_s_ || most_s(rise_pa_) <= rise_max_s_))
+      inflate_s <= window_s_ && (inflate_s <= rise_max_s_ || most_s(rise_pa_) <= rise_max_s_))
     return true;
   const auto& [known, inflate, rise] = Enclose(source_pa);
-  if (inflate.low_s > half_period_s_ || rise.low_s > rise_max_s_) return false;
-  if (inflate.high_s <= half_period_s_ &&
+  if (inflate.low_s > window_s_ || rise.low_s > rise_max_s_) return false;
+  if (inflate.high_s <= window_s_ &&
       (std::isinf(rise_max_s_) || std::min(inflate.high_s, rise.high_s) <= rise_max_s_))
     return true;
   return Lateness(source_pa) <= 0.0;

@@ -1,5 +1,5 @@
 // Whether a group's chambers fill in time out of a source of constant pressure: the operating
-// pressure within half of the period, and the target of the rise within its limit.
+// pressure within its window (gait.h), and the target of the rise within its limit.
 #ifndef PLENUM_OPTIMIZER_EVALUATE_FILLING_H_
 #define PLENUM_OPTIMIZER_EVALUATE_FILLING_H_
 
@@ -47,7 +47,7 @@ class Filling {
   double flow_factor_;
   const model::Chamber& chamber_;
   double flow_max_m3_per_s_;
-  double operating_pa_, rise_pa_, half_period_s_, rise_max_s_;
+  double operating_pa_, rise_pa_, window_s_, rise_max_s_;
   std::optional<model::Series> series_;
   double enclosed_pa_ = 0.0;  // of enclosures_
   Enclosures enclosures_{};

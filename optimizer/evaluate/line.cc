@@ -1,5 +1,6 @@
 #include "optimizer/evaluate/line.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/flow/scalar.h"
@@ -40,6 +41,23 @@ bool PricesNeeded(const Problem& problem) {
 double FlowFactor(const Problem& problem, model::Gas gas) {
   return model::FlowFactor(gas) *
          std::sqrt(model::kReferenceTemperatureK / problem.ambient.temperature_k);
+}
+
+double CoilSeconds(const Problem& problem, int group, bool holds) {
+  const double window_s = holds ? DeflateWindow(problem, group) : InflateWindow(problem, group);
+  return problem.groups[group].gait.strokes_per_period * window_s;
+}
+
+double CoilSeconds(const Problem& problem, int group, const Line& line) {
+  if (line.holds == line.all_hold) return CoilSeconds(problem, group, line.holds);
+  return std::min(CoilSeconds(problem, group, false), CoilSeconds(problem, group, true));
+}
+
+double LeastCoilSeconds(const Problem& problem) {
+  double least_s = kUnlimited;
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    least_s = std::min({least_s, CoilSeconds(problem, g, false), CoilSeconds(problem, g, true)});
+  return least_s;
 }
 
 template <class T>

@@ -11,6 +11,7 @@
 #include "model/flow/series.h"
 #include "model/physics/chamber.h"
 #include "optimizer/evaluate/stroke_panels.h"
+#include "optimizer/problem/gait.h"
 #include "optimizer/problem/problem.h"
 
 namespace plenum::optimizer {
@@ -93,24 +94,29 @@ struct Line {
 bool DiametersMate(double tube_outer_m, double fitting_outer_m);
 bool PartsMate(const Problem& problem, int tubing, int fitting, int valve);  // as in Line
 
-// Most time that inflating to p_op may take: half of the period.
-inline double HalfPeriod(const Problem& problem) { return 0.5 / problem.frequency_hz; }
-
 // Factor on every conductance from the gas and its temperature.
 double FlowFactor(const Problem& problem, model::Gas gas);
 
 // Air that one actuation of the whole group takes that fills it to this pressure, m³ ANR. A valve
-// that holds closes at p_op; one that cannot leaves the actuator on the source for half of the
-// period, which fills it to p_op at least and at most up to the source pressure.
+// that holds closes at p_op; one that cannot leaves the actuator on the source for the whole
+// window (gait.h), which fills it to p_op at least and at most up to the source pressure.
 template <class T>
 T AirPerStroke(const Problem& problem, int group, const Line& line, const T& filled_pa);
 double LeastAirPerStroke(const Problem& problem, int group, const Line& line);
 
-// Coil energy of one cycle of the whole group, J: a 3/2 is energised for half of the period, a pair
-// or a proportional valve while it inflates and while it vents.
+// How long coils are energised in a period, s, whatever the strokes: a 3/2 while its window lasts,
+// a pair or a proportional valve while it vents.
+double CoilSeconds(const Problem& problem, int group, bool holds);
+double CoilSeconds(const Problem& problem, int group, const Line& line);  // of a box: the least
+double LeastCoilSeconds(const Problem& problem);                          // of any group
+
+// Coil energy of one cycle of the whole group, J: of a pair or a proportional valve also while it
+// inflates.
 template <class T>
-T CoilEnergyPerCycle(const Problem& problem, const Line& line, const T& inflate_time_s) {
-  const T on_s = HalfPeriod(problem) + (line.holds ? inflate_time_s : T(0.0));
+T CoilEnergyPerCycle(const Problem& problem, int group, const Line& line, const T& inflate_time_s) {
+  const double strokes = problem.groups[group].gait.strokes_per_period;
+  const T on_s =
+      CoilSeconds(problem, group, line) + (line.holds ? strokes * inflate_time_s : T(0.0));
   return line.coil_power_w * on_s;
 }
 

@@ -98,7 +98,8 @@ double StrokeExcess(const Problem& problem, const Evaluation& evaluation) {
   double excess = -kUnlimited;
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
     const GroupPerformance& group = evaluation.groups[g];
-    excess = std::max(excess, group.inflate_time_s / HalfPeriod(problem) - 1.0);
+    excess =
+        std::max(excess, group.inflate_time_s / InflateWindow(problem, static_cast<int>(g)) - 1.0);
     if (std::isfinite(problem.groups[g].rise_time_max_s))
       excess = std::max(excess, group.rise_time_s / problem.groups[g].rise_time_max_s - 1.0);
   }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "optimizer/problem/gait.h"
+
 namespace plenum::optimizer {
 
 StrokePanels MakeStrokePanels(const Problem& problem, int g, const model::Chamber& chamber) {
@@ -9,14 +11,15 @@ StrokePanels MakeStrokePanels(const Problem& problem, int g, const model::Chambe
   const double ambient_pa = problem.ambient.pressure_pa;
   const double target_pa = RiseTarget(problem, group);
   const double empty = model::Content(chamber, ambient_pa);
+  const int count = FilledAtOnce(problem, g);
   const auto drawn = [&](double pressure_pa) {
-    return group.count * (model::Content(chamber, pressure_pa) - empty);
+    return count * (model::Content(chamber, pressure_pa) - empty);
   };
   StrokePanels panels;
   // Closer to each other towards the ends, where the flow drops fastest.
-  const auto place = [&](int first, int count, double from_pa, double to_pa) {
-    for (int i = 0; i <= count; ++i) {
-      const double rest = 1.0 - static_cast<double>(i) / count;
+  const auto place = [&](int first, int panels_of, double from_pa, double to_pa) {
+    for (int i = 0; i <= panels_of; ++i) {
+      const double rest = 1.0 - static_cast<double>(i) / panels_of;
       panels.pressure_pa[first + i] = to_pa - (to_pa - from_pa) * rest * std::sqrt(rest);
     }
   };

@@ -18,15 +18,15 @@ void AddGroups(const Problem& problem, std::vector<Requirement>& list) {
     const std::string base = "/actuators/" + std::to_string(g);
     const ActuatorGroup& group = problem.groups[g];
     if (std::isfinite(group.rise_time_max_s))
-      list.push_back({base + "/rise_time_s_max", group.rise_time_max_s,
-                      std::max(HalfPeriod(problem), 2.0 * group.rise_time_max_s),
-                      [g](Problem& p, double value) { p.groups[g].rise_time_max_s = value; },
-                      std::nullopt});
+      list.push_back(
+          {base + "/rise_time_s_max", group.rise_time_max_s,
+           std::max(InflateWindow(problem, static_cast<int>(g)), 2.0 * group.rise_time_max_s),
+           [g](Problem& p, double value) { p.groups[g].rise_time_max_s = value; }, std::nullopt});
     if (std::isfinite(group.fall_time_max_s))
-      list.push_back({base + "/fall_time_s_max", group.fall_time_max_s,
-                      std::max(HalfPeriod(problem), 2.0 * group.fall_time_max_s),
-                      [g](Problem& p, double value) { p.groups[g].fall_time_max_s = value; },
-                      std::nullopt});
+      list.push_back(
+          {base + "/fall_time_s_max", group.fall_time_max_s,
+           std::max(DeflateWindow(problem, static_cast<int>(g)), 2.0 * group.fall_time_max_s),
+           [g](Problem& p, double value) { p.groups[g].fall_time_max_s = value; }, std::nullopt});
   }
 }
 

@@ -52,6 +52,16 @@ enum class Family {
 };
 const char* Name(Family family);  // as in the catalogue: "tubing", "fitting", …
 
+// When the actuators of a group are filled (gait.h): stroke k of n begins at (phase + k/n) mod 1 of
+// a period and may last `inflate_fraction` of 1/n; what is left until the next one empties them.
+struct Gait {
+  // In [0, 1): one for all or one an actuator; empty: Problem::simultaneous says.
+  std::vector<double> phases;
+  double inflate_fraction = 0.5;
+  int strokes_per_period = 1;
+  bool operator==(const Gait&) const = default;
+};
+
 struct ActuatorGroup {
   std::string name;
   int count = 1;
@@ -62,6 +72,7 @@ struct ActuatorGroup {
   double fall_time_max_s = kUnlimited;
   double pressure_max_pa = 0.0;
   std::vector<model::Effect> effects;  // of a revised model; none: the base model
+  Gait gait = {};
 };
 
 struct Objective {  // weighted sum; a plain objective has one weight of 1
@@ -240,7 +251,7 @@ struct Design {
   double objective = 0.0;
   struct Trace {
     std::vector<double> t_s;
-    std::vector<std::vector<double>> pressure_pa;  // per group
+    std::vector<std::vector<double>> pressure_pa;  // per squad (gait.h)
     std::vector<double> source_pressure_pa;
   } response;                             // one cycle of the periodic state
   std::optional<Variants> variants = {};  // where they were looked for

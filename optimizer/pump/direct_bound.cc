@@ -17,13 +17,9 @@ constexpr double kQuadrature = 1.0 + 1e-8;  // two computations of one stroke
 
 class Stroke {
  public:
-  Stroke(const Problem& problem, const PumpFacts& facts, const Line& line, int group,
+  Stroke(const Problem& problem, const PumpFacts& facts, const Line& line, int count,
          double highest_pa)
-      : problem_(problem),
-        facts_(facts),
-        line_(line),
-        count_(problem.groups[group].count),
-        highest_pa_(highest_pa) {}
+      : problem_(problem), facts_(facts), line_(line), count_(count), highest_pa_(highest_pa) {}
 
   DirectStrokeBound Run(double target_pa) const {
     const double from_pa = problem_.ambient.pressure_pa;
@@ -98,16 +94,19 @@ class Stroke {
 
 }  // namespace
 
-const DirectStrokeBound& DirectBounds::StrokeOf(const PumpFacts& facts, const Line& line, int g,
-                                                double highest_pa, const Candidate* chosen) {
+const DirectStrokeBound& DirectBounds::StrokeOf(const PumpFacts& facts, const Line& line,
+                                                const Squad& squad, double highest_pa,
+                                                const Candidate* chosen) {
+  const auto& [g, count, phase] = squad;
   constexpr std::size_t kKept = 1'000'000;
   if (known_.size() > kKept) known_.clear();
-  const auto [entry, fresh] = known_.try_emplace({&facts, line.strokes, chosen ? 0.0 : highest_pa});
+  const auto [entry, fresh] =
+      known_.try_emplace({&facts, line.strokes, count, chosen ? 0.0 : highest_pa});
   if (!fresh) return entry->second;
   if (!chosen)
-    return entry->second = Stroke(problem_, facts, line, g, highest_pa)
+    return entry->second = Stroke(problem_, facts, line, count, highest_pa)
                                .Run(RiseTarget(problem_, problem_.groups[g]));
-  const model::PumpStroke stroke = DirectStroke(problem_, *chosen, g);
+  const model::PumpStroke stroke = DirectStroke(problem_, *chosen, g, count);
   return entry->second = stroke.reached
                              ? DirectStrokeBound{stroke.rise_s, stroke.inflate_s,
                                                  stroke.pump_energy_j, stroke.node_end_pa}
@@ -119,15 +118,19 @@ std::optional<DirectNeed> DirectBounds::Least(const PumpFacts& facts,
                                               double highest_pa, const Candidate* chosen) {
   const double slack = chosen ? kQuadrature : kSlack;
   DirectNeed need;
-  for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
+  for (std::size_t s = 0; s < squads_.size(); ++s) {
+    const int g = squads_[s].group;
     const Line& line = *lines[g];
-    const DirectStrokeBound& stroke = StrokeOf(facts, line, g, highest_pa, chosen);
-    if (stroke.inflate_s > TurnSeconds(problem_) * slack ||
+    const double strokes = problem_.groups[g].gait.strokes_per_period;
+    const DirectStrokeBound& stroke = StrokeOf(facts, line, squads_[s], highest_pa, chosen);
+    if (stroke.inflate_s > turns_s_[s] * slack ||
         stroke.rise_s > problem_.groups[g].rise_time_max_s * slack)
       return std::nullopt;
-    need.on_s += stroke.inflate_s / slack;
-    need.energy_j += stroke.pump_j / slack;
-    if (line.all_hold) need.energy_j += line.coil_power_w * stroke.inflate_s / slack;
+    need.on_s += strokes * stroke.inflate_s / slack;
+    need.energy_j += strokes * stroke.pump_j / slack;
+    const double share = static_cast<double>(squads_[s].count) / problem_.groups[g].count;
+    if (line.all_hold)
+      need.energy_j += strokes * share * line.coil_power_w * stroke.inflate_s / slack;
     need.node_pa = std::max(need.node_pa, stroke.node_pa / slack);
   }
   return need;

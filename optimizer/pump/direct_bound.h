@@ -35,7 +35,8 @@ struct DirectStrokeBound {
 // Keeps the strokes that it found: most boxes differ from others in one group's line.
 class DirectBounds {
  public:
-  explicit DirectBounds(const Problem& problem) : problem_(problem) {}
+  explicit DirectBounds(const Problem& problem)
+      : problem_(problem), squads_(SquadsOf(problem)), turns_s_(DirectTurns(problem)) {}
 
   // Of the pumps of `facts`, which stay where they are, with `lines`, one per group, with curves
   // and strokes that are counted; none where a group is too slow. No part stands more than
@@ -45,12 +46,14 @@ class DirectBounds {
                                   double highest_pa, const Candidate* chosen);
 
  private:
-  // Pumps, strokes of the line, highest_pa or 0 of what is chosen.
-  using Key = std::tuple<const PumpFacts*, int, double>;
-  const DirectStrokeBound& StrokeOf(const PumpFacts& facts, const Line& line, int group,
+  // Pumps, strokes of the line, actuators, highest_pa or 0 of what is chosen.
+  using Key = std::tuple<const PumpFacts*, int, int, double>;
+  const DirectStrokeBound& StrokeOf(const PumpFacts& facts, const Line& line, const Squad& squad,
                                     double highest_pa, const Candidate* chosen);
 
   const Problem& problem_;
+  std::vector<Squad> squads_;
+  std::vector<double> turns_s_;
   std::map<Key, DirectStrokeBound> known_;
 };
 

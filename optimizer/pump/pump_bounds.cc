@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/evaluate/root.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/pump/pump_march.h"
 #include "optimizer/pump/stroke_bound.h"
 
@@ -17,8 +17,7 @@ constexpr double kNeedTolerance = 3e-3;  // of the source pressure; its lower en
 
 // Air that the reservoir must give by the end of the rise times, by (2).
 double GivenByReservoir(const Problem& problem, const PumpFacts& facts, double air_to_target_m3) {
-  const bool burst = problem.simultaneous || problem.groups.size() == 1;
-  return burst ? std::max(0.0, air_to_target_m3 - facts.early_m3) : 0.0;
+  return IsBurst(problem) ? std::max(0.0, air_to_target_m3 - facts.early_m3) : 0.0;
 }
 
 double LeastStopPressure(const Problem& problem, const PumpFacts& facts, double air_to_target_m3,
@@ -57,17 +56,17 @@ double MostBearable(ReservoirNeed need, double high_pa, double tolerance, Bearab
 PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines) {
   PumpLoad load{lines};
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    load.air_m3 += LeastAirPerStroke(problem, g, *lines[g]);
+    const double strokes = IsBurst(problem) ? 1.0 : problem.groups[g].gait.strokes_per_period;
+    load.air_m3 += strokes * LeastAirPerStroke(problem, g, *lines[g]);
     load.air_to_target_m3 += AirToTarget(problem, g, lines[g]->chamber);
-    load.coil_j += CoilEnergyPerCycle(problem, *lines[g], lines[g]->inflate_time_least_s);
+    load.coil_j += CoilEnergyPerCycle(problem, g, *lines[g], lines[g]->inflate_time_least_s);
   }
   return load;
 }
 
 bool EnergyMayGrow(const Problem& problem, const PumpLoad& load) {
-  const bool turns = !problem.simultaneous && problem.groups.size() > 1;
-  return !turns && std::any_of(load.lines.begin(), load.lines.end(),
-                               [](const Line* line) { return line->all_hold; });
+  return IsBurst(problem) && std::any_of(load.lines.begin(), load.lines.end(),
+                                         [](const Line* line) { return line->all_hold; });
 }
 
 namespace {
@@ -84,7 +83,7 @@ double CoilEnergyAt(const Problem& problem, const PumpFacts& facts, const PumpLo
                        LeastInflateTime(problem, g, line, facts,
                                         {source_pa, source_pa, need.low_m3, need.high_m3}))
             : 0.0;
-    energy_j += CoilEnergyPerCycle(problem, line, inflate_s);
+    energy_j += CoilEnergyPerCycle(problem, g, line, inflate_s);
   }
   return problem.actuations * energy_j;
 }
@@ -145,9 +144,8 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
                                                 const PumpLoad& load, const PumpLimits& limits,
                                                 const Window& window, ReservoirNeed need,
                                                 double tolerance) {
-  const int groups = static_cast<int>(problem.groups.size());
   // Groups that take turns may find less than the stop pressure.
-  const bool turns = !problem.simultaneous && groups > 1;
+  const bool turns = !IsBurst(problem);
   std::vector<double> start_pa(1, 0.0);
   // Sets what stopping at need.source_pa at least takes; false if that is too much.
   const auto bearable = [&](ReservoirNeed& at) {
@@ -184,7 +182,8 @@ std::optional<ReservoirNeed> LeastReservoirNeed(const Problem& problem, const Pu
     if (!least_pa) return std::nullopt;
     if (*least_pa == need.source_pa) return need;
     need.source_pa = *least_pa;
-  } else if (groups == 2) {
+  } else if (Alternates(problem)) {
+    start_pa.resize(2);
     if (!RaiseStarts(problem, load.lines, facts, need.source_max_pa, need.low_m3, need.high_m3,
                      tolerance, need.start_pa))
       return std::nullopt;

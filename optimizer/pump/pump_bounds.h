@@ -44,14 +44,16 @@ double AirToTarget(const Problem& problem, int group, const model::Chamber& cham
 // What lines ask of a compressor and its reservoir, before or after either is chosen: bounds from
 // below.
 struct PumpLoad {
-  const std::vector<const Line*>& lines;                      // one per group
-  double air_m3 = 0.0, air_to_target_m3 = 0.0, coil_j = 0.0;  // per cycle
+  const std::vector<const Line*>& lines;  // one per group
+  // Of a burst (gait.h); where there are none of all strokes of a cycle, and of one of each.
+  double air_m3 = 0.0, air_to_target_m3 = 0.0;
+  double coil_j = 0.0;  // per cycle
 };
 PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines);
 
 // What the pumps at least take in a cycle, with a reservoir of low_m3 to high_m3 that holds
-// start_pa[i] or more when phase i of the cycle begins: one phase, or one per group where two take
-// turns. None where they cannot deliver the air of a cycle within it.
+// start_pa[i] or more when phase i of the cycle begins: one phase, or one per group where two
+// alternate. None where they cannot deliver the air of a cycle within it.
 std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& facts,
                                       const PumpLoad& load, const std::vector<double>& start_pa,
                                       double low_m3, double high_m3);

@@ -61,10 +61,11 @@ PumpFacts MakeFacts(const Problem& problem, double highest_pa, PumpTables tables
   PumpFacts facts;
   facts.target_pa = kUnlimited;
   double rising_s = 0.0;
-  for (const ActuatorGroup& group : problem.groups) {
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    const ActuatorGroup& group = problem.groups[g];
     facts.target_pa = std::min(facts.target_pa, RiseTarget(problem, group));
-    const double rise_s = std::min(group.rise_time_max_s, HalfPeriod(problem));
-    rising_s = problem.simultaneous ? std::max(rising_s, rise_s) : rising_s + rise_s;
+    const double rise_s = std::min(group.rise_time_max_s, InflateWindow(problem, g));
+    rising_s = IsBurst(problem) ? std::max(rising_s, rise_s) : rising_s + rise_s;
   }
   facts.early_m3 = rising_s / tables.seconds_per_m3.front();
   facts.rates = {problem.ambient.pressure_pa, highest_pa, std::move(tables)};

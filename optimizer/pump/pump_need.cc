@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/pump/pump_bounds.h"
 #include "optimizer/pump/pump_march.h"
 
@@ -145,8 +145,11 @@ std::optional<PumpNeed> SumPhases(NeedOfBits sum, int phases, const March& march
 std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& facts,
                                       const PumpLoad& load, const std::vector<double>& start_pa,
                                       double low_m3, double high_m3) {
-  const bool apart = start_pa.size() == problem.groups.size();  // one group in each phase
-  const double phase_s = 1.0 / problem.frequency_hz / static_cast<double>(start_pa.size());
+  // One group in each phase.
+  const bool apart = start_pa.size() > 1 || MeetingOf(problem) == Meeting::kAlone;
+  const double bursts = BurstsPerPeriod(problem);
+  const double phase_s =
+      1.0 / problem.frequency_hz / (bursts * static_cast<double>(start_pa.size()));
   const double drawn_at_once = load.air_m3 * ContentPerVolume(problem);
   // Calls take(bit) for what a phase gives, until it returns false.
   const auto march = [&](int phase, const auto& take) {
@@ -186,7 +189,13 @@ std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& f
                 return add(from_pa, even || from_pa >= full_pa ? to_pa : from_pa, air_m3);
               });
   };
-  return SumPhases(NeedOfBits(facts, load.air_m3), static_cast<int>(start_pa.size()), march);
+  std::optional<PumpNeed> need =
+      SumPhases(NeedOfBits(facts, load.air_m3), static_cast<int>(start_pa.size()), march);
+  if (need) {
+    need->on_s *= bursts;
+    need->energy_j *= bursts;
+  }
+  return need;
 }
 
 double LeastFirstFill(const Problem& problem, const PumpFacts& facts, double source_pa,

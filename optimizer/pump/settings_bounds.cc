@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/evaluate/root.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -19,8 +19,8 @@ OperatingPoint Fastest(const SettingsBox& box, double source_pa) {
 double StrokesExcess(const Problem& problem, const Strokes& strokes) {
   if (!strokes.works) return kUnlimited;
   double excess = -kUnlimited;
-  for (std::size_t g = 0; g < problem.groups.size(); ++g)
-    excess = std::max({excess, strokes.inflate_s[g] / HalfPeriod(problem) - 1.0,
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    excess = std::max({excess, strokes.inflate_s[g] / InflateWindow(problem, g) - 1.0,
                        strokes.rise_s[g] / problem.groups[g].rise_time_max_s - 1.0});
   return excess;
 }
@@ -30,18 +30,16 @@ bool AllHold(const Candidate& candidate) {
                      [](const Line* line) { return line->holds; });
 }
 
-// Whether no group draws while another does.
+// Whether no squad draws while another does.
 bool OneAtATime(const Problem& problem, const Candidate& candidate, const Strokes& strokes) {
-  const double groups = static_cast<double>(problem.groups.size());
-  return AllHold(candidate) &&
-         std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
-                     [&](double s) { return s * problem.frequency_hz * groups <= 1.0; });
+  return AllHold(candidate) && EndInTurn(problem, strokes.inflate_s);
 }
 
 double AirPerCycle(const Problem& problem, const Candidate& candidate, const Strokes& strokes) {
   double air_m3 = 0.0;
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
-    air_m3 += AirPerStroke(problem, g, *candidate.lines[g], strokes.filled_pa[g]);
+    air_m3 += problem.groups[g].gait.strokes_per_period *
+              AirPerStroke(problem, g, *candidate.lines[g], strokes.filled_pa[g]);
   return air_m3;
 }
 
@@ -50,6 +48,7 @@ double MostAirPerCycle(const Problem& problem, const Candidate& candidate, doubl
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const Line& line = *candidate.lines[g];
     air_m3 +=
+        problem.groups[g].gait.strokes_per_period *
         AirPerStroke(problem, g, line, line.holds ? line.chamber.operating_pressure_pa : source_pa);
   }
   return air_m3;
@@ -57,17 +56,17 @@ double MostAirPerCycle(const Problem& problem, const Candidate& candidate, doubl
 
 double CoilEnergy(const Problem& problem, const Candidate& candidate, const Strokes& strokes) {
   double energy_j = 0.0;
-  for (std::size_t g = 0; g < problem.groups.size(); ++g)
-    energy_j += CoilEnergyPerCycle(problem, *candidate.lines[g], strokes.inflate_s[g]);
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    energy_j += CoilEnergyPerCycle(problem, g, *candidate.lines[g], strokes.inflate_s[g]);
   return problem.actuations * energy_j;
 }
 
 // How far the reservoir may be above the low run, Pa; +∞ where that is not known.
 double MostAbove(const Problem& problem, const Candidate& candidate, const SettingsBox& box,
                  const Strokes& low) {
-  const bool alone = problem.groups.size() == 1;
+  const bool alone = MeetingOf(problem) == Meeting::kAlone;
   const bool once_full = alone || low.pump_on_s * problem.frequency_hz < kLessThanAlways;
-  const bool apart = alone || problem.simultaneous || OneAtATime(problem, candidate, low);
+  const bool apart = IsBurst(problem) || OneAtATime(problem, candidate, low);
   if (!once_full || !apart) return kUnlimited;
   const double air_m3 = MostAirPerCycle(problem, candidate, box.high_pa) + low.pump_air_m3;
   const double content = air_m3 * model::kReferencePressurePa * problem.ambient.temperature_k /

@@ -32,7 +32,7 @@
 #define PLENUM_OPTIMIZER_PUMP_SETTINGS_BOUNDS_H_
 
 #include "optimizer/evaluate/evaluate.h"
-#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/pump/pump_slope.h"
 
 namespace plenum::optimizer {

@@ -21,7 +21,7 @@ class Stroke {
         pumps_(pumps),
         start_(start),
         nodes_(line.curve->panels),
-        count_(problem.groups[g].count),
+        count_(FilledAtOnce(problem, g)),
         kappa_(model::kReferencePressurePa * problem.ambient.temperature_k /
                model::kReferenceTemperatureK),
         per_kappa_(1.0 / kappa_),
@@ -118,18 +118,18 @@ class Stroke {
 // A guess for a stroke that has drawn a share of its air when time is up.
 double Late(double share) { return 1.0 / (share + 1e-3) - 1.0; }
 
-// Excess of a stroke; `left_pa`, if asked for, is what it at most leaves when half of the period is
-// over, and is not set where the stroke is too slow.
+// Excess of a stroke; `left_pa`, if asked for, is what it at most leaves when its window is over,
+// and is not set where the stroke is too slow.
 double StrokeExcessBound(const Problem& problem, int g, const Line& line, const PumpFacts& pumps,
                          const StrokeStart& start, double* left_pa) {
-  const double half_s = HalfPeriod(problem);
-  const double rise_max_s = std::min(problem.groups[g].rise_time_max_s, half_s);
+  const double window_s = InflateWindow(problem, g);
+  const double rise_max_s = std::min(problem.groups[g].rise_time_max_s, window_s);
   Stroke stroke(problem, g, line, pumps, start);
   if (!stroke.Reach(kStrokePanels, rise_max_s)) return Late(stroke.Share(kStrokePanels));
   const double rise_s = stroke.time_s();
-  if (!stroke.Reach(kStrokeNodes - 1, half_s)) return Late(stroke.Share(kStrokeNodes - 1));
-  const double excess = std::max(rise_s / rise_max_s, stroke.time_s() / half_s) - 1.0;
-  if (left_pa != nullptr) *left_pa = stroke.PumpUp(half_s);
+  if (!stroke.Reach(kStrokeNodes - 1, window_s)) return Late(stroke.Share(kStrokeNodes - 1));
+  const double excess = std::max(rise_s / rise_max_s, stroke.time_s() / window_s) - 1.0;
+  if (left_pa != nullptr) *left_pa = stroke.PumpUp(window_s);
   return excess;
 }
 
@@ -150,9 +150,9 @@ double LeastStrokeExcess(const Problem& problem, const std::vector<const Line*>&
 
 double LeastInflateTime(const Problem& problem, int g, const Line& line, const PumpFacts& pumps,
                         const StrokeStart& start) {
-  const double half_s = HalfPeriod(problem);
+  const double window_s = InflateWindow(problem, g);
   Stroke stroke(problem, g, line, pumps, start);
-  return stroke.Reach(kStrokeNodes - 1, half_s) ? stroke.time_s() : half_s;
+  return stroke.Reach(kStrokeNodes - 1, window_s) ? stroke.time_s() : window_s;
 }
 
 bool RaiseStarts(const Problem& problem, const std::vector<const Line*>& lines,

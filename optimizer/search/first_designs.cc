@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "optimizer/bounds/leaf_sizing.h"
-#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/search/search_node.h"
 
 namespace plenum::optimizer {
@@ -121,7 +121,7 @@ std::vector<Bounds*> Due(const Problem& problem,
   if (problem.groups.size() == 1) return chosen;
   for (const std::unique_ptr<Bounds>& bounds : planted) {
     const bool cheap =
-        GroupsMeet(problem) && bounds->plan().configuration != Configuration::kCompressor;
+        StrokesMeet(problem) && bounds->plan().configuration != Configuration::kCompressor;
     if (!bounds->plan().empty() && (cheap || slow) && sought.first.insert(bounds.get()).second)
       chosen.push_back(bounds.get());
   }

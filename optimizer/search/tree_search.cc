@@ -1,6 +1,6 @@
 #include "optimizer/search/tree_search.h"
 
-#include "optimizer/evaluate/effect_strokes.h"
+#include "optimizer/evaluate/strokes/effect_strokes.h"
 #include "optimizer/search/box_search.h"
 #include "optimizer/search/revised_search.h"
 

@@ -5,9 +5,9 @@
 
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/candidate.h"
-#include "optimizer/evaluate/effect_strokes.h"
-#include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/evaluate/source_options.h"
+#include "optimizer/evaluate/strokes/effect_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/problem/family_specs.h"
 
 namespace plenum::optimizer {
@@ -74,9 +74,10 @@ Performance MakePerformance(const Problem& problem, const Evaluation& evaluation
   Performance performance;
   performance.groups = evaluation.groups;
   performance.frequency_sustained_hz = evaluation.frequency_sustained_hz;
-  int actuators = 0;
-  for (const ActuatorGroup& group : problem.groups) actuators += group.count;
-  performance.air_per_actuation_m3 = evaluation.air_per_cycle_m3 / actuators;
+  int actuations = 0;  // of all actuators in a period
+  for (const ActuatorGroup& group : problem.groups)
+    actuations += group.count * group.gait.strokes_per_period;
+  performance.air_per_actuation_m3 = evaluation.air_per_cycle_m3 / actuations;
   performance.air_total_m3 = evaluation.air_total_m3;
   performance.run_time_s = problem.actuations / problem.frequency_hz;
   return performance;
@@ -107,9 +108,9 @@ bool InTime(const Problem& problem, const Candidate& candidate, const OperatingP
             const Strokes& strokes, const Evaluation& evaluation) {
   const auto excess = [&](const std::vector<double>& rise_s, const std::vector<double>& inflate_s) {
     double most = -kUnlimited;
-    for (std::size_t g = 0; g < problem.groups.size(); ++g)
+    for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
       most = std::max({most, rise_s[g] / problem.groups[g].rise_time_max_s - 1.0,
-                       inflate_s[g] / HalfPeriod(problem) - 1.0});
+                       inflate_s[g] / InflateWindow(problem, g) - 1.0});
     return most;
   };
   if (excess(strokes.rise_s, strokes.inflate_s) <= kConfirmTolerance) return true;
@@ -139,7 +140,7 @@ bool Confirm(const Problem& problem, const Candidate& candidate, const Operating
   if (!InTime(problem, candidate, point, strokes, evaluation)) return false;
   if (candidate.compressor.index == kNone) {
     const Evaluation simulated =
-        GroupsMeet(problem) ? EvaluateWith(strokes, problem, candidate, point) : evaluation;
+        StrokesMeet(problem) ? EvaluateWith(strokes, problem, candidate, point) : evaluation;
     if (SmallestMargin(problem, candidate, point, simulated) >= 0.0) evaluation = simulated;
     return true;
   }
@@ -234,8 +235,10 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
     design.settings.reservoir_volume_m3 = point.reservoir_m3;
     design.settings.tank_fill_pa = filled.tank_fill_pa;
   }
-  for (const GroupPerformance& group : evaluation.groups)
-    design.settings.valve_duty.push_back(group.inflate_time_s * problem.frequency_hz);
+  for (std::size_t g = 0; g < evaluation.groups.size(); ++g)
+    design.settings.valve_duty.push_back(problem.groups[g].gait.strokes_per_period *
+                                         evaluation.groups[g].inflate_time_s *
+                                         problem.frequency_hz);
   design.performance = MakePerformance(problem, evaluation);
   design.margins = Margins(problem, candidate, point, evaluation);
   design.objective = ObjectiveValue(problem, candidate, point, evaluation);

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <map>
 
-#include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/evaluate/root.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/sizing/sizing.h"
 
 namespace plenum::optimizer {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <queue>
 
-#include "optimizer/evaluate/evaluate_strokes.h"
 #include "optimizer/evaluate/root.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/pump/pump_bounds.h"
 #include "optimizer/pump/pump_slope.h"
 #include "optimizer/pump/stroke_bound.h"
@@ -19,21 +19,23 @@ constexpr double kObjectiveTolerance = 4e-7;
 // Coils of all cycles at any source pressure, at least.
 double LeastCoilEnergy(const Problem& problem, const Candidate& candidate) {
   double energy_j = 0.0;
-  for (const Line* line : candidate.lines)
-    energy_j += problem.actuations * CoilEnergyPerCycle(problem, *line, line->inflate_time_least_s);
+  for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g) {
+    const Line& line = *candidate.lines[g];
+    energy_j +=
+        problem.actuations * CoilEnergyPerCycle(problem, g, line, line.inflate_time_least_s);
+  }
   return energy_j;
 }
 
-// Whether no two groups draw at the same time, at the pressure of the evaluation and above.
+// Whether no two squads draw at the same time, at the pressure of the evaluation and above.
 bool OneAtATime(const Problem& problem, const Candidate& candidate, const Evaluation& evaluation) {
-  const std::size_t groups = problem.groups.size();
-  if (groups <= 2) return true;
-  for (std::size_t g = 0; g < groups; ++g)
-    if (!candidate.lines[g]->holds ||
-        evaluation.groups[g].inflate_time_s * problem.frequency_hz * static_cast<double>(groups) >
-            1.0)
-      return false;
-  return true;
+  if (!WindowsOverlap(problem)) return true;
+  std::vector<double> inflate_s;
+  inflate_s.reserve(evaluation.groups.size());
+  for (const GroupPerformance& group : evaluation.groups) inflate_s.push_back(group.inflate_time_s);
+  return EndInTurn(problem, inflate_s) &&
+         std::all_of(candidate.lines.begin(), candidate.lines.end(),
+                     [](const Line* line) { return line->holds; });
 }
 
 SteepestFall PumpFall(const Problem& problem, const Candidate& candidate) {
@@ -138,7 +140,7 @@ class PressureSearch {
     if (rises_) return 0.0;
     double fall_j_per_pa = low.air_per_cycle_m3 * pump_fall_.EnergyPerAir(high_pa);
     // Where groups take turns and the reservoir does not always become full.
-    if (!problem_.simultaneous && problem_.groups.size() > 1 && !high.from_full) {
+    if (!IsBurst(problem_) && !high.from_full) {
       if (!OneAtATime(problem_, candidate_, low)) return kUnlimited;
       fall_j_per_pa +=
           candidate_.compressor.quantity * pump_fall_.Power(high_pa) / problem_.frequency_hz;
@@ -152,7 +154,7 @@ class PressureSearch {
                    : open_.empty() && !failed_ ? LeafStatus::kInfeasible
                                                : LeafStatus::kUndecided;
     leaf_.lower_bound = open_.empty() ? leaf_.objective : open_.top().bound;
-    if (problem_.objective.energy_wh == 0.0 || failed_) leaf_.lower_bound = parts_objective_;
+    if (failed_) leaf_.lower_bound = parts_objective_;
     if (found) leaf_.lower_bound = std::min(leaf_.lower_bound, leaf_.objective);
     return leaf_;
   }
@@ -197,8 +199,7 @@ bool PumpEnergyRises(const Problem& problem, const Candidate& candidate) {
   const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
   const double low_pa = problem.ambient.pressure_pa;
   const double high_pa = SourceWindow(problem, candidate).high_pa;
-  if (problem.simultaneous || problem.groups.size() == 1)
-    return EnergyPerAirRises(curve, low_pa, high_pa);
+  if (IsBurst(problem)) return EnergyPerAirRises(curve, low_pa, high_pa);
   return PowerRises(curve, low_pa, high_pa);
 }
 
@@ -260,7 +261,7 @@ Leaf SizeQuickly(const Problem& problem, const Candidate& candidate, double rese
   const OperatingPoint highest =
       PointAt(problem, candidate, SourceWindow(problem, candidate).high_pa, reservoir_m3);
   // The lowest pressure is the best for a tank, which weighs least then.
-  if (!GroupsMeet(problem) || problem.objective.energy_wh > 0.0 ||
+  if (!StrokesMeet(problem) || problem.objective.energy_wh > 0.0 ||
       candidate.configuration == Configuration::kTank || SourceWindow(problem, candidate).empty())
     return SizeAtVolume(problem, candidate, reservoir_m3);
   const Evaluation evaluation = Evaluate(problem, candidate, highest);

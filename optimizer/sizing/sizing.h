@@ -45,8 +45,8 @@ template <class T>
 std::vector<T> SolverMargins(const Problem& problem, const Candidate& candidate,
                              const OperatingPointOf<T>& point, const EvaluationOf<T>& evaluation) {
   std::vector<T> values;
-  for (const GroupPerformanceOf<T>& group : evaluation.groups)
-    values.push_back(1.0 - group.inflate_time_s / HalfPeriod(problem));
+  for (int g = 0; g < static_cast<int>(evaluation.groups.size()); ++g)
+    values.push_back(1.0 - evaluation.groups[g].inflate_time_s / InflateWindow(problem, g));
   for (const MarginOf<T>& margin : Margins(problem, candidate, point, evaluation))
     values.push_back(margin.relative_margin > 1.0 ? T(1.0) : margin.relative_margin);
   if (candidate.battery.index != kNone)

@@ -1,6 +1,7 @@
 #include "optimizer/sizing/stroke_gradients.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "model/simulate/sensitivity.h"
@@ -42,22 +43,25 @@ model::SimulateOptions DualOptions(const Problem& problem, const Candidate& cand
   return options;
 }
 
-// What the pumps do, `share` of a run's.
-void AddPumps(const model::Response& derivative, double share, double weight, int direction,
+// What the pumps do, so many times what they do in a run.
+void AddPumps(const model::Response& derivative, double times, double weight, int direction,
               StrokesOf<Dual>& strokes) {
-  const double factor = share * weight;
+  const double factor = times * weight;
   strokes.pump_on_s.v[direction] += factor * derivative.compressor_on_s;
   strokes.pump_energy_j.v[direction] += factor * derivative.compressor_energy_j;
   strokes.pump_air_m3.v[direction] += factor * derivative.compressor_air_m3;
 }
 
-// A group alone on the full reservoir, until it is full again.
+// A squad alone on the full reservoir, until it is full again.
 bool AddAlone(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
-              int g, const Strokes& values, StrokesOf<Dual>& strokes) {
+              int squad, const Strokes& values, StrokesOf<Dual>& strokes) {
   model::Rig rig = MakeRig(problem, candidate, point);
-  rig.groups = {rig.groups[g]};
+  rig.groups = {rig.groups[squad]};
+  const int g = SquadsOf(problem)[squad].group;
+  const double strokes_per_period = problem.groups[g].gait.strokes_per_period;
+  const bool slowest = rig.groups[0].count == FilledAtOnce(problem, g);
   const bool holds = candidate.lines[g]->holds;
-  const double open_s = holds ? values.inflate_s[g] : HalfPeriod(problem);
+  const double open_s = holds ? values.inflate_s[g] : InflateWindow(problem, g);
   rig.groups[0].schedule = {{0.0, model::ValveState::kInflate}};
   if (!holds) rig.groups[0].schedule.push_back({open_s, model::ValveState::kDeflate});
   model::ReservoirSource& source = Reservoir(rig);
@@ -70,9 +74,11 @@ bool AddAlone(const Problem& problem, const Candidate& candidate, const Operatin
   if (run.response.status != model::SimulateStatus::kDone) return false;
   for (int j : {kAlongPressure, kAlongVolume}) {
     const model::Stroke& stroke = run.derivatives[j].strokes.front();
-    strokes.rise_s[g].v[j] = stroke.to_target_s;
-    strokes.inflate_s[g].v[j] = stroke.to_operating_s;
-    AddPumps(run.derivatives[j], 1.0, 1.0, j, strokes);
+    if (slowest) {
+      strokes.rise_s[g].v[j] = stroke.to_target_s;
+      strokes.inflate_s[g].v[j] = stroke.to_operating_s;
+    }
+    AddPumps(run.derivatives[j], strokes_per_period, 1.0, j, strokes);
   }
   return true;
 }
@@ -158,12 +164,17 @@ std::optional<StrokesOf<Dual>> DifferentiateStrokes(const Problem& problem,
                                                     const OperatingPoint& point,
                                                     const Strokes& strokes) {
   StrokesOf<Dual> lifted = Lifted(strokes);
-  if (GroupsMeet(problem) || !strokes.from_full) {
+  if (StrokesMeet(problem) || !strokes.from_full) {
+    // A group's slowest stroke is then that of any squad.
+    if (SquadsOf(problem).size() > problem.groups.size() ||
+        std::any_of(problem.groups.begin(), problem.groups.end(),
+                    [](const ActuatorGroup& group) { return group.gait.strokes_per_period > 1; }))
+      return std::nullopt;
     if (!AddTogether(problem, candidate, point, lifted)) return std::nullopt;
     return lifted;
   }
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
-    if (!AddAlone(problem, candidate, point, g, strokes, lifted)) return std::nullopt;
+  for (int s = 0; s < static_cast<int>(SquadsOf(problem).size()); ++s)
+    if (!AddAlone(problem, candidate, point, s, strokes, lifted)) return std::nullopt;
   return lifted;
 }
 

@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "model/flow/scalar.h"
-#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 
 namespace plenum::optimizer {
 

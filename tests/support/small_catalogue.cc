@@ -149,7 +149,7 @@ optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing
   line.exhaust.insert(line.exhaust.end(), before.begin(), before.end());
   line.exhaust.push_back(valve.exhaust);
 
-  line.holds = valve.kind != model::ValveKind::kThreeWay;
+  line.holds = line.all_hold = valve.kind != model::ValveKind::kThreeWay;
   line.source_max_pa =
       std::min({tubing.pressure_max_pa, valve.pressure_max_pa, problem.source_pressure_max_pa});
   if (fitting != nullptr)

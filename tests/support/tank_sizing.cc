@@ -38,8 +38,8 @@ class Sizing {
   optimizer::Leaf Run() {
     optimizer::Leaf leaf;
     leaf.status = optimizer::LeafStatus::kInfeasible;
-    const double half_s = 0.5 / problem_.frequency_hz;
-    if (line_.fall_time_s > std::min(half_s, group_.fall_time_max_s)) return leaf;
+    const double vent_s = (1.0 - group_.gait.inflate_fraction) * StrokeSeconds();
+    if (line_.fall_time_s > std::min(vent_s, group_.fall_time_max_s)) return leaf;
     if (!regulator_ && !line_.holds) return leaf;
     double low_pa = group_.chamber.operating_pressure_pa;
     double high_pa = std::min(line_.source_max_pa, problem_.source_pressure_max_pa);
@@ -49,7 +49,7 @@ class Sizing {
     } else {
       // The pressure that is kept, and what all strokes take from above it.
       low_pa = std::max(low_pa, problem_.parts.valves[line_.valve].pressure_min_pa) +
-               problem_.actuations * Fall(StrokeContent(group_.chamber.operating_pressure_pa));
+               Strokes() * Fall(StrokeContent(group_.chamber.operating_pressure_pa));
       high_pa = std::min(high_pa, most_pa_);
     }
     if (low_pa > high_pa || !InTime(high_pa)) return leaf;
@@ -62,6 +62,12 @@ class Sizing {
   }
 
  private:
+  // Of the mission, and from one to the next.
+  double Strokes() const { return problem_.actuations * group_.gait.strokes_per_period; }
+  double StrokeSeconds() const {
+    return 1.0 / (problem_.frequency_hz * group_.gait.strokes_per_period);
+  }
+  double OpenSeconds() const { return group_.gait.inflate_fraction * StrokeSeconds(); }
   // p·V of one actuator and its tube.
   double Content(double p) const {
     const model::Chamber& c = line_.chamber;
@@ -81,8 +87,7 @@ class Sizing {
       return model::FillTime(fill_, line_.chamber, source_pa, ambient_pa, to_pa, temperature_k_,
                              regulator_->flow_max_m3_per_s / group_.count);
     const double last_pa =
-        source_pa -
-        (problem_.actuations - 1.0) * Fall(StrokeContent(group_.chamber.operating_pressure_pa));
+        source_pa - (Strokes() - 1.0) * Fall(StrokeContent(group_.chamber.operating_pressure_pa));
     return model::FillTimeFromReservoir(fill_, line_.chamber, group_.count, tank_m3_, last_pa,
                                         ambient_pa, to_pa, temperature_k_);
   }
@@ -90,20 +95,19 @@ class Sizing {
   bool InTime(double source_pa) const {
     const double ambient_pa = problem_.ambient.pressure_pa;
     const double operating_pa = group_.chamber.operating_pressure_pa;
-    return Seconds(source_pa, operating_pa) <= 0.5 / problem_.frequency_hz &&
+    return Seconds(source_pa, operating_pa) <= OpenSeconds() &&
            Seconds(source_pa, ambient_pa + problem_.rise_fraction * (operating_pa - ambient_pa)) <=
                group_.rise_time_max_s;
   }
 
-  // A valve that cannot hold fills for half of the period.
+  // A valve that cannot hold fills for the whole window.
   double FilledPa(double source_pa) const {
     double low_pa = group_.chamber.operating_pressure_pa, high_pa = source_pa;
     if (line_.holds) return low_pa;
-    const double half_s = 0.5 / problem_.frequency_hz;
-    if (Seconds(source_pa, high_pa) <= half_s) return high_pa;
+    if (Seconds(source_pa, high_pa) <= OpenSeconds()) return high_pa;
     for (int i = 0; i < 60; ++i) {
       const double middle_pa = 0.5 * (low_pa + high_pa);
-      (Seconds(source_pa, middle_pa) <= half_s ? low_pa : high_pa) = middle_pa;
+      (Seconds(source_pa, middle_pa) <= OpenSeconds() ? low_pa : high_pa) = middle_pa;
     }
     return low_pa;
   }
@@ -114,11 +118,12 @@ class Sizing {
     double fill_pa = source_pa;
     if (regulator_)
       fill_pa = std::max(source_pa, regulator_->inlet_pressure_min_pa) +
-                problem_.actuations * Fall(StrokeContent(FilledPa(source_pa)));
-    const double half_s = 0.5 / problem_.frequency_hz;
+                Strokes() * Fall(StrokeContent(FilledPa(source_pa)));
+    const double vent_s = StrokeSeconds() - OpenSeconds();
     const double inflate_s = Seconds(source_pa, group_.chamber.operating_pressure_pa);
     double power_w = line_.coil_power_w;
-    double per_cycle_j = power_w * (half_s + (line_.holds ? inflate_s : 0.0));
+    double per_cycle_j = power_w * group_.gait.strokes_per_period *
+                         (line_.holds ? vent_s + inflate_s : OpenSeconds());
     if (regulator_) {
       power_w += regulator_->electrical_power_w;
       per_cycle_j += regulator_->electrical_power_w / problem_.frequency_hz;
@@ -161,7 +166,7 @@ class Sizing {
 
 bool CanSizeTank(const Problem& problem, const Candidate& candidate) {
   return candidate.configuration == optimizer::Configuration::kTank && problem.groups.size() == 1 &&
-         problem.objective.energy_wh == 0.0;
+         problem.groups[0].gait.phases.size() <= 1 && problem.objective.energy_wh == 0.0;
 }
 
 optimizer::Leaf SizeTank(const Problem& problem, const Candidate& candidate) {

@@ -5,6 +5,7 @@
 #include "model/physics/storage.h"
 #include "model/strokes/stroke.h"
 #include "verify/corner/verify_node.h"
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_design.h"
 
 namespace plenum::verify {
@@ -156,7 +157,7 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
       plan_.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
   const double factor =
       model::FlowFactor(gas) * std::sqrt(model::kReferenceTemperatureK / temperature_k);
-  if (problem_.simultaneous && problem_.groups.size() > 1 && !source.some_open) {
+  if (AllAtOnce(problem_) && !source.some_open) {
     std::vector<const BestLine*> lines;
     lines.reserve(problem_.groups.size());
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
@@ -167,32 +168,33 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
                         lines))
       return kUnlimited;
   }
-  const double half_s = 0.5 / problem_.frequency_hz;
   double air_m3 = 0.0, coil_j = 0.0, inflating_j = 0.0;  // per cycle
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
     const BestLine& line = strokes_.Line(ranges, g);
     const ActuatorGroup& group = problem_.groups[g];
+    const double count = MostAtOnce(problem_, g), strokes = group.gait.strokes_per_period;
     std::vector<model::FlowElement> elements = line.fill;
     if (!source.some_open) {
       model::FlowElement share = regulator.Flow("sonic_conductance_dm3_per_s_bar");
-      share.sonic_conductance_m3_per_s_pa /= group.count;
+      share.sonic_conductance_m3_per_s_pa /= count;
       elements.insert(elements.begin(), share);
     }
     const model::Series fill = model::MakeSeries(elements, factor);
     const auto seconds = [&](double to_pa) {
       return model::FillTime(fill, line.chamber, source.high_pa, problem_.ambient.pressure_pa,
-                             to_pa, temperature_k, source.flow_max / group.count);
+                             to_pa, temperature_k, source.flow_max / count);
     };
     const double inflate_s = seconds(group.chamber.operating_pressure_pa);
-    if (inflate_s > half_s * kSlack) return kUnlimited;
+    if (inflate_s > FillWindow(problem_, g) * kSlack) return kUnlimited;
     if (inflate_s > group.rise_time_max_s &&
         seconds(PressureAt(problem_, g, problem_.rise_fraction)) > group.rise_time_max_s * kSlack)
       return kUnlimited;
     // At least: a valve that cannot hold may be open for no longer than that takes.
-    air_m3 += model::StandardVolume(
-        Drawn(problem_, g, line.chamber, group.chamber.operating_pressure_pa), temperature_k);
-    coil_j += line.coil_w * half_s;
-    if (line.all_hold) inflating_j += line.coil_w * inflate_s;
+    air_m3 += strokes * model::StandardVolume(
+                            Drawn(problem_, g, line.chamber, group.chamber.operating_pressure_pa),
+                            temperature_k);
+    coil_j += line.coil_w * line.coil_s;
+    if (line.all_hold) inflating_j += strokes * line.coil_w * inflate_s;
   }
   const double beyond_j = problem_.actuations * inflating_j;
   double sum = chosen + problem_.objective.energy_wh * beyond_j / 3600.0;

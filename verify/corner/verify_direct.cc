@@ -22,20 +22,24 @@ DirectPumps::DirectPumps(const Problem& problem, const ProofPlan& plan, const Sl
       amounts_(amounts),
       choices_(strokes.pumps()),
       compressor_(SlotOf(plan, Family::kCompressor, -1)),
-      battery_(SlotOf(plan, Family::kBattery, -1)) {}
+      battery_(SlotOf(plan, Family::kBattery, -1)),
+      units_(UnitsOf(problem)) {}
 
-const DirectPumps::Stroke& DirectPumps::StrokeOf(Range compressors, const BestLine& line, int g) {
-  const auto [entry, fresh] = known_.try_emplace({compressors, &line, g});
-  if (fresh) entry->second = MakeStroke(compressors, line, g);
+const DirectPumps::Stroke& DirectPumps::StrokeOf(Range compressors, const BestLine& line,
+                                                 const Unit& unit) {
+  const auto [entry, fresh] = known_.try_emplace({compressors, &line, unit.group, unit.count});
+  if (fresh) entry->second = MakeStroke(compressors, line, unit);
   return entry->second;
 }
 
-DirectPumps::Stroke DirectPumps::MakeStroke(Range compressors, const BestLine& line, int g) const {
+DirectPumps::Stroke DirectPumps::MakeStroke(Range compressors, const BestLine& line,
+                                            const Unit& unit) const {
   const PumpCells& cells = choices_.CellsIn(compressors);
   const ProofItem& first = plan_.slots[compressor_].choices[compressors.first];
   const bool single = compressors.second == compressors.first + 1;
   const model::CompressorCurve& curve = problem_.parts.compressors[first.part].curve;
-  const int count = problem_.groups[g].count;
+  const int g = unit.group, count = unit.count;
+  const double share = static_cast<double>(count) / problem_.groups[g].count;
   const double highest_pa = std::min(cells.highest_pa, line.source_high_pa);
   const auto delivered = [&](double p) {
     if (!single) return choices_.DeliveryAt(cells, p);
@@ -60,6 +64,7 @@ DirectPumps::Stroke DirectPumps::MakeStroke(Range compressors, const BestLine& l
   Stroke stroke;
   const auto panel = [&](double low_pa, double high_pa) {
     const double air_m3 =
+        share *
         (Drawn(problem_, g, line.chamber, high_pa) - Drawn(problem_, g, line.chamber, low_pa)) /
         ContentPerVolume(problem_);
     const auto [under_pa, over_pa] = node_around(low_pa);
@@ -87,7 +92,7 @@ DirectPumps::Stroke DirectPumps::MakeStroke(Range compressors, const BestLine& l
 
 // Whether some valve of each group holds, and some switches without pressure at its inlet.
 bool DirectPumps::Suits(const Ranges& ranges, const std::vector<const BestLine*>& lines) const {
-  if (problem_.groups.size() > 1 && problem_.simultaneous) return false;
+  if (SomeAtOnce(problem_)) return false;
   for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
     const int slot = SlotOf(plan_, Family::kValve, g);
     bool switches = false;
@@ -130,21 +135,24 @@ double DirectPumps::Least(const Ranges& ranges, const std::vector<const BestLine
                           double chosen) {
   const PumpCells& cells = choices_.CellsIn(ranges[compressor_]);
   if (!Suits(ranges, lines)) return kUnlimited;
-  const double groups = static_cast<double>(lines.size());
-  const double fill_max_s = std::min(0.5, 1.0 / groups) / problem_.frequency_hz;
   double high_pa = std::min(cells.highest_pa, problem_.source_pressure_max_pa);
   double node_pa = problem_.ambient.pressure_pa;
-  double on_s = 0.0, beyond_j = 0.0, coil_w = 0.0;  // per cycle
-  for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
+  double on_s = 0.0, beyond_j = 0.0, coils_j = 0.0, coil_w = 0.0;  // per cycle
+  for (const Unit& unit : units_) {
+    const int g = unit.group;
+    const double strokes = problem_.groups[g].gait.strokes_per_period;
+    const double share = static_cast<double>(unit.count) / problem_.groups[g].count;
     const BestLine& line = *lines[g];
-    const Stroke& stroke = StrokeOf(ranges[compressor_], line, g);
+    const Stroke& stroke = StrokeOf(ranges[compressor_], line, unit);
+    const double fill_max_s = std::min(FillWindow(problem_, g), UntilNext(problem_, units_, unit));
     if (stroke.inflate_s > fill_max_s * kSlack ||
         stroke.rise_s > problem_.groups[g].rise_time_max_s * kSlack)
       return kUnlimited;
-    on_s += stroke.inflate_s;
-    beyond_j += stroke.pump_j;
-    if (line.all_hold) beyond_j += line.coil_w * stroke.inflate_s;
-    coil_w += line.coil_w;
+    on_s += strokes * stroke.inflate_s;
+    beyond_j += strokes * stroke.pump_j;
+    if (line.all_hold) beyond_j += strokes * share * line.coil_w * stroke.inflate_s;
+    coil_w += share * line.coil_w;
+    coils_j += share * line.coil_w * line.coil_s;
     // A constant source at the highest pressure is faster.
     node_pa = std::max({node_pa, stroke.node_pa, line.source_low_pa});
     high_pa = std::min(high_pa, line.source_high_pa);
@@ -152,8 +160,7 @@ double DirectPumps::Least(const Ranges& ranges, const std::vector<const BestLine
   if (node_pa > high_pa * kSlack || on_s * problem_.frequency_hz > cells.duty_max * kSlack)
     return kUnlimited;
   beyond_j *= problem_.actuations;
-  const double coils_j = problem_.actuations * coil_w * 0.5 / problem_.frequency_hz;
-  return chosen + LeastBattery(ranges, beyond_j + coils_j, node_pa, coil_w) +
+  return chosen + LeastBattery(ranges, beyond_j + problem_.actuations * coils_j, node_pa, coil_w) +
          problem_.objective.energy_wh * beyond_j / 3600.0;
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "verify/corner/verify_pump.h"
+#include "verify/design/cycle/verify_gait.h"
 
 namespace plenum::verify {
 
@@ -31,8 +32,8 @@ class DirectPumps {
   };
   using Range = PumpChoices::Range;
 
-  const Stroke& StrokeOf(Range compressors, const BestLine& line, int group);
-  Stroke MakeStroke(Range compressors, const BestLine& line, int group) const;
+  const Stroke& StrokeOf(Range compressors, const BestLine& line, const Unit& unit);
+  Stroke MakeStroke(Range compressors, const BestLine& line, const Unit& unit) const;
   bool Suits(const Ranges& ranges, const std::vector<const BestLine*>& lines) const;
   double LeastBattery(const Ranges& ranges, double energy_j, double node_pa, double coil_w) const;
 
@@ -41,7 +42,8 @@ class DirectPumps {
   const SlotAmounts& amounts_;
   PumpChoices& choices_;
   int compressor_, battery_;  // slots
-  std::map<std::tuple<Range, const BestLine*, int>, Stroke> known_;
+  std::vector<Unit> units_;
+  std::map<std::tuple<Range, const BestLine*, int, int>, Stroke> known_;
 };
 
 }  // namespace plenum::verify

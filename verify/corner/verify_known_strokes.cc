@@ -5,6 +5,7 @@
 
 #include "model/strokes/stroke.h"
 #include "verify/corner/verify_node.h"
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_finding.h"
 
 namespace plenum::verify {
@@ -27,8 +28,7 @@ const BestLine& KnownStrokes::Line(const Ranges& ranges, int g) {
       {g, tubes.first, tubes.second, fittings.first, fittings.second, valves.first, valves.second});
   if (!fresh) return entry->second;
   BestLine& line = entry->second = BestOf(problem_, plan_, ranges, g);
-  if (line.works && problem_.simultaneous && problem_.groups.size() > 1)
-    line.least_means = LeastMeans(problem_, g, line);
+  if (line.works && AllAtOnce(problem_)) line.least_means = LeastMeans(problem_, g, line);
   return line;
 }
 
@@ -37,17 +37,18 @@ bool KnownStrokes::IsTooSlow(const Query& query, double start_pa) const {
   const double ambient_pa = problem_.ambient.pressure_pa;
   const double temperature_k = problem_.ambient.temperature_k;
   const double target_pa = PressureAt(problem_, g, problem_.rise_fraction);
+  const int count = MostAtOnce(problem_, g);
+  const double share = static_cast<double>(count) / problem_.groups[g].count;
   double low_pa = ambient_pa, high_pa = start_pa;  // around the lowest pressure of the stroke
   while (high_pa - low_pa > kStartTolerance * high_pa) {
     const double p = 0.5 * (low_pa + high_pa);
     const double held =
-        v.low_m3 * (p - start_pa) + Drawn(problem_, g, line.widest, std::min(p, target_pa));
+        v.low_m3 * (p - start_pa) + share * Drawn(problem_, g, line.widest, std::min(p, target_pa));
     (held < 0.0 ? low_pa : high_pa) = p;
   }
-  const double limit_s = std::min(problem_.groups[g].rise_time_max_s, 0.5 / problem_.frequency_hz);
+  const double limit_s = std::min(problem_.groups[g].rise_time_max_s, FillWindow(problem_, g));
   const double pumped_m3 = limit_s * pumps_->DeliveryAt(pumps, low_pa);
-  if (model::FillTimeFromReservoir(line.fill_series, line.chamber, problem_.groups[g].count,
-                                   v.high_m3,
+  if (model::FillTimeFromReservoir(line.fill_series, line.chamber, count, v.high_m3,
                                    start_pa + ContentPerVolume(problem_) * pumped_m3 / v.low_m3,
                                    ambient_pa, target_pa, temperature_k) > limit_s * kSlack)
     return true;

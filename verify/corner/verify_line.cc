@@ -3,6 +3,7 @@
 #include "model/flow/tube.h"
 #include "model/strokes/stroke.h"
 #include "verify/corner/verify_best.h"
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_design.h"
 
 namespace plenum::verify {
@@ -52,6 +53,8 @@ BestLine Gather(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   best.coil_w = group.count * valve.Number("coil_power_w");
   best.some_hold = valve.High("function") > 0.0;
   best.all_hold = valve.Low("function") > 0.0;
+  const double closing_s = CoilSeconds(problem, g, true), open_s = CoilSeconds(problem, g, false);
+  best.coil_s = best.all_hold ? closing_s : best.some_hold ? std::min(closing_s, open_s) : open_s;
   exhaust = valve.Flow("sonic_conductance_exhaust_dm3_per_s_bar");
   switches_pa = valve.Number("pressure_min_kpa_gauge");
   best.source_high_pa =
@@ -108,13 +111,13 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
       model::FlowFactor(gas) * std::sqrt(model::kReferenceTemperatureK / temperature_k);
   // Limits a hair wider than they are, so that rounding in the best of many never decides.
   const double slack = 1.0 + kSumTolerance;
-  const double half_s = 0.5 / problem.frequency_hz * slack;
+  const double window_s = FillWindow(problem, g) * slack;
   std::vector<model::FlowElement> exhaust(best.fill.rbegin(), best.fill.rend());
   exhaust.back() = exhaust_valve;
   const double fall_s =
       model::EmptyTime(model::MakeSeries(exhaust, factor), best.chamber, operating_pa,
                        PressureAt(problem, g, problem.fall_fraction), temperature_k);
-  if (fall_s > std::min(group.fall_time_max_s * slack, half_s)) return best;
+  if (fall_s > std::min(group.fall_time_max_s, VentWindow(problem, g)) * slack) return best;
 
   best.fill_series = model::MakeSeries(best.fill, factor);
   const auto seconds = [&](double source_pa, double to_pa) {
@@ -123,7 +126,7 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   };
   const auto fast_enough = [&](double source_pa) {
     const double inflate_s = seconds(source_pa, operating_pa);
-    return inflate_s <= half_s &&
+    return inflate_s <= window_s &&
            (inflate_s <= group.rise_time_max_s ||
             seconds(source_pa, PressureAt(problem, g, problem.rise_fraction)) <=
                 group.rise_time_max_s * slack);

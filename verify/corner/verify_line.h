@@ -25,6 +25,7 @@ struct BestLine {
   double source_low_pa = 0.0;            // least source pressure that is fast enough
   double source_high_pa = 0.0;           // most that the parts stand
   double coil_w = 0.0;                   // whole group
+  double coil_s = 0.0;                   // it is on in a cycle, at least, whatever the strokes
   double inflate_s = 0.0;                // at the highest pressure; 0 unless all valves hold
   bool some_hold = false, all_hold = true;
   NodeMeans least_means;  // with which it is fast enough, of groups that inflate at once

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/flow/series.h"
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_finding.h"
 
 namespace plenum::verify {
@@ -54,8 +55,6 @@ double LeastMean(const Problem& problem, const BestLine& line, double to_pa, dou
   return most_pa * (1.0 - kSlack);
 }
 
-double HalfPeriod(const Problem& problem) { return 0.5 / problem.frequency_hz; }
-
 // Air that a group must have taken by then, its lines passing no more than `fastest`.
 double TakenBy(const Problem& problem, int g, const BestLine& line, double time_s,
                double fastest_m3_per_s) {
@@ -66,7 +65,7 @@ double TakenBy(const Problem& problem, int g, const BestLine& line, double time_
     return group.count * Air(problem, line, pressure_pa) - later_s * fastest_m3_per_s;
   };
   return std::max({0.0, by(group.rise_time_max_s, PressureAt(problem, g, problem.rise_fraction)),
-                   by(HalfPeriod(problem), group.chamber.operating_pressure_pa)});
+                   by(FillWindow(problem, g), group.chamber.operating_pressure_pa)});
 }
 
 }  // namespace
@@ -75,7 +74,7 @@ NodeMeans LeastMeans(const Problem& problem, int g, const BestLine& line) {
   const ActuatorGroup& group = problem.groups[g];
   return {LeastMean(problem, line, PressureAt(problem, g, problem.rise_fraction),
                     group.rise_time_max_s),
-          LeastMean(problem, line, group.chamber.operating_pressure_pa, HalfPeriod(problem))};
+          LeastMean(problem, line, group.chamber.operating_pressure_pa, FillWindow(problem, g))};
 }
 
 bool TooSlowTogether(const Problem& problem, const NodeSource& source,
@@ -97,7 +96,7 @@ bool TooSlowTogether(const Problem& problem, const NodeSource& source,
       return 0.0;
     return source.source_pa * model::RatioAtFlow(regulator, flow / source.source_pa);
   };
-  const double by_half_pa = highest(HalfPeriod(problem));
+  const double by_half_pa = highest(FillWindow(problem, 0));
   for (int g = 0; g < groups; ++g)
     if (lines[g]->least_means.inflate_pa > by_half_pa * (1.0 + kSlack) ||
         lines[g]->least_means.rise_pa > highest(problem.groups[g].rise_time_max_s) * (1.0 + kSlack))

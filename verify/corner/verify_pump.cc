@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "model/physics/storage.h"
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_finding.h"
 
 namespace plenum::verify {
@@ -41,7 +42,8 @@ Pumps::Pumps(const Problem& problem, const ProofPlan& plan, const SlotAmounts& a
       compressor_(SlotOf(plan, Family::kCompressor, -1)),
       reservoir_(SlotOf(plan, Family::kReservoir, -1)),
       battery_(SlotOf(plan, Family::kBattery, -1)),
-      content_per_m3_(ContentPerVolume(problem)) {}
+      content_per_m3_(ContentPerVolume(problem)),
+      bursts_(Bursts(problem)) {}
 
 // Batteries that can drive some pump of the range at all.
 const Packs& Pumps::PacksIn(Range compressors, Range batteries) {
@@ -73,7 +75,7 @@ KnownStrokes::Query Pumps::QueryOf(const Case& c, int g, Volumes v) const {
 // Of one group what a valve that cannot hold draws above the operating pressure is pumped at no
 // lower a pressure than if it had closed.
 std::vector<double> Pumps::DrawnBy(const BestLine& line, int g) const {
-  const bool one_group = problem_.groups.size() == 1;
+  const bool one_group = problem_.groups.size() == 1;  // and one unit
   const model::Chamber& chamber = one_group ? line.chamber : line.widest;
   const double full_pa = one_group || line.all_hold ? OperatingPa(problem_, g) : kUnlimited;
   std::vector<double> drawn;
@@ -138,16 +140,18 @@ double Pumps::Rest(const Case& c, const std::vector<double>& starts_pa, double s
     on_s += bit_m3 / delivery;
     pump_j += bit_m3 * c.pumps.energy_j_per_m3[cell];
   }
+  const double times = std::max(1, bursts_);
+  on_s *= times;
+  pump_j *= times;
   if (on_s * problem_.frequency_hz > c.pumps.duty_max * kSlack) return kUnlimited;
   const double beyond_j = first_fill_j + problem_.actuations * (pump_j + c.inflating_j);
-  const double coils_j = problem_.actuations * c.coil_w * 0.5 / problem_.frequency_hz;
+  const double coils_j = problem_.actuations * c.coil_j;
   const double made = c.made ? MadeObjective(v.low_m3, stop_pa) : 0.0;
   return made + c.packs.Least(beyond_j + coils_j) +
          problem_.objective.energy_wh * beyond_j / 3600.0;
 }
 
 double Pumps::LeastAt(const Case& c, double reservoir, Volumes v) {
-  const bool together = problem_.simultaneous || c.lines.size() == 1;
   double low_pa = problem_.ambient.pressure_pa;
   double high_pa = std::min(c.pumps.highest_pa, c.reservoir_pa);
   for (const BestLine* line : c.lines) {
@@ -156,8 +160,8 @@ double Pumps::LeastAt(const Case& c, double reservoir, Volumes v) {
   }
   if (!(low_pa <= high_pa)) return kUnlimited;
   const double parts = c.chosen + reservoir;
-  return together ? parts + LeastTogether(c, c.enough - parts, low_pa, high_pa, v)
-                  : parts + LeastInTurns(c, c.enough - parts, low_pa, high_pa, v);
+  return bursts_ > 0 ? parts + LeastTogether(c, c.enough - parts, low_pa, high_pa, v)
+                     : parts + LeastInTurns(c, c.enough - parts, low_pa, high_pa, v);
 }
 
 // One pressure for all, sought only until it is known whether the least that is fast enough is
@@ -213,14 +217,15 @@ bool Pumps::RaiseStarts(const Case& c, double high_pa, Volumes v,
 // Of two groups each finds at least what the other was filled to: air only flows downhill.
 double Pumps::LeastInTurns(const Case& c, double enough, double low_pa, double high_pa, Volumes v) {
   const int groups = static_cast<int>(c.lines.size());
+  const bool alternate = Alternate(problem_);
   std::vector<double> starts_pa(groups, problem_.ambient.pressure_pa);
-  if (groups == 2)
+  if (alternate)
     starts_pa = {std::min(OperatingPa(problem_, 1), high_pa),
                  std::min(OperatingPa(problem_, 0), high_pa)};
   const auto least = [&] {
     const double most_pa = *std::max_element(starts_pa.begin(), starts_pa.end());
-    const std::vector<double> most{most_pa};  // of more than two groups some may draw at once
-    return Rest(c, groups > 2 ? most : starts_pa, std::max(low_pa, most_pa), v);
+    const std::vector<double> most{most_pa};  // of others some may draw at once
+    return Rest(c, alternate ? starts_pa : most, std::max(low_pa, most_pa), v);
   };
   const double quick = least();
   if (quick > enough) return quick;
@@ -229,7 +234,7 @@ double Pumps::LeastInTurns(const Case& c, double enough, double low_pa, double h
     if (!needed_pa) return kUnlimited;
     starts_pa[g] = *needed_pa;
   }
-  if (groups == 2 && !RaiseStarts(c, high_pa, v, starts_pa)) return kUnlimited;
+  if (alternate && !RaiseStarts(c, high_pa, v, starts_pa)) return kUnlimited;
   return least();
 }
 
@@ -256,11 +261,13 @@ double Pumps::Least(const Ranges& ranges, const std::vector<const BestLine*>& li
          kUnlimited,
          false};
   for (int g = 0; g < static_cast<int>(lines.size()); ++g) {
-    c.air_m3 += Drawn(problem_, g, lines[g]->chamber, OperatingPa(problem_, g)) / content_per_m3_;
-    c.coil_w += lines[g]->coil_w;
-    c.inflating_j += lines[g]->coil_w * lines[g]->inflate_s;
+    const double strokes = problem_.groups[g].gait.strokes_per_period;
+    c.air_m3 += (bursts_ > 0 ? 1.0 : strokes) *
+                Drawn(problem_, g, lines[g]->chamber, OperatingPa(problem_, g)) / content_per_m3_;
+    c.coil_j += lines[g]->coil_w * lines[g]->coil_s;
+    c.inflating_j += strokes * lines[g]->coil_w * lines[g]->inflate_s;
   }
-  if (lines.size() == 1 || (lines.size() == 2 && !problem_.simultaneous))
+  if ((lines.size() == 1 && bursts_ > 0) || Alternate(problem_))
     for (int g = 0; g < static_cast<int>(lines.size()); ++g)
       c.drawn.push_back(DrawnBy(*lines[g], g));
   else

@@ -9,7 +9,7 @@
 // reservoir that holds all of it from the start is at every instant as full as the real one, and
 // its rise time bounds p_1 from below. For several groups D is the air of a whole cycle; where two
 // groups take turns the cheapest bits of both strokes count. Volumes: p rises with V, and so does
-// the stroke.
+// the stroke. Bursts (verify_gait.h) that come several times in a cycle take so many times as much.
 #ifndef PLENUM_VERIFY_CORNER_VERIFY_PUMP_H_
 #define PLENUM_VERIFY_CORNER_VERIFY_PUMP_H_
 
@@ -56,7 +56,8 @@ class Pumps {
     // For each stroke that counts by itself the content, Pa·m³, that is drawn by the time that the
     // reservoir is at the lower end of each cell; of all strokes together that of a cycle.
     std::vector<std::vector<double>> drawn;
-    double air_m3, coil_w, inflating_j;  // per cycle
+    double air_m3;               // of a burst, or of a cycle where there are none
+    double coil_j, inflating_j;  // per cycle
     double chosen, enough;
     double reservoir_pa;  // most that it stands
     bool made;            // to measure
@@ -82,6 +83,7 @@ class Pumps {
   PumpChoices& choices_;
   int compressor_, reservoir_, battery_;  // slots
   double content_per_m3_;                 // κ
+  int bursts_;                            // in a cycle; 0: other strokes
   std::map<std::array<int, 4>, Packs> packs_;
 };
 

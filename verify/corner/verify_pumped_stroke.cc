@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_finding.h"
 
 namespace plenum::verify {
@@ -24,7 +25,8 @@ class Stroke {
         volumes_(volumes),
         start_pa_(start_pa),
         content_per_m3_(ContentPerVolume(problem)),
-        half_s_(0.5 / problem.frequency_hz * (1.0 + kSumTolerance)) {}
+        count_(MostAtOnce(problem, group)),
+        window_s_(FillWindow(problem, group) * (1.0 + kSumTolerance)) {}
 
   PumpedStroke Run() {
     PumpedStroke stroke;
@@ -35,11 +37,14 @@ class Stroke {
     if (!FillTo(operating_pa, kPanelsBeyond)) return stroke;
     stroke.inflate_s = seconds_;
     RefillClosed(operating_pa);
-    stroke.end_pa = MostSource(pumped_, Drawn(problem_, group_, line_.chamber, operating_pa));
+    stroke.end_pa = MostSource(pumped_, DrawnAtOnce(line_.chamber, operating_pa));
     return stroke;
   }
 
  private:
+  double DrawnAtOnce(const model::Chamber& chamber, double pressure_pa) const {
+    return Drawn(problem_, group_, chamber, pressure_pa) * count_ / problem_.groups[group_].count;
+  }
   double MostSource(double pumped, double drawn) const {
     return start_pa_ + (pumped - drawn) / (pumped < drawn ? volumes_.high_m3 : volumes_.low_m3);
   }
@@ -47,7 +52,7 @@ class Stroke {
   // all of them would be equal.
   double LeastSource(double pumped, double full_pa) const {
     const auto left_by = [&](double p) {
-      const double drawn = Drawn(problem_, group_, line_.widest, p);
+      const double drawn = DrawnAtOnce(line_.widest, p);
       return start_pa_ + (pumped - drawn) / (pumped < drawn ? volumes_.low_m3 : volumes_.high_m3);
     };
     const double left_pa = left_by(full_pa);
@@ -65,7 +70,7 @@ class Stroke {
            choices_.DeliveryAt(pumps_, std::max(source_pa, problem_.ambient.pressure_pa));
   }
 
-  // False: that takes more than half of the period.
+  // False: that takes more than the window.
   bool FillTo(double end_pa, int panels) {
     const double begin_pa = pressure_pa_ > 0.0 ? pressure_pa_ : problem_.ambient.pressure_pa;
     const auto knot_pa = [&](int i) {  // closer to each other towards the end, where flow falls
@@ -82,17 +87,17 @@ class Stroke {
 
   // The air pumped by its end is where it makes the panel last just as long as that takes.
   bool FillPanel(double from_pa, double to_pa) {
-    const double drawn = Drawn(problem_, group_, line_.chamber, from_pa);
-    const double more = Drawn(problem_, group_, line_.chamber, to_pa) - drawn;
+    const double drawn = DrawnAtOnce(line_.chamber, from_pa);
+    const double more = DrawnAtOnce(line_.chamber, to_pa) - drawn;
     const double rate = MostDelivered(LeastSource(pumped_, to_pa));
     const auto panel_s = [&](double pumped) {
       const double source_pa = MostSource(pumped, drawn);
       if (!(source_pa > from_pa)) return kUnlimited;
-      const double flow = problem_.groups[group_].count * content_per_m3_ * kFlowSlack * source_pa *
-                          line_.fill_flow(from_pa / source_pa);
+      const double flow =
+          count_ * content_per_m3_ * kFlowSlack * source_pa * line_.fill_flow(from_pa / source_pa);
       return flow > 0.0 ? more / flow : kUnlimited;
     };
-    double low = pumped_, high = pumped_ + rate * (half_s_ - seconds_);
+    double low = pumped_, high = pumped_ + rate * (window_s_ - seconds_);
     if (!(pumped_ + rate * panel_s(high) <= high)) return false;
     high = std::min(high, pumped_ + rate * panel_s(pumped_));
     while (MostSource(high, drawn) - MostSource(low, drawn) > kSourceTolerance * from_pa) {
@@ -101,12 +106,12 @@ class Stroke {
     }
     pumped_ = high;
     seconds_ += panel_s(high);
-    return seconds_ <= half_s_;
+    return seconds_ <= window_s_;
   }
 
   // A valve that cannot hold draws on, from a source at the operating pressure or above.
   void RefillClosed(double operating_pa) {
-    const double left_s = half_s_ - seconds_;
+    const double left_s = window_s_ - seconds_;
     const double open = line_.all_hold ? 0.0 : pumped_ + left_s * MostDelivered(operating_pa);
     for (int i = 0; i < kStepsClosed; ++i)
       pumped_ += left_s / kStepsClosed * MostDelivered(LeastSource(pumped_, operating_pa));
@@ -120,7 +125,9 @@ class Stroke {
   int group_;
   Volumes volumes_;
   double start_pa_;
-  double content_per_m3_, half_s_;
+  double content_per_m3_;
+  int count_;
+  double window_s_;
   double pressure_pa_ = 0.0, pumped_ = 0.0, seconds_ = 0.0;
 };
 

@@ -20,11 +20,12 @@ struct Volumes {  // of a reservoir
 };
 
 struct PumpedStroke {
-  double rise_s = kUnlimited, inflate_s = kUnlimited;  // at least; +∞: more than half of the period
-  double end_pa = 0.0;  // of the reservoir after half of the period, at most; where it inflates
+  double rise_s = kUnlimited, inflate_s = kUnlimited;  // at least; +∞: more than the window
+  double end_pa = 0.0;  // of the reservoir after the window, at most; where it inflates
 };
 
-// Of a group that is alone on a reservoir with `start_pa`; no pump stops.
+// Of the most actuators of a group that fill at once, alone on a reservoir with `start_pa`; no pump
+// stops.
 PumpedStroke FastestStroke(const Problem& problem, const PumpChoices& choices,
                            const PumpCells& pumps, const BestLine& line, int group, Volumes volumes,
                            double start_pa);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/physics/storage.h"
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_families.h"
 #include "verify/design/verify_tank.h"
 
@@ -32,7 +33,8 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const P
       if (slot.family == Family::kValve) {
         const model::Valve& valve = problem.parts.valves[item.part];
         pieces = std::ceil(static_cast<double>(group.count) / valve.channels);
-        energy_j = problem.actuations * group.count * valve.coil_power_w / problem.frequency_hz / 2;
+        energy_j = problem.actuations * group.count * valve.coil_power_w *
+                   CoilSeconds(problem, slot.group, model::Holds(valve.kind));
       }
     }
     if (slot.family == Family::kRegulator)

@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "model/physics/storage.h"
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_supply.h"
 #include "verify/design/verify_tank.h"
 
@@ -152,7 +153,7 @@ class PressureSizing {
   // takes at least the share `held_`.
   double LeastPumpEnergy(double source_pa, const Cycle& low) const {
     // One group that is filled up to the stop pressure ends there without end, and takes its air.
-    const bool alone = problem_.groups.size() == 1;
+    const bool alone = UnitsOf(problem_).size() == 1;
     if (!alone && !std::isfinite(*std::max_element(low.inflate_s.begin(), low.inflate_s.end())))
       return 0.0;
     const model::CompressorCurve& curve = assembly_.compressor->curve;
@@ -168,12 +169,10 @@ class PressureSizing {
 
   double StrokeExcess(const Cycle& cycle) const {
     double excess = -kUnlimited;
-    const double half_s = 0.5 / problem_.frequency_hz;
-    const double fill_max_s = FillSecondsMax(problem_, assembly_);
-    for (std::size_t g = 0; g < problem_.groups.size(); ++g)
-      excess = std::max({excess, cycle.inflate_s[g] / fill_max_s - 1.0,
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
+      excess = std::max({excess, cycle.inflate_s[g] / FillSecondsMax(problem_, assembly_, g) - 1.0,
                          cycle.rise_s[g] / problem_.groups[g].rise_time_max_s - 1.0,
-                         cycle.fall_s[g] / half_s - 1.0,
+                         cycle.fall_s[g] / VentWindow(problem_, g) - 1.0,
                          cycle.fall_s[g] / problem_.groups[g].fall_time_max_s - 1.0});
     return excess;
   }

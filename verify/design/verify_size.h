@@ -9,7 +9,7 @@
 #ifndef PLENUM_VERIFY_DESIGN_VERIFY_SIZE_H_
 #define PLENUM_VERIFY_DESIGN_VERIFY_SIZE_H_
 
-#include "verify/design/verify_known_cycles.h"
+#include "verify/design/cycle/verify_known_cycles.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {

@@ -2,7 +2,8 @@
 #include "verify/design/verify_supply.h"
 
 #include "model/physics/storage.h"
-#include "verify/design/verify_pump_curve.h"
+#include "verify/design/cycle/verify_gait.h"
+#include "verify/design/cycle/verify_pump_curve.h"
 #include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
@@ -29,7 +30,7 @@ Pressures StoodPressures(const Problem& problem, const Assembly& a) {
     high_pa = std::min(high_pa, MostFillPa(problem, a));
   }
   if (a.direct()) {
-    if (problem.groups.size() > 1 && problem.simultaneous) return {kUnlimited, 0.0};
+    if (SomeAtOnce(problem)) return {kUnlimited, 0.0};
     for (const LineParts& line : a.lines)
       if (!model::Holds(line.valve->kind) ||
           line.valve->pressure_min_pa > problem.ambient.pressure_pa)
@@ -52,10 +53,12 @@ Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly
   const double source_pa = settings.source_pressure_pa;
   const double inlet_pa =
       a.regulator ? std::max(source_pa, a.regulator->inlet_pressure_min_pa) : 0.0;
-  double slowest_s = 0.0;
-  for (std::size_t g = 0; g < a.lines.size(); ++g)
-    slowest_s = std::max({slowest_s, cycle.inflate_s[g], cycle.fall_s[g]});
-  supply.frequency_hz = 0.5 / slowest_s;
+  supply.frequency_hz = kUnlimited;
+  for (int g = 0; g < static_cast<int>(a.lines.size()); ++g) {
+    const double share = std::max(cycle.inflate_s[g] / FillWindow(problem, g),
+                                  cycle.fall_s[g] / VentWindow(problem, g));
+    supply.frequency_hz = std::min(supply.frequency_hz, problem.frequency_hz / share);
+  }
   if (a.cylinder)
     supply.gas_m3 = a.bottles * model::CylinderUsableVolume(a.cylinder->water_volume_m3,
                                                             a.cylinder->fill_pressure_pa, inlet_pa,
@@ -74,9 +77,10 @@ Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly
     const double ambient_pa = problem.ambient.pressure_pa;
     const double volume_m3 = settings.reservoir_volume_m3.value_or(0.0) + a.ReservoirSpread();
     if (a.direct()) {
-      for (const double inflate_s : cycle.inflate_s)
-        supply.frequency_hz = std::min(
-            supply.frequency_hz, FillSecondsMax(problem, a) * problem.frequency_hz / inflate_s);
+      for (int g = 0; g < static_cast<int>(a.lines.size()); ++g)
+        supply.frequency_hz =
+            std::min(supply.frequency_hz,
+                     FillSecondsMax(problem, a, g) * problem.frequency_hz / cycle.inflate_s[g]);
     } else {
       supply.first_fill_j =
           model::EnergyToFill(a.compressor->curve, volume_m3, ambient_pa, source_pa, temperature_k);

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "verify/design/verify_cycle.h"
+#include "verify/design/cycle/verify_cycle.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {

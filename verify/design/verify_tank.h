@@ -56,7 +56,8 @@ inline double StrokeAir(const Problem& problem, const Assembly& a, int g) {
 // Of an open tank, by the strokes of all groups in so many periods.
 inline double FallPa(const Problem& problem, const Assembly& a, double periods) {
   double air_m3 = 0.0;
-  for (int g = 0; g < static_cast<int>(a.lines.size()); ++g) air_m3 += StrokeAir(problem, a, g);
+  for (int g = 0; g < static_cast<int>(a.lines.size()); ++g)
+    air_m3 += problem.groups[g].gait.strokes_per_period * StrokeAir(problem, a, g);
   return periods * air_m3 / model::StandardVolume(TankVolume(a), problem.ambient.temperature_k);
 }
 

@@ -4,8 +4,9 @@
 #include <map>
 #include <set>
 
+#include "verify/design/cycle/verify_gait.h"
+#include "verify/design/cycle/verify_pump_curve.h"
 #include "verify/design/verify_families.h"
-#include "verify/design/verify_pump_curve.h"
 #include "verify/tree/verify_box.h"
 
 namespace plenum::verify {
@@ -240,9 +241,8 @@ class RecordCheck {
 }  // namespace
 
 bool FlowMustBeEqual(const Problem& problem, Configuration configuration) {
-  const std::size_t groups = problem.groups.size();
-  if (!IsPumped(configuration)) return groups > 1 && (problem.simultaneous || groups > 2);
-  return (groups > 1 && configuration == Configuration::kCompressor) ||
+  if (!IsPumped(configuration)) return MayOverlap(problem);
+  return (UnitsOf(problem).size() > 1 && configuration == Configuration::kCompressor) ||
          !std::all_of(problem.parts.compressors.begin(), problem.parts.compressors.end(),
                       [&](const model::Compressor& pump) {
                         return EnergyPerAirHeld(pump.curve, problem.ambient.pressure_pa,

@@ -6,6 +6,7 @@
 
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/read/design_reader.h"
+#include "api/design/read/gait_reader.h"
 #include "api/design/read/objective_reader.h"
 #include "api/design/read/power.h"
 #include "api/design/read/selection.h"
@@ -57,6 +58,7 @@ optimizer::ActuatorGroup ReadGroup(const Element& element, std::size_t index,
   group.fall_time_max_s =
       reader.OptionalNumber("fall_time_s_max", kTimeLimitS).value_or(optimizer::kUnlimited);
 
+  group.gait = ReadGait(reader, group.count);
   remarks.uncertainty = ReadGroupUncertainty(reader);
   const double operating_kpa = remarks.operating_kpa =
       KpaGaugeFromPa(group.chamber.operating_pressure_pa, ambient);
@@ -104,7 +106,7 @@ void ReadConfigurations(Reader& supply, bool has_mains, optimizer::Problem& prob
 }
 
 // What pumps without a reservoir feed.
-void ReadPumps(Reader& request, Reader& supply, const optimizer::Problem& problem) {
+void ReadPumps(Reader& supply, const optimizer::Problem& problem) {
   const bool named = problem.configurations.contains(Configuration::kDirectPump);
   const bool several = problem.groups.size() > 1;
   std::string pumps = "shared";
@@ -120,10 +122,6 @@ void ReadPumps(Reader& request, Reader& supply, const optimizer::Problem& proble
     supply.Fail("pumps",
                 "must be shared where there are several groups, not \"per_group\": pumps of their "
                 "own for each group are not searched yet");
-  if (named && several && problem.simultaneous)
-    request.FailAt("duty/simultaneous",
-                   "must be false with the configuration direct_pump, whose pumps fill one group "
-                   "after another");
 }
 
 void ReadSupply(Reader& request, optimizer::Problem& problem) {
@@ -139,7 +137,7 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
     mains->Finish();
   }
   ReadConfigurations(supply, mains.has_value(), problem);
-  ReadPumps(request, supply, problem);
+  ReadPumps(supply, problem);
   ReadPower(supply, problem);
   const auto source = supply.OptionalNumber("source_pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
   if (source) problem.source_pressure_max_pa = PaFromKpaGauge(*source, problem.ambient);
@@ -325,6 +323,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   problem.rise_fraction = fractions.rise;
   problem.fall_fraction = fractions.fall;
   ReadSupply(reader, problem);
+  CheckGaits(reader, problem);
   CheckPressures(problem, groups, errors);
   ReadObjective(reader, problem.objective, parsed.pareto);
   const std::optional<double> probability_min = ReadRanking(reader, parsed);

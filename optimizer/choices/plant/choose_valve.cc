@@ -60,9 +60,9 @@ void Planter::PlantValves(int g, const LineMates& mates) {
     if (plan_->configuration != Configuration::kDirectPump)
       corner.pressure_min_pa =
           std::max(corner.pressure_min_pa, group.chamber.operating_pressure_pa);
-    // A coil takes power for half of the period at least.
-    corner.objective +=
-        EnergyWeight(problem_) * problem_.actuations * corner.coil_power_w * HalfPeriod(problem_);
+    // A coil takes power for so long at least.
+    corner.objective += EnergyWeight(problem_) * problem_.actuations * corner.coil_power_w *
+                        CoilSeconds(problem_, g, model::Holds(parts[i].kind));
   };
   PlantSlot(Family::kValve, g, ChoicesOf(Family::kValve),
             MakeEntries<ValveCorner>(Family::kValve, mates.fittings, count, rule),

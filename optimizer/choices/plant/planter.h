@@ -137,9 +137,10 @@ class Planter {
   // the same time, as they never do of pumps without a reservoir, and for a pump only where more
   // pressure costs more energy per air.
   bool LinesMeet() const {
-    const int groups = static_cast<int>(problem_.groups.size());
-    if (!IsPumped(plan_->configuration)) return groups > 1 && (problem_.simultaneous || groups > 2);
-    if (groups > 1 && plan_->configuration == Configuration::kCompressor) return true;
+    if (!IsPumped(plan_->configuration)) return WindowsOverlap(problem_);
+    if (plan_->configuration == Configuration::kCompressor &&
+        MeetingOf(problem_) != Meeting::kAlone)
+      return true;
     return !std::all_of(problem_.parts.compressors.begin(), problem_.parts.compressors.end(),
                         [&](const model::Compressor& c) {
                           return EnergyPerAirRises(c.curve, problem_.ambient.pressure_pa,

@@ -8,7 +8,7 @@
 #include "optimizer/bounds/box.h"
 #include "optimizer/choices/make_line.h"
 #include "optimizer/choices/make_plan.h"
-#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/pump/stroke_bound.h"
 #include "optimizer/sizing/sizing.h"
 #include "tests/support/brute_force.h"
@@ -169,7 +169,7 @@ void ExpectMissionEnergyHolds(const Problem& problem, const Candidate& candidate
                  optimizer::LeastInflateTime(problem, g, line, facts,
                                              {source_pa, source_pa, need->low_m3, need->high_m3}));
     coils_j += problem.actuations *
-               optimizer::CoilEnergyPerCycle(problem, line, line.all_hold ? inflate_s : 0.0);
+               optimizer::CoilEnergyPerCycle(problem, g, line, line.all_hold ? inflate_s : 0.0);
   }
   EXPECT_GE(energy_j, 0.999 * (need->energy_j - problem.actuations * load.coil_j + coils_j));
   EXPECT_LE(energy_j, optimizer::Evaluate(problem, candidate, leaf.point).energy_total_j * 1.0001);

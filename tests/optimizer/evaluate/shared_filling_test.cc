@@ -1,12 +1,12 @@
 // Groups that fill together take as long as in a simulation of the whole cycle.
-#include "optimizer/evaluate/shared_filling.h"
+#include "optimizer/evaluate/strokes/shared_filling.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 
-#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "model/simulate/periodic.h"
-#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/pump/pump_bounds.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"
@@ -127,7 +127,7 @@ TEST(StrokeBoundTest, GroupsThatTakeTurnsFindNoLessThanTheyNeed) {
               }
               for (const model::Stroke& stroke : state->response.strokes)
                 if (stroke.state == model::ValveState::kInflate &&
-                    !(stroke.to_operating_s <= optimizer::HalfPeriod(problem)))
+                    !(stroke.to_operating_s <= optimizer::InflateWindow(problem, 0)))
                   return;
               const double wider = Chance(random, 0.5) ? 1.0 : 1.1;
               const auto raise = [&](const Problem& of, double high_pa,

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "model/simulate/simulate.h"
-#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "optimizer/search/tree_search.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/small_catalogue.h"

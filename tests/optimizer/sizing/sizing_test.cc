@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/mass_form.h"
 #include "tests/support/small_catalogue.h"

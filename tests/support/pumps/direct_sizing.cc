@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <vector>
 
 #include "model/flow/series.h"
 #include "tests/support/iso_chain.h"
@@ -115,7 +117,7 @@ class Stroke {
   double highest_pa_;
 };
 
-// Batteries are the innermost choice of an enumeration: the last stroke of each group is kept.
+// Batteries are the innermost choice of an enumeration: the last stroke of each squad is kept.
 const Filled& Known(std::size_t group, const Filling& filling) {
   struct Last {
     Filling filling;
@@ -127,7 +129,7 @@ const Filled& Known(std::size_t group, const Filling& filling) {
   return last[group].filled;
 }
 
-Filling FillingOf(const Problem& problem, const Candidate& candidate, std::size_t g) {
+Filling FillingOf(const Problem& problem, const Candidate& candidate, std::size_t g, int count) {
   const Line& line = *candidate.lines[g];
   const double ambient_pa = problem.ambient.pressure_pa;
   Filling filling;
@@ -135,12 +137,55 @@ Filling FillingOf(const Problem& problem, const Candidate& candidate, std::size_
   filling.elements = line.fill;
   filling.chamber = line.chamber;
   filling.pumps = candidate.compressor.quantity;
-  filling.count = problem.groups[g].count;
+  filling.count = count;
   filling.ambient_pa = ambient_pa;
   filling.target_pa =
       ambient_pa + problem.rise_fraction * (line.chamber.operating_pressure_pa - ambient_pa);
   filling.temperature_k = problem.ambient.temperature_k;
   return filling;
+}
+
+// Actuators that fill at once, and when, as shares of the period.
+struct Fills {
+  std::size_t group;
+  int count;
+  std::vector<double> begins;
+};
+
+std::vector<Fills> FillsOf(const Problem& problem) {
+  std::vector<Fills> all;
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    const optimizer::ActuatorGroup& group = problem.groups[g];
+    const int n = group.gait.strokes_per_period;
+    std::map<double, int> counts;
+    if (group.gait.phases.empty())
+      counts[problem.simultaneous
+                 ? 0.0
+                 : static_cast<double>(g) / static_cast<double>(problem.groups.size()) / n] =
+          group.count;
+    for (const double phase : group.gait.phases)
+      counts[phase] += group.gait.phases.size() == 1 ? group.count : 1;
+    for (const auto& [phase, count] : counts) {
+      Fills fills{g, count, {}};
+      for (int k = 0; k < n; ++k)
+        fills.begins.push_back(std::fmod(phase + static_cast<double>(k) / n, 1.0));
+      all.push_back(fills);
+    }
+  }
+  return all;
+}
+
+// Share of the period until any other begins, or 0 where one begins at the same time.
+double ShareUntilNext(const std::vector<Fills>& all, const Fills& one) {
+  double least = 1.0;
+  for (const Fills& other : all)
+    for (const double next : other.begins)
+      for (const double begin : one.begins) {
+        if (&other == &one && next == begin) continue;
+        const double share = std::fmod(next - begin + 1.0, 1.0);
+        least = std::min(least, share < 1e-9 || share > 1.0 - 1e-9 ? 0.0 : share);
+      }
+  return least;
 }
 
 double MostCurrent(const model::CompressorCurve& curve, double low_pa, double high_pa) {
@@ -157,31 +202,41 @@ double MostCurrent(const model::CompressorCurve& curve, double low_pa, double hi
 optimizer::Leaf SizeDirectPump(const Problem& problem, const Candidate& candidate) {
   optimizer::Leaf leaf;
   leaf.status = optimizer::LeafStatus::kInfeasible;
-  const std::size_t groups = candidate.lines.size();
-  if (groups > 1 && problem.simultaneous) return leaf;
-  const double period_s = 1.0 / problem.frequency_hz, half_s = 0.5 * period_s;
-  const double turn_s = std::min(half_s, period_s / static_cast<double>(groups));
+  const double period_s = 1.0 / problem.frequency_hz;
+  const std::vector<Fills> fills = FillsOf(problem);
   const model::Compressor& pump = problem.parts.compressors[candidate.compressor.index];
   const model::Battery& pack = problem.parts.batteries[candidate.battery.index];
   double on_s = 0.0, per_cycle_j = 0.0, coil_w = 0.0, highest_pa = problem.ambient.pressure_pa;
   optimizer::Amounts sum;
-  for (std::size_t g = 0; g < groups; ++g) {
+  std::vector<double> slowest_s(candidate.lines.size(), 0.0);
+  for (std::size_t f = 0; f < fills.size(); ++f) {
+    const std::size_t g = fills[f].group;
+    const optimizer::Gait& gait = problem.groups[g].gait;
+    const double stroke_s = period_s / gait.strokes_per_period;
+    const double open_s = gait.inflate_fraction * stroke_s;
+    const double turn_s = std::min(open_s, ShareUntilNext(fills, fills[f]) * period_s);
     const Line& line = *candidate.lines[g];
     const model::Valve& valve = problem.parts.valves[line.valve];
     if (valve.kind == model::ValveKind::kThreeWay ||
         valve.pressure_min_pa > problem.ambient.pressure_pa ||
-        line.fall_time_s > std::min(half_s, problem.groups[g].fall_time_max_s))
+        line.fall_time_s > std::min(stroke_s - open_s, problem.groups[g].fall_time_max_s))
       return leaf;
-    const Filled& filled = Known(g, FillingOf(problem, candidate, g));
+    const Filled& filled = Known(f, FillingOf(problem, candidate, g, fills[f].count));
     if (filled.inflate_s > turn_s || filled.rise_s > problem.groups[g].rise_time_max_s) return leaf;
     highest_pa = std::max(highest_pa, filled.highest_pa);
-    on_s += filled.inflate_s;
-    per_cycle_j += filled.pump_j + line.coil_power_w * (half_s + filled.inflate_s);
+    on_s += gait.strokes_per_period * filled.inflate_s;
+    per_cycle_j += gait.strokes_per_period * filled.pump_j;
+    slowest_s[g] = std::max(slowest_s[g], filled.inflate_s);
+  }
+  for (std::size_t g = 0; g < candidate.lines.size(); ++g) {
+    const Line& line = *candidate.lines[g];
+    const optimizer::Gait& gait = problem.groups[g].gait;
+    const double vent_s = (1.0 - gait.inflate_fraction) * period_s;
+    if (highest_pa > line.source_max_pa) return leaf;
+    per_cycle_j += line.coil_power_w * (vent_s + gait.strokes_per_period * slowest_s[g]);
     coil_w += line.coil_power_w;
     sum += line.amounts;
   }
-  for (const Line* line : candidate.lines)
-    if (highest_pa > line->source_max_pa) return leaf;
   sum += candidate.compressor.amounts;
   sum += candidate.battery.amounts;
   const double packs = candidate.battery.quantity;

@@ -1,7 +1,7 @@
 // The two ways of the verifier to a cycle, the simulator and the quadratures, against each other
 // where it is hardest: a reservoir that falls to the operating pressure, so that pumps lift it
 // together with the actuators and a pascal of lead is a millisecond of inflating.
-#include "verify/design/verify_cycle.h"
+#include "verify/design/cycle/verify_cycle.h"
 
 #include <gtest/gtest.h>
 

@@ -83,14 +83,40 @@ function sourceOf(design: Design, requirements: Requirements, parts: Parts, chan
   };
 }
 
-// Commands of group `index` of `n`: staggered groups begin a share of the period later.
-function schedule(requirements: Requirements, index: number, n: number, cycles: number) {
+export const traceName = (trace: { name: string; phase?: number }) =>
+  trace.phase === undefined ? trace.name : `${trace.name}, phase ${trace.phase}`;
+
+// Actuators of a group that are filled at once, and from when in the period on.
+function squadsOf(requirements: Requirements) {
+  const groups = requirements.actuators;
+  return groups.flatMap((group, g) => {
+    const strokes = group.strokes_per_period ?? 1;
+    const turn = requirements.duty.simultaneous === false ? g / groups.length / strokes : 0;
+    const given = group.phase ?? turn;
+    const phases = (Array.isArray(given) ? given : [Number(given)]).map((phase) => phase % 1);
+    const begins = [...new Set(phases)].sort((a, b) => a - b);
+    return begins.map((phase) => ({
+      group,
+      phase,
+      count: phases.length > 1 ? phases.filter((p) => p === phase).length : group.count,
+      name: traceName({ name: group.name, ...(begins.length > 1 && { phase }) }),
+    }));
+  });
+}
+
+function schedule(requirements: Requirements, group: Group, phase: number, cycles: number) {
   const period = 1 / requirements.duty.frequency_hz;
-  const phase = requirements.duty.simultaneous === false ? index / n : 0;
-  return Array.from({ length: cycles }, (_, cycle) => [
-    { t_s: (cycle + phase) * period, state: 'inflate' },
-    { t_s: (cycle + phase + 0.5) * period, state: 'deflate' },
-  ]).flat();
+  const strokes = group.strokes_per_period ?? 1;
+  const open = (group.inflate_fraction ?? 0.5) / strokes;
+  const begins = Array.from({ length: strokes }, (_, k) => (phase + k / strokes) % 1).sort(
+    (a, b) => a - b,
+  );
+  return Array.from({ length: cycles }, (_, cycle) =>
+    begins.flatMap((begin) => [
+      { t_s: (cycle + begin) * period, state: 'inflate' },
+      { t_s: (cycle + begin + open) * period, state: 'deflate' },
+    ]),
+  ).flat();
 }
 
 // Volume and pressure of a group's actuator, as requests have them.
@@ -110,7 +136,6 @@ export function simulationOf(
   effects: Effect[] = [],
 ): unknown {
   const requirements = changed(asked, change);
-  const groups = requirements.actuators;
   const end = cycles / requirements.duty.frequency_hz;
   // What a sensor would show is not what rankings are about.
   const acting = effects.filter((effect) => !effect.id.startsWith('sensor_'));
@@ -121,15 +146,15 @@ export function simulationOf(
     ...(requirements.ambient && { ambient: requirements.ambient }),
     ...(requirements.rise && { rise: requirements.rise }),
     ...(requirements.fall && { fall: requirements.fall }),
-    actuators: groups.map((group, i) => {
+    actuators: squadsOf(requirements).map(({ group, phase, count, name }) => {
       const valve = parts.get(rowOf(design, 'valve', group.name)?.id ?? '');
       return {
-        name: group.name,
-        count: group.count,
+        name,
+        count,
         ...chamberOf(group),
         close_at_operating_pressure: valve?.function !== '3/2',
         line: lineOf(design, group),
-        valve: schedule(requirements, i, groups.length, cycles),
+        valve: schedule(requirements, group, phase, cycles),
       };
     }),
     source: sourceOf(design, requirements, parts, change),

@@ -18,6 +18,9 @@ export interface Group {
   fall_time_s_max?: number | null;
   pressure_kpa_gauge_max?: number | null;
   relative_uncertainty?: { rest_volume?: number; expansion_ratio?: number };
+  phase?: number | number[] | string;
+  inflate_fraction?: number;
+  strokes_per_period?: number;
 }
 
 export type Configuration = 'cylinder' | 'co2' | 'compressor' | 'mains' | 'tank' | 'direct_pump';
@@ -96,7 +99,7 @@ export interface Margin {
 
 export interface Trace {
   t_s: number[];
-  groups: { name: string; pressure_kpa_gauge: (number | null)[] }[];
+  groups: { name: string; count?: number; phase?: number; pressure_kpa_gauge: (number | null)[] }[];
   source_pressure_kpa_gauge: (number | null)[];
 }
 

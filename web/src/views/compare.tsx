@@ -11,6 +11,7 @@ import {
 import { change, percent, signed } from '../lib/format';
 import { link, route, setQuery } from '../lib/route';
 import { seriesColours } from '../lib/theme';
+import { traceName } from '../lib/rig';
 import type { Answer, Design } from '../lib/types';
 import { pressuresShown, unitOf } from '../lib/units';
 import { type Line, Lines } from '../plots/lines';
@@ -41,7 +42,7 @@ export function ComparePanel({ answer, id }: { answer: Answer; id: string }) {
       <Panel title="Parts">
         <PartsSideBySide designs={designs} />
       </Panel>
-      <Responses designs={designs} answer={answer} />
+      <Responses designs={designs} />
     </>
   );
 }
@@ -175,11 +176,8 @@ function PartsSideBySide({ designs }: { designs: Design[] }) {
   );
 }
 
-function Responses({ designs, answer }: { designs: Design[]; answer: Answer }) {
-  const names = [
-    ...answer.requirements.actuators.map((g, i) => g.name ?? `group ${i + 1}`),
-    'source',
-  ];
+function Responses({ designs }: { designs: Design[] }) {
+  const names = [...designs[0]!.response.groups.map(traceName), 'source'];
   const asked = route.value.query.get('show');
   const name = asked && names.includes(asked) ? asked : names[0]!;
   const x = designs[0]!.response.t_s;
@@ -188,7 +186,7 @@ function Responses({ designs, answer }: { designs: Design[]; answer: Answer }) {
     const values =
       name === 'source'
         ? source_pressure_kpa_gauge
-        : (groups.find((g) => g.name === name)?.pressure_kpa_gauge ?? []);
+        : (groups.find((g) => traceName(g) === name)?.pressure_kpa_gauge ?? []);
     const shown = t_s.length === x.length ? pressuresShown(values) : x.map(() => null);
     return {
       label: `#${design.rank} ${supplyWord(design)}`,

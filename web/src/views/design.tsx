@@ -4,7 +4,7 @@ import { useEffect } from 'preact/hooks';
 
 import { powerWord, supplyWord } from '../lib/amounts';
 import { significant } from '../lib/format';
-import { type Parts, partsOf } from '../lib/rig';
+import { traceName, type Parts, partsOf } from '../lib/rig';
 import { link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
 import { proofInWords } from '../lib/words';
@@ -143,7 +143,11 @@ const partsCsv = (design: Design): string =>
 function responseCsv(design: Design): string {
   const { t_s, groups, source_pressure_kpa_gauge } = design.response;
   return csv([
-    ['t_s', ...groups.map((g) => `${g.name}_pressure_kpa_gauge`), 'source_pressure_kpa_gauge'],
+    [
+      't_s',
+      ...groups.map((g) => `${traceName(g)}_pressure_kpa_gauge`),
+      'source_pressure_kpa_gauge',
+    ],
     ...t_s.map((t, i) => [
       t,
       ...groups.map((g) => g.pressure_kpa_gauge[i]),

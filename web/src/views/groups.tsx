@@ -3,6 +3,7 @@ import { edit, errorAt, requirements } from '../lib/requirements';
 import type { Group } from '../lib/types';
 import { TextField } from '../ui/controls';
 import { RequirementField } from './requirement_field';
+import { GaitFields } from './gait_fields';
 import { VolumeFields } from './volume_fields';
 
 const blank = (n: number): Group => ({
@@ -90,6 +91,7 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
           range={[0, 5]}
         />
       </div>
+      <GaitFields group={group} index={index} />
       {!alone && (
         <button
           type="button"

@@ -1,8 +1,8 @@
 // The strokes of a candidate under a revised model: the effects of its groups act in every cycle.
-#ifndef PLENUM_OPTIMIZER_EVALUATE_EFFECT_STROKES_H_
-#define PLENUM_OPTIMIZER_EVALUATE_EFFECT_STROKES_H_
+#ifndef PLENUM_OPTIMIZER_EVALUATE_STROKES_EFFECT_STROKES_H_
+#define PLENUM_OPTIMIZER_EVALUATE_STROKES_EFFECT_STROKES_H_
 
-#include "optimizer/evaluate/stroke_rig.h"
+#include "optimizer/evaluate/strokes/stroke_rig.h"
 
 namespace plenum::optimizer {
 
@@ -13,4 +13,4 @@ Strokes SimulateWithEffects(const Problem& problem, const Candidate& candidate,
 
 }  // namespace plenum::optimizer
 
-#endif  // PLENUM_OPTIMIZER_EVALUATE_EFFECT_STROKES_H_
+#endif  // PLENUM_OPTIMIZER_EVALUATE_STROKES_EFFECT_STROKES_H_

@@ -1,13 +1,14 @@
 // Cycles of parts that are asked for again and again. Internal to verify*.cc.
-#ifndef PLENUM_VERIFY_DESIGN_VERIFY_KNOWN_CYCLES_H_
-#define PLENUM_VERIFY_DESIGN_VERIFY_KNOWN_CYCLES_H_
+#ifndef PLENUM_VERIFY_DESIGN_CYCLE_VERIFY_KNOWN_CYCLES_H_
+#define PLENUM_VERIFY_DESIGN_CYCLE_VERIFY_KNOWN_CYCLES_H_
 
 #include <array>
 #include <map>
 #include <optional>
 
-#include "verify/design/verify_cycle.h"
-#include "verify/design/verify_pump_curve.h"
+#include "verify/design/cycle/verify_cycle.h"
+#include "verify/design/cycle/verify_gait.h"
+#include "verify/design/cycle/verify_pump_curve.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
@@ -36,8 +37,7 @@ class KnownCycles {
     const auto [entry, fresh] = held_.try_emplace(high_pa);
     if (!fresh) return entry->second;
     const model::CompressorCurve& curve = assembly_.compressor->curve;
-    const bool together = problem_.simultaneous || problem_.groups.size() == 1;
-    return entry->second = (together ? EnergyPerAirHeld : PowerHeld)(
+    return entry->second = (Bursts(problem_) > 0 ? EnergyPerAirHeld : PowerHeld)(
                curve, problem_.ambient.pressure_pa, high_pa);
   }
 
@@ -58,4 +58,4 @@ class KnownCycles {
 
 }  // namespace plenum::verify
 
-#endif  // PLENUM_VERIFY_DESIGN_VERIFY_KNOWN_CYCLES_H_
+#endif  // PLENUM_VERIFY_DESIGN_CYCLE_VERIFY_KNOWN_CYCLES_H_

@@ -1,4 +1,4 @@
-#include "optimizer/evaluate/effect_strokes.h"
+#include "optimizer/evaluate/strokes/effect_strokes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,8 @@ Strokes NoStrokes(std::size_t groups) {
 }
 
 // Worst of the strokes commanded from `from_s` on, before `until_s`.
-void TakeWorst(const model::Response& response, double from_s, double until_s, Strokes& strokes) {
+void TakeWorst(const model::Response& response, const std::vector<Squad>& squads, double from_s,
+               double until_s, Strokes& strokes) {
   const std::size_t groups = strokes.rise_s.size();
   std::vector<bool> rises(groups, false), falls(groups, false);
   const auto take = [](std::vector<bool>& seen, int g, double& worst, double time_s) {
@@ -30,7 +31,7 @@ void TakeWorst(const model::Response& response, double from_s, double until_s, S
   };
   for (const model::Stroke& stroke : response.strokes) {
     if (stroke.command_s < from_s || !(stroke.command_s < until_s)) continue;
-    const int g = stroke.group;
+    const int g = squads[stroke.group].group;
     if (stroke.state == model::ValveState::kInflate) {
       take(rises, g, strokes.rise_s[g], stroke.to_target_s);
       take(rises, g, strokes.inflate_s[g], stroke.to_operating_s);
@@ -42,11 +43,14 @@ void TakeWorst(const model::Response& response, double from_s, double until_s, S
   }
 }
 
-void TakeHighest(const model::Response& response, double from_s, Strokes& strokes) {
-  for (std::size_t g = 0; g < strokes.highest_pa.size(); ++g)
+void TakeHighest(const model::Response& response, const std::vector<Squad>& squads, double from_s,
+                 Strokes& strokes) {
+  for (std::size_t s = 0; s < squads.size(); ++s) {
+    double& highest_pa = strokes.highest_pa[squads[s].group];
     for (std::size_t i = 0; i < response.t_s.size(); ++i)
       if (response.t_s[i] >= from_s)
-        strokes.highest_pa[g] = std::max(strokes.highest_pa[g], response.groups[g].pressure_pa[i]);
+        highest_pa = std::max(highest_pa, response.groups[s].pressure_pa[i]);
+  }
 }
 
 // The commands of one period, `cycles` times.
@@ -77,12 +81,13 @@ Strokes SimulateWithEffects(const Problem& problem, const Candidate& candidate,
   options.sample_hz = kSamplesPerCycle * problem.frequency_hz;
   if (candidate.bench != nullptr) options.cancelled = candidate.bench->stop;
 
+  const std::vector<Squad> squads = SquadsOf(problem);
   Strokes strokes = NoStrokes(groups);
   const model::PeriodicState periodic = model::FindPeriodicState(
       rig, period_s, options, {.tolerance = kPeriodicTolerance, .cycles_max = kSearchedCycles});
   if (periodic.status == model::PeriodicStatus::kConverged) {
-    TakeWorst(periodic.response, 0.0, period_s, strokes);
-    TakeHighest(periodic.response, 0.0, strokes);
+    TakeWorst(periodic.response, squads, 0.0, period_s, strokes);
+    TakeHighest(periodic.response, squads, 0.0, strokes);
     strokes.pump_on_s = periodic.compressor_duty * period_s;
     strokes.pump_energy_j = periodic.compressor_energy_j;
     strokes.air_m3 = periodic.air_drawn_m3;
@@ -93,8 +98,8 @@ Strokes SimulateWithEffects(const Problem& problem, const Candidate& candidate,
     strokes.failed = response.status != model::SimulateStatus::kDone;
     if (strokes.failed) return strokes;
     const double cycles = kPlainCycles + 1.0;
-    TakeWorst(response, 0.5 * kPlainCycles * period_s, kPlainCycles * period_s, strokes);
-    TakeHighest(response, 0.5 * kPlainCycles * period_s, strokes);
+    TakeWorst(response, squads, 0.5 * kPlainCycles * period_s, kPlainCycles * period_s, strokes);
+    TakeHighest(response, squads, 0.5 * kPlainCycles * period_s, strokes);
     strokes.pump_on_s = response.compressor_on_s / cycles;
     strokes.pump_energy_j = response.compressor_energy_j / cycles;
     for (const model::GroupResponse& group : response.groups)

@@ -1,6 +1,6 @@
 // One cycle of a design's periodic state. Internal to verify*.cc.
-#ifndef PLENUM_VERIFY_DESIGN_VERIFY_CYCLE_H_
-#define PLENUM_VERIFY_DESIGN_VERIFY_CYCLE_H_
+#ifndef PLENUM_VERIFY_DESIGN_CYCLE_VERIFY_CYCLE_H_
+#define PLENUM_VERIFY_DESIGN_CYCLE_VERIFY_CYCLE_H_
 
 #include <optional>
 #include <vector>
@@ -8,8 +8,9 @@
 #include "model/flow/flow_table.h"
 #include "model/flow/series.h"
 #include "model/simulate/simulate.h"
+#include "verify/design/cycle/verify_gait.h"
+#include "verify/design/cycle/verify_pump_curve.h"
 #include "verify/design/verify_design.h"
-#include "verify/design/verify_pump_curve.h"
 #include "verify/design/verify_values.h"
 
 namespace plenum::verify {
@@ -35,22 +36,23 @@ class QuickCycles {
 
  private:
   // How long until the source is as it was before the stroke.
-  double FillFromRegulator(const Settings& settings, int group, Cycle& cycle) const;
-  double FillFromReservoir(const Settings& settings, double rising_m3, int group,
+  double FillFromRegulator(const Settings& settings, int unit, Cycle& cycle) const;
+  double FillFromReservoir(const Settings& settings, double rising_m3, int unit,
                            Cycle& cycle) const;
-  double FillFromTank(double& tank_pa, int group, Cycle& cycle) const;
+  double FillFromTank(double& tank_pa, int unit, Cycle& cycle) const;
 
   const Problem& problem_;
   const Assembly& assembly_;
   const Stop stop_;
-  std::vector<model::GroupRig> rigs_;
-  std::vector<model::Series> fills_;  // with the regulator's share
+  const std::vector<Unit> units_;
+  std::vector<model::GroupRig> rigs_;  // per unit, as the next two
+  std::vector<model::Series> fills_;   // with the regulator's share
   std::vector<model::FlowTable> fill_tables_;
-  std::vector<double> fall_s_;
+  std::vector<double> fall_s_;  // per group
   DirectFills* direct_fills_;
   mutable DirectFills own_fills_;
 };
 
 }  // namespace plenum::verify
 
-#endif  // PLENUM_VERIFY_DESIGN_VERIFY_CYCLE_H_
+#endif  // PLENUM_VERIFY_DESIGN_CYCLE_VERIFY_CYCLE_H_

@@ -1,20 +1,23 @@
 // The strokes of a candidate in the periodic state, by the cheapest method that is exact for it.
-#ifndef PLENUM_OPTIMIZER_EVALUATE_EVALUATE_STROKES_H_
-#define PLENUM_OPTIMIZER_EVALUATE_EVALUATE_STROKES_H_
+#ifndef PLENUM_OPTIMIZER_EVALUATE_STROKES_EVALUATE_STROKES_H_
+#define PLENUM_OPTIMIZER_EVALUATE_STROKES_EVALUATE_STROKES_H_
 
-#include "optimizer/evaluate/stroke_rig.h"
+#include "optimizer/evaluate/strokes/stroke_rig.h"
 
 namespace plenum::optimizer {
 
-// Whether groups meet on the source, so that each evaluation integrates them together.
-inline bool GroupsMeet(const Problem& problem) {
-  return problem.groups.size() > 1 && problem.simultaneous;
+// Whether strokes of several squads meet on the source for sure, so that each evaluation integrates
+// them together.
+inline bool StrokesMeet(const Problem& problem) {
+  const Meeting meeting = MeetingOf(problem);
+  return meeting == Meeting::kTogether || meeting == Meeting::kMixed;
 }
 
 // `works` is false where a pressure is never reached, and where a bound shows that a limit on a
 // rise time is missed. One quadrature or one small integration per group where groups do not meet
 // on the source (a single group, or staggered strokes that end before the next begins), and one for
 // all that fill alike from a reservoir; FillTogether() behind a regulator; else the simulator. Of a
+// group with several squads the slowest strokes and the highest pressure count. Of a
 // tank without a regulator those of the last period, which is the slowest; of pumps without a
 // reservoir `works` is false, too, where a group is not full when its turn is over (candidate.h).
 Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
@@ -36,4 +39,4 @@ Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
 
 }  // namespace plenum::optimizer
 
-#endif  // PLENUM_OPTIMIZER_EVALUATE_EVALUATE_STROKES_H_
+#endif  // PLENUM_OPTIMIZER_EVALUATE_STROKES_EVALUATE_STROKES_H_

@@ -1,7 +1,8 @@
-#include "optimizer/evaluate/shared_filling.h"
+#include "optimizer/evaluate/strokes/shared_filling.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "model/integrate/dormand_prince.h"
 #include "model/physics/air.h"
 #include "model/strokes/stroke.h"
+#include "optimizer/evaluate/strokes/filling_commands.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -18,7 +20,7 @@ constexpr double kTolerance = 1e-8;  // of what a step may be off
 constexpr double kEqual = 1e-12;     // nearer to the node's pressure, a chamber is at it
 constexpr double kFull = 1e-8;       // the same of the source's pressure
 constexpr double kNear = 1e-5;       // of the regulator's drop: nearer, it may go with it
-constexpr int kStepsMax = 20'000;
+constexpr int kStepsMax = 20'000;    // from one command to the next
 
 bool HasTable(std::span<const model::FlowElement> elements) {
   return std::all_of(elements.begin(), elements.end(), [](const model::FlowElement& element) {
@@ -28,13 +30,15 @@ bool HasTable(std::span<const model::FlowElement> elements) {
 
 enum class Valve { kOpen, kAtNode, kClosed };
 
-struct Group {
+struct Group {  // a squad
+  int of;       // the problem's group
   model::FlowTable flow;
   const model::Chamber* chamber;
   double count;
   bool holds;
   double rise_pa, operating_pa;
-  Valve valve = Valve::kOpen;
+  Valve valve = Valve::kClosed;
+  double begin_s = 0.0, rise_s = model::kNever, inflate_s = model::kNever;  // of its stroke
 };
 
 class SharedFilling {
@@ -44,57 +48,128 @@ class SharedFilling {
         flow_max_(FlowMax(problem, candidate)),
         content_per_volume_(model::kReferencePressurePa * problem.ambient.temperature_k /
                             model::kReferenceTemperatureK),
-        end_s_(HalfPeriod(problem)),
         from_pa_(problem.ambient.pressure_pa),
-        stepper_(candidate.lines.size() + 1) {
+        problem_(problem),
+        stepper_(SquadsOf(problem).size() + 1) {
+    const std::vector<Squad> squads = SquadsOf(problem);
+    commands_ = CommandsOf(problem, squads);
+    state_.assign(squads.size() + 1, from_pa_);
     const double factor = FlowFactor(problem, GasOf(candidate.configuration));
     const model::FlowElement share[] = {problem.parts.regulators[candidate.regulator.index].flow};
     regulator_ = model::FlowTable(model::MakeSeries(share, factor));
-    groups_.reserve(candidate.lines.size());
-    for (std::size_t g = 0; g < candidate.lines.size(); ++g) {
+    groups_.reserve(squads.size());
+    for (const auto& [g, count, phase] : squads) {
       const Line& line = *candidate.lines[g];
-      const ActuatorGroup& group = problem.groups[g];
-      groups_.push_back({model::FlowTable(model::MakeSeries(line.fill, factor)), &line.chamber,
-                         static_cast<double>(group.count), line.holds, RiseTarget(problem, group),
-                         group.chamber.operating_pressure_pa});
+      groups_.push_back({g, model::FlowTable(model::MakeSeries(line.fill, factor)), &line.chamber,
+                         static_cast<double>(count), line.holds,
+                         RiseTarget(problem, problem.groups[g]),
+                         problem.groups[g].chamber.operating_pressure_pa});
     }
-    strokes_.rise_s.assign(groups_.size(), model::kNever);
-    strokes_.inflate_s.assign(groups_.size(), model::kNever);
   }
 
   Strokes Run(const std::function<bool()>& stop) {
-    constexpr double kFirstStep = 1e-5;
-    std::vector<double> state(groups_.size() + 1, from_pa_);
-    double now_s = 0.0, step_s = kFirstStep * end_s_;
+    const bool bursts = IsBurst(problem_);
+    const std::size_t in_period = commands_.size() / (bursts ? 2 : 2 * kPeriodsMax);
+    bool one_period = bursts;
+    std::map<int, std::vector<Filled>> periods;
+    for (const Command& command : commands_) {
+      if (one_period && command.period > 0) continue;
+      if (!Advance(command.time_s, stop)) break;
+      if (command.opens) {
+        // A period that begins with nothing drawn repeats from the first on.
+        one_period = one_period || (command.period == 1 && IsQuiet());
+        if (command.period == 0 || !one_period) Open(command.group, command.period);
+        continue;
+      }
+      std::vector<Filled>& filled = periods[command.period];
+      filled.push_back(Shut(command.group));
+      if (!std::isfinite(filled.back().inflate_s) && !bursts) return WorstOf(filled);
+      if (filled.size() == in_period &&
+          (one_period || (command.period > 0 && SameTimes(filled, periods[command.period - 1]))))
+        return WorstOf(filled);
+    }
+    Strokes failed = WorstOf({});
+    failed.failed = true;
+    failed.works = false;
+    return failed;
+  }
+
+ private:
+  // To the next command; false where that takes too many steps, or when stopped.
+  bool Advance(double end_s, const std::function<bool()>& stop) {
+    constexpr double kFirstStep = 1e-3;
+    double step_s = kFirstStep * (end_s - now_s_);
     const auto rhs = [this](double, std::span<const double> y, std::span<double> slopes) {
       Slopes(y, slopes);
     };
     const auto norm = [this](std::span<const double> from, std::span<const double>,
                              std::span<const double> error) { return Norm(from, error); };
     bool restart = true;
-    for (int i = 0; i < kStepsMax && now_s < end_s_ && !Done(); ++i) {
-      if (stop && i % 64 == 0 && stop()) break;
-      if (restart) stepper_.Start(rhs, now_s, state, step_s);
+    for (int i = 0; i < kStepsMax && now_s_ < end_s && AnyDraws(); ++i) {
+      if (stop && i % 64 == 0 && stop()) return false;
+      if (restart) {
+        state_.back() = AnyAtNode() ? node_pa_ : NodePressure(state_);
+        stepper_.Start(rhs, now_s_, state_, step_s);
+      }
       node_before_pa_ = NodeAt(stepper_.state());
-      if (stepper_.Step(rhs, end_s_ - now_s, norm) == model::StepResult::kNotFinite) break;
+      if (stepper_.Step(rhs, end_s - now_s_, norm) == model::StepResult::kNotFinite) return false;
       restart = Meet(rhs);
-      now_s = stepper_.time();
+      now_s_ = stepper_.time();
       step_s = stepper_.next_step();
-      state.assign(stepper_.state().begin(), stepper_.state().end());
-      for (const auto& [g, pressure_pa] : released_) state[g] = pressure_pa;
-      released_.clear();
-      if (restart) state.back() = AnyAtNode() ? node_pa_ : NodePressure(state);
+      state_.assign(stepper_.state().begin(), stepper_.state().end());
+      SetReleased();
     }
-    strokes_.failed = now_s < end_s_ && !Done();
-    strokes_.works = !strokes_.failed && AllReached();
-    for (std::size_t g = 0; g < groups_.size(); ++g)
-      strokes_.filled_pa.push_back(groups_[g].holds ? groups_[g].operating_pa
-                                   : IsFull(g)      ? source_pa_
-                                                    : PressureNow(g));
-    return strokes_;
+    if (now_s_ < end_s && AnyDraws()) return false;
+    now_s_ = end_s;
+    return true;
   }
 
- private:
+  void SetReleased() {
+    for (const auto& [g, pressure_pa] : released_) state_[g] = pressure_pa;
+    released_.clear();
+  }
+
+  // Whether nothing is drawn and no stroke of the period has begun.
+  bool IsQuiet() const { return opened_ == 0 && !AnyDraws(); }
+
+  void Open(std::size_t g, int period) {
+    if (period > opened_) opened_ = period;
+    Release(g);
+    SetReleased();
+    Group& group = groups_[g];
+    group.valve = Valve::kOpen;
+    group.begin_s = now_s_;
+    group.rise_s = group.inflate_s = model::kNever;
+    state_[g] = from_pa_;
+  }
+
+  Filled Shut(std::size_t g) {
+    const Group& group = groups_[g];
+    const double filled_pa = group.holds ? group.operating_pa
+                             : IsFull(g) ? source_pa_
+                                         : PressureOf(g);
+    if (group.valve != Valve::kClosed) {
+      Close(g);
+      SetReleased();
+    }
+    return {group.of, group.rise_s, group.inflate_s, filled_pa};
+  }
+
+  // The slowest strokes of each group, and the highest pressure.
+  Strokes WorstOf(const std::vector<Filled>& filled) const {
+    Strokes strokes;
+    strokes.rise_s.assign(problem_.groups.size(), 0.0);
+    strokes.inflate_s = strokes.filled_pa = strokes.rise_s;
+    strokes.works = true;
+    for (const Filled& one : filled) {
+      strokes.rise_s[one.of] = std::max(strokes.rise_s[one.of], one.rise_s);
+      strokes.inflate_s[one.of] = std::max(strokes.inflate_s[one.of], one.inflate_s);
+      strokes.filled_pa[one.of] = std::max(strokes.filled_pa[one.of], one.filled_pa);
+      strokes.works = strokes.works && std::isfinite(one.inflate_s);
+    }
+    return strokes;
+  }
+
   // Close to the source's pressure that which is left to it counts: times go with its root.
   double Norm(std::span<const double> from, std::span<const double> error) const {
     constexpr double kLeast = 1e-4;
@@ -105,17 +180,16 @@ class SharedFilling {
     return largest / kTolerance;
   }
 
-  bool AllReached() const {
-    return std::all_of(strokes_.inflate_s.begin(), strokes_.inflate_s.end(),
-                       [](double s) { return std::isfinite(s); });
+  double PressureOf(std::size_t g) const {
+    return groups_[g].valve == Valve::kAtNode ? PressureNow(g) : state_[g];
   }
   // Chambers whose valve cannot hold go on filling until they are.
-  bool IsFull(std::size_t g) const { return PressureNow(g) >= source_pa_ * (1.0 - kFull); }
-  bool Done() const {
-    if (!AllReached()) return false;
+  bool IsFull(std::size_t g) const { return PressureOf(g) >= source_pa_ * (1.0 - kFull); }
+  bool AnyDraws() const {
     for (std::size_t g = 0; g < groups_.size(); ++g)
-      if (!groups_[g].holds && !IsFull(g)) return false;
-    return true;
+      if (groups_[g].valve != Valve::kClosed && !(std::isfinite(groups_[g].inflate_s) && IsFull(g)))
+        return true;
+    return false;
   }
   bool AnyAtNode() const {
     return std::any_of(groups_.begin(), groups_.end(),
@@ -143,9 +217,9 @@ class SharedFilling {
   // Where nothing is left, by the method of Illinois.
   double NodePressure(std::span<const double> y) const {
     constexpr double kWidth = 1e-13;
-    double low = from_pa_, high = source_pa_;
+    double low = source_pa_, high = source_pa_;
     for (std::size_t g = 0; g < groups_.size(); ++g)
-      if (groups_[g].valve == Valve::kOpen) low = std::max(low, y[g]);
+      if (groups_[g].valve == Valve::kOpen) low = std::min(low, y[g]);
     if (low >= high) return high;
     double f_low = Left(low, y), f_high = Left(high, y);
     if (f_low <= 0.0) return low;
@@ -239,22 +313,26 @@ class SharedFilling {
         }
     if (first < groups_.size() && closes < 1.0) stepper_.Shorten(rhs, closes);
     for (std::size_t g = 0; g < groups_.size(); ++g) {
+      if (groups_[g].valve == Valve::kClosed) continue;
       if (g == first || PressureNow(g) >= groups_[g].rise_pa)
-        Note(g, groups_[g].rise_pa, strokes_.rise_s[g]);
+        Note(g, groups_[g].rise_pa, groups_[g].rise_s);
       if (g == first || PressureNow(g) >= groups_[g].operating_pa)
-        Note(g, groups_[g].operating_pa, strokes_.inflate_s[g]);
+        Note(g, groups_[g].operating_pa, groups_[g].inflate_s);
     }
     if (first == groups_.size()) return Follow();
     Close(first);
     return true;
   }
 
-  // The node jumps where a valve closes: chambers that went with it are behind their lines again.
-  void Close(std::size_t first) {
+  // The node jumps where a valve opens or closes: chambers that went with it are behind their lines
+  // again, or ahead of it.
+  void Release(std::size_t but) {
     for (std::size_t g = 0; g < groups_.size(); ++g)
-      if (g != first && groups_[g].valve == Valve::kAtNode)
-        released_.emplace_back(g, PressureNow(g));
+      if (g != but && groups_[g].valve == Valve::kAtNode) released_.emplace_back(g, PressureNow(g));
     for (const auto& [g, pressure_pa] : released_) groups_[g].valve = Valve::kOpen;
+  }
+  void Close(std::size_t first) {
+    Release(first);
     groups_[first].valve = Valve::kClosed;
   }
 
@@ -266,6 +344,7 @@ class SharedFilling {
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       if (groups_[g].valve != Valve::kOpen) continue;
       const double behind_pa = node_pa_ - stepper_.state()[g];
+      if (behind_pa < -kEqual * node_pa_) continue;  // ahead: nothing flows back
       const bool goes_with = behind_pa <= kNear * (source_pa_ - node_pa_) &&
                              behind_pa <= 1.1 * Behind(g, node_pa_, slope);
       if (behind_pa <= kEqual * node_pa_ || goes_with) {
@@ -278,16 +357,21 @@ class SharedFilling {
 
   void Note(std::size_t g, double pressure_pa, double& time_s) const {
     if (!std::isfinite(time_s))
-      time_s = stepper_.start_time() + ShareAt(g, pressure_pa) * stepper_.step();
+      time_s =
+          stepper_.start_time() + ShareAt(g, pressure_pa) * stepper_.step() - groups_[g].begin_s;
   }
 
-  double source_pa_, flow_max_, content_per_volume_, end_s_, from_pa_;
+  double source_pa_, flow_max_, content_per_volume_, from_pa_;
+  const Problem& problem_;
+  std::vector<Command> commands_;
+  double now_s_ = 0.0;
+  int opened_ = 0;             // the last period of which a stroke has begun
+  std::vector<double> state_;  // chambers, node
   model::FlowTable regulator_;
   std::vector<Group> groups_;
   model::DormandPrince stepper_;
   double node_pa_ = 0.0, node_before_pa_ = 0.0;           // where the last step began
   std::vector<std::pair<std::size_t, double>> released_;  // groups whose pressure is to be set
-  Strokes strokes_;
 };
 
 }  // namespace

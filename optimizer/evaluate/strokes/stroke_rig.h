@@ -1,6 +1,6 @@
 // A candidate as a rig for the simulator, and the strokes that an evaluation finds.
-#ifndef PLENUM_OPTIMIZER_EVALUATE_STROKE_RIG_H_
-#define PLENUM_OPTIMIZER_EVALUATE_STROKE_RIG_H_
+#ifndef PLENUM_OPTIMIZER_EVALUATE_STROKES_STROKE_RIG_H_
+#define PLENUM_OPTIMIZER_EVALUATE_STROKES_STROKE_RIG_H_
 
 #include <vector>
 
@@ -14,8 +14,8 @@ struct StrokesOf {
   bool works = false;
   bool failed = false;               // the simulator gave up or was stopped: nothing is known
   std::vector<T> rise_s, inflate_s;  // per group, worst of the cycle
-  // Per group, when its valve closes, or where that cannot hold when half of the period is over;
-  // not known with effects.
+  // Per group, when its valve closes, or where that cannot hold when its window is over; not known
+  // with effects.
   std::vector<T> filled_pa;
   T pump_on_s = T(0.0);      // per cycle
   T pump_energy_j = T(0.0);  // per cycle, all pumps
@@ -39,13 +39,14 @@ bool HasEffects(const Problem& problem);
 // property of a compressor with its own reservoir.
 std::vector<model::Effect> ActingEffects(const ActuatorGroup& group, Configuration configuration);
 
-// The candidate as a rig for the simulator, with the commands of one cycle: actuators at rest and a
-// full reservoir. Of a tank without a regulator (candidate.h) the last cycle of the mission, with
-// all strokes before it done; a group's commands are then in order and may reach beyond the period.
+// The candidate as a rig for the simulator, one of its groups for each squad (gait.h), with the
+// commands of one cycle: actuators at rest and a full reservoir. Of a tank without a regulator
+// (candidate.h) the last cycle of the mission, with all strokes before it done; a group's commands
+// are then in order and may reach beyond the period.
 model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
 
 // The same, where every stroke begins at ambient, as its rise time is defined, also where the fall
-// only just meets its target within half of the period. How fast a chamber empties is nothing to
+// only just meets its target within its window. How fast a chamber empties is nothing to
 // the source.
 model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
                            const OperatingPoint& point);
@@ -53,4 +54,4 @@ model::SimulateOptions StrokeOptions(const Problem& problem);
 
 }  // namespace plenum::optimizer
 
-#endif  // PLENUM_OPTIMIZER_EVALUATE_STROKE_RIG_H_
+#endif  // PLENUM_OPTIMIZER_EVALUATE_STROKES_STROKE_RIG_H_

@@ -1,6 +1,6 @@
 // Valves that cannot hold, with a guarantee. Internal to verify*.cc.
-#ifndef PLENUM_VERIFY_DESIGN_VERIFY_OPEN_VALVES_H_
-#define PLENUM_VERIFY_DESIGN_VERIFY_OPEN_VALVES_H_
+#ifndef PLENUM_VERIFY_DESIGN_CYCLE_VERIFY_OPEN_VALVES_H_
+#define PLENUM_VERIFY_DESIGN_CYCLE_VERIFY_OPEN_VALVES_H_
 
 #include "verify/design/verify_design.h"
 
@@ -18,4 +18,4 @@ void FillOpenOnes(const Problem& problem, const Settings& settings, const Assemb
 
 }  // namespace plenum::verify
 
-#endif  // PLENUM_VERIFY_DESIGN_VERIFY_OPEN_VALVES_H_
+#endif  // PLENUM_VERIFY_DESIGN_CYCLE_VERIFY_OPEN_VALVES_H_

@@ -1,7 +1,7 @@
 // How what a pump takes changes with pressure, on a fine grid; and the strokes that pumps fill
 // themselves, without a reservoir. Internal to verify*.cc.
-#ifndef PLENUM_VERIFY_DESIGN_VERIFY_PUMP_CURVE_H_
-#define PLENUM_VERIFY_DESIGN_VERIFY_PUMP_CURVE_H_
+#ifndef PLENUM_VERIFY_DESIGN_CYCLE_VERIFY_PUMP_CURVE_H_
+#define PLENUM_VERIFY_DESIGN_CYCLE_VERIFY_PUMP_CURVE_H_
 
 #include <map>
 #include <tuple>
@@ -10,6 +10,7 @@
 #include "model/flow/series.h"
 #include "model/physics/compressor.h"
 #include "model/simulate/simulate_rig.h"
+#include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_design.h"
 #include "verify/design/verify_values.h"
 
@@ -20,8 +21,8 @@ namespace plenum::verify {
 double EnergyPerAirHeld(const model::CompressorCurve& curve, double low_pa, double high_pa);
 double PowerHeld(const model::CompressorCurve& curve, double low_pa, double high_pa);
 
-// Most time that a group may take to fill: half of the period, or its turn at such pumps.
-double FillSecondsMax(const Problem& problem, const Assembly& assembly);
+// Most time that a group may take to fill: its window, or its turn at such pumps.
+double FillSecondsMax(const Problem& problem, const Assembly& assembly, int group);
 
 // Pressure between pumps and valves at which all pumps of the assembly deliver what `count` lines
 // take to chambers at `chamber_pa`, or the highest that pumps reach where lines take less.
@@ -36,17 +37,17 @@ double HighestNode(const Assembly& assembly, const std::vector<model::GroupRig>&
 // pressure. Keeps them: combinations that come after each other share most of their lines.
 class DirectFills {
  public:
-  // Adds the stroke of a group, whose lines are `fill`.
-  void Add(const Problem& problem, const Assembly& assembly, int group, const model::Series& fill,
-           Cycle& cycle);
+  // Adds the strokes of a unit, whose lines are `fill`.
+  void Add(const Problem& problem, const Assembly& assembly, const Unit& unit,
+           const model::Series& fill, Cycle& cycle);
 
  private:
   struct Fill {
     double rise_s = kUnlimited, inflate_s = kUnlimited, pump_j = 0.0, node_pa = 0.0;
   };
-  using Key = std::tuple<int, const model::Tubing*, const model::Fitting*, const model::Valve*,
+  using Key = std::tuple<int, int, const model::Tubing*, const model::Fitting*, const model::Valve*,
                          const model::Compressor*, int>;
-  static Fill Make(const Problem& problem, const Assembly& assembly, int group,
+  static Fill Make(const Problem& problem, const Assembly& assembly, const Unit& unit,
                    const model::Series& fill);
 
   std::map<Key, Fill> known_;
@@ -54,4 +55,4 @@ class DirectFills {
 
 }  // namespace plenum::verify
 
-#endif  // PLENUM_VERIFY_DESIGN_VERIFY_PUMP_CURVE_H_
+#endif  // PLENUM_VERIFY_DESIGN_CYCLE_VERIFY_PUMP_CURVE_H_

@@ -1,8 +1,9 @@
-#include "verify/design/verify_open_valves.h"
+#include "verify/design/cycle/verify_open_valves.h"
 
 #include <algorithm>
 
 #include "model/physics/compressor.h"
+#include "verify/design/cycle/verify_gait.h"
 
 namespace plenum::verify {
 namespace {
@@ -31,14 +32,14 @@ double RestsAt(const Problem& problem, const Assembly& assembly, double stop_pa,
   return high_pa;
 }
 
-// The most that an actuator can hold when its valve stands open for half of the period.
+// The most that an actuator can hold when its valve stands open for its window.
 double OpenPressure(const Problem& problem, const Settings& settings, const Assembly& assembly) {
   const double source_pa = settings.source_pressure_pa;
   if (!assembly.compressor) return source_pa;
   const double falling_m3 = settings.reservoir_volume_m3.value_or(0.0);
   const double lowest_pa = RestsAt(problem, assembly, source_pa, falling_m3, 0.0);
   const double delivery = model::FreeAirDelivery(assembly.compressor->curve, lowest_pa);
-  const double pumped_m3 = assembly.compressors * delivery * 0.5 / problem.frequency_hz;
+  const double pumped_m3 = assembly.compressors * delivery * FillWindow(problem, 0);
   return RestsAt(problem, assembly, source_pa, falling_m3 + assembly.ReservoirSpread(),
                  pumped_m3 / model::StandardVolume(1.0, problem.ambient.temperature_k));
 }

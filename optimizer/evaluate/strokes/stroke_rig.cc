@@ -1,4 +1,4 @@
-#include "optimizer/evaluate/stroke_rig.h"
+#include "optimizer/evaluate/strokes/stroke_rig.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,25 +69,30 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
     source.stop_pressure_pa = point.source_pa;
     rig.source = source;
   }
-  const int groups = static_cast<int>(problem.groups.size());
   const double period_s = 1.0 / problem.frequency_hz;
-  for (int g = 0; g < groups; ++g) {
+  for (const auto& [g, count, phase] : SquadsOf(problem)) {
     const Line& line = *candidate.lines[g];
     model::GroupRig group;
     group.name = problem.groups[g].name;
-    group.count = problem.groups[g].count;
+    group.count = count;
     group.chamber = line.chamber;
     group.fill = line.fill;
     group.exhaust = line.exhaust;
     group.close_at_operating = line.holds;
     group.initial_pressure_pa = problem.ambient.pressure_pa;
     group.effects = ActingEffects(problem.groups[g], candidate.configuration);
-    const double inflate_s = problem.simultaneous ? 0.0 : period_s * g / groups;
-    const double after_s = inflate_s + 0.5 * period_s;
-    const double deflate_s = open_tank ? after_s : std::fmod(after_s, period_s);
-    group.schedule = {{inflate_s, model::ValveState::kInflate},
-                      {deflate_s, model::ValveState::kDeflate}};
-    if (deflate_s < inflate_s) std::swap(group.schedule[0], group.schedule[1]);
+    const int strokes = problem.groups[g].gait.strokes_per_period;
+    for (int k = 0; k < strokes; ++k) {
+      const double inflate_s = std::fmod(phase + static_cast<double>(k) / strokes, 1.0) * period_s;
+      const double after_s = inflate_s + InflateWindow(problem, g);
+      group.schedule.push_back({inflate_s, model::ValveState::kInflate});
+      group.schedule.push_back(
+          {open_tank ? after_s : std::fmod(after_s, period_s), model::ValveState::kDeflate});
+    }
+    std::sort(group.schedule.begin(), group.schedule.end(),
+              [](const model::ValveCommand& a, const model::ValveCommand& b) {
+                return a.time_s < b.time_s;
+              });
     rig.groups.push_back(std::move(group));
   }
   return rig;
@@ -95,17 +100,19 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
 
 model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
                            const OperatingPoint& point) {
-  constexpr double kWithin = 0.9;  // of half of the period
+  constexpr double kWithin = 0.9;  // of the window
   model::Rig rig = MakeRig(problem, candidate, point);
   const double factor = FlowFactor(problem, GasOf(candidate.configuration));
-  for (std::size_t g = 0; g < rig.groups.size(); ++g) {
+  const std::vector<Squad> squads = SquadsOf(problem);
+  for (std::size_t s = 0; s < squads.size(); ++s) {
+    const int g = squads[s].group;
     const Line& line = *candidate.lines[g];
     const double from_pa = line.holds ? line.chamber.operating_pressure_pa : point.source_pa;
     const double empty_s =
         model::EmptyTime(model::MakeSeries(line.exhaust, factor), line.chamber, from_pa,
                          problem.ambient.pressure_pa, problem.ambient.temperature_k);
-    const double wider = std::max(1.0, empty_s / (kWithin * HalfPeriod(problem)));
-    for (model::FlowElement& element : rig.groups[g].exhaust)
+    const double wider = std::max(1.0, empty_s / (kWithin * DeflateWindow(problem, g)));
+    for (model::FlowElement& element : rig.groups[s].exhaust)
       element.sonic_conductance_m3_per_s_pa *= wider;
   }
   return rig;

@@ -1,4 +1,4 @@
-#include "optimizer/evaluate/evaluate_strokes.h"
+#include "optimizer/evaluate/strokes/evaluate_strokes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,10 @@
 #include "model/strokes/reservoir_stroke.h"
 #include "model/strokes/stroke.h"
 #include "optimizer/evaluate/candidate.h"
-#include "optimizer/evaluate/effect_strokes.h"
 #include "optimizer/evaluate/root.h"
-#include "optimizer/evaluate/shared_filling.h"
+#include "optimizer/evaluate/strokes/effect_strokes.h"
+#include "optimizer/evaluate/strokes/shared_filling.h"
+#include "optimizer/evaluate/strokes/turn_strokes.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -23,64 +24,48 @@ bool OpenAtWorst(const Problem& problem, const Candidate& candidate, const Line&
   return problem.guarantee && !candidate.at_best && !line.holds;
 }
 
-// Strokes of one group alone on the regulator, and how long it draws.
-double RegulatedStroke(const Problem& problem, const Candidate& candidate, double source_pa, int g,
-                       Strokes& strokes) {
+// The slowest of a group's squads counts, and the highest pressure.
+void Keep(double& most, double value) { most = std::max(most, value); }
+
+// Strokes of one squad alone on the regulator, and how long it draws.
+double RegulatedStroke(const Problem& problem, const Candidate& candidate, double source_pa,
+                       const Squad& squad, Strokes& strokes) {
+  const int g = squad.group;
   const Line& line = *candidate.lines[g];
   const ActuatorGroup& group = problem.groups[g];
   // A regulator shared by n equal lines is, for each of them, one with an n-th of its conductance.
   model::FlowElement share = problem.parts.regulators[candidate.regulator.index].flow;
-  share.sonic_conductance_m3_per_s_pa /= group.count;
+  share.sonic_conductance_m3_per_s_pa /= squad.count;
   std::vector<model::FlowElement> elements{share};
   elements.insert(elements.end(), line.fill.begin(), line.fill.end());
   const model::Series fill =
       model::MakeSeries(elements, FlowFactor(problem, GasOf(candidate.configuration)));
-  const double flow_max = FlowMax(problem, candidate) / group.count;
+  const double flow_max = FlowMax(problem, candidate) / squad.count;
   const auto fill_time = [&](double to_pa) {
     return model::FillTime(fill, line.chamber, source_pa, problem.ambient.pressure_pa, to_pa,
                            problem.ambient.temperature_k, flow_max);
   };
   const double operating_pa = group.chamber.operating_pressure_pa;
-  const double inflate_s = fill_time(operating_pa), half_s = HalfPeriod(problem);
-  strokes.rise_s[g] = fill_time(RiseTarget(problem, group));
-  strokes.inflate_s[g] = inflate_s;
-  if (line.holds || !(inflate_s < half_s)) return inflate_s;
+  const double inflate_s = fill_time(operating_pa), open_s = InflateWindow(problem, g);
+  Keep(strokes.rise_s[g], fill_time(RiseTarget(problem, group)));
+  Keep(strokes.inflate_s[g], inflate_s);
+  if (line.holds || !(inflate_s < open_s)) return inflate_s;
   if (OpenAtWorst(problem, candidate, line)) {
     strokes.filled_pa[g] = source_pa;
-    return half_s;
+    return open_s;
   }
-  const auto left_s = [&](double to_pa) { return half_s - fill_time(to_pa); };
+  const auto left_s = [&](double to_pa) { return open_s - fill_time(to_pa); };
   const double full_left_s = left_s(source_pa);
-  strokes.filled_pa[g] = full_left_s >= 0.0
-                             ? source_pa
-                             : NarrowBracket(left_s, operating_pa, half_s - inflate_s, source_pa,
-                                             full_left_s, kFilledTolerance)
-                                   .low;
-  return half_s - std::max(0.0, full_left_s);
-}
-
-// `count`: chambers that fill at once, through lines as those of the group.
-model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candidate& candidate,
-                                            const OperatingPoint& point, int g, int count) {
-  model::ReservoirStrokeInput input;
-  input.fill = &candidate.lines[g]->curve->flow;
-  input.chamber = &candidate.lines[g]->chamber;
-  input.count = count;
-  input.compressor = &problem.parts.compressors[candidate.compressor.index].curve;
-  input.compressors = candidate.compressor.quantity;
-  input.stop_pa = point.source_pa;
-  input.volume_falling_m3 = point.reservoir_m3;
-  input.volume_rising_m3 = point.reservoir_rising_m3;
-  input.from_pa = problem.ambient.pressure_pa;
-  input.target_pa = RiseTarget(problem, problem.groups[g]);
-  input.operating_pa = problem.groups[g].chamber.operating_pressure_pa;
-  if (!candidate.lines[g]->holds) input.open_s = HalfPeriod(problem);
-  input.temperature_k = problem.ambient.temperature_k;
-  return input;
+  Keep(strokes.filled_pa[g], full_left_s >= 0.0
+                                 ? source_pa
+                                 : NarrowBracket(left_s, operating_pa, open_s - inflate_s,
+                                                 source_pa, full_left_s, kFilledTolerance)
+                                       .low);
+  return open_s - std::max(0.0, full_left_s);
 }
 
 double RiseLimit(const Problem& problem, int g) {
-  return std::min(problem.groups[g].rise_time_max_s, HalfPeriod(problem));
+  return std::min(problem.groups[g].rise_time_max_s, InflateWindow(problem, g));
 }
 
 enum class Alone { kYes, kNo, kTooSlow };
@@ -144,18 +129,20 @@ Pumped OpenPumped(const Problem& problem, const model::ReservoirStrokeInput& inp
   return {filled_pa, on_s, on_s * input.compressors * power_w, least.air_m3 + rest_m3};
 }
 
-// Stroke of one group alone on the full reservoir, if that is the whole story: the reservoir is
-// full again before another group's stroke, `time_s` later. A single group's own next stroke may
-// come too early: the running time then exceeds the period, and the duty refuses this stop
-// pressure; a lower one that is reached describes the same periodic state.
+// Strokes of one squad alone on the full reservoir, if that is the whole story: the reservoir is
+// full again before another stroke, `time_s` later. Of bursts the next one may come too early: the
+// running time then exceeds the period, and the duty refuses this stop pressure; a lower one that
+// is reached describes the same periodic state.
 Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
                       const OperatingPoint& point, int g, int count, double time_s,
                       Strokes& strokes) {
-  const model::ReservoirStrokeInput input = MakeStrokeInput(problem, candidate, point, g, count);
+  const double strokes_per_period = problem.groups[g].gait.strokes_per_period;
+  const model::ReservoirStrokeInput input =
+      MakeStrokeInput(problem, candidate, point, g, count, point.source_pa);
   const model::ReservoirStroke stroke = model::FillFromReservoir(input);
   if (!stroke.reached) return Alone::kTooSlow;
-  strokes.rise_s[g] = stroke.rise_s;
-  strokes.inflate_s[g] = stroke.inflate_s;
+  Keep(strokes.rise_s[g], stroke.rise_s);
+  Keep(strokes.inflate_s[g], stroke.inflate_s);
   const double refill_s =
       model::PumpUpTime(*input.compressor, input.compressors, point.reservoir_rising_m3,
                         stroke.reservoir_end_pa, point.source_pa, input.temperature_k);
@@ -166,23 +153,26 @@ Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
     over_s += most.on_s - pumped.on_s;
     pumped = most;
   }
-  const bool last_word = problem.groups.size() == 1 || problem.simultaneous;
-  if (!last_word && !(over_s <= time_s)) return Alone::kNo;
-  strokes.filled_pa[g] = pumped.filled_pa;
-  strokes.pump_on_s += pumped.on_s;
-  strokes.pump_energy_j += pumped.energy_j;
-  strokes.pump_air_m3 += pumped.air_m3;
+  if (!IsBurst(problem) && !(over_s <= time_s)) return Alone::kNo;
+  Keep(strokes.filled_pa[g], pumped.filled_pa);
+  strokes.pump_on_s += strokes_per_period * pumped.on_s;
+  strokes.pump_energy_j += strokes_per_period * pumped.energy_j;
+  strokes.pump_air_m3 += strokes_per_period * pumped.air_m3;
   return Alone::kYes;
 }
 
-Strokes EmptyStrokes(const Problem& problem) {
+// Of which nothing is known but that each valve that holds closes at the operating pressure.
+Strokes NoStrokes(const Problem& problem, double seconds) {
   Strokes strokes;
-  strokes.rise_s.assign(problem.groups.size(), model::kNever);
-  strokes.inflate_s.assign(problem.groups.size(), model::kNever);
+  strokes.rise_s.assign(problem.groups.size(), seconds);
+  strokes.inflate_s.assign(problem.groups.size(), seconds);
   for (const ActuatorGroup& group : problem.groups)
     strokes.filled_pa.push_back(group.chamber.operating_pressure_pa);
   return strokes;
 }
+
+Strokes NeverFilled(const Problem& problem) { return NoStrokes(problem, model::kNever); }
+Strokes ToBeKept(const Problem& problem) { return NoStrokes(problem, 0.0); }
 
 // Whether all chambers, whatever their group, fill in the same way.
 bool FillAlike(const Candidate& candidate) {
@@ -200,10 +190,10 @@ Strokes StrokesAlike(const Problem& problem, const Candidate& candidate,
                      const OperatingPoint& point) {
   int count = 0;
   for (const ActuatorGroup& group : problem.groups) count += group.count;
-  Strokes strokes = EmptyStrokes(problem);
+  Strokes strokes = ToBeKept(problem);
   if (ReservoirStroke(problem, candidate, point, 0, count, 1.0 / problem.frequency_hz, strokes) !=
       Alone::kYes)
-    return EmptyStrokes(problem);
+    return NeverFilled(problem);
   std::fill(strokes.rise_s.begin(), strokes.rise_s.end(), strokes.rise_s[0]);
   std::fill(strokes.inflate_s.begin(), strokes.inflate_s.end(), strokes.inflate_s[0]);
   std::fill(strokes.filled_pa.begin(), strokes.filled_pa.end(), strokes.filled_pa[0]);
@@ -212,20 +202,41 @@ Strokes StrokesAlike(const Problem& problem, const Candidate& candidate,
   return strokes;
 }
 
-// One group after another, straight from the pumps; none works that is not full before its turn is
+// Strokes that may draw at once, each integrated with the others.
+Strokes StrokesTogether(const Problem& problem, const Candidate& candidate,
+                        const OperatingPoint& point) {
+  if (candidate.configuration != Configuration::kCompressor)
+    if (std::optional<Strokes> strokes = FillTogether(problem, candidate, point.source_pa))
+      if (!strokes->failed || candidate.stopped()) return *std::move(strokes);
+  return SimulateStrokes(problem, candidate, point);
+}
+
+// Strokes that do not all find the reservoir full.
+Strokes StrokesPartlyFull(const Problem& problem, const Candidate& candidate,
+                          const OperatingPoint& point) {
+  std::optional<Strokes> strokes = StrokesInTurns(problem, candidate, point);
+  return strokes ? *std::move(strokes) : SimulateStrokes(problem, candidate, point);
+}
+
+// One squad after another, straight from the pumps; none works that is not full before its turn is
 // over.
 Strokes DirectStrokes(const Problem& problem, const Candidate& candidate) {
-  Strokes strokes = EmptyStrokes(problem);
+  const std::vector<Squad> squads = SquadsOf(problem);
+  const std::vector<double> turns_s = DirectTurns(problem);
+  Strokes strokes = ToBeKept(problem);
   strokes.works = true;
-  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    const model::PumpStroke stroke = DirectStroke(problem, candidate, g);
-    if (!stroke.reached) return EmptyStrokes(problem);
-    strokes.rise_s[g] = stroke.rise_s;
-    strokes.inflate_s[g] = stroke.inflate_s;
-    strokes.pump_on_s += stroke.inflate_s;
-    strokes.pump_energy_j += stroke.pump_energy_j;
-    strokes.pump_air_m3 += LeastAirPerStroke(problem, g, *candidate.lines[g]);
-    strokes.works = strokes.works && stroke.inflate_s <= TurnSeconds(problem);
+  for (std::size_t s = 0; s < squads.size(); ++s) {
+    const auto& [g, count, phase] = squads[s];
+    const double strokes_per_period = problem.groups[g].gait.strokes_per_period;
+    const model::PumpStroke stroke = DirectStroke(problem, candidate, g, count);
+    if (!stroke.reached) return NeverFilled(problem);
+    Keep(strokes.rise_s[g], stroke.rise_s);
+    Keep(strokes.inflate_s[g], stroke.inflate_s);
+    strokes.pump_on_s += strokes_per_period * stroke.inflate_s;
+    strokes.pump_energy_j += strokes_per_period * stroke.pump_energy_j;
+    strokes.pump_air_m3 += strokes_per_period * count / problem.groups[g].count *
+                           LeastAirPerStroke(problem, g, *candidate.lines[g]);
+    strokes.works = strokes.works && stroke.inflate_s <= turns_s[s];
   }
   return strokes;
 }
@@ -235,12 +246,16 @@ Strokes DirectStrokes(const Problem& problem, const Candidate& candidate) {
 Strokes OpenTankStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
   const int groups = static_cast<int>(problem.groups.size());
-  const bool alike = GroupsMeet(problem) && FillAlike(candidate);
-  if (GroupsMeet(problem) && !alike) return SimulateStrokes(problem, candidate, point);
+  const bool alike = MeetingOf(problem) == Meeting::kTogether && FillAlike(candidate);
+  const bool plain =
+      std::all_of(problem.groups.begin(), problem.groups.end(), [](const ActuatorGroup& group) {
+        return group.gait.phases.empty() && group.gait.strokes_per_period == 1;
+      });
+  if ((StrokesMeet(problem) && !alike) || !plain) return SimulateStrokes(problem, candidate, point);
   int together = 0;
   for (const ActuatorGroup& group : problem.groups) together += group.count;
   double tank_pa = LastPeriodPa(problem, candidate, point.source_pa);
-  Strokes strokes = EmptyStrokes(problem);
+  Strokes strokes = NeverFilled(problem);
   const double factor = FlowFactor(problem, model::Gas::kAir);
   const double turn_s = 1.0 / problem.frequency_hz / groups;
   for (int g = 0; g < groups; ++g) {
@@ -266,17 +281,19 @@ Strokes OpenTankStrokes(const Problem& problem, const Candidate& candidate,
 // The same by the simulator.
 Strokes SimulateOpenTank(const Problem& problem, const Candidate& candidate,
                          const OperatingPoint& point, const std::function<bool()>& stop) {
-  Strokes strokes = EmptyStrokes(problem);
+  Strokes strokes = ToBeKept(problem);
   model::SimulateOptions options = StrokeOptions(problem);
-  options.end_s = 1.5 / problem.frequency_hz;  // the latest command is to deflate, before that
+  options.end_s = 2.0 / problem.frequency_hz;  // the latest command is to deflate, before that
   options.cancelled = stop;
   const model::Response response = model::Simulate(MakeRig(problem, candidate, point), options);
   strokes.failed = response.status != model::SimulateStatus::kDone;
   if (strokes.failed) return strokes;
+  const std::vector<Squad> squads = SquadsOf(problem);
   for (const model::Stroke& stroke : response.strokes) {
     if (stroke.state != model::ValveState::kInflate) continue;
-    strokes.rise_s[stroke.group] = stroke.to_target_s;
-    strokes.inflate_s[stroke.group] = stroke.to_operating_s;
+    const int g = squads[stroke.group].group;
+    Keep(strokes.rise_s[g], stroke.to_target_s);
+    Keep(strokes.inflate_s[g], stroke.to_operating_s);
   }
   strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
                               [](double s) { return std::isfinite(s); });
@@ -295,10 +312,10 @@ double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
   double excess = -kUnlimited;
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const model::ReservoirStroke stroke = model::FillFromReservoir(
-        MakeStrokeInput(problem, candidate, point, g, problem.groups[g].count));
+        MakeStrokeInput(problem, candidate, point, g, FilledAtOnce(problem, g), point.source_pa));
     if (!stroke.reached) return kUnlimited;
     excess = std::max({excess, stroke.rise_s / RiseLimit(problem, g) - 1.0,
-                       stroke.inflate_s / HalfPeriod(problem) - 1.0});
+                       stroke.inflate_s / InflateWindow(problem, g) - 1.0});
   }
   return excess;
 }
@@ -308,27 +325,26 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
   if (IsOpenTank(candidate)) return OpenTankStrokes(problem, candidate, point);
   if (candidate.configuration == Configuration::kDirectPump)
     return DirectStrokes(problem, candidate);
-  const int groups = static_cast<int>(problem.groups.size());
-  const bool alone = !GroupsMeet(problem);
+  if (HasEffects(problem)) return SimulateStrokes(problem, candidate, point);
   const bool pumped = candidate.configuration == Configuration::kCompressor;
-  if (!alone && !HasEffects(problem) && !pumped)
-    if (std::optional<Strokes> strokes = FillTogether(problem, candidate, point.source_pa))
-      if (!strokes->failed || candidate.stopped()) return *std::move(strokes);
-  if (!alone && !HasEffects(problem) && pumped && FillAlike(candidate))
+  if (pumped && MeetingOf(problem) == Meeting::kTogether && FillAlike(candidate))
     return StrokesAlike(problem, candidate, point);
-  if (!alone || HasEffects(problem)) return SimulateStrokes(problem, candidate, point);
+  if (StrokesMeet(problem)) return StrokesTogether(problem, candidate, point);
 
-  Strokes strokes = EmptyStrokes(problem);
-  const double time_s = 1.0 / problem.frequency_hz / groups;  // until the next group's command
-  for (int g = 0; g < groups; ++g) {
-    if (candidate.configuration != Configuration::kCompressor) {
-      const double draw_s = RegulatedStroke(problem, candidate, point.source_pa, g, strokes);
-      if (groups > 1 && !(draw_s <= time_s)) return SimulateStrokes(problem, candidate, point);
+  Strokes strokes = ToBeKept(problem);
+  const std::vector<Squad> squads = SquadsOf(problem);
+  const std::vector<double> turns_s = TurnSeconds(problem, squads);
+  for (std::size_t s = 0; s < squads.size(); ++s) {
+    if (!pumped) {
+      const double draw_s =
+          RegulatedStroke(problem, candidate, point.source_pa, squads[s], strokes);
+      if (squads.size() > 1 && !(draw_s <= turns_s[s]))
+        return StrokesTogether(problem, candidate, point);
     } else {
-      const Alone outcome =
-          ReservoirStroke(problem, candidate, point, g, problem.groups[g].count, time_s, strokes);
-      if (outcome == Alone::kTooSlow) return EmptyStrokes(problem);
-      if (outcome == Alone::kNo) return SimulateStrokes(problem, candidate, point);
+      const Alone outcome = ReservoirStroke(problem, candidate, point, squads[s].group,
+                                            squads[s].count, turns_s[s], strokes);
+      if (outcome == Alone::kTooSlow) return NeverFilled(problem);
+      if (outcome == Alone::kNo) return StrokesPartlyFull(problem, candidate, point);
     }
   }
   strokes.from_full = true;
@@ -343,7 +359,7 @@ Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
   const Workbench own;
   const Workbench& bench = candidate.bench != nullptr ? *candidate.bench : own;
   if (IsOpenTank(candidate)) return SimulateOpenTank(problem, candidate, point, bench.stop);
-  Strokes strokes = EmptyStrokes(problem);
+  Strokes strokes = ToBeKept(problem);
   const model::Rig rig = MakePeriodicRig(problem, candidate, point);
   model::SimulateOptions options = StrokeOptions(problem);
   options.cancelled = bench.stop;
@@ -351,13 +367,14 @@ Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
       bench.periodic(rig, 1.0 / problem.frequency_hz, options, {.tolerance = kPeriodicTolerance});
   strokes.failed = state.status != model::PeriodicStatus::kConverged;
   if (strokes.failed) return strokes;
+  const std::vector<Squad> squads = SquadsOf(problem);
   for (const model::Stroke& stroke : state.response.strokes) {
+    const int g = squads[stroke.group].group;
     if (stroke.state == model::ValveState::kInflate) {
-      strokes.rise_s[stroke.group] = stroke.to_target_s;
-      strokes.inflate_s[stroke.group] = stroke.to_operating_s;
-    } else if (stroke.state == model::ValveState::kDeflate &&
-               !candidate.lines[stroke.group]->holds) {
-      strokes.filled_pa[stroke.group] = stroke.start_pressure_pa;
+      Keep(strokes.rise_s[g], stroke.to_target_s);
+      Keep(strokes.inflate_s[g], stroke.to_operating_s);
+    } else if (stroke.state == model::ValveState::kDeflate && !candidate.lines[g]->holds) {
+      Keep(strokes.filled_pa[g], stroke.start_pressure_pa);
     }
   }
   strokes.pump_on_s = state.response.compressor_on_s;

@@ -1,4 +1,4 @@
-#include "verify/design/verify_pump_curve.h"
+#include "verify/design/cycle/verify_pump_curve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,9 +48,13 @@ double PowerHeld(const model::CompressorCurve& curve, double low_pa, double high
   return Held(curve, low_pa, high_pa, [&](double pa) { return model::ElectricalPower(curve, pa); });
 }
 
-double FillSecondsMax(const Problem& problem, const Assembly& assembly) {
-  const double groups = static_cast<double>(problem.groups.size());
-  return (assembly.direct() ? std::min(0.5, 1.0 / groups) : 0.5) / problem.frequency_hz;
+double FillSecondsMax(const Problem& problem, const Assembly& assembly, int g) {
+  double most_s = FillWindow(problem, g);
+  if (!assembly.direct()) return most_s;
+  const std::vector<Unit> units = UnitsOf(problem);
+  for (const Unit& unit : units)
+    if (unit.group == g) most_s = std::min(most_s, UntilNext(problem, units, unit));
+  return most_s;
 }
 
 double NodePressure(const Assembly& assembly, const model::Series& fill, int count,
@@ -91,16 +95,15 @@ double HighestNode(const Assembly& assembly, const std::vector<model::GroupRig>&
   return highest_pa;
 }
 
-DirectFills::Fill DirectFills::Make(const Problem& problem, const Assembly& assembly, int g,
-                                    const model::Series& fill) {
-  const ActuatorGroup& group = problem.groups[g];
-  const model::Chamber chamber = ChamberOf(group, assembly.lines[g]);
+DirectFills::Fill DirectFills::Make(const Problem& problem, const Assembly& assembly,
+                                    const Unit& unit, const model::Series& fill) {
+  const model::Chamber chamber = ChamberOf(problem.groups[unit.group], assembly.lines[unit.group]);
   const model::CompressorCurve& curve = assembly.compressor->curve;
   const double ambient_pa = problem.ambient.pressure_pa;
   const double operating_pa = chamber.operating_pressure_pa;
   const double target_pa = ambient_pa + problem.rise_fraction * (operating_pa - ambient_pa);
   const double air_per_content = model::StandardVolume(1.0, problem.ambient.temperature_k);
-  const double end_pa = NodePressure(assembly, fill, group.count, operating_pa);
+  const double end_pa = NodePressure(assembly, fill, unit.count, operating_pa);
   Fill found;
   found.node_pa = end_pa;
   if (!std::isfinite(end_pa) || !(DeliveryUpToTheEnd(curve, end_pa) > 0.0)) return found;
@@ -108,10 +111,10 @@ DirectFills::Fill DirectFills::Make(const Problem& problem, const Assembly& asse
   const auto panel = [&](double from_pa, double to_pa) {
     for (int i = 0; i < 3; ++i) {
       const double p = 0.5 * (from_pa + to_pa) + 0.5 * (to_pa - from_pa) * kGaussNodes[i];
-      const double node_pa = NodePressure(assembly, fill, group.count, p);
+      const double node_pa = NodePressure(assembly, fill, unit.count, p);
       const double flow = std::min(assembly.compressors * DeliveryUpToTheEnd(curve, node_pa),
-                                   group.count * node_pa * model::FlowAtRatio(fill, p / node_pa));
-      const double time = 0.5 * (to_pa - from_pa) * kGaussWeights[i] * group.count *
+                                   unit.count * node_pa * model::FlowAtRatio(fill, p / node_pa));
+      const double time = 0.5 * (to_pa - from_pa) * kGaussWeights[i] * unit.count *
                           model::ContentSlope(chamber, p) * air_per_content / flow;
       seconds += time;
       joules += time * assembly.compressors * model::ElectricalPower(curve, node_pa);
@@ -135,17 +138,20 @@ DirectFills::Fill DirectFills::Make(const Problem& problem, const Assembly& asse
   return found;
 }
 
-void DirectFills::Add(const Problem& problem, const Assembly& assembly, int g,
+void DirectFills::Add(const Problem& problem, const Assembly& assembly, const Unit& unit,
                       const model::Series& fill, Cycle& cycle) {
+  const int g = unit.group;
+  const double strokes = problem.groups[g].gait.strokes_per_period;
   const LineParts& line = assembly.lines[g];
-  const auto [entry, fresh] = known_.try_emplace(
-      {g, line.tube, line.fitting, line.valve, assembly.compressor, assembly.compressors});
-  if (fresh) entry->second = Make(problem, assembly, g, fill);
+  const auto [entry, fresh] =
+      known_.try_emplace({g, unit.count, line.tube, line.fitting, line.valve, assembly.compressor,
+                          assembly.compressors});
+  if (fresh) entry->second = Make(problem, assembly, unit, fill);
   const Fill& found = entry->second;
-  cycle.rise_s[g] = found.rise_s;
-  cycle.inflate_s[g] = found.inflate_s;
-  cycle.pump_on_s += found.inflate_s;
-  cycle.pump_j += found.pump_j;
+  cycle.rise_s[g] = std::max(cycle.rise_s[g], found.rise_s);
+  cycle.inflate_s[g] = std::max(cycle.inflate_s[g], found.inflate_s);
+  cycle.pump_on_s += strokes * found.inflate_s;
+  cycle.pump_j += strokes * found.pump_j;
   cycle.node_pa = std::max(cycle.node_pa, found.node_pa);
 }
 

@@ -1,0 +1,29 @@
+// The periodic state of strokes out of a compressor's reservoir, each of which ends before the next
+// begins, so that only the reservoir's pressure is handed on.
+//
+// With F the reservoir's pressure after a period that began with p, F rises with p and by less than
+// it does, so that p = F(p) has one solution; found from the stop pressure down. A stroke that is
+// too slow there is too slow in the periodic state, where the reservoir holds no more.
+#ifndef PLENUM_OPTIMIZER_EVALUATE_STROKES_TURN_STROKES_H_
+#define PLENUM_OPTIMIZER_EVALUATE_STROKES_TURN_STROKES_H_
+
+#include <optional>
+
+#include "model/strokes/reservoir_stroke.h"
+#include "optimizer/evaluate/strokes/stroke_rig.h"
+
+namespace plenum::optimizer {
+
+// To 1e-6 of times and energy; none where a stroke goes on when the next begins. Of strokes that
+// never reach their pressures, or not within their window, `works` may be false.
+std::optional<Strokes> StrokesInTurns(const Problem& problem, const Candidate& candidate,
+                                      const OperatingPoint& point);
+
+// A squad's stroke out of the candidate's reservoir that holds `start_pa`.
+model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candidate& candidate,
+                                            const OperatingPoint& point, int group, int count,
+                                            double start_pa);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_EVALUATE_STROKES_TURN_STROKES_H_
