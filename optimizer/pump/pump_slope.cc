@@ -1,11 +1,12 @@
 #include "optimizer/pump/pump_slope.h"
 
 #include <algorithm>
+#include <array>
 
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kNoDelivery = 1e12;
+constexpr int kLooks = 32;  // cells between two points of the tables
 
 // The points of both tables in between, and both ends.
 std::vector<double> Knots(const model::CompressorCurve& curve, double low_pa, double high_pa) {
@@ -27,6 +28,50 @@ Slopes SlopesOf(const model::MonotoneCurve& table, double from, double to) {
   const double left = table.Slope(from), right = table.Slope(to);
   const double middle = 3.0 * (table(to) - table(from)) / (to - from) - left - right;
   return {std::min({left, middle, right}), std::max({left, middle, right})};
+}
+
+// Bézier points of a piece of a table; outside of it the end value holds.
+std::array<double, 4> PiecePoints(const model::MonotoneCurve& table, double from, double to) {
+  const double low = table(std::clamp(from, table.front(), table.back()));
+  const double high = table(std::clamp(to, table.front(), table.back()));
+  if (from >= table.back() || to <= table.front()) return {low, low, low, low};
+  const double third = (to - from) / 3.0;
+  return {low, low + third * table.Slope(from), high - third * table.Slope(to), high};
+}
+
+// Of a'·b − a·b', a and b cubics.
+std::array<double, 6> Bend(const std::array<double, 4>& a, const std::array<double, 4>& b) {
+  constexpr double kTwo[] = {1.0, 2.0, 1.0}, kThree[] = {1.0, 3.0, 3.0, 1.0},
+                   kFive[] = {1.0, 5.0, 10.0, 10.0, 5.0, 1.0};
+  std::array<double, 6> points{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j)
+      points[i + j] += kTwo[i] * kThree[j] / kFive[i + j] * 3.0 *
+                       ((a[i + 1] - a[i]) * b[j] - (b[i + 1] - b[i]) * a[j]);
+  return points;
+}
+
+// Whether the polynomial with these Bézier points is nowhere below −`slack`.
+bool NowhereBelow(std::array<double, 6> points, double slack, int halvings) {
+  if (std::all_of(points.begin(), points.end(), [&](double p) { return p >= -slack; })) return true;
+  if (points.front() < -slack || points.back() < -slack || halvings == 0) return false;
+  std::array<double, 6> left{};  // de Casteljau's halves: what is left of `points` is the right one
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    left[i] = points[0];
+    for (std::size_t j = 0; j + 1 < points.size() - i; ++j)
+      points[j] = 0.5 * (points[j] + points[j + 1]);
+  }
+  return NowhereBelow(left, slack, halvings - 1) && NowhereBelow(points, slack, halvings - 1);
+}
+
+bool RisesBetween(const model::CompressorCurve& curve, double from, double to) {
+  constexpr double kSlack = 1e-12;
+  constexpr int kHalvings = 40;
+  const std::array<double, 4> current = PiecePoints(curve.current_a, from, to);
+  const std::array<double, 4> flow = PiecePoints(curve.free_air_m3_per_s, from, to);
+  const double scale = *std::max_element(current.begin(), current.end()) *
+                       *std::max_element(flow.begin(), flow.end());
+  return NowhereBelow(Bend(current, flow), kSlack * scale, kHalvings);
 }
 
 // −(P/Q)' = −P'/Q + P·Q'/Q² with Q' ≤ 0, at most: a parabola in 1/Q, which in the cell is between
@@ -59,22 +104,12 @@ bool PowerRises(const model::CompressorCurve& curve, double low_pa, double high_
   return rises(high_pa);
 }
 
-// Where power rises so does its share per air, since delivery falls; elsewhere both are cubic
-// between the points of their tables, and their quotient is looked at closely.
-bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa,
-                       int looks) {
+// Where power rises so does its share per air, since delivery falls.
+bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa) {
   if (PowerRises(curve, low_pa, high_pa)) return true;
   const std::vector<double> knots = Knots(curve, low_pa, high_pa);
-  double before = 0.0;
   for (std::size_t i = 0; i + 1 < knots.size(); ++i)
-    for (int look = 0; look < looks; ++look) {
-      const double pressure_pa = knots[i] + (knots[i + 1] - knots[i]) * look / looks;
-      const double delivery = model::FreeAirDelivery(curve, pressure_pa);
-      const double per_air =
-          delivery > 0.0 ? model::ElectricalPower(curve, pressure_pa) / delivery : kNoDelivery;
-      if (per_air < before * (1.0 - 1e-12)) return false;
-      before = per_air;
-    }
+    if (knots[i] < knots[i + 1] && !RisesBetween(curve, knots[i], knots[i + 1])) return false;
   return true;
 }
 

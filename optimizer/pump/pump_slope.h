@@ -25,12 +25,12 @@
 
 namespace plenum::optimizer {
 
-// Whether electrical power, and power over delivery, do not fall with pressure in between. The
-// latter is looked at so often between two points of the pump's tables, where power falls.
-inline constexpr int kLooks = 32;
+// Whether electrical power, and power over delivery, do not fall with pressure in between. Between
+// the points of the pump's tables both are cubics, so that the sign of (P/Q)' is that of the
+// polynomial P'·Q − P·Q' of degree 5, decided by its Bézier points; where they do not decide after
+// many halvings, it counts as falling.
 bool PowerRises(const model::CompressorCurve& curve, double low_pa, double high_pa);
-bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa,
-                       int looks = kLooks);
+bool EnergyPerAirRises(const model::CompressorCurve& curve, double low_pa, double high_pa);
 
 // Bounds from above on how steeply P (W/Pa) and P/Q (J/(m³·Pa), one pump) fall anywhere between
 // `low_pa` and a pressure; 0 where they do not.

@@ -28,8 +28,6 @@
 namespace plenum::optimizer {
 
 inline constexpr double kJoulePerWattHour = 3600.0;
-// Between two points of a pump's tables, once a plan: a dip just above ambient may be narrow.
-inline constexpr int kCloseLooks = 1024;
 
 // Numbers distinct values, so that parts can tell by bits which they mate with.
 template <typename Value>
@@ -144,7 +142,7 @@ class Planter {
     return !std::all_of(problem_.parts.compressors.begin(), problem_.parts.compressors.end(),
                         [&](const model::Compressor& c) {
                           return EnergyPerAirRises(c.curve, problem_.ambient.pressure_pa,
-                                                   model::HighestPressure(c.curve), kCloseLooks);
+                                                   model::HighestPressure(c.curve));
                         });
   }
 

@@ -84,7 +84,11 @@ TEST(GaitRequestTest, NamesWhatDoesNotGoTogether) {
   Json request = Asked();
   request["supply"] = {{"configurations", {"direct_pump"}}};
   EXPECT_EQ(Pointers(request), "");
-  request["actuators"][0]["phase"] = {0, 0.25, 0.5, 0.5};
+  request["actuators"][0]["phase"] = {0, 0.25, 0.5, 0.5};  // two at once are one to the pumps
+  EXPECT_EQ(Pointers(request), "");
+  request["actuators"].push_back(request["actuators"][0]);
+  request["actuators"][1]["name"] = "tail";
+  request["actuators"][1]["phase"] = 0.5;
   EXPECT_EQ(Pointers(request), "/actuators ");
   request = Asked();
   request["ranking"] = {{"count", 1}};
