@@ -40,7 +40,7 @@ fs::path CheckoutCatalog() {
 }
 
 fs::path Home() {
-  if (const fs::path home = Variable("HOME"); !home.empty()) return home;
+  if (fs::path home = Variable("HOME"); !home.empty()) return home;
   const passwd* user = getpwuid(geteuid());
   return user != nullptr ? user->pw_dir : "/";
 }
@@ -56,7 +56,7 @@ void TakeName(const fs::path& copy, const fs::path& path) {
 }  // namespace
 
 fs::path InstalledSeed() {
-  const fs::path beside = Program().parent_path().parent_path() / "share" / "plenum" / kFile;
+  fs::path beside = Program().parent_path().parent_path() / "share" / "plenum" / kFile;
   if (Exists(beside)) return beside;
   const fs::path installed = fs::path("/usr/share/plenum") / kFile;
   return Exists(installed) ? installed : fs::path();
@@ -69,9 +69,9 @@ fs::path UserCatalog() {
 }
 
 fs::path DefaultCatalog(const fs::path& seed) {
-  if (const fs::path named = Variable("PLENUM_CATALOG"); !named.empty()) return named;
+  if (fs::path named = Variable("PLENUM_CATALOG"); !named.empty()) return named;
   if (Exists(kFile)) return kFile;
-  if (const fs::path checkout = CheckoutCatalog(); Exists(checkout)) return checkout;
+  if (fs::path checkout = CheckoutCatalog(); Exists(checkout)) return checkout;
   const fs::path users = UserCatalog();
   return Exists(users) || !seed.empty() ? users : fs::path(kFile);
 }

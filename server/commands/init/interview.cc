@@ -1,5 +1,7 @@
 #include "server/commands/init/interview.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <istream>
@@ -123,7 +125,7 @@ void CompleteSupply(Json& document) {
 // A name that no group has yet.
 std::string FreeName(const Json& groups) {
   for (std::size_t number = groups.size() + 1;; ++number) {
-    const std::string name = "actuator_" + std::to_string(number);
+    std::string name = "actuator_" + std::to_string(number);
     if (std::none_of(groups.begin(), groups.end(),
                      [&](const Json& group) { return group.at("name") == name; }))
       return name;
@@ -153,7 +155,7 @@ class Asking {
         return;
       }
       if (!interview_.person)
-        throw BadInput("answer " + line + " to \"" + shown + "\":\n" + Lines(opinion.errors));
+        throw BadInput(fmt::format("answer {} to \"{}\":\n{}", line, shown, Lines(opinion.errors)));
       for (const api::Error& error : opinion.errors) interview_.say("  " + error.detail + "\n");
     }
   }

@@ -1,5 +1,7 @@
 #include "server/commands/manual/completion.h"
 
+#include <fmt/core.h>
+
 namespace plenum::server {
 namespace {
 
@@ -26,14 +28,14 @@ void AddCases(const std::vector<Command>& commands, const std::string& place,
     if (!name.starts_with("--")) continue;
     inherited.push_back(name);
     if (const auto* values = std::get_if<OneOf>(&option.rules.allowed))
-      cases.values += "    \"" + place + " " + name + "\") words=\"" + Joined(*values) + "\" ;;\n";
+      cases.values += fmt::format("    \"{} {}\") words=\"{}\" ;;\n", place, name, Joined(*values));
   }
   std::vector<std::string> names;
   names.reserve(commands.size());
   for (const Command& command : commands) {
     names.push_back(command.name);
     const std::string below = place + " " + command.name;
-    cases.places += "      \"" + below + "\") place=\"" + below + "\" ;;\n";
+    cases.places += fmt::format("      \"{}\") place=\"{}\" ;;\n", below, below);
     AddCases(command.commands, below, inherited, command.options, cases);
   }
   cases.words += "    \"" + place + "\") commands=\"" + Joined(names) + "\"; options=\"" +
