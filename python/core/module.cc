@@ -2,6 +2,9 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <exception>
+#include <utility>
+
 #include "api/json/version.h"
 #include "python/core/computations.h"
 #include "python/core/documents.h"
@@ -19,7 +22,7 @@ void TranslateErrors(std::exception_ptr thrown) {
     PyErr_SetObject(type.ptr(), arguments.ptr());
   };
   try {
-    if (thrown) std::rethrow_exception(thrown);
+    if (thrown) std::rethrow_exception(std::move(thrown));
   } catch (const Refused& refused) {
     py::list errors;
     for (const api::Error& error : refused.errors())
