@@ -13,7 +13,6 @@
 #include "api/measure/rig_parts.h"
 #include "api/simulate/map.h"
 #include "api/simulate/simulation.h"
-#include "python/core/documents.h"
 #include "python/core/part_store.h"
 
 namespace plenum::python {
@@ -84,21 +83,21 @@ std::string Map(const std::string& request) {
   return Dump(ValueOrRefuse(api::RunMap(Parse(request))));
 }
 
-std::vector<std::string> SimulateMany(const std::vector<std::string>& requests,
-                                      const std::string& catalogue, int threads, Watch& watch) {
+std::vector<Split> SimulateMany(const std::vector<std::string>& requests,
+                                const std::string& catalogue, int threads, Watch& watch) {
   const bool named = std::any_of(requests.begin(), requests.end(), [](const std::string& text) {
     return text.find("\"part\"") != std::string::npos;
   });
   const PartList parts = named ? OpenCatalogue(catalogue, Access::kRead).List() : PartList();
-  std::vector<std::string> answers(requests.size());
+  std::vector<Split> answers(requests.size());
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     const api::SignalStack stack;
     for (std::size_t i = next++; i < requests.size() && !watch.cancelled(); i = next++) {
       try {
-        answers[i] = Dump(RunSimulation(Parse(requests[i]), parts));
+        answers[i] = SplitArrays(RunSimulation(Parse(requests[i]), parts));
       } catch (const Refused& refused) {
-        answers[i] = ErrorsAsDocument(refused.errors());
+        answers[i] = {ErrorsAsDocument(refused.errors()), {}};
       }
       watch.Tell(Dump({{"done", std::min(next.load(), requests.size())}, {"of", requests.size()}}));
     }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "python/core/documents.h"
 #include "python/core/interruptible.h"
 
 namespace plenum::python {
@@ -19,8 +20,8 @@ std::string Map(const std::string& request);
 
 // Each request as by Simulate, on `threads` threads; a request that is refused gives its errors as
 // { "errors": [{ "pointer", "detail" }] } in its place. Cancelled: those not begun are empty.
-std::vector<std::string> SimulateMany(const std::vector<std::string>& requests,
-                                      const std::string& catalogue, int threads, Watch& watch);
+std::vector<Split> SimulateMany(const std::vector<std::string>& requests,
+                                const std::string& catalogue, int threads, Watch& watch);
 
 struct DiagnosisWish {
   std::string model;  // predicts with this saved model, without a fit; empty: none

@@ -37,11 +37,12 @@ class Watch {
   std::optional<std::string> news_;
 };
 
-// Gives what `work(watch)` gives. `progress` is None or called with each news. An exception of
-// Python (Ctrl-C; one that `progress` raises) cancels the work; once that has ended the exception
-// goes on, with what the work gave in its attribute "answer".
-template <typename Work>
-auto RunWatched(const pybind11::object& progress, const Work& work) {
+// Gives `to_python` of what `work(watch)` gives. `progress` is None or called with each news. An
+// exception of Python (Ctrl-C; one that `progress` raises) cancels the work; once that has ended
+// the exception goes on, with what the work gave in its attribute "answer".
+template <typename Work, typename ToPython>
+pybind11::object RunWatched(const pybind11::object& progress, const Work& work,
+                            const ToPython& to_python) {
   constexpr std::chrono::milliseconds kStep{50};
   Watch watch;
   std::optional<pybind11::error_already_set> stopped;
@@ -64,10 +65,15 @@ auto RunWatched(const pybind11::object& progress, const Work& work) {
       watch.Cancel();
     }
   }
-  auto answer = future.get();
+  const pybind11::object answer = to_python(future.get());
   if (!stopped) return answer;
   stopped->value().attr("answer") = answer;
   throw pybind11::error_already_set(*stopped);
+}
+
+template <typename Work>
+pybind11::object RunWatched(const pybind11::object& progress, const Work& work) {
+  return RunWatched(progress, work, [](const auto& answer) { return pybind11::cast(answer); });
 }
 
 }  // namespace plenum::python

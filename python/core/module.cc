@@ -1,4 +1,5 @@
 // The functions and their names for Python; their signatures stand in plenum/_core.pyi.
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -31,6 +32,18 @@ void TranslateErrors(std::exception_ptr thrown) {
   } catch (const catalog::StoreError& error) {
     raise("CatalogueError", py::str(error.what()));
   }
+}
+
+// Pairs of a text and its arrays.
+py::list WithArrays(const std::vector<Split>& answers) {
+  py::list list;
+  for (const Split& answer : answers) {
+    py::list arrays;
+    for (const std::vector<double>& numbers : answer.arrays)
+      arrays.append(py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data()));
+    list.append(py::make_tuple(answer.text, arrays));
+  }
+  return list;
 }
 
 // Short work, in the thread of the caller.
@@ -73,9 +86,10 @@ void DefineComputations(py::module_& module) {
       "simulate_many",
       [](const std::vector<Text>& requests, const Text& catalogue, int threads,
          const py::object& progress) {
-        return RunWatched(progress, [&](Watch& watch) {
-          return SimulateMany(requests, catalogue, threads, watch);
-        });
+        return RunWatched(
+            progress,
+            [&](Watch& watch) { return SimulateMany(requests, catalogue, threads, watch); },
+            WithArrays);
       },
       py::arg("requests"), py::arg("catalogue"), py::arg("threads"),
       py::arg("progress") = py::none());

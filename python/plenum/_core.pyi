@@ -1,5 +1,7 @@
 from typing import Callable, Optional, Sequence
 
+import numpy as np
+
 version: str
 
 def locate_catalogue(path: str, seed: str) -> str: ...
@@ -16,7 +18,7 @@ def simulate(request: str, catalogue: str) -> str: ...
 def map(request: str) -> str: ...
 def simulate_many(
     requests: Sequence[str], catalogue: str, threads: int, progress: Optional[Callable[[str], None]] = None
-) -> list[str]: ...
+) -> list[tuple[str, list[np.ndarray]]]: ...
 def diagnose(
     measurements: Sequence[str],
     catalogue: str,

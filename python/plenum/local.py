@@ -7,6 +7,8 @@ import os
 import pathlib
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Optional, Sequence, Union
 
+import numpy as np
+
 from . import _core
 from .answers import Designs, Diagnosis, Evaluation, Map, Response, Verification, answer_of
 from .catalogue import locate
@@ -84,10 +86,10 @@ def simulate_many(requests: Iterable[Source], *, threads: Optional[int] = None, 
             for begin in range(0, len(texts), CHUNK):
                 told = None if hear is None else _shifted(hear, begin, len(texts))
                 done = _core.simulate_many(texts[begin : begin + CHUNK], place, threads, told)
-                answers += [_response_or_error(json.loads(answer)) for answer in done]
+                answers += [_response_or_error(*answer) for answer in done]
         except BaseException as stopped:
             done = getattr(stopped, "answer", [])
-            answers += [_response_or_error(json.loads(answer)) for answer in done if answer]
+            answers += [_response_or_error(*answer) for answer in done if answer[0]]
             stopped.answer = answers  # type: ignore[attr-defined]
             raise
     return answers
@@ -102,13 +104,11 @@ def _shifted(hear: Callable[[str], None], begin: int, count: int) -> Callable[[s
     return tell
 
 
-def _response_or_error(document: dict[str, Any]) -> Union[Response, InputError]:
+def _response_or_error(text: str, arrays: list[np.ndarray]) -> Union[Response, InputError]:
+    document = json.loads(text, object_hook=lambda found: arrays[found["$array"]] if "$array" in found else found)
     if "errors" in document:
         return InputError([(error["pointer"], error["detail"]) for error in document["errors"]])
-    answer = answer_of(document)
-    if isinstance(answer, Response):
-        answer.use_arrays()
-    return answer
+    return answer_of(document)
 
 
 def map(request: Source) -> Map:  # the name of the contract
