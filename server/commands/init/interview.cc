@@ -150,7 +150,8 @@ class Asking {
       CompleteSupply(changed);
       const Opinion opinion = interview_.judge(changed);
       if (opinion.errors.empty()) {
-        interview_.say(opinion.warnings);
+        if (opinion.warnings != warned_) interview_.say(opinion.warnings);
+        warned_ = opinion.warnings;
         document_ = std::move(changed);
         return;
       }
@@ -183,6 +184,7 @@ class Asking {
 
   Interview& interview_;
   Json document_ = NewDocument();
+  std::string warned_;  // the last warnings, which are not repeated
 };
 
 void AskGroup(Asking& asking, std::size_t index) {

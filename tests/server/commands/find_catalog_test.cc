@@ -55,6 +55,17 @@ TEST_F(Installed, TheFolderForDataMayBeNamed) {
   EXPECT_FALSE(fs::exists(Users()));
 }
 
+// As the unit of the service does: deploy/plenum.service.
+TEST_F(Installed, TheUsersCatalogueBeginsAlsoByItsName) {
+  const std::string named = bench_.Path("data/plenum/catalog.db");
+  const std::string folder = bench_.Path("data");
+  ASSERT_EQ(
+      Run("token create one --catalog '" + named + "'", "XDG_DATA_HOME='" + folder + "'").status,
+      0);
+  EXPECT_TRUE(fs::exists(named));
+  EXPECT_EQ(Run("catalog list --catalog ../other.db").status, 2);
+}
+
 TEST_F(Installed, WhatIsNamedComesFirst) {
   fs::copy_file(Seed(), bench_.Path("mine.db"));
   const std::string named = "PLENUM_CATALOG='" + bench_.Path("mine.db").string() + "'";

@@ -88,6 +88,21 @@ TEST(Init, APersonIsAskedAgain) {
   EXPECT_THAT(said, HasSubstr("must be a number"));
 }
 
+TEST(Init, AWarningIsNotRepeated) {
+  std::istringstream answers("robot\nfinger\n3\n20\n1\n");
+  std::string said;
+  const auto judge = [](const Json& document) -> Opinion {
+    return {{}, document.at("actuators").at(0).at("count") == 3 ? "three is few\n" : ""};
+  };
+  Interview interview{.answers = answers,
+                      .say = [&](const std::string& text) { said += text; },
+                      .person = true,
+                      .judge = judge};
+  AskRequirements(interview);
+  EXPECT_EQ(said.find("three is few"), said.rfind("three is few"));
+  EXPECT_THAT(said, HasSubstr("three is few"));
+}
+
 TEST(Init, AFurtherGroupHasANameOfItsOwn) {
   const Workbench bench;
   // Of the first group only the name, which the second one would have had.
