@@ -13,6 +13,7 @@
 #include "api/measure/rig_parts.h"
 #include "api/simulate/map.h"
 #include "api/simulate/simulation.h"
+#include "python/core/documents.h"
 #include "python/core/part_store.h"
 
 namespace plenum::python {
@@ -36,6 +37,12 @@ PartList PartsFor(const api::Json& request, const std::string& catalogue) {
 api::Json RunSimulation(const api::Json& request, const PartList& parts) {
   return ValueOrRefuse(api::AsksForCurves(request) ? api::RunCurves(request)
                                                    : api::RunSimulation(request, parts));
+}
+
+TextWithArrays RunToArrays(const api::Json& request, const PartList& parts) {
+  if (api::AsksForCurves(request)) return {Dump(RunSimulation(request, parts)), {}};
+  auto [document, arrays] = ValueOrRefuse(api::RunSimulationToArrays(request, parts));
+  return {Dump(document), std::move(arrays)};
 }
 
 std::string ErrorsAsDocument(const api::Errors& errors) {
@@ -83,19 +90,19 @@ std::string Map(const std::string& request) {
   return Dump(ValueOrRefuse(api::RunMap(Parse(request))));
 }
 
-std::vector<Split> SimulateMany(const std::vector<std::string>& requests,
-                                const std::string& catalogue, int threads, Watch& watch) {
+std::vector<TextWithArrays> SimulateMany(const std::vector<std::string>& requests,
+                                         const std::string& catalogue, int threads, Watch& watch) {
   const bool named = std::any_of(requests.begin(), requests.end(), [](const std::string& text) {
     return text.find("\"part\"") != std::string::npos;
   });
   const PartList parts = named ? OpenCatalogue(catalogue, Access::kRead).List() : PartList();
-  std::vector<Split> answers(requests.size());
+  std::vector<TextWithArrays> answers(requests.size());
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     const api::SignalStack stack;
     for (std::size_t i = next++; i < requests.size() && !watch.cancelled(); i = next++) {
       try {
-        answers[i] = SplitArrays(RunSimulation(Parse(requests[i]), parts));
+        answers[i] = RunToArrays(Parse(requests[i]), parts);
       } catch (const Refused& refused) {
         answers[i] = {ErrorsAsDocument(refused.errors()), {}};
       }

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "python/core/documents.h"
 #include "python/core/interruptible.h"
 
 namespace plenum::python {
@@ -18,10 +17,15 @@ std::string Evaluate(const std::string& request, const std::string& catalogue);
 std::string Simulate(const std::string& request, const std::string& catalogue);
 std::string Map(const std::string& request);
 
-// Each request as by Simulate, on `threads` threads; a request that is refused gives its errors as
-// { "errors": [{ "pointer", "detail" }] } in its place. Cancelled: those not begun are empty.
-std::vector<Split> SimulateMany(const std::vector<std::string>& requests,
-                                const std::string& catalogue, int threads, Watch& watch);
+// Each request on `threads` threads, its series as arrays (api/simulate/simulation.h); a request
+// that is refused gives its errors as { "errors": [{ "pointer", "detail" }] } in its place.
+// Cancelled: those not begun are empty.
+struct TextWithArrays {
+  std::string text;
+  std::vector<std::vector<double>> arrays;
+};
+std::vector<TextWithArrays> SimulateMany(const std::vector<std::string>& requests,
+                                         const std::string& catalogue, int threads, Watch& watch);
 
 struct DiagnosisWish {
   std::string model;  // predicts with this saved model, without a fit; empty: none

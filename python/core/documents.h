@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "api/json/json.h"
 
@@ -24,14 +23,6 @@ class Refused : public std::runtime_error {
 
 api::Json Parse(const std::string& text);
 std::string Dump(const api::Json& json);
-
-// A document without its lists of numbers: in the text each is { "$array": its number }. As text
-// they would take several times as long as a simulation does.
-struct Split {
-  std::string text;
-  std::vector<std::vector<double>> arrays;  // null is NaN
-};
-Split SplitArrays(api::Json document);
 
 template <typename T>
 T ValueOrRefuse(api::Parsed<T> parsed) {

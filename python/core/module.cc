@@ -35,9 +35,9 @@ void TranslateErrors(std::exception_ptr thrown) {
 }
 
 // Pairs of a text and its arrays.
-py::list WithArrays(const std::vector<Split>& answers) {
+py::list WithArrays(const std::vector<TextWithArrays>& answers) {
   py::list list;
-  for (const Split& answer : answers) {
+  for (const TextWithArrays& answer : answers) {
     py::list arrays;
     for (const std::vector<double>& numbers : answer.arrays)
       arrays.append(py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data()));

@@ -33,6 +33,10 @@ def plain(value: Any) -> Any:
 
 def encode(document: Any) -> str:
     """JSON text of a document."""
+    try:  # most hold only what JSON has
+        return json.dumps(document, allow_nan=False, ensure_ascii=False)
+    except (TypeError, ValueError):
+        pass
     try:
         return json.dumps(plain(document), allow_nan=False, ensure_ascii=False)
     except (TypeError, ValueError) as error:
