@@ -65,6 +65,9 @@ void DefineCatalogue(py::module_& module) {
              py::arg("part"), py::arg("replace"), py::arg("who"));
   module.def("remove_part", Released<RemovePart, Text, Text, Text>, py::arg("catalogue"),
              py::arg("id"), py::arg("who"));
+  module.def("import_table", Released<ImportTable, Text, Text, Text, bool, Text>,
+             py::arg("catalogue"), py::arg("family"), py::arg("table"), py::arg("dry_run"),
+             py::arg("who"));
   module.def("save_model", Released<SaveModel, Text, Text, Text, Text>, py::arg("catalogue"),
              py::arg("name"), py::arg("model"), py::arg("who"));
   module.def("models", Released<Models, Text>, py::arg("catalogue"));

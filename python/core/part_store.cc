@@ -1,9 +1,11 @@
 #include "python/core/part_store.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "api/catalogue/families.h"
 #include "api/catalogue/part_document.h"
+#include "api/catalogue/table_reading.h"
 #include "api/measure/model_document.h"
 #include "python/core/documents.h"
 
@@ -64,6 +66,33 @@ std::string AddPart(const std::string& path, const std::string& part, bool repla
 
 std::string RemovePart(const std::string& path, const std::string& id, const std::string& who) {
   return Written(OpenCatalogue(path, Access::kWrite).Remove(id, {who, {}, {}}), id);
+}
+
+std::string ImportTable(const std::string& path, const std::string& family,
+                        const std::string& table, bool dry_run, const std::string& who) {
+  if (catalog::FindFamily(family) == nullptr)
+    throw Refused({{"family", "no family is called \"" + family + "\"; see Catalogue().families"}});
+  const catalog::TableReading reading = catalog::ReadTable(family, table, {});
+  if (auto open = api::ErrorsOf(reading); !open.empty()) throw Refused(std::move(open));
+  const auto rows = catalog::RowsOf(reading, table);
+  std::vector<catalog::Part> parts;
+  const auto found = catalog::ReadRows(
+      family, rows, [&](const catalog::Part& part, int) { parts.push_back(part); });
+  api::Errors errors;
+  for (const auto& error : found.errors)
+    errors.push_back(
+        {"/" + std::to_string(error.row) + "/" + HeadingOf(reading, error.column), error.detail});
+  if (!errors.empty()) throw Refused(std::move(errors));
+  auto store = OpenCatalogue(path, dry_run ? Access::kRead : Access::kWrite);
+  const catalog::PartSource source = [&](const catalog::TakeEach& take) {
+    std::for_each(parts.begin(), parts.end(), take);
+  };
+  const catalog::ImportPlan plan =
+      dry_run ? store.PlanImport(source) : store.Import(source, {who, {}, {}}).plan;
+  for (const std::string& id : plan.taken)
+    errors.push_back({"/id", "\"" + id + "\" is taken by a part of another family"});
+  if (!errors.empty()) throw Refused(std::move(errors));
+  return Dump({{"added", plan.added}, {"replaced", plan.replaced}, {"unchanged", plan.unchanged}});
 }
 
 std::string SaveModel(const std::string& path, const std::string& name, const std::string& model,

@@ -21,6 +21,10 @@ std::string Head(const std::string& path);  // the newest revision
 std::string AddPart(const std::string& path, const std::string& part, bool replace,
                     const std::string& who);
 std::string RemovePart(const std::string& path, const std::string& id, const std::string& who);
+// A table in any dialect (docs/reference/tables.md), all of its parts or none:
+// { "added", "replaced", "unchanged" }, ids. `dry_run` writes nothing.
+std::string ImportTable(const std::string& path, const std::string& family,
+                        const std::string& table, bool dry_run, const std::string& who);
 std::string SaveModel(const std::string& path, const std::string& name, const std::string& model,
                       const std::string& who);
 std::string Models(const std::string& path);

@@ -8,7 +8,7 @@ import pathlib
 from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
 
 from . import _core
-from .documents import Source, document_of, encode, text_of
+from .documents import Source, document_of, encode, read_text, text_of
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -74,6 +74,18 @@ class Catalogue:
 
     def remove(self, part_id: str) -> dict[str, Any]:
         return json.loads(_core.remove_part(self.path, part_id, getpass.getuser()))
+
+    def import_table(self, family: str, table: Union["pd.DataFrame", str, "os.PathLike[str]"], *,
+                     dry_run: bool = False) -> dict[str, list[str]]:
+        """Adds and replaces the parts of a frame or CSV file, all or none; gives the ids added, replaced, unchanged.
+
+        Columns are found by name, alias and unit (docs/reference/tables.md); a frame's index `id` is a column, too.
+        """
+        if isinstance(table, (str, os.PathLike)):
+            text = read_text(table)
+        else:
+            text = table.to_csv(index=table.index.name == "id")
+        return json.loads(_core.import_table(self.path, family, text, dry_run, getpass.getuser()))
 
     def save_model(self, name: str, diagnosis: Source) -> dict[str, Any]:
         """Keeps the revised model of a diagnosis for designs ("model": name)."""

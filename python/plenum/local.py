@@ -75,8 +75,8 @@ def simulate_many(requests: Iterable[Source], *, threads: Optional[int] = None, 
                   progress: Progress = False) -> list[Union[Response, InputError]]:
     """Many simulations on all processors. A request that is refused has its InputError in its place.
 
-    In these answers arrays stand in place of lists, with all their digits. Ctrl-C: KeyboardInterrupt has those that are done in
-    `.answer`.
+    In these answers arrays stand in place of lists, with all their digits. Ctrl-C: KeyboardInterrupt has the answers so
+    far in `.answer`.
     """
     texts = [text_of(request) for request in requests]
     threads, place = threads or len(os.sched_getaffinity(0)), locate(catalog)

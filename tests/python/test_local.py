@@ -220,6 +220,23 @@ class TheCatalogue(unittest.TestCase):
         with self.assertRaisesRegex(plenum.InputError, "no part has the id"):
             self.catalogue.remove("my-fitting")
 
+    def test_a_frame_is_imported(self):
+        frame = pd.DataFrame({"id": ["my-1", "my-2"], "manufacturer": "me", "part_number": ["1", "2"],
+                              "mass_kg": ["250 g", "310 g"], "nominal_voltage_v": 11.1, "capacity_ah": [4.0, 5.0],
+                              "cells_series": 3, "current_max_a": 40.0, "body_volume_ml": [130.0, 150.0]})
+        planned = self.catalogue.import_table("battery", frame, dry_run=True)
+        self.assertNotIn("my-1", self.catalogue)
+        self.assertEqual(self.catalogue.import_table("battery", frame), planned)
+        self.assertEqual(planned, {"added": ["my-1", "my-2"], "replaced": [], "unchanged": []})
+        self.assertEqual(self.catalogue.parts("battery").loc["my-2", "mass_kg"], 0.31)
+        self.assertEqual(self.catalogue.import_table("battery", frame.set_index("id"))["unchanged"], ["my-1", "my-2"])
+        frame.loc[1, "current_max_a"] = -1.0
+        with self.assertRaises(plenum.InputError) as caught:
+            self.catalogue.import_table("battery", frame)
+        self.assertEqual(caught.exception.pointer, "/3/current_max_a")  # the row as in a file
+        with self.assertRaisesRegex(plenum.InputError, "no family"):
+            self.catalogue.import_table("wheel", frame)
+
     def test_the_default_is_the_one_that_is_named(self):
         found = subprocess.run([sys.executable, "-c", "import plenum; print(plenum.Catalogue().path)"],
                                env={**os.environ, "PLENUM_CATALOG": str(self.folder.catalog)}, capture_output=True,
