@@ -1,6 +1,7 @@
 # Sourced by run.sh and test.sh: the packages of packages.txt, then one preset configured.
 
 rule_packages="python3 universal-ctags"  # of tests/rules
+python_packages="python3-dev pybind11-dev python3-numpy python3-pandas python3-matplotlib mypy"  # of python/
 sanitizer_packages="clang-14 libclang-rt-14-dev"  # of the preset asan
 
 missing_packages() {  # names of packages.txt and of the arguments that are not installed
@@ -34,6 +35,6 @@ install_packages() {
   $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $missing >&2
 }
 
-configure() {  # configure PRESET; ninja notices changed CMake files by itself afterwards
-  [ -f "build/$1/build.ninja" ] || cmake --preset "$1" >&2
+configure() {  # configure PRESET [OPTIONS]; ninja notices changed CMake files by itself afterwards
+  [ -f "build/$1/build.ninja" ] && [ $# -eq 1 ] || cmake --preset "$@" >&2
 }

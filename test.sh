@@ -10,10 +10,10 @@ set -euo pipefail
 cd "$(dirname "$0")"
 . ./setup.sh
 
-build() {  # build PRESET [TARGET...]
+build() {  # build PRESET [TARGET...]; the release has the package for Python, too
   local preset=$1
   shift
-  configure "$preset"
+  configure "$preset" $([ "$preset" != release ] || echo "-D PLENUM_PYTHON=ON")
   cmake --build --preset "$preset" ${1:+--target "$@"} >&2
 }
 
@@ -28,16 +28,17 @@ long_tests() {
   PLENUM_KILLS=150 PLENUM_KILL_WRITES=6000 build/release/server_tests --gtest_filter='Kill.*'
   build bench batch_tests
   build/bench/batch_tests --gtest_brief=1
+  tests/deploy/packages_test.sh
 }
 
 case ${1:-all} in
   all)
-    install_packages $rule_packages
+    install_packages $rule_packages $python_packages
     build release
     run_tests release
     ;;
   fast)
-    install_packages $rule_packages
+    install_packages $rule_packages $python_packages
     build release
     run_tests release -L fast
     ;;
@@ -52,7 +53,7 @@ case ${1:-all} in
     run_tests asan
     ;;
   full)
-    install_packages $rule_packages $sanitizer_packages
+    install_packages $rule_packages $sanitizer_packages $python_packages
     build release
     run_tests release
     build asan

@@ -6,6 +6,7 @@
 #include "catalog/store/backup.h"
 #include "catalog/store/content_hash.h"
 #include "catalog/store/job_store.h"
+#include "catalog/store/place.h"
 #include "catalog/store/store.h"
 
 #endif  // PLENUM_API_CATALOGUE_STORES_H_

@@ -152,9 +152,17 @@ const char* StatusName(model::SimulateStatus status) {
   return "not_run";
 }
 
-Json Numbers(const std::vector<double>& values, auto&& convert) {
+using Arrays = std::vector<std::vector<double>>;
+
+// In JSON, or in `arrays` where they are asked for.
+Json Series(std::vector<double> values, Arrays* arrays, auto&& convert) {
+  for (double& value : values) value = convert(value);
+  if (arrays != nullptr) {
+    arrays->push_back(std::move(values));
+    return {{"$array", arrays->size() - 1}};
+  }
   Json list = Json::array();
-  for (const double value : values) list.push_back(Number(convert(value)));
+  for (const double value : values) list.push_back(Number(value));
   return list;
 }
 
@@ -176,36 +184,35 @@ Json RenderPerformance(const std::vector<model::FullStroke>& strokes, const mode
 }
 
 Json RenderResponse(const model::Response& response, const std::vector<model::FullStroke>& strokes,
-                    const model::Rig& rig) {
+                    const model::Rig& rig, Arrays* arrays) {
   const auto gauge = [&](double pa) { return KpaGaugeFromPa(pa, rig.ambient); };
   Json groups = Json::array();
   for (const model::GroupResponse& group : response.groups) {
     const bool measured = !group.reading_pa.empty();
-    Json rendered = {
-        {"name", group.name},
-        {"pressure_kpa_gauge", Numbers(measured ? group.reading_pa : group.pressure_pa, gauge)},
-        {"volume_ml", Numbers(group.volume_m3, MlFromM3)},
-        {"air_in_l_anr", Number(LFromM3(group.air_in_m3))},
-        {"air_out_l_anr", Number(LFromM3(group.air_out_m3))}};
-    if (measured) rendered["actuator_pressure_kpa_gauge"] = Numbers(group.pressure_pa, gauge);
+    Json rendered = {{"name", group.name},
+                     {"pressure_kpa_gauge",
+                      Series(measured ? group.reading_pa : group.pressure_pa, arrays, gauge)},
+                     {"volume_ml", Series(group.volume_m3, arrays, MlFromM3)},
+                     {"air_in_l_anr", Number(LFromM3(group.air_in_m3))},
+                     {"air_out_l_anr", Number(LFromM3(group.air_out_m3))}};
+    if (measured)
+      rendered["actuator_pressure_kpa_gauge"] = Series(group.pressure_pa, arrays, gauge);
     if (!group.temperature_k.empty())
-      rendered["temperature_k"] = Numbers(group.temperature_k, std::identity());
+      rendered["temperature_k"] = Series(group.temperature_k, arrays, std::identity());
     groups.push_back(std::move(rendered));
   }
   Json document = AnswerDocument("response/1");
   document["status"] = StatusName(response.status);
   if (response.status != model::SimulateStatus::kDone) document["detail"] = response.detail;
-  document["t_s"] = Numbers(response.t_s, [](double t) { return t; });
+  document["t_s"] = Series(response.t_s, arrays, std::identity());
   document["groups"] = std::move(groups);
-  document["source_pressure_kpa_gauge"] = Numbers(response.source_pressure_pa, gauge);
+  document["source_pressure_kpa_gauge"] = Series(response.source_pressure_pa, arrays, gauge);
   document["performance"] = RenderPerformance(strokes, rig);
   return document;
 }
 
-}  // namespace
-
-Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>& parts,
-                           double seconds_max) {
+Parsed<Json> Run(const Json& request, const std::vector<catalog::Part>& parts, double seconds_max,
+                 Arrays* arrays) {
   Parsed<Simulation> parsed = ParseSimulation(request, parts);
   if (auto* errors = std::get_if<Errors>(&parsed)) return std::move(*errors);
   auto& [rig, options, remarks] = std::get<Simulation>(parsed);
@@ -221,9 +228,26 @@ Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>
     if (!response.detail.empty()) response.detail += "; ";
     response.detail += "out of time: what performance gives as null is not known";
   }
-  Json document = RenderResponse(response, strokes, rig);
+  Json document = RenderResponse(response, strokes, rig, arrays);
   remarks.AddTo(document);
   return document;
+}
+
+}  // namespace
+
+Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>& parts,
+                           double seconds_max) {
+  return Run(request, parts, seconds_max, nullptr);
+}
+
+Parsed<ResponseWithArrays> RunSimulationToArrays(const Json& request,
+                                                 const std::vector<catalog::Part>& parts,
+                                                 double seconds_max) {
+  ResponseWithArrays response;
+  auto document = Run(request, parts, seconds_max, &response.arrays);
+  if (auto* errors = std::get_if<Errors>(&document)) return std::move(*errors);
+  response.document = std::get<Json>(std::move(document));
+  return response;
 }
 
 }  // namespace plenum::api

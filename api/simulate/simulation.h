@@ -14,6 +14,16 @@ namespace plenum::api {
 Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>& parts,
                            double seconds_max = kSimulationSecondsMax);
 
+// The same with the series beside the document, unrounded: in the document each is
+// { "$array": its index }. As JSON they take several times as long as the simulation.
+struct ResponseWithArrays {
+  Json document;
+  std::vector<std::vector<double>> arrays;
+};
+Parsed<ResponseWithArrays> RunSimulationToArrays(const Json& request,
+                                                 const std::vector<catalog::Part>& parts,
+                                                 double seconds_max = kSimulationSecondsMax);
+
 }  // namespace plenum::api
 
 #endif  // PLENUM_API_SIMULATE_SIMULATION_H_

@@ -90,6 +90,7 @@ void BackupCatalog(const CatalogOptions& options) {
 }
 
 void RestoreCatalog(const CatalogOptions& options) {
+  catalog::BeginCatalog(options.catalog);
   CopyOrRefuse(catalog::Restore, options);
   Print("restored revision " +
         std::to_string(OpenCatalog(options.catalog, Access::kRead).Head().number) + " from " +

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "api/catalogue/stores.h"
 #include "api/catalogue/table_reading.h"
 
 namespace plenum::server {
@@ -20,7 +21,7 @@ struct ListOptions {
 
 // Options of all subcommands; each uses its own.
 struct CatalogOptions {
-  std::string catalog = "catalog.db";
+  std::string catalog = catalog::DefaultCatalog();
   std::string family, file, id;
   ListOptions list;
   std::optional<std::int64_t> revision;

@@ -41,6 +41,7 @@ struct Option {
 
 struct Command {
   std::string name, help;
+  std::string example;  // a line that can be typed from the checkout
   std::vector<Option> options;
   std::function<int()> run;  // gives the exit status
   // One of them must be named where there is no `run`, which is for none named; they take the
@@ -50,7 +51,10 @@ struct Command {
 
 // What several commands take.
 inline Option CatalogOption(std::string& path) {
-  return {"--catalog", "The catalogue", &path, {.value_name = "DB", .shows_default = true}};
+  return {"--catalog",
+          "The catalogue; without it PLENUM_CATALOG, catalog.db in this folder, or your own",
+          &path,
+          {.value_name = "DB"}};
 }
 inline Option JsonFlag(bool& json) {
   return {"--json", "One JSON document on standard output", &json};

@@ -174,12 +174,13 @@ int Answered(const CatalogOptions& options) {
 using Table = std::vector<Option>;
 
 // A command below `catalog`, with options of its own.
-Command Below(const char* name, const char* help, int (*run)(const CatalogOptions&),
+Command Below(const char* name, const char* help, const char* example,
+              int (*run)(const CatalogOptions&),
               const std::function<Table(CatalogOptions&)>& table) {
   auto options = std::make_shared<CatalogOptions>();
   Table all = table(*options);
   all.insert(all.begin(), CatalogOption(options->catalog));
-  return {name, help, std::move(all), [options, run] { return run(*options); }};
+  return {name, help, example, std::move(all), [options, run] { return run(*options); }};
 }
 
 Option Family(CatalogOptions& options) {
@@ -295,25 +296,34 @@ Command CatalogCommand() {
   return {
       "catalog",
       "The parts catalogue",
+      "plenum catalog list valve --where mass_kg_max=0.02 --sort=mass_kg",
       {},
       {},
-      {Below("list", "The parts, of one family or all", Answered<List>, ListTable),
-       Below("show", "One part with the source of every number", Answered<Show>, ShowTable),
-       Below("compare", "Parts side by side, what differs marked", Answered<Compare>, CompareTable),
-       Below("history", "Changes of a part, or all writes", Answered<ShowHistory>, HistoryTable),
-       Below("undo", "Takes the changes of a revision back", Answered<UndoWrite>, revision),
-       Below("add", "Adds a part", Answered<Add>,
+      {Below("list", "The parts, of one family or all",
+             "plenum catalog list battery --where mass_kg_max=0.3", Answered<List>, ListTable),
+       Below("show", "One part with the source of every number",
+             "plenum catalog show smc-s070c-6dc-32", Answered<Show>, ShowTable),
+       Below("compare", "Parts side by side, what differs marked",
+             "plenum catalog compare smc-s070c-6dc-32 smc-s070c-sdg-32", Answered<Compare>,
+             CompareTable),
+       Below("history", "Changes of a part, or all writes", "plenum catalog history --limit 5",
+             Answered<ShowHistory>, HistoryTable),
+       Below("undo", "Takes the changes of a revision back", "plenum catalog undo 2",
+             Answered<UndoWrite>, revision),
+       Below("add", "Adds a part", "plenum catalog add part.json", Answered<Add>,
              FileTable("JSON as show --json prints it; - is standard input")),
-       Below("remove", "Removes a part", Answered<Remove>, id),
-       Below("import", "Adds and replaces parts from a table", Answered<Import>, ImportOptions),
-       Below("export", "Parts of a family as CSV", Answered<Export>, family),
-       Below("backup", "Copies the catalogue while it is in use", Answered<BackupCatalog>,
-             FileTable("The copy; replaced if there is one")),
-       Below("restore", "Puts parts and history of a copy in place", Answered<RestoreCatalog>,
-             FileTable("The copy")),
+       Below("remove", "Removes a part", "plenum catalog remove my-valve", Answered<Remove>, id),
+       Below("import", "Adds and replaces parts from a table",
+             "plenum catalog import battery packs.csv --dry-run", Answered<Import>, ImportOptions),
+       Below("export", "Parts of a family as CSV", "plenum catalog export battery > packs.csv",
+             Answered<Export>, family),
+       Below("backup", "Copies the catalogue while it is in use", "plenum catalog backup copy.db",
+             Answered<BackupCatalog>, FileTable("The copy; replaced if there is one")),
+       Below("restore", "Puts parts and history of a copy in place",
+             "plenum catalog restore copy.db", Answered<RestoreCatalog>, FileTable("The copy")),
        Below("check",
              "Checks the file and its history, finds duplicates, odd numbers and what is missing",
-             CheckCatalog, json)}};
+             "plenum catalog check", CheckCatalog, json)}};
 }
 
 }  // namespace plenum::server

@@ -22,7 +22,7 @@ namespace {
 
 struct DesignOptions {
   std::string file;
-  std::string catalog = "catalog.db";
+  std::string catalog = catalog::DefaultCatalog();
   std::optional<int> top;
   std::optional<double> time_limit_s;
   bool proof = false;
@@ -112,6 +112,7 @@ Command DesignCommand() {
   auto options = std::make_shared<DesignOptions>();
   return {"design",
           "Ranked designs for a requirements file",
+          "plenum design examples/exosuit.json --top 3",
           {Argument("FILE", "Requirements as JSON; - is standard input", &options->file),
            {"--top", "Number of designs", &options->top, {.value_name = "N"}},
            {"--time-limit", "Seconds to search", &options->time_limit_s, {.value_name = "S"}},

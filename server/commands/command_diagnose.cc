@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "api/catalogue/stores.h"
 #include "api/measure/diagnose_request.h"
 #include "api/measure/rig_parts.h"
 #include "api/protocol/part_revision.h"
@@ -26,7 +27,7 @@ namespace {
 struct DiagnoseOptions {
   std::vector<std::string> files;
   std::string rig, model, save, report, save_part;
-  std::string catalog = "catalog.db";
+  std::string catalog = catalog::DefaultCatalog();
   std::vector<std::string> holdout;
   double time_limit_s = api::kDiagnosisTimeS;
   bool json = false, save_part_anyway = false;
@@ -125,6 +126,7 @@ Command DiagnoseCommand() {
   auto options = std::make_shared<DiagnoseOptions>();
   return {"diagnose",
           "What the model lacks against measured pressure traces",
+          "plenum diagnose examples/simulated_recording.json --report report.html",
           {Argument("FILE", "Measurements as JSON or CSV; - is standard input", &options->files),
            {"--rig", "The rig of CSV files, as JSON", &options->rig, {.value_name = "FILE"}},
            {"--holdout", "Runs that no fit may see", &options->holdout, {.value_name = "RUN"}},

@@ -18,7 +18,7 @@ namespace plenum::server {
 namespace {
 
 struct JobsOptions {
-  std::string catalog = "catalog.db";
+  std::string catalog = catalog::DefaultCatalog();
   std::string id;
   bool json = false;
 };
@@ -90,21 +90,25 @@ void Cancel(const JobsOptions& options) {
 
 Command JobsCommand() {
   auto options = std::make_shared<JobsOptions>();
-  const auto command = [&](const char* name, const char* help, void (*run)(const JobsOptions&)) {
-    return Command{name, help, {Argument("ID", "Of the list", &options->id)}, [options, run] {
-                     run(*options);
-                     return kAnswered;
-                   }};
+  const auto command = [&](const char* name, const char* help, const char* example,
+                           void (*run)(const JobsOptions&)) {
+    return Command{
+        name, help, example, {Argument("ID", "Of the list", &options->id)}, [options, run] {
+          run(*options);
+          return kAnswered;
+        }};
   };
   return {"jobs",
           "Jobs of a catalogue while no service runs",
+          "plenum jobs",
           {CatalogOption(options->catalog), JsonFlag(options->json)},
           [options] {
             List(*options);
             return kAnswered;
           },
-          {command("again", "Queues a job that failed or was cancelled", DoAgain),
-           command("cancel", "Ends a job that is queued", Cancel)}};
+          {command("again", "Queues a job that failed or was cancelled", "plenum jobs again JOB",
+                   DoAgain),
+           command("cancel", "Ends a job that is queued", "plenum jobs cancel JOB", Cancel)}};
 }
 
 }  // namespace plenum::server

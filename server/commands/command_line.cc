@@ -1,12 +1,17 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "api/json/version.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
+#include "server/commands/manual/completion.h"
+#include "server/commands/manual/man_page.h"
+#include "server/commands/manual/suggestion.h"
 
 namespace plenum::server {
 namespace {
@@ -43,6 +48,7 @@ void Add(CLI::App& app, const Option& option) {
 
 void Add(CLI::App& app, const Command& command, int& status) {
   CLI::App* added = app.add_subcommand(command.name, command.help);
+  added->footer("Example: " + command.example);
   for (const Option& option : command.options) Add(*added, option);
   for (const Command& below : command.commands) Add(*added, below, status);
   if (!command.options.empty())  // which may follow a command below this one
@@ -54,24 +60,73 @@ void Add(CLI::App& app, const Command& command, int& status) {
     });
 }
 
-}  // namespace
+constexpr char kFirstWords[] =
+    R"(plenum chooses the parts of a pneumatic supply for soft robots, and proves its choice.
 
-int RunCommandLine(int argc, const char* const* argv) {
+  plenum init my.json       asks for your requirements and writes them into a file
+  plenum design my.json     the best designs for it, with the proof
+  plenum serve              the same on a page in the browser
+  plenum --help             all commands; plenum COMMAND --help: one of them
+)";
+
+std::vector<std::string> Words(int argc, const char* const* argv) {
+  return {argv + (argc > 0 ? 1 : 0), argv + argc};
+}
+
+// What is asked for beside the commands. Packages are made with the last two.
+std::optional<int> RunWithoutCommand(const std::vector<std::string>& words,
+                                     const std::vector<Command>& commands) {
+  if (words.empty()) {
+    std::fputs(kFirstWords, stderr);
+    return kBadInput;
+  }
+  if (words.front() == "--man") {
+    std::fputs(ManPage(commands).c_str(), stdout);
+    return kAnswered;
+  }
+  if (words.front() == "--bash-completion") {
+    std::fputs(BashCompletion(commands).c_str(), stdout);
+    return kAnswered;
+  }
+  return std::nullopt;
+}
+
+int RunCommand(int argc, const char* const* argv) {
   int status = kAnswered;
+  const std::vector<Command> commands = AllCommands();
+  const std::vector<std::string> words = Words(argc, argv);
+  if (const auto done = RunWithoutCommand(words, commands)) return *done;
   CLI::App app("Chooses the parts of a pneumatic supply for soft robots from a catalogue.",
                "plenum");
   app.set_version_flag("--version", std::string(api::Version()));
+  app.footer("Example: plenum design examples/exosuit.json");
   app.require_subcommand(1);
+  for (const Command& command : commands) Add(app, command, status);
   try {
-    for (const Command& command :
-         {DesignCommand(), VerifyCommand(), EvaluateCommand(), SimulateCommand(), MapCommand(),
-          DiagnoseCommand(), ProtocolCommand(), CatalogCommand(), ServeCommand(), JobsCommand(),
-          TokenCommand()})
-      Add(app, command, status);
     app.parse(argc, argv);
     return status;
+  } catch (const CLI::Success& asked) {  // for help or the version
+    app.exit(asked);
+    return kAnswered;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kAnswered : kBadInput;
+    if (const std::string unknown = UnknownWord(commands, words); !unknown.empty())
+      throw BadInput(unknown);
+    app.exit(error);
+    return kBadInput;
+  }
+}
+
+}  // namespace
+
+std::vector<Command> AllCommands() {
+  return {InitCommand(),     DesignCommand(), VerifyCommand(),   EvaluateCommand(),
+          SimulateCommand(), MapCommand(),    DiagnoseCommand(), ProtocolCommand(),
+          CatalogCommand(),  ServeCommand(),  JobsCommand(),     TokenCommand()};
+}
+
+int RunCommandLine(int argc, const char* const* argv) {
+  try {
+    return RunCommand(argc, argv);
   } catch (const BadInput& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return kBadInput;

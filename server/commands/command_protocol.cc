@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "api/catalogue/stores.h"
 #include "api/json/words.h"
 #include "api/protocol/protocol_document.h"
 #include "server/call/reply.h"
@@ -19,7 +20,7 @@ namespace {
 
 struct ProtocolOptions {
   std::string part, write_template;
-  std::string catalog = "catalog.db";
+  std::string catalog = catalog::DefaultCatalog();
   double noise_kpa = api::TestSensor().noise_kpa;
   double resolution_kpa = api::TestSensor().resolution_kpa;
   double sampling_hz = api::TestSensor().sampling_hz;
@@ -69,6 +70,7 @@ Command ProtocolCommand() {
   auto options = std::make_shared<ProtocolOptions>();
   return {"protocol",
           "How to measure a part, and how precise that will be",
+          "plenum protocol generic-lp-small-200kpa --template recording.json",
           {Argument("PART", "The part's id", &options->part),
            {"--sensor-noise-kpa",
             "Noise of a reading, one standard deviation",

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "api/catalogue/stores.h"
 #include "server/call/protection.h"
 #include "server/call/tokens.h"
 #include "server/commands/commands.h"
@@ -19,7 +20,7 @@ namespace plenum::server {
 namespace {
 
 struct ServeOptions {
-  std::string catalog = "catalog.db";
+  std::string catalog = catalog::DefaultCatalog();
   std::string host = "127.0.0.1";
   int port = 8080;
   std::vector<std::string> allow_hosts;
@@ -66,7 +67,8 @@ void Serve(const ServeOptions& options) {
 Command ServeCommand() {
   auto options = std::make_shared<ServeOptions>();
   return {"serve",
-          "The HTTP service",
+          "The HTTP service with its page",
+          "plenum serve --port 8080",
           {{"--host",
             "Address; any but a loopback one needs tokens",
             &options->host,

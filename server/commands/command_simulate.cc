@@ -24,7 +24,7 @@ namespace {
 
 struct FileOptions {
   std::string file;
-  std::string catalog = "catalog.db";
+  std::string catalog = catalog::DefaultCatalog();
   bool json = false;
 };
 
@@ -40,7 +40,7 @@ bool NamesParts(const api::Json& json) {
 struct SimulateOptions {
   std::string file, from, run, model = "after", rig;
   std::vector<std::string> measurement;
-  std::string catalog = "catalog.db";
+  std::string catalog = catalog::DefaultCatalog();
   bool json = false;
 };
 
@@ -77,7 +77,7 @@ int Simulate(const SimulateOptions& options) {
 
 struct EvaluateOptions {
   std::string file, beside;
-  std::string catalog = "catalog.db";
+  std::string catalog = catalog::DefaultCatalog();
   bool json = false;
 };
 
@@ -104,10 +104,12 @@ void Map(const FileOptions& options) {
   std::fputs(options.json ? (Dump(answer) + "\n").c_str() : MapText(answer).c_str(), stdout);
 }
 
-Command FileCommand(const char* name, const char* help, void (*run)(const FileOptions&)) {
+Command FileCommand(const char* name, const char* help, const char* example,
+                    void (*run)(const FileOptions&)) {
   auto options = std::make_shared<FileOptions>();
   return {name,
           help,
+          example,
           {Argument("FILE", "Request as JSON; - is standard input", &options->file),
            JsonFlag(options->json), CatalogOption(options->catalog)},
           [options, run] {
@@ -123,6 +125,7 @@ Command SimulateCommand() {
   return {
       "simulate",
       "Pressures of one given design, or of a model of a diagnosis, over time",
+      "plenum simulate examples/simulation_effects.json",
       {{"FILE", "Request as JSON; - is standard input", &options->file, {.value_name = ""}},
        {"--from", "The answer of a diagnosis: its curves", &options->from, {.value_name = "FILE"}},
        {"--run", "One of its runs; all without it", &options->run, {.value_name = "ID"}},
@@ -146,6 +149,7 @@ Command EvaluateCommand() {
   auto options = std::make_shared<EvaluateOptions>();
   return {"evaluate",
           "A given design against requirements",
+          "plenum evaluate examples/gripper_by_hand.json",
           {Argument("FILE", "Request as JSON; - is standard input", &options->file),
            {"--beside",
             "A saved answer: why the given design is not its first",
@@ -160,7 +164,8 @@ Command EvaluateCommand() {
 }
 
 Command MapCommand() {
-  return FileCommand("map", "Normalised rise and fall times over a grid", Map);
+  return FileCommand("map", "Normalised rise and fall times over a grid",
+                     "plenum map examples/map.json", Map);
 }
 
 }  // namespace plenum::server

@@ -2,11 +2,13 @@
 #include <cstdio>
 #include <memory>
 
+#include "api/catalogue/stores.h"
 #include "server/call/reply.h"
 #include "server/call/tokens.h"
 #include "server/commands/catalog_keeping.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
+#include "server/commands/input.h"
 
 namespace plenum::server {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 constexpr std::size_t kNameLongest = 100;
 
 struct TokenOptions {
-  std::string catalog = "catalog.db";
+  std::string catalog = catalog::DefaultCatalog();
   std::string name, id;
   std::string scope = "read";
   bool json = false;
@@ -25,6 +27,7 @@ void Create(const TokenOptions& options) {
                                  [](char c) { return c >= ' ' && c <= '~'; });
   if (options.name.empty() || options.name.size() > kNameLongest || !plain)
     throw BadInput("NAME: must be 1 to 100 characters of visible ASCII");
+  OpenCatalog(options.catalog, catalog::Access::kRead);  // says what is wrong with the file
   const Scope scope = options.scope == "write" ? Scope::kWrite : Scope::kRead;
   Print(CreateToken(TokenFile(options.catalog), options.name, scope) + "\n");
   std::fputs("Shown this once only. Send it as: Authorization: Bearer TOKEN\n", stderr);
@@ -53,28 +56,31 @@ void Revoke(const TokenOptions& options) {
 
 Command TokenCommand() {
   auto options = std::make_shared<TokenOptions>();
-  const auto command = [&](const char* name, const char* help, std::vector<Option> table,
-                           void (*run)(const TokenOptions&)) -> Command {
+  const auto command = [&](const char* name, const char* help, const char* example,
+                           std::vector<Option> table, void (*run)(const TokenOptions&)) -> Command {
     table.push_back(CatalogOption(options->catalog));
-    return {name, help, std::move(table), [options, run] {
+    return {name, help, example, std::move(table), [options, run] {
               run(*options);
               return kAnswered;
             }};
   };
-  return {"token",
-          "Tokens for use of the service from elsewhere",
-          {},
-          {},
-          {command("create", "Makes a token and prints it",
-                   {Argument("NAME", "Whose it is", &options->name),
-                    {"--scope",
-                     "What it may do",
-                     &options->scope,
-                     {.shows_default = true, .allowed = OneOf{"read", "write"}}}},
-                   Create),
-           command("list", "Tokens by id, without their text", {JsonFlag(options->json)}, List),
-           command("revoke", "Ends a token, also of a running service",
-                   {Argument("ID", "Of the list", &options->id)}, Revoke)}};
+  return {
+      "token",
+      "Tokens for use of the service from elsewhere",
+      "plenum token create laptop --scope write",
+      {},
+      {},
+      {command("create", "Makes a token and prints it", "plenum token create laptop",
+               {Argument("NAME", "Whose it is", &options->name),
+                {"--scope",
+                 "What it may do",
+                 &options->scope,
+                 {.shows_default = true, .allowed = OneOf{"read", "write"}}}},
+               Create),
+       command("list", "Tokens by id, without their text", "plenum token list",
+               {JsonFlag(options->json)}, List),
+       command("revoke", "Ends a token, also of a running service", "plenum token revoke 1b5c09ae",
+               {Argument("ID", "Of the list", &options->id)}, Revoke)}};
 }
 
 }  // namespace plenum::server

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "api/catalogue/stores.h"
 #include "api/design/verification.h"
 #include "server/call/reply.h"
 #include "server/commands/commands.h"
@@ -17,7 +18,7 @@ namespace {
 
 struct VerifyOptions {
   std::string file;
-  std::string catalog = "catalog.db";
+  std::string catalog = catalog::DefaultCatalog();
   bool json = false;
   bool brute_force = false;
   std::optional<double> time_limit_s;
@@ -109,6 +110,7 @@ Command VerifyCommand() {
   auto options = std::make_shared<VerifyOptions>();
   return {"verify",
           "Checks a saved answer of design from scratch",
+          "plenum verify result.json",
           {Argument("FILE", "Answer of design --json; - is standard input", &options->file),
            {"--brute-force", "Look at every combination, too", &options->brute_force},
            {"--combinations-max",

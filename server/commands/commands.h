@@ -2,10 +2,13 @@
 #ifndef PLENUM_SERVER_COMMANDS_COMMANDS_H_
 #define PLENUM_SERVER_COMMANDS_COMMANDS_H_
 
+#include <vector>
+
 #include "server/commands/command.h"
 
 namespace plenum::server {
 
+Command InitCommand();
 Command DesignCommand();
 Command VerifyCommand();
 Command EvaluateCommand();
@@ -17,6 +20,8 @@ Command CatalogCommand();
 Command ServeCommand();
 Command JobsCommand();
 Command TokenCommand();
+
+std::vector<Command> AllCommands();
 
 // The whole command line; gives the exit status.
 int RunCommandLine(int argc, const char* const* argv);

@@ -27,11 +27,13 @@ api::Json ReadJson(const std::string& path, std::size_t bytes_max) {
 }
 
 catalog::Store OpenCatalog(const std::string& path, catalog::Access access) {
-  if (!std::filesystem::exists(path)) {
-    throw BadInput(path + ": no such catalogue; name one with --catalog");
-  }
   try {
-    return {path, access};
+    const auto place = catalog::BeginCatalog(path);
+    if (!std::filesystem::exists(place))
+      throw BadInput(path + ": no such catalogue; name one with --catalog or PLENUM_CATALOG");
+    if (place != path && access == catalog::Access::kWrite)
+      throw BadInput(path + ": cannot be made; name a catalogue with --catalog or PLENUM_CATALOG");
+    return {place, access};
   } catch (const catalog::StoreError& error) {
     throw BadInput(error.what());
   }

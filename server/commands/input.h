@@ -15,7 +15,8 @@ namespace plenum::server {
 std::string ReadText(const std::string& path);  // "-" is standard input
 api::Json ReadJson(const std::string& path, std::size_t bytes_max = api::kJsonBytesMax);
 
-// An existing catalogue.
+// An existing catalogue, or the user's, which begins as a copy of the installed seed; that one is
+// read where no copy can be made.
 catalog::Store OpenCatalog(const std::string& path, catalog::Access access);
 
 // The user who runs the command, by login name.

@@ -28,6 +28,7 @@ Workbench::Workbench() {
   if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
   folder_ = pattern;
   fs::copy_file(test::SourceDir() / "catalog.db", catalog());
+  unsetenv("PLENUM_CATALOG");  // of who runs the tests
 }
 
 Workbench::~Workbench() { fs::remove_all(folder_); }

@@ -1,0 +1,169 @@
+"""The computations, done here by the extension module. The GIL is released while they run, and Ctrl-C stops them."""
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import pathlib
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _core
+from .answers import Designs, Diagnosis, Evaluation, Map, Response, Verification, answer_of
+from .catalogue import locate
+from .documents import Source, document_of, encode, read_text, text_of
+from .errors import InputError
+from .progress import Progress, listener
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+CHUNK = 500  # simulations whose text is in memory at once
+Catalog = Union[None, str, "os.PathLike[str]"]
+Measured = Union[Source, "pd.DataFrame", Sequence[Union[Source, "pd.DataFrame"]]]
+
+
+@contextlib.contextmanager
+def _watched(progress: Progress) -> Iterator[Optional[Callable[[str], None]]]:
+    """What hears the news; an exception that stopped the work carries the best answer so far in `.answer`."""
+    hear, close = listener(progress)
+    try:
+        yield hear
+    except BaseException as stopped:
+        text = getattr(stopped, "answer", None)
+        if isinstance(text, str):
+            stopped.answer = answer_of(json.loads(text))  # type: ignore[attr-defined]
+        raise
+    finally:
+        close()
+
+
+def with_ranking(requirements: dict[str, Any], top: Optional[int], time_limit_s: Optional[float],
+                 proof: bool) -> dict[str, Any]:
+    """The requirements with what the arguments say instead."""
+    for field, value in (("count", top), ("time_limit_s", time_limit_s), ("proof", proof or None)):
+        if value is not None:
+            requirements["ranking"] = {**(requirements.get("ranking") or {}), field: value}
+    return requirements
+
+
+def design(requirements: Source, *, top: Optional[int] = None, time_limit_s: Optional[float] = None,
+           proof: bool = False, catalog: Catalog = None, progress: Progress = None) -> Designs:
+    """Ranked designs for requirements (a dict, or the path of a JSON file), with their proof.
+
+    top, time_limit_s and proof stand in ranking of the requirements. progress: True for a bar, False for none (None: a
+    bar on a terminal), or a function of a dict. Ctrl-C stops the search: KeyboardInterrupt carries the best answer so
+    far in `.answer`.
+    """
+    request = with_ranking(document_of(requirements), top, time_limit_s, proof)
+    with _watched(progress) as hear:
+        return Designs(json.loads(_core.design(encode(request), locate(catalog), hear)))
+
+
+def evaluate(request: Source, *, catalog: Catalog = None) -> Evaluation:
+    """How given parts do at given settings against requirements (evaluation/1)."""
+    return Evaluation(json.loads(_core.evaluate(text_of(request), locate(catalog))))
+
+
+def simulate(request: Source, *, catalog: Catalog = None) -> Response:
+    """Pressures of one given design over time (simulation/1)."""
+    return answer_of(json.loads(_core.simulate(text_of(request), locate(catalog))))
+
+
+def simulate_many(requests: Iterable[Source], *, threads: Optional[int] = None, catalog: Catalog = None,
+                  progress: Progress = False) -> list[Union[Response, InputError]]:
+    """Many simulations on all processors. A request that is refused has its InputError in its place.
+
+    In these answers arrays stand in place of lists, with all their digits. Ctrl-C: KeyboardInterrupt has the answers so
+    far in `.answer`.
+    """
+    texts = [text_of(request) for request in requests]
+    threads, place = threads or len(os.sched_getaffinity(0)), locate(catalog)
+    answers: list[Union[Response, InputError]] = []
+    with _watched(progress) as hear:
+        try:
+            for begin in range(0, len(texts), CHUNK):
+                told = None if hear is None else _shifted(hear, begin, len(texts))
+                done = _core.simulate_many(texts[begin : begin + CHUNK], place, threads, told)
+                answers += [_response_or_error(*answer) for answer in done]
+        except BaseException as stopped:
+            done = getattr(stopped, "answer", [])
+            answers += [_response_or_error(*answer) for answer in done if answer[0]]
+            stopped.answer = answers  # type: ignore[attr-defined]
+            raise
+    return answers
+
+
+def _shifted(hear: Callable[[str], None], begin: int, count: int) -> Callable[[str], None]:
+    """News of a chunk as news of the whole."""
+
+    def tell(news: str) -> None:
+        hear(json.dumps({"done": begin + json.loads(news)["done"], "of": count}))
+
+    return tell
+
+
+def _response_or_error(text: str, arrays: list[np.ndarray]) -> Union[Response, InputError]:
+    document = json.loads(text, object_hook=lambda found: arrays[found["$array"]] if "$array" in found else found)
+    if "errors" in document:
+        return InputError([(error["pointer"], error["detail"]) for error in document["errors"]])
+    return answer_of(document)
+
+
+def map(request: Source) -> Map:  # the name of the contract
+    """Normalised rise and fall times over a grid (map/1)."""
+    return Map(json.loads(_core.map(text_of(request))))
+
+
+def measurements(data: Measured, rig: Optional[Source] = None) -> tuple[list[str], list[tuple[str, str]]]:
+    """Documents measurement/1 as text, and what they were made from: name and text.
+
+    data: a measurement (dict or path of JSON), a table (frame or path of CSV) with columns run, t_s, valve,
+    pressure_kpa_gauge and optionally the channels, for which `rig` describes what was measured; or a list of these.
+    """
+    if not isinstance(data, (list, tuple)):
+        data = [data]
+    documents, files = [], []
+    for number, one in enumerate(data, 1):
+        if hasattr(one, "to_csv"):
+            name, text = f"frame {number}", one.to_csv(index=False)
+        elif isinstance(one, Mapping):
+            name, text = str(one.get("name", f"measurement {number}")), encode(one)
+        else:
+            name, text = pathlib.Path(one).name, read_text(one)
+        files.append((name, text))
+        if text.lstrip()[:1] in ("{", "["):
+            documents.append(text)
+        elif rig is None:
+            raise InputError([("rig", "is required with a table: a dict or JSON file that describes the rig")])
+        else:
+            documents.append(_core.measurement_from_csv(text, text_of(rig)))
+    return documents, files
+
+
+def with_holdout(documents: list[str], holdout: Sequence[str]) -> list[str]:
+    """The first document names the runs that no fit may see."""
+    if not holdout:
+        return documents
+    return [encode({**json.loads(documents[0]), "holdout": list(holdout)}), *documents[1:]]
+
+
+def diagnose(data: Measured, rig: Optional[Source] = None, *, holdout: Sequence[str] = (), model: str = "",
+             time_limit_s: float = 60.0, catalog: Catalog = None, progress: Progress = None) -> Diagnosis:
+    """What the model lacks against measured pressures.
+
+    data and rig: as for measurements(). holdout: runs that no fit may see. model: predict with this saved model,
+    without a fit. The answer's "revision" is what Catalogue.save_model keeps for later designs.
+    """
+    documents, files = measurements(data, rig)
+    with _watched(progress) as hear:
+        text = _core.diagnose(with_holdout(documents, holdout), locate(catalog), model, time_limit_s, files, hear)
+    return Diagnosis(json.loads(text))
+
+
+def verify(answer: Source, *, brute_force: bool = False, catalog: Catalog = None,
+           progress: Progress = None) -> Verification:
+    """Checks an answer of design() from scratch, by other code; true where it was accepted."""
+    with _watched(progress) as hear:
+        return Verification(json.loads(_core.verify(text_of(answer), locate(catalog), brute_force, hear)))
