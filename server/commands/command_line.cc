@@ -7,6 +7,7 @@
 #include "api/json/version.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
+#include "server/commands/output.h"
 
 namespace plenum::server {
 namespace {
@@ -73,10 +74,10 @@ int RunCommandLine(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kAnswered : kBadInput;
   } catch (const BadInput& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    Tell(error.what());
     return kBadInput;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "plenum: fault: %s\n", error.what());
+    Tell(std::string("plenum: fault: ") + error.what());
     return kFault;
   }
 }
