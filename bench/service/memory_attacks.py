@@ -48,7 +48,8 @@ class Service:
 
 
 def head(path, headers, method="POST"):
-    lines = [f"{method} {path} HTTP/1.1", "Host: localhost"] + headers
+    kind = "text/csv" if "/import" in path else "application/json"
+    lines = [f"{method} {path} HTTP/1.1", "Host: localhost", f"Content-Type: {kind}"] + headers
     return ("\r\n".join(lines) + "\r\n\r\n").encode()
 
 

@@ -42,7 +42,8 @@ def authorized():
 
 SLOW = [
     (f"GET /v1/parts HTTP/1.1\r\n{authorized()}X-Slow: ".encode(), b"x"),
-    (f"POST /v1/designs HTTP/1.1\r\n{authorized()}Content-Length: 5000\r\n\r\n".encode(), b" "),
+    (f"POST /v1/designs HTTP/1.1\r\n{authorized()}"
+     f"Content-Type: application/json\r\nContent-Length: 5000\r\n\r\n".encode(), b" "),
     (f"GET /v1/parts?limit=150 HTTP/1.1\r\n{authorized()}\r\n".encode() * 3, b""),
 ]
 nginx, port = front.start(folder, service_port) if behind_nginx else (None, port)

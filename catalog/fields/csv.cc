@@ -377,4 +377,9 @@ std::string WriteCsv(std::string_view family_name, const std::vector<Part>& part
   return text;
 }
 
+std::string WriteCsvRow(const Part& part) {
+  const Family* family = FindFamily(part.family);
+  return family == nullptr ? "" : FormatRow(ToRow(*family, part));
+}
+
 }  // namespace plenum::catalog

@@ -52,6 +52,8 @@ bool IsCsvColumn(const Family& family, std::string_view name);
 
 // `parts` are all of `family`.
 std::string WriteCsv(std::string_view family, const std::vector<Part>& parts);
+// One row of it, with the end of its line.
+std::string WriteCsvRow(const Part& part);
 
 }  // namespace plenum::catalog
 

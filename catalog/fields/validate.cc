@@ -68,6 +68,9 @@ void CheckUncertainty(const std::string& field, const std::optional<double>& unc
                           " (one standard deviation), is " + FormatNumber(*uncertainty)});
 }
 
+// "/v1/parts/export" and its like, which stand where ids of parts do.
+constexpr std::string_view kRouteWords[] = {"check", "compare", "export", "import"};
+
 void CheckId(const std::string& id, Errors& errors) {
   const auto alphanumeric = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
   const auto allowed = [&](char c) { return alphanumeric(c) || c == '.' || c == '_' || c == '-'; };
@@ -79,6 +82,9 @@ void CheckId(const std::string& id, Errors& errors) {
                           Quoted(id)});
   else if (id == "custom")
     errors.push_back({"id", "\"custom\" stands for the made-to-measure reservoir"});
+  else if (std::find(std::begin(kRouteWords), std::end(kRouteWords), id) != std::end(kRouteWords))
+    errors.push_back(
+        {"id", Quoted(id) + " is a path of the service, where no part could be found"});
 }
 
 std::vector<std::string_view> FieldNames(const Family& family) {

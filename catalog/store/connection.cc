@@ -3,6 +3,7 @@
 #include <sqlite3.h>
 
 #include <chrono>
+#include <cstdint>
 #include <thread>
 
 #include "catalog/store/history.h"
@@ -11,7 +12,6 @@
 namespace plenum::catalog {
 namespace {
 
-constexpr std::chrono::seconds kLockedMost{10};
 constexpr std::chrono::milliseconds kAskEvery{1};
 constexpr int kApplicationId = 1886154349;  // "plnm", set by the first migration
 
@@ -68,18 +68,22 @@ SQLite::Database ConnectForReading(const std::string& path) {
 }
 
 // Called by SQLite with how often it was called for this lock before; 0 gives up.
-int AskAgain(void*, int asked) {
+int AskAgain(void* patience_ms, int asked) {
   using Clock = std::chrono::steady_clock;
   thread_local Clock::time_point since;
   if (asked == 0) since = Clock::now();
-  if (Clock::now() - since > kLockedMost) return 0;
+  const std::chrono::milliseconds patience(reinterpret_cast<std::intptr_t>(patience_ms));
+  if (Clock::now() - since > patience) return 0;
   std::this_thread::sleep_for(kAskEvery);
   return 1;
 }
 
 }  // namespace
 
-void WaitForLocks(SQLite::Database& db) { sqlite3_busy_handler(db.getHandle(), AskAgain, nullptr); }
+void WaitForLocks(SQLite::Database& db, std::chrono::milliseconds patience) {
+  sqlite3_busy_handler(db.getHandle(), AskAgain,
+                       reinterpret_cast<void*>(static_cast<std::intptr_t>(patience.count())));
+}
 
 int SchemaVersion(SQLite::Database& db) {
   const int version = Pragma(db, "user_version");

@@ -4,6 +4,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,11 @@ namespace plenum::catalog {
 // file where it is no catalogue or a newer one.
 SQLite::Database Connect(const std::string& path, Access access);
 
-// Makes the connection wait for locks, ten seconds for each, by asking every millisecond. SQLite's
-// own wait asks ten times a second in the end and misses the moments between the commits of a busy
+// Makes the connection wait for locks, so long for each, by asking every millisecond. SQLite's own
+// wait asks ten times a second in the end and misses the moments between the commits of a busy
 // writer for as long as it writes.
-void WaitForLocks(SQLite::Database& db);
+inline constexpr std::chrono::milliseconds kLockPatience{10'000};
+void WaitForLocks(SQLite::Database& db, std::chrono::milliseconds patience = kLockPatience);
 
 // What SQLite's own checks of the pages and the foreign keys find.
 std::vector<std::string> CheckFile(SQLite::Database& db);

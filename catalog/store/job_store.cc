@@ -1,6 +1,9 @@
 #include "catalog/store/job_store.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <mutex>
@@ -11,7 +14,7 @@ namespace plenum::catalog {
 namespace {
 
 constexpr int kBusyTimeoutMs = 2'000;
-constexpr int kSchema = 2;
+constexpr int kSchema = 3;
 constexpr int kApplicationId = 1886154346;  // "plnj"
 
 constexpr char kSchema1[] = R"sql(
@@ -52,6 +55,9 @@ ALTER TABLE job ADD COLUMN crashes_max INTEGER NOT NULL DEFAULT 2
 ALTER TABLE job ADD COLUMN crash TEXT NOT NULL DEFAULT '' CHECK (length(crash) <= 1000);
 ALTER TABLE job ADD COLUMN alone INTEGER NOT NULL DEFAULT 0 CHECK (alone IN (0, 1));
 )sql";
+constexpr char kSchema3[] = R"sql(
+ALTER TABLE job ADD COLUMN client TEXT NOT NULL DEFAULT '' CHECK (length(client) <= 100);
+)sql";
 
 constexpr char kNow[] = "strftime('%Y-%m-%dT%H:%M:%SZ', 'now')";
 
@@ -59,8 +65,9 @@ constexpr char kNow[] = "strftime('%Y-%m-%dT%H:%M:%SZ', 'now')";
 constexpr char kColumns[] =
     "id, kind, name, who, coalesce(key, ''), coalesce(digest, ''), revision, hash, model, "
     "model_version, model_hash, status, starts, cancel_asked, submitted_at, "
-    "coalesce(ended_at, ''), progress, failure, number, crashes, crashes_max, crash, alone";
-constexpr int kRequestColumn = 23;
+    "coalesce(ended_at, ''), progress, failure, number, crashes, crashes_max, crash, alone, "
+    "client, coalesce(ended, 0)";
+constexpr int kRequestColumn = 25;
 
 constexpr std::array kStatuses = {JobStatus::kQueued, JobStatus::kRunning, JobStatus::kDone,
                                   JobStatus::kCancelled, JobStatus::kFailed};
@@ -79,8 +86,8 @@ JobRecord ReadRow(const SQLite::Statement& row) {
   const auto text = [&](int column) { return row.getColumn(column).getString(); };
   JobRecord job;
   job.id = text(0);
-  job.order = {text(1), text(2), {text(3), text(4), text(5)}, "",      row.getColumn(6).getInt64(),
-               text(7), text(8), row.getColumn(9).getInt64(), text(10)};
+  job.order = {text(1), text(2), {text(3), text(4), text(5)}, "",       row.getColumn(6).getInt64(),
+               text(7), text(8), row.getColumn(9).getInt64(), text(10), ""};
   job.starts = row.getColumn(12).getInt();
   job.cancel_asked = row.getColumn(13).getInt() != 0;
   job.submitted_at = text(14);
@@ -92,6 +99,8 @@ JobRecord ReadRow(const SQLite::Statement& row) {
   job.crashes_max = row.getColumn(20).getInt();
   job.crash = text(21);
   job.alone = row.getColumn(22).getInt() != 0;
+  job.order.client = text(23);
+  job.ending = row.getColumn(24).getInt64();
   SetStatus(job, text(11));
   if (row.getColumnCount() > kRequestColumn) {
     job.order.request = text(kRequestColumn);
@@ -100,7 +109,20 @@ JobRecord ReadRow(const SQLite::Statement& row) {
   return job;
 }
 
+// The requests and results are their client's, whoever may read the catalogue. SQLite gives its log
+// the mode of the file.
+void KeepFromOthers(const std::string& path) {
+  // An existing file is not opened here: closing it would end the locks that this process has on
+  // it.
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (file >= 0)
+    close(file);
+  else
+    chmod(path.c_str(), 0600);
+}
+
 SQLite::Database Open(const std::string& path) {
+  KeepFromOthers(path);
   SQLite::Database db(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs);
   // Before anything is read, so that the log needs no memory shared with other processes.
   SQLite::Statement(db, "PRAGMA locking_mode = EXCLUSIVE").executeStep();
@@ -119,7 +141,8 @@ SQLite::Database Open(const std::string& path) {
     db.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
   }
   if (empty || schema < kSchema) {
-    db.exec(kSchema2);
+    if (empty || schema < 2) db.exec(kSchema2);
+    db.exec(kSchema3);
     db.exec("PRAGMA user_version = " + std::to_string(kSchema));
   }
   transaction.commit();
@@ -236,10 +259,11 @@ JobRecord JobStore::Add(const std::string& id, const JobOrder& order) {
   impl_->Do([&] {
     SQLite::Statement insert(
         impl_->db,
-        std::string("INSERT INTO job (id, kind, name, who, key, digest, revision, hash, "
-                    "model, model_version, model_hash, status, submitted_at, bytes, request) "
-                    "VALUES (?, ?, ?, ?, nullif(?, ''), nullif(?, ''), ?, ?, ?, ?, ?, "
-                    "'queued', ") +
+        std::string(
+            "INSERT INTO job (id, kind, name, who, key, digest, revision, hash, "
+            "model, model_version, model_hash, client, status, submitted_at, bytes, request) "
+            "VALUES (?, ?, ?, ?, nullif(?, ''), nullif(?, ''), ?, ?, ?, ?, ?, ?, "
+            "'queued', ") +
             kNow + ", ?, ?)");
     int place = 0;
     for (const std::string* text :
@@ -250,6 +274,7 @@ JobRecord JobStore::Add(const std::string& id, const JobOrder& order) {
     insert.bind(++place, order.model);
     insert.bind(++place, order.model_version);
     insert.bind(++place, order.model_hash);
+    insert.bind(++place, order.client);
     insert.bind(++place, static_cast<std::int64_t>(order.request.size()));
     insert.bind(++place, order.request);
     insert.exec();
@@ -325,6 +350,20 @@ std::string JobStore::End(const JobRecord& record) {
 
 std::optional<JobRecord> JobStore::Find(const std::string& kind, const std::string& id) const {
   return impl_->SelectOne("id = ?", kind, id);
+}
+
+std::optional<JobRecord> JobStore::Peek(const std::string& kind, const std::string& id) const {
+  auto found = impl_->Select(kColumns, "kind = ? AND id = ?", {kind, id});
+  return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
+}
+
+std::string JobStore::Result(const std::string& kind, const std::string& id) const {
+  return impl_->Do([&] {
+    SQLite::Statement query(impl_->db, "SELECT result FROM job WHERE kind = ? AND id = ?");
+    query.bind(1, kind);
+    query.bind(2, id);
+    return query.executeStep() ? query.getColumn(0).getString() : std::string();
+  });
 }
 
 std::optional<JobRecord> JobStore::FindKey(const std::string& kind, const std::string& key) const {

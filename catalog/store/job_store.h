@@ -35,6 +35,7 @@ struct JobOrder {
   std::string model;
   std::int64_t model_version = 0;
   std::string model_hash;
+  std::string client;  // who takes turns with others: the id of a token or an address
 };
 
 struct JobRecord {
@@ -44,6 +45,7 @@ struct JobRecord {
   JobStatus status = JobStatus::kQueued;
   std::string submitted_at;  // UTC, ISO 8601
   std::string ended_at;      // empty until then
+  std::int64_t ending = 0;   // the endings of all jobs are counted
   int starts = 0;            // how often it was begun and not stopped in an orderly way
   int crashes = 0;           // how often its own computation ended the program
   int crashes_max = 2;       // after so many it has failed
@@ -72,8 +74,8 @@ std::vector<std::string> CheckJobs(const std::filesystem::path& path);
 
 class JobStore {
  public:
-  // Opens or creates `path`. Throws StoreError where it is held by another process (kBusy, after
-  // two seconds), is not a file of jobs or is a newer one.
+  // Opens or creates `path`, readable by its owner only. Throws StoreError where it is held by
+  // another process (kBusy, after two seconds), is not a file of jobs or is a newer one.
   JobStore(const std::filesystem::path& path, const JobsKept& kept);
   ~JobStore();
   JobStore(const JobStore&) = delete;
@@ -97,6 +99,9 @@ class JobStore {
 
   std::optional<JobRecord> Find(const std::string& kind, const std::string& id) const;
   std::optional<JobRecord> FindKey(const std::string& kind, const std::string& key) const;
+  // Without request and result; and the result alone, empty where there is none.
+  std::optional<JobRecord> Peek(const std::string& kind, const std::string& id) const;
+  std::string Result(const std::string& kind, const std::string& id) const;
   // Without request and result: in the order in which they were added, and newest first. A record
   // that makes no sense is given as failed, with the reason.
   std::vector<JobRecord> Unfinished(const std::string& kind) const;

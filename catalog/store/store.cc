@@ -107,6 +107,24 @@ Store::~Store() = default;
 Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
 
+void Store::WaitForLocks(std::chrono::milliseconds patience) {
+  impl_->Do([&](SQLite::Database& db) { catalog::WaitForLocks(db, patience); });
+}
+
+void Store::TryToWrite() {
+  impl_->Do([](SQLite::Database& db) {
+    // Nothing is kept, so nothing need outlast a power cut.
+    struct Unsynced {
+      explicit Unsynced(SQLite::Database& of) : db(of) { db.exec("PRAGMA synchronous = OFF"); }
+      ~Unsynced() { db.tryExec("PRAGMA synchronous = EXTRA"); }
+      SQLite::Database& db;
+    } const unsynced(db);
+    const SQLite::Transaction taken_back(db, SQLite::TransactionBehavior::IMMEDIATE);
+    // Changes the first page, and so makes the journal.
+    db.exec("PRAGMA user_version = " + std::to_string(SchemaVersion(db)));
+  });
+}
+
 std::vector<Part> Store::List(const std::optional<std::string>& family) const {
   return impl_->Read([&](SQLite::Database& db) {
     return family ? PartReader(db, "family").Read(*family) : ReadParts(db);

@@ -7,6 +7,7 @@
 #ifndef PLENUM_CATALOG_STORE_STORE_H_
 #define PLENUM_CATALOG_STORE_STORE_H_
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -65,6 +66,10 @@ class Store {
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
 
+  // How long calls wait for the locks of other connections; ten seconds unless set. Then they throw
+  // StoreError (kBusy), and nothing was changed.
+  void WaitForLocks(std::chrono::milliseconds patience);
+
   // Parts in order of id; of one family if given.
   std::vector<Part> List(const std::optional<std::string>& family = std::nullopt) const;
   std::optional<Part> Get(const std::string& id) const;
@@ -119,8 +124,8 @@ class Store {
   // with the parts and saved models with their hashes; empty: all is well.
   std::vector<std::string> Check() const;
 
-  // Changes with every committed write, by any process: the number of the newest revision.
-  std::int64_t DataVersion() const { return Head().number; }
+  // Begins to write, and takes it back: throws StoreError where a write would fail at once.
+  void TryToWrite();
 
  private:
   struct Impl;

@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -26,8 +27,14 @@ bool IsLoopback(const std::string& host);
 using Header = std::function<std::optional<std::string>(const char*)>;
 
 // 403 where Host is neither a loopback name nor one of `hosts`, or the request comes from a page of
-// another site; 400 without a Host.
+// another origin: its scheme, name and port are those of the service as the client sees it, https
+// only with one of `hosts`. 400 without a Host.
 std::optional<Reply> RefuseForeign(const Header& header, const std::vector<std::string>& hosts);
+
+// 415 where a body is not said to be of one of these media types. A page of another site cannot
+// send such a type without being asked (CORS), as it could send text or a form.
+std::optional<Reply> RefuseContentType(const Header& header,
+                                       const std::vector<std::string_view>& types);
 
 // The token that the request carries, or 401 without one that is known, 403 where it may only read.
 std::variant<Token, Reply> Authorize(const Header& header, Access access, TokenKeeper& tokens);

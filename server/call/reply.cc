@@ -10,6 +10,18 @@ std::string Dump(const api::Json& json, int indent) {
   return json.dump(indent, ' ', false, api::Json::error_handler_t::replace);
 }
 
+std::size_t Reply::body_size() const {
+  std::size_t size = body.size();
+  for (const Bytes& piece : tail) size += piece->size();
+  return size;
+}
+
+Reply Shared(Reply reply) {
+  reply.tail.insert(reply.tail.begin(),
+                    std::make_shared<const std::string>(std::exchange(reply.body, {})));
+  return reply;
+}
+
 Reply JsonReply(int status, const api::Json& json) {
   return {status, "application/json", Dump(json) + "\n", {}, {}};
 }

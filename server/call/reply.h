@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,19 +21,42 @@ struct Call {
   std::function<std::optional<std::string>(const char*)> header;
   std::string_view body;  // lives as long as the call is answered
   std::string path;
-  std::string user = {};  // the name of the caller's token; empty where none was needed
+  std::string user = {};    // the name of the caller's token; empty where none was needed
+  std::string client = {};  // the id of the token, or the address where none was needed
+  // Of a large request, while its body is read and its answer built: a route that then computes
+  // gives the turn back (service_limits.h).
+  mutable std::shared_ptr<void> turn = {};
 };
 
-using Write = std::function<bool(std::string_view)>;  // false: the client is gone
+using Bytes = std::shared_ptr<const std::string>;  // of an answer, shared by all who read it
+
+// What becomes of a body that is made as the client takes it.
+enum class Flow {
+  kMore,    // there is a piece, and more to come
+  kWaits,   // nothing more yet: asked again when something has changed, and at least once a second
+  kEnds,    // with this piece, if any
+  kBroken,  // cannot be completed: the connection is cut
+};
+// Appends the next piece, of about kPieceBytes. It never waits.
+using Produce = std::function<Flow(std::string& piece)>;
+inline constexpr std::size_t kPieceBytes = 32 << 10;
 
 struct Reply {
   int status = 200;
   std::string content_type;
   std::string body;
   std::vector<std::pair<std::string, std::string>> headers;
-  // Set for an event stream: called again and again until it gives false.
-  std::function<bool(const Write&)> stream;
+  // Of a body of unknown length, in place of `body`.
+  Produce produce;
+  std::vector<Bytes> tail = {};  // of the body
+  // Set where there is no answer yet: asked again as kWaits is, until it gives one.
+  std::function<std::optional<Reply>()> later = {};
+
+  std::size_t body_size() const;
 };
+
+// The same with a body that is shared by all copies.
+Reply Shared(Reply reply);
 
 // Text of a JSON value on one line, or indented. Bytes that are not UTF-8 are replaced.
 std::string Dump(const api::Json& json, int indent = -1);

@@ -9,6 +9,7 @@
 #include <ctime>
 #include <string>
 
+#include "server/call/printable.h"
 #include "server/call/reply.h"
 
 namespace plenum::server {
@@ -35,7 +36,7 @@ std::string Now() {
 void Log(const api::Json& fields) {
   api::Json line = {{"time", Now()}};
   line.update(fields);
-  const std::string text = Dump(line) + "\n";
+  const std::string text = Printable(Dump(line)) + "\n";
   pollfd ready{STDERR_FILENO, POLLOUT, 0};
   if (text.size() > kLineBytesMax || poll(&ready, 1, 0) != 1 || (ready.revents & POLLOUT) == 0 ||
       write(STDERR_FILENO, text.data(), text.size()) < 0)

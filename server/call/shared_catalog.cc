@@ -11,6 +11,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kLookEvery = std::chrono::milliseconds(2);
+constexpr std::chrono::milliseconds kLockPatience{100};  // for other processes
+constexpr std::chrono::milliseconds kLeaveAlone{500};    // a file that they keep
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 // Two writes within one tick of the file system's clock leave the same time.
 constexpr std::int64_t kTickNs = 50'000'000;
@@ -23,25 +25,35 @@ std::int64_t NowNs() {
 
 }  // namespace
 
-CatalogView::CatalogView(catalog::Revision of, std::vector<catalog::Part> all)
-    : revision(std::move(of)),
-      parts(std::make_shared<const std::vector<catalog::Part>>(std::move(all))),
-      table(std::make_shared<const api::PartTable>(*parts)) {}
-
 SharedCatalog::SharedCatalog(const std::filesystem::path& path)
-    : store_(path, catalog::Access::kWrite), path_(path) {}
+    : store_(path, catalog::Access::kWrite),
+      path_(path),
+      opened_(StateOfFile()),
+      past_(path, kLockPatience) {
+  store_.WaitForLocks(kLockPatience);
+}
+
+void SharedCatalog::ThrowBusy() {
+  throw catalog::StoreError("another request writes for long", catalog::StoreFault::kBusy);
+}
 
 SharedCatalog::FileState SharedCatalog::StateOfFile() const {
   struct stat file {};
   if (stat(path_.c_str(), &file) != 0) return {};
-  return {file.st_ino, file.st_size, file.st_mtim.tv_sec * kNsPerS + file.st_mtim.tv_nsec};
+  return {file.st_ino, file.st_dev, file.st_size,
+          file.st_mtim.tv_sec * kNsPerS + file.st_mtim.tv_nsec};
 }
 
-SharedCatalog::Turn SharedCatalog::AwaitTurn(std::chrono::seconds patience) {
-  Turn turn{waiting_.Enter(), std::unique_lock(mutex_, std::defer_lock)};
-  if (!turn.place || !turn.lock.try_lock_for(patience))
-    throw catalog::StoreError("another request writes for long", catalog::StoreFault::kBusy);
-  return turn;
+std::shared_ptr<void> SharedCatalog::TakePlace() {
+  auto place = waiting_.Enter();
+  if (!place) ThrowBusy();
+  return place;
+}
+
+std::unique_lock<std::timed_mutex> SharedCatalog::AwaitTurn() {
+  std::unique_lock lock(mutex_, kTurnPatience);
+  if (!lock) ThrowBusy();
+  return lock;
 }
 
 std::shared_ptr<const SharedCatalog::Published> SharedCatalog::WhatIsPublished() const {
@@ -49,9 +61,11 @@ std::shared_ptr<const SharedCatalog::Published> SharedCatalog::WhatIsPublished()
   return published_;
 }
 
-std::optional<CatalogView> SharedCatalog::ViewBeforeWrite() const {
-  const auto published = WhatIsPublished();
-  return published ? std::optional(published->view) : std::nullopt;
+std::optional<CatalogView> SharedCatalog::ViewMeanwhile() {
+  if (const auto published = WhatIsPublished()) return published->view;
+  const std::unique_lock lock(mutex_, kTurnPatience);
+  const bool kept = lock && view_.parts && !has_written_ && Clock::now() < ask_again_at_;
+  return kept ? std::optional(view_) : std::nullopt;
 }
 
 SharedCatalog::Publication::Publication(SharedCatalog& catalog) : catalog_(catalog) {
@@ -66,15 +80,22 @@ SharedCatalog::Publication::~Publication() {
   catalog_.published_ = nullptr;
 }
 
+SharedCatalog::Writing::Writing(SharedCatalog& catalog, std::chrono::milliseconds patience)
+    : catalog_(catalog) {
+  catalog_.has_written_ = true;
+  catalog_.store_.WaitForLocks(patience);
+}
+
+SharedCatalog::Writing::~Writing() { catalog_.store_.WaitForLocks(kLockPatience); }
+
 // `ask` with the store when its turn comes, or `look` at what a long write has published.
 template <typename Ask, typename Look>
 auto SharedCatalog::AskOrLook(Ask ask, Look look) {
   std::unique_lock lock(mutex_, std::defer_lock);
-  const auto until = Clock::now() + std::chrono::seconds(kCatalogueWaitSeconds);
+  const auto until = Clock::now() + kTurnPatience;
   while (!lock.try_lock_for(kLookEvery)) {
     if (const auto published = WhatIsPublished()) return look(*published);
-    if (Clock::now() > until)
-      throw catalog::StoreError("another request writes for long", catalog::StoreFault::kBusy);
+    if (Clock::now() > until) ThrowBusy();
   }
   return ask();
 }
@@ -82,11 +103,19 @@ auto SharedCatalog::AskOrLook(Ask ask, Look look) {
 const catalog::Revision& SharedCatalog::RefreshHead() {
   const FileState state = StateOfFile();
   const bool settled = NowNs() - state.written_ns > kTickNs;
-  if (!head_ || !settled || state != head_state_) {
+  if (head_ && settled && state == head_state_) return *head_;
+  const bool old_will_do = view_.parts && !has_written_;
+  if (old_will_do && Clock::now() < ask_again_at_) return view_.revision;
+  try {
     head_ = store_.Head();
-    // What was read while the file may still have been changing is read again.
-    head_state_ = settled ? state : FileState();
+  } catch (const catalog::StoreError& error) {
+    if (error.fault() != catalog::StoreFault::kBusy || !old_will_do) throw;
+    ask_again_at_ = Clock::now() + kLeaveAlone;
+    return view_.revision;
   }
+  has_written_ = false;
+  // What was read while the file may still have been changing is read again.
+  head_state_ = settled ? state : FileState();
   return *head_;
 }
 
@@ -115,13 +144,25 @@ std::vector<catalog::ModelRevision> SharedCatalog::Models() {
                    [](const Published& published) { return published.models; });
 }
 
-std::optional<CatalogView> SharedCatalog::ViewAt(std::int64_t revision) {
-  if (auto view = View(); view.revision.number == revision) return view;
-  return With([&](const catalog::Store& store) -> std::optional<CatalogView> {
-    const auto found = store.FindRevision(revision);
-    if (!found) return std::nullopt;
-    return CatalogView{*found, store.ListAt(revision)};
+std::optional<CatalogView> SharedCatalog::ViewAt(std::int64_t revision,
+                                                 std::chrono::milliseconds patience) {
+  return Patiently(patience, [&]() -> std::optional<CatalogView> {
+    auto view = View();
+    return view.revision.number == revision ? std::optional(std::move(view))
+                                            : past_.ViewAt(revision);
   });
+}
+
+FileCheck SharedCatalog::Check() {
+  const FileState now = StateOfFile();
+  if (now.inode != opened_.inode || now.device != opened_.device) return FileCheck::kReplaced;
+  try {
+    const auto turn = AwaitTurn();
+    store_.TryToWrite();
+    return FileCheck::kSound;
+  } catch (const catalog::StoreError& error) {
+    return error.fault() == catalog::StoreFault::kBusy ? FileCheck::kBusy : FileCheck::kFailed;
+  }
 }
 
 }  // namespace plenum::server

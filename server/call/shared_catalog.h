@@ -1,7 +1,10 @@
-// The service's one read-write connection to catalog.db, shared by its threads. They take turns,
-// and wait for theirs a limited time. A write that may take seconds lets the others go on reading
-// what it found: the newest revision and the saved models are in memory meanwhile. Only what needs
-// the file itself (history, older revisions) and other writes wait for its end.
+// The service's one read-write connection to catalog.db, shared by its threads, and one to read the
+// past with. Threads take turns, and wait for theirs, and for other processes, a fraction of a
+// second: then the call throws StoreError (kBusy), nothing was changed, and whoever asked asks
+// again. A write that may take seconds lets the others go on reading what it found: the newest
+// revision and the saved models are in memory meanwhile. While another process keeps the file to
+// itself, readers get the revision that was read last, unless this service has written since. Only
+// what needs the file itself (history, older revisions) and writes wait.
 #ifndef PLENUM_SERVER_CALL_SHARED_CATALOG_H_
 #define PLENUM_SERVER_CALL_SHARED_CATALOG_H_
 
@@ -11,28 +14,31 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <thread>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
-#include "api/catalogue/part_table.h"
 #include "api/catalogue/stores.h"
 #include "api/json/request_limits.h"
 #include "api/measure/model_document.h"
+#include "server/call/past_revisions.h"
 #include "server/call/reply_cache.h"
 #include "server/call/service_limits.h"
 
 namespace plenum::server {
 
-using Parts = std::shared_ptr<const std::vector<catalog::Part>>;
-
-// All parts of one revision.
-struct CatalogView {
-  CatalogView() = default;
-  CatalogView(catalog::Revision of, std::vector<catalog::Part> all);
-
-  catalog::Revision revision;
-  Parts parts;
-  std::shared_ptr<const api::PartTable> table;  // of the parts
+// What a look at the file itself says of it.
+enum class FileCheck {
+  kSound,
+  kBusy,     // another process writes it
+  kFailed,   // it cannot be written, as where it is damaged at its beginning or cut off
+  kReplaced  // moved away or replaced by another
 };
+
+// For the turn of a call, and of writes for those who read.
+inline constexpr std::chrono::milliseconds kTurnPatience{200};
+inline constexpr std::chrono::milliseconds kWritePatience{1000}, kLongWritePatience{10'000};
 
 class SharedCatalog {
  public:
@@ -47,35 +53,46 @@ class SharedCatalog {
   Parts Snapshot() { return View().parts; }
   // The newest of each saved model.
   std::vector<catalog::ModelRevision> Models();
-  // What a long write found, while it is under way.
-  std::optional<CatalogView> ViewBeforeWrite() const;
-  // The parts as they were in a revision; none if there is no such revision.
-  std::optional<CatalogView> ViewAt(std::int64_t revision);
+  // What a long write found, while it is under way, or what was read last, while another process
+  // keeps the file.
+  std::optional<CatalogView> ViewMeanwhile();
+  // The parts as they were in a revision; none if there is no such revision. The last few that were
+  // asked for stay in memory.
+  std::optional<CatalogView> ViewAt(std::int64_t revision,
+                                    std::chrono::milliseconds patience = kTurnPatience);
+  // Whether it could be written now.
+  FileCheck Check();
+
+  // For what only reads history: a connection of its own.
+  PastRevisions& past() { return past_; }
 
   // Answers made of the newest revision.
   ReplyCache& replies() { return replies_; }
 
   // Runs `f(store)` while no other thread of this process uses the store.
   template <typename F>
-  auto With(F&& f, std::chrono::seconds patience = std::chrono::seconds(kCatalogueWaitSeconds)) {
-    const auto turn = AwaitTurn(patience);
-    return f(store_);
+  auto With(F&& f, std::chrono::milliseconds patience = kTurnPatience) {
+    const auto place = TakePlace();
+    return Patiently(patience, [&] {
+      const auto turn = AwaitTurn();
+      if constexpr (std::is_invocable_v<F, const catalog::Store&>) return f(std::as_const(store_));
+      const Writing writing(*this, kWritePatience);
+      return f(store_);
+    });
   }
   // The same for a write that may take seconds.
   template <typename F>
   auto WithLong(F&& f) {
-    const auto turn = AwaitTurn(std::chrono::seconds(kCatalogueWaitSeconds));
+    const auto place = TakePlace();
+    const auto turn = AwaitTurn();
     const Publication published(*this);
+    const Writing writing(*this, kLongWritePatience);
     auto result = f(store_);
     RefreshView();  // before the others come back
     return result;
   }
 
  private:
-  struct Turn {
-    std::shared_ptr<void> place;  // among those that wait
-    std::unique_lock<std::timed_mutex> lock;
-  };
   struct Published {
     CatalogView view;
     std::vector<catalog::ModelRevision> models;
@@ -89,7 +106,35 @@ class SharedCatalog {
     SharedCatalog& catalog_;
   };
 
-  Turn AwaitTurn(std::chrono::seconds patience);
+  // While the store is written: what was read before is no longer enough, and a write that was made
+  // may wait longer for readers to leave than it costs to make it anew.
+  class Writing {
+   public:
+    Writing(SharedCatalog& catalog, std::chrono::milliseconds patience);
+    ~Writing();
+
+   private:
+    SharedCatalog& catalog_;
+  };
+
+  // Among those that wait.
+  std::shared_ptr<void> TakePlace();
+  std::unique_lock<std::timed_mutex> AwaitTurn();
+  [[noreturn]] static void ThrowBusy();
+  // Does it again while the catalogue is busy.
+  template <typename F>
+  static auto Patiently(std::chrono::milliseconds patience, F&& action) {
+    for (const auto until = std::chrono::steady_clock::now() + patience;;) {
+      try {
+        return action();
+      } catch (const catalog::StoreError& error) {
+        if (error.fault() != catalog::StoreFault::kBusy ||
+            std::chrono::steady_clock::now() >= until)
+          throw;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
   std::shared_ptr<const Published> WhatIsPublished() const;
   template <typename Ask, typename Look>
   auto AskOrLook(Ask ask, Look look);
@@ -104,7 +149,7 @@ class SharedCatalog {
 
   // What the file system says of the catalogue's file.
   struct FileState {
-    std::uint64_t inode = 0;
+    std::uint64_t inode = 0, device = 0;
     std::int64_t size = 0, written_ns = 0;
     bool operator==(const FileState&) const = default;
   };
@@ -113,7 +158,11 @@ class SharedCatalog {
 
   const std::filesystem::path path_;
   FileState head_state_;
-  std::optional<catalog::Revision> head_;  // that of head_state_
+  std::optional<catalog::Revision> head_;                 // that of head_state_
+  bool has_written_ = false;                              // since the head was read
+  std::chrono::steady_clock::time_point ask_again_at_{};  // while others keep the file
+  FileState opened_;                                      // as it was then
+  PastRevisions past_;
   ReplyCache replies_;
 };
 

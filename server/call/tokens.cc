@@ -16,6 +16,7 @@
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
 #include "server/call/reply.h"
+#include "server/call/request_log.h"
 
 namespace plenum::server {
 namespace {
@@ -132,15 +133,24 @@ bool RevokeToken(const fs::path& file, const std::string& id) {
   return true;
 }
 
+TokenKeeper::FileState TokenKeeper::StateOf(const fs::path& file) {
+  constexpr std::int64_t kNsPerS = 1'000'000'000;
+  struct stat state {};
+  if (stat(file.c_str(), &state) != 0) return {};
+  return {state.st_ino, state.st_size, state.st_mtim.tv_sec * kNsPerS + state.st_mtim.tv_nsec,
+          state.st_ctim.tv_sec * kNsPerS + state.st_ctim.tv_nsec};
+}
+
 void TokenKeeper::Refresh() {
-  std::error_code none;
-  const auto changed = fs::last_write_time(file_, none);
-  const auto size = none ? 0 : fs::file_size(file_, none);
-  if (changed == read_at_ && size == size_) return;
-  tokens_.clear();  // a file that cannot be read admits nobody
-  read_at_ = changed;
-  size_ = size;
-  tokens_ = ReadTokens(file_);
+  const FileState state = StateOf(file_);
+  if (state == read_) return;
+  try {
+    tokens_ = ReadTokens(file_);
+    read_ = state;
+  } catch (const std::exception& error) {
+    Log({{"level", "error"}, {"fault", error.what()}});
+    if (!read_) throw;
+  }
 }
 
 std::optional<Token> TokenKeeper::Find(std::string_view text) {

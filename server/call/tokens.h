@@ -35,6 +35,8 @@ std::string CreateToken(const std::filesystem::path& file, const std::string& na
 bool RevokeToken(const std::filesystem::path& file, const std::string& id);
 
 // The tokens of a file as it is: read again when it changes, so that a revoked token ends at once.
+// While the file cannot be read, as where the process has too many open, the tokens that were read
+// last go on and each call tries again.
 class TokenKeeper {
  public:
   explicit TokenKeeper(std::filesystem::path file) : file_(std::move(file)) {}
@@ -46,8 +48,14 @@ class TokenKeeper {
 
   const std::filesystem::path file_;
   std::mutex mutex_;
-  std::filesystem::file_time_type read_at_{};
-  std::uintmax_t size_ = 0;
+  // What the file system said of the file that was read.
+  struct FileState {
+    std::uint64_t inode = 0;
+    std::int64_t size = 0, written_ns = 0, changed_ns = 0;
+    bool operator==(const FileState&) const = default;
+  };
+  static FileState StateOf(const std::filesystem::path& file);
+  std::optional<FileState> read_;
   std::vector<Token> tokens_;
 };
 

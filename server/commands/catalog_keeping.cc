@@ -10,6 +10,7 @@
 #include "server/call/reply.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
+#include "server/commands/output.h"
 #include "server/render/text/text_catalog.h"
 #include "server/resources/import_parts.h"
 
@@ -52,8 +53,6 @@ std::vector<std::string> CheckJobsOf(const std::string& catalog) {
 }
 
 }  // namespace
-
-void Print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 void ShowHistory(const CatalogOptions& options) {
   const auto store = OpenCatalog(options.catalog, Access::kRead);
@@ -102,7 +101,7 @@ int CheckCatalog(const CatalogOptions& options) {
   auto faults = store.Check();
   const bool readable = faults.empty();
   for (auto& fault : CheckJobsOf(options.catalog)) faults.push_back(std::move(fault));
-  for (const auto& fault : faults) std::fprintf(stderr, "%s\n", fault.c_str());
+  for (const auto& fault : faults) Tell(fault);
   std::vector<catalog::Part> parts;
   if (readable) parts = store.List();  // what is damaged cannot be read
   const auto check = api::CheckParts(parts);

@@ -31,9 +31,6 @@ struct CatalogOptions {
   bool json = false, csv = false, dry_run = false;
 };
 
-// Writes to standard output as it is.
-void Print(const std::string& text);
-
 void ShowHistory(const CatalogOptions& options);
 void UndoWrite(const CatalogOptions& options);
 void BackupCatalog(const CatalogOptions& options);

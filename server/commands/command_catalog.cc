@@ -13,6 +13,7 @@
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
+#include "server/commands/output.h"
 #include "server/render/text/text_catalog.h"
 #include "server/render/text/text_parts.h"
 #include "server/render/text/text_remarks.h"

@@ -14,6 +14,7 @@
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
 #include "server/commands/interrupt.h"
+#include "server/commands/output.h"
 #include "server/render/text/text_design.h"
 #include "server/render/text/text_guarantee.h"
 
@@ -97,11 +98,10 @@ int Design(const DesignOptions& options) {
   const auto request = ValueOrRefuse(api::ParseRequirements(requirements, parts, store.Models()));
   auto json = AnswerWithProgress(request, parts);
   json["catalogue_revision"] = api::RenderRevisionName(revision);
-  std::fputs(options.json ? (Dump(json) + "\n").c_str() : DesignText(json, options.wide).c_str(),
-             stdout);
+  Print(options.json ? Dump(json) + "\n" : DesignText(json, options.wide));
   if (!options.json && !json.at("designs").empty() && !Interrupted()) {
     std::fflush(stdout);
-    std::fputs(("\n" + GuaranteeBeside(request, parts)).c_str(), stdout);
+    Print("\n" + GuaranteeBeside(request, parts));
   }
   return Interrupted() ? kInterrupted : kAnswered;
 }

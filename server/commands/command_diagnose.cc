@@ -17,6 +17,7 @@
 #include "server/commands/input.h"
 #include "server/commands/interrupt.h"
 #include "server/commands/measurement_files.h"
+#include "server/commands/output.h"
 #include "server/render/report_diagnosis.h"
 #include "server/render/text/text_diagnosis.h"
 #include "server/render/text/text_protocol.h"
@@ -112,9 +113,7 @@ int Diagnose(const DiagnoseOptions& options) {
     answer["saved_part"] = api::SavePart(store, options.save_part, answer, request.provenance.files,
                                          options.save_part_anyway, CommandSignature());
   }
-  std::fputs(options.json ? (Dump(answer) + "\n").c_str()
-                          : (MeasuredText(answer) + DiagnosisText(answer)).c_str(),
-             stdout);
+  Print(options.json ? Dump(answer) + "\n" : MeasuredText(answer) + DiagnosisText(answer));
   if (!options.report.empty()) WriteReport(options.report, answer);
   if (!options.save.empty()) SaveModel(options, result.revision);
   return Interrupted() ? kInterrupted : kAnswered;

@@ -10,6 +10,7 @@
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
+#include "server/commands/output.h"
 #include "server/jobs/crash_marks.h"
 #include "server/jobs/job_recovery.h"
 #include "server/render/text/text_jobs.h"

@@ -12,6 +12,7 @@
 #include "server/commands/manual/completion.h"
 #include "server/commands/manual/man_page.h"
 #include "server/commands/manual/suggestion.h"
+#include "server/commands/output.h"
 
 namespace plenum::server {
 namespace {
@@ -128,10 +129,10 @@ int RunCommandLine(int argc, const char* const* argv) {
   try {
     return RunCommand(argc, argv);
   } catch (const BadInput& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    Tell(error.what());
     return kBadInput;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "plenum: fault: %s\n", error.what());
+    Tell(std::string("plenum: fault: ") + error.what());
     return kFault;
   }
 }

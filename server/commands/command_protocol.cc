@@ -13,6 +13,7 @@
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
+#include "server/commands/output.h"
 #include "server/render/text/text_protocol.h"
 
 namespace plenum::server {
@@ -57,8 +58,7 @@ int Protocol(const ProtocolOptions& options) {
                                             .sampling_hz = options.sampling_hz,
                                             .bottle_l = options.bottle_l});
   if (!options.write_template.empty()) WriteTemplate(options.write_template, protocol);
-  std::fputs(options.json ? (Dump(protocol) + "\n").c_str() : ProtocolText(protocol).c_str(),
-             stdout);
+  Print(options.json ? Dump(protocol) + "\n" : ProtocolText(protocol));
   return kAnswered;
 }
 

@@ -16,6 +16,7 @@
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
 #include "server/commands/measurement_files.h"
+#include "server/commands/output.h"
 #include "server/render/text/text_design.h"
 #include "server/render/text/text_response.h"
 
@@ -71,7 +72,7 @@ int Simulate(const SimulateOptions& options) {
     response = ValueOrRefuse(api::RunSimulation(request, parts));
     text = ResponseText(response);
   }
-  std::fputs(options.json ? (Dump(response) + "\n").c_str() : text.c_str(), stdout);
+  Print(options.json ? Dump(response) + "\n" : text);
   return kAnswered;
 }
 
@@ -96,12 +97,12 @@ void Evaluate(const EvaluateOptions& options) {
     request["beside"] = FirstDesign(options.beside);
   const catalog::Store store = OpenCatalog(options.catalog, catalog::Access::kRead);
   const auto answer = ValueOrRefuse(api::RunEvaluation(request, store.List(), store.Models()));
-  std::fputs(options.json ? (Dump(answer) + "\n").c_str() : EvaluationText(answer).c_str(), stdout);
+  Print(options.json ? Dump(answer) + "\n" : EvaluationText(answer));
 }
 
 void Map(const FileOptions& options) {
   const auto answer = ValueOrRefuse(api::RunMap(ReadJson(options.file)));
-  std::fputs(options.json ? (Dump(answer) + "\n").c_str() : MapText(answer).c_str(), stdout);
+  Print(options.json ? Dump(answer) + "\n" : MapText(answer));
 }
 
 Command FileCommand(const char* name, const char* help, const char* example,

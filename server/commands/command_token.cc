@@ -9,6 +9,7 @@
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
+#include "server/commands/output.h"
 
 namespace plenum::server {
 namespace {

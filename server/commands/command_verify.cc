@@ -11,6 +11,7 @@
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
 #include "server/commands/interrupt.h"
+#include "server/commands/output.h"
 #include "server/render/text/text_table.h"
 
 namespace plenum::server {
@@ -91,13 +92,13 @@ int Verify(const VerifyOptions& options) {
         api::BruteForce{options.combinations_max, [&](double share) { line.Show(share); }};
   const auto json = ValueOrRefuse(
       api::VerifyAnswer(result, parts, revision, brute_force, StopOf(options.time_limit_s)));
-  std::fputs(options.json ? (Dump(json) + "\n").c_str() : VerificationText(json).c_str(), stdout);
+  Print(options.json ? Dump(json) + "\n" : VerificationText(json));
   if (json["accepted"]) return kAnswered;
   if (Interrupted()) return kInterrupted;
   for (const auto& check : json["checks"])
     if (!check["ok"])
-      std::fprintf(stderr, "refused: %s: %s\n", check["check"].get<std::string>().c_str(),
-                   check["detail"].get<std::string>().c_str());
+      Tell("refused: " + check["check"].get<std::string>() + ": " +
+           check["detail"].get<std::string>());
   if (json["stopped"])
     std::fprintf(stderr, "not accepted: out of time after %g s, before all was looked at\n",
                  *options.time_limit_s);

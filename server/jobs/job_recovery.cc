@@ -1,9 +1,9 @@
 #include "server/jobs/job_recovery.h"
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
+#include "server/call/request_log.h"
 #include "server/jobs/crash_marks.h"
 
 namespace plenum::server {
@@ -38,7 +38,7 @@ void RecoverJobs(catalog::JobStore& store, const std::filesystem::path& crash_fi
     try {
       store.End(record);
     } catch (const catalog::StoreError& error) {
-      std::fprintf(stderr, "job %s: %s\n", record.id.c_str(), error.what());
+      Log({{"level", "error"}, {"job", record.id}, {"fault", error.what()}});
     }
   }
 }

@@ -1,16 +1,21 @@
 #include "server/jobs/jobs.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <random>
 #include <utility>
 
 #include "api/json/worker_stack.h"
 #include "server/call/reply.h"
+#include "server/call/request_log.h"
 #include "server/jobs/crash_marks.h"
+#include "server/jobs/job_memory.h"
 
 namespace plenum::server {
 namespace {
@@ -30,34 +35,28 @@ std::string RandomId() {
 
 std::string TextOf(const api::Json& json) { return json.is_null() ? "" : Dump(json); }
 
-// Null where there is none.
-api::Json FromText(const std::string& text, bool& damaged) {
-  if (text.empty()) return {};
-  api::Json json = api::Json::parse(text, nullptr, false);
-  damaged = json.is_discarded();
-  return damaged ? api::Json() : json;
-}
+constexpr std::size_t kMuchMemoryBytes = 64 << 20;
+constexpr char kTooMuchMemory[] =
+    "it needed more memory than the service can get; ask for less at once, as fewer groups or "
+    "samples, or give the service more memory";
 
+// Without the result.
 Job ToJob(const catalog::JobRecord& record) {
   Job job;
   job.number = record.number;
   job.id = record.id;
   job.name = record.order.name;
   job.status = record.status;
-  bool no_progress = false, no_result = false;
-  job.progress = FromText(record.progress, no_progress);
-  job.result = FromText(record.result, no_result);
+  job.progress = api::Json::parse(record.progress, nullptr, false);
+  if (job.progress.is_discarded()) job.progress = nullptr;
   job.failure = record.failure;
-  if (no_result) {
-    job.status = JobStatus::kFailed;
-    job.failure = "its stored result is damaged and cannot be read";
-  }
   job.attempts = record.starts;
   job.crashes = record.crashes;
   job.crash = record.crash;
   job.alone = record.alone;
   job.submitted_at = record.submitted_at;
   job.ended_at = record.ended_at;
+  job.revision = record.ending;
   job.catalogue_revision = record.order.revision;
   job.catalogue_hash = record.order.hash;
   return job;
@@ -70,7 +69,7 @@ bool Try(const std::string& id, F&& write) {
     write();
     return true;
   } catch (const catalog::StoreError& error) {
-    std::fprintf(stderr, "job %s: %s\n", id.c_str(), error.what());
+    Log({{"level", "error"}, {"job", id}, {"fault", error.what()}});
     return false;
   }
 }
@@ -106,6 +105,7 @@ Jobs::EntryPtr Jobs::Enqueue(const catalog::JobRecord& record) {
   auto entry = std::make_shared<Entry>();
   entry->job = ToJob(record);
   entry->job.status = JobStatus::kQueued;
+  entry->client = record.order.client;
   entries_[record.id] = entry;
   if (record.alone) turns_.Announce();
   const auto after = record.alone
@@ -126,27 +126,35 @@ Submitted Jobs::Submit(catalog::JobOrder order) {
       return {Submitted::kRepeated, known->id};
     }
   }
-  {
-    const std::lock_guard lock(mutex_);
-    if (stopping_ || queue_.size() >= options_.queued_max) return {Submitted::kRefused, ""};
-  }
+  if (const auto refused = RefuseToQueue(order.client)) return *refused;
   const catalog::JobRecord record = store_.Add(RandomId(), order);
   const std::lock_guard lock(mutex_);
   Enqueue(record);
   return {Submitted::kAccepted, record.id};
 }
 
+std::optional<Submitted> Jobs::RefuseToQueue(const std::string& client) const {
+  const std::lock_guard lock(mutex_);
+  if (stopping_ || queue_.size() >= options_.queued_max) return Submitted{Submitted::kRefused, ""};
+  const auto waiting = std::count_if(
+      queue_.begin(), queue_.end(), [&](const EntryPtr& entry) { return entry->client == client; });
+  if (static_cast<std::size_t>(waiting) >= options_.queued_per_client_max)
+    return Submitted{Submitted::kClientRefused, ""};
+  return std::nullopt;
+}
+
 Asked Jobs::Again(const std::string& id) {
   const std::lock_guard submitting(submitting_);
-  const auto job = Get(id);
+  const auto job = Look(id);
   if (!job) return Asked::kUnknown;
   if (!Ended(job->status)) return Asked::kUnderWay;
   if (job->status == JobStatus::kDone) return Asked::kDone;
-  {
-    const std::lock_guard lock(mutex_);
-    if (stopping_ || queue_.size() >= options_.queued_max) return Asked::kRefused;
-  }
+  const auto before = store_.Peek(kind_, id);
+  if (!before) return Asked::kUnknown;
+  if (const auto refused = RefuseToQueue(before->order.client))
+    return refused->status == Submitted::kRefused ? Asked::kRefused : Asked::kClientRefused;
   store_.Again(id);
+  results_.Forget(id);
   const auto record = store_.Find(kind_, id);
   if (!record) return Asked::kUnknown;  // dropped as old meanwhile
   const std::lock_guard lock(mutex_);
@@ -160,13 +168,42 @@ Jobs::EntryPtr Jobs::Find(const std::string& id) const {
   return it == entries_.end() ? nullptr : it->second;
 }
 
-std::optional<Job> Jobs::Get(const std::string& id) const {
+std::optional<Job> Jobs::Look(const std::string& id) const {
   if (const EntryPtr entry = Find(id)) {
     const std::lock_guard lock(mutex_);
     return entry->job;
   }
-  const auto record = store_.Find(kind_, id);
+  const auto record = store_.Peek(kind_, id);
   return record ? std::optional(ToJob(*record)) : std::nullopt;
+}
+
+void Jobs::AddResult(Job& job) const {
+  if (job.result || !Ended(job.status)) return;
+  bool is_stored = false;
+  job.result = results_.Get(job.id, [&] {
+    std::string text = store_.Result(kind_, job.id);
+    is_stored = is_stored || !text.empty();
+    return text;
+  });
+  if (job.result || !is_stored) return;
+  job.status = JobStatus::kFailed;
+  job.failure = "its stored result is damaged and cannot be read";
+}
+
+std::optional<Job> Jobs::Get(const std::string& id) const {
+  auto job = Look(id);
+  if (job) AddResult(*job);
+  return job;
+}
+
+void Jobs::OnChange(std::function<void()> changed) {
+  const std::lock_guard lock(mutex_);
+  on_change_ = std::move(changed);
+}
+
+// With the lock held.
+void Jobs::Changed() const {
+  if (on_change_) on_change_();
 }
 
 std::vector<Job> Jobs::List() const {
@@ -206,7 +243,8 @@ bool Jobs::Cancel(const std::string& id) {
 
 // On disk before anybody sees it. Where that fails the job stays in memory as it ended, and the
 // next service does it again.
-void Jobs::End(Entry& entry, JobStatus status, api::Json result, const std::string& failure) {
+void Jobs::End(Entry& entry, JobStatus status, const api::Json& result,
+               const std::string& failure) {
   catalog::JobRecord record;
   {
     const std::lock_guard lock(mutex_);
@@ -216,39 +254,20 @@ void Jobs::End(Entry& entry, JobStatus status, api::Json result, const std::stri
   record.order.kind = kind_;
   record.status = status;
   record.result = TextOf(result);
+  const Bytes text =
+      record.result.empty() ? nullptr : std::make_shared<const std::string>(record.result);
   record.failure = failure;
   std::string ended_at;
   const bool kept = Try(record.id, [&] { ended_at = store_.End(record); });
+  if (kept && text) results_.Put(record.id, record.result);
   const std::lock_guard lock(mutex_);
   entry.job.status = status;
   entry.job.ended_at = ended_at;  // for those who found the entry before it goes
-  entry.job.result = std::move(result);
+  entry.job.result = text;
   entry.job.failure = failure;
   ++entry.job.revision;
   if (kept) entries_.erase(record.id);
-  changed_.notify_all();
-}
-
-template <typename Predicate>
-std::optional<Job> Jobs::WaitUntil(const std::string& id, std::chrono::milliseconds timeout,
-                                   Predicate done) const {
-  const EntryPtr entry = Find(id);
-  if (!entry) return Get(id);
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, timeout, [&] { return stopping_ || done(entry->job); });
-  return entry->job;
-}
-
-std::optional<Job> Jobs::WaitForChange(const std::string& id, long long revision,
-                                       std::chrono::milliseconds timeout) const {
-  return WaitUntil(id, timeout, [revision](const Job& job) {
-    return job.revision > revision || Ended(job.status);
-  });
-}
-
-std::optional<Job> Jobs::WaitForEnd(const std::string& id,
-                                    std::chrono::milliseconds timeout) const {
-  return WaitUntil(id, timeout, [](const Job& job) { return Ended(job.status); });
+  Changed();
 }
 
 void Jobs::Stop() {
@@ -256,7 +275,7 @@ void Jobs::Stop() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
     work_ready_.notify_all();
-    changed_.notify_all();
+    Changed();
   }
   for (auto& worker : workers_) {
     if (worker.joinable()) worker.join();
@@ -275,12 +294,27 @@ Jobs::EntryPtr Jobs::Next() {
       work_ready_.wait_for(lock, kTurnPause);
   }
   if (stopping_) return nullptr;
-  const EntryPtr entry = queue_.front();
-  queue_.pop_front();
-  entry->job.status = JobStatus::kRunning;
-  ++entry->job.attempts;
-  ++entry->job.revision;
-  changed_.notify_all();
+  return TakeFromQueue();
+}
+
+// With the lock held.
+Jobs::EntryPtr Jobs::TakeFromQueue() {
+  std::map<std::string, int> at_work;
+  for (const auto& [id, entry] : entries_) at_work[entry->client] += entry->at_work;
+  const auto rank = [&](const EntryPtr& entry) {
+    return clients_.RankOf(entry->client, at_work[entry->client]);
+  };
+  const auto next = queue_.front()->job.alone
+                        ? queue_.begin()
+                        : std::min_element(queue_.begin(), queue_.end(),
+                                           [&](const EntryPtr& one, const EntryPtr& other) {
+                                             return rank(one) < rank(other);
+                                           });
+  EntryPtr entry = *next;
+  queue_.erase(next);
+  clients_.Forget([&](const std::string& client) { return at_work.contains(client); });
+  clients_.Take(entry->client);
+  entry->at_work = true;
   return entry;
 }
 
@@ -298,14 +332,25 @@ void Jobs::Run(Entry& entry) {
   const std::string id = entry.job.id;
   const WorksFor job(entry.job.number);
   Try(id, [&] { store_.Start(id); });
+  {
+    const std::lock_guard lock(mutex_);
+    entry.job.status = JobStatus::kRunning;
+    ++entry.job.attempts;
+    ++entry.job.revision;
+    Changed();
+  }
+  const std::size_t before = ResidentBytes();
   auto outcome = Outcome(entry);
+  // What a large job had goes back to the system. It takes a while, and who sees that a job has
+  // ended may count on its worker.
+  if (ResidentBytes() > before + kMuchMemoryBytes) malloc_trim(0);
   if (entry.interrupted && !entry.cancelled) {
     Try(id, [&] { store_.Requeue(id); });
   } else if (const auto* errors = std::get_if<api::Errors>(&outcome)) {
     End(entry, JobStatus::kFailed, nullptr, ListOf(*errors));
   } else {
     End(entry, entry.cancelled ? JobStatus::kCancelled : JobStatus::kDone,
-        std::get<api::Json>(std::move(outcome)), "");
+        std::get<api::Json>(outcome), "");
   }
 }
 
@@ -319,12 +364,14 @@ api::Parsed<api::Json> Jobs::Outcome(Entry& entry) {
                              const std::lock_guard lock(mutex_);
                              entry.job.progress = std::move(progress);
                              ++entry.job.revision;
-                             changed_.notify_all();
+                             Changed();
                            }};
   try {
     return work_(store_.Find(kind_, entry.job.id).value().order, control);
+  } catch (const std::bad_alloc&) {
+    return api::Errors{{"", kTooMuchMemory}};
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "job %s: fault: %s\n", entry.job.id.c_str(), error.what());
+    Log({{"level", "error"}, {"job", entry.job.id}, {"fault", error.what()}});
     return api::Errors{{"", "a fault of the program; its log says more"}};
   }
 }

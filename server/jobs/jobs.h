@@ -1,4 +1,6 @@
-// Long work off the request threads: a bounded queue, a few workers, progress, cancel.
+// Long work off the request threads: a bounded queue, a few workers, progress, cancel. Clients take
+// turns: the next job is of the one with the fewest at work and, of these, of the one who has
+// waited longest for a turn; the jobs of one client are begun in the order in which they came.
 //
 // A job is on disk from before its id is given out until it is old (catalog/store/job_store.h). One
 // that was queued or running when the service ended, in whatever way, is done again by the next,
@@ -8,7 +10,6 @@
 #define PLENUM_SERVER_JOBS_JOBS_H_
 
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -23,7 +24,9 @@
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
 #include "server/call/service_limits.h"
+#include "server/jobs/client_turns.h"
 #include "server/jobs/job_turns.h"
+#include "server/jobs/stored_results.h"
 
 namespace plenum::server {
 
@@ -36,13 +39,13 @@ struct Job {
   std::string name;
   JobStatus status = JobStatus::kQueued;
   api::Json progress;  // null until the first report
-  api::Json result;    // null until there is one; a cancelled job may have one
+  Bytes result;        // JSON, where there is one: a cancelled job may have one, too
   std::string failure;
   int attempts = 0;        // how often it was begun and not stopped in an orderly way
   int crashes = 0;         // how often its computation ended the program
   std::string crash;       // what is known of the last one
   bool alone = false;      // no other job may run beside it
-  long long revision = 0;  // grows with every change
+  long long revision = 0;  // another one after every change; of no other ending
   std::string submitted_at, ended_at;
   std::int64_t catalogue_revision = 0;
   std::string catalogue_hash;
@@ -59,13 +62,17 @@ using Work =
 
 struct JobOptions {
   int workers = 2;
-  std::size_t queued_max = 32;
+  std::size_t queued_max = 512;
+  std::size_t queued_per_client_max = 32;
 };
 
-inline JobQuota QuotaOf(const JobOptions& options) { return {options.workers, options.queued_max}; }
+inline JobQuota QuotaOf(const JobOptions& options) {
+  return {options.workers, options.queued_max, options.queued_per_client_max};
+}
 
 struct Submitted {
-  enum { kAccepted, kRepeated, kKeyReused, kRefused } status = kAccepted;
+  // kClientRefused: as many jobs of this client wait as may.
+  enum { kAccepted, kRepeated, kKeyReused, kRefused, kClientRefused } status = kAccepted;
   std::string id;  // kAccepted; kRepeated: of the job that has the key
 };
 
@@ -75,7 +82,8 @@ enum class Asked {
   kUnknown,   // there is no such job
   kUnderWay,  // it has not ended
   kDone,      // its result stands
-  kRefused    // the queue is full or the service is stopping
+  kRefused,   // the queue is full or the service is stopping
+  kClientRefused
 };
 
 class Jobs {
@@ -87,10 +95,16 @@ class Jobs {
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
 
+  // `changed` is called whenever a job has changed. It must not call back.
+  void OnChange(std::function<void()> changed);
+
   // Refused when the queue is full or the service is stopping. Throws StoreError when the job
   // cannot be written to disk. `order.kind` is set here.
   Submitted Submit(catalog::JobOrder order);
   std::optional<Job> Get(const std::string& id) const;
+  // The same without the result of a job that ended, and that result put into it.
+  std::optional<Job> Look(const std::string& id) const;
+  void AddResult(Job& job) const;
   std::vector<Job> List() const;  // newest first, without results
   // Asks the job to stop; no effect on one that has ended. False if there is none.
   bool Cancel(const std::string& id);
@@ -98,14 +112,7 @@ class Jobs {
   // Throws StoreError when that cannot be written to disk.
   Asked Again(const std::string& id);
 
-  // Waits until the job has ended or passed `revision`, at most `timeout`; then the job as it is.
-  std::optional<Job> WaitForChange(const std::string& id, long long revision,
-                                   std::chrono::milliseconds timeout) const;
-  // Waits until the job has ended, at most `timeout`.
-  std::optional<Job> WaitForEnd(const std::string& id, std::chrono::milliseconds timeout) const;
-
-  // Interrupts what runs, releases who waits, joins the workers. What has not ended is queued on
-  // disk.
+  // Interrupts what runs and joins the workers. What has not ended is queued on disk.
   void Stop();
   bool Stopping() const;
   const JobOptions& options() const { return options_; }
@@ -113,6 +120,8 @@ class Jobs {
  private:
   struct Entry {
     Job job;
+    std::string client;  // who takes turns with others
+    bool at_work = false;
     std::atomic<bool> cancelled = false;    // somebody asked
     std::atomic<bool> interrupted = false;  // the work saw that the service stops
   };
@@ -120,14 +129,14 @@ class Jobs {
 
   EntryPtr Enqueue(const catalog::JobRecord& record);
   EntryPtr Next();
+  EntryPtr TakeFromQueue();
+  std::optional<Submitted> RefuseToQueue(const std::string& client) const;
+  void Changed() const;
   void WorkLoop();
   void Run(Entry& entry);
   api::Parsed<api::Json> Outcome(Entry& entry);
-  void End(Entry& entry, JobStatus status, api::Json result, const std::string& failure);
+  void End(Entry& entry, JobStatus status, const api::Json& result, const std::string& failure);
   EntryPtr Find(const std::string& id) const;
-  template <typename Predicate>
-  std::optional<Job> WaitUntil(const std::string& id, std::chrono::milliseconds timeout,
-                               Predicate done) const;
 
   catalog::JobStore& store_;
   JobTurns& turns_;
@@ -136,10 +145,12 @@ class Jobs {
   const JobOptions options_;
   std::mutex submitting_;  // taken before mutex_
   mutable std::mutex mutex_;
-  mutable std::condition_variable changed_;
   std::condition_variable work_ready_;
+  std::function<void()> on_change_;
+  mutable StoredResults results_;
   std::map<std::string, EntryPtr> entries_;  // unfinished, or not on disk as ended
   std::deque<EntryPtr> queue_;               // those that run alone first
+  ClientTurns clients_;
   std::atomic<bool> stopping_ = false;
   std::vector<std::thread> workers_;
 };

@@ -39,11 +39,22 @@ api::Json Outcome(const api::Json& answer, const api::Json& objective) {
           {"outcome", answer.at("status")}};
 }
 
+// As a search that its time limit ended: the list is what it had, with its gap.
+void EndedByMemory(api::Json& answer) {
+  if (answer.at("status") != "cancelled") return;
+  answer["status"] = "feasible";
+  answer["warnings"].push_back(
+      {{"pointer", ""},
+       {"detail",
+        "the search took as much memory as the service has for searches (job_memory_bytes_max) and "
+        "ended before its time limit; gap says how far it is from a proof"}});
+}
+
 }  // namespace
 
-Work DesignWork(SharedCatalog& catalog) {
-  return [&catalog](const catalog::JobOrder& order,
-                    const JobControl& control) -> api::Parsed<api::Json> {
+Work DesignWork(SharedCatalog& catalog, JobMemory& memory) {
+  return [&catalog, &memory](const catalog::JobOrder& order,
+                             const JobControl& control) -> api::Parsed<api::Json> {
     auto view = PartsOf(catalog, order);
     if (auto* errors = std::get_if<api::Errors>(&view)) return *errors;
     auto models = ModelsOf(catalog, order);
@@ -57,12 +68,15 @@ Work DesignWork(SharedCatalog& catalog) {
 
     const api::Json objective = ObjectiveOf(std::get<api::Json>(json));
     optimizer::SearchOptions options;
-    options.cancelled = control.cancelled;
+    const auto share = memory.Enter();
+    options.cancelled = [&] { return share->must_end() || control.cancelled(); };
     options.progress = [&](const optimizer::Progress& progress) {
+      share->Report(progress.open);
       control.report(ToJson(progress, objective));
     };
     api::Json answer =
         api::AnswerRequest(std::get<api::DesignRequest>(request), options, *parts.parts);
+    if (share->must_end() && !control.cancelled()) EndedByMemory(answer);
     answer["catalogue_revision"] = api::RenderRevisionName(parts.revision);
     control.report(Outcome(answer, objective));
     return answer;

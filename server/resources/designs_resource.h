@@ -3,12 +3,13 @@
 #define PLENUM_SERVER_RESOURCES_DESIGNS_RESOURCE_H_
 
 #include "server/call/shared_catalog.h"
+#include "server/jobs/job_memory.h"
 #include "server/resources/jobs_resource.h"
 
 namespace plenum::server {
 
 // Ranks the designs of an order.
-Work DesignWork(SharedCatalog& catalog);
+Work DesignWork(SharedCatalog& catalog, JobMemory& memory);
 
 // With "validate_only=true" in the query nothing is started: 200 with { "valid": true }, or the 422
 // that the request would get.

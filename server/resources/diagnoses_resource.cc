@@ -12,6 +12,7 @@
 #include "api/measure/diagnose_request.h"
 #include "api/measure/rig_parts.h"
 #include "api/protocol/part_revision.h"
+#include "server/call/request_log.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
 #include "server/jobs/job_inputs.h"
@@ -117,11 +118,12 @@ std::size_t SamplesOf(const calibration::Dataset& dataset) {
 // The turn of a diagnosis that takes much memory, when it comes; none for one that takes little, or
 // when the job is cancelled while it waits.
 std::shared_ptr<void> AwaitTurn(const calibration::Dataset& dataset, const JobControl& control) {
-  static Gate large(kLargeDiagnosesMax, kLargeWaitingMax);
+  static Turnstile large(kLargeDiagnosesMax);
   std::shared_ptr<void> turn;
   if (SamplesOf(dataset) <= kLargeDiagnosisSamples) return turn;
   control.report({{"seconds", 0}, {"share", 0}, {"doing", "waits for another large diagnosis"}});
-  while (!turn && !control.cancelled()) turn = large.Enter(std::chrono::milliseconds(100));
+  while (!(turn = large.Enter()) && !control.cancelled())
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   return turn;
 }
 
@@ -139,7 +141,7 @@ void Save(SharedCatalog& catalog, const std::string& name, const std::string& wh
         },
         kSavePatience);
   } catch (const catalog::StoreError& error) {
-    std::fprintf(stderr, "model %s was not saved: %s\n", name.c_str(), error.what());
+    Log({{"level", "error"}, {"model", name}, {"not_saved", error.what()}});
     answer["not_saved"] = {
         {"detail",
          error.fault() == catalog::StoreFault::kBusy
@@ -161,7 +163,7 @@ void SavePart(SharedCatalog& catalog, const Names& names, const std::string& who
         },
         kSavePatience);
   } catch (const catalog::StoreError& error) {
-    std::fprintf(stderr, "part %s was not saved: %s\n", names.save_part.c_str(), error.what());
+    Log({{"level", "error"}, {"part", names.save_part}, {"not_saved", error.what()}});
     answer["saved_part"] = {
         {"part", names.save_part},
         {"numbers", api::Json::array()},

@@ -60,7 +60,7 @@ Reply NoRevision(const std::string& number) {
 Reply PartHistory(SharedCatalog& catalog, const Call& call) {
   const Page page = ReadPage(call);
   if (!page.errors.empty()) return ProblemReply(422, page.errors);
-  return catalog.With([&](catalog::Store& store) {
+  return catalog.past().With([&](const catalog::Store& store) {
     const auto changes = store.History(call.argument, page.below, page.limit + 1);
     if (changes.empty() && page.below == INT64_MAX && !store.Get(call.argument))
       return ProblemReply(404, "no part has or had the id " + call.argument);
@@ -85,8 +85,8 @@ Reply PartHistory(SharedCatalog& catalog, const Call& call) {
 Reply ListRevisions(SharedCatalog& catalog, const Call& call) {
   const Page page = ReadPage(call);
   if (!page.errors.empty()) return ProblemReply(422, page.errors);
-  const auto revisions = catalog.With(
-      [&](catalog::Store& store) { return store.Revisions(page.below, page.limit + 1); });
+  const auto revisions = catalog.past().With(
+      [&](const catalog::Store& store) { return store.Revisions(page.below, page.limit + 1); });
   api::Json list = api::Json::array(), next_cursor;
   for (const catalog::Revision& revision : revisions) {
     if (static_cast<int>(list.size()) == page.limit) {
@@ -100,7 +100,7 @@ Reply ListRevisions(SharedCatalog& catalog, const Call& call) {
 
 Reply GetRevision(SharedCatalog& catalog, const Call& call) {
   const auto number = Whole(call.argument);
-  return catalog.With([&](catalog::Store& store) {
+  return catalog.past().With([&](const catalog::Store& store) {
     const auto revision = number ? store.FindRevision(*number) : std::nullopt;
     if (!revision) return NoRevision(call.argument);
     api::Json document = api::RenderRevision(*revision);

@@ -7,15 +7,17 @@
 #include <string_view>
 #include <utility>
 
+#include "server/call/entity_tag.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
 
 namespace plenum::server {
 namespace {
 
+using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kHeartbeat{1000};
+constexpr milliseconds kHeartbeat{900};  // streams are asked once a second
 
 std::string SelfOf(const JobsResource& resource, const std::string& id) {
   return resource.path + "/" + id;
@@ -50,11 +52,24 @@ api::Json Long(const JobsResource& resource, const Job& job) {
   return json;
 }
 
-api::Json Full(const JobsResource& resource, const Job& job) {
+// The document without its result, which is stored as text: the text is sent as it is.
+Reply FullReply(const JobsResource& resource, Job job, const std::string& etag) {
+  resource.jobs->AddResult(job);
   api::Json json = Long(resource, job);
-  json["result"] = job.result;
   json["links"] = Links(resource, job.id);
-  return json;
+  std::string head = Dump(json);
+  head.pop_back();
+  head += ",\"result\":";
+  Reply reply{200, "application/json", std::move(head), {}, {}};
+  if (!etag.empty()) reply.headers.emplace_back("ETag", etag);
+  if (job.result) reply.tail.push_back(job.result);
+  reply.tail.push_back(std::make_shared<const std::string>(job.result ? "}\n" : "null}\n"));
+  return reply;
+}
+
+// Of a job that ended, which stays as it is until it ends again.
+std::string ETagOf(const JobsResource& resource, const Job& job) {
+  return Ended(job.status) ? ETag(Dump(Long(resource, job)) + std::to_string(job.revision)) : "";
 }
 
 // Blanks and quotation marks around it off, in lower case.
@@ -88,18 +103,22 @@ int WaitSeconds(const Call& call) {
   return 0;
 }
 
-// What a client that waited gets: the result, or nothing when it takes longer.
-std::optional<Reply> WaitForResult(const JobsResource& resource, const std::string& id,
-                                   int seconds) {
-  static Turnstile turnstile(kWaitingMax);
-  const auto turn = seconds > 0 ? turnstile.Enter() : nullptr;
-  if (!turn) return std::nullopt;
-  const auto job = resource.jobs->WaitForEnd(id, std::chrono::seconds(seconds));
-  if (!job || !Ended(job->status)) return std::nullopt;
-  if (job->status == JobStatus::kFailed) return ProblemReply(500, WhyFailed(resource, *job));
-  if (job->result.is_null()) return ProblemReply(409, "the job was cancelled before it began");
-  auto reply = JsonReply(200, job->result);
+// What a client that waited gets.
+Reply ResultReply(const JobsResource& resource, Job job, int seconds) {
+  resource.jobs->AddResult(job);
+  if (job.status == JobStatus::kFailed) return ProblemReply(500, WhyFailed(resource, job));
+  if (!job.result) return ProblemReply(409, "the job was cancelled before it began");
+  Reply reply{200, "application/json", "", {}, {}};
   reply.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(seconds));
+  reply.tail = {job.result, std::make_shared<const std::string>("\n")};
+  return reply;
+}
+
+Reply AcceptedReply(const JobsResource& resource, const std::string& id) {
+  const auto job = resource.jobs->Look(id);
+  auto reply = JsonReply(
+      202, job ? Short(resource, *job) : api::Json{{"id", id}, {"links", Links(resource, id)}});
+  reply.headers.emplace_back("Location", SelfOf(resource, id));
   return reply;
 }
 
@@ -108,8 +127,13 @@ Reply NoJob(const JobsResource& resource, const std::string& id) {
                                "; of those that ended only the newest are kept");
 }
 
-Reply FullQueue(const JobsResource& resource) {
-  return BusyReply("jobs_queued_max", resource.jobs->options().queued_max,
+Reply FullQueue(const JobsResource& resource, bool of_client) {
+  const JobOptions& options = resource.jobs->options();
+  if (of_client)
+    return BusyReply("jobs_queued_per_client_max", options.queued_per_client_max,
+                     "as many " + resource.noun + " jobs of yours wait as may; try again later",
+                     10);
+  return BusyReply("jobs_queued_max", options.queued_max,
                    "the queue of " + resource.noun + " jobs is full; try again later", 10);
 }
 
@@ -120,17 +144,26 @@ std::string Event(const char* name, const api::Json& data) {
 }  // namespace
 
 Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder order) {
+  static Turnstile turnstile(kWaitingMax);
   const auto [status, id] = resource.jobs->Submit(std::move(order));
   if (status == Submitted::kKeyReused) return KeyReused();
-  if (status == Submitted::kRefused) return FullQueue(resource);
-  auto reply = WaitForResult(resource, id, WaitSeconds(call));
-  if (!reply) {
-    const auto job = resource.jobs->Get(id);
-    reply = JsonReply(
-        202, job ? Short(resource, *job) : api::Json{{"id", id}, {"links", Links(resource, id)}});
-  }
-  reply->headers.emplace_back("Location", SelfOf(resource, id));
-  return *reply;
+  if (status == Submitted::kRefused) return FullQueue(resource, false);
+  if (status == Submitted::kClientRefused) return FullQueue(resource, true);
+  const int seconds = WaitSeconds(call);
+  auto turn = seconds > 0 ? turnstile.Enter() : nullptr;
+  if (!turn) return AcceptedReply(resource, id);
+  Reply reply;
+  reply.later = [resource, id = id, seconds, turn = std::move(turn),
+                 until = Clock::now() + std::chrono::seconds(seconds)]() -> std::optional<Reply> {
+    const bool over = Clock::now() >= until || resource.jobs->Stopping();
+    const auto job = resource.jobs->Look(id);
+    if (job && !Ended(job->status) && !over) return std::nullopt;
+    if (!job || !Ended(job->status)) return AcceptedReply(resource, id);
+    auto ended = ResultReply(resource, *job, seconds);
+    ended.headers.emplace_back("Location", SelfOf(resource, id));
+    return ended;
+  };
+  return reply;
 }
 
 Reply ListJobs(const JobsResource& resource) {
@@ -143,8 +176,11 @@ Reply ListJobs(const JobsResource& resource) {
 }
 
 Reply GetJob(const JobsResource& resource, const Call& call) {
-  const auto job = resource.jobs->Get(call.argument);
-  return job ? JsonReply(200, Full(resource, *job)) : NoJob(resource, call.argument);
+  const auto job = resource.jobs->Look(call.argument);
+  if (!job) return NoJob(resource, call.argument);
+  const std::string etag = ETagOf(resource, *job);
+  if (etag.empty() || !IsKnown(call, etag)) return FullReply(resource, *job, etag);
+  return {304, "", "", {{"ETag", etag}}, {}};
 }
 
 Reply DoJobAgain(const JobsResource& resource, const Call& call) {
@@ -159,43 +195,46 @@ Reply DoJobAgain(const JobsResource& resource, const Call& call) {
                           "the job is done and its result stands; post the request again for "
                           "the catalogue as it is now");
     case Asked::kRefused:
-      return FullQueue(resource);
+      return FullQueue(resource, false);
+    case Asked::kClientRefused:
+      return FullQueue(resource, true);
     case Asked::kQueued:
       break;
   }
-  const auto job = resource.jobs->Get(id);
-  if (!job) return NoJob(resource, id);
-  auto reply = JsonReply(202, Short(resource, *job));
-  reply.headers.emplace_back("Location", SelfOf(resource, id));
-  return reply;
+  return AcceptedReply(resource, id);
 }
 
 Reply CancelJob(const JobsResource& resource, const Call& call) {
   if (!resource.jobs->Cancel(call.argument)) return NoJob(resource, call.argument);
-  const auto job = resource.jobs->Get(call.argument);
+  const auto job = resource.jobs->Look(call.argument);
   return job ? JsonReply(200, Short(resource, *job)) : NoJob(resource, call.argument);
 }
 
 Reply JobEvents(const JobsResource& resource, const Call& call) {
   static Turnstile turnstile(kStreamsMax);
-  if (!resource.jobs->Get(call.argument)) return NoJob(resource, call.argument);
+  if (!resource.jobs->Look(call.argument)) return NoJob(resource, call.argument);
   auto turn = turnstile.Enter();
   if (!turn) {
     return BusyReply("event_streams_max", kStreamsMax,
                      "too many event streams are open; poll the job instead", 5);
   }
   Reply reply{200, "text/event-stream", "", {{"Cache-Control", "no-store"}}, {}};
-  reply.stream = [resource, id = call.argument, turn = std::move(turn),
-                  revision = -1LL](const Write& write) mutable {
-    const auto job = resource.jobs->WaitForChange(id, revision, kHeartbeat);
-    if (!job || resource.jobs->Stopping()) return false;
+  reply.produce = [resource, id = call.argument, turn = std::move(turn), revision = -1LL,
+                   written = Clock::now()](std::string& piece) mutable {
+    const auto job = resource.jobs->Look(id);
+    if (!job || resource.jobs->Stopping()) return Flow::kEnds;
     if (Ended(job->status)) {
-      write(Event("end", Short(resource, *job)));
-      return false;
+      piece = Event("end", Short(resource, *job));
+      return Flow::kEnds;
     }
-    if (job->revision == revision) return write(": still there\n\n");
+    const auto now = Clock::now();
+    if (job->revision != revision)
+      piece = Event("progress", {{"status", Name(job->status)}, {"progress", job->progress}});
+    else if (now - written >= kHeartbeat)
+      piece = ": still there\n\n";
+    if (!piece.empty()) written = now;
     revision = job->revision;
-    return write(Event("progress", {{"status", Name(job->status)}, {"progress", job->progress}}));
+    return Flow::kWaits;
   };
   return reply;
 }

@@ -16,13 +16,14 @@ struct JobsResource {
 };
 
 // A new job, or the one that has the order's key. 202 with { id, status, links }, or with "Prefer:
-// wait=N" 200 with the result when it comes within N seconds. At most a quarter of the request
-// threads wait at a time; beyond that it is 202 at once. 429 when the queue is full, 422 when the
-// key stands for another request.
+// wait=N" 200 with the result when it comes within N seconds. Who waits holds no thread; beyond
+// kWaitingMax it is 202 at once. 429 when the queue is full, 422 when the key stands for another
+// request.
 Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder order);
 Reply ListJobs(const JobsResource& resource);
 // { id, name, status, submitted_at, ended_at, attempts, crashes, last_crash, catalogue_revision,
-// progress, result, links }, and `detail` where it failed.
+// progress, links, result }, and `detail` where it failed. With an ETag, and 304, once it has
+// ended.
 Reply GetJob(const JobsResource& resource, const Call& call);
 // 202 with { id, status, links } and Location; 409 for a job that is under way or done, 429 when
 // the queue is full.

@@ -98,7 +98,7 @@ const std::map<std::string, Operation>& Operations() {
 const Operation& OperationOf(const Route& route) {
   static const std::map<std::string, Operation> kJobs = {
       {"GET ", {{}, "", {{200, "Jobs"}}, {}}},
-      {"GET /{id}", {{}, "", {{200, "Job"}}, {404}}},
+      {"GET /{id}", {{"If-None-Match"}, "", {{200, "Job"}, {304, ""}}, {404}}},
       {"DELETE /{id}", {{}, "", {{200, "JobAccepted"}}, {404}}},
       {"POST /{id}/again", {{}, "", {{202, "JobAccepted"}}, {404, 409, 429}}},
       {"GET /{id}/events", {{}, "", {{200, "Text", kEvents}}, {404, 429}}},
@@ -169,6 +169,8 @@ Json AnswerSchemas() {
   const Json name_of_revision = Object({{"number", integer}, {"hash", text}});
   const Json revision =
       Object({{"number", integer}, {"hash", text}, {"at", text}, {"who", text}, {"what", text}});
+  const Json checks = {{"type", "object"},
+                       {"additionalProperties", {{"enum", {"ok", "busy", "failed"}}}}};
   const Json status = {{"enum", {"queued", "running", "done", "cancelled", "failed"}}};
   const Json links = Object({{"self", text}, {"events", text}});
   Json schemas = {
@@ -188,7 +190,7 @@ Json AnswerSchemas() {
       {"Text", text},
       {"Csv", text},
       {"Health", Object({{"status", {{"const", "ok"}}}})},
-      {"Readiness", Object({{"status", text}, {"checks", {{"type", "object"}}}})},
+      {"Readiness", Object({{"status", text}, {"checks", checks}})},
       {"Limits", Object({{"limits", {{"type", "object"}, {"additionalProperties", number}}}})},
       {"RouteTable",
        NamedListOf("routes", Object({{"method", text}, {"path", text}, {"summary", text}}))},

@@ -1,18 +1,19 @@
 #include "server/resources/operation_resource.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
+#include "server/jobs/job_memory.h"
 
 namespace plenum::server {
 namespace {
 
 constexpr std::uintmax_t kFreeBytesMin = 16 << 20;
+
+// What another process writes is busy: writes wait for it, and the service is ready.
+constexpr char kOk[] = "ok", kBusy[] = "busy", kFailed[] = "failed";
 
 std::size_t Count(const Jobs& jobs, JobStatus status) {
   const auto list = jobs.List();
@@ -20,57 +21,58 @@ std::size_t Count(const Jobs& jobs, JobStatus status) {
       list.begin(), list.end(), [&](const Job& job) { return job.status == status; }));
 }
 
-// SQLite writes the file and makes its journal beside it.
-bool IsWritable(const std::filesystem::path& catalog) {
-  const auto folder = std::filesystem::absolute(catalog).parent_path();
-  return access(catalog.c_str(), W_OK) == 0 && access(folder.c_str(), W_OK) == 0;
-}
-
-bool IsReadable(SharedCatalog& catalog) {
+const char* Readable(SharedCatalog& catalog) {
   try {
     catalog.View();
-    return true;
-  } catch (const catalog::StoreError&) {
-    return false;
+    return kOk;
+  } catch (const catalog::StoreError& error) {
+    return error.fault() == catalog::StoreFault::kBusy ? kBusy : kFailed;
   }
 }
 
-double ResidentBytes() {
-  long long pages = 0, resident = 0;
-  std::FILE* file = std::fopen("/proc/self/statm", "r");
-  if (file == nullptr) return 0.0;
-  if (std::fscanf(file, "%lld %lld", &pages, &resident) != 2) resident = 0;
-  std::fclose(file);
-  return static_cast<double>(resident * sysconf(_SC_PAGESIZE));
-}
-
-}  // namespace
-
-Reply GetReadiness(const Services& services, const Call&) {
-  api::Json checks = api::Json::object();
-  bool ready = true;
-  const auto check = [&](const char* name, bool holds) {
-    checks[name] = holds ? "ok" : "failed";
-    ready = ready && holds;
-  };
-  const auto has_room = [&](const Jobs& jobs) {
-    return !jobs.Stopping() && Count(jobs, JobStatus::kQueued) < services.job_options.queued_max;
-  };
-  std::error_code none;
-  const auto space = std::filesystem::space(services.file, none);
-  check("catalogue_readable", IsReadable(services.catalog));
-  check("catalogue_writable", IsWritable(services.file));
-  check("disk_has_room", !none && space.available >= kFreeBytesMin);
-  check("design_queue_has_room", has_room(services.designs));
-  check("diagnosis_queue_has_room", has_room(services.diagnoses));
-  const api::Json document = {{"status", ready ? "ready" : "not ready"}, {"checks", checks}};
-  if (ready) return JsonReply(200, document);
+Reply NotReady(const api::Json& checks) {
   api::Json problem = {{"type", "about:blank"},
                        {"title", "Service Unavailable"},
                        {"status", 503},
                        {"detail", "the service cannot take work"}};
   problem["checks"] = checks;
   return {503, "application/problem+json", Dump(problem) + "\n", {{"Retry-After", "5"}}, {}};
+}
+
+}  // namespace
+
+LastReadiness::LastReadiness() : reply(NotReady(api::Json::object())) {}
+
+Reply GetReadiness(const Services& services, LastReadiness& last) {
+  const std::unique_lock looking(last.looking, std::try_to_lock);
+  if (!looking) {
+    const std::lock_guard lock(last.mutex);
+    return last.reply;
+  }
+  const FileCheck file = services.catalog.Check();
+  std::error_code none;
+  const auto space =
+      std::filesystem::space(std::filesystem::absolute(services.file).parent_path(), none);
+  const bool has_room = !none && space.available >= kFreeBytesMin;
+  const bool takes_jobs = !services.designs.Stopping() && !services.diagnoses.Stopping();
+  const std::pair<const char*, const char*> checks[] = {
+      {"catalogue_in_place", file == FileCheck::kReplaced ? kFailed : kOk},
+      {"catalogue_readable", Readable(services.catalog)},
+      {"catalogue_writable", file == FileCheck::kFailed ? kFailed
+                             : file == FileCheck::kBusy ? kBusy
+                                                        : kOk},
+      {"disk_has_room", has_room ? kOk : kFailed},
+      {"takes_jobs", takes_jobs ? kOk : kFailed}};
+  api::Json json = api::Json::object();
+  bool ready = true;
+  for (const auto& [name, state] : checks) {
+    json[name] = state;
+    ready = ready && state != kFailed;
+  }
+  Reply reply = ready ? JsonReply(200, {{"status", "ready"}, {"checks", json}}) : NotReady(json);
+  const std::lock_guard lock(last.mutex);
+  last.reply = reply;
+  return reply;
 }
 
 Reply GetMetrics(const Services& services, const Call&) {
@@ -81,7 +83,7 @@ Reply GetMetrics(const Services& services, const Call&) {
     metrics.Set(name + "queued", "Jobs that wait.", double(Count(*jobs, JobStatus::kQueued)));
     metrics.Set(name + "running", "Jobs at work.", double(Count(*jobs, JobStatus::kRunning)));
   }
-  metrics.Set("plenum_resident_memory_bytes", "Memory of the process.", ResidentBytes());
+  metrics.Set("plenum_resident_memory_bytes", "Memory of the process.", double(ResidentBytes()));
   metrics.Set("plenum_catalogue_revision", "The newest revision of the catalogue.",
               double(services.catalog.View().revision.number));
   services.measure_connections();

@@ -1,6 +1,8 @@
 #include "server/resources/page_resource.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -29,15 +31,27 @@ const char* ContentType(std::string_view path) {
   return "application/octet-stream";
 }
 
+// The bytes are those of the program itself, which all answers share.
+Bytes BytesOf(const PageFile& file) {
+  static std::mutex mutex;
+  static std::map<std::string_view, Bytes> known;
+  const std::lock_guard lock(mutex);
+  Bytes& bytes = known[file.path];
+  if (!bytes) bytes = std::make_shared<const std::string>(file.bytes);
+  return bytes;
+}
+
 Reply FileReply(const PageFile& file, const char* cache_control) {
-  return {200,
-          ContentType(file.path),
-          std::string(file.bytes),
-          {{"Cache-Control", cache_control},
-           {"X-Content-Type-Options", "nosniff"},
-           {"Referrer-Policy", "no-referrer"},
-           {"Content-Security-Policy", kPolicy}},
-          {}};
+  Reply reply{200,
+              ContentType(file.path),
+              "",
+              {{"Cache-Control", cache_control},
+               {"X-Content-Type-Options", "nosniff"},
+               {"Referrer-Policy", "no-referrer"},
+               {"Content-Security-Policy", kPolicy}},
+              {}};
+  reply.tail = {BytesOf(file)};
+  return reply;
 }
 
 }  // namespace
@@ -50,7 +64,7 @@ Reply GetPage(const Call& call) {
   reply.headers.emplace_back("ETag", etag);
   if (call.header("If-None-Match") == etag) {
     reply.status = 304;
-    reply.body.clear();
+    reply.tail.clear();
   }
   return reply;
 }

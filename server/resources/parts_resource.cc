@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 #include "api/catalogue/catalog_check.h"
 #include "api/catalogue/part_comparison.h"
@@ -13,6 +14,7 @@
 #include "api/json/remarks.h"
 #include "api/json/request_limits.h"
 #include "api/protocol/protocol_document.h"
+#include "server/call/entity_tag.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
 #include "server/resources/import_parts.h"
@@ -20,33 +22,7 @@
 namespace plenum::server {
 namespace {
 
-// Strong: equal texts only, and no two texts in practice, have the same tag.
-std::string ETag(const std::string& text) {
-  return '"' + catalog::Sha256(text).substr(0, 32) + '"';
-}
-
-std::string ETag(const catalog::Part& part) { return ETag(Dump(api::RenderPart(part))); }
-
-enum class Compare { kStrong, kWeak };
-
-// Whether a list of entity tags holds `etag`. If-Match compares strongly, where no weak tag
-// matches; If-None-Match weakly, where W/ does not count (RFC 9110, 8.8.3.2).
-bool Holds(const std::string& list, const std::string& etag, Compare compare) {
-  bool quoted = false;  // a tag may hold commas
-  std::string item;
-  for (std::size_t i = 0; i <= list.size(); ++i) {
-    if (i < list.size() && list[i] == '"') quoted = !quoted;
-    if (i < list.size() && (quoted || list[i] != ',')) {
-      if (quoted || (list[i] != ' ' && list[i] != '\t')) item += list[i];
-      continue;
-    }
-    if (compare == Compare::kWeak && item.starts_with("W/")) item.erase(0, 2);
-    if (item == etag) return true;
-    if (item == "*" && list.find_first_not_of("* \t") == std::string::npos) return true;
-    item.clear();
-  }
-  return false;
-}
+std::string ETagOf(const catalog::Part& part) { return ETag(Dump(api::RenderPart(part))); }
 
 Reply NoPart(const std::string& id) { return ProblemReply(404, "no part has the id " + id); }
 
@@ -61,7 +37,7 @@ const catalog::Part* FindPart(const std::vector<catalog::Part>& parts, const std
 // `revision` is one in which the part is as shown.
 Reply PartReply(int status, const catalog::Part& part, const catalog::Revision& revision) {
   auto reply = JsonReply(status, api::RenderPart(part));
-  reply.headers.emplace_back("ETag", ETag(part));
+  reply.headers.emplace_back("ETag", ETagOf(part));
   reply.headers.emplace_back("Catalogue-Revision",
                              std::to_string(revision.number) + " " + revision.hash);
   return reply;
@@ -69,8 +45,7 @@ Reply PartReply(int status, const catalog::Part& part, const catalog::Revision& 
 
 // 304 where If-None-Match holds the reply's tag.
 Reply UnlessKnown(const Call& call, const std::string& etag, Reply reply) {
-  const auto condition = call.header("If-None-Match");
-  if (!condition || !Holds(*condition, etag, Compare::kWeak)) return reply;
+  if (!IsKnown(call, etag)) return reply;
   reply.status = 304;
   reply.body.clear();
   return reply;
@@ -121,7 +96,7 @@ void CheckFamily(const std::optional<std::string>& family, api::Errors& errors) 
 // Evaluated on the part as it is stored; writes its tag to `etag`.
 catalog::Precondition IfMatch(const std::string& condition, std::string& etag) {
   return [&condition, &etag](const catalog::Part& stored) {
-    etag = ETag(stored);
+    etag = ETagOf(stored);
     return Holds(condition, etag, Compare::kStrong);
   };
 }
@@ -158,13 +133,13 @@ namespace {
 
 Reply GetNewest(SharedCatalog& catalog, const Call& call) {
   auto shown = catalog.replies().Find(catalog.Head(), call.argument);
-  if (const auto view = shown ? std::nullopt : catalog.ViewBeforeWrite()) {
+  if (const auto view = shown ? std::nullopt : catalog.ViewMeanwhile()) {
     const auto* part = FindPart(*view->parts, call.argument);
     if (part == nullptr) return NoPart(call.argument);
     shown = std::make_shared<const Reply>(PartReply(200, *part, view->revision));
   }
   if (!shown) {
-    catalog.With([&](catalog::Store& store) {
+    catalog.With([&](const catalog::Store& store) {
       const auto revision = store.Head();
       const auto part = store.GetAt(call.argument, revision.number);
       if (!part) return;
@@ -186,14 +161,14 @@ Reply GetPart(SharedCatalog& catalog, const Call& call) {
   if (const auto* wrong = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *wrong);
   const auto number = std::get<api::PartQuery>(parsed).revision;
   if (!number) return GetNewest(catalog, call);
-  return catalog.With([&](catalog::Store& store) {
+  return catalog.past().With([&](const catalog::Store& store) {
     const auto revision = store.FindRevision(*number);
     if (!revision) {
       return ProblemReply(404, "the catalogue has no revision " + std::to_string(*number));
     }
     const auto part = store.GetAt(call.argument, revision->number);
     if (!part) return NoPart(call.argument);
-    return UnlessKnown(call, ETag(*part), PartReply(200, *part, *revision));
+    return UnlessKnown(call, ETagOf(*part), PartReply(200, *part, *revision));
   });
 }
 
@@ -291,15 +266,19 @@ Reply ExportParts(SharedCatalog& catalog, const Call& call) {
   if (!family) errors.push_back({"/family", "is missing; one of " + FamilyNames()});
   CheckFamily(family, errors);
   if (!errors.empty()) return ProblemReply(422, errors);
-  const Parts all = catalog.Snapshot();
-  std::vector<catalog::Part> parts;
-  std::copy_if(all->begin(), all->end(), std::back_inserter(parts),
-               [&](const catalog::Part& part) { return part.family == *family; });
-  return {200,
-          "text/csv; charset=utf-8; header=present",
-          catalog::WriteCsv(*family, parts),
-          {{"Content-Disposition", "attachment; filename=\"" + *family + ".csv\""}},
-          {}};
+  Reply reply{200,
+              "text/csv; charset=utf-8; header=present",
+              "",
+              {{"Content-Disposition", "attachment; filename=\"" + *family + ".csv\""}},
+              {}};
+  reply.produce = [all = catalog.Snapshot(), family = *family, next = std::size_t{0},
+                   begun = false](std::string& piece) mutable {
+    if (!std::exchange(begun, true)) piece = catalog::WriteCsv(family, {});
+    for (; next < all->size() && piece.size() < kPieceBytes; ++next)
+      if ((*all)[next].family == family) piece += catalog::WriteCsvRow((*all)[next]);
+    return next < all->size() ? Flow::kMore : Flow::kEnds;
+  };
+  return reply;
 }
 
 Reply GetPartsCheck(SharedCatalog& catalog, const Call& call) {

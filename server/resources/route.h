@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "server/call/metrics.h"
 #include "server/call/protection.h"
@@ -20,6 +22,7 @@ struct Route {
   std::string summary;
   Access access;
   std::function<Reply(const Call&)> answer;
+  std::vector<std::string_view> types = {"application/json"};  // of its body
 };
 
 // What the routes work with.

@@ -25,18 +25,26 @@ namespace {
 
 constexpr std::string_view kVariable = "{id}";
 
-Turnstile& Computing() {
-  static Turnstile turnstile(kComputingMax);
-  return turnstile;
+// A turn among those that compute, fewer of which may be large.
+std::shared_ptr<void> EnterComputing(bool large) {
+  static Turnstile all(kComputingMax), of_large(kLargeComputingMax);
+  return (large ? of_large : all).Enter();
 }
 
+// The document of a large request is read in the turn of large requests, which ends before the
+// computation begins.
 template <typename F>
 Reply AnswerAtOnce(const Call& call, F&& run) {
-  const auto turn = Computing().Enter();
+  const bool large = call.turn != nullptr;
+  const auto turn = EnterComputing(large);
   if (!turn)
-    return BusyReply("computing_max", kComputingMax, "other simulations and maps are under way", 1);
+    return large ? BusyReply("large_computing_max", kLargeComputingMax,
+                             "other large simulations are under way", 1)
+                 : BusyReply("computing_max", kComputingMax,
+                             "other simulations and maps are under way", 1);
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
+  call.turn = nullptr;
   auto answer = run(std::get<api::Json>(json));
   if (auto* errors = std::get_if<api::Errors>(&answer)) return ProblemReply(422, *errors);
   return JsonReply(200, std::get<api::Json>(answer));
@@ -46,7 +54,8 @@ Reply AnswerAtOnce(const Call& call, F&& run) {
 api::Json WithDiagnosis(api::Json request, const Jobs& diagnoses) {
   api::Json& from = request["from"];
   if (!from.is_string()) return request;
-  if (const std::optional<Job> job = diagnoses.Get(from.get<std::string>())) from = job->result;
+  const std::optional<Job> job = diagnoses.Get(from.get<std::string>());
+  if (job) from = job->result ? api::Json::parse(*job->result) : api::Json();
   return request;
 }
 
@@ -56,6 +65,12 @@ api::Json RouteTable(const std::vector<Route>& routes) {
     table.push_back({{"method", route.method}, {"path", route.path}, {"summary", route.summary}});
   }
   return {{"routes", std::move(table)}};
+}
+
+std::function<Reply(const Call&)> Readiness(const Services& services) {
+  return [services, last = std::make_shared<LastReadiness>()](const Call&) {
+    return GetReadiness(services, *last);
+  };
 }
 
 void AddJobRoutes(const JobsResource& jobs, std::vector<Route>& routes) {
@@ -82,9 +97,13 @@ void AddManyPartsRoutes(SharedCatalog& catalog, std::vector<Route>& routes) {
   const Route many[] = {
       {"GET", "/v1/parts/export", "parts of a family as CSV; query family", Access::kRead,
        parts(ExportParts)},
-      {"POST", "/v1/parts/import",
+      {"POST",
+       "/v1/parts/import",
        "parts of a family from a table; query family, dry_run, what the table leaves open",
-       Access::kWrite, parts(ImportParts)},
+       Access::kWrite,
+       parts(ImportParts),
+       {"text/csv", "text/tab-separated-values", "application/vnd.ms-excel",
+        "application/octet-stream"}},
       {"GET", "/v1/parts/compare", "parts side by side, what differs marked; query ids",
        Access::kRead, parts(GetPartsComparison)},
       {"GET", "/v1/parts/check", "duplicates, odd numbers, what is missing or estimated",
@@ -163,8 +182,7 @@ std::vector<Route> Routes(const Services& services) {
        [](const Call&) {
          return JsonReply(200, {{"status", "ok"}});
        }},
-      {"GET", "/readyz", "whether it can take work", Access::kOpen,
-       [services](const Call& call) { return GetReadiness(services, call); }},
+      {"GET", "/readyz", "whether it can take work", Access::kOpen, Readiness(services)},
       {"GET", "/metrics", "what it did and holds, for Prometheus", Access::kRead,
        [services](const Call& call) { return GetMetrics(services, call); }},
       {"GET", "/v1/limits", "how much a request may ask for", Access::kRead,
@@ -180,10 +198,10 @@ std::vector<Route> Routes(const Services& services) {
   routes.push_back({"GET", "/docs", "this description, for reading", Access::kOpen, GetDocs});
   routes.push_back({"GET", "/openapi.json", "this description, OpenAPI 3.1", Access::kOpen, {}});
   routes.push_back({"GET", "/v1", "this table", Access::kRead, {}});
-  routes.back().answer = [reply = JsonReply(200, RouteTable(routes))](const Call&) {
+  routes.back().answer = [reply = Shared(JsonReply(200, RouteTable(routes)))](const Call&) {
     return reply;
   };
-  (routes.end() - 2)->answer = [reply = JsonReply(200, OpenApi(routes))](const Call&) {
+  (routes.end() - 2)->answer = [reply = Shared(JsonReply(200, OpenApi(routes)))](const Call&) {
     return reply;
   };
   return routes;

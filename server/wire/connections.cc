@@ -1,46 +1,33 @@
 #include "server/wire/connections.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/epoll.h>
-#include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <optional>
-#include <stdexcept>
+#include <string_view>
 #include <utility>
-
-#include "server/call/service_limits.h"
 
 namespace plenum::server {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using For = PollSet::For;
+using std::chrono::milliseconds;
 using std::chrono::seconds;
 
+constexpr int kSpareThreads = 4;
+constexpr int kRequestsAtOnce = 16;  // of one connection before others have a turn
 constexpr std::size_t kReadBytes = 64 << 10;
-constexpr std::size_t kSmallBuffer = 4 << 10;         // not worth counting
-constexpr std::size_t kStreamBacklogMax = 256 << 10;  // of an answer that is still being made
 constexpr std::size_t kDrainBytesMax = 64 << 20;
-constexpr auto kSweepPeriod = std::chrono::milliseconds(500);
+constexpr milliseconds kSweepPeriod{500};
+constexpr milliseconds kUnparkPause{5};  // between two looks at who waits
+constexpr milliseconds kStopPatience{1000};
+constexpr milliseconds kAskAgain{1000};  // of an answer whose next piece is waited for
 
 // Time to move so many bytes.
-seconds TimeFor(std::size_t bytes) { return seconds(kHeadSecondsMax + bytes / kBytesPerSecondMin); }
-
-std::string PeerOf(int socket) {
-  sockaddr_storage address{};
-  socklen_t length = sizeof address;
-  char text[INET6_ADDRSTRLEN] = "";
-  if (getpeername(socket, reinterpret_cast<sockaddr*>(&address), &length) != 0) return text;
-  if (address.ss_family == AF_INET)
-    inet_ntop(AF_INET, &reinterpret_cast<sockaddr_in*>(&address)->sin_addr, text, sizeof text);
-  if (address.ss_family == AF_INET6)
-    inet_ntop(AF_INET6, &reinterpret_cast<sockaddr_in6*>(&address)->sin6_addr, text, sizeof text);
-  return text;
+seconds TimeFor(std::size_t bytes, std::size_t per_second) {
+  return seconds(kHeadSecondsMax + bytes / per_second);
 }
 
 // Room for all connections beside the files of the program.
@@ -54,100 +41,38 @@ void RaiseFileLimit() {
 
 }  // namespace
 
-// Belongs to the thread that took it from the epoll set, or to none. What the sweeper reads while
-// another thread may write is atomic.
-struct Connections::Connection final : Outgoing {
-  explicit Connection(int fd) : socket(fd), peer(PeerOf(fd)) { Await(seconds(kHeadSecondsMax)); }
-  ~Connection() override {
-    // A client that is cut off hears of it at once, also while it sends.
-    const linger at_once{1, 0};
-    if (evicted) setsockopt(socket, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
-    close(socket);
-  }
-  Connection(const Connection&) = delete;
-  Connection& operator=(const Connection&) = delete;
+Connections::Connections(Handlers handlers) : handlers_(std::move(handlers)) { RaiseFileLimit(); }
 
-  void Await(seconds patience) {
-    const auto now = Clock::now().time_since_epoch().count();
-    since = now;
-    deadline = now + Clock::duration(patience).count();
-  }
-  // Of the wait that goes on.
-  void Extend(seconds patience) { deadline = since + Clock::duration(patience).count(); }
-  std::size_t unsent() const { return out.size() - sent; }
+Connections::~Connections() { Stop(); }
 
-  void Write(std::string_view bytes) override {
-    if (broken) return;
-    out.append(bytes);
-    if (unsent() > kStreamBacklogMax) Flush();
-  }
-  bool Flush() override {
-    while (!broken && sent < out.size()) {
-      const ssize_t n =
-          send(socket, out.data() + sent, out.size() - sent, MSG_DONTWAIT | MSG_NOSIGNAL);
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) break;
-      if (n <= 0) broken = true;
-      if (n > 0) sent += static_cast<std::size_t>(n);
-    }
-    if (sent == out.size()) out.clear(), sent = 0;
-    return !broken && unsent() <= kStreamBacklogMax;
-  }
-
-  const int socket;
-  const std::string peer;
-  std::string in;
-  std::string out;
-  std::size_t sent = 0;  // of out
-  RequestFrame frame;
-  bool examined = false;             // the head of the request whose body is to come
-  std::shared_ptr<void> large_turn;  // while the body is a large table
-  bool broken = false;
-  bool closing = false;     // after what is in `out`
-  std::size_t drained = 0;  // bytes thrown away after the last answer
-  bool draining = false;
-  std::atomic<std::size_t> accounted = 0;
-  std::atomic<Clock::rep> since = 0, deadline = 0;
-  std::atomic<bool> busy = false;
-  std::atomic<bool> expired = false;  // waited too long, or
-  std::atomic<bool> evicted = false;  // had to make room
-};
-
-Connections::Connections(HandleRequest handle, ExamineHead examine, RenderRefusal refuse)
-    : handle_(std::move(handle)), examine_(std::move(examine)), refuse_(std::move(refuse)) {
-  RaiseFileLimit();
-  epoll_ = epoll_create1(EPOLL_CLOEXEC);
-  wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  if (epoll_ < 0 || wake_ < 0) throw std::runtime_error("no epoll set");
-  epoll_event event{};
-  event.events = EPOLLIN;
-  event.data.ptr = nullptr;
-  epoll_ctl(epoll_, EPOLL_CTL_ADD, wake_, &event);
-}
-
-Connections::~Connections() {
-  Stop();
-  close(epoll_);
-  close(wake_);
-}
-
-void Connections::Start(int threads) {
-  for (int i = 0; i < threads; ++i) workers_.emplace_back([this] { WorkLoop(); });
+void Connections::Start(int places) {
+  places_.Open(places);
+  for (int i = 0; i < places + kSpareThreads; ++i) workers_.emplace_back([this] { WorkLoop(); });
   sweeper_ = std::thread([this] { SweepLoop(); });
 }
 
 void Connections::Stop() {
+  // Who waits for a job is told where it can be found.
+  for (const auto until = Clock::now() + kStopPatience;
+       !workers_.empty() && Clock::now() < until;) {
+    Wake();
+    std::this_thread::sleep_for(kUnparkPause);
+    const std::lock_guard lock(mutex_);
+    if (parked_.empty()) break;
+  }
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
-  stop_sweeping_.notify_all();
-  eventfd_write(wake_, 1);  // stays readable: every thread sees it
+  attention_.notify_all();
+  poll_set_.WakeAll();
   for (auto& worker : workers_) worker.join();
   workers_.clear();
   if (sweeper_.joinable()) sweeper_.join();
+  decltype(connections_) closed;  // after the lock
   const std::lock_guard lock(mutex_);
-  connections_.clear();
+  parked_.clear();
+  closed.swap(connections_);
 }
 
 std::size_t Connections::open() const {
@@ -156,180 +81,301 @@ std::size_t Connections::open() const {
 }
 
 void Connections::Admit(int socket) {
-  auto connection = std::make_unique<Connection>(socket);
-  Connection& admitted = *connection;
-  bool full = false;
-  {
-    const std::lock_guard lock(mutex_);
-    connections_[socket] = std::move(connection);
-    full = connections_.size() > kConnectionsMax;
-  }
-  epoll_event event{};
-  event.events = EPOLLIN | EPOLLRDHUP | EPOLLONESHOT;
-  event.data.ptr = &admitted;
-  epoll_ctl(epoll_, EPOLL_CTL_ADD, socket, &event);
-  if (full) MakeRoom();
+  auto connection = std::make_unique<ClientConnection>(socket);
+  ClientConnection& admitted = *connection;
+  const std::lock_guard lock(mutex_);
+  connections_[socket] = std::move(connection);
+  if (!poll_set_.Add(socket, &admitted)) connections_.erase(socket);
+  if (connections_.size() > kConnectionsMax) MakeRoom();
 }
 
 void Connections::WorkLoop() {
   while (!stopping_) {
-    epoll_event event{};
-    if (epoll_wait(epoll_, &event, 1, -1) != 1 || event.data.ptr == nullptr) continue;
-    auto& connection = *static_cast<Connection*>(event.data.ptr);
-    connection.busy = true;
-    const Next next = Advance(connection);
+    auto* const taken = static_cast<ClientConnection*>(poll_set_.Take());
+    if (taken == nullptr) continue;
+    ClientConnection& connection = *taken;
+    connection.attention.busy = true;
+    Next next = Next::kClose;
+    try {
+      next = Advance(connection);
+    } catch (const std::exception&) {  // no memory: this client is let go, others are served
+    }
     Account(connection);
-    if (next == Next::kClose)
-      Close(connection);
-    else
-      Rearm(connection, next);
+    HandOver(connection, next);
   }
 }
 
-void Connections::Rearm(Connection& connection, Next next) {
-  connection.busy = false;
-  epoll_event event{};
-  event.events = (next == Next::kRead ? EPOLLIN | EPOLLRDHUP : EPOLLOUT) | EPOLLONESHOT;
-  event.data.ptr = &connection;
-  epoll_ctl(epoll_, EPOLL_CTL_MOD, connection.socket, &event);
-  if (buffered_ > kBufferedBytesMax) MakeRoom();
-}
-
-void Connections::Close(Connection& connection) {
+// The last that a thread does with a connection: another may have it then.
+void Connections::HandOver(ClientConnection& connection, Next next) {
+  switch (next) {
+    case Next::kGoOn:
+    case Next::kAgain:
+      return Arm(connection, For::kWriting);
+    case Next::kPark:
+      return Park(connection);
+    case Next::kQueue:
+      if (places_.TakeOrQueue(connection)) Arm(connection, For::kWriting);
+      return;
+    case Next::kClose:
+      return Close(connection);
+    case Next::kRead:
+    case Next::kWrite:
+      break;
+  }
+  connection.attention.busy = false;
+  Arm(connection, next == Next::kRead ? For::kReading : For::kWriting);
+  if (buffered_ <= kBufferedBytesMax) return;
   const std::lock_guard lock(mutex_);
-  buffered_ -= connection.accounted.exchange(0);
-  connections_.erase(connection.socket);
+  MakeRoom();
 }
 
-void Connections::Account(Connection& connection) {
-  // A large table has a limit of its own.
-  std::size_t held = (connection.large_turn ? 0 : connection.in.size()) + connection.out.size();
-  if (held <= kSmallBuffer) held = 0;
-  buffered_ += held - connection.accounted.exchange(held);  // modulo 2^64
+void Connections::Arm(ClientConnection& connection, For what) {
+  poll_set_.Arm(connection.socket, &connection, what);
 }
 
-Connections::Next Connections::Advance(Connection& connection) {
-  if (connection.unsent() > 0) return Send(connection);
-  return Receive(connection);
+void Connections::Close(ClientConnection& connection) {
+  LeavePlace(connection);
+  buffered_ -= connection.attention.counted.exchange(0);
+  std::unique_ptr<ClientConnection>
+      closed;  // after the lock: what it holds may call Wake when it goes
+  const std::lock_guard lock(mutex_);
+  const auto place = connections_.find(connection.socket);
+  closed = std::move(place->second);
+  connections_.erase(place);
 }
 
-Connections::Next Connections::Receive(Connection& connection) {
+void Connections::Account(ClientConnection& connection) {
+  const std::size_t held = connection.held_bytes();
+  buffered_ += held - connection.attention.counted.exchange(held);  // modulo 2^64
+}
+
+// As far as it goes without waiting for anybody.
+Connections::Next Connections::Advance(ClientConnection& connection) {
+  for (int served = 0; served < kRequestsAtOnce;) {
+    switch (connection.answer.SendTo(connection.socket)) {
+      case Answer::Sent::kAll:
+        break;
+      case Answer::Sent::kSome:
+        return Next::kAgain;
+      case Answer::Sent::kBlocked:
+        connection.attention.Extend(TimeFor(connection.answer.due(), kAnswerBytesPerSecondMin));
+        connection.attention.active = Clock::now().time_since_epoch().count();
+        return Next::kWrite;
+      case Answer::Sent::kWaits:
+        connection.attention.Await(seconds(kHeadSecondsMax));
+        connection.waiting.wake_at = Clock::now() + kAskAgain;
+        connection.waiting.on_change = true;
+        return Next::kPark;
+      case Answer::Sent::kBroken:
+        return Next::kClose;
+    }
+    served += connection.HasRequest();
+    const Next next = connection.answer.moved() > 0 ? AfterSending(connection)
+                      : connection.HasRequest()     ? Serve(connection)
+                                                    : Receive(connection);
+    if (next != Next::kGoOn) return next;
+  }
+  return Next::kAgain;
+}
+
+Connections::Next Connections::AfterSending(ClientConnection& connection) {
+  connection.answer = {};
+  connection.attention.Await(seconds(connection.closing ? kHeadSecondsMax : kIdleSecondsMax));
+  if (!connection.closing)
+    return connection.arriving.bytes.empty() ? Next::kGoOn : TakeRequest(connection);
+  // What the client still sends is read and thrown away: a reset would take the answer from it.
+  shutdown(connection.socket, SHUT_WR);
+  connection.thrown_away = 0;
+  connection.arriving.bytes = {};
+  return Next::kRead;
+}
+
+Connections::Next Connections::Receive(ClientConnection& connection) {
   thread_local std::string piece(kReadBytes, '\0');
   const ssize_t n = recv(connection.socket, piece.data(), piece.size(), MSG_DONTWAIT);
   if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return Next::kRead;
   if (n <= 0) {
-    if (!connection.expired || connection.in.empty() || connection.draining) return Next::kClose;
-    const bool in_head = connection.frame.size() == 0;
-    return Refuse(connection, {408, in_head ? "head_seconds_max" : "body_bytes_per_second_min",
-                               "the request did not arrive in time"});
+    if (!connection.attention.expired || connection.arriving.bytes.empty() ||
+        connection.thrown_away)
+      return Next::kClose;
+    const bool in_head = connection.arriving.frame.size() == 0;
+    Refuse(connection, {408, in_head ? "head_seconds_max" : "body_bytes_per_second_min",
+                        "the request did not arrive in time"});
+    return Next::kGoOn;
   }
-  if (connection.draining) {
-    connection.drained += static_cast<std::size_t>(n);
-    return connection.drained > kDrainBytesMax ? Next::kClose : Next::kRead;
+  if (connection.thrown_away) {
+    *connection.thrown_away += static_cast<std::size_t>(n);
+    return *connection.thrown_away > kDrainBytesMax ? Next::kClose : Next::kRead;
   }
-  if (connection.in.empty()) connection.Await(seconds(kHeadSecondsMax));
-  connection.in.append(piece, 0, static_cast<std::size_t>(n));
-  return ServeArrived(connection);
+  if (connection.arriving.bytes.empty()) connection.attention.Await(seconds(kHeadSecondsMax));
+  connection.arriving.bytes.append(piece, 0, static_cast<std::size_t>(n));
+  return TakeRequest(connection);
 }
 
-Connections::Next Connections::ServeArrived(Connection& connection) {
+// The first request of those that have arrived, if it is whole.
+Connections::Next Connections::TakeRequest(ClientConnection& connection) {
   using State = RequestFrame::State;
-  while (!connection.in.empty()) {
-    const State state = connection.frame.Look(connection.in);
-    if (state == State::kRefused) return Refuse(connection, connection.frame.refusal());
-    if (state == State::kHead) return Next::kRead;
-    if (state == State::kBody) return AwaitBody(connection);
-    Incoming request{connection.frame.TakeHead(connection.in),
-                     connection.frame.TakeBody(connection.in), connection.peer, stopping_};
-    connection.frame = {};
-    connection.examined = false;
-    connection.closing = !handle_(std::move(request), connection) || stopping_;
-    connection.large_turn.reset();
-    connection.Await(TimeFor(connection.unsent()));
-    const Next next = Send(connection);
-    if (next != Next::kRead || connection.draining) return next;
+  const State state = connection.arriving.frame.Look(connection.arriving.bytes);
+  if (state == State::kHead) return Next::kRead;
+  if (state == State::kBody) return AwaitBody(connection);
+  if (state == State::kRefused) {
+    Refuse(connection, connection.arriving.frame.refusal());
+    return Next::kGoOn;
   }
-  return Next::kRead;
+  connection.request.emplace();
+  connection.request->head = connection.arriving.frame.TakeHead(connection.arriving.bytes);
+  connection.request->body = connection.arriving.frame.TakeBody(connection.arriving.bytes);
+  connection.request->peer = connection.peer;
+  connection.is_urgent = handlers_.is_urgent(connection.request->head);
+  connection.arriving.frame = {};
+  connection.arriving.examined = false;
+  return Next::kGoOn;
 }
 
 // Who may not send it is told before the body takes a place from others.
-Connections::Next Connections::AwaitBody(Connection& connection) {
-  const RequestFrame& frame = connection.frame;
-  const bool first = !std::exchange(connection.examined, true);
+Connections::Next Connections::AwaitBody(ClientConnection& connection) {
+  const RequestFrame& frame = connection.arriving.frame;
+  const bool first = !std::exchange(connection.arriving.examined, true);
   if (first) {
-    const std::string refusal =
-        examine_(connection.in.substr(0, frame.head_size()), connection.peer);
-    if (!refusal.empty()) return RefuseWith(connection, refusal);
+    std::string refusal =
+        handlers_.examine(connection.arriving.bytes.substr(0, frame.head_size()), connection.peer);
+    if (!refusal.empty()) {
+      RefuseWith(connection, std::move(refusal));
+      return Next::kGoOn;
+    }
   }
-  if (frame.is_large_import() && !connection.large_turn) {
-    connection.large_turn = large_imports_.Enter();
-    if (!connection.large_turn)
-      return Refuse(connection, {429, "large_imports_max", "another large table is under way"});
-    connection.in.reserve(frame.size());
+  if (frame.is_large_import() && !connection.arriving.large_turn) {
+    connection.arriving.large_turn = large_imports_.Enter();
+    if (!connection.arriving.large_turn) {
+      Refuse(connection, {429, "large_imports_max", "another large table is under way"});
+      return Next::kGoOn;
+    }
+    connection.arriving.bytes.reserve(frame.size());
   }
-  if (first && frame.expects_continue()) {
-    connection.Write("HTTP/1.1 100 Continue\r\n\r\n");
-    connection.Flush();
-  }
-  connection.Extend(TimeFor(frame.size()));
+  connection.attention.Extend(TimeFor(frame.size(), kBytesPerSecondMin));
+  if (!first || !frame.expects_continue()) return Next::kRead;
+  // So short that it leaves at once; if not, the client may send the body without it.
+  constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+  send(connection.socket, kContinue.data(), kContinue.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   return Next::kRead;
 }
 
-Connections::Next Connections::Refuse(Connection& connection, const Refusal& refusal) {
-  return RefuseWith(connection, refuse_(refusal, connection.peer));
+Connections::Next Connections::Serve(ClientConnection& connection) {
+  if (!connection.is_urgent && !places_.Take(connection)) return Next::kQueue;
+  connection.waiting.changes_seen = changes_;
+  Handled handled;
+  if (connection.waiting.resume) {
+    handled = std::exchange(connection.waiting.resume, nullptr)(connection);
+  } else {
+    connection.request->is_last = stopping_;
+    Incoming request = std::move(*connection.request);
+    connection.request.reset();
+    handled = handlers_.handle(std::move(request), connection);
+  }
+  LeavePlace(connection);
+  connection.waiting.held_bytes = handled.held_bytes;
+  if (handled.resume) {
+    connection.waiting.resume = std::move(handled.resume);
+    connection.waiting.wake_at = Clock::now() + handled.patience;
+    connection.waiting.on_change = handled.on_change;
+    return Next::kPark;
+  }
+  connection.closing = !handled.keeps || stopping_;
+  connection.arriving.large_turn.reset();
+  connection.attention.Await(seconds(kHeadSecondsMax));
+  return Next::kGoOn;
 }
 
-Connections::Next Connections::RefuseWith(Connection& connection, const std::string& answer) {
-  connection.in = {};
-  connection.large_turn.reset();
+void Connections::Refuse(ClientConnection& connection, const Refusal& refusal) {
+  RefuseWith(connection, handlers_.refuse(refusal, connection.peer));
+}
+
+void Connections::RefuseWith(ClientConnection& connection, std::string answer) {
+  connection.arriving.bytes = {};
+  connection.arriving.large_turn.reset();
   connection.closing = true;
-  connection.Write(answer);
-  connection.Await(TimeFor(connection.unsent()));
-  return Send(connection);
+  connection.Write(std::move(answer));
+  connection.attention.Await(seconds(kHeadSecondsMax));
 }
 
-Connections::Next Connections::Send(Connection& connection) {
-  connection.Flush();
-  if (connection.broken) return Next::kClose;
-  return connection.unsent() == 0 ? AfterSending(connection) : Next::kWrite;
+void Connections::LeavePlace(ClientConnection& connection) {
+  if (ClientConnection* const next = places_.Leave(connection)) Arm(*next, For::kWriting);
 }
 
-Connections::Next Connections::AfterSending(Connection& connection) {
-  if (connection.out.capacity() > kSmallBuffer) connection.out = {};
-  connection.Await(seconds(connection.closing ? kHeadSecondsMax : kIdleSecondsMax));
-  if (!connection.closing) return Next::kRead;
-  // What the client still sends is read and thrown away: a reset would take the answer from it.
-  shutdown(connection.socket, SHUT_WR);
-  connection.draining = true;
-  return Next::kRead;
+void Connections::Park(ClientConnection& connection) {
+  const std::lock_guard lock(mutex_);
+  if (connection.waiting.on_change && connection.waiting.changes_seen != changes_) {
+    connection.waiting.wake_at = {};
+    woken_ = true;
+  }
+  parked_.push_back(&connection);
+  attention_.notify_all();
+}
+
+void Connections::Wake() {
+  ++changes_;
+  const std::lock_guard lock(mutex_);
+  if (parked_.empty()) return;
+  woken_ = true;
+  attention_.notify_all();
+}
+
+// Who may be able to go on.
+void Connections::Unpark() {
+  const auto now = Clock::now();
+  std::erase_if(parked_, [&](ClientConnection* connection) {
+    Waiting& waiting = connection->waiting;
+    const bool changed = waiting.on_change && waiting.changes_seen != changes_;
+    if (!changed && waiting.wake_at > now) return false;
+    waiting.changes_seen = changes_;
+    Arm(*connection, For::kWriting);
+    return true;
+  });
 }
 
 void Connections::SweepLoop() {
   std::unique_lock lock(mutex_);
-  while (!stop_sweeping_.wait_for(lock, kSweepPeriod, [this] { return stopping_.load(); })) {
-    const auto now = Clock::now().time_since_epoch().count();
-    for (const auto& [socket, connection] : connections_) {
-      if (connection->busy || connection->deadline > now) continue;
-      if (!connection->expired.exchange(true)) ++closed_early_;
-      // Reading then ends at once, which a thread sees and answers; writing is given up later.
-      shutdown(socket, now - connection->deadline > Clock::duration(seconds(1)).count() ? SHUT_RDWR
-                                                                                        : SHUT_RD);
+  for (auto sweep_at = Clock::now() + kSweepPeriod; !stopping_;) {
+    auto until = sweep_at;
+    for (const ClientConnection* one : parked_) until = std::min(until, one->waiting.wake_at);
+    attention_.wait_until(lock, until,
+                          [this] { return stopping_ || std::exchange(woken_, false); });
+    Unpark();
+    if (Clock::now() >= sweep_at) {
+      CloseExpired();
+      sweep_at = Clock::now() + kSweepPeriod;
     }
+    lock.unlock();
+    std::this_thread::sleep_for(kUnparkPause);
+    lock.lock();
   }
 }
 
-void Connections::MakeRoom() {
-  const std::lock_guard lock(mutex_);
-  const bool many = connections_.size() > kConnectionsMax;
-  Connection* oldest = nullptr;
+void Connections::CloseExpired() {
+  const auto now = Clock::now().time_since_epoch().count();
   for (const auto& [socket, connection] : connections_) {
-    const bool helps = many || connection->accounted > 0;
-    if (!helps || connection->busy || connection->expired) continue;
-    if (oldest == nullptr || connection->since < oldest->since) oldest = connection.get();
+    Attention& attention = connection->attention;
+    if (attention.busy || attention.deadline > now) continue;
+    if (!attention.expired.exchange(true)) ++closed_early_;
+    // Reading then ends at once, which a thread sees and answers; writing is given up later.
+    const bool is_late = now - attention.deadline > Clock::duration(seconds(1)).count();
+    shutdown(socket, is_late ? SHUT_RDWR : SHUT_RD);
+  }
+}
+
+// With the lock held. Whoever is served or reads its answer stays.
+void Connections::MakeRoom() {
+  const bool many = connections_.size() > kConnectionsMax;
+  ClientConnection* oldest = nullptr;
+  for (const auto& [socket, connection] : connections_) {
+    const Attention& attention = connection->attention;
+    const bool helps = many || attention.counted > 0;
+    if (!helps || attention.busy || attention.expired) continue;
+    if (oldest == nullptr || attention.active < oldest->attention.active) oldest = connection.get();
   }
   if (oldest == nullptr) return;
-  oldest->expired = oldest->evicted = true;
-  buffered_ -= oldest->accounted.exchange(0);
+  oldest->attention.expired = oldest->attention.evicted = true;
+  buffered_ -= oldest->attention.counted.exchange(0);
   ++closed_early_;
   shutdown(oldest->socket, SHUT_RDWR);
 }

@@ -1,8 +1,10 @@
-// Many connections on a few threads. A connection has no thread while its request arrives or its
-// answer leaves: it waits in one epoll set, from which a thread takes it when there is something to
-// do. So slow clients cost a little memory each and hold up nobody. Who is slower than the limits
-// allow (service_limits.h) is closed, and where all of them together take too much, who has waited
-// longest.
+// Many connections on a few threads. A connection has no thread while its request arrives, while it
+// waits for something or while its answer leaves: it waits in one epoll set or is parked, from
+// which a thread takes it when there is something to do. So slow clients and those who wait cost a
+// little memory each and hold up nobody. Requests are answered in `places`, fewer than there are
+// threads; others wait for one in the order in which they came, but for urgent ones, which need
+// none. Who is slower than the limits allow (service_limits.h) is closed, and where requests on
+// their way take too much together, the one that has taken longest.
 #ifndef PLENUM_SERVER_WIRE_CONNECTIONS_H_
 #define PLENUM_SERVER_WIRE_CONNECTIONS_H_
 
@@ -13,48 +15,41 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <unordered_map>
 #include <vector>
 
 #include "server/call/service_limits.h"
+#include "server/wire/client_connection.h"
+#include "server/wire/exchange.h"
+#include "server/wire/places.h"
+#include "server/wire/poll_set.h"
 #include "server/wire/request_frame.h"
 
 namespace plenum::server {
 
-// One whole request.
-struct Incoming {
-  std::string head;  // request line and headers, with the empty line
-  std::string body;
-  std::string peer;      // the client's address
-  bool is_last = false;  // the connection closes after it
+// What the service does with requests.
+struct Handlers {
+  std::function<Handled(Incoming, Outgoing&)> handle;
+  // The whole refusal, as text, of a request whose body is still to come; empty: let it come.
+  std::function<std::string(const std::string& head, const std::string& peer)> examine;
+  // The whole answer, as text, to what is no request that is served.
+  std::function<std::string(const Refusal&, const std::string& peer)> refuse;
+  // Whether a request needs no place, by its head.
+  std::function<bool(const std::string& head)> is_urgent;
 };
-
-// Where an answer goes. Nothing blocks: what the client does not take yet is kept.
-class Outgoing {
- public:
-  virtual ~Outgoing() = default;
-  virtual void Write(std::string_view bytes) = 0;
-  // Sends what can be sent now; false when the client is gone or takes too little.
-  virtual bool Flush() = 0;
-};
-
-// Answers a request; false: the connection is to be closed after the answer.
-using HandleRequest = std::function<bool(Incoming, Outgoing&)>;
-// The whole refusal, as text, of a request whose body is still to come; empty: let it come.
-using ExamineHead = std::function<std::string(const std::string& head, const std::string& peer)>;
-// The whole answer, as text, to what is no request that is served.
-using RenderRefusal = std::function<std::string(const Refusal&, const std::string& peer)>;
 
 class Connections {
  public:
-  Connections(HandleRequest handle, ExamineHead examine, RenderRefusal refuse);
+  explicit Connections(Handlers handlers);
   ~Connections();
 
-  void Start(int threads);
+  // As many threads as `places` and a few for urgent requests and for bytes.
+  void Start(int places);
   // Takes over a connected socket.
   void Admit(int socket);
+  // Something has changed that requests may wait for (Handled::on_change).
+  void Wake();
   // Lets answers under way end, then closes everything.
   void Stop();
 
@@ -64,38 +59,46 @@ class Connections {
   long long closed_early() const { return closed_early_; }
 
  private:
-  struct Connection;
-  enum class Next { kRead, kWrite, kClose };
+  enum class Next { kGoOn, kRead, kWrite, kAgain, kPark, kQueue, kClose };
 
   void WorkLoop();
-  void SweepLoop();
-  Next Advance(Connection& connection);
-  Next Receive(Connection& connection);
-  Next ServeArrived(Connection& connection);
-  Next AwaitBody(Connection& connection);
-  Next Refuse(Connection& connection, const Refusal& refusal);
-  Next RefuseWith(Connection& connection, const std::string& answer);
-  Next Send(Connection& connection);
-  Next AfterSending(Connection& connection);
-  void Rearm(Connection& connection, Next next);
-  void Close(Connection& connection);
-  // Counts what the connection holds.
-  void Account(Connection& connection);
+  void HandOver(ClientConnection& connection, Next next);
+  Next Advance(ClientConnection& connection);
+  Next AfterSending(ClientConnection& connection);
+  Next Receive(ClientConnection& connection);
+  Next TakeRequest(ClientConnection& connection);
+  Next AwaitBody(ClientConnection& connection);
+  Next Serve(ClientConnection& connection);
+  void Refuse(ClientConnection& connection, const Refusal& refusal);
+  void RefuseWith(ClientConnection& connection, std::string answer);
+
+  void LeavePlace(ClientConnection& connection);
+  void Park(ClientConnection& connection);
+  void Arm(ClientConnection& connection, PollSet::For what);
+  void Close(ClientConnection& connection);
+  // Counts what requests hold.
+  void Account(ClientConnection& connection);
   void MakeRoom();
 
-  const HandleRequest handle_;
-  const ExamineHead examine_;
-  const RenderRefusal refuse_;
-  int epoll_ = -1, wake_ = -1;
+  void SweepLoop();
+  void Unpark();
+  void CloseExpired();
+
+  const Handlers handlers_;
+  const PollSet poll_set_;
   std::atomic<bool> stopping_ = false;
   mutable std::mutex mutex_;
-  std::unordered_map<int, std::unique_ptr<Connection>> connections_;  // by socket
+  std::unordered_map<int, std::unique_ptr<ClientConnection>> connections_;  // by socket
+  std::vector<ClientConnection*> parked_;
+  std::atomic<long long> changes_ = 0;
+  std::condition_variable attention_;  // of the sweeper
+  bool woken_ = false;
+  Places<ClientConnection> places_;
   std::atomic<std::size_t> buffered_ = 0;
   std::atomic<long long> closed_early_ = 0;
   Turnstile large_imports_{kLargeImportsMax};
   std::vector<std::thread> workers_;
   std::thread sweeper_;
-  std::condition_variable stop_sweeping_;
 };
 
 }  // namespace plenum::server

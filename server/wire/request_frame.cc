@@ -28,6 +28,14 @@ bool IsToken(std::string_view text) {
   });
 }
 
+// Control characters of ASCII but those that are allowed (RFC 9110, 5.5; RFC 9112, 2.2).
+bool HasControl(std::string_view text, std::string_view allowed) {
+  return std::any_of(text.begin(), text.end(), [&](char c) {
+    return (static_cast<unsigned char>(c) < ' ' || c == 0x7f) &&
+           allowed.find(c) == std::string_view::npos;
+  });
+}
+
 std::string_view Trim(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
@@ -81,8 +89,7 @@ RequestFrame::State RequestFrame::ReadHead(std::string_view head) {
   end_ = head_size_;
   std::size_t at = std::min(head.find(kLineEnd), head.size());
   const std::string_view first = head.substr(0, at);
-  if (first.find_first_of("\n\r\t") != std::string_view::npos ||
-      !IsToken(first.substr(0, first.find(' '))))
+  if (HasControl(first, "") || !IsToken(first.substr(0, first.find(' '))))
     return Refuse(400, "", "the request line is not one of HTTP/1.1");
   for (int count = 1; at < head.size(); ++count) {
     if (count > kHeadersMax) return Refuse(431, "headers_max", "there are too many headers");
@@ -92,7 +99,7 @@ RequestFrame::State RequestFrame::ReadHead(std::string_view head) {
     at = end;
     const auto colon = line.find(':');
     if (colon == std::string_view::npos || !IsToken(line.substr(0, colon)) ||
-        line.find_first_of(std::string_view("\r\n\0", 3)) != std::string_view::npos)
+        HasControl(line, "\t"))
       return Refuse(400, "", "a header is not of the form \"Name: value\"");
     if (!ReadField(line.substr(0, colon), Trim(line.substr(colon + 1)))) return state_;
   }
@@ -132,7 +139,8 @@ RequestFrame::State RequestFrame::LookAtChunks(std::string_view bytes) {
   std::string_view line;
   while (end_ < bytes.size() && LineAt(bytes, end_, line)) {
     std::size_t length = 0;
-    if (line.size() > kChunkLineMax || !ReadWhole(line.substr(0, line.find(';')), 16, length))
+    if (line.size() > kChunkLineMax || HasControl(line, "\t") ||
+        !ReadWhole(line.substr(0, line.find(';')), 16, length))
       return Refuse(400, "", "a chunk of the body does not begin with its length");
     if (length > kBodyBytesMax - body_size_ || end_ > kChunkedBytesMax)
       return Refuse(413, "body_bytes_max", "the body is too large");

@@ -2,6 +2,7 @@
 #include "server/http.h"
 
 #include <csignal>
+#include <filesystem>
 #include <memory>
 
 #include "server/call/protection.h"
@@ -36,7 +37,11 @@ TEST_F(Http, RefusesUnknownPathsAndMethods) {
 TEST_F(Http, RefusesPagesOfOtherSites) {
   const httplib::Headers other = {{"Origin", "https://example.com"}};
   ExpectProblem(client_->Post("/v1/parts", other, NewFitting("a").dump(), kJson), 403);
-  const httplib::Headers own = {{"Origin", "http://localhost:8080"}};
+  const std::string port = std::to_string(service_.port());
+  ExpectProblem(
+      client_->Post("/v1/parts", {{"Origin", "http://127.0.0.1:1"}}, NewFitting("a").dump(), kJson),
+      403);
+  const httplib::Headers own = {{"Origin", "http://127.0.0.1:" + port}};
   EXPECT_EQ(client_->Post("/v1/parts", own, NewFitting("a").dump(), kJson)->status, 201);
 }
 
@@ -83,6 +88,18 @@ TEST_F(Http, RefusesEncodedAndFormBodies) {
   ExpectProblem(client_->Post("/v1/maps", form), 415);
 }
 
+// A page of another site can send text or a form without being asked.
+TEST_F(Http, BodiesNeedTheirContentType) {
+  const std::string part = NewFitting("a").dump();
+  for (const char* type : {"text/plain", "application/x-www-form-urlencoded", "text/json", "json"})
+    ExpectProblem(client_->Post("/v1/parts", part, type), 415);
+  ExpectProblem(client_->Post("/v1/parts/import?family=fitting", "id\n", "text/plain"), 415);
+  EXPECT_THAT(Raw("POST /v1/maps HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n"
+                  "Content-Length: 2\r\n\r\n{}"),
+              StartsWith("HTTP/1.1 415"));
+  EXPECT_EQ(client_->Post("/v1/parts", part, "Application/JSON ; charset=utf-8")->status, 201);
+}
+
 TEST_F(Http, ClosesTheConnectionWhenABodyBreaksOff) {
   // What follows the broken chunk must not be taken for a request of its own.
   const auto answer =
@@ -116,6 +133,21 @@ TEST_F(Http, AnswersAreWholeWhateverRangeIsAskedFor) {
   EXPECT_EQ(client_->Head("/v1/limits")->get_header_value("Accept-Ranges"), "none");
 }
 
+// No part hides a route, and no route a part.
+TEST_F(Http, NoPartHasTheNameOfARoute) {
+  const Json table = Body(client_->Get("/v1"));
+  const std::string parts = "/v1/parts/";
+  int words = 0;
+  for (const Json& route : table["routes"]) {
+    const auto path = route["path"].get<std::string>();
+    if (!path.starts_with(parts) || path.find('{') != std::string::npos) continue;
+    ++words;
+    ExpectProblem(client_->Post("/v1/parts", NewFitting(path.substr(parts.size())).dump(), kJson),
+                  422, "/id");
+  }
+  EXPECT_EQ(words, 4);
+}
+
 TEST_F(Http, ServesWhileConnectionsIdle) {
   // A client may hold some connections without others being starved.
   std::vector<std::unique_ptr<httplib::Client>> clients;
@@ -147,6 +179,52 @@ TEST(Serve, KeepsPartsWhenItIsKilled) {
   ServeProcess serve(bench.catalog());
   httplib::Client client("127.0.0.1", serve.port());
   EXPECT_EQ(client.Get("/v1/parts/bench-f1")->status, 200);
+}
+
+TEST(Serve, HoldsTheCatalogueUnderEveryName) {
+  const Workbench bench;
+  ServeProcess serve(bench.catalog());
+  std::filesystem::create_hard_link(bench.catalog(), bench.Path("hard.db"));
+  std::filesystem::create_symlink(bench.catalog(), bench.Path("soft.db"));
+  for (const char* name : {"hard.db", "soft.db"}) {
+    HttpOptions options;
+    options.catalog = bench.Path(name);
+    options.port = 0;
+    EXPECT_THROW(HttpService{options}, catalog::StoreError) << name;
+  }
+}
+
+TEST(Serve, IsNotReadyWithoutItsOwnFile) {
+  Service service;
+  const std::filesystem::path catalog = service.bench().catalog();
+  const auto away = catalog.string() + ".away";
+  httplib::Client client("127.0.0.1", service.port());
+  const auto failed = [&] {
+    const auto answer = client.Get("/readyz");
+    std::string names;
+    const Json checks = JsonOf(answer->body)["checks"];
+    for (const auto& [name, state] : checks.items())
+      if (state == "failed") names.append(name).append(" ");
+    return std::to_string(answer->status) + " " + names;
+  };
+  EXPECT_EQ(failed(), "200 ");
+  std::filesystem::rename(catalog, away);
+  EXPECT_EQ(failed(), "503 catalogue_in_place ");
+  std::filesystem::copy(away, catalog);
+  EXPECT_EQ(failed(), "503 catalogue_in_place ");
+  std::filesystem::rename(away, catalog);
+  EXPECT_EQ(failed(), "200 ");
+  std::filesystem::resize_file(catalog, std::filesystem::file_size(catalog) / 2);
+  EXPECT_EQ(failed(), "503 catalogue_readable catalogue_writable ");
+}
+
+TEST(Serve, IsNotReadyWhereAWriteWouldFail) {
+  const Workbench bench;
+  const ServeProcess serve(bench.catalog());
+  serve.LimitFiles(1);
+  httplib::Client client("127.0.0.1", serve.port());
+  EXPECT_EQ(client.Get("/healthz")->status, 200);
+  EXPECT_EQ(client.Get("/readyz")->status, 503);
 }
 
 TEST(Serve, SaysWhenThePortIsTaken) {

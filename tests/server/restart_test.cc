@@ -232,7 +232,7 @@ TEST(Serve, RefusesASecondServiceOfTheSameCatalogue) {
   ServeProcess serve(bench.catalog());
   const auto second = bench.Run("serve --port 0");
   EXPECT_EQ(second.status, 2);
-  EXPECT_THAT(second.err, HasSubstr("catalog.db-jobs is held by another service"));
+  EXPECT_THAT(second.err, HasSubstr("catalog.db is held by another service"));
 }
 
 }  // namespace

@@ -126,18 +126,18 @@ TEST_F(StoreTest, RefusesInvalidPartsAndKeepsWhatWas) {
   EXPECT_EQ(store.Get("r"), Reservoir("r"));
 }
 
-TEST_F(StoreTest, DataVersionCountsCommittedWritesOfAnyConnection) {
+TEST_F(StoreTest, TheHeadCountsCommittedWritesOfAnyConnection) {
   Store store = Write();
   const Store reader = Read();
-  const long long before = reader.DataVersion();
+  const long long before = reader.Head().number;
   store.Add(Reservoir("r"));
-  EXPECT_EQ(reader.DataVersion(), before + 1);
+  EXPECT_EQ(reader.Head().number, before + 1);
   store.Add(Reservoir("r"));
   store.Remove("unknown");
-  EXPECT_EQ(reader.DataVersion(), before + 1);
+  EXPECT_EQ(reader.Head().number, before + 1);
   store.Remove("r");
-  EXPECT_EQ(store.DataVersion(), before + 2);
-  EXPECT_EQ(reader.DataVersion(), before + 2);
+  EXPECT_EQ(store.Head().number, before + 2);
+  EXPECT_EQ(reader.Head().number, before + 2);
 }
 
 TEST_F(StoreTest, ReplaceSeedLeavesRowsOfUsers) {

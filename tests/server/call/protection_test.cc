@@ -36,7 +36,16 @@ TEST(Protection, OnlyServedHostsAndOwnPages) {
   EXPECT_EQ(status({{"Origin", "http://[::1].rebound.example"}}), 403);
   EXPECT_EQ(status({{"Origin", "http://localhost:1@rebound.example"}}), 403);
   EXPECT_EQ(status({{"Host", "127.0.0.1.example"}}), 403);
-  EXPECT_EQ(status({{"Origin", "http://localhost:5173"}}), 200);
+  const std::string port = std::to_string(service.port());
+  EXPECT_EQ(status({{"Origin", "http://127.0.0.1:" + port}}), 200);
+  EXPECT_EQ(status({{"Origin", "http://localhost"}, {"Host", "localhost"}}), 200);
+  EXPECT_EQ(status({{"Origin", "http://localhost:80"}, {"Host", "LOCALHOST"}}), 200);
+  // Another port, scheme or name of this machine is another site.
+  EXPECT_EQ(status({{"Origin", "http://127.0.0.1:5173"}}), 403);
+  EXPECT_EQ(status({{"Origin", "http://127.0.0.1"}}), 403);
+  EXPECT_EQ(status({{"Origin", "https://127.0.0.1:" + port}}), 403);
+  EXPECT_EQ(status({{"Origin", "http://localhost:" + port}}), 403);
+  EXPECT_EQ(status({{"Sec-Fetch-Site", "same-site"}, {"Sec-Fetch-Mode", "cors"}}), 403);
   EXPECT_EQ(status({{"Origin", "https://example.com"}}), 403);
   EXPECT_EQ(status({{"Origin", "null"}}), 403);
   EXPECT_EQ(status({{"Sec-Fetch-Site", "cross-site"}, {"Sec-Fetch-Mode", "no-cors"}}), 403);
@@ -84,6 +93,44 @@ TEST_F(WithTokens, EveryRequestNeedsOneButThoseThatGiveNothingAway) {
   EXPECT_THAT(refused->get_header_value("WWW-Authenticate"), StartsWith("Bearer"));
 }
 
+// RFC 9110, 11.1: the scheme is compared without case.
+TEST_F(WithTokens, TheSchemeHasNoCase) {
+  const std::string reader = CreateToken(file_, "reader", Scope::kRead);
+  for (const char* scheme : {"bearer ", "BEARER ", "Bearer  "})
+    EXPECT_EQ(client_.Get("/v1", {{"Authorization", scheme + reader}})->status, 200) << scheme;
+  EXPECT_EQ(client_.Get("/v1", {{"Authorization", "Basic " + reader}})->status, 401);
+}
+
+// Behind a proxy the page has its name, and the proxy's scheme.
+TEST_F(WithTokens, ThePageOfANamedHostMayBeSecure) {
+  const std::string reader = CreateToken(file_, "reader", Scope::kRead);
+  const auto status = [&](const std::string& origin, const std::string& host) {
+    return client_
+        .Get("/v1", {{"Authorization", "Bearer " + reader}, {"Origin", origin}, {"Host", host}})
+        ->status;
+  };
+  EXPECT_EQ(status("https://plenum.example", "plenum.example"), 200);
+  EXPECT_EQ(status("https://plenum.example:443", "Plenum.Example"), 200);
+  EXPECT_EQ(status("https://plenum.example:8443", "plenum.example"), 403);
+  EXPECT_EQ(status("https://other.example", "plenum.example"), 403);
+}
+
+// What is known goes on while the file cannot be read, and what changed counts when it can again.
+TEST_F(WithTokens, AFileThatCannotBeReadForAMomentEndsNothing) {
+  const std::string reader = CreateToken(file_, "reader", Scope::kRead);
+  EXPECT_EQ(Get("/v1", reader), 200);
+  const std::string good = ReadAll(file_);
+  std::filesystem::remove(file_);
+  std::filesystem::create_directory(file_);  // which no reader can read, whoever he is
+  EXPECT_EQ(Get("/v1", reader), 200);
+  EXPECT_EQ(Get("/v1", "plenum_0"), 401);
+  std::filesystem::remove(file_);
+  bench_.Write(file_.filename(), good);
+  EXPECT_EQ(Get("/v1", reader), 200);
+  EXPECT_TRUE(RevokeToken(file_, ReadTokens(file_).front().id));
+  EXPECT_EQ(Get("/v1", reader), 401);
+}
+
 TEST_F(WithTokens, ScopesTellReadingFromWriting) {
   const std::string reader = CreateToken(file_, "reader", Scope::kRead);
   const std::string writer = CreateToken(file_, "writer", Scope::kWrite);
@@ -102,7 +149,7 @@ TEST_F(WithTokens, TheHeadIsJudgedBeforeTheBody) {
                        const std::string& more = "Host: plenum.example\r\n") {
     return what + " HTTP/1.1\r\n" + more +
            (token.empty() ? "" : "Authorization: Bearer " + token + "\r\n") +
-           "Content-Length: 20000000\r\nExpect: 100-continue\r\n\r\n";
+           "Content-Type: text/csv\r\nContent-Length: 20000000\r\nExpect: 100-continue\r\n\r\n";
   };
   const std::string import = "POST /v1/parts/import?family=tubing";
   std::vector<std::unique_ptr<Raw>> waiting;  // all open at once
@@ -125,7 +172,8 @@ TEST_F(WithTokens, TheHeadIsJudgedBeforeTheBody) {
   // The same for smaller bodies of every route.
   const auto announced = [&](const std::string& what, const std::string& token) {
     return what + " HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer " + token +
-           "\r\nContent-Length: 100\r\nExpect: 100-continue\r\n\r\n";
+           "\r\nContent-Type: application/json\r\nContent-Length: 100\r\nExpect: "
+           "100-continue\r\n\r\n";
   };
   for (const char* route :
        {"POST /v1/designs", "POST /v1/diagnoses", "POST /v1/simulations", "POST /v1/evaluations",
@@ -243,6 +291,10 @@ TEST(Frame, RefusesWhatNeighboursMightReadAsAnother) {
   EXPECT_EQ(status(std::string("A: \0\r\n", 6)), 400);
   EXPECT_EQ(status("Transfer-Encoding: chunked\r\n", "-1\r\n"), 400);
   EXPECT_EQ(status("Transfer-Encoding: chunked\r\n", "1\r\nab\r\n"), 400);
+  for (const char c : {'\n', '\r', '\0', '\x1b', '\x7f'}) {
+    EXPECT_EQ(status("Transfer-Encoding: chunked\r\n", std::string("2;a") + c + "b\r\n"), 400);
+    EXPECT_EQ(status(std::string("A: b") + c + "c\r\n"), 400);
+  }
   EXPECT_EQ(status("Transfer-Encoding: chunked\r\n", "0\r\nTrailer: x\r\n\r\n"), 400);
   EXPECT_EQ(status("Transfer-Encoding: chunked\r\n", "FFFFFFFFFFFFFFFF\r\n"), 413);
   EXPECT_EQ(status("A: " + std::string(kHeadBytesMax, 'a') + "\r\n"), 431);
@@ -258,6 +310,7 @@ TEST(SlowClients, DoNotStopOthers) {
     slow.push_back(std::make_unique<Raw>(service.port()));
     slow.back()->Send(i % 2 == 0 ? "GET /healthz HTTP/1.1\r\nHost: loc"
                                  : "POST /v1/designs HTTP/1.1\r\nHost: localhost\r\n"
+                                   "Content-Type: application/json\r\n"
                                    "Content-Length: 1000\r\n\r\n{");
   }
   httplib::Client client("127.0.0.1", service.port());
@@ -286,7 +339,8 @@ TEST(Connections, ServeRequestsThatComeAtOnce) {
   Raw raw(service.port());
   raw.Send(
       "GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"
-      "POST /v1/maps HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 2\r\n"
+      "POST /v1/maps HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\n"
+      "Content-Type: application/json\r\nContent-Length: 2\r\n"
       "\r\n{}GET /v1/none HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
   const std::string answers = raw.Receive();
   const auto first = answers.find("HTTP/1.1 200"), second = answers.find("HTTP/1.1 422");
@@ -300,7 +354,7 @@ TEST(Connections, SayThatABodyMayCome) {
   Raw raw(service.port());
   raw.Send(
       "POST /v1/maps HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\n"
-      "Connection: close\r\nContent-Length: 2\r\n\r\n");
+      "Content-Type: application/json\r\nConnection: close\r\nContent-Length: 2\r\n\r\n");
   EXPECT_EQ(raw.Receive("\r\n\r\n"), "HTTP/1.1 100 Continue\r\n\r\n");
   raw.Send("{}");
   EXPECT_THAT(raw.Receive(), StartsWith("HTTP/1.1 422"));

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <filesystem>
 #include <future>
+#include <thread>
 
 #include "api/catalogue/part_document.h"
 #include "tests/server/workbench.h"
@@ -45,7 +48,7 @@ TEST(SharedCatalog, ReadersGoOnDuringALongWrite) {
   SharedCatalog catalog(bench.catalog());
   catalog.With([](catalog::Store& store) { return store.Add(PartOf("old")); });
   const auto before = catalog.Head();
-  EXPECT_FALSE(catalog.ViewBeforeWrite());
+  EXPECT_FALSE(catalog.ViewMeanwhile());
   InTheMiddle(catalog, [&] {
     EXPECT_EQ(catalog.Head(), before);
     EXPECT_EQ(catalog.View().revision, before);
@@ -53,10 +56,10 @@ TEST(SharedCatalog, ReadersGoOnDuringALongWrite) {
     EXPECT_FALSE(Has(catalog.Snapshot(), "new"));
     EXPECT_TRUE(catalog.ViewAt(before.number));
     EXPECT_TRUE(catalog.Models().empty());
-    ASSERT_TRUE(catalog.ViewBeforeWrite());
-    EXPECT_EQ(catalog.ViewBeforeWrite()->revision, before);
+    ASSERT_TRUE(catalog.ViewMeanwhile());
+    EXPECT_EQ(catalog.ViewMeanwhile()->revision, before);
   });
-  EXPECT_FALSE(catalog.ViewBeforeWrite());
+  EXPECT_FALSE(catalog.ViewMeanwhile());
   EXPECT_EQ(catalog.Head().number, before.number + 1);
   EXPECT_TRUE(Has(catalog.Snapshot(), "new"));
 }
@@ -99,8 +102,76 @@ TEST(SharedCatalog, AWriteThatFailsLeavesWhatWas) {
   const auto before = catalog.Head();
   EXPECT_THROW(catalog.WithLong([](catalog::Store&) -> int { throw std::bad_alloc(); }),
                std::bad_alloc);
-  EXPECT_FALSE(catalog.ViewBeforeWrite());
+  EXPECT_FALSE(catalog.ViewMeanwhile());
   EXPECT_EQ(catalog.Head(), before);
+}
+
+// Another process that keeps the file to itself, as a large import does.
+class OtherProcess {
+ public:
+  explicit OtherProcess(const std::string& catalog) {
+    const std::string command = "python3 -c \"import sqlite3,sys; db=sqlite3.connect('" + catalog +
+                                "',isolation_level=None); db.execute('BEGIN EXCLUSIVE'); open('" +
+                                catalog + ".held','w').close(); sys.stdin.read()\"";
+    pipe_ = popen(command.c_str(), "w");
+    while (!std::filesystem::exists(catalog + ".held"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ~OtherProcess() { pclose(pipe_); }
+  OtherProcess(const OtherProcess&) = delete;
+
+ private:
+  FILE* pipe_;
+};
+
+TEST(SharedCatalog, WhoKeepsTheFileHoldsUpNoReader) {
+  const Workbench bench;
+  SharedCatalog catalog(bench.catalog());
+  const auto before = catalog.View().revision;
+  {
+    const OtherProcess other(bench.catalog());
+    std::filesystem::last_write_time(bench.catalog(),
+                                     std::filesystem::file_time_type::clock::now());
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < 50; ++i) {
+      EXPECT_EQ(catalog.View().revision, before);
+      EXPECT_EQ(catalog.Head(), before);
+    }
+    EXPECT_LT(std::chrono::steady_clock::now() - start, seconds(2));
+    // A write is told at once that it must be tried again.
+    EXPECT_THROW(catalog.With([](catalog::Store& store) { return store.Add(PartOf("x")); }),
+                 catalog::StoreError);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, seconds(4));
+    EXPECT_EQ(catalog.Check(), FileCheck::kBusy);
+  }
+  EXPECT_EQ(catalog.Check(), FileCheck::kSound);
+  EXPECT_EQ(catalog.With([](catalog::Store& store) { return store.Add(PartOf("x")); }).status,
+            catalog::WriteStatus::kDone);
+}
+
+// What this service wrote is never missing from what it gives later.
+TEST(SharedCatalog, OwnWritesAreSeenOrWaitedFor) {
+  const Workbench bench;
+  SharedCatalog catalog(bench.catalog());
+  catalog.View();
+  catalog.With([](catalog::Store& store) { return store.Add(PartOf("own")); });
+  {
+    const OtherProcess other(bench.catalog());
+    EXPECT_THROW(catalog.View(), catalog::StoreError);
+  }
+  EXPECT_TRUE(Has(catalog.Snapshot(), "own"));
+}
+
+TEST(SharedCatalog, PastRevisionsStayInMemory) {
+  const Workbench bench;
+  SharedCatalog catalog(bench.catalog());
+  const auto first = catalog.View().revision;
+  catalog.With([](catalog::Store& store) { return store.Add(PartOf("new")); });
+  const auto past = catalog.ViewAt(first.number);
+  ASSERT_TRUE(past);
+  EXPECT_FALSE(Has(past->parts, "new"));
+  EXPECT_EQ(catalog.ViewAt(first.number)->parts, past->parts);  // the same, not equal ones
+  EXPECT_FALSE(catalog.ViewAt(first.number + 9));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "server/jobs/crash_marks.h"
 #include "server/jobs/job_recovery.h"
 #include "server/jobs/jobs.h"
+#include "tests/server/jobs/waiting.h"
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
@@ -93,7 +94,7 @@ class JobCrash : public testing::Test {
                   return result;
                 },
                 {});
-      for (const Job& job : jobs.List()) jobs.WaitForEnd(job.id, 60s);
+      for (const Job& job : jobs.List()) WaitForEnd(jobs, job.id, 60s);
     }
     _exit(0);
   }

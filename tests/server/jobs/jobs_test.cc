@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "server/jobs/job_recovery.h"
+#include "tests/server/jobs/waiting.h"
 #include "tests/server/workbench.h"
 
 namespace plenum::server {
@@ -59,7 +60,7 @@ class JobsTest : public testing::Test {
 
   static std::string Begin(Jobs& jobs) {
     const std::string id = jobs.Submit(Order("long")).id;
-    EXPECT_EQ(jobs.WaitForChange(id, 0, 10s)->status, JobStatus::kRunning);
+    EXPECT_EQ(WaitForChange(jobs, id, 0, 10s)->status, JobStatus::kRunning);
     return id;
   }
 
@@ -71,22 +72,22 @@ class JobsTest : public testing::Test {
 
 TEST_F(JobsTest, GivesTheResult) {
   const auto jobs = Open();
-  const auto job = jobs->WaitForEnd(jobs->Submit(Order("ready")).id, 10s);
+  const auto job = WaitForEnd(*jobs, jobs->Submit(Order("ready")).id, 10s);
   EXPECT_EQ(job->status, JobStatus::kDone);
-  EXPECT_EQ(job->result["answer"], 42);
+  EXPECT_EQ(Result(job)["answer"], 42);
   EXPECT_NE(job->ended_at, "");
   EXPECT_EQ(job->ended_at, jobs->Get(job->id)->ended_at);
 }
 
 TEST_F(JobsTest, FailuresEndTheJobOnly) {
   const auto jobs = Open({.workers = 1});
-  const auto fault = jobs->WaitForEnd(jobs->Submit(Order("fault")).id, 10s);
+  const auto fault = WaitForEnd(*jobs, jobs->Submit(Order("fault")).id, 10s);
   EXPECT_EQ(fault->status, JobStatus::kFailed);
   EXPECT_EQ(fault->failure, "a fault of the program; its log says more");
-  const auto refused = jobs->WaitForEnd(jobs->Submit(Order("refused")).id, 10s);
+  const auto refused = WaitForEnd(*jobs, jobs->Submit(Order("refused")).id, 10s);
   EXPECT_EQ(refused->status, JobStatus::kFailed);
   EXPECT_EQ(refused->failure, "/a: must be b");
-  EXPECT_EQ(jobs->WaitForEnd(jobs->Submit(Order("ready")).id, 10s)->status, JobStatus::kDone);
+  EXPECT_EQ(WaitForEnd(*jobs, jobs->Submit(Order("ready")).id, 10s)->status, JobStatus::kDone);
 }
 
 TEST_F(JobsTest, TheQueueIsBounded) {
@@ -104,12 +105,12 @@ TEST_F(JobsTest, ACancelledJobKeepsWhatItFound) {
   const auto jobs = Open();
   const std::string id = Begin(*jobs);
   EXPECT_TRUE(jobs->Cancel(id));
-  const auto job = jobs->WaitForEnd(id, 10s);
+  const auto job = WaitForEnd(*jobs, id, 10s);
   EXPECT_EQ(job->status, JobStatus::kCancelled);
-  EXPECT_EQ(job->result["best"], 1);
+  EXPECT_EQ(Result(job)["best"], 1);
   EXPECT_FALSE(jobs->Cancel("none"));
   EXPECT_TRUE(jobs->Cancel(id));  // has ended, stays
-  EXPECT_EQ(jobs->Get(id)->result["best"], 1);
+  EXPECT_EQ(Result(jobs->Get(id))["best"], 1);
 }
 
 TEST_F(JobsTest, ProgressWakesWhoWaits) {
@@ -123,7 +124,7 @@ TEST_F(JobsTest, ProgressWakesWhoWaits) {
   const std::string id = Begin(*jobs);
   const auto started = jobs->Get(id);
   go.set_value();
-  EXPECT_EQ(jobs->WaitForChange(id, started->revision, 10s)->progress["step"], 1);
+  EXPECT_EQ(WaitForChange(*jobs, id, started->revision, 10s)->progress["step"], 1);
 }
 
 TEST_F(JobsTest, OnlyTheNewestEndedAreKept) {
@@ -133,7 +134,7 @@ TEST_F(JobsTest, OnlyTheNewestEndedAreKept) {
   std::vector<std::string> ids;
   for (int i = 0; i < 4; ++i) {
     ids.push_back(jobs->Submit(Order("ready")).id);
-    jobs->WaitForEnd(ids.back(), 10s);
+    WaitForEnd(*jobs, ids.back(), 10s);
   }
   EXPECT_FALSE(jobs->Get(ids[1]));
   const auto kept = jobs->List();
@@ -143,7 +144,7 @@ TEST_F(JobsTest, OnlyTheNewestEndedAreKept) {
   EXPECT_EQ(kept[2].id, running);
   // The job that was submitted first ends last, so it is the newest to have ended.
   jobs->Cancel(running);
-  jobs->WaitForEnd(running, 10s);
+  WaitForEnd(*jobs, running, 10s);
   EXPECT_TRUE(jobs->Get(running));
   EXPECT_FALSE(jobs->Get(ids[2]));
 }
@@ -154,19 +155,19 @@ TEST_F(JobsTest, WhatIsKeptIsBoundedInBytesToo) {
   std::vector<std::string> ids;
   for (const int bytes : {300, 300, 300, 2000, 300}) {
     ids.push_back(jobs->Submit(Order(std::string(bytes, 'x'))).id);
-    jobs->WaitForEnd(ids.back(), 10s);
+    WaitForEnd(*jobs, ids.back(), 10s);
     EXPECT_TRUE(jobs->Get(ids.back()));  // the newest whatever its size
   }
   EXPECT_EQ(jobs->List().size(), 1u);
   const std::string next = jobs->Submit(Order("ready")).id;
-  jobs->WaitForEnd(next, 10s);
+  WaitForEnd(*jobs, next, 10s);
   EXPECT_EQ(jobs->List().size(), 2u);
 }
 
 TEST_F(JobsTest, AKeyGivesTheSameJob) {
   auto jobs = Open();
   const auto first = jobs->Submit(Order("ready", "k"));
-  jobs->WaitForEnd(first.id, 10s);
+  WaitForEnd(*jobs, first.id, 10s);
   Forget(jobs);
   jobs = Open();
   const auto again = jobs->Submit(Order("ready", "k"));
@@ -181,24 +182,24 @@ TEST_F(JobsTest, EndedJobsStayReadableAfterARestart) {
   std::vector<std::string> ids;
   for (const char* request : {"ready", "refused", "fault"}) {
     ids.push_back(jobs->Submit(Order(request)).id);
-    jobs->WaitForEnd(ids.back(), 10s);
+    WaitForEnd(*jobs, ids.back(), 10s);
   }
   Forget(jobs);
   jobs = Open();
   const auto done = jobs->Get(ids[0]);
   EXPECT_EQ(done->status, JobStatus::kDone);
   EXPECT_EQ(done->name, "the ready");
-  EXPECT_EQ(done->result["answer"], 42);
+  EXPECT_EQ(Result(done)["answer"], 42);
   EXPECT_EQ(done->progress["step"], 1);
   EXPECT_EQ(done->catalogue_revision, 7);
   EXPECT_EQ(done->submitted_at.size(), 20u);
   EXPECT_GE(done->ended_at, done->submitted_at);
   EXPECT_EQ(jobs->Get(ids[1])->failure, "/a: must be b");
-  EXPECT_EQ(jobs->WaitForEnd(ids[2], 0s)->status, JobStatus::kFailed);
+  EXPECT_EQ(WaitForEnd(*jobs, ids[2], 0s)->status, JobStatus::kFailed);
   const auto list = jobs->List();
   ASSERT_EQ(list.size(), 3u);
   EXPECT_EQ(list[0].id, ids[2]);
-  EXPECT_TRUE(list[2].result.is_null());
+  EXPECT_FALSE(list[2].result);
 }
 
 TEST_F(JobsTest, WhatHasNotEndedIsDoneAfterARestart) {
@@ -210,8 +211,8 @@ TEST_F(JobsTest, WhatHasNotEndedIsDoneAfterARestart) {
   jobs = Open({.workers = 1, .queued_max = 0}, [](const JobOrder& order, const JobControl&) {
     return api::Json{{"again", order.request}};
   });
-  EXPECT_EQ(jobs->WaitForEnd(running, 10s)->result["again"], "long");
-  EXPECT_EQ(jobs->WaitForEnd(queued, 10s)->result["again"], "ready");
+  EXPECT_EQ(Result(WaitForEnd(*jobs, running, 10s))["again"], "long");
+  EXPECT_EQ(Result(WaitForEnd(*jobs, queued, 10s))["again"], "ready");
   EXPECT_EQ(jobs->Get(cancelled)->status, JobStatus::kCancelled);
 }
 
@@ -275,7 +276,7 @@ TEST_F(JobsTest, WhatRanWhenTheServiceDiedGoesOneAtATimeHoweverOftenItDied) {
       diagnoses(*store_, turns_, "diagnosis", work, {});
   for (Jobs* jobs : {&designs, &diagnoses})
     for (const Job& job : jobs->List())
-      EXPECT_EQ(jobs->WaitForEnd(job.id, 10s)->status, JobStatus::kDone);
+      EXPECT_EQ(WaitForEnd(*jobs, job.id, 10s)->status, JobStatus::kDone);
   EXPECT_EQ(designs.Get("ran, design")->attempts, 21);
   EXPECT_EQ(designs.Get("waits, design")->attempts, 1);
   EXPECT_TRUE(together.pairs.contains({"waits too, design", "waits, design"}));
@@ -297,12 +298,12 @@ TEST_F(JobsTest, AJobThatWaitsToRunAloneCanBeCancelled) {
     RecoverJobs(store, bench_.Path("no marks"));
   }
   const auto jobs = Open();
-  EXPECT_EQ(jobs->WaitForChange("one", 0, 10s)->status, JobStatus::kRunning);
+  EXPECT_EQ(WaitForChange(*jobs, "one", 0, 10s)->status, JobStatus::kRunning);
   jobs->Cancel("two");
   const std::string normal = jobs->Submit(Order("ready")).id;
-  EXPECT_EQ(jobs->WaitForEnd(normal, 100ms)->status, JobStatus::kQueued);
+  EXPECT_EQ(WaitForEnd(*jobs, normal, 100ms)->status, JobStatus::kQueued);
   jobs->Cancel("one");
-  EXPECT_EQ(jobs->WaitForEnd(normal, 10s)->status, JobStatus::kDone);
+  EXPECT_EQ(WaitForEnd(*jobs, normal, 10s)->status, JobStatus::kDone);
 }
 
 TEST_F(JobsTest, OrderlyStopsAreNoAttempts) {
@@ -311,7 +312,7 @@ TEST_F(JobsTest, OrderlyStopsAreNoAttempts) {
   for (int i = 0; i < 7; ++i) {
     Forget(jobs);
     jobs = Open({.workers = 1});
-    const auto job = jobs->WaitForChange(patient, 0, 10s);
+    const auto job = WaitForChange(*jobs, patient, 0, 10s);
     EXPECT_EQ(job->status, JobStatus::kRunning);
     EXPECT_EQ(job->attempts, 1);
     EXPECT_FALSE(job->alone);
@@ -325,8 +326,8 @@ TEST_F(JobsTest, WhatFailedOrWasCancelledCanBeAskedForAgain) {
         return mended ? api::Parsed<api::Json>(api::Json{{"now", "fine"}}) : Do(order, control);
       });
   const std::string fault = jobs->Submit(Order("fault")).id, done = jobs->Submit(Order("ready")).id;
-  jobs->WaitForEnd(fault, 10s);
-  jobs->WaitForEnd(done, 10s);
+  WaitForEnd(*jobs, fault, 10s);
+  WaitForEnd(*jobs, done, 10s);
   const std::string running = Begin(*jobs), waiting = jobs->Submit(Order("ready")).id;
   EXPECT_EQ(jobs->Again("none"), Asked::kUnknown);
   EXPECT_EQ(jobs->Again(done), Asked::kDone);
@@ -340,12 +341,12 @@ TEST_F(JobsTest, WhatFailedOrWasCancelledCanBeAskedForAgain) {
   EXPECT_EQ(jobs->Again(waiting), Asked::kRefused);  // the queue is full
   mended = true;
   jobs->Cancel(running);
-  const auto ended = jobs->WaitForEnd(fault, 10s);
+  const auto ended = WaitForEnd(*jobs, fault, 10s);
   EXPECT_EQ(ended->status, JobStatus::kDone);
-  EXPECT_EQ(ended->result["now"], "fine");
+  EXPECT_EQ(Result(ended)["now"], "fine");
   EXPECT_EQ(ended->attempts, 2);
   EXPECT_EQ(jobs->Again(running), Asked::kQueued);
-  EXPECT_EQ(jobs->WaitForEnd(running, 10s)->result["now"], "fine");
+  EXPECT_EQ(Result(WaitForEnd(*jobs, running, 10s))["now"], "fine");
 }
 
 TEST_F(JobsTest, DamagedRecordsFailAndKeepNothingElseFromStarting) {
@@ -368,8 +369,8 @@ TEST_F(JobsTest, DamagedRecordsFailAndKeepNothingElseFromStarting) {
   store_ = std::make_unique<catalog::JobStore>(bench_.Path("jobs"), kept_);
   RecoverJobs(*store_, bench_.Path("no marks"));
   const auto jobs = Open();
-  EXPECT_EQ(jobs->WaitForEnd("progress", 10s)->status, JobStatus::kDone);
-  EXPECT_EQ(jobs->WaitForEnd("sound", 10s)->status, JobStatus::kDone);
+  EXPECT_EQ(WaitForEnd(*jobs, "progress", 10s)->status, JobStatus::kDone);
+  EXPECT_EQ(WaitForEnd(*jobs, "sound", 10s)->status, JobStatus::kDone);
   EXPECT_EQ(jobs->Get("status")->status, JobStatus::kFailed);
   EXPECT_THAT(jobs->Get("status")->failure, HasSubstr("unknown status \"odd\""));
   EXPECT_EQ(jobs->Get("result")->status, JobStatus::kFailed);
@@ -377,13 +378,11 @@ TEST_F(JobsTest, DamagedRecordsFailAndKeepNothingElseFromStarting) {
   EXPECT_EQ(jobs->List().size(), 4u);
 }
 
-TEST_F(JobsTest, StopInterruptsAndReleases) {
+TEST_F(JobsTest, StopInterrupts) {
   const auto jobs = Open({.workers = 1});
   const std::string running = Begin(*jobs), queued = jobs->Submit(Order("ready")).id;
-  auto waiting = std::async(std::launch::async, [&] { return jobs->WaitForEnd(running, 60s); });
   jobs->Stop();
-  EXPECT_FALSE(Ended(waiting.get()->status));
-  EXPECT_FALSE(Ended(jobs->Get(queued)->status));
+  for (const std::string& id : {running, queued}) EXPECT_FALSE(Ended(jobs->Get(id)->status));
   EXPECT_EQ(jobs->Submit(Order("late")).status, Submitted::kRefused);
 }
 
@@ -391,7 +390,7 @@ TEST_F(JobsTest, KindsDoNotMix) {
   const auto designs = Open();
   Jobs diagnoses(*store_, turns_, "diagnosis", Do, {});
   const std::string id = designs->Submit(Order("ready", "k")).id;
-  designs->WaitForEnd(id, 10s);
+  WaitForEnd(*designs, id, 10s);
   EXPECT_FALSE(diagnoses.Get(id));
   EXPECT_TRUE(diagnoses.List().empty());
   EXPECT_EQ(diagnoses.Submit(Order("ready", "k")).status, Submitted::kAccepted);

@@ -155,7 +155,8 @@ TEST_F(PartsOverHttp, ARepeatedPostActsOnceAlsoAfterARestart) {
   EXPECT_EQ(Add(NewFitting("g"), {{"Idempotency-Key", std::string(256, 'k')}})->status, 400);
   // The same body for another resource is another request.
   EXPECT_EQ(
-      client_->Post("/v1/parts/import?family=fitting", key, NewFitting("f").dump(), kJson)->status,
+      client_->Post("/v1/parts/import?family=fitting", key, NewFitting("f").dump(), "text/csv")
+          ->status,
       422);
 }
 
@@ -281,8 +282,9 @@ TEST_F(PartsOverHttp, TablesMayBeLongerThanOtherBodiesAndHaveLimitsOfTheirOwn) {
   EXPECT_EQ(limit_of(client_->Post(path, whole, "text/csv"), 413), "import_bytes_max");
 
   // One such table at a time; the next may come when the first is answered or given up.
-  const std::string head = "POST " + path + " HTTP/1.1\r\nHost: localhost\r\nContent-Length: " +
-                           std::to_string(table.size()) + "\r\n\r\n";
+  const std::string head =
+      "POST " + path + " HTTP/1.1\r\nHost: localhost\r\n" +
+      "Content-Type: text/csv\r\nContent-Length: " + std::to_string(table.size()) + "\r\n\r\n";
   {
     Raw first(serve_->port());
     first.Send(head);

@@ -1,0 +1,133 @@
+// Clients take turns at the workers, and none fills the queue for others.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <new>
+
+#include "server/jobs/job_recovery.h"
+#include "tests/server/jobs/waiting.h"
+#include "tests/server/service.h"
+
+namespace plenum::server {
+namespace {
+
+using namespace std::chrono_literals;
+using catalog::JobOrder;
+
+JobOrder OrderOf(const std::string& client, const std::string& request) {
+  JobOrder order;
+  order.name = request;
+  order.by = {"bench", "", ""};
+  order.request = request;
+  order.revision = 7;
+  order.hash = std::string(64, 'a');
+  order.client = client;
+  return order;
+}
+
+class Fairness : public testing::Test {
+ protected:
+  // Jobs that wait for the gate to open, and then tell whose they are.
+  Work InOrder() {
+    return [this](const JobOrder& order, const JobControl&) -> api::Parsed<api::Json> {
+      while (!open_) std::this_thread::sleep_for(1ms);
+      const std::lock_guard lock(mutex_);
+      begun_.push_back(order.client);
+      return api::Json{{"of", order.client}};
+    };
+  }
+  std::string Submit(Jobs& jobs, const std::string& client) {
+    return jobs.Submit(OrderOf(client, "job")).id;
+  }
+  void WaitForAll(const Jobs& jobs) {
+    open_ = true;
+    for (const Job& job : jobs.List()) WaitForEnd(jobs, job.id, 20s);
+  }
+
+  const Workbench bench_;
+  catalog::JobStore store_{bench_.Path("jobs"), {}};
+  JobTurns turns_;
+  std::mutex mutex_;
+  std::vector<std::string> begun_;
+  std::atomic<bool> open_ = false;
+};
+
+TEST_F(Fairness, ClientsTakeTurnsHoweverManyJobsOneHas) {
+  Jobs jobs(store_, turns_, "design", InOrder(), {.workers = 1});
+  for (int i = 0; i < 20; ++i) Submit(jobs, "greedy");
+  for (int round = 0; round < 2; ++round)
+    for (int client = 0; client < 9; ++client) Submit(jobs, "honest " + std::to_string(client));
+  WaitForAll(jobs);
+  // The first of the greedy one had begun; then each has one turn in every ten.
+  ASSERT_EQ(begun_.size(), 38u);
+  for (int round = 0; round < 2; ++round) {
+    std::map<std::string, int> turns;
+    for (int i = 0; i < 10; ++i) ++turns[begun_[1 + 10 * round + i]];
+    EXPECT_EQ(turns.size(), 10u) << round;
+  }
+}
+
+TEST_F(Fairness, ALongJobLeavesTheOtherWorkerToOthers) {
+  Jobs jobs(store_, turns_, "design", InOrder(), {.workers = 2});
+  const std::string first = Submit(jobs, "a");
+  WaitForChange(jobs, first, 0, 10s);
+  const std::string other = Submit(jobs, "b");
+  WaitForChange(jobs, other, 0, 10s);
+  for (int i = 0; i < 3; ++i) Submit(jobs, "a");
+  Submit(jobs, "b");
+  EXPECT_EQ(jobs.Get(first)->status, JobStatus::kRunning);
+  EXPECT_EQ(jobs.Get(other)->status, JobStatus::kRunning);
+  WaitForAll(jobs);
+  EXPECT_EQ(begun_.size(), 6u);
+}
+
+TEST_F(Fairness, TheQueueOfOneClientIsFullForThatClientOnly) {
+  Jobs jobs(store_, turns_, "design", InOrder(),
+            {.workers = 1, .queued_max = 5, .queued_per_client_max = 2});
+  WaitForChange(jobs, Submit(jobs, "a"), 0, 10s);
+  Submit(jobs, "a");
+  Submit(jobs, "a");
+  EXPECT_EQ(jobs.Submit(OrderOf("a", "job")).status, Submitted::kClientRefused);
+  EXPECT_EQ(jobs.Submit(OrderOf("b", "job")).status, Submitted::kAccepted);
+  EXPECT_EQ(jobs.Submit(OrderOf("c", "job")).status, Submitted::kAccepted);
+  EXPECT_EQ(jobs.Submit(OrderOf("d", "job")).status, Submitted::kAccepted);
+  EXPECT_EQ(jobs.Submit(OrderOf("e", "job")).status, Submitted::kRefused);
+  WaitForAll(jobs);
+}
+
+TEST_F(Fairness, TurnsGoOnWhenTheServiceIsStartedAgain) {
+  {
+    Jobs jobs(store_, turns_, "design", InOrder(), {.workers = 0});
+    for (int i = 0; i < 3; ++i) Submit(jobs, "a");
+    Submit(jobs, "b");
+  }
+  Jobs jobs(store_, turns_, "design", InOrder(), {.workers = 1});
+  WaitForAll(jobs);
+  ASSERT_EQ(begun_.size(), 4u);
+  EXPECT_EQ(begun_[1], "b");
+}
+
+TEST_F(Fairness, AJobWithoutMemoryEndsWithAWordOfItsOwn) {
+  const Work hungry = [](const JobOrder&, const JobControl&) -> api::Parsed<api::Json> {
+    throw std::bad_alloc();
+  };
+  Jobs jobs(store_, turns_, "design", hungry, {.workers = 1});
+  const auto job = WaitForEnd(jobs, Submit(jobs, "a"), 10s);
+  EXPECT_EQ(job->status, JobStatus::kFailed);
+  EXPECT_NE(job->failure.find("memory"), std::string::npos) << job->failure;
+}
+
+TEST(Jobs, AreReadableByTheirOwnerOnly) {
+  const Workbench bench;
+  const catalog::JobStore store(bench.Path("jobs"), {});
+  using std::filesystem::perms;
+  for (const char* name : {"jobs", "jobs-wal"})
+    EXPECT_EQ(std::filesystem::status(bench.Path(name)).permissions(),
+              perms::owner_read | perms::owner_write)
+        << name;
+}
+
+}  // namespace
+}  // namespace plenum::server
