@@ -127,7 +127,7 @@ std::optional<Reply> RequestHandler::Refuse(Exchange& exchange) {
   const Access access = exchange.route->access;
   if (options_.needs_token && access != Access::kOpen) {
     auto token = Authorize(header, access, tokens_);
-    if (auto* refused = std::get_if<Reply>(&token)) return *std::move(refused);
+    if (auto* refused = std::get_if<Reply>(&token)) return std::move(*refused);
     exchange.user = std::get<Token>(token).name;
     exchange.client = std::get<Token>(token).id;
   }
@@ -251,7 +251,7 @@ Reply RequestHandler::WithinBudget(Reply reply) {
 // What waits may be open for an hour: it ends when its token is revoked.
 Produce RequestHandler::WhileAuthorized(Produce produce, const Exchange& exchange) {
   const auto given = exchange.header()("Authorization");
-  const Header header = [given](const char*) { return given; };
+  const Header header = [given](const char*) { return std::optional<std::string>(given); };
   return [this, produce = std::move(produce), header, access = exchange.route->access,
           waited = false](std::string& piece) mutable {
     if (waited && std::holds_alternative<Reply>(Authorize(header, access, tokens_)))

@@ -66,7 +66,7 @@ constexpr char kColumns[] =
     "id, kind, name, who, coalesce(key, ''), coalesce(digest, ''), revision, hash, model, "
     "model_version, model_hash, status, starts, cancel_asked, submitted_at, "
     "coalesce(ended_at, ''), progress, failure, number, crashes, crashes_max, crash, alone, "
-    "client, coalesce(ended, 0)";
+    "client, bytes";
 constexpr int kRequestColumn = 25;
 
 constexpr std::array kStatuses = {JobStatus::kQueued, JobStatus::kRunning, JobStatus::kDone,
@@ -100,6 +100,7 @@ JobRecord ReadRow(const SQLite::Statement& row) {
   job.crash = text(21);
   job.alone = row.getColumn(22).getInt() != 0;
   job.order.client = text(23);
+  // Only one of them had begun and so has a result: its size tells it from the others, all alike.
   job.ending = row.getColumn(24).getInt64();
   SetStatus(job, text(11));
   if (row.getColumnCount() > kRequestColumn) {

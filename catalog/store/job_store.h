@@ -45,7 +45,7 @@ struct JobRecord {
   JobStatus status = JobStatus::kQueued;
   std::string submitted_at;  // UTC, ISO 8601
   std::string ended_at;      // empty until then
-  std::int64_t ending = 0;   // the endings of all jobs are counted
+  std::int64_t ending = 0;   // of endings after as many starts, each has its own number
   int starts = 0;            // how often it was begun and not stopped in an orderly way
   int crashes = 0;           // how often its own computation ended the program
   int crashes_max = 2;       // after so many it has failed

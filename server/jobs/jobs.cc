@@ -56,7 +56,7 @@ Job ToJob(const catalog::JobRecord& record) {
   job.alone = record.alone;
   job.submitted_at = record.submitted_at;
   job.ended_at = record.ended_at;
-  job.revision = record.ending;
+  if (Ended(job.status)) job.revision = record.ending;
   job.catalogue_revision = record.order.revision;
   job.catalogue_hash = record.order.hash;
   return job;
