@@ -44,9 +44,9 @@ class Ranking {
   void Add(Found found);
   void Remove(std::size_t position);
   // The designs from a place on are not listed: their least bound.
-  double LeaveOutFrom(std::size_t position);     // of one that did not hold
-  Found* Find(const TieKey& key);        // null: not found yet
-  void Place(Found& found, int record);  // the search has come to its box
+  double LeaveOutFrom(std::size_t position);  // of one that did not hold
+  Found* Find(const TieKey& key);             // null: not found yet
+  void Place(Found& found, int record);       // the search has come to its box
 
   // In order; what ties with the last place comes behind it.
   std::vector<Found>& list() { return list_; }

@@ -72,6 +72,10 @@ std::optional<Cycle> CycleOf(const Problem& problem, const Design& design, const
   return cycle;
 }
 
+struct Worth {
+  double rise = 0.0, inflate = 0.0;
+};
+
 // Of the times of strokes, relative, what a millionth of the source pressure is worth where several
 // draw at once: of one that hardly reaches its pressure, since the others leave so little, that is
 // much. Two simulations of the same strokes may differ by that.
@@ -86,10 +90,6 @@ class WorthOfPressure {
   bool is_known() const { return known_.has_value(); }  // it was asked for
 
  private:
-  struct Worth {
-    double rise = 0.0, inflate = 0.0;
-  };
-
   const Worth& Known() {
     constexpr double kRaised = 1.0 + 1e-6;
     if (known_) return *known_;

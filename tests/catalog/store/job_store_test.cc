@@ -91,7 +91,7 @@ TEST_F(JobFile, RefusesWhatIsNoneOfIts) {
   std::filesystem::remove(path_);
   JobStore(path_, {});
   Sql("PRAGMA user_version = 9");
-  EXPECT_THAT(Refused(), HasSubstr("has schema 9, this program knows up to 2"));
+  EXPECT_THAT(Refused(), HasSubstr("has schema 9, this program knows up to 3"));
   EXPECT_THAT(Refusal([&] { JobStore(folder_ / "missing" / "jobs", {}); }),
               HasSubstr("the jobs cannot be kept"));
 }
