@@ -18,7 +18,7 @@ Json Asked() {
   leg["count"] = 4;
   leg["phase"] = {0, 0.25, 0.5, 0.75};
   leg["inflate_fraction"] = 0.25;
-  request["actuators"] = {leg};
+  request["actuators"] = Json::array({leg});
   request["duty"] = {{"frequency_hz", 0.2}, {"actuations", 200}};
   request["ranking"] = {{"count", 2}, {"proof", true}};
   return request;
