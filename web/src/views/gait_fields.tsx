@@ -60,7 +60,7 @@ export function GaitFields({ group, index }: { group: Group; index: number }) {
           range={[1, 100]}
         />
       </div>
-      {warning && <p class="warning">{warning}</p>}
+      {warning && <p class="muted">“Groups act”, under Duty, {warning}.</p>}
     </details>
   );
 }
