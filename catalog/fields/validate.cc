@@ -223,7 +223,9 @@ bool IsDate(std::string_view text) {
 }
 
 void CheckOffer(const Offer& offer, const std::string& which, Errors& errors) {
-  const auto fail = [&](std::string detail) { errors.push_back({"offers", which + detail}); };
+  const auto fail = [&](const std::string& detail) {
+    errors.push_back({"offers", which + detail});
+  };
   const auto check_text = [&](const char* what, const std::string& text, std::size_t shortest,
                               std::size_t longest) {
     Errors found;
@@ -248,7 +250,9 @@ void CheckOffer(const Offer& offer, const std::string& which, Errors& errors) {
 }
 
 void CheckDocument(const Document& document, const std::string& which, Errors& errors) {
-  const auto fail = [&](std::string detail) { errors.push_back({"documents", which + detail}); };
+  const auto fail = [&](const std::string& detail) {
+    errors.push_back({"documents", which + detail});
+  };
   const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
   const std::string& digest = document.sha256;
   if (document.link.empty() && digest.empty()) fail("needs a link or a sha256");

@@ -82,7 +82,8 @@ int AskAgain(void* patience_ms, int asked) {
 
 void WaitForLocks(SQLite::Database& db, std::chrono::milliseconds patience) {
   sqlite3_busy_handler(db.getHandle(), AskAgain,
-                       reinterpret_cast<void*>(static_cast<std::intptr_t>(patience.count())));
+                       reinterpret_cast<void*>(  // NOLINT(performance-no-int-to-ptr): a number
+                           static_cast<std::intptr_t>(patience.count())));
 }
 
 int SchemaVersion(SQLite::Database& db) {

@@ -74,9 +74,9 @@ template <class T>
 T SourceFrequency(const Problem& problem, const Candidate& candidate,
                   const EvaluationOf<T>& evaluation) {
   if (IsPumped(candidate.configuration)) {
-    const T by_duty = problem.frequency_hz *
-                      problem.parts.compressors[candidate.compressor.index].duty_max /
-                      evaluation.compressor_duty;
+    T by_duty = problem.frequency_hz *
+                problem.parts.compressors[candidate.compressor.index].duty_max /
+                evaluation.compressor_duty;
     if (candidate.configuration == Configuration::kCompressor) return by_duty;
     return std::min(by_duty, TurnFrequency(problem, evaluation));
   }

@@ -45,6 +45,7 @@ template <class T>
 std::vector<T> SolverMargins(const Problem& problem, const Candidate& candidate,
                              const OperatingPointOf<T>& point, const EvaluationOf<T>& evaluation) {
   std::vector<T> values;
+  values.reserve(evaluation.groups.size());
   for (int g = 0; g < static_cast<int>(evaluation.groups.size()); ++g)
     values.push_back(1.0 - evaluation.groups[g].inflate_time_s / InflateWindow(problem, g));
   for (const MarginOf<T>& margin : Margins(problem, candidate, point, evaluation))

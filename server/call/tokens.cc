@@ -119,7 +119,7 @@ std::vector<Token> ReadTokens(const fs::path& file) {
 std::string CreateToken(const fs::path& file, const std::string& name, Scope scope) {
   const Lock lock(file);
   auto tokens = ReadTokens(file);
-  const std::string text = "plenum_" + RandomHex(32);
+  std::string text = "plenum_" + RandomHex(32);
   tokens.push_back({RandomHex(4), name, scope, catalog::Sha256(text), Today()});
   WriteTokens(file, tokens);
   return text;

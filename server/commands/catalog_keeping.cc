@@ -43,7 +43,7 @@ std::vector<std::string> CheckJobsOf(const std::string& catalog) {
   if (!std::filesystem::exists(path)) return {};
   try {
     auto faults = catalog::CheckJobs(path);
-    for (auto& fault : faults) fault = path + ": " + fault;
+    for (auto& fault : faults) fault.insert(0, path + ": ");
     return faults;
   } catch (const catalog::StoreError& error) {
     if (error.fault() != catalog::StoreFault::kBusy) return {error.what()};

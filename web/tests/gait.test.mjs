@@ -19,7 +19,10 @@ test('the form asks for phases, one number or one an actuator', async () => {
   await page.getByText('Gait: when in the period').first().click();
   const phase = page.getByLabel('Phase', { exact: true }).first();
   await phase.fill('0, 0.5');
-  await page.getByText(/must be one number or one for each of/).first().waitFor();
+  await page
+    .getByText(/must be one number or one for each of/)
+    .first()
+    .waitFor();
   await page.getByLabel('Actuators', { exact: true }).first().fill('2');
   await page.getByText('These requirements can be searched.').waitFor();
   assert.equal(await phase.inputValue(), '0, 0.5');

@@ -69,7 +69,7 @@ std::string WhyNotGuaranteed(const optimizer::Problem& problem) {
   if (problem.configurations.contains(optimizer::Configuration::kDirectPump))
     return "is not for pumps without a reservoir yet: leave direct_pump out of "
            "/supply/configurations";
-  if (const std::string why = WhyGaitNotGuaranteed(problem); !why.empty()) return why;
+  if (std::string why = WhyGaitNotGuaranteed(problem); !why.empty()) return why;
   if (problem.groups.size() > 1 && problem.simultaneous)
     return "is for one group and for groups that take turns (/duty/simultaneous false): where "
            "groups inflate at once, a part that passes more may slow another group";

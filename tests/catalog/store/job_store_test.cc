@@ -89,7 +89,7 @@ TEST_F(JobFile, RefusesWhatIsNoneOfIts) {
   std::ofstream(path_) << "not a database, but long enough to be taken for something";
   EXPECT_THAT(Refused(), HasSubstr("not a database"));
   std::filesystem::remove(path_);
-  JobStore(path_, {});
+  { const JobStore made(path_, {}); }
   Sql("PRAGMA user_version = 9");
   EXPECT_THAT(Refused(), HasSubstr("has schema 9, this program knows up to 3"));
   EXPECT_THAT(Refusal([&] { JobStore(folder_ / "missing" / "jobs", {}); }),

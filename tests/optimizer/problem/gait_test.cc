@@ -85,12 +85,10 @@ TEST(GaitTest, AsTheVerifierHasIt) {
     const std::vector<double> turns_s = optimizer::TurnSeconds(problem, squads);
     const std::vector<verify::Unit> units = verify::UnitsOf(problem);
     ASSERT_EQ(squads.size(), units.size());
-    int begins = 0;
     for (std::size_t s = 0; s < squads.size(); ++s) {
       EXPECT_EQ(squads[s].group, units[s].group);
       EXPECT_EQ(squads[s].count, units[s].count);
       EXPECT_NEAR(turns_s[s], verify::UntilNext(problem, units, units[s]), 1e-8);
-      begins += static_cast<int>(units[s].begins.size());
     }
     const Meeting meeting = MeetingOf(problem);
     apart += meeting == Meeting::kApart;

@@ -176,6 +176,7 @@ TEST(CustomSizingTest, NoSmallerVolumeIsFeasible) {
 
 std::vector<MassElement> Elements(const std::vector<model::FlowElement>& elements) {
   std::vector<MassElement> result;
+  result.reserve(elements.size());
   for (const model::FlowElement& e : elements)
     result.push_back({e.sonic_conductance_m3_per_s_pa, e.critical_ratio, e.subsonic_index, 0.0});
   return result;

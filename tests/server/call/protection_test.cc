@@ -363,6 +363,7 @@ TEST(Connections, SayThatABodyMayCome) {
 TEST(Connections, AThousandClientsAreServed) {
   Service service;
   std::vector<std::unique_ptr<Raw>> clients;
+  clients.reserve(1000);
   for (int i = 0; i < 1000; ++i) clients.push_back(std::make_unique<Raw>(service.port()));
   for (const auto& client : clients)
     client->Send("GET /v1/limits HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");

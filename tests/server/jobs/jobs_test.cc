@@ -59,7 +59,7 @@ class JobsTest : public testing::Test {
   }
 
   static std::string Begin(Jobs& jobs) {
-    const std::string id = jobs.Submit(Order("long")).id;
+    std::string id = jobs.Submit(Order("long")).id;
     EXPECT_EQ(WaitForChange(jobs, id, 0, 10s)->status, JobStatus::kRunning);
     return id;
   }

@@ -165,6 +165,7 @@ template <typename Send>
 std::vector<std::pair<int, std::string>> AtOnce(int port, const Send& send) {
   std::vector<std::pair<int, std::string>> answers(8);
   std::vector<std::thread> threads;
+  threads.reserve(answers.size());
   for (auto& answer : answers)
     threads.emplace_back([&] {
       httplib::Client client("127.0.0.1", port);

@@ -49,6 +49,7 @@ TEST(Answers, ALongTableReachesSlowReadersByteForByte) {
   options.catalog = bench.catalog();
   Service service(options);
   std::vector<std::future<bool>> readers;
+  readers.reserve(4);
   for (int i = 0; i < 4; ++i)
     readers.push_back(std::async(std::launch::async, [&, i] {
       httplib::Client client("127.0.0.1", service.port());
