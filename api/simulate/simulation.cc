@@ -235,6 +235,13 @@ Parsed<Json> Run(const Json& request, const std::vector<catalog::Part>& parts, d
 
 }  // namespace
 
+bool NamesAnyPart(const Json& request) {
+  if (request.is_object() && request.contains("part")) return true;
+  return std::any_of(request.begin(), request.end(), [](const Json& child) {
+    return child.is_structured() && NamesAnyPart(child);
+  });
+}
+
 Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>& parts,
                            double seconds_max) {
   return Run(request, parts, seconds_max, nullptr);

@@ -10,6 +10,9 @@
 
 namespace plenum::api {
 
+// Whether a request names parts, which it does only by "part": else no catalogue is asked for.
+bool NamesAnyPart(const Json& request);
+
 // At most 200,000 samples and so much work; what stops early says so in `status` and `detail`.
 Parsed<Json> RunSimulation(const Json& request, const std::vector<catalog::Part>& parts,
                            double seconds_max = kSimulationSecondsMax);

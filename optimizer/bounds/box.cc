@@ -224,6 +224,7 @@ double Bounds::LeastBattery(const Box& box, const BatteryLoad& load, int& known)
 
 double Bounds::LeastWithLines(const Box& box, const BatteryLoad& load, double battery) const {
   const std::vector<LineChoice>& choices = *box.choices;
+  const double least_coil_s = LeastCoilSeconds(problem_);
   double coil_power_w = 0.0;
   for (const std::shared_ptr<const Line>& line : box.lines) coil_power_w += line->coil_power_w;
   double least = kUnlimited;
@@ -232,7 +233,7 @@ double Bounds::LeastWithLines(const Box& box, const BatteryLoad& load, double ba
     // More power never makes do with less of a battery.
     if (more_w > 0.0 && choice->objective + battery < least) {
       BatteryLoad more = load;
-      more.energy_j += problem_.actuations * LeastCoilSeconds(problem_) * more_w;
+      more.energy_j += problem_.actuations * least_coil_s * more_w;
       more.coil_power_w += more_w;
       int unknown = -1;
       battery = LeastBattery(box, more, unknown);

@@ -139,15 +139,6 @@ std::vector<double> DirectTurns(const Problem& problem) {
   return turns_s;
 }
 
-double DirectTurn(const Problem& problem, int group) {
-  const std::vector<Squad> squads = SquadsOf(problem);
-  const std::vector<double> turns_s = DirectTurns(problem);
-  double turn_s = kUnlimited;
-  for (std::size_t s = 0; s < squads.size(); ++s)
-    if (squads[s].group == group) turn_s = std::min(turn_s, turns_s[s]);
-  return turn_s;
-}
-
 model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidate, int g,
                                int count) {
   const Line& line = *candidate.lines[g];

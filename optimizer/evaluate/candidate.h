@@ -102,7 +102,6 @@ inline OperatingPoint LeastPoint(const Problem& problem, double reservoir_m3) {
 // Of each squad: it is full before this time after its command, its window or its turn; 0 where
 // two begin at once.
 std::vector<double> DirectTurns(const Problem& problem);
-double DirectTurn(const Problem& problem, int group);  // the shortest of its squads
 // The stroke of a squad of so many actuators of the group.
 model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidate, int group,
                                int count);

@@ -20,24 +20,6 @@ double Ahead(double from, double to) {
   return ahead > kSame && ahead < 1.0 - kSame ? ahead : 0.0;
 }
 
-struct Begin {
-  double at;  // of the period
-  int squad;
-};
-
-std::vector<Begin> BeginsOf(const Problem& problem, const std::vector<Squad>& squads) {
-  std::vector<Begin> begins;
-  for (int s = 0; s < static_cast<int>(squads.size()); ++s) {
-    const int strokes = problem.groups[squads[s].group].gait.strokes_per_period;
-    for (int k = 0; k < strokes; ++k)
-      begins.push_back({Ahead(0.0, squads[s].phase + static_cast<double>(k) / strokes), s});
-  }
-  std::sort(begins.begin(), begins.end(), [](const Begin& a, const Begin& b) {
-    return a.at != b.at ? a.at < b.at : a.squad < b.squad;
-  });
-  return begins;
-}
-
 bool WithoutPhases(const Problem& problem) {
   const Gait& first = problem.groups.front().gait;
   return std::all_of(problem.groups.begin(), problem.groups.end(), [&](const ActuatorGroup& group) {
@@ -78,6 +60,19 @@ std::vector<Squad> SquadsOf(const Problem& problem) {
     }
   }
   return squads;
+}
+
+std::vector<Begin> BeginsOf(const Problem& problem, const std::vector<Squad>& squads) {
+  std::vector<Begin> begins;
+  for (int s = 0; s < static_cast<int>(squads.size()); ++s) {
+    const int strokes = problem.groups[squads[s].group].gait.strokes_per_period;
+    for (int k = 0; k < strokes; ++k)
+      begins.push_back({Ahead(0.0, squads[s].phase + static_cast<double>(k) / strokes), s});
+  }
+  std::sort(begins.begin(), begins.end(), [](const Begin& a, const Begin& b) {
+    return a.at != b.at ? a.at < b.at : a.squad < b.squad;
+  });
+  return begins;
 }
 
 int FilledAtOnce(const Problem& problem, int group) {

@@ -20,6 +20,14 @@ struct Squad {
 // Of one group after another, by their phases.
 std::vector<Squad> SquadsOf(const Problem& problem);
 
+// When a stroke of a squad begins, as a share of the period in [0, 1).
+struct Begin {
+  double at = 0.0;
+  int squad = 0;
+};
+// Of all strokes of a period, in the order of time.
+std::vector<Begin> BeginsOf(const Problem& problem, const std::vector<Squad>& squads);
+
 // Most actuators of the group that fill at once.
 int FilledAtOnce(const Problem& problem, int group);
 

@@ -55,8 +55,9 @@ double MostBearable(ReservoirNeed need, double high_pa, double tolerance, Bearab
 
 PumpLoad MakePumpLoad(const Problem& problem, const std::vector<const Line*>& lines) {
   PumpLoad load{lines};
+  const bool burst = IsBurst(problem);
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
-    const double strokes = IsBurst(problem) ? 1.0 : problem.groups[g].gait.strokes_per_period;
+    const double strokes = burst ? 1.0 : problem.groups[g].gait.strokes_per_period;
     load.air_m3 += strokes * LeastAirPerStroke(problem, g, *lines[g]);
     load.air_to_target_m3 += AirToTarget(problem, g, lines[g]->chamber);
     load.coil_j += CoilEnergyPerCycle(problem, g, *lines[g], lines[g]->inflate_time_least_s);

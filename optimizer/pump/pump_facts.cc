@@ -60,12 +60,13 @@ PumpTables MakeTables(const model::CompressorCurve& curve, int pumps, const Divi
 PumpFacts MakeFacts(const Problem& problem, double highest_pa, PumpTables tables) {
   PumpFacts facts;
   facts.target_pa = kUnlimited;
+  const bool burst = IsBurst(problem);
   double rising_s = 0.0;
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const ActuatorGroup& group = problem.groups[g];
     facts.target_pa = std::min(facts.target_pa, RiseTarget(problem, group));
     const double rise_s = std::min(group.rise_time_max_s, InflateWindow(problem, g));
-    rising_s = IsBurst(problem) ? std::max(rising_s, rise_s) : rising_s + rise_s;
+    rising_s = burst ? std::max(rising_s, rise_s) : rising_s + rise_s;
   }
   facts.early_m3 = rising_s / tables.seconds_per_m3.front();
   facts.rates = {problem.ambient.pressure_pa, highest_pa, std::move(tables)};

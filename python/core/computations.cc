@@ -22,16 +22,8 @@ namespace {
 using catalog::Access;
 using PartList = std::vector<catalog::Part>;
 
-// A request names parts only by "part".
-bool NamesParts(const api::Json& json) {
-  if (json.is_object() && json.contains("part")) return true;
-  return std::any_of(json.begin(), json.end(), [](const api::Json& child) {
-    return child.is_structured() && NamesParts(child);
-  });
-}
-
 PartList PartsFor(const api::Json& request, const std::string& catalogue) {
-  return NamesParts(request) ? OpenCatalogue(catalogue, Access::kRead).List() : PartList();
+  return api::NamesAnyPart(request) ? OpenCatalogue(catalogue, Access::kRead).List() : PartList();
 }
 
 api::Json RunSimulation(const api::Json& request, const PartList& parts) {

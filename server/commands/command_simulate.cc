@@ -29,15 +29,6 @@ struct FileOptions {
   bool json = false;
 };
 
-// A file names parts only by "part"; without one the catalogue is not opened.
-bool NamesParts(const api::Json& json) {
-  if (json.is_object() && json.contains("part")) return true;
-  for (const auto& child : json) {
-    if (child.is_structured() && NamesParts(child)) return true;
-  }
-  return false;
-}
-
 struct SimulateOptions {
   std::string file, from, run, model = "after", rig;
   std::vector<std::string> measurement;
@@ -68,7 +59,8 @@ int Simulate(const SimulateOptions& options) {
     text = CurvesText(response);
   } else {
     std::vector<catalog::Part> parts;
-    if (NamesParts(request)) parts = OpenCatalog(options.catalog, catalog::Access::kRead).List();
+    if (api::NamesAnyPart(request))
+      parts = OpenCatalog(options.catalog, catalog::Access::kRead).List();
     response = ValueOrRefuse(api::RunSimulation(request, parts));
     text = ResponseText(response);
   }

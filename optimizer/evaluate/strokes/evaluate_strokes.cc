@@ -24,9 +24,6 @@ bool OpenAtWorst(const Problem& problem, const Candidate& candidate, const Line&
   return problem.guarantee && !candidate.at_best && !line.holds;
 }
 
-// The slowest of a group's squads counts, and the highest pressure.
-void Keep(double& most, double value) { most = std::max(most, value); }
-
 // Strokes of one squad alone on the regulator, and how long it draws.
 double RegulatedStroke(const Problem& problem, const Candidate& candidate, double source_pa,
                        const Squad& squad, Strokes& strokes) {
@@ -69,23 +66,6 @@ double RiseLimit(const Problem& problem, int g) {
 }
 
 enum class Alone { kYes, kNo, kTooSlow };
-
-// What pumps do for one stroke of a group, and the pressure that it ends at.
-struct Pumped {
-  double filled_pa, on_s, energy_j, air_m3;
-};
-
-Pumped PumpedFor(const model::ReservoirStrokeInput& input, const model::ReservoirStroke& stroke,
-                 double refill_s) {
-  const double volume_m3 = input.volume_rising_m3;
-  return {stroke.chamber_end_pa, stroke.pump_on_s + refill_s,
-          stroke.pump_energy_j + model::EnergyToFill(*input.compressor, volume_m3,
-                                                     stroke.reservoir_end_pa, input.stop_pa,
-                                                     input.temperature_k),
-          stroke.pump_air_m3 +
-              model::StandardVolume(volume_m3 * (input.stop_pa - stroke.reservoir_end_pa),
-                                    input.temperature_k)};
-}
 
 // Pressure at which a reservoir of `volume_m3` at the stop pressure and empty chambers come to
 // rest, with so much air (Pa·m³) added.
@@ -146,7 +126,7 @@ Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
   const double refill_s =
       model::PumpUpTime(*input.compressor, input.compressors, point.reservoir_rising_m3,
                         stroke.reservoir_end_pa, point.source_pa, input.temperature_k);
-  Pumped pumped = PumpedFor(input, stroke, refill_s);
+  Pumped pumped = PumpedFor(input, stroke, point.source_pa, refill_s);
   double over_s = std::max(stroke.inflate_s, input.open_s) + refill_s;
   if (OpenAtWorst(problem, candidate, *candidate.lines[g])) {
     const Pumped most = OpenPumped(problem, input, pumped);
@@ -161,18 +141,12 @@ Alone ReservoirStroke(const Problem& problem, const Candidate& candidate,
   return Alone::kYes;
 }
 
-// Of which nothing is known but that each valve that holds closes at the operating pressure.
-Strokes NoStrokes(const Problem& problem, double seconds) {
-  Strokes strokes;
-  strokes.rise_s.assign(problem.groups.size(), seconds);
-  strokes.inflate_s.assign(problem.groups.size(), seconds);
-  for (const ActuatorGroup& group : problem.groups)
-    strokes.filled_pa.push_back(group.chamber.operating_pressure_pa);
+Strokes NeverFilled(const Problem& problem) {
+  Strokes strokes = ToBeKept(problem);
+  strokes.rise_s.assign(problem.groups.size(), model::kNever);
+  strokes.inflate_s = strokes.rise_s;
   return strokes;
 }
-
-Strokes NeverFilled(const Problem& problem) { return NoStrokes(problem, model::kNever); }
-Strokes ToBeKept(const Problem& problem) { return NoStrokes(problem, 0.0); }
 
 // Whether all chambers, whatever their group, fill in the same way.
 bool FillAlike(const Candidate& candidate) {

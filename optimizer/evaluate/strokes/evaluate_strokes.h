@@ -16,10 +16,11 @@ inline bool StrokesMeet(const Problem& problem) {
 // `works` is false where a pressure is never reached, and where a bound shows that a limit on a
 // rise time is missed. One quadrature or one small integration per group where groups do not meet
 // on the source (a single group, or staggered strokes that end before the next begins), and one for
-// all that fill alike from a reservoir; FillTogether() behind a regulator; else the simulator. Of a
-// group with several squads the slowest strokes and the highest pressure count. Of a
-// tank without a regulator those of the last period, which is the slowest; of pumps without a
-// reservoir `works` is false, too, where a group is not full when its turn is over (candidate.h).
+// all that fill alike from a reservoir; FillTogether() behind a regulator and StrokesInTurns() out
+// of a reservoir, where they serve; else the simulator. Of a group with several squads the slowest
+// strokes and the highest pressure count. Of a tank without a regulator those of the last period,
+// which is the slowest; of pumps without a reservoir `works` is false, too, where a squad is not
+// full when its turn is over (candidate.h).
 Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point);
 

@@ -9,16 +9,17 @@ std::vector<Command> CommandsOf(const Problem& problem, const std::vector<Squad>
   const bool burst = IsBurst(problem);
   const double period_s = 1.0 / problem.frequency_hz;
   std::vector<Command> commands;
-  for (std::size_t s = 0; s < squads.size(); ++s) {
-    const int strokes = problem.groups[squads[s].group].gait.strokes_per_period;
-    for (int period = 0; period < (burst ? 1 : kPeriodsMax); ++period)
-      for (int k = 0; k < (burst ? 1 : strokes); ++k) {
-        const double share = std::fmod(squads[s].phase + static_cast<double>(k) / strokes, 1.0);
-        const double begin_s = burst ? 0.0 : (period + share) * period_s;
-        commands.push_back({begin_s, true, s, period});
-        commands.push_back({begin_s + InflateWindow(problem, squads[s].group), false, s, period});
-      }
-  }
+  const auto add = [&](double begin_s, int squad, int period) {
+    const auto s = static_cast<std::size_t>(squad);
+    commands.push_back({begin_s, true, s, period});
+    commands.push_back({begin_s + InflateWindow(problem, squads[s].group), false, s, period});
+  };
+  if (burst)
+    for (std::size_t s = 0; s < squads.size(); ++s) add(0.0, static_cast<int>(s), 0);
+  else
+    for (const auto& [at, squad] : BeginsOf(problem, squads))
+      for (int period = 0; period < kPeriodsMax; ++period)
+        add((period + at) * period_s, squad, period);
   std::sort(commands.begin(), commands.end());
   return commands;
 }

@@ -3,6 +3,7 @@
 #define PLENUM_OPTIMIZER_EVALUATE_STROKES_FILLING_COMMANDS_H_
 
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 #include "optimizer/problem/gait.h"
@@ -17,7 +18,7 @@ struct Command {
   std::size_t group;
   int period;
   bool operator<(const Command& other) const {
-    return time_s != other.time_s ? time_s < other.time_s : opens < other.opens;
+    return std::tie(time_s, opens, group) < std::tie(other.time_s, other.opens, other.group);
   }
 };
 

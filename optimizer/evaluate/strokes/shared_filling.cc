@@ -157,14 +157,12 @@ class SharedFilling {
 
   // The slowest strokes of each group, and the highest pressure.
   Strokes WorstOf(const std::vector<Filled>& filled) const {
-    Strokes strokes;
-    strokes.rise_s.assign(problem_.groups.size(), 0.0);
-    strokes.inflate_s = strokes.filled_pa = strokes.rise_s;
+    Strokes strokes = ToBeKept(problem_);
     strokes.works = true;
     for (const Filled& one : filled) {
-      strokes.rise_s[one.of] = std::max(strokes.rise_s[one.of], one.rise_s);
-      strokes.inflate_s[one.of] = std::max(strokes.inflate_s[one.of], one.inflate_s);
-      strokes.filled_pa[one.of] = std::max(strokes.filled_pa[one.of], one.filled_pa);
+      Keep(strokes.rise_s[one.of], one.rise_s);
+      Keep(strokes.inflate_s[one.of], one.inflate_s);
+      Keep(strokes.filled_pa[one.of], one.filled_pa);
       strokes.works = strokes.works && std::isfinite(one.inflate_s);
     }
     return strokes;

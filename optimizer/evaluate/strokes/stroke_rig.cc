@@ -70,7 +70,8 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
     rig.source = source;
   }
   const double period_s = 1.0 / problem.frequency_hz;
-  for (const auto& [g, count, phase] : SquadsOf(problem)) {
+  const std::vector<Squad> squads = SquadsOf(problem);
+  for (const auto& [g, count, phase] : squads) {
     const Line& line = *candidate.lines[g];
     model::GroupRig group;
     group.name = problem.groups[g].name;
@@ -81,20 +82,21 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
     group.close_at_operating = line.holds;
     group.initial_pressure_pa = problem.ambient.pressure_pa;
     group.effects = ActingEffects(problem.groups[g], candidate.configuration);
-    const int strokes = problem.groups[g].gait.strokes_per_period;
-    for (int k = 0; k < strokes; ++k) {
-      const double inflate_s = std::fmod(phase + static_cast<double>(k) / strokes, 1.0) * period_s;
-      const double after_s = inflate_s + InflateWindow(problem, g);
-      group.schedule.push_back({inflate_s, model::ValveState::kInflate});
-      group.schedule.push_back(
-          {open_tank ? after_s : std::fmod(after_s, period_s), model::ValveState::kDeflate});
-    }
+    rig.groups.push_back(std::move(group));
+  }
+  for (const auto& [at, squad] : BeginsOf(problem, squads)) {
+    const double inflate_s = at * period_s;
+    const double after_s = inflate_s + InflateWindow(problem, squads[squad].group);
+    std::vector<model::ValveCommand>& schedule = rig.groups[squad].schedule;
+    schedule.push_back({inflate_s, model::ValveState::kInflate});
+    schedule.push_back(
+        {open_tank ? after_s : std::fmod(after_s, period_s), model::ValveState::kDeflate});
+  }
+  for (model::GroupRig& group : rig.groups)
     std::sort(group.schedule.begin(), group.schedule.end(),
               [](const model::ValveCommand& a, const model::ValveCommand& b) {
                 return a.time_s < b.time_s;
               });
-    rig.groups.push_back(std::move(group));
-  }
   return rig;
 }
 
@@ -116,6 +118,15 @@ model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
       element.sonic_conductance_m3_per_s_pa *= wider;
   }
   return rig;
+}
+
+Strokes ToBeKept(const Problem& problem) {
+  Strokes strokes;
+  strokes.rise_s.assign(problem.groups.size(), 0.0);
+  strokes.inflate_s = strokes.rise_s;
+  for (const ActuatorGroup& group : problem.groups)
+    strokes.filled_pa.push_back(group.chamber.operating_pressure_pa);
+  return strokes;
 }
 
 model::SimulateOptions StrokeOptions(const Problem& problem) {

@@ -2,6 +2,7 @@
 #ifndef PLENUM_OPTIMIZER_EVALUATE_STROKES_STROKE_RIG_H_
 #define PLENUM_OPTIMIZER_EVALUATE_STROKES_STROKE_RIG_H_
 
+#include <algorithm>
 #include <vector>
 
 #include "model/simulate/simulate.h"
@@ -26,6 +27,11 @@ struct StrokesOf {
   double air_m3 = 0.0;                     // ANR, per cycle, all actuators
 };
 using Strokes = StrokesOf<double>;
+
+// Of which nothing is known but that each valve closes at the operating pressure or above. Of a
+// group's squads the slowest strokes and the highest pressure are kept.
+Strokes ToBeKept(const Problem& problem);
+inline void Keep(double& most, double value) { most = std::max(most, value); }
 
 model::Gas GasOf(Configuration configuration);
 

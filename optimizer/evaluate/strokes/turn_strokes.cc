@@ -20,14 +20,9 @@ struct Turn {
 std::vector<Turn> TurnsOf(const Problem& problem) {
   const double period_s = 1.0 / problem.frequency_hz;
   std::vector<Turn> turns;
-  for (const Squad& squad : SquadsOf(problem)) {
-    const int strokes = problem.groups[squad.group].gait.strokes_per_period;
-    for (int k = 0; k < strokes; ++k)
-      turns.push_back(
-          {squad, std::fmod(squad.phase + static_cast<double>(k) / strokes, 1.0) * period_s, 0.0});
-  }
-  std::sort(turns.begin(), turns.end(),
-            [](const Turn& a, const Turn& b) { return a.begin_s < b.begin_s; });
+  const std::vector<Squad> squads = SquadsOf(problem);
+  for (const auto& [at, squad] : BeginsOf(problem, squads))
+    turns.push_back({squads[squad], at * period_s, 0.0});
   for (std::size_t i = 0; i < turns.size(); ++i) {
     const bool last = i + 1 == turns.size();
     turns[i].until_next_s = last ? turns[0].begin_s + period_s - turns[i].begin_s
@@ -55,7 +50,7 @@ class Turns {
   }
 
   std::optional<Strokes> Run() {
-    // Above low_pa_ nothing is known of F(p) > p.
+    // The solution is below high_pa and not below low_pa.
     double high_pa = point_.source_pa, high_rise = Rise(high_pa);
     if (overlap_) return std::nullopt;
     if (!strokes_.works || high_rise >= -kRepeats * high_pa) return strokes_;
@@ -87,9 +82,7 @@ class Turns {
  private:
   // What the reservoir rises by in a period that begins with so much; sets strokes_ and overlap_.
   double Rise(double begin_pa) {
-    strokes_ = {};
-    strokes_.rise_s.assign(problem_.groups.size(), 0.0);
-    strokes_.inflate_s = strokes_.filled_pa = strokes_.rise_s;
+    strokes_ = ToBeKept(problem_);
     strokes_.works = true;
     double reservoir_pa = begin_pa;
     for (const Turn& turn : turns_) {
@@ -105,10 +98,9 @@ class Turns {
     const model::ReservoirStrokeInput input =
         MakeStrokeInput(problem_, candidate_, point_, g, turn.squad.count, start_pa);
     const model::ReservoirStroke stroke = model::FillFromReservoir(input);
-    const auto keep = [](double& most, double value) { most = std::max(most, value); };
-    keep(strokes_.rise_s[g], stroke.reached ? stroke.rise_s : model::kNever);
-    keep(strokes_.inflate_s[g], stroke.reached ? stroke.inflate_s : model::kNever);
-    keep(strokes_.filled_pa[g], stroke.chamber_end_pa);
+    Keep(strokes_.rise_s[g], stroke.reached ? stroke.rise_s : model::kNever);
+    Keep(strokes_.inflate_s[g], stroke.reached ? stroke.inflate_s : model::kNever);
+    Keep(strokes_.filled_pa[g], stroke.chamber_end_pa);
     if (!stroke.reached || stroke.inflate_s > InflateWindow(problem_, g)) {
       strokes_.works = false;
       return start_pa;
@@ -121,20 +113,15 @@ class Turns {
     const double end_pa = model::PressureAfterPumping(
         *input.compressor, input.compressors, input.volume_rising_m3, stroke.reservoir_end_pa,
         input.stop_pa, left_s, input.temperature_k);
-    const double full_s =
+    const double refill_s =
         end_pa < input.stop_pa
             ? left_s
             : model::PumpUpTime(*input.compressor, input.compressors, input.volume_rising_m3,
                                 stroke.reservoir_end_pa, end_pa, input.temperature_k);
-    strokes_.pump_on_s += times_ * (stroke.pump_on_s + full_s);
-    strokes_.pump_energy_j +=
-        times_ * (stroke.pump_energy_j +
-                  model::EnergyToFill(*input.compressor, input.volume_rising_m3,
-                                      stroke.reservoir_end_pa, end_pa, input.temperature_k));
-    strokes_.pump_air_m3 +=
-        times_ * (stroke.pump_air_m3 +
-                  model::StandardVolume(input.volume_rising_m3 * (end_pa - stroke.reservoir_end_pa),
-                                        input.temperature_k));
+    const Pumped pumped = PumpedFor(input, stroke, end_pa, refill_s);
+    strokes_.pump_on_s += times_ * pumped.on_s;
+    strokes_.pump_energy_j += times_ * pumped.energy_j;
+    strokes_.pump_air_m3 += times_ * pumped.air_m3;
     return end_pa;
   }
 
@@ -148,6 +135,17 @@ class Turns {
 };
 
 }  // namespace
+
+Pumped PumpedFor(const model::ReservoirStrokeInput& input, const model::ReservoirStroke& stroke,
+                 double end_pa, double refill_s) {
+  const double volume_m3 = input.volume_rising_m3;
+  return {stroke.chamber_end_pa, stroke.pump_on_s + refill_s,
+          stroke.pump_energy_j + model::EnergyToFill(*input.compressor, volume_m3,
+                                                     stroke.reservoir_end_pa, end_pa,
+                                                     input.temperature_k),
+          stroke.pump_air_m3 + model::StandardVolume(volume_m3 * (end_pa - stroke.reservoir_end_pa),
+                                                     input.temperature_k)};
+}
 
 model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candidate& candidate,
                                             const OperatingPoint& point, int g, int count,

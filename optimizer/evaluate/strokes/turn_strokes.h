@@ -19,6 +19,14 @@ namespace plenum::optimizer {
 std::optional<Strokes> StrokesInTurns(const Problem& problem, const Candidate& candidate,
                                       const OperatingPoint& point);
 
+// What pumps do for one stroke of a squad and to bring the reservoir to `end_pa` after it, in
+// `refill_s`, and the pressure that the stroke ends at.
+struct Pumped {
+  double filled_pa, on_s, energy_j, air_m3;
+};
+Pumped PumpedFor(const model::ReservoirStrokeInput& input, const model::ReservoirStroke& stroke,
+                 double end_pa, double refill_s);
+
 // A squad's stroke out of the candidate's reservoir that holds `start_pa`.
 model::ReservoirStrokeInput MakeStrokeInput(const Problem& problem, const Candidate& candidate,
                                             const OperatingPoint& point, int group, int count,
