@@ -24,6 +24,11 @@ double Pressure(const catalog::Part& row, const char* field, const model::Ambien
   return PaFromKpaGauge(Required(row, field), ambient);
 }
 
+// The mirror image of the deepest vacuum.
+double DeepestImagePa(const model::Ambient& ambient) {
+  return 2.0 * ambient.pressure_pa - model::kDeepestVacuumPa;
+}
+
 model::PartBasics Basics(const catalog::Part& row) {
   return {row.id, Required(row, "mass_kg"), M3FromMl(Required(row, "body_volume_ml")),
           Optional(row, "price_eur"), row.series};
@@ -59,6 +64,29 @@ model::Valve Valve(const catalog::Part& row, const model::Ambient& ambient) {
           .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient),
           .pressure_min_pa =
               PaFromKpaGauge(Optional(row, "pressure_min_kpa_gauge").value_or(0.0), ambient)};
+}
+
+// Of a vacuum pump over mirrored pressures (model/physics/chamber.h), from ambient up.
+std::optional<model::Compressor> VacuumPump(const catalog::Part& row,
+                                            const model::Ambient& ambient) {
+  const bool complete = row.numbers.contains("mass_kg") && row.numbers.contains("body_volume_ml");
+  if (!complete || !row.curve) return std::nullopt;
+  const double highest_pa = DeepestImagePa(ambient);
+  std::vector<double> pressure_pa, flow_m3_per_s, current_a;
+  const auto& points = row.curve->points;
+  for (auto point = points.rbegin(); point != points.rend(); ++point) {
+    pressure_pa.push_back(PaFromKpaGauge(-point->pressure_kpa_gauge, ambient));
+    flow_m3_per_s.push_back(M3PerSFromLPerMin(point->free_air_l_per_min));
+    current_a.push_back(point->current_a);
+  }
+  const double deepest_pa = PaFromKpaGauge(
+      -Optional(row, "vacuum_max_kpa_gauge").value_or(points.front().pressure_kpa_gauge), ambient);
+  return model::Compressor{.basics = Basics(row),
+                           .curve = {.free_air_m3_per_s = {pressure_pa, flow_m3_per_s},
+                                     .current_a = {pressure_pa, current_a},
+                                     .voltage_v = Required(row, "voltage_v"),
+                                     .pressure_max_pa = std::min(deepest_pa, highest_pa)},
+                           .duty_max = Optional(row, "duty_max").value_or(1.0)};
 }
 
 model::Compressor Compressor(const catalog::Part& row, const model::Ambient& ambient) {
@@ -164,7 +192,42 @@ model::Parts ToModelParts(const std::vector<catalog::Part>& rows, const model::A
     if (row.family == "regulator") parts.regulators.push_back(Regulator(row, ambient));
     if (row.family == "reservoir") parts.reservoirs.push_back(Reservoir(row, ambient));
     if (row.family == "reservoir") parts.tanks.push_back(Reservoir(row, ambient));
+    if (row.family == "vacuum_pump")
+      if (auto pump = VacuumPump(row, ambient)) parts.vacuum_pumps.push_back(*std::move(pump));
   }
+  return parts;
+}
+
+bool StandsVacuum(const catalog::Part& row) {
+  const auto text_is = [&](const char* field, std::string_view value) {
+    const auto found = row.texts.find(field);
+    return found != row.texts.end() && found->second.value == value;
+  };
+  if (row.family == "tubing") return !text_is("material", "silicone");
+  if (row.family == "reservoir") return !text_is("material", "PET");
+  if (row.family != "valve") return true;
+  if (row.texts.contains("vacuum_rated")) return text_is("vacuum_rated", "yes");
+  return !(Optional(row, "pressure_min_kpa_gauge").value_or(0.0) > 0.0);
+}
+
+model::Parts ToVacuumParts(const std::vector<catalog::Part>& rows, const model::Ambient& ambient) {
+  std::vector<catalog::Part> standing;
+  for (const catalog::Part& row : rows)
+    if (StandsVacuum(row)) standing.push_back(row);
+  model::Parts parts = ToModelParts(standing, ambient);
+  parts.compressors.clear();
+  parts.cylinders.clear();
+  parts.co2.clear();
+  parts.regulators.clear();
+  parts.tanks.clear();
+  const auto stand = [&](auto& of_family) {
+    for (auto& part : of_family) part.pressure_max_pa = DeepestImagePa(ambient);
+  };
+  stand(parts.tubing);
+  stand(parts.fittings);
+  stand(parts.valves);
+  stand(parts.reservoirs);
+  for (model::Valve& valve : parts.valves) valve.pressure_min_pa = ambient.pressure_pa;
   return parts;
 }
 

@@ -18,6 +18,16 @@ namespace plenum::api {
 // volume of a CO2 bottle → 0 (not known).
 model::Parts ToModelParts(const std::vector<catalog::Part>& rows, const model::Ambient& ambient);
 
+// Whether a part serves under vacuum: tubes that are no soft silicone and reservoirs that are no
+// PET bottles, which a pressure from outside flattens, and valves that say so (`vacuum_rated`) or,
+// where they do not say, switch without pressure at their inlet (direct-acting ones).
+bool StandsVacuum(const catalog::Part& row);
+
+// The same parts for evacuated actuators: those that stand vacuum, vacuum pumps in place of all
+// other sources, all pressures mirrored (model/physics/chamber.h). A vacuum pump without mass,
+// volume or curve is left out.
+model::Parts ToVacuumParts(const std::vector<catalog::Part>& rows, const model::Ambient& ambient);
+
 // The functions of a valve in the catalogue: "3/2", "2/2 pair", "proportional".
 model::ValveKind ValveKindFromFunction(std::string_view function);
 

@@ -47,20 +47,23 @@ Json RenderChoice(const optimizer::Choice& choice, const optimizer::Problem& pro
   return row;
 }
 
-Json RenderSettings(const optimizer::Settings& settings, const model::Ambient& ambient) {
+Json RenderSettings(const optimizer::Settings& settings, const optimizer::Problem& problem) {
   const auto& duty = settings.valve_duty;
-  Json source = Number(KpaGaugeFromPa(settings.source_pressure_pa, ambient));
-  return {{"source_pressure_kpa_gauge", source},
-          {"valve_duty",
-           duty.empty() ? Json(nullptr) : Number(*std::max_element(duty.begin(), duty.end()))},
-          {"valve_duty_groups", Numbers(duty, [](double share) { return share; })},
-          {"compressor_duty", OrNull(settings.compressor_duty)},
-          {"reservoir_volume_ml", settings.reservoir_volume_m3
-                                      ? Number(MlFromM3(*settings.reservoir_volume_m3))
-                                      : Json(nullptr)},
-          {"tank_fill_kpa_gauge", settings.tank_fill_pa
-                                      ? Number(KpaGaugeFromPa(*settings.tank_fill_pa, ambient))
-                                      : Json(nullptr)}};
+  const Json source = Number(optimizer::KpaGauge(problem, settings.source_pressure_pa));
+  Json rendered = {
+      {"source_pressure_kpa_gauge", source},
+      {"valve_duty",
+       duty.empty() ? Json(nullptr) : Number(*std::max_element(duty.begin(), duty.end()))},
+      {"valve_duty_groups", Numbers(duty, [](double share) { return share; })},
+      {"compressor_duty", OrNull(settings.compressor_duty)},
+      {"reservoir_volume_ml", settings.reservoir_volume_m3
+                                  ? Number(MlFromM3(*settings.reservoir_volume_m3))
+                                  : Json(nullptr)},
+      {"tank_fill_kpa_gauge", settings.tank_fill_pa
+                                  ? Number(optimizer::KpaGauge(problem, *settings.tank_fill_pa))
+                                  : Json(nullptr)}};
+  if (optimizer::Evacuated(problem)) rendered["vacuum_kpa_gauge"] = source;
+  return rendered;
 }
 
 Json RenderTotals(const optimizer::Totals& totals) {
@@ -127,7 +130,7 @@ Json RenderQuality(const Quality& quality, double mass_kg) {
 }
 
 Json RenderResponse(const optimizer::Design::Trace& trace, const optimizer::Problem& problem) {
-  const auto gauge = [&](double pa) { return KpaGaugeFromPa(pa, problem.ambient); };
+  const auto gauge = [&](double pa) { return optimizer::KpaGauge(problem, pa); };
   Json groups = Json::array();
   const std::vector<optimizer::Squad> squads = optimizer::SquadsOf(problem);
   for (std::size_t i = 0; i < trace.pressure_pa.size(); ++i) {
@@ -212,7 +215,7 @@ Quality QualityOf(const optimizer::Design& design, const Rows& rows) {
 }
 
 Json RenderFigures(const optimizer::Design& design, const optimizer::Problem& problem) {
-  Json settings = RenderSettings(design.settings, problem.ambient);
+  Json settings = RenderSettings(design.settings, problem);
   settings["power"] = RenderPower(design, problem);
   return {{"settings", std::move(settings)},
           {"totals", RenderTotals(design.totals)},

@@ -202,7 +202,8 @@ Json RenderRecord(const optimizer::ProofRecord& record, const model::Parts& part
 optimizer::ProofRecord ReadRecord(Reader& reader, const model::Parts& parts) {
   static const auto kConfigurations = NamesOf<Configuration>(
       {Configuration::kCylinder, Configuration::kCo2, Configuration::kCompressor,
-       Configuration::kMains, Configuration::kTank, Configuration::kDirectPump});
+       Configuration::kMains, Configuration::kTank, Configuration::kDirectPump,
+       Configuration::kVacuumPump, Configuration::kDirectVacuumPump});
   optimizer::ProofRecord record;
   record.count = reader.Integer("count", 1, 1'000'000);
   for (const Element& element : reader.List("plans", 0, optimizer::kConfigurations)) {

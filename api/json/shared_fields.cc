@@ -81,13 +81,19 @@ std::string ReadName(Reader& group, std::size_t index, std::vector<std::string>&
   return name;
 }
 
-model::CompressorCurve ReadPumpCurve(Reader& source, const model::Ambient& ambient) {
-  const Table table = ReadTable(source, "curve", 1, "pressure_kpa_gauge", {0, kGaugeMaxKpa},
-                                "free_air_l_per_min", {0, 1e6}, -1);
+model::CompressorCurve ReadPumpCurve(Reader& source, const model::Ambient& ambient, Side side) {
+  const bool vacuum = side == Side::kVacuum;
+  const Range pressures = vacuum ? Range{DeepestKpaGauge(ambient), 0} : Range{0, kGaugeMaxKpa};
+  Table table = ReadTable(source, "curve", 1, "pressure_kpa_gauge", pressures, "free_air_l_per_min",
+                          {0, 1e6}, vacuum ? +1 : -1);
+  if (vacuum) {
+    std::reverse(table.x.begin(), table.x.end());
+    std::reverse(table.y.begin(), table.y.end());
+  }
   model::CompressorCurve curve;
   if (!table.valid || std::isnan(ambient.pressure_pa)) return curve;
   std::vector<double> pressure_pa, flow_m3_per_s;
-  for (const double kpa : table.x) pressure_pa.push_back(PaFromKpaGauge(kpa, ambient));
+  for (const double kpa : table.x) pressure_pa.push_back(PaFromKpaGauge(kpa, ambient, side));
   for (const double flow : table.y) flow_m3_per_s.push_back(M3PerSFromLPerMin(flow));
   curve.pressure_max_pa = pressure_pa.back();
   curve.current_a = model::MonotoneCurve({pressure_pa.front()}, {0.0});

@@ -4,6 +4,7 @@
 
 #include "api/json/reader.h"
 #include "api/json/request_limits.h"
+#include "api/json/units.h"
 #include "model/flow/iso6358.h"
 #include "model/physics/air.h"
 #include "model/physics/compressor.h"
@@ -47,8 +48,10 @@ Table ReadTable(Reader& owner, std::string_view list, std::size_t least, std::st
 // The name of group `index`, "group 1", … where missing; must not be in `names`, to which it adds.
 std::string ReadName(Reader& group, std::size_t index, std::vector<std::string>& names);
 
-// "curve": [{ "pressure_kpa_gauge", "free_air_l_per_min" }] without currents.
-model::CompressorCurve ReadPumpCurve(Reader& source, const model::Ambient& ambient);
+// "curve": [{ "pressure_kpa_gauge", "free_air_l_per_min" }] without currents; of a vacuum pump up to
+// ambient, as images.
+model::CompressorCurve ReadPumpCurve(Reader& source, const model::Ambient& ambient,
+                                     Side side = Side::kPressure);
 
 }  // namespace plenum::api
 

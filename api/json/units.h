@@ -20,6 +20,22 @@ inline double PaFromKpaGauge(double kpa_gauge, const model::Ambient& ambient) {
 inline double KpaGaugeFromPa(double pressure_pa, const model::Ambient& ambient) {
   return (pressure_pa - ambient.pressure_pa) / kPaPerKpa;
 }
+
+// On which side of ambient the pressures of a rig are. Under vacuum the model is told their mirror
+// images (model/physics/chamber.h).
+enum class Side { kPressure, kVacuum };
+inline double PaFromKpaGauge(double kpa_gauge, const model::Ambient& ambient, Side side) {
+  return PaFromKpaGauge(side == Side::kVacuum ? -kpa_gauge : kpa_gauge, ambient);
+}
+inline double KpaGaugeFromPa(double pressure_pa, const model::Ambient& ambient, Side side) {
+  const double image_kpa = KpaGaugeFromPa(pressure_pa, ambient);
+  return side == Side::kVacuum ? -image_kpa : image_kpa;
+}
+// Gauge pressures down to the deepest vacuum.
+inline double DeepestKpaGauge(const model::Ambient& ambient) {
+  return (model::kDeepestVacuumPa - ambient.pressure_pa) / kPaPerKpa;
+}
+
 inline double PaFromKpaAbs(double kpa_abs) { return kpa_abs * kPaPerKpa; }
 inline double M3FromMl(double ml) { return ml * kM3PerMl; }
 inline double MlFromM3(double m3) { return m3 / kM3PerMl; }

@@ -1,5 +1,6 @@
 #include "api/simulate/group_chamber.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@ namespace {
 
 const Range kRestVolumeMl{0.01, 1e6};
 constexpr double kTableAgreement = 0.05;
+constexpr double kContractionMin = 0.01;  // least expansion ratio of an evacuated actuator
 
 // What else says the volume cannot stand beside `kind`.
 void Refuse(Reader& group, std::string_view kind, std::initializer_list<std::string_view> others) {
@@ -51,12 +53,39 @@ void ReadTableOf(Reader& group, const model::Ambient& ambient, double operating_
                                      Decimal(rest_ml) + " at ambient pressure");
 }
 
+// Its rest volume and ratio; a shape or a table says how an actuator swells.
+model::Chamber ReadEvacuated(Reader& group, const model::Ambient& ambient, double operating_kpa) {
+  model::Chamber chamber;
+  chamber.evacuated = true;
+  chamber.ambient_pressure_pa = ambient.pressure_pa;
+  chamber.operating_pressure_pa = PaFromKpaGauge(-operating_kpa, ambient);
+  if (HasShape(group) || group.Has("pressure_volume")) {
+    group.Fail("operating_pressure_kpa_gauge",
+               "is below ambient: give rest_volume_ml and expansion_ratio, at most 1, of an "
+               "evacuated actuator, not a shape or a table");
+    for (const char* field : {"rest_volume_ml", "expansion_ratio", "pressure_volume"})
+      group.Raw(field);
+    return chamber;
+  }
+  chamber.rest_volume_m3 = M3FromMl(group.Number("rest_volume_ml", kRestVolumeMl));
+  chamber.expansion_ratio = group.Number("expansion_ratio", {kContractionMin, 1});
+  return chamber;
+}
+
 }  // namespace
 
-model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient) {
+model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient, Vacuum vacuum) {
   model::Chamber chamber;
   chamber.ambient_pressure_pa = ambient.pressure_pa;
-  const double operating = group.Number("operating_pressure_kpa_gauge", {1, kOperatingGaugeMaxKpa});
+  const double deepest_kpa = DeepestKpaGauge(ambient);
+  const double operating = group.Number(
+      "operating_pressure_kpa_gauge",
+      {vacuum == Vacuum::kAllowed ? std::min(deepest_kpa, -1.0) : 1.0, kOperatingGaugeMaxKpa});
+  if (std::abs(operating) < 1.0)
+    group.Fail("operating_pressure_kpa_gauge",
+               "must be at least 1, or at most -1 for an actuator that is evacuated, not " +
+                   Decimal(operating));
+  if (operating < 0.0) return ReadEvacuated(group, ambient, operating);
   chamber.operating_pressure_pa = PaFromKpaGauge(operating, ambient);
 
   if (HasShape(group)) {

@@ -8,13 +8,18 @@
 
 namespace plenum::api {
 
+// Whether the actuator may be evacuated: its operating pressure is then below ambient, its
+// expansion ratio at most 1, and the chamber mirrored (model/physics/chamber.h).
+enum class Vacuum { kRefused, kAllowed };
+
 // "operating_pressure_kpa_gauge" and one of
 // - "rest_volume_ml" and "expansion_ratio",
 // - "pressure_volume", a table; the rest volume is that of the table at ambient pressure, and a
 //   stated one must agree with it within 5 %,
 // - "cylinder", "muscle", "pouch" or "body" (shape_reader.h); the volumes and their formula go to
 //   the RemarkRecorder of the thread.
-model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient);
+model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient,
+                           Vacuum vacuum = Vacuum::kRefused);
 
 }  // namespace plenum::api
 

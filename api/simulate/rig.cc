@@ -74,39 +74,51 @@ class LineBuilder {
   Line line_;
 };
 
-model::ReservoirSource ReadCompressor(Reader& source, const model::Ambient& ambient) {
+// What stands around a source.
+struct Surroundings {
+  const model::Ambient& ambient;
+  Side side;
+
+  Range Pressures() const {
+    return side == Side::kVacuum ? Range{DeepestKpaGauge(ambient), 0} : Range{0, kGaugeMaxKpa};
+  }
+  double Pa(double kpa_gauge) const { return PaFromKpaGauge(kpa_gauge, ambient, side); }
+};
+
+model::ReservoirSource ReadCompressor(Reader& source, const Surroundings& around) {
   model::ReservoirSource reservoir;
-  reservoir.compressor = ReadPumpCurve(source, ambient);
+  reservoir.compressor = ReadPumpCurve(source, around.ambient, around.side);
   reservoir.duty = source.Number("duty", {0, 1}, 1.0);
   reservoir.volume_m3 = M3FromMl(source.Number("reservoir_volume_ml", {1, 1e6}));
   reservoir.compressor_count = source.Integer("count", 1, kCountMax, 1);
   reservoir.initial_pressure_pa =
-      PaFromKpaGauge(source.Number("initial_pressure_kpa_gauge", {0, kGaugeMaxKpa}, 0.0), ambient);
-  if (const auto stop = source.OptionalNumber("stop_pressure_kpa_gauge", {0, kGaugeMaxKpa}))
-    reservoir.stop_pressure_pa = PaFromKpaGauge(*stop, ambient);
+      around.Pa(source.Number("initial_pressure_kpa_gauge", around.Pressures(), 0.0));
+  if (const auto stop = source.OptionalNumber("stop_pressure_kpa_gauge", around.Pressures()))
+    reservoir.stop_pressure_pa = around.Pa(*stop);
   return reservoir;
 }
 
-model::PumpSource ReadDirectPump(Reader& source, const model::Ambient& ambient) {
+model::PumpSource ReadDirectPump(Reader& source, const Surroundings& around) {
   model::PumpSource pumps;
-  pumps.compressor = ReadPumpCurve(source, ambient);
+  pumps.compressor = ReadPumpCurve(source, around.ambient, around.side);
   pumps.duty = source.Number("duty", {0, 1}, 1.0);
   pumps.compressor_count = source.Integer("count", 1, kCountMax, 1);
   return pumps;
 }
 
-model::ReservoirSource ReadTank(Reader& source, const model::Ambient& ambient) {
+model::ReservoirSource ReadTank(Reader& source, const Surroundings& around) {
   model::ReservoirSource tank;
   tank.volume_m3 = M3FromMl(source.Number("reservoir_volume_ml", {1, 1e6}));
   tank.initial_pressure_pa =
-      PaFromKpaGauge(source.Number("initial_pressure_kpa_gauge", {0, kGaugeMaxKpa}), ambient);
+      around.Pa(source.Number("initial_pressure_kpa_gauge", around.Pressures()));
   return tank;
 }
 
-model::RegulatedSource ReadRegulated(Reader& source, const model::Ambient& ambient) {
+model::RegulatedSource ReadRegulated(Reader& source, const Surroundings& around) {
   model::RegulatedSource regulated;
   regulated.pressure_pa =
-      PaFromKpaGauge(source.Number("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}), ambient);
+      around.Pa(source.Number("source_pressure_kpa_gauge", around.Pressures()));
+  if (around.side == Side::kVacuum) return regulated;
   if (auto regulator = source.OptionalObject("regulator")) {
     regulated.regulator = ReadPair(*regulator);
     regulator->Finish();
@@ -147,15 +159,20 @@ Line ReadLine(Reader& group, const std::vector<catalog::Part>& parts) {
   return builder.Take();
 }
 
-model::Source ReadSource(Reader& request, const model::Ambient& ambient) {
+model::Source ReadSource(Reader& request, const model::Ambient& ambient, Side side) {
   Reader source = request.Object("source");
-  const std::string kind =
-      source.Choice("kind", {"regulated", "compressor", "direct_pump", "tank", "none"});
+  const Surroundings around{ambient, side};
+  const std::string kind = source.Choice(
+      "kind",
+      side == Side::kVacuum
+          ? std::vector<std::string>{"regulated", "vacuum_pump", "direct_vacuum_pump", "none"}
+          : std::vector<std::string>{"regulated", "compressor", "direct_pump", "tank", "none"});
   model::Source result = model::NoSource{};
-  if (kind == "regulated") result = ReadRegulated(source, ambient);
-  if (kind == "compressor") result = ReadCompressor(source, ambient);
-  if (kind == "direct_pump") result = ReadDirectPump(source, ambient);
-  if (kind == "tank") result = ReadTank(source, ambient);
+  if (kind == "regulated") result = ReadRegulated(source, around);
+  if (kind == "compressor" || kind == "vacuum_pump") result = ReadCompressor(source, around);
+  if (kind == "direct_pump" || kind == "direct_vacuum_pump")
+    result = ReadDirectPump(source, around);
+  if (kind == "tank") result = ReadTank(source, around);
   if (!kind.empty()) source.Finish();
   return result;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "api/json/reader.h"
+#include "api/json/units.h"
 #include "catalog/fields/part.h"
 #include "model/simulate/simulate.h"
 
@@ -24,8 +25,10 @@ struct Line {
 Line ReadLine(Reader& group, const std::vector<catalog::Part>& parts);
 
 // "source": regulated, compressor, direct_pump (without a reservoir), tank (filled beforehand,
-// without a pump) or none.
-model::Source ReadSource(Reader& request, const model::Ambient& ambient);
+// without a pump) or none; of evacuated actuators regulated (a rail that stays), vacuum_pump,
+// direct_vacuum_pump or none.
+model::Source ReadSource(Reader& request, const model::Ambient& ambient,
+                         Side side = Side::kPressure);
 
 // A schedule and how long it lasts, where it says so.
 struct Schedule {

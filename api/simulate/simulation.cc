@@ -36,15 +36,16 @@ struct Initial {
   double temperature_k = 0.0;
 };
 
-Initial ReadInitial(Reader& request, const model::Ambient& ambient) {
+Initial ReadInitial(Reader& request, const model::Ambient& ambient, Side side) {
   auto reader = request.OptionalObject("initial");
   if (!reader) return {.pressure_pa = ambient.pressure_pa};
   const double lowest_kpa = -ambient.pressure_pa / kPaPerKpa;
-  const double gauge =
-      reader->Number("pressure_kpa_gauge", Above(lowest_kpa, kOperatingGaugeMaxKpa), 0.0);
+  const Range pressures = side == Side::kVacuum ? Range{DeepestKpaGauge(ambient), 0}
+                                                : Above(lowest_kpa, kOperatingGaugeMaxKpa);
+  const double gauge = reader->Number("pressure_kpa_gauge", pressures, 0.0);
   const std::optional<double> temperature_k = reader->OptionalNumber("temperature_k", {200, 400});
   reader->Finish();
-  return {PaFromKpaGauge(gauge, ambient), temperature_k.value_or(0.0)};
+  return {PaFromKpaGauge(gauge, ambient, side), temperature_k.value_or(0.0)};
 }
 
 model::GroupRig ReadGroup(const Element& element, std::size_t index, const Simulation& simulation,
@@ -56,11 +57,15 @@ model::GroupRig ReadGroup(const Element& element, std::size_t index, const Simul
   model::GroupRig group;
   group.name = ReadName(reader, index, names);
   group.count = reader.Integer("count", 1, kCountMax, 1);
-  group.chamber = ReadChamber(reader, simulation.rig.ambient);
+  group.chamber = ReadChamber(reader, simulation.rig.ambient, Vacuum::kAllowed);
   Line line = ReadLine(reader, parts);
   group.chamber.dead_volume_m3 = line.bore_volume_m3;
   group.fill = std::move(line.fill);
   group.exhaust = std::move(line.exhaust);
+  if (group.chamber.evacuated) {  // crossed the other way round
+    std::reverse(group.fill.begin(), group.fill.end());
+    std::reverse(group.exhaust.begin(), group.exhaust.end());
+  }
   const std::optional<Schedule> own = ReadSchedule(reader);
   if (!own && !shared)
     reader.Fail("valve", "is required: commands of the group or of the whole request, or a cycle");
@@ -70,6 +75,12 @@ model::GroupRig ReadGroup(const Element& element, std::size_t index, const Simul
   group.close_at_operating = reader.Bool("close_at_operating_pressure", false);
   group.effects = ReadEffects(reader, shared_effects);
   group.effects.insert(group.effects.end(), shared_effects.begin(), shared_effects.end());
+  if (group.chamber.evacuated && !group.effects.empty())
+    reader.Fail("effects", "are those of actuators under pressure, not of evacuated ones");
+  if (index > 0 && group.chamber.evacuated != simulation.rig.groups.front().chamber.evacuated)
+    reader.Fail("operating_pressure_kpa_gauge",
+                "must be on the same side of ambient pressure as that of the first group, whose "
+                "source is the same");
   duration_s = std::max(duration_s, own ? own->duration_s.value_or(0.0) : 0.0);
   reader.Finish();
   return group;
@@ -87,6 +98,11 @@ void ReadTimes(Reader& request, double duration_s, model::SimulateOptions& optio
     request.Fail("sample_hz", "must be > 0 and ≤ " + Decimal(sample_hz_max) + " with t_end_s " +
                                   Decimal(options.end_s) + " (at most " + Decimal(kSamplesMax) +
                                   " samples), not " + Decimal(options.sample_hz));
+}
+
+Side SideOf(const model::Rig& rig) {
+  return !rig.groups.empty() && rig.groups.front().chamber.evacuated ? Side::kVacuum
+                                                                     : Side::kPressure;
 }
 
 bool ActOnSupply(const model::Rig& rig) {
@@ -113,13 +129,14 @@ Parsed<Simulation> ParseSimulation(const Json& request, const std::vector<catalo
   for (const Element& element : reader.List("actuators", 1, kGroupsMax))
     simulation.rig.groups.push_back(ReadGroup(element, simulation.rig.groups.size(), simulation,
                                               parts, shared, effects, names, duration_s, errors));
-  simulation.rig.source = ReadSource(reader, simulation.rig.ambient);
+  const Side side = SideOf(simulation.rig);
+  simulation.rig.source = ReadSource(reader, simulation.rig.ambient, side);
   if (std::holds_alternative<model::PumpSource>(simulation.rig.source) &&
       ActOnSupply(simulation.rig))
     reader.FailAt("source/kind",
                   "must be other than direct_pump with an effect on the supply: pumps without a "
                   "reservoir have no pressure of their own that it could change");
-  const Initial initial = ReadInitial(reader, simulation.rig.ambient);
+  const Initial initial = ReadInitial(reader, simulation.rig.ambient, side);
   for (model::GroupRig& group : simulation.rig.groups) {
     group.initial_pressure_pa = initial.pressure_pa;
     group.initial_temperature_k = initial.temperature_k;
@@ -185,16 +202,21 @@ Json RenderPerformance(const std::vector<model::FullStroke>& strokes, const mode
 
 Json RenderResponse(const model::Response& response, const std::vector<model::FullStroke>& strokes,
                     const model::Rig& rig, Arrays* arrays) {
-  const auto gauge = [&](double pa) { return KpaGaugeFromPa(pa, rig.ambient); };
+  const Side side = SideOf(rig);
+  const auto gauge = [&](double pa) { return KpaGaugeFromPa(pa, rig.ambient, side); };
   Json groups = Json::array();
   for (const model::GroupResponse& group : response.groups) {
+    // What fills an evacuated actuator is the lack of air.
+    const bool vacuum = side == Side::kVacuum;
+    const double in_m3 = vacuum ? group.air_out_m3 : group.air_in_m3,
+                 out_m3 = vacuum ? group.air_in_m3 : group.air_out_m3;
     const bool measured = !group.reading_pa.empty();
     Json rendered = {{"name", group.name},
                      {"pressure_kpa_gauge",
                       Series(measured ? group.reading_pa : group.pressure_pa, arrays, gauge)},
                      {"volume_ml", Series(group.volume_m3, arrays, MlFromM3)},
-                     {"air_in_l_anr", Number(LFromM3(group.air_in_m3))},
-                     {"air_out_l_anr", Number(LFromM3(group.air_out_m3))}};
+                     {"air_in_l_anr", Number(LFromM3(in_m3))},
+                     {"air_out_l_anr", Number(LFromM3(out_m3))}};
     if (measured)
       rendered["actuator_pressure_kpa_gauge"] = Series(group.pressure_pa, arrays, gauge);
     if (!group.temperature_k.empty())

@@ -28,7 +28,8 @@ NumberField Ratio(std::string_view name) {
   return {name, 0, 0.95, true, "critical pressure ratio b"};
 }
 
-// What is kept, found, imported and exported, and waits for the search: these and the next.
+// Vacuum pumps are searched; ejectors and what follows are kept, found, imported and exported, and
+// wait for it.
 std::vector<Family> VacuumSources() {
   return {
       {"vacuum_pump",
@@ -127,7 +128,8 @@ std::vector<Family> FamiliesOfTheSearch() {
         kPrice,
         kPressureMax},
        {{"function", true, {"3/2", "2/2 pair", "proportional"}, "how one channel is served"},
-        {"port", true, {}, "thread of the port to the actuator"}}},
+        {"port", true, {}, "thread of the port to the actuator"},
+        {"vacuum_rated", false, {"yes", "no"}, "whether it works with a vacuum at its inlet"}}},
       {"compressor",
        {{"voltage_v", 1, 60, true, "voltage at which the curve was taken"},
         {"duty_max", 0.01, 1, true, "thermal limit on the share of time that it runs"},

@@ -31,8 +31,10 @@ double SlopeWhereChoked(const Series& series) {
 
 }  // namespace
 
-FlowTable::FlowTable(const Series& series)
-    : choked_flow_(series.choked_flow_m3_per_s_pa), choked_ratio_(series.choked_ratio) {
+FlowTable::FlowTable(const Series& series, double mirror_pa)
+    : choked_flow_(series.choked_flow_m3_per_s_pa),
+      choked_ratio_(series.choked_ratio),
+      mirror_pa_(mirror_pa) {
   cells_per_ratio_ = kCells / (1.0 - choked_ratio_);
   knots_[0] = {0.0, -SlopeAtEqualPressures(series) / cells_per_ratio_};
   knots_[kCells] = {1.0, -SlopeWhereChoked(series) / cells_per_ratio_};

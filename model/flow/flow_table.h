@@ -16,17 +16,23 @@ namespace plenum::model {
 class FlowTable {
  public:
   FlowTable() = default;
-  explicit FlowTable(const Series& series);  // of elements with a subsonic index of ½
+  // Of elements with a subsonic index of ½; `mirror_pa`: that of the chamber behind (chamber.h).
+  explicit FlowTable(const Series& series, double mirror_pa = 0.0);
 
   // As FlowAtRatio(series, ratio), m³/(s·Pa).
   double operator()(double ratio) const;
+  // m³/s ANR from a pressure down to another.
+  double Flow(double upstream_pa, double downstream_pa) const {
+    return (mirror_pa_ > 0.0 ? mirror_pa_ - downstream_pa : upstream_pa) *
+           (*this)(PressureRatio(mirror_pa_, upstream_pa, downstream_pa));
+  }
 
   // Where its pieces meet, from equal pressures (0) to the choked ratio (kCells).
   static constexpr int kCells = 48;
   double KnotRatio(int i) const { return 1.0 - i / cells_per_ratio_; }
 
  private:
-  double choked_flow_ = 0.0, choked_ratio_ = 0.0, cells_per_ratio_ = 0.0;
+  double choked_flow_ = 0.0, choked_ratio_ = 0.0, cells_per_ratio_ = 0.0, mirror_pa_ = 0.0;
   // 1 − c and its slope per cell where cells begin, from equal pressures to the choked ratio: each
   // cell is the cubic that both ends have in common.
   struct Knot {

@@ -24,6 +24,13 @@ inline constexpr double kLinearRatio = 0.999;
 // Ψ(r) = 1 for r ≤ b, else [1 − ((r−b)/(1−b))²]^m; r = p2/p1 in [0, 1]; 0 for r ≥ 1.
 double FlowFunction(double ratio, double critical_ratio, double subsonic_index = 0.5);
 
+// Downstream to upstream pressure of an element between two pressures, or between two images of
+// them (model/physics/chamber.h).
+inline double PressureRatio(double mirror_pa, double upstream_pa, double downstream_pa) {
+  return mirror_pa > 0.0 ? (mirror_pa - upstream_pa) / (mirror_pa - downstream_pa)
+                         : downstream_pa / upstream_pa;
+}
+
 // dΨ/dr; 0 where choked, −∞ at r = 1 for m < 1.
 double FlowFunctionSlope(double ratio, double critical_ratio, double subsonic_index = 0.5);
 

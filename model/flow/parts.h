@@ -128,7 +128,8 @@ struct Parts {
   std::vector<Co2Bottle> co2;
   std::vector<Regulator> regulators;
   std::vector<Reservoir> reservoirs;
-  std::vector<Reservoir> tanks;  // the same parts, filled beforehand
+  std::vector<Reservoir> tanks;          // the same parts, filled beforehand
+  std::vector<Compressor> vacuum_pumps;  // curves over mirrored pressures (chamber.h)
 };
 
 }  // namespace plenum::model

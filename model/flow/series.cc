@@ -178,4 +178,10 @@ double FlowAtRatio(const Series& series, double ratio) {
   return series.choked_flow_m3_per_s_pa * std::sqrt((1.0 - c) * (1.0 + c));
 }
 
+double FlowBetween(const Series& series, double mirror_pa, double upstream_pa,
+                   double downstream_pa) {
+  return (mirror_pa > 0.0 ? mirror_pa - downstream_pa : upstream_pa) *
+         FlowAtRatio(series, PressureRatio(mirror_pa, upstream_pa, downstream_pa));
+}
+
 }  // namespace plenum::model

@@ -47,6 +47,10 @@ RatioAndSlope RatioAndSlopeAtFlow(const Series& series, double flow_m3_per_s_pa)
 // 0 for r ≥ 1; to 1e-12 relative of q*.
 double FlowAtRatio(const Series& series, double ratio);
 
+// Flow from a pressure down to another, m³/s ANR; `mirror_pa`: as in model/physics/chamber.h.
+double FlowBetween(const Series& series, double mirror_pa, double upstream_pa,
+                   double downstream_pa);
+
 // c = √(1 − (q/q*)²) at ratio r, 0 where choked and 1 for r ≥ 1. In c the curve r is smooth from
 // end to end (m = ½) and keeps the digits that q loses close to q*.
 double CosineAtRatio(const Series& series, double ratio);

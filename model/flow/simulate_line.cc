@@ -157,6 +157,15 @@ T Line<T>::SubsonicFlow(const T& ratio) const {
 
 template <class T>
 T Line<T>::Flow(const T& upstream_pa, const T& downstream_pa, int regime) const {
+  const double mirror_pa = options_.mirror_pa;
+  return mirror_pa > 0.0
+             ? FlowBetween(T(mirror_pa - downstream_pa), T(mirror_pa - upstream_pa), regime)
+             : FlowBetween(upstream_pa, downstream_pa, regime);
+}
+
+// The same of pressures as they are.
+template <class T>
+T Line<T>::FlowBetween(const T& upstream_pa, const T& downstream_pa, int regime) const {
   const T head_pa = upstream_pa - cracking_pressure_pa_;
   if (elements_.empty() || !(head_pa > 0.0) || head_pa <= downstream_pa) return T(0.0);
   const T ratio = downstream_pa / head_pa;

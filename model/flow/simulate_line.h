@@ -40,6 +40,7 @@ std::vector<LineElement<T>> Lifted(std::span<const FlowElement> elements, const 
 
 struct LineOptions {
   double linear_ratio = kLinearRatio;
+  double mirror_pa = 0.0;  // above 0: pressures are images at half of it (chamber.h)
   double tolerance =
       0.0;  // of the flow, relative; from kCurveError (series_curve.h) on a curve is used
 };
@@ -70,6 +71,9 @@ class Line {
   static constexpr std::size_t kKinks = 3;
   std::array<double, kKinks> kinks() const { return {choked_ratio_, options_.linear_ratio, 1.0}; }
   T RatioOf(const T& upstream_pa, const T& downstream_pa) const {
+    if (options_.mirror_pa > 0.0)
+      return (options_.mirror_pa - upstream_pa) /
+             (options_.mirror_pa - downstream_pa - cracking_pressure_pa_);
     return downstream_pa / (upstream_pa - cracking_pressure_pa_);
   }
 
@@ -85,6 +89,7 @@ class Line {
     T pressure;
     double slope;  // d pressure / dq
   };
+  T FlowBetween(const T& upstream_pa, const T& downstream_pa, int regime) const;
   T SubsonicFlow(const T& ratio) const;
   double CosineOf(double ratio) const;
   T FlowWithCracking(const T& upstream_pa, const T& downstream_pa) const;

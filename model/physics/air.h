@@ -16,6 +16,9 @@ inline constexpr double kGasConstantCo2JPerKgK = 188.9;
 inline constexpr double kReferenceDensityCo2KgPerM3 =
     kReferencePressurePa / (kGasConstantCo2JPerKgK * kReferenceTemperatureK);
 
+// Absolute: deeper than any vacuum that parts of this size reach.
+inline constexpr double kDeepestVacuumPa = 1e3;
+
 struct Ambient {
   double pressure_pa = kReferencePressurePa;
   double temperature_k = kReferenceTemperatureK;

@@ -54,11 +54,20 @@ std::string WhyInvalid(const Chamber& chamber) {
   if (!(chamber.dead_volume_m3 >= 0.0) || !std::isfinite(chamber.dead_volume_m3)) {
     return Reason("dead_volume_m3", chamber.dead_volume_m3, "finite and at least 0");
   }
+  if (chamber.evacuated && !chamber.volume_curve.empty())
+    return "volume_curve is for actuators under pressure, not evacuated ones";
+  if (chamber.evacuated && !(chamber.operating_pressure_pa < MirrorPa(chamber)))
+    return Reason("operating_pressure_pa (mirrored)", chamber.operating_pressure_pa,
+                  "below twice ambient_pressure_pa");
   if (!chamber.volume_curve.empty()) return WhyCurveInvalid(chamber);
   if (!positive(chamber.rest_volume_m3)) {
     return Reason("rest_volume_m3", chamber.rest_volume_m3, "positive and finite");
   }
-  if (!(chamber.expansion_ratio >= 1.0) || !std::isfinite(chamber.expansion_ratio)) {
+  if (chamber.evacuated && !(chamber.expansion_ratio > 0.0 && chamber.expansion_ratio <= 1.0)) {
+    return Reason("expansion_ratio", chamber.expansion_ratio, "above 0 and at most 1");
+  }
+  if (!chamber.evacuated &&
+      (!(chamber.expansion_ratio >= 1.0) || !std::isfinite(chamber.expansion_ratio))) {
     return Reason("expansion_ratio", chamber.expansion_ratio, "finite and at least 1");
   }
   return {};
@@ -77,12 +86,25 @@ double VolumeSlope(const Chamber& chamber, double pressure_pa) {
                                       : chamber.volume_curve.Slope(pressure_pa);
 }
 
+Chamber Unmirrored(Chamber chamber) {
+  if (!chamber.evacuated) return chamber;
+  chamber.operating_pressure_pa = MirrorPa(chamber) - chamber.operating_pressure_pa;
+  chamber.evacuated = false;
+  return chamber;
+}
+
 double Content(const Chamber& chamber, double pressure_pa) {
-  return pressure_pa * Volume(chamber, pressure_pa);
+  return (pressure_pa - MirrorPa(chamber)) * Volume(chamber, pressure_pa);
 }
 
 double ContentSlope(const Chamber& chamber, double pressure_pa) {
-  return Volume(chamber, pressure_pa) + pressure_pa * VolumeSlope(chamber, pressure_pa);
+  return Volume(chamber, pressure_pa) +
+         (pressure_pa - MirrorPa(chamber)) * VolumeSlope(chamber, pressure_pa);
+}
+
+LinearContent LinearContentSlope(const Chamber& chamber) {
+  const double slope = LinearSlope(chamber);
+  return {Volume(chamber, 0.0) - slope * MirrorPa(chamber), 2.0 * slope};
 }
 
 }  // namespace plenum::model

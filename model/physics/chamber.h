@@ -15,6 +15,13 @@ namespace plenum::model {
 // ε = 1 is a rigid or blocked actuator. Valid: V0 > 0, ε ≥ 1, p_op > p_a; a table starts at or
 // below p_a, ends at or above p_op, pressures strictly rising, volumes > 0 and not falling (so that
 // d(pV)/dp > 0 and the pressure is a function of the gas inside).
+//
+// Of an evacuated actuator all pressures, here and of whatever empties it, are told as their mirror
+// images at ambient, P = 2·p_a − p: the deeper the vacuum the higher P, "to inflate" is to
+// evacuate, and a vacuum pump is a compressor that delivers what it takes in. What is filled is
+// then the lack of gas; every order of pressures, volumes and flows is that of pressure, and only
+// two laws change: the gas inside, (2·p_a − P)·V, and the flow (MirrorPa below). Valid: 0 < ε ≤ 1,
+// the linear law, p_a < P_op < 2·p_a.
 struct Chamber {
   double rest_volume_m3 = 0.0;
   double expansion_ratio = 1.0;
@@ -22,6 +29,7 @@ struct Chamber {
   double ambient_pressure_pa = kReferencePressurePa;
   double dead_volume_m3 = 0.0;  // rigid, at the actuator
   MonotoneCurve volume_curve;   // absolute Pa → m³; empty: the linear law
+  bool evacuated = false;
   bool operator==(const Chamber&) const = default;
 };
 
@@ -32,9 +40,24 @@ std::string WhyInvalid(const Chamber& chamber);
 double Volume(const Chamber& chamber, double pressure_pa);
 double VolumeSlope(const Chamber& chamber, double pressure_pa);  // dV/dp, m³/Pa
 
-// p·V(p) in Pa·m³, what the mass balance counts, and its slope W(p) = V + p·dV/dp in m³.
+// 2·p_a, what pressures are mirrored at, or 0. An element that passes q(p_1, p_2) from p_1 down to
+// p_2 passes q(M − P_2, M − P_1) from the image P_1 down to P_2.
+inline double MirrorPa(const Chamber& chamber) {
+  return chamber.evacuated ? 2.0 * chamber.ambient_pressure_pa : 0.0;
+}
+// The same chamber with its pressures as they are.
+Chamber Unmirrored(Chamber chamber);
+
+// p·V(p) in Pa·m³, what the mass balance counts, and its slope W(p) = V + p·dV/dp in m³. Of an
+// evacuated one −(M − P)·V(P) and W(P) = V − (M − P)·dV/dP.
 double Content(const Chamber& chamber, double pressure_pa);
 double ContentSlope(const Chamber& chamber, double pressure_pa);
+
+// W(p) = a + b·p of the linear law.
+struct LinearContent {
+  double a = 0.0, b = 0.0;  // m³, m³/Pa
+};
+LinearContent LinearContentSlope(const Chamber& chamber);
 
 }  // namespace plenum::model
 

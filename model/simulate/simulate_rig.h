@@ -83,6 +83,11 @@ struct PumpSource {
 
 using Source = std::variant<NoSource, RegulatedSource, ReservoirSource, DrivenSource, PumpSource>;
 
+// Evacuated actuators (chamber.h): all groups of a rig are, or none. Source and initial pressures
+// are then mirror images, too, elements stand in the order crossed from the actuator to the source
+// (`fill`) and from the surroundings to the actuator (`exhaust`), and what a pump delivers is what
+// it takes in. The gas inside counts as a lack of it, below 0. Effects and inlet sensors have no
+// meaning there.
 struct Rig {
   Ambient ambient;
   Gas gas = Gas::kAir;

@@ -96,6 +96,8 @@ std::string WhyGroupInvalid(const GroupRig& group, std::size_t index, const Ambi
   };
   check.Require(holds_inlet(group.fill) && holds_inlet(group.exhaust), "inlet_after",
                 static_cast<double>(group.inlet_after), "at most the element count of the line");
+  if (group.chamber.evacuated && (!group.effects.empty() || group.inlet_after > 0))
+    check.Fails("chamber.evacuated", "goes with no effects and no inlet sensor");
   CheckSchedule(group, check);
   return check.reason();
 }
@@ -172,6 +174,8 @@ std::string WhyInvalid(const Rig& rig) {
   for (std::size_t i = 0; i < rig.groups.size(); ++i) {
     std::string reason = WhyGroupInvalid(rig.groups[i], i, rig.ambient);
     if (!reason.empty()) return reason;
+    if (rig.groups[i].chamber.evacuated != rig.groups[0].chamber.evacuated)
+      return "groups[" + std::to_string(i) + "].chamber.evacuated: one for all groups of a rig";
     if (!std::holds_alternative<PumpSource>(rig.source)) continue;
     for (const Effect& effect : rig.groups[i].effects)
       if (effect.spec->place == EffectPlace::kSupply)

@@ -23,6 +23,42 @@ double Delivery(const PumpStrokeInput& in, double pressure_pa) {
   return in.compressors * flow(std::max(flow.front(), pressure_pa));
 }
 
+// Where a function that changes its sign between two values does.
+template <class Function>
+double RootIn(const Function& f, double low, double high) {
+  boost::uintmax_t evaluations_max = kEvaluationsMax;
+  const auto bracket = boost::math::tools::toms748_solve(
+      f, low, high, boost::math::tools::eps_tolerance<double>(kRootBits), evaluations_max);
+  return 0.5 * (bracket.first + bracket.second);
+}
+
+// The chamber's pressure while one between pumps and valves is `node_pa` and so much flows.
+double ChamberBehind(const PumpStrokeInput& in, double node_pa, double flow) {
+  const double choked = in.fill->choked_flow_m3_per_s_pa;
+  const double mirror_pa = MirrorPa(*in.chamber);
+  if (!(mirror_pa > 0.0))
+    return flow < choked * node_pa ? node_pa * RatioAtFlow(*in.fill, flow / node_pa) : 0.0;
+  // The flow rises with the pressure in the chamber, p·F(s/p).
+  const double sink_pa = mirror_pa - node_pa, choked_pa = sink_pa / in.fill->choked_ratio;
+  if (flow >= choked * choked_pa) return mirror_pa - flow / choked;
+  const auto surplus = [&](double p) { return p * FlowAtRatio(*in.fill, sink_pa / p) - flow; };
+  return mirror_pa - RootIn(surplus, sink_pa, choked_pa);
+}
+
+// And where the line is no longer choked.
+double ChokedUntil(const PumpStrokeInput& in) {
+  const double mirror_pa = MirrorPa(*in.chamber);
+  if (!(mirror_pa > 0.0))
+    return in.fill->choked_ratio * NodeBehindPumps(in, in.from_pa).pressure_pa;
+  const auto beyond = [&](double p) {
+    return (mirror_pa - NodeBehindPumps(in, p).pressure_pa) / (mirror_pa - p) -
+           in.fill->choked_ratio;
+  };
+  return beyond(in.from_pa) < 0.0 && beyond(in.operating_pa) > 0.0
+             ? RootIn(beyond, in.from_pa, in.operating_pa)
+             : in.from_pa;
+}
+
 // The chamber's pressures on the way at which the flow changes its law: where the line is no longer
 // choked, and where the pressure in front of it passes a point of the pump's tables.
 std::vector<double> Borders(const PumpStrokeInput& in) {
@@ -30,11 +66,10 @@ std::vector<double> Borders(const PumpStrokeInput& in) {
   const auto add = [&](double p) {
     if (p > in.from_pa && p < in.operating_pa) borders.push_back(p);
   };
-  add(in.fill->choked_ratio * NodeBehindPumps(in, in.from_pa).pressure_pa);
+  add(ChokedUntil(in));
   const auto add_node = [&](double node_pa) {
-    const double flow = Delivery(in, node_pa) / (in.count * node_pa);
-    if (flow > 0.0 && flow < in.fill->choked_flow_m3_per_s_pa)
-      add(node_pa * RatioAtFlow(*in.fill, flow));
+    const double flow = Delivery(in, node_pa) / in.count;
+    if (flow > 0.0) add(ChamberBehind(in, node_pa, flow));
   };
   add_node(HighestPressure(*in.compressor));
   for (const MonotoneCurve* table : {&in.compressor->free_air_m3_per_s, &in.compressor->current_a})
@@ -61,7 +96,7 @@ PumpNode NodeBehindPumps(const PumpStrokeInput& in, double chamber_pa) {
   const double highest_pa = HighestPressure(*in.compressor);
   if (!(chamber_pa < highest_pa)) return {chamber_pa, 0.0};
   const auto taken = [&](double node_pa) {
-    return in.count * node_pa * FlowAtRatio(*in.fill, chamber_pa / node_pa);
+    return in.count * FlowBetween(*in.fill, MirrorPa(*in.chamber), node_pa, chamber_pa);
   };
   const auto surplus = [&](double node_pa) { return Delivery(in, node_pa) - taken(node_pa); };
   const double at_chamber = surplus(chamber_pa), at_highest = surplus(highest_pa);

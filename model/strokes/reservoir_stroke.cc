@@ -35,7 +35,10 @@ class Stroke {
         content_per_volume_(kReferencePressurePa * input.temperature_k / kReferenceTemperatureK) {}
 
   double Flow(double source_pa, double p) const {
-    return source_pa * (*in_.fill)(std::min(p / source_pa, 1.0 - kEqual));
+    const double mirror_pa = MirrorPa(*in_.chamber);
+    const double from_pa = mirror_pa > 0.0 ? mirror_pa - p : source_pa;
+    const double to_pa = mirror_pa > 0.0 ? mirror_pa - source_pa : p;
+    return from_pa * (*in_.fill)(std::min(to_pa / from_pa, 1.0 - kEqual));
   }
 
   // Whether the pumps cover the draw of a full reservoir.
@@ -69,16 +72,16 @@ double Integral(const Function& f, double from, double to) {
   return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(f, from, to, 12, 1e-9);
 }
 
-// The values of u = √(1 − p/p_s) from which on a fill out of a full reservoir is smooth, in order:
+// The values of u = √(1 − r) from which on a fill out of a full reservoir is smooth, in order:
 // where the pieces of the line's table and of a measured volume meet.
 std::vector<double> Panels(const ReservoirStrokeInput& in, double first, double last) {
   std::vector<double> borders{first, last};
-  const auto add = [&](double p) {
-    const double u = std::sqrt(std::max(0.0, 1.0 - p / in.stop_pa));
+  const auto add = [&](double ratio) {
+    const double u = std::sqrt(std::max(0.0, 1.0 - ratio));
     if (u > first && u < last) borders.push_back(u);
   };
-  for (int i = 1; i <= FlowTable::kCells; ++i) add(in.fill->KnotRatio(i) * in.stop_pa);
-  for (double p : in.chamber->volume_curve.x()) add(p);
+  for (int i = 1; i <= FlowTable::kCells; ++i) add(in.fill->KnotRatio(i));
+  for (double p : in.chamber->volume_curve.x()) add(p / in.stop_pa);
   std::sort(borders.begin(), borders.end());
   return borders;
 }
@@ -89,8 +92,9 @@ double Lead(const ReservoirStrokeInput& in, double p) {
   const double slope = ContentSlope(*in.chamber, p);
   const double share = slope / (in.count * slope + in.volume_rising_m3);
   const double flow = share * in.compressors * Delivery(*in.compressor, p);
-  const double flow_per_root = p * (*in.fill)(1.0 - 1e-8) / 1e-4;
-  return p * std::pow(flow / flow_per_root, 2);
+  const double head_pa = std::abs(p - MirrorPa(*in.chamber));
+  const double flow_per_root = head_pa * (*in.fill)(1.0 - 1e-8) / 1e-4;
+  return head_pa * std::pow(flow / flow_per_root, 2);
 }
 
 // Whether the line no longer holds reservoir and chambers apart. Explicit steps would have to be
@@ -134,18 +138,25 @@ bool FillTogether(const ReservoirStrokeInput& in, State& y, double from, double 
 }
 
 // The rest out of a full reservoir whose pumps cover the draw; they then do to the end, since the
-// draw only falls. With p = p_s·(1 − u²) the integrand is smooth up to equal pressures.
+// draw only falls. With r = 1 − u², p = r·p_s, the integrand is smooth up to equal pressures. Of an
+// evacuated chamber r = p_s/p of the pressures as they are.
 bool FillFromFull(const ReservoirStrokeInput& in, State& y, double from, double to) {
   if (to > in.stop_pa) return false;
   constexpr double kLast = 1e-4;  // u from which on the integrand is that of equal pressures
   const double content_per_volume =
       kReferencePressurePa * in.temperature_k / kReferenceTemperatureK;
+  const double mirror_pa = MirrorPa(*in.chamber);
   const auto seconds_per_u = [&](double u) {
     const double ratio = 1.0 - u * u;
-    return 2.0 * u * ContentSlope(*in.chamber, ratio * in.stop_pa) /
-           (content_per_volume * (*in.fill)(ratio));
+    const double p =
+        mirror_pa > 0.0 ? mirror_pa - (mirror_pa - in.stop_pa) / ratio : ratio * in.stop_pa;
+    const double slope = ContentSlope(*in.chamber, p) / (mirror_pa > 0.0 ? ratio : 1.0);
+    return 2.0 * u * slope / (content_per_volume * (*in.fill)(ratio));
   };
-  const double begin = std::sqrt(1.0 - from / in.stop_pa), end = std::sqrt(1.0 - to / in.stop_pa);
+  const auto u_of = [&](double p) {
+    return std::sqrt((in.stop_pa - p) / (mirror_pa > 0.0 ? mirror_pa - p : in.stop_pa));
+  };
+  const double begin = u_of(from), end = u_of(to);
   if (begin > kLast) {
     const std::vector<double> borders = Panels(in, std::max(end, kLast), begin);
     for (std::size_t i = 1; i < borders.size(); ++i)

@@ -221,18 +221,14 @@ class ContentSlopeLaw {
  public:
   explicit ContentSlopeLaw(const Chamber& chamber)
       : chamber_(chamber), linear_(chamber.volume_curve.empty()) {
-    if (!linear_) return;
-    volume_at_zero_ = Volume(chamber, 0.0);
-    volume_slope_ = VolumeSlope(chamber, 0.0);
+    if (linear_) law_ = LinearContentSlope(chamber);
   }
   double operator()(double p) const {
-    return linear_ ? volume_at_zero_ + 2.0 * volume_slope_ * p : ContentSlope(chamber_, p);
+    return linear_ ? law_.a + law_.b * p : ContentSlope(chamber_, p);
   }
   // ∫ W/p dp from p_1 to p_2 within one piece.
   double LogIntegral(double p_1, double p_2) const {
-    if (linear_) {
-      return volume_at_zero_ * std::log(p_2 / p_1) + 2.0 * volume_slope_ * (p_2 - p_1);
-    }
+    if (linear_) return law_.a * std::log(p_2 / p_1) + law_.b * (p_2 - p_1);
     return GaussLegendre(std::log(p_1), std::log(p_2),
                          [this](double y) { return ContentSlope(chamber_, std::exp(y)); });
   }
@@ -240,8 +236,7 @@ class ContentSlopeLaw {
  private:
   const Chamber& chamber_;
   bool linear_;
-  double volume_at_zero_ = 0.0;
-  double volume_slope_ = 0.0;
+  LinearContent law_;
 };
 
 // Content (Pa·m³) that 1 m³ ANR makes at this temperature.
@@ -265,10 +260,9 @@ double PressureAtRatio(const Chamber& chamber, double reservoir_m3, int count, d
   return p;
 }
 
-}  // namespace
-
-double FillTime(const Series& fill, const Chamber& chamber, double source_pa, double from_pa,
-                double to_pa, double temperature_k, double flow_max_m3_per_s) {
+// Out of a source above the chamber's pressure.
+double FillOutOf(const Series& fill, const Chamber& chamber, double source_pa, double from_pa,
+                 double to_pa, double temperature_k, double flow_max_m3_per_s) {
   if (from_pa >= to_pa) return 0.0;
   if (to_pa > source_pa || !(flow_max_m3_per_s > 0.0)) return kNever;
   const double flow = std::min(fill.choked_flow_m3_per_s_pa, flow_max_m3_per_s / source_pa);
@@ -296,33 +290,54 @@ double FillTime(const Series& fill, const Chamber& chamber, double source_pa, do
   return integral / ContentPerStandardVolume(temperature_k);
 }
 
-double EmptyTime(const Series& exhaust, const Chamber& chamber, double from_pa, double to_pa,
-                 double temperature_k) {
+// Into a sink below the chamber's pressure.
+double EmptyInto(const Series& exhaust, const Chamber& chamber, double sink_pa, double from_pa,
+                 double to_pa, double temperature_k) {
   if (from_pa <= to_pa) return 0.0;
-  const double ambient_pa = chamber.ambient_pressure_pa;
-  if (to_pa < ambient_pa) return kNever;
+  if (to_pa < sink_pa) return kNever;
   const ContentSlopeLaw w(chamber);
   double integral = 0.0;
   double start = from_pa;
   CurvePoint point;
-  if (exhaust.choked_ratio * from_pa > ambient_pa) {
-    start = std::max(to_pa, ambient_pa / exhaust.choked_ratio);
+  if (exhaust.choked_ratio * from_pa > sink_pa) {
+    start = std::max(to_pa, sink_pa / exhaust.choked_ratio);
     point = {0.0, exhaust.choked_ratio};
     ForEachPiece(chamber, from_pa, start, [&](double a, double b) {
       integral += w.LogIntegral(b, a) / exhaust.choked_flow_m3_per_s_pa;
     });
   } else {
-    point = PointAtRatio(exhaust, ambient_pa / from_pa);
+    point = PointAtRatio(exhaust, sink_pa / from_pa);
   }
   if (start > to_pa) {
     // dp/p = −dr/r: the weight has a pole at r = 0.
     const double distance =
         std::min(SingularityDistance(exhaust), kPoleShare * std::sqrt(point.ratio));
     integral += SubsonicIntegral(
-        exhaust, chamber, start, to_pa, point, distance, [&](double p) { return ambient_pa / p; },
-        [&](double ratio) { return w(ambient_pa / ratio) / ratio; });
+        exhaust, chamber, start, to_pa, point, distance, [&](double p) { return sink_pa / p; },
+        [&](double ratio) { return w(sink_pa / ratio) / ratio; });
   }
   return integral / ContentPerStandardVolume(temperature_k);
+}
+
+}  // namespace
+
+double FillTime(const Series& fill, const Chamber& chamber, double source_pa, double from_pa,
+                double to_pa, double temperature_k, double flow_max_m3_per_s) {
+  if (!chamber.evacuated)
+    return FillOutOf(fill, chamber, source_pa, from_pa, to_pa, temperature_k, flow_max_m3_per_s);
+  const double mirror_pa = MirrorPa(chamber);
+  return EmptyInto(fill, Unmirrored(chamber), mirror_pa - source_pa, mirror_pa - from_pa,
+                   mirror_pa - to_pa, temperature_k);
+}
+
+double EmptyTime(const Series& exhaust, const Chamber& chamber, double from_pa, double to_pa,
+                 double temperature_k) {
+  const double ambient_pa = chamber.ambient_pressure_pa;
+  if (!chamber.evacuated)
+    return EmptyInto(exhaust, chamber, ambient_pa, from_pa, to_pa, temperature_k);
+  const double mirror_pa = MirrorPa(chamber);
+  return FillOutOf(exhaust, Unmirrored(chamber), ambient_pa, mirror_pa - from_pa, mirror_pa - to_pa,
+                   temperature_k, kNever);
 }
 
 double FillTimeFromReservoir(const Series& fill, const Chamber& chamber, int count,

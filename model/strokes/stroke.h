@@ -28,13 +28,16 @@ double FillTime(const Series& fill, const Chamber& chamber, double source_pa, do
 
 // Seconds to empty from `from_pa` down to `to_pa` ≥ ambient through `exhaust` to the chamber's
 // ambient.
+//
+// Of an evacuated chamber (chamber.h) the fill empties it into a rail and the exhaust lets air in
+// from the surroundings; elements stand in the order crossed there, too, and the flow has no cap.
 double EmptyTime(const Series& exhaust, const Chamber& chamber, double from_pa, double to_pa,
                  double temperature_k = kReferenceTemperatureK);
 
 // Seconds to fill `count` equal chambers at once out of a closed reservoir (no compressor) that
 // starts at `reservoir_pa`: the content of reservoir and chambers together is constant, so the
 // reservoir pressure is a function of the chamber pressure and one quadrature suffices. kNever
-// where the common pressure does not reach `to_pa`.
+// where the common pressure does not reach `to_pa`. Not for evacuated chambers.
 double FillTimeFromReservoir(const Series& fill, const Chamber& chamber, int count,
                              double reservoir_m3, double reservoir_pa, double from_pa, double to_pa,
                              double temperature_k = kReferenceTemperatureK);

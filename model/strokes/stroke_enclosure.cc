@@ -102,13 +102,6 @@ Enclosure Times(Enclosure integral, double temperature_k) {
                                  : std::numeric_limits<double>::infinity()};
 }
 
-// d(pV)/dp = a + b·p of the linear law.
-struct ContentLaw {
-  explicit ContentLaw(const Chamber& chamber)
-      : a(Volume(chamber, 0.0)), b(2.0 * VolumeSlope(chamber, 0.0)) {}
-  double a, b;
-};
-
 // 1/√(Σ C_i⁻²), the choked flow without critical ratios; 0 where elements are not enclosed.
 double LeastConductance(std::span<const FlowElement> elements, double flow_factor) {
   if (!std::all_of(elements.begin(), elements.end(), Enclosed)) return 0.0;
@@ -123,6 +116,67 @@ double LeastConductance(std::span<const FlowElement> elements, double flow_facto
 double Longest(double integral, double conductance, double temperature_k) {
   if (!(conductance > 0.0)) return std::numeric_limits<double>::infinity();
   return Times({0.0, integral / conductance}, temperature_k).high_s;
+}
+
+// As in stroke.cc: out of a source above the chamber's pressure, and into a sink below it.
+Enclosure EncloseFillOutOf(const CurveNodes& nodes, const Chamber& chamber, double source_pa,
+                           double from_pa, double to_pa, double temperature_k) {
+  if (from_pa >= to_pa) return {0.0, 0.0};
+  if (nodes.size == 0 || !chamber.volume_curve.empty() || !(to_pa < source_pa)) return {};
+  // ∫ W(p) dp/(p_s·q), p = p_s·r
+  const LinearContent law = LinearContentSlope(chamber);
+  const double slope = law.b * source_pa;
+  return Times(
+      Curve(nodes).Integrate(from_pa / source_pa, to_pa / source_pa,
+                             [&](double a, double b) {
+                               const double mean = 0.5 * (a + b), width = b - a;
+                               const double w = (law.a + slope * mean) * width;
+                               return Integrals{w, w * mean + slope * width * width * width / 12.0};
+                             }),
+      temperature_k);
+}
+
+Enclosure EncloseEmptyInto(const CurveNodes& nodes, const Chamber& chamber, double sink_pa,
+                           double from_pa, double to_pa, double temperature_k) {
+  if (from_pa <= to_pa) return {0.0, 0.0};
+  if (nodes.size == 0 || !chamber.volume_curve.empty() || !(to_pa > sink_pa)) return {};
+  // ∫ W(p) dp/(p·q), p = p_s/r
+  const LinearContent law = LinearContentSlope(chamber);
+  const double slope = law.b * sink_pa;
+  return Times(Curve(nodes).Integrate(sink_pa / from_pa, sink_pa / to_pa,
+                                      [&](double a, double b) {
+                                        const double log = std::log(b / a);
+                                        return Integrals{law.a * log + slope * (1.0 / a - 1.0 / b),
+                                                         law.a * (b - a) + slope * log};
+                                      }),
+               temperature_k);
+}
+
+double FillOutOfAtMost(std::span<const FlowElement> elements, double flow_factor,
+                       const Chamber& chamber, double source_pa, double from_pa, double to_pa,
+                       double temperature_k, double flow_max_m3_per_s) {
+  const double conductance = LeastConductance(elements, flow_factor);
+  if (!chamber.volume_curve.empty() || !(from_pa < to_pa && to_pa < source_pa) ||
+      flow_max_m3_per_s < conductance * source_pa)
+    return std::numeric_limits<double>::infinity();
+  // ∫ W(p) dp/√(p_s² − p²)
+  const LinearContent law = LinearContentSlope(chamber);
+  const auto root = [&](double p) { return std::sqrt((source_pa - p) * (source_pa + p)); };
+  const double angle = std::asin(to_pa / source_pa) - std::asin(from_pa / source_pa);
+  return Longest(law.a * angle + law.b * (root(from_pa) - root(to_pa)), conductance, temperature_k);
+}
+
+double EmptyIntoAtMost(std::span<const FlowElement> elements, double flow_factor,
+                       const Chamber& chamber, double sink_pa, double from_pa, double to_pa,
+                       double temperature_k) {
+  if (!chamber.volume_curve.empty() || !(sink_pa < to_pa && to_pa < from_pa))
+    return std::numeric_limits<double>::infinity();
+  // ∫ W(p) dp/√(p² − p_s²)
+  const LinearContent law = LinearContentSlope(chamber);
+  const auto root = [&](double p) { return std::sqrt((p - sink_pa) * (p + sink_pa)); };
+  const double log = std::log((from_pa + root(from_pa)) / (to_pa + root(to_pa)));
+  return Longest(law.a * log + law.b * (root(from_pa) - root(to_pa)),
+                 LeastConductance(elements, flow_factor), temperature_k);
 }
 
 }  // namespace
@@ -172,63 +226,44 @@ CurveNodes MarchNodes(std::span<const FlowElement> elements, double flow_factor,
 
 Enclosure EncloseFillTime(const CurveNodes& nodes, const Chamber& chamber, double source_pa,
                           double from_pa, double to_pa, double temperature_k) {
-  if (from_pa >= to_pa) return {0.0, 0.0};
-  if (nodes.size == 0 || !chamber.volume_curve.empty() || !(to_pa < source_pa)) return {};
-  // ∫ W(p) dp/(p_s·q), p = p_s·r
-  const ContentLaw law(chamber);
-  const double slope = law.b * source_pa;
-  return Times(
-      Curve(nodes).Integrate(from_pa / source_pa, to_pa / source_pa,
-                             [&](double a, double b) {
-                               const double mean = 0.5 * (a + b), width = b - a;
-                               const double w = (law.a + slope * mean) * width;
-                               return Integrals{w, w * mean + slope * width * width * width / 12.0};
-                             }),
-      temperature_k);
+  if (!chamber.evacuated)
+    return EncloseFillOutOf(nodes, chamber, source_pa, from_pa, to_pa, temperature_k);
+  const double mirror_pa = MirrorPa(chamber);
+  return EncloseEmptyInto(nodes, Unmirrored(chamber), mirror_pa - source_pa, mirror_pa - from_pa,
+                          mirror_pa - to_pa, temperature_k);
 }
 
 Enclosure EncloseEmptyTime(const CurveNodes& nodes, const Chamber& chamber, double from_pa,
                            double to_pa, double temperature_k) {
-  if (from_pa <= to_pa) return {0.0, 0.0};
   const double ambient_pa = chamber.ambient_pressure_pa;
-  if (nodes.size == 0 || !chamber.volume_curve.empty() || !(to_pa > ambient_pa)) return {};
-  // ∫ W(p) dp/(p·q), p = p_a/r
-  const ContentLaw law(chamber);
-  const double slope = law.b * ambient_pa;
-  return Times(Curve(nodes).Integrate(ambient_pa / from_pa, ambient_pa / to_pa,
-                                      [&](double a, double b) {
-                                        const double log = std::log(b / a);
-                                        return Integrals{law.a * log + slope * (1.0 / a - 1.0 / b),
-                                                         law.a * (b - a) + slope * log};
-                                      }),
-               temperature_k);
+  if (!chamber.evacuated)
+    return EncloseEmptyInto(nodes, chamber, ambient_pa, from_pa, to_pa, temperature_k);
+  const double mirror_pa = MirrorPa(chamber);
+  return EncloseFillOutOf(nodes, Unmirrored(chamber), ambient_pa, mirror_pa - from_pa,
+                          mirror_pa - to_pa, temperature_k);
 }
 
 double FillTimeAtMost(std::span<const FlowElement> elements, double flow_factor,
                       const Chamber& chamber, double source_pa, double from_pa, double to_pa,
                       double temperature_k, double flow_max_m3_per_s) {
-  const double conductance = LeastConductance(elements, flow_factor);
-  if (!chamber.volume_curve.empty() || !(from_pa < to_pa && to_pa < source_pa) ||
-      flow_max_m3_per_s < conductance * source_pa)
-    return std::numeric_limits<double>::infinity();
-  // ∫ W(p) dp/√(p_s² − p²)
-  const ContentLaw law(chamber);
-  const auto root = [&](double p) { return std::sqrt((source_pa - p) * (source_pa + p)); };
-  const double angle = std::asin(to_pa / source_pa) - std::asin(from_pa / source_pa);
-  return Longest(law.a * angle + law.b * (root(from_pa) - root(to_pa)), conductance, temperature_k);
+  if (!chamber.evacuated)
+    return FillOutOfAtMost(elements, flow_factor, chamber, source_pa, from_pa, to_pa, temperature_k,
+                           flow_max_m3_per_s);
+  const double mirror_pa = MirrorPa(chamber);
+  return EmptyIntoAtMost(elements, flow_factor, Unmirrored(chamber), mirror_pa - source_pa,
+                         mirror_pa - from_pa, mirror_pa - to_pa, temperature_k);
 }
 
 double EmptyTimeAtMost(std::span<const FlowElement> elements, double flow_factor,
                        const Chamber& chamber, double from_pa, double to_pa, double temperature_k) {
   const double ambient_pa = chamber.ambient_pressure_pa;
-  if (!chamber.volume_curve.empty() || !(ambient_pa < to_pa && to_pa < from_pa))
-    return std::numeric_limits<double>::infinity();
-  // ∫ W(p) dp/√(p² − p_a²)
-  const ContentLaw law(chamber);
-  const auto root = [&](double p) { return std::sqrt((p - ambient_pa) * (p + ambient_pa)); };
-  const double log = std::log((from_pa + root(from_pa)) / (to_pa + root(to_pa)));
-  return Longest(law.a * log + law.b * (root(from_pa) - root(to_pa)),
-                 LeastConductance(elements, flow_factor), temperature_k);
+  if (!chamber.evacuated)
+    return EmptyIntoAtMost(elements, flow_factor, chamber, ambient_pa, from_pa, to_pa,
+                           temperature_k);
+  const double mirror_pa = MirrorPa(chamber);
+  return FillOutOfAtMost(elements, flow_factor, Unmirrored(chamber), ambient_pa,
+                         mirror_pa - from_pa, mirror_pa - to_pa, temperature_k,
+                         std::numeric_limits<double>::infinity());
 }
 
 }  // namespace plenum::model

@@ -27,7 +27,7 @@ bool Bounds::PackDrivesPump(const Box& box) const {
     return true;
   return model::VoltageMatches(
       problem_.parts.batteries[OptionOf(box, plan_.battery_slot).index].nominal_voltage_v,
-      problem_.parts.compressors[OptionOf(box, plan_.compressor_slot).index].curve.voltage_v);
+      PumpsOf(problem_)[OptionOf(box, plan_.compressor_slot).index].curve.voltage_v);
 }
 
 // Window, strokes and needs of pumps without a reservoir. The lower end of the window is what is
@@ -92,7 +92,7 @@ const PumpFacts& Bounds::PumpOf(const Box& box) {
   if (fresh) {
     if (Node(box, plan_.compressor_slot).single()) {
       const Option& option = OptionOf(box, plan_.compressor_slot);
-      entry->second = MakePumpFacts(problem_, problem_.parts.compressors[option.index].curve,
+      entry->second = MakePumpFacts(problem_, PumpsOf(problem_)[option.index].curve,
                                     option.quantity, fine ? kPumpTableCells : kBoxCells);
     } else {
       entry->second = MakePumpFacts(problem_, plan_.highest_pump_pa,
@@ -161,8 +161,8 @@ void Bounds::BoundRest(const Box& box, VolumeNeed& volume) {
 
 bool Bounds::CanFindSource(const Box& box) const {
   if (IsForgotten(box)) return true;
-  if (plan_.configuration == Configuration::kDirectPump) return false;
-  if (plan_.configuration == Configuration::kCompressor &&
+  if (IsDirect(plan_.configuration)) return false;
+  if (KeepsReservoir(plan_.configuration) &&
       !(box.lines_finished && IsSettled(box, (*box.volumes)[box.lowest])))
     return true;
   return CoreIsSingle(box) && (!box.source_known || CanSizeCore(box));
@@ -174,7 +174,7 @@ Constraint Bounds::FindSource(Box& box) {
     box.forgotten = kUnlimited;
     return Assess(box, -1);
   }
-  if (plan_.configuration == Configuration::kCompressor) {
+  if (KeepsReservoir(plan_.configuration)) {
     if (!box.lines_finished) {
       if (const Constraint missed = FinishLines(box); missed != Constraint::kNone) return missed;
       if (const Constraint missed = NeedOfCompressor(box); missed != Constraint::kNone)
@@ -246,7 +246,7 @@ Constraint Bounds::FindStockSource(Box& box) {
   if (PumpEnergyRises(problem_, candidate)) {
     const Evaluation least = Evaluate(problem_, candidate, point, {.least_coil_energy = true});
     if (least.failed) return Constraint::kNone;
-    const double duty_max = problem_.parts.compressors[candidate.compressor.index].duty_max;
+    const double duty_max = PumpsOf(problem_)[candidate.compressor.index].duty_max;
     if (!(least.compressor_duty <= duty_max)) return Constraint::kPump;
     // Of several groups each look at another pressure would be a simulation.
     const bool cheap = MeetingOf(problem_) == Meeting::kAlone;

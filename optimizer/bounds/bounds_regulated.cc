@@ -37,7 +37,7 @@ double FlowMax(const Problem& problem, Configuration configuration,
 }  // namespace
 
 Constraint Bounds::AssessRegulated(Box& box, bool source_changed) {
-  const bool direct = plan_.configuration == Configuration::kDirectPump;
+  const bool direct = IsDirect(plan_.configuration);
   if (source_changed)
     if (const Constraint missed = direct ? NeedOfDirect(box) : NeedOfRegulated(box);
         missed != Constraint::kNone)
@@ -128,7 +128,7 @@ double Bounds::RegulatedFloor(const Box& box) const {
 
 // The lightest bottle and battery of the box that bear the needs.
 Constraint Bounds::RestOfRegulated(Box& box) {
-  const bool direct = plan_.configuration == Configuration::kDirectPump;
+  const bool direct = IsDirect(plan_.configuration);
   const double source = direct ? CornerAt(plan_.compressors, box, plan_.compressor_slot).objective
                                : CornerAt(plan_.regulators, box, plan_.regulator_slot).objective;
   double bound = source + EnergyShare(box.energy_beyond_j);

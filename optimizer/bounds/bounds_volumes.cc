@@ -72,7 +72,7 @@ Amounts Bounds::LeastOf(const VolumeNeed& volume) const {
 
 Amounts Bounds::LeastAssessed(const Box& box) const {
   Amounts all = LeastOfAll(box);
-  if (plan_.configuration != Configuration::kCompressor) return all;
+  if (!KeepsReservoir(plan_.configuration)) return all;
   Amounts least{kUnlimited, kUnlimited, kUnlimited};
   for (const VolumeNeed& volume : *box.volumes) {
     if (std::isinf(volume.rest)) continue;

@@ -109,9 +109,9 @@ Constraint Bounds::Assess(Box& box, int changed) {
     if (changed < 0 || changed / kSlotsPerGroup == g)
       if (const Constraint missed = RemakeLine(box, g); missed != Constraint::kNone) return missed;
   if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
-  if (plan_.configuration != Configuration::kCompressor && !box.lines_finished)
+  if (!KeepsReservoir(plan_.configuration) && !box.lines_finished)
     if (const Constraint missed = FinishLines(box); missed != Constraint::kNone) return missed;
-  return plan_.configuration == Configuration::kCompressor
+  return KeepsReservoir(plan_.configuration)
              ? AssessCompressor(box, changed)
              : AssessRegulated(box, changed < 0 || DecidesSource(changed));
 }
@@ -126,7 +126,7 @@ bool Bounds::WithinLimits(Amounts amounts, const Amounts& more) const {
 
 Constraint Bounds::Reassess(Box& box) {
   if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
-  if (plan_.configuration != Configuration::kCompressor) return RestOfRegulated(box);
+  if (!KeepsReservoir(plan_.configuration)) return RestOfRegulated(box);
   for (VolumeNeed& volume : box.volumes.Own()) BoundRest(box, volume);
   return RestOfCompressor(box);
 }
@@ -150,7 +150,7 @@ Constraint Bounds::Reweigh(Box& box) {
   }
   if (shared_) return AssessRegulated(box, true);
   if (box.lines_finished) CombineChoices(box);
-  if (plan_.configuration != Configuration::kCompressor) return RestOfRegulated(box);
+  if (!KeepsReservoir(plan_.configuration)) return RestOfRegulated(box);
   for (VolumeNeed& volume : box.volumes.Own()) {
     volume.objective = IsMade(volume) ? ObjectiveOf(problem_.objective, LeastOf(volume))
                                       : plan_.reservoirs.corners[volume.node].objective;

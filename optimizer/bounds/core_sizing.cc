@@ -7,7 +7,7 @@
 namespace plenum::optimizer {
 
 bool Bounds::CanSizeCore(const Box& box) const {
-  return problem_.objective.energy_wh > 0.0 && plan_.configuration == Configuration::kCompressor &&
+  return problem_.objective.energy_wh > 0.0 && KeepsReservoir(plan_.configuration) &&
          plan_.reservoirs.corners[box.nodes[plan_.reservoir_slot]].custom &&
          !(box.core && box.core->done);
 }

@@ -37,15 +37,26 @@ Crossed ElementsOf(const ActuatorGroup& group, const LineCorners& corners) {
   const int near_valve = (group.fittings_per_line + 1) / 2;
   const int near_actuator = group.fittings_per_line - near_valve;
   const model::FlowElement bore = model::TubeElement(tube.inner_high_m, group.tube_length_m);
+  const auto add_inward = [&](const model::FlowElement& first, Elements& to) {
+    to.Add(first);
+    to.Add(fitting.flow, near_valve);
+    to.Add(bore);
+    to.Add(fitting.flow, near_actuator);
+  };
+  const auto add_outward = [&](const model::FlowElement& last, Elements& to) {
+    to.Add(fitting.flow, near_actuator);
+    to.Add(bore);
+    to.Add(fitting.flow, near_valve);
+    to.Add(last);
+  };
   Crossed crossed;
-  crossed.fill.Add(valve.fill);
-  crossed.fill.Add(fitting.flow, near_valve);
-  crossed.fill.Add(bore);
-  crossed.fill.Add(fitting.flow, near_actuator);
-  crossed.exhaust.Add(fitting.flow, near_actuator);
-  crossed.exhaust.Add(bore);
-  crossed.exhaust.Add(fitting.flow, near_valve);
-  crossed.exhaust.Add(valve.exhaust);
+  if (group.chamber.evacuated) {
+    add_outward(valve.fill, crossed.fill);
+    add_inward(valve.exhaust, crossed.exhaust);
+  } else {
+    add_inward(valve.fill, crossed.fill);
+    add_outward(valve.exhaust, crossed.exhaust);
+  }
   return crossed;
 }
 
@@ -79,8 +90,10 @@ bool FallsInTime(const Problem& problem, const ActuatorGroup& group,
                              problem.ambient.temperature_k) <= limit_s)
     return true;
   const model::Enclosure enclosure = model::EncloseEmptyTime(
-      model::MarchNodes(exhaust, factor, chamber.ambient_pressure_pa / to_pa), chamber,
-      group.chamber.operating_pressure_pa, to_pa, problem.ambient.temperature_k);
+      model::MarchNodes(
+          exhaust, factor,
+          model::PressureRatio(model::MirrorPa(chamber), to_pa, chamber.ambient_pressure_pa)),
+      chamber, group.chamber.operating_pressure_pa, to_pa, problem.ambient.temperature_k);
   if (enclosure.low_s > limit_s) return false;
   return enclosure.high_s <= limit_s ||
          FallTime(problem, group, exhaust, factor, chamber) <= limit_s;
@@ -164,7 +177,8 @@ void FinishLine(const Problem& problem, int g, model::Gas gas, const ValveCorner
   if (exact) line.fall_time_s = FallTime(problem, group, line.exhaust, factor, line.chamber);
   if (!with_curve) return;
   line.curve = std::make_shared<const FillCurve>(
-      FillCurve{model::FlowTable(filling.series()), MakeStrokePanels(problem, g, line.chamber)});
+      FillCurve{model::FlowTable(filling.series(), model::MirrorPa(line.chamber)),
+                MakeStrokePanels(problem, g, line.chamber)});
 }
 
 bool FinishLike(const Line& wider, const ValveCorner& valve, Line& line) {

@@ -25,8 +25,8 @@ class Sketch {
     const Limits& most = problem_.limits;
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) AddGroup(g);
     if (IsPumped(outline_.configuration)) {
-      Add(parts.compressors, most.compressors, Pieces());
-      if (outline_.configuration == Configuration::kCompressor) AddReservoirs();
+      Add(PumpsOf(problem_), most.compressors, Pieces());
+      if (KeepsReservoir(outline_.configuration)) AddReservoirs();
     } else {
       const bool none = MayLack(outline_.configuration, Family::kRegulator);
       Add(parts.regulators, 1, Pieces(), none ? 1 : 0, none ? 0.0 : kUnlimited, true);

@@ -41,7 +41,7 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
     window.low_pa = std::max(window.low_pa, LeastOpenFillPa(problem, candidate));
     window.high_pa = std::min(window.high_pa, TankFillMaxPa(problem, candidate));
   }
-  if (candidate.configuration == Configuration::kDirectPump) {
+  if (IsDirect(candidate.configuration)) {
     const Meeting meeting = MeetingOf(problem);
     const bool at_once = meeting == Meeting::kTogether || meeting == Meeting::kMixed;
     if (at_once || !SuitDirectPumps(problem, candidate)) return {kUnlimited, 0.0};
@@ -49,8 +49,7 @@ Window SourceWindow(const Problem& problem, const Candidate& candidate) {
   if (candidate.configuration == Configuration::kMains)
     window.high_pa = std::min(window.high_pa, problem.mains.pressure_pa);
   if (candidate.compressor.index != kNone) {
-    const model::CompressorCurve& curve =
-        problem.parts.compressors[candidate.compressor.index].curve;
+    const model::CompressorCurve& curve = PumpsOf(problem)[candidate.compressor.index].curve;
     window.high_pa = std::min(window.high_pa, model::HighestPressure(curve));
   }
   if (candidate.reservoir.index >= 0)
@@ -147,7 +146,7 @@ model::PumpStroke DirectStroke(const Problem& problem, const Candidate& candidat
   input.fill = &fill;
   input.chamber = &line.chamber;
   input.count = count;
-  input.compressor = &problem.parts.compressors[candidate.compressor.index].curve;
+  input.compressor = &PumpsOf(problem)[candidate.compressor.index].curve;
   input.compressors = candidate.compressor.quantity;
   input.from_pa = problem.ambient.pressure_pa;
   input.target_pa = RiseTarget(problem, problem.groups[g]);

@@ -74,10 +74,9 @@ template <class T>
 T SourceFrequency(const Problem& problem, const Candidate& candidate,
                   const EvaluationOf<T>& evaluation) {
   if (IsPumped(candidate.configuration)) {
-    T by_duty = problem.frequency_hz *
-                problem.parts.compressors[candidate.compressor.index].duty_max /
+    T by_duty = problem.frequency_hz * PumpsOf(problem)[candidate.compressor.index].duty_max /
                 evaluation.compressor_duty;
-    if (candidate.configuration == Configuration::kCompressor) return by_duty;
+    if (KeepsReservoir(candidate.configuration)) return by_duty;
     return std::min(by_duty, TurnFrequency(problem, evaluation));
   }
   if (candidate.configuration == Configuration::kCo2 && candidate.bottle.index != kNone)
@@ -118,11 +117,11 @@ T LargestCurrent(const model::CompressorCurve& curve, double low_pa, const T& st
 template <class T>
 void AddPump(const Problem& problem, const Candidate& candidate, const OperatingPointOf<T>& point,
              const StrokesOf<T>& strokes, EvaluationOf<T>& evaluation) {
-  const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
+  const model::CompressorCurve& curve = PumpsOf(problem)[candidate.compressor.index].curve;
   const double ambient_pa = problem.ambient.pressure_pa;
   evaluation.compressor_duty = strokes.pump_on_s * problem.frequency_hz;
   evaluation.energy_per_cycle_j += strokes.pump_energy_j;
-  if (candidate.configuration == Configuration::kCompressor) {
+  if (KeepsReservoir(candidate.configuration)) {
     evaluation.energy_first_fill_j = FirstFill(problem, curve, point);
     evaluation.air_total_m3 += point.reservoir_rising_m3 * (point.source_pa - ambient_pa) *
                                model::StandardVolume(1.0, problem.ambient.temperature_k);

@@ -44,8 +44,10 @@ double Filling::Lateness(double source_pa) {
 
 const Filling::Enclosures& Filling::Enclose(double source_pa) {
   if (source_pa == enclosed_pa_) return enclosures_;
-  const model::CurveNodes nodes = model::MarchNodes(
-      elements_, flow_factor_, operating_pa_ / source_pa, flow_max_m3_per_s_ / source_pa);
+  const model::CurveNodes nodes =
+      model::MarchNodes(elements_, flow_factor_,
+                        model::PressureRatio(model::MirrorPa(chamber_), source_pa, operating_pa_),
+                        flow_max_m3_per_s_ / source_pa);
   const auto enclose = [&](double to_pa) {
     return model::EncloseFillTime(nodes, chamber_, source_pa, problem_.ambient.pressure_pa, to_pa,
                                   problem_.ambient.temperature_k);

@@ -31,14 +31,15 @@ std::vector<MarginOf<T>> SupplyMargins(const Problem& problem, const Candidate& 
                                        const EvaluationOf<T>& evaluation) {
   std::vector<MarginOf<T>> margins;
   const double ambient_pa = problem.ambient.pressure_pa;
+  const double pa_per_kpa = Evacuated(problem) ? -kPaPerKpa : kPaPerKpa;
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const ActuatorGroup& group = problem.groups[g];
     const T full_pa =
         candidate.lines[g]->holds ? T(group.chamber.operating_pressure_pa) : point.source_pa;
     const T highest_pa = std::max(evaluation.groups[g].highest_pressure_pa, full_pa);
-    margins.push_back(AtMost<T>(Pointer(g, "pressure_kpa_gauge_max"),
-                                (group.pressure_max_pa - ambient_pa) / kPaPerKpa,
-                                (highest_pa - ambient_pa) / kPaPerKpa));
+    margins.push_back(AtMost<T>(PressureLimitPointer(problem, g),
+                                KpaGauge(problem, group.pressure_max_pa),
+                                T((highest_pa - ambient_pa) / pa_per_kpa)));
     if (std::isfinite(group.fall_time_max_s))
       margins.push_back(AtMost<T>(Pointer(g, "fall_time_s_max"), group.fall_time_max_s,
                                   evaluation.groups[g].fall_time_s));
@@ -57,9 +58,9 @@ std::vector<MarginOf<T>> SupplyMargins(const Problem& problem, const Candidate& 
   if (std::isfinite(model::ValueOf(actuations)))
     margins.push_back(AtLeast<T>("/duty/actuations", problem.actuations, actuations));
   if (std::isfinite(problem.source_pressure_max_pa))
-    margins.push_back(AtMost<T>("/supply/source_pressure_kpa_gauge_max",
-                                (problem.source_pressure_max_pa - ambient_pa) / kPaPerKpa,
-                                (point.source_pa - ambient_pa) / kPaPerKpa));
+    margins.push_back(AtMost<T>(SourceLimitPointer(problem),
+                                KpaGauge(problem, problem.source_pressure_max_pa),
+                                T((point.source_pa - ambient_pa) / pa_per_kpa)));
   const OperatingPointOf<T> filled = Filled(problem, candidate, point, evaluation);
   if (filled.tank_fill_pa > 0.0 && std::isfinite(problem.tank_fill_max_pa))
     margins.push_back(AtMost<T>("/supply/tank_fill_kpa_gauge_max",

@@ -9,6 +9,7 @@ namespace {
 Option Candidate::*PlaceOf(Family family) {
   switch (family) {
     case Family::kCompressor:
+    case Family::kVacuumPump:
       return &Candidate::compressor;
     case Family::kBattery:
       return &Candidate::battery;

@@ -27,7 +27,14 @@ StrokePanels MakeStrokePanels(const Problem& problem, int g, const model::Chambe
   place(kStrokePanels, kLastStrokePanels, target_pa, group.chamber.operating_pressure_pa);
   for (int i = 0; i < kStrokeNodes; ++i) panels.drawn[i] = drawn(panels.pressure_pa[i]);
   for (int i = 0; i + 1 < kStrokeNodes; ++i) {
-    panels.middle_pa[i] = 0.5 * (panels.pressure_pa[i] + panels.pressure_pa[i + 1]);
+    const double low_pa = panels.pressure_pa[i], high_pa = panels.pressure_pa[i + 1];
+    panels.middle_pa[i] = 0.5 * (low_pa + high_pa);
+    if (chamber.evacuated) {
+      // The centroid of W = a + b·p, which falls.
+      const model::LinearContent law = model::LinearContentSlope(chamber);
+      const double width_pa = high_pa - low_pa, mean = law.a + law.b * panels.middle_pa[i];
+      panels.middle_pa[i] += law.b * width_pa * width_pa / (12.0 * mean);
+    }
     panels.middle_drawn[i] = drawn(panels.middle_pa[i]);
   }
   return panels;

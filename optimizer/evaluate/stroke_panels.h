@@ -13,8 +13,9 @@ inline constexpr int kStrokePanels = 12;     // up to the rise target
 inline constexpr int kLastStrokePanels = 4;  // from there to the operating pressure
 inline constexpr int kStrokeNodes = kStrokePanels + kLastStrokePanels + 1;
 
-// Where panels begin and end and their middles, Pa, and what the chambers of the group that fill at
-// once have drawn there since they began at ambient, as content, Pa·m³.
+// Where panels begin and end and their middles (of evacuated chambers the centroids of W), Pa, and
+// what the chambers of the group that fill at once have drawn there since they began at ambient, as
+// content, Pa·m³.
 struct StrokePanels {
   std::array<double, kStrokeNodes> pressure_pa{}, drawn{};
   std::array<double, kStrokeNodes - 1> middle_pa{}, middle_drawn{};

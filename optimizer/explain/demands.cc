@@ -33,12 +33,11 @@ Demand OfNumber(std::string pointer, double required, double loosest, bool whole
 }
 
 Demand OfGroupPressure(const Problem& problem, std::size_t g) {
-  const double ambient_pa = problem.ambient.pressure_pa;
-  return OfNumber("/actuators/" + std::to_string(g) + "/pressure_kpa_gauge_max",
-                  (problem.groups[g].pressure_max_pa - ambient_pa) / 1e3, kUnlimited, false,
-                  [g, ambient_pa](Problem& p, double kpa) {
-                    p.groups[g].pressure_max_pa = ambient_pa + 1e3 * kpa;
-                  });
+  return OfNumber(
+      PressureLimitPointer(problem, static_cast<int>(g)),
+      KpaGauge(problem, problem.groups[g].pressure_max_pa),
+      Evacuated(problem) ? -kUnlimited : kUnlimited, false,
+      [g](Problem& p, double kpa) { p.groups[g].pressure_max_pa = PaFromKpaGauge(p, kpa); });
 }
 
 Demand OfMainsFlow(const Problem& problem) {
@@ -67,12 +66,14 @@ void AddLimits(const Problem& problem, std::vector<Demand>& list) {
   };
   const Configuration pump = Configuration::kCompressor, bottle = Configuration::kCylinder,
                       co2 = Configuration::kCo2, tank = Configuration::kTank,
-                      direct = Configuration::kDirectPump;
-  add("/limits/compressors_max", &Limits::compressors, {pump, direct});
-  add("/limits/batteries_max", &Limits::batteries, {pump, bottle, co2, tank, direct});
+                      direct = Configuration::kDirectPump, vacuum = Configuration::kVacuumPump,
+                      direct_vacuum = Configuration::kDirectVacuumPump;
+  add("/limits/compressors_max", &Limits::compressors, {pump, direct, vacuum, direct_vacuum});
+  add("/limits/batteries_max", &Limits::batteries,
+      {pump, bottle, co2, tank, direct, vacuum, direct_vacuum});
   add("/limits/cylinders_max", &Limits::cylinders, {bottle});
   add("/limits/co2_max", &Limits::co2, {co2});
-  add("/limits/reservoirs_max", &Limits::reservoirs, {pump, tank});
+  add("/limits/reservoirs_max", &Limits::reservoirs, {pump, tank, vacuum});
 }
 
 void AddProducts(const Problem& problem, const SearchOptions& options, std::vector<Demand>& list) {
@@ -119,6 +120,7 @@ void EraseUnpriced(model::Parts& parts) {
   EraseUnpriced(parts.regulators);
   EraseUnpriced(parts.reservoirs);
   EraseUnpriced(parts.tanks);
+  EraseUnpriced(parts.vacuum_pumps);
 }
 
 }  // namespace

@@ -54,13 +54,11 @@ std::vector<Requirement> Requirements(const Problem& problem) {
                   LoosestFrequency(problem.frequency_hz),
                   [](Problem& p, double value) { p.frequency_hz = value; }, std::nullopt});
   if (std::isfinite(problem.source_pressure_max_pa)) {
-    const double ambient_pa = problem.ambient.pressure_pa;
-    list.push_back({"/supply/source_pressure_kpa_gauge_max",
-                    (problem.source_pressure_max_pa - ambient_pa) / 1e3, 1e4,
-                    [ambient_pa](Problem& p, double value) {
-                      p.source_pressure_max_pa = ambient_pa + value * 1e3;
-                    },
-                    std::nullopt});
+    list.push_back(
+        {SourceLimitPointer(problem), KpaGauge(problem, problem.source_pressure_max_pa),
+         Evacuated(problem) ? -100.0 : 1e4,
+         [](Problem& p, double value) { p.source_pressure_max_pa = PaFromKpaGauge(p, value); },
+         std::nullopt});
   }
   if (std::isfinite(problem.tank_fill_max_pa) &&
       problem.configurations.contains(Configuration::kTank)) {

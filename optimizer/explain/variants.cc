@@ -53,6 +53,7 @@ Problem OfKind(const Problem& problem, const DesignKinds& kinds, const Kind& kin
   };
   const auto of_source = [&](int series) { return series == kind.source; };
   keep(own.parts.compressors, Family::kCompressor, of_source);
+  keep(own.parts.vacuum_pumps, Family::kVacuumPump, of_source);
   keep(own.parts.cylinders, Family::kCylinder, of_source);
   keep(own.parts.co2, Family::kCo2, of_source);
   keep(own.parts.tanks, Family::kTank, of_source);

@@ -63,7 +63,9 @@ std::vector<FamilySpec> OwnFamilies() {
   using model::Parts;
   constexpr auto kCylinder = Configuration::kCylinder, kCo2 = Configuration::kCo2,
                  kCompressor = Configuration::kCompressor, kMains = Configuration::kMains,
-                 kTank = Configuration::kTank, kDirectPump = Configuration::kDirectPump;
+                 kTank = Configuration::kTank, kDirectPump = Configuration::kDirectPump,
+                 kVacuumPump = Configuration::kVacuumPump,
+                 kDirectVacuumPump = Configuration::kDirectVacuumPump;
   return {
       Spec<&Parts::tubing>(Family::kTubing, "tubing", kTubingFields, {.place = 2, .in_line = true}),
       Spec<&Parts::fittings>(Family::kFitting, "fitting", kFittingFields,
@@ -89,7 +91,8 @@ std::vector<FamilySpec> OwnFamilies() {
                          .kind_role = KindRole::kSource}),
       Spec<&Parts::batteries>(Family::kBattery, "battery", kBatteryFields,
                               {.place = 7,
-                               .sources = {kCylinder, kCo2, kCompressor, kTank, kDirectPump},
+                               .sources = {kCylinder, kCo2, kCompressor, kTank, kDirectPump,
+                                           kVacuumPump, kDirectVacuumPump},
                                .most = &Limits::batteries,
                                .by_need = true}),
       Spec<&Parts::regulators>(Family::kRegulator, "regulator", kRegulatorFields,
@@ -98,7 +101,7 @@ std::vector<FamilySpec> OwnFamilies() {
                                 .kind_role = KindRole::kRegulator}),
       Spec<&Parts::reservoirs>(Family::kReservoir, "reservoir", kReservoirFields,
                                {.place = 8,
-                                .sources = {kCompressor},
+                                .sources = {kCompressor, kVacuumPump},
                                 .most = &Limits::reservoirs,
                                 .by_need = true,
                                 .made_to_measure = true}),
@@ -108,6 +111,11 @@ std::vector<FamilySpec> OwnFamilies() {
                            .most = &Limits::reservoirs,
                            .by_need = true,
                            .kind_role = KindRole::kSource}),
+      Spec<&Parts::vacuum_pumps>(Family::kVacuumPump, "vacuum_pump", kVacuumPumpFields,
+                                 {.place = 6,
+                                  .sources = {kVacuumPump, kDirectVacuumPump},
+                                  .most = &Limits::compressors,
+                                  .kind_role = KindRole::kSource}),
   };
 }
 
@@ -152,7 +160,8 @@ int QuantityMax(const Problem& problem, Family family) {
 }
 
 bool MadeToMeasureAllowed(const Problem& problem, Family family) {
-  if (!SpecOf(family).made_to_measure || problem.orderable_only) return false;
+  // What is made to measure is built for pressure from inside.
+  if (!SpecOf(family).made_to_measure || problem.orderable_only || Evacuated(problem)) return false;
   const auto required = problem.require.find(family);
   return !problem.exclude.contains("custom") &&
          (required == problem.require.end() || required->second.contains("custom"));

@@ -29,6 +29,8 @@ inline constexpr auto kRegulator = &ValueIn<&model::Parts::regulators, get>;
 template <auto get>
 inline constexpr auto kReservoir = &ValueIn<&model::Parts::reservoirs, get>;
 template <auto get>
+inline constexpr auto kVacuumPump = &ValueIn<&model::Parts::vacuum_pumps, get>;
+template <auto get>
 inline constexpr auto kTank = &ValueIn<&model::Parts::tanks, get>;
 
 inline bool Holds(const model::Valve& valve) { return model::Holds(valve.kind); }
@@ -115,6 +117,17 @@ inline constexpr PartField kCompressorFields[] = {
     {.name = "pressure_max_kpa_gauge",
      .use = Use::kRule,
      .of = read::kCompressor<&read::PumpPressure>},
+};
+
+inline constexpr PartField kVacuumPumpFields[] = {
+    {.name = "voltage_v", .use = Use::kRule, .of = read::kVacuumPump<&read::PumpVoltage>},
+    {.name = "duty_max",
+     .use = Use::kMore,
+     .of = read::kVacuumPump<&model::Compressor::duty_max>,
+     .weight = 1.0},
+    {.name = "vacuum_max_kpa_gauge",
+     .use = Use::kRule,
+     .of = read::kVacuumPump<&read::PumpPressure>},
 };
 
 // The gas that a bottle gives depends on the regulators behind it: a rule of the family.

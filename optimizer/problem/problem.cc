@@ -16,6 +16,10 @@ const char* Name(Configuration configuration) {
       return "tank";
     case Configuration::kDirectPump:
       return "direct_pump";
+    case Configuration::kVacuumPump:
+      return "vacuum_pump";
+    case Configuration::kDirectVacuumPump:
+      return "direct_vacuum_pump";
   }
   return "";
 }
@@ -48,6 +52,25 @@ const char* Name(Status status) {
       return "cancelled";
   }
   return "";
+}
+
+double KpaGauge(const Problem& problem, double pressure_pa) {
+  const double image_kpa = (pressure_pa - problem.ambient.pressure_pa) / 1e3;
+  return Evacuated(problem) ? -image_kpa : image_kpa;
+}
+
+double PaFromKpaGauge(const Problem& problem, double kpa_gauge) {
+  return problem.ambient.pressure_pa + 1e3 * (Evacuated(problem) ? -kpa_gauge : kpa_gauge);
+}
+
+std::string PressureLimitPointer(const Problem& problem, int group) {
+  return "/actuators/" + std::to_string(group) +
+         (Evacuated(problem) ? "/pressure_kpa_gauge_min" : "/pressure_kpa_gauge_max");
+}
+
+std::string SourceLimitPointer(const Problem& problem) {
+  return Evacuated(problem) ? "/supply/vacuum/vacuum_kpa_gauge_min"
+                            : "/supply/source_pressure_kpa_gauge_max";
 }
 
 double RiseTarget(const Problem& problem, const ActuatorGroup& group) {

@@ -29,13 +29,36 @@ enum class NlpSolver { kIpopt, kNlopt };
 const char* Name(NlpSolver solver);  // "ipopt", "nlopt"
 
 // kDirectPump: pumps without a reservoir that fill one group after another (candidate.h).
-enum class Configuration { kCylinder, kCo2, kCompressor, kMains, kTank, kDirectPump };
-inline constexpr int kConfigurations = 6;
-// "cylinder", "co2", "compressor", "mains", "tank", "direct_pump"
+// kVacuumPump, kDirectVacuumPump: the same two of evacuated actuators (Evacuated() below).
+enum class Configuration {
+  kCylinder,
+  kCo2,
+  kCompressor,
+  kMains,
+  kTank,
+  kDirectPump,
+  kVacuumPump,
+  kDirectVacuumPump
+};
+inline constexpr int kConfigurations = 8;
+// "cylinder", "co2", "compressor", "mains", "tank", "direct_pump", "vacuum_pump",
+// "direct_vacuum_pump"
 const char* Name(Configuration configuration);
-// Whether pumps compress the air meanwhile.
+// Whether pumps keep a reservoir at its pressure meanwhile; whether they feed the lines themselves;
+// either.
+inline bool KeepsReservoir(Configuration configuration) {
+  return configuration == Configuration::kCompressor || configuration == Configuration::kVacuumPump;
+}
+inline bool IsDirect(Configuration configuration) {
+  return configuration == Configuration::kDirectPump ||
+         configuration == Configuration::kDirectVacuumPump;
+}
 inline bool IsPumped(Configuration configuration) {
-  return configuration == Configuration::kCompressor || configuration == Configuration::kDirectPump;
+  return KeepsReservoir(configuration) || IsDirect(configuration);
+}
+inline bool IsVacuum(Configuration configuration) {
+  return configuration == Configuration::kVacuumPump ||
+         configuration == Configuration::kDirectVacuumPump;
 }
 
 enum class Family {
@@ -48,7 +71,8 @@ enum class Family {
   kBattery,
   kRegulator,
   kReservoir,
-  kTank  // a reservoir that is filled beforehand
+  kTank,  // a reservoir that is filled beforehand
+  kVacuumPump
 };
 const char* Name(Family family);  // as in the catalogue: "tubing", "fitting", …
 
@@ -143,6 +167,29 @@ struct Problem {
   std::optional<Guarantee> guarantee;
   model::Parts parts;
 };
+
+// Whether the actuators are evacuated, all of them. All pressures of the problem, its parts and its
+// designs are then mirror images at ambient (model/physics/chamber.h): so an evacuated problem is
+// one of compressors, and what holds of one holds of the other.
+inline bool Evacuated(const Problem& problem) {
+  return !problem.groups.empty() && problem.groups.front().chamber.evacuated;
+}
+
+// What pumps there are to choose from.
+inline const std::vector<model::Compressor>& PumpsOf(const Problem& problem) {
+  return Evacuated(problem) ? problem.parts.vacuum_pumps : problem.parts.compressors;
+}
+inline Family PumpFamily(Configuration configuration) {
+  return IsVacuum(configuration) ? Family::kVacuumPump : Family::kCompressor;
+}
+
+// A pressure as people count it, kPa gauge, below 0 under vacuum, and back.
+double KpaGauge(const Problem& problem, double pressure_pa);
+double PaFromKpaGauge(const Problem& problem, double kpa_gauge);
+
+// Where requests limit the pressure of a group and that of the source, as JSON pointers.
+std::string PressureLimitPointer(const Problem& problem, int group);
+std::string SourceLimitPointer(const Problem& problem);
 
 // Target pressures of a group.
 double RiseTarget(const Problem& problem, const ActuatorGroup& group);

@@ -46,7 +46,7 @@ class Stroke {
 
  private:
   double Taken(double node_pa, double chamber_pa) const {
-    return count_ * node_pa * line_.curve->flow(chamber_pa / node_pa);
+    return count_ * line_.curve->flow.Flow(node_pa, chamber_pa);
   }
 
   // The pressures around the one where `before` ceases to hold, which holds at the chamber's.

@@ -102,7 +102,7 @@ PumpFacts MakePumpFacts(const Problem& problem, const model::CompressorCurve& cu
 
 double HighestPumpPressure(const Problem& problem) {
   double highest_pa = problem.ambient.pressure_pa * 1.01;
-  for (const model::Compressor& compressor : problem.parts.compressors)
+  for (const model::Compressor& compressor : PumpsOf(problem))
     highest_pa = std::max(highest_pa, model::HighestPressure(compressor.curve));
   return std::clamp(problem.source_pressure_max_pa, 1.01 * problem.ambient.pressure_pa, highest_pa);
 }

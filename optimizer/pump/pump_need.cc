@@ -99,7 +99,7 @@ double MarchDraw(const Problem& problem, int g, const Line& line, const PumpFact
     const double next = MostDrawn(problem, g, line, next_pa, operating_pa);
     const auto pumped_by = [&](double most) {
       const double s = std::min(start_pa, start_pa - (drawn - most) / high_m3);
-      const double flow = group.count * s * line.curve->flow(p / s);
+      const double flow = group.count * line.curve->flow.Flow(s, p);
       return flow > 0.0 ? pumped + (next - drawn) / (flow * facts.rates.SecondsAtMost(s)) : most;
     };
     const double reached = std::min(pumped_by(std::min(pumped_by(pumped), next)), next);
@@ -161,8 +161,9 @@ std::optional<PumpNeed> LeastPumpNeed(const Problem& problem, const PumpFacts& f
     const double empty = model::Content(line.chamber, ambient_pa);
     const double spread_m3 = line.dead_volume_spread_m3;
     const int count = problem.groups[phase].count;
-    // A volume that follows a table may take more air at the lower pressures of a bit.
-    const bool even = line.chamber.volume_curve.empty();
+    // A volume that follows a table, or one that is evacuated, may take more air at the lower
+    // pressures of a bit.
+    const bool even = line.chamber.volume_curve.empty() && !line.chamber.evacuated;
     const double volume_m3 = even ? model::Volume(line.chamber, 0.0) : 0.0;
     const double slope = even ? model::VolumeSlope(line.chamber, 0.0) : 0.0;
     const auto drawn = [&](double pressure_pa) {  // as MostDrawn

@@ -80,18 +80,19 @@ class Stroke {
 
   // ∫ W/q dp over the panel is at least W's mean over q in the middle, since W grows with p and 1/q
   // is convex: q is concave in s and p together, and s in p. Where that is not so, q is taken where
-  // the panel begins.
+  // the panel begins. Of evacuated chambers W falls with p and s is convex in p: q is taken at W's
+  // centroid, and s where the panel begins.
   double FlowTime(double pumped) const {
     const double before = nodes_.drawn[at_], after = nodes_.drawn[at_ + 1];
     double p = nodes_.pressure_pa[at_], drawn = before;
     if (line_.chamber.volume_curve.empty()) {
       p = nodes_.middle_pa[at_];
-      if (pumped < before || pumped > after || start_.low_m3 == start_.high_m3)
+      if (!line_.chamber.evacuated &&
+          (pumped < before || pumped > after || start_.low_m3 == start_.high_m3))
         drawn = nodes_.middle_drawn[at_];
     }
     const double source_pa = std::min(Reservoir(pumped - drawn, false), start_.stop_pa);
-    const double per_pa = 1.0 / source_pa;
-    return (after - before) * per_flow_ * per_pa / line_.curve->flow(p * per_pa);
+    return (after - before) * per_flow_ / line_.curve->flow.Flow(source_pa, p);
   }
 
   // Over the interval of volumes: the pressure of the reservoir with so much more content, and the

@@ -120,8 +120,7 @@ std::vector<Bounds*> Due(const Problem& problem,
   std::vector<Bounds*> chosen;
   if (problem.groups.size() == 1) return chosen;
   for (const std::unique_ptr<Bounds>& bounds : planted) {
-    const bool cheap =
-        StrokesMeet(problem) && bounds->plan().configuration != Configuration::kCompressor;
+    const bool cheap = StrokesMeet(problem) && !KeepsReservoir(bounds->plan().configuration);
     if (!bounds->plan().empty() && (cheap || slow) && sought.first.insert(bounds.get()).second)
       chosen.push_back(bounds.get());
   }

@@ -144,7 +144,7 @@ bool Confirm(const Problem& problem, const Candidate& candidate, const Operating
     if (SmallestMargin(problem, candidate, point, simulated) >= 0.0) evaluation = simulated;
     return true;
   }
-  const double duty_max = problem.parts.compressors[candidate.compressor.index].duty_max;
+  const double duty_max = PumpsOf(problem)[candidate.compressor.index].duty_max;
   return strokes.pump_on_s * problem.frequency_hz <= duty_max * (1.0 + kConfirmTolerance);
 }
 
@@ -156,7 +156,7 @@ std::optional<OperatingPoint> ConfirmNear(const Problem& problem, const Candidat
   constexpr double kSteps[] = {0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3};  // of the source pressure
   const double high_pa = SourceWindow(problem, candidate).high_pa;
   for (const double step : kSteps) {
-    if (step > 0.0 && candidate.configuration == Configuration::kDirectPump) break;  // no setting
+    if (step > 0.0 && IsDirect(candidate.configuration)) break;  // no setting
     OperatingPoint point = leaf.point;
     point.tank_fill_pa = 0.0;
     point.source_pa *= 1.0 + step;
@@ -228,7 +228,7 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
   if (candidate.compressor.index != kNone) {
     design.settings.compressor_duty = evaluation.compressor_duty;
     // With tolerances halfway between what it has while it falls and while it rises.
-    if (candidate.configuration == Configuration::kCompressor)
+    if (KeepsReservoir(candidate.configuration))
       design.settings.reservoir_volume_m3 = 0.5 * (point.reservoir_m3 + point.reservoir_rising_m3);
   }
   if (filled.tank_fill_pa > 0.0) {

@@ -124,7 +124,7 @@ bool Rebuild(const Problem& problem, const Problem& relaxed, const Design& desig
 
 // Of pumps without a reservoir the pressure is no setting.
 OperatingPoint PointOf(const Problem& problem, const Candidate& candidate, const Design& design) {
-  if (design.configuration == Configuration::kDirectPump) return DirectPoint(problem, candidate);
+  if (IsDirect(design.configuration)) return DirectPoint(problem, candidate);
   const double reservoir_m3 = design.settings.reservoir_volume_m3.value_or(0.0);
   return {design.settings.source_pressure_pa, reservoir_m3, reservoir_m3,
           design.settings.tank_fill_pa.value_or(0.0)};
@@ -163,7 +163,8 @@ Problem WithPartsOf(const Problem& problem, const Design& design) {
                .co2 = Kept(all.co2, ids),
                .regulators = Kept(all.regulators, ids),
                .reservoirs = Kept(all.reservoirs, ids),
-               .tanks = Kept(all.tanks, ids)};
+               .tanks = Kept(all.tanks, ids),
+               .vacuum_pumps = Kept(all.vacuum_pumps, ids)};
   return own;
 }
 

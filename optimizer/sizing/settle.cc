@@ -91,7 +91,7 @@ OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const 
   // An objective that the pressure moves leaves no freedom, nor does a made-to-measure reservoir at
   // its smallest volume. Pumps without a reservoir have no setting.
   if (problem.objective.energy_wh > 0.0 || candidate.reservoir.index == kCustom ||
-      candidate.configuration == Configuration::kDirectPump)
+      IsDirect(candidate.configuration))
     return leaf.point;
   Freedom freedom(problem, candidate, leaf);
   if (freedom.empty()) return leaf.point;

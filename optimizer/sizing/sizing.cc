@@ -40,7 +40,7 @@ bool OneAtATime(const Problem& problem, const Candidate& candidate, const Evalua
 
 SteepestFall PumpFall(const Problem& problem, const Candidate& candidate) {
   if (candidate.compressor.index == kNone) return {};
-  return {problem.parts.compressors[candidate.compressor.index].curve, problem.ambient.pressure_pa,
+  return {PumpsOf(problem)[candidate.compressor.index].curve, problem.ambient.pressure_pa,
           SourceWindow(problem, candidate).high_pa};
 }
 
@@ -196,7 +196,7 @@ double SmallestMargin(const Problem& problem, const Candidate& candidate,
 
 bool PumpEnergyRises(const Problem& problem, const Candidate& candidate) {
   if (candidate.compressor.index == kNone) return true;
-  const model::CompressorCurve& curve = problem.parts.compressors[candidate.compressor.index].curve;
+  const model::CompressorCurve& curve = PumpsOf(problem)[candidate.compressor.index].curve;
   const double low_pa = problem.ambient.pressure_pa;
   const double high_pa = SourceWindow(problem, candidate).high_pa;
   if (IsBurst(problem)) return EnergyPerAirRises(curve, low_pa, high_pa);
@@ -236,7 +236,7 @@ NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& can
 
 Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
                   int evaluations_max) {
-  if (candidate.configuration == Configuration::kDirectPump) return SizeDirect(problem, candidate);
+  if (IsDirect(candidate.configuration)) return SizeDirect(problem, candidate);
   const NeededPressure needed =
       NeededSourcePressure(problem, candidate, PointAt(problem, candidate, 0.0, reservoir_m3));
   if (needed.status == LeafStatus::kFeasible)
@@ -257,7 +257,7 @@ bool FastAtHighest(const Problem& problem, const Candidate& candidate) {
 }
 
 Leaf SizeQuickly(const Problem& problem, const Candidate& candidate, double reservoir_m3) {
-  if (candidate.configuration == Configuration::kDirectPump) return SizeDirect(problem, candidate);
+  if (IsDirect(candidate.configuration)) return SizeDirect(problem, candidate);
   const OperatingPoint highest =
       PointAt(problem, candidate, SourceWindow(problem, candidate).high_pa, reservoir_m3);
   // The lowest pressure is the best for a tank, which weighs least then.

@@ -24,6 +24,7 @@ bool NeedsPrice(const Problem& problem) {
 }
 
 bool CustomAllowed(const Problem& problem) {
+  if (Evacuated(problem)) return false;
   const auto required = problem.require.find(Family::kReservoir);
   return problem.exclude.count("custom") == 0 &&
          (required == problem.require.end() || required->second.count("custom") > 0);
@@ -83,7 +84,7 @@ bool RegulatorStands(const Problem& problem, const Candidate& candidate) {
 
 bool VoltagesMatch(const Problem& problem, const Candidate& candidate) {
   const double pack_v = problem.parts.batteries[candidate.battery.index].nominal_voltage_v;
-  const double pump_v = problem.parts.compressors[candidate.compressor.index].curve.voltage_v;
+  const double pump_v = PumpsOf(problem)[candidate.compressor.index].curve.voltage_v;
   return std::abs(pack_v - pump_v) <= 0.15 * pump_v * (1.0 + 1e-9);
 }
 
@@ -93,9 +94,12 @@ void ForEachSource(const Problem& problem, Candidate& candidate, const Visit& vi
   const model::Parts& parts = problem.parts;
   const std::vector<Option> batteries =
       Options(problem, Family::kBattery, parts.batteries, problem.limits.batteries);
-  if (candidate.configuration == Configuration::kDirectPump) {
-    for (const Option& compressor :
-         Options(problem, Family::kCompressor, parts.compressors, problem.limits.compressors))
+  const auto pumps = [&] {
+    return Options(problem, PumpFamily(candidate.configuration), PumpsOf(problem),
+                   problem.limits.compressors);
+  };
+  if (IsDirect(candidate.configuration)) {
+    for (const Option& compressor : pumps())
       for (const Option& battery : batteries) {
         candidate.compressor = compressor;
         candidate.battery = battery;
@@ -103,9 +107,8 @@ void ForEachSource(const Problem& problem, Candidate& candidate, const Visit& vi
       }
     return;
   }
-  if (candidate.configuration == Configuration::kCompressor) {
-    for (const Option& compressor :
-         Options(problem, Family::kCompressor, parts.compressors, problem.limits.compressors))
+  if (KeepsReservoir(candidate.configuration)) {
+    for (const Option& compressor : pumps())
       for (const Option& battery : batteries)
         for (const Option& reservoir : Reservoirs(problem)) {
           candidate.compressor = compressor;
@@ -160,11 +163,11 @@ long long Combinations(const Problem& problem, Configuration configuration) {
     product *= count(parts.tubing, 1) * count(parts.valves, 1) *
                (group.fittings_per_line > 0 ? count(parts.fittings, 1) : 1);
   const optimizer::Limits& limits = problem.limits;
-  if (configuration == Configuration::kDirectPump)
-    return product * count(parts.compressors, limits.compressors) *
+  if (IsDirect(configuration))
+    return product * count(PumpsOf(problem), limits.compressors) *
            count(parts.batteries, limits.batteries);
-  if (configuration == Configuration::kCompressor)
-    return product * count(parts.compressors, limits.compressors) *
+  if (KeepsReservoir(configuration))
+    return product * count(PumpsOf(problem), limits.compressors) *
            count(parts.batteries, limits.batteries) *
            (count(parts.reservoirs, limits.reservoirs) + (CustomAllowed(problem) ? 1 : 0));
   if (configuration == Configuration::kTank)
@@ -220,7 +223,7 @@ PartsKey KeyOf(const Problem& problem, const Candidate& candidate) {
   if (candidate.configuration == Configuration::kCylinder) add(parts.cylinders, candidate.bottle);
   if (candidate.configuration == Configuration::kCo2) add(parts.co2, candidate.bottle);
   if (candidate.configuration == Configuration::kTank) add(parts.tanks, candidate.bottle);
-  add(parts.compressors, candidate.compressor);
+  add(PumpsOf(problem), candidate.compressor);
   add(parts.batteries, candidate.battery);
   add(parts.reservoirs, candidate.reservoir);
   if (candidate.reservoir.index == optimizer::kCustom) key.emplace_back("custom", 1);
@@ -260,8 +263,7 @@ double StockVolume(const Problem& problem, const Candidate& candidate) {
 
 optimizer::Leaf SizeAlone(const Problem& problem, const Candidate& candidate) {
   if (CanSizeTank(problem, candidate)) return SizeTank(problem, candidate);
-  if (candidate.configuration == Configuration::kDirectPump)
-    return SizeDirectPump(problem, candidate);
+  if (IsDirect(candidate.configuration)) return SizeDirectPump(problem, candidate);
   if (candidate.reservoir.index != optimizer::kCustom)
     return optimizer::SizeAtVolume(problem, candidate, StockVolume(problem, candidate));
   optimizer::CustomSizing sizing(problem, candidate);

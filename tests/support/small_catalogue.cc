@@ -148,6 +148,10 @@ optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing
   line.exhaust.push_back(tube);
   line.exhaust.insert(line.exhaust.end(), before.begin(), before.end());
   line.exhaust.push_back(valve.exhaust);
+  if (group.chamber.evacuated) {  // crossed the other way round
+    std::reverse(line.fill.begin(), line.fill.end());
+    std::reverse(line.exhaust.begin(), line.exhaust.end());
+  }
 
   line.holds = line.all_hold = valve.kind != model::ValveKind::kThreeWay;
   line.source_max_pa =
@@ -165,7 +169,7 @@ optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing
   const double factor = (gas == model::Gas::kCo2 ? 0.79 : 1.0) * std::sqrt(293.15 / temperature_k);
   const model::Series fill_series = model::MakeSeries(line.fill, factor);
   line.curve = std::make_shared<const optimizer::FillCurve>(
-      optimizer::FillCurve{model::FlowTable(fill_series),
+      optimizer::FillCurve{model::FlowTable(fill_series, model::MirrorPa(group.chamber)),
                            optimizer::MakeStrokePanels(problem, group_index, line.chamber)});
   const double ambient_pa = problem.ambient.pressure_pa;
   const double operating_pa = group.chamber.operating_pressure_pa;

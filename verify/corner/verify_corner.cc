@@ -49,10 +49,8 @@ double GasOf(const Problem& problem, Family family, const ProofItem& item, doubl
 
 Corners::Corners(const Problem& problem, const ProofPlan& plan, KnownStrokes& strokes)
     : problem_(problem), plan_(plan), strokes_(strokes), amounts_(AmountsOfAll(problem, plan)) {
-  if (plan.configuration == Configuration::kCompressor)
-    pumps_.emplace(problem, plan, amounts_, strokes);
-  if (plan.configuration == Configuration::kDirectPump)
-    direct_.emplace(problem, plan, amounts_, strokes);
+  if (KeepsReservoir(plan.configuration)) pumps_.emplace(problem, plan, amounts_, strokes);
+  if (IsDirect(plan.configuration)) direct_.emplace(problem, plan, amounts_, strokes);
 }
 
 const LeastAmounts& Corners::Least(const Ranges& ranges, int slot) {
@@ -77,7 +75,7 @@ bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
   Assembly source;
   source.configuration = plan_.configuration;
   if (IsPumped(plan_.configuration)) {
-    source.compressor = &parts.compressors[item.part];
+    source.compressor = &PumpsOf(problem_)[item.part];
     return Any(plan_, ranges, SlotOf(plan_, Family::kBattery, -1), [&](const ProofItem& pack) {
       source.battery = &parts.batteries[pack.part];
       return Fit(problem_, source);
@@ -96,7 +94,7 @@ bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
 
 bool Corners::SourceMates(const Ranges& ranges) const {
   const bool pump = IsPumped(plan_.configuration);
-  const int slot = SlotOf(plan_, pump ? Family::kCompressor : Family::kRegulator, -1);
+  const int slot = SlotOf(plan_, pump ? PumpFamily(plan_.configuration) : Family::kRegulator, -1);
   return Any(plan_, ranges, slot, [&](const ProofItem& item) { return SourceMates(ranges, item); });
 }
 

@@ -21,7 +21,7 @@ DirectPumps::DirectPumps(const Problem& problem, const ProofPlan& plan, const Sl
       plan_(plan),
       amounts_(amounts),
       choices_(strokes.pumps()),
-      compressor_(SlotOf(plan, Family::kCompressor, -1)),
+      compressor_(SlotOf(plan, PumpFamily(plan.configuration), -1)),
       battery_(SlotOf(plan, Family::kBattery, -1)),
       units_(UnitsOf(problem)) {}
 
@@ -37,7 +37,7 @@ DirectPumps::Stroke DirectPumps::MakeStroke(Range compressors, const BestLine& l
   const PumpCells& cells = choices_.CellsIn(compressors);
   const ProofItem& first = plan_.slots[compressor_].choices[compressors.first];
   const bool single = compressors.second == compressors.first + 1;
-  const model::CompressorCurve& curve = problem_.parts.compressors[first.part].curve;
+  const model::CompressorCurve& curve = PumpsOf(problem_)[first.part].curve;
   const int g = unit.group, count = unit.count;
   const double share = static_cast<double>(count) / problem_.groups[g].count;
   const double highest_pa = std::min(cells.highest_pa, line.source_high_pa);
@@ -47,7 +47,8 @@ DirectPumps::Stroke DirectPumps::MakeStroke(Range compressors, const BestLine& l
     return first.quantity * flow(std::clamp(p, flow.front(), flow.back()));
   };
   const auto taken = [&](double p, double chamber_pa) {
-    return count * p * model::FlowAtRatio(line.fill_series, chamber_pa / p);
+    return count *
+           model::FlowBetween(line.fill_series, model::MirrorPa(line.chamber), p, chamber_pa);
   };
   // Around the pressure at which both are equal.
   const auto node_around = [&](double chamber_pa) {
@@ -107,7 +108,7 @@ bool DirectPumps::Suits(const Ranges& ranges, const std::vector<const BestLine*>
 // Of those that drive some pump of the box and give its current up to this pressure and the coils'.
 double DirectPumps::LeastBattery(const Ranges& ranges, double energy_j, double node_pa,
                                  double coil_w) const {
-  const std::vector<model::Compressor>& compressors = problem_.parts.compressors;
+  const std::vector<model::Compressor>& compressors = PumpsOf(problem_);
   double least = kUnlimited;
   for (int i = ranges[battery_].first; i < ranges[battery_].second; ++i) {
     const ProofItem& item = plan_.slots[battery_].choices[i];

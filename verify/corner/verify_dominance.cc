@@ -81,7 +81,7 @@ bool GivesMore(const Problem& problem, const Bottle& a, int count_a, const Bottl
 }
 
 bool Drives(const Problem& problem, const model::Battery& a, const model::Battery& b) {
-  return std::all_of(problem.parts.compressors.begin(), problem.parts.compressors.end(),
+  return std::all_of(PumpsOf(problem).begin(), PumpsOf(problem).end(),
                      [&](const model::Compressor& pump) {
                        return !model::VoltageMatches(b.nominal_voltage_v, pump.curve.voltage_v) ||
                               model::VoltageMatches(a.nominal_voltage_v, pump.curve.voltage_v);
@@ -96,8 +96,8 @@ bool RuleNoWorse(const Problem& problem, const ProofPlan& plan, Family family, c
   if (family == Family::kCylinder)
     return GivesMore(problem, parts.cylinders[i], n, parts.cylinders[j], m);
   if (family == Family::kCo2) return GivesMore(problem, parts.co2[i], n, parts.co2[j], m);
-  if (family == Family::kCompressor)
-    return n == m && parts.compressors[i].curve == parts.compressors[j].curve;
+  if (family == PumpFamily(plan.configuration))
+    return n == m && PumpsOf(problem)[i].curve == PumpsOf(problem)[j].curve;
   if (family == Family::kBattery && IsPumped(plan.configuration))
     return Drives(problem, parts.batteries[i], parts.batteries[j]);
   return true;

@@ -1,5 +1,7 @@
 #include "verify/corner/verify_line.h"
 
+#include <algorithm>
+
 #include "model/flow/tube.h"
 #include "model/strokes/stroke.h"
 #include "verify/corner/verify_best.h"
@@ -112,8 +114,11 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   // Limits a hair wider than they are, so that rounding in the best of many never decides.
   const double slack = 1.0 + kSumTolerance;
   const double window_s = FillWindow(problem, g) * slack;
-  std::vector<model::FlowElement> exhaust(best.fill.rbegin(), best.fill.rend());
-  exhaust.back() = exhaust_valve;
+  // Gathered inward: that is how air is let in of evacuated actuators.
+  std::vector<model::FlowElement> exhaust = best.fill;
+  exhaust.front() = exhaust_valve;
+  std::reverse(Evacuated(problem) ? best.fill.begin() : exhaust.begin(),
+               Evacuated(problem) ? best.fill.end() : exhaust.end());
   const double fall_s =
       model::EmptyTime(model::MakeSeries(exhaust, factor), best.chamber, operating_pa,
                        PressureAt(problem, g, problem.fall_fraction), temperature_k);
@@ -139,7 +144,7 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   }
   best.source_low_pa = low_pa;
   if (best.all_hold) best.inflate_s = seconds(best.source_high_pa, operating_pa);
-  best.fill_flow = model::FlowTable(best.fill_series);
+  best.fill_flow = model::FlowTable(best.fill_series, model::MirrorPa(best.chamber));
   best.works = true;
   return best;
 }

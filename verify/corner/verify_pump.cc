@@ -39,7 +39,7 @@ Pumps::Pumps(const Problem& problem, const ProofPlan& plan, const SlotAmounts& a
       amounts_(amounts),
       strokes_(strokes),
       choices_(strokes.pumps()),
-      compressor_(SlotOf(plan, Family::kCompressor, -1)),
+      compressor_(SlotOf(plan, PumpFamily(plan.configuration), -1)),
       reservoir_(SlotOf(plan, Family::kReservoir, -1)),
       battery_(SlotOf(plan, Family::kBattery, -1)),
       content_per_m3_(ContentPerVolume(problem)),
@@ -59,7 +59,7 @@ const Packs& Pumps::PacksIn(Range compressors, Range batteries) {
     for (int c = compressors.first; c < compressors.second && !drives; ++c)
       drives = model::VoltageMatches(
           battery.nominal_voltage_v,
-          problem_.parts.compressors[plan_.slots[compressor_].choices[c].part].curve.voltage_v);
+          PumpsOf(problem_)[plan_.slots[compressor_].choices[c].part].curve.voltage_v);
     if (drives && item.quantity * battery.current_max_a * kSlack >= current_a)
       packs.push_back(
           {item.quantity * model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v),

@@ -94,7 +94,7 @@ class Stroke {
       const double source_pa = MostSource(pumped, drawn);
       if (!(source_pa > from_pa)) return kUnlimited;
       const double flow =
-          count_ * content_per_m3_ * kFlowSlack * source_pa * line_.fill_flow(from_pa / source_pa);
+          count_ * content_per_m3_ * kFlowSlack * line_.fill_flow.Flow(source_pa, from_pa);
       return flow > 0.0 ? more / flow : kUnlimited;
     };
     double low = pumped_, high = pumped_ + rate * (window_s_ - seconds_);

@@ -42,8 +42,7 @@ bool Whole(const Problem& problem, const Assembly& a) {
   const bool pump = IsPumped(c);
   const bool tank = c == Configuration::kTank;
   return (tank || (a.regulator != nullptr) == !pump) && (a.tank != nullptr) == tank &&
-         (a.compressor != nullptr) == pump &&
-         (a.reservoirs > 0) == (c == Configuration::kCompressor) &&
+         (a.compressor != nullptr) == pump && (a.reservoirs > 0) == KeepsReservoir(c) &&
          (a.battery != nullptr) == (c != Configuration::kMains) &&
          (a.cylinder != nullptr) == (c == Configuration::kCylinder) &&
          (a.co2 != nullptr) == (c == Configuration::kCo2);
@@ -211,8 +210,10 @@ void Place(const Problem& problem, Family family, int group, const ProofItem& it
       a.bottles = item.quantity;
       return put(parts.co2, a.co2);
     case Family::kCompressor:
+    case Family::kVacuumPump:
       a.compressors = item.quantity;
-      return put(parts.compressors, a.compressor);
+      return put(family == Family::kVacuumPump ? parts.vacuum_pumps : parts.compressors,
+                 a.compressor);
     case Family::kBattery:
       a.batteries = item.quantity;
       return put(parts.batteries, a.battery);

@@ -30,7 +30,7 @@ struct Assembly {
   const model::Reservoir* reservoir = nullptr;  // null with a compressor: made to measure
   const model::Reservoir* tank = nullptr;       // with or without a regulator
   int bottles = 0, compressors = 0, batteries = 0, reservoirs = 0, tanks = 0;
-  bool direct() const { return configuration == Configuration::kDirectPump; }
+  bool direct() const { return IsDirect(configuration); }
   bool at_best = false;  // with a guarantee: valves that cannot hold as the parts are
   // Volume of stock reservoirs, and how much more they have while they rise.
   double ReservoirVolume() const { return reservoir ? reservoirs * reservoir->volume_m3 : 0.0; }

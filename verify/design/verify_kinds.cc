@@ -10,6 +10,7 @@ enum class Place { kNowhere, kSource, kRegulator, kValve };
 Place PlaceOf(Family family) {
   switch (family) {
     case Family::kCompressor:
+    case Family::kVacuumPump:
     case Family::kCylinder:
     case Family::kCo2:
     case Family::kTank:

@@ -111,14 +111,16 @@ std::map<std::string, Reached> Requirements(const Problem& problem, const Settin
     if (std::isfinite(limit)) all[pointer] = {limit, value, true, tol};
   };
   const double ambient_pa = problem.ambient.pressure_pa;
-  const auto gauge = [&](double pa) { return (pa - ambient_pa) / 1e3; };
+  const bool vacuum = Evacuated(problem);
+  const auto gauge = [&](double pa) { return (pa - ambient_pa) / (vacuum ? -1e3 : 1e3); };
   const double source_pa = settings.source_pressure_pa;
   for (std::size_t g = 0; g < a.lines.size(); ++g) {
     const ActuatorGroup& group = problem.groups[g];
     const std::string at = "/actuators/" + std::to_string(g) + "/";
     at_most(at + "rise_time_s_max", group.rise_time_max_s, cycle.rise_s[g], kTimeTolerance);
     at_most(at + "fall_time_s_max", group.fall_time_max_s, cycle.fall_s[g], kTimeTolerance);
-    at_most(at + "pressure_kpa_gauge_max", gauge(group.pressure_max_pa),
+    at_most(at + (vacuum ? "pressure_kpa_gauge_min" : "pressure_kpa_gauge_max"),
+            gauge(group.pressure_max_pa),
             gauge(model::Holds(a.lines[g].valve->kind) ? group.chamber.operating_pressure_pa
                                                        : source_pa),
             kSumTolerance);
@@ -130,8 +132,8 @@ std::map<std::string, Reached> Requirements(const Problem& problem, const Settin
       per_cycle_j > 0.0 ? (supply.energy_j - supply.first_fill_j) / per_cycle_j : kUnlimited);
   if (std::isfinite(actuations))
     all["/duty/actuations"] = {problem.actuations, actuations, false, kEnergyTolerance};
-  at_most("/supply/source_pressure_kpa_gauge_max", gauge(problem.source_pressure_max_pa),
-          gauge(source_pa), kSumTolerance);
+  at_most(vacuum ? "/supply/vacuum/vacuum_kpa_gauge_min" : "/supply/source_pressure_kpa_gauge_max",
+          gauge(problem.source_pressure_max_pa), gauge(source_pa), kSumTolerance);
   if (a.tank)
     at_most("/supply/tank_fill_kpa_gauge_max", gauge(problem.tank_fill_max_pa),
             gauge(settings.tank_fill_pa.value_or(0.0)), kSumTolerance);

@@ -128,7 +128,7 @@ class Enumeration {
         return Fit(problem_, source);
       case Family::kBattery:
         if (!IsPumped(plan().configuration)) return true;
-        source.compressor = &parts.compressors[part_of(Family::kCompressor)];
+        source.compressor = &PumpsOf(problem_)[part_of(PumpFamily(plan().configuration))];
         source.battery = &parts.batteries[part];
         return Fit(problem_, source);
       default:

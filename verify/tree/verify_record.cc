@@ -242,8 +242,8 @@ class RecordCheck {
 
 bool FlowMustBeEqual(const Problem& problem, Configuration configuration) {
   if (!IsPumped(configuration)) return MayOverlap(problem);
-  return (UnitsOf(problem).size() > 1 && configuration == Configuration::kCompressor) ||
-         !std::all_of(problem.parts.compressors.begin(), problem.parts.compressors.end(),
+  return (UnitsOf(problem).size() > 1 && KeepsReservoir(configuration)) ||
+         !std::all_of(PumpsOf(problem).begin(), PumpsOf(problem).end(),
                       [&](const model::Compressor& pump) {
                         return EnergyPerAirHeld(pump.curve, problem.ambient.pressure_pa,
                                                 model::HighestPressure(pump.curve)) == 1.0;

@@ -75,7 +75,7 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
   Json answer = AnswerDocument("evaluation_answer/1");
   answer["works"] = unknown ? Json() : Json(design.has_value());
   if (unknown) answer["detail"] = WhyUnknown(out_of_time(), seconds_max);
-  const auto gauge = [&](double pa) { return Number(KpaGaugeFromPa(pa, problem.ambient)); };
+  const auto gauge = [&](double pa) { return Number(optimizer::KpaGauge(problem, pa)); };
   answer["source_pressure_range_kpa_gauge"] =
       source.empty() ? Json(nullptr) : Json{gauge(source.low_pa), gauge(source.high_pa)};
   if (design) answer.update(RenderFigures(*design, problem));

@@ -118,11 +118,10 @@ class WhyNot {
   // Pumps without a reservoir have no setting.
   std::string SourceOf(const Design& design) const {
     const auto& settings = design.settings;
-    if (design.configuration == optimizer::Configuration::kDirectPump)
-      return "the pressures of their strokes";
+    if (optimizer::IsDirect(design.configuration)) return "the pressures of their strokes";
     std::string text =
-        Told((settings.source_pressure_pa - problem_.ambient.pressure_pa) / 1e3) + " kPa gauge";
-    if (design.configuration == optimizer::Configuration::kCompressor)
+        Told(optimizer::KpaGauge(problem_, settings.source_pressure_pa)) + " kPa gauge";
+    if (optimizer::KeepsReservoir(design.configuration))
       text +=
           " and a reservoir of " + Told(settings.reservoir_volume_m3.value_or(0.0) * 1e6) + " mL";
     return text;

@@ -75,8 +75,7 @@ Design ReadDesign(const Element& element, int rank, const Problem& problem, Erro
   AddOutsidePower(problem, design);
   Reader settings = reader.Object("settings");
   design.settings = ReadPoint(settings, problem, design.configuration);
-  if (design.configuration == optimizer::Configuration::kCompressor &&
-      !design.settings.reservoir_volume_m3)
+  if (optimizer::KeepsReservoir(design.configuration) && !design.settings.reservoir_volume_m3)
     settings.Fail("reservoir_volume_ml", "is missing: a pump's design has a reservoir");
   design.settings.compressor_duty = settings.OptionalNumber("compressor_duty", kAnyNumber);
   design.settings.valve_duty = settings.Numbers("valve_duty_groups", kDesignRowsMax, kAnyNumber);

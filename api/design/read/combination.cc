@@ -31,7 +31,7 @@ bool IsCustom(const Choice& choice) {
 }
 
 std::string KpaGauge(double pressure_pa, const Problem& problem) {
-  return Decimal(Rounded(KpaGaugeFromPa(pressure_pa, problem.ambient))) + " kPa gauge";
+  return Decimal(Rounded(optimizer::KpaGauge(problem, pressure_pa))) + " kPa gauge";
 }
 
 // "a valve", "tubing"
@@ -54,6 +54,7 @@ const Part* Find(const std::vector<Part>& parts, const Choice* choice) {
 const char* LimitField(Family family) {
   switch (family) {
     case Family::kCompressor:
+    case Family::kVacuumPump:
       return "compressors_max";
     case Family::kBattery:
       return "batteries_max";
@@ -241,13 +242,14 @@ class Check {
   void CheckSource() {
     const model::Parts& parts = problem_.parts;
     const Choice* battery_row = RowOf(Family::kBattery);
-    if (const auto* pump = Find(parts.compressors, RowOf(Family::kCompressor))) {
+    if (const auto* pump = Find(optimizer::PumpsOf(problem_),
+                                RowOf(optimizer::PumpFamily(design_.configuration)))) {
       const double pack_v = Find(parts.batteries, battery_row)->nominal_voltage_v;
       if (!model::VoltageMatches(pack_v, pump->curve.voltage_v))
         FailRow(*battery_row, "/id",
                 "has " + Decimal(pack_v) + " V, but " + Quoted(IdOf(*pump)) + " runs at " +
                     Decimal(pump->curve.voltage_v) + " V, within 15 %");
-      if (design_.configuration == Configuration::kDirectPump) CheckDirectValves();
+      if (optimizer::IsDirect(design_.configuration)) CheckDirectValves();
       return;
     }
     if (design_.configuration == Configuration::kTank) return CheckTank();

@@ -2,10 +2,13 @@
 
 #include "api/json/shared_fields.h"
 #include "api/json/units.h"
+#include "api/json/words.h"
 #include "optimizer/problem/family_specs.h"
 
 namespace plenum::api {
 namespace {
+
+constexpr double kSamePressureKpa = 1e-6;
 
 using optimizer::Configuration;
 using optimizer::Family;
@@ -27,13 +30,31 @@ void PassOver(Reader& reader, std::initializer_list<const char*> names) {
   }
 }
 
+// The source pressure of an evacuated design is the same number, and not needed.
+void ReadVacuumOf(Reader& reader, const Problem& problem, Configuration configuration,
+                  optimizer::Settings& settings) {
+  const Range range{DeepestKpaGauge(problem.ambient), 0};
+  const auto source = reader.OptionalNumber("source_pressure_kpa_gauge", range);
+  if (!reader.Has("vacuum_kpa_gauge") && (source || optimizer::IsDirect(configuration))) {
+    if (source) settings.source_pressure_pa = optimizer::PaFromKpaGauge(problem, *source);
+    return;
+  }
+  const double vacuum = reader.Number("vacuum_kpa_gauge", range);
+  settings.source_pressure_pa = optimizer::PaFromKpaGauge(problem, vacuum);
+  if (source && std::abs(*source - vacuum) > kSamePressureKpa)
+    reader.Fail("source_pressure_kpa_gauge", "must be the vacuum_kpa_gauge of " + Decimal(vacuum) +
+                                                 " where actuators are evacuated, not " +
+                                                 Decimal(*source));
+}
+
 }  // namespace
 
 Configuration ReadConfiguration(Reader& design) {
   return ReadEnum<Configuration>(
       design, "configuration",
       {Configuration::kCylinder, Configuration::kCo2, Configuration::kCompressor,
-       Configuration::kMains, Configuration::kTank, Configuration::kDirectPump});
+       Configuration::kMains, Configuration::kTank, Configuration::kDirectPump,
+       Configuration::kVacuumPump, Configuration::kDirectVacuumPump});
 }
 
 optimizer::Choice ReadChoice(Reader& row, const Problem& problem, Configuration configuration) {
@@ -53,7 +74,9 @@ optimizer::Choice ReadChoice(Reader& row, const Problem& problem, Configuration 
 
 optimizer::Settings ReadPoint(Reader& reader, const Problem& problem, Configuration configuration) {
   optimizer::Settings settings;
-  if (reader.Has("source_pressure_kpa_gauge") || configuration != Configuration::kDirectPump)
+  if (optimizer::IsVacuum(configuration))
+    ReadVacuumOf(reader, problem, configuration, settings);
+  else if (reader.Has("source_pressure_kpa_gauge") || !optimizer::IsDirect(configuration))
     settings.source_pressure_pa = PaFromKpaGauge(
         reader.Number("source_pressure_kpa_gauge", {0, kGaugeMaxKpa}), problem.ambient);
   if (const auto ml = reader.OptionalNumber("reservoir_volume_ml", kReservoirMl))

@@ -49,7 +49,7 @@ optimizer::Gait ReadGait(Reader& actuator, int count) {
   return gait;
 }
 
-void CheckGaits(Reader& request, const optimizer::Problem& problem) {
+void CheckGaits(Reader& request, optimizer::Problem& problem) {
   if (problem.groups.empty()) return;
   const Json* duty = request.Raw("duty");
   const bool stated = duty && duty->is_object() && duty->contains("simultaneous");
@@ -58,9 +58,11 @@ void CheckGaits(Reader& request, const optimizer::Problem& problem) {
       remarks->Warn("/duty/simultaneous",
                     "does not count for the groups that have a phase: the phase says when they "
                     "begin");
-  if (!problem.configurations.contains(optimizer::Configuration::kDirectPump)) return;
   const optimizer::Meeting meeting = optimizer::MeetingOf(problem);
   if (meeting != optimizer::Meeting::kTogether && meeting != optimizer::Meeting::kMixed) return;
+  // What was not asked for by name is no choice.
+  problem.configurations.erase(optimizer::Configuration::kDirectVacuumPump);
+  if (!problem.configurations.contains(optimizer::Configuration::kDirectPump)) return;
   if (AnyPhase(problem))
     request.FailAt("actuators",
                    "must begin at different times with the configuration direct_pump, whose pumps "

@@ -13,7 +13,7 @@ optimizer::Gait ReadGait(Reader& actuator, int count);
 
 // A phase wins over "simultaneous", which is remarked where both are given; pumps without a
 // reservoir fill one after another.
-void CheckGaits(Reader& request, const optimizer::Problem& problem);
+void CheckGaits(Reader& request, optimizer::Problem& problem);
 
 // Why the gaits of a problem cannot be guaranteed, or nothing.
 std::string WhyGaitNotGuaranteed(const optimizer::Problem& problem);

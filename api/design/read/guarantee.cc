@@ -64,6 +64,8 @@ std::optional<GuaranteeRequest> ReadGuarantee(Reader& request,
 std::string WhyNotGuaranteed(const optimizer::Problem& problem) {
   if (problem.objective.energy_wh > 0.0)
     return "ranks by mass, volume and cost; energy is told at its upper value and not minimised";
+  if (optimizer::Evacuated(problem))
+    return "is not for evacuated actuators yet: leave it out, or draw by /robust";
   if (problem.configurations.contains(optimizer::Configuration::kTank))
     return "is not for tanks yet: leave tank out of /supply/configurations";
   if (problem.configurations.contains(optimizer::Configuration::kDirectPump))

@@ -55,9 +55,9 @@ std::vector<model::Battery> WallSupplies(const std::vector<model::Compressor>& p
 const model::Compressor* PumpOf(const optimizer::Design& design,
                                 const optimizer::Problem& problem) {
   for (const optimizer::Choice& choice : design.parts) {
-    if (choice.family != Family::kCompressor) continue;
+    if (choice.family != optimizer::PumpFamily(design.configuration)) continue;
     const int pump = optimizer::FindPart(problem.parts, choice.family, choice.id);
-    if (pump >= 0) return &problem.parts.compressors[static_cast<std::size_t>(pump)];
+    if (pump >= 0) return &optimizer::PumpsOf(problem)[static_cast<std::size_t>(pump)];
   }
   return nullptr;
 }
@@ -82,7 +82,9 @@ void ReadPower(Reader& supply, optimizer::Problem& problem) {
 
 void ReplaceBatteries(const optimizer::Problem& problem, model::Parts& parts) {
   const Power& power = problem.power;
-  if (power.kind == PowerKind::kWall) parts.batteries = WallSupplies(parts.compressors);
+  if (power.kind == PowerKind::kWall)
+    parts.batteries =
+        WallSupplies(optimizer::Evacuated(problem) ? parts.vacuum_pumps : parts.compressors);
   if (power.kind == PowerKind::kRobot) {
     const double capacity_ah =
         power.energy_wh_max ? *power.energy_wh_max / (power.voltage_v * model::kDepthOfDischarge)

@@ -10,6 +10,7 @@
 #include "api/design/read/objective_reader.h"
 #include "api/design/read/power.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/vacuum_reader.h"
 #include "api/json/json.h"
 #include "api/json/request_limits.h"
 #include "api/json/shared_fields.h"
@@ -28,6 +29,7 @@ using optimizer::Configuration;
 // Valve, tube and the shared regulator take three places of a series.
 constexpr int kFittingsMax = static_cast<int>(model::kMaxSeriesElements) - 3;
 constexpr double kPressureMarginDefault = 1.05;
+constexpr double kVacuumMaxKpa = 200.0;  // below ambient, at any ambient pressure
 const Range kTimeLimitS = Above(0, 1e6);
 const Range kAmount = Above(0, 1e6);  // kg, L, EUR
 
@@ -43,6 +45,26 @@ struct GroupRemarks {
   GroupUncertainty uncertainty;
 };
 
+// kPa gauge.
+double ReadHighestPressure(Reader& group, double operating_kpa) {
+  const auto limit_kpa = group.OptionalNumber("pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
+  if (limit_kpa && *limit_kpa < operating_kpa - 1e-9)
+    group.Fail("pressure_kpa_gauge_max", "must be ≥ the operating pressure of " +
+                                             Decimal(Rounded(operating_kpa)) + " kPa gauge, not " +
+                                             Decimal(*limit_kpa));
+  return limit_kpa.value_or(kPressureMarginDefault * operating_kpa);
+}
+
+// The same of an evacuated actuator.
+double ReadLowestPressure(Reader& group, double operating_kpa) {
+  const auto limit_kpa = group.OptionalNumber("pressure_kpa_gauge_min", {-kVacuumMaxKpa, -1});
+  if (limit_kpa && *limit_kpa > operating_kpa + 1e-9)
+    group.Fail("pressure_kpa_gauge_min", "must be ≤ the operating pressure of " +
+                                             Decimal(Rounded(operating_kpa)) + " kPa gauge, not " +
+                                             Decimal(*limit_kpa));
+  return limit_kpa.value_or(kPressureMarginDefault * operating_kpa);
+}
+
 optimizer::ActuatorGroup ReadGroup(const Element& element, std::size_t index,
                                    const model::Ambient& ambient, std::vector<std::string>& names,
                                    GroupRemarks& remarks, Errors& errors) {
@@ -50,7 +72,7 @@ optimizer::ActuatorGroup ReadGroup(const Element& element, std::size_t index,
   optimizer::ActuatorGroup group;
   group.name = ReadName(reader, index, names);
   group.count = reader.Integer("count", 1, kCountMax, 1);
-  group.chamber = ReadChamber(reader, ambient);
+  group.chamber = ReadChamber(reader, ambient, Vacuum::kAllowed);
   group.tube_length_m = reader.Number("tube_length_m", TubeLengthRange());
   group.fittings_per_line = reader.Integer("fittings_per_line", 0, kFittingsMax, 2);
   group.rise_time_max_s =
@@ -60,15 +82,11 @@ optimizer::ActuatorGroup ReadGroup(const Element& element, std::size_t index,
 
   group.gait = ReadGait(reader, group.count);
   remarks.uncertainty = ReadGroupUncertainty(reader);
-  const double operating_kpa = remarks.operating_kpa =
-      KpaGaugeFromPa(group.chamber.operating_pressure_pa, ambient);
-  const auto limit_kpa = reader.OptionalNumber("pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
-  if (limit_kpa && *limit_kpa < operating_kpa - 1e-9)
-    reader.Fail("pressure_kpa_gauge_max", "must be ≥ the operating pressure of " +
-                                              Decimal(Rounded(operating_kpa)) + " kPa gauge, not " +
-                                              Decimal(*limit_kpa));
+  remarks.operating_kpa = KpaGaugeFromPa(group.chamber.operating_pressure_pa, ambient);
   group.pressure_max_pa =
-      PaFromKpaGauge(limit_kpa.value_or(kPressureMarginDefault * operating_kpa), ambient);
+      group.chamber.evacuated
+          ? PaFromKpaGauge(-ReadLowestPressure(reader, -remarks.operating_kpa), ambient)
+          : PaFromKpaGauge(ReadHighestPressure(reader, remarks.operating_kpa), ambient);
   reader.Finish();
   return group;
 }
@@ -139,8 +157,10 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
   ReadConfigurations(supply, mains.has_value(), problem);
   ReadPumps(supply, problem);
   ReadPower(supply, problem);
+  ReadVacuum(supply, problem);
   const auto source = supply.OptionalNumber("source_pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
-  if (source) problem.source_pressure_max_pa = PaFromKpaGauge(*source, problem.ambient);
+  if (source && !optimizer::Evacuated(problem))
+    problem.source_pressure_max_pa = PaFromKpaGauge(*source, problem.ambient);
   const auto fill = supply.OptionalNumber("tank_fill_kpa_gauge_max", {1, kGaugeMaxKpa});
   if (fill) problem.tank_fill_max_pa = PaFromKpaGauge(*fill, problem.ambient);
   if (fill && !problem.configurations.contains(Configuration::kTank))
@@ -170,6 +190,7 @@ void CheckPower(Reader& request, optimizer::Problem& problem) {
 // error of the request.
 void CheckPressures(const optimizer::Problem& problem, const std::vector<GroupRemarks>& groups,
                     Errors& errors) {
+  if (optimizer::Evacuated(problem)) return CheckVacuum(problem, errors);
   const bool only_mains = problem.configurations == std::set<Configuration>{Configuration::kMains};
   const auto kpa = [&](double pa) { return Rounded(KpaGaugeFromPa(pa, problem.ambient)); };
   for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -258,6 +279,9 @@ void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& model
   }
   parsed.model = *std::find_if(models.begin(), models.end(),
                                [&](const auto& model) { return model.name == name; });
+  if (optimizer::Evacuated(parsed.problem))
+    request.Fail("model",
+                 "is for actuators under pressure: effects of evacuated ones are not known");
   if (parsed.problem.configurations.contains(Configuration::kTank))
     request.FailAt("supply/configurations",
                    "must be without tank where a model is named, whose effects are judged in a "

@@ -48,7 +48,8 @@ bool IsAllowed(const optimizer::Problem& problem, Family family, const std::stri
 
 bool IsAllowed(const optimizer::Problem& problem, Family family, const catalog::Part& part) {
   return IsAllowed(problem, family, part.id) &&
-         (!problem.orderable_only || part.orderable.value_or(true));
+         (!problem.orderable_only || part.orderable.value_or(true)) &&
+         (!optimizer::Evacuated(problem) || StandsVacuum(part));
 }
 
 void ReadSelection(Reader& request, const std::vector<catalog::Part>& parts,
@@ -114,9 +115,17 @@ std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
   return allowed;
 }
 
+model::Parts ModelPartsFor(const optimizer::Problem& problem,
+                           const std::vector<catalog::Part>& rows) {
+  if (optimizer::Evacuated(problem)) return ToVacuumParts(rows, problem.ambient);
+  model::Parts parts = ToModelParts(rows, problem.ambient);
+  parts.vacuum_pumps.clear();
+  return parts;
+}
+
 model::Parts AllowedModelParts(const std::vector<catalog::Part>& parts,
                                const optimizer::Problem& problem) {
-  model::Parts allowed = ToModelParts(AllowedParts(parts, problem), problem.ambient);
+  model::Parts allowed = ModelPartsFor(problem, AllowedParts(parts, problem));
   ReplaceBatteries(problem, allowed);
   return allowed;
 }

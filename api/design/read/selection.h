@@ -30,6 +30,10 @@ catalog::Part AsCounted(catalog::Part part, const optimizer::Problem& problem);
 std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
                                         const optimizer::Problem& problem);
 
+// Rows as the search of this problem sees them: as they are, or for evacuated actuators.
+model::Parts ModelPartsFor(const optimizer::Problem& problem,
+                           const std::vector<catalog::Part>& rows);
+
 // These as the search takes them, with the power that the problem has.
 model::Parts AllowedModelParts(const std::vector<catalog::Part>& parts,
                                const optimizer::Problem& problem);

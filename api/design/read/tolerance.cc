@@ -138,7 +138,7 @@ optimizer::DrawParts MakeDraws(const std::vector<catalog::Part>& rows,
         drawn.push_back(perturb(AsCounted(*row->second, problem), draw));
       }
     }
-    model::Parts parts = ToModelParts(drawn, problem.ambient);
+    model::Parts parts = ModelPartsFor(problem, drawn);
     if (HasOutsidePower(problem)) parts.batteries = problem.parts.batteries;
     return parts;
   };

@@ -1,4 +1,4 @@
-// Compressors: some of one kind. Several of them are another pump.
+// Compressors or vacuum pumps: some of one kind. Several of them are another pump.
 #include "optimizer/choices/plant/corner_table.h"
 #include "optimizer/choices/plant/planter.h"
 #include "optimizer/problem/part_tables.h"
@@ -26,7 +26,8 @@ void SetNumber(const Pumping&, const PartNumbers&, CompressorCorner&) {}
 
 constexpr std::tuple kRows{
     Mates{&CompressorCorner::voltages}, Pumping{},
-    Best{FieldNamed(kCompressorFields, "duty_max"), &CompressorCorner::duty_max},
+    Ruled{Use::kMore, FieldNamed(kCompressorFields, "duty_max").weight,
+          &CompressorCorner::duty_max},
     Ruled{Use::kMore, 1.0, &CompressorCorner::pressure_max_pa}};
 
 // Equal for equal curves.
@@ -54,7 +55,7 @@ void SetNumbers(const PartNumbers& numbers, CompressorCorner& corner) {
 }
 
 int Planter::PlantCompressors() {
-  const std::vector<model::Compressor>& parts = problem_.parts.compressors;
+  const std::vector<model::Compressor>& parts = PumpsOf(problem_);
   const int most = problem_.limits.compressors;
   for (const model::Compressor& part : parts) voltages_.Bit(part.curve.voltage_v);
   CoarsePump alone;                                // one of the part that is planted
@@ -65,6 +66,7 @@ int Planter::PlantCompressors() {
     CompressorCorner& corner = entry.item.corner;
     corner.voltages = voltages_.Bit(curve.voltage_v);
     corner.pressure_max_pa = model::HighestPressure(curve);
+    corner.duty_max = parts[i].duty_max;
     if (quantity == 1) {
       alone = MakeCoarsePump(problem_, plan_->highest_pump_pa, curve);
       curve_number =
@@ -73,8 +75,8 @@ int Planter::PlantCompressors() {
     corner.pump = Several(alone, quantity);
     entry.contender.mates = curve_number * most + quantity - 1;
   };
-  return PlantSlot(Family::kCompressor, -1, ChoicesOf(Family::kCompressor),
-                   MakeSourceEntries<CompressorCorner>(Family::kCompressor, rule),
+  const Family family = PumpFamily(plan_->configuration);
+  return PlantSlot(family, -1, ChoicesOf(family), MakeSourceEntries<CompressorCorner>(family, rule),
                    plan_->compressors);
 }
 

@@ -57,7 +57,7 @@ void Planter::PlantValves(int g, const LineMates& mates) {
     ValveCorner& corner = entry.item.corner;
     corner.threads = kinds->second;
     // Of sources with a pressure of their own, which is no lower than the operating pressure.
-    if (plan_->configuration != Configuration::kDirectPump)
+    if (!IsDirect(plan_->configuration))
       corner.pressure_min_pa =
           std::max(corner.pressure_min_pa, group.chamber.operating_pressure_pa);
     // A coil takes power for so long at least.

@@ -112,8 +112,7 @@ class Planter {
     if (stopped()) return nullptr;
     if (IsPumped(plan_->configuration)) {
       plan_->compressor_slot = PlantCompressors();
-      if (plan_->configuration == Configuration::kCompressor)
-        plan_->reservoir_slot = PlantReservoirs();
+      if (KeepsReservoir(plan_->configuration)) plan_->reservoir_slot = PlantReservoirs();
     } else {
       plan_->regulator_slot = PlantRegulators();
       if (plan_->configuration == Configuration::kCylinder) plan_->bottle_slot = PlantCylinders();
@@ -136,10 +135,8 @@ class Planter {
   // pressure costs more energy per air.
   bool LinesMeet() const {
     if (!IsPumped(plan_->configuration)) return WindowsOverlap(problem_);
-    if (plan_->configuration == Configuration::kCompressor &&
-        MeetingOf(problem_) != Meeting::kAlone)
-      return true;
-    return !std::all_of(problem_.parts.compressors.begin(), problem_.parts.compressors.end(),
+    if (KeepsReservoir(plan_->configuration) && MeetingOf(problem_) != Meeting::kAlone) return true;
+    return !std::all_of(PumpsOf(problem_).begin(), PumpsOf(problem_).end(),
                         [&](const model::Compressor& c) {
                           return EnergyPerAirRises(c.curve, problem_.ambient.pressure_pa,
                                                    model::HighestPressure(c.curve));
@@ -208,7 +205,7 @@ class Planter {
     add(parts.regulators, 1);
     add(parts.cylinders, problem_.limits.cylinders);
     add(parts.co2, problem_.limits.co2);
-    add(parts.compressors, problem_.limits.compressors);
+    add(PumpsOf(problem_), problem_.limits.compressors);
     add(parts.batteries, problem_.limits.batteries);
     add(parts.reservoirs, problem_.limits.reservoirs);
     add(parts.tanks, problem_.limits.reservoirs);

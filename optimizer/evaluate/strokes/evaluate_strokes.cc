@@ -179,7 +179,7 @@ Strokes StrokesAlike(const Problem& problem, const Candidate& candidate,
 // Strokes that may draw at once, each integrated with the others.
 Strokes StrokesTogether(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
-  if (candidate.configuration != Configuration::kCompressor)
+  if (!KeepsReservoir(candidate.configuration))
     if (std::optional<Strokes> strokes = FillTogether(problem, candidate, point.source_pa))
       if (!strokes->failed || candidate.stopped()) return *std::move(strokes);
   return SimulateStrokes(problem, candidate, point);
@@ -297,10 +297,9 @@ double AloneStrokeExcess(const Problem& problem, const Candidate& candidate,
 Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point) {
   if (IsOpenTank(candidate)) return OpenTankStrokes(problem, candidate, point);
-  if (candidate.configuration == Configuration::kDirectPump)
-    return DirectStrokes(problem, candidate);
+  if (IsDirect(candidate.configuration)) return DirectStrokes(problem, candidate);
   if (HasEffects(problem)) return SimulateStrokes(problem, candidate, point);
-  const bool pumped = candidate.configuration == Configuration::kCompressor;
+  const bool pumped = KeepsReservoir(candidate.configuration);
   if (pumped && MeetingOf(problem) == Meeting::kTogether && FillAlike(candidate))
     return StrokesAlike(problem, candidate, point);
   if (StrokesMeet(problem)) return StrokesTogether(problem, candidate, point);

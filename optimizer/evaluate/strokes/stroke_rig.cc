@@ -35,8 +35,7 @@ bool HasEffects(const Problem& problem) {
 std::vector<model::Effect> ActingEffects(const ActuatorGroup& group, Configuration configuration) {
   std::vector<model::Effect> acting;
   for (const model::Effect& effect : group.effects)
-    if (effect.spec->place != model::EffectPlace::kSupply ||
-        configuration != Configuration::kCompressor)
+    if (effect.spec->place != model::EffectPlace::kSupply || !KeepsReservoir(configuration))
       acting.push_back(effect);
   return acting;
 }
@@ -52,10 +51,10 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
     source.volume_m3 = TankVolume(problem, candidate);
     source.initial_pressure_pa = LastPeriodPa(problem, candidate, point.source_pa);
     rig.source = source;
-  } else if (candidate.configuration == Configuration::kDirectPump) {
-    rig.source = model::PumpSource{problem.parts.compressors[candidate.compressor.index].curve,
+  } else if (IsDirect(candidate.configuration)) {
+    rig.source = model::PumpSource{PumpsOf(problem)[candidate.compressor.index].curve,
                                    candidate.compressor.quantity};
-  } else if (candidate.configuration != Configuration::kCompressor) {
+  } else if (!KeepsReservoir(candidate.configuration)) {
     rig.source = model::RegulatedSource{point.source_pa,
                                         problem.parts.regulators[candidate.regulator.index].flow,
                                         FlowMax(problem, candidate)};
@@ -64,7 +63,7 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
     source.volume_m3 = point.reservoir_m3;
     source.volume_rising_m3 = point.reservoir_rising_m3;
     source.initial_pressure_pa = point.source_pa;
-    source.compressor = problem.parts.compressors[candidate.compressor.index].curve;
+    source.compressor = PumpsOf(problem)[candidate.compressor.index].curve;
     source.compressor_count = candidate.compressor.quantity;
     source.stop_pressure_pa = point.source_pa;
     rig.source = source;

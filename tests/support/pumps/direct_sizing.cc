@@ -65,8 +65,12 @@ class Stroke {
                                table(std::clamp(p, table.front(), table.back()));
   }
   double Taken(double node_pa, double p) const {
-    return in_.count * node_pa * model::FlowAtRatio(series_, p / node_pa);
+    if (!in_.chamber.evacuated)
+      return in_.count * node_pa * model::FlowAtRatio(series_, p / node_pa);
+    const double chamber_pa = AsItIs(p);
+    return in_.count * chamber_pa * model::FlowAtRatio(series_, AsItIs(node_pa) / chamber_pa);
   }
+  double AsItIs(double image_pa) const { return 2.0 * in_.ambient_pa - image_pa; }
   double Node(double p) const {
     if (!(p < highest_pa_) || Delivery(highest_pa_) >= Taken(highest_pa_, p)) return highest_pa_;
     return Bisect(
@@ -76,7 +80,9 @@ class Stroke {
     const model::Chamber& c = in_.chamber;
     const double x =
         (p - c.ambient_pressure_pa) / (c.operating_pressure_pa - c.ambient_pressure_pa);
-    return p * (c.rest_volume_m3 * (1.0 + (c.expansion_ratio - 1.0) * x) + c.dead_volume_m3);
+    const double volume_m3 =
+        c.rest_volume_m3 * (1.0 + (c.expansion_ratio - 1.0) * x) + c.dead_volume_m3;
+    return c.evacuated ? -AsItIs(p) * volume_m3 : p * volume_m3;
   }
 
   // Simpson's rule in the content, which is nearly even in p; finer towards the end.
@@ -133,7 +139,7 @@ Filling FillingOf(const Problem& problem, const Candidate& candidate, std::size_
   const Line& line = *candidate.lines[g];
   const double ambient_pa = problem.ambient.pressure_pa;
   Filling filling;
-  filling.curve = problem.parts.compressors[candidate.compressor.index].curve;
+  filling.curve = PumpsOf(problem)[candidate.compressor.index].curve;
   filling.elements = line.fill;
   filling.chamber = line.chamber;
   filling.pumps = candidate.compressor.quantity;
@@ -204,7 +210,7 @@ optimizer::Leaf SizeDirectPump(const Problem& problem, const Candidate& candidat
   leaf.status = optimizer::LeafStatus::kInfeasible;
   const double period_s = 1.0 / problem.frequency_hz;
   const std::vector<Fills> fills = FillsOf(problem);
-  const model::Compressor& pump = problem.parts.compressors[candidate.compressor.index];
+  const model::Compressor& pump = PumpsOf(problem)[candidate.compressor.index];
   const model::Battery& pack = problem.parts.batteries[candidate.battery.index];
   double on_s = 0.0, per_cycle_j = 0.0, coil_w = 0.0, highest_pa = problem.ambient.pressure_pa;
   optimizer::Amounts sum;

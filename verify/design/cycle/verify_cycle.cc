@@ -194,7 +194,8 @@ QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop 
     rigs_.push_back(rig);
   }
   if (assembly.compressor)
-    for (const model::Series& fill : fills_) fill_tables_.emplace_back(fill);
+    for (std::size_t u = 0; u < fills_.size(); ++u)
+      fill_tables_.emplace_back(fills_[u], model::MirrorPa(rigs_[u].chamber));
 }
 
 double QuickCycles::FillFromRegulator(const Settings& settings, int unit, Cycle& cycle) const {

@@ -57,12 +57,12 @@ double FillSecondsMax(const Problem& problem, const Assembly& assembly, int g) {
   return most_s;
 }
 
-double NodePressure(const Assembly& assembly, const model::Series& fill, int count,
-                    double chamber_pa) {
+double NodePressure(const Assembly& assembly, const model::Series& fill, double mirror_pa,
+                    int count, double chamber_pa) {
   const model::CompressorCurve& curve = assembly.compressor->curve;
   const auto more_than_taken = [&](double p) {
     return assembly.compressors * DeliveryUpToTheEnd(curve, p) -
-           count * p * model::FlowAtRatio(fill, chamber_pa / p);
+           count * model::FlowBetween(fill, mirror_pa, p, chamber_pa);
   };
   double low_pa = chamber_pa, high_pa = model::HighestPressure(curve);
   if (!(low_pa < high_pa)) return kUnlimited;
@@ -89,9 +89,9 @@ double HighestNode(const Assembly& assembly, const std::vector<model::GroupRig>&
                    double factor) {
   double highest_pa = 0.0;
   for (const model::GroupRig& group : groups)
-    highest_pa =
-        std::max(highest_pa, NodePressure(assembly, model::MakeSeries(group.fill, factor),
-                                          group.count, group.chamber.operating_pressure_pa));
+    highest_pa = std::max(highest_pa, NodePressure(assembly, model::MakeSeries(group.fill, factor),
+                                                   model::MirrorPa(group.chamber), group.count,
+                                                   group.chamber.operating_pressure_pa));
   return highest_pa;
 }
 
@@ -103,7 +103,8 @@ DirectFills::Fill DirectFills::Make(const Problem& problem, const Assembly& asse
   const double operating_pa = chamber.operating_pressure_pa;
   const double target_pa = ambient_pa + problem.rise_fraction * (operating_pa - ambient_pa);
   const double air_per_content = model::StandardVolume(1.0, problem.ambient.temperature_k);
-  const double end_pa = NodePressure(assembly, fill, unit.count, operating_pa);
+  const double mirror_pa = model::MirrorPa(chamber);
+  const double end_pa = NodePressure(assembly, fill, mirror_pa, unit.count, operating_pa);
   Fill found;
   found.node_pa = end_pa;
   if (!std::isfinite(end_pa) || !(DeliveryUpToTheEnd(curve, end_pa) > 0.0)) return found;
@@ -111,9 +112,9 @@ DirectFills::Fill DirectFills::Make(const Problem& problem, const Assembly& asse
   const auto panel = [&](double from_pa, double to_pa) {
     for (int i = 0; i < 3; ++i) {
       const double p = 0.5 * (from_pa + to_pa) + 0.5 * (to_pa - from_pa) * kGaussNodes[i];
-      const double node_pa = NodePressure(assembly, fill, unit.count, p);
+      const double node_pa = NodePressure(assembly, fill, mirror_pa, unit.count, p);
       const double flow = std::min(assembly.compressors * DeliveryUpToTheEnd(curve, node_pa),
-                                   unit.count * node_pa * model::FlowAtRatio(fill, p / node_pa));
+                                   unit.count * model::FlowBetween(fill, mirror_pa, node_pa, p));
       const double time = 0.5 * (to_pa - from_pa) * kGaussWeights[i] * unit.count *
                           model::ContentSlope(chamber, p) * air_per_content / flow;
       seconds += time;

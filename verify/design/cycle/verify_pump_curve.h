@@ -26,8 +26,8 @@ double FillSecondsMax(const Problem& problem, const Assembly& assembly, int grou
 
 // Pressure between pumps and valves at which all pumps of the assembly deliver what `count` lines
 // take to chambers at `chamber_pa`, or the highest that pumps reach where lines take less.
-double NodePressure(const Assembly& assembly, const model::Series& fill, int count,
-                    double chamber_pa);
+double NodePressure(const Assembly& assembly, const model::Series& fill, double mirror_pa,
+                    int count, double chamber_pa);
 
 // The highest of groups that fill one after another; `factor` on what their lines conduct.
 double HighestNode(const Assembly& assembly, const std::vector<model::GroupRig>& groups,

@@ -54,10 +54,12 @@ model::GroupRig MakeGroup(const Problem& problem, const Assembly& assembly, cons
     between.push_back(line.fitting->flow);
   }
   if (group.fittings_per_line < 2) between.push_back(tube);
-  rig.fill = between;
-  rig.fill.insert(rig.fill.begin(), line.valve->fill);
-  rig.exhaust.assign(between.rbegin(), between.rend());
-  rig.exhaust.push_back(line.valve->exhaust);
+  std::vector<model::FlowElement>&inward = rig.chamber.evacuated ? rig.exhaust : rig.fill,
+  &outward = rig.chamber.evacuated ? rig.fill : rig.exhaust;
+  inward = between;
+  inward.insert(inward.begin(), rig.chamber.evacuated ? line.valve->exhaust : line.valve->fill);
+  outward.assign(between.rbegin(), between.rend());
+  outward.push_back(rig.chamber.evacuated ? line.valve->fill : line.valve->exhaust);
   rig.close_at_operating = model::Holds(line.valve->kind);
   rig.initial_pressure_pa = pressure_pa;
   rig.schedule = Commands(problem, unit, rig.close_at_operating, cycles);

@@ -1,0 +1,15 @@
+// Random problems of evacuated actuators, small enough to enumerate.
+#ifndef PLENUM_TESTS_SUPPORT_VACUUM_PROBLEMS_H_
+#define PLENUM_TESTS_SUPPORT_VACUUM_PROBLEMS_H_
+
+#include "tests/support/small_catalogue.h"
+
+namespace plenum::test {
+
+// A draw of pressure with its actuators evacuated and its compressors turned into vacuum pumps; all
+// parts stand vacuum.
+optimizer::Problem EvacuatedProblem(const Draw& draw);
+
+}  // namespace plenum::test
+
+#endif  // PLENUM_TESTS_SUPPORT_VACUUM_PROBLEMS_H_
