@@ -66,41 +66,49 @@ model::Valve Valve(const catalog::Part& row, const model::Ambient& ambient) {
               PaFromKpaGauge(Optional(row, "pressure_min_kpa_gauge").value_or(0.0), ambient)};
 }
 
-// Of a vacuum pump over mirrored pressures (model/physics/chamber.h), from ambient up.
+// Pumps take in volume, not mass: at ambient p_a, with s = p_a/100 kPa of the table's, the delivery
+// is s·Q read at the same ratio of pressures, so that a point at gauge pressure g stands at s·g.
+struct PumpTable {
+  std::vector<double> pressure_pa, flow_m3_per_s, current_a;
+
+  void Add(const catalog::CurvePoint& point, double gauge_kpa, const model::Ambient& ambient) {
+    const double share = ambient.pressure_pa / model::kReferencePressurePa;
+    pressure_pa.push_back(PaFromKpaGauge(share * gauge_kpa, ambient));
+    flow_m3_per_s.push_back(share * M3PerSFromLPerMin(point.free_air_l_per_min));
+    current_a.push_back(point.current_a);
+  }
+  model::CompressorCurve Curve(double voltage_v, double pressure_max_pa) const {
+    return {.free_air_m3_per_s = {pressure_pa, flow_m3_per_s},
+            .current_a = {pressure_pa, current_a},
+            .voltage_v = voltage_v,
+            .pressure_max_pa = pressure_max_pa};
+  }
+};
+
+// Over mirrored pressures (model/physics/chamber.h), from ambient up.
 std::optional<model::Compressor> VacuumPump(const catalog::Part& row,
                                             const model::Ambient& ambient) {
-  const bool complete = row.numbers.contains("mass_kg") && row.numbers.contains("body_volume_ml");
-  if (!complete || !row.curve) return std::nullopt;
-  const double highest_pa = DeepestImagePa(ambient);
-  std::vector<double> pressure_pa, flow_m3_per_s, current_a;
+  if (!StandsVacuum(row)) return std::nullopt;
+  PumpTable table;
   const auto& points = row.curve->points;
-  for (auto point = points.rbegin(); point != points.rend(); ++point) {
-    pressure_pa.push_back(PaFromKpaGauge(-point->pressure_kpa_gauge, ambient));
-    flow_m3_per_s.push_back(M3PerSFromLPerMin(point->free_air_l_per_min));
-    current_a.push_back(point->current_a);
-  }
-  const double deepest_pa = PaFromKpaGauge(
-      -Optional(row, "vacuum_max_kpa_gauge").value_or(points.front().pressure_kpa_gauge), ambient);
+  for (auto point = points.rbegin(); point != points.rend(); ++point)
+    table.Add(*point, -point->pressure_kpa_gauge, ambient);
+  const double deepest_kpa =
+      Optional(row, "vacuum_max_kpa_gauge").value_or(points.front().pressure_kpa_gauge);
   return model::Compressor{.basics = Basics(row),
-                           .curve = {.free_air_m3_per_s = {pressure_pa, flow_m3_per_s},
-                                     .current_a = {pressure_pa, current_a},
-                                     .voltage_v = Required(row, "voltage_v"),
-                                     .pressure_max_pa = std::min(deepest_pa, highest_pa)},
+                           .curve = table.Curve(Required(row, "voltage_v"),
+                                                std::min(PaFromKpaGauge(-deepest_kpa, ambient),
+                                                         DeepestImagePa(ambient))),
                            .duty_max = Optional(row, "duty_max").value_or(1.0)};
 }
 
 model::Compressor Compressor(const catalog::Part& row, const model::Ambient& ambient) {
-  std::vector<double> pressure_pa, flow_m3_per_s, current_a;
-  for (const catalog::CurvePoint& point : row.curve.value().points) {
-    pressure_pa.push_back(PaFromKpaGauge(point.pressure_kpa_gauge, ambient));
-    flow_m3_per_s.push_back(M3PerSFromLPerMin(point.free_air_l_per_min));
-    current_a.push_back(point.current_a);
-  }
+  PumpTable table;
+  for (const catalog::CurvePoint& point : row.curve.value().points)
+    table.Add(point, point.pressure_kpa_gauge, ambient);
   return {.basics = Basics(row),
-          .curve = {.free_air_m3_per_s = {pressure_pa, flow_m3_per_s},
-                    .current_a = {pressure_pa, current_a},
-                    .voltage_v = Required(row, "voltage_v"),
-                    .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)},
+          .curve = table.Curve(Required(row, "voltage_v"),
+                               Pressure(row, "pressure_max_kpa_gauge", ambient)),
           .duty_max = Required(row, "duty_max")};
 }
 
@@ -205,6 +213,9 @@ bool StandsVacuum(const catalog::Part& row) {
   };
   if (row.family == "tubing") return !text_is("material", "silicone");
   if (row.family == "reservoir") return !text_is("material", "PET");
+  if (row.family == "vacuum_pump")
+    return row.numbers.contains("mass_kg") && row.numbers.contains("body_volume_ml") &&
+           row.curve.has_value();
   if (row.family != "valve") return true;
   if (row.texts.contains("vacuum_rated")) return text_is("vacuum_rated", "yes");
   return !(Optional(row, "pressure_min_kpa_gauge").value_or(0.0) > 0.0);

@@ -20,12 +20,12 @@ model::Parts ToModelParts(const std::vector<catalog::Part>& rows, const model::A
 
 // Whether a part serves under vacuum: tubes that are no soft silicone and reservoirs that are no
 // PET bottles, which a pressure from outside flattens, and valves that say so (`vacuum_rated`) or,
-// where they do not say, switch without pressure at their inlet (direct-acting ones).
+// where they do not say, switch without pressure at their inlet (direct-acting ones). A vacuum pump
+// must have mass, volume and curve.
 bool StandsVacuum(const catalog::Part& row);
 
 // The same parts for evacuated actuators: those that stand vacuum, vacuum pumps in place of all
-// other sources, all pressures mirrored (model/physics/chamber.h). A vacuum pump without mass,
-// volume or curve is left out.
+// other sources, all pressures mirrored (model/physics/chamber.h).
 model::Parts ToVacuumParts(const std::vector<catalog::Part>& rows, const model::Ambient& ambient);
 
 // The functions of a valve in the catalogue: "3/2", "2/2 pair", "proportional".

@@ -79,6 +79,18 @@ Json AllRequirements() {
     "exclude": ["x"], "own": ["x"], "model": "nominal" })");
 }
 
+// What evacuated actuators say.
+Json EvacuatedRequirements() {
+  return Document(R"({
+    "schema": "requirements/1",
+    "actuators": [ { "rest_volume_ml": 200, "expansion_ratio": 0.8,
+                     "operating_pressure_kpa_gauge": -60, "pressure_kpa_gauge_min": -65,
+                     "tube_length_m": 1 } ],
+    "duty": { "frequency_hz": 0.1, "actuations": 10 },
+    "supply": { "vacuum": { "configurations": ["pump"], "vacuum_kpa_gauge_min": -80 } },
+    "require": { "vacuum_pump": ["x"] } })");
+}
+
 // The ways to write a line, a source and a schedule that the example does not use. It runs
 // nothing: "t_end_s" is missing.
 std::vector<Json> AllSimulations() {
@@ -226,7 +238,8 @@ Json PartOf(const catalog::Family& family) {
 }  // namespace
 
 Json DescribeRequirements() {
-  return Heard({ExampleRequirements(), AllRequirements(), Document(R"({ "guarantee": true })")},
+  return Heard({ExampleRequirements(), AllRequirements(), EvacuatedRequirements(),
+                Document(R"({ "guarantee": true })")},
                [](const Json& document) { ParseRequirements(document, {}); });
 }
 

@@ -121,6 +121,14 @@ void AddEstimates(const catalog::Part& row, double quantity, Quality& quality) {
   if (row.curve->current_provenance == catalog::Provenance::kEstimated) add("current");
 }
 
+// What is assumed of a part under vacuum that its row does not say (StandsVacuum).
+void AddAssumed(const catalog::Part& row, Quality& quality) {
+  if (row.family == "valve" && !row.texts.contains("vacuum_rated"))
+    quality.estimated.insert("valve.vacuum_rated");
+  if (row.family == "vacuum_pump" && !row.numbers.contains("duty_max"))
+    quality.estimated.insert("vacuum_pump.duty_max");
+}
+
 Json RenderQuality(const Quality& quality, double mass_kg) {
   const double share = mass_kg > 0.0 ? std::min(1.0, quality.mass_estimated_kg / mass_kg) : 0.0;
   return {{"mass_share_estimated", Number(share)},
@@ -208,6 +216,7 @@ Quality QualityOf(const optimizer::Design& design, const Rows& rows) {
       quality.estimated.insert({"reservoir.body_volume_ml", "reservoir.mass_kg"});
     } else if (const auto row = rows.find(choice.id); row != rows.end()) {
       AddEstimates(*row->second, choice.quantity, quality);
+      if (optimizer::IsVacuum(design.configuration)) AddAssumed(*row->second, quality);
       if (!row->second->orderable.value_or(true)) quality.not_orderable.insert(choice.id);
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/catalogue/catalogue_parts.h"
 #include "api/design/design_document.h"
 #include "api/design/proof_record.h"
 #include "api/design/read/selection.h"
@@ -128,7 +129,8 @@ Json RenderLeftOut(const std::vector<catalog::Part>& parts, const optimizer::Pro
   Json excluded = Json::array();
   for (const optimizer::FamilySpec& spec : optimizer::Families())
     for (const catalog::Part& part : parts) {
-      if (part.family != spec.name || optimizer::CatalogueFamily(spec.family) != spec.family)
+      if (part.family != spec.name || optimizer::CatalogueFamily(spec.family) != spec.family ||
+          !MayUse(problem, spec))
         continue;
       const auto required = problem.require.find(spec.family);
       if (problem.exclude.contains(part.id))
@@ -137,6 +139,8 @@ Json RenderLeftOut(const std::vector<catalog::Part>& parts, const optimizer::Pro
         ++counts["require"][part.family];
       else if (problem.orderable_only && !part.orderable.value_or(true))
         ++counts["orderable"][part.family];
+      else if (optimizer::Evacuated(problem) && !StandsVacuum(part))
+        ++counts["vacuum"][part.family];
     }
   Json left_out = Json::object();
   if (!excluded.empty()) left_out["exclude"] = std::move(excluded);

@@ -48,8 +48,8 @@ Table ReadTable(Reader& owner, std::string_view list, std::size_t least, std::st
 // The name of group `index`, "group 1", … where missing; must not be in `names`, to which it adds.
 std::string ReadName(Reader& group, std::size_t index, std::vector<std::string>& names);
 
-// "curve": [{ "pressure_kpa_gauge", "free_air_l_per_min" }] without currents; of a vacuum pump up to
-// ambient, as images.
+// "curve": [{ "pressure_kpa_gauge", "free_air_l_per_min" }] without currents; of a vacuum pump up
+// to ambient, as images.
 model::CompressorCurve ReadPumpCurve(Reader& source, const model::Ambient& ambient,
                                      Side side = Side::kPressure);
 

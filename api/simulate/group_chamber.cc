@@ -53,6 +53,12 @@ void ReadTableOf(Reader& group, const model::Ambient& ambient, double operating_
                                      Decimal(rest_ml) + " at ambient pressure");
 }
 
+// Also of one too deep to be read.
+bool IsBelowZero(Reader& group) {
+  const Json* given = group.Raw("operating_pressure_kpa_gauge");
+  return given && given->is_number() && given->get<double>() < 0.0;
+}
+
 // Its rest volume and ratio; a shape or a table says how an actuator swells.
 model::Chamber ReadEvacuated(Reader& group, const model::Ambient& ambient, double operating_kpa) {
   model::Chamber chamber;
@@ -85,7 +91,8 @@ model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient, Vacuum 
     group.Fail("operating_pressure_kpa_gauge",
                "must be at least 1, or at most -1 for an actuator that is evacuated, not " +
                    Decimal(operating));
-  if (operating < 0.0) return ReadEvacuated(group, ambient, operating);
+  if (operating < 0.0 || (vacuum == Vacuum::kAllowed && IsBelowZero(group)))
+    return ReadEvacuated(group, ambient, operating);
   chamber.operating_pressure_pa = PaFromKpaGauge(operating, ambient);
 
   if (HasShape(group)) {

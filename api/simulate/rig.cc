@@ -116,8 +116,7 @@ model::ReservoirSource ReadTank(Reader& source, const Surroundings& around) {
 
 model::RegulatedSource ReadRegulated(Reader& source, const Surroundings& around) {
   model::RegulatedSource regulated;
-  regulated.pressure_pa =
-      around.Pa(source.Number("source_pressure_kpa_gauge", around.Pressures()));
+  regulated.pressure_pa = around.Pa(source.Number("source_pressure_kpa_gauge", around.Pressures()));
   if (around.side == Side::kVacuum) return regulated;
   if (auto regulator = source.OptionalObject("regulator")) {
     regulated.regulator = ReadPair(*regulator);

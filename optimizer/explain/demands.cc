@@ -17,7 +17,8 @@ constexpr double kLitrePerMinute = 1e-3 / 60.0;
 Demand OfRequirement(const Requirement& requirement) {
   const bool unlimited = !requirement.pointer.starts_with("/duty/");
   Demand demand{requirement.pointer, nullptr, requirement};
-  if (unlimited) demand.number->loosest = kUnlimited;
+  // Under vacuum pressures are below 0.
+  if (unlimited) demand.number->loosest = std::copysign(kUnlimited, requirement.loosest);
   demand.drop = [set = requirement.set, loosest = demand.number->loosest](Problem& p) {
     set(p, loosest);
   };

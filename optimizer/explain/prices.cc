@@ -131,7 +131,8 @@ std::optional<RequirementFlip> FlipRequirement(const Problem& problem,
                                                const std::vector<Problem>& own,
                                                const std::vector<Design>& designs, std::size_t rank,
                                                const Requirement& requirement, Budget& budget) {
-  const bool less_is_harder = requirement.loosest > requirement.required;
+  // Of pressures under vacuum, which are below 0, the sizes count.
+  const bool less_is_harder = std::abs(requirement.loosest) > std::abs(requirement.required);
   const auto at = [&](double tightening) {  // 0: as required, 1: the tightest
     const double value =
         requirement.required * std::pow(kTightestFactor, less_is_harder ? -tightening : tightening);

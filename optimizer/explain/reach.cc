@@ -84,26 +84,29 @@ Answer TrialSearch::Run(const Problem& problem, bool any_design) {
 Reach FindReach(const Problem& problem, const Demand& demand, TrialSearch& search) {
   const Requirement& number = *demand.number;
   if (number.objective) return LeastAmount(problem, demand, search);
-  const bool less_is_harder = number.loosest > number.required;
+  // Pressures under vacuum are below 0: their sizes are looked for.
+  const double sign = number.required < 0.0 ? -1.0 : 1.0;
+  const bool less_is_harder = sign * number.loosest > sign * number.required;
   // Whole numbers to the easy side: what a design achieves must still be met by it.
   const auto rounded = [&](double value) {
     if (!number.whole) return value;
     return less_is_harder ? std::ceil(value) : std::floor(value);
   };
-  double hard = number.required, easy = number.loosest;
+  double hard = sign * number.required, easy = sign * number.loosest;
   Reach reach{std::nullopt, number.required};
   bool known = true;  // that all up to `hard` is infeasible
   // Whether a design is found with the value; `easy` moves to what it achieves.
   const auto reaches = [&](double value) {
     Problem trial = problem;
-    number.set(trial, value);
+    number.set(trial, sign * value);
     const Answer answer = search.Any(trial);
     if (answer.designs.empty()) {
       known = known && answer.status == Status::kInfeasible;
-      if (known) reach.bound = value;
+      if (known) reach.bound = sign * value;
       return false;
     }
-    const double achieved = rounded(Achieved(answer, number.pointer).value_or(value));
+    const std::optional<double> found = Achieved(answer, number.pointer);
+    const double achieved = rounded(found ? sign * *found : value);
     easy = less_is_harder ? std::max(hard, std::min(achieved, value))
                           : std::min(hard, std::max(achieved, value));
     return true;
@@ -126,7 +129,7 @@ Reach FindReach(const Problem& problem, const Demand& demand, TrialSearch& searc
     if (middle == rounded(hard) || middle == rounded(easy)) break;
     if (!reaches(middle)) hard = middle;
   }
-  reach.best = Outward(easy, less_is_harder, number.whole);
+  reach.best = sign * Outward(easy, less_is_harder, number.whole);
   return reach;
 }
 

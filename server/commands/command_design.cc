@@ -80,7 +80,7 @@ std::string GuaranteeBeside(const api::DesignRequest& request,
                             const std::vector<catalog::Part>& parts) {
   constexpr double kSecondsMost = 10.0;
   if (request.request.contains("guarantee") || !request.pareto.empty() || request.robust ||
-      request.model || request.proof || !api::WhyNotGuaranteed(request.problem).empty())
+      request.model || request.proof || !api::WhyNotGuaranteed(request.problem, {}).empty())
     return "";
   api::DesignRequest best = request;
   best.guarantee = api::GuaranteeRequest{};

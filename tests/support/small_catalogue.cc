@@ -205,7 +205,8 @@ optimizer::Option MakeOption(const Problem& problem, Family family, int index, i
       take(parts.co2[index].basics, parts.co2[index].co2_mass_kg);
       break;
     case Family::kCompressor:
-      take(parts.compressors[index].basics, 0.0);
+    case Family::kVacuumPump:
+      take(PumpsOf(problem)[index].basics, 0.0);
       break;
     case Family::kBattery:
       take(parts.batteries[index].basics, 0.0);

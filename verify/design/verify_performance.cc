@@ -54,14 +54,17 @@ double LowestSource(const Problem& problem, const Design& design, const Assembly
   return (source_pa - FallPa(problem, assembly, problem.actuations)) / kHardlyLeft;
 }
 
+bool IsHardlyAbove(const Problem& problem, const Design& design, const Assembly& assembly) {
+  const double lowest_pa = LowestSource(problem, design, assembly);
+  return std::any_of(problem.groups.begin(), problem.groups.end(), [&](const ActuatorGroup& group) {
+    return lowest_pa < group.chamber.operating_pressure_pa;
+  });
+}
+
 std::optional<Cycle> CycleOf(const Problem& problem, const Design& design, const Assembly& assembly,
                              const Settings& settings, const Stop& stop) {
   std::optional<Cycle> cycle = SimulateCycle(problem, settings, assembly, stop);
-  const bool hardly_above =
-      std::any_of(problem.groups.begin(), problem.groups.end(), [&](const ActuatorGroup& group) {
-        return LowestSource(problem, design, assembly) < group.chamber.operating_pressure_pa;
-      });
-  if (!cycle || !hardly_above) return cycle;
+  if (!cycle || !IsHardlyAbove(problem, design, assembly)) return cycle;
   const std::optional<Cycle> quick =
       QuickCycles(problem, assembly, stop)
           .At(settings, settings.reservoir_volume_m3.value_or(0.0) + assembly.ReservoirSpread());
@@ -77,8 +80,9 @@ struct Worth {
 };
 
 // Of the times of strokes, relative, what a millionth of the source pressure is worth where several
-// draw at once: of one that hardly reaches its pressure, since the others leave so little, that is
-// much. Two simulations of the same strokes may differ by that.
+// draw at once, or where the source is hardly above the operating pressure and no quadrature tells:
+// of a stroke that hardly reaches its pressure that is much. Two simulations of the same strokes
+// may differ by that.
 class WorthOfPressure {
  public:
   WorthOfPressure(const Problem& problem, const Design& design, const Assembly& assembly,
@@ -94,7 +98,7 @@ class WorthOfPressure {
     constexpr double kRaised = 1.0 + 1e-6;
     if (known_) return *known_;
     known_.emplace();
-    if (!SomeAtOnce(problem_)) return *known_;
+    if (!SomeAtOnce(problem_) && !IsHardlyAbove(problem_, design_, assembly_)) return *known_;
     Settings settings = design_.settings;
     settings.source_pressure_pa *= kRaised;
     const std::optional<Cycle> raised = SimulateCycle(problem_, settings, assembly_, stop_);

@@ -19,6 +19,8 @@ constexpr std::array kWords{
     Words{"/rise_time_s_max", "rise time", " s"},
     Words{"/fall_time_s_max", "fall time", " s"},
     Words{"/pressure_kpa_gauge_max", "highest pressure", " kPa gauge"},
+    Words{"/pressure_kpa_gauge_min", "lowest pressure", " kPa gauge", true},
+    Words{"/supply/vacuum/vacuum_kpa_gauge_min", "vacuum", " kPa gauge", true},
     Words{"/duty/frequency_hz", "frequency that it sustains", " Hz", true},
     Words{"/duty/actuations", "number of actuations that it lasts for", "", true},
     Words{"/supply/source_pressure_kpa_gauge_max", "source pressure", " kPa gauge"},

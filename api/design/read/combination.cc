@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "api/catalogue/catalogue_parts.h"
 #include "api/design/read/power.h"
 #include "api/design/read/selection.h"
 #include "api/json/units.h"
@@ -48,6 +49,12 @@ const Part* Find(const std::vector<Part>& parts, const Choice* choice) {
   for (const Part& part : parts)
     if (IdOf(part) == choice->id) return &part;
   return nullptr;
+}
+
+// Of a reservoir or a tank that the problem has.
+const model::Reservoir& StockOf(const Problem& problem, const Choice& choice) {
+  return *Find(choice.family == Family::kTank ? problem.parts.tanks : problem.parts.reservoirs,
+               &choice);
 }
 
 // The field that says how many pieces of a part of the source there may be; null: always one.
@@ -166,6 +173,11 @@ class Check {
     } else if (!IsAllowed(problem_, choice.family, choice.id)) {
       FailRow(choice, "/id",
               Quoted(choice.id) + " is none of those that require." + family + " asks for");
+    } else if (optimizer::Evacuated(problem_) && IsCustom(choice)) {
+      FailRow(choice, "/id", "a reservoir made to measure is built for pressure, not for a vacuum");
+    } else if (optimizer::Evacuated(problem_) && !StandsVacuum(*found)) {
+      FailRow(choice, "/id",
+              Quoted(choice.id) + " does not stand a vacuum, or its row does not say enough");
     } else if (found != catalogue_.end() && !IsAllowed(problem_, choice.family, *found)) {
       FailRow(choice, "/id",
               Quoted(choice.id) + " is no product that one can order, which supply.parts asks for");
@@ -320,7 +332,7 @@ class Check {
     if (row == nullptr) {
       if (given) Fail(place, "must be left out: " + Is() + " has no reservoir");
     } else if (!IsCustom(*row)) {
-      const double stock_m3 = row->quantity * Find(problem_.parts.tanks, row)->volume_m3;
+      const double stock_m3 = row->quantity * StockOf(problem_, *row).volume_m3;
       if (given && !Near(*given, stock_m3))
         Fail(place, "must be " + Decimal(Rounded(MlFromM3(stock_m3))) + ", the volume of " +
                         Quoted(row->id) + ", or left out" + is);
@@ -352,8 +364,7 @@ void CheckCombination(const Design& design, const Problem& problem,
 Design WithReservoirVolume(Design design, const Problem& problem) {
   for (const Choice& choice : design.parts)
     if (optimizer::CatalogueFamily(choice.family) == Family::kReservoir && !IsCustom(choice))
-      design.settings.reservoir_volume_m3 =
-          choice.quantity * Find(problem.parts.tanks, &choice)->volume_m3;
+      design.settings.reservoir_volume_m3 = choice.quantity * StockOf(problem, choice).volume_m3;
   return design;
 }
 

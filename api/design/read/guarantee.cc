@@ -61,11 +61,15 @@ std::optional<GuaranteeRequest> ReadGuarantee(Reader& request,
   return guarantee;
 }
 
-std::string WhyNotGuaranteed(const optimizer::Problem& problem) {
+std::string WhyNotGuaranteed(const optimizer::Problem& problem, const GuaranteeRequest& guarantee) {
+  // What contracts more holds less air at first and more of it towards the deepest vacuum.
+  if (optimizer::Evacuated(problem) &&
+      std::any_of(guarantee.groups.begin(), guarantee.groups.end(),
+                  [](const GroupUncertainty& group) { return group.expansion_ratio > 0.0; }))
+    return "is for evacuated actuators whose contraction is exact: leave expansion_ratio out of "
+           "/actuators/…/relative_uncertainty";
   if (problem.objective.energy_wh > 0.0)
     return "ranks by mass, volume and cost; energy is told at its upper value and not minimised";
-  if (optimizer::Evacuated(problem))
-    return "is not for evacuated actuators yet: leave it out, or draw by /robust";
   if (problem.configurations.contains(optimizer::Configuration::kTank))
     return "is not for tanks yet: leave tank out of /supply/configurations";
   if (problem.configurations.contains(optimizer::Configuration::kDirectPump))
@@ -86,10 +90,12 @@ optimizer::Problem GuaranteedProblem(const optimizer::Problem& problem,
                                      const Settled& settled) {
   optimizer::Problem guaranteed = problem;
   guaranteed.guarantee = optimizer::Guarantee{guarantee.tolerance.estimated};
+  // Not guaranteed yet, and not asked for by name.
+  guaranteed.configurations.erase(optimizer::Configuration::kDirectVacuumPump);
   for (std::size_t g = 0; g < guarantee.groups.size(); ++g)
     Enlarge(guarantee.groups[g], guaranteed.groups[g].chamber);
   guaranteed.parts =
-      ToWorstParts(AllowedParts(rows, problem), problem.ambient, guarantee.tolerance, settled);
+      ToWorstParts(problem, AllowedParts(rows, problem), guarantee.tolerance, settled);
   if (NeedsHoldingValves(problem))
     std::erase_if(guaranteed.parts.valves,
                   [](const model::Valve& valve) { return !model::Holds(valve.kind); });

@@ -28,7 +28,7 @@ GroupUncertainty ReadGroupUncertainty(Reader& group);
 std::optional<GuaranteeRequest> ReadGuarantee(Reader& request,
                                               std::vector<GroupUncertainty> groups);
 // Why designs of the problem cannot be guaranteed; empty where they can.
-std::string WhyNotGuaranteed(const optimizer::Problem& problem);
+std::string WhyNotGuaranteed(const optimizer::Problem& problem, const GuaranteeRequest& guarantee);
 
 // Whether valves that cannot hold are left out: where several groups share a source their worst is
 // not known.

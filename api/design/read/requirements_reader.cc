@@ -306,7 +306,7 @@ void CheckTogether(Reader& request, const DesignRequest& parsed, bool probabilit
 
 void CheckGuarantee(Reader& request, const DesignRequest& parsed) {
   if (!parsed.guarantee) return;
-  std::string why = WhyNotGuaranteed(parsed.problem);
+  std::string why = WhyNotGuaranteed(parsed.problem, *parsed.guarantee);
   if (!parsed.pareto.empty()) why = "is for a list by one objective, not a front";
   if (parsed.model) why = "is for the nominal model";
   if (parsed.robust)

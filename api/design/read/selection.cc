@@ -110,17 +110,21 @@ std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
   for (const optimizer::FamilySpec& spec : optimizer::Families())
     for (const catalog::Part& part : parts)
       if (part.family == spec.name && optimizer::CatalogueFamily(spec.family) == spec.family &&
-          IsAllowed(problem, spec.family, part))
+          MayUse(problem, spec) && IsAllowed(problem, spec.family, part))
         allowed.push_back(AsCounted(part, problem));
   return allowed;
 }
 
+bool MayUse(const optimizer::Problem& problem, const optimizer::FamilySpec& spec) {
+  if (!optimizer::Evacuated(problem)) return spec.family != Family::kVacuumPump;
+  return spec.in_line || std::any_of(problem.configurations.begin(), problem.configurations.end(),
+                                     [&](Configuration one) { return spec.InSourceOf(one); });
+}
+
 model::Parts ModelPartsFor(const optimizer::Problem& problem,
                            const std::vector<catalog::Part>& rows) {
-  if (optimizer::Evacuated(problem)) return ToVacuumParts(rows, problem.ambient);
-  model::Parts parts = ToModelParts(rows, problem.ambient);
-  parts.vacuum_pumps.clear();
-  return parts;
+  return optimizer::Evacuated(problem) ? ToVacuumParts(rows, problem.ambient)
+                                       : ToModelParts(rows, problem.ambient);
 }
 
 model::Parts AllowedModelParts(const std::vector<catalog::Part>& parts,

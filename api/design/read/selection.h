@@ -7,6 +7,7 @@
 
 #include "api/json/reader.h"
 #include "catalog/fields/part.h"
+#include "optimizer/problem/family_specs.h"
 #include "optimizer/problem/problem.h"
 
 namespace plenum::api {
@@ -29,6 +30,10 @@ catalog::Part AsCounted(catalog::Part part, const optimizer::Problem& problem);
 // The parts that the problem leaves, as it counts them; by family, else in their order.
 std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
                                         const optimizer::Problem& problem);
+
+// Whether a design of the problem may have parts of a family: vacuum pumps only evacuate, and what
+// evacuates has no other source.
+bool MayUse(const optimizer::Problem& problem, const optimizer::FamilySpec& spec);
 
 // Rows as the search of this problem sees them: as they are, or for evacuated actuators.
 model::Parts ModelPartsFor(const optimizer::Problem& problem,

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "api/catalogue/catalogue_parts.h"
+#include "api/design/read/selection.h"
 #include "api/json/units.h"
 #include "model/physics/storage.h"
 #include "optimizer/problem/family_specs.h"
@@ -20,6 +20,7 @@ bool IsRatio(std::string_view field) { return field.starts_with("critical_ratio"
 // What the tables of the families leave to rules.
 Worst WorstByRule(std::string_view family, std::string_view field) {
   if (field == "pressure_max_kpa_gauge" || field == "co2_mass_kg") return Worst::kLow;
+  if (field == "vacuum_max_kpa_gauge") return Worst::kHigh;  // below 0
   // Gas that stays behind in a CO2 bottle fills its volume.
   if (field == "water_volume_l") return family == "co2" ? Worst::kHigh : Worst::kLow;
   return Worst::kExact;
@@ -154,13 +155,13 @@ catalog::Part AtCorner(catalog::Part row, const Tolerance& tolerance, int corner
   return row;
 }
 
-model::Parts ToWorstParts(const std::vector<catalog::Part>& rows, const model::Ambient& ambient,
+model::Parts ToWorstParts(const optimizer::Problem& problem, const std::vector<catalog::Part>& rows,
                           const Tolerance& tolerance, const Settled& settled) {
   std::vector<catalog::Part> worst;
   worst.reserve(rows.size());
   for (const catalog::Part& row : rows) worst.push_back(AtWorst(row, tolerance, settled));
-  model::Parts parts = ToModelParts(worst, ambient);
-  std::array<std::size_t, static_cast<std::size_t>(optimizer::Family::kReservoir) + 1> seen{};
+  model::Parts parts = ModelPartsFor(problem, worst);
+  std::array<std::size_t, static_cast<std::size_t>(optimizer::Family::kVacuumPump) + 1> seen{};
   for (const catalog::Part& row : rows) {
     for (const optimizer::FamilySpec& spec : optimizer::Families()) {
       // Reservoirs as tanks: a guarantee has none (guarantee.h).
@@ -169,7 +170,7 @@ model::Parts ToWorstParts(const std::vector<catalog::Part>& rows, const model::A
       AddSlack(row, tolerance, settled,
                optimizer::BasicsOf(parts, spec.family, static_cast<int>(part)));
       if (spec.family == optimizer::Family::kCylinder)
-        SetCharge(row, tolerance, settled, ambient, parts.cylinders[part]);
+        SetCharge(row, tolerance, settled, problem.ambient, parts.cylinders[part]);
       if (spec.family == optimizer::Family::kCo2)
         SetCharge(row, tolerance, settled, parts.co2[part]);
       if (spec.family == optimizer::Family::kReservoir)

@@ -33,9 +33,9 @@ using Settled = std::function<bool(const catalog::Part& row, std::string_view fi
 double HalfWidth(const catalog::Part& row, std::string_view field, const Tolerance& tolerance,
                  const Settled& settled = {});
 
-// The rows as parts at the worst of their tolerances. What ranks is as printed: mass, outer volume
-// and price, the gas of a full bottle included.
-model::Parts ToWorstParts(const std::vector<catalog::Part>& rows, const model::Ambient& ambient,
+// The rows, allowed in the problem, as parts at the worst of their tolerances. What ranks is as
+// printed: mass, outer volume and price, the gas of a full bottle included.
+model::Parts ToWorstParts(const optimizer::Problem& problem, const std::vector<catalog::Part>& rows,
                           const Tolerance& tolerance, const Settled& settled = {});
 
 // The row with each number at one end of its tolerance or the other, by a hash of part, number and

@@ -179,6 +179,7 @@ Drawn Draw(std::uint64_t seed) {
 }
 
 TEST(Vacuum, StrokesAgreeWithMassesAndLieWithinTheirEnclosures) {
+  int enclosed = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const Drawn drawn = Draw(seed);
     const Series line = MakeSeries(drawn.elements);
@@ -197,22 +198,27 @@ TEST(Vacuum, StrokesAgreeWithMassesAndLieWithinTheirEnclosures) {
     EXPECT_NEAR(release_s / in_s, 1.0, 1e-5) << seed;
 
     const auto within = [&](const Enclosure& enclosure, double at_most_s, double seconds) {
+      if (std::isinf(enclosure.high_s)) return false;  // nothing is said of such a line
       EXPECT_LE(enclosure.low_s, seconds) << seed;
       EXPECT_GE(enclosure.high_s, seconds) << seed;
       EXPECT_GE(at_most_s, seconds * (1.0 - 1e-9)) << seed;
       EXPECT_LT(enclosure.high_s, 1.3 * enclosure.low_s) << seed;
+      return true;
     };
-    within(EncloseFillTime(MarchNodes(drawn.elements, 1.0, rail_pa / target_pa), chamber, source_pa,
-                           kAmbientPa, Image(target_pa), kReferenceTemperatureK),
-           FillTimeAtMost(drawn.elements, 1.0, chamber, source_pa, kAmbientPa, Image(target_pa),
-                          kReferenceTemperatureK),
-           evacuate_s);
-    within(EncloseEmptyTime(MarchNodes(drawn.elements, 1.0, in_pa / kAmbientPa), chamber,
-                            Image(operating_pa), Image(in_pa), kReferenceTemperatureK),
-           EmptyTimeAtMost(drawn.elements, 1.0, chamber, Image(operating_pa), Image(in_pa),
-                           kReferenceTemperatureK),
-           release_s);
+    enclosed +=
+        within(EncloseFillTime(MarchNodes(drawn.elements, 1.0, rail_pa / target_pa), chamber,
+                               source_pa, kAmbientPa, Image(target_pa), kReferenceTemperatureK),
+               FillTimeAtMost(drawn.elements, 1.0, chamber, source_pa, kAmbientPa, Image(target_pa),
+                              kReferenceTemperatureK),
+               evacuate_s);
+    enclosed +=
+        within(EncloseEmptyTime(MarchNodes(drawn.elements, 1.0, in_pa / kAmbientPa), chamber,
+                                Image(operating_pa), Image(in_pa), kReferenceTemperatureK),
+               EmptyTimeAtMost(drawn.elements, 1.0, chamber, Image(operating_pa), Image(in_pa),
+                               kReferenceTemperatureK),
+               release_s);
   }
+  EXPECT_GT(enclosed, 70);
 }
 
 model::Rig Simulated(const Drawn& drawn, const Source& source) {
@@ -270,14 +276,15 @@ TEST(Vacuum, AReservoirWithPumpsAgreesWithMassesAndWithTheSimulator) {
                 1e-8 * std::abs(group.gas_start_m3))
         << seed;
 
-    // Masses, where the line stays ahead of the pumps: there it needs no stiff method.
+    // Masses, where the line holds reservoir and chambers apart to the end: else they need a stiff
+    // method.
+    if (stroke.reservoir_end_pa - stroke.chamber_end_pa < 0.03 * operating_pa) continue;
     const Emptied emptied =
         Integrate(drawn.rig, stop_pa, kAmbientPa, kAmbientPa + 0.95 * (operating_pa - kAmbientPa));
-    if (!(stroke.rise_s < 1e3 * emptied.seconds)) continue;
     EXPECT_NEAR(emptied.seconds / stroke.rise_s, 1.0, 1e-4) << seed;
     ++reached;
   }
-  EXPECT_GT(reached, 30);
+  EXPECT_GT(reached, 25);
 }
 
 TEST(Vacuum, PumpsAloneAgreeWithTheSimulatorAndWithASmallReservoir) {

@@ -26,7 +26,7 @@ Problem Drawn(std::uint64_t seed, std::set<Configuration> configurations, int gr
   Draw draw;
   draw.seed = 21000 + seed;
   draw.configurations = std::move(configurations);
-  draw.severity = 0.02 * static_cast<double>(seed % 20);
+  draw.severity = 0.03 * static_cast<double>(seed % 20);
   draw.groups = groups;
   draw.simultaneous = groups == 1 || simultaneous;
   draw.size = groups == 1 ? CatalogueSize{3, 3, 4, 0, 0, 0, 3, 3, 2}
@@ -53,25 +53,25 @@ TEST(VacuumSearch, ListsWhatEnumerationLists) {
     Compare(Drawn(seed, {kReservoir}), tally);
   }
   EXPECT_GT(tally.feasible, 30);
-  EXPECT_GT(tally.infeasible, 5);
+  EXPECT_GT(tally.infeasible, 3);
   EXPECT_GT(tally.designs, 150);
 }
 
 TEST(VacuumSearch, ListsPumpsAloneAsEnumerationDoes) {
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
     Compare(Drawn(200 + seed, {kDirect}), tally);
   }
-  EXPECT_GT(tally.feasible, 15);
-  EXPECT_GT(tally.infeasible, 3);
+  EXPECT_GT(tally.feasible, 10);
+  EXPECT_GT(tally.infeasible, 2);
 }
 
 TEST(VacuumSearch, ListsWhatEnumerationListsForOtherObjectivesAndLimits) {
   constexpr optimizer::Objective kObjectives[] = {
       {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}, {1.0, 0.0, 0.0, 0.5}};
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
     SCOPED_TRACE(seed);
     Problem problem = Drawn(300 + seed, {kReservoir, kDirect});
     problem.objective = kObjectives[seed % 4];
@@ -80,7 +80,7 @@ TEST(VacuumSearch, ListsWhatEnumerationListsForOtherObjectivesAndLimits) {
     if (seed % 3 == 0) problem.mass_max_kg = 1.2 * all.designs[0].mass_kg + 0.3;
     Compare(problem, tally);
   }
-  EXPECT_GT(tally.feasible, 10);
+  EXPECT_GT(tally.feasible, 5);
 }
 
 TEST(VacuumSearch, GroupsAtOnceAndOneAfterAnother) {

@@ -129,6 +129,8 @@ const supplyWords = {
   mains: 'wall',
   tank: 'tank',
   direct_pump: 'pump without a reservoir',
+  vacuum_pump: 'vacuum pump',
+  direct_vacuum_pump: 'vacuum pump without a reservoir',
 };
 export const powerWord = ({
   kind,
@@ -176,9 +178,11 @@ export function requirementName(pointer: string, groups: { name: string }[]): st
     rise_time_s_max: 'rise time',
     fall_time_s_max: 'fall time',
     pressure_kpa_gauge_max: 'highest pressure',
+    pressure_kpa_gauge_min: 'lowest pressure',
     '/duty/frequency_hz': 'frequency',
     '/duty/actuations': 'actuations',
     '/supply/source_pressure_kpa_gauge_max': 'source pressure',
+    '/supply/vacuum/vacuum_kpa_gauge_min': 'vacuum',
     '/supply/tank_fill_kpa_gauge_max': 'tank fill',
     '/supply/mass_kg_max': 'mass',
     '/supply/volume_l_max': 'volume',
@@ -199,7 +203,7 @@ export function requirementName(pointer: string, groups: { name: string }[]): st
 }
 
 export function requirementUnit(pointer: string): string {
-  if (pointer.includes('pressure')) return unitOf('pressure');
+  if (pointer.includes('pressure') || pointer.includes('vacuum')) return unitOf('pressure');
   if (pointer.endsWith('_time_s_max')) return 's';
   if (pointer.endsWith('frequency_hz')) return 'Hz';
   if (pointer.endsWith('mass_kg_max')) return 'kg';
@@ -217,7 +221,8 @@ export function placeInWords(pointer: string, groups: { name: string }[]): strin
 }
 
 // Whether a requirement is a least or a most.
-export const sense = (pointer: string): string => (pointer.startsWith('/duty') ? '≥' : '≤');
+export const sense = (pointer: string): string =>
+  pointer.startsWith('/duty') || pointer.endsWith('_min') ? '≥' : '≤';
 
 // What a search minimises, in words.
 export function objectiveName({ objective }: Pick<Requirements, 'objective'>): string {
@@ -236,7 +241,7 @@ export function objectiveUnit({ objective }: Pick<Requirements, 'objective'>): s
 
 // A requirement's number in the units chosen.
 export function requirementNumber(pointer: string, value: number | null): string {
-  if (pointer.includes('pressure')) return shown('pressure', value);
+  if (pointer.includes('pressure') || pointer.includes('vacuum')) return shown('pressure', value);
   if (pointer.endsWith('volume_l_max')) return shown('volume_l', value);
   return value === null ? '–' : short(value, pointer.endsWith('actuations') ? 4 : 3);
 }

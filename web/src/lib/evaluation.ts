@@ -2,6 +2,7 @@
 import { post } from './api';
 import { loadPart, numberOf } from './catalogue';
 import type { Design, Margin, PartRow, Requirements } from './types';
+import { isEvacuated } from './vacuum';
 
 export interface Evaluation {
   works: boolean | null; // null: not known
@@ -100,7 +101,9 @@ export function changed(requirements: Requirements, change: Change): Requirement
         rest_volume_ml: group.rest_volume_ml * change.rest_volume,
       }),
       ...(group.expansion_ratio !== undefined && {
-        expansion_ratio: Math.max(1, group.expansion_ratio * change.expansion),
+        expansion_ratio: isEvacuated(group)
+          ? Math.min(1, Math.max(0.01, group.expansion_ratio * change.expansion))
+          : Math.max(1, group.expansion_ratio * change.expansion),
       }),
       ...(group.pressure_volume && {
         pressure_volume: group.pressure_volume.map((p) => ({
@@ -111,6 +114,9 @@ export function changed(requirements: Requirements, change: Change): Requirement
       operating_pressure_kpa_gauge: group.operating_pressure_kpa_gauge * change.operating,
       ...(group.pressure_kpa_gauge_max && {
         pressure_kpa_gauge_max: group.pressure_kpa_gauge_max * change.operating,
+      }),
+      ...(group.pressure_kpa_gauge_min && {
+        pressure_kpa_gauge_min: group.pressure_kpa_gauge_min * change.operating,
       }),
     })),
     duty: {

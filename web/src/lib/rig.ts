@@ -2,6 +2,7 @@
 import { loadPart, numberOf } from './catalogue';
 import { type Change, changed } from './evaluation';
 import type { Design, Effect, Group, Part, Requirements } from './types';
+import { isDirect } from './vacuum';
 
 export type Parts = Map<string, Part>;
 
@@ -37,18 +38,20 @@ export function lineOf(design: Design, group: Group) {
 }
 
 function sourceOf(design: Design, requirements: Requirements, parts: Parts, change: Change) {
-  const pump = rowOf(design, 'compressor');
+  const pump = rowOf(design, 'compressor') ?? rowOf(design, 'vacuum_pump');
   if (pump) {
+    // Pumps take in volume: the table is of 100 kPa, and holds at the same ratios of pressure.
+    const share = (requirements.ambient?.pressure_kpa_abs ?? 100) / 100;
     const pumps = {
       curve: parts.get(pump.id)!.curve!.map(({ pressure_kpa_gauge, free_air_l_per_min }) => ({
-        pressure_kpa_gauge,
-        free_air_l_per_min,
+        pressure_kpa_gauge: share * pressure_kpa_gauge,
+        free_air_l_per_min: share * free_air_l_per_min,
       })),
       count: pump.quantity,
     };
-    if (design.configuration === 'direct_pump') return { kind: 'direct_pump', ...pumps };
+    if (isDirect(design.configuration)) return { kind: design.configuration, ...pumps };
     return {
-      kind: 'compressor',
+      kind: design.configuration,
       ...pumps,
       reservoir_volume_ml: change.reservoir_ml ?? design.settings.reservoir_volume_ml,
       initial_pressure_kpa_gauge: change.source_kpa,

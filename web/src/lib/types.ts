@@ -17,13 +17,22 @@ export interface Group {
   rise_time_s_max?: number | null;
   fall_time_s_max?: number | null;
   pressure_kpa_gauge_max?: number | null;
+  pressure_kpa_gauge_min?: number | null;
   relative_uncertainty?: { rest_volume?: number; expansion_ratio?: number };
   phase?: number | number[] | string;
   inflate_fraction?: number;
   strokes_per_period?: number;
 }
 
-export type Configuration = 'cylinder' | 'co2' | 'compressor' | 'mains' | 'tank' | 'direct_pump';
+export type Configuration =
+  | 'cylinder'
+  | 'co2'
+  | 'compressor'
+  | 'mains'
+  | 'tank'
+  | 'direct_pump'
+  | 'vacuum_pump'
+  | 'direct_vacuum_pump';
 export type Amount = 'mass_kg' | 'volume_l' | 'cost_eur' | 'energy_wh';
 
 // Where a number comes from, and how far it is trusted.
@@ -42,6 +51,7 @@ export interface Requirements {
     configurations?: Configuration[];
     mains?: { pressure_kpa_gauge: number; flow_l_per_min_anr_max?: number };
     pumps?: 'shared' | 'per_group';
+    vacuum?: { configurations?: string[]; vacuum_kpa_gauge_min?: number | null };
     source_pressure_kpa_gauge_max?: number | null;
     tank_fill_kpa_gauge_max?: number | null;
     mass_kg_max?: number | null;

@@ -17,6 +17,7 @@ import { MovedOn } from './moved_on';
 import { Sensitivities } from './sensitivities';
 import { WhatIf } from './what_if';
 import { Estimates, Facts, MarginsPanel, PartsPanel } from './design_panels';
+import { isVacuum } from '../lib/vacuum';
 
 export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; rank: number }) {
   const design = answer.designs.find((d) => d.rank === rank);
@@ -104,9 +105,11 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
         />
       )}
       <Sensitivities design={design} requirements={answer.requirements} />
-      <div class={`plots ${design.configuration === 'compressor' ? 'three' : 'even'}`}>
-        <Maps design={design} requirements={answer.requirements} parts={parts.value} />
-      </div>
+      {!isVacuum(design.configuration) && (
+        <div class={`plots ${design.configuration === 'compressor' ? 'three' : 'even'}`}>
+          <Maps design={design} requirements={answer.requirements} parts={parts.value} />
+        </div>
+      )}
       <Estimates design={design} />
     </div>
   );

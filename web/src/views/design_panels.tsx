@@ -18,6 +18,7 @@ import { number, Table } from '../ui/table';
 
 const familyColour: Record<string, string> = {
   compressor: '--c1',
+  vacuum_pump: '--c1',
   battery: '--c2',
   valve: '--c3',
   reservoir: '--c4',

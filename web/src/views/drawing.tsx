@@ -2,6 +2,7 @@
 import { short } from '../lib/format';
 import type { Configuration, Group, Requirements } from '../lib/types';
 import { toShown, unitOf } from '../lib/units';
+import { hasReservoir, isDirect, isEvacuated, kindsAsked } from '../lib/vacuum';
 
 const names: Record<Configuration, string> = {
   compressor: 'compressor',
@@ -10,6 +11,8 @@ const names: Record<Configuration, string> = {
   mains: 'wall',
   tank: 'tank',
   direct_pump: 'pump',
+  vacuum_pump: 'vacuum pump',
+  direct_vacuum_pump: 'vacuum pump',
 };
 
 // Signs in the manner of ISO 1219, 30 × 30 around the middle.
@@ -21,6 +24,14 @@ function SourceSign({ kind }: { kind: Configuration }) {
         <>
           <circle r="13" />
           <path d="M-13 0 L11 -7 M-13 0 L11 7" />
+        </>
+      );
+    case 'vacuum_pump':
+    case 'direct_vacuum_pump':
+      return (
+        <>
+          <circle r="13" />
+          <path d="M13 0 L-11 -7 M13 0 L-11 7" />
         </>
       );
     case 'cylinder':
@@ -66,7 +77,8 @@ const volumeOf = (group: Group): number =>
 
 function Actuator({ group, largest }: { group: Group; largest: number }) {
   const rest = 5 + 10 * Math.cbrt(volumeOf(group) / largest);
-  const grown = rest * Math.cbrt(Math.min(Math.max(group.expansion_ratio ?? 1, 1), 8));
+  const ratio = group.expansion_ratio ?? 1;
+  const grown = rest * Math.cbrt(isEvacuated(group) ? ratio : Math.min(Math.max(ratio, 1), 8));
   return (
     <>
       <ellipse rx={grown * 1.15} ry={grown} class="grown" />
@@ -80,7 +92,7 @@ const clip = (name: string): string => (name.length > 14 ? `${name.slice(0, 13)}
 const place = (x: number, y: number) => `translate(${x} ${y})`;
 
 export function Drawing({ requirements }: { requirements: Requirements }) {
-  const kinds = requirements.supply?.configurations ?? ['cylinder', 'co2', 'compressor'];
+  const kinds = kindsAsked(requirements);
   const groups = requirements.actuators;
   const rows = Math.max(kinds.length, groups.length, 1);
   const step = 92;
@@ -111,17 +123,17 @@ export function Drawing({ requirements }: { requirements: Requirements }) {
             <g transform={place(34, y)} class="sign source">
               <SourceSign kind={kind} />
             </g>
-            {kind !== 'direct_pump' && (
+            {!isDirect(kind) && (
               <g transform={place(104, y)} class="sign">
-                {kind === 'compressor' ? <Reservoir /> : <Regulator />}
+                {hasReservoir(kind) ? <Reservoir /> : <Regulator />}
               </g>
             )}
             <text x="34" y={y + 27}>
               {names[kind]}
             </text>
-            {kind !== 'direct_pump' && (
+            {!isDirect(kind) && (
               <text x="104" y={y + 27}>
-                {kind === 'compressor' ? 'reservoir' : 'regulator'}
+                {hasReservoir(kind) ? 'reservoir' : 'regulator'}
               </text>
             )}
           </g>

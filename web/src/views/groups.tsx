@@ -1,6 +1,7 @@
 // The groups of equal actuators, one block of fields each.
-import { edit, errorAt, requirements } from '../lib/requirements';
+import { edit, errorAt, numbers, requirements } from '../lib/requirements';
 import type { Group } from '../lib/types';
+import { isEvacuated } from '../lib/vacuum';
 import { TextField } from '../ui/controls';
 import { RequirementField } from './requirement_field';
 import { GaitFields } from './gait_fields';
@@ -57,15 +58,26 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
           label="Operating pressure"
           kind="pressure"
           path={path('operating_pressure_kpa_gauge')}
-          range={[1, 1e4]}
+          range={[-99, 1e4]}
+          hint="below 0: evacuated"
         />
-        <RequirementField
-          label="Pressure, at most"
-          placeholder="1.05 × operating"
-          kind="pressure"
-          optional
-          path={path('pressure_kpa_gauge_max')}
-        />
+        {isEvacuated(numbers.value.actuators[index] ?? group) ? (
+          <RequirementField
+            label="Pressure, at least"
+            placeholder="1.05 × operating"
+            kind="pressure"
+            optional
+            path={path('pressure_kpa_gauge_min')}
+          />
+        ) : (
+          <RequirementField
+            label="Pressure, at most"
+            placeholder="1.05 × operating"
+            kind="pressure"
+            optional
+            path={path('pressure_kpa_gauge_max')}
+          />
+        )}
         <RequirementField
           label="Rise time, at most"
           unit="s"

@@ -22,7 +22,10 @@ export function identity(design: Pick<Design, 'parts'>): { source: string; valve
   const of = (...families: string[]) =>
     named(design.parts.filter((p) => families.includes(p.family)));
   return {
-    source: of('compressor', 'cylinder', 'co2') || of('reservoir') || `wall, ${of('regulator')}`,
+    source:
+      of('compressor', 'vacuum_pump', 'cylinder', 'co2') ||
+      of('reservoir') ||
+      `wall, ${of('regulator')}`,
     valves: of('valve'),
   };
 }

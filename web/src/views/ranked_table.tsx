@@ -58,7 +58,7 @@ export function partsInShort(design: Design, base: Design | undefined): string {
     (p) =>
       !known.has(key(p)) &&
       (design !== base ||
-        ['compressor', 'cylinder', 'co2', 'regulator', 'valve'].includes(p.family) ||
+        ['compressor', 'vacuum_pump', 'cylinder', 'co2', 'regulator', 'valve'].includes(p.family) ||
         (p.family === 'reservoir' && design.configuration === 'tank')),
   );
   return rows

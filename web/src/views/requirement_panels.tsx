@@ -1,6 +1,7 @@
 // The panels of the requirements beside the actuators and the objective: duty, supply, conditions.
-import { edit, errorAt, requirements } from '../lib/requirements';
+import { edit, errorAt, numbers, requirements } from '../lib/requirements';
 import type { Configuration, PowerKind } from '../lib/types';
+import { areEvacuated } from '../lib/vacuum';
 import { Check, Panel, Segmented } from '../ui/controls';
 import { RequirementField } from './requirement_field';
 
@@ -30,9 +31,17 @@ export function Supply() {
     if (name === 'direct_pump' && !on) edit(['supply', 'pumps'], undefined);
   };
   const wrong = errorAt('/supply/configurations') ?? errorAt('/supply/mains');
+  const vacuum = areEvacuated(numbers.value);
   return (
     <Panel title="Supply">
+      {vacuum && (
+        <p class="hint">
+          Operating pressures below ambient: vacuum pumps, with a reservoir or straight to the
+          actuators.
+        </p>
+      )}
       <div
+        hidden={vacuum}
         class="checks"
         role="group"
         aria-label="Kinds of supply to consider"
@@ -104,13 +113,23 @@ export function Supply() {
             />
           </>
         )}
-        <RequirementField
-          label="Source pressure, at most"
-          kind="pressure"
-          optional
-          path={['supply', 'source_pressure_kpa_gauge_max']}
-          range={[1, 50000]}
-        />
+        {vacuum ? (
+          <RequirementField
+            label="Vacuum, no deeper than"
+            kind="pressure"
+            optional
+            path={['supply', 'vacuum', 'vacuum_kpa_gauge_min']}
+            range={[-100, -1]}
+          />
+        ) : (
+          <RequirementField
+            label="Source pressure, at most"
+            kind="pressure"
+            optional
+            path={['supply', 'source_pressure_kpa_gauge_max']}
+            range={[1, 50000]}
+          />
+        )}
         {chosen.includes('tank') && (
           <RequirementField
             label="Tank filled to, at most"

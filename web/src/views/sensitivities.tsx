@@ -11,6 +11,7 @@ import type { Design, Requirements } from '../lib/types';
 import { Notice, Panel, Segmented } from '../ui/controls';
 import { Swing } from '../ui/swing';
 import { Table } from '../ui/table';
+import { isDirect } from '../lib/vacuum';
 
 type By = '-10' | '10';
 
@@ -38,7 +39,7 @@ const effects: Effect[] = [
 
 const causes = (design: Design, start: Change, factor: number): [string, Partial<Change>][] => [
   // Without a reservoir it is no setting.
-  ...(design.configuration === 'direct_pump'
+  ...(isDirect(design.configuration)
     ? []
     : [
         ['source pressure', { source_kpa: start.source_kpa * factor }] as [string, Partial<Change>],

@@ -1,12 +1,13 @@
 // How much a group's actuator holds: as numbers, as a measured table or by what it is.
 import { short } from '../lib/format';
-import { edit, errorAt, understood } from '../lib/requirements';
+import { edit, errorAt, numbers, understood } from '../lib/requirements';
 import type { Group } from '../lib/types';
 import { type Shape, shapeOf, shapes } from '../lib/understood';
 import { toShown, unitOf } from '../lib/units';
 import { Select } from '../ui/controls';
 import { RequirementField } from './requirement_field';
 import { ShapeDrawing } from './shape_drawing';
+import { isEvacuated } from '../lib/vacuum';
 
 type Way = 'numbers' | 'table' | Shape;
 
@@ -116,10 +117,12 @@ export function VolumeFields({ group, index }: { group: Group; index: number }) 
             range={[0.01, 1e6]}
           />
           <RequirementField
-            label="Expansion"
+            label={
+              isEvacuated(numbers.value.actuators[index] ?? group) ? 'Contraction' : 'Expansion'
+            }
             unit="× at operating"
             path={['actuators', index, 'expansion_ratio']}
-            range={[1, 1000]}
+            range={isEvacuated(numbers.value.actuators[index] ?? group) ? [0.01, 1] : [1, 1000]}
             hint="1 is rigid"
           />
         </>

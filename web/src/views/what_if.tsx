@@ -9,6 +9,7 @@ import { route, setQuery } from '../lib/route';
 import type { Design, Effect, Requirements, Response } from '../lib/types';
 import { Notice, Panel, Segmented } from '../ui/controls';
 import { Met, ResponsePlot, Slider } from './what_if_views';
+import { isDirect, isVacuum } from '../lib/vacuum';
 
 type Cycles = '1' | '3' | '10';
 
@@ -144,13 +145,21 @@ export function WhatIf({
         </div>
         {/* Not before it is known how far they go: a source the design cannot have says nothing. */}
         <fieldset class="sliders" disabled={base.value === null}>
-          {design.configuration !== 'direct_pump' && (
+          {!isDirect(design.configuration) && (
             <Slider
               label="Source pressure"
               kind="pressure"
               value={change.value.source_kpa}
-              low={Math.min(lowest ?? start.source_kpa, start.source_kpa)}
-              high={Math.min(highest ?? Infinity, Math.max(3 * start.source_kpa, 300))}
+              low={
+                isVacuum(design.configuration)
+                  ? Math.min(highest ?? start.source_kpa, start.source_kpa)
+                  : Math.min(lowest ?? start.source_kpa, start.source_kpa)
+              }
+              high={
+                isVacuum(design.configuration)
+                  ? Math.max(lowest ?? start.source_kpa, start.source_kpa)
+                  : Math.min(highest ?? Infinity, Math.max(3 * start.source_kpa, 300))
+              }
               onInput={(v) => set({ source_kpa: v })}
             />
           )}

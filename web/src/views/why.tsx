@@ -22,6 +22,7 @@ import { Bar, CancelButton } from '../ui/job';
 import { ShareBar } from '../ui/share_bar';
 import { extra, number, Table } from '../ui/table';
 import { partsInShort } from './ranked_table';
+import { kindsAsked } from '../lib/vacuum';
 
 export function Why({
   answer,
@@ -127,7 +128,7 @@ function toBeFirst(design: Design, answer: Answer): string {
 // The first design of each other kind of supply that was asked for.
 function otherSupplies(answer: Answer, id: string) {
   const first = answer.designs[0]!;
-  const asked = answer.requirements.supply?.configurations ?? ['cylinder', 'co2', 'compressor'];
+  const asked = kindsAsked(answer.requirements);
   const others = asked.filter((kind) => kind !== first.configuration);
   const found = others.flatMap(
     (kind) => answer.designs.find((d) => d.configuration === kind) ?? [],
