@@ -194,6 +194,8 @@ TEST(VacuumTest, NamesWhatIsWrongWithARequest) {
             "/actuators/0/expansion_ratio ");
   EXPECT_EQ(with([](Json&, Json& bag) { bag["expansion_ratio"] = 0; }),
             "/actuators/0/expansion_ratio ");
+  EXPECT_EQ(with([](Json&, Json& bag) { bag["pressure_kpa_gauge_max"] = 105; }),
+            "/actuators/0/pressure_kpa_gauge_max ");
   EXPECT_EQ(with([](Json&, Json& bag) { bag["pressure_kpa_gauge_min"] = -50; }),
             "/actuators/0/pressure_kpa_gauge_min ");
   EXPECT_EQ(with([](Json&, Json& bag) {

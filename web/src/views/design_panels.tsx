@@ -93,7 +93,7 @@ export function PartsPanel({ design }: { design: Design }) {
                 </a>
               )}{' '}
               <small class="muted">
-                {row.family}
+                {row.family.replace('_', ' ')}
                 {row.group !== null && ` for ${row.group}`}
               </small>
             </th>
@@ -169,7 +169,7 @@ export function Estimates({ design }: { design: Design }) {
           <ul class="estimates">
             {[...byFamily].map(([family, fields]) => (
               <li key={family}>
-                <b>{family}</b> {fields.join(', ')}
+                <b>{family.replace('_', ' ')}</b> {fields.join(', ')}
               </li>
             ))}
           </ul>

@@ -11,8 +11,8 @@ const names: Record<Configuration, string> = {
   mains: 'wall',
   tank: 'tank',
   direct_pump: 'pump',
-  vacuum_pump: 'vacuum pump',
-  direct_vacuum_pump: 'vacuum pump',
+  vacuum_pump: 'vacuum',
+  direct_vacuum_pump: 'vacuum',
 };
 
 // Signs in the manner of ISO 1219, 30 × 30 around the middle.

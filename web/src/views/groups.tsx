@@ -41,6 +41,7 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
   const at = `/actuators/${index}`;
   const path = (name: keyof Group) => ['actuators', index, name];
   const groups = requirements.value.actuators;
+  const evacuated = isEvacuated(numbers.value.actuators[index] ?? group);
   return (
     <fieldset class="group">
       <legend>{group.name || `group ${index + 1}`}</legend>
@@ -61,7 +62,7 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
           range={[-99, 1e4]}
           hint="below 0: evacuated"
         />
-        {isEvacuated(numbers.value.actuators[index] ?? group) ? (
+        {(evacuated || group.pressure_kpa_gauge_min !== undefined) && (
           <RequirementField
             label="Pressure, at least"
             placeholder="1.05 × operating"
@@ -69,7 +70,8 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
             optional
             path={path('pressure_kpa_gauge_min')}
           />
-        ) : (
+        )}
+        {(!evacuated || group.pressure_kpa_gauge_max !== undefined) && (
           <RequirementField
             label="Pressure, at most"
             placeholder="1.05 × operating"

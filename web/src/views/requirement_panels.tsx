@@ -40,23 +40,24 @@ export function Supply() {
           actuators.
         </p>
       )}
-      <div
-        hidden={vacuum}
-        class="checks"
-        role="group"
-        aria-label="Kinds of supply to consider"
-        data-pointer="/supply/configurations"
-        tabIndex={-1}
-      >
-        {configurations.map((c) => (
-          <Check
-            key={c.value}
-            label={c.label}
-            checked={chosen.includes(c.value)}
-            onChange={(on) => toggle(c.value, on)}
-          />
-        ))}
-      </div>
+      {!vacuum && (
+        <div
+          class="checks"
+          role="group"
+          aria-label="Kinds of supply to consider"
+          data-pointer="/supply/configurations"
+          tabIndex={-1}
+        >
+          {configurations.map((c) => (
+            <Check
+              key={c.value}
+              label={c.label}
+              checked={chosen.includes(c.value)}
+              onChange={(on) => toggle(c.value, on)}
+            />
+          ))}
+        </div>
+      )}
       {wrong && <p class="error">{wrong}</p>}
       <Segmented<PowerKind>
         label="Power from"

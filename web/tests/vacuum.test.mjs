@@ -1,0 +1,61 @@
+// Evacuated actuators from the form to their design.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+
+import { example, openPage, rank, startBrowser, startService } from './support.mjs';
+
+let service, browser;
+before(async () => {
+  [service, browser] = await Promise.all([startService(), startBrowser()]);
+});
+after(async () => {
+  await browser?.close();
+  await service?.stop();
+});
+
+test('a pressure below ambient asks for a vacuum', async () => {
+  const { page, close } = await openPage(browser, service.base);
+  await page.getByText('These requirements can be searched.').waitFor();
+  // Each step can be searched: without a limit above, and rigid, which both sides know.
+  await page.getByLabel('Pressure, at most', { exact: false }).first().fill('');
+  await page.getByLabel('Expansion', { exact: false }).fill('1');
+  await page.getByLabel('Operating pressure', { exact: false }).first().fill('-40');
+  await page.getByLabel('Contraction', { exact: false }).fill('0.8');
+  await page.getByLabel('Vacuum, no deeper than', { exact: false }).fill('-80');
+  await page.getByText('These requirements can be searched.').waitFor();
+  assert.equal(await page.getByText('Wall supply').isVisible(), false);
+  const asked = page.waitForRequest(
+    (request) => request.method() === 'POST' && request.url().endsWith('/v1/designs'),
+  );
+  await page.getByRole('button', { name: 'Find the best designs' }).click();
+  const { actuators, supply } = (await asked).postDataJSON();
+  assert.equal(actuators[0].operating_pressure_kpa_gauge, -40);
+  assert.equal(supply.vacuum.vacuum_kpa_gauge_min, -80);
+  await close();
+});
+
+test('an evacuated design can be tried', async () => {
+  const id = await rank(service, {
+    ...example('jamming_gripper'),
+    ranking: { count: 3, per_source: 20, time_limit_s: 30 },
+  });
+  const { result } = await service.get(`/v1/designs/${id}`);
+  const index = result.designs.findIndex((d) => d.configuration === 'vacuum_pump');
+  const design = result.designs[index];
+  const { page, close } = await openPage(browser, service.base, `#/designs/${id}/${index + 1}`);
+  const simulated = page.waitForResponse((reply) => reply.url().endsWith('/v1/simulations'));
+  await page.reload();
+  const response = await (await simulated).json();
+  assert.equal(response.status, 'done');
+  const lowest = Math.min(...response.groups[0].pressure_kpa_gauge);
+  assert.ok(Math.abs(lowest + 60) < 1, `${lowest}`);
+  // Deeper than it is set: the pump's end.
+  const slider = page.getByLabel('Source pressure', { exact: true });
+  await slider.waitFor();
+  const tried = page.waitForResponse((reply) => reply.url().endsWith('/v1/evaluations'));
+  await slider.focus();
+  await page.keyboard.press('ArrowLeft');
+  assert.equal((await (await tried).json()).works, true);
+  assert.equal(design.settings.vacuum_kpa_gauge, design.settings.source_pressure_kpa_gauge);
+  await close();
+});
