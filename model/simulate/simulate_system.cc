@@ -42,12 +42,10 @@ System<T>::System(const Rig& rig, const LineOptions& lines, const Lift& lift, bo
       regulated_(std::get_if<RegulatedSource>(&rig.source)),
       reservoir_(std::get_if<ReservoirSource>(&rig.source)),
       driven_(std::get_if<DrivenSource>(&rig.source)),
-      mirror_pa_(MirrorPa(rig.groups.front().chamber)),
-      line_options_(lines),
+      line_options_{lines.linear_ratio, MirrorPa(rig.groups.front().chamber), lines.tolerance},
       pump_limit_pa_(-kInfinity),
       account_(account) {
   using std::sqrt;
-  line_options_.mirror_pa = mirror_pa_;
   content_rate_ = kReferencePressurePa * ambient_k_ / kReferenceTemperatureK;
   const T factor = FlowFactor(rig.gas) * sqrt(kReferenceTemperatureK / ambient_k_);
   source_initial_pa_ = ambient_pa_;
@@ -414,7 +412,8 @@ void System<T>::Balance(Group& group, std::span<const T> y, std::span<T> dydt) c
     group.units[u]->AfterFlow(setup, y.data() + group.unit_at[u], m);
   }
   const double kappa = m.heat_capacity_ratio;
-  const T gas_pa = m.pressure_pa - mirror_pa_;  // of evacuated actuators the lack of it, below 0
+  // Of evacuated actuators the lack of gas, below 0.
+  const T gas_pa = m.pressure_pa - line_options_.mirror_pa;
   const T capacity = m.volume_m3 + kappa * gas_pa * m.volume_slope_m3_per_pa;
   constexpr double kContentPerKelvin = kReferencePressurePa / kReferenceTemperatureK;
   const T heat_in = kContentPerKelvin * ambient_k_ * m.in_m3_per_s;
@@ -542,7 +541,7 @@ template <class T>
 T System<T>::Stored(std::size_t i, std::span<const T> y) const {
   const Group& group = groups_[i];
   const Moment<T>& m = group.moment;
-  T stored = (m.pressure_pa - mirror_pa_) * m.volume_m3 / kReferencePressurePa *
+  T stored = (m.pressure_pa - line_options_.mirror_pa) * m.volume_m3 / kReferencePressurePa *
              kReferenceTemperatureK / m.temperature_k;
   for (std::size_t u = 0; u < group.units.size(); ++u) {
     stored += group.units[u]->Stored(group.setup, y.data() + group.unit_at[u]);

@@ -191,7 +191,6 @@ class System {
   const DrivenSource* driven_ = nullptr;
   mutable std::size_t record_near_ = 0;         // point of its record
   const EffectUnit<T>* source_unit_ = nullptr;  // that acts on the source
-  double mirror_pa_;                            // of evacuated actuators (chamber.h), else 0
   LineOptions line_options_;
   NodeSupply<T> supply_;
   T reservoir_volume_m3_, reservoir_rising_m3_, duty_, driven_factor_, source_initial_pa_,

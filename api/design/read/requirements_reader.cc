@@ -62,9 +62,10 @@ double ReadHighestPressure(Reader& group, double operating_kpa) {
 // The same of an evacuated actuator.
 double ReadLowestPressure(Reader& group, double operating_kpa) {
   if (group.Has("pressure_kpa_gauge_max"))
-    group.Fail("pressure_kpa_gauge_max",
-               "is for actuators under pressure; of one that is evacuated pressure_kpa_gauge_min is "
-               "the limit");
+    group.Fail(
+        "pressure_kpa_gauge_max",
+        "is for actuators under pressure; of one that is evacuated pressure_kpa_gauge_min is "
+        "the limit");
   const auto limit_kpa = group.OptionalNumber("pressure_kpa_gauge_min", {-kVacuumMaxKpa, -1});
   if (limit_kpa && *limit_kpa > operating_kpa + 1e-9)
     group.Fail("pressure_kpa_gauge_min", "must be ≤ the operating pressure of " +

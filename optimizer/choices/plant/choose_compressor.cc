@@ -24,11 +24,10 @@ void AddKeys(const Pumping&, const CompressorCorner& c, const auto& add) {
 }
 void SetNumber(const Pumping&, const PartNumbers&, CompressorCorner&) {}
 
-constexpr std::tuple kRows{
-    Mates{&CompressorCorner::voltages}, Pumping{},
-    Ruled{Use::kMore, FieldNamed(kCompressorFields, "duty_max").weight,
-          &CompressorCorner::duty_max},
-    Ruled{Use::kMore, 1.0, &CompressorCorner::pressure_max_pa}};
+constexpr std::tuple kRows{Mates{&CompressorCorner::voltages}, Pumping{},
+                           Ruled{Use::kMore, FieldNamed(kCompressorFields, "duty_max").weight,
+                                 &CompressorCorner::duty_max},
+                           Ruled{Use::kMore, 1.0, &CompressorCorner::pressure_max_pa}};
 
 // Equal for equal curves.
 std::string Bytes(const model::CompressorCurve& curve) {

@@ -7,7 +7,7 @@
 
 #include "optimizer/explain/explained_search.h"
 #include "tests/support/enumerated_search.h"
-#include "tests/support/vacuum_problems.h"
+#include "tests/support/pumps/vacuum_problems.h"
 
 namespace plenum::test {
 namespace {

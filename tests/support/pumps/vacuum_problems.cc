@@ -1,4 +1,4 @@
-#include "tests/support/vacuum_problems.h"
+#include "tests/support/pumps/vacuum_problems.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // Random problems of evacuated actuators, small enough to enumerate.
-#ifndef PLENUM_TESTS_SUPPORT_VACUUM_PROBLEMS_H_
-#define PLENUM_TESTS_SUPPORT_VACUUM_PROBLEMS_H_
+#ifndef PLENUM_TESTS_SUPPORT_PUMPS_VACUUM_PROBLEMS_H_
+#define PLENUM_TESTS_SUPPORT_PUMPS_VACUUM_PROBLEMS_H_
 
 #include "tests/support/small_catalogue.h"
 
@@ -12,4 +12,4 @@ optimizer::Problem EvacuatedProblem(const Draw& draw);
 
 }  // namespace plenum::test
 
-#endif  // PLENUM_TESTS_SUPPORT_VACUUM_PROBLEMS_H_
+#endif  // PLENUM_TESTS_SUPPORT_PUMPS_VACUUM_PROBLEMS_H_
