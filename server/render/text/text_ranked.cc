@@ -35,8 +35,9 @@ std::string NamesOf(const Json& design, std::initializer_list<std::string_view> 
 
 // Pump, bottle, or reservoir that is filled beforehand.
 std::string StoreOf(const Json& design) {
-  return design.at("configuration") == "tank" ? NamesOf(design, {"reservoir"})
-                                              : NamesOf(design, {"compressor", "vacuum_pump", "cylinder", "co2"});
+  return design.at("configuration") == "tank"
+             ? NamesOf(design, {"reservoir"})
+             : NamesOf(design, {"compressor", "vacuum_pump", "cylinder", "co2"});
 }
 
 std::string SourceOf(const Json& design) {
