@@ -126,11 +126,12 @@ model::Cylinder Cylinder(const catalog::Part& row, const model::Ambient& ambient
 }
 
 model::Co2Bottle Co2Bottle(const catalog::Part& row) {
-  return {
-      .basics = Basics(row),
-      .co2_mass_kg = Required(row, "co2_mass_kg"),
-      .water_volume_m3 = M3FromL(Optional(row, "water_volume_l").value_or(0.0)),
-      .flow_sustained_m3_per_s = M3PerSFromLPerMin(Required(row, "flow_sustained_l_per_min_anr"))};
+  const double flow_m3_per_s = M3PerSFromLPerMin(Required(row, "flow_sustained_l_per_min_anr"));
+  return {.basics = Basics(row),
+          .co2_mass_kg = Required(row, "co2_mass_kg"),
+          .water_volume_m3 = M3FromL(Optional(row, "water_volume_l").value_or(0.0)),
+          .flow_sustained_m3_per_s = flow_m3_per_s,
+          .flow_endless_m3_per_s = flow_m3_per_s};
 }
 
 model::Regulator Regulator(const catalog::Part& row, const model::Ambient& ambient) {

@@ -93,8 +93,9 @@ struct Cylinder {
 struct Co2Bottle {
   PartBasics basics;
   double co2_mass_kg = 0.0;
-  double water_volume_m3 = 0.0;  // 0: not known
-  double flow_sustained_m3_per_s = 0.0;
+  double water_volume_m3 = 0.0;          // 0: not known
+  double flow_sustained_m3_per_s = 0.0;  // over the mission
+  double flow_endless_m3_per_s = 0.0;    // what it may give for ever; 0: not told apart
   bool operator==(const Co2Bottle&) const = default;
 };
 

@@ -66,6 +66,14 @@ double Co2UsableVolume(double co2_mass_kg, double water_volume_m3, double inlet_
   return std::max(released - left, 0.0);
 }
 
+double Co2Draw(double endless_m3_per_s, double empty_kg, double co2_kg, double mission_s) {
+  constexpr double kLatentJPerM3 = 274e3, kCooledK = 20.0;
+  constexpr double kMetalJPerKgK = 460.0, kLiquidJPerKgK = 3000.0;
+  const double loss_w_per_k = endless_m3_per_s * kLatentJPerM3 / kCooledK;
+  const double heat_j_per_k = empty_kg * kMetalJPerKgK + 0.5 * co2_kg * kLiquidJPerKgK;
+  return endless_m3_per_s / -std::expm1(-mission_s * loss_w_per_k / heat_j_per_k);
+}
+
 double Co2SaturationPressure(double temperature_k) {
   const double t = std::clamp(temperature_k, kSaturation.front().temperature_k,
                               kSaturation.back().temperature_k);

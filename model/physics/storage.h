@@ -37,6 +37,15 @@ double TankCharge(double volume_m3, double pressure_pa, double temperature_k);
 double Co2UsableVolume(double co2_mass_kg, double water_volume_m3, double inlet_pressure_min_pa,
                        double temperature_k);
 
+// Largest steady draw, m³/s ANR, of a bottle over a mission so long, where `endless_m3_per_s` is
+// what it may give for ever. Evaporation cools it, (m_b·c_b + m_l·c_l)·dT/dt = −L·q + UA·(T_a − T),
+// and it gives for ever what cools it by ΔT, q_e = UA·ΔT/L. A short mission draws on its own heat:
+//   q = q_e/(1 − exp(−t/τ)),  τ = (m_b·c_b + m_l·c_l)/UA
+// with L = 274 J per standard litre, ΔT = 20 K, c_b = 460 J/(kg·K) (steel, less than aluminium),
+// c_l = 3 kJ/(kg·K) of half of the liquid, which is the mean of a bottle that is emptied. Never
+// below q_e; falls with the mission.
+double Co2Draw(double endless_m3_per_s, double empty_kg, double co2_kg, double mission_s);
+
 // Saturation pressure of CO2, Pa absolute, 243–304 K (5.73 MPa at 20 °C): ln p interpolated in 1/T
 // between reference points; outside the range the end value.
 double Co2SaturationPressure(double temperature_k);

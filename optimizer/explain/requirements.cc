@@ -49,10 +49,18 @@ std::vector<Requirement> Requirements(const Problem& problem) {
   AddGroups(problem, list);
   AddAmounts(problem, list);
   list.push_back({"/duty/actuations", problem.actuations, 1.0,
-                  [](Problem& p, double value) { p.actuations = value; }, std::nullopt, true});
+                  [](Problem& p, double value) {
+                    p.actuations = value;
+                    FollowMission(p);
+                  },
+                  std::nullopt, true});
   list.push_back({"/duty/frequency_hz", problem.frequency_hz,
                   LoosestFrequency(problem.frequency_hz),
-                  [](Problem& p, double value) { p.frequency_hz = value; }, std::nullopt});
+                  [](Problem& p, double value) {
+                    p.frequency_hz = value;
+                    FollowMission(p);
+                  },
+                  std::nullopt});
   if (std::isfinite(problem.source_pressure_max_pa)) {
     list.push_back(
         {SourceLimitPointer(problem), KpaGauge(problem, problem.source_pressure_max_pa),

@@ -1,5 +1,9 @@
 #include "optimizer/problem/problem.h"
 
+#include <algorithm>
+
+#include "model/physics/storage.h"
+
 namespace plenum::optimizer {
 
 const char* Name(Configuration configuration) {
@@ -71,6 +75,15 @@ std::string PressureLimitPointer(const Problem& problem, int group) {
 std::string SourceLimitPointer(const Problem& problem) {
   return Evacuated(problem) ? "/supply/vacuum/vacuum_kpa_gauge_min"
                             : "/supply/source_pressure_kpa_gauge_max";
+}
+
+void FollowMission(double mission_s, model::Parts& parts) {
+  for (model::Co2Bottle& bottle : parts.co2)
+    if (bottle.flow_endless_m3_per_s > 0.0)
+      bottle.flow_sustained_m3_per_s =
+          model::Co2Draw(bottle.flow_endless_m3_per_s,
+                         std::max(0.0, bottle.basics.mass_kg - bottle.basics.mass_slack_kg),
+                         bottle.co2_mass_kg, mission_s);
 }
 
 double RiseTarget(const Problem& problem, const ActuatorGroup& group) {

@@ -191,6 +191,13 @@ double PaFromKpaGauge(const Problem& problem, double kpa_gauge);
 std::string PressureLimitPointer(const Problem& problem, int group);
 std::string SourceLimitPointer(const Problem& problem);
 
+// Bottles of CO2 give over a mission what their own heat allows (model::Co2Draw): of `parts` after
+// the mission is known or changed.
+void FollowMission(double mission_s, model::Parts& parts);
+inline void FollowMission(Problem& problem) {
+  FollowMission(problem.actuations / problem.frequency_hz, problem.parts);
+}
+
 // Target pressures of a group.
 double RiseTarget(const Problem& problem, const ActuatorGroup& group);
 double FallTarget(const Problem& problem, const ActuatorGroup& group);

@@ -165,6 +165,22 @@ std::vector<catalog::Part> SmallCatalogue() {
   return parts;
 }
 
+std::vector<catalog::Part> SmallCatalogueWithVacuum() {
+  std::vector<catalog::Part> parts = SmallCatalogue();
+  catalog::Part pump = MakePart(
+      "vacuum_pump",
+      {{"voltage_v", 12}, {"vacuum_max_kpa_gauge", -80}, {"mass_kg", 0.3}, {"body_volume_ml", 290}},
+      {{"type", "diaphragm"}});
+  catalog::Curve curve;
+  curve.points = {{-80, 0, 1.3}, {-40, 6.7, 1.3}, {0, 15, 0.6}};
+  curve.free_air_provenance = catalog::Provenance::kDatasheet;
+  curve.free_air_source = curve.current_source = "sheet 2";
+  curve.current_provenance = catalog::Provenance::kDerived;
+  pump.curve = curve;
+  parts.push_back(pump);
+  return parts;
+}
+
 catalog::Part PartOf(std::string_view family) {
   for (catalog::Part& part : SmallCatalogue())
     if (part.family == family) return part;

@@ -25,6 +25,8 @@ inline Json Map() { return Parse(MapText()); }
 
 // One valid part of each of the nine families, ids "<family>-1".
 std::vector<catalog::Part> SmallCatalogue();
+// The same and a vacuum pump.
+std::vector<catalog::Part> SmallCatalogueWithVacuum();
 catalog::Part PartOf(std::string_view family);  // the one of the family
 
 template <typename T>

@@ -27,7 +27,7 @@ constexpr int kLooksOfVerify = 100;  // a look may come after many steps of the 
 constexpr int kDraws = 4;
 
 const std::vector<catalog::Part>& Parts() {
-  static const std::vector<catalog::Part> parts = api::SmallCatalogue();
+  static const std::vector<catalog::Part> parts = api::SmallCatalogueWithVacuum();
   return parts;
 }
 

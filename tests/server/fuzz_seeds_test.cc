@@ -39,7 +39,7 @@ void ForEachSeed(const char* target, const std::function<void(const std::string&
 Json Answer(Json request, bool proof) {
   request["ranking"]["proof"] = proof;
   request["ranking"]["time_limit_s"] = 100.0;
-  const auto parts = api::SmallCatalogue();
+  const auto parts = api::SmallCatalogueWithVacuum();
   return api::AnswerRequest(std::get<api::DesignRequest>(api::ParseRequirements(request, parts)),
                             {}, parts);
 }

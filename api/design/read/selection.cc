@@ -123,8 +123,10 @@ bool MayUse(const optimizer::Problem& problem, const optimizer::FamilySpec& spec
 
 model::Parts ModelPartsFor(const optimizer::Problem& problem,
                            const std::vector<catalog::Part>& rows) {
-  return optimizer::Evacuated(problem) ? ToVacuumParts(rows, problem.ambient)
-                                       : ToModelParts(rows, problem.ambient);
+  if (optimizer::Evacuated(problem)) return ToVacuumParts(rows, problem.ambient);
+  model::Parts parts = ToModelParts(rows, problem.ambient);
+  optimizer::FollowMission(problem.actuations / problem.frequency_hz, parts);
+  return parts;
 }
 
 model::Parts AllowedModelParts(const std::vector<catalog::Part>& parts,

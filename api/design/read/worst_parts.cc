@@ -179,6 +179,7 @@ model::Parts ToWorstParts(const optimizer::Problem& problem, const std::vector<c
             M3FromMl(ValueOf(row, "internal_volume_ml"));
     }
   }
+  optimizer::FollowMission(problem.actuations / problem.frequency_hz, parts);  // masses have slack
   return parts;
 }
 

@@ -59,8 +59,8 @@ TEST(ToModelParts, ConvertsEveryFamilyToSiAndAbsolute) {
 
   ASSERT_EQ(parts.compressors.size(), 1u);
   const model::CompressorCurve& curve = parts.compressors[0].curve;
-  EXPECT_DOUBLE_EQ(curve.free_air_m3_per_s(90e3), 24.9e-3 / 60);
-  EXPECT_DOUBLE_EQ(curve.free_air_m3_per_s(159e3), 14.2e-3 / 60);
+  EXPECT_DOUBLE_EQ(curve.free_air_m3_per_s(90e3), 0.9 * 24.9e-3 / 60);
+  EXPECT_DOUBLE_EQ(curve.free_air_m3_per_s(90e3 + 0.9 * 69e3), 0.9 * 14.2e-3 / 60);
   EXPECT_DOUBLE_EQ(curve.current_a(779e3), 11.0);
   EXPECT_DOUBLE_EQ(curve.pressure_max_pa, 790e3);
   EXPECT_DOUBLE_EQ(parts.compressors[0].duty_max, 0.5);

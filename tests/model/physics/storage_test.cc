@@ -121,5 +121,23 @@ TEST(MadeReservoir, IsPositiveAndGrowsWithVolumeAndPressure) {
     }
 }
 
+// Against the equation of its temperature, step by step.
+TEST(Storage, AColdBottleGivesWhatCoolsItByTwentyKelvin) {
+  for (const double mission_s : {10.0, 140.0, 1000.0, 1e5}) {
+    const double endless = 3e-6, empty_kg = 0.04, co2_kg = 0.012;
+    const double draw = Co2Draw(endless, empty_kg, co2_kg, mission_s);
+    const double loss_w_per_k = endless * 274e3 / 20.0;
+    double cooled_k = 0.0;
+    constexpr int kSteps = 200000;
+    for (int i = 0; i < kSteps; ++i)
+      cooled_k += mission_s / kSteps * (draw * 274e3 - loss_w_per_k * cooled_k) /
+                  (empty_kg * 460.0 + 0.5 * co2_kg * 3000.0);
+    EXPECT_NEAR(cooled_k, 20.0, 0.01) << mission_s;
+    EXPECT_GE(draw, endless);
+  }
+  // 2.7 g in 140 s, 1.5 standard litres, come out of a cartridge of 12 g.
+  EXPECT_GT(Co2Draw(3e-6, 0.04, 0.012, 140.0) * 140.0, 1.5e-3);
+}
+
 }  // namespace
 }  // namespace plenum::model
