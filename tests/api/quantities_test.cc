@@ -157,9 +157,9 @@ TEST(Quantities, ThatCannotBeReadNameFieldValueAndRange) {
   };
   EXPECT_EQ(detail("15 kg"),
             "must be a finite number, or a text of a number and one of kPa, Pa, mbar, bar, MPa, "
-            "psi, inHg, mmHg, cmH2O; is \"15 kg\"; allowed are ≥ 1 and ≤ 10000 kPa gauge");
-  EXPECT_THAT(detail("15"), HasSubstr("is \"15\": the unit is missing; allowed are ≥ 1"));
-  EXPECT_EQ(detail("20 MPa"), "must be ≥ 1 and ≤ 10000 kPa gauge, not 20000 (\"20 MPa\")");
+            "psi, inHg, mmHg, cmH2O; is \"15 kg\"; allowed are ≥ -99 and ≤ 10000 kPa gauge");
+  EXPECT_THAT(detail("15"), HasSubstr("is \"15\": the unit is missing; allowed are ≥ -99"));
+  EXPECT_EQ(detail("20 MPa"), "must be ≥ -99 and ≤ 10000 kPa gauge, not 20000 (\"20 MPa\")");
   EXPECT_THAT(detail("1,500 kPa"), HasSubstr("the comma may stand before decimals"));
   EXPECT_THAT(DetailOf(With(Requirements(), "/supply/mains/flow_l_per_min_anr_max", "9 Nl/min"),
                        "/supply/mains/flow_l_per_min_anr_max"),
