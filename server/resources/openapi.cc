@@ -87,7 +87,10 @@ const std::map<std::string, Operation>& Operations() {
       {"GET /readyz", {{}, "", {{200, "Readiness"}}, {503}}},
       {"GET /metrics", {{}, "", {{200, "Text", "text/plain"}}, {}}},
       {"GET /openapi.json", {{}, "", {{200, "Anything"}}, {}}},
-      {"GET /docs", {{}, "", {{200, "Text", "text/html"}}, {}}},
+      {"GET /openapi", {{}, "", {{200, "Text", "text/html"}}, {}}},
+      {"GET /docs", {{}, "", {{308, ""}}, {}}},
+      {"GET /docs/{path}",
+       {{"path", "If-None-Match"}, "", {{200, "Text", "*/*"}, {304, ""}}, {404}}},
       {"GET /", {{"If-None-Match"}, "", {{200, "Text", "text/html"}, {304, ""}}, {}}},
       {"GET /assets/{id}", {{}, "", {{200, "Text", "*/*"}}, {404}}},
   };
@@ -126,6 +129,12 @@ Json Parameters() {
   const Json text = {{"type", "string"}}, flag = {{"type", "boolean"}};
   Json parameters = {
       {"id", {{"name", "id"}, {"in", "path"}, {"required", true}, {"schema", text}}},
+      {"path",
+       {{"name", "path"},
+        {"in", "path"},
+        {"required", true},
+        {"schema", text},
+        {"description", "of a file of the documentation; empty for its first page"}}},
       {"limit", Query("limit", {{"type", "integer"}, {"minimum", 1}, {"maximum", 1000}},
                       "entries of a page")},
       {"cursor", Query("cursor", text, "next_cursor of the page before")},

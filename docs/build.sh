@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Builds the documentation into build/docs/html: the pages of docs/, and those that the program writes of itself.
+# Warnings are errors. Needs Debian's Sphinx, MyST, Breathe, Furo and Doxygen (setup.sh: docs_packages).
+# usage: docs/build.sh [PROGRAM=build/release/plenum] [FOLDER=build/docs]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+program=${1:-build/release/plenum} folder=${2:-build/docs}
+source=$folder/source
+
+rm -rf "$source"
+mkdir -p "$source" "$folder/web"
+cp -r docs/. "$source"
+cp -r web/screenshots "$folder/web"  # which pages show as ../../web/screenshots
+cp CHANGELOG.md "$source/changelog.md"
+/usr/bin/python3 -B docs/generate/reference.py "$program" "$source/reference/generated"
+(cat docs/generate/Doxyfile; echo "OUTPUT_DIRECTORY = $folder/doxygen") | doxygen -q -
+/usr/bin/python3 -B docs/generate/headers.py "$folder/doxygen/xml" "$source/reference/headers"
+/usr/bin/sphinx-build -q -W --keep-going -j auto -d "$folder/doctrees" -D breathe_projects.plenum="$PWD/$folder/doxygen/xml" \
+  -b html "$source" "$folder/html"
+echo "$folder/html/index.html"
