@@ -117,6 +117,16 @@ void AddManyPartsRoutes(SharedCatalog& catalog, std::vector<Route>& routes) {
   routes.insert(one, std::begin(many), std::end(many));
 }
 
+// What people read in a browser.
+void AddPages(const Services& services, std::vector<Route>& routes) {
+  routes.push_back({"GET", "/", "the web page", Access::kOpen, GetPage});
+  routes.push_back({"GET", "/assets/{id}", "a file of the web page", Access::kOpen, GetAsset});
+  routes.push_back({"GET", "/docs", "leads to the documentation", Access::kOpen, RedirectToDocs});
+  routes.push_back({"GET", "/docs/{path}", "a file of the documentation", Access::kOpen,
+                    [docs = services.docs](const Call& call) { return GetDocs(docs, call); }});
+  routes.push_back({"GET", "/openapi", "this description, for reading", Access::kOpen, GetApiPage});
+}
+
 }  // namespace
 
 std::vector<Route> Routes(const Services& services) {
@@ -195,12 +205,7 @@ std::vector<Route> Routes(const Services& services) {
   AddManyPartsRoutes(catalog, routes);
   AddJobRoutes(design_jobs, routes);
   AddJobRoutes(diagnosis_jobs, routes);
-  routes.push_back({"GET", "/", "the web page", Access::kOpen, GetPage});
-  routes.push_back({"GET", "/assets/{id}", "a file of the web page", Access::kOpen, GetAsset});
-  routes.push_back({"GET", "/docs", "leads to the documentation", Access::kOpen, RedirectToDocs});
-  routes.push_back({"GET", "/docs/{path}", "a file of the documentation", Access::kOpen,
-                    [docs = services.docs](const Call& call) { return GetDocs(docs, call); }});
-  routes.push_back({"GET", "/openapi", "this description, for reading", Access::kOpen, GetApiPage});
+  AddPages(services, routes);
   routes.push_back({"GET", "/openapi.json", "this description, OpenAPI 3.1", Access::kOpen, {}});
   routes.push_back({"GET", "/v1", "this table", Access::kRead, {}});
   routes.back().answer = [reply = Shared(JsonReply(200, RouteTable(routes)))](const Call&) {
