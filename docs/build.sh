@@ -4,6 +4,7 @@
 # usage: docs/build.sh [PROGRAM=build/release/plenum] [FOLDER=build/docs]
 set -euo pipefail
 cd "$(dirname "$0")/.."
+[ -x /usr/bin/sphinx-build ] || { echo "docs: no sphinx-build here; setup.sh names the packages (docs_packages)" >&2; exit 77; }
 program=${1:-build/release/plenum} folder=${2:-build/docs}
 source=$folder/source
 

@@ -68,6 +68,28 @@ def scripts_into_a_file(app, exception):
         (folder / "_static" / name).write_text(script + "\n", encoding="utf-8")
 
 
+NORMALIZE = pathlib.Path("/usr/share/javascript/normalize.css/normalize.css")
+
+
+def complete_theme(app, exception):
+    """Debian's Furo leaves to others what its own files should hold: a script that it imports as a module and that is
+    none, and a style at a path of Debian's web server."""
+    if exception or app.builder.name != "html":
+        return
+    static = pathlib.Path(app.outdir) / "_static"
+    script, style = static / "scripts" / "furo.js", static / "styles" / "furo.css"
+    imported = 'import Gumshoe from "./gumshoe-patched.js";'
+    text = script.read_text(encoding="utf-8")
+    if text.startswith(imported):
+        gumshoe = (static / "scripts" / "gumshoe-patched.js").read_text(encoding="utf-8")
+        script.write_text(gumshoe + text.removeprefix(imported), encoding="utf-8")
+    text = style.read_text(encoding="utf-8")
+    outside = "@import url(/javascript/normalize.css/normalize.css);"
+    if text.startswith(outside):
+        style.write_text(NORMALIZE.read_text(encoding="utf-8") + text.removeprefix(outside), encoding="utf-8")
+
+
 def setup(app):
     app.add_html_math_renderer("mathml", inline_renderers=(visit_inline, None), block_renderers=(visit_block, None))
     app.connect("build-finished", scripts_into_a_file)
+    app.connect("build-finished", complete_theme)

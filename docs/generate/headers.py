@@ -7,6 +7,7 @@ import sys
 import xml.etree.ElementTree as xml
 
 CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
+SECTIONS = "briefdescription detaileddescription innerclass define enum typedef var func public*"
 VALUE_MAX = 24
 INDEX = """# C++ headers of `model/`
 
@@ -48,7 +49,7 @@ def lead(room):
 def page(room, paths):
     text = f"# model/{room}\n\n{lead(room)}\n"
     for path in paths:
-        text += f"\n## {path}\n```{{eval-rst}}\n.. doxygenfile:: {path}\n```\n"
+        text += f"\n## {path}\n```{{eval-rst}}\n.. doxygenfile:: {path}\n   :sections: {SECTIONS}\n```\n"
     return text
 
 
