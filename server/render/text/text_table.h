@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "api/json/json.h"
+#include "server/render/text/terminal.h"
 
 namespace plenum::server {
 
@@ -20,10 +21,18 @@ class Table {
   explicit Table(std::vector<Column> columns, int indent = 0)
       : columns_(std::move(columns)), indent_(indent) {}
   void Add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
-  // Title line, a rule, then the rows; columns two blanks apart.
-  std::string Text() const;
+  // Title line, a rule, then the rows; columns two blanks apart. No line is longer than `width`:
+  // titles are wrapped, cells with text cut, the widest first; the first column may keep half of
+  // the line. Where that is not enough the columns stand in several tables, each with the first.
+  std::string Text(std::size_t width = TerminalWidth()) const;
 
  private:
+  // Of each column, its title on one line or, wrapped, a word a line.
+  std::vector<std::size_t> Widths(bool wrapped) const;
+  // The columns of these numbers, each so wide.
+  std::string Lines(const std::vector<std::size_t>& shown,
+                    const std::vector<std::size_t>& widths) const;
+
   std::vector<Column> columns_;
   int indent_;
   std::vector<std::vector<std::string>> rows_;
