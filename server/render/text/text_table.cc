@@ -1,9 +1,12 @@
 #include "server/render/text/text_table.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <sstream>
 
@@ -143,6 +146,16 @@ std::string Table::Text(std::size_t width) const {
   for (const auto& part : Parted(room, widths))
     text += (text.empty() ? "" : "\n") + Lines(part, widths);
   return text;
+}
+
+std::size_t TerminalWidth() {
+  constexpr long kLeast = 40;
+  const char* stated = std::getenv("COLUMNS");
+  if (const long columns = stated != nullptr ? std::atol(stated) : 0; columns > 0)
+    return static_cast<std::size_t>(std::max(columns, kLeast));
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kAnyWidth;
+  return static_cast<std::size_t>(std::max<long>(size.ws_col, kLeast));
 }
 
 std::string Cut(const std::string& text, std::size_t width) {

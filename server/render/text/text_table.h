@@ -2,13 +2,20 @@
 #ifndef PLENUM_SERVER_RENDER_TEXT_TEXT_TABLE_H_
 #define PLENUM_SERVER_RENDER_TEXT_TEXT_TABLE_H_
 
+#include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "api/json/json.h"
-#include "server/render/text/terminal.h"
 
 namespace plenum::server {
+
+inline constexpr std::size_t kAnyWidth = std::numeric_limits<std::size_t>::max();
+
+// Characters of a line: COLUMNS where it is set, else what the terminal at standard output says,
+// and kAnyWidth where that is none. At least 40.
+std::size_t TerminalWidth();
 
 class Table {
  public:
