@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Filter of Doxygen: comments of a header as comments that it reads, word by word. usage: doc_comments.py FILE"""
+"""Copies headers with their comments as Doxygen reads them, word by word. usage: doc_comments.py FOLDER ROOM..."""
+import pathlib
 import re
 import sys
 
+CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
 COMMENT = re.compile(r"^(\s*)//( ?)(.*)$")
-NAMESPACE = re.compile(r"^(namespace plenum\S* \{|\}  // namespace plenum\S*)$")
 BEHIND = re.compile(r"^(\s*[^\s/].*[;,{}\]])  //( ?)(.*)$")
+NAMESPACE = re.compile(r"^(namespace plenum\S* \{|\}  // namespace plenum\S*)$")
 
 
 def escaped(text):
@@ -15,6 +17,8 @@ def escaped(text):
 
 def lines_of(text):
     """Without namespaces, which each header would declare again, and without explicit instantiations."""
+    if text.startswith("//"):
+        yield "/// @file"
     instantiation = False
     for line in text.splitlines():
         comment, behind = COMMENT.match(line), BEHIND.match(line)
@@ -29,11 +33,12 @@ def lines_of(text):
 
 
 def main():
-    with open(sys.argv[1], encoding="utf-8") as file:
-        text = file.read()
-    if text.startswith("//"):
-        print("/// @file")
-    print("\n".join(lines_of(text)))
+    folder = pathlib.Path(sys.argv[1])
+    for room in sys.argv[2:]:
+        for header in sorted((CHECKOUT / room).rglob("*.h")):
+            copy = folder / header.relative_to(CHECKOUT)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            copy.write_text("\n".join(lines_of(header.read_text(encoding="utf-8"))) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
