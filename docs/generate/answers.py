@@ -5,7 +5,7 @@ from pages import code, table
 SAME = {"by_configuration/*/design": "entry of `designs`", "orderable/design": "entry of `designs`",
         "orderable": "entry of `by_configuration`", "requirements": "the request as it was understood",
         "on_paper": "the answer without `guarantee`", "variants/examples/*/parts": "parts as of a design",
-        "unpriced": "object"}
+        "unpriced": "object", "proof/record": "object", "model/effects/*/parameters": "object"}
 
 
 def same(path):

@@ -26,6 +26,11 @@ class Program:
             raise SystemExit(f"plenum {' '.join(words)} ended with {done.returncode}: {done.stderr}")
         return done.stdout
 
+    def file(self, name, document):
+        """The name of a file of the folder that holds the document."""
+        (self.folder / name).write_text(json.dumps(document), encoding="utf-8")
+        return name
+
     def answer(self, command, document):
         return json.loads(self.text(command, "-", "--json", document=document))
 

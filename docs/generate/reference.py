@@ -2,6 +2,7 @@
 """Writes the generated pages of the reference: what the program says of itself, so that the two cannot differ.
 
 usage: docs/generate/reference.py PROGRAM FOLDER"""
+import json
 import pathlib
 import sys
 
@@ -60,15 +61,26 @@ def example_answers(program):
     impossible = program.example("gripper")
     impossible["actuators"][0]["rise_time_s_max"] = "1 ms"
     priced = program.example("gripper") | {"prices": "lower_bound", "objective": {"minimize": "cost_eur"}}
-    documents = [priced, program.example("exosuit"), program.example("gripper_guaranteed"), front, judged, impossible,
+    program.text("diagnose", program.file("recording.json", program.example("simulated_recording")), "--save", "wall")
+    revised = program.example("gripper") | {"model": "wall", "ranking": {"count": 3, "time_limit_s": 5}}
+    judged["ranking"] = {"proof": True}
+    documents = [priced, revised, program.example("exosuit"), program.example("gripper_guaranteed"), front, judged, impossible,
                  program.example("tank_arm")]
     return [program.answer("design", one) for one in documents]
+
+
+def beside_the_first(program):
+    """An evaluation of a design beside the first of a list, one requirement of which it misses."""
+    asked = program.example("gripper_by_hand")
+    asked["beside"] = program.answer("design", asked["requirements"])["designs"][0]
+    asked["design"]["settings"]["source_pressure_kpa_gauge"] = 60.5
+    return asked
 
 
 def answer_pages(program, schemas_of_service, meanings):
     text = ANSWER.format(title="Designs: the answer", lead="`designs/1`: what `plenum design FILE --json` prints and a design "
                          "job answers. Made of answers to examples: a list, a guaranteed list, a front, draws and prices, "
-                         "a request that nothing meets, a tank.")
+                         "a request that nothing meets, a tank, a saved model.")
     yield "designs", text + answers.tables(example_answers(program), "answer", meanings)
     lead = "`{0}/1`: what {1}."
     for name, key, of in (("diagnosis", "Diagnosis", "`plenum diagnose FILE --json` prints and a diagnosis job answers"),
@@ -79,9 +91,13 @@ def answer_pages(program, schemas_of_service, meanings):
     for name, title, command, document in (
             ("response", "Simulation: the answer", "simulate", program.example("simulation_effects")),
             ("map_answer", "Map: the answer", "map", program.example("map")),
-            ("evaluation_answer", "Evaluation: the answer", "evaluate", program.example("gripper_by_hand"))):
+            ("evaluation_answer", "Evaluation: the answer", "evaluate", beside_the_first(program))):
         yield name, ANSWER.format(title=title, lead=f"What `plenum {command} FILE --json` answers, from an example.") \
             + answers.tables([program.answer(command, document)], "answer", meanings)
+    result = program.answer("design", program.example("gripper") | {"ranking": {"proof": True, "count": 2}})
+    checked = json.loads(program.text("verify", program.file("result.json", result), "--json"))
+    yield "verification_answer", ANSWER.format(title="Verification: the answer", lead="What `plenum verify FILE --json` "
+                                               "answers, from an example.") + answers.tables([checked], "answer", meanings)
 
 
 def limits_page(limits, meanings):
