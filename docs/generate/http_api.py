@@ -1,6 +1,6 @@
 """The page of the HTTP service, from its description (OpenAPI)."""
 from pages import code, table
-from schemas import takes
+from schemas import fields, takes
 
 HEAD = """# The HTTP API
 
@@ -10,7 +10,10 @@ how it is used, who may ask, and what it does under load.
 # Schemas that have a page of their own.
 PAGES = {"Requirements": "requirements", "Measurement": "measurement", "Simulation": "simulation", "Map": "map",
          "Evaluation": "evaluation", "Model": "effects", "Designs": "designs", "Diagnosis": "diagnosis",
-         "Protocol": "protocol"}
+         "Protocol": "protocol", "DesignsOrValid": "designs", "SimulationOrCurves": "simulation",
+         "ResponseOrCurves": "response", "Response": "response", "MapAnswer": "map_answer",
+         "EvaluationAnswer": "evaluation_answer", "Part": "families", "StoredPart": "families"}
+WITHOUT_FIELDS = ("Text", "Csv", "Anything")
 
 
 def resolved(part, api):
@@ -27,7 +30,9 @@ def name_of(schema):
 
 def body(schema):
     name = name_of(schema)
-    return f"[{name}]({PAGES[name]}.md)" if name in PAGES else code(name) if name else "JSON"
+    if name in PAGES:
+        return f"[{name}]({PAGES[name]}.md)"
+    return "JSON" if not name else code(name) if name in WITHOUT_FIELDS else f"[{name}](#{name.lower()})"
 
 
 def responses(operation, api):
@@ -45,6 +50,35 @@ def operations(api):
     return [(method.upper(), path, one) for path, methods in api["paths"].items() for method, one in methods.items()]
 
 
+def names_in(part):
+    """Schemas that a part of the description refers to."""
+    if isinstance(part, dict):
+        yield from (value.rpartition("/")[2] for name, value in part.items() if name == "$ref")
+    for inner in part.values() if isinstance(part, dict) else part if isinstance(part, list) else []:
+        yield from names_in(inner)
+
+
+def put_out(part, api):
+    """A schema with what it refers to in its place."""
+    if isinstance(part, dict):
+        return {name: put_out(value, api) for name, value in resolved(part, api).items()}
+    return [put_out(one, api) for one in part] if isinstance(part, list) else part
+
+
+def documents(api):
+    """The documents that have no page of their own."""
+    known = api["components"]["schemas"]
+    used = {name for name in names_in([api["paths"], api["components"]["responses"]]) if name in known}
+    text = "\n## Documents\nWhat the operations above take and give, where it has no page of its own.\n"
+    for name in sorted(used - set(PAGES) - set(WITHOUT_FIELDS)):
+        text += f"\n### {name}\n"
+        schema = put_out(known[name], api)
+        for path, rows in fields(schema).items():
+            text += f"\n{code(path)}\n\n" if path != "/" else "\n"
+            text += table(("field", "is"), [(code(one), takes(inner)) for one, (inner, _) in rows.items()])
+    return text
+
+
 def page(api):
     text = HEAD.format(version=api["openapi"]) + "\n" + api["info"]["description"] + "\n"
     for method, path, operation in operations(api):
@@ -59,4 +93,4 @@ def page(api):
         for media, one in operation.get("requestBody", {}).get("content", {}).items():
             text += f"Body: {code(media)} {body(one['schema'])}\n\n"
         text += responses(operation, api)
-    return text
+    return text + documents(api)

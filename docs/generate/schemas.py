@@ -9,7 +9,7 @@ REMARKS = {"note", "notes", "comment", "description", "date", "license", "origin
 
 def branches(schema):
     """What a value may be, null left out."""
-    for key in ("anyOf", "oneOf"):
+    for key in ("anyOf", "oneOf", "allOf"):
         if key in schema:
             return [one for branch in schema[key] for one in branches(branch)]
     return [] if schema.get("type") == "null" else [schema]
