@@ -33,12 +33,12 @@ long_tests() {
 
 case ${1:-all} in
   all)
-    install_packages $rule_packages $python_packages
+    install_packages $rule_packages $python_packages $docs_packages
     build release
     run_tests release
     ;;
   fast)
-    install_packages $rule_packages $python_packages
+    install_packages $rule_packages $python_packages $docs_packages
     build release
     run_tests release -L fast
     ;;
@@ -53,7 +53,7 @@ case ${1:-all} in
     run_tests asan
     ;;
   full)
-    install_packages $rule_packages $sanitizer_packages $python_packages
+    install_packages $rule_packages $sanitizer_packages $python_packages $docs_packages
     build release
     run_tests release
     build asan

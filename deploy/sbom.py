@@ -2,13 +2,18 @@
 """Software bill of materials of a binary, CycloneDX 1.5 as JSON on standard output.
 
 What it links is asked of ldd and dpkg; what was compiled in is packages.txt (Debian) and what web/package-lock.json
-has for the page. usage: sbom.py CHECKOUT VERSION BINARY
+has for the page; the documentation holds what the theme brings. usage: sbom.py CHECKOUT VERSION BINARY
 """
 import json
 import pathlib
 import re
 import subprocess
 import sys
+
+
+# What of the theme stands in the built documentation.
+DOCS_PACKAGES = ("furo", "libjs-jquery", "libjs-sphinxdoc", "libjs-underscore", "node-normalize.css",
+                 "python3-sphinx-copybutton", "sphinx-common")
 
 
 def run(*command):
@@ -70,6 +75,7 @@ def main():
             if path and not entry.get("dev") and not entry.get("optional")}
     components = ([of_debian(package, "linked") for package in linked] +
                   [of_debian(package, "compiled in") for package in sorted(compiled)] +
+                  [of_debian(package, "in the documentation") for package in DOCS_PACKAGES] +
                   [of_npm(name, entry) for name, entry in sorted(page.items())])
     json.dump({"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1,
                "metadata": {"component": {"type": "application", "name": "plenum", "version": version,

@@ -14,7 +14,7 @@ foreach(file IN LISTS files)
   string(APPEND rows "    {\"/${file}\", {reinterpret_cast<const char*>(kFile${index}), sizeof kFile${index}}},\n")
   math(EXPR index "${index} + 1")
 endforeach()
-file(WRITE "${OUTPUT}" "#include \"server/resources/page_files.h\"
+file(WRITE "${OUTPUT}" "#include \"server/resources/pages/page_files.h\"
 
 namespace plenum::server {
 namespace {

@@ -10,6 +10,7 @@
 #include "catalog/store/history.h"
 #include "catalog/store/models.h"
 #include "catalog/store/rows.h"
+#include "catalog/store/seed/seed_rows.h"
 
 namespace plenum::catalog {
 namespace {
@@ -300,32 +301,20 @@ std::optional<ModelRevision> Store::SaveModel(const std::string& name, const std
 }
 
 void Store::ReplaceSeed(const std::vector<Part>& parts) {
-  std::vector<Part> seed = parts;
-  for (Part& part : seed) {
-    part.origin = "seed";
-    if (const auto errors = Validate(part); !errors.empty())
-      throw StoreError(impl_->path + ": seed part " + part.id + ": " + errors.front().detail +
-                       " (" + errors.front().field + ")");
+  std::vector<Part> seed;
+  try {
+    seed = SeedRows(parts);
+  } catch (const StoreError& error) {
+    throw StoreError(impl_->path + ": " + error.what());
   }
-  std::sort(seed.begin(), seed.end(), [](const Part& a, const Part& b) { return a.id < b.id; });
-  for (std::size_t i = 1; i < seed.size(); ++i)
-    if (seed[i].id == seed[i - 1].id)
-      throw StoreError(impl_->path + ": two seed parts have the id " + seed[i].id);
-
-  const std::vector<Part> old = List();
-  impl_->Write({"build_catalog", {}, {}}, "seed", [&](RevisionWriter& writer) -> WriteResult {
-    for (const Part& part : old) {
-      const bool kept = std::binary_search(
-          seed.begin(), seed.end(), part, [](const Part& a, const Part& b) { return a.id < b.id; });
-      if (part.origin == "seed" && !kept) writer.Change(part.id, writer.Get(part.id), std::nullopt);
-    }
-    for (const Part& part : seed) {
-      const auto stored = writer.Get(part.id);
-      if (!stored || stored->origin == "seed") writer.Change(part.id, stored, part);
-    }
-    return {};
+  impl_->Do([&](SQLite::Database& db) {
+    SQLite::Transaction transaction(db, SQLite::TransactionBehavior::IMMEDIATE);
+    RevisionWriter writer(db);
+    ReplaceSeedRows(db, seed, writer);
+    writer.Record("build_catalog", std::string(kSeedWrite));
+    transaction.commit();
+    db.exec("VACUUM");
   });
-  impl_->Do([](SQLite::Database& db) { db.exec("VACUUM"); });
 }
 
 std::vector<std::string> Store::Check() const {

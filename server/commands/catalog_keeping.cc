@@ -5,6 +5,7 @@
 
 #include "api/catalogue/catalog_check.h"
 #include "api/catalogue/part_document.h"
+#include "api/catalogue/seed/seed_document.h"
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
 #include "server/call/reply.h"
@@ -12,6 +13,7 @@
 #include "server/commands/input.h"
 #include "server/commands/output.h"
 #include "server/render/text/text_catalog.h"
+#include "server/render/text/text_table.h"
 #include "server/resources/import_parts.h"
 
 namespace plenum::server {
@@ -50,6 +52,28 @@ std::vector<std::string> CheckJobsOf(const std::string& catalog) {
     std::fprintf(stderr, "%s: not checked, a service holds it\n", path.c_str());
     return {};
   }
+}
+
+std::string Ids(const std::vector<std::string>& ids) {
+  std::string text;
+  for (const std::string& id : ids) text += (text.empty() ? "" : ", ") + id;
+  return text;
+}
+
+std::string SeedText(const catalog::SeedUpdate& update, const std::string& seed, bool dry_run) {
+  const catalog::SeedPlan& plan = update.plan;
+  std::string text = "of " + seed + ":\n";
+  for (const auto& [what, ids] :
+       {std::pair("added", &plan.added), std::pair("changed", &plan.replaced),
+        std::pair("removed", &plan.removed), std::pair("yours, left as it is", &plan.kept)})
+    if (!ids->empty())
+      text += "  " + std::to_string(ids->size()) + " " + what + ": " + Cut(Ids(*ids), 300) + "\n";
+  if (plan.added.empty() && plan.replaced.empty() && plan.removed.empty())
+    return text + "nothing to take over\n";
+  const std::string number = std::to_string(update.revision.number);
+  return text +
+         (dry_run ? "nothing was written\n"
+                  : "revision " + number + "; plenum catalog undo " + number + " takes it back\n");
 }
 
 }  // namespace
@@ -94,6 +118,21 @@ void RestoreCatalog(const CatalogOptions& options) {
   Print("restored revision " +
         std::to_string(OpenCatalog(options.catalog, Access::kRead).Head().number) + " from " +
         options.file + "\n");
+}
+
+void UpdateCatalog(const CatalogOptions& options) {
+  OpenCatalog(options.catalog, Access::kWrite);  // says what is wrong with the file
+  const std::string seed = options.file.empty() ? catalog::InstalledSeed().string() : options.file;
+  if (seed.empty())
+    throw BadInput("no catalogue was installed with this program; name one with --from");
+  try {
+    const auto update =
+        catalog::UpdateSeed(options.catalog, seed, CommandSignature().who, options.dry_run);
+    Print(options.json ? Dump(api::RenderSeedUpdate(update)) + "\n"
+                       : SeedText(update, seed, options.dry_run));
+  } catch (const catalog::StoreError& error) {
+    throw BadInput(error.what());
+  }
 }
 
 int CheckCatalog(const CatalogOptions& options) {

@@ -277,6 +277,15 @@ Table ImportOptions(CatalogOptions& options) {
       JsonFlag(options.json)};
 }
 
+Table UpdateTable(CatalogOptions& options) {
+  return {{"--from",
+           "The catalogue with the newer rows; without it the one that was installed with plenum",
+           &options.file,
+           {.value_name = "DB"}},
+          {"--dry-run", "Only say what would be done", &options.dry_run},
+          JsonFlag(options.json)};
+}
+
 // One argument by its place.
 std::function<Table(CatalogOptions&)> FileTable(const char* help) {
   return
@@ -322,6 +331,9 @@ Command CatalogCommand() {
              Answered<BackupCatalog>, FileTable("The copy; replaced if there is one")),
        Below("restore", "Puts parts and history of a copy in place",
              "plenum catalog restore copy.db", Answered<RestoreCatalog>, FileTable("The copy")),
+       Below("update", "Takes over what the installed catalogue has newer; your own rows stay",
+             "plenum catalog update --from copy.db --dry-run", Answered<UpdateCatalog>,
+             UpdateTable),
        Below("check",
              "Checks the file and its history, finds duplicates, odd numbers and what is missing",
              "plenum catalog check", CheckCatalog, json)}};

@@ -124,7 +124,7 @@ Command DesignCommand() {
             "kinds: of each kind of design the best; or combinations: all alike",
             &options->list,
             {.value_name = "WHAT"}},
-           {"--wide", "All figures in the table, as wide as it gets", &options->wide},
+           {"--wide", "All figures of each design in the table", &options->wide},
            {"--proof", "Keep the record of the search, for verify", &options->proof},
            JsonFlag(options->json),
            CatalogOption(options->catalog)},

@@ -15,12 +15,14 @@
 #include "server/commands/input.h"
 #include "server/commands/interrupt.h"
 #include "server/http.h"
+#include "server/resources/pages/docs_resource.h"
 
 namespace plenum::server {
 namespace {
 
 struct ServeOptions {
   std::string catalog = catalog::DefaultCatalog();
+  std::string docs = DocsFolder();
   std::string host = "127.0.0.1";
   int port = 8080;
   std::vector<std::string> allow_hosts;
@@ -29,8 +31,12 @@ struct ServeOptions {
 
 std::unique_ptr<HttpService> Listen(const ServeOptions& options) {
   OpenCatalog(options.catalog, catalog::Access::kRead);  // says what is wrong with the file
+  if (options.docs != DocsFolder() &&
+      !std::filesystem::exists(std::filesystem::path(options.docs) / "index.html"))
+    throw BadInput("--docs " + options.docs + " has no index.html");
   HttpOptions http;
   http.catalog = options.catalog;
+  http.docs = options.docs;
   http.host = options.host;
   http.port = options.port;
   http.allow_hosts = options.allow_hosts;
@@ -80,6 +86,11 @@ Command ServeCommand() {
            {"--allow-host", "Name by which a proxy makes the service known; needs tokens",
             &options->allow_hosts},
            {"!--no-log", "No line a request on standard error", &options->log},
+           {"--docs",
+            "Folder of the documentation that /docs/ shows; without it the one that was "
+            "built or installed with this program",
+            &options->docs,
+            {.value_name = "DIR"}},
            CatalogOption(options->catalog)},
           [options] {
             Serve(*options);

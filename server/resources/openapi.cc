@@ -87,7 +87,17 @@ const std::map<std::string, Operation>& Operations() {
       {"GET /readyz", {{}, "", {{200, "Readiness"}}, {503}}},
       {"GET /metrics", {{}, "", {{200, "Text", "text/plain"}}, {}}},
       {"GET /openapi.json", {{}, "", {{200, "Anything"}}, {}}},
-      {"GET /docs", {{}, "", {{200, "Text", "text/html"}}, {}}},
+  };
+  return kOperations;
+}
+
+// Of what people read in a browser.
+const std::map<std::string, Operation>& PageOperations() {
+  static const std::map<std::string, Operation> kOperations = {
+      {"GET /openapi", {{}, "", {{200, "Text", "text/html"}}, {}}},
+      {"GET /docs", {{}, "", {{308, ""}}, {}}},
+      {"GET /docs/{path}",
+       {{"path", "If-None-Match"}, "", {{200, "Text", "*/*"}, {304, ""}}, {404}}},
       {"GET /", {{"If-None-Match"}, "", {{200, "Text", "text/html"}, {304, ""}}, {}}},
       {"GET /assets/{id}", {{}, "", {{200, "Text", "*/*"}}, {404}}},
   };
@@ -103,8 +113,10 @@ const Operation& OperationOf(const Route& route) {
       {"POST /{id}/again", {{}, "", {{202, "JobAccepted"}}, {404, 409, 429}}},
       {"GET /{id}/events", {{}, "", {{200, "Text", kEvents}}, {404, 429}}},
   };
-  const auto found = Operations().find(route.method + " " + route.path);
-  if (found != Operations().end()) return found->second;
+  for (const auto* operations : {&Operations(), &PageOperations()})
+    if (const auto found = operations->find(route.method + " " + route.path);
+        found != operations->end())
+      return found->second;
   for (const std::string path : {"/v1/designs", "/v1/diagnoses"})
     if (route.path.starts_with(path))
       return kJobs.at(route.method + " " + route.path.substr(path.size()));
@@ -126,6 +138,12 @@ Json Parameters() {
   const Json text = {{"type", "string"}}, flag = {{"type", "boolean"}};
   Json parameters = {
       {"id", {{"name", "id"}, {"in", "path"}, {"required", true}, {"schema", text}}},
+      {"path",
+       {{"name", "path"},
+        {"in", "path"},
+        {"required", true},
+        {"schema", text},
+        {"description", "of a file of the documentation; empty for its first page"}}},
       {"limit", Query("limit", {{"type", "integer"}, {"minimum", 1}, {"maximum", 1000}},
                       "entries of a page")},
       {"cursor", Query("cursor", text, "next_cursor of the page before")},

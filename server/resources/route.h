@@ -18,7 +18,8 @@ namespace plenum::server {
 
 struct Route {
   std::string method;
-  std::string path;  // "{id}" stands for one segment, which becomes Call::argument
+  std::string path;  // "{id}" stands for one segment, which becomes Call::argument;
+                     // "{path}", at the end, for all that is left, which may be nothing
   std::string summary;
   Access access;
   std::function<Reply(const Call&)> answer;
@@ -34,6 +35,7 @@ struct Services {
   JobOptions job_options;
   catalog::JobsKept jobs_kept;
   std::filesystem::path file;                 // the catalogue
+  std::filesystem::path docs;                 // the built documentation
   std::function<void()> measure_connections;  // sets their metrics
 };
 

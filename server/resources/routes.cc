@@ -17,13 +17,15 @@
 #include "server/resources/models_resource.h"
 #include "server/resources/openapi.h"
 #include "server/resources/operation_resource.h"
-#include "server/resources/page_resource.h"
+#include "server/resources/pages/api_page.h"
+#include "server/resources/pages/docs_resource.h"
+#include "server/resources/pages/page_resource.h"
 #include "server/resources/parts_resource.h"
 
 namespace plenum::server {
 namespace {
 
-constexpr std::string_view kVariable = "{id}";
+constexpr std::string_view kVariable = "{id}", kRest = "{path}";
 
 // A turn among those that compute, fewer of which may be large.
 std::shared_ptr<void> EnterComputing(bool large) {
@@ -115,6 +117,16 @@ void AddManyPartsRoutes(SharedCatalog& catalog, std::vector<Route>& routes) {
   routes.insert(one, std::begin(many), std::end(many));
 }
 
+// What people read in a browser.
+void AddPages(const Services& services, std::vector<Route>& routes) {
+  routes.push_back({"GET", "/", "the web page", Access::kOpen, GetPage});
+  routes.push_back({"GET", "/assets/{id}", "a file of the web page", Access::kOpen, GetAsset});
+  routes.push_back({"GET", "/docs", "leads to the documentation", Access::kOpen, RedirectToDocs});
+  routes.push_back({"GET", "/docs/{path}", "a file of the documentation", Access::kOpen,
+                    [docs = services.docs](const Call& call) { return GetDocs(docs, call); }});
+  routes.push_back({"GET", "/openapi", "this description, for reading", Access::kOpen, GetApiPage});
+}
+
 }  // namespace
 
 std::vector<Route> Routes(const Services& services) {
@@ -193,9 +205,7 @@ std::vector<Route> Routes(const Services& services) {
   AddManyPartsRoutes(catalog, routes);
   AddJobRoutes(design_jobs, routes);
   AddJobRoutes(diagnosis_jobs, routes);
-  routes.push_back({"GET", "/", "the web page", Access::kOpen, GetPage});
-  routes.push_back({"GET", "/assets/{id}", "a file of the web page", Access::kOpen, GetAsset});
-  routes.push_back({"GET", "/docs", "this description, for reading", Access::kOpen, GetDocs});
+  AddPages(services, routes);
   routes.push_back({"GET", "/openapi.json", "this description, OpenAPI 3.1", Access::kOpen, {}});
   routes.push_back({"GET", "/v1", "this table", Access::kRead, {}});
   routes.back().answer = [reply = Shared(JsonReply(200, RouteTable(routes)))](const Call&) {
@@ -209,6 +219,12 @@ std::vector<Route> Routes(const Services& services) {
 
 bool Matches(const Route& route, std::string_view path, std::string& argument) {
   const std::string_view pattern = route.path;
+  if (pattern.ends_with(kRest)) {
+    const auto before = pattern.substr(0, pattern.size() - kRest.size());
+    if (!path.starts_with(before)) return false;
+    argument = path.substr(before.size());
+    return true;
+  }
   const auto at = pattern.find(kVariable);
   if (at == std::string_view::npos) return path == pattern;
   const auto head = pattern.substr(0, at);

@@ -24,6 +24,8 @@ std::string TitleOf(int status) {
       return "Accepted";
     case 204:
       return "No Content";
+    case 308:
+      return "Permanent Redirect";
     case 304:
       return "Not Modified";
     default:

@@ -53,6 +53,18 @@ assert plenum.design(sys.argv[1], top=1).proved
 P
 
 zcat "$root/usr/share/man/man1/plenum.1.gz" | grep -q '^\.SS "plenum design"' || fail "no manual page"
+[ -f "$root/usr/share/plenum/docs/reference/generated/requirements.html" ] || fail "no documentation"
+(cd "$home" && exec env -i PATH=/usr/bin HOME="$home" "$root/usr/bin/plenum" serve --port 0 --no-log) 2>"$home/serve.txt" &
+service=$!
+trap 'kill "$service" 2>/dev/null; rm -rf "$root" "$home"' EXIT
+for _ in $(seq 100); do grep -q listens "$home/serve.txt" && break; sleep 0.1; done
+python3 - "$home/serve.txt" <<'P' || fail "the documentation is not served"
+import http.client, re, sys
+connection = http.client.HTTPConnection("127.0.0.1", int(re.search(r":(\d+)/", open(sys.argv[1]).read()).group(1)))
+connection.request("GET", "/docs/tutorials/first_design.html")
+answer = connection.getresponse()
+assert answer.status == 200 and b"A first design" in answer.read()
+P
 [ -f "$root/usr/share/bash-completion/completions/plenum" ] || fail "no completion"
 grep -q 'ExecStart=/usr/bin/plenum serve' "$root/usr/lib/systemd/system/plenum.service" || fail "no unit"
 python3 - "$root/usr/share/doc/plenum/plenum.cdx.json" "$root/usr/bin/plenum" <<'P'

@@ -111,6 +111,9 @@ export function App() {
               {v.label}
             </a>
           ))}
+          <a href="/docs/" target="_blank" data-tip="Opens in a tab of its own">
+            Docs
+          </a>
         </nav>
         <div class="units">
           {hasToken() && (

@@ -1,5 +1,7 @@
 #include "server/commands/manual/man_page.h"
 
+#include <fmt/format.h>
+
 #include "api/json/version.h"
 
 namespace plenum::server {
@@ -44,15 +46,35 @@ std::string Usage(const Option& option) {
   return "[" + name + " " + option.rules.value_name.value_or("VALUE") + "]";
 }
 
+// "ipopt, nlopt", "0 to 65535"; empty where any value will do.
+std::string Allowed(const Option& option) {
+  std::string text;
+  if (const auto* names = std::get_if<OneOf>(&option.rules.allowed))
+    for (const std::string& name : *names) text += (text.empty() ? "" : ", ") + name;
+  if (const auto* within = std::get_if<Within>(&option.rules.allowed))
+    text = fmt::format("{:.15g} to {:.15g}", within->least, within->most);
+  if (std::holds_alternative<Positive>(option.rules.allowed)) text = "above 0";
+  return text;
+}
+
+// What the target holds at first, where the help shows it.
+std::string Default(const Option& option) {
+  if (!option.rules.shows_default) return "";
+  if (const auto* const* text = std::get_if<std::string*>(&option.target)) return **text;
+  if (const auto* const* number = std::get_if<int*>(&option.target))
+    return std::to_string(**number);
+  if (const auto* const* number = std::get_if<double*>(&option.target))
+    return fmt::format("{:g}", **number);
+  return "";
+}
+
 std::string Describe(const Option& option) {
   std::string usage = Usage(option);
   if (usage.front() == '[') usage = usage.substr(1, usage.size() - 2);
   std::string help = option.help;
-  if (const auto* names = std::get_if<OneOf>(&option.rules.allowed)) {
-    help += " (";
-    for (const std::string& name : *names) help += (name == names->front() ? "" : ", ") + name;
-    help += ")";
-  }
+  const std::string allowed = Allowed(option), value = Default(option);
+  if (!allowed.empty()) help += " (" + allowed + ")";
+  if (!value.empty()) help += "; default " + value;
   return ".TP\n\\fB" + Escaped(usage) + "\\fR\n" + Escaped(help) + "\n";
 }
 

@@ -2,12 +2,20 @@
 #ifndef PLENUM_SERVER_RENDER_TEXT_TEXT_TABLE_H_
 #define PLENUM_SERVER_RENDER_TEXT_TEXT_TABLE_H_
 
+#include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "api/json/json.h"
 
 namespace plenum::server {
+
+inline constexpr std::size_t kAnyWidth = std::numeric_limits<std::size_t>::max();
+
+// Characters of a line: COLUMNS where it is set, else what the terminal at standard output says,
+// and kAnyWidth where that is none. At least 40.
+std::size_t TerminalWidth();
 
 class Table {
  public:
@@ -20,10 +28,18 @@ class Table {
   explicit Table(std::vector<Column> columns, int indent = 0)
       : columns_(std::move(columns)), indent_(indent) {}
   void Add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
-  // Title line, a rule, then the rows; columns two blanks apart.
-  std::string Text() const;
+  // Title line, a rule, then the rows; columns two blanks apart. No line is longer than `width`:
+  // titles are wrapped, cells with text cut, the widest first; the first column may keep half of
+  // the line. Where that is not enough the columns stand in several tables, each with the first.
+  std::string Text(std::size_t width = TerminalWidth()) const;
 
  private:
+  // Of each column, its title on one line or, wrapped, a word a line.
+  std::vector<std::size_t> Widths(bool wrapped) const;
+  // The columns of these numbers, each so wide.
+  std::string Lines(const std::vector<std::size_t>& shown,
+                    const std::vector<std::size_t>& widths) const;
+
   std::vector<Column> columns_;
   int indent_;
   std::vector<std::vector<std::string>> rows_;

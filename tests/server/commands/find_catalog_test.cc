@@ -48,6 +48,29 @@ TEST_F(Installed, TheUsersCatalogueBeginsAsTheSeedAndIsKept) {
     EXPECT_EQ(entry.path(), Users());  // no draft is left
 }
 
+// A newer package brings a newer seed: what the user did not touch follows it.
+TEST_F(Installed, AnUpgradeIsTakenOverWithoutWhatTheUserChanged) {
+  const std::string other = "smc-vq110u-5m-m5", mine = "smc-s070c-6dc-32";
+  ASSERT_EQ(Run("catalog check").status, 0);
+  ASSERT_EQ(Run("catalog remove " + mine).status, 0);
+  EXPECT_THAT(Run("catalog update").out, HasSubstr("nothing to take over"));
+  {  // as a new package would, its rows changed by a seed write
+    catalog::Store seed(Seed(), catalog::Access::kWrite);
+    auto parts = seed.List();
+    for (auto& part : parts) part.notes = "of the new seed";
+    seed.ReplaceSeed(parts);
+  }
+  const auto dry = Run("catalog update --dry-run");
+  EXPECT_THAT(dry.out, HasSubstr("nothing was written"));
+  EXPECT_EQ(Run("catalog show " + other).out.find("of the new seed"), std::string::npos);
+  const auto updated = Run("catalog update");
+  ASSERT_EQ(updated.status, 0) << updated.err;
+  EXPECT_THAT(updated.out, HasSubstr("1 yours, left as it is: " + mine));
+  EXPECT_THAT(Run("catalog show " + other).out, HasSubstr("of the new seed"));
+  EXPECT_EQ(Run("catalog show " + mine).status, 2);
+  EXPECT_EQ(Run("catalog check").status, 0);
+}
+
 TEST_F(Installed, TheFolderForDataMayBeNamed) {
   const std::string folder = bench_.Path("data");
   ASSERT_EQ(Run("catalog check", "XDG_DATA_HOME='" + folder + "'").status, 0);

@@ -73,6 +73,7 @@ class Described : public testing::Test {
     HttpOptions options;
     options.jobs.workers = 1;
     options.jobs.queued_max = 0;
+    options.docs = test::SourceDir() / "web" / "dist";  // any folder with an index.html
     return options;
   }
 
@@ -115,8 +116,10 @@ class Described : public testing::Test {
     return Check(client_.Post(At(path, id) + query, headers, body, kJson), "post", path, status);
   }
   static std::string At(std::string path, const std::string& id) {
-    const auto at = path.find("{id}");
-    return at == std::string::npos ? path : path.replace(at, 4, id);
+    for (const std::string variable : {"{id}", "{path}"})
+      if (const auto at = path.find(variable); at != std::string::npos)
+        return path.replace(at, variable.size(), id);
+    return path;
   }
 
   Service service_{Narrow()};
@@ -285,8 +288,8 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   Get("/v1/models/{id}", "", 200, {}, "bench");
   Get("/v1/models/{id}", "", 404, {}, "none");
   // The rest.
-  for (const char* path :
-       {"/v1", "/v1/families", "/v1/limits", "/healthz", "/metrics", "/openapi.json", "/docs", "/"})
+  for (const char* path : {"/v1", "/v1/families", "/v1/limits", "/healthz", "/metrics",
+                           "/openapi.json", "/openapi", "/"})
     Get(path, "", 200);
   Get("/readyz", "", 200);
   const std::filesystem::path catalog = service_.bench().catalog();
@@ -299,6 +302,11 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   ASSERT_NE(at, std::string::npos);
   Get("/assets/{id}", "", 200, {}, page.substr(at + 8, page.find('"', at) - at - 8));
   Get("/assets/{id}", "", 404, {}, "none");
+  Get("/docs", "", 308);
+  const std::string docs = "/docs/{path}";
+  Get(docs, "", 200, {}, "index.html");
+  Get(docs, "", 304, {{"If-None-Match", client_.Get("/docs/")->get_header_value("ETag")}});
+  Get(docs, "", 404, {}, "none.html");
 
   // With a queue.
   {
@@ -354,7 +362,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
 }
 
 TEST_F(Described, TheDocsLoadNothingFromElsewhere) {
-  const auto page = client_.Get("/docs");
+  const auto page = client_.Get("/openapi");
   const std::string policy = page->get_header_value("Content-Security-Policy");
   EXPECT_TRUE(policy.starts_with("default-src 'none'; connect-src 'self'")) << policy;
   EXPECT_EQ(page->body.find("://"), std::string::npos);

@@ -1,4 +1,4 @@
-#include "server/resources/page_resource.h"
+#include "server/resources/pages/page_resource.h"
 
 #include <algorithm>
 #include <map>
@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "api/catalogue/stores.h"
-#include "server/resources/page_files.h"
+#include "server/resources/pages/page_files.h"
 
 namespace plenum::server {
 namespace {

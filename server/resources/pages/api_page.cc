@@ -1,7 +1,8 @@
+#include "server/resources/pages/api_page.h"
+
 #include <string>
 
 #include "api/catalogue/stores.h"
-#include "server/resources/openapi.h"
 
 namespace plenum::server {
 namespace {
@@ -52,7 +53,7 @@ std::string Base64OfSha256(const std::string& text) {
 
 }  // namespace
 
-Reply GetDocs(const Call&) {
+Reply GetApiPage(const Call&) {
   static const std::string kPolicy = "default-src 'none'; connect-src 'self'; script-src 'sha256-" +
                                      Base64OfSha256(kScript) + "'; style-src 'sha256-" +
                                      Base64OfSha256(kStyle) +

@@ -1,6 +1,6 @@
 // The built web page, part of the program: the files of web/dist.
-#ifndef PLENUM_SERVER_RESOURCES_PAGE_FILES_H_
-#define PLENUM_SERVER_RESOURCES_PAGE_FILES_H_
+#ifndef PLENUM_SERVER_RESOURCES_PAGES_PAGE_FILES_H_
+#define PLENUM_SERVER_RESOURCES_PAGES_PAGE_FILES_H_
 
 #include <span>
 #include <string_view>
@@ -17,4 +17,4 @@ std::span<const PageFile> PageFiles();
 
 }  // namespace plenum::server
 
-#endif  // PLENUM_SERVER_RESOURCES_PAGE_FILES_H_
+#endif  // PLENUM_SERVER_RESOURCES_PAGES_PAGE_FILES_H_

@@ -1,6 +1,6 @@
 // The web page at "/" and its files below "/assets/".
-#ifndef PLENUM_SERVER_RESOURCES_PAGE_RESOURCE_H_
-#define PLENUM_SERVER_RESOURCES_PAGE_RESOURCE_H_
+#ifndef PLENUM_SERVER_RESOURCES_PAGES_PAGE_RESOURCE_H_
+#define PLENUM_SERVER_RESOURCES_PAGES_PAGE_RESOURCE_H_
 
 #include "server/call/reply.h"
 
@@ -14,4 +14,4 @@ Reply GetAsset(const Call& call);
 
 }  // namespace plenum::server
 
-#endif  // PLENUM_SERVER_RESOURCES_PAGE_RESOURCE_H_
+#endif  // PLENUM_SERVER_RESOURCES_PAGES_PAGE_RESOURCE_H_

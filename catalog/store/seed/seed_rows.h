@@ -1,0 +1,28 @@
+// Seed rows within a write. Internal to the store.
+#ifndef PLENUM_CATALOG_STORE_SEED_SEED_ROWS_H_
+#define PLENUM_CATALOG_STORE_SEED_SEED_ROWS_H_
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <string_view>
+#include <vector>
+
+#include "catalog/store/history.h"
+#include "catalog/store/seed/seed_plan.h"
+
+namespace plenum::catalog {
+
+// What revisions that replace the seed are called.
+inline constexpr std::string_view kSeedWrite = "seed";
+
+// The parts as seed rows, in order of id. Throws StoreError for a part that Validate refuses and
+// for two of one id.
+std::vector<Part> SeedRows(std::vector<Part> parts);
+
+// Changes what `seed` (SeedRows) changes; UpdateSeed (seed_update.h) says what stays.
+SeedPlan ReplaceSeedRows(SQLite::Database& db, const std::vector<Part>& seed,
+                         RevisionWriter& writer);
+
+}  // namespace plenum::catalog
+
+#endif  // PLENUM_CATALOG_STORE_SEED_SEED_ROWS_H_
