@@ -96,9 +96,11 @@ std::string MarkOf(const Json& design) {
   return mark;
 }
 
+constexpr char kToOrder[] = "to order";
+
 // One line: what the best of some designs is, or why there is none.
-std::string BestText(const std::string& name, const Json& best) {
-  std::string text = fmt::format("  {:<10}  ", name);
+std::string BestText(const std::string& name, std::size_t width, const Json& best) {
+  std::string text = fmt::format("  {:<{}}  ", name, width);
   const Json& design = best.at("design");
   if (design.is_null()) {
     text += best.at("status") == "infeasible" ? "none, proved" : "none found yet";
@@ -213,13 +215,16 @@ std::string WideTable(const Json& designs) {
 std::string BestsText(const Json& answer) {
   const Json list = answer.value("by_configuration", Json::array());
   std::string text;
+  std::size_t width = std::size(kToOrder) + 1;
+  for (const Json& best : list)
+    width = std::max(width, best.at("configuration").get_ref<const std::string&>().size());
   if (list.size() > 1)
     for (const Json& best : list)
-      text += BestText(best.at("configuration").get<std::string>(), best);
+      text += BestText(best.at("configuration").get<std::string>(), width, best);
   const Json orderable = answer.value("orderable", Json());
   const bool first = orderable.is_object() && orderable.at("design").is_object() &&
                      orderable.at("design").at("rank") == 1;
-  if (orderable.is_object() && !first) text += BestText("to order", orderable);
+  if (orderable.is_object() && !first) text += BestText(kToOrder, width, orderable);
   return text.empty()
              ? text
              : "The best of each source, and of products that one can order\n" + text + "\n";
