@@ -141,6 +141,7 @@ TEST_F(SeedUpdates, AnyHistoryOfUsersAndSeeds) {
       if (fate == 1 && seed.contains(name)) next[name] = seed[name];
       if (fate == 2) next[name] = "seed " + std::to_string(version);
     }
+    parts.reserve(next.size());
     for (const auto& [name, notes] : next) parts.push_back(Noted(name, notes));
     Install(parts);
     seed = next;
