@@ -7,7 +7,6 @@
 #include "calibration/judge/errors.h"
 #include "calibration/judge/evidence.h"
 #include "calibration/judge/findings.h"
-#include "calibration/judge/identifiability.h"
 #include "calibration/judge/stated.h"
 #include "calibration/judge/ties.h"
 #include "calibration/judge/verdict.h"
@@ -15,6 +14,7 @@
 #include "calibration/learn/slips.h"
 #include "calibration/names/measured_numbers.h"
 #include "calibration/names/stability.h"
+#include "calibration/names/without_names.h"
 #include "calibration/names/wrong_numbers.h"
 #include "calibration/values/thresholds.h"
 
@@ -22,6 +22,7 @@ namespace plenum::calibration {
 namespace {
 
 constexpr std::size_t kFinalSteps = 200'000;
+constexpr int kFirstLooks = 5;
 // Readings that threads simulate side by side, each with its derivatives: about 0.3 kB a reading.
 constexpr std::size_t kReadingsAtATime = 100'000;
 
@@ -54,8 +55,13 @@ class Diagnosing {
   }
 
   Diagnosis Take() {
-    diagnosis_.warnings = SuspectedSlips(bench_.dataset, options_.cancelled);
+    diagnosis_.slips = SuspectedSlips(bench_.dataset, options_.cancelled);
     TakeFirstLook();
+    if (!SettledOrWarned()) {
+      FitBaseAlone();
+      StateUnsettled(bench_, base_->fit, diagnosis_);
+      return std::move(diagnosis_);
+    }
     const FitData data = bench_.data;
     do {
       Search(data, options_);
@@ -76,23 +82,7 @@ class Diagnosing {
     options.nuisance_only = true;
     Fit aligned = FitModel(bench_.data, state, options);
     if (LearnReadings(aligned)) aligned = FitModel(bench_.data, aligned.state, options);
-    diagnosis_.noise_pa = NoiseOf(bench_, bench_.data.runs);
-    StateDeclared(bench_, diagnosis_);
-    if (!aligned.Usable()) {
-      diagnosis_.sentence = "The saved model cannot be run on these data: " + aligned.detail + ".";
-      return std::move(diagnosis_);
-    }
-    const Leftover left = LeftoverOf(bench_, aligned, false);
-    StateModels(bench_, aligned, aligned, diagnosis_);
-    diagnosis_.residual = left.residual;
-    diagnosis_.verdict = IsNoise(left) ? Verdict::kAdequate : Verdict::kUnexplained;
-    diagnosis_.unexplained_fraction =
-        diagnosis_.verdict == Verdict::kAdequate ? 0.0 : UnexplainedFraction(left, left);
-    AddSeries(bench_, diagnosis_);
-    AddWarnings(bench_, diagnosis_);
-    diagnosis_.sentence = diagnosis_.verdict == Verdict::kAdequate
-                              ? "The saved model predicts these runs to within their noise."
-                              : "The saved model leaves structure in these runs.";
+    StatePrediction(bench_, aligned, diagnosis_);
     return std::move(diagnosis_);
   }
 
@@ -111,20 +101,22 @@ class Diagnosing {
     if (options_.progress) options_.progress(share, what);
   }
 
-  // What readings on a grid, and sizes that are not known, are to be taken for at first.
+  // What readings on a grid, few readings and sizes that are not known are taken for at first.
   void TakeFirstLook() {
     const auto& uncertainty = bench_.dataset.relative_uncertainty;
     const bool unknown = std::count(uncertainty.begin(), uncertainty.end(), kUnknown) > 0;
-    const bool on_grid = std::any_of(observed_.begin(), observed_.end(),
-                                     [](const ObservedRun& run) { return run.noise.staircase; });
-    if (!on_grid && !unknown) return;
-    const Fit first = FitModel(bench_.data, forward_.Declared(), bench_.tight);
-    if (on_grid) LearnReadings(first);
+    const bool rough = std::any_of(observed_.begin(), observed_.end(), [](const ObservedRun& run) {
+      return run.noise.staircase || !(run.noise.relative_error < kRoughNoise);
+    });
+    if (!rough && !unknown) return;
+    Fit first = FitModel(bench_.data, forward_.Declared(), bench_.tight);
+    for (int k = 0; k < kFirstLooks && rough && LearnReadings(first); ++k)
+      first = FitModel(bench_.data, first.state, bench_.tight);
     if (first.Usable()) bench_.data.sizes = SizesOf(bench_.dataset, first.state);
   }
 
-  // What a fit shows of the readings: wild ones, and how much noise is behind their grid. True
-  // where fits are to be made again.
+  // What a fit shows of the readings: wild ones, and their noise. True where fits are to be made
+  // again.
   bool LearnReadings(const Fit& fit) {
     if (!fit.Usable()) return false;
     std::vector<Reading> predicted(observed_.size());
@@ -133,7 +125,9 @@ class Diagnosing {
       predicted[run] = Shown(bench_, Aligned(bench_, run, fit.state), run);
     LeaveOutWild(bench_.dataset, bench_.held_out, predicted, observed_);
     const bool wild = LeaveOutWild(bench_.dataset, bench_.data.runs, predicted, observed_);
-    return TakeHiddenNoise(bench_.dataset, bench_.data.runs, predicted, observed_) || wild;
+    const bool less = TakeNoiseOfFit(bench_.dataset, bench_.data.runs, predicted,
+                                     fit.coordinates.size(), observed_);
+    return TakeHiddenNoise(bench_.dataset, bench_.data.runs, predicted, observed_) || wild || less;
   }
 
   void Search(const FitData& data, const SearchOptions& options) {
@@ -145,6 +139,20 @@ class Diagnosing {
         search_);
     bench_.data = search_.data;
     base_ = &search_.contenders[search_.base];
+  }
+
+  // Whether effects may be named. Of a record that is as it was meant slips are only warned of.
+  bool SettledOrWarned() {
+    for (const SuspectedSlip& slip : diagnosis_.slips) diagnosis_.warnings.push_back(slip.what);
+    if (bench_.dataset.as_written) diagnosis_.slips.clear();
+    return diagnosis_.slips.empty();
+  }
+
+  void FitBaseAlone() {
+    Contender base;
+    base.fit = FitModel(bench_.data, forward_.Declared(), bench_.tight);
+    search_ = {bench_.data, {std::move(base)}, 0, 0, true, false};
+    base_ = &search_.contenders.front();
   }
 
   bool Complete() const { return search_.complete && base_->fit.Usable() && Chosen().fit.Usable(); }
@@ -209,6 +217,10 @@ class Diagnosing {
       evidence.imitated = IsImitated();
       diagnosis_.verdict = Judge(evidence);
     }
+    if (diagnosis_.verdict == Verdict::kUnexplained && !Stopped()) {
+      diagnosis_.slips = SlipsThatFit(bench_.data, base_->fit, Chosen().fit, options_);
+      if (!SettledOrWarned()) return StateUnsettled(bench_, base_->fit, diagnosis_);
+    }
     if (diagnosis_.verdict == Verdict::kUnexplained && evidence.accepted)
       ChooseBesideStructure(evidence);
     const Contender& chosen = Chosen();
@@ -241,6 +253,7 @@ class Diagnosing {
       static_cast<Estimates&>(diagnosis_) =
           EstimatesOf(bench_, shown->fit, IntervalsFrom::kProfile);
     if (bench_.held_out.empty()) TakeLeftOut(evidence);
+    WithdrawLearned(diagnosis_);
     diagnosis_.residual = evidence.after.residual;
     diagnosis_.unexplained_fraction = UnexplainedFraction(evidence.before, evidence.after);
     if (diagnosis_.verdict != Verdict::kUndecided && !open)
@@ -253,21 +266,9 @@ class Diagnosing {
     Progress(0.99, "report");
     AddSeries(bench_, diagnosis_);
     AddWarnings(bench_, diagnosis_);
-    for (std::string& sentence : FarNumbers(shown->fit))
-      diagnosis_.warnings.push_back(std::move(sentence));
     AddReasons(search_, memory_, open ? tied_ : std::vector<const Contender*>{shown}, doubt,
                diagnosis_);
-    if (Stopped()) {
-      diagnosis_.warnings.push_back(
-          diagnosis_.verdict == Verdict::kUndecided
-              ? "stopped before all sets of effects were compared: what is listed is the best so "
-                "far"
-              : "stopped after the verdict: a learned term, the next experiment or held-out errors "
-                "may be lacking");
-    } else if (const auto found = Identify(bench_.data, shown->fit, bench_.tight)) {
-      for (std::string& sentence : Sentences(*found))
-        diagnosis_.warnings.push_back(std::move(sentence));
-    }
+    AddLimits(bench_, shown->fit, diagnosis_);
     diagnosis_.sentence = Sentence(bench_, search_, diagnosis_);
   }
 

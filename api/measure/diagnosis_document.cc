@@ -202,6 +202,8 @@ std::optional<DeclaredNumber> DeclaredIn(const Run& run, Declared number) {
     case Declared::kReservoirVolume:
       if (run.reservoir_volume_m3 <= 0.0) return {};
       return DeclaredNumber{run.reservoir_volume_m3, kM3PerMl, "ml"};
+    case Declared::kAmbientPressure:
+      return DeclaredNumber{ambient, kPaPerKpa, "kpa_abs"};
   }
   return {};
 }
@@ -368,6 +370,9 @@ Json RenderDiagnosis(const Diagnosis& diagnosis, const Dataset& dataset,
   document["numbers"] =
       List(diagnosis.numbers, [&](const auto& wrong) { return RenderNumber(wrong, dataset); });
   document["stability"] = List(diagnosis.stability, RenderStability);
+  document["slips"] = List(diagnosis.slips, [](const auto& slip) {
+    return Json{{"what", slip.what}, {"assume", slip.assume}};
+  });
   document["candidates"] = List(diagnosis.candidates, RenderCandidate);
   document["tied"] = List(diagnosis.tied, Ids);
   document["tied_laws"] = List(diagnosis.tied, Laws);

@@ -8,6 +8,7 @@
 #include "api/json/words.h"
 #include "api/measure/measured_rig.h"
 #include "api/measure/measured_run.h"
+#include "calibration/learn/slip_kinds.h"
 
 namespace plenum::api {
 namespace {
@@ -60,6 +61,27 @@ void CheckHoldout(Reader& document, const std::set<std::string>& ids, const Data
     document.Fail("holdout", "must leave at least one run to fit");
 }
 
+// One name or a list of them: slips of the pen that are undone in the data set.
+void ReadAssumptions(Reader& document, Dataset& dataset) {
+  const Json text = {{"type", "string"}};
+  document.Describe("assume", {{"anyOf", {text, {{"type", "array"}, {"items", text}}}}});
+  if (!document.Has("assume")) return;
+  const Json* given = document.Raw("assume");
+  const Json names = given->is_array() ? *given : Json::array({*given});
+  for (const Json& name : names) {
+    if (!name.is_string()) {
+      document.Fail("assume", "must be a name or a list of names, not " + KindOf(name));
+      continue;
+    }
+    const auto& assumption = name.get_ref<const std::string&>();
+    const std::string why = calibration::Settle(assumption, dataset);
+    if (!why.empty()) document.Fail("assume", Quoted(assumption) + " " + why);
+    if (why.empty() && RemarkRecorder::Current() != nullptr)
+      RemarkRecorder::Current()->Warn(document.Pointer("assume"),
+                                      "is taken as said: " + calibration::InWords(assumption));
+  }
+}
+
 }  // namespace
 
 Parsed<Dataset> ParseMeasurement(const Json& document, Remarks* remarks) {
@@ -79,6 +101,7 @@ Parsed<Dataset> ParseMeasurement(const Json& document, Remarks* remarks) {
   CheckDelivery(reader, dataset);
   dataset.holdout = reader.Texts("holdout", 0, kRunsMax);
   CheckHoldout(reader, ids, dataset);
+  ReadAssumptions(reader, dataset);
   reader.Finish();
   if (!errors.empty()) return errors;
   if (remarks != nullptr) *remarks = recorder.Take();
@@ -108,7 +131,8 @@ Parsed<Json> MergeMeasurements(const std::vector<Json>& documents) {
       }
       merged["runs"].push_back(std::move(run));
     }
-    for (const Json& id : document.value("holdout", Json::array())) merged["holdout"].push_back(id);
+    for (const char* list : {"holdout", "assume"})
+      for (const Json& one : document.value(list, Json::array())) merged[list].push_back(one);
   }
   if (!errors.empty()) return errors;
   return merged;

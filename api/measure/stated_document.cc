@@ -9,6 +9,7 @@
 #include "api/json/units.h"
 #include "api/json/words.h"
 #include "api/simulate/effects.h"
+#include "calibration/judge/verdict.h"
 
 namespace plenum::api {
 namespace {
@@ -120,10 +121,21 @@ std::vector<std::pair<const char*, const StatedModel*>> ModelsOf(
   return named;
 }
 
+// Whether `after` predicts runs that no fit saw better than `before`: null where it is the same
+// model or no run was left for that.
+Json PredictsBetter(const calibration::Diagnosis& diagnosis) {
+  const bool named =
+      !diagnosis.effects.empty() || !diagnosis.numbers.empty() || !diagnosis.tied.empty();
+  const auto better =
+      calibration::PredictsBetter(diagnosis.before.holdout_rms_pa, diagnosis.after.holdout_rms_pa);
+  return named && better ? Json(*better) : Json(nullptr);
+}
+
 }  // namespace
 
 void AddStatedModels(const calibration::Diagnosis& diagnosis, const Dataset& dataset,
                      Json& answer) {
+  answer["predicts_better"] = PredictsBetter(diagnosis);
   answer["runs"] = answer["held_out_fitted"] = Json::array();
   const auto models = ModelsOf(diagnosis);
   for (const auto& [name, model] : models) {

@@ -24,6 +24,7 @@ struct Unit {
 constexpr auto kUnits = std::to_array<Unit>({
     {"sonic_conductance_m3_per_s_pa", "sonic_conductance_dm3_per_s_bar", kM3PerSPaPerDm3PerSBar},
     {"conductance_m3_per_s_pa", "conductance_l_per_min_bar", kM3PerSPerLPerMin / 1e5},
+    {"flow_m3_per_s", "flow_l_per_min_anr", kM3PerSPerLPerMin},
     {"diameter_m", "diameter_mm", kMPerMm},
     {"_m3", "_ml", kM3PerMl},
     {"_pa", "_kpa", kPaPerKpa},

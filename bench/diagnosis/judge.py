@@ -332,4 +332,5 @@ def main():
         confounded(folder / "ties")
 
 
-main()
+if __name__ == "__main__":
+    main()

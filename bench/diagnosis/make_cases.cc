@@ -4,8 +4,9 @@
 // FOLDER/perfect/NNNN.json the same measurements by a perfect sensor, with the size of the white
 // noise that would say as little as the sensor's; what is there already is kept. With a KIND
 // (clean, full, fifth, pair, outside) only the cases of that kind among the first COUNT of the
-// series; with `tie` COUNT cases that may be ties; with `five` COUNT cases of all kinds in turn,
-// each of five runs and one held out with 1,000 samples.
+// series; with `tie` COUNT cases that may be ties; with `real` COUNT cases as a workshop records
+// them; with `five` COUNT cases of all kinds in turn, each of five runs and one held out with 1,000
+// samples.
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "tests/support/bench/bench_json.h"
+#include "tests/support/bench/real_case.h"
 
 namespace {
 
@@ -38,19 +40,22 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder = argv[3];
   const std::string kind = argc > 4 ? argv[4] : "";
   const bool tie = kind == NameOf(plenum::test::CaseKind::kTie), five = kind == "five";
+  const bool real = kind == NameOf(plenum::test::CaseKind::kReal);
   std::filesystem::create_directories(folder / "cases");
   std::filesystem::create_directories(folder / "truth");
   std::filesystem::create_directories(folder / "perfect");
   std::atomic<int> next = 0, failed = 0;
   const auto work = [&] {
     for (int i = next++; i < count; i = next++) {
-      if (!tie && !five && !kind.empty() && NameOf(plenum::test::KindOfSeries(i)) != kind) continue;
+      if (!tie && !five && !real && !kind.empty() && NameOf(plenum::test::KindOfSeries(i)) != kind)
+        continue;
       char name[32];
       std::snprintf(name, sizeof name, "%04d.json", i);
       if (std::filesystem::exists(folder / "truth" / name)) continue;
       try {
-        const plenum::test::BenchCase bench = tie ? plenum::test::TieOfSeries(series, i)
-                                                  : plenum::test::CaseOfSeries(series, i, five);
+        const plenum::test::BenchCase bench = tie    ? plenum::test::TieOfSeries(series, i)
+                                              : real ? plenum::test::RealOfSeries(series, i)
+                                                     : plenum::test::CaseOfSeries(series, i, five);
         Write(folder / "cases" / name, MeasurementJson(bench));
         Write(folder / "perfect" / name, {{"measurement", MeasurementJson(WithoutFaults(bench))},
                                           {"noise_pa", bench.sensor.EffectiveNoise()}});

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "calibration/values/effect_sets.h"
 #include "model/effects/learned/learned.h"
 
 namespace plenum::calibration {
@@ -22,6 +23,9 @@ constexpr double kRoomOfStroke = 0.9;     // of the time to the next command
 constexpr double kPressureStepPa = 1e3;   // scale of an initial pressure
 constexpr double kLeastPressurePa = 1.0;  // absolute: a reading near vacuum may be below 0
 constexpr double kSoundMPerS = 290.0;     // isothermal
+constexpr double kCoarse = 0.2;           // of a stroke: less than five readings in one
+constexpr double kMostDamping = 2.0;      // of an inertia: beyond, a wall only creeps
+constexpr double kAtEnd = 1e-3;           // of a bound of u, beside it
 
 enum class Size {
   kOne,
@@ -32,6 +36,7 @@ enum class Size {
   kVolume,
   kConductance,
   kLeak,
+  kFlow,
   kViscous,
   kInertial
 };
@@ -50,7 +55,7 @@ using enum Coordinate::Kind;
 const std::vector<Search>& Searches() {
   static const std::vector<Search> kSearches = {
       {"valve_delay", "delay_s", kLinear, Size::kStroke, 0.0, {0.02}},
-      {"valve_ramp", "duration_s", kLinear, Size::kStroke, 0.0, {0.01}},
+      {"valve_ramp", "duration_s", kLinear, Size::kStroke, 0.0, {0.01, 0.5}},
       {"directional_conductance", "fill_factor", kLinear, Size::kOne, 1.0, {0.02}},
       {"cracking_pressure", "pressure_pa", kLinear, Size::kPressure, 0.0, {0.02}},
       {"exhaust_restriction",
@@ -84,6 +89,8 @@ const std::vector<Search>& Searches() {
       {"leak", "critical_ratio", kLinear, Size::kOne, 0.0, {0.3}},
       {"leak", "viscous_pa2_s_per_kg", kLog, Size::kViscous, 0.0, {30.0, 30.0, 0.3}},
       {"leak", "inertial_pa2_s2_per_kg2", kLog, Size::kInertial, 0.0, {1000.0, 10.0, 0.1}},
+      {"outgassing", "initial_flow_m3_per_s", kLinear, Size::kFlow, 0.0, {0.03, 0.03}},
+      {"outgassing", "time_constant_s", kLog, Size::kDuration, 0.0, {0.3, 0.03}},
       {"sensor_lag", "time_constant_s", kLinear, Size::kStroke, 0.0, {0.005}},
       {"sensor_gain", "gain", kLinear, Size::kOne, 1.0, {0.01}},
       {"sensor_offset", "offset_pa", kLinear, Size::kPressure, 0.0, {0.005}},
@@ -133,6 +140,8 @@ double InUnit(Size size, const TypicalSizes& sizes) {
       return sizes.conductance_m3_per_s_pa;
     case Size::kLeak:
       return leak_m3_per_s / model::kReferencePressurePa;
+    case Size::kFlow:
+      return leak_m3_per_s;
     case Size::kViscous:
       return squares / leak_kg_per_s;
     case Size::kInertial:
@@ -162,6 +171,8 @@ std::pair<double, double> Visible(const model::EffectSpec& effect, const model::
     range = {std::max(spec.low, -0.25 * sizes.gauge_pa),
              std::min(spec.high, 0.25 * sizes.gauge_pa)};
   if (spec.name.ends_with("_rad_per_s")) range.second = std::min(spec.high, 150.0 / sizes.stroke_s);
+  if (effect.id == "inertia" && spec.name == "damping_ratio")
+    range.second = std::min(spec.high, kMostDamping);
   // A vessel of hundreds of litres or readings of minutes would begin beyond the law's own range.
   range.first = std::min(range.first, spec.high);
   range.second = std::max(range.second, range.first);
@@ -174,6 +185,9 @@ Coordinate CoordinateOf(const model::EffectSpec& effect, const model::ParameterS
   Coordinate coordinate;
   coordinate.kind = search.kind;
   coordinate.scale = InUnit(search.size, sizes);
+  const bool time = spec.name.ends_with("_s"), coarse = sizes.interval_s > kCoarse * sizes.stroke_s;
+  if (time && coarse && ActsInTime(effect)) coordinate.least = sizes.interval_s;
+  if (time && effect.id == "outgassing") coordinate.most = sizes.duration_s;
   if (search.kind == kSeries) {
     coordinate.low = kSeriesLow;
     coordinate.high = kSeriesHigh;
@@ -195,7 +209,8 @@ Coordinate CoordinateOf(const model::EffectSpec& effect, const model::ParameterS
   return coordinate;
 }
 
-Coordinate FactorCoordinate(Declared number, double uncertainty, bool freed) {
+Coordinate FactorCoordinate(Declared number, double uncertainty, bool freed,
+                            const std::pair<double, double>& range) {
   Coordinate coordinate;
   coordinate.parameter = {.kind = Parameter::Kind::kDeclared, .declared = number};
   if (uncertainty == kUnknown) {
@@ -204,10 +219,11 @@ Coordinate FactorCoordinate(Declared number, double uncertainty, bool freed) {
   } else {
     coordinate.origin = 1.0;
     coordinate.scale = uncertainty > 0.0 ? uncertainty : kExactUncertainty;
-    coordinate.low = (kLeastFactor - 1.0) / coordinate.scale;
-    coordinate.high = (kMostFactor - 1.0) / coordinate.scale;
+    coordinate.low = coordinate.At(kLeastFactor), coordinate.high = coordinate.At(kMostFactor);
     coordinate.prior = !freed;
   }
+  coordinate.low = std::max(coordinate.low, coordinate.At(range.first));
+  coordinate.high = std::min(coordinate.high, coordinate.At(range.second));
   return coordinate;
 }
 
@@ -267,6 +283,10 @@ double Coordinate::At(double number) const {
   return (number - origin) / scale;
 }
 
+bool Coordinate::AtEnd(double u) const {
+  return u <= low + kAtEnd * std::abs(low) || u >= high - kAtEnd * std::abs(high);
+}
+
 TypicalSizes SizesOf(const Dataset& dataset) {
   TypicalSizes sizes;
   double conductance = kInfinity, operating_volume_m3 = 0.0;
@@ -321,7 +341,8 @@ std::vector<Coordinate> BaseCoordinates(const ForwardModel& forward,
     const bool has = std::any_of(runs.begin(), runs.end(),
                                  [&](std::size_t i) { return Has(dataset.runs[i], number); });
     if ((uncertainty > 0.0 || freed[k]) && has)
-      coordinates.push_back(FactorCoordinate(number, uncertainty, freed[k]));
+      coordinates.push_back(
+          FactorCoordinate(number, uncertainty, freed[k], FactorRange(dataset, number)));
   }
   const ModelState declared = forward.Declared();
   for (const std::size_t i : runs) {

@@ -9,6 +9,7 @@
 #ifndef PLENUM_CALIBRATION_FIT_COORDINATES_H_
 #define PLENUM_CALIBRATION_FIT_COORDINATES_H_
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,16 @@ struct Coordinate {
   double origin = 0.0, scale = 1.0;  // linear: origin + scale·u; log: scale·e^u; series: S = scale
   double low = 0.0, high = 0.0;      // bounds of u
   bool prior = false;                // u is standard normal before any data
+  // Between these a number tells its effect from instants that are off by a sample, and a decay
+  // from what goes on for ever.
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
 
   double Number(double u) const;
   double Slope(double u) const;  // d number / du
   double At(double number) const;
+  // Whether u lies at an end of what is searched: the readings do not fix the number.
+  bool AtEnd(double u) const;
 };
 
 // What sizes and times are typical of a data set: effects start and scale by them.

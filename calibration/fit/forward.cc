@@ -15,7 +15,6 @@ namespace {
 
 using model::FlowElement;
 
-constexpr double kCriticalRatioMax = 0.95;
 constexpr int kFirstReadings = 10;
 constexpr double kBoreStep = 1e-5;  // relative, of a central difference
 
@@ -127,12 +126,26 @@ class DirectionOf {
         if (auto* reservoir = std::get_if<model::ReservoirSource>(&rig_.source))
           Add(reservoir->volume_m3, run_.reservoir_volume_m3);
         break;
+      case Declared::kAmbientPressure:
+        OfAmbient();
+        break;
       case Declared::kSonicConductance:
       case Declared::kCriticalRatio:
       case Declared::kTubeInnerDiameter:
         for (std::size_t i = 0; i < run_.line.size(); ++i) OfPiece(number, i);
         break;
     }
+  }
+
+  // All that was declared as gauge moves with it.
+  void OfAmbient() {
+    if (!Has(run_, Declared::kAmbientPressure)) return;
+    const double ambient_pa = run_.ambient.pressure_pa;
+    for (const double* number : {&rig_.ambient.pressure_pa, &group_.initial_pressure_pa,
+                                 &group_.chamber.operating_pressure_pa})
+      Add(*number, ambient_pa);
+    if (auto* regulated = std::get_if<model::RegulatedSource>(&rig_.source))
+      Add(regulated->pressure_pa, ambient_pa);
   }
 
   void OfSource() {
@@ -186,11 +199,13 @@ class DirectionOf {
   model::Direction direction_;
 };
 
-Reading ReadingOf(model::Response response) {
+// Less the shift of the ambient pressure: readings are gauge plus the declared one.
+Reading ReadingOf(model::Response response, double shift_pa) {
   Reading reading;
   if (response.groups.empty()) return reading;  // refused
   model::GroupResponse& group = response.groups.front();
   reading.pressure_pa = std::move(group.reading_pa.empty() ? group.pressure_pa : group.reading_pa);
+  for (double& pa : reading.pressure_pa) pa -= shift_pa;
   reading.channels = {.source_pressure_pa = std::move(response.source_pressure_pa),
                       .inlet_pressure_pa = std::move(group.inlet_pressure_pa),
                       .temperature_k = std::move(group.temperature_k),
@@ -267,7 +282,8 @@ model::Source ForwardModel::SourceOf(std::size_t index, const ModelState& state)
   const Run& run = dataset_->runs[index];
   const double ambient_pa = run.ambient.pressure_pa;
   const double factor = Factor(state, Declared::kSourcePressure);
-  const double pressure_pa = ambient_pa + factor * (run.source_pressure_pa - ambient_pa);
+  const double pressure_pa =
+      ambient_pa + AmbientShift(run, state) + factor * (run.source_pressure_pa - ambient_pa);
   switch (run.supply) {
     case Supply::kRegulated:
       return model::RegulatedSource{.pressure_pa = pressure_pa};
@@ -290,7 +306,8 @@ model::Source ForwardModel::SourceOf(std::size_t index, const ModelState& state)
 model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const {
   const Run& run = dataset_->runs[index];
   model::Rig rig;
-  rig.ambient = run.ambient;
+  const double shift_pa = AmbientShift(run, state);
+  rig.ambient = {run.ambient.pressure_pa + shift_pa, run.ambient.temperature_k};
   rig.source = SourceOf(index, state);
   model::GroupRig group;
   group.name = run.id;
@@ -299,8 +316,11 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
   chamber.rest_volume_m3 *= Factor(state, Declared::kRestVolume);
   chamber.expansion_ratio =
       std::max(1.0, chamber.expansion_ratio * Factor(state, Declared::kExpansionRatio));
-  chamber.operating_pressure_pa += (Factor(state, Declared::kOperatingPressure) - 1.0) *
-                                   (run.chamber.operating_pressure_pa - run.ambient.pressure_pa);
+  chamber.operating_pressure_pa +=
+      (Factor(state, Declared::kOperatingPressure) - 1.0) *
+          (run.chamber.operating_pressure_pa - run.ambient.pressure_pa) +
+      shift_pa;
+  chamber.ambient_pressure_pa += shift_pa;
   for (const LinePiece& piece : run.line) {
     FlowElement fill = Scaled(piece.fill, state), exhaust = Scaled(piece.exhaust, state);
     if (piece.tube) {
@@ -313,7 +333,7 @@ model::Rig ForwardModel::RigOf(std::size_t index, const ModelState& state) const
   group.inlet_after = InletAfter(run);
   for (const model::ValveCommand& command : run.valve)
     group.schedule.push_back({command.time_s - StartOf(run) + state.clock_s[index], command.state});
-  group.initial_pressure_pa = state.initial_pressure_pa[index];
+  group.initial_pressure_pa = state.initial_pressure_pa[index] + shift_pa;
   group.initial_temperature_k = state.initial_temperature_k[index];
   group.blocked = run.blocked;
   group.effects = state.effects;
@@ -348,7 +368,6 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
   for (const double t_s : run.t_s) simulate.sample_times_s.push_back(t_s - StartOf(run));
   simulate.end_s = simulate.sample_times_s.back();
 
-  Prediction prediction;
   std::vector<model::Direction> directions;
   std::vector<std::size_t> moved;  // parameter of each direction
   DirectionOf direction_of(run, state, rig);
@@ -358,26 +377,21 @@ Prediction ForwardModel::Predict(std::size_t index, const ModelState& state,
     directions.push_back(std::move(direction));
     moved.push_back(j);
   }
-  if (directions.empty()) {
-    model::Response response = model::Simulate(rig, simulate);
-    prediction.status = response.status;
-    prediction.detail = response.detail;
-    prediction.stiff = response.stiff;
-    prediction.reading = ReadingOf(std::move(response));
-    FillTemperature(run, prediction.reading);
-    prediction.derivatives.resize(parameters.size());
-    AddDeliverySlopes(*this, index, state, parameters, options, prediction);
-    return prediction;
-  }
-  model::SensitivityResponse result = model::SimulateAlongDirections(rig, simulate, directions);
+  model::SensitivityResponse result;
+  if (!directions.empty()) result = model::SimulateAlongDirections(rig, simulate, directions);
+  if (directions.empty()) result.response = model::Simulate(rig, simulate);
+  Prediction prediction;
   prediction.status = result.response.status;
   prediction.detail = result.response.detail;
   prediction.stiff = result.response.stiff;
-  prediction.reading = ReadingOf(std::move(result.response));
+  prediction.reading = ReadingOf(std::move(result.response), AmbientShift(run, state));
   FillTemperature(run, prediction.reading);
   prediction.derivatives.resize(parameters.size());
-  for (std::size_t j = 0; j < result.derivatives.size(); ++j)
-    prediction.derivatives[moved[j]] = ReadingOf(std::move(result.derivatives[j]));
+  for (std::size_t j = 0; j < result.derivatives.size(); ++j) {
+    const bool ambient = parameters[moved[j]] == Parameter{.declared = Declared::kAmbientPressure};
+    prediction.derivatives[moved[j]] =
+        ReadingOf(std::move(result.derivatives[j]), ambient ? run.ambient.pressure_pa : 0.0);
+  }
   AddDeliverySlopes(*this, index, state, parameters, options, prediction);
   return prediction;
 }

@@ -1,13 +1,14 @@
 // From a run and a model to what the sensors should have read, with exact derivatives.
 //
 // A model is the declared rig with a factor on each declared number (gauge pressures keep the
-// ambient pressure as their zero), a list of effects, the pressures and temperatures at which the
-// runs began, by how much each run's clock lags behind the rig's — commands act that much later
-// than recorded, and a compressor began that much later to fill its reservoir —, and what a learned
-// term leaves to each run: the phase of what swings, and how late each stroke comes
-// (model/effects/learned/learned.h). Where a tube's bore moves, its pair (C, b) and its volume move
-// with it (model/flow/tube.h). A factor on C or b acts on the declared pairs, not on those that
-// follow from a tube's size; b stays in [0, 0.95] and ε at 1 or above.
+// ambient pressure as their zero, and move with it where it is another), a list of effects, the
+// pressures and temperatures at which the runs began, by how much each run's clock lags behind the
+// rig's — commands act that much later than recorded, and a compressor began that much later to
+// fill its reservoir —, and what a learned term leaves to each run: the phase of what swings, and
+// how late each stroke comes (model/effects/learned/learned.h). Where a tube's bore moves, its pair
+// (C, b) and its volume move with it (model/flow/tube.h). A factor on C or b acts on the declared
+// pairs, not on those that follow from a tube's size; b stays in [0, kCriticalRatioMax] and ε at 1
+// or above.
 #ifndef PLENUM_CALIBRATION_FIT_FORWARD_H_
 #define PLENUM_CALIBRATION_FIT_FORWARD_H_
 

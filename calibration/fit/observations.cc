@@ -20,6 +20,8 @@ constexpr double kLeastNoise = 1e-4;
 // beyond measure.
 constexpr double kShareMax = 0.95;
 
+constexpr double kFreedomLeast = 4.0;  // readings beyond the numbers that a fit has
+
 constexpr std::vector<double> Channels::*kSupporting[] = {
     &Channels::inlet_pressure_pa, &Channels::temperature_k, &Channels::volume_m3,
     &Channels::flow_m3_per_s, &Channels::source_pressure_pa};
@@ -93,6 +95,10 @@ double CommonSigma(const std::vector<Noise>& noises) {
   return weight > 0.0 ? std::sqrt(sum / weight) : 0.0;
 }
 
+double LeastNoise(const Run& run) {
+  return kLeastNoise * (run.chamber.operating_pressure_pa - run.ambient.pressure_pa);
+}
+
 void ShareAmongRuns(const Dataset& dataset, std::vector<Noise>& noises) {
   const double common_pa = CommonSigma(noises);
   for (std::size_t i = 0; i < noises.size(); ++i) {
@@ -100,10 +106,14 @@ void ShareAmongRuns(const Dataset& dataset, std::vector<Noise>& noises) {
     const double apart = std::abs(noise.sigma_pa / common_pa - 1.0);
     const bool own = apart > std::max(kOwnShare, kOwnErrors * noise.relative_error);
     if (!own) noise.sigma_pa = common_pa;
-    const Run& run = dataset.runs[i];
-    const double span_pa = run.chamber.operating_pressure_pa - run.ambient.pressure_pa;
-    noise.sigma_pa = std::max(noise.sigma_pa, kLeastNoise * span_pa);
+    noise.sigma_pa = std::max(noise.sigma_pa, LeastNoise(dataset.runs[i]));
   }
+}
+
+double SquaresOf(const std::vector<double>& residual_pa) {
+  double sum = 0.0;
+  for (const double r : residual_pa) sum += std::isfinite(r) ? r * r : 0.0;
+  return sum;
 }
 
 // Of a channel, σ at its sensor's assumed accuracy at least.
@@ -239,6 +249,47 @@ bool TakeHiddenNoise(const Dataset& dataset, const std::vector<std::size_t>& run
     if (hidden > kHiddenLess * pressure.grid.noise()) continue;
     pressure.grid = Grid(pressure.grid.quantum(), hidden);
     less = true;
+  }
+  return less;
+}
+
+bool TakeNoiseOfFit(const Dataset& dataset, const std::vector<std::size_t>& runs,
+                    const std::vector<Reading>& predicted, std::size_t numbers,
+                    std::vector<ObservedRun>& observed) {
+  double readings = 0.0;
+  for (const std::size_t run : runs)
+    readings += static_cast<double>(observed[run].signals.front().samples.size());
+  const double free = 1.0 - static_cast<double>(numbers) / readings;  // of each reading
+  double squares_pa2 = 0.0, freedom = 0.0;
+  std::vector<std::size_t> too_loud;
+  for (const std::size_t run : runs) {
+    const ObservedSignal& pressure = observed[run].signals.front();
+    if (pressure.grid.quantum() > 0.0 || predicted[run].pressure_pa.empty()) continue;
+    const double left_pa2 =
+        SquaresOf(PressureResidual(dataset.runs[run], observed[run], predicted[run]));
+    const double own = free * static_cast<double>(pressure.samples.size());
+    if (!(left_pa2 < std::pow(kMuchLess * pressure.sigma, 2) * own)) continue;
+    too_loud.push_back(run);
+    squares_pa2 += left_pa2;
+    freedom += own;
+  }
+  if (freedom < kFreedomLeast) return false;
+  const double left_pa = std::sqrt(squares_pa2 / freedom);
+  for (std::size_t run = 0; run < observed.size(); ++run) {  // those that no fit saw: one sensor
+    const ObservedSignal& pressure = observed[run].signals.front();
+    const bool fitted = std::find(runs.begin(), runs.end(), run) != runs.end();
+    if (!fitted && pressure.grid.quantum() == 0.0 && left_pa < kMuchLess * pressure.sigma)
+      too_loud.push_back(run);
+  }
+  bool less = false;
+  for (const std::size_t run : too_loud) {
+    Noise& noise = observed[run].noise;
+    const double rounding_pa = noise.quantum_pa / std::sqrt(12.0);
+    const double taken_pa = std::max({left_pa, rounding_pa, LeastNoise(dataset.runs[run])});
+    double& sigma_pa = observed[run].signals.front().sigma;
+    less = less || taken_pa < kHiddenLess * sigma_pa;
+    sigma_pa = noise.sigma_pa = std::min(sigma_pa, taken_pa);
+    noise.relative_error = 1.0 / std::sqrt(2.0 * freedom);
   }
   return less;
 }

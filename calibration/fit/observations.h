@@ -67,6 +67,14 @@ inline constexpr double kHiddenLess = 0.8;
 bool TakeHiddenNoise(const Dataset& dataset, const std::vector<std::size_t>& runs,
                      const std::vector<Reading>& predicted, std::vector<ObservedRun>& observed);
 
+// Takes the pressure's noise for what a fit of `numbers` numbers leaves of the runs given, where
+// that is less than kMuchLess of what the readings' differences showed: where readings are so few
+// that the signal bends between them, the differences are the signal's. True where it was taken.
+inline constexpr double kMuchLess = 0.5;
+bool TakeNoiseOfFit(const Dataset& dataset, const std::vector<std::size_t>& runs,
+                    const std::vector<Reading>& predicted, std::size_t numbers,
+                    std::vector<ObservedRun>& observed);
+
 // Leaves out pressure readings that are off a fitted model's prediction by more than kWildSigmas of
 // the noise while their neighbours are off by less than a quarter of that: what the readings alone
 // did not show as wild, at gaps and where strokes begin. Structure has neighbours; where more than

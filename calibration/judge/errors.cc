@@ -6,6 +6,7 @@
 #include "calibration/judge/residual.h"
 #include "calibration/learn/criticism.h"
 #include "calibration/values/parallel.h"
+#include "calibration/values/thresholds.h"
 
 namespace plenum::calibration {
 namespace {
@@ -68,6 +69,17 @@ std::vector<Reading> ReadingsOf(const Bench& bench, const ModelState& state) {
   ForAll(readings.size(), bench.tight.threads,
          [&](std::size_t k) { readings[k] = Shown(bench, state, bench.data.runs[k]); });
   return readings;
+}
+
+// Σ e² − n of the whitened residuals of all channels but the pressure.
+double ChannelsAbove(const Run& run, const ObservedRun& observed, const Reading& reading) {
+  const std::size_t pressures = observed.signals.front().samples.size();
+  if (observed.rows() == pressures) return 0.0;
+  std::vector<double> rows(observed.rows());
+  Residuals(run, observed, reading, rows);
+  double above = 0.0;
+  for (std::size_t i = pressures; i < rows.size(); ++i) above += rows[i] * rows[i] - 1.0;
+  return above;
 }
 
 }  // namespace
@@ -169,10 +181,15 @@ Leftover LeftoverOf(const Bench& bench, const Fit& fit, bool with_holdout) {
     const std::size_t i = bench.data.runs[k];
     const Reading& reading = readings[k];
     if (reading.pressure_pa.empty()) return leftover;
-    runs.push_back({&bench.dataset.runs[i], reading.pressure_pa, bench.observed[i].noise});
+    const Noise& noise = bench.observed[i].noise;
+    runs.push_back({&bench.dataset.runs[i], reading.pressure_pa, noise});
+    leftover.rough_noise = leftover.rough_noise || !(noise.relative_error < kRoughNoise);
     for (const double r : PressureResidual(bench.dataset.runs[i], bench.observed[i], reading))
       squares.Add(r);
+    leftover.channels_above += ChannelsAbove(bench.dataset.runs[i], bench.observed[i], reading);
   }
+  leftover.channels_above = std::max(0.0, leftover.channels_above);
+  leftover.pressure_readings = squares.count;
   leftover.residual = AssessResiduals(runs, static_cast<int>(fit.coordinates.size()), nullptr,
                                       bench.tight.cancelled);
   leftover.rms_pa = squares.Rms();

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <unsupported/Eigen/FFT>
 
 #include "calibration/values/parallel.h"
@@ -94,14 +95,17 @@ void Reweigh(const FitData& data, const FitOptions& options, double memory,
     std::vector<Contender*> best;
     for (Contender& contender : contenders)
       if (contender.effects.size() == size && contender.fit.Usable()) best.push_back(&contender);
-    std::sort(best.begin(), best.end(), [&](const Contender* a, const Contender* b) {
-      return BicWith(a->fit, memory) < BicWith(b->fit, memory);
-    });
+    // With less weight on the readings priors that are stretched may relax: at best to this.
+    const auto reach = [memory](const Contender* contender) {
+      return BicWith(contender->fit, memory) - contender->fit.chi2_prior;
+    };
+    double goal = std::numeric_limits<double>::infinity();
+    for (const Contender* contender : best) goal = std::min(goal, BicWith(contender->fit, memory));
+    std::sort(best.begin(), best.end(),
+              [&](const Contender* a, const Contender* b) { return reach(a) < reach(b); });
     best.resize(std::min(best.size(), kReweighed));
-    std::erase_if(best, [goal = best.empty() ? 0.0 : BicWith(best.front()->fit, memory),
-                         memory](const Contender* contender) {
-      return BicWith(contender->fit, memory) - contender->fit.chi2_prior > goal + kNear;
-    });
+    std::erase_if(best,
+                  [&](const Contender* contender) { return reach(contender) > goal + kNear; });
     ForAll(best.size(), options.threads, [&](std::size_t i) {
       Contender& contender = *best[i];
       FitOptions each = options;
@@ -124,7 +128,9 @@ std::size_t Standing(std::span<const Contender> contenders, double memory) {
   std::vector<std::size_t> best(kEffectsMax + 1, contenders.size());
   for (std::size_t i = 0; i < contenders.size(); ++i) {
     std::size_t& leader = best[contenders[i].effects.size()];
-    if (!contenders[i].fit.Usable() || FitsNoBetter(contenders[i], contenders)) continue;
+    if (!contenders[i].fit.Usable() || !MayBeNamed(contenders[i]) ||
+        FitsNoBetter(contenders[i], contenders))
+      continue;
     if (leader == contenders.size() ||
         BicWith(contenders[i].fit, memory) < BicWith(contenders[leader].fit, memory))
       leader = i;

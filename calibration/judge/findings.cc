@@ -85,6 +85,7 @@ Candidate CandidateOf(const Bench& bench, const Contender& contender, bool final
   const Fit& fit = contender.fit;
   candidate.bic = fit.bic;
   candidate.converged = fit.status == FitStatus::kConverged;
+  candidate.may_be_named = MayBeNamed(contender);
   candidate.starts = contender.starts;
   candidate.found_again = contender.found_again;
   candidate.parameters = static_cast<int>(fit.coordinates.size());
@@ -193,6 +194,10 @@ void AddReasons(const SearchResult& search, double memory,
       candidate.reason = candidate.effects == TitlesOf(chosen.effects)
                              ? doubt
                              : "no better than the best set, which is not named either";
+    else if (!candidate.may_be_named)
+      candidate.reason =
+          "a declared number in it ended at an end of what was searched, or it acts within a "
+          "sample";
     else if (FitsNoBetterThanAPart(candidate, diagnosis.candidates))
       candidate.reason =
           "leaves no less of the readings than a part of it: only declared numbers are nearer";
@@ -310,6 +315,17 @@ static std::string UnexplainedSentence(const Contender& chosen, const std::strin
                    : "Structure is left that no known effect accounts for.";
 }
 
+// What is to be said of runs that no fit saw where they are not predicted better.
+static std::string NoBetter(const Diagnosis& diagnosis) {
+  const bool named =
+      !diagnosis.effects.empty() || !diagnosis.numbers.empty() || !diagnosis.tied.empty();
+  const auto better =
+      PredictsBetter(diagnosis.before.holdout_rms_pa, diagnosis.after.holdout_rms_pa);
+  return named && !better.value_or(true)
+             ? " Runs that no fit saw are not predicted better than without it."
+             : "";
+}
+
 std::string Sentence(const Bench& bench, const SearchResult& search, const Diagnosis& diagnosis) {
   std::string either;
   for (const auto& ids : diagnosis.tied) either += (either.empty() ? "" : " or ") + Joined(ids);
@@ -319,14 +335,16 @@ std::string Sentence(const Bench& bench, const SearchResult& search, const Diagn
       return "The model is good enough: after its uncertain numbers were fitted, only noise is "
              "left.";
     case Verdict::kExplained:
-      return Named(chosen, diagnosis) + (PassesTests(diagnosis.residual)
-                                             ? "; with it, only noise is left."
-                                             : "; with it, little is left beside the noise.");
+      return Named(chosen, diagnosis) +
+             (PassesTests(diagnosis.residual) ? "; with it, only noise is left."
+                                              : "; with it, little is left beside the noise.") +
+             NoBetter(diagnosis);
     case Verdict::kTie:
       return "The data cannot tell which is missing: " + either +
-             (diagnosis.unexplained_fraction > 0.0 ? "; and some structure is left." : ".");
+             (diagnosis.unexplained_fraction > 0.0 ? "; and some structure is left." : ".") +
+             NoBetter(diagnosis);
     case Verdict::kUnexplained:
-      return UnexplainedSentence(chosen, either, diagnosis);
+      return UnexplainedSentence(chosen, either, diagnosis) + NoBetter(diagnosis);
     case Verdict::kUndecided:
       break;
   }

@@ -104,4 +104,17 @@ void StateLearned(const Bench& bench, const Fit& fit, Diagnosis& diagnosis) {
     error.holdout_rms_pa = discrepancy.holdout_after_pa;  // of runs left out in turn
 }
 
+void WithdrawLearned(Diagnosis& diagnosis) {
+  if (!diagnosis.learned) return;
+  const auto better =
+      PredictsBetter(diagnosis.after.holdout_rms_pa, diagnosis.learned->holdout_rms_pa);
+  if (better.value_or(true)) return;
+  diagnosis.warnings.emplace_back(
+      "a learned term predicts runs that no fit saw worse than the model without it: it is not "
+      "offered");
+  diagnosis.learned.reset();
+  diagnosis.models.learned.reset();
+  diagnosis.discrepancy->learned.reset();
+}
+
 }  // namespace plenum::calibration

@@ -26,6 +26,10 @@ void StateModels(const Bench& bench, const Fit& before, const Fit& after, Diagno
 // The fit with the learned term of the diagnosis' discrepancy, its error and its numbers.
 void StateLearned(const Bench& bench, const Fit& fit, Diagnosis& diagnosis);
 
+// A learned term that predicts runs which no fit saw worse than `after` does is no gain: the answer
+// does without it and says so.
+void WithdrawLearned(Diagnosis& diagnosis);
+
 }  // namespace plenum::calibration
 
 #endif  // PLENUM_CALIBRATION_JUDGE_STATED_H_

@@ -44,7 +44,9 @@ std::optional<Experiment> ExperimentFor(const Bench& bench,
 
 std::vector<const Contender*> TiedWith(const Bench& bench, std::span<const Contender> contenders,
                                        const Contender& chosen, double memory, double reach) {
-  const bool alone = bench.data.runs.size() == 1u && bench.held_out.empty();
+  const double worth = static_cast<double>(chosen.fit.rows) / memory;
+  const bool alone =
+      (bench.data.runs.size() == 1u && bench.held_out.empty()) || worth < kFewReadings;
   const double evidence = alone ? EvidenceOf(bench, chosen.fit, memory) : 0.0;
   const auto apart = [&](const Fit& other) {
     const bool worse = BicWith(other, memory) > BicWith(chosen.fit, memory) + reach;
@@ -56,7 +58,7 @@ std::vector<const Contender*> TiedWith(const Bench& bench, std::span<const Conte
   std::vector<const Contender*> tied = {&chosen};
   for (const Contender& contender : contenders) {
     if (contender.effects.size() != chosen.effects.size() || !contender.fit.Usable()) continue;
-    if (apart(contender.fit)) continue;
+    if (!MayBeNamed(contender) || apart(contender.fit)) continue;
     const bool known = std::any_of(tied.begin(), tied.end(), [&](const Contender* other) {
       return SameEffects(contender, *other);
     });

@@ -12,6 +12,13 @@ double Above(const Leftover& leftover) {
   return std::max(0.0, leftover.rms_pa * leftover.rms_pa - leftover.noise_pa * leftover.noise_pa);
 }
 
+// Of the pressure and of all other channels, in pressure: in units of the noise they are one sum.
+double AboveInAll(const Leftover& leftover, double noise_pa) {
+  if (leftover.channels_above == 0.0) return Above(leftover);
+  return Above(leftover) + leftover.channels_above * noise_pa * noise_pa /
+                               static_cast<double>(leftover.pressure_readings);
+}
+
 bool IsSmall(const Leftover& before, const Leftover& after) {
   const double share = Above(after) / std::max(Above(before), 1e-300);
   return share < kLeftOver && std::sqrt(Above(after)) < kNegligible * after.noise_pa;
@@ -38,9 +45,16 @@ bool PredictsWorse(const Leftover& before, const Leftover& after) {
   return *after.holdout_rms_pa > std::max(*before.holdout_rms_pa, kHoldout * noise_pa);
 }
 
+std::optional<bool> PredictsBetter(const std::optional<double>& before_rms_pa,
+                                   const std::optional<double>& after_rms_pa) {
+  if (!before_rms_pa || !after_rms_pa) return {};
+  return *after_rms_pa < *before_rms_pa;
+}
+
 double UnexplainedFraction(const Leftover& before, const Leftover& after) {
-  if (IsNoise(after) || Above(before) == 0.0) return 0.0;
-  return std::min(1.0, Above(after) / Above(before));
+  const double all_before = AboveInAll(before, before.noise_pa);
+  if (IsNoise(after) || all_before == 0.0) return 0.0;
+  return std::min(1.0, AboveInAll(after, before.noise_pa) / all_before);
 }
 
 Verdict Judge(const Evidence& evidence) {
@@ -50,7 +64,10 @@ Verdict Judge(const Evidence& evidence) {
   const bool clean = IsNoise(evidence.after) || IsSmall(evidence.before, evidence.after);
   const bool imitation = evidence.imitated || !evidence.after.priors_hold ||
                          PredictsWorse(evidence.before, evidence.after);
-  if (!clean || !HoldsOut(evidence.after) || imitation) return Verdict::kUnexplained;
+  const bool told =
+      !evidence.after.rough_noise ||
+      std::pow(evidence.after.rms_pa, 2) <= kEstablished * std::pow(evidence.before.rms_pa, 2);
+  if (!clean || !told || !HoldsOut(evidence.after) || imitation) return Verdict::kUnexplained;
   return evidence.tied > 0 ? Verdict::kTie : Verdict::kExplained;
 }
 

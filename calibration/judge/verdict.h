@@ -12,10 +12,15 @@ namespace plenum::calibration {
 // What a fitted model leaves over.
 struct Leftover {
   ResidualReport residual;
-  double rms_pa = 0.0;    // of the fitted runs
-  double noise_pa = 0.0;  // of the same samples
+  double rms_pa = 0.0;       // of the fitted runs
+  double noise_pa = 0.0;     // of the same samples
+  bool rough_noise = false;  // few differences showed it, and they may be the signal's
   std::optional<double> holdout_rms_pa;
   std::optional<double> holdout_noise_pa;
+  // Σ e² of the other recorded channels, whitened, above as many as there are: 0 without one. And
+  // how many pressure readings it stands beside.
+  double channels_above = 0.0;
+  std::size_t pressure_readings = 0;
   double holdout_spread_pa = 0.0;  // what the uncertainty of the fitted numbers adds to it
   double learnable_bic = 0.0;      // what a learned term would gain (criticism.h)
   bool priors_hold = true;         // the declared numbers are where their uncertainties let them be
@@ -29,7 +34,12 @@ bool IsNoise(const Leftover& leftover);
 // within their noise.
 bool PredictsWorse(const Leftover& before, const Leftover& after);
 
-// Share of the variance above the noise that is left of what the base model left.
+// Whether `after` predicts runs that no fit saw better than `before`; none where there are none.
+std::optional<bool> PredictsBetter(const std::optional<double>& before_rms_pa,
+                                   const std::optional<double>& after_rms_pa);
+
+// Share of the variance above the noise that is left of what the base model left, over all recorded
+// channels in units of their noise.
 double UnexplainedFraction(const Leftover& before, const Leftover& after);
 
 struct Evidence {
@@ -44,7 +54,8 @@ struct Evidence {
 // leaves noise alone, else kUnexplained. With one, kUnexplained where structure is left that is
 // neither noise nor small (kLeftOver, kNegligible), where runs that the fit did not see are off
 // by more than √(kHoldout²·noise² + kHoldoutSpread·spread²), and where the set only imitates what
-// is missing: it needs declared numbers beyond their uncertainties, one term of unknown cause does
+// is missing: where the noise is rough it leaves more than kEstablished of the base model's error,
+// it needs declared numbers beyond their uncertainties, one term of unknown cause does
 // what it takes several effects for, or it predicts worse than the base model. Then kTie if others
 // are as good; else kExplained.
 Verdict Judge(const Evidence& evidence);

@@ -120,7 +120,7 @@ Table TableOf(std::span<const Contender> contenders, const std::vector<const Con
               double memory) {
   std::vector<const Contender*> order;
   for (const Contender& contender : contenders)
-    if (contender.fit.Usable()) order.push_back(&contender);
+    if (contender.fit.Usable() && MayBeNamed(contender)) order.push_back(&contender);
   std::stable_sort(order.begin(), order.end(), [&](const Contender* a, const Contender* b) {
     return BicWith(a->fit, memory) < BicWith(b->fit, memory);
   });

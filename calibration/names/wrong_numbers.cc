@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
+
+#include "calibration/judge/identifiability.h"
 
 namespace plenum::calibration {
 namespace {
-
-constexpr double kAtEnd = 1e-6;  // of the range that was searched
 
 std::vector<std::string> IdsInsteadOfNumbers(std::span<const Contender> contenders, double memory) {
   std::vector<Contender> without_numbers;
@@ -48,15 +49,16 @@ std::vector<WrongNumber> WrongNumbersOf(const Dataset& dataset, const Contender&
   return wrong;
 }
 
-std::vector<std::string> FarNumbers(const Fit& fit) {
+std::vector<std::string> FarNumbers(const Dataset& dataset, const Fit& fit) {
   std::vector<std::string> sentences;
   for (std::size_t j = 0; j < fit.coordinates.size(); ++j) {
     const Coordinate& coordinate = fit.coordinates[j];
-    if (coordinate.parameter.kind != Parameter::Kind::kDeclared) continue;
+    const Parameter::Kind kind = coordinate.parameter.kind;
+    if (kind != Parameter::Kind::kDeclared && kind != Parameter::Kind::kEffect) continue;
     const double u = fit.u[static_cast<Eigen::Index>(j)];
-    const double room = kAtEnd * (coordinate.high - coordinate.low);
-    const std::string name(Name(coordinate.parameter.declared));
-    if (u <= coordinate.low + room || u >= coordinate.high - room)
+    const bool absent = kind == Parameter::Kind::kEffect && coordinate.Number(u) == 0.0;
+    const std::string name = NameOf(coordinate.parameter, fit.state, dataset);
+    if (coordinate.AtEnd(u) && !absent)
       sentences.push_back(name +
                           " ended at an end of what was searched: the readings do not fix it");
     else if (coordinate.prior && std::abs(u) > kFarSigmas)
@@ -64,6 +66,21 @@ std::vector<std::string> FarNumbers(const Fit& fit) {
                           " of its standard deviations from what was declared");
   }
   return sentences;
+}
+
+void AddLimits(const Bench& bench, const Fit& shown, Diagnosis& diagnosis) {
+  std::vector<std::string>& warnings = diagnosis.warnings;
+  for (std::string& sentence : FarNumbers(bench.dataset, shown))
+    warnings.push_back(std::move(sentence));
+  if (Stopped(bench)) {
+    warnings.emplace_back(
+        diagnosis.verdict == Verdict::kUndecided
+            ? "stopped before all sets of effects were compared: what is listed is the best so far"
+            : "stopped after the verdict: a learned term, the next experiment or held-out errors "
+              "may be lacking");
+  } else if (const auto found = Identify(bench.data, shown, bench.tight)) {
+    for (std::string& sentence : Sentences(*found)) warnings.push_back(std::move(sentence));
+  }
 }
 
 }  // namespace plenum::calibration

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/judge/errors.h"
 #include "calibration/judge/evidence.h"
 #include "calibration/values/diagnosis.h"
 
@@ -20,10 +21,14 @@ namespace plenum::calibration {
 std::vector<WrongNumber> WrongNumbersOf(const Dataset& dataset, const Contender& named,
                                         std::span<const Contender> contenders, double memory);
 
-// One sentence for each declared number that ended at an end of what was searched or, with a prior,
-// more than kFarSigmas of its standard deviations off.
+// One sentence for each declared number, and each of an effect, that ended at an end of what was
+// searched, an effect's absence apart, or, with a prior, more than kFarSigmas of its standard
+// deviations off.
 inline constexpr double kFarSigmas = 3.0;
-std::vector<std::string> FarNumbers(const Fit& fit);
+std::vector<std::string> FarNumbers(const Dataset& dataset, const Fit& fit);
+
+// Warns of those, of numbers that the readings do not fix, and of a stop before the end.
+void AddLimits(const Bench& bench, const Fit& shown, Diagnosis& diagnosis);
 
 }  // namespace plenum::calibration
 

@@ -53,6 +53,20 @@ bool SameEffects(const Contender& a, const Contender& b) {
   return a.effects.size() == b.effects.size() && Contains(a, b);
 }
 
+bool MayBeNamed(const Contender& contender) {
+  const Fit& fit = contender.fit;
+  for (Eigen::Index j = 0; j < fit.u.size(); ++j) {
+    const Coordinate& coordinate = fit.coordinates[static_cast<std::size_t>(j)];
+    const bool freed = coordinate.parameter.kind == Parameter::Kind::kDeclared &&
+                       fit.state.freed[static_cast<std::size_t>(coordinate.parameter.declared)];
+    const double u = fit.u[j];
+    const double number = coordinate.Number(u);
+    if ((freed && coordinate.AtEnd(u)) || number < coordinate.least || number > coordinate.most)
+      return false;
+  }
+  return true;
+}
+
 bool IsNested(const Contender& a, const Contender& b) { return Contains(a, b) || Contains(b, a); }
 
 bool MayComeTo(double goal, const Fit& cut_short, double bic_before) {
@@ -123,7 +137,8 @@ Contender* Contenders::Find(const EffectSet& set) {
 std::vector<std::size_t> Contenders::Sorted(int size) const {
   std::vector<std::size_t> sorted;
   for (std::size_t i = 0; i < list.size(); ++i)
-    if (list[i].effects.size() == static_cast<std::size_t>(size) && list[i].fit.Usable())
+    if (list[i].effects.size() == static_cast<std::size_t>(size) && list[i].fit.Usable() &&
+        MayBeNamed(list[i]))
       sorted.push_back(i);
   std::stable_sort(sorted.begin(), sorted.end(), [this](std::size_t a, std::size_t b) {
     return list[a].fit.bic < list[b].fit.bic;

@@ -29,6 +29,11 @@ bool SameEffects(const Contender& a, const Contender& b);
 // Every id of `inner` is in `outer`.
 bool Contains(const Contender& outer, const Contender& inner);
 
+// Whether each number that the set frees ended within what was searched (one at an end takes up
+// what something else should, and is no cause), and each of its effects is larger than what the
+// sampling leaves open (Coordinate::least).
+bool MayBeNamed(const Contender& contender);
+
 // Whether one holds the other.
 bool IsNested(const Contender& a, const Contender& b);
 
@@ -71,7 +76,7 @@ class Contenders {
   const Contender& operator[](std::size_t i) const { return list[i]; }
   const Contender& Base() const { return list.front(); }
   Contender* Find(const EffectSet& set);
-  // Those with that many effects that could be fitted, by BIC; and the first of them.
+  // Those with that many effects that could be fitted and may be named, by BIC; the first of them.
   std::vector<std::size_t> Sorted(int size) const;
   std::optional<std::size_t> Best(int size) const;
   // Variance above the noise over that of the base model.

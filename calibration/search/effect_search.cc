@@ -90,14 +90,20 @@ class Search {
       Exchange(set);
       // An exchange may have come to an optimum that a smaller set missed, and that to one that a
       // still smaller set missed.
-      const EffectSet better = sets_[*sets_.Best(size)].effects;
+      const EffectSet better = LeaderOf(size, set);
       if (better != set) Shrink(better);
       for (int smaller = size - 1; smaller > 1; --smaller)
-        Shrink(sets_[*sets_.Best(smaller)].effects);
+        if (const auto leader = sets_.Best(smaller)) Shrink(EffectSet(sets_[*leader].effects));
     }
-    if (size > 1 && !sets_.Cancelled()) FitAlone(sets_[*sets_.Best(size)].effects);
-    if (size > 0) CarryNumbers(sets_[*sets_.Best(size)].effects);
+    if (size > 1 && !sets_.Cancelled()) FitAlone(LeaderOf(size, set));
+    if (size > 0) CarryNumbers(LeaderOf(size, set));
     return Finish(size);
+  }
+
+  // The best set of a size that may be named.
+  EffectSet LeaderOf(int size, const EffectSet& otherwise) const {
+    const std::optional<std::size_t> leader = sets_.Best(size);
+    return leader ? sets_[*leader].effects : otherwise;
   }
 
   // A line of the wrong length leaves what other effects beside it may take up: before it is called

@@ -3,11 +3,17 @@
 #include <algorithm>
 
 namespace plenum::calibration {
+namespace {
+
+constexpr double kLeastAmbientPa = 50e3, kMostAmbientPa = 110e3;  // on land
+
+}  // namespace
 
 std::string_view Name(Declared number) {
   static constexpr std::array<std::string_view, kDeclaredCount> kNames = {
-      "rest_volume",       "expansion_ratio", "operating_pressure",  "source_pressure",
-      "sonic_conductance", "critical_ratio",  "tube_inner_diameter", "reservoir_volume"};
+      "rest_volume",         "expansion_ratio",   "operating_pressure",
+      "source_pressure",     "sonic_conductance", "critical_ratio",
+      "tube_inner_diameter", "reservoir_volume",  "ambient_pressure"};
   return kNames[static_cast<std::size_t>(number)];
 }
 
@@ -47,11 +53,38 @@ bool Has(const Run& run, Declared number) {
       return any(true);
     case Declared::kReservoirVolume:
       return run.supply == Supply::kCompressor;
+    case Declared::kAmbientPressure:  // where no record of another gauge and no pump's curve has it
+      return (run.supply == Supply::kNone || run.supply == Supply::kRegulated) &&
+             run.channels.source_pressure_pa.empty() && run.channels.inlet_pressure_pa.empty();
     case Declared::kRestVolume:
       break;
   }
   return std::none_of(run.measured.places.begin(), run.measured.places.end(),
                       [](const MeasuredPlace& place) { return place.of == Of::kVolume; });
+}
+
+std::pair<double, double> FactorRange(const Dataset& dataset, Declared number) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double ratio = kInfinity, expansion = 1.0, lowest_pa = kInfinity, highest_pa = 0.0;
+  for (const Run& run : dataset.runs) {
+    lowest_pa = std::min(lowest_pa, run.ambient.pressure_pa);
+    highest_pa = std::max(highest_pa, run.ambient.pressure_pa);
+    if (!run.blocked) expansion = std::max(expansion, run.chamber.expansion_ratio);
+    for (const LinePiece& piece : run.line)
+      for (const double b : {piece.fill.critical_ratio, piece.exhaust.critical_ratio})
+        if (!piece.tube && b > 0.0) ratio = std::min(ratio, b);
+  }
+  switch (number) {
+    case Declared::kExpansionRatio:
+      return {1.0 / expansion, kInfinity};
+    case Declared::kCriticalRatio:
+      return {0.0, std::max(1.0, kCriticalRatioMax / ratio)};
+    case Declared::kAmbientPressure:
+      return {std::min(1.0, kLeastAmbientPa / lowest_pa),
+              std::max(1.0, kMostAmbientPa / highest_pa)};
+    default:
+      return {0.0, kInfinity};
+  }
 }
 
 }  // namespace plenum::calibration

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/simulate/simulate.h"
@@ -26,9 +27,10 @@ enum class Declared {
   kSonicConductance,
   kCriticalRatio,
   kTubeInnerDiameter,
-  kReservoirVolume
+  kReservoirVolume,
+  kAmbientPressure  // under which gauges and valves work; where it is wrong, all pressures are
 };
-inline constexpr int kDeclaredCount = 8;
+inline constexpr int kDeclaredCount = 9;
 std::string_view Name(Declared number);
 
 inline constexpr double kUnknown = std::numeric_limits<double>::infinity();
@@ -106,7 +108,13 @@ struct Dataset {
   std::array<double, kDeclaredCount> relative_uncertainty{};
   std::vector<std::string> holdout;  // ids of runs that no fit may see
   std::vector<MeasuredNumber> measured;
+  bool as_written = false;  // the record is as it was meant, though it looks like a slip of the pen
 };
+
+// The factors on a declared number with which all runs' rigs make sense: ε not below 1, b not above
+// kCriticalRatioMax, an ambient pressure that there is on land. Other numbers: any.
+inline constexpr double kCriticalRatioMax = 0.95;
+std::pair<double, double> FactorRange(const Dataset& dataset, Declared number);
 
 }  // namespace plenum::calibration
 

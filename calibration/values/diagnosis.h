@@ -72,6 +72,12 @@ struct StabilityChange {
   bool holds = true;
 };
 
+// A slip of the pen that would account for more than any missing physics.
+struct SuspectedSlip {
+  std::string what;    // one sentence
+  std::string assume;  // the name under which it is settled (learn/slip_kinds.h)
+};
+
 struct Candidate {
   // Ids; "leak:porous" where an id has several laws, "number:source_pressure" for a declared
   // number.
@@ -82,7 +88,8 @@ struct Candidate {
   int parameters = 0;
   bool converged = false;
   int starts = 1, found_again = 1;  // multi-start: how many ended in the same optimum
-  std::string reason;  // why it is not named though its BIC is less than that of what is
+  std::string reason;        // why it is not named though its BIC is less than that of what is
+  bool may_be_named = true;  // search/contenders.h
 };
 
 enum class Phase { kRest, kRise, kHold, kFall };
@@ -155,6 +162,7 @@ struct StatedModels {
 struct Names {
   std::vector<WrongNumber> numbers;
   std::vector<StabilityChange> stability;  // of what is, or would have been, named
+  std::vector<SuspectedSlip> slips;        // not settled: no effect is named before they are
 };
 
 // `effects`, `fitted` and `covariance` are those of `after`.

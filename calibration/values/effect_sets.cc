@@ -9,6 +9,8 @@
 namespace plenum::calibration {
 namespace {
 
+constexpr double kEvacuated = 0.5;  // of the ambient pressure
+
 using NumberSpecs = std::array<model::EffectSpec, kDeclaredCount>;
 
 model::EffectPlace PlaceOf(Declared number) {
@@ -20,6 +22,8 @@ model::EffectPlace PlaceOf(Declared number) {
     case Declared::kCriticalRatio:
     case Declared::kTubeInnerDiameter:
       return model::EffectPlace::kLine;
+    case Declared::kAmbientPressure:
+      return model::EffectPlace::kChamber;
     case Declared::kRestVolume:
     case Declared::kExpansionRatio:
     case Declared::kOperatingPressure:
@@ -58,6 +62,11 @@ bool HasRatio(const Run& run) {
   });
 }
 
+// Only then does what comes out of walls and pockets show.
+bool WasEvacuated(const Run& run) {
+  return !run.pressure_pa.empty() && run.pressure_pa.front() < kEvacuated * run.ambient.pressure_pa;
+}
+
 bool Exercised(const model::EffectSpec& spec, const std::vector<Run>& runs) {
   using enum model::EffectPlace;
   const auto opens = [](const Run& run) {
@@ -65,6 +74,7 @@ bool Exercised(const model::EffectSpec& spec, const std::vector<Run>& runs) {
       return command.state != model::ValveState::kHold;
     });
   };
+  if (spec.id == "outgassing") return std::any_of(runs.begin(), runs.end(), WasEvacuated);
   const bool fed = spec.place == kValve || spec.place == kLine || spec.place == kSupply;
   return !fed || std::any_of(runs.begin(), runs.end(), opens);
 }

@@ -28,6 +28,12 @@ double NumberOf(const ModelState& state, const Parameter& parameter) {
   return NumberOf(const_cast<ModelState&>(state), parameter);
 }
 
+double AmbientShift(const Run& run, const ModelState& state) {
+  if (!Has(run, Declared::kAmbientPressure)) return 0.0;
+  const double factor = state.factor[static_cast<std::size_t>(Declared::kAmbientPressure)];
+  return (factor - 1.0) * run.ambient.pressure_pa;
+}
+
 void CopyRun(const ModelState& from, std::size_t run, ModelState& to) {
   to.initial_pressure_pa[run] = from.initial_pressure_pa[run];
   to.initial_temperature_k[run] = from.initial_temperature_k[run];

@@ -57,6 +57,9 @@ struct Parameter {
 double& NumberOf(ModelState& state, const Parameter& parameter);
 double NumberOf(const ModelState& state, const Parameter& parameter);
 
+// By how much the run's ambient pressure is above the declared one.
+double AmbientShift(const Run& run, const ModelState& state);
+
 // Gives a state the numbers of one run's own as another has them.
 void CopyRun(const ModelState& from, std::size_t run, ModelState& to);
 

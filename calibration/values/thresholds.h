@@ -15,9 +15,15 @@ inline constexpr double kAccept = 10.0;
 // as assumed and declared numbers whose stated uncertainties are rough shift BIC by several units.
 inline constexpr double kTie = 10.0;
 
-// In a single run, where no other confirms what it shows, the better set must also be better by
-// this many standard deviations of the difference (closeness.h): by chance one in a hundred.
+// In a single run, where no other confirms what it shows, and where all runs together hold less
+// than kFewReadings readings that are worth one each, the better set must also be better by this
+// many standard deviations of the difference (closeness.h): by chance one in a hundred.
 inline constexpr double kTieScatter = 2.33;
+inline constexpr double kFewReadings = 150.0;
+
+// The relative error of σ from which on the readings' noise is not believed: less than thirty
+// windows showed it (noise.h).
+inline constexpr double kRoughNoise = 0.2;
 
 // The runs' clocks are taken to be off where that lowers BIC by this much more than any effect in
 // their place does; the clocks count by how much of their prior the data exclude.

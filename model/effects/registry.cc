@@ -24,6 +24,7 @@
 #include "model/effects/learned/learned_volume.h"
 #include "model/effects/line_dynamics.h"
 #include "model/effects/nonlinear_compliance.h"
+#include "model/effects/outgassing.h"
 #include "model/effects/sensor_gain.h"
 #include "model/effects/sensor_lag.h"
 #include "model/effects/sensor_offset.h"
@@ -105,6 +106,7 @@ constexpr auto kRegistry = std::to_array<Entry>({
     MakeEntry<LeakOrifice>(),
     MakeEntry<LeakLaminar>(),
     MakeEntry<LeakPorous>(),
+    MakeEntry<Outgassing>(),
     MakeEntry<Learned<3>::Leak>(),
     MakeEntry<Learned<5>::Leak>(),
     MakeEntry<Learned<9>::Leak>(),

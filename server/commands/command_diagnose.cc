@@ -29,7 +29,7 @@ struct DiagnoseOptions {
   std::vector<std::string> files;
   std::string rig, model, save, report, save_part;
   std::string catalog = catalog::DefaultCatalog();
-  std::vector<std::string> holdout;
+  std::vector<std::string> holdout, assume;
   double time_limit_s = api::kDiagnosisTimeS;
   bool json = false, save_part_anyway = false;
 };
@@ -60,6 +60,7 @@ api::DiagnosisRequest ReadRequest(const DiagnoseOptions& options) {
   api::DiagnosisRequest request;
   api::Json document = ReadMeasurement(options.files, options.rig, request.provenance);
   if (!options.holdout.empty() && document.is_object()) document["holdout"] = options.holdout;
+  if (!options.assume.empty() && document.is_object()) document["assume"] = options.assume;
   api::Errors errors;
   if (api::NamesParts(document))
     document = api::WithParts(std::move(document),
@@ -129,6 +130,10 @@ Command DiagnoseCommand() {
           {Argument("FILE", "Measurements as JSON or CSV; - is standard input", &options->files),
            {"--rig", "The rig of CSV files, as JSON", &options->rig, {.value_name = "FILE"}},
            {"--holdout", "Runs that no fit may see", &options->holdout, {.value_name = "RUN"}},
+           {"--assume",
+            "What readings in suspect units are: kpa_abs, psi, … or as_written",
+            &options->assume,
+            {.value_name = "UNIT"}},
            {"--model",
             "Predict with a saved model, without fitting",
             &options->model,

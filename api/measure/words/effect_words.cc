@@ -114,6 +114,11 @@ const Sentences& OfTheChamber() {
          return "its gas warms its wall, which holds " + Significant(v[1]) +
                 " times the heat of the gas, with a time constant of " + Seconds(v[0]);
        }},
+      {"outgassing",
+       [](const Values& v, const Scale&) {
+         return "gas comes out of its walls or pockets: " + Significant(6e7 * v[0]) +
+                " mL/min at the start, less and less with a time constant of " + Seconds(v[1]);
+       }},
       {"hysteresis", [](const Values& v, const Scale&) {
          return "its volume on the way up and on the way down lies " + Kpa(2.0 * v[0]) + " apart";
        }}};

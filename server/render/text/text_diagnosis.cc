@@ -144,6 +144,28 @@ std::string CandidatesTable(const Json& answer) {
   return text + "\n";
 }
 
+// What to say to settle a record that looks as if it held a slip of the pen.
+std::string SlipsText(const Json& answer) {
+  std::string text;
+  for (const Json& slip : answer.value("slips", Json::array()))
+    text +=
+        fmt::format("If so, run it again with --assume {}\n", slip.at("assume").get<std::string>());
+  return text.empty() ? text : text + "and if all is as written with --assume as_written\n\n";
+}
+
+// What was fitted to runs that are held out.
+std::string HeldOutText(const Json& answer) {
+  std::string text;
+  for (const Json& run : answer.value("held_out_fitted", Json::array())) {
+    std::string numbers;
+    for (const Json& number : run.at("numbers"))
+      numbers += (numbers.empty() ? "" : ", ") + number.get<std::string>();
+    text += fmt::format("  fitted to {}, though it is held out: {}\n",
+                        run.at("run").get<std::string>(), numbers);
+  }
+  return text.empty() ? text : text + "\n";
+}
+
 std::string TieText(const Json& answer) {
   std::string text;
   const Json& next = answer.at("next_experiment");
@@ -276,10 +298,10 @@ std::string VerdictText(const Json& answer) {
 }
 
 std::string DiagnosisText(const Json& answer) {
-  std::string text = VerdictText(answer) + "\n\n" + FoundText(answer) + ErrorsTable(answer) +
-                     NumbersTable(answer) + EstimatesTable(answer) + TieText(answer) +
-                     CandidatesTable(answer) + StabilityTable(answer) + DiscrepancyText(answer) +
-                     ResidualText(answer);
+  std::string text = VerdictText(answer) + "\n\n" + SlipsText(answer) + FoundText(answer) +
+                     ErrorsTable(answer) + HeldOutText(answer) + NumbersTable(answer) +
+                     EstimatesTable(answer) + TieText(answer) + CandidatesTable(answer) +
+                     StabilityTable(answer) + DiscrepancyText(answer) + ResidualText(answer);
   for (const Json& warning : answer.at("warnings"))
     text += "note: " + warning.get<std::string>() + "\n";
   return text + RemarksText(answer);

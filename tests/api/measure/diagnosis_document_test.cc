@@ -166,6 +166,7 @@ TEST(RenderDiagnosis, SurvivesAnyNumberAndAnyLength) {
                    1,
                    1,
                    text()};
+    diagnosis.slips = {{text(), text()}};
     diagnosis.fitted.clear();
     for (int i = 0; i < calibration::kDeclaredCount; ++i)
       diagnosis.fitted.push_back(

@@ -100,6 +100,26 @@ TEST(Measurement, ARunsOwnRigIsLaidOverTheSharedOne) {
   EXPECT_FALSE(dataset.runs[1].initial_pressure_pa);
 }
 
+TEST(Measurement, WhatIsAssumedOfTheRecordIsUndone) {
+  Json document = Example();
+  document["assume"] = "mbar";
+  EXPECT_NEAR(Good(document).runs[0].pressure_pa.at(2), 98e3 + 600.0, 1e-9);
+  document["assume"] = {"mbar:r2", "exchanged:r1,r2", "as written"};
+  const Dataset dataset = Good(document);
+  EXPECT_NEAR(dataset.runs[0].pressure_pa.at(2), 98e3 + 600.0, 1e-9);
+  EXPECT_NEAR(dataset.runs[1].pressure_pa.at(2), 98e3 + 6e3, 1e-9);
+  EXPECT_TRUE(dataset.as_written);
+  Remarks remarks;
+  ASSERT_TRUE(std::holds_alternative<Dataset>(ParseMeasurement(document, &remarks)));
+  EXPECT_EQ(remarks.warnings.size(), 3u) << remarks.warnings.dump();
+  document["assume"] = "psi:r9";
+  ExpectError(document, "/assume", "names the run r9");
+  document["assume"] = "torr";
+  ExpectError(document, "/assume", "must be one of");
+  document["assume"] = 3;
+  ExpectError(document, "/assume", "must be a name");
+}
+
 TEST(Measurement, EveryErrorIsNamedAtOnceWithItsPlace) {
   Json document = Example();
   document["rig"]["actuator"]["rest_volume_ml"] = -1;

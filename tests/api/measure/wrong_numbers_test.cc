@@ -49,6 +49,19 @@ TEST(WrongNumbersDocument, SaysDeclaredAndFittedInTheContractsUnits) {
                             { "change": "without r1", "delta_bic": null, "holds": false }])"));
 }
 
+TEST(WrongNumbersDocument, SaysWhatToSettleAndWhetherUnseenRunsArePredictedBetter) {
+  test::SampleDiagnosis sample = test::MakeSampleDiagnosis(101);
+  EXPECT_TRUE(RenderDiagnosis(sample.diagnosis, sample.dataset).at("slips").empty());
+  sample.diagnosis.slips = {{"the runs fit better if the readings are in psi, not kPa", "psi"}};
+  sample.diagnosis.before.holdout_rms_pa = 900.0;
+  sample.diagnosis.after.holdout_rms_pa = 910.0;
+  Json answer = RenderDiagnosis(sample.diagnosis, sample.dataset);
+  EXPECT_EQ(answer.at("slips")[0].at("assume"), "psi");
+  EXPECT_EQ(answer.at("predicts_better"), false);
+  sample.diagnosis.after.holdout_rms_pa.reset();
+  EXPECT_TRUE(RenderDiagnosis(sample.diagnosis, sample.dataset).at("predicts_better").is_null());
+}
+
 // The rows of what stays, in their order.
 TEST(WrongNumbersDocument, StaysOutOfTheSavedModel) {
   test::SampleDiagnosis sample = WithAWrongSource();

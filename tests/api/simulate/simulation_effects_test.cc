@@ -195,6 +195,7 @@ TEST(SimulationEffects, RenderAndReadBackEveryEffect) {
                                           "offset_kpa",
                                           "gain",
                                           "pressure_kpa",
+                                          "initial_flow_l_per_min_anr",
                                           "fill_factor",
                                           "capacity_ratio",
                                           "start_share",

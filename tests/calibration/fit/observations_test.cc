@@ -95,5 +95,43 @@ TEST(Observations, BehindAGridIsTheNoiseThatATrueModelLeaves) {
   EXPECT_LT(squares, 0.9 * plain);
 }
 
+// Twelve readings of a rise and a fall: the signal bends between them, and their differences are
+// its own. What the right model leaves is the noise.
+TEST(Observations, NoiseOfFewReadingsIsWhatAFitLeaves) {
+  Dataset dataset = test::MeasuredBench(nullptr, 41);
+  for (calibration::Run& run : dataset.runs) {
+    std::vector<double> t_s, pressure_pa;
+    for (std::size_t i = 0; i < run.t_s.size(); i += 21) {
+      t_s.push_back(run.t_s[i]);
+      pressure_pa.push_back(run.pressure_pa[i]);
+    }
+    run.t_s = t_s, run.pressure_pa = pressure_pa;
+  }
+  std::vector<ObservedRun> observed = Observe(dataset);
+  ASSERT_GT(observed[0].signals.front().sigma, 5.0 * test::kBenchNoisePa);
+  const ForwardModel forward(dataset);
+  const std::vector<Reading> predicted = DeclaredReadings(forward, dataset.runs.size());
+  EXPECT_TRUE(TakeNoiseOfFit(dataset, {0, 1, 2}, predicted, 4, observed));
+  for (const ObservedRun& run : observed) {
+    EXPECT_NEAR(run.signals.front().sigma, test::kBenchNoisePa, 0.5 * test::kBenchNoisePa);
+    EXPECT_EQ(run.noise.sigma_pa, run.signals.front().sigma);
+  }
+  EXPECT_FALSE(TakeNoiseOfFit(dataset, {0, 1, 2}, predicted, 4, observed));
+}
+
+TEST(Observations, NoiseOfManyReadingsIsTheirOwn) {
+  const Dataset dataset = test::MeasuredBench(nullptr, 42);
+  std::vector<ObservedRun> observed = Observe(dataset);
+  const double sigma_pa = observed[0].signals.front().sigma;
+  std::vector<Reading> predicted;
+  predicted.reserve(dataset.runs.size());
+  for (const calibration::Run& run : dataset.runs)
+    predicted.push_back({.pressure_pa = run.pressure_pa, .channels = {}});
+  for (Reading& reading : predicted)
+    for (double& pa : reading.pressure_pa) pa += 0.7 * sigma_pa;
+  EXPECT_FALSE(TakeNoiseOfFit(dataset, {0, 1, 2}, predicted, 4, observed));
+  EXPECT_EQ(observed[0].signals.front().sigma, sigma_pa);
+}
+
 }  // namespace
 }  // namespace plenum::calibration

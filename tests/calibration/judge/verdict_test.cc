@@ -84,5 +84,31 @@ TEST(Verdict, UnexplainedFractionIsOfTheVarianceAboveTheNoise) {
   EXPECT_EQ(UnexplainedFraction(Structure(500), Structure(900)), 1.0);
 }
 
+// Noise that is the signal's own is as large as what any model leaves.
+TEST(Verdict, BesideRoughNoiseASetMustExplainMostOfTheError) {
+  Evidence evidence{true, true, 0, Structure(300), Noise()};
+  EXPECT_EQ(Judge(evidence), Verdict::kExplained);
+  evidence.after.rough_noise = true;
+  EXPECT_EQ(Judge(evidence), Verdict::kExplained);  // a ninth is left
+  evidence.before.rms_pa = 200.0;
+  EXPECT_EQ(Judge(evidence), Verdict::kUnexplained);
+}
+
+// Gas that is 50 K off shows what is missing, though the pressure is hardly nearer.
+TEST(Verdict, OtherChannelsCountAmongWhatIsLeft) {
+  Leftover before = Structure(900), after = Structure(600);  // 100 of noise
+  EXPECT_NEAR(UnexplainedFraction(before, after), 35.0 / 80.0, 1e-12);
+  before.pressure_readings = after.pressure_readings = 20;
+  before.channels_above = 20.0 * 240.0, after.channels_above = 20.0 * 5.0;
+  EXPECT_NEAR(UnexplainedFraction(before, after), (35.0 + 5.0) / (80.0 + 240.0), 1e-12);
+}
+
+TEST(Verdict, OfUnseenRuns) {
+  EXPECT_FALSE(PredictsBetter({}, 3.0).has_value());
+  EXPECT_FALSE(PredictsBetter(3.0, {}).has_value());
+  EXPECT_TRUE(PredictsBetter(3.0, 2.9).value());
+  EXPECT_FALSE(PredictsBetter(3.0, 3.0).value());
+}
+
 }  // namespace
 }  // namespace plenum::calibration

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -139,16 +140,16 @@ TEST(WrongNumbers, OnlyThoseThatReadingsCanTellMayBeWrong) {
     for (const model::EffectSpec* spec : NumbersThatMayBeWrong(dataset)) ids.emplace_back(spec->id);
     return ids;
   };
-  EXPECT_THAT(names(),
-              ElementsAre("number:rest_volume", "number:expansion_ratio", "number:source_pressure",
-                          "number:sonic_conductance", "number:critical_ratio"));
+  EXPECT_THAT(names(), ElementsAre("number:rest_volume", "number:expansion_ratio",
+                                   "number:source_pressure", "number:sonic_conductance",
+                                   "number:critical_ratio", "number:ambient_pressure"));
   dataset.relative_uncertainty[static_cast<std::size_t>(Declared::kSourcePressure)] = kUnknown;
   for (calibration::Run& run : dataset.runs)
     run.line[0].fill.critical_ratio = run.line[0].exhaust.critical_ratio = 0.0;
   EXPECT_THAT(names(), ElementsAre("number:rest_volume", "number:expansion_ratio",
-                                   "number:sonic_conductance"));
+                                   "number:sonic_conductance", "number:ambient_pressure"));
   for (calibration::Run& run : dataset.runs) run.blocked = true, run.valve.clear();
-  EXPECT_THAT(names(), ElementsAre("number:rest_volume"));
+  EXPECT_THAT(names(), ElementsAre("number:rest_volume", "number:ambient_pressure"));
 }
 
 TEST(WrongNumbers, NumbersAtAnEndOrFarOffAreSaid) {
@@ -166,10 +167,67 @@ TEST(WrongNumbers, NumbersAtAnEndOrFarOffAreSaid) {
   add(Declared::kSonicConductance, -3.4, true);
   add(Declared::kSourcePressure, 20.0, false);
   add(Declared::kExpansionRatio, 15.0, false);
-  const std::vector<std::string> said = FarNumbers(fit);
+  const std::vector<std::string> said = FarNumbers(Dataset{}, fit);
   ASSERT_EQ(said.size(), 2u);
   EXPECT_THAT(said, Contains(testing::HasSubstr("sonic_conductance was fitted 3.4")));
   EXPECT_THAT(said, Contains(testing::HasSubstr("source_pressure ended at an end")));
+}
+
+// The laboratory lies at 1,700 m, and the rig is declared at sea level: gauges show the same.
+TEST(WrongNumbers, AnAmbientPressureThatIsLowerThanDeclaredIsNamed) {
+  constexpr double kTruePa = 82e3;
+  Dataset dataset = Measured(
+      [](EffectRig& rig) {
+        const double lower_pa = 1e5 - kTruePa;
+        rig.ambient_pa = kTruePa;
+        rig.source_pa -= lower_pa;
+        rig.initial_pa -= lower_pa;
+        rig.operating_pa -= lower_pa;
+      },
+      true);
+  for (calibration::Run& run : dataset.runs)
+    for (double& pa : run.pressure_pa) pa += 1e5 - kTruePa;
+  ExpectOnlyNumber(Diagnose(dataset, {}), Declared::kAmbientPressure, kTruePa / 1e5,
+                   kExactUncertainty);
+}
+
+TEST(WrongNumbers, FactorsStayWhereTheRigMakesSense) {
+  Dataset dataset = test::MeasuredBench(nullptr, 31);  // ε 2, b 0.3, 100 kPa
+  EXPECT_DOUBLE_EQ(FactorRange(dataset, Declared::kExpansionRatio).first, 0.5);
+  EXPECT_DOUBLE_EQ(FactorRange(dataset, Declared::kCriticalRatio).second, 0.95 / 0.3);
+  EXPECT_DOUBLE_EQ(FactorRange(dataset, Declared::kAmbientPressure).first, 0.5);
+  EXPECT_DOUBLE_EQ(FactorRange(dataset, Declared::kAmbientPressure).second, 1.1);
+  EXPECT_TRUE(std::isinf(FactorRange(dataset, Declared::kRestVolume).second));
+}
+
+// A wall that is stiffer than any: the freed expansion ratio comes to 1 and takes up what it can.
+TEST(WrongNumbers, ANumberAtAnEndIsNoCause) {
+  Contender contender;
+  contender.fit.state.freed[static_cast<std::size_t>(Declared::kExpansionRatio)] = true;
+  contender.fit.coordinates.push_back(
+      {.parameter = {.kind = Parameter::Kind::kDeclared, .declared = Declared::kExpansionRatio},
+       .low = -50.0,
+       .high = 1900.0});
+  contender.fit.u = Eigen::VectorXd::Constant(1, -30.0);
+  EXPECT_TRUE(MayBeNamed(contender));
+  contender.fit.u[0] = -50.0;
+  EXPECT_FALSE(MayBeNamed(contender));
+  contender.fit.state.freed = {};
+  EXPECT_TRUE(MayBeNamed(contender));
+}
+
+// Commands that are off by a sample are no delay of the valve.
+TEST(WrongNumbers, NorIsADelayWithinASampleOfAFewAStroke) {
+  const model::EffectSpec& delay = *model::FindEffect("valve_delay");
+  for (const double interval_s : {0.01, 0.3}) {
+    Contender contender{.effects = {&delay}, .fit = {}};
+    contender.fit.coordinates =
+        EffectCoordinates(delay, 0, {.interval_s = interval_s, .stroke_s = 1.0});
+    contender.fit.u = Eigen::VectorXd::Constant(1, 0.2);  // 0.2 s
+    EXPECT_EQ(MayBeNamed(contender), interval_s < 0.2);
+    contender.fit.u[0] = 0.4;
+    EXPECT_TRUE(MayBeNamed(contender));
+  }
 }
 
 }  // namespace

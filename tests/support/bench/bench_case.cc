@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tests/support/bench/bench_draws.h"
 #include "tests/support/bench/bench_refit.h"
 
 namespace plenum::test {
@@ -16,6 +17,7 @@ constexpr int kKinds = 5;
 constexpr double kSizeLow = 0.1, kSizeHigh = 4.0;  // of the typical size; outside: drawn anew
 constexpr double kTieLow = 1.0, kTieHigh = 6.0;    // as kVisibleLow, kVisibleHigh
 constexpr std::uint64_t kRunStream = 1000, kFaultStream = 500, kTieStream = 2000;
+constexpr std::uint64_t kDriftStream = 3000;
 
 BenchSupply DrawSupply(Random& random) {
   const double x = random.Uniform(0.0, 1.0);
@@ -23,6 +25,8 @@ BenchSupply DrawSupply(Random& random) {
   if (x < 0.70) return BenchSupply::kMeasured;
   return x < 0.85 ? BenchSupply::kCompressor : BenchSupply::kNone;
 }
+
+}  // namespace
 
 Numbers DrawUncertainty(const BenchRig& rig, Random& random) {
   Numbers sd{};
@@ -41,6 +45,8 @@ Numbers DrawUncertainty(const BenchRig& rig, Random& random) {
   return sd;
 }
 
+namespace {}  // namespace
+
 Numbers DrawFactors(const Numbers& sd, Random& random) {
   Numbers factors = kAsDeclared;
   for (std::size_t n = 0; n < sd.size(); ++n) {
@@ -49,6 +55,8 @@ Numbers DrawFactors(const Numbers& sd, Random& random) {
   }
   return factors;
 }
+
+namespace {
 
 Sensor DrawSensor(const BenchRig& rig, Random& random) {
   Sensor sensor;
@@ -132,6 +140,8 @@ std::vector<std::string> IdsOf(CaseKind kind, const std::string& effect, Random&
   return {first, second};
 }
 
+}  // namespace
+
 bool DrawEffects(BenchCase& bench, const std::vector<std::string>& ids, Random& random) {
   if (ids.empty()) return true;
   const Scale scale(bench);
@@ -150,6 +160,8 @@ bool DrawEffects(BenchCase& bench, const std::vector<std::string>& ids, Random& 
   bench.visible = scale.Visible(bench.effects);
   return true;
 }
+
+namespace {
 
 void AddNoise(const Sensor& sensor, Random& random, std::vector<double>& readings) {
   const double white = std::sqrt(1.0 - sensor.correlated_share) * sensor.noise_pa;
@@ -189,8 +201,8 @@ void LoseSome(double share, Random& random, std::vector<double>& readings) {
 }  // namespace
 
 std::string_view NameOf(CaseKind kind) {
-  static constexpr std::array<std::string_view, 6> kNames = {"clean", "full",    "fifth",
-                                                             "pair",  "outside", "tie"};
+  static constexpr std::array<std::string_view, 7> kNames = {"clean",   "full", "fifth", "pair",
+                                                             "outside", "tie",  "real"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -246,6 +258,11 @@ Record Observe(const BenchCase& bench, const BenchRun& run, int number) {
   record.reading_gauge_pa = record.clean_gauge_pa;
   AddNoise(sensor, random, record.reading_gauge_pa);
   AddOutliers(bench, number, record.reading_gauge_pa);
+  if (sensor.zero_drift_pa > 0.0) {
+    Random drift(bench.seed, kDriftStream + static_cast<std::uint64_t>(number));
+    const double zero_pa = sensor.zero_drift_pa * drift.Normal();
+    for (double& p : record.reading_gauge_pa) p += zero_pa;
+  }
   for (double& p : record.reading_gauge_pa) {
     if (sensor.quantum_pa > 0.0) p = std::round(p / sensor.quantum_pa) * sensor.quantum_pa;
     p = std::clamp(p, sensor.clip_low_pa, sensor.clip_high_pa);

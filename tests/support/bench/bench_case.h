@@ -4,7 +4,9 @@
 #ifndef PLENUM_TESTS_SUPPORT_BENCH_BENCH_CASE_H_
 #define PLENUM_TESTS_SUPPORT_BENCH_BENCH_CASE_H_
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +21,8 @@ namespace plenum::test {
 // effects, each at a third to the whole of it. kOutside: one effect that is not listed, as large as
 // kFull. kTie: one listed effect, 1 to 6 times the noise, in runs that show little
 // (DrawNarrowRuns); whether another effect does as well there is not known beforehand.
-enum class CaseKind { kClean, kFull, kFifth, kPair, kOutside, kTie };
+// kReal: real_case.h.
+enum class CaseKind { kClean, kFull, kFifth, kPair, kOutside, kTie, kReal };
 std::string_view NameOf(CaseKind kind);
 inline constexpr double kVisibleLow = 4.0, kVisibleHigh = 16.0;  // times the noise
 
@@ -31,6 +34,7 @@ struct Sensor {
   double clip_low_pa = -1e9, clip_high_pa = 1e9;  // gauge
   double missing_share = 0.0;
   int outliers = 0;              // of 15 to 60 standard deviations, in the whole case
+  double zero_drift_pa = 0.0;    // standard deviation of its zero from run to run
   double clock_share = 0.0;      // each run's clock is off by up to this share of a sample
   double source_noise_pa = 0.0;  // of the source channel
   // Standard deviation about what a perfect sensor shows, without outliers and clipped readings.
@@ -53,6 +57,7 @@ struct BenchCase {
   BenchRig declared;
   Numbers uncertainty{};  // relative standard deviations; infinity: unknown
   Numbers factors = kAsDeclared;
+  std::optional<std::size_t> wrong;  // of kReal: a number far beyond its uncertainty
   bool initial_declared = true;
   std::vector<BenchRun> runs;    // the last is held out
   bool holdout_recorded = true;  // else it is no part of the measurement

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "tests/support/bench/real_case.h"
+
 namespace plenum::test {
 namespace {
 
@@ -118,6 +120,7 @@ Json SensorJson(const Sensor& sensor) {
           {"clipped", sensor.clip_low_pa > -1e9 || sensor.clip_high_pa < 1e9},
           {"missing", sensor.missing_share > 0.0},
           {"outliers", sensor.outliers},
+          {"drift", sensor.zero_drift_pa > 0.0},
           {"clock", sensor.clock_share > 0.0}};
 }
 
@@ -179,6 +182,8 @@ Json TruthJson(const BenchCase& bench) {
                {"visible", bench.visible},
                {"numbers", TrueNumbers(bench)},
                {"sensor", SensorJson(bench.sensor)}};
+  if (bench.kind == CaseKind::kReal)
+    json["wrong"] = bench.wrong ? Json(kNumberNames[*bench.wrong]) : Json(nullptr);
   for (const TrueEffect& effect : bench.effects) json["effects"].push_back(EffectJson(effect));
   for (std::size_t r = 0; r < bench.runs.size(); ++r) {
     json["runs"].push_back({{"id", bench.runs[r].id},
@@ -191,6 +196,8 @@ Json TruthJson(const BenchCase& bench) {
 }
 
 BenchCase CaseOfTruth(const Json& truth) {
+  if (truth.at("kind") == NameOf(CaseKind::kReal))
+    return RealOfSeries(truth.at("series"), truth.at("index"));
   const bool tie = truth.at("kind") == NameOf(CaseKind::kTie);
   return tie ? TieOfSeries(truth.at("series"), truth.at("index"))
              : CaseOfSeries(truth.at("series"), truth.at("index"));

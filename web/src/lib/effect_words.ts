@@ -18,6 +18,7 @@ const effectWords: Record<string, string> = {
   line_dynamics: 'dynamics of the line',
   directional_conductance: 'a line that conducts better one way',
   wall_heat: 'heat kept in the wall',
+  outgassing: 'gas that comes out of the walls',
   learned_leak: 'a learned leak',
   learned_conductance: 'a learned conductance of the line',
   learned_volume: 'a learned volume law',

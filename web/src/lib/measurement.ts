@@ -35,6 +35,7 @@ export interface Measurement {
   relative_uncertainty?: Record<string, number | string>; // or "unknown"
   runs: Run[];
   holdout?: string[];
+  assume?: string[]; // what suspect units and exchanged inputs are
 }
 
 export interface Estimate {
@@ -152,6 +153,8 @@ export interface Diagnosis {
   measured_refused?: string[];
   saved_part?: SavedPart;
   measurement?: Measurement; // lists of more than 20,000 readings by their hash
+  slips?: { what: string; assume: string }[]; // to be settled before an effect is named
+  predicts_better?: boolean | null; // runs that no fit saw
   stability?: { change: string; delta_bic: number | null; holds: boolean }[];
   candidates: {
     effects: string[];

@@ -20,10 +20,12 @@ export function DiagnosisView({
   diagnosis: d,
   id,
   data,
+  settle,
 }: {
   diagnosis: Diagnosis;
   id: string;
   data: Measurement | null;
+  settle: (assume: string) => void;
 }) {
   const word = verdictWord[d.verdict];
   return (
@@ -45,6 +47,15 @@ export function DiagnosisView({
           </button>
         }
       >
+        {(d.slips?.length ?? 0) > 0 && (
+          <div class="toolbar">
+            {[...d.slips!.map((slip) => slip.assume), 'as_written'].map((assume) => (
+              <button key={assume} type="button" onClick={() => settle(assume)}>
+                {assume === 'as_written' ? 'It is as written' : `Read it as ${assume}`}
+              </button>
+            ))}
+          </div>
+        )}
         <Errors d={d} />
         {d.warnings.map((warning) => (
           <Notice key={warning} kind="warn">

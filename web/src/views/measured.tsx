@@ -88,7 +88,7 @@ export function MeasuredView() {
       page.current!,
       measurementErrors.value.map((error) => error.pointer),
     );
-  const diagnose = async () => {
+  const diagnose = async (text = originalText.value ?? JSON.stringify(data)) => {
     measurementErrors.value = [];
     problem.value = '';
     if (page.current!.querySelector('[aria-invalid="true"]')) {
@@ -98,7 +98,7 @@ export function MeasuredView() {
     busy.value = true;
     try {
       const { body } = await ask<{ id: string }>('POST', '/v1/diagnoses', {
-        text: originalText.value ?? JSON.stringify(data),
+        text,
         headers: { 'Content-Type': 'application/json' },
       });
       setQuery({ job: body.id });
@@ -110,6 +110,12 @@ export function MeasuredView() {
     } finally {
       busy.value = false;
     }
+  };
+  // The same record again, with what a slip of the pen in it is.
+  const settle = (assume: string) => {
+    const record = data ?? result?.measurement;
+    if (record)
+      void diagnose(JSON.stringify({ ...record, assume: [...(record.assume ?? []), assume] }));
   };
   const drop = (event: DragEvent) => {
     event.preventDefault();
@@ -182,7 +188,7 @@ export function MeasuredView() {
           <AgainButton self={diagnosisPath(job!)} name={now.job.name || 'unnamed'} />
         </>
       )}
-      {result && <DiagnosisView diagnosis={result} id={job!} data={data} />}
+      {result && <DiagnosisView diagnosis={result} id={job!} data={data} settle={settle} />}
     </div>
   );
 }
