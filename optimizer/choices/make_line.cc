@@ -33,20 +33,22 @@ struct Crossed {
 };
 
 Crossed ElementsOf(const ActuatorGroup& group, const LineCorners& corners) {
-  const auto& [tube, fitting, valve] = corners;
+  const TubeCorner& tube = corners.tube;
+  const model::FlowElement& fitting = corners.fitting.flow;
+  const ValveCorner& valve = corners.valve;
   const int near_valve = (group.fittings_per_line + 1) / 2;
   const int near_actuator = group.fittings_per_line - near_valve;
   const model::FlowElement bore = model::TubeElement(tube.inner_high_m, group.tube_length_m);
   const auto add_inward = [&](const model::FlowElement& first, Elements& to) {
     to.Add(first);
-    to.Add(fitting.flow, near_valve);
+    to.Add(fitting, near_valve);
     to.Add(bore);
-    to.Add(fitting.flow, near_actuator);
+    to.Add(fitting, near_actuator);
   };
   const auto add_outward = [&](const model::FlowElement& last, Elements& to) {
-    to.Add(fitting.flow, near_actuator);
+    to.Add(fitting, near_actuator);
     to.Add(bore);
-    to.Add(fitting.flow, near_valve);
+    to.Add(fitting, near_valve);
     to.Add(last);
   };
   Crossed crossed;

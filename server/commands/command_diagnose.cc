@@ -131,7 +131,7 @@ Command DiagnoseCommand() {
            {"--rig", "The rig of CSV files, as JSON", &options->rig, {.value_name = "FILE"}},
            {"--holdout", "Runs that no fit may see", &options->holdout, {.value_name = "RUN"}},
            {"--assume",
-            "What readings in suspect units are: kpa_abs, psi, … or as_written",
+            "What readings in suspect units are: kpa_abs, psi, and so on, or as_written",
             &options->assume,
             {.value_name = "UNIT"}},
            {"--model",
