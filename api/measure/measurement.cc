@@ -67,17 +67,19 @@ void ReadAssumptions(Reader& document, Dataset& dataset) {
   document.Describe("assume", {{"anyOf", {text, {{"type", "array"}, {"items", text}}}}});
   if (!document.Has("assume")) return;
   const Json* given = document.Raw("assume");
-  const Json names = given->is_array() ? *given : Json::array({*given});
-  for (const Json& name : names) {
-    if (!name.is_string()) {
-      document.Fail("assume", "must be a name or a list of names, not " + KindOf(name));
+  const bool listed = given->is_array();
+  const Json names = listed ? *given : Json::array({*given});
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string place = listed ? "assume/" + std::to_string(i) : "assume";
+    if (!names[i].is_string()) {
+      document.FailAt(place, "must be a name or a list of names, not " + KindOf(names[i]));
       continue;
     }
-    const auto& assumption = name.get_ref<const std::string&>();
+    const auto& assumption = names[i].get_ref<const std::string&>();
     const std::string why = calibration::Settle(assumption, dataset);
-    if (!why.empty()) document.Fail("assume", Quoted(assumption) + " " + why);
+    if (!why.empty()) document.FailAt(place, Quoted(assumption) + " " + why);
     if (why.empty() && RemarkRecorder::Current() != nullptr)
-      RemarkRecorder::Current()->Warn(document.Pointer("assume"),
+      RemarkRecorder::Current()->Warn(document.Pointer(place),
                                       "is taken as said: " + calibration::InWords(assumption));
   }
 }

@@ -72,7 +72,7 @@ bool Holds(std::span<const model::Effect> effects, std::string_view id) {
 
 // The id of a known effect, or empty after an error.
 std::string ReadId(Reader& effect) {
-  const std::string id = effect.Text("id");
+  std::string id = effect.Text("id");
   if (id.empty() || model::FindEffect(id)) return id;
   std::vector<std::string> ids;
   for (const model::EffectSpec* spec : model::Effects()) ids.emplace_back(spec->id);

@@ -59,23 +59,12 @@ bool IsBelowZero(Reader& group) {
   return given && given->is_number() && given->get<double>() < 0.0;
 }
 
-// Its rest volume and ratio; a shape or a table says how an actuator swells.
-model::Chamber ReadEvacuated(Reader& group, const model::Ambient& ambient, double operating_kpa) {
-  model::Chamber chamber;
-  chamber.evacuated = true;
-  chamber.ambient_pressure_pa = ambient.pressure_pa;
+// Its rest volume and ratio.
+void ReadEvacuated(Reader& group, const model::Ambient& ambient, double operating_kpa,
+                   model::Chamber& chamber) {
   chamber.operating_pressure_pa = PaFromKpaGauge(-operating_kpa, ambient);
-  if (HasShape(group) || group.Has("pressure_volume")) {
-    group.Fail("operating_pressure_kpa_gauge",
-               "is below ambient: give rest_volume_ml and expansion_ratio, at most 1, of an "
-               "evacuated actuator, not a shape or a table");
-    for (const char* field : {"rest_volume_ml", "expansion_ratio", "pressure_volume"})
-      group.Raw(field);
-    return chamber;
-  }
   chamber.rest_volume_m3 = M3FromMl(group.Number("rest_volume_ml", kRestVolumeMl));
   chamber.expansion_ratio = group.Number("expansion_ratio", {kContractionMin, 1});
-  return chamber;
 }
 
 }  // namespace
@@ -91,8 +80,17 @@ model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient, Vacuum 
     group.Fail("operating_pressure_kpa_gauge",
                "must be at least 1, or at most -1 for an actuator that is evacuated, not " +
                    Decimal(operating));
-  if (operating < 0.0 || (vacuum == Vacuum::kAllowed && IsBelowZero(group)))
-    return ReadEvacuated(group, ambient, operating);
+  if (operating < 0.0 || (vacuum == Vacuum::kAllowed && IsBelowZero(group))) {
+    chamber.evacuated = true;
+    if (!HasShape(group) && !group.Has("pressure_volume")) {
+      ReadEvacuated(group, ambient, operating, chamber);
+      return chamber;
+    }
+    // What it says is read all the same, so that each of its errors is told.
+    group.Fail("operating_pressure_kpa_gauge",
+               "is below ambient: give rest_volume_ml and expansion_ratio, at most 1, of an "
+               "evacuated actuator; a shape or a table says how one swells");
+  }
   chamber.operating_pressure_pa = PaFromKpaGauge(operating, ambient);
 
   if (HasShape(group)) {

@@ -276,6 +276,7 @@ class Search {
       if (kept.size() == count) break;
     }
     std::vector<EffectSet> seeds;
+    seeds.reserve(kept.size());
     for (const std::size_t i : kept) seeds.push_back(sets_[i].effects);
     return seeds;
   }

@@ -41,7 +41,7 @@ void ExpectShape(const Json& expected, const Json& given, const std::string& whe
   if (expected.is_object()) {
     for (const auto& [name, value] : expected.items()) {
       ASSERT_TRUE(given.contains(name)) << where << "/" << name;
-      ExpectShape(value, given.at(name), where + "/" + name);
+      ExpectShape(value, given.at(name), std::string(where).append("/").append(name));
     }
   } else if (expected.is_array() && !expected.empty()) {
     ASSERT_FALSE(given.empty()) << where;
