@@ -80,9 +80,10 @@ model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient, Vacuum 
     group.Fail("operating_pressure_kpa_gauge",
                "must be at least 1, or at most -1 for an actuator that is evacuated, not " +
                    Decimal(operating));
-  if (operating < 0.0 || (vacuum == Vacuum::kAllowed && IsBelowZero(group))) {
-    chamber.evacuated = true;
+  chamber.evacuated = operating < 0.0;
+  if (chamber.evacuated || (vacuum == Vacuum::kAllowed && IsBelowZero(group))) {
     if (!HasShape(group) && !group.Has("pressure_volume")) {
+      chamber.evacuated = true;
       ReadEvacuated(group, ambient, operating, chamber);
       return chamber;
     }

@@ -275,9 +275,8 @@ class Search {
       if (!known) kept.push_back(i);
       if (kept.size() == count) break;
     }
-    std::vector<EffectSet> seeds;
-    seeds.reserve(kept.size());
-    for (const std::size_t i : kept) seeds.push_back(sets_[i].effects);
+    std::vector<EffectSet> seeds(kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) seeds[i] = sets_[kept[i]].effects;
     return seeds;
   }
 
