@@ -143,7 +143,8 @@ Bounds::LineKey Bounds::KeyOf(const Box& box, int group) {
 
 std::shared_ptr<Line> Bounds::Assemble(const LineKey& key) const {
   const LineParts parts = PartsOf(key);
-  auto line = std::make_shared<Line>(AssembleLine(problem_, key.group, parts.corners));
+  auto line = std::make_shared<Line>(
+      AssembleLine(problem_, key.group, gas_, parts.corners, parts.single()));
   if (!parts.single()) return line;
   const auto [tubing, fitting, valve] = parts.choices();
   line->tubing = tubing;

@@ -34,6 +34,7 @@ struct FittingCorner {
   Kinds diameters = 0, threads = 0;
   model::FlowElement flow;
   double pressure_max_pa = 0.0;
+  model::FlowElement flow_most;  // of a single choice, for its peak (closing.h)
 };
 
 struct ValveCorner {
@@ -44,6 +45,8 @@ struct ValveCorner {
   model::FlowElement fill, exhaust;
   double coil_power_w = 0.0;  // whole group
   double pressure_min_pa = 0.0, pressure_max_pa = 0.0;
+  model::FlowElement fill_most;  // of a single choice, for its peak (closing.h)
+  double late_s = 0.0;
 };
 
 struct RegulatorCorner {

@@ -7,6 +7,7 @@
 
 #include "model/flow/tube.h"
 #include "model/strokes/stroke.h"
+#include "optimizer/evaluate/closing.h"
 #include "optimizer/evaluate/filling.h"
 #include "optimizer/evaluate/root.h"
 
@@ -62,17 +63,35 @@ Crossed ElementsOf(const ActuatorGroup& group, const LineCorners& corners) {
   return crossed;
 }
 
-model::Chamber ChamberWith(const ActuatorGroup& group, const TubeCorner& tube) {
-  model::Chamber chamber = group.chamber;
+model::Chamber WithBore(model::Chamber chamber, const ActuatorGroup& group,
+                        const TubeCorner& tube) {
   chamber.dead_volume_m3 += model::BoreVolume(tube.inner_low_m, group.tube_length_m);
   return chamber;
 }
 
-double SourceMax(const Problem& problem, const ActuatorGroup& group, const LineCorners& corners) {
+// Of a single line whose valve holds: where its peak keeps the limit.
+double SourceOfPeak(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
+                    double stands_pa) {
+  const ActuatorGroup& group = problem.groups[g];
+  FittingCorner fitting = corners.fitting;
+  ValveCorner valve = corners.valve;
+  fitting.flow = fitting.flow_most;
+  valve.fill = valve.fill_most;
+  const Crossed most = ElementsOf(group, {corners.tube, fitting, valve});
+  const model::Chamber least = WithBore(group.least.value_or(group.chamber), group, corners.tube);
+  return HighestSourcePa(problem, g, FlowFactor(problem, gas),
+                         {most.fill.span(), least, valve.late_s}, stands_pa);
+}
+
+double SourceMax(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
+                 bool exact) {
+  const ActuatorGroup& group = problem.groups[g];
   const auto& [tube, fitting, valve] = corners;
   const double stands_pa = std::min({tube.pressure_max_pa, valve.pressure_max_pa,
                                      fitting.pressure_max_pa, problem.source_pressure_max_pa});
-  return valve.some_hold ? stands_pa : std::min(stands_pa, group.pressure_max_pa);
+  if (!valve.some_hold) return std::min(stands_pa, group.pressure_max_pa);
+  return exact && valve.late_s > 0.0 ? SourceOfPeak(problem, g, gas, corners, stands_pa)
+                                     : stands_pa;
 }
 
 double FallTime(const Problem& problem, const ActuatorGroup& group,
@@ -114,19 +133,19 @@ Constraint ScreenLine(const Problem& problem, int g, model::Gas gas, const LineC
   if (!(corners.tube.diameters & corners.fitting.diameters) ||
       !(corners.fitting.threads & corners.valve.threads))
     return Constraint::kMating;
-  const double source_max_pa = SourceMax(problem, group, corners);
+  const double source_max_pa = SourceMax(problem, g, gas, corners, exact);
   if (source_max_pa < std::max(group.chamber.operating_pressure_pa, corners.valve.pressure_min_pa))
     return Constraint::kPressure;
 
   const bool same = !exact && wider && SamePath(corners, *wider);
   const bool falls = same && corners.valve.exhaust == wider->valve.exhaust;
   const bool rises = same && corners.valve.fill == wider->valve.fill &&
-                     source_max_pa == SourceMax(problem, group, *wider);
+                     source_max_pa == SourceMax(problem, g, gas, *wider, false);
   if (falls && rises) return Constraint::kNone;
 
   const double factor = FlowFactor(problem, gas);
   const double slack = exact ? 1.0 : kBoxSlack;
-  const model::Chamber chamber = ChamberWith(group, corners.tube);
+  const model::Chamber chamber = WithBore(group.chamber, group, corners.tube);
   const Crossed elements = ElementsOf(group, corners);
   const double fall_max_s = std::min(group.fall_time_max_s, DeflateWindow(problem, g));
   if (!falls &&
@@ -138,7 +157,8 @@ Constraint ScreenLine(const Problem& problem, int g, model::Gas gas, const LineC
   return Constraint::kNone;
 }
 
-Line AssembleLine(const Problem& problem, int g, const LineCorners& corners) {
+Line AssembleLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
+                  bool exact) {
   const auto& [tube, fitting, valve] = corners;
   const ActuatorGroup& group = problem.groups[g];
   Line line;
@@ -146,14 +166,14 @@ Line AssembleLine(const Problem& problem, int g, const LineCorners& corners) {
   line.amounts += valve.amounts;
   line.amounts += fitting.amounts;
   line.objective = tube.objective + valve.objective + fitting.objective;
-  line.source_max_pa = SourceMax(problem, group, corners);
+  line.source_max_pa = SourceMax(problem, g, gas, corners, exact);
   line.holds = valve.some_hold;
   line.all_hold = valve.all_hold;
   const Crossed elements = ElementsOf(group, corners);
   line.fill.assign(elements.fill.span().begin(), elements.fill.span().end());
   line.exhaust.assign(elements.exhaust.span().begin(), elements.exhaust.span().end());
   line.coil_power_w = valve.coil_power_w;
-  line.chamber = ChamberWith(group, tube);
+  line.chamber = WithBore(group.chamber, group, tube);
   line.dead_volume_spread_m3 = model::BoreVolume(tube.inner_high_m, group.tube_length_m) -
                                model::BoreVolume(tube.inner_low_m, group.tube_length_m);
   return line;
@@ -198,7 +218,7 @@ bool FinishLike(const Line& wider, const ValveCorner& valve, Line& line) {
 Constraint MakeLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
                     bool exact, bool with_curve, Line& line) {
   const Constraint missed = ScreenLine(problem, g, gas, corners, exact);
-  line = AssembleLine(problem, g, corners);
+  line = AssembleLine(problem, g, gas, corners, exact);
   if (missed == Constraint::kNone)
     FinishLine(problem, g, gas, corners.valve, exact, with_curve, line);
   return missed;

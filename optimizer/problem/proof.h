@@ -19,7 +19,8 @@
 //      * tube: same outer and inner diameter, pressure_max no smaller;
 //        fitting: same diameter and thread, C, b, pressure_max no smaller;
 //        valve: same port, both hold or neither does, C and b of fill and exhaust no smaller, coil
-//        power of the group no larger, pressure_max no smaller, pressure_min no larger;
+//        power of the group no larger, pressure_max no smaller, pressure_min no larger, and no
+//        larger what it lets by while it closes late (LetBy of part_tables.h);
 //        regulator: C, b, flow_max, inlet and outlet maximum no smaller, inlet and outlet minimum
 //        and power no larger; a tank's choice of no regulator stands for no other, nor one for it;
 //        cylinder, CO2 bottle: usable gas no smaller at every inlet pressure in use, fill pressure
@@ -34,7 +35,8 @@
 //      one source may take air from each other, and a pump may take more energy per air at low
 //      pressure than at high. But for mains they must also be equal of valves that cannot hold, and
 //      where the catalogue has such a valve of fittings and regulators: the more flows while it
-//      stands open the more air it takes.
+//      stands open the more air it takes. Where valves close late (closing.h of evaluate/; never
+//      with pumps alone) C and b of fittings must be equal, too: the higher is the peak.
 //
 // 2. Boxes. Plan::boxes is the tree of boxes in preorder. A box is a range of choices per slot; the
 //    first box is all of them. kSplit divides the range of one slot at `middle`: the left part,

@@ -1,11 +1,13 @@
 #include "verify/corner/verify_line.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "model/flow/tube.h"
 #include "model/strokes/stroke.h"
 #include "verify/corner/verify_best.h"
 #include "verify/design/cycle/verify_gait.h"
+#include "verify/design/verify_closing.h"
 #include "verify/design/verify_design.h"
 
 namespace plenum::verify {
@@ -39,6 +41,19 @@ bool Mates(const Problem& problem, int g, const LineChoices& choices) {
   });
 }
 
+// The parts of a box of one line.
+std::optional<LineParts> Single(const Problem& problem, const ProofPlan& plan, const Ranges& ranges,
+                                int g) {
+  const std::vector<int> tubes = PartsOf(plan, ranges, Family::kTubing, g),
+                         fittings = PartsOf(plan, ranges, Family::kFitting, g),
+                         valves = PartsOf(plan, ranges, Family::kValve, g);
+  if (tubes.size() != 1 || fittings.size() != 1 || valves.size() != 1) return std::nullopt;
+  const model::Parts& parts = problem.parts;
+  return LineParts{&parts.tubing[tubes[0]],
+                   fittings[0] < 0 ? nullptr : &parts.fittings[fittings[0]],
+                   &parts.valves[valves[0]]};
+}
+
 // Elements, volumes and pressures.
 BestLine Gather(const Problem& problem, const ProofPlan& plan, const Ranges& ranges, int g,
                 model::FlowElement& exhaust, double& switches_pa) {
@@ -64,6 +79,8 @@ BestLine Gather(const Problem& problem, const ProofPlan& plan, const Ranges& ran
                 fittings > 0 ? fitting.Number("pressure_max_kpa_gauge") : kUnlimited,
                 valve.Number("pressure_max_kpa_gauge"), problem.source_pressure_max_pa});
   if (!best.some_hold) best.source_high_pa = std::min(best.source_high_pa, group.pressure_max_pa);
+  if (const std::optional<LineParts> line = Single(problem, plan, ranges, g))
+    best.source_high_pa = MostForPeakPa(problem, plan.configuration, g, *line, best.source_high_pa);
   best.fill.assign(fittings, fitting.Flow("sonic_conductance_dm3_per_s_bar"));
   best.fill.insert(best.fill.begin() + (fittings + 1) / 2,
                    model::TubeElement(widest_m, group.tube_length_m));

@@ -21,6 +21,8 @@ std::array<double, 4> SplitKeys(const FittingCorner& c) {
 }
 void SetNumbers(const PartNumbers& numbers, FittingCorner& corner) {
   SetNumbersBy(kRows, numbers, corner);
+  const model::Fitting& fitting = numbers.parts.fittings[numbers.part];
+  corner.flow_most = fitting.flow_most.value_or(fitting.flow);
 }
 
 void Planter::PlantFittings(int g, LineMates& mates) {

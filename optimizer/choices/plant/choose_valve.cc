@@ -38,6 +38,9 @@ std::array<double, 7> SplitKeys(const ValveCorner& c) {
 }
 void SetNumbers(const PartNumbers& numbers, ValveCorner& corner) {
   SetNumbersBy(kRows, numbers, corner);
+  const model::Valve& valve = numbers.parts.valves[numbers.part];
+  corner.fill_most = valve.fill_most.value_or(valve.fill);
+  corner.late_s = valve.closing_scatter_s;
 }
 
 void Planter::PlantValves(int g, const LineMates& mates) {
@@ -56,8 +59,9 @@ void Planter::PlantValves(int g, const LineMates& mates) {
           mates.threads.Where([&](const std::string& thread) { return thread == port; });
     ValveCorner& corner = entry.item.corner;
     corner.threads = kinds->second;
-    // Of sources with a pressure of their own, which is no lower than the operating pressure.
-    if (!IsDirect(plan_->configuration))
+    if (IsDirect(plan_->configuration))
+      corner.late_s = 0.0;  // the pumps stop
+    else  // sources with a pressure of their own, which is no lower than the operating pressure
       corner.pressure_min_pa =
           std::max(corner.pressure_min_pa, group.chamber.operating_pressure_pa);
     // A coil takes power for so long at least.
