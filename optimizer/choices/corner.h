@@ -34,7 +34,7 @@ struct FittingCorner {
   Kinds diameters = 0, threads = 0;
   model::FlowElement flow;
   double pressure_max_pa = 0.0;
-  model::FlowElement flow_most;  // of a single choice, for its peak (closing.h)
+  model::FlowElement late_flow;  // see ValveCorner
 };
 
 struct ValveCorner {
@@ -45,7 +45,9 @@ struct ValveCorner {
   model::FlowElement fill, exhaust;
   double coil_power_w = 0.0;  // whole group
   double pressure_min_pa = 0.0, pressure_max_pa = 0.0;
-  model::FlowElement fill_most;  // of a single choice, for its peak (closing.h)
+  // Peaks are no lower than with these (closing.h): what passes at most, by tolerances, through the
+  // choice that passes least, for as long as the one that closes soonest may be late.
+  model::FlowElement late_fill;
   double late_s = 0.0;
 };
 

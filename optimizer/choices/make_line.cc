@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <tuple>
+#include <utility>
 
 #include "model/flow/tube.h"
 #include "model/strokes/stroke.h"
@@ -15,6 +17,8 @@ namespace plenum::optimizer {
 namespace {
 
 constexpr double kBoxTolerance = 2e-3;  // of the least source pressure; its lower end is used
+constexpr double kPeakTolerance = 1e-10, kBoxPeakTolerance = 1e-3;  // of the highest
+constexpr double kRounding = 1e-9;  // of what the best of many comes to
 
 // The elements of a line, as crossed.
 class Elements {
@@ -69,18 +73,21 @@ model::Chamber WithBore(model::Chamber chamber, const ActuatorGroup& group,
   return chamber;
 }
 
-// Of a single line whose valve holds: where its peak keeps the limit.
+// Where the peak of some line whose valve holds keeps the limit: of the one that fills slowest,
+// through the narrowest bore into the largest volume.
 double SourceOfPeak(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
-                    double stands_pa) {
+                    double stands_pa, bool exact) {
   const ActuatorGroup& group = problem.groups[g];
-  FittingCorner fitting = corners.fitting;
-  ValveCorner valve = corners.valve;
-  fitting.flow = fitting.flow_most;
-  valve.fill = valve.fill_most;
-  const Crossed most = ElementsOf(group, {corners.tube, fitting, valve});
-  const model::Chamber least = WithBore(group.least.value_or(group.chamber), group, corners.tube);
-  return HighestSourcePa(problem, g, FlowFactor(problem, gas),
-                         {most.fill.span(), least, valve.late_s}, stands_pa);
+  auto [tube, fitting, valve] = std::tuple(corners.tube, corners.fitting, corners.valve);
+  std::swap(tube.inner_low_m, tube.inner_high_m);
+  fitting.flow = fitting.late_flow;
+  valve.fill = valve.late_fill;
+  const Crossed slowest = ElementsOf(group, {tube, fitting, valve});
+  const model::Chamber least = WithBore(group.least.value_or(group.chamber), group, tube);
+  const Bracket highest_pa = HighestSourcePa(problem, g, FlowFactor(problem, gas),
+                                             {slowest.fill.span(), least, valve.late_s}, stands_pa,
+                                             exact ? kPeakTolerance : kBoxPeakTolerance);
+  return exact ? highest_pa.low : std::min(stands_pa, highest_pa.high * (1.0 + kRounding));
 }
 
 double SourceMax(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
@@ -90,8 +97,7 @@ double SourceMax(const Problem& problem, int g, model::Gas gas, const LineCorner
   const double stands_pa = std::min({tube.pressure_max_pa, valve.pressure_max_pa,
                                      fitting.pressure_max_pa, problem.source_pressure_max_pa});
   if (!valve.some_hold) return std::min(stands_pa, group.pressure_max_pa);
-  return exact && valve.late_s > 0.0 ? SourceOfPeak(problem, g, gas, corners, stands_pa)
-                                     : stands_pa;
+  return valve.late_s > 0.0 ? SourceOfPeak(problem, g, gas, corners, stands_pa, exact) : stands_pa;
 }
 
 double FallTime(const Problem& problem, const ActuatorGroup& group,

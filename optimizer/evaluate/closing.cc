@@ -10,7 +10,7 @@
 namespace plenum::optimizer {
 namespace {
 
-constexpr double kPeakTolerance = 1e-12, kSourceTolerance = 1e-10;  // relative
+constexpr double kPeakTolerance = 1e-12;  // relative
 
 // Seconds from the operating pressure on.
 class Beyond {
@@ -74,21 +74,21 @@ double PeakPa(const Problem& problem, int group, double flow_factor, const Closi
   return SmallestFeasible(left_s, operating_pa, source_pa, kPeakTolerance);
 }
 
-double HighestSourcePa(const Problem& problem, int group, double flow_factor,
-                       const Closing& closing, double most_pa) {
+Bracket HighestSourcePa(const Problem& problem, int group, double flow_factor,
+                        const Closing& closing, double most_pa, double tolerance) {
   const double limit_pa = problem.groups[group].pressure_max_pa;
-  if (!(closing.late_s > 0.0) || !(most_pa > limit_pa)) return most_pa;
-  if (LeastSeconds(problem, group, flow_factor, closing, most_pa) >= closing.late_s) return most_pa;
+  const Bracket most{most_pa, most_pa};
+  if (!(closing.late_s > 0.0) || !(most_pa > limit_pa)) return most;
+  if (LeastSeconds(problem, group, flow_factor, closing, most_pa) >= closing.late_s) return most;
   const Beyond beyond(problem, group, flow_factor, closing);
   const auto room_s = [&](double source_pa) {
     return beyond.Seconds(source_pa, limit_pa) - closing.late_s;
   };
   const double room_at_most_s = room_s(most_pa);
-  if (room_at_most_s >= 0.0) return most_pa;
+  if (room_at_most_s >= 0.0) return most;
   const double room_at_limit_s = room_s(limit_pa);
-  if (room_at_limit_s <= 0.0) return limit_pa;
-  return NarrowBracket(room_s, limit_pa, room_at_limit_s, most_pa, room_at_most_s, kSourceTolerance)
-      .low;
+  if (room_at_limit_s <= 0.0) return {limit_pa, limit_pa};
+  return NarrowBracket(room_s, limit_pa, room_at_limit_s, most_pa, room_at_most_s, tolerance);
 }
 
 template <class T>

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "optimizer/evaluate/candidate.h"
+#include "optimizer/evaluate/root.h"
 
 namespace plenum::optimizer {
 
@@ -27,9 +28,10 @@ struct Closing {
 double PeakPa(const Problem& problem, int group, double flow_factor, const Closing& closing,
               double source_pa);
 
-// The highest source pressure, at most `most_pa`, at which the peak keeps the group's limit.
-double HighestSourcePa(const Problem& problem, int group, double flow_factor,
-                       const Closing& closing, double most_pa);
+// Where the highest source pressure lies, at most `most_pa`, at which the peak keeps the group's
+// limit: it does at the lower end. `tolerance`: of its width, relative.
+Bracket HighestSourcePa(const Problem& problem, int group, double flow_factor,
+                        const Closing& closing, double most_pa, double tolerance);
 
 // The peak of a group of a candidate whose lines are of single parts; of actuators that stay on the
 // source its pressure. T: double, or a dual number, differentiated by differences.

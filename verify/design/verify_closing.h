@@ -16,6 +16,16 @@ double PeakPa(const Problem& problem, Configuration configuration, int group, co
 double MostForPeakPa(const Problem& problem, Configuration configuration, int group,
                      const LineParts& line, double most_pa);
 
+// The same of the line, out of all that these parts make, that may have the highest: the slowest to
+// fill behind the valve that closes soonest. No fittings: a null list or null pointers in it.
+struct LinesParts {
+  std::vector<const model::Tubing*> tubes;
+  std::vector<const model::Fitting*> fittings;
+  std::vector<const model::Valve*> valves;
+};
+double MostForPeaksPa(const Problem& problem, Configuration configuration, int group,
+                      const LinesParts& lines, double most_pa);
+
 }  // namespace plenum::verify
 
 #endif  // PLENUM_VERIFY_DESIGN_VERIFY_CLOSING_H_

@@ -32,14 +32,18 @@ constexpr std::tuple kRows{
 
 }  // namespace
 
-void Widen(ValveCorner& a, const ValveCorner& b) { WidenBy(kRows, a, b); }
+void Widen(ValveCorner& a, const ValveCorner& b) {
+  WidenBy(kRows, a, b);
+  ToLeastFlow(a.late_fill, b.late_fill);
+  ToLeast(a.late_s, b.late_s);
+}
 std::array<double, 7> SplitKeys(const ValveCorner& c) {
   return KeysBy<KeyCountOf(kRows)>(kRows, c);
 }
 void SetNumbers(const PartNumbers& numbers, ValveCorner& corner) {
   SetNumbersBy(kRows, numbers, corner);
   const model::Valve& valve = numbers.parts.valves[numbers.part];
-  corner.fill_most = valve.fill_most.value_or(valve.fill);
+  corner.late_fill = valve.fill_most.value_or(valve.fill);
   corner.late_s = valve.closing_scatter_s;
 }
 

@@ -47,13 +47,13 @@ TEST(Closing, FindsTheSourceWhosePeakIsTheLimit) {
   const Problem problem = OneActuator(2.05e5);
   const std::vector<FlowElement> fill{{0.3 * kC, 0.3}};
   const Closing closing{fill, problem.groups.front().chamber, 10e-3};
-  const double source_pa = optimizer::HighestSourcePa(problem, 0, 1.0, closing, 8e5);
+  const double source_pa = optimizer::HighestSourcePa(problem, 0, 1.0, closing, 8e5, 1e-10).low;
   EXPECT_GT(source_pa, 3e5);
   EXPECT_LT(source_pa, 4e5);  // of which the oracle's peak is 105.651 kPa gauge
   EXPECT_NEAR(optimizer::PeakPa(problem, 0, 1.0, closing, source_pa), 2.05e5, 1e-4);
   // A weaker source, or one that cannot come to the limit, is as it is.
-  EXPECT_EQ(optimizer::HighestSourcePa(problem, 0, 1.0, closing, 0.9 * source_pa), 0.9 * source_pa);
-  EXPECT_EQ(optimizer::HighestSourcePa(problem, 0, 1.0, closing, 2.04e5), 2.04e5);
+  EXPECT_EQ(optimizer::HighestSourcePa(problem, 0, 1.0, closing, 0.9 * source_pa, 1e-10).high, 0.9 * source_pa);
+  EXPECT_EQ(optimizer::HighestSourcePa(problem, 0, 1.0, closing, 2.04e5, 1e-10).high, 2.04e5);
 }
 
 // Lines of drawn elements, chambers, times and sources.

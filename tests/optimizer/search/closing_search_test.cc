@@ -78,6 +78,28 @@ TEST(ClosingSearch, ListsWhatEnumerationListsOfSeveralGroups) {
   EXPECT_GT(tally.feasible, 2);
 }
 
+// Two groups of one source: the valves of the small one close too late for the pressure that the
+// other needs. That is seen at once, and by the verifier.
+TEST(ClosingSearch, AGroupThatNeedsMoreThanAnotherStandsIsRuledOutAtOnce) {
+  Problem problem = Drawn(3, 2);
+  problem.simultaneous = false;
+  for (model::Valve& valve : problem.parts.valves) {
+    valve.kind = model::ValveKind::kPair;
+    valve.closing_scatter_s = 0.05;
+  }
+  optimizer::ActuatorGroup &high = problem.groups[0], &low = problem.groups[1];
+  high.chamber.operating_pressure_pa = 2.5e5;
+  high.pressure_max_pa = 3e5;
+  low.chamber.operating_pressure_pa = 1.5e5;
+  low.chamber.rest_volume_m3 = 1e-6;
+  low.pressure_max_pa = 1.52e5;
+  const bool found = ExpectAsEnumerated(problem, [](const Design&, const Enumerated&) {});
+  EXPECT_FALSE(found);
+  const auto record = Recorded(problem).proof.record;
+  ASSERT_EQ(record->plans.size(), 1U);
+  EXPECT_EQ(record->plans[0].boxes.size(), 1U);
+}
+
 // A valve that closes in less time, or a higher limit, never makes the best design worse.
 TEST(ClosingSearch, QuickerIsNeverWorse) {
   int better = 0;
