@@ -52,7 +52,8 @@ TEST(Closing, FindsTheSourceWhosePeakIsTheLimit) {
   EXPECT_LT(source_pa, 4e5);  // of which the oracle's peak is 105.651 kPa gauge
   EXPECT_NEAR(optimizer::PeakPa(problem, 0, 1.0, closing, source_pa), 2.05e5, 1e-4);
   // A weaker source, or one that cannot come to the limit, is as it is.
-  EXPECT_EQ(optimizer::HighestSourcePa(problem, 0, 1.0, closing, 0.9 * source_pa, 1e-10).high, 0.9 * source_pa);
+  EXPECT_EQ(optimizer::HighestSourcePa(problem, 0, 1.0, closing, 0.9 * source_pa, 1e-10).high,
+            0.9 * source_pa);
   EXPECT_EQ(optimizer::HighestSourcePa(problem, 0, 1.0, closing, 2.04e5, 1e-10).high, 2.04e5);
 }
 
