@@ -59,17 +59,18 @@
 // The corner at its best takes: the exact march through the largest C and b of each element into
 // the smallest dead volume, from the highest source pressure that any of the choices stands, and at
 // which the peak of the slowest to fill keeps the limit where it closes as late as the soonest of
-// the box (closing.h); the least air, coil power and amounts (a tank with the air that is left at the highest operating
-// pressure, and what the mission takes on top); and for bottles, tanks, batteries and reservoirs
-// the least objective of those in the box that bear this need. A bound may also rest on divisions
-// of the box that are not recorded: of the lines in it only those count that mate and are fast
-// enough on an unlimited source; and behind a regulator that several groups draw from at once,
-// those that make do with the mean pressure that the least air of the others leaves at the node
-// behind it, at the highest of the source pressures that they work at. In a compressor's box each
-// group counts as if it were alone on the reservoir, with the largest delivery of the box at each
-// pressure; of two groups that take turns each leaves enough for the other. A tank without a
-// regulator keeps its highest pressure; no box is fed with more than every group's lines stand, the
-// highest of all lines of each that are fast enough. Of pumps alone optimizer/pump/direct_bound.h says the rest.
+// the box (closing.h); the least air, coil power and amounts (a tank with the air that is left at
+// the highest operating pressure, and what the mission takes on top); and for bottles, tanks,
+// batteries and reservoirs the least objective of those in the box that bear this need. A bound may
+// also rest on divisions of the box that are not recorded: of the lines in it only those count that
+// mate and are fast enough on an unlimited source; and behind a regulator that several groups draw
+// from at once, those that make do with the mean pressure that the least air of the others leaves
+// at the node behind it, at the highest of the source pressures that they work at. In a
+// compressor's box each group counts as if it were alone on the reservoir, with the largest
+// delivery of the box at each pressure; of two groups that take turns each leaves enough for the
+// other. A tank without a regulator keeps its highest pressure; no box is fed with more than every
+// group's lines stand, the highest of all lines of each that are fast enough. Of pumps alone
+// optimizer/pump/direct_bound.h says the rest.
 #ifndef PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 #define PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 
