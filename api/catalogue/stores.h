@@ -5,7 +5,7 @@
 #include "catalog/fields/csv.h"
 #include "catalog/store/backup.h"
 #include "catalog/store/content_hash.h"
-#include "catalog/store/job_store.h"
+#include "catalog/store/jobs/job_store.h"
 #include "catalog/store/place.h"
 #include "catalog/store/store.h"
 
