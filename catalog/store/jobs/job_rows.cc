@@ -44,9 +44,8 @@ JobRecord ReadJob(const SqlStatement& row) {
   job.crash = text(21);
   job.alone = row.Integer(22) != 0;
   job.order.client = text(23);
-  // Only one of them had begun and so has a result: its size tells it from the others, all alike.
-  job.ending = row.Integer(24);
-  job.order.priority = static_cast<int>(row.Integer(25));
+  job.order.priority = static_cast<int>(row.Integer(24));
+  job.ending = row.Integer(25);
   SetStatus(job, text(11));
   if (row.columns() > kRequestColumn) {
     job.order.request = text(kRequestColumn);

@@ -18,6 +18,9 @@ constexpr int kBusyTimeoutMs = 2'000;
 constexpr int kSchema = 4;
 constexpr int kApplicationId = 1886154346;  // "plnj"
 
+// Only one of them had begun and so has a result: its size tells it from the others, all alike.
+constexpr char kEnding[] = "bytes";
+
 constexpr char kSchema1[] = R"sql(
 CREATE TABLE job (
   number INTEGER NOT NULL PRIMARY KEY CHECK (number BETWEEN 1 AND 9007199254740991),
@@ -137,7 +140,7 @@ struct JobStore::Impl {
   }
   std::optional<JobRecord> SelectOne(const std::string& where, const std::string& kind,
                                      const std::string& argument) {
-    auto found = Select(std::string(kJobColumns) + ", request, result", "kind = ? AND " + where,
+    auto found = Select(JobColumns(kEnding) + ", request, result", "kind = ? AND " + where,
                         {kind, argument});
     return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
   }
@@ -265,7 +268,7 @@ std::optional<JobRecord> JobStore::Find(const std::string& kind, const std::stri
 }
 
 std::optional<JobRecord> JobStore::Peek(const std::string& kind, const std::string& id) const {
-  auto found = impl_->Select(kJobColumns, "kind = ? AND id = ?", {kind, id});
+  auto found = impl_->Select(JobColumns(kEnding), "kind = ? AND id = ?", {kind, id});
   return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
 }
 
@@ -281,15 +284,16 @@ std::optional<JobRecord> JobStore::FindKey(const std::string& kind, const std::s
 }
 
 std::vector<JobRecord> JobStore::Unfinished(const std::string& kind) const {
-  return impl_->Select(kJobColumns, "kind = ? AND ended IS NULL ORDER BY number", {kind});
+  return impl_->Select(JobColumns(kEnding), "kind = ? AND ended IS NULL ORDER BY number", {kind});
 }
 
 std::vector<JobRecord> JobStore::Ended(const std::string& kind) const {
-  return impl_->Select(kJobColumns, "kind = ? AND ended IS NOT NULL ORDER BY number DESC", {kind});
+  return impl_->Select(JobColumns(kEnding), "kind = ? AND ended IS NOT NULL ORDER BY number DESC",
+                       {kind});
 }
 
 std::vector<JobRecord> JobStore::List() const {
-  return impl_->Select(kJobColumns, "true ORDER BY number DESC", {});
+  return impl_->Select(JobColumns(kEnding), "true ORDER BY number DESC", {});
 }
 
 }  // namespace plenum::catalog

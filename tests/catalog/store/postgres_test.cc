@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "catalog/store/seed/seed_update.h"
+#include "catalog/store/shared_tokens.h"
 #include "catalog/store/sql/address.h"
 #include "catalog/store/sql/postgres_database.h"
 #include "tests/catalog/samples.h"
@@ -115,6 +116,18 @@ TEST_P(OnPostgres, FollowsANewerSeed) {
   EXPECT_THAT(update.plan.added, ::testing::ElementsAre("a"));
   EXPECT_THAT(update.plan.kept, ::testing::ElementsAre("b"));
   EXPECT_THAT(Read().Check(), IsEmpty());
+}
+
+TEST_P(OnPostgres, KeepsTokensThroughCuts) {
+  SharedTokens tokens(path_.string());
+  const TokenRow one{"0123abcd", "laptop", "write", std::string(64, 'a'), "2026-01-31"};
+  tokens.Add(one);
+  test::CutSessions();
+  EXPECT_THAT(SharedTokens(path_.string()).List(), ::testing::ElementsAre(one));
+  EXPECT_THAT(tokens.List(), SizeIs(1));
+  EXPECT_TRUE(tokens.Remove("0123abcd"));
+  EXPECT_FALSE(tokens.Remove("0123abcd"));
+  EXPECT_THAT(Refusal([&] { SharedTokens((folder_ / "a.db").string()); }), HasSubstr("is a file"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, OnPostgres, ::testing::Values(Engine::kPostgresql), NameOf);
