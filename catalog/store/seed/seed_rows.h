@@ -2,8 +2,6 @@
 #ifndef PLENUM_CATALOG_STORE_SEED_SEED_ROWS_H_
 #define PLENUM_CATALOG_STORE_SEED_SEED_ROWS_H_
 
-#include <SQLiteCpp/SQLiteCpp.h>
-
 #include <string_view>
 #include <vector>
 
@@ -20,8 +18,7 @@ inline constexpr std::string_view kSeedWrite = "seed";
 std::vector<Part> SeedRows(std::vector<Part> parts);
 
 // Changes what `seed` (SeedRows) changes; UpdateSeed (seed_update.h) says what stays.
-SeedPlan ReplaceSeedRows(SQLite::Database& db, const std::vector<Part>& seed,
-                         RevisionWriter& writer);
+SeedPlan ReplaceSeedRows(SqlDatabase& db, const std::vector<Part>& seed, RevisionWriter& writer);
 
 }  // namespace plenum::catalog
 
