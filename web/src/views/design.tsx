@@ -15,6 +15,7 @@ import { Exchange } from './exchange';
 import { Maps } from './maps';
 import { MovedOn } from './moved_on';
 import { Sensitivities } from './sensitivities';
+import { Strokes } from './strokes';
 import { WhatIf } from './what_if';
 import { Estimates, Facts, MarginsPanel, PartsPanel } from './design_panels';
 import { isVacuum } from '../lib/vacuum';
@@ -94,6 +95,7 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
         <PartsPanel design={design} />
         <MarginsPanel design={design} answer={answer} />
       </div>
+      <Strokes design={design} requirements={answer.requirements} />
       <VariantsPanel design={design} />
       <Exchange answer={answer} design={design} />
       {parts.value && (
