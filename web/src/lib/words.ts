@@ -37,7 +37,7 @@ export function proofInWords(answer: Answer): string {
       return listed === 0
         ? `Proved: nothing can be listed. ${did}`
         : answer.list === 'kinds'
-          ? `Proved: no kind of ${answer.guarantee ? 'guaranteed ' : ''}design that is not listed beats ${listed === 1 ? 'this one' : `the last of these ${listed}`}, but for further kinds with a source that is listed.${leftOut(answer)} ${did}`
+          ? `Proved: no kind of ${answer.guarantee ? 'guaranteed ' : ''}design that is not listed beats ${listed === 1 ? 'this one' : `the last of these ${listed}`}, except further kinds with a source that stands on the list.${leftOut(answer)} ${did}`
           : `Proved: no other combination of catalogue parts${answer.guarantee ? ' that is guaranteed' : ''} beats ${listed === 1 ? 'this design' : `the last of these ${listed} designs`}.${leftOut(answer)} ${did}`;
     case 'feasible':
       if (listed === 0)
@@ -51,6 +51,10 @@ export function proofInWords(answer: Answer): string {
       return `Cancelled before the proof was complete; these are the best found. ${did}`;
   }
 }
+
+// A note of a document, which may be of any form.
+export const noteText = (note: unknown): string =>
+  note === undefined || note === null ? '' : typeof note === 'string' ? note : JSON.stringify(note);
 
 export interface Word {
   text: string;

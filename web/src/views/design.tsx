@@ -73,9 +73,9 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
             >
               Response CSV
             </button>
-            <button type="button" onClick={() => print()}>
+            <a class="button" href={link(['designs', id, String(rank), 'sheet'])}>
               Data sheet
-            </button>
+            </a>
           </span>
         </div>
         <MovedOn answer={answer} />
