@@ -13,7 +13,9 @@
 
 namespace plenum::test {
 
-inline constexpr auto kFilter = static_cast<optimizer::Family>(10);
+// One beyond the last of plenum's.
+inline constexpr auto kFilter =
+    static_cast<optimizer::Family>(static_cast<int>(optimizer::Family::kVacuumPump) + 1);
 
 struct Filter {
   model::PartBasics basics;

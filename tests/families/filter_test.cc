@@ -100,6 +100,10 @@ bool IsBetter(const Filter& a, const Filter& b, bool equal_flow) {
   return a.thread == b.thread && flows && a.pressure_max_pa >= b.pressure_max_pa && lighter;
 }
 
+TEST(Filter, StandsAtItsNumber) {
+  EXPECT_EQ(optimizer::Families()[static_cast<std::size_t>(kFilter)].family, kFilter);
+}
+
 TEST(Filter, GoesThroughCsv) {
   std::mt19937 random(7);
   std::vector<catalog::Part> parts;
