@@ -21,6 +21,7 @@
 #include "server/resources/pages/docs_resource.h"
 #include "server/resources/pages/page_resource.h"
 #include "server/resources/parts_resource.h"
+#include "server/resources/seed_resource.h"
 
 namespace plenum::server {
 namespace {
@@ -117,6 +118,15 @@ void AddManyPartsRoutes(SharedCatalog& catalog, std::vector<Route>& routes) {
   routes.insert(one, std::begin(many), std::end(many));
 }
 
+void AddCatalogUpdate(const Services& services, std::vector<Route>& routes) {
+  routes.push_back(
+      {"POST", "/v1/catalog/update",
+       "takes over what the installed catalogue has newer; query dry_run", Access::kWrite,
+       [&catalog = services.catalog, file = services.file, seed = services.seed](const Call& call) {
+         return UpdateCatalog(catalog, file, seed, call);
+       }});
+}
+
 // What people read in a browser.
 void AddPages(const Services& services, std::vector<Route>& routes) {
   routes.push_back({"GET", "/", "the web page", Access::kOpen, GetPage});
@@ -203,6 +213,7 @@ std::vector<Route> Routes(const Services& services) {
        }},
   };
   AddManyPartsRoutes(catalog, routes);
+  AddCatalogUpdate(services, routes);
   AddJobRoutes(design_jobs, routes);
   AddJobRoutes(diagnosis_jobs, routes);
   AddPages(services, routes);

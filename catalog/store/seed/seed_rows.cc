@@ -56,4 +56,15 @@ SeedPlan ReplaceSeedRows(SQLite::Database& db, const std::vector<Part>& seed,
   return plan;
 }
 
+SeedUpdate UpdateSeedRows(SQLite::Database& db, const std::vector<Part>& seed,
+                          const std::string& who, bool dry_run) {
+  SQLite::Transaction transaction(db, SQLite::TransactionBehavior::IMMEDIATE);
+  RevisionWriter writer(db);
+  SeedUpdate update{ReplaceSeedRows(db, seed, writer), writer.head()};
+  if (dry_run) return update;
+  update.revision = writer.Record(who, std::string(kSeedWrite));
+  transaction.commit();
+  return update;
+}
+
 }  // namespace plenum::catalog

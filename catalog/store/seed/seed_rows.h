@@ -4,6 +4,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,10 @@ std::vector<Part> SeedRows(std::vector<Part> parts);
 // Changes what `seed` (SeedRows) changes; UpdateSeed (seed_update.h) says what stays.
 SeedPlan ReplaceSeedRows(SQLite::Database& db, const std::vector<Part>& seed,
                          RevisionWriter& writer);
+
+// The same as one revision, or, in a dry run, what that would be.
+SeedUpdate UpdateSeedRows(SQLite::Database& db, const std::vector<Part>& seed,
+                          const std::string& who, bool dry_run);
 
 }  // namespace plenum::catalog
 

@@ -54,7 +54,7 @@ function drawGuides(plot: uPlot, guides: Guide[], ink: string, isLeft: boolean) 
     ctx.lineTo(bbox.left + bbox.width, y);
     ctx.stroke();
     ctx.textAlign = isLeft ? 'left' : 'right';
-    ctx.textBaseline = y - bbox.top < 14 * devicePixelRatio ? 'top' : 'bottom';
+    ctx.textBaseline = isLeft || y - bbox.top < 14 * devicePixelRatio ? 'top' : 'bottom';
     ctx.fillText(
       guide.label,
       isLeft ? bbox.left + 3 : bbox.left + bbox.width - 3,
@@ -109,7 +109,7 @@ export function Lines(props: {
   lines: Line[];
   height?: number;
   guides?: Guide[];
-  guidesAtLeft?: boolean; // their labels
+  guidesAtLeft?: boolean; // their labels, below them, where a curve rises to them
   marks?: Mark[];
   marksAtTop?: boolean; // their labels
   bands?: Band[];
