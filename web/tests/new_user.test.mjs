@@ -48,6 +48,11 @@ test('a design of their own, its strokes, and its data sheet', async () => {
   await page.getByRole('link', { name: '1', exact: true }).first().click();
   for (const name of ['Rise of finger', 'Fall of finger'])
     await page.getByRole('figure', { name }).waitFor();
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'FMU' }).click();
+  assert.equal((await download).suggestedFilename(), 'my gripper-1.fmu');
+  const unit = await (await download).createReadStream().then((stream) => stream.toArray());
+  assert.equal(Buffer.concat(unit).subarray(30, 50).toString(), 'modelDescription.xml');
   await page.getByRole('link', { name: 'Data sheet' }).click();
   await page.getByRole('heading', { name: 'my gripper: data sheet of design 1' }).waitFor();
   await page.getByText('for the fair').waitFor();

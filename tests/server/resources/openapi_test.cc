@@ -211,6 +211,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   for (const auto& [path, example] :
        {std::pair{std::string("/v1/simulations"), api::ExampleSimulation()},
         std::pair{std::string("/v1/evaluations"), api::ExampleEvaluation()},
+        std::pair{std::string("/v1/fmus"), api::ExampleEvaluation()},
         std::pair{std::string("/v1/maps"), api::ExampleMap()}}) {
     Post(path, example.dump(), 200);
     Post(path, "[", 400);

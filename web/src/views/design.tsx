@@ -12,6 +12,7 @@ import { Chip, Notice } from '../ui/controls';
 import { csv, saveFile } from '../ui/files';
 import { VariantsPanel } from './kinds';
 import { Exchange } from './exchange';
+import { FmuButton } from './fmu_button';
 import { Maps } from './maps';
 import { MovedOn } from './moved_on';
 import { Sensitivities } from './sensitivities';
@@ -73,6 +74,9 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
             >
               Response CSV
             </button>
+            {!answer.model && (
+              <FmuButton name={names} design={design} requirements={answer.requirements} />
+            )}
             <a class="button" href={link(['designs', id, String(rank), 'sheet'])}>
               Data sheet
             </a>
