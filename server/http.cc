@@ -40,7 +40,7 @@ struct HttpService::Impl {
                 given.jobs),
         diagnoses(jobs, of_all_jobs.turns, "diagnosis", DiagnosisWork(catalog), given.jobs),
         routes(Routes({catalog, designs, diagnoses, metrics, given.jobs, given.kept, given.catalog,
-                       given.docs, [this] { MeasureConnections(); }})),
+                       given.docs, given.seed, [this] { MeasureConnections(); }})),
         requests({HostsOf(given), NeedsToken(given), given.log,
                   RenderLimits(QuotaOf(given.jobs), given.kept)},
                  routes, tokens, metrics, protocol, [this] { connections.Wake(); }),

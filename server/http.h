@@ -16,6 +16,7 @@ struct HttpOptions {
   std::filesystem::path catalog = "catalog.db";  // the jobs are kept in <catalog>-jobs,
                                                  // crashes of theirs marked in <catalog>-jobs-crash
   std::filesystem::path docs;                    // the built documentation, if any
+  std::filesystem::path seed;                    // the catalogue that was installed, if any
   std::string host = "127.0.0.1";
   int port = 8080;  // 0: any free one
   // Names beside those of the loopback by which the service is reached, as behind a proxy.

@@ -110,9 +110,12 @@ std::vector<std::string> Sentences(const Identifiability& found) {
   if (!found.silent.empty())
     sentences.push_back("The data say nothing about " + Joined(found.silent) +
                         ": what is shown is what was declared or assumed.");
-  for (const std::vector<std::string>& group : found.aliases)
-    sentences.push_back("The data fix only a combination of " + Joined(group) +
+  for (auto group = found.aliases.begin(); group != found.aliases.end(); ++group) {
+    // Several directions may have the same names.
+    if (std::find(found.aliases.begin(), group, *group) != group) continue;
+    sentences.push_back("The data fix only a combination of " + Joined(*group) +
                         ", not each of them.");
+  }
   return sentences;
 }
 

@@ -233,13 +233,6 @@ ImportResult Store::Import(const PartSource& parts, const Signature& by) {
   return result;
 }
 
-ImportResult Store::Import(const std::vector<Part>& parts, const Signature& by) {
-  return Import(PartSource([&](const TakeEach& take) {
-                  for (const Part& part : parts) take(part);
-                }),
-                by);
-}
-
 WriteResult Store::Undo(std::int64_t number, const Signature& by) {
   const auto revision = FindRevision(number);
   if (!revision) return {WriteStatus::kNotFound, {}, {}};
@@ -313,6 +306,11 @@ void Store::ReplaceSeed(const std::vector<Part>& parts) {
     transaction.Commit();
     db.Compact();
   });
+}
+
+SeedUpdate Store::UpdateSeed(const std::vector<Part>& parts, const std::string& who, bool dry_run) {
+  const std::vector<Part> seed = SeedRows(parts);
+  return impl_->Do([&](SqlDatabase& db) { return UpdateSeedRows(db, seed, who, dry_run); });
 }
 
 std::vector<std::string> Store::Check() const {

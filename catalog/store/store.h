@@ -21,6 +21,7 @@
 #include "catalog/fields/part.h"
 #include "catalog/store/model_revision.h"
 #include "catalog/store/revision.h"
+#include "catalog/store/seed/seed_plan.h"
 #include "catalog/store/store_error.h"
 
 namespace plenum::catalog {
@@ -98,7 +99,6 @@ class Store {
   // the same content but its origin is left alone.
   ImportPlan PlanImport(const PartSource& parts) const;
   ImportResult Import(const PartSource& parts, const Signature& by);
-  ImportResult Import(const std::vector<Part>& parts, const Signature& by);
 
   // Brings every part that revision `number` changed back to what it was before, as a revision of
   // its own; all or none. Only where none of them was changed again since.
@@ -122,6 +122,9 @@ class Store {
   // Replaces all seed rows by `parts` (origin set to "seed"); rows of users stay. All or nothing.
   // A user's row with the id of a seed row keeps its place and the seed row is left out.
   void ReplaceSeed(const std::vector<Part>& parts);
+  // The same of the parts of another catalogue, as `who`: what UpdateSeed (seed/seed_update.h) does
+  // and leaves alone. In a dry run nothing is written.
+  SeedUpdate UpdateSeed(const std::vector<Part>& parts, const std::string& who, bool dry_run);
 
   // Of a file SQLite's own integrity and foreign-key check, Validate on every row, whether the
   // history agrees with the parts and saved models with their hashes; empty: all is well.

@@ -226,6 +226,8 @@ std::string UnitNames(std::string_view field) {
   std::string names;
   for (const Unit& unit : DimensionOf(field).units)
     if (!unit.is_alias) names += (names.empty() ? "" : ", ") + std::string(unit.name);
+  for (const std::string_view per : {"bar)", "Pa)"})
+    names = Replaced(std::move(names), per, "·" + std::string(per));
   return names;
 }
 

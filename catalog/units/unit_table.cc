@@ -89,7 +89,9 @@ constexpr Unit kHertz[] = {{"Hz"},
                            {"kHz", 1000},
                            {"1/s", 1, 1, 0, {}, true},
                            {"1/min", 1, 60},
-                           {"/min", 1, 60, 0, {}, true}};
+                           {"/min", 1, 60, 0, {}, true},
+                           {"permin", 1, 60, 0, {}, true},
+                           {"perminute", 1, 60, 0, {}, true}};
 constexpr Unit kKelvin[] = {{"K"},
                             {"°C", 1, 1, 273.15},
                             {"degC", 1, 1, 273.15, {}, true},

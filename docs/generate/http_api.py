@@ -13,7 +13,7 @@ PAGES = {"Requirements": "requirements", "Measurement": "measurement", "Simulati
          "Protocol": "protocol", "DesignsOrValid": "designs", "SimulationOrCurves": "simulation",
          "ResponseOrCurves": "response", "Response": "response", "MapAnswer": "map_answer",
          "EvaluationAnswer": "evaluation_answer", "Part": "families", "StoredPart": "families"}
-WITHOUT_FIELDS = ("Text", "Csv", "Anything")
+WITHOUT_FIELDS = ("Text", "Csv", "Unit", "Anything")
 
 
 def resolved(part, api):

@@ -8,6 +8,7 @@
 #include "optimizer/choices/plant/part_numbers.h"
 #include "optimizer/evaluate/relaxation.h"
 #include "optimizer/evaluate/source_options.h"
+#include "optimizer/evaluate/strokes/stroke_rig.h"
 #include "optimizer/problem/family_specs.h"
 #include "optimizer/sizing/effect_sizing.h"
 #include "optimizer/sizing/report.h"
@@ -250,6 +251,47 @@ AtSettings EvaluateAtSettings(const Problem& problem, const Design& design,
     if (margin.requirement == "/supply/cost_eur_max")
       margin.achieved = kUnlimited, margin.relative_margin = -kUnlimited;
   return found;
+}
+
+std::optional<DrivenDesign> Drive(const Problem& problem, const Design& design,
+                                  const std::function<bool()>& stop) {
+  const Problem free = WithoutStrokeLimits(problem);
+  Rebuilt rebuilt;
+  if (!Rebuild(free, Relaxed(free), design, rebuilt)) return std::nullopt;
+  Candidate& candidate = rebuilt.candidate;
+  const OperatingPoint point = PointOf(free, candidate, design);
+  const Workbench bench{.stop = stop};
+  candidate.bench = &bench;
+  const Evaluation evaluation = Evaluate(free, candidate, point);
+  if (!evaluation.works) return std::nullopt;
+  DrivenDesign driven;
+  driven.rig = MakeRig(free, candidate, point);
+  // Of a tank without a regulator that of the last cycle.
+  if (IsOpenTank(candidate))
+    std::get<model::ReservoirSource>(driven.rig.source).initial_pressure_pa = point.source_pa;
+  std::vector<model::GroupRig> squads = std::move(driven.rig.groups);
+  driven.rig.groups.clear();
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    const ActuatorGroup& group = problem.groups[g];
+    const Line& line = *candidate.lines[g];
+    const auto squad = std::find_if(squads.begin(), squads.end(),
+                                    [&](const auto& one) { return one.name == group.name; });
+    model::GroupRig actuator = *squad;
+    actuator.count = 1;
+    actuator.schedule.clear();
+    actuator.close_at_operating = false;
+    for (int i = 1; i <= group.count; ++i) {
+      actuator.name = group.count == 1 ? group.name : group.name + "[" + std::to_string(i) + "]";
+      driven.rig.groups.push_back(actuator);
+      driven.coil_power_w.push_back(line.coil_power_w / group.count);
+      driven.holds.push_back(line.holds);
+    }
+  }
+  if (candidate.regulator.index != kNone)
+    driven.regulator_power_w = free.parts.regulators[candidate.regulator.index].electrical_power_w;
+  driven.energy_available_j = evaluation.energy_available_j;
+  driven.air_available_m3 = evaluation.air_available_m3;
+  return driven;
 }
 
 }  // namespace plenum::optimizer

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/simulate/simulate_rig.h"
 #include "optimizer/sizing/custom_sizing.h"
 
 namespace plenum::optimizer {
@@ -59,6 +60,19 @@ struct AtSettings {
 };
 AtSettings EvaluateAtSettings(const Problem& problem, const Design& design,
                               const std::function<bool()>& stop = {});
+
+// The design's parts at its own settings as what a robot drives.
+struct DrivenDesign {
+  model::Rig rig;  // one group for each actuator, without commands; full source, all at ambient
+  std::vector<double> coil_power_w;  // of each actuator's valve while energised
+  std::vector<bool> holds;           // each actuator's valve
+  double regulator_power_w = 0.0;
+  double energy_available_j = kUnlimited;
+  double air_available_m3 = kUnlimited;  // ANR, on board
+};
+// None where a part is missing, or where the design does not work as it was asked to.
+std::optional<DrivenDesign> Drive(const Problem& problem, const Design& design,
+                                  const std::function<bool()>& stop = {});
 
 }  // namespace plenum::optimizer
 

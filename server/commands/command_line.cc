@@ -120,9 +120,10 @@ int RunCommand(int argc, const char* const* argv) {
 }  // namespace
 
 std::vector<Command> AllCommands() {
-  return {InitCommand(),     DesignCommand(), VerifyCommand(),   EvaluateCommand(),
-          SimulateCommand(), MapCommand(),    DiagnoseCommand(), ProtocolCommand(),
-          CatalogCommand(),  ServeCommand(),  JobsCommand(),     TokenCommand()};
+  return {InitCommand(),     DesignCommand(),   VerifyCommand(), EvaluateCommand(),
+          ExportCommand(),   SimulateCommand(), MapCommand(),    DiagnoseCommand(),
+          ProtocolCommand(), CatalogCommand(),  ServeCommand(),  JobsCommand(),
+          TokenCommand()};
 }
 
 int RunCommandLine(int argc, const char* const* argv) {

@@ -37,6 +37,7 @@ std::unique_ptr<HttpService> Listen(const ServeOptions& options) {
   HttpOptions http;
   http.catalog = options.catalog;
   http.docs = options.docs;
+  http.seed = catalog::InstalledSeed();
   http.host = options.host;
   http.port = options.port;
   http.allow_hosts = options.allow_hosts;

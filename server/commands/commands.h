@@ -12,6 +12,7 @@ Command InitCommand();
 Command DesignCommand();
 Command VerifyCommand();
 Command EvaluateCommand();
+Command ExportCommand();
 Command SimulateCommand();
 Command MapCommand();
 Command DiagnoseCommand();

@@ -12,31 +12,36 @@
 namespace plenum::server {
 namespace {
 
-// What `best` and `lower_bound` of a progress are amounts of, as the requirements say it.
-api::Json ObjectiveOf(const api::Json& requirements) {
-  return requirements.value("objective", api::Json{{"minimize", "mass_kg"}});
+// What a list of jobs shows of the requirements: what `best` and `lower_bound` of a progress are
+// amounts of, as it was written, and the note on the whole.
+api::Json AskedOf(const api::Json& requirements) {
+  api::Json asked = {
+      {"objective", requirements.value("objective", api::Json{{"minimize", "mass_kg"}})}};
+  if (requirements.contains("note")) asked["note"] = requirements.at("note");
+  return asked;
 }
 
-api::Json ToJson(const optimizer::Progress& progress, const api::Json& objective) {
+api::Json ToJson(const optimizer::Progress& progress, const api::Json& asked) {
   api::Json json = {{"seconds", api::Number(progress.seconds)},
                     {"evaluated", progress.evaluated},
                     {"open", progress.open},
                     {"best", progress.best ? api::Number(*progress.best) : api::Json()},
-                    {"lower_bound", api::Number(progress.lower_bound)},
-                    {"objective", objective}};
+                    {"lower_bound", api::Number(progress.lower_bound)}};
+  json.update(asked);
   if (progress.infeasible) json["status"] = "infeasible";
   return json;
 }
 
 // The last progress, which a list of jobs shows in place of the answer.
-api::Json Outcome(const api::Json& answer, const api::Json& objective) {
+api::Json Outcome(const api::Json& answer, const api::Json& asked) {
   const api::Json& designs = answer.at("designs");
-  return {{"seconds", answer.at("seconds")},
-          {"evaluated", answer.at("proof").at("evaluated")},
-          {"best", designs.empty() ? api::Json() : designs.front().at("objective")},
-          {"lower_bound", answer.at("proof").at("lower_bound")},
-          {"objective", objective},
-          {"outcome", answer.at("status")}};
+  api::Json outcome = {{"seconds", answer.at("seconds")},
+                       {"evaluated", answer.at("proof").at("evaluated")},
+                       {"best", designs.empty() ? api::Json() : designs.front().at("objective")},
+                       {"lower_bound", answer.at("proof").at("lower_bound")},
+                       {"outcome", answer.at("status")}};
+  outcome.update(asked);
+  return outcome;
 }
 
 // As a search that its time limit ended: the list is what it had, with its gap.
@@ -66,19 +71,19 @@ Work DesignWork(SharedCatalog& catalog, JobMemory& memory) {
                                           std::get<std::vector<catalog::ModelRevision>>(models));
     if (auto* errors = std::get_if<api::Errors>(&request)) return *errors;
 
-    const api::Json objective = ObjectiveOf(std::get<api::Json>(json));
+    const api::Json asked = AskedOf(std::get<api::Json>(json));
     optimizer::SearchOptions options;
     const auto share = memory.Enter();
     options.cancelled = [&] { return share->must_end() || control.cancelled(); };
     options.progress = [&](const optimizer::Progress& progress) {
       share->Report(progress.open);
-      control.report(ToJson(progress, objective));
+      control.report(ToJson(progress, asked));
     };
     api::Json answer =
         api::AnswerRequest(std::get<api::DesignRequest>(request), options, *parts.parts);
     if (share->must_end() && !control.cancelled()) EndedByMemory(answer);
     answer["catalogue_revision"] = api::RenderRevisionName(parts.revision);
-    control.report(Outcome(answer, objective));
+    control.report(Outcome(answer, asked));
     return answer;
   };
 }

@@ -36,6 +36,7 @@ struct Services {
   catalog::JobsKept jobs_kept;
   std::filesystem::path file;                 // the catalogue
   std::filesystem::path docs;                 // the built documentation
+  std::filesystem::path seed;                 // the installed catalogue; may be empty
   std::function<void()> measure_connections;  // sets their metrics
 };
 

@@ -5,6 +5,7 @@
 
 #include "api/catalogue/families.h"
 #include "api/design/given/evaluation.h"
+#include "api/design/given/unit_of_design.h"
 #include "api/json/json.h"
 #include "api/json/request_limits.h"
 #include "api/measure/curves.h"
@@ -21,6 +22,7 @@
 #include "server/resources/pages/docs_resource.h"
 #include "server/resources/pages/page_resource.h"
 #include "server/resources/parts_resource.h"
+#include "server/resources/seed_resource.h"
 
 namespace plenum::server {
 namespace {
@@ -31,6 +33,15 @@ constexpr std::string_view kVariable = "{id}", kRest = "{path}";
 std::shared_ptr<void> EnterComputing(bool large) {
   static Turnstile all(kComputingMax), of_large(kLargeComputingMax);
   return (large ? of_large : all).Enter();
+}
+
+Reply Found(const api::Json& answer) { return JsonReply(200, answer); }
+Reply Found(const std::string& unit) {
+  return {200,
+          "application/octet-stream",
+          unit,
+          {{"Content-Disposition", "attachment; filename=\"supply.fmu\""}},
+          {}};
 }
 
 // The document of a large request is read in the turn of large requests, which ends before the
@@ -49,7 +60,7 @@ Reply AnswerAtOnce(const Call& call, F&& run) {
   call.turn = nullptr;
   auto answer = run(std::get<api::Json>(json));
   if (auto* errors = std::get_if<api::Errors>(&answer)) return ProblemReply(422, *errors);
-  return JsonReply(200, std::get<api::Json>(answer));
+  return Found(std::get<0>(answer));
 }
 
 // The request with the answer of the diagnosis that its "from" names by id.
@@ -115,6 +126,25 @@ void AddManyPartsRoutes(SharedCatalog& catalog, std::vector<Route>& routes) {
        "bottle_l",
        Access::kRead, parts(GetProtocol)}};
   routes.insert(one, std::begin(many), std::end(many));
+}
+
+void AddUnits(SharedCatalog& catalog, std::vector<Route>& routes) {
+  routes.push_back({"POST", "/v1/fmus",
+                    "evaluation/1 in: the design as a unit for co-simulation (FMI 2.0) out",
+                    Access::kRead, [&catalog](const Call& call) {
+                      return AnswerAtOnce(call, [&](const api::Json& request) {
+                        return api::MakeUnitFile(request, *catalog.Snapshot(), catalog.Models());
+                      });
+                    }});
+}
+
+void AddCatalogUpdate(const Services& services, std::vector<Route>& routes) {
+  routes.push_back(
+      {"POST", "/v1/catalog/update",
+       "takes over what the installed catalogue has newer; query dry_run", Access::kWrite,
+       [&catalog = services.catalog, file = services.file, seed = services.seed](const Call& call) {
+         return UpdateCatalog(catalog, file, seed, call);
+       }});
 }
 
 // What people read in a browser.
@@ -203,6 +233,8 @@ std::vector<Route> Routes(const Services& services) {
        }},
   };
   AddManyPartsRoutes(catalog, routes);
+  AddUnits(catalog, routes);
+  AddCatalogUpdate(services, routes);
   AddJobRoutes(design_jobs, routes);
   AddJobRoutes(diagnosis_jobs, routes);
   AddPages(services, routes);

@@ -6,9 +6,12 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "catalog/fields/fields.h"
 #include "catalog/fields/price.h"
+#include "catalog/store/store.h"
 
 namespace plenum::catalog {
 
@@ -137,6 +140,13 @@ inline Part Reservoir(const std::string& id) {
     part.numbers[field] = {500.0, Provenance::kDatasheet, "page 1"};
   part.numbers["mass_kg"].value = 0.2;
   return part;
+}
+
+// What an import takes.
+inline PartSource EachOf(std::vector<Part> parts) {
+  return [parts = std::move(parts)](const TakeEach& take) {
+    for (const Part& part : parts) take(part);
+  };
 }
 
 }  // namespace plenum::catalog

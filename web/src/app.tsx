@@ -1,4 +1,5 @@
 // The frame: where one is, the units, light or dark.
+import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
 import { hasToken, wantsToken } from './lib/api';
@@ -67,6 +68,63 @@ const addressOf = (name: string): string =>
 
 const sameAs = (name: string) => (view.value === name ? 'page' : undefined);
 
+// Units and colours. Where there is little room they stand behind a button, so that the views come first.
+function Settings() {
+  const isOpen = useSignal(false);
+  return (
+    <>
+      <button
+        type="button"
+        class="units-button"
+        aria-expanded={isOpen.value}
+        aria-controls="units"
+        onClick={() => (isOpen.value = !isOpen.value)}
+      >
+        Units
+      </button>
+      <div class={`units ${isOpen.value ? 'open' : ''}`} id="units">
+        {hasToken() && (
+          <button type="button" onClick={() => (wantsToken.value = 'change')}>
+            Token…
+          </button>
+        )}
+        <Segmented
+          hideLabel
+          label="Unit of pressure"
+          options={pressureUnits}
+          value={pressureUnit.value}
+          onChange={(v) => (pressureUnit.value = v)}
+        />
+        <Segmented
+          hideLabel
+          label="Pressure above ambient or absolute"
+          options={references}
+          value={reference.value}
+          onChange={(v) => (reference.value = v)}
+        />
+        <Segmented
+          hideLabel
+          label="Unit of volume"
+          options={volumeUnits}
+          value={volumeUnit.value}
+          onChange={(v) => (volumeUnit.value = v)}
+        />
+        <Segmented
+          hideLabel
+          label="Colours"
+          value={theme.value}
+          onChange={(v) => (theme.value = v)}
+          options={[
+            { value: 'system', label: 'auto' },
+            { value: 'light', label: 'light' },
+            { value: 'dark', label: 'dark' },
+          ]}
+        />
+      </div>
+    </>
+  );
+}
+
 export function App() {
   useShortcuts();
   useEffect(() => void refreshModels(), []);
@@ -115,45 +173,7 @@ export function App() {
             Docs
           </a>
         </nav>
-        <div class="units">
-          {hasToken() && (
-            <button type="button" onClick={() => (wantsToken.value = 'change')}>
-              Token…
-            </button>
-          )}
-          <Segmented
-            hideLabel
-            label="Unit of pressure"
-            options={pressureUnits}
-            value={pressureUnit.value}
-            onChange={(v) => (pressureUnit.value = v)}
-          />
-          <Segmented
-            hideLabel
-            label="Pressure above ambient or absolute"
-            options={references}
-            value={reference.value}
-            onChange={(v) => (reference.value = v)}
-          />
-          <Segmented
-            hideLabel
-            label="Unit of volume"
-            options={volumeUnits}
-            value={volumeUnit.value}
-            onChange={(v) => (volumeUnit.value = v)}
-          />
-          <Segmented
-            hideLabel
-            label="Colours"
-            value={theme.value}
-            onChange={(v) => (theme.value = v)}
-            options={[
-              { value: 'system', label: 'auto' },
-              { value: 'light', label: 'light' },
-              { value: 'dark', label: 'dark' },
-            ]}
-          />
-        </div>
+        <Settings />
       </header>
       <main tabIndex={-1}>
         <View />

@@ -284,7 +284,7 @@ test('a part is added and the ranking changes', async () => {
   await page.goto(`${service.base}/#/catalogue/battery?part=${pack.id}`);
   await page.getByRole('button', { name: 'Copy', exact: true }).click();
   await page.getByLabel('Part number').fill('half as heavy');
-  await page.getByLabel('mass', { exact: true }).fill(String((pack.mass_kg / 2).toFixed(4)));
+  await page.getByLabel('Mass', { exact: true }).fill(String((pack.mass_kg / 2).toFixed(4)));
   await page.getByRole('button', { name: 'Add the part' }).click();
   await page.getByRole('heading', { name: /battery: \d+ parts/ }).waitFor();
   await page.getByRole('checkbox', { name: /^user/ }).check();

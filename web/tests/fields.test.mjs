@@ -28,6 +28,7 @@ test('a field that cannot be read blocks the search, with the reason, and is gon
   await canBeSearched.waitFor();
   await page.getByText('Wall supply').click();
   await page.getByText('Ambient, numbers of parts').click();
+  await page.getByText('Gait: when in the period').click();
   await page.getByRole('button', { name: 'weighted sum' }).click();
   await page.getByText("Probability of meeting everything within the parts' tolerances").click();
   const fields = page.locator('input[data-pointer][inputmode=decimal]');
@@ -118,7 +119,10 @@ test('what cannot be read of a part or a rig is not taken for what stood there',
   assert.equal(page.url().includes('job='), false);
   // With a unit it is understood.
   await expansion.fill('2');
+  await page.getByLabel('Volume at rest').fill('50 mL');
   await page.getByLabel('Operating pressure').fill('1 bar');
+  await page.getByLabel('Conductance C of the line').fill('0.05');
+  await page.getByLabel('Critical ratio b').fill('0.3');
   await page.getByLabel('Source pressure').fill('2 bar');
   await page.getByRole('button', { name: 'Find what the model lacks' }).click();
   await page.waitForFunction(() => location.hash.includes('job='));

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
 import {
-  example,
+  preset,
   openPage,
   rank,
   startBrowser,
@@ -23,7 +23,7 @@ after(async () => {
 });
 
 const few = (name, count = 5) => ({
-  ...example(name),
+  ...preset(name),
   ranking: { count, time_limit_s: 30 },
 });
 const idOf = (page) => /designs\/([0-9a-f]+)/.exec(page.url())[1];

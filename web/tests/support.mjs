@@ -127,6 +127,15 @@ export const textOf = async (download) =>
 export const example = (name) =>
   JSON.parse(readFileSync(join(top, 'examples', `${name}.json`), 'utf8'));
 
+// An example as the page begins with it: the usual limit of a pressure is left to the service.
+export function preset(name) {
+  const requirements = example(name);
+  for (const group of requirements.actuators)
+    if (Math.abs(group.pressure_kpa_gauge_max / group.operating_pressure_kpa_gauge - 1.05) < 1e-9)
+      delete group.pressure_kpa_gauge_max;
+  return requirements;
+}
+
 // A job that has ended by itself.
 export async function ended(service, self) {
   for (;;) {

@@ -1,14 +1,10 @@
 #include "api/design/given/evaluation.h"
 
-#include <chrono>
 #include <optional>
 
 #include "api/design/design_document.h"
+#include "api/design/given/given_request.h"
 #include "api/design/given/why_not_first.h"
-#include "api/design/read/combination.h"
-#include "api/design/read/design_reader.h"
-#include "api/design/read/power.h"
-#include "api/design/read/requirements_reader.h"
 #include "api/json/json.h"
 #include "api/json/remarks.h"
 #include "api/json/shared_fields.h"
@@ -22,13 +18,6 @@
 namespace plenum::api {
 namespace {
 
-std::function<bool()> After(double seconds) {
-  using Clock = std::chrono::steady_clock;
-  return [start = Clock::now(), limit = std::chrono::duration<double>(seconds)] {
-    return Clock::now() - start > limit;
-  };
-}
-
 std::string WhyUnknown(bool out_of_time, double seconds_max) {
   return (out_of_time ? "out of time after " + Decimal(seconds_max) + " s"
                       : std::string("the simulator found no cycle that repeats")) +
@@ -39,36 +28,10 @@ std::string WhyUnknown(bool out_of_time, double seconds_max) {
 
 Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>& parts,
                            const std::vector<catalog::ModelRevision>& models, double seconds_max) {
-  Errors errors;
-  RemarkRecorder recorder;
-  Reader reader(request, "", errors);
-  reader.Schema("evaluation/1");
-  const Json* requirements = reader.Raw("requirements");
-  if (requirements == nullptr)
-    reader.Fail("requirements", "is required: a document requirements/1");
-  if (!errors.empty()) return errors;
-  auto parsed = ParseRequirements(*requirements, parts, models);
-  if (auto* wrong = std::get_if<Errors>(&parsed)) {
-    PutUnder("/requirements", *wrong);
-    return *wrong;
-  }
-  const optimizer::Problem& problem = std::get<DesignRequest>(parsed).problem;
-  Remarks remarks = std::get<DesignRequest>(parsed).remarks;
-  remarks.PutUnder("/requirements");
-  TellAmbient(problem.ambient);
-  std::optional<optimizer::Design> beside;
-  if (const std::optional<Reader> other = reader.OptionalObject("beside"))
-    beside = ReadGivenDesign(*other, problem);
-  optimizer::Design given = ReadGivenDesign(reader.Object("design"), problem);
-  reader.Finish();
-  const auto complete = [&](optimizer::Design& design, const char* pointer) {
-    AddOutsidePower(problem, design);
-    if (errors.empty()) CheckCombination(design, problem, parts, pointer, errors);
-    if (errors.empty()) design = WithReservoirVolume(std::move(design), problem);
-  };
-  complete(given, "/design");
-  if (beside) complete(*beside, "/beside");
-  if (!errors.empty()) return errors;
+  auto read = ReadGivenRequest(request, parts, models);
+  if (auto* errors = std::get_if<Errors>(&read)) return *errors;
+  const auto& [asked, given, beside, remarks] = std::get<GivenRequest>(read);
+  const optimizer::Problem& problem = asked.problem;
   const auto out_of_time = After(seconds_max);
   const auto [source, unknown, design] =
       optimizer::EvaluateAtSettings(optimizer::WithPartsOf(problem, given), given, out_of_time);
@@ -88,7 +51,6 @@ Parsed<Json> RunEvaluation(const Json& request, const std::vector<catalog::Part>
         first.design ? WhyNotFirst(problem, parts, {given, design, *first.design}, out_of_time)
                      : Json(nullptr);
   }
-  remarks.Append(recorder.Take());
   remarks.AddTo(answer);
   return answer;
 }

@@ -1,9 +1,11 @@
-// What another seed does to a catalogue.
+// What another seed does to a catalogue, as values.
 #ifndef PLENUM_CATALOG_STORE_SEED_SEED_PLAN_H_
 #define PLENUM_CATALOG_STORE_SEED_SEED_PLAN_H_
 
 #include <string>
 #include <vector>
+
+#include "catalog/store/revision.h"
 
 namespace plenum::catalog {
 
@@ -13,6 +15,11 @@ struct SeedPlan {
   std::vector<std::string>
       kept;  // of the seed, which a user changed, added or removed: they stay so
   bool operator==(const SeedPlan&) const = default;
+};
+
+struct SeedUpdate {
+  SeedPlan plan;
+  Revision revision;  // the one that holds it; the head where nothing was written
 };
 
 }  // namespace plenum::catalog

@@ -55,4 +55,15 @@ SeedPlan ReplaceSeedRows(SqlDatabase& db, const std::vector<Part>& seed, Revisio
   return plan;
 }
 
+SeedUpdate UpdateSeedRows(SqlDatabase& db, const std::vector<Part>& seed, const std::string& who,
+                          bool dry_run) {
+  SqlTransaction transaction(db, Purpose::kWrite);
+  RevisionWriter writer(db);
+  SeedUpdate update{ReplaceSeedRows(db, seed, writer), writer.head()};
+  if (dry_run) return update;
+  update.revision = writer.Record(who, std::string(kSeedWrite));
+  transaction.Commit();
+  return update;
+}
+
 }  // namespace plenum::catalog

@@ -2,6 +2,7 @@
 #ifndef PLENUM_CATALOG_STORE_SEED_SEED_ROWS_H_
 #define PLENUM_CATALOG_STORE_SEED_SEED_ROWS_H_
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,10 @@ std::vector<Part> SeedRows(std::vector<Part> parts);
 
 // Changes what `seed` (SeedRows) changes; UpdateSeed (seed_update.h) says what stays.
 SeedPlan ReplaceSeedRows(SqlDatabase& db, const std::vector<Part>& seed, RevisionWriter& writer);
+
+// The same as one revision, or, in a dry run, what that would be.
+SeedUpdate UpdateSeedRows(SqlDatabase& db, const std::vector<Part>& seed, const std::string& who,
+                          bool dry_run);
 
 }  // namespace plenum::catalog
 

@@ -39,13 +39,7 @@ SeedUpdate UpdateSeed(const std::filesystem::path& catalog, const std::filesyste
   const std::vector<Part> parts = Named(seed, [&] { return SeedRows(PartsOf(seed)); });
   return Named(catalog, [&]() -> SeedUpdate {
     const auto db = Connect(catalog.string(), Access::kWrite);
-    SqlTransaction transaction(*db, Purpose::kWrite);
-    RevisionWriter writer(*db);
-    SeedUpdate update{ReplaceSeedRows(*db, parts, writer), writer.head()};
-    if (dry_run) return update;
-    update.revision = writer.Record(who, std::string(kSeedWrite));
-    transaction.Commit();
-    return update;
+    return UpdateSeedRows(*db, parts, who, dry_run);
   });
 }
 

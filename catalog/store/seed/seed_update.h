@@ -5,15 +5,9 @@
 #include <filesystem>
 #include <string>
 
-#include "catalog/store/revision.h"
 #include "catalog/store/seed/seed_plan.h"
 
 namespace plenum::catalog {
-
-struct SeedUpdate {
-  SeedPlan plan;
-  Revision revision;  // the one that holds it; the head where nothing was written
-};
 
 // Makes the seed rows of `catalog` those of the catalogue `seed`, as one revision, or, in a dry
 // run, says what that would do. Rows that users added or changed stay, and so do seed rows that

@@ -176,7 +176,20 @@ std::string StatusText(const Json& answer) {
          first;
 }
 
-// "Left out were 3 parts by exclude, 40 by prices.": the proof speaks of the others.
+std::string_view WhyLeftOut(std::string_view reason) {
+  static constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+      {"exclude", "excluded"},
+      {"require", "beside those required"},
+      {"orderable", "that cannot be ordered"},
+      {"vacuum", "not rated for vacuum"},
+      {"prices", "without a price"}};
+  for (const auto& [name, words] : kWords)
+    if (name == reason) return words;
+  return reason;
+}
+
+// "Parts left out of the catalogue: 3 excluded, 40 without a price.": the proof speaks of the
+// others.
 std::string LeftOutText(const Json& answer) {
   std::string text;
   const Json left_out = answer.value("left_out", Json::object());
@@ -184,8 +197,8 @@ std::string LeftOutText(const Json& answer) {
     std::size_t parts = what.is_array() ? what.size() : 0;
     if (what.is_object())
       for (const auto& [family, count] : what.items()) parts += count.get<std::size_t>();
-    text += fmt::format("{}{} by {}", text.empty() ? "Left out of the catalogue: " : ", ",
-                        Grouped(parts), why);
+    text += fmt::format("{}{} {}", text.empty() ? "Parts left out of the catalogue: " : ", ",
+                        Grouped(parts), WhyLeftOut(why));
   }
   return text.empty() ? text : text + ".\n";
 }

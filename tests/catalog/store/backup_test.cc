@@ -58,8 +58,9 @@ TEST_F(Backups, IsOfOneMomentWhileTheCatalogueIsWritten) {
   std::jthread writer([&](const std::stop_token& stop) {
     Store store = Write();
     for (; !stop.stop_requested(); ++writes)
-      store.Import(
-          {Reservoir("a" + std::to_string(writes)), Reservoir("b" + std::to_string(writes))}, {});
+      store.Import(EachOf({Reservoir("a" + std::to_string(writes)),
+                           Reservoir("b" + std::to_string(writes))}),
+                   {});
   });
   for (int i = 0; i < 8; ++i) {
     while (writes < 3 * i) std::this_thread::yield();

@@ -140,7 +140,7 @@ class Crash : public InFolder {
 };
 
 TEST_F(Crash, AddingReplacingAndRemovingAreAllOrNothing) {
-  Write().Import({Reservoir("a"), Reservoir("b")}, {});
+  Write().Import(EachOf({Reservoir("a"), Reservoir("b")}), {});
   ExpectAllOrNothing(Writing([](Store& store) { store.Add(Reservoir("new")); }));
   Part other = Reservoir("a");
   other.notes = std::string(4000, 'n');
@@ -154,8 +154,10 @@ TEST_F(Crash, ImportingAndUndoingAreAllOrNothing) {
   for (int i = 0; i < kParts; ++i)
     parts.push_back(AnyPart(*FindFamily("compressor"), "p" + std::to_string(i), random));
   Write().Add(parts.front());
-  ExpectAllOrNothing(Writing([&](Store& store) { store.Import(parts, {"", "key", "digest"}); }));
-  Write().Import(parts, {});
+  ExpectAllOrNothing(Writing([&](Store& store) {
+    store.Import(EachOf(parts), {"", "key", "digest"});
+  }));
+  Write().Import(EachOf(parts), {});
   ExpectAllOrNothing(Writing([](Store& store) { store.Undo(store.Head().number, {}); }));
 }
 

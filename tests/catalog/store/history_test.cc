@@ -64,7 +64,7 @@ class History : public InStore {
       case 2: {
         std::vector<Part> parts{part};
         parts.push_back(AnyPart(family, std::string(family.name) + "-more", random));
-        EXPECT_EQ(store.Import(parts, by).write.status, WriteStatus::kDone);
+        EXPECT_EQ(store.Import(EachOf(parts), by).write.status, WriteStatus::kDone);
         for (const Part& imported : parts) state[imported.id] = imported;
         return true;
       }
@@ -167,7 +167,7 @@ TEST_P(History, UndoBringsBackWhatWasAndCanBeUndone) {
 
 TEST_P(History, UndoRefusesToOverwriteALaterChange) {
   Store store = Write();
-  store.Import({Reservoir("a"), Reservoir("b")}, {});
+  store.Import(EachOf({Reservoir("a"), Reservoir("b")}), {});
   const std::int64_t imported = store.Head().number;
   Part changed = Reservoir("b");
   changed.notes = "mine";
@@ -213,13 +213,13 @@ TEST_P(History, ARepeatedImportAnswersAsTheFirstDid) {
   replaced.notes = "imported";
   const std::vector<Part> parts{Reservoir("new"), replaced, same};
   const Signature by{"ann", "key", "digest"};
-  const ImportResult first = store.Import(parts, by);
+  const ImportResult first = store.Import(EachOf(parts), by);
   EXPECT_THAT(first.plan.added, ElementsAre("new"));
   EXPECT_THAT(first.plan.replaced, ElementsAre("old"));
   EXPECT_THAT(first.plan.unchanged, ElementsAre("same"));
   store.Remove("new");
   const auto now = store.List();
-  const ImportResult again = store.Import(parts, by);
+  const ImportResult again = store.Import(EachOf(parts), by);
   EXPECT_EQ(again.write.status, WriteStatus::kRepeated);
   EXPECT_EQ(again.write.revision, first.write.revision);
   EXPECT_THAT(again.plan.added, ElementsAre("new"));
@@ -233,15 +233,15 @@ TEST_P(History, ImportIsAllOrNothing) {
   std::mt19937 random(41);
   store.Add(AnyPart(*FindFamily("valve"), "v", random));
   const Revision before = store.Head();
-  const ImportResult taken = store.Import({Reservoir("a"), Reservoir("v")}, {});
+  const ImportResult taken = store.Import(EachOf({Reservoir("a"), Reservoir("v")}), {});
   EXPECT_EQ(taken.write.status, WriteStatus::kExists);
   EXPECT_THAT(taken.plan.taken, ElementsAre("v"));
   Part bad = Reservoir("b");
   bad.numbers.clear();
-  EXPECT_EQ(store.Import({Reservoir("a"), bad}, {}).write.status, WriteStatus::kInvalid);
+  EXPECT_EQ(store.Import(EachOf({Reservoir("a"), bad}), {}).write.status, WriteStatus::kInvalid);
   Part twin = Reservoir("a");
   twin.notes = "another";
-  EXPECT_THROW(store.Import({Reservoir("a"), twin}, {}), StoreError);
+  EXPECT_THROW(store.Import(EachOf({Reservoir("a"), twin}), {}), StoreError);
   EXPECT_EQ(store.Head(), before);
   EXPECT_EQ(store.Get("a"), std::nullopt);
 }

@@ -50,7 +50,7 @@ TEST_P(StoredParts, AnExportImportedElsewhereIsExportedByteForByte) {
     const std::string name(family.name), exported = WriteCsv(name, store.List(name));
     const CsvParts read = ReadCsv(name, exported);
     ASSERT_THAT(read.errors, ElementsAre());
-    ASSERT_EQ(other.Import(read.parts, {}).plan.added.size(), 30u);
+    ASSERT_EQ(other.Import(EachOf(read.parts), {}).plan.added.size(), 30u);
     EXPECT_EQ(WriteCsv(name, other.List(name)), exported) << name;
   }
   EXPECT_EQ(other.List(), store.List());

@@ -119,6 +119,7 @@ TEST(Quantity, ReadsTheUnitsOfRequests) {
       {"200 ms", "rise_time_s_max", 0.2},
       {"2 min", "t_end_s", 120},
       {"6 1/min", "frequency_hz", 0.1},
+      {"30 per minute", "frequency_hz", 0.5},
       {"500 mHz", "frequency_hz", 0.5},
       {"20 °C", "temperature_k", 293.15},
       {"20 degC", "temperature_k", 293.15},
@@ -183,6 +184,12 @@ TEST(Quantity, KnowsTheUnitOfAName) {
   EXPECT_EQ(UnitOf("viscous_pa2_s_per_kg"), "Pa²·s/kg");
   for (const char* name : {"count", "critical_ratio", "cylinders_max", "co2_max", "to_fraction"})
     EXPECT_EQ(UnitOf(name), "") << name;
+}
+
+TEST(Quantity, NamesItsUnitsAsTheyAreWritten) {
+  EXPECT_EQ(UnitNames("sonic_conductance_dm3_per_s_bar"),
+            "dm3/(s·bar), L/(s·bar), L/(min·bar), m3/(s·Pa)");
+  EXPECT_EQ(UnitNames("frequency_hz"), "Hz, mHz, kHz, 1/min");
 }
 
 TEST(Quantity, EveryFieldWithAUnitHasOneInItsName) {

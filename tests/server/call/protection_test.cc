@@ -177,8 +177,9 @@ TEST_F(WithTokens, TheHeadIsJudgedBeforeTheBody) {
   };
   for (const char* route :
        {"POST /v1/designs", "POST /v1/diagnoses", "POST /v1/simulations", "POST /v1/evaluations",
-        "POST /v1/maps", "POST /v1/parts", "PUT /v1/parts/x", "DELETE /v1/parts/x",
-        "POST /v1/models", "POST /v1/revisions/1/undo", "GET /v1/parts"}) {
+        "POST /v1/fmus", "POST /v1/maps", "POST /v1/catalog/update", "POST /v1/parts",
+        "PUT /v1/parts/x", "DELETE /v1/parts/x", "POST /v1/models", "POST /v1/revisions/1/undo",
+        "GET /v1/parts"}) {
     EXPECT_EQ(status(announced(route, "none")), "401") << route;
     EXPECT_EQ(status(announced(route, writer)), "100") << route;
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <httplib.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <map>
@@ -68,12 +69,19 @@ class Described : public testing::Test {
     api_ = JsonOf(client_.Get("/openapi.json")->body);
   }
 
+  // Where an installed catalogue will stand.
+  static std::filesystem::path Seed() {
+    return std::filesystem::path(testing::TempDir()) /
+           ("plenum-openapi-" + std::to_string(getpid()) + ".db");
+  }
+
   // One job and no queue.
   static HttpOptions Narrow() {
     HttpOptions options;
     options.jobs.workers = 1;
     options.jobs.queued_max = 0;
     options.docs = test::SourceDir() / "web" / "dist";  // any folder with an index.html
+    options.seed = Seed();
     return options;
   }
 
@@ -203,6 +211,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   for (const auto& [path, example] :
        {std::pair{std::string("/v1/simulations"), api::ExampleSimulation()},
         std::pair{std::string("/v1/evaluations"), api::ExampleEvaluation()},
+        std::pair{std::string("/v1/fmus"), api::ExampleEvaluation()},
         std::pair{std::string("/v1/maps"), api::ExampleMap()}}) {
     Post(path, example.dump(), 200);
     Post(path, "[", 400);
@@ -279,6 +288,12 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   Post(undo, "", 200, {{"Idempotency-Key", "k"}}, "", number(0));
   Post(undo, "", 422, {{"Idempotency-Key", "k"}}, "", number(1));
   Post(undo, "", 404, {}, "", "1000000");
+  const std::string update = "/v1/catalog/update";
+  Post(update, "", 404);
+  std::filesystem::copy_file(test::SourceDir() / "catalog.db", Seed());
+  Post(update, "", 200, {}, "?dry_run=true");
+  Post(update, "", 422, {}, "?dry_run=perhaps");
+  std::filesystem::remove(Seed());
   // Models.
   const Json model = {{"name", "bench"}, {"model", api::ExampleModel()}};
   Post("/v1/models", model.dump(), 201);

@@ -27,16 +27,16 @@ using testing::StartsWith;
 constexpr int kManyParts = 6000;
 
 std::string FillCatalogue(const Workbench& bench) {
-  std::vector<catalog::Part> parts;
-  parts.reserve(kManyParts);
   api::Json document = NewFitting("x");
   document["notes"] = std::string(3900, 'n');
   catalog::Part part = std::get<catalog::Part>(api::ParsePart(document));
-  for (int i = 0; i < kManyParts; ++i) {
-    part.id = "many-" + std::to_string(i);
-    parts.push_back(part);
-  }
   catalog::Store store(bench.catalog(), catalog::Access::kWrite);
+  const auto parts = [&](const catalog::TakeEach& take) {
+    for (int i = 0; i < kManyParts; ++i) {
+      part.id = "many-" + std::to_string(i);
+      take(part);
+    }
+  };
   store.Import(parts, {"test", "", ""});
   return catalog::WriteCsv("fitting", store.List("fitting"));
 }

@@ -78,13 +78,14 @@ export async function ask<T>(
   }
   if (response.status === 401) wantsToken.value = hasToken() ? 'refused' : 'none';
   if (!response.ok) throw await problemOf(response);
+  return { body: await bodyOf<T>(response), status: response.status, headers: response.headers };
+}
+
+async function bodyOf<T>(response: Response): Promise<T> {
+  const type = response.headers.get('Content-Type') ?? '';
+  if (type === 'application/octet-stream') return (await response.blob()) as T;
   const text = response.status === 204 ? '' : await response.text();
-  const isJson = (response.headers.get('Content-Type') ?? '').includes('json');
-  return {
-    body: (isJson && text ? JSON.parse(text) : text) as T,
-    status: response.status,
-    headers: response.headers,
-  };
+  return (type.includes('json') && text ? JSON.parse(text) : text) as T;
 }
 
 export const get = async <T>(path: string): Promise<T> => (await ask<T>('GET', path)).body;

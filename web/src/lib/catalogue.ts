@@ -6,6 +6,8 @@ import type { Family, Part, Provenance } from './types';
 
 export const families = signal<Family[]>([]);
 export const familyCounts = signal<Record<string, number>>({});
+// The part that was added last in this visit, until it is no longer told of.
+export const added = signal<Part | null>(null);
 export const revision = signal<{ number: number; hash: string } | null>(null);
 
 interface Page {

@@ -76,12 +76,12 @@ export function duration(seconds: number): string {
   return `${Math.floor(seconds / 3600)} h ${Math.round((seconds % 3600) / 60)} min`;
 }
 
-// A time of the service (RFC 3339) in the reader's own clock; the day unless it is today's.
-export const moment = (at: string): string => {
+// A time of the service (RFC 3339) in the reader's own clock; the day unless it is today's, or always.
+export const moment = (at: string, withDay = false): string => {
   const time = new Date(at);
   const two = (n: number) => String(n).padStart(2, '0');
   const day = `${time.getFullYear()}-${two(time.getMonth() + 1)}-${two(time.getDate())} `;
-  const isToday = time.toDateString() === new Date().toDateString();
+  const isToday = !withDay && time.toDateString() === new Date().toDateString();
   return `${isToday ? '' : day}${two(time.getHours())}:${two(time.getMinutes())}`;
 };
 

@@ -19,11 +19,11 @@ export interface Run {
 
 export interface Rig {
   actuator: {
-    rest_volume_ml: number;
-    expansion_ratio: number;
-    operating_pressure_kpa_gauge: number;
+    rest_volume_ml?: number;
+    expansion_ratio?: number;
+    operating_pressure_kpa_gauge?: number;
   };
-  line: { sonic_conductance_dm3_per_s_bar: number; critical_ratio: number };
+  line: { sonic_conductance_dm3_per_s_bar?: number; critical_ratio?: number };
   supply: { kind: 'regulated' | 'measured' | 'compressor' | 'none' };
   [more: string]: unknown;
 }
@@ -261,11 +261,8 @@ export function readCsv(text: string): Run[] {
   return [...runs.values()];
 }
 
-export const plainRig = (): Rig => ({
-  actuator: { rest_volume_ml: 50, expansion_ratio: 2, operating_pressure_kpa_gauge: 100 },
-  line: { sonic_conductance_dm3_per_s_bar: 0.05, critical_ratio: 0.3 },
-  supply: { kind: 'regulated' },
-});
+// Of a CSV, before its numbers are written: those of another rig would pass for its own.
+export const emptyRig = (): Rig => ({ actuator: {}, line: {}, supply: { kind: 'regulated' } });
 
 // What a file holds: a measurement, runs of a CSV, or the rig that a CSV was measured on.
 export type Content =

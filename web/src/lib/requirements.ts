@@ -6,15 +6,27 @@ import exosuit from '../../../examples/exosuit.json';
 import gripper from '../../../examples/gripper.json';
 import { asProblem, type FieldError, post, type Problem } from './api';
 import { route, setQuery } from './route';
-import type { Requirements } from './types';
+import type { Group, Requirements } from './types';
 import { inNumbers, isOf, type Remarked, type Understood } from './understood';
 import { ambientKpa } from './units';
 
-export const presets: Record<string, Requirements> = {
-  exosuit: exosuit as Requirements,
-  gripper: gripper as Requirements,
-  crawler: crawler as Requirements,
-};
+// Limits that are the usual ones anyway are left out, so that they follow an edited pressure.
+function withoutUsualLimits(document: Requirements): Requirements {
+  const isUsual = ({ pressure_kpa_gauge_max: highest, operating_pressure_kpa_gauge: p }: Group) =>
+    typeof highest === 'number' && Math.abs(highest / p - 1.05) < 1e-9;
+  const actuators = document.actuators.map((group) => {
+    const { pressure_kpa_gauge_max: _, ...others } = group;
+    return isUsual(group) ? others : group;
+  });
+  return { ...document, actuators };
+}
+
+export const presets: Record<string, Requirements> = Object.fromEntries(
+  Object.entries({ exosuit, gripper, crawler }).map(([name, document]) => [
+    name,
+    withoutUsualLimits(document as Requirements),
+  ]),
+);
 
 const bytesOf = (text: string): string => String.fromCharCode(...new TextEncoder().encode(text));
 

@@ -43,6 +43,7 @@ export type PowerKind = 'battery' | 'wall' | 'robot';
 export interface Requirements {
   schema: 'requirements/1';
   name?: string;
+  note?: unknown;
   actuators: Group[];
   duty: { frequency_hz: number; actuations: number; simultaneous?: boolean };
   rise?: { to_fraction: number };
@@ -269,6 +270,7 @@ export interface Protocol {
 
 export interface Answer extends Remarked {
   schema: 'designs/1';
+  plenum?: string; // version
   name?: string;
   status: 'optimal' | 'feasible' | 'infeasible' | 'cancelled';
   designs: Design[];
@@ -332,6 +334,7 @@ export interface Progress {
   best: number | null;
   lower_bound: number | null;
   objective?: Requirements['objective']; // what they are amounts of
+  note?: unknown; // on the requirements
   status?: 'infeasible'; // proved; the reasons are looked for
   outcome?: Answer['status']; // in the end
 }

@@ -10,13 +10,21 @@ const provedFirst = (designs: number): string =>
       ? ' The first is proved.'
       : ` The first ${designs} are proved.`;
 
+const leftOutWhy: Record<string, string> = {
+  exclude: 'excluded',
+  require: 'beside those required',
+  orderable: 'that cannot be ordered',
+  vacuum: 'not rated for vacuum',
+  prices: 'without a price',
+};
+
 // What the proof does not speak of.
 function leftOut(answer: Answer): string {
   const parts = Object.entries(answer.left_out ?? {}).map(([why, what]) => {
     const how = Array.isArray(what) ? what.length : Object.values(what).reduce((a, b) => a + b, 0);
-    return `${count(how)} by ${why}`;
+    return `${count(how)} ${leftOutWhy[why] ?? `by ${why}`}`;
   });
-  return parts.length ? ` Left out of the catalogue: ${parts.join(', ')}.` : '';
+  return parts.length ? ` Parts left out of the catalogue: ${parts.join(', ')}.` : '';
 }
 
 export function proofInWords(answer: Answer): string {
@@ -37,7 +45,7 @@ export function proofInWords(answer: Answer): string {
       return listed === 0
         ? `Proved: nothing can be listed. ${did}`
         : answer.list === 'kinds'
-          ? `Proved: no kind of ${answer.guarantee ? 'guaranteed ' : ''}design that is not listed beats ${listed === 1 ? 'this one' : `the last of these ${listed}`}, but for further kinds with a source that is listed.${leftOut(answer)} ${did}`
+          ? `Proved: no kind of ${answer.guarantee ? 'guaranteed ' : ''}design that is not listed beats ${listed === 1 ? 'this one' : `the last of these ${listed}`}, except further kinds with a source that stands on the list.${leftOut(answer)} ${did}`
           : `Proved: no other combination of catalogue parts${answer.guarantee ? ' that is guaranteed' : ''} beats ${listed === 1 ? 'this design' : `the last of these ${listed} designs`}.${leftOut(answer)} ${did}`;
     case 'feasible':
       if (listed === 0)
@@ -51,6 +59,14 @@ export function proofInWords(answer: Answer): string {
       return `Cancelled before the proof was complete; these are the best found. ${did}`;
   }
 }
+
+// The name of a family of parts for people.
+export const familyWord = (family: string): string =>
+  family === 'co2' ? 'CO₂' : family.replaceAll('_', ' ');
+
+// A note of a document, which may be of any form.
+export const noteText = (note: unknown): string =>
+  note === undefined || note === null ? '' : typeof note === 'string' ? note : JSON.stringify(note);
 
 export interface Word {
   text: string;

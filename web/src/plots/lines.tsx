@@ -23,6 +23,13 @@ export interface Guide {
   label: string;
 }
 
+// A moment, with a line from top to bottom.
+export interface Mark {
+  value: number;
+  label: string;
+  isLimit?: boolean;
+}
+
 export interface Band {
   from: number;
   to: number;
@@ -32,7 +39,7 @@ export interface Band {
 const fontOf = (size: number): string =>
   `${size}px -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif`;
 
-function drawGuides(plot: uPlot, guides: Guide[], ink: string) {
+function drawGuides(plot: uPlot, guides: Guide[], ink: string, isLeft: boolean) {
   const { ctx, bbox } = plot;
   ctx.save();
   ctx.strokeStyle = ink;
@@ -46,14 +53,38 @@ function drawGuides(plot: uPlot, guides: Guide[], ink: string) {
     ctx.moveTo(bbox.left, y);
     ctx.lineTo(bbox.left + bbox.width, y);
     ctx.stroke();
-    ctx.textAlign = 'right';
-    ctx.textBaseline = y - bbox.top < 14 * devicePixelRatio ? 'top' : 'bottom';
+    ctx.textAlign = isLeft ? 'left' : 'right';
+    ctx.textBaseline = isLeft || y - bbox.top < 14 * devicePixelRatio ? 'top' : 'bottom';
     ctx.fillText(
       guide.label,
-      bbox.left + bbox.width - 3,
+      isLeft ? bbox.left + 3 : bbox.left + bbox.width - 3,
       ctx.textBaseline === 'top' ? y + 2 : y - 2,
     );
   }
+  ctx.restore();
+}
+
+// Labels stand beside their lines, one below the other, and inside the plot.
+function drawMarks(plot: uPlot, marks: Mark[], atTop: boolean) {
+  const { ctx, bbox } = plot;
+  const size = 10 * pageScale.peek() * devicePixelRatio;
+  ctx.save();
+  ctx.font = fontOf(size);
+  ctx.textBaseline = 'top';
+  const first = atTop ? bbox.top + 4 : bbox.top + bbox.height - 1.4 * size * marks.length;
+  marks.forEach((mark, i) => {
+    const x = plot.valToPos(mark.value, 'x', true);
+    if (x < bbox.left || x > bbox.left + bbox.width) return;
+    ctx.strokeStyle = ctx.fillStyle = colour(mark.isLimit ? '--bad' : '--c1');
+    ctx.setLineDash(mark.isLimit ? [] : [3 * devicePixelRatio, 3 * devicePixelRatio]);
+    ctx.beginPath();
+    ctx.moveTo(x, bbox.top);
+    ctx.lineTo(x, bbox.top + bbox.height);
+    ctx.stroke();
+    const isLeft = x + ctx.measureText(mark.label).width + 6 > bbox.left + bbox.width;
+    ctx.textAlign = isLeft ? 'right' : 'left';
+    ctx.fillText(mark.label, x + (isLeft ? -4 : 4), first + 1.4 * size * i);
+  });
   ctx.restore();
 }
 
@@ -78,6 +109,9 @@ export function Lines(props: {
   lines: Line[];
   height?: number;
   guides?: Guide[];
+  guidesAtLeft?: boolean; // their labels, below them, where a curve rises to them
+  marks?: Mark[];
+  marksAtTop?: boolean; // their labels
   bands?: Band[];
   yFromZero?: boolean;
   xUnit?: string;
@@ -96,6 +130,7 @@ export function Lines(props: {
     props.yLabel,
     height,
     props.guides,
+    props.marks,
     props.bands,
     props.yFromZero,
     paint,
@@ -165,7 +200,10 @@ export function Lines(props: {
         ],
         hooks: {
           drawClear: [(u) => drawBands(u, props.bands ?? [])],
-          draw: [(u) => drawGuides(u, props.guides ?? [], ink)],
+          draw: [
+            (u) => drawGuides(u, props.guides ?? [], ink, props.guidesAtLeft ?? false),
+            (u) => drawMarks(u, props.marks ?? [], props.marksAtTop ?? false),
+          ],
           setCursor: [(u) => (at.value = u.cursor.idx ?? null)],
         },
       },

@@ -64,16 +64,23 @@ export function Select<T extends string>(props: {
   options: readonly { value: T; label: string }[];
   onChange: (value: T) => void;
   hideLabel?: boolean;
+  error?: string;
+  hint?: string;
+  pointer?: string;
 }) {
   const id = useId();
+  const below = props.error ?? props.hint;
   return (
-    <span class="select">
+    <span class={`select ${props.error ? 'wrong' : ''}`}>
       <label for={id} class={props.hideLabel ? 'only-heard' : ''}>
         {props.label}
       </label>
       <select
         id={id}
         value={props.value}
+        data-pointer={props.pointer}
+        aria-invalid={props.error ? true : undefined}
+        aria-describedby={below === undefined ? undefined : `${id}-hint`}
         onChange={(event) => props.onChange(event.currentTarget.value as T)}
       >
         {props.options.map((option) => (
@@ -82,6 +89,11 @@ export function Select<T extends string>(props: {
           </option>
         ))}
       </select>
+      {below !== undefined && (
+        <span class={props.error ? 'error' : 'hint'} id={`${id}-hint`}>
+          {below}
+        </span>
+      )}
     </span>
   );
 }

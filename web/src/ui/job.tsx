@@ -4,7 +4,7 @@ import { useSignal } from '@preact/signals';
 import { asProblem } from '../lib/api';
 import { again, cancel, start } from '../lib/jobs';
 import { go } from '../lib/route';
-import type { Answer } from '../lib/types';
+import type { Answer, Requirements } from '../lib/types';
 
 export function CancelButton({ self }: { self: string }) {
   const stopping = useSignal(false);
@@ -44,13 +44,20 @@ export function AgainButton({ self, name }: { self: string; name: string }) {
   );
 }
 
-// Starts the same search with the catalogue as it is now, and goes to its list.
-export function RankAgainButton(props: { answer: Answer; label: string; tip?: string }) {
-  const { answer, label, tip } = props;
+// Starts the same search with the catalogue as it is now, or with `changed` requirements, and goes
+// to its list.
+export function RankAgainButton(props: {
+  answer: Answer;
+  label: string;
+  tip?: string;
+  changed?: (asked: Requirements) => Requirements;
+}) {
+  const { answer, label, tip, changed } = props;
   const problem = useSignal('');
   const rank = () => {
     problem.value = '';
-    start(answer.asked ?? answer.requirements).then(
+    const asked = answer.asked ?? answer.requirements;
+    start(changed ? changed(asked) : asked).then(
       (job) => go(['designs', job]),
       (error) => (problem.value = asProblem(error).sentence),
     );

@@ -10,6 +10,7 @@ export function Scroll(props: {
   label: string;
   class?: string;
   onScroll?: (event: Event) => void;
+  aside?: ComponentChildren; // over its upper right corner
   children: ComponentChildren;
 }) {
   const box = useRef<HTMLDivElement>(null);
@@ -47,6 +48,7 @@ export function Scroll(props: {
       >
         {props.children}
       </div>
+      {props.aside}
       {edges.map((edge) => (
         <i key={edge} class={`edge ${edge}`} />
       ))}

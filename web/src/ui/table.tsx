@@ -2,8 +2,10 @@
 // drawn.
 import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
+import { useRef } from 'preact/hooks';
 
 import { pageScale } from '../lib/page_scale';
+import { copyTable } from '../lib/table_copy';
 import { Scroll } from './scroll';
 
 export interface Head {
@@ -28,9 +30,14 @@ export function Table(props: {
   foot?: ComponentChildren;
   children: ComponentChildren; // the rows
 }) {
+  const table = useRef<HTMLTableElement>(null);
   return (
-    <Scroll label={props.label} class={props.boxClass}>
-      <table class={props.class}>
+    <Scroll
+      label={props.label}
+      class={props.boxClass}
+      aside={<CopyButton of={table} label={props.label} />}
+    >
+      <table ref={table} class={props.class}>
         <thead>
           <tr>
             {props.heads.map((given) => {
@@ -48,6 +55,20 @@ export function Table(props: {
         {props.foot && <tfoot>{props.foot}</tfoot>}
       </table>
     </Scroll>
+  );
+}
+
+// The whole table to the clipboard, for a spreadsheet. Seen where the pointer or the keyboard is.
+function CopyButton({ of, label }: { of: { current: HTMLTableElement | null }; label: string }) {
+  const said = useSignal('Copy');
+  const copy = () => {
+    said.value = copyTable(of.current!) ? 'Copied' : 'Not allowed';
+    setTimeout(() => (said.value = 'Copy'), 2000);
+  };
+  return (
+    <button type="button" class="small copy" aria-label={`Copy the table: ${label}`} onClick={copy}>
+      <span role="status">{said.value}</span>
+    </button>
   );
 }
 

@@ -7,9 +7,12 @@ import { asProblem } from '../lib/api';
 import { families, familyCounts, loadFamilies, loadFamily, revision } from '../lib/catalogue';
 import { go, link, route, setQuery } from '../lib/route';
 import type { Part } from '../lib/types';
+import { familyWord } from '../lib/words';
 import { Notice, Panel } from '../ui/controls';
 import { ExportButton } from '../ui/files';
+import { Added } from './added_part';
 import { CheckDialog } from './catalogue_check';
+import { SeedDialog } from './catalogue_update';
 import { Facets, filters, passes } from './facets';
 import { RevisionsDialog } from './history';
 import { ImportDialog } from './part_import';
@@ -74,13 +77,13 @@ function Elsewhere({ family }: { family: string }) {
   const others = Object.entries(familyCounts.value).filter(([name]) => name !== family);
   return (
     <Notice kind="info">
-      No {family} has these words
+      No {familyWord(family)} has these words
       {others.length > 0 ? ', but ' : '.'}
       {others.map(([name, count], i) => (
         <Fragment key={name}>
           {i > 0 && ', '}
           <a href={link(['catalogue', name], keptQuery())}>
-            {count} {name}
+            {count} {familyWord(name)}
           </a>
         </Fragment>
       ))}
@@ -91,7 +94,7 @@ function Elsewhere({ family }: { family: string }) {
 export function CatalogueView() {
   const [, asked] = route.value.path;
   const family = asked ?? 'valve';
-  const dialog = useSignal<'add' | 'import' | 'check' | 'history' | null>(null);
+  const dialog = useSignal<'add' | 'import' | 'check' | 'history' | 'update' | null>(null);
   const words = route.value.query.get('q') ?? '';
   useEffect(() => void reload(family), [family, words]);
   const meta = families.value.find((f) => f.name === family);
@@ -115,8 +118,7 @@ export function CatalogueView() {
                 href={link(['catalogue', f.name], keptQuery())}
                 aria-current={f.name === family ? 'true' : undefined}
               >
-                {f.name === 'co2' ? 'CO₂' : f.name}{' '}
-                <span class="muted">{familyCounts.value[f.name] ?? 0}</span>
+                {familyWord(f.name)} <span class="muted">{familyCounts.value[f.name] ?? 0}</span>
               </a>
             </li>
           ))}
@@ -124,7 +126,7 @@ export function CatalogueView() {
         {meta && <Facets meta={meta} list={list} />}
       </Panel>
       <Panel
-        title={`${family}: ${shown.length === list.length ? `${list.length} parts` : `${shown.length} of ${list.length} parts`}`}
+        title={`${familyWord(family)}: ${shown.length === list.length ? `${list.length} parts` : `${shown.length} of ${list.length} parts`}`}
         aside={
           <>
             <button type="button" class="primary" onClick={() => (dialog.value = 'add')}>
@@ -140,10 +142,18 @@ export function CatalogueView() {
             <button type="button" onClick={() => (dialog.value = 'history')}>
               History
             </button>
+            <button
+              type="button"
+              data-tip="What the catalogue of the installed program has newer"
+              onClick={() => (dialog.value = 'update')}
+            >
+              Update
+            </button>
           </>
         }
       >
         {problem.value && <Notice kind="bad">{problem.value}</Notice>}
+        <Added />
         {asked && families.value.length > 0 && !meta && (
           <Notice kind="bad">There is no family {asked}.</Notice>
         )}
@@ -180,6 +190,14 @@ export function CatalogueView() {
       )}
       {dialog.value === 'check' && (
         <CheckDialog family={family} onClose={() => (dialog.value = null)} />
+      )}
+      {dialog.value === 'update' && (
+        <SeedDialog
+          onClose={(changed) => {
+            dialog.value = null;
+            if (changed) void reload(family);
+          }}
+        />
       )}
       {dialog.value === 'history' && (
         <RevisionsDialog

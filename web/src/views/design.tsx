@@ -12,9 +12,11 @@ import { Chip, Notice } from '../ui/controls';
 import { csv, saveFile } from '../ui/files';
 import { VariantsPanel } from './kinds';
 import { Exchange } from './exchange';
+import { FmuButton } from './fmu_button';
 import { Maps } from './maps';
 import { MovedOn } from './moved_on';
 import { Sensitivities } from './sensitivities';
+import { Strokes } from './strokes';
 import { WhatIf } from './what_if';
 import { Estimates, Facts, MarginsPanel, PartsPanel } from './design_panels';
 import { isVacuum } from '../lib/vacuum';
@@ -72,9 +74,12 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
             >
               Response CSV
             </button>
-            <button type="button" onClick={() => print()}>
+            {!answer.model && (
+              <FmuButton name={names} design={design} requirements={answer.requirements} />
+            )}
+            <a class="button" href={link(['designs', id, String(rank), 'sheet'])}>
               Data sheet
-            </button>
+            </a>
           </span>
         </div>
         <MovedOn answer={answer} />
@@ -94,6 +99,7 @@ export function DesignPage({ answer, id, rank }: { answer: Answer; id: string; r
         <PartsPanel design={design} />
         <MarginsPanel design={design} answer={answer} />
       </div>
+      <Strokes design={design} requirements={answer.requirements} />
       <VariantsPanel design={design} />
       <Exchange answer={answer} design={design} />
       {parts.value && (

@@ -14,6 +14,7 @@ import { AgainButton, RankAgainButton } from '../ui/job';
 import { NothingLeft } from './against_nominal';
 import { ComparePanel } from './compare';
 import { Conflicts } from './conflicts';
+import { DataSheet } from './data_sheet';
 import { DesignPage } from './design';
 import { Guarantee } from './guarantee';
 import { Bests } from './kinds';
@@ -42,7 +43,7 @@ function useNewestJob(id: string | undefined) {
 }
 
 export function DesignsView() {
-  const [, id, rank] = route.value.path;
+  const [, id, rank, page] = route.value.path;
   useNewestJob(id);
   const now = useJob(id ? pathOf(id) : null);
   const { answer, saved, explanation } = useExplained(id ?? '', now?.job?.result ?? null);
@@ -88,6 +89,8 @@ export function DesignsView() {
     );
   }
   if (rank === 'compare') return <ComparePanel answer={answer} id={id} />;
+  if (rank && page === 'sheet')
+    return <DataSheet answer={answer} job={now.job} rank={Number(rank)} key={`${id}/${rank}`} />;
   if (rank) return <DesignPage answer={answer} id={id} rank={Number(rank)} key={`${id}/${rank}`} />;
   return <List answer={answer} saved={saved!} id={id} explanation={explanation} key={id} />;
 }

@@ -57,7 +57,7 @@ export function DiagnosisView({
           </div>
         )}
         <Errors d={d} />
-        {d.warnings.map((warning) => (
+        {[...new Set(d.warnings)].map((warning) => (
           <Notice key={warning} kind="warn">
             {inWords(warning)}
           </Notice>

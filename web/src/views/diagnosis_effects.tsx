@@ -95,7 +95,7 @@ export function Effects({ d }: { d: Diagnosis }) {
   ]);
   const numbers = d.numbers ?? [];
   return (
-    <Panel title="What the model gets">
+    <Panel title="What is added to the model">
       {numbers.map((n) => n.words && <p key={n.name}>{sentence(n.words)}</p>)}
       {numbers.length > 0 && <WrongNumbers numbers={numbers} />}
       {d.effects.length === 0 && numbers.length === 0 && (

@@ -61,12 +61,17 @@ export function Phases({ d }: { d: Diagnosis }) {
   return (
     <Panel title="What is left, by phase" aside={<span class="muted">after the best fit</span>}>
       <p>
-        <Test passed={white} yes="white" no="not white" untested="not tested for whiteness" />{' '}
+        <Test
+          passed={white}
+          yes="white: noise alone"
+          no="not white: structure is left"
+          untested="not tested for whiteness"
+        />{' '}
         <Test
           passed={independent_of_inputs}
-          yes="independent of the inputs"
-          no="follows the inputs"
-          untested="not tested against the inputs"
+          yes="uncorrelated with the valve commands"
+          no="correlates with the valve commands"
+          untested="not tested against the valve commands"
         />
         {d.unexplained_fraction > 0 && (
           <span>

@@ -16,7 +16,7 @@ const names: Record<Configuration, string> = {
 };
 
 // Signs in the manner of ISO 1219, 30 × 30 around the middle.
-function SourceSign({ kind }: { kind: Configuration }) {
+export function SourceSign({ kind }: { kind: Configuration }) {
   switch (kind) {
     case 'compressor':
     case 'direct_pump':
@@ -55,16 +55,16 @@ function SourceSign({ kind }: { kind: Configuration }) {
   }
 }
 
-const Regulator = () => (
+export const Regulator = () => (
   <>
     <rect x="-10" y="-10" width="20" height="20" />
     <path d="M-6 4 H6 M3 1 L6 4 L3 7" />
   </>
 );
 
-const Reservoir = () => <rect x="-16" y="-9" width="32" height="18" rx="9" />;
+export const Reservoir = () => <rect x="-16" y="-9" width="32" height="18" rx="9" />;
 
-const Valve = () => (
+export const Valve = () => (
   <>
     <rect x="-18" y="-9" width="36" height="18" />
     <path d="M0 -9 V9 M-14 5 L-4 -5 M-4 -5 h-4 M-4 -5 v4 M5 0 H13 M5 -4 V4 M13 -4 V4" />
@@ -75,7 +75,7 @@ const Valve = () => (
 const volumeOf = (group: Group): number =>
   Math.max(group.rest_volume_ml ?? group.pressure_volume?.[0]?.volume_ml ?? 0, 1e-3);
 
-function Actuator({ group, largest }: { group: Group; largest: number }) {
+export function Actuator({ group, largest }: { group: Group; largest: number }) {
   const rest = 5 + 10 * Math.cbrt(volumeOf(group) / largest);
   const ratio = group.expansion_ratio ?? 1;
   const grown = rest * Math.cbrt(isEvacuated(group) ? ratio : Math.min(Math.max(ratio, 1), 8));
@@ -89,7 +89,7 @@ function Actuator({ group, largest }: { group: Group; largest: number }) {
 
 const clip = (name: string): string => (name.length > 14 ? `${name.slice(0, 13)}…` : name);
 
-const place = (x: number, y: number) => `translate(${x} ${y})`;
+export const place = (x: number, y: number) => `translate(${x} ${y})`;
 
 export function Drawing({ requirements }: { requirements: Requirements }) {
   const kinds = kindsAsked(requirements);

@@ -65,7 +65,8 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
         {(evacuated || group.pressure_kpa_gauge_min !== undefined) && (
           <RequirementField
             label="Pressure, at least"
-            placeholder="1.05 × operating"
+            placeholder="1.05 ×"
+            hint="1.05 × operating if empty"
             kind="pressure"
             optional
             path={path('pressure_kpa_gauge_min')}
@@ -74,7 +75,8 @@ function GroupFields({ group, index, alone }: { group: Group; index: number; alo
         {(!evacuated || group.pressure_kpa_gauge_max !== undefined) && (
           <RequirementField
             label="Pressure, at most"
-            placeholder="1.05 × operating"
+            placeholder="1.05 ×"
+            hint="1.05 × operating if empty"
             kind="pressure"
             optional
             path={path('pressure_kpa_gauge_max')}

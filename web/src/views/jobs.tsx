@@ -3,13 +3,13 @@ import { useSignal } from '@preact/signals';
 import { type ComponentChildren, Fragment } from 'preact';
 import { useEffect } from 'preact/hooks';
 
-import { objectiveUnit } from '../lib/amounts';
+import { objectiveName, objectiveUnit } from '../lib/amounts';
 import { asProblem } from '../lib/api';
 import { duration, moment, significant } from '../lib/format';
 import { diagnosisList, ended, jobList, refreshDiagnoses, refreshJobs } from '../lib/jobs';
 import { link } from '../lib/route';
-import type { Job } from '../lib/types';
-import { statusWord, type Word, verdictWord } from '../lib/words';
+import type { Job, Progress } from '../lib/types';
+import { noteText, statusWord, type Word, verdictWord } from '../lib/words';
 import { Chip, Notice, Panel } from '../ui/controls';
 import { AgainButton } from '../ui/job';
 import { extra, heard, number, Table } from '../ui/table';
@@ -85,6 +85,12 @@ function remarkOn(job: Job<unknown, unknown>): string {
   return `Its computation ended the service ${times(job.crashes)}, by ${job.last_crash}; it runs alone.`;
 }
 
+// "least mass", or a weighted sum or a front of several.
+function rankedBy(progress: Progress | null): string {
+  if (!progress) return '–';
+  return progress.objective?.pareto ? 'Pareto front' : `least ${objectiveName(progress)}`;
+}
+
 function Jobs<Report extends { seconds: number; outcome?: string }>(props: {
   label: string;
   jobs: Job<unknown, Report>[] | null;
@@ -102,9 +108,10 @@ function Jobs<Report extends { seconds: number; outcome?: string }>(props: {
       heads={[
         'name',
         'result',
-        ...(props.found ? [number(props.found)] : []),
+        ...(props.found ? ['ranked by', number(props.found)] : []),
         number('took'),
         'started',
+        extra(number('catalogue revision')),
         extra({ text: 'id' }),
         heard('do it again'),
       ]}
@@ -113,18 +120,22 @@ function Jobs<Report extends { seconds: number; outcome?: string }>(props: {
         const outcome = ended(job.status) ? job.progress?.outcome : undefined;
         const word = (outcome && props.words[outcome]) || statusWords[job.status]!;
         const remark = remarkOn(job);
+        const note = noteText((job.progress as Progress | null)?.note);
         return (
           <Fragment key={job.id}>
             <tr>
               <th scope="row">
                 <a href={props.href(job.id)}>{job.name || 'unnamed'}</a>
+                {note && <small class="job-note">{note}</small>}
               </th>
               <td>
                 <Chip kind={word.kind}>{word.text}</Chip>
               </td>
+              {props.children && <td>{rankedBy(job.progress as Progress | null)}</td>}
               {props.children && <td class="num">{props.children(job)}</td>}
               <td class="num">{job.progress ? duration(job.progress.seconds) : '–'}</td>
               <td class="nowrap">{moment(job.submitted_at)}</td>
+              <td class="num extra">{job.catalogue_revision.number}</td>
               <td class="extra">
                 <code>{job.id}</code>
               </td>
@@ -136,7 +147,7 @@ function Jobs<Report extends { seconds: number; outcome?: string }>(props: {
             </tr>
             {remark && (
               <tr>
-                <td class="muted" colSpan={props.found ? 7 : 6}>
+                <td class="muted" colSpan={props.found ? 9 : 7}>
                   {remark}
                 </td>
               </tr>

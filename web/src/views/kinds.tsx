@@ -3,8 +3,9 @@
 import { amountText, axisOf, objectiveUnit, requirementName, supplyWord } from '../lib/amounts';
 import { change, count, significant } from '../lib/format';
 import { link } from '../lib/route';
-import type { Answer, Best, Design, PartRow } from '../lib/types';
+import type { Answer, Best, Design, PartRow, Requirements } from '../lib/types';
 import { Panel } from '../ui/controls';
+import { RankAgainButton } from '../ui/job';
 import { number, Table } from '../ui/table';
 
 const named = (parts: PartRow[]): string =>
@@ -30,17 +31,27 @@ export function identity(design: Pick<Design, 'parts'>): { source: string; valve
   };
 }
 
+function conflictInWords({ conflict }: Best, { requirements }: Answer): string {
+  const names = conflict.map((c) => requirementName(c.requirement, requirements.actuators));
+  return names.length === 1
+    ? `${names[0]} cannot be met`
+    : `${names.slice(0, -1).join(', ')} and ${names.at(-1)} cannot be met together`;
+}
+
 // The best design of each configuration, and of products that one can order, where the list does
 // not show it.
 export function Bests({ answer, id }: { answer: Answer; id: string }) {
-  const rows: { name: string; best: Best }[] = (answer.by_configuration ?? []).map((best) => ({
+  // `alone`: what of the supply's requirements leaves only these.
+  const rows: { name: string; best: Best; alone: Requirements['supply'] }[] = (
+    answer.by_configuration ?? []
+  ).map((best) => ({
     name: best.configuration ? supplyWord({ configuration: best.configuration }) : '',
     best,
+    alone: best.configuration ? { configurations: [best.configuration] } : {},
   }));
   if (answer.orderable && answer.orderable.design?.rank !== 1)
-    rows.push({ name: 'products to order', best: answer.orderable });
+    rows.push({ name: 'products to order', best: answer.orderable, alone: { parts: 'orderable' } });
   if (rows.length < 2) return null;
-  const groups = answer.requirements.actuators;
   const mass = axisOf('mass')!;
   return (
     <Panel title="The best of each">
@@ -54,7 +65,7 @@ export function Bests({ answer, id }: { answer: Answer; id: string }) {
           { text: 'place' },
         ]}
       >
-        {rows.map(({ name, best }) => (
+        {rows.map(({ name, best, alone }) => (
           <tr key={name}>
             <th scope="row">{name}</th>
             {best.design ? (
@@ -70,7 +81,15 @@ export function Bests({ answer, id }: { answer: Answer; id: string }) {
                       #{best.design.rank}
                     </a>
                   ) : best.status === 'optimal' ? (
-                    'proved, not listed'
+                    <>
+                      proved, not listed{' '}
+                      <RankAgainButton
+                        answer={answer}
+                        label="List these"
+                        tip={`The same search with ${name} alone`}
+                        changed={(asked) => ({ ...asked, supply: { ...asked.supply, ...alone } })}
+                      />
+                    </>
                   ) : (
                     `not proved: ${significant(best.lower_bound ?? 0)} ${objectiveUnit(answer.requirements)} at least`
                   )}
@@ -79,8 +98,7 @@ export function Bests({ answer, id }: { answer: Answer; id: string }) {
             ) : (
               <td colSpan={4}>
                 {best.status === 'infeasible' ? 'none, proved' : 'none found yet'}
-                {best.conflict.length > 0 &&
-                  `: ${best.conflict.map((c) => requirementName(c.requirement, groups)).join(', ')}`}
+                {best.conflict.length > 0 && `: ${conflictInWords(best, answer)}`}
               </td>
             )}
           </tr>
@@ -105,7 +123,9 @@ export function VariantsPanel({ design }: { design: Design }) {
       </Panel>
     );
   return (
-    <Panel title={`${variants.complete ? '' : 'At least '}${count(variants.found)} variants`}>
+    <Panel
+      title={`${variants.complete ? '' : 'At least '}${count(variants.found)} ${variants.found === 1 ? 'variant' : 'variants'}`}
+    >
       <p>
         The same pump or bottle and valves with other {variants.differ_in.join(', ')}, within 1 % of
         this design; sized, not simulated.

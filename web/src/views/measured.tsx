@@ -2,16 +2,17 @@
 import { signal, useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 
-import { ask, asProblem } from '../lib/api';
+import shipped from '../../../examples/simulated_recording.json?url';
+import { ask, asProblem, type FieldError } from '../lib/api';
 import { significant } from '../lib/format';
 import { diagnosisPath, ended, useJob } from '../lib/jobs';
 import {
   type Diagnosis,
+  emptyRig,
   type Measurement,
   measurement,
   measurementErrors,
   originalText,
-  plainRig,
   readFile,
   type Run,
   shadesOf,
@@ -59,7 +60,7 @@ async function take(files: File[], added: boolean): Promise<void> {
   }
   const name = files[0]!.name.replace(/\.[^.]*$/, '');
   data ??= more.length
-    ? { schema: 'measurement/1', name, rig: plainRig(), runs: [] }
+    ? { schema: 'measurement/1', name, rig: emptyRig(), runs: [] }
     : measurement.value;
   if (!data) {
     problem.value = 'A rig alone is no measurement: drop the CSV, too.';
@@ -81,6 +82,9 @@ export function MeasuredView() {
   const job = route.value.query.get('job');
   const now = useJob<Diagnosis, Doing>(job ? diagnosisPath(job) : null);
   const result = now?.job?.result ?? undefined;
+  // Said beside its field already.
+  const isBesideField = ({ pointer }: FieldError) =>
+    fromCsv.value && /^\/(rig|relative_uncertainty)\/|\/source_pressure_kpa_gauge$/.test(pointer);
   const isRunning = now?.job ? !ended(now.job.status) : false;
   const data = measurement.value;
   const goToWhatIsWrong = () =>
@@ -104,7 +108,7 @@ export function MeasuredView() {
       setQuery({ job: body.id });
     } catch (error) {
       const refused = asProblem(error);
-      problem.value = refused.message;
+      problem.value = refused.errors.length > 0 ? 'Numbers are missing or wrong.' : refused.message;
       measurementErrors.value = refused.errors;
       setTimeout(goToWhatIsWrong); // once the fields are marked
     } finally {
@@ -160,7 +164,7 @@ export function MeasuredView() {
       {problem.value && (
         <Notice kind="bad">
           {problem.value}
-          <ErrorList errors={measurementErrors.value} />
+          <ErrorList errors={measurementErrors.value.filter((error) => !isBesideField(error))} />
         </Notice>
       )}
       {!data && !job && <Welcome over={over.value} />}
@@ -193,6 +197,16 @@ export function MeasuredView() {
   );
 }
 
+// A recording to try it with, which comes with the page.
+async function takeShipped(): Promise<void> {
+  try {
+    const answer = await fetch(shipped);
+    await take([new File([await answer.blob()], 'simulated_recording.json')], false);
+  } catch (error) {
+    problem.value = `The recording cannot be read: ${(error as Error).message}`;
+  }
+}
+
 const Welcome = ({ over }: { over: boolean }) => (
   <div class={`drop ${over ? 'over' : ''}`}>
     <p>
@@ -209,6 +223,13 @@ r1,0.02,inflate,2.4`}
       The valve is hold, inflate or deflate. A CSV may also hold source_pressure_kpa_gauge,
       inlet_pressure_kpa_gauge, temperature_k, volume_ml and flow_l_per_min_anr. Its rig is asked
       for, or dropped beside it as JSON. Several files are read as one measurement.
+    </p>
+    <p>
+      No recording at hand?{' '}
+      <button type="button" onClick={() => void takeShipped()}>
+        Open a shipped one
+      </button>{' '}
+      It is simulated: an actuator whose wall creeps.
     </p>
   </div>
 );

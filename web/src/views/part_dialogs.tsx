@@ -8,6 +8,7 @@ import { fieldKind, fieldName, short } from '../lib/format';
 import { edit, requirements } from '../lib/requirements';
 import type { Family, Part } from '../lib/types';
 import { toShown, unitOf } from '../lib/units';
+import { familyWord } from '../lib/words';
 import { Lines } from '../plots/lines';
 import { Chip, Dialog, Notice } from '../ui/controls';
 import { number, Table } from '../ui/table';
@@ -66,7 +67,7 @@ export function PartDialog(props: {
       {now && (
         <>
           <div class="toolbar">
-            <Chip>{now.part.family}</Chip>
+            <Chip>{familyWord(now.part.family)}</Chip>
             <Chip kind={now.part.origin === 'seed' ? '' : 'good'}>
               {now.part.origin === 'seed' ? 'supplied' : 'own'}
             </Chip>
@@ -119,7 +120,7 @@ function Wish({ part }: { part: Part }) {
       <button
         type="button"
         aria-pressed={isAsked}
-        data-tip={`The next searches take no other ${part.family} than those required`}
+        data-tip={`The next searches take no other ${familyWord(part.family)} than those required`}
         onClick={() =>
           edit(['require', part.family], orNone(isAsked ? without(asked) : [...asked, part.id]))
         }

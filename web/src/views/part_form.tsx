@@ -4,10 +4,11 @@ import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 
 import { ask, asProblem, type FieldError } from '../lib/api';
-import { partPath, provenanceWord } from '../lib/catalogue';
+import { added, partPath, provenanceWord } from '../lib/catalogue';
 import { fieldKind, fieldName } from '../lib/format';
 import type { CurvePoint, Family, Part, Provenance } from '../lib/types';
 import { namesUnit } from '../lib/understood';
+import { familyWord } from '../lib/words';
 import { Dialog, Notice, NumberField, Select, TextField } from '../ui/controls';
 import { focusFirstWrong } from '../ui/refused';
 import { documentsText, offersText, readAliases, readDocuments, readOffers } from './part_details';
@@ -19,6 +20,9 @@ const printed = 'or as printed: Qn 100 L/min at 6 to 5 bar, Cv 0.05, Kv 0.04, or
 
 // Fields of several lines: what is wrong with them is said above the form.
 const inLines = ['/curve', '/aliases', '/offers', '/documents', '/orderable'];
+
+const labelOf = (name: string, isRequired: boolean): string =>
+  `${name[0]!.toUpperCase()}${name.slice(1)}${isRequired ? '' : ' (optional)'}`;
 
 const curveText = (curve: CurvePoint[] | undefined): string =>
   (curve ?? [])
@@ -77,8 +81,11 @@ export function PartForm(props: {
     name === 'id' && now.id === undefined && errors.value.length > 1
       ? undefined
       : errors.value.find((e) => e.pointer === `/${name}`)?.detail;
+  // The source of a number that is wrong itself is not another fault.
   const elsewhere = errors.value.filter(
-    (e) => !/^\/[a-z_0-9]+$/.test(e.pointer) || inLines.includes(e.pointer),
+    (e) =>
+      (!/^\/[a-z_0-9]+$/.test(e.pointer) || inLines.includes(e.pointer)) &&
+      errorAt(e.pointer.replace('/provenance/', '')) === undefined,
   );
 
   // Changed numbers get the source named here, the others keep theirs.
@@ -140,7 +147,7 @@ export function PartForm(props: {
     try {
       if (etag)
         await ask('PUT', partPath(part!.id), { body: document, headers: { 'If-Match': etag } });
-      else await ask('POST', '/v1/parts', { body: document });
+      else added.value = (await ask<Part>('POST', '/v1/parts', { body: document })).body;
       props.onClose(true);
     } catch (error) {
       const refused = asProblem(error);
@@ -164,6 +171,18 @@ export function PartForm(props: {
       value={String(now[name] ?? '')}
       error={errorAt(name)}
       options={options}
+      hint={hint}
+      pointer={`/${name}`}
+      onChange={(v) => set(name, v)}
+    />
+  );
+  const choice = (name: string, label: string, allowed: string[], hint?: string) => (
+    <Select
+      key={name}
+      label={label}
+      value={String(now[name] ?? '')}
+      options={['', ...allowed].map((value) => ({ value, label: value || 'not said' }))}
+      error={errorAt(name)}
       hint={hint}
       pointer={`/${name}`}
       onChange={(v) => set(name, v)}
@@ -197,7 +216,7 @@ export function PartForm(props: {
   return (
     <Dialog
       wide
-      title={etag ? `Edit ${part!.part_number}` : `Add a part: ${meta.name}`}
+      title={etag ? `Edit ${part!.part_number}` : `Add a part: ${familyWord(meta.name)}`}
       onClose={() => props.onClose(false)}
     >
       <form
@@ -219,20 +238,18 @@ export function PartForm(props: {
           {text('part_number', 'Part number')}
           {text('series', 'Series (optional)', usual('series'), 'what variants of one part share')}
           {!etag && text('id', 'Id', undefined, 'made from maker and number if empty')}
-          {meta.texts.map((field) =>
-            text(
-              field.name,
-              `${field.name.replaceAll('_', ' ')}${field.required ? '' : ' (optional)'}`,
-              field.allowed.length ? field.allowed : usual(field.name),
-              field.meaning,
-            ),
-          )}
+          {meta.texts.map((field) => {
+            const label = labelOf(field.name.replaceAll('_', ' '), field.required);
+            return field.allowed.length > 0
+              ? choice(field.name, label, field.allowed, field.meaning)
+              : text(field.name, label, usual(field.name), field.meaning);
+          })}
           {meta.numbers.map((field) => {
             const { label, unit } = fieldName(field.name);
             return (
               <NumberField
                 key={field.name}
-                label={`${label}${field.required ? '' : ' (optional)'}`}
+                label={labelOf(label, field.required)}
                 unit={unit}
                 kind={fieldKind(field.name)}
                 value={now[field.name] as number | string | undefined}

@@ -1,4 +1,7 @@
 // A search under way: best so far, the bound of the proof closing on it, cancel.
+import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+
 import { objectiveName, objectiveUnit } from '../lib/amounts';
 import { count, duration, percent, significant } from '../lib/format';
 import type { Watched } from '../lib/jobs';
@@ -6,6 +9,19 @@ import { Lines } from '../plots/lines';
 import { Notice, Panel } from '../ui/controls';
 import { FactList } from '../ui/facts';
 import { Bar, CancelButton } from '../ui/job';
+
+// Seconds since `seconds` were told.
+function useTicking(seconds: number | undefined): number {
+  const since = useSignal(0);
+  useEffect(() => {
+    since.value = 0;
+    if (seconds === undefined) return;
+    const told = performance.now();
+    const timer = setInterval(() => (since.value = (performance.now() - told) / 1000), 500);
+    return () => clearInterval(timer);
+  }, [seconds]);
+  return since.value;
+}
 
 export function ProgressPanel({ watched, self }: { watched: Watched; self: string }) {
   const progress = watched.job?.progress;
@@ -16,6 +32,7 @@ export function ProgressPanel({ watched, self }: { watched: Watched; self: strin
   const hasBounds = trace.some((p) => p.lower_bound);
   const unit = progress ? objectiveUnit(progress) : '';
   const name = progress ? objectiveName(progress) : '';
+  const since = useTicking(progress?.seconds);
   const queued = watched.job?.status === 'queued';
   return (
     <Panel
@@ -25,7 +42,7 @@ export function ProgressPanel({ watched, self }: { watched: Watched; self: strin
       <FactList
         isLive
         facts={[
-          ['time', progress ? duration(progress.seconds) : '–'],
+          ['time', progress ? duration(progress.seconds + since) : '–'],
           [
             name ? `least ${name} so far` : 'best so far',
             significant(best, 4),

@@ -4,6 +4,7 @@ import { placeInWords } from '../lib/amounts';
 import { short } from '../lib/format';
 import type { Answer } from '../lib/types';
 import type { Understood } from '../lib/understood';
+import { noteText } from '../lib/words';
 import { Notice, Panel } from '../ui/controls';
 
 export function Remarks({ of }: { of: Answer }) {
@@ -25,8 +26,7 @@ export function Remarks({ of }: { of: Answer }) {
         ))}
         {notes.map((note) => (
           <li key={note.pointer}>
-            Note{note.pointer && ` on ${place(note.pointer)}`}:{' '}
-            {typeof note.note === 'string' ? note.note : JSON.stringify(note.note)}
+            Note{note.pointer && ` on ${place(note.pointer)}`}: {noteText(note.note)}
           </li>
         ))}
       </ul>

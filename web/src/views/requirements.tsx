@@ -22,6 +22,7 @@ import { go } from '../lib/route';
 import type { Requirements } from '../lib/types';
 import { Notice, Panel, TextField } from '../ui/controls';
 import { FilePicker, saveFile } from '../ui/files';
+import { noteText } from '../lib/words';
 import { focusFirstWrong, focusOn } from '../ui/refused';
 import { Drawing } from './drawing';
 import { Groups } from './groups';
@@ -85,6 +86,7 @@ export function RequirementsView() {
         <div class="toolbar">
           <h1>Requirements</h1>
           <span class="toolbar-group" role="group" aria-label="Examples">
+            <span class="muted">Begin with</span>
             {Object.entries(presets).map(([name, preset]) => (
               <button
                 key={name}
@@ -122,11 +124,18 @@ export function RequirementsView() {
         <Panel
           title="Actuators"
           aside={
-            <TextField
-              label="Name"
-              value={document.name ?? ''}
-              onChange={(v) => edit(['name'], v || undefined)}
-            />
+            <>
+              <TextField
+                label="Name"
+                value={document.name ?? ''}
+                onChange={(v) => edit(['name'], v || undefined)}
+              />
+              <TextField
+                label="Note"
+                value={noteText(document.note)}
+                onChange={(v) => edit(['note'], v || undefined)}
+              />
+            </>
           }
         >
           <Groups />

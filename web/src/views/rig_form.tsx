@@ -10,9 +10,10 @@ export function RigForm() {
     (measurement.value = { ...data, rig: { ...data.rig, ...rig } });
   // Of one block of the rig, by name.
   const field = (block: 'actuator' | 'line', name: string) => {
-    const put = (v: number | string | null) => set({ [block]: { ...data.rig[block], [name]: v } });
+    const put = (v: number | string | null) =>
+      set({ [block]: { ...data.rig[block], [name]: v ?? undefined } });
     return {
-      value: (data.rig[block] as Record<string, number | string | null>)[name],
+      value: (data.rig[block] as Record<string, number | string | undefined>)[name],
       error: errorAt(`/rig/${block}/${name}`),
       pointer: `/rig/${block}/${name}`,
       takesUnits: namesUnit(name),
@@ -49,15 +50,18 @@ export function RigForm() {
   });
   return (
     <Panel title="The rig it was measured on">
+      <p class="hint">A CSV holds no numbers of its rig: write those of yours.</p>
       <div class="fields">
         <NumberField
           label="Volume at rest"
           kind="volume_ml"
+          hint="of the actuator without pressure"
           {...field('actuator', 'rest_volume_ml')}
         />
         <NumberField
           label="Expansion"
           unit="× at operating"
+          hint="volume at operating pressure by volume at rest; 1 is rigid"
           {...field('actuator', 'expansion_ratio')}
         />
         <NumberField
@@ -68,9 +72,14 @@ export function RigForm() {
         <NumberField
           label="Conductance C of the line"
           unit="dm³/(s·bar)"
+          hint="of valve, fittings and tube in series"
           {...field('line', 'sonic_conductance_dm3_per_s_bar')}
         />
-        <NumberField label="Critical ratio b" {...field('line', 'critical_ratio')} />
+        <NumberField
+          label="Critical ratio b"
+          hint="of the line; 0.3 is usual"
+          {...field('line', 'critical_ratio')}
+        />
         <NumberField label="C uncertain by" {...uncertain('sonic_conductance')} />
         <NumberField label="Volume uncertain by" {...uncertain('rest_volume')} />
         {supply.kind === 'regulated' && (

@@ -7,7 +7,7 @@ import { change as changeOf, shown, significant } from '../lib/format';
 import { seriesColours } from '../lib/theme';
 import type { Requirements, Response } from '../lib/types';
 import { type Kind, pressuresShown, toShown, unitOf } from '../lib/units';
-import { type Line, Lines } from '../plots/lines';
+import { type Guide, type Line, Lines } from '../plots/lines';
 import { Notice } from '../ui/controls';
 import { number, Table } from '../ui/table';
 
@@ -80,10 +80,12 @@ export function ResponsePlot({
       dash: [5, 3],
     });
   }
-  const guides = requirements.actuators.map((group) => ({
-    value: toShown('pressure', group.operating_pressure_kpa_gauge),
-    label: `operating ${group.name}`,
-  }));
+  const at = (value: number | null | undefined, label: string): Guide[] =>
+    value ? [{ value: toShown('pressure', value), label }] : [];
+  const guides = requirements.actuators.flatMap((group) => [
+    ...at(group.operating_pressure_kpa_gauge, `operating ${group.name}`),
+    ...at(group.pressure_kpa_gauge_max, `at most ${group.name}`),
+  ]);
   return (
     <Lines
       title="Pressures"

@@ -17,6 +17,7 @@ import { explain, type Explanation, foundNothing } from '../lib/explained';
 import { ended } from '../lib/jobs';
 import { link } from '../lib/route';
 import type { Answer, Design } from '../lib/types';
+import { familyWord } from '../lib/words';
 import { Notice, Panel } from '../ui/controls';
 import { Bar, CancelButton } from '../ui/job';
 import { ShareBar } from '../ui/share_bar';
@@ -110,6 +111,13 @@ function distance(design: Design, first: Design): string {
   return Math.abs(share) < 1e-6 ? 'is equal to it' : `comes ${change(share)} behind`;
 }
 
+// What a part would have to do less of for its design to be first.
+function reduced({ requirements }: Answer): string {
+  const minimize = requirements.objective?.minimize ?? 'mass_kg';
+  const verbs = { mass_kg: 'weigh', volume_l: 'take up', cost_eur: 'cost', energy_wh: 'draw' };
+  return typeof minimize === 'string' ? verbs[minimize] : 'count';
+}
+
 function toBeFirst(design: Design, answer: Answer): string {
   const flip = design.to_be_first;
   if (!flip) return '';
@@ -118,7 +126,7 @@ function toBeFirst(design: Design, answer: Answer): string {
   const ways = [
     part &&
       part.reduction_share > 5e-4 &&
-      `its ${part.family} would have to be ${percent(part.reduction_share)} less`,
+      `its ${familyWord(part.family)} would have to ${reduced(answer)} ${percent(part.reduction_share)} less`,
     requirement &&
       `${requirementName(requirement.requirement, answer.requirements.actuators)} would have to be ${requirementNumber(requirement.requirement, requirement.tightened)} ${requirementUnit(requirement.requirement)}`,
   ].filter(Boolean);

@@ -1,0 +1,146 @@
+// A design as a drawing: its parts by number, from the source to the actuators.
+import { quantityOf } from '../lib/amounts';
+import { rowOf } from '../lib/rig';
+import type { Design, PartRow, Requirements } from '../lib/types';
+import { shown } from '../lib/format';
+import { unitOf } from '../lib/units';
+import { hasReservoir, isDirect } from '../lib/vacuum';
+import { Actuator, place, Regulator, Reservoir, SourceSign, Valve } from './drawing';
+
+const lineChars = 22;
+const lineHeight = 13;
+
+// A text in lines of at most `lineChars`; words that are longer are cut.
+function inLines(text: string): string[] {
+  const lines: string[] = [];
+  for (const word of text.split(' ').flatMap((w) => w.match(/.{1,22}/g) ?? [])) {
+    const last = lines.at(-1);
+    if (last !== undefined && last.length + word.length < lineChars)
+      lines[lines.length - 1] = `${last} ${word}`;
+    else lines.push(word);
+  }
+  return lines;
+}
+
+const partText = (row: PartRow | undefined): string =>
+  row ? `${quantityOf(row)} ${row.manufacturer} ${row.part_number}` : '';
+
+function Label(props: { x: number; y: number; texts: (string | undefined)[] }) {
+  const lines = props.texts.flatMap((text) => (text ? inLines(text) : []));
+  return (
+    <text x={props.x} y={props.y}>
+      {lines.map((line, i) => (
+        <tspan key={i} x={props.x} dy={i === 0 ? 0 : lineHeight}>
+          {line}
+        </tspan>
+      ))}
+    </text>
+  );
+}
+
+const at = { source: 80, store: 240, bus: 320, valve: 400, tube: 560, actuator: 720 };
+const groupHeight = 130;
+
+export function Schematic({
+  design,
+  requirements,
+}: {
+  design: Design;
+  requirements: Requirements;
+}) {
+  const groups = requirements.actuators;
+  const { configuration, settings } = design;
+  const height = Math.max(260, groups.length * groupHeight + 20);
+  const middle = height / 2 - 30;
+  const yOf = (i: number) => middle + (i - (groups.length - 1) / 2) * groupHeight;
+  const source =
+    rowOf(design, 'compressor') ??
+    rowOf(design, 'vacuum_pump') ??
+    rowOf(design, 'cylinder') ??
+    rowOf(design, 'co2');
+  const reservoir = rowOf(design, 'reservoir');
+  const regulator = rowOf(design, 'regulator');
+  const battery = rowOf(design, 'battery');
+  const setting = `${shown('pressure', settings.source_pressure_kpa_gauge)} ${unitOf('pressure')}`;
+  const isTank = configuration === 'tank';
+  return (
+    <svg
+      class="drawing schematic"
+      viewBox={`0 0 800 ${height}`}
+      role="img"
+      aria-label={`Schematic: ${design.parts.map(partText).join(', ')}`}
+    >
+      <path
+        class="pipe"
+        d={`M${at.source} ${middle} H${at.bus} M${at.bus} ${yOf(0)} V${yOf(groups.length - 1)}`}
+      />
+      <g transform={place(at.source, middle)} class="sign source">
+        <SourceSign kind={configuration} />
+      </g>
+      <Label
+        x={at.source}
+        y={middle + 30}
+        texts={isTank ? [partText(reservoir)] : [source ? partText(source) : 'wall supply']}
+      />
+      {!isDirect(configuration) && !(isTank && !regulator) && (
+        <g transform={place(at.store, middle)} class="sign">
+          {hasReservoir(configuration) ? <Reservoir /> : <Regulator />}
+        </g>
+      )}
+      <Label
+        x={at.store}
+        y={middle + 30}
+        texts={[
+          isDirect(configuration)
+            ? undefined
+            : partText(hasReservoir(configuration) ? reservoir : regulator),
+          setting,
+        ]}
+      />
+      {battery && (
+        <>
+          <path class="wire" d={`M${at.source} ${height - 48} V${height - 70} H${at.valve}`} />
+          <rect class="cell" x={at.source - 14} y={height - 48} width="28" height="14" />
+          <Label x={at.source} y={height - 18} texts={[partText(battery)]} />
+          <text x={at.valve + 4} y={height - 66} class="beside">
+            to{' '}
+            {source?.family.includes('pump') || source?.family === 'compressor' ? 'pump and ' : ''}
+            valves
+          </text>
+        </>
+      )}
+      {groups.map((group, i) => {
+        const y = yOf(i);
+        return (
+          <g key={group.name}>
+            <path class="pipe" d={`M${at.bus} ${y} H${at.actuator}`} />
+            <g transform={place(at.valve, y)} class="sign">
+              <Valve />
+            </g>
+            <Label x={at.valve} y={y + 28} texts={[partText(rowOf(design, 'valve', group.name))]} />
+            <path class="tube" d={`M${at.tube - 32} ${y} q8 -12 16 0 t16 0 t16 0 t16 0`} />
+            <Label
+              x={at.tube}
+              y={y + 28}
+              texts={[
+                partText(rowOf(design, 'tubing', group.name)),
+                partText(rowOf(design, 'fitting', group.name)),
+              ]}
+            />
+            <g transform={place(at.actuator, y)} class="sign actuator">
+              <Actuator group={group} largest={group.rest_volume_ml ?? 1} />
+            </g>
+            <Label
+              x={at.actuator}
+              y={y + 40}
+              texts={[
+                `${group.count} × ${group.name}`,
+                `${shown('pressure', group.operating_pressure_kpa_gauge)} ${unitOf('pressure')}`,
+              ]}
+            />
+          </g>
+        );
+      })}
+    </svg>
+  );
+}
