@@ -9,6 +9,7 @@ export interface Stroke {
   achieved_s: number;
   limit_s: number | null;
   target_kpa_gauge: number;
+  peak_kpa_gauge: number | null; // of a rise, where the valve may close late
   t_s: number[]; // from the command on
   pressure_kpa_gauge: (number | null)[];
   source_kpa_gauge: (number | null)[];
@@ -51,21 +52,39 @@ function reached(times: number[], values: Values, isThere: (p: number) => number
   return null;
 }
 
+// A double-acting cylinder has two in the answer, one filled while the other is emptied.
+function sidesOf(group: Group, turn: number): Group[] {
+  if ((group.cylinder as { acting?: string } | undefined)?.acting !== 'double') return [group];
+  const strokes = group.strokes_per_period ?? 1;
+  const share = group.inflate_fraction ?? 0.5;
+  const begins = typeof group.phase === 'number' ? group.phase : turn / strokes;
+  const rod = { phase: (begins + share / strokes) % 1, inflate_fraction: 1 - share };
+  return [
+    { ...group, name: `${group.name}, cap side` },
+    { ...group, ...rod, name: `${group.name}, rod side` },
+  ];
+}
+
 export function strokesOf(design: Design, requirements: Requirements): Stroke[] {
   const { response } = design;
   const period = 1 / requirements.duty.frequency_hz;
   const groups = requirements.actuators;
-  return groups.flatMap((group, g) => {
+  const turnOf = (g: number) => (requirements.duty.simultaneous === false ? g / groups.length : 0);
+  const all = groups.flatMap((group, g) =>
+    sidesOf(group, turnOf(g)).map((side) => ({ group: side, turn: turnOf(g) })),
+  );
+  return all.flatMap(({ group, turn }) => {
     const traces = response.groups.filter((trace) => trace.name === group.name);
     const found = design.performance.groups.find(({ name }) => name === group.name);
     if (!found) return [];
-    const turn = requirements.duty.simultaneous === false ? g / groups.length : 0;
-    const sign = Math.sign(group.operating_pressure_kpa_gauge);
+    const operating = group.operating_pressure_kpa_gauge;
+    const sign = Math.sign(operating);
+    const peak = found.peak_kpa_gauge ?? operating;
     return [true, false].flatMap((isRise): Stroke[] => {
       const share = isRise
         ? (requirements.rise?.to_fraction ?? 0.95)
         : (requirements.fall?.to_fraction ?? 0.05);
-      const target = share * group.operating_pressure_kpa_gauge;
+      const target = share * operating;
       const achieved = isRise ? found.rise_time_s : found.fall_time_s;
       const limit = (isRise ? group.rise_time_s_max : group.fall_time_s_max) ?? null;
       const isThere = (p: number) => (isRise ? 1 : -1) * sign * (p - target);
@@ -96,6 +115,7 @@ export function strokesOf(design: Design, requirements: Requirements): Stroke[] 
             achieved_s: achieved,
             limit_s: limit,
             target_kpa_gauge: target,
+            peak_kpa_gauge: isRise && sign * (peak - operating) > 1e-6 ? peak : null,
             t_s: times,
             pressure_kpa_gauge: cutValues,
             source_kpa_gauge: cut(
