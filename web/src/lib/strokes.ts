@@ -52,31 +52,15 @@ function reached(times: number[], values: Values, isThere: (p: number) => number
   return null;
 }
 
-// A double-acting cylinder has two in the answer, one filled while the other is emptied.
-function sidesOf(group: Group, turn: number): Group[] {
-  if ((group.cylinder as { acting?: string } | undefined)?.acting !== 'double') return [group];
-  const strokes = group.strokes_per_period ?? 1;
-  const share = group.inflate_fraction ?? 0.5;
-  const begins = typeof group.phase === 'number' ? group.phase : turn / strokes;
-  const rod = { phase: (begins + share / strokes) % 1, inflate_fraction: 1 - share };
-  return [
-    { ...group, name: `${group.name}, cap side` },
-    { ...group, ...rod, name: `${group.name}, rod side` },
-  ];
-}
-
 export function strokesOf(design: Design, requirements: Requirements): Stroke[] {
   const { response } = design;
   const period = 1 / requirements.duty.frequency_hz;
   const groups = requirements.actuators;
-  const turnOf = (g: number) => (requirements.duty.simultaneous === false ? g / groups.length : 0);
-  const all = groups.flatMap((group, g) =>
-    sidesOf(group, turnOf(g)).map((side) => ({ group: side, turn: turnOf(g) })),
-  );
-  return all.flatMap(({ group, turn }) => {
+  return groups.flatMap((group, g) => {
     const traces = response.groups.filter((trace) => trace.name === group.name);
     const found = design.performance.groups.find(({ name }) => name === group.name);
     if (!found) return [];
+    const turn = requirements.duty.simultaneous === false ? g / groups.length : 0;
     const operating = group.operating_pressure_kpa_gauge;
     const sign = Math.sign(operating);
     const peak = found.peak_kpa_gauge ?? operating;

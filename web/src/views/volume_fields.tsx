@@ -2,7 +2,7 @@
 import { short } from '../lib/format';
 import { edit, errorAt, numbers, understood } from '../lib/requirements';
 import type { Group } from '../lib/types';
-import { type Shape, shapeOf, shapes } from '../lib/understood';
+import { rodSide, type Shape, shapeOf, shapes } from '../lib/understood';
 import { toShown, unitOf } from '../lib/units';
 import { Select } from '../ui/controls';
 import { RequirementField } from './requirement_field';
@@ -144,9 +144,7 @@ function ActingFields({ group, index }: { group: Group; index: number }) {
   const cylinder = (group.cylinder ?? {}) as Record<string, unknown>;
   const double = cylinder.acting === 'double';
   const rod = understood.value.find(
-    (row) =>
-      row.pointer === `/actuators/${index}/cylinder` &&
-      row.name === 'operating_volume_ml of the rod side',
+    (row) => row.pointer === `/actuators/${index}/cylinder` && row.name === rodSide,
   );
   return (
     <>
