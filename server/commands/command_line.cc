@@ -122,7 +122,8 @@ int RunCommand(int argc, const char* const* argv) {
 std::vector<Command> AllCommands() {
   return {InitCommand(),     DesignCommand(), VerifyCommand(),   EvaluateCommand(),
           SimulateCommand(), MapCommand(),    DiagnoseCommand(), ProtocolCommand(),
-          CatalogCommand(),  ServeCommand(),  JobsCommand(),     TokenCommand()};
+          CatalogCommand(),  ServeCommand(),  WorkerCommand(),   JobsCommand(),
+          TokenCommand()};
 }
 
 int RunCommandLine(int argc, const char* const* argv) {

@@ -18,6 +18,7 @@ Command DiagnoseCommand();
 Command ProtocolCommand();
 Command CatalogCommand();
 Command ServeCommand();
+Command WorkerCommand();
 Command JobsCommand();
 Command TokenCommand();
 
