@@ -4,6 +4,7 @@ rule_packages="python3 universal-ctags"  # of tests/rules
 python_packages="python3-dev pybind11-dev python3-numpy python3-pandas python3-matplotlib mypy"  # of python/
 docs_packages="python3-sphinx python3-myst-parser python3-breathe doxygen furo python3-sphinx-copybutton curl"  # of docs/
 sanitizer_packages="clang-14 libclang-rt-14-dev"  # of the preset asan
+server_packages="postgresql-15"  # of tests of catalogues on a server, which are skipped without it
 
 missing_packages() {  # names of packages.txt and of the arguments that are not installed
   local package

@@ -5,8 +5,11 @@
 #include "catalog/fields/csv.h"
 #include "catalog/store/backup.h"
 #include "catalog/store/content_hash.h"
-#include "catalog/store/job_store.h"
+#include "catalog/store/jobs/job_store.h"
+#include "catalog/store/jobs/shared_job_store.h"
 #include "catalog/store/place.h"
+#include "catalog/store/shared_tokens.h"
+#include "catalog/store/sql/address.h"
 #include "catalog/store/store.h"
 
 #endif  // PLENUM_API_CATALOGUE_STORES_H_

@@ -79,11 +79,13 @@ Json RenderPerformance(const optimizer::Performance& performance,
   Json groups = Json::array();
   for (std::size_t i = 0; i < performance.groups.size(); ++i) {
     const optimizer::GroupPerformance& group = performance.groups[i];
-    groups.push_back({{"name", problem.groups[i].name},
-                      {"rise_time_s", Number(group.rise_time_s)},
-                      {"fall_time_s", Number(group.fall_time_s)},
-                      {"inflate_time_s", Number(group.inflate_time_s)},
-                      {"frequency_hz_max", Number(group.frequency_max_hz)}});
+    groups.push_back(
+        {{"name", problem.groups[i].name},
+         {"rise_time_s", Number(group.rise_time_s)},
+         {"fall_time_s", Number(group.fall_time_s)},
+         {"inflate_time_s", Number(group.inflate_time_s)},
+         {"frequency_hz_max", Number(group.frequency_max_hz)},
+         {"peak_kpa_gauge", Number(optimizer::KpaGauge(problem, group.highest_pressure_pa))}});
   }
   return {{"groups", groups},
           {"frequency_hz_sustained", Number(performance.frequency_sustained_hz)},
@@ -122,7 +124,7 @@ void AddEstimates(const catalog::Part& row, double quantity, Quality& quality) {
 }
 
 // What is assumed of a part under vacuum that its row does not say (StandsVacuum).
-void AddAssumed(const catalog::Part& row, Quality& quality) {
+void AddAssumedOfVacuum(const catalog::Part& row, Quality& quality) {
   if (row.family == "valve" && !row.texts.contains("vacuum_rated"))
     quality.estimated.insert("valve.vacuum_rated");
   if (row.family == "vacuum_pump" && !row.numbers.contains("duty_max"))
@@ -216,7 +218,10 @@ Quality QualityOf(const optimizer::Design& design, const Rows& rows) {
       quality.estimated.insert({"reservoir.body_volume_ml", "reservoir.mass_kg"});
     } else if (const auto row = rows.find(choice.id); row != rows.end()) {
       AddEstimates(*row->second, choice.quantity, quality);
-      if (optimizer::IsVacuum(design.configuration)) AddAssumed(*row->second, quality);
+      if (optimizer::IsVacuum(design.configuration)) AddAssumedOfVacuum(*row->second, quality);
+      if (choice.family == optimizer::Family::kValve &&
+          !row->second->numbers.contains("response_time_ms"))
+        quality.estimated.insert("valve.response_time_ms");
       if (!row->second->orderable.value_or(true)) quality.not_orderable.insert(choice.id);
     }
   }

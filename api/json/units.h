@@ -10,6 +10,7 @@ inline constexpr double kPaPerKpa = 1e3;
 inline constexpr double kM3PerMl = 1e-6;
 inline constexpr double kM3PerL = 1e-3;
 inline constexpr double kMPerMm = 1e-3;
+inline constexpr double kSPerMs = 1e-3;
 inline constexpr double kM3PerSPerLPerMin = 1e-3 / 60.0;
 inline constexpr double kM3PerSPaPerDm3PerSBar = 1e-8;
 inline constexpr double kJPerWh = 3600.0;
@@ -47,6 +48,7 @@ inline double M3PerSFromLPerMin(double l_per_min) { return l_per_min * kM3PerSPe
 inline double LPerMinFromM3PerS(double m3_per_s) { return m3_per_s / kM3PerSPerLPerMin; }
 // 1 dm³/(s·bar) = 1e-8 m³/(s·Pa).
 inline double ConductanceFromDm3PerSBar(double c) { return c * kM3PerSPaPerDm3PerSBar; }
+inline double SFromMs(double ms) { return ms * kSPerMs; }
 inline double WhFromJ(double j) { return j / kJPerWh; }
 
 }  // namespace plenum::api

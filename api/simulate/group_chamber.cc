@@ -53,6 +53,11 @@ void ReadTableOf(Reader& group, const model::Ambient& ambient, double operating_
                                      Decimal(rest_ml) + " at ambient pressure");
 }
 
+void SetVolumes(const model::ActuatorVolumes& volumes, model::Chamber& chamber) {
+  chamber.rest_volume_m3 = volumes.rest_m3;
+  chamber.expansion_ratio = volumes.operating_m3 / volumes.rest_m3;
+}
+
 // Also of one too deep to be read.
 bool IsBelowZero(Reader& group) {
   const Json* given = group.Raw("operating_pressure_kpa_gauge");
@@ -69,7 +74,8 @@ void ReadEvacuated(Reader& group, const model::Ambient& ambient, double operatin
 
 }  // namespace
 
-model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient, Vacuum vacuum) {
+model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient, Vacuum vacuum,
+                           std::optional<model::Chamber>* rod_side) {
   model::Chamber chamber;
   chamber.ambient_pressure_pa = ambient.pressure_pa;
   const double deepest_kpa = DeepestKpaGauge(ambient);
@@ -97,9 +103,16 @@ model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient, Vacuum 
   if (HasShape(group)) {
     Refuse(group, "the shape of the actuator",
            {"rest_volume_ml", "expansion_ratio", "pressure_volume"});
-    if (const auto volumes = ReadShape(group)) {
-      chamber.rest_volume_m3 = volumes->rest_m3;
-      chamber.expansion_ratio = volumes->operating_m3 / volumes->rest_m3;
+    if (const auto shape = ReadShape(group)) {
+      SetVolumes(shape->volumes, chamber);
+      if (shape->rod_side && rod_side == nullptr)
+        group.FailAt("cylinder/acting",
+                     "must be single here: give each side of a double-acting cylinder as a group "
+                     "of its own");
+      if (shape->rod_side && rod_side != nullptr) {
+        *rod_side = chamber;
+        SetVolumes(*shape->rod_side, **rod_side);
+      }
     }
   } else if (group.Has("pressure_volume")) {
     Refuse(group, "pressure_volume", {"expansion_ratio"});

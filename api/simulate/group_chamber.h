@@ -2,6 +2,8 @@
 #ifndef PLENUM_API_SIMULATE_GROUP_CHAMBER_H_
 #define PLENUM_API_SIMULATE_GROUP_CHAMBER_H_
 
+#include <optional>
+
 #include "api/json/reader.h"
 #include "model/physics/air.h"
 #include "model/physics/chamber.h"
@@ -18,8 +20,12 @@ enum class Vacuum { kRefused, kAllowed };
 //   stated one must agree with it within 5 %,
 // - "cylinder", "muscle", "pouch" or "body" (shape_reader.h); the volumes and their formula go to
 //   the RemarkRecorder of the thread.
+//
+// A double-acting cylinder has another chamber on the side of the rod: it goes to `rod_side`; where
+// that is null it is an error.
 model::Chamber ReadChamber(Reader& group, const model::Ambient& ambient,
-                           Vacuum vacuum = Vacuum::kRefused);
+                           Vacuum vacuum = Vacuum::kRefused,
+                           std::optional<model::Chamber>* rod_side = nullptr);
 
 }  // namespace plenum::api
 

@@ -20,6 +20,8 @@ constexpr double kBraidAngleDeg = 25.0;
 struct Shape {
   model::ActuatorVolumes volumes;
   std::string rest_formula, operating_formula;
+  std::optional<model::ActuatorVolumes> rod_side = {};
+  std::string rod_formula = {};
 };
 
 std::string FlatFormula() {
@@ -36,10 +38,7 @@ Shape ReadCylinder(Reader& cylinder) {
   if (rod_mm && MFromMm(*rod_mm) >= bore_m)
     cylinder.Fail("rod_mm", "must be less than the bore of " + Decimal(Rounded(bore_m / kMPerMm)) +
                                 " mm, not " + Decimal(*rod_mm));
-  if (cylinder.Choice("acting", {"single", "double"}, "single") == "double")
-    cylinder.Fail("acting",
-                  "\"double\" is not built yet: only the side of the cap is computed. Write "
-                  "\"single\", or give each side as a group of its own");
+  const bool both = cylinder.Choice("acting", {"single", "double"}, "single") == "double";
   const double swept_ml = MlFromM3(model::CylinderVolumes(bore_m, stroke_m, 0.0).operating_m3);
   const auto given_ml = cylinder.OptionalNumber("dead_volume_ml", {1e-4, 1e6});
   if (given_ml && *given_ml < kDeadShareMin * swept_ml)
@@ -53,6 +52,11 @@ Shape ReadCylinder(Reader& cylinder) {
                                 : "dead volume, taken as " + Decimal(model::kDeadShare) +
                                       " of the swept volume: dead_volume_ml is not given";
   shape.operating_formula = "dead volume + π·bore²/4·stroke, full stroke";
+  if (!both) return shape;
+  const double rod_m = MFromMm(rod_mm.value_or(0.0));
+  shape.rod_side = model::RodSideVolumes(bore_m, rod_m, stroke_m, M3FromMl(dead_ml));
+  shape.rod_formula = std::string("dead volume + π·(bore² − rod²)/4·stroke") +
+                      (rod_mm ? "" : ", a rod of 0 mm: rod_mm is not given");
   return shape;
 }
 
@@ -118,6 +122,12 @@ void TellVolumes(const std::string& pointer, const Json& given, const Shape& sha
   tell("rest_volume_ml", MlFromM3(rest_m3), "mL", shape.rest_formula);
   tell("operating_volume_ml", MlFromM3(operating_m3), "mL", shape.operating_formula);
   tell("expansion_ratio", operating_m3 / rest_m3, "", "operating volume / rest volume");
+  if (!shape.rod_side) return;
+  tell("operating_volume_ml of the rod side", MlFromM3(shape.rod_side->operating_m3), "mL",
+       shape.rod_formula);
+  remarks->Warn(pointer,
+                "counts as two independent chambers, one filled while the other is "
+                "emptied: no piston, load or friction");
 }
 
 }  // namespace
@@ -128,10 +138,10 @@ bool HasShape(Reader& group) {
   return has;
 }
 
-std::optional<model::ActuatorVolumes> ReadShape(Reader& group) {
+std::optional<ShapeVolumes> ReadShape(Reader& group) {
   constexpr Shape (*kRead[])(Reader&) = {ReadCylinder, ReadMuscle, ReadPouch, ReadBody};
   static_assert(std::size(kRead) == std::size(kShapes));
-  std::optional<model::ActuatorVolumes> volumes;
+  std::optional<ShapeVolumes> volumes;
   std::string_view first;
   for (std::size_t i = 0; i < std::size(kShapes); ++i) {
     if (!group.Has(kShapes[i])) continue;
@@ -151,7 +161,7 @@ std::optional<model::ActuatorVolumes> ReadShape(Reader& group) {
       continue;
     }
     TellVolumes(group.Pointer(kShapes[i]), *group.Raw(kShapes[i]), shape);
-    volumes = shape.volumes;
+    volumes = {shape.volumes, shape.rod_side};
   }
   return volumes;
 }

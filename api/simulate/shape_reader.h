@@ -12,10 +12,15 @@ namespace plenum::api {
 
 inline constexpr std::string_view kShapes[] = {"cylinder", "muscle", "pouch", "body"};
 
+struct ShapeVolumes {
+  model::ActuatorVolumes volumes;
+  std::optional<model::ActuatorVolumes> rod_side;  // of a double-acting cylinder
+};
+
 // The volumes of the shape that the group gives; none without one, or after an error. Two shapes
 // are an error. What they come to, with the formula, goes to the RemarkRecorder of the thread:
 // rest volume, operating volume and expansion ratio, each at the pointer of the shape.
-std::optional<model::ActuatorVolumes> ReadShape(Reader& group);
+std::optional<ShapeVolumes> ReadShape(Reader& group);
 
 // Whether the group gives a shape, right or wrong.
 bool HasShape(Reader& group);

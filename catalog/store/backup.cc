@@ -10,6 +10,8 @@
 #include <string>
 
 #include "catalog/store/connection.h"
+#include "catalog/store/sql/address.h"
+#include "catalog/store/sql/sqlite_file.h"
 
 namespace plenum::catalog {
 namespace {
@@ -89,7 +91,13 @@ void RequireOurs(const fs::path& catalogue) {
   }
 }
 
-void RequireOther(const fs::path& catalogue, const fs::path& copy) {
+// Pages are copied, which a server does not give.
+void RequireFiles(const fs::path& catalogue, const fs::path& copy) {
+  for (const fs::path& place : {catalogue, copy})
+    if (IsServer(place))
+      throw StoreError(Shown(place) +
+                       ": is on a server; plenum catalog copy FROM TO copies it into a file, "
+                       "pg_dump backs up the server");
   std::error_code missing;
   if (fs::equivalent(catalogue, copy, missing))
     throw StoreError(copy.string() + " is the catalogue itself");
@@ -98,10 +106,10 @@ void RequireOther(const fs::path& catalogue, const fs::path& copy) {
 }  // namespace
 
 void Backup(const fs::path& catalogue, const fs::path& copy) {
-  RequireOther(catalogue, copy);
+  RequireFiles(catalogue, copy);
   const Beside draft(copy);
   try {
-    CopyPages(Connect(catalogue.string(), Access::kRead), draft.path());
+    CopyPages(ConnectFile(catalogue.string(), Access::kRead), draft.path());
   } catch (const SQLite::Exception& error) {
     throw ToStoreError(copy.string() + ": the copy could not be made", error);
   } catch (const StoreError& error) {
@@ -118,7 +126,7 @@ void Backup(const fs::path& catalogue, const fs::path& copy) {
 }
 
 void Restore(const fs::path& catalogue, const fs::path& copy) {
-  RequireOther(catalogue, copy);
+  RequireFiles(catalogue, copy);
   RequireOurs(catalogue);
   const Beside draft(catalogue);
   try {

@@ -1,37 +1,29 @@
-// Connections to catalog.db: opened, refused or migrated. Internal to the room.
+// A catalogue opened with the newest schema, in a file of SQLite or on a server. Internal to the
+// room.
 #ifndef PLENUM_CATALOG_STORE_CONNECTION_H_
 #define PLENUM_CATALOG_STORE_CONNECTION_H_
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include <chrono>
+#include <functional>
+#include <memory>
 #include <string>
-#include <vector>
 
-#include "catalog/store/store_error.h"
+#include "catalog/store/sql/sql_database.h"
 
 namespace plenum::catalog {
 
-// A connection with foreign keys on, to a file of the newest schema: an older one is migrated, all
-// migrations in one transaction. Throws SQLite::Exception, and StoreError without the name of the
-// file where it is no catalogue or a newer one.
-SQLite::Database Connect(const std::string& path, Access access);
+// A schema that is missing or older is made or brought to the newest, in one transaction. Throws
+// SqlError, and StoreError without the name of the place where it is no catalogue or a newer one.
+std::unique_ptr<SqlDatabase> Connect(const std::string& place, Access access);
 
-// Makes the connection wait for locks, so long for each, by asking every millisecond. SQLite's own
-// wait asks ten times a second in the end and misses the moments between the commits of a busy
-// writer for as long as it writes.
-inline constexpr std::chrono::milliseconds kLockPatience{10'000};
-void WaitForLocks(SQLite::Database& db, std::chrono::milliseconds patience = kLockPatience);
+// The same where there must be no catalogue yet: `fill` finds empty tables and, as the one
+// revision, one without a hash, which it may change.
+std::unique_ptr<SqlDatabase> MakeCatalogue(const std::string& place,
+                                           const std::function<void(SqlDatabase&)>& fill);
 
-// What SQLite's own checks of the pages and the foreign keys find.
-std::vector<std::string> CheckFile(SQLite::Database& db);
-
-// Number of migrations that the file has seen. Throws StoreError where it is not a catalogue (an
-// empty file may become one) or has more than this program knows.
-int SchemaVersion(SQLite::Database& db);
-
-// The store's error for one of SQLite's; `where` names the file.
-StoreError ToStoreError(const std::string& where, const SQLite::Exception& error);
+// A file of SQLite as such.
+SQLite::Database ConnectFile(const std::string& path, Access access);
 
 }  // namespace plenum::catalog
 

@@ -1,6 +1,7 @@
 #include "catalog/store/history.h"
 
 #include <algorithm>
+#include <climits>
 #include <map>
 
 #include "catalog/store/part_record.h"
@@ -8,23 +9,20 @@
 namespace plenum::catalog {
 namespace {
 
-constexpr char kNow[] = "strftime('%Y-%m-%dT%H:%M:%SZ', 'now')";
 constexpr char kRevisionColumns[] = "number, coalesce(hash, ''), at, who, what";
 
-Revision ReadRevision(SQLite::Statement& row) {
-  return {row.getColumn(0).getInt64(), row.getColumn(1).getString(), row.getColumn(2).getString(),
-          row.getColumn(3).getString(), row.getColumn(4).getString()};
+Revision ReadRevision(const SqlStatement& row) {
+  return {row.Integer(0), row.Text(1), row.Text(2), row.Text(3), row.Text(4)};
 }
 
-std::optional<Part> ReadBefore(const SQLite::Column& column, const std::string& id) {
-  if (column.isNull()) return std::nullopt;
-  auto part = ParseRecord(column.getString());
-  if (!part || part->id != id)
-    throw SQLite::Exception("the history of part \"" + id + "\" cannot be read");
+std::optional<Part> ReadBefore(const SqlStatement& row, int column, const std::string& id) {
+  if (row.IsNull(column)) return std::nullopt;
+  auto part = ParseRecord(row.Text(column));
+  if (!part || part->id != id) throw SqlError("the history of part \"" + id + "\" cannot be read");
   return part;
 }
 
-std::optional<Part> PartNow(SQLite::Database& db, const std::string& id) {
+std::optional<Part> PartNow(SqlDatabase& db, const std::string& id) {
   return PartReader(db, "id").One(id);
 }
 
@@ -36,7 +34,7 @@ SetHash HashOf(const std::vector<Part>& parts) {
 
 }  // namespace
 
-RevisionWriter::RevisionWriter(SQLite::Database& db)
+RevisionWriter::RevisionWriter(SqlDatabase& db)
     : db_(db), head_(Head(db)), hash_(head_.hash), reader_(db, "id"), rows_(db) {}
 
 std::optional<Part> RevisionWriter::Get(const std::string& id) { return reader_.One(id); }
@@ -60,91 +58,75 @@ void RevisionWriter::Change(const std::string& id, const std::optional<Part>& be
 Revision RevisionWriter::Record(const std::string& who, const std::string& what) {
   if (changes_.empty()) return head_;
   const std::int64_t number = head_.number + 1;
-  SQLite::Statement revision(db_,
-                             std::string("INSERT INTO revision VALUES (?, ?, ") + kNow + ", ?, ?)");
-  revision.bind(1, number);
-  revision.bind(2, hash_.Digits());
-  revision.bind(3, who);
-  revision.bind(4, what);
-  revision.exec();
-  SQLite::Statement change(db_, "INSERT INTO change VALUES (?, ?, ?)");
-  for (const auto& [id, before] : changes_) {
-    change.reset();
-    change.bind(1, number);
-    change.bind(2, id);
-    if (before)
-      change.bind(3, *before);
-    else
-      change.bind(3);
-    change.exec();
-  }
+  Run(db_, std::string("INSERT INTO revision VALUES (?, ?, ") + db_.words().now + ", ?, ?)", number,
+      hash_.Digits(), who, what);
+  const auto change = db_.Prepare("INSERT INTO change VALUES (?, ?, ?)");
+  for (const auto& [id, before] : changes_) Run(*change, number, id, before);
   return Head(db_);
 }
 
-Revision Head(SQLite::Database& db) {
+Revision Head(SqlDatabase& db) {
   std::vector<Revision> newest = ReadRevisions(db, INT64_MAX, 1);
-  if (newest.empty()) throw SQLite::Exception("the catalogue has no revision");
+  if (newest.empty()) throw SqlError("the catalogue has no revision");
   return std::move(newest.front());
 }
 
-std::optional<Revision> FindRevision(SQLite::Database& db, std::int64_t number) {
-  SQLite::Statement query(
-      db, std::string("SELECT ") + kRevisionColumns + " FROM revision WHERE number = ?");
-  query.bind(1, number);
-  if (!query.executeStep()) return std::nullopt;
-  return ReadRevision(query);
+std::optional<Revision> FindRevision(SqlDatabase& db, std::int64_t number) {
+  const auto query = Query(
+      db, std::string("SELECT ") + kRevisionColumns + " FROM revision WHERE number = ?", number);
+  if (!query->Step()) return std::nullopt;
+  return ReadRevision(*query);
 }
 
-std::vector<Revision> ReadRevisions(SQLite::Database& db, std::int64_t below, int limit) {
-  SQLite::Statement query(db, std::string("SELECT ") + kRevisionColumns +
-                                  " FROM revision WHERE number < ? ORDER BY number DESC LIMIT ?");
-  query.bind(1, below);
-  query.bind(2, limit);
+std::vector<Revision> ReadRevisions(SqlDatabase& db, std::int64_t below, int limit) {
+  const auto query = Query(db,
+                           std::string("SELECT ") + kRevisionColumns +
+                               " FROM revision WHERE number < ? ORDER BY number DESC LIMIT ?",
+                           below, limit);
   std::vector<Revision> revisions;
-  while (query.executeStep()) revisions.push_back(ReadRevision(query));
+  while (query->Step()) revisions.push_back(ReadRevision(*query));
   return revisions;
 }
 
-std::vector<Part> PartsAt(SQLite::Database& db, std::int64_t number) {
+std::vector<Part> PartsAt(SqlDatabase& db, std::int64_t number) {
   std::map<std::string, Part> parts;
   for (Part& part : ReadParts(db)) parts.emplace(part.id, part);
-  // SQLite takes `before` from the row that holds the minimum.
-  SQLite::Statement query(
-      db, "SELECT part_id, before, min(revision) FROM change WHERE revision > ? GROUP BY part_id");
-  query.bind(1, number);
-  while (query.executeStep()) {
-    const std::string id = query.getColumn(0).getString();
+  const auto query = Query(db,
+                           "SELECT part_id, before FROM change JOIN (SELECT part_id AS id, "
+                           "min(revision) AS next FROM change WHERE revision > ? GROUP BY part_id) "
+                           "AS earliest ON part_id = id AND revision = next",
+                           number);
+  while (query->Step()) {
+    const std::string id = query->Text(0);
     parts.erase(id);
-    if (auto before = ReadBefore(query.getColumn(1), id)) parts.emplace(id, std::move(*before));
+    if (auto before = ReadBefore(*query, 1, id)) parts.emplace(id, std::move(*before));
   }
   std::vector<Part> list;
   for (auto& [id, part] : parts) list.push_back(std::move(part));
   return list;
 }
 
-std::optional<Part> PartAt(SQLite::Database& db, const std::string& id, std::int64_t number) {
-  SQLite::Statement query(db,
-                          "SELECT before FROM change WHERE part_id = ? AND revision > ? "
-                          "ORDER BY revision LIMIT 1");
-  query.bind(1, id);
-  query.bind(2, number);
-  return query.executeStep() ? ReadBefore(query.getColumn(0), id) : PartNow(db, id);
+std::optional<Part> PartAt(SqlDatabase& db, const std::string& id, std::int64_t number) {
+  const auto query = Query(db,
+                           "SELECT before FROM change WHERE part_id = ? AND revision > ? "
+                           "ORDER BY revision LIMIT 1",
+                           id, number);
+  return query->Step() ? ReadBefore(*query, 0, id) : PartNow(db, id);
 }
 
-std::vector<Change> ChangesOf(SQLite::Database& db, const std::string& id, std::int64_t below,
+std::vector<Change> ChangesOf(SqlDatabase& db, const std::string& id, std::int64_t below,
                               int limit) {
-  SQLite::Statement query(db, std::string("SELECT ") + kRevisionColumns +
-                                  ", before FROM change JOIN revision ON number = revision "
-                                  "WHERE part_id = ? AND number < ? ORDER BY number DESC LIMIT ?");
-  query.bind(1, id);
-  query.bind(2, below);
-  query.bind(3, limit);
+  const auto query = Query(db,
+                           std::string("SELECT ") + kRevisionColumns +
+                               ", before FROM change JOIN revision ON number = revision "
+                               "WHERE part_id = ? AND number < ? ORDER BY number DESC LIMIT ?",
+                           id, below, limit);
   std::vector<Change> changes;
-  while (query.executeStep()) {
+  while (query->Step()) {
     Change& change = changes.emplace_back();
-    change.revision = ReadRevision(query);
+    change.revision = ReadRevision(*query);
     change.id = id;
-    change.before = ReadBefore(query.getColumn(5), id);
+    change.before = ReadBefore(*query, 5, id);
   }
   if (changes.empty()) return changes;
   changes.front().after = PartAt(db, id, changes.front().revision.number);
@@ -152,69 +134,61 @@ std::vector<Change> ChangesOf(SQLite::Database& db, const std::string& id, std::
   return changes;
 }
 
-std::vector<Change> ChangesIn(SQLite::Database& db, const Revision& revision) {
-  SQLite::Statement query(db,
-                          "SELECT part_id, before FROM change WHERE revision = ? ORDER BY part_id");
-  query.bind(1, revision.number);
+std::vector<Change> ChangesIn(SqlDatabase& db, const Revision& revision) {
+  const auto query =
+      Query(db, "SELECT part_id, before FROM change WHERE revision = ? ORDER BY part_id",
+            revision.number);
   std::vector<Change> changes;
-  while (query.executeStep()) {
-    const std::string id = query.getColumn(0).getString();
-    changes.push_back({revision, id, ReadBefore(query.getColumn(1), id), std::nullopt});
+  while (query->Step()) {
+    const std::string id = query->Text(0);
+    changes.push_back({revision, id, ReadBefore(*query, 1, id), std::nullopt});
   }
   for (Change& change : changes) change.after = PartAt(db, change.id, revision.number);
   return changes;
 }
 
-void SealHead(SQLite::Database& db) {
-  SQLite::Statement seal(db, "UPDATE revision SET hash = ? WHERE hash IS NULL");
-  seal.bind(1, HashOf(ReadParts(db)).Digits());
-  seal.exec();
+void SealHead(SqlDatabase& db) {
+  Run(db, "UPDATE revision SET hash = ? WHERE hash IS NULL", HashOf(ReadParts(db)).Digits());
 }
 
 // Walks from the parts as they are back to the first revision, undoing changes in the hash.
-std::vector<std::string> CheckHistory(SQLite::Database& db) {
+std::vector<std::string> CheckHistory(SqlDatabase& db) {
   std::map<std::string, std::optional<std::string>> records;  // as of the revision walked to
   for (const Part& part : ReadParts(db)) records[part.id] = FormatRecord(part);
   SetHash hash;
   for (const auto& [id, record] : records) hash.Add(*record);
 
   std::vector<std::string> faults;
-  SQLite::Statement changes(db, "SELECT part_id, before FROM change WHERE revision = ?");
-  for (const Revision& revision : ReadRevisions(db, INT64_MAX, -1)) {
+  const auto changes = db.Prepare("SELECT part_id, before FROM change WHERE revision = ?");
+  for (const Revision& revision : ReadRevisions(db, INT64_MAX, INT_MAX)) {
     if (revision.hash != hash.Digits()) {
       faults.push_back("revision " + std::to_string(revision.number) +
                        ": its hash does not agree with the parts and their history");
       return faults;  // what lies before cannot agree either
     }
-    changes.reset();
-    changes.bind(1, revision.number);
-    while (changes.executeStep()) {
-      std::optional<std::string>& record = records[changes.getColumn(0).getString()];
+    changes->Reset();
+    changes->Bind(1, revision.number);
+    while (changes->Step()) {
+      std::optional<std::string>& record = records[changes->Text(0)];
       if (record) hash.Remove(*record);
       record.reset();
-      if (!changes.getColumn(1).isNull()) hash.Add(record.emplace(changes.getColumn(1)));
+      if (!changes->IsNull(1)) hash.Add(record.emplace(changes->Text(1)));
     }
   }
   return faults;
 }
 
-std::optional<KeptKey> FindKey(SQLite::Database& db, const std::string& key) {
-  SQLite::Statement query(db, "SELECT request, base, revision FROM request_key WHERE key = ?");
-  query.bind(1, key);
-  if (!query.executeStep()) return std::nullopt;
-  return KeptKey{query.getColumn(0).getString(), query.getColumn(1).getInt64(),
-                 query.getColumn(2).getInt64()};
+std::optional<KeptKey> FindKey(SqlDatabase& db, const std::string& key) {
+  const auto query =
+      Query(db, "SELECT request, base, revision FROM request_key WHERE key = ?", key);
+  if (!query->Step()) return std::nullopt;
+  return KeptKey{query->Text(0), query->Integer(1), query->Integer(2)};
 }
 
-void KeepKey(SQLite::Database& db, const Signature& by, std::int64_t base, std::int64_t revision) {
-  db.exec("DELETE FROM request_key WHERE at < strftime('%Y-%m-%dT%H:%M:%SZ', 'now', '-7 days')");
-  SQLite::Statement insert(
-      db, std::string("INSERT INTO request_key VALUES (?, ?, ?, ?, ") + kNow + ")");
-  insert.bind(1, by.key);
-  insert.bind(2, by.request);
-  insert.bind(3, base);
-  insert.bind(4, revision);
-  insert.exec();
+void KeepKey(SqlDatabase& db, const Signature& by, std::int64_t base, std::int64_t revision) {
+  db.Execute(std::string("DELETE FROM request_key WHERE at < ") + db.words().week_ago);
+  Run(db, std::string("INSERT INTO request_key VALUES (?, ?, ?, ?, ") + db.words().now + ")",
+      by.key, by.request, base, revision);
 }
 
 }  // namespace plenum::catalog

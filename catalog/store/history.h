@@ -1,9 +1,7 @@
-// Revisions and changes to and from the tables of catalog.db. Internal to the store; the caller
+// Revisions and changes to and from their tables. Internal to the store; the caller
 // owns the transaction.
 #ifndef PLENUM_CATALOG_STORE_HISTORY_H_
 #define PLENUM_CATALOG_STORE_HISTORY_H_
-
-#include <SQLiteCpp/SQLiteCpp.h>
 
 #include <optional>
 #include <string>
@@ -19,7 +17,7 @@ namespace plenum::catalog {
 // Parts that one write changes, in the tables at once, and then recorded as one revision.
 class RevisionWriter {
  public:
-  explicit RevisionWriter(SQLite::Database& db);
+  explicit RevisionWriter(SqlDatabase& db);
 
   std::optional<Part> Get(const std::string& id);
   // Makes the part with id `id` what `after` says. `before` is what Get gave. Each id at most once.
@@ -30,7 +28,7 @@ class RevisionWriter {
   Revision Record(const std::string& who, const std::string& what);
 
  private:
-  SQLite::Database& db_;
+  SqlDatabase& db_;
   Revision head_;
   SetHash hash_;
   PartReader reader_;
@@ -38,34 +36,34 @@ class RevisionWriter {
   std::vector<std::pair<std::string, std::optional<std::string>>> changes_;  // id, before
 };
 
-Revision Head(SQLite::Database& db);
-std::optional<Revision> FindRevision(SQLite::Database& db, std::int64_t number);
+Revision Head(SqlDatabase& db);
+std::optional<Revision> FindRevision(SqlDatabase& db, std::int64_t number);
 // Newest first, below `below`, at most `limit`.
-std::vector<Revision> ReadRevisions(SQLite::Database& db, std::int64_t below, int limit);
+std::vector<Revision> ReadRevisions(SqlDatabase& db, std::int64_t below, int limit);
 
 // Parts as they were after revision `number`, in order of id.
-std::vector<Part> PartsAt(SQLite::Database& db, std::int64_t number);
-std::optional<Part> PartAt(SQLite::Database& db, const std::string& id, std::int64_t number);
+std::vector<Part> PartsAt(SqlDatabase& db, std::int64_t number);
+std::optional<Part> PartAt(SqlDatabase& db, const std::string& id, std::int64_t number);
 
 // Changes of one part, newest first, and of one revision, in order of id.
-std::vector<Change> ChangesOf(SQLite::Database& db, const std::string& id, std::int64_t below,
+std::vector<Change> ChangesOf(SqlDatabase& db, const std::string& id, std::int64_t below,
                               int limit);
-std::vector<Change> ChangesIn(SQLite::Database& db, const Revision& revision);
+std::vector<Change> ChangesIn(SqlDatabase& db, const Revision& revision);
 
 // Gives the newest revision the hash of the parts, where the migration left it open.
-void SealHead(SQLite::Database& db);
+void SealHead(SqlDatabase& db);
 
 // What does not agree between the parts, the hashes of the revisions and the changes between them.
-std::vector<std::string> CheckHistory(SQLite::Database& db);
+std::vector<std::string> CheckHistory(SqlDatabase& db);
 
 // The revisions before and after the write that was done under a key.
 struct KeptKey {
   std::string request;
   std::int64_t base = 0, revision = 0;
 };
-std::optional<KeptKey> FindKey(SQLite::Database& db, const std::string& key);
+std::optional<KeptKey> FindKey(SqlDatabase& db, const std::string& key);
 // Also forgets keys of more than a week ago.
-void KeepKey(SQLite::Database& db, const Signature& by, std::int64_t base, std::int64_t revision);
+void KeepKey(SqlDatabase& db, const Signature& by, std::int64_t base, std::int64_t revision);
 
 }  // namespace plenum::catalog
 

@@ -9,12 +9,11 @@ namespace {
 
 constexpr char kSelect[] = "SELECT name, version, at, who, document, hash FROM model ";
 
-std::vector<ModelRevision> ReadAll(SQLite::Statement& query) {
+std::vector<ModelRevision> ReadAll(SqlStatement& query) {
   std::vector<ModelRevision> models;
-  while (query.executeStep())
-    models.push_back({query.getColumn(0).getString(), query.getColumn(1).getInt64(),
-                      query.getColumn(2).getString(), query.getColumn(3).getString(),
-                      query.getColumn(4).getString(), query.getColumn(5).getString()});
+  while (query.Step())
+    models.push_back({query.Text(0), query.Integer(1), query.Text(2), query.Text(3), query.Text(4),
+                      query.Text(5)});
   return models;
 }
 
@@ -30,27 +29,24 @@ std::string WhyInvalidModelName(std::string_view name) {
   return "";
 }
 
-std::vector<ModelRevision> ReadModels(SQLite::Database& db) {
-  SQLite::Statement query(db, std::string(kSelect) +
-                                  "AS m WHERE version = (SELECT max(version) FROM model WHERE name "
-                                  "= m.name) ORDER BY name");
-  return ReadAll(query);
+std::vector<ModelRevision> ReadModels(SqlDatabase& db) {
+  return ReadAll(*Query(db, std::string(kSelect) +
+                                "AS m WHERE version = (SELECT max(version) FROM model WHERE name "
+                                "= m.name) ORDER BY name"));
 }
 
-std::vector<ModelRevision> ReadVersions(SQLite::Database& db, const std::string& name) {
-  SQLite::Statement query(db, std::string(kSelect) + "WHERE name = ? ORDER BY version DESC");
-  query.bind(1, name);
-  return ReadAll(query);
+std::vector<ModelRevision> ReadVersions(SqlDatabase& db, const std::string& name) {
+  return ReadAll(*Query(db, std::string(kSelect) + "WHERE name = ? ORDER BY version DESC", name));
 }
 
-std::optional<ModelRevision> ReadModel(SQLite::Database& db, const std::string& name,
+std::optional<ModelRevision> ReadModel(SqlDatabase& db, const std::string& name,
                                        std::optional<std::int64_t> version) {
   for (ModelRevision& model : ReadVersions(db, name))
     if (!version || model.version == *version) return std::move(model);
   return std::nullopt;
 }
 
-std::optional<ModelRevision> FindDocument(SQLite::Database& db, const std::string& name,
+std::optional<ModelRevision> FindDocument(SqlDatabase& db, const std::string& name,
                                           const std::string& document) {
   const std::string hash = Sha256(document);
   for (ModelRevision& model : ReadVersions(db, name))
@@ -58,27 +54,20 @@ std::optional<ModelRevision> FindDocument(SQLite::Database& db, const std::strin
   return std::nullopt;
 }
 
-ModelRevision InsertModel(SQLite::Database& db, const std::string& name,
-                          const std::string& document, const std::string& who) {
+ModelRevision InsertModel(SqlDatabase& db, const std::string& name, const std::string& document,
+                          const std::string& who) {
   const std::string hash = Sha256(document);
   const std::optional<ModelRevision> newest = ReadModel(db, name, std::nullopt);
   if (newest && newest->hash == hash) return *newest;
-  SQLite::Statement insert(db,
-                           "INSERT INTO model VALUES (?, ?, strftime('%Y-%m-%dT%H:%M:%SZ', 'now'), "
-                           "?, ?, ?)");
-  insert.bind(1, name);
-  insert.bind(2, newest ? newest->version + 1 : 1);
-  insert.bind(3, who);
-  insert.bind(4, document);
-  insert.bind(5, hash);
-  insert.exec();
+  Run(db, std::string("INSERT INTO model VALUES (?, ?, ") + db.words().now + ", ?, ?, ?)", name,
+      newest ? newest->version + 1 : std::int64_t{1}, who, document, hash);
   return ReadModel(db, name, std::nullopt).value();
 }
 
-std::vector<std::string> CheckModels(SQLite::Database& db) {
+std::vector<std::string> CheckModels(SqlDatabase& db) {
   std::vector<std::string> faults;
-  SQLite::Statement query(db, std::string(kSelect) + "ORDER BY name, version");
-  for (const ModelRevision& model : ReadAll(query))
+  for (const ModelRevision& model :
+       ReadAll(*Query(db, std::string(kSelect) + "ORDER BY name, version")))
     if (Sha256(model.document) != model.hash)
       faults.push_back("model " + model.name + ", version " + std::to_string(model.version) +
                        ": the document does not have its hash");

@@ -5,40 +5,14 @@
 namespace plenum::catalog {
 namespace {
 
-template <class Value>
-void Bind(SQLite::Statement& statement, int index, const Value& value) {
-  statement.bind(index, value);
-}
-template <class Value>
-void Bind(SQLite::Statement& statement, int index, const std::optional<Value>& value) {
-  if (value)
-    statement.bind(index, *value);
-  else
-    statement.bind(index);
+std::optional<double> OptionalReal(const SqlStatement& row, int column) {
+  if (row.IsNull(column)) return std::nullopt;
+  return row.Real(column);
 }
 
-template <class... Values>
-void Run(SQLite::Statement& statement, const Values&... values) {
-  statement.reset();
-  int index = 0;
-  (Bind(statement, ++index, values), ...);
-  statement.exec();
-}
-
-// A missing number would read as 0.0.
-double Real(const SQLite::Column& column) {
-  if (!column.isFloat()) throw SQLite::Exception("a number is missing or not a real");
-  return column.getDouble();
-}
-
-std::optional<double> OptionalReal(const SQLite::Column& column) {
-  if (column.isNull()) return std::nullopt;
-  return Real(column);
-}
-
-Provenance ReadProvenance(const SQLite::Column& column) {
-  const auto provenance = ProvenanceFromName(column.getString());
-  if (!provenance) throw SQLite::Exception("unknown provenance \"" + column.getString() + "\"");
+Provenance ReadProvenance(const SqlStatement& row, int column) {
+  const auto provenance = ProvenanceFromName(row.Text(column));
+  if (!provenance) throw SqlError("unknown provenance \"" + row.Text(column) + "\"");
   return *provenance;
 }
 
@@ -47,72 +21,73 @@ std::string Word(Provenance provenance) { return std::string(Name(provenance)); 
 // Hands each row of a table to its part. Rows and parts are both in order of id, so one walk along
 // both suffices.
 template <class Take>
-void Distribute(SQLite::Statement& query, std::vector<Part>& parts, const Take& take) {
+void Distribute(SqlStatement& query, std::vector<Part>& parts, const Take& take) {
   auto part = parts.begin();
-  while (query.executeStep()) {
-    const std::string id = query.getColumn(0).getString();
+  while (query.Step()) {
+    const std::string id = query.Text(0);
     while (part != parts.end() && part->id < id) ++part;
     if (part == parts.end() || part->id != id)
-      throw SQLite::Exception("a row belongs to no part: \"" + id + "\"");
+      throw SqlError("a row belongs to no part: \"" + id + "\"");
     take(query, *part);
   }
 }
 
 }  // namespace
 
-PartWriter::PartWriter(SQLite::Database& db)
-    : part_(db, "INSERT INTO part VALUES (?, ?, ?, ?, ?, ?, ?, ?)"),
-      number_(db, "INSERT INTO number VALUES (?, ?, ?, ?, ?, ?)"),
-      text_(db, "INSERT INTO text VALUES (?, ?, ?, ?, ?)"),
-      curve_(db, "INSERT INTO curve VALUES (?, ?, ?, ?, ?, ?, ?)"),
-      point_(db, "INSERT INTO curve_point VALUES (?, ?, ?, ?)"),
-      alias_(db, "INSERT INTO alias VALUES (?, ?, ?)"),
-      offer_(db, "INSERT INTO offer VALUES (?, ?, ?, ?, ?, ?, ?, ?)"),
-      document_(db, "INSERT INTO document VALUES (?, ?, ?, ?)"),
-      delete_(db, "DELETE FROM part WHERE id = ?") {}
+PartWriter::PartWriter(SqlDatabase& db)
+    : part_(db.Prepare("INSERT INTO part VALUES (?, ?, ?, ?, ?, ?, ?, ?)")),
+      number_(db.Prepare("INSERT INTO number VALUES (?, ?, ?, ?, ?, ?)")),
+      text_(db.Prepare("INSERT INTO text VALUES (?, ?, ?, ?, ?)")),
+      curve_(db.Prepare("INSERT INTO curve VALUES (?, ?, ?, ?, ?, ?, ?)")),
+      point_(db.Prepare("INSERT INTO curve_point VALUES (?, ?, ?, ?)")),
+      alias_(db.Prepare("INSERT INTO alias VALUES (?, ?, ?)")),
+      offer_(db.Prepare("INSERT INTO offer VALUES (?, ?, ?, ?, ?, ?, ?, ?)")),
+      document_(db.Prepare("INSERT INTO document VALUES (?, ?, ?, ?)")),
+      delete_(db.Prepare("DELETE FROM part WHERE id = ?")) {}
 
 void PartWriter::Insert(const Part& part) {
-  Run(part_, part.id, part.family, part.manufacturer, part.part_number, part.origin, part.notes,
+  Run(*part_, part.id, part.family, part.manufacturer, part.part_number, part.origin, part.notes,
       part.series, part.orderable ? std::optional(*part.orderable ? 1 : 0) : std::nullopt);
   for (const auto& [field, number] : part.numbers)
-    Run(number_, part.id, field, number.value, Word(number.provenance), number.source,
+    Run(*number_, part.id, field, number.value, Word(number.provenance), number.source,
         number.uncertainty);
   for (const auto& [field, text] : part.texts)
-    Run(text_, part.id, field, text.value, Word(text.provenance), text.source);
-  for (int i = 0; const std::string& alias : part.aliases) Run(alias_, part.id, i++, alias);
+    Run(*text_, part.id, field, text.value, Word(text.provenance), text.source);
+  for (int i = 0; const std::string& alias : part.aliases) Run(*alias_, part.id, i++, alias);
   for (int i = 0; const Offer& offer : part.offers)
-    Run(offer_, part.id, i++, offer.supplier, offer.price, offer.currency, offer.pack, offer.date,
+    Run(*offer_, part.id, i++, offer.supplier, offer.price, offer.currency, offer.pack, offer.date,
         offer.link);
   for (int i = 0; const Document& document : part.documents)
-    Run(document_, part.id, i++, document.link, document.sha256);
+    Run(*document_, part.id, i++, document.link, document.sha256);
   if (!part.curve) return;
   const Curve& curve = *part.curve;
-  Run(curve_, part.id, Word(curve.free_air_provenance), curve.free_air_source,
+  Run(*curve_, part.id, Word(curve.free_air_provenance), curve.free_air_source,
       Word(curve.current_provenance), curve.current_source, curve.free_air_uncertainty,
       curve.current_uncertainty);
   for (const CurvePoint& point : curve.points)
-    Run(point_, part.id, point.pressure_kpa_gauge, point.free_air_l_per_min, point.current_a);
+    Run(*point_, part.id, point.pressure_kpa_gauge, point.free_air_l_per_min, point.current_a);
 }
 
-void PartWriter::Delete(const std::string& id) { Run(delete_, id); }
+void PartWriter::Delete(const std::string& id) { Run(*delete_, id); }
 
-PartReader::PartReader(SQLite::Database& db, const std::optional<std::string>& column)
+PartReader::PartReader(SqlDatabase& db, const std::optional<std::string>& column)
     : filtered_(column),
-      part_(db,
-            "SELECT id, family, manufacturer, part_number, origin, notes, series, orderable "
-            "FROM part" +
-                (column ? " WHERE " + *column + " = ?" : std::string()) + " ORDER BY id"),
-      number_(db,
-              Select("field, value, provenance, source, uncertainty FROM number", "field", column)),
-      text_(db, Select("field, value, provenance, source FROM text", "field", column)),
-      curve_(db, Select("free_air_provenance, free_air_source, current_provenance, "
-                        "current_source, free_air_uncertainty, current_uncertainty FROM curve",
-                        "part_id", column)),
-      point_(db, Select("pressure_kpa_gauge, free_air_l_per_min, current_a FROM curve_point",
-                        "pressure_kpa_gauge", column)),
-      alias_(db, Select("alias FROM alias", "place", column)),
-      offer_(db, Select("supplier, price, currency, pack, date, link FROM offer", "place", column)),
-      document_(db, Select("link, sha256 FROM document", "place", column)) {}
+      part_(db.Prepare("SELECT id, family, manufacturer, part_number, origin, notes, series, "
+                       "orderable FROM part" +
+                       (column ? " WHERE " + *column + " = ?" : std::string()) + " ORDER BY id")),
+      number_(db.Prepare(
+          Select("field, value, provenance, source, uncertainty FROM number", "field", column))),
+      text_(db.Prepare(Select("field, value, provenance, source FROM text", "field", column))),
+      curve_(db.Prepare(Select("free_air_provenance, free_air_source, current_provenance, "
+                               "current_source, free_air_uncertainty, current_uncertainty "
+                               "FROM curve",
+                               "part_id", column))),
+      point_(db.Prepare(Select("pressure_kpa_gauge, free_air_l_per_min, current_a FROM curve_point",
+                               "pressure_kpa_gauge", column))),
+      alias_(db.Prepare(Select("alias FROM alias", "place", column))),
+      offer_(db.Prepare(
+          Select("supplier, price, currency, pack, date, link FROM offer", "place", column))),
+      document_(db.Prepare(Select("link, sha256 FROM document", "place", column))) {}
 
 std::string PartReader::Select(const std::string& what, const std::string& order,
                                const std::optional<std::string>& column) {
@@ -122,66 +97,59 @@ std::string PartReader::Select(const std::string& what, const std::string& order
 }
 
 void PartReader::ReadBasics(std::vector<Part>& parts) {
-  while (part_.executeStep()) {
+  while (part_->Step()) {
     Part& part = parts.emplace_back();
-    part.id = part_.getColumn(0).getString();
-    part.family = part_.getColumn(1).getString();
-    part.manufacturer = part_.getColumn(2).getString();
-    part.part_number = part_.getColumn(3).getString();
-    part.origin = part_.getColumn(4).getString();
-    part.notes = part_.getColumn(5).getString();
-    part.series = part_.getColumn(6).getString();
-    if (const SQLite::Column orderable = part_.getColumn(7); !orderable.isNull())
-      part.orderable = orderable.getInt() != 0;
+    part.id = part_->Text(0);
+    part.family = part_->Text(1);
+    part.manufacturer = part_->Text(2);
+    part.part_number = part_->Text(3);
+    part.origin = part_->Text(4);
+    part.notes = part_->Text(5);
+    part.series = part_->Text(6);
+    if (!part_->IsNull(7)) part.orderable = part_->Integer(7) != 0;
   }
 }
 
 void PartReader::ReadLists(std::vector<Part>& parts) {
-  Distribute(alias_, parts, [](SQLite::Statement& row, Part& part) {
-    part.aliases.push_back(row.getColumn(1).getString());
+  Distribute(*alias_, parts,
+             [](SqlStatement& row, Part& part) { part.aliases.push_back(row.Text(1)); });
+  Distribute(*offer_, parts, [](SqlStatement& row, Part& part) {
+    part.offers.push_back(
+        {row.Text(1), row.Real(2), row.Text(3), row.Real(4), row.Text(5), row.Text(6)});
   });
-  Distribute(offer_, parts, [](SQLite::Statement& row, Part& part) {
-    part.offers.push_back({row.getColumn(1).getString(), Real(row.getColumn(2)),
-                           row.getColumn(3).getString(), Real(row.getColumn(4)),
-                           row.getColumn(5).getString(), row.getColumn(6).getString()});
-  });
-  Distribute(document_, parts, [](SQLite::Statement& row, Part& part) {
-    part.documents.push_back({row.getColumn(1).getString(), row.getColumn(2).getString()});
+  Distribute(*document_, parts, [](SqlStatement& row, Part& part) {
+    part.documents.push_back({row.Text(1), row.Text(2)});
   });
 }
 
 std::vector<Part> PartReader::Read(const std::string& value) {
-  for (SQLite::Statement* query :
+  for (const auto* query :
        {&part_, &number_, &text_, &curve_, &point_, &alias_, &offer_, &document_}) {
-    query->reset();
-    if (filtered_) query->bind(1, value);
+    (*query)->Reset();
+    if (filtered_) (*query)->Bind(1, value);
   }
   std::vector<Part> parts;
   ReadBasics(parts);
   if (filtered_ && parts.empty()) return parts;
-  Distribute(number_, parts, [](SQLite::Statement& row, Part& part) {
-    part.numbers[row.getColumn(1).getString()] = {
-        Real(row.getColumn(2)), ReadProvenance(row.getColumn(3)), row.getColumn(4).getString(),
-        OptionalReal(row.getColumn(5))};
+  Distribute(*number_, parts, [](SqlStatement& row, Part& part) {
+    part.numbers[row.Text(1)] = {row.Real(2), ReadProvenance(row, 3), row.Text(4),
+                                 OptionalReal(row, 5)};
   });
-  Distribute(text_, parts, [](SQLite::Statement& row, Part& part) {
-    part.texts[row.getColumn(1).getString()] = {row.getColumn(2).getString(),
-                                                ReadProvenance(row.getColumn(3)),
-                                                row.getColumn(4).getString()};
+  Distribute(*text_, parts, [](SqlStatement& row, Part& part) {
+    part.texts[row.Text(1)] = {row.Text(2), ReadProvenance(row, 3), row.Text(4)};
   });
-  Distribute(curve_, parts, [](SQLite::Statement& row, Part& part) {
+  Distribute(*curve_, parts, [](SqlStatement& row, Part& part) {
     Curve& curve = part.curve.emplace();
-    curve.free_air_provenance = ReadProvenance(row.getColumn(1));
-    curve.free_air_source = row.getColumn(2).getString();
-    curve.current_provenance = ReadProvenance(row.getColumn(3));
-    curve.current_source = row.getColumn(4).getString();
-    curve.free_air_uncertainty = OptionalReal(row.getColumn(5));
-    curve.current_uncertainty = OptionalReal(row.getColumn(6));
+    curve.free_air_provenance = ReadProvenance(row, 1);
+    curve.free_air_source = row.Text(2);
+    curve.current_provenance = ReadProvenance(row, 3);
+    curve.current_source = row.Text(4);
+    curve.free_air_uncertainty = OptionalReal(row, 5);
+    curve.current_uncertainty = OptionalReal(row, 6);
   });
-  Distribute(point_, parts, [](SQLite::Statement& row, Part& part) {
-    if (!part.curve) throw SQLite::Exception("a curve point belongs to no curve");
-    part.curve->points.push_back(
-        {Real(row.getColumn(1)), Real(row.getColumn(2)), Real(row.getColumn(3))});
+  Distribute(*point_, parts, [](SqlStatement& row, Part& part) {
+    if (!part.curve) throw SqlError("a curve point belongs to no curve");
+    part.curve->points.push_back({row.Real(1), row.Real(2), row.Real(3)});
   });
   ReadLists(parts);
   return parts;
@@ -192,6 +160,6 @@ std::optional<Part> PartReader::One(const std::string& value) {
   return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
 }
 
-std::vector<Part> ReadParts(SQLite::Database& db) { return PartReader(db, std::nullopt).Read(); }
+std::vector<Part> ReadParts(SqlDatabase& db) { return PartReader(db, std::nullopt).Read(); }
 
 }  // namespace plenum::catalog

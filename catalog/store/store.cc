@@ -1,7 +1,5 @@
 #include "catalog/store/store.h"
 
-#include <SQLiteCpp/SQLiteCpp.h>
-
 #include <algorithm>
 #include <mutex>
 #include <utility>
@@ -11,6 +9,7 @@
 #include "catalog/store/models.h"
 #include "catalog/store/rows.h"
 #include "catalog/store/seed/seed_rows.h"
+#include "catalog/store/sql/address.h"
 
 namespace plenum::catalog {
 namespace {
@@ -42,18 +41,19 @@ ImportPlan Plan(const PartSource& parts, const Stored& stored) {
 }  // namespace
 
 struct Store::Impl {
-  Impl(std::string file, Access access) : path(std::move(file)), db(Connect(path, access)) {}
+  Impl(const std::filesystem::path& place, Access access)
+      : shown(Shown(place)), db(Connect(place.string(), access)) {}
 
-  // Runs `action` with the connection to itself and names the file in every error.
+  // Runs `action` with the connection to itself and names the catalogue in every error.
   template <class Action>
   auto Do(const Action& action) {
     const std::lock_guard lock(mutex);
     try {
-      return action(db);
-    } catch (const SQLite::Exception& error) {
-      throw ToStoreError(path, error);
+      return action(*db);
+    } catch (const SqlError& error) {
+      throw ToStoreError(shown, error);
     } catch (const StoreError& error) {
-      throw StoreError(path + " " + error.what(), error.fault());
+      throw StoreError(shown + " " + error.what(), error.fault());
     }
   }
 
@@ -61,8 +61,8 @@ struct Store::Impl {
   // as a revision and committed. A request that was done before under its key is not done again.
   template <class Action>
   WriteResult Write(const Signature& by, const std::string& what, const Action& action) {
-    return Do([&](SQLite::Database& connection) -> WriteResult {
-      SQLite::Transaction transaction(connection, SQLite::TransactionBehavior::IMMEDIATE);
+    return Do([&](SqlDatabase& connection) -> WriteResult {
+      SqlTransaction transaction(connection, Purpose::kWrite);
       if (const auto kept = by.key.empty() ? std::nullopt : FindKey(connection, by.key)) {
         if (kept->request != by.request) return {WriteStatus::kKeyReused, {}, {}};
         return {
@@ -73,34 +73,43 @@ struct Store::Impl {
       if (result.status != WriteStatus::kDone) return result;
       result.revision = writer.Record(by.who, what);
       if (!by.key.empty()) KeepKey(connection, by, writer.head().number, result.revision.number);
-      transaction.commit();
+      transaction.Commit();
       return result;
     });
   }
 
-  // Runs `action` on tables that are all of one moment.
+  // Runs `action` on tables that are all of one moment; once more where the connection to a server
+  // was lost in between.
   template <class Action>
   auto Read(const Action& action) {
-    return Do([&](SQLite::Database& connection) {
-      SQLite::Transaction one_moment(connection);
+    const auto read = [&](SqlDatabase& connection) {
+      const SqlTransaction one_moment(connection, Purpose::kRead);
       return action(connection);
+    };
+    return Do([&](SqlDatabase& connection) {
+      try {
+        return read(connection);
+      } catch (const SqlError& error) {
+        if (!error.lost()) throw;
+      }
+      return read(connection);
     });
   }
 
-  std::string path;
-  SQLite::Database db;
+  const std::string shown;
+  const std::unique_ptr<SqlDatabase> db;
   std::mutex mutex;
 };
 
 Store::Store(const std::filesystem::path& path, Access access) {
   try {
-    impl_ = std::make_unique<Impl>(path.string(), access);
-  } catch (const SQLite::Exception& error) {
-    throw ToStoreError(path.string() + ": cannot be opened for " +
-                           (access == Access::kRead ? "reading" : "writing"),
-                       error);
+    impl_ = std::make_unique<Impl>(path, access);
+  } catch (const SqlError& error) {
+    throw ToStoreError(
+        Shown(path) + ": cannot be opened for " + (access == Access::kRead ? "reading" : "writing"),
+        error);
   } catch (const StoreError& error) {
-    throw StoreError(path.string() + " " + error.what());
+    throw StoreError(Shown(path) + " " + error.what());
   }
 }
 
@@ -109,62 +118,51 @@ Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
 
 void Store::WaitForLocks(std::chrono::milliseconds patience) {
-  impl_->Do([&](SQLite::Database& db) { catalog::WaitForLocks(db, patience); });
+  impl_->Do([&](SqlDatabase& db) { db.WaitForLocks(patience); });
 }
 
 void Store::TryToWrite() {
-  impl_->Do([](SQLite::Database& db) {
-    // Nothing is kept, so nothing need outlast a power cut.
-    struct Unsynced {
-      explicit Unsynced(SQLite::Database& of) : db(of) { db.exec("PRAGMA synchronous = OFF"); }
-      ~Unsynced() { db.tryExec("PRAGMA synchronous = EXTRA"); }
-      SQLite::Database& db;
-    } const unsynced(db);
-    const SQLite::Transaction taken_back(db, SQLite::TransactionBehavior::IMMEDIATE);
-    // Changes the first page, and so makes the journal.
-    db.exec("PRAGMA user_version = " + std::to_string(SchemaVersion(db)));
-  });
+  impl_->Do([](SqlDatabase& db) { db.TryToWrite(); });
 }
 
 std::vector<Part> Store::List(const std::optional<std::string>& family) const {
-  return impl_->Read([&](SQLite::Database& db) {
+  return impl_->Read([&](SqlDatabase& db) {
     return family ? PartReader(db, "family").Read(*family) : ReadParts(db);
   });
 }
 
 std::pair<Revision, std::vector<Part>> Store::ListWithHead() const {
-  return impl_->Read(
-      [](SQLite::Database& db) { return std::pair(catalog::Head(db), ReadParts(db)); });
+  return impl_->Read([](SqlDatabase& db) { return std::pair(catalog::Head(db), ReadParts(db)); });
 }
 
 std::optional<Part> Store::Get(const std::string& id) const { return GetAt(id, INT64_MAX); }
 
 Revision Store::Head() const {
-  return impl_->Read([](SQLite::Database& db) { return catalog::Head(db); });
+  return impl_->Read([](SqlDatabase& db) { return catalog::Head(db); });
 }
 
 std::optional<Revision> Store::FindRevision(std::int64_t number) const {
-  return impl_->Read([&](SQLite::Database& db) { return catalog::FindRevision(db, number); });
+  return impl_->Read([&](SqlDatabase& db) { return catalog::FindRevision(db, number); });
 }
 
 std::vector<Revision> Store::Revisions(std::int64_t below, int limit) const {
-  return impl_->Read([&](SQLite::Database& db) { return ReadRevisions(db, below, limit); });
+  return impl_->Read([&](SqlDatabase& db) { return ReadRevisions(db, below, limit); });
 }
 
 std::vector<Part> Store::ListAt(std::int64_t number) const {
-  return impl_->Read([&](SQLite::Database& db) { return PartsAt(db, number); });
+  return impl_->Read([&](SqlDatabase& db) { return PartsAt(db, number); });
 }
 
 std::optional<Part> Store::GetAt(const std::string& id, std::int64_t number) const {
-  return impl_->Read([&](SQLite::Database& db) { return PartAt(db, id, number); });
+  return impl_->Read([&](SqlDatabase& db) { return PartAt(db, id, number); });
 }
 
 std::vector<Change> Store::History(const std::string& id, std::int64_t below, int limit) const {
-  return impl_->Read([&](SQLite::Database& db) { return ChangesOf(db, id, below, limit); });
+  return impl_->Read([&](SqlDatabase& db) { return ChangesOf(db, id, below, limit); });
 }
 
 std::vector<Change> Store::Changes(const Revision& revision) const {
-  return impl_->Read([&](SQLite::Database& db) { return ChangesIn(db, revision); });
+  return impl_->Read([&](SqlDatabase& db) { return ChangesIn(db, revision); });
 }
 
 WriteResult Store::Add(const Part& part, const Signature& by) {
@@ -200,7 +198,7 @@ WriteResult Store::Remove(const std::string& id, const Signature& by, const Prec
 }
 
 ImportPlan Store::PlanImport(const PartSource& parts) const {
-  return impl_->Read([&](SQLite::Database& db) {
+  return impl_->Read([&](SqlDatabase& db) {
     PartReader reader(db, "id");
     return Plan(parts, [&](const std::string& id) { return reader.One(id); });
   });
@@ -228,7 +226,7 @@ ImportResult Store::Import(const PartSource& parts, const Signature& by) {
     return written;
   });
   if (result.write.status == WriteStatus::kRepeated)
-    result.plan = impl_->Read([&](SQLite::Database& db) {
+    result.plan = impl_->Read([&](SqlDatabase& db) {
       const std::int64_t base = FindKey(db, by.key).value().base;
       return Plan(parts, [&](const std::string& id) { return PartAt(db, id, base); });
     });
@@ -260,16 +258,16 @@ WriteResult Store::Undo(std::int64_t number, const Signature& by) {
 }
 
 std::vector<ModelRevision> Store::Models() const {
-  return impl_->Read([](SQLite::Database& db) { return ReadModels(db); });
+  return impl_->Read([](SqlDatabase& db) { return ReadModels(db); });
 }
 
 std::vector<ModelRevision> Store::ModelVersions(const std::string& name) const {
-  return impl_->Read([&](SQLite::Database& db) { return ReadVersions(db, name); });
+  return impl_->Read([&](SqlDatabase& db) { return ReadVersions(db, name); });
 }
 
 std::optional<ModelRevision> Store::FindModel(const std::string& name,
                                               std::optional<std::int64_t> version) const {
-  return impl_->Read([&](SQLite::Database& db) { return ReadModel(db, name, version); });
+  return impl_->Read([&](SqlDatabase& db) { return ReadModel(db, name, version); });
 }
 
 ModelRevision Store::SaveModel(const std::string& name, const std::string& document,
@@ -279,8 +277,8 @@ ModelRevision Store::SaveModel(const std::string& name, const std::string& docum
 
 std::optional<ModelRevision> Store::SaveModel(const std::string& name, const std::string& document,
                                               const Signature& by) {
-  return impl_->Do([&](SQLite::Database& db) -> std::optional<ModelRevision> {
-    SQLite::Transaction transaction(db, SQLite::TransactionBehavior::IMMEDIATE);
+  return impl_->Do([&](SqlDatabase& db) -> std::optional<ModelRevision> {
+    SqlTransaction transaction(db, Purpose::kWrite);
     if (const auto kept = by.key.empty() ? std::nullopt : FindKey(db, by.key))
       return kept->request == by.request ? FindDocument(db, name, document) : std::nullopt;
     ModelRevision saved = InsertModel(db, name, document, by.who);
@@ -288,7 +286,7 @@ std::optional<ModelRevision> Store::SaveModel(const std::string& name, const std
       const std::int64_t head = catalog::Head(db).number;  // which models do not change
       KeepKey(db, by, head, head);
     }
-    transaction.commit();
+    transaction.Commit();
     return saved;
   });
 }
@@ -298,26 +296,26 @@ void Store::ReplaceSeed(const std::vector<Part>& parts) {
   try {
     seed = SeedRows(parts);
   } catch (const StoreError& error) {
-    throw StoreError(impl_->path + ": " + error.what());
+    throw StoreError(impl_->shown + ": " + error.what());
   }
-  impl_->Do([&](SQLite::Database& db) {
-    SQLite::Transaction transaction(db, SQLite::TransactionBehavior::IMMEDIATE);
+  impl_->Do([&](SqlDatabase& db) {
+    SqlTransaction transaction(db, Purpose::kWrite);
     RevisionWriter writer(db);
     ReplaceSeedRows(db, seed, writer);
     writer.Record("build_catalog", std::string(kSeedWrite));
-    transaction.commit();
-    db.exec("VACUUM");
+    transaction.Commit();
+    db.Compact();
   });
 }
 
 SeedUpdate Store::UpdateSeed(const std::vector<Part>& parts, const std::string& who, bool dry_run) {
   const std::vector<Part> seed = SeedRows(parts);
-  return impl_->Do([&](SQLite::Database& db) { return UpdateSeedRows(db, seed, who, dry_run); });
+  return impl_->Do([&](SqlDatabase& db) { return UpdateSeedRows(db, seed, who, dry_run); });
 }
 
 std::vector<std::string> Store::Check() const {
-  return impl_->Read([](SQLite::Database& db) {
-    std::vector<std::string> faults = CheckFile(db);
+  return impl_->Read([](SqlDatabase& db) {
+    std::vector<std::string> faults = db.CheckStorage();
     if (!faults.empty()) return faults;  // what is damaged cannot be read part by part
     for (const Part& part : ReadParts(db))
       for (const FieldError& error : Validate(part))

@@ -1,9 +1,11 @@
-// catalog.db: reads and writes parts, and remembers every change. The only room that knows SQLite.
+// The catalogue: reads and writes parts, and remembers every change. The only room that knows
+// SQLite and PostgreSQL.
 //
-// Exactly one read-write connection per process writes; readers open their own read-only
-// connection. Every write is one transaction under a rollback journal and becomes one revision, so
-// the file alone is the catalogue and can be read where nothing can be written. One store may be
-// used from several threads; its calls take turns.
+// It stands in a file of SQLite, or in a database on a server (sql/address.h), with the same
+// tables. Every write is one transaction and becomes one revision. In a file, exactly one
+// read-write connection per process writes, under a rollback journal, and readers open their own
+// read-only connection, so the file alone is the catalogue and can be read where nothing can be
+// written. One store may be used from several threads; its calls take turns.
 #ifndef PLENUM_CATALOG_STORE_STORE_H_
 #define PLENUM_CATALOG_STORE_STORE_H_
 
@@ -60,8 +62,9 @@ using Precondition = std::function<bool(const Part&)>;
 
 class Store {
  public:
-  // Opens `path`. With kWrite the file is created if missing. An older schema is migrated to the
-  // newest in one transaction, also with kRead if the file can be written; a newer one is refused.
+  // Opens `path`, a file or an address. With kWrite the catalogue is created if missing. An older
+  // schema is migrated to the newest in one transaction, also with kRead if the file can be
+  // written; a newer one is refused.
   Store(const std::filesystem::path& path, Access access);
   ~Store();
   Store(Store&&) noexcept;
@@ -123,8 +126,8 @@ class Store {
   // and leaves alone. In a dry run nothing is written.
   SeedUpdate UpdateSeed(const std::vector<Part>& parts, const std::string& who, bool dry_run);
 
-  // SQLite's own integrity and foreign-key check, Validate on every row, whether the history agrees
-  // with the parts and saved models with their hashes; empty: all is well.
+  // Of a file SQLite's own integrity and foreign-key check, Validate on every row, whether the
+  // history agrees with the parts and saved models with their hashes; empty: all is well.
   std::vector<std::string> Check() const;
 
   // Begins to write, and takes it back: throws StoreError where a write would fail at once.

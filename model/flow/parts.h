@@ -41,6 +41,7 @@ struct Fitting {
   std::string thread;  // matches Valve::port
   FlowElement flow;
   double pressure_max_pa = 0.0;
+  std::optional<FlowElement> flow_most = {};  // of tolerances; none: flow
   bool operator==(const Fitting&) const = default;
 };
 
@@ -61,7 +62,9 @@ struct Valve {
   FlowElement exhaust;
   double coil_power_w = 0.0;  // per channel while energised
   double pressure_max_pa = 0.0;
-  double pressure_min_pa = 0.0;  // at the inlet, to switch at all (pilot-operated valves)
+  double pressure_min_pa = 0.0;    // at the inlet, to switch at all (pilot-operated valves)
+  double closing_scatter_s = 0.0;  // it closes so much later than it is told to, at most
+  std::optional<FlowElement> fill_most = {};  // of tolerances; none: fill
   bool operator==(const Valve&) const = default;
 };
 

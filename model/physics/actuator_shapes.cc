@@ -19,6 +19,10 @@ ActuatorVolumes CylinderVolumes(double bore_m, double stroke_m, double dead_m3) 
   return {dead_m3, dead_m3 + Disc(bore_m) * stroke_m};
 }
 
+ActuatorVolumes RodSideVolumes(double bore_m, double rod_m, double stroke_m, double dead_m3) {
+  return {dead_m3, dead_m3 + (Disc(bore_m) - Disc(rod_m)) * stroke_m};
+}
+
 ActuatorVolumes MuscleVolumes(double length_m, double diameter_m, double braid_angle_rad,
                               double contraction) {
   const double rest_m3 = Disc(diameter_m) * length_m;

@@ -16,6 +16,8 @@ inline constexpr double kDeadShare = 0.05;
 
 // The swept volume π·bore²/4·stroke comes on top of the dead volume. No piston, load or friction.
 ActuatorVolumes CylinderVolumes(double bore_m, double stroke_m, double dead_m3);
+// The same of the other side of the piston, less what the rod takes. Valid: rod < bore.
+ActuatorVolumes RodSideVolumes(double bore_m, double rod_m, double stroke_m, double dead_m3);
 
 // McKibben muscle: threads that do not stretch, of length L/cos θ, wind round a cylinder of length
 // L and diameter D at the braid angle θ to its axis. Shortened to L·(1−κ),

@@ -6,6 +6,7 @@
 #include "optimizer/bounds/box.h"
 #include "optimizer/choices/make_line.h"
 #include "optimizer/evaluate/line.h"
+#include "optimizer/evaluate/strokes/stroke_rig.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -16,8 +17,9 @@ constexpr std::size_t kLinesMade = 50'000;  // are kept, of 2.7 kB each
 
 Constraint Bounds::Screen(const LineKey& key, const LineParts& parts,
                           const LineParts* whole) const {
-  const Constraint missed = ScreenLine(problem_, key.group, gas_, parts.corners, parts.single(),
-                                       whole ? &whole->corners : nullptr);
+  const Constraint missed =
+      ScreenLine(problem_, key.group, GasOf(plan_.configuration), parts.corners, parts.single(),
+                 whole ? &whole->corners : nullptr);
   if (missed != Constraint::kNone || !parts.single()) return missed;
   const auto [tubing, fitting, valve] = parts.choices();
   return PartsMate(problem_, tubing, fitting, valve) ? Constraint::kNone : Constraint::kMating;
@@ -143,7 +145,8 @@ Bounds::LineKey Bounds::KeyOf(const Box& box, int group) {
 
 std::shared_ptr<Line> Bounds::Assemble(const LineKey& key) const {
   const LineParts parts = PartsOf(key);
-  auto line = std::make_shared<Line>(AssembleLine(problem_, key.group, parts.corners));
+  auto line = std::make_shared<Line>(
+      AssembleLine(problem_, key.group, GasOf(plan_.configuration), parts.corners, parts.single()));
   if (!parts.single()) return line;
   const auto [tubing, fitting, valve] = parts.choices();
   line->tubing = tubing;
@@ -196,7 +199,7 @@ Constraint Bounds::FinishLines(Box& box) {
     if (!made.finished) {
       const LineParts parts = PartsOf(key);
       made.finished = true;
-      FinishLine(problem_, g, gas_, parts.corners.valve, parts.single(),
+      FinishLine(problem_, g, GasOf(plan_.configuration), parts.corners.valve, parts.single(),
                  IsPumped(plan_.configuration), *made.line);
       made.line->strokes = ++strokes_;
     }

@@ -10,6 +10,7 @@
 #include "optimizer/evaluate/filling.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/evaluate/root.h"
+#include "optimizer/evaluate/strokes/stroke_rig.h"
 #include "optimizer/sizing/sizing.h"
 
 namespace plenum::optimizer {
@@ -78,8 +79,8 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
     const int count = FilledAtOnce(problem_, g);
     const double strokes = group.gait.strokes_per_period;
     const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, count);
-    Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
-                    flow_max / count);
+    Filling filling(problem_, g, elements, FlowFactor(problem_, GasOf(plan_.configuration)),
+                    line.chamber, kBoxSlack, flow_max / count);
     if (!filling.InTime(box.window.high_pa)) return Constraint::kRise;
     box.air_m3 += strokes * LeastAirPerStroke(problem_, g, line);
     if (line.all_hold && line.coil_power_w > 0.0) {  // energised while they inflate, too
@@ -116,7 +117,8 @@ double Bounds::RegulatedFloor(const Box& box) const {
     const Line& line = *box.lines[g];
     const int count = FilledAtOnce(problem_, g);
     const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, count);
-    Filling filling(problem_, g, elements, FlowFactor(problem_, gas_), line.chamber, kBoxSlack,
+    Filling filling(problem_, g, elements, FlowFactor(problem_, GasOf(plan_.configuration)),
+                    line.chamber, kBoxSlack,
                     FlowMax(problem_, plan_.configuration, regulator) / count);
     const auto late = [&](double source_pa) {
       return filling.LatenessAtLeast(source_pa).value_or(0.0);

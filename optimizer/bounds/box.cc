@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimizer/bounds/highest_source.h"
 #include "optimizer/choices/make_line.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
@@ -22,13 +23,13 @@ Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
       plan_(plan),
       bench_(bench),
       useful_(std::move(useful)),
-      gas_(GasOf(plan.configuration)),
       lines_(plan.groups.size()),
       groups_(plan.groups.size() > 1 ? std::make_unique<GroupLines>(problem, plan, bench)
                                      : nullptr),
       shared_(MeetingOf(problem) == Meeting::kTogether && !IsPumped(plan.configuration)),
       limited_(useful_ || std::isfinite(problem.mass_max_kg) ||
                std::isfinite(problem.volume_max_l) || std::isfinite(problem.cost_max_eur)),
+      highest_source_pa_(HighestSource(problem, plan)),
       direct_(problem) {}
 
 Box Bounds::Root() const {
@@ -182,7 +183,7 @@ Amounts Bounds::LeastOfAll(const Box& box) const {
 
 void Bounds::AddLines(Box& box) const {
   box.window = {std::max(problem_.ambient.pressure_pa, box.source_floor_pa),
-                std::min(problem_.source_pressure_max_pa, box.source_cap_pa)};
+                std::min({problem_.source_pressure_max_pa, box.source_cap_pa, highest_source_pa_})};
   box.coil_power_w = 0.0;
   for (const std::shared_ptr<const Line>& line : box.lines) {
     box.window.low_pa = std::max(box.window.low_pa, line->source_min_pa);

@@ -251,13 +251,13 @@ class Bounds {
   const Plan& plan_;
   const Workbench* bench_;
   std::function<bool(const Amounts&)> useful_;
-  model::Gas gas_;
   std::vector<KnownLines> lines_;  // per group
   std::vector<MadeLine> made_;     // of them
   // Of several groups. `shared_`: they inflate at once, at the node behind a regulator.
   std::unique_ptr<GroupLines> groups_;
   bool shared_;
-  bool limited_;  // in amounts
+  bool limited_;              // in amounts
+  double highest_source_pa_;  // that all groups stand
   int weights_ = 0, strokes_ = 0;
   // Per node of the compressors' tree: with boxes of lines, with single lines.
   std::unordered_map<int, PumpFacts> pumps_, chosen_pumps_;

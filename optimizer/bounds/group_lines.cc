@@ -49,7 +49,7 @@ bool AskedAlike(const ActuatorGroup& a, const ActuatorGroup& b) {
   return a.count == b.count && a.chamber == b.chamber && a.tube_length_m == b.tube_length_m &&
          a.fittings_per_line == b.fittings_per_line && a.rise_time_max_s == b.rise_time_max_s &&
          a.fall_time_max_s == b.fall_time_max_s && a.pressure_max_pa == b.pressure_max_pa &&
-         a.gait == b.gait;
+         a.gait == b.gait && a.least == b.least;
 }
 
 }  // namespace
@@ -116,8 +116,8 @@ const std::optional<NodeMeans>& GroupLines::NeedOf(int group, const Nodes& nodes
     if (!PartsMate(problem_, tube, fitting, valve)) return known->second;
   }
   if (ScreenLine(problem_, group, gas_, parts.corners, single) == Constraint::kNone)
-    known->second =
-        LeastNodeMeans(problem_, group, gas_, AssembleLine(problem_, group, parts.corners));
+    known->second = LeastNodeMeans(problem_, group, gas_,
+                                   AssembleLine(problem_, group, gas_, parts.corners, single));
   return known->second;
 }
 
@@ -133,7 +133,7 @@ const NodeMeans& GroupLines::MostOf(int group) {
   corners.reserve(plan_.groups.size());
   for (int g = 0; g < static_cast<int>(plan_.groups.size()); ++g)
     corners.push_back(&lines.emplace_back(
-        AssembleLine(problem_, g, PartsOf(plan_.groups[g], {0, 0, 0}).corners)));
+        AssembleLine(problem_, g, gas_, PartsOf(plan_.groups[g], {0, 0, 0}).corners, false)));
   const RegulatorCorner& regulator = plan_.regulators.corners[0];
   const bool mains = plan_.configuration == Configuration::kMains;
   const double source_pa = std::min({problem_.source_pressure_max_pa, regulator.outlet_max_pa,
@@ -151,7 +151,7 @@ bool GroupLines::Look(int group, const Nodes& nodes, LineList::Box& box) {
   box.objective = parts.objective();
   box.single = parts.single();
   if (box.single) {
-    const Line line = AssembleLine(problem_, group, parts.corners);
+    const Line line = AssembleLine(problem_, group, gas_, parts.corners, true);
     box.line = {box.objective,      line.coil_power_w, *needs, parts.corners.valve.pressure_min_pa,
                 line.source_max_pa, parts.places()};
     return true;

@@ -34,6 +34,7 @@ struct FittingCorner {
   Kinds diameters = 0, threads = 0;
   model::FlowElement flow;
   double pressure_max_pa = 0.0;
+  model::FlowElement late_flow;  // see ValveCorner
 };
 
 struct ValveCorner {
@@ -44,6 +45,10 @@ struct ValveCorner {
   model::FlowElement fill, exhaust;
   double coil_power_w = 0.0;  // whole group
   double pressure_min_pa = 0.0, pressure_max_pa = 0.0;
+  // Peaks are no lower than with these (closing.h): what passes at most, by tolerances, through the
+  // choice that passes least, for as long as the one that closes soonest may be late.
+  model::FlowElement late_fill;
+  double late_s = 0.0;
 };
 
 struct RegulatorCorner {

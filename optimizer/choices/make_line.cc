@@ -4,9 +4,12 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <tuple>
+#include <utility>
 
 #include "model/flow/tube.h"
 #include "model/strokes/stroke.h"
+#include "optimizer/evaluate/closing.h"
 #include "optimizer/evaluate/filling.h"
 #include "optimizer/evaluate/root.h"
 
@@ -14,6 +17,8 @@ namespace plenum::optimizer {
 namespace {
 
 constexpr double kBoxTolerance = 2e-3;  // of the least source pressure; its lower end is used
+constexpr double kPeakTolerance = 1e-10, kBoxPeakTolerance = 1e-3;  // of the highest
+constexpr double kRounding = 1e-9;  // of what the best of many comes to
 
 // The elements of a line, as crossed.
 class Elements {
@@ -62,17 +67,37 @@ Crossed ElementsOf(const ActuatorGroup& group, const LineCorners& corners) {
   return crossed;
 }
 
-model::Chamber ChamberWith(const ActuatorGroup& group, const TubeCorner& tube) {
-  model::Chamber chamber = group.chamber;
+model::Chamber WithBore(model::Chamber chamber, const ActuatorGroup& group,
+                        const TubeCorner& tube) {
   chamber.dead_volume_m3 += model::BoreVolume(tube.inner_low_m, group.tube_length_m);
   return chamber;
 }
 
-double SourceMax(const Problem& problem, const ActuatorGroup& group, const LineCorners& corners) {
+// Where the peak of some line whose valve holds keeps the limit: of the one that fills slowest,
+// through the narrowest bore into the largest volume.
+double SourceOfPeak(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
+                    double stands_pa, bool exact) {
+  const ActuatorGroup& group = problem.groups[g];
+  auto [tube, fitting, valve] = std::tuple(corners.tube, corners.fitting, corners.valve);
+  std::swap(tube.inner_low_m, tube.inner_high_m);
+  fitting.flow = fitting.late_flow;
+  valve.fill = valve.late_fill;
+  const Crossed slowest = ElementsOf(group, {tube, fitting, valve});
+  const model::Chamber least = WithBore(group.least.value_or(group.chamber), group, tube);
+  const Bracket highest_pa = HighestSourcePa(problem, g, FlowFactor(problem, gas),
+                                             {slowest.fill.span(), least, valve.late_s}, stands_pa,
+                                             exact ? kPeakTolerance : kBoxPeakTolerance);
+  return exact ? highest_pa.low : std::min(stands_pa, highest_pa.high * (1.0 + kRounding));
+}
+
+double SourceMax(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
+                 bool exact) {
+  const ActuatorGroup& group = problem.groups[g];
   const auto& [tube, fitting, valve] = corners;
   const double stands_pa = std::min({tube.pressure_max_pa, valve.pressure_max_pa,
                                      fitting.pressure_max_pa, problem.source_pressure_max_pa});
-  return valve.some_hold ? stands_pa : std::min(stands_pa, group.pressure_max_pa);
+  if (!valve.some_hold) return std::min(stands_pa, group.pressure_max_pa);
+  return valve.late_s > 0.0 ? SourceOfPeak(problem, g, gas, corners, stands_pa, exact) : stands_pa;
 }
 
 double FallTime(const Problem& problem, const ActuatorGroup& group,
@@ -114,19 +139,19 @@ Constraint ScreenLine(const Problem& problem, int g, model::Gas gas, const LineC
   if (!(corners.tube.diameters & corners.fitting.diameters) ||
       !(corners.fitting.threads & corners.valve.threads))
     return Constraint::kMating;
-  const double source_max_pa = SourceMax(problem, group, corners);
+  const double source_max_pa = SourceMax(problem, g, gas, corners, exact);
   if (source_max_pa < std::max(group.chamber.operating_pressure_pa, corners.valve.pressure_min_pa))
     return Constraint::kPressure;
 
   const bool same = !exact && wider && SamePath(corners, *wider);
   const bool falls = same && corners.valve.exhaust == wider->valve.exhaust;
   const bool rises = same && corners.valve.fill == wider->valve.fill &&
-                     source_max_pa == SourceMax(problem, group, *wider);
+                     source_max_pa == SourceMax(problem, g, gas, *wider, false);
   if (falls && rises) return Constraint::kNone;
 
   const double factor = FlowFactor(problem, gas);
   const double slack = exact ? 1.0 : kBoxSlack;
-  const model::Chamber chamber = ChamberWith(group, corners.tube);
+  const model::Chamber chamber = WithBore(group.chamber, group, corners.tube);
   const Crossed elements = ElementsOf(group, corners);
   const double fall_max_s = std::min(group.fall_time_max_s, DeflateWindow(problem, g));
   if (!falls &&
@@ -138,7 +163,8 @@ Constraint ScreenLine(const Problem& problem, int g, model::Gas gas, const LineC
   return Constraint::kNone;
 }
 
-Line AssembleLine(const Problem& problem, int g, const LineCorners& corners) {
+Line AssembleLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
+                  bool exact) {
   const auto& [tube, fitting, valve] = corners;
   const ActuatorGroup& group = problem.groups[g];
   Line line;
@@ -146,14 +172,14 @@ Line AssembleLine(const Problem& problem, int g, const LineCorners& corners) {
   line.amounts += valve.amounts;
   line.amounts += fitting.amounts;
   line.objective = tube.objective + valve.objective + fitting.objective;
-  line.source_max_pa = SourceMax(problem, group, corners);
+  line.source_max_pa = SourceMax(problem, g, gas, corners, exact);
   line.holds = valve.some_hold;
   line.all_hold = valve.all_hold;
   const Crossed elements = ElementsOf(group, corners);
   line.fill.assign(elements.fill.span().begin(), elements.fill.span().end());
   line.exhaust.assign(elements.exhaust.span().begin(), elements.exhaust.span().end());
   line.coil_power_w = valve.coil_power_w;
-  line.chamber = ChamberWith(group, tube);
+  line.chamber = WithBore(group.chamber, group, tube);
   line.dead_volume_spread_m3 = model::BoreVolume(tube.inner_high_m, group.tube_length_m) -
                                model::BoreVolume(tube.inner_low_m, group.tube_length_m);
   return line;
@@ -198,7 +224,7 @@ bool FinishLike(const Line& wider, const ValveCorner& valve, Line& line) {
 Constraint MakeLine(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
                     bool exact, bool with_curve, Line& line) {
   const Constraint missed = ScreenLine(problem, g, gas, corners, exact);
-  line = AssembleLine(problem, g, corners);
+  line = AssembleLine(problem, g, gas, corners, exact);
   if (missed == Constraint::kNone)
     FinishLine(problem, g, gas, corners.valve, exact, with_curve, line);
   return missed;

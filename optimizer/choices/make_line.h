@@ -21,8 +21,10 @@ struct LineCorners {
 Constraint ScreenLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
                       bool exact, const LineCorners* wider = nullptr);
 
-// Without what FinishLine() adds.
-Line AssembleLine(const Problem& problem, int group, const LineCorners& corners);
+// Without what FinishLine() adds. Of a single line the highest source pressure is also that whose
+// peak keeps the group's limit (closing.h); of a box there may be lines that pass less.
+Line AssembleLine(const Problem& problem, int group, model::Gas gas, const LineCorners& corners,
+                  bool exact);
 
 // Adds to a line that passed the least source pressure, found where the line is single and
 // `with_curve`, else bounded from below; the least inflation time and, for a single line, the fall

@@ -3,16 +3,13 @@
 #include <cmath>
 
 #include "model/flow/scalar.h"
+#include "optimizer/evaluate/closing.h"
 #include "optimizer/evaluate/evaluate.h"
 
 namespace plenum::optimizer {
 namespace {
 
 constexpr double kPaPerKpa = 1e3;
-
-std::string Pointer(int group, const char* field) {
-  return "/actuators/" + std::to_string(group) + "/" + field;
-}
 
 template <class T>
 MarginOf<T> AtMost(std::string pointer, double limit, const T& achieved) {
@@ -24,25 +21,30 @@ MarginOf<T> AtLeast(std::string pointer, double limit, const T& achieved) {
   return {std::move(pointer), limit, achieved, achieved / limit - 1.0};
 }
 
+// The source window keeps peaks within their limits (closing.h): who asks for the least margin
+// alone needs no number of them.
+enum class Peaks { kTold, kKept };
+
 // Every margin but the strokes'.
 template <class T>
 std::vector<MarginOf<T>> SupplyMargins(const Problem& problem, const Candidate& candidate,
                                        const OperatingPointOf<T>& point,
-                                       const EvaluationOf<T>& evaluation) {
+                                       const EvaluationOf<T>& evaluation, Peaks peaks) {
   std::vector<MarginOf<T>> margins;
   const double ambient_pa = problem.ambient.pressure_pa;
   const double pa_per_kpa = Evacuated(problem) ? -kPaPerKpa : kPaPerKpa;
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const ActuatorGroup& group = problem.groups[g];
-    const T full_pa =
-        candidate.lines[g]->holds ? T(group.chamber.operating_pressure_pa) : point.source_pa;
+    const T full_pa = peaks == Peaks::kTold       ? PeakOf(problem, candidate, g, point.source_pa)
+                      : candidate.lines[g]->holds ? T(group.chamber.operating_pressure_pa)
+                                                  : point.source_pa;
     const T highest_pa = std::max(evaluation.groups[g].highest_pressure_pa, full_pa);
     margins.push_back(AtMost<T>(PressureLimitPointer(problem, g),
                                 KpaGauge(problem, group.pressure_max_pa),
                                 T((highest_pa - ambient_pa) / pa_per_kpa)));
     if (std::isfinite(group.fall_time_max_s))
-      margins.push_back(AtMost<T>(Pointer(g, "fall_time_s_max"), group.fall_time_max_s,
-                                  evaluation.groups[g].fall_time_s));
+      margins.push_back(AtMost<T>(GroupPointer(problem, g) + "/fall_time_s_max",
+                                  group.fall_time_max_s, evaluation.groups[g].fall_time_s));
   }
   margins.push_back(
       AtLeast<T>("/duty/frequency_hz", problem.frequency_hz, evaluation.frequency_sustained_hz));
@@ -87,9 +89,10 @@ std::vector<MarginOf<T>> Margins(const Problem& problem, const Candidate& candid
   std::vector<MarginOf<T>> margins;
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
     if (std::isfinite(problem.groups[g].rise_time_max_s))
-      margins.push_back(AtMost<T>(Pointer(g, "rise_time_s_max"), problem.groups[g].rise_time_max_s,
+      margins.push_back(AtMost<T>(GroupPointer(problem, g) + "/rise_time_s_max",
+                                  problem.groups[g].rise_time_max_s,
                                   evaluation.groups[g].rise_time_s));
-  for (MarginOf<T>& margin : SupplyMargins(problem, candidate, point, evaluation))
+  for (MarginOf<T>& margin : SupplyMargins(problem, candidate, point, evaluation, Peaks::kTold))
     margins.push_back(std::move(margin));
   return margins;
 }
@@ -120,7 +123,7 @@ double SupplyMargin(const Problem& problem, const Candidate& candidate, const Op
                     const Evaluation& evaluation) {
   if (!evaluation.works) return -kUnlimited;
   double smallest = kUnlimited;
-  for (const Margin& margin : SupplyMargins(problem, candidate, point, evaluation))
+  for (const Margin& margin : SupplyMargins(problem, candidate, point, evaluation, Peaks::kKept))
     smallest = std::min(smallest, margin.relative_margin);
   return std::min(smallest, CurrentMargin(problem, candidate, evaluation));
 }

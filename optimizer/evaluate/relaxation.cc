@@ -56,7 +56,7 @@ Problem Guide(const Problem& problem, const Design& nominal, const std::vector<M
   };
   for (std::size_t g = 0; g < guide.groups.size(); ++g) {
     ActuatorGroup& group = guide.groups[g];
-    const std::string pointer = "/actuators/" + std::to_string(g);
+    const std::string pointer = GroupPointer(guide, static_cast<int>(g));
     group.rise_time_max_s *= kGuideRoom / ratio(pointer + "/rise_time_s_max");
     group.fall_time_max_s *= kGuideRoom / ratio(pointer + "/fall_time_s_max");
   }

@@ -148,9 +148,10 @@ class Analysis {
   std::vector<Conflict> PressuresThemselves() const {
     std::vector<Conflict> conflict;
     for (std::size_t g = 0; g < problem_.groups.size(); ++g)
-      conflict.push_back({"/actuators/" + std::to_string(g) + "/operating_pressure_kpa_gauge",
-                          KpaGauge(problem_, problem_.groups[g].chamber.operating_pressure_pa),
-                          std::nullopt, std::nullopt, true});
+      conflict.push_back(
+          {GroupPointer(problem_, static_cast<int>(g)) + "/operating_pressure_kpa_gauge",
+           KpaGauge(problem_, problem_.groups[g].chamber.operating_pressure_pa), std::nullopt,
+           std::nullopt, true});
     return conflict;
   }
 

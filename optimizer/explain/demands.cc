@@ -34,11 +34,13 @@ Demand OfNumber(std::string pointer, double required, double loosest, bool whole
 }
 
 Demand OfGroupPressure(const Problem& problem, std::size_t g) {
-  return OfNumber(
-      PressureLimitPointer(problem, static_cast<int>(g)),
-      KpaGauge(problem, problem.groups[g].pressure_max_pa),
-      Evacuated(problem) ? -kUnlimited : kUnlimited, false,
-      [g](Problem& p, double kpa) { p.groups[g].pressure_max_pa = PaFromKpaGauge(p, kpa); });
+  return OfNumber(PressureLimitPointer(problem, static_cast<int>(g)),
+                  KpaGauge(problem, problem.groups[g].pressure_max_pa),
+                  Evacuated(problem) ? -kUnlimited : kUnlimited, false,
+                  [sides = GroupsOfEntry(problem, g)](Problem& p, double kpa) {
+                    for (const std::size_t side : sides)
+                      p.groups[side].pressure_max_pa = PaFromKpaGauge(p, kpa);
+                  });
 }
 
 Demand OfMainsFlow(const Problem& problem) {
@@ -134,7 +136,8 @@ std::vector<Demand> Demands(const Problem& problem, const SearchOptions& options
       if (number.pointer.starts_with(place)) list.push_back(OfRequirement(number));
   };
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
-    add("/actuators/" + std::to_string(g) + "/");
+    if (GroupsOfEntry(problem, g).front() != g) continue;
+    add(GroupPointer(problem, static_cast<int>(g)) + "/");
     list.push_back(OfGroupPressure(problem, g));
   }
   add("/duty/");

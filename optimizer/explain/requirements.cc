@@ -15,18 +15,29 @@ double LoosestFrequency(double required_hz) {
 
 void AddGroups(const Problem& problem, std::vector<Requirement>& list) {
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
-    const std::string base = "/actuators/" + std::to_string(g);
+    const std::vector<std::size_t> sides = GroupsOfEntry(problem, g);
+    if (sides.front() != g) continue;
+    const auto set_all = [sides](Problem& p, double ActuatorGroup::*limit, double value) {
+      for (const std::size_t side : sides) p.groups[side].*limit = value;
+    };
+    const std::string base = GroupPointer(problem, static_cast<int>(g));
     const ActuatorGroup& group = problem.groups[g];
     if (std::isfinite(group.rise_time_max_s))
       list.push_back(
           {base + "/rise_time_s_max", group.rise_time_max_s,
            std::max(InflateWindow(problem, static_cast<int>(g)), 2.0 * group.rise_time_max_s),
-           [g](Problem& p, double value) { p.groups[g].rise_time_max_s = value; }, std::nullopt});
+           [set_all](Problem& p, double value) {
+             set_all(p, &ActuatorGroup::rise_time_max_s, value);
+           },
+           std::nullopt});
     if (std::isfinite(group.fall_time_max_s))
       list.push_back(
           {base + "/fall_time_s_max", group.fall_time_max_s,
            std::max(DeflateWindow(problem, static_cast<int>(g)), 2.0 * group.fall_time_max_s),
-           [g](Problem& p, double value) { p.groups[g].fall_time_max_s = value; }, std::nullopt});
+           [set_all](Problem& p, double value) {
+             set_all(p, &ActuatorGroup::fall_time_max_s, value);
+           },
+           std::nullopt});
   }
 }
 
@@ -43,6 +54,15 @@ void AddAmounts(const Problem& problem, std::vector<Requirement>& list) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> GroupsOfEntry(const Problem& problem, std::size_t group) {
+  const int entry = problem.groups[group].entry;
+  if (entry < 0) return {group};
+  std::vector<std::size_t> groups;
+  for (std::size_t g = 0; g < problem.groups.size(); ++g)
+    if (problem.groups[g].entry == entry) groups.push_back(g);
+  return groups;
+}
 
 std::vector<Requirement> Requirements(const Problem& problem) {
   std::vector<Requirement> list;

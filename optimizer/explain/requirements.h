@@ -21,6 +21,10 @@ struct Requirement {
   bool whole = false;  // a number of something of which at least so many are required
 };
 
+// The groups that have their requirements in common with one: the sides of a double-acting cylinder
+// (ActuatorGroup::entry).
+std::vector<std::size_t> GroupsOfEntry(const Problem& problem, std::size_t group);
+
 // Rise and fall times, limits on mass, volume and cost, actuations, frequency, source pressure:
 // those that the problem has.
 std::vector<Requirement> Requirements(const Problem& problem);

@@ -3,6 +3,8 @@
 #ifndef PLENUM_OPTIMIZER_PROBLEM_PART_TABLES_H_
 #define PLENUM_OPTIMIZER_PROBLEM_PART_TABLES_H_
 
+#include <cmath>
+
 #include "model/physics/storage.h"
 #include "optimizer/problem/part_fields.h"
 
@@ -34,6 +36,15 @@ template <auto get>
 inline constexpr auto kTank = &ValueIn<&model::Parts::tanks, get>;
 
 inline bool Holds(const model::Valve& valve) { return model::Holds(valve.kind); }
+// What it lets by while it closes late: of two lines that differ by their valves alone one passes
+// at most sqrt((1 − b')/(1 − b))·C/C' of the other where C ≥ C' and b ≥ b' (m = 0.5 of both, as of
+// all valves of the catalogue), and by so much longer it may take for the same peak (closing.h).
+inline double LetBy(const model::Valve& valve) {
+  if (!model::Holds(valve.kind) || valve.closing_scatter_s == 0.0) return 0.0;
+  const model::FlowElement most = valve.fill_most.value_or(valve.fill);
+  return valve.closing_scatter_s * most.sonic_conductance_m3_per_s_pa /
+         std::sqrt(1.0 - most.critical_ratio);
+}
 inline double PumpVoltage(const model::Compressor& pump) { return pump.curve.voltage_v; }
 inline double PumpPressure(const model::Compressor& pump) { return pump.curve.pressure_max_pa; }
 inline double FullPressure(const model::Cylinder& cylinder) {  // at most
@@ -105,6 +116,7 @@ inline constexpr PartField kValveFields[] = {
      .use = Use::kLess,
      .of = read::kValve<&model::Valve::pressure_min_pa>,
      .weight = 1.0},
+    {.name = "response_time_ms", .use = Use::kLess, .of = read::kValve<&read::LetBy>},
 };
 
 // Several pumps are another pump, and a battery drives some: rules of the family.

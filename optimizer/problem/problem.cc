@@ -67,8 +67,13 @@ double PaFromKpaGauge(const Problem& problem, double kpa_gauge) {
   return problem.ambient.pressure_pa + 1e3 * (Evacuated(problem) ? -kpa_gauge : kpa_gauge);
 }
 
+std::string GroupPointer(const Problem& problem, int group) {
+  const int entry = problem.groups[group].entry;
+  return "/actuators/" + std::to_string(entry < 0 ? group : entry);
+}
+
 std::string PressureLimitPointer(const Problem& problem, int group) {
-  return "/actuators/" + std::to_string(group) +
+  return GroupPointer(problem, group) +
          (Evacuated(problem) ? "/pressure_kpa_gauge_min" : "/pressure_kpa_gauge_max");
 }
 

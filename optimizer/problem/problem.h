@@ -97,6 +97,8 @@ struct ActuatorGroup {
   double pressure_max_pa = 0.0;
   std::vector<model::Effect> effects;  // of a revised model; none: the base model
   Gait gait = {};
+  std::optional<model::Chamber> least = {};  // of what tolerances allow the one that fills first
+  int entry = -1;                            // in the request's list; −1: as in that of groups
 };
 
 struct Objective {  // weighted sum; a plain objective has one weight of 1
@@ -187,7 +189,9 @@ inline Family PumpFamily(Configuration configuration) {
 double KpaGauge(const Problem& problem, double pressure_pa);
 double PaFromKpaGauge(const Problem& problem, double kpa_gauge);
 
-// Where requests limit the pressure of a group and that of the source, as JSON pointers.
+// JSON pointers: of a group's entry in the request, and where requests limit the pressure of a
+// group and that of the source.
+std::string GroupPointer(const Problem& problem, int group);
 std::string PressureLimitPointer(const Problem& problem, int group);
 std::string SourceLimitPointer(const Problem& problem);
 
@@ -262,7 +266,8 @@ struct GroupPerformanceOf {
   T rise_time_s = T(0.0), fall_time_s = T(0.0);
   T inflate_time_s = T(0.0);  // to the operating pressure
   T frequency_max_hz = T(0.0);
-  T highest_pressure_pa = T(0.0);  // of the periodic state; 0: that at which the valve closes
+  // Of the periodic state with effects, else 0; of a design at least the peak (closing.h).
+  T highest_pressure_pa = T(0.0);
 };
 using GroupPerformance = GroupPerformanceOf<double>;
 

@@ -19,7 +19,8 @@
 //      * tube: same outer and inner diameter, pressure_max no smaller;
 //        fitting: same diameter and thread, C, b, pressure_max no smaller;
 //        valve: same port, both hold or neither does, C and b of fill and exhaust no smaller, coil
-//        power of the group no larger, pressure_max no smaller, pressure_min no larger;
+//        power of the group no larger, pressure_max no smaller, pressure_min no larger, and no
+//        larger what it lets by while it closes late (LetBy of part_tables.h);
 //        regulator: C, b, flow_max, inlet and outlet maximum no smaller, inlet and outlet minimum
 //        and power no larger; a tank's choice of no regulator stands for no other, nor one for it;
 //        cylinder, CO2 bottle: usable gas no smaller at every inlet pressure in use, fill pressure
@@ -34,7 +35,8 @@
 //      one source may take air from each other, and a pump may take more energy per air at low
 //      pressure than at high. But for mains they must also be equal of valves that cannot hold, and
 //      where the catalogue has such a valve of fittings and regulators: the more flows while it
-//      stands open the more air it takes.
+//      stands open the more air it takes. Where valves close late (closing.h of evaluate/; never
+//      with pumps alone) C and b of fittings must be equal, too: the higher is the peak.
 //
 // 2. Boxes. Plan::boxes is the tree of boxes in preorder. A box is a range of choices per slot; the
 //    first box is all of them. kSplit divides the range of one slot at `middle`: the left part,
@@ -55,17 +57,20 @@
 //    Ranges are half-open; choices keep the order of Slot::choices.
 //
 // The corner at its best takes: the exact march through the largest C and b of each element into
-// the smallest dead volume, from the highest source pressure that any of the choices stands; the
-// least air, coil power and amounts (a tank with the air that is left at the highest operating
-// pressure, and what the mission takes on top); and for bottles, tanks, batteries and reservoirs
-// the least objective of those in the box that bear this need. A bound may also rest on divisions
-// of the box that are not recorded: of the lines in it only those count that mate and are fast
-// enough on an unlimited source; and behind a regulator that several groups draw from at once,
-// those that make do with the mean pressure that the least air of the others leaves at the node
-// behind it, at the highest of the source pressures that they work at. In a compressor's box each
-// group counts as if it were alone on the reservoir, with the largest delivery of the box at each
-// pressure; of two groups that take turns each leaves enough for the other. A tank without a
-// regulator keeps its highest pressure; of pumps alone optimizer/pump/direct_bound.h says the rest.
+// the smallest dead volume, from the highest source pressure that any of the choices stands, and at
+// which the peak of the slowest to fill keeps the limit where it closes as late as the soonest of
+// the box (closing.h); the least air, coil power and amounts (a tank with the air that is left at
+// the highest operating pressure, and what the mission takes on top); and for bottles, tanks,
+// batteries and reservoirs the least objective of those in the box that bear this need. A bound may
+// also rest on divisions of the box that are not recorded: of the lines in it only those count that
+// mate and are fast enough on an unlimited source; and behind a regulator that several groups draw
+// from at once, those that make do with the mean pressure that the least air of the others leaves
+// at the node behind it, at the highest of the source pressures that they work at. In a
+// compressor's box each group counts as if it were alone on the reservoir, with the largest
+// delivery of the box at each pressure; of two groups that take turns each leaves enough for the
+// other. A tank without a regulator keeps its highest pressure; no box is fed with more than every
+// group's lines stand, the highest of all lines of each that are fast enough. Of pumps alone
+// optimizer/pump/direct_bound.h says the rest.
 #ifndef PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 #define PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 

@@ -5,6 +5,7 @@
 
 #include "model/physics/storage.h"
 #include "optimizer/evaluate/candidate.h"
+#include "optimizer/evaluate/closing.h"
 #include "optimizer/evaluate/source_options.h"
 #include "optimizer/evaluate/strokes/effect_strokes.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
@@ -68,6 +69,22 @@ Totals TotalsOf(const std::vector<Choice>& parts) {
   }
   if (priced) totals.cost_eur = totals.cost_known_eur;
   return totals;
+}
+
+// Groups of one entry of the request (ActuatorGroup::entry) have its requirements in common: the
+// one that is met least counts.
+std::vector<Margin> OnePerRequirement(std::vector<Margin> margins) {
+  std::vector<Margin> kept;
+  for (Margin& margin : margins) {
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Margin& other) {
+      return other.requirement == margin.requirement;
+    });
+    if (same == kept.end())
+      kept.push_back(std::move(margin));
+    else if (margin.relative_margin < same->relative_margin)
+      *same = std::move(margin);
+  }
+  return kept;
 }
 
 Performance MakePerformance(const Problem& problem, const Evaluation& evaluation) {
@@ -240,7 +257,12 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
                                          evaluation.groups[g].inflate_time_s *
                                          problem.frequency_hz);
   design.performance = MakePerformance(problem, evaluation);
-  design.margins = Margins(problem, candidate, point, evaluation);
+  for (std::size_t g = 0; g < evaluation.groups.size(); ++g) {
+    double& highest_pa = design.performance.groups[g].highest_pressure_pa;
+    highest_pa =
+        std::max(highest_pa, PeakOf(problem, candidate, static_cast<int>(g), point.source_pa));
+  }
+  design.margins = OnePerRequirement(Margins(problem, candidate, point, evaluation));
   design.objective = ObjectiveValue(problem, candidate, point, evaluation);
   return design;
 }

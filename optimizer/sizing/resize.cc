@@ -70,6 +70,7 @@ bool SetLine(const Problem& problem, const Design& design, int g, Line& line) {
   ValveCorner valve_corner;
   set(Family::kValve, valve, pieces, valve_corner);
   valve_corner.threads = kMate;
+  if (IsDirect(design.configuration)) valve_corner.late_s = 0.0;
   const model::Gas gas =
       design.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
   const Constraint missed =
@@ -141,10 +142,11 @@ Leaf SizeRebuilt(const Problem& problem, const Workbench& bench, Rebuilt& rebuil
   return sizing.leaf();
 }
 
-// Strokes as slow as the period allows are looked at, too.
+// Strokes as slow as the period allows are looked at, too, and peaks as high as the source.
 Problem WithoutStrokeLimits(Problem problem) {
   for (ActuatorGroup& group : problem.groups)
     group.rise_time_max_s = group.fall_time_max_s = kUnlimited;
+  for (model::Valve& valve : problem.parts.valves) valve.closing_scatter_s = 0.0;
   return problem;
 }
 

@@ -2,10 +2,11 @@
 // turns: the next job is of the one with the fewest at work and, of these, of the one who has
 // waited longest for a turn; the jobs of one client are begun in the order in which they came.
 //
-// A job is on disk from before its id is given out until it is old (catalog/store/job_store.h). One
-// that was queued or running when the service ended, in whatever way, is done again by the next,
-// unless its own computation crashed the service twice (server/jobs/job_recovery.h); one that ended
-// stays readable. Only the progress of a running job is kept in memory alone.
+// A job is on disk from before its id is given out until it is old
+// (catalog/store/jobs/job_store.h). One that was queued or running when the service ended, in
+// whatever way, is done again by the next, unless its own computation crashed the service twice
+// (server/jobs/job_recovery.h); one that ended stays readable. Only the progress of a running job
+// is kept in memory alone.
 #ifndef PLENUM_SERVER_JOBS_JOBS_H_
 #define PLENUM_SERVER_JOBS_JOBS_H_
 

@@ -88,6 +88,7 @@ TEST(Exosuit, FirstDesignRisesAndFallsAsTheMassesSay) {
   group.schedule = {{0.0, 1}};
 
   MassRig rig;
+  rig.linear_ratio = 1.0 - 1e-9;  // designs have none: their strokes end short of the source
   rig.groups = {group};
   rig.source = MassRig::Source::kReservoir;
   rig.source_pa = rig.stop_pa = design.settings.source_pressure_pa;
@@ -98,14 +99,14 @@ TEST(Exosuit, FirstDesignRisesAndFallsAsTheMassesSay) {
   }
   const optimizer::GroupPerformance& reported = design.performance.groups[0];
   EXPECT_NEAR(Crossing(test::SimulateMasses(rig, 1.0, 1e-4, 1e-3), 1.95e5), reported.rise_time_s,
-              0.01 * reported.rise_time_s);
+              1e-5 * reported.rise_time_s);
   EXPECT_LE(reported.rise_time_s, 0.5);
 
   rig.source = MassRig::Source::kNone;
   rig.groups[0].initial_pa = 2e5;
   rig.groups[0].schedule = {{0.0, -1}};
   EXPECT_NEAR(Crossing(test::SimulateMasses(rig, 1.0, 1e-4, 1e-3), 1.05e5), reported.fall_time_s,
-              0.01 * reported.fall_time_s);
+              1e-5 * reported.fall_time_s);
   EXPECT_LE(reported.fall_time_s, 0.6);
 }
 

@@ -7,6 +7,7 @@
 #include "model/flow/tube.h"
 #include "model/physics/storage.h"
 #include "model/strokes/stroke.h"
+#include "tests/support/late_closing.h"
 
 namespace plenum::test {
 namespace {
@@ -112,6 +113,41 @@ bool Mates(const Problem& problem, int tubing, int fitting, int valve) {
          problem.parts.valves[valve].port == part.thread;
 }
 
+namespace {
+
+// From the valve to the actuator.
+std::vector<model::FlowElement> Inward(const optimizer::ActuatorGroup& group,
+                                       const model::FlowElement& valve,
+                                       const model::FlowElement& fitting,
+                                       const model::FlowElement& tube) {
+  std::vector<model::FlowElement> elements{valve};
+  elements.insert(elements.end(), (group.fittings_per_line + 1) / 2, fitting);
+  elements.push_back(tube);
+  elements.insert(elements.end(), group.fittings_per_line / 2, fitting);
+  return elements;
+}
+
+// The highest source pressure that a line that closes late stands.
+double MostForPeak(const Problem& problem, const optimizer::Line& line, int group_index,
+                   double gas_factor) {
+  const optimizer::ActuatorGroup& group = problem.groups[group_index];
+  const model::Valve& valve = problem.parts.valves[line.valve];
+  if (!line.holds || !(valve.closing_scatter_s > 0.0)) return line.source_max_pa;
+  const model::Tubing& tubing = problem.parts.tubing[line.tubing];
+  model::FlowElement connection;
+  if (line.fitting >= 0) {
+    const model::Fitting& fitting = problem.parts.fittings[line.fitting];
+    connection = fitting.flow_most.value_or(fitting.flow);
+  }
+  LateLine late{Inward(group, valve.fill_most.value_or(valve.fill), connection,
+                       model::TubeElement(tubing.inner_diameter_m, group.tube_length_m)),
+                line.chamber, valve.closing_scatter_s, gas_factor, problem.ambient.temperature_k};
+  if (group.chamber.evacuated) std::reverse(late.fill.begin(), late.fill.end());
+  return MostForPeakPa(late, group.pressure_max_pa, line.source_max_pa);
+}
+
+}  // namespace
+
 optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing_index,
                              int fitting_index, int valve_index, model::Gas gas) {
   const optimizer::ActuatorGroup& group = problem.groups[group_index];
@@ -137,21 +173,12 @@ optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing
   if (fitting != nullptr) add(fittings, fitting->basics);
 
   const model::FlowElement tube = model::TubeElement(tubing.inner_diameter_m, group.tube_length_m);
-  std::vector<model::FlowElement> before, after;  // the tube, seen from the valve
-  for (int i = 0; fitting != nullptr && i < group.fittings_per_line; ++i)
-    (i % 2 == 0 ? before : after).push_back(fitting->flow);
-  line.fill = {valve.fill};
-  line.fill.insert(line.fill.end(), before.begin(), before.end());
-  line.fill.push_back(tube);
-  line.fill.insert(line.fill.end(), after.begin(), after.end());
-  line.exhaust = after;
-  line.exhaust.push_back(tube);
-  line.exhaust.insert(line.exhaust.end(), before.begin(), before.end());
-  line.exhaust.push_back(valve.exhaust);
-  if (group.chamber.evacuated) {  // crossed the other way round
-    std::reverse(line.fill.begin(), line.fill.end());
-    std::reverse(line.exhaust.begin(), line.exhaust.end());
-  }
+  const model::FlowElement connection = fitting == nullptr ? model::FlowElement{} : fitting->flow;
+  line.fill = Inward(group, valve.fill, connection, tube);
+  line.exhaust = Inward(group, valve.exhaust, connection, tube);
+  // Evacuated ones are crossed the other way round.
+  auto& outward = group.chamber.evacuated ? line.fill : line.exhaust;
+  std::reverse(outward.begin(), outward.end());
 
   line.holds = line.all_hold = valve.kind != model::ValveKind::kThreeWay;
   line.source_max_pa =
@@ -167,6 +194,7 @@ optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing
                                  tubing.inner_diameter_m * group.tube_length_m;
   const double temperature_k = problem.ambient.temperature_k;
   const double factor = (gas == model::Gas::kCo2 ? 0.79 : 1.0) * std::sqrt(293.15 / temperature_k);
+  line.source_max_pa = MostForPeak(problem, line, group_index, factor);
   const model::Series fill_series = model::MakeSeries(line.fill, factor);
   line.curve = std::make_shared<const optimizer::FillCurve>(
       optimizer::FillCurve{model::FlowTable(fill_series, model::MirrorPa(group.chamber)),

@@ -103,11 +103,18 @@ bool RuleNoWorse(const Problem& problem, const ProofPlan& plan, Family family, c
   return true;
 }
 
+bool ClosesLate(const model::Valve& valve) {
+  return model::Holds(valve.kind) && valve.closing_scatter_s > 0.0;
+}
+
 // Whether a valve that stands open for half of the period takes more air through a choice that
-// passes more.
+// passes more, or one that closes late lets the pressure rise further.
 bool FillsFurther(const Problem& problem, const ProofPlan& plan, Family family,
                   const ProofItem& item) {
   const std::vector<model::Valve>& valves = problem.parts.valves;
+  if (family == Family::kFitting && !IsDirect(plan.configuration) &&
+      std::any_of(valves.begin(), valves.end(), ClosesLate))
+    return true;
   if (plan.configuration == Configuration::kMains) return false;
   if (family == Family::kValve) return !model::Holds(valves[item.part].kind);
   return std::any_of(valves.begin(), valves.end(),

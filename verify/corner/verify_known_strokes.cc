@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "model/strokes/stroke.h"
 #include "verify/corner/verify_node.h"
@@ -12,6 +14,14 @@ namespace plenum::verify {
 namespace {
 
 constexpr double kSlack = 1.0 + kSumTolerance;
+constexpr int kBoxesMax = 100'000;
+
+// Another group of the source needs more than the limit of this one.
+bool MayConflict(const Problem& problem, int g) {
+  return std::any_of(problem.groups.begin(), problem.groups.end(), [&](const ActuatorGroup& other) {
+    return other.chamber.operating_pressure_pa > problem.groups[g].pressure_max_pa;
+  });
+}
 
 }  // namespace
 
@@ -28,8 +38,43 @@ const BestLine& KnownStrokes::Line(const Ranges& ranges, int g) {
       {g, tubes.first, tubes.second, fittings.first, fittings.second, valves.first, valves.second});
   if (!fresh) return entry->second;
   BestLine& line = entry->second = BestOf(problem_, plan_, ranges, g);
+  line.source_high_pa = std::min(line.source_high_pa, HighestSource(g));
   if (line.works && AllAtOnce(problem_)) line.least_means = LeastMeans(problem_, g, line);
   return line;
+}
+
+// Halves of the ranges of a group's slots, those first that may have the highest.
+double KnownStrokes::HighestSource(int g) {
+  const auto [known, fresh] = highest_source_pa_.try_emplace(g, kUnlimited);
+  if (!fresh || IsDirect(plan_.configuration) || !MayConflict(problem_, g)) return known->second;
+  const std::array<int, 3> slots{SlotOf(plan_, Family::kTubing, g),
+                                 SlotOf(plan_, Family::kFitting, g),
+                                 SlotOf(plan_, Family::kValve, g)};
+  std::multimap<double, Ranges, std::greater<>> open;
+  const auto look = [&](Ranges ranges) {
+    const BestLine line = BestOf(problem_, plan_, ranges, g);
+    if (line.mates && line.works) open.emplace(line.source_high_pa, std::move(ranges));
+  };
+  Ranges all;
+  for (const ProofSlot& slot : plan_.slots)
+    all.emplace_back(0, static_cast<int>(slot.choices.size()));
+  look(std::move(all));
+  for (int boxes = 0; !open.empty() && boxes < kBoxesMax; ++boxes) {
+    const double source_pa = open.begin()->first;
+    const Ranges most = std::move(open.begin()->second);
+    open.erase(open.begin());
+    const auto size = [&](int s) { return most[s].second - most[s].first; };
+    const int widest = *std::max_element(slots.begin(), slots.end(),
+                                         [&](int a, int b) { return size(a) < size(b); });
+    if (size(widest) == 1) return known->second = source_pa;
+    const int middle = most[widest].first + size(widest) / 2;
+    for (const bool upper : {false, true}) {
+      Ranges half = most;
+      (upper ? half[widest].first : half[widest].second) = middle;
+      look(std::move(half));
+    }
+  }
+  return known->second = open.empty() ? 0.0 : open.begin()->first;
 }
 
 bool KnownStrokes::IsTooSlow(const Query& query, double start_pa) const {

@@ -20,6 +20,7 @@ class KnownStrokes {
   KnownStrokes(const KnownStrokes&) = delete;
   KnownStrokes& operator=(const KnownStrokes&) = delete;
 
+  // Its source pressure is no higher than the highest of any line of the group.
   const BestLine& Line(const Ranges& ranges, int group);
 
   PumpChoices& pumps() { return *pumps_; }  // of a plan with compressors
@@ -47,12 +48,14 @@ class KnownStrokes {
   using LineRange = std::array<int, 7>;  // group, ranges of its slots
   using StrokeKey = std::tuple<const BestLine*, const PumpCells*, double, double>;
 
+  double HighestSource(int group);
   Starts& KnownOf(const Query& query);
   bool IsTooSlow(const Query& query, double start_pa) const;
 
   const Problem& problem_;
   const ProofPlan& plan_;
   std::map<LineRange, BestLine> lines_;
+  std::map<int, double> highest_source_pa_;  // per group
   std::optional<PumpChoices> pumps_;
   std::map<StrokeKey, Starts> known_;
 };

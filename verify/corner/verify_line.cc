@@ -6,6 +6,7 @@
 #include "model/strokes/stroke.h"
 #include "verify/corner/verify_best.h"
 #include "verify/design/cycle/verify_gait.h"
+#include "verify/design/verify_closing.h"
 #include "verify/design/verify_design.h"
 
 namespace plenum::verify {
@@ -39,9 +40,21 @@ bool Mates(const Problem& problem, int g, const LineChoices& choices) {
   });
 }
 
+// The highest source pressure at which the peak of some line of the box keeps the limit.
+double HighestForPeaks(const Problem& problem, const ProofPlan& plan, const LineChoices& choices,
+                       int g, double most_pa) {
+  LinesParts lines;
+  for (const int t : choices.tubes) lines.tubes.push_back(&problem.parts.tubing[t]);
+  for (const int f : choices.fittings)
+    lines.fittings.push_back(f < 0 ? nullptr : &problem.parts.fittings[f]);
+  for (const int v : choices.valves) lines.valves.push_back(&problem.parts.valves[v]);
+  return std::min(most_pa, (1.0 + kSumTolerance) *
+                               MostForPeaksPa(problem, plan.configuration, g, lines, most_pa));
+}
+
 // Elements, volumes and pressures.
 BestLine Gather(const Problem& problem, const ProofPlan& plan, const Ranges& ranges, int g,
-                model::FlowElement& exhaust, double& switches_pa) {
+                const LineChoices& choices, model::FlowElement& exhaust, double& switches_pa) {
   const ActuatorGroup& group = problem.groups[g];
   const auto best_of = [&](Family family) {
     return BestNumbers(problem, plan, ranges, SlotOf(plan, family, g));
@@ -64,6 +77,8 @@ BestLine Gather(const Problem& problem, const ProofPlan& plan, const Ranges& ran
                 fittings > 0 ? fitting.Number("pressure_max_kpa_gauge") : kUnlimited,
                 valve.Number("pressure_max_kpa_gauge"), problem.source_pressure_max_pa});
   if (!best.some_hold) best.source_high_pa = std::min(best.source_high_pa, group.pressure_max_pa);
+  if (best.some_hold)
+    best.source_high_pa = HighestForPeaks(problem, plan, choices, g, best.source_high_pa);
   best.fill.assign(fittings, fitting.Flow("sonic_conductance_dm3_per_s_bar"));
   best.fill.insert(best.fill.begin() + (fittings + 1) / 2,
                    model::TubeElement(widest_m, group.tube_length_m));
@@ -100,7 +115,7 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   if (!Mates(problem, g, choices)) return {};
   model::FlowElement exhaust_valve;
   double switches_pa = 0.0;
-  BestLine best = Gather(problem, plan, ranges, g, exhaust_valve, switches_pa);
+  BestLine best = Gather(problem, plan, ranges, g, choices, exhaust_valve, switches_pa);
   best.mates = true;
   const ActuatorGroup& group = problem.groups[g];
   const double operating_pa = group.chamber.operating_pressure_pa;

@@ -34,6 +34,7 @@ struct NotRechecked {
 inline constexpr double kSumTolerance = 1e-9;
 inline constexpr double kTimeTolerance = 1e-4;
 inline constexpr double kEnergyTolerance = 1e-3;
+inline constexpr double kPeakTolerance = 1e-7;  // of pressures while valves close
 inline constexpr double kSettled = 0.5;  // of a tie, that settings may cost which it leaves free
 inline constexpr double kTieTolerance = 1e-6;  // objectives this close are ties (verify_ids.h)
 

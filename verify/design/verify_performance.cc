@@ -2,6 +2,7 @@
 #include "verify/design/cycle/verify_cycle.h"
 #include "verify/design/cycle/verify_gait.h"
 #include "verify/design/cycle/verify_pump_curve.h"
+#include "verify/design/verify_closing.h"
 #include "verify/design/verify_supply.h"
 #include "verify/design/verify_tank.h"
 
@@ -139,6 +140,11 @@ void CheckStrokes(const Problem& problem, const Design& design, const Assembly& 
           &WorthOfPressure::OfInflation);
     timed(name + "frequency_hz_max", group.frequency_max_hz,
           1.0 / (cycle.rise_s[g] + cycle.fall_s[g]), &WorthOfPressure::OfRise);
+    if (!Near(group.highest_pressure_pa,
+              PeakPa(problem, assembly.configuration, g, assembly.lines[g],
+                     design.settings.source_pressure_pa),
+              kPeakTolerance))
+      findings.push_back({"strokes", name + "peak_kpa_gauge is not that of these parts"});
     timed(name + "valve_duty", design.settings.valve_duty[g],
           strokes * cycle.inflate_s[g] * problem.frequency_hz, &WorthOfPressure::OfInflation);
     if (cycle.inflate_s[g] > FillSecondsMax(problem, assembly, g) * (1.0 + kTimeTolerance) ||

@@ -41,7 +41,11 @@ std::string MarginInWords(const optimizer::Margin& margin, const optimizer::Prob
   std::string name(words.name);
   constexpr std::string_view kActuators = "/actuators/";
   if (pointer.starts_with(kActuators) && problem.groups.size() > 1)
-    name += " of " + problem.groups.at(std::stoul(pointer.substr(kActuators.size()))).name;
+    for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+      if (pointer.starts_with(optimizer::GroupPointer(problem, g) + "/")) {
+        name += " of " + problem.groups[g].name;
+        break;
+      }
   const std::string unit(words.unit);
   const std::string achieved = std::isfinite(margin.achieved) ? "is " + Told(margin.achieved) + unit
                                                               : std::string("is not known");

@@ -49,7 +49,8 @@ void ReadPerformance(Reader performance, const Problem& problem, Design& design)
     Reader group(element, performance.errors());
     given.groups.push_back(
         {group.Number("rise_time_s", kAnyNumber), group.Number("fall_time_s", kAnyNumber),
-         group.Number("inflate_time_s", kAnyNumber), group.Number("frequency_hz_max", kAnyNumber)});
+         group.Number("inflate_time_s", kAnyNumber), group.Number("frequency_hz_max", kAnyNumber),
+         optimizer::PaFromKpaGauge(problem, group.Number("peak_kpa_gauge", kAnyNumber))});
   }
   given.frequency_sustained_hz = performance.Number("frequency_hz_sustained", kAnyNumber);
   given.air_per_actuation_m3 = M3FromL(performance.Number("air_per_actuation_l_anr", kAnyNumber));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "api/design/read/gait_reader.h"
+#include "api/design/read/actuators/gait_reader.h"
 #include "api/design/read/power.h"
 #include "api/design/read/selection.h"
 
@@ -13,23 +13,28 @@ namespace {
 constexpr double kDeviations = 2.0;       // of a half-width
 constexpr double kUncertaintyMax = 0.45;  // so that a half-width is below 1
 
-// Largest volumes at each pressure.
-void Enlarge(const GroupUncertainty& uncertainty, model::Chamber& chamber) {
-  const double rest = 1.0 + kDeviations * uncertainty.rest_volume;
+// Largest volumes at each pressure (`deviations` above 0) or smallest.
+model::Chamber Resized(model::Chamber chamber, const GroupUncertainty& uncertainty,
+                       double deviations) {
+  const double rest = 1.0 + deviations * uncertainty.rest_volume;
   const double ratio = chamber.expansion_ratio;
-  const double larger = ratio * (1.0 + kDeviations * uncertainty.expansion_ratio);
+  const double scaled = ratio * (1.0 + deviations * uncertainty.expansion_ratio);
+  const double changed = ratio >= 1.0 ? std::max(1.0, scaled) : scaled;
   if (!chamber.volume_curve.empty()) {
-    const double growth = ratio > 1.0 ? (larger - 1.0) / (ratio - 1.0) : 1.0;
+    const double growth = ratio > 1.0 ? (changed - 1.0) / (ratio - 1.0) : 1.0;
     std::vector<double> volumes_m3;
     for (const double volume_m3 : chamber.volume_curve.y()) {
       const double grown_m3 = volume_m3 - chamber.rest_volume_m3;
-      volumes_m3.push_back(rest * (chamber.rest_volume_m3 + std::max(grown_m3, grown_m3 * growth)));
+      const double farthest_m3 = deviations > 0.0 ? std::max(grown_m3, grown_m3 * growth)
+                                                  : std::min(grown_m3, grown_m3 * growth);
+      volumes_m3.push_back(rest * (chamber.rest_volume_m3 + farthest_m3));
     }
     const auto pressures = chamber.volume_curve.x();
     chamber.volume_curve = {{pressures.begin(), pressures.end()}, std::move(volumes_m3)};
   }
   chamber.rest_volume_m3 *= rest;
-  chamber.expansion_ratio = larger;
+  chamber.expansion_ratio = changed;
+  return chamber;
 }
 
 }  // namespace
@@ -92,8 +97,11 @@ optimizer::Problem GuaranteedProblem(const optimizer::Problem& problem,
   guaranteed.guarantee = optimizer::Guarantee{guarantee.tolerance.estimated};
   // Not guaranteed yet, and not asked for by name.
   guaranteed.configurations.erase(optimizer::Configuration::kDirectVacuumPump);
-  for (std::size_t g = 0; g < guarantee.groups.size(); ++g)
-    Enlarge(guarantee.groups[g], guaranteed.groups[g].chamber);
+  for (std::size_t g = 0; g < guarantee.groups.size(); ++g) {
+    const model::Chamber& printed = problem.groups[g].chamber;
+    guaranteed.groups[g].chamber = Resized(printed, guarantee.groups[g], kDeviations);
+    guaranteed.groups[g].least = Resized(printed, guarantee.groups[g], -kDeviations);
+  }
   guaranteed.parts =
       ToWorstParts(problem, AllowedParts(rows, problem), guarantee.tolerance, settled);
   if (NeedsHoldingValves(problem))

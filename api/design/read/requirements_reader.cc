@@ -5,8 +5,9 @@
 #include <map>
 
 #include "api/catalogue/catalogue_parts.h"
+#include "api/design/read/actuators/actuators_reader.h"
+#include "api/design/read/actuators/gait_reader.h"
 #include "api/design/read/design_reader.h"
-#include "api/design/read/gait_reader.h"
 #include "api/design/read/objective_reader.h"
 #include "api/design/read/power.h"
 #include "api/design/read/selection.h"
@@ -17,8 +18,6 @@
 #include "api/json/units.h"
 #include "api/json/words.h"
 #include "api/measure/model_document.h"
-#include "api/simulate/group_chamber.h"
-#include "model/flow/series.h"
 #include "optimizer/problem/problem.h"
 
 namespace plenum::api {
@@ -26,11 +25,6 @@ namespace {
 
 using optimizer::Configuration;
 
-// Valve, tube and the shared regulator take three places of a series.
-constexpr int kFittingsMax = static_cast<int>(model::kMaxSeriesElements) - 3;
-constexpr double kPressureMarginDefault = 1.05;
-constexpr double kVacuumMaxKpa = 200.0;  // below ambient, at any ambient pressure
-const Range kTimeLimitS = Above(0, 1e6);
 const Range kAmount = Above(0, 1e6);  // kg, L, EUR
 
 // A request that names none asks for all but a tank, which has to be filled somewhere, and pumps
@@ -38,67 +32,6 @@ const Range kAmount = Above(0, 1e6);  // kg, L, EUR
 constexpr Configuration kAllConfigurations[] = {
     Configuration::kCylinder, Configuration::kCo2,  Configuration::kCompressor,
     Configuration::kMains,    Configuration::kTank, Configuration::kDirectPump};
-
-// What a group says beside the group itself.
-struct GroupRemarks {
-  double operating_kpa = 0.0;  // gauge, as given
-  GroupUncertainty uncertainty;
-};
-
-// kPa gauge.
-double ReadHighestPressure(Reader& group, double operating_kpa) {
-  if (group.Has("pressure_kpa_gauge_min"))
-    group.Fail("pressure_kpa_gauge_min",
-               "is for actuators that are evacuated; of one under pressure pressure_kpa_gauge_max "
-               "is the limit");
-  const auto limit_kpa = group.OptionalNumber("pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
-  if (limit_kpa && *limit_kpa < operating_kpa - 1e-9)
-    group.Fail("pressure_kpa_gauge_max", "must be ≥ the operating pressure of " +
-                                             Decimal(Rounded(operating_kpa)) + " kPa gauge, not " +
-                                             Decimal(*limit_kpa));
-  return limit_kpa.value_or(kPressureMarginDefault * operating_kpa);
-}
-
-// The same of an evacuated actuator.
-double ReadLowestPressure(Reader& group, double operating_kpa) {
-  if (group.Has("pressure_kpa_gauge_max"))
-    group.Fail(
-        "pressure_kpa_gauge_max",
-        "is for actuators under pressure; of one that is evacuated pressure_kpa_gauge_min is "
-        "the limit");
-  const auto limit_kpa = group.OptionalNumber("pressure_kpa_gauge_min", {-kVacuumMaxKpa, -1});
-  if (limit_kpa && *limit_kpa > operating_kpa + 1e-9)
-    group.Fail("pressure_kpa_gauge_min", "must be ≤ the operating pressure of " +
-                                             Decimal(Rounded(operating_kpa)) + " kPa gauge, not " +
-                                             Decimal(*limit_kpa));
-  return limit_kpa.value_or(kPressureMarginDefault * operating_kpa);
-}
-
-optimizer::ActuatorGroup ReadGroup(const Element& element, std::size_t index,
-                                   const model::Ambient& ambient, std::vector<std::string>& names,
-                                   GroupRemarks& remarks, Errors& errors) {
-  Reader reader(element, errors);
-  optimizer::ActuatorGroup group;
-  group.name = ReadName(reader, index, names);
-  group.count = reader.Integer("count", 1, kCountMax, 1);
-  group.chamber = ReadChamber(reader, ambient, Vacuum::kAllowed);
-  group.tube_length_m = reader.Number("tube_length_m", TubeLengthRange());
-  group.fittings_per_line = reader.Integer("fittings_per_line", 0, kFittingsMax, 2);
-  group.rise_time_max_s =
-      reader.OptionalNumber("rise_time_s_max", kTimeLimitS).value_or(optimizer::kUnlimited);
-  group.fall_time_max_s =
-      reader.OptionalNumber("fall_time_s_max", kTimeLimitS).value_or(optimizer::kUnlimited);
-
-  group.gait = ReadGait(reader, group.count);
-  remarks.uncertainty = ReadGroupUncertainty(reader);
-  remarks.operating_kpa = KpaGaugeFromPa(group.chamber.operating_pressure_pa, ambient);
-  group.pressure_max_pa =
-      group.chamber.evacuated
-          ? PaFromKpaGauge(-ReadLowestPressure(reader, -remarks.operating_kpa), ambient)
-          : PaFromKpaGauge(ReadHighestPressure(reader, remarks.operating_kpa), ambient);
-  reader.Finish();
-  return group;
-}
 
 void ReadDuty(Reader& request, optimizer::Problem& problem) {
   Reader duty = request.Object("duty");
@@ -197,15 +130,15 @@ void CheckPower(Reader& request, optimizer::Problem& problem) {
 
 // A source must reach the operating pressure of every group: what no choice of parts can mend is an
 // error of the request.
-void CheckPressures(const optimizer::Problem& problem, const std::vector<GroupRemarks>& groups,
-                    Errors& errors) {
+void CheckPressures(const optimizer::Problem& problem, Errors& errors) {
   if (optimizer::Evacuated(problem)) return CheckVacuum(problem, errors);
   const bool only_mains = problem.configurations == std::set<Configuration>{Configuration::kMains};
   const auto kpa = [&](double pa) { return Rounded(KpaGaugeFromPa(pa, problem.ambient)); };
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    const double operating_pa = problem.groups[i].chamber.operating_pressure_pa;
-    const std::string pointer = "/actuators/" + std::to_string(i) + "/operating_pressure_kpa_gauge";
-    const std::string is = "is " + Decimal(Rounded(groups[i].operating_kpa)) + ", above ";
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    const double operating_pa = problem.groups[g].chamber.operating_pressure_pa;
+    const std::string pointer =
+        optimizer::GroupPointer(problem, g) + "/operating_pressure_kpa_gauge";
+    const std::string is = "is " + Decimal(kpa(operating_pa)) + ", above ";
     if (operating_pa > problem.source_pressure_max_pa)
       errors.push_back({pointer, is +
                                      "the highest source pressure allowed: "
@@ -346,24 +279,18 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   parsed.name = reader.Text("name", "");
   problem.ambient = ReadAmbient(reader);
 
-  std::vector<std::string> names;
-  std::vector<GroupRemarks> groups;
-  for (const Element& element : reader.List("actuators", 1, kGroupsMax))
-    problem.groups.push_back(ReadGroup(element, problem.groups.size(), problem.ambient, names,
-                                       groups.emplace_back(), errors));
+  std::vector<GroupUncertainty> uncertainties = ReadActuators(reader, problem);
   ReadDuty(reader, problem);
+  AlternateSides(problem);
   const Fractions fractions = ReadFractions(reader);
   problem.rise_fraction = fractions.rise;
   problem.fall_fraction = fractions.fall;
   ReadSupply(reader, problem);
   CheckGaits(reader, problem);
-  CheckPressures(problem, groups, errors);
+  CheckPressures(problem, errors);
   ReadObjective(reader, problem.objective, parsed.pareto);
   const std::optional<double> probability_min = ReadRanking(reader, parsed);
   parsed.robust = ReadRobust(reader, probability_min);
-  std::vector<GroupUncertainty> uncertainties;
-  uncertainties.reserve(groups.size());
-  for (const GroupRemarks& group : groups) uncertainties.push_back(group.uncertainty);
   parsed.guarantee = ReadGuarantee(reader, std::move(uncertainties));
   parsed.explain = ReadExplain(reader);
   CheckTogether(reader, parsed, probability_min.has_value());

@@ -39,7 +39,7 @@ void ReadVacuum(Reader& supply, optimizer::Problem& problem) {
   for (std::size_t g = 1; g < problem.groups.size(); ++g)
     if (problem.groups[g].chamber.evacuated != evacuated)
       supply.errors().push_back(
-          {"/actuators/" + std::to_string(g) + "/operating_pressure_kpa_gauge",
+          {optimizer::GroupPointer(problem, static_cast<int>(g)) + "/operating_pressure_kpa_gauge",
            "must be on the same side of ambient pressure as that of the first group: actuators "
            "under pressure and evacuated ones in one design are not searched yet"});
   auto vacuum = supply.OptionalObject("vacuum");
@@ -67,11 +67,12 @@ void CheckVacuum(const optimizer::Problem& problem, Errors& errors) {
     const double operating_pa = problem.groups[g].chamber.operating_pressure_pa;
     if (!(operating_pa > problem.source_pressure_max_pa)) continue;
     const auto told = [&](double pa) { return Decimal(Rounded(optimizer::KpaGauge(problem, pa))); };
-    errors.push_back({"/actuators/" + std::to_string(g) + "/operating_pressure_kpa_gauge",
-                      "is " + told(operating_pa) +
-                          ", below the deepest vacuum allowed: "
-                          "/supply/vacuum/vacuum_kpa_gauge_min is " +
-                          told(problem.source_pressure_max_pa)});
+    errors.push_back(
+        {optimizer::GroupPointer(problem, static_cast<int>(g)) + "/operating_pressure_kpa_gauge",
+         "is " + told(operating_pa) +
+             ", below the deepest vacuum allowed: "
+             "/supply/vacuum/vacuum_kpa_gauge_min is " +
+             told(problem.source_pressure_max_pa)});
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "api/catalogue/catalogue_parts.h"
 #include "api/design/read/selection.h"
 #include "api/json/units.h"
 #include "model/physics/storage.h"
@@ -85,6 +86,19 @@ void SetCharge(const catalog::Part& row, const Tolerance& tolerance, const Settl
   const double charge_kg = ValueOf(row, "co2_mass_kg");
   bottle.basics.mass_kg += charge_kg - bottle.co2_mass_kg;
   bottle.basics.mass_slack_kg += charge_kg * HalfWidth(row, "co2_mass_kg", tolerance, settled);
+}
+
+// What an element of the row passes at most: `of` is "" or "_fill".
+model::FlowElement MostFlow(catalog::Part row, const std::string& of, const Tolerance& tolerance,
+                            const Settled& settled) {
+  const std::string conductance = "sonic_conductance" + of + "_dm3_per_s_bar",
+                    ratio = "critical_ratio" + of;
+  const catalog::Part printed = row;
+  for (const std::string& field : {conductance, ratio}) {
+    double& value = row.numbers.at(field).value;
+    value = WithinRange(row, field, value * (1.0 + HalfWidth(printed, field, tolerance, settled)));
+  }
+  return ElementOf(row, conductance.c_str(), ratio.c_str());
 }
 
 }  // namespace
@@ -173,6 +187,10 @@ model::Parts ToWorstParts(const optimizer::Problem& problem, const std::vector<c
         SetCharge(row, tolerance, settled, problem.ambient, parts.cylinders[part]);
       if (spec.family == optimizer::Family::kCo2)
         SetCharge(row, tolerance, settled, parts.co2[part]);
+      if (spec.family == optimizer::Family::kFitting)
+        parts.fittings[part].flow_most = MostFlow(row, "", tolerance, settled);
+      if (spec.family == optimizer::Family::kValve)
+        parts.valves[part].fill_most = MostFlow(row, "_fill", tolerance, settled);
       if (spec.family == optimizer::Family::kReservoir)
         parts.reservoirs[part].volume_spread_m3 =
             2.0 * HalfWidth(row, "internal_volume_ml", tolerance, settled) *

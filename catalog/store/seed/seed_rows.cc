@@ -16,7 +16,7 @@ constexpr char kSeedOrigin[] = "seed";
 bool InOrder(const Part& a, const Part& b) { return a.id < b.id; }
 
 // Whether a part that is not there was removed by a user, not by another seed.
-bool RemovedByUser(SQLite::Database& db, const std::string& id) {
+bool RemovedByUser(SqlDatabase& db, const std::string& id) {
   const std::vector<Change> last = ChangesOf(db, id, INT64_MAX, 1);
   return !last.empty() && last.front().revision.what != kSeedWrite;
 }
@@ -37,8 +37,7 @@ std::vector<Part> SeedRows(std::vector<Part> parts) {
   return parts;
 }
 
-SeedPlan ReplaceSeedRows(SQLite::Database& db, const std::vector<Part>& seed,
-                         RevisionWriter& writer) {
+SeedPlan ReplaceSeedRows(SqlDatabase& db, const std::vector<Part>& seed, RevisionWriter& writer) {
   SeedPlan plan;
   for (const Part& part : ReadParts(db)) {
     if (part.origin != kSeedOrigin || std::binary_search(seed.begin(), seed.end(), part, InOrder))
@@ -56,14 +55,14 @@ SeedPlan ReplaceSeedRows(SQLite::Database& db, const std::vector<Part>& seed,
   return plan;
 }
 
-SeedUpdate UpdateSeedRows(SQLite::Database& db, const std::vector<Part>& seed,
-                          const std::string& who, bool dry_run) {
-  SQLite::Transaction transaction(db, SQLite::TransactionBehavior::IMMEDIATE);
+SeedUpdate UpdateSeedRows(SqlDatabase& db, const std::vector<Part>& seed, const std::string& who,
+                          bool dry_run) {
+  SqlTransaction transaction(db, Purpose::kWrite);
   RevisionWriter writer(db);
   SeedUpdate update{ReplaceSeedRows(db, seed, writer), writer.head()};
   if (dry_run) return update;
   update.revision = writer.Record(who, std::string(kSeedWrite));
-  transaction.commit();
+  transaction.Commit();
   return update;
 }
 

@@ -2,8 +2,6 @@
 #ifndef PLENUM_CATALOG_STORE_SEED_SEED_ROWS_H_
 #define PLENUM_CATALOG_STORE_SEED_SEED_ROWS_H_
 
-#include <SQLiteCpp/SQLiteCpp.h>
-
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,12 +19,11 @@ inline constexpr std::string_view kSeedWrite = "seed";
 std::vector<Part> SeedRows(std::vector<Part> parts);
 
 // Changes what `seed` (SeedRows) changes; UpdateSeed (seed_update.h) says what stays.
-SeedPlan ReplaceSeedRows(SQLite::Database& db, const std::vector<Part>& seed,
-                         RevisionWriter& writer);
+SeedPlan ReplaceSeedRows(SqlDatabase& db, const std::vector<Part>& seed, RevisionWriter& writer);
 
 // The same as one revision, or, in a dry run, what that would be.
-SeedUpdate UpdateSeedRows(SQLite::Database& db, const std::vector<Part>& seed,
-                          const std::string& who, bool dry_run);
+SeedUpdate UpdateSeedRows(SqlDatabase& db, const std::vector<Part>& seed, const std::string& who,
+                          bool dry_run);
 
 }  // namespace plenum::catalog
 

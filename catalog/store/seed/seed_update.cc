@@ -1,11 +1,10 @@
 #include "catalog/store/seed/seed_update.h"
 
-#include <SQLiteCpp/SQLiteCpp.h>
-
 #include <system_error>
 
 #include "catalog/store/connection.h"
 #include "catalog/store/seed/seed_rows.h"
+#include "catalog/store/sql/address.h"
 
 namespace plenum::catalog {
 namespace {
@@ -13,20 +12,21 @@ namespace {
 // What `action` gives, its errors with the name of the file.
 template <class Action>
 auto Named(const std::filesystem::path& file, const Action& action) {
-  if (!std::filesystem::exists(file)) throw StoreError(file.string() + ": no such catalogue");
+  if (!IsServer(file) && !std::filesystem::exists(file))
+    throw StoreError(file.string() + ": no such catalogue");
   try {
     return action();
-  } catch (const SQLite::Exception& error) {
-    throw ToStoreError(file.string(), error);
+  } catch (const SqlError& error) {
+    throw ToStoreError(Shown(file), error);
   } catch (const StoreError& error) {
-    throw StoreError(file.string() + " " + error.what(), error.fault());
+    throw StoreError(Shown(file) + " " + error.what(), error.fault());
   }
 }
 
 std::vector<Part> PartsOf(const std::filesystem::path& catalog) {
-  SQLite::Database db = Connect(catalog.string(), Access::kRead);
-  SQLite::Transaction one_moment(db);
-  return ReadParts(db);
+  const auto db = Connect(catalog.string(), Access::kRead);
+  const SqlTransaction one_moment(*db, Purpose::kRead);
+  return ReadParts(*db);
 }
 
 }  // namespace
@@ -34,12 +34,12 @@ std::vector<Part> PartsOf(const std::filesystem::path& catalog) {
 SeedUpdate UpdateSeed(const std::filesystem::path& catalog, const std::filesystem::path& seed,
                       const std::string& who, bool dry_run) {
   std::error_code ignored;
-  if (std::filesystem::equivalent(catalog, seed, ignored))
-    throw StoreError(seed.string() + ": is the catalogue itself");
+  if (catalog == seed || std::filesystem::equivalent(catalog, seed, ignored))
+    throw StoreError(Shown(seed) + ": is the catalogue itself");
   const std::vector<Part> parts = Named(seed, [&] { return SeedRows(PartsOf(seed)); });
   return Named(catalog, [&]() -> SeedUpdate {
-    SQLite::Database db = Connect(catalog.string(), Access::kWrite);
-    return UpdateSeedRows(db, parts, who, dry_run);
+    const auto db = Connect(catalog.string(), Access::kWrite);
+    return UpdateSeedRows(*db, parts, who, dry_run);
   });
 }
 

@@ -15,12 +15,17 @@ constexpr std::tuple kRows{
 
 }  // namespace
 
-void Widen(FittingCorner& a, const FittingCorner& b) { WidenBy(kRows, a, b); }
+void Widen(FittingCorner& a, const FittingCorner& b) {
+  WidenBy(kRows, a, b);
+  ToLeastFlow(a.late_flow, b.late_flow);
+}
 std::array<double, 4> SplitKeys(const FittingCorner& c) {
   return KeysBy<KeyCountOf(kRows)>(kRows, c);
 }
 void SetNumbers(const PartNumbers& numbers, FittingCorner& corner) {
   SetNumbersBy(kRows, numbers, corner);
+  const model::Fitting& fitting = numbers.parts.fittings[numbers.part];
+  corner.late_flow = fitting.flow_most.value_or(fitting.flow);
 }
 
 void Planter::PlantFittings(int g, LineMates& mates) {

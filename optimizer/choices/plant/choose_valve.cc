@@ -32,12 +32,19 @@ constexpr std::tuple kRows{
 
 }  // namespace
 
-void Widen(ValveCorner& a, const ValveCorner& b) { WidenBy(kRows, a, b); }
+void Widen(ValveCorner& a, const ValveCorner& b) {
+  WidenBy(kRows, a, b);
+  ToLeastFlow(a.late_fill, b.late_fill);
+  ToLeast(a.late_s, b.late_s);
+}
 std::array<double, 7> SplitKeys(const ValveCorner& c) {
   return KeysBy<KeyCountOf(kRows)>(kRows, c);
 }
 void SetNumbers(const PartNumbers& numbers, ValveCorner& corner) {
   SetNumbersBy(kRows, numbers, corner);
+  const model::Valve& valve = numbers.parts.valves[numbers.part];
+  corner.late_fill = valve.fill_most.value_or(valve.fill);
+  corner.late_s = valve.closing_scatter_s;
 }
 
 void Planter::PlantValves(int g, const LineMates& mates) {
@@ -56,8 +63,9 @@ void Planter::PlantValves(int g, const LineMates& mates) {
           mates.threads.Where([&](const std::string& thread) { return thread == port; });
     ValveCorner& corner = entry.item.corner;
     corner.threads = kinds->second;
-    // Of sources with a pressure of their own, which is no lower than the operating pressure.
-    if (!IsDirect(plan_->configuration))
+    if (IsDirect(plan_->configuration))
+      corner.late_s = 0.0;  // the pumps stop
+    else  // sources with a pressure of their own, which is no lower than the operating pressure
       corner.pressure_min_pa =
           std::max(corner.pressure_min_pa, group.chamber.operating_pressure_pa);
     // A coil takes power for so long at least.

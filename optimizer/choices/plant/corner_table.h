@@ -69,6 +69,16 @@ inline void ToMost(double& a, double b) { a = std::max(a, b); }
 inline void ToBest(Use use, double& a, double b) {
   use == Use::kLess ? ToLeast(a, b) : ToMost(a, b);
 }
+inline void ToMostFlow(model::FlowElement& a, const model::FlowElement& b) {
+  ToMost(a.sonic_conductance_m3_per_s_pa, b.sonic_conductance_m3_per_s_pa);
+  ToMost(a.critical_ratio, b.critical_ratio);
+  ToLeast(a.subsonic_index, b.subsonic_index);
+}
+inline void ToLeastFlow(model::FlowElement& a, const model::FlowElement& b) {
+  ToLeast(a.sonic_conductance_m3_per_s_pa, b.sonic_conductance_m3_per_s_pa);
+  ToLeast(a.critical_ratio, b.critical_ratio);
+  ToMost(a.subsonic_index, b.subsonic_index);
+}
 
 template <typename Corner>
 void Widen(const Best<Corner>& row, Corner& a, const Corner& b) {
@@ -81,10 +91,7 @@ void Widen(const Ends<Corner>& row, Corner& a, const Corner& b) {
 }
 template <typename Corner>
 void Widen(const Flow<Corner>& row, Corner& a, const Corner& b) {
-  model::FlowElement& flow = a.*row.at;
-  ToMost(flow.sonic_conductance_m3_per_s_pa, (b.*row.at).sonic_conductance_m3_per_s_pa);
-  ToMost(flow.critical_ratio, (b.*row.at).critical_ratio);
-  ToLeast(flow.subsonic_index, (b.*row.at).subsonic_index);
+  ToMostFlow(a.*row.at, b.*row.at);
 }
 template <typename Corner>
 void Widen(const Mates<Corner>& row, Corner& a, const Corner& b) {

@@ -97,6 +97,7 @@ class Planter {
     plan_->configuration = configuration;
     plan_->equal_flow = LinesMeet();
     may_stay_open_ = MayStayOpen();
+    may_close_late_ = MayCloseLate();
     plan_->bottle_range = FindBottleRange();
     plan_->highest_pump_pa = HighestPumpPressure(problem);
     plan_->tie = LargestTie();
@@ -150,7 +151,16 @@ class Planter {
            std::any_of(problem_.parts.valves.begin(), problem_.parts.valves.end(),
                        [](const model::Valve& valve) { return !model::Holds(valve.kind); });
   }
+  // Whether more flow may make a peak too high, where more of a valve's is weighed with its time.
+  bool MayCloseLate() const {
+    return !IsDirect(plan_->configuration) &&
+           std::any_of(problem_.parts.valves.begin(), problem_.parts.valves.end(),
+                       [](const model::Valve& valve) {
+                         return model::Holds(valve.kind) && valve.closing_scatter_s > 0.0;
+                       });
+  }
   EqualFlow EqualFlowOf(Family family, int part) const {
+    if (family == Family::kFitting && may_close_late_) return EqualFlow::kAlways;
     const bool closes = family == Family::kValve && model::Holds(problem_.parts.valves[part].kind);
     if (may_stay_open_ && !closes) return EqualFlow::kAlways;
     if (plan_->equal_flow) return EqualFlow::kShared;
@@ -374,7 +384,7 @@ class Planter {
   const std::function<bool()>& stop_;
   std::unique_ptr<Plan> plan_;
   double useful_max_pa_ = kUnlimited;
-  bool may_stay_open_ = false;
+  bool may_stay_open_ = false, may_close_late_ = false;
   KindsOf<double> voltages_;  // of compressors
   BigCount total_, priced_, kept_;
   mutable double gas_kg_ = 0.0;

@@ -31,7 +31,7 @@ optimizer::Design HandMadeDesign() {
   };
   design.settings = {182e3, 0.78, 730e-6, {0.046}};
   design.totals = {1.387, 1.7617e-3, std::nullopt, 219600.0};
-  design.performance = {{{0.44, 0.57, 0.46, 0.98}}, 0.12, 0.15e-3, 0.9, 1e4};
+  design.performance = {{{0.44, 0.57, 0.46, 0.98, 191.5e3}}, 0.12, 0.15e-3, 0.9, 1e4};
   design.margins = {{"/actuators/0/rise_time_s_max", 0.5, 0.44, 0.12}};
   design.objective = 1.387;
   design.response = {{0.0, 0.5}, {{90e3, 190e3}}, {272e3, 260e3}};
@@ -80,7 +80,8 @@ TEST(RenderAnswer, HasEveryFieldOfTheContract) {
                                         "cost_eur_min": 0.0, "energy_wh": 61.0})"));
   EXPECT_EQ(design["performance"],
             Parse(R"({"groups": [{"name": "spa_pack", "rise_time_s": 0.44, "fall_time_s": 0.57,
-                                  "inflate_time_s": 0.46, "frequency_hz_max": 0.98}],
+                                  "inflate_time_s": 0.46, "frequency_hz_max": 0.98,
+                                  "peak_kpa_gauge": 101.5}],
                       "frequency_hz_sustained": 0.12, "air_per_actuation_l_anr": 0.15,
                       "air_total_l_anr": 900.0, "run_time_s": 10000.0})"));
   EXPECT_EQ(design["margins"],
@@ -103,7 +104,7 @@ TEST(RenderAnswer, SaysWhatRestsOnEstimates) {
   for (catalog::Part& part : parts) {
     if (part.family == "valve") {
       part.numbers["mass_kg"].provenance = catalog::Provenance::kEstimated;
-      part.numbers["response_time_ms"].provenance = catalog::Provenance::kEstimated;  // not used
+      part.numbers["response_time_ms"].provenance = catalog::Provenance::kEstimated;
     }
     if (part.family == "valve" || part.family == "battery") part.orderable = false;
     if (part.family == "battery")  // not in the design
@@ -113,8 +114,8 @@ TEST(RenderAnswer, SaysWhatRestsOnEstimates) {
       RenderAnswer(Request(), HandMadeAnswer(), parts)["designs"][0]["data_quality"];
   // Valves 3 × 0.02 kg and the reservoir's 0.2 kg, of 1.387 kg.
   EXPECT_NEAR(quality["mass_share_estimated"].get<double>(), 0.26 / 1.387, 1e-11);
-  EXPECT_EQ(quality["estimated"],
-            (Json{"reservoir.body_volume_ml", "reservoir.mass_kg", "valve.mass_kg"}));
+  EXPECT_EQ(quality["estimated"], (Json{"reservoir.body_volume_ml", "reservoir.mass_kg",
+                                        "valve.mass_kg", "valve.response_time_ms"}));
   EXPECT_EQ(quality["flow_estimated"], false);
   EXPECT_EQ(quality["not_orderable"], Json{"valve-1"});
 }

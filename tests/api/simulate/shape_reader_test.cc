@@ -104,7 +104,7 @@ TEST(Shapes, AreRefusedWithTheirRange) {
   EXPECT_THAT(DetailOf(WithShape("cylinder", R"({ "bore_mm": 10, "stroke_mm": 50,
                                                   "acting": "double" })"),
                        "/actuators/0/cylinder/acting"),
-              HasSubstr("not built yet"));
+              HasSubstr("must be single here"));
   EXPECT_THAT(DetailOf(WithShape("cylinder", R"({ "bore_mm": 10, "stroke_mm": 50, "rod_mm": 12 })"),
                        "/actuators/0/cylinder/rod_mm"),
               HasSubstr("must be less than the bore of 10 mm, not 12"));

@@ -1,4 +1,4 @@
-#include "catalog/store/job_store.h"
+#include "catalog/store/jobs/job_store.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ TEST_F(JobFile, RefusesWhatIsNoneOfIts) {
   std::filesystem::remove(path_);
   { const JobStore made(path_, {}); }
   Sql("PRAGMA user_version = 9");
-  EXPECT_THAT(Refused(), HasSubstr("has schema 9, this program knows up to 3"));
+  EXPECT_THAT(Refused(), HasSubstr("has schema 9, this program knows up to 4"));
   EXPECT_THAT(Refusal([&] { JobStore(folder_ / "missing" / "jobs", {}); }),
               HasSubstr("the jobs cannot be kept"));
 }

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "catalog/store/migrations.h"
+#include "catalog/store/sql/migrations.h"
 #include "tests/catalog/folder.h"
 #include "tests/catalog/samples.h"
 #include "tests/support/places.h"

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "catalog/store/content_hash.h"
-#include "tests/catalog/folder.h"
 #include "tests/catalog/samples.h"
+#include "tests/catalog/stores.h"
 
 namespace plenum::catalog {
 namespace {
@@ -15,7 +15,7 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using ::testing::ThrowsMessage;
 
-using Models = InFolder;
+using Models = InStore;
 
 std::vector<std::string> Documents(const std::vector<ModelRevision>& models) {
   std::vector<std::string> documents;
@@ -23,7 +23,7 @@ std::vector<std::string> Documents(const std::vector<ModelRevision>& models) {
   return documents;
 }
 
-TEST_F(Models, SavingANameAgainAddsAVersion) {
+TEST_P(Models, SavingANameAgainAddsAVersion) {
   Store store = Write();
   const ModelRevision first = store.SaveModel("bench", "{\"a\":1}", "ann");
   EXPECT_EQ(first.version, 1);
@@ -40,7 +40,7 @@ TEST_F(Models, SavingANameAgainAddsAVersion) {
   EXPECT_THAT(store.Check(), IsEmpty());
 }
 
-TEST_F(Models, AKeySavesOnce) {
+TEST_P(Models, AKeySavesOnce) {
   Store store = Write();
   const Signature once{"ann", "k", "digest"};
   const auto first = store.SaveModel("bench", "{}", once);
@@ -53,7 +53,7 @@ TEST_F(Models, AKeySavesOnce) {
   EXPECT_EQ(store.Head().number, 0);
 }
 
-TEST_F(Models, TheSameDocumentIsNoNewVersion) {
+TEST_P(Models, TheSameDocumentIsNoNewVersion) {
   Store store = Write();
   const ModelRevision first = store.SaveModel("bench", "{}", "ann");
   EXPECT_EQ(store.SaveModel("bench", "{}", "bob"), first);
@@ -61,7 +61,7 @@ TEST_F(Models, TheSameDocumentIsNoNewVersion) {
   EXPECT_EQ(store.SaveModel("bench", "{}", "ann").version, 3);  // back to the first: a step again
 }
 
-TEST_F(Models, LeaveTheRevisionOfThePartsAlone) {
+TEST_P(Models, LeaveTheRevisionOfThePartsAlone) {
   Store store = Write();
   store.Add(Reservoir("r"));
   const Revision head = store.Head();
@@ -70,22 +70,25 @@ TEST_F(Models, LeaveTheRevisionOfThePartsAlone) {
   EXPECT_THAT(Read().Models(), SizeIs(1));
 }
 
-TEST_F(Models, AreNeitherChangedNorDeletedAndDamageIsFound) {
+TEST_P(Models, AreNeitherChangedNorDeletedAndDamageIsFound) {
   Write().SaveModel("bench", "{}", "");
   EXPECT_THAT([&] { Sql("DELETE FROM model"); },
-              ThrowsMessage<SQLite::Exception>(HasSubstr("never deleted")));
+              ThrowsMessage<SqlError>(HasSubstr("never deleted")));
   EXPECT_THAT([&] { Sql("UPDATE model SET document = '[]'"); },
-              ThrowsMessage<SQLite::Exception>(HasSubstr("never changed")));
-  Sql("DROP TRIGGER model_is_not_changed; UPDATE model SET document = '[]'");
+              ThrowsMessage<SqlError>(HasSubstr("never changed")));
+  Sql(std::string("DROP TRIGGER model_is_not_changed") + (OnServer() ? " ON model" : "") +
+      "; UPDATE model SET document = '[]'");
   EXPECT_THAT(Read().Check(), ElementsAre(HasSubstr("model bench, version 1")));
 }
 
-TEST_F(Models, NamesAreChecked) {
+TEST(ModelNames, AreChecked) {
   for (const char* name : {"bench", "7", "a.b_c-d"}) EXPECT_EQ(WhyInvalidModelName(name), "");
   for (const char* name : {"", "Bench", "-a", "a b", "a/b", "nominal", "ä"})
     EXPECT_NE(WhyInvalidModelName(name), "") << name;
   EXPECT_NE(WhyInvalidModelName(std::string(101, 'a')), "");
 }
+
+PLENUM_ON_EACH_STORE(Models);
 
 }  // namespace
 }  // namespace plenum::catalog

@@ -7,13 +7,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <fstream>
-#include <limits>
 #include <random>
 #include <sstream>
 
-#include "catalog/fields/csv.h"
 #include "tests/catalog/samples.h"
 
 namespace plenum::catalog {
@@ -56,154 +53,6 @@ class StoreTest : public ::testing::Test {
 
   fs::path folder_, path_;
 };
-
-TEST_F(StoreTest, KeepsRandomPartsExactly) {
-  std::mt19937 random(17);
-  std::vector<Part> parts;
-  for (const Family& family : Families())
-    for (int i = 0; i < 20; ++i)
-      parts.push_back(AnyPart(family, std::string(family.name) + std::to_string(100 + i), random));
-  {
-    Store store = Write();
-    for (const Part& part : parts) ASSERT_EQ(store.Add(part).status, WriteStatus::kDone) << part.id;
-  }
-  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.id < b.id; });
-  const Store store = Read();
-  EXPECT_EQ(store.List(), parts);
-  for (const Part& part : parts) EXPECT_EQ(store.Get(part.id), part);
-  const std::vector<Part> valves = store.List("valve");
-  EXPECT_EQ(valves.size(), 20u);
-  for (const Part& valve : valves) EXPECT_EQ(valve.family, "valve");
-  EXPECT_THAT(store.List("tank"), ElementsAre());
-  EXPECT_THAT(store.Check(), ElementsAre());
-}
-
-TEST_F(StoreTest, AnExportImportedElsewhereIsExportedByteForByte) {
-  std::mt19937 random(19);
-  Store store = Write();
-  for (const Family& family : Families())
-    for (int i = 0; i < 30; ++i)
-      store.Add(AnyPart(family, std::string(family.name) + std::to_string(i), random));
-  Store other(folder_ / "other.db", Access::kWrite);
-  for (const Family& family : Families()) {
-    const std::string name(family.name), exported = WriteCsv(name, store.List(name));
-    const CsvParts read = ReadCsv(name, exported);
-    ASSERT_THAT(read.errors, ElementsAre());
-    ASSERT_EQ(other.Import(EachOf(read.parts), {}).plan.added.size(), 30u);
-    EXPECT_EQ(WriteCsv(name, other.List(name)), exported) << name;
-  }
-  EXPECT_EQ(other.List(), store.List());
-  EXPECT_EQ(other.Head().hash, store.Head().hash);
-}
-
-TEST_F(StoreTest, AddReplaceAndRemoveSayWhatHappened) {
-  Store store = Write();
-  EXPECT_EQ(store.Get("r"), std::nullopt);
-  EXPECT_EQ(store.Replace(Reservoir("r")).status, WriteStatus::kNotFound);
-  EXPECT_EQ(store.Remove("r").status, WriteStatus::kNotFound);
-  EXPECT_EQ(store.Add(Reservoir("r")).status, WriteStatus::kDone);
-  Part other = Reservoir("r");
-  other.numbers.at("mass_kg").value = 0.7;
-  EXPECT_EQ(store.Add(other).status, WriteStatus::kExists);
-  EXPECT_EQ(store.Get("r"), Reservoir("r"));
-  EXPECT_EQ(store.Replace(other).status, WriteStatus::kDone);
-  EXPECT_EQ(store.Get("r"), other);
-  EXPECT_EQ(store.Remove("r").status, WriteStatus::kDone);
-  EXPECT_THAT(store.List(), ElementsAre());
-}
-
-TEST_F(StoreTest, RefusesInvalidPartsAndKeepsWhatWas) {
-  Store store = Write();
-  Part bad = Reservoir("r");
-  for (const double value : {std::numeric_limits<double>::infinity(), std::nan("")}) {
-    bad.numbers.at("mass_kg").value = value;
-    const WriteResult result = store.Add(bad);
-    EXPECT_EQ(result.status, WriteStatus::kInvalid);
-    EXPECT_EQ(result.errors.size(), 1u);
-  }
-  store.Add(Reservoir("r"));
-  EXPECT_EQ(store.Replace(bad).status, WriteStatus::kInvalid);
-  EXPECT_EQ(store.Get("r"), Reservoir("r"));
-}
-
-TEST_F(StoreTest, TheHeadCountsCommittedWritesOfAnyConnection) {
-  Store store = Write();
-  const Store reader = Read();
-  const long long before = reader.Head().number;
-  store.Add(Reservoir("r"));
-  EXPECT_EQ(reader.Head().number, before + 1);
-  store.Add(Reservoir("r"));
-  store.Remove("unknown");
-  EXPECT_EQ(reader.Head().number, before + 1);
-  store.Remove("r");
-  EXPECT_EQ(store.Head().number, before + 2);
-  EXPECT_EQ(reader.Head().number, before + 2);
-}
-
-TEST_F(StoreTest, ReplaceSeedLeavesRowsOfUsers) {
-  Store store = Write();
-  const Part mine = Reservoir("mine"), clash = Reservoir("clash");
-  store.Add(mine);
-  store.Add(clash);
-  Part seed_clash = Reservoir("clash");
-  seed_clash.manufacturer = "Seed";
-  store.ReplaceSeed({Reservoir("z"), Reservoir("a"), seed_clash});
-  Part a = Reservoir("a"), z = Reservoir("z");
-  a.origin = z.origin = "seed";
-  EXPECT_THAT(store.List(), ElementsAre(a, clash, mine, z));
-  store.ReplaceSeed({Reservoir("a")});
-  EXPECT_THAT(store.List(), ElementsAre(a, clash, mine));
-}
-
-TEST_F(StoreTest, ReplaceSeedIsAllOrNothing) {
-  Store store = Write();
-  store.ReplaceSeed({Reservoir("a")});
-  const auto before = store.List();
-  Part bad = Reservoir("b");
-  bad.numbers.clear();
-  EXPECT_THROW(store.ReplaceSeed({Reservoir("c"), bad}), StoreError);
-  EXPECT_THROW(store.ReplaceSeed({Reservoir("c"), Reservoir("c")}), StoreError);
-  EXPECT_EQ(store.List(), before);
-}
-
-TEST_F(StoreTest, SqlItselfRefusesWhatIsNotANumberInRange) {
-  Write().Add(Reservoir("r"));
-  const auto set = [](const std::string& value) {
-    return "UPDATE number SET value = " + value + " WHERE field = 'mass_kg'";
-  };
-  EXPECT_NO_THROW(Sql(set("0.5")));
-  for (const char* bad : {"9e999", "-9e999", "9e999 - 9e999", "NULL", "-1e7", "'heavy'", "1e7"})
-    EXPECT_THROW(Sql(set(bad)), SQLite::Exception) << bad;
-  EXPECT_THROW(Sql("UPDATE number SET provenance = 'guess'"), SQLite::Exception);
-  for (const char* bad : {"0", "-0.1", "1.5", "9e999"})
-    EXPECT_THROW(Sql(std::string("UPDATE number SET uncertainty = ") + bad), SQLite::Exception)
-        << bad;
-  EXPECT_NO_THROW(Sql("UPDATE number SET uncertainty = 0.05, provenance = 'measured'"));
-  EXPECT_THROW(Sql("UPDATE part SET orderable = 2"), SQLite::Exception);
-  EXPECT_THROW(Sql("INSERT INTO offer VALUES ('r', 0, 'Shop', 1, 'euro', 1, '', '')"),
-               SQLite::Exception);
-  EXPECT_THROW(Sql("INSERT INTO document VALUES ('r', 0, '', 'abc')"), SQLite::Exception);
-  EXPECT_THROW(Sql("UPDATE part SET origin = 'me'"), SQLite::Exception);
-  EXPECT_THROW(Sql("UPDATE part SET id = 'custom'"), SQLite::Exception);
-  EXPECT_THROW(Sql("UPDATE part SET id = 'A b'"), SQLite::Exception);
-  EXPECT_THROW(Sql("INSERT INTO curve_point VALUES ('r', 0, 9e999, 1)"), SQLite::Exception);
-}
-
-TEST_F(StoreTest, ForeignKeysHold) {
-  std::mt19937 random(2);
-  Store store = Write();
-  Part pump = AnyPart(*FindFamily("compressor"), "c", random);
-  pump.aliases = {"d"};
-  pump.offers = {{"Shop", 1.0, "EUR", 1.0, "", ""}};
-  pump.documents = {{"sheet", ""}};
-  store.Add(pump);
-  EXPECT_THROW(Sql("INSERT INTO number VALUES ('nobody', 'mass_kg', 1, 'derived', '', NULL)"),
-               SQLite::Exception);
-  store.Remove("c");
-  SQLite::Database db(path_.string());
-  for (const char* table : {"number", "text", "curve", "curve_point", "alias", "offer", "document"})
-    EXPECT_EQ(db.execAndGet(std::string("SELECT count(*) FROM ") + table).getInt(), 0) << table;
-}
 
 TEST_F(StoreTest, CheckFindsRowsThatWereChangedBehindItsBack) {
   Store store = Write();

@@ -1,6 +1,7 @@
 // What designs are compared by: the axes of plots and the columns of tables.
 import { fieldName, short, shown, significant } from './format';
 import type { Amount, Design, PartRow, Requirements } from './types';
+import { entriesOf } from './understood';
 import { type Kind, unitOf } from './units';
 
 export interface Axis {
@@ -199,7 +200,8 @@ export function requirementName(pointer: string, groups: { name: string }[]): st
   if (pointer.startsWith('/require/')) return `required ${pointer.slice(9).replace('_', ' ')}`;
   if (!group) return names[pointer] ?? pointer;
   const what = names[group[2]!] ?? group[2]!;
-  return groups.length > 1 ? `${what} of ${groups[Number(group[1])]?.name ?? group[1]}` : what;
+  const entries = entriesOf(groups);
+  return entries.length > 1 ? `${what} of ${entries[Number(group[1])] ?? group[1]}` : what;
 }
 
 export function requirementUnit(pointer: string): string {
@@ -217,7 +219,7 @@ export function placeInWords(pointer: string, groups: { name: string }[]): strin
   const [, index, rest] = /^\/actuators\/(\d+)\/(.+)$/.exec(pointer) ?? [];
   const field = (rest ?? pointer).split('/').pop()!;
   const name = fieldName(field.replace(/_max$/, '')).label || 'the requirements';
-  return rest ? `${name} of ${groups[Number(index)]?.name ?? index}` : name;
+  return rest ? `${name} of ${entriesOf(groups)[Number(index)] ?? index}` : name;
 }
 
 // Whether a requirement is a least or a most.

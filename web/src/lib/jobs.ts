@@ -5,7 +5,7 @@ import { useEffect } from 'preact/hooks';
 import { ask, asProblem, events, get, post, type Problem } from './api';
 import type { Diagnosis } from './measurement';
 import type { Answer, Doing, Job, JobStatus, Progress, Requirements } from './types';
-import { inNumbers } from './understood';
+import { inNumbers, withSides } from './understood';
 
 export interface Watched<Result = Answer, Report = Progress> {
   job: Job<Result, Report> | null;
@@ -59,7 +59,7 @@ export function withNumbers<Result, Report>(job: Job<Result, Report>): Job<Resul
     ...job,
     result: {
       ...answer,
-      requirements: inNumbers(requirements, understood),
+      requirements: withSides(inNumbers(requirements, understood)),
       asked: requirements,
     } as Result,
   };

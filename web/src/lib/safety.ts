@@ -4,6 +4,7 @@ import { percent, shown, significant } from './format';
 import type { Parts } from './rig';
 import type { Design, Part, PartRow, Requirements } from './types';
 import { unitOf } from './units';
+import { entriesOf } from './understood';
 import { isVacuum } from './vacuum';
 
 const gamma = 1.4; // of air
@@ -75,11 +76,11 @@ function bottleNotes(design: Design, parts: Parts): string[] {
 
 function lineNotes(design: Design, requirements: Requirements): string[] {
   const source = design.settings.source_pressure_kpa_gauge;
+  const entries = entriesOf(requirements.actuators);
   const notes = requirements.actuators.flatMap((group) => {
+    const entry = entries.indexOf(group.name.replace(/, (cap|rod) side$/, ''));
     const margin = design.margins.find(
-      ({ requirement }) =>
-        requirement ===
-        `/actuators/${requirements.actuators.indexOf(group)}/pressure_kpa_gauge_max`,
+      ({ requirement }) => requirement === `/actuators/${entry}/pressure_kpa_gauge_max`,
     );
     const highest = group.pressure_kpa_gauge_max ?? margin?.required;
     if (!highest || source <= highest) return [];

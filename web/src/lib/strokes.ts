@@ -9,6 +9,7 @@ export interface Stroke {
   achieved_s: number;
   limit_s: number | null;
   target_kpa_gauge: number;
+  peak_kpa_gauge: number | null; // of a rise, where the valve may close late
   t_s: number[]; // from the command on
   pressure_kpa_gauge: (number | null)[];
   source_kpa_gauge: (number | null)[];
@@ -60,12 +61,14 @@ export function strokesOf(design: Design, requirements: Requirements): Stroke[] 
     const found = design.performance.groups.find(({ name }) => name === group.name);
     if (!found) return [];
     const turn = requirements.duty.simultaneous === false ? g / groups.length : 0;
-    const sign = Math.sign(group.operating_pressure_kpa_gauge);
+    const operating = group.operating_pressure_kpa_gauge;
+    const sign = Math.sign(operating);
+    const peak = found.peak_kpa_gauge ?? operating;
     return [true, false].flatMap((isRise): Stroke[] => {
       const share = isRise
         ? (requirements.rise?.to_fraction ?? 0.95)
         : (requirements.fall?.to_fraction ?? 0.05);
-      const target = share * group.operating_pressure_kpa_gauge;
+      const target = share * operating;
       const achieved = isRise ? found.rise_time_s : found.fall_time_s;
       const limit = (isRise ? group.rise_time_s_max : group.fall_time_s_max) ?? null;
       const isThere = (p: number) => (isRise ? 1 : -1) * sign * (p - target);
@@ -96,6 +99,7 @@ export function strokesOf(design: Design, requirements: Requirements): Stroke[] 
             achieved_s: achieved,
             limit_s: limit,
             target_kpa_gauge: target,
+            peak_kpa_gauge: isRise && sign * (peak - operating) > 1e-6 ? peak : null,
             t_s: times,
             pressure_kpa_gauge: cutValues,
             source_kpa_gauge: cut(

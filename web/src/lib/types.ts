@@ -142,6 +142,7 @@ export interface Design {
       fall_time_s: number;
       inflate_time_s?: number;
       frequency_hz_max: number;
+      peak_kpa_gauge?: number;
     }[];
     frequency_hz_sustained: number;
     air_per_actuation_l_anr: number;

@@ -17,6 +17,9 @@ export interface Remarked {
   notes?: { pointer: string; note: unknown }[];
 }
 
+// The name under which the other chamber of a double-acting cylinder is understood.
+export const rodSide = 'operating_volume_ml of the rod side';
+
 export const shapes = ['cylinder', 'muscle', 'pouch', 'body'] as const;
 export type Shape = (typeof shapes)[number];
 
@@ -46,6 +49,40 @@ export function inNumbers(document: Requirements, understood: Understood[]): Req
   leaveOutTexts(numbers as unknown as Record<string, unknown>);
   return numbers;
 }
+
+// The same with the two chambers of each double-acting cylinder as groups, as answers have them: one
+// is filled while the other is emptied.
+export function withSides(requirements: Requirements): Requirements {
+  const groups = requirements.actuators as (Group & { [rodSide]?: number })[];
+  if (!groups.some((group) => group[rodSide] !== undefined)) return requirements;
+  const actuators = groups.flatMap(({ [rodSide]: rod_ml, ...group }, g): Group[] => {
+    const strokes = group.strokes_per_period ?? 1;
+    const share = group.inflate_fraction ?? 0.5;
+    const turn = requirements.duty.simultaneous === false ? g / groups.length / strokes : 0;
+    const phase = group.phase ?? turn;
+    if (rod_ml === undefined) return [{ ...group, phase }];
+    const later = (begin: number) => (begin + share / strokes) % 1;
+    return [
+      { ...group, phase, name: `${group.name}, cap side` },
+      {
+        ...group,
+        name: `${group.name}, rod side`,
+        expansion_ratio: rod_ml / group.rest_volume_ml!,
+        phase: Array.isArray(phase) ? phase.map(later) : later(Number(phase)),
+        inflate_fraction: 1 - share,
+      },
+    ];
+  });
+  return { ...requirements, actuators };
+}
+
+// Groups as they were asked for, by name: a pointer counts a double-acting cylinder once.
+export const entriesOf = (groups: { name: string }[]): string[] =>
+  groups
+    .filter(
+      ({ name }, g) => !(name.endsWith(', rod side') && groups[g - 1]?.name.endsWith(', cap side')),
+    )
+    .map(({ name }) => name.replace(/, cap side$/, ''));
 
 export const namesUnit = (name: string): boolean =>
   /_(kpa_gauge|kpa_abs|kpa|ml|l|mm|m|s|ms|hz|kg|k|eur|wh|deg|anr|l_per_min|dm3_per_s_bar|ah|v|a|w)(_max|_min)?$/.test(

@@ -52,6 +52,7 @@ function StrokePlot({ stroke }: { stroke: Stroke }) {
       guides={[
         at(stroke.target_kpa_gauge, `${short(100 * share)} % of operating pressure`),
         ...(isRise && highest ? [at(highest, 'pressure, at most')] : []),
+        ...(stroke.peak_kpa_gauge === null ? [] : [at(stroke.peak_kpa_gauge, 'peak, valve late')]),
       ]}
       marks={[
         { value: stroke.achieved_s, label: `${significant(stroke.achieved_s)} s` },

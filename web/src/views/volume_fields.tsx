@@ -2,7 +2,7 @@
 import { short } from '../lib/format';
 import { edit, errorAt, numbers, understood } from '../lib/requirements';
 import type { Group } from '../lib/types';
-import { type Shape, shapeOf, shapes } from '../lib/understood';
+import { rodSide, type Shape, shapeOf, shapes } from '../lib/understood';
 import { toShown, unitOf } from '../lib/units';
 import { Select } from '../ui/controls';
 import { RequirementField } from './requirement_field';
@@ -134,6 +134,52 @@ export function VolumeFields({ group, index }: { group: Group; index: number }) 
         </div>
       )}
       {shape && <ShapeFields shape={shape} index={index} />}
+      {shape === 'cylinder' && <ActingFields group={group} index={index} />}
+    </>
+  );
+}
+
+// One chamber, or one on each side of the piston.
+function ActingFields({ group, index }: { group: Group; index: number }) {
+  const cylinder = (group.cylinder ?? {}) as Record<string, unknown>;
+  const double = cylinder.acting === 'double';
+  const rod = understood.value.find(
+    (row) => row.pointer === `/actuators/${index}/cylinder` && row.name === rodSide,
+  );
+  return (
+    <>
+      <Select
+        label="Acting"
+        value={double ? 'double' : 'single'}
+        options={[
+          { value: 'single', label: 'one side' },
+          { value: 'double', label: 'both sides in turns' },
+        ]}
+        onChange={(acting) => {
+          const { acting: _, rod_mm, ...others } = cylinder;
+          edit(
+            ['actuators', index, 'cylinder'],
+            acting === 'double' ? { ...others, rod_mm: rod_mm ?? 6, acting } : others,
+          );
+        }}
+      />
+      {double && (
+        <>
+          <RequirementField
+            label="Rod"
+            unit="mm"
+            path={['actuators', index, 'cylinder', 'rod_mm']}
+            range={[0.1, 1000]}
+            optional
+            placeholder="0"
+          />
+          {rod && (
+            <span class="hint" title={rod.formula}>
+              {short(toShown('volume_ml', rod.value))} {unitOf('volume_ml')} on the side of the rod
+            </span>
+          )}
+        </>
+      )}
     </>
   );
 }

@@ -1,11 +1,11 @@
-// The jobs of a service on disk: what was asked, of which data, and what came out.
+// The jobs of a service in a file of SQLite.
 //
 // They have a file of their own beside the catalogue, which stays what it is: parts to be copied
 // and handed on. One process holds the file from opening to closing; then a write-ahead log costs
 // one sync a commit, and no second service does the same jobs again. Everything that returned is on
 // disk. One store may be used from several threads; its calls take turns.
-#ifndef PLENUM_CATALOG_STORE_JOB_STORE_H_
-#define PLENUM_CATALOG_STORE_JOB_STORE_H_
+#ifndef PLENUM_CATALOG_STORE_JOBS_JOB_STORE_H_
+#define PLENUM_CATALOG_STORE_JOBS_JOB_STORE_H_
 
 #include <cstdint>
 #include <filesystem>
@@ -14,58 +14,14 @@
 #include <string>
 #include <vector>
 
-#include "catalog/store/revision.h"
+#include "catalog/store/jobs/job_record.h"
 
 namespace plenum::catalog {
-
-enum class JobStatus { kQueued, kRunning, kDone, kCancelled, kFailed };
-const char* Name(JobStatus status);
-bool Ended(JobStatus status);
-
-// What a job is made of. Nothing else may decide its result, so that it can be done again after the
-// service was killed, and its result be checked.
-struct JobOrder {
-  std::string kind;     // "design" or "diagnosis"
-  std::string name;     // for people
-  Signature by;         // who asked, and the key under which asking again gives the same job
-  std::string request;  // the document as it was sent
-  // The parts, as a revision of the catalogue; and the saved model, none for the nominal one.
-  std::int64_t revision = 0;
-  std::string hash;
-  std::string model;
-  std::int64_t model_version = 0;
-  std::string model_hash;
-  std::string client;  // who takes turns with others: the id of a token or an address
-};
-
-struct JobRecord {
-  std::int64_t number = 0;  // in the order of adding
-  std::string id;
-  JobOrder order;
-  JobStatus status = JobStatus::kQueued;
-  std::string submitted_at;  // UTC, ISO 8601
-  std::string ended_at;      // empty until then
-  std::int64_t ending = 0;   // of endings after as many starts, each has its own number
-  int starts = 0;            // how often it was begun and not stopped in an orderly way
-  int crashes = 0;           // how often its own computation ended the program
-  int crashes_max = 2;       // after so many it has failed
-  std::string crash;         // what is known of the last one; empty: none
-  bool alone = false;        // it ran when the program ended: no other may run beside it
-  bool cancel_asked = false;
-  std::string progress, result;  // JSON, empty where there is none
-  std::string failure;           // of a failed job: what a client is told
-};
 
 // A crash of the program in a thread that worked for a job.
 struct JobCrash {
   std::int64_t number = 0;  // of the job
   std::string what;         // for people
-};
-
-// How much of the jobs that ended is kept, of each kind: the newest.
-struct JobsKept {
-  int jobs = 256;
-  std::int64_t bytes = 256 << 20;  // of requests and results; the newest is kept whatever its size
 };
 
 // SQLite's own integrity check of a file of jobs, which is only read; empty: all is well. Throws
@@ -115,4 +71,4 @@ class JobStore {
 
 }  // namespace plenum::catalog
 
-#endif  // PLENUM_CATALOG_STORE_JOB_STORE_H_
+#endif  // PLENUM_CATALOG_STORE_JOBS_JOB_STORE_H_

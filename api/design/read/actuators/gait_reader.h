@@ -1,6 +1,6 @@
 // "phase", "inflate_fraction" and "strokes_per_period" of a group (optimizer/problem/gait.h).
-#ifndef PLENUM_API_DESIGN_READ_GAIT_READER_H_
-#define PLENUM_API_DESIGN_READ_GAIT_READER_H_
+#ifndef PLENUM_API_DESIGN_READ_ACTUATORS_GAIT_READER_H_
+#define PLENUM_API_DESIGN_READ_ACTUATORS_GAIT_READER_H_
 
 #include "api/json/reader.h"
 #include "optimizer/problem/problem.h"
@@ -20,4 +20,4 @@ std::string WhyGaitNotGuaranteed(const optimizer::Problem& problem);
 
 }  // namespace plenum::api
 
-#endif  // PLENUM_API_DESIGN_READ_GAIT_READER_H_
+#endif  // PLENUM_API_DESIGN_READ_ACTUATORS_GAIT_READER_H_

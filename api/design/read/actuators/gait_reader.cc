@@ -1,4 +1,4 @@
-#include "api/design/read/gait_reader.h"
+#include "api/design/read/actuators/gait_reader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,15 @@ namespace {
 const Range kPhase = {0, 1};
 const Range kFraction = {0.01, 0.99};
 constexpr int kStrokesMax = 100;
+
+// Also sides of cylinders have phases, which nobody gave.
+bool AnyPhaseGiven(Reader& request) {
+  const Json* actuators = request.Raw("actuators");
+  return actuators != nullptr && actuators->is_array() &&
+         std::any_of(actuators->begin(), actuators->end(), [](const Json& actuator) {
+           return actuator.is_object() && actuator.contains("phase");
+         });
+}
 
 bool AnyPhase(const optimizer::Problem& problem) {
   return std::any_of(problem.groups.begin(), problem.groups.end(),
@@ -53,7 +62,7 @@ void CheckGaits(Reader& request, optimizer::Problem& problem) {
   if (problem.groups.empty()) return;
   const Json* duty = request.Raw("duty");
   const bool stated = duty && duty->is_object() && duty->contains("simultaneous");
-  if (AnyPhase(problem) && stated)
+  if (AnyPhaseGiven(request) && stated)
     if (RemarkRecorder* remarks = RemarkRecorder::Current())
       remarks->Warn("/duty/simultaneous",
                     "does not count for the groups that have a phase: the phase says when they "
