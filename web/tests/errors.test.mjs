@@ -58,7 +58,8 @@ test('the ranges shown are those of the service', async () => {
     );
   let ranges = 0;
   for (const [pointer, hint] of shown) {
-    const [, low, high] = /(\S+) … (\S+)$/.exec(hint.replaceAll('\u202f', '').replace('−', '-')) ?? [];
+    const [, low, high] =
+      /(\S+) … (\S+)$/.exec(hint.replaceAll('\u202f', '').replace('−', '-')) ?? [];
     if (low === undefined) continue;
     ++ranges;
     const { minimum, exclusiveMinimum, maximum, exclusiveMaximum } = schemaAt(pointer);

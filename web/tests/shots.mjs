@@ -1,4 +1,5 @@
 // Pictures of every view: node tests/shots.mjs FOLDER [NAME…]
+// WIDTHS=1280 SCHEMES=light node tests/shots.mjs FOLDER designs design: those of ../screenshots.
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 
@@ -6,12 +7,16 @@ import { openPage, startBrowser, startService } from './support.mjs';
 import { makeViews, schemes, widths } from './views.mjs';
 
 const [folder = 'shots', ...names] = process.argv.slice(2);
+const taken = {
+  widths: process.env.WIDTHS?.split(',').map(Number) ?? widths,
+  schemes: process.env.SCHEMES?.split(',') ?? schemes,
+};
 mkdirSync(folder, { recursive: true });
 const [service, browser] = await Promise.all([startService(), startBrowser()]);
 for (const view of await makeViews(service)) {
   if (names.length > 0 && !names.includes(view.name)) continue;
-  for (const colorScheme of schemes) {
-    for (const width of widths) {
+  for (const colorScheme of taken.schemes) {
+    for (const width of taken.widths) {
       const { page, close } = await openPage(browser, service.base, view.hash, {
         colorScheme,
         viewport: { width, height: width === 1920 ? 1080 : 900 },

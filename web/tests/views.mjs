@@ -66,6 +66,11 @@ export async function makeViews(service) {
       ready: (p) => p.getByRole('region', { name: 'Prices of requirements' }).waitFor(),
     },
     { name: 'design', hash: `#/designs/${exosuit}/1`, ready: designReady },
+    {
+      name: 'data-sheet',
+      hash: `#/designs/${exosuit}/1/sheet`,
+      ready: (p) => p.getByText('Let the pressure out before you open a joint').waitFor(),
+    },
     { name: 'design-two-groups', hash: `#/designs/${crawler}/2`, ready: designReady },
     {
       name: 'compare',

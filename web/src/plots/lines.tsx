@@ -46,15 +46,23 @@ function drawGuides(plot: uPlot, guides: Guide[], ink: string, isLeft: boolean) 
   ctx.fillStyle = ink;
   ctx.font = fontOf(10 * pageScale.peek() * devicePixelRatio);
   ctx.setLineDash([3 * devicePixelRatio, 3 * devicePixelRatio]);
-  for (const guide of guides) {
-    const y = plot.valToPos(guide.value, 'y', true);
+  const room = 14 * pageScale.peek() * devicePixelRatio;
+  const places = guides.map((guide) => plot.valToPos(guide.value, 'y', true));
+  // A label stands where no other guide is near: below its line at the left, else above it.
+  const isBelow = (y: number) => {
+    const isNear = (side: 1 | -1) =>
+      places.some((other) => side * (other - y) > 0 && side * (other - y) < room);
+    return y - bbox.top < room || (isLeft ? !isNear(1) : isNear(-1));
+  };
+  for (const [i, guide] of guides.entries()) {
+    const y = places[i]!;
     if (y < bbox.top || y > bbox.top + bbox.height) continue;
     ctx.beginPath();
     ctx.moveTo(bbox.left, y);
     ctx.lineTo(bbox.left + bbox.width, y);
     ctx.stroke();
     ctx.textAlign = isLeft ? 'left' : 'right';
-    ctx.textBaseline = isLeft || y - bbox.top < 14 * devicePixelRatio ? 'top' : 'bottom';
+    ctx.textBaseline = isBelow(y) ? 'top' : 'bottom';
     ctx.fillText(
       guide.label,
       isLeft ? bbox.left + 3 : bbox.left + bbox.width - 3,

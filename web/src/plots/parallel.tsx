@@ -115,7 +115,7 @@ export function Parallel(props: {
         <div
           ref={ref}
           class="parallel-box"
-          style={{ height: `${height / 10}rem`, minWidth: `${shown.length * 6.4}rem` }}
+          style={{ height: `${height / 10}rem`, minWidth: `${shown.length * 6.8}rem` }}
         >
           {width > 0 && (
             <>
