@@ -11,7 +11,7 @@
 #include "server/call/reply.h"
 #include "server/call/tokens.h"
 #include "server/commands/exit_status.h"
-#include "server/commands/input.h"
+#include "server/commands/files/input.h"
 #include "server/commands/output.h"
 #include "server/render/text/text_catalog.h"
 #include "server/render/text/text_table.h"

@@ -7,7 +7,7 @@
 #include "api/design/verification.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
-#include "server/commands/input.h"
+#include "server/commands/files/input.h"
 #include "server/commands/output.h"
 
 namespace plenum::server {

@@ -10,7 +10,7 @@
 #include "server/commands/catalog_keeping.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
-#include "server/commands/input.h"
+#include "server/commands/files/input.h"
 #include "server/commands/output.h"
 #include "server/jobs/crash_marks.h"
 #include "server/jobs/job_recovery.h"

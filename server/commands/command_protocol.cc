@@ -12,7 +12,7 @@
 #include "server/call/reply.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
-#include "server/commands/input.h"
+#include "server/commands/files/input.h"
 #include "server/commands/output.h"
 #include "server/render/text/text_protocol.h"
 

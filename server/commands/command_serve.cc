@@ -12,7 +12,7 @@
 #include "server/call/tokens.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
-#include "server/commands/input.h"
+#include "server/commands/files/input.h"
 #include "server/commands/interrupt.h"
 #include "server/http.h"
 #include "server/resources/pages/docs_resource.h"

@@ -8,7 +8,7 @@
 #include "server/commands/catalog_keeping.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
-#include "server/commands/input.h"
+#include "server/commands/files/input.h"
 #include "server/commands/output.h"
 
 namespace plenum::server {

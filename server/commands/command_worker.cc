@@ -9,7 +9,7 @@
 #include "server/call/shared_catalog.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
-#include "server/commands/input.h"
+#include "server/commands/files/input.h"
 #include "server/commands/interrupt.h"
 #include "server/jobs/job_memory.h"
 #include "server/jobs/job_worker.h"

@@ -32,7 +32,7 @@ class Copies : public InStore {
       for (int i = 0; i < 12; ++i)
         parts.push_back(AnyPart(family, std::string(family.name) + std::to_string(i), random));
     parts.front().notes = "ü \"quoted\"\n\ttab";
-    ASSERT_EQ(store.Import(parts, Signature{"ann", "key-1", "digest"}).write.status,
+    ASSERT_EQ(store.Import(EachOf(parts), Signature{"ann", "key-1", "digest"}).write.status,
               WriteStatus::kDone);
     store.ReplaceSeed({Reservoir("seeded")});
     ASSERT_EQ(store.Remove(parts.back().id, {"bob", "", ""}).status, WriteStatus::kDone);

@@ -1,6 +1,6 @@
 // Measurements of one rig from files, as one document. Throws BadInput.
-#ifndef PLENUM_SERVER_COMMANDS_MEASUREMENT_FILES_H_
-#define PLENUM_SERVER_COMMANDS_MEASUREMENT_FILES_H_
+#ifndef PLENUM_SERVER_COMMANDS_FILES_MEASUREMENT_FILES_H_
+#define PLENUM_SERVER_COMMANDS_FILES_MEASUREMENT_FILES_H_
 
 #include <string>
 #include <vector>
@@ -17,4 +17,4 @@ api::Json ReadMeasurement(const std::vector<std::string>& files, const std::stri
 
 }  // namespace plenum::server
 
-#endif  // PLENUM_SERVER_COMMANDS_MEASUREMENT_FILES_H_
+#endif  // PLENUM_SERVER_COMMANDS_FILES_MEASUREMENT_FILES_H_

@@ -11,8 +11,8 @@
 #include "server/call/reply.h"
 #include "server/commands/commands.h"
 #include "server/commands/exit_status.h"
+#include "server/commands/files/input.h"
 #include "server/commands/init/interview.h"
-#include "server/commands/input.h"
 #include "server/render/text/text_remarks.h"
 
 namespace plenum::server {

@@ -1,4 +1,4 @@
-#include "server/commands/input.h"
+#include "server/commands/files/input.h"
 
 #include <pwd.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 // What a command reads: files, standard input, the catalogue. All throw BadInput.
-#ifndef PLENUM_SERVER_COMMANDS_INPUT_H_
-#define PLENUM_SERVER_COMMANDS_INPUT_H_
+#ifndef PLENUM_SERVER_COMMANDS_FILES_INPUT_H_
+#define PLENUM_SERVER_COMMANDS_FILES_INPUT_H_
 
 #include <string>
 #include <utility>
@@ -33,4 +33,4 @@ T ValueOrRefuse(api::Parsed<T> parsed) {
 
 }  // namespace plenum::server
 
-#endif  // PLENUM_SERVER_COMMANDS_INPUT_H_
+#endif  // PLENUM_SERVER_COMMANDS_FILES_INPUT_H_

@@ -1,8 +1,8 @@
-#include "server/commands/measurement_files.h"
+#include "server/commands/files/measurement_files.h"
 
 #include "api/measure/diagnose_request.h"
 #include "api/measure/measurement.h"
-#include "server/commands/input.h"
+#include "server/commands/files/input.h"
 
 namespace plenum::server {
 namespace {
