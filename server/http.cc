@@ -11,8 +11,9 @@
 #include "server/call/request_log.h"
 #include "server/call/service_limits.h"
 #include "server/jobs/catalogue_hold.h"
-#include "server/jobs/crash_marks.h"
-#include "server/jobs/job_recovery.h"
+#include "server/jobs/job_memory.h"
+#include "server/jobs/service_jobs.h"
+#include "server/jobs/shared_jobs.h"
 #include "server/request_handler.h"
 #include "server/resources/designs_resource.h"
 #include "server/resources/diagnoses_resource.h"
@@ -34,28 +35,24 @@ struct HttpService::Impl {
         tokens(TokenFile(given.catalog)),
         hold(given.catalog),
         catalog(given.catalog),
-        jobs(given.catalog.string() + "-jobs", given.kept),
-        marks(Recovered(CrashFile(given.catalog))),
-        designs(jobs, of_all_jobs.turns, "design", DesignWork(catalog, of_all_jobs.memory),
-                given.jobs),
-        diagnoses(jobs, of_all_jobs.turns, "diagnosis", DiagnosisWork(catalog), given.jobs),
-        routes(Routes({catalog, designs, diagnoses, metrics, given.jobs, given.kept, given.catalog,
-                       given.docs, given.seed, [this] { MeasureConnections(); }})),
+        jobs(OpenServiceJobs(given.catalog, {DesignWork(catalog, memory), DiagnosisWork(catalog)},
+                             given.jobs, given.kept)),
+        routes(Routes({catalog, jobs->designs(), jobs->diagnoses(),
+                       [this] { return jobs->Queue(); }, metrics, given.jobs, KeptOf(given),
+                       given.catalog, given.docs, given.seed, [this] { MeasureConnections(); }})),
         requests({HostsOf(given), NeedsToken(given), given.log,
-                  RenderLimits(QuotaOf(given.jobs), given.kept)},
+                  RenderLimits(QuotaOf(given.jobs), KeptOf(given))},
                  routes, tokens, metrics, protocol, [this] { connections.Wake(); }),
         connections(HandlersOfConnections()) {
     // Large blocks go back to the system when they are freed.
     mallopt(M_MMAP_THRESHOLD, 256 << 10);
     mallopt(M_ARENA_MAX, 4);
     protocol.admit = [this](int socket) { connections.Admit(socket); };
-    for (Jobs* kind : {&designs, &diagnoses}) kind->OnChange([this] { connections.Wake(); });
+    jobs->OnChange([this] { connections.Wake(); });
   }
 
   // Jobs may change after the connections are gone.
-  ~Impl() {
-    for (Jobs* kind : {&designs, &diagnoses}) kind->OnChange({});
-  }
+  ~Impl() { jobs->OnChange({}); }
 
   static std::vector<std::string> HostsOf(const HttpOptions& given) {
     auto hosts = given.allow_hosts;
@@ -77,10 +74,8 @@ struct HttpService::Impl {
         }};
   }
 
-  // The file of crash marks, once the jobs know what it says.
-  std::filesystem::path Recovered(const std::filesystem::path& crash_file) {
-    RecoverJobs(jobs, crash_file);
-    return crash_file;
+  static catalog::JobsKept KeptOf(const HttpOptions& given) {
+    return catalog::IsServer(given.catalog) ? kSharedJobsKept : given.kept;
   }
 
   int Bind() {
@@ -121,13 +116,8 @@ struct HttpService::Impl {
   Metrics metrics;
   CatalogueHold hold;
   SharedCatalog catalog;
-  catalog::JobStore jobs;
-  CrashMarks marks;
-  struct {
-    JobTurns turns;
-    JobMemory memory{kJobMemoryBytesMax};
-  } of_all_jobs;
-  Jobs designs, diagnoses;
+  JobMemory memory{kJobMemoryBytesMax};
+  const std::unique_ptr<ServiceJobs> jobs;
   const std::vector<Route> routes;
   RequestHandler requests;
   Connections connections;
@@ -145,8 +135,7 @@ void HttpService::Run() {
 }
 
 void HttpService::Stop() {
-  impl_->designs.Stop();
-  impl_->diagnoses.Stop();
+  impl_->jobs->Stop();
   // A stop before the listening has begun would be lost.
   while (!impl_->protocol.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   impl_->protocol.stop();

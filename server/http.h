@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "server/jobs/jobs.h"
+#include "server/jobs/job_queue.h"
 
 namespace plenum::server {
 

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <utility>
 
-#include "catalog/store/history.h"
 #include "catalog/store/sql/address.h"
 #include "catalog/store/sql/postgres_schema.h"
 #include "catalog/store/sql/sqlite_database.h"
 #include "catalog/store/sql/sqlite_file.h"
+#include "catalog/store/tables/history.h"
 
 namespace plenum::catalog {
 namespace {

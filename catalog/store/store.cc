@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "catalog/store/connection.h"
-#include "catalog/store/history.h"
-#include "catalog/store/models.h"
-#include "catalog/store/rows.h"
 #include "catalog/store/seed/seed_rows.h"
 #include "catalog/store/sql/address.h"
+#include "catalog/store/tables/history.h"
+#include "catalog/store/tables/models.h"
+#include "catalog/store/tables/rows.h"
 
 namespace plenum::catalog {
 namespace {

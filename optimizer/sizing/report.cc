@@ -100,7 +100,31 @@ Performance MakePerformance(const Problem& problem, const Evaluation& evaluation
   return performance;
 }
 
-// One cycle from a full reservoir and actuators at rest, for the plots.
+// Whether a first cycle ends otherwise than it began: strokes cross the period's end.
+bool BeginsElsewhere(const model::Rig& rig, const model::Response& first) {
+  constexpr double kAlike = 1e-4;  // relative
+  for (std::size_t g = 0; g < rig.groups.size(); ++g)
+    if (std::abs(first.groups[g].final_pressure_pa / rig.groups[g].initial_pressure_pa - 1.0) >
+        kAlike)
+      return true;
+  return false;
+}
+
+// A tank without pumps keeps the pressure of the period that is shown.
+void BeginWhereItEnded(const model::Response& first, double period_s, model::Rig& rig) {
+  for (std::size_t g = 0; g < rig.groups.size(); ++g) {
+    model::GroupRig& group = rig.groups[g];
+    group.initial_pressure_pa = first.groups[g].final_pressure_pa;
+    const model::ValveCommand last = group.schedule.back();
+    group.schedule.insert(group.schedule.begin(), {last.time_s - period_s, last.state});
+  }
+  auto* reservoir = std::get_if<model::ReservoirSource>(&rig.source);
+  if (reservoir && std::isfinite(reservoir->stop_pressure_pa))
+    reservoir->initial_pressure_pa = first.source_final_pressure_pa;
+}
+
+// One cycle of the periodic state, for the plots: from a full reservoir and actuators at rest,
+// where they are.
 Design::Trace TraceCycle(const Problem& problem, const Candidate& candidate,
                          const OperatingPoint& point) {
   model::SimulateOptions options;
@@ -108,9 +132,15 @@ Design::Trace TraceCycle(const Problem& problem, const Candidate& candidate,
   options.sample_hz = kSamplesPerCycle * problem.frequency_hz;
   options.rise_fraction = problem.rise_fraction;
   options.fall_fraction = problem.fall_fraction;
-  model::Response response = model::Simulate(MakeRig(problem, candidate, point), options);
+  model::Rig rig = MakeRig(problem, candidate, point);
+  model::Response response = model::Simulate(rig, options);
   Design::Trace trace;
   if (response.status != model::SimulateStatus::kDone) return trace;
+  if (BeginsElsewhere(rig, response)) {
+    BeginWhereItEnded(response, options.end_s, rig);
+    response = model::Simulate(rig, options);
+    if (response.status != model::SimulateStatus::kDone) return trace;
+  }
   trace.t_s = std::move(response.t_s);
   for (model::GroupResponse& group : response.groups)
     trace.pressure_pa.push_back(std::move(group.pressure_pa));

@@ -36,7 +36,7 @@ std::string LocateCatalogue(const std::string& path, const std::string& seed) {
 }
 
 catalog::Store OpenCatalogue(const std::string& path, Access access) {
-  if (!std::filesystem::exists(path))
+  if (!catalog::IsServer(path) && !std::filesystem::exists(path))
     throw Refused({{"catalogue", path + ": no such catalogue; name one, or set PLENUM_CATALOG"}});
   return {path, access};
 }

@@ -28,6 +28,7 @@ std::int64_t NowNs() {
 SharedCatalog::SharedCatalog(const std::filesystem::path& path)
     : store_(path, catalog::Access::kWrite),
       path_(path),
+      on_server_(catalog::IsServer(path)),
       opened_(StateOfFile()),
       past_(path, kLockPatience) {
   store_.WaitForLocks(kLockPatience);
@@ -102,7 +103,8 @@ auto SharedCatalog::AskOrLook(Ask ask, Look look) {
 
 const catalog::Revision& SharedCatalog::RefreshHead() {
   const FileState state = StateOfFile();
-  const bool settled = NowNs() - state.written_ns > kTickNs;
+  // Of a server no file tells whether it was written.
+  const bool settled = !on_server_ && NowNs() - state.written_ns > kTickNs;
   if (head_ && settled && state == head_state_) return *head_;
   const bool old_will_do = view_.parts && !has_written_;
   if (old_will_do && Clock::now() < ask_again_at_) return view_.revision;

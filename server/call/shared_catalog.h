@@ -1,5 +1,5 @@
-// The service's one read-write connection to catalog.db, shared by its threads, and one to read the
-// past with. Threads take turns, and wait for theirs, and for other processes, a fraction of a
+// The service's one read-write connection to its catalogue, shared by its threads, and one to read
+// the past with. Threads take turns, and wait for theirs, and for other processes, a fraction of a
 // second: then the call throws StoreError (kBusy), nothing was changed, and whoever asked asks
 // again. A write that may take seconds lets the others go on reading what it found: the newest
 // revision and the saved models are in memory meanwhile. While another process keeps the file to
@@ -46,7 +46,7 @@ class SharedCatalog {
 
   // All of these throw StoreError (kBusy) where the turn does not come in time.
 
-  // The newest revision. The database is asked only when its file was written since.
+  // The newest revision. A file is asked only when it was written since.
   catalog::Revision Head();
   // The parts as they are now; the same vector until something, in any process, writes.
   CatalogView View();
@@ -157,6 +157,7 @@ class SharedCatalog {
   const catalog::Revision& RefreshHead();
 
   const std::filesystem::path path_;
+  const bool on_server_;
   FileState head_state_;
   std::optional<catalog::Revision> head_;                 // that of head_state_
   bool has_written_ = false;                              // since the head was read

@@ -23,6 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::chrono::seconds kAskServerEvery{1};
+
 std::string RandomHex(std::size_t bytes) {
   static constexpr char kHex[] = "0123456789abcdef";
   std::vector<unsigned char> random(bytes);
@@ -54,6 +56,15 @@ api::Json ToJson(const Token& token) {
           {"scope", Name(token.scope)},
           {"sha256", token.hash},
           {"created", token.created}};
+}
+
+std::vector<Token> FromRows(const std::vector<catalog::TokenRow>& rows) {
+  std::vector<Token> tokens;
+  tokens.reserve(rows.size());
+  for (const catalog::TokenRow& row : rows)
+    tokens.push_back({row.id, row.name, row.scope == "write" ? Scope::kWrite : Scope::kRead,
+                      row.hash, row.created});
+  return tokens;
 }
 
 // One writer at a time, and readers see the file before or after.
@@ -96,9 +107,12 @@ bool EqualInConstantTime(std::string_view a, std::string_view b) {
 
 const char* Name(Scope scope) { return scope == Scope::kWrite ? "write" : "read"; }
 
-fs::path TokenFile(const fs::path& catalog) { return catalog.string() + ".tokens"; }
+fs::path TokenFile(const fs::path& catalog) {
+  return catalog::IsServer(catalog) ? catalog : fs::path(catalog.string() + ".tokens");
+}
 
 std::vector<Token> ReadTokens(const fs::path& file) {
+  if (catalog::IsServer(file)) return FromRows(catalog::SharedTokens(file.string()).List());
   std::ifstream in(file, std::ios::binary);
   if (!in) {
     if (fs::exists(file)) throw std::runtime_error(file.string() + ": cannot be read");
@@ -117,21 +131,47 @@ std::vector<Token> ReadTokens(const fs::path& file) {
 }
 
 std::string CreateToken(const fs::path& file, const std::string& name, Scope scope) {
+  std::string text = "plenum_" + RandomHex(32);
+  const Token token{RandomHex(4), name, scope, catalog::Sha256(text), Today()};
+  if (catalog::IsServer(file)) {
+    catalog::SharedTokens(file.string())
+        .Add({token.id, name, Name(scope), token.hash, token.created});
+    return text;
+  }
   const Lock lock(file);
   auto tokens = ReadTokens(file);
-  std::string text = "plenum_" + RandomHex(32);
-  tokens.push_back({RandomHex(4), name, scope, catalog::Sha256(text), Today()});
+  tokens.push_back(token);
   WriteTokens(file, tokens);
   return text;
 }
 
 bool RevokeToken(const fs::path& file, const std::string& id) {
+  if (catalog::IsServer(file)) return catalog::SharedTokens(file.string()).Remove(id);
   const Lock lock(file);
   auto tokens = ReadTokens(file);
   if (std::erase_if(tokens, [&](const Token& token) { return token.id == id; }) == 0) return false;
   WriteTokens(file, tokens);
   return true;
 }
+
+void CopyTokens(const fs::path& from, const fs::path& to) {
+  const auto tokens = ReadTokens(from);
+  if (tokens.empty()) return;
+  if (catalog::IsServer(to)) {
+    catalog::SharedTokens rows(to.string());
+    for (const Token& token : tokens)
+      rows.Add({token.id, token.name, Name(token.scope), token.hash, token.created});
+    return;
+  }
+  const Lock lock(to);
+  auto all = ReadTokens(to);
+  all.insert(all.end(), tokens.begin(), tokens.end());
+  WriteTokens(to, all);
+}
+
+TokenKeeper::TokenKeeper(fs::path file) : file_(std::move(file)) {}
+
+TokenKeeper::~TokenKeeper() = default;
 
 TokenKeeper::FileState TokenKeeper::StateOf(const fs::path& file) {
   constexpr std::int64_t kNsPerS = 1'000'000'000;
@@ -141,7 +181,22 @@ TokenKeeper::FileState TokenKeeper::StateOf(const fs::path& file) {
           state.st_ctim.tv_sec * kNsPerS + state.st_ctim.tv_nsec};
 }
 
+void TokenKeeper::RefreshFromServer() {
+  const auto now = std::chrono::steady_clock::now();
+  if (read_ && now - asked_ < kAskServerEvery) return;
+  try {
+    if (!server_) server_ = std::make_unique<catalog::SharedTokens>(file_.string());
+    tokens_ = FromRows(server_->List());
+    read_ = FileState();
+    asked_ = now;
+  } catch (const catalog::StoreError& error) {
+    Log({{"level", "error"}, {"fault", error.what()}});
+    if (!read_) throw;
+  }
+}
+
 void TokenKeeper::Refresh() {
+  if (catalog::IsServer(file_)) return RefreshFromServer();
   const FileState state = StateOf(file_);
   if (state == read_) return;
   try {

@@ -3,12 +3,19 @@
 #ifndef PLENUM_SERVER_CALL_TOKENS_H_
 #define PLENUM_SERVER_CALL_TOKENS_H_
 
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace plenum::catalog {
+class SharedTokens;
+}
 
 namespace plenum::server {
 
@@ -23,10 +30,11 @@ struct Token {
   std::string created;  // date
 };
 
-// The file beside a catalogue; readable by its owner only.
+// Where the tokens of a catalogue are: the file beside it, readable by its owner only; those of a
+// catalogue on a server stand there, and its address is their place.
 std::filesystem::path TokenFile(const std::filesystem::path& catalog);
 
-// None if there is no file; std::runtime_error if it cannot be read.
+// None if there is no file; std::runtime_error if they cannot be read.
 std::vector<Token> ReadTokens(const std::filesystem::path& file);
 
 // Adds a token and gives its text, which is kept nowhere.
@@ -34,17 +42,22 @@ std::string CreateToken(const std::filesystem::path& file, const std::string& na
 // False if no token has the id.
 bool RevokeToken(const std::filesystem::path& file, const std::string& id);
 
-// The tokens of a file as it is: read again when it changes, so that a revoked token ends at once.
-// While the file cannot be read, as where the process has too many open, the tokens that were read
-// last go on and each call tries again.
+// Adds the tokens of one place to another that has none of them.
+void CopyTokens(const std::filesystem::path& from, const std::filesystem::path& to);
+
+// The tokens as they are: read again when their file changes, so that a revoked token ends at once,
+// and once a second from a server. While they cannot be read, as where the process has too many
+// files open, the tokens that were read last go on and each call tries again.
 class TokenKeeper {
  public:
-  explicit TokenKeeper(std::filesystem::path file) : file_(std::move(file)) {}
+  explicit TokenKeeper(std::filesystem::path file);
+  ~TokenKeeper();
   // The token with this text. Takes the same time wherever texts differ.
   std::optional<Token> Find(std::string_view text);
 
  private:
   void Refresh();
+  void RefreshFromServer();
 
   const std::filesystem::path file_;
   std::mutex mutex_;
@@ -57,6 +70,8 @@ class TokenKeeper {
   static FileState StateOf(const std::filesystem::path& file);
   std::optional<FileState> read_;
   std::vector<Token> tokens_;
+  std::unique_ptr<catalog::SharedTokens> server_;
+  std::chrono::steady_clock::time_point asked_{};
 };
 
 }  // namespace plenum::server

@@ -9,6 +9,7 @@
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
 #include "server/call/reply.h"
+#include "server/call/tokens.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/input.h"
 #include "server/commands/output.h"
@@ -42,7 +43,7 @@ void CopyOrRefuse(void (*copy)(const std::filesystem::path&, const std::filesyst
 // What is wrong with the jobs beside the catalogue. A service that runs holds them for itself.
 std::vector<std::string> CheckJobsOf(const std::string& catalog) {
   const std::string path = catalog + "-jobs";
-  if (!std::filesystem::exists(path)) return {};
+  if (catalog::IsServer(catalog) || !std::filesystem::exists(path)) return {};
   try {
     auto faults = catalog::CheckJobs(path);
     for (auto& fault : faults) fault.insert(0, path + ": ");
@@ -118,6 +119,18 @@ void RestoreCatalog(const CatalogOptions& options) {
   Print("restored revision " +
         std::to_string(OpenCatalog(options.catalog, Access::kRead).Head().number) + " from " +
         options.file + "\n");
+}
+
+void CopyCatalog(const CatalogOptions& options) {
+  OpenCatalog(options.file, Access::kRead);  // says what is wrong with it
+  try {
+    const auto head = catalog::CopyCatalogue(options.file, options.id);
+    CopyTokens(TokenFile(options.file), TokenFile(options.id));
+    Print("copied revision " + std::to_string(head.number) + " with all before it, hash " +
+          head.hash + "\n");
+  } catch (const catalog::StoreError& error) {
+    throw BadInput(error.what());
+  }
 }
 
 void UpdateCatalog(const CatalogOptions& options) {

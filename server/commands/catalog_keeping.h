@@ -35,6 +35,8 @@ void ShowHistory(const CatalogOptions& options);
 void UndoWrite(const CatalogOptions& options);
 void BackupCatalog(const CatalogOptions& options);
 void RestoreCatalog(const CatalogOptions& options);
+// All of the catalogue `file` into `id`, which must hold none; tokens, too.
+void CopyCatalog(const CatalogOptions& options);
 // Takes over what the catalogue in `file`, without one the installed one, has newer.
 void UpdateCatalog(const CatalogOptions& options);
 // The exit status: faults make the catalogue unfit for use; what only looks wrong does not count.

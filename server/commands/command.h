@@ -52,7 +52,8 @@ struct Command {
 // What several commands take.
 inline Option CatalogOption(std::string& path) {
   return {"--catalog",
-          "The catalogue; without it PLENUM_CATALOG, catalog.db in this folder, or your own",
+          "The catalogue, a file or postgresql://USER@HOST/DATABASE; without it PLENUM_CATALOG, "
+          "catalog.db in this folder, or your own",
           &path,
           {.value_name = "DB"}};
 }

@@ -277,6 +277,11 @@ Table ImportOptions(CatalogOptions& options) {
       JsonFlag(options.json)};
 }
 
+Table CopyTable(CatalogOptions& options) {
+  return {Argument("FROM", "A file, or postgresql://USER@HOST/DATABASE", &options.file),
+          Argument("TO", "The same; it must hold no catalogue yet", &options.id)};
+}
+
 Table UpdateTable(CatalogOptions& options) {
   return {{"--from",
            "The catalogue with the newer rows; without it the one that was installed with plenum",
@@ -331,6 +336,8 @@ Command CatalogCommand() {
              Answered<BackupCatalog>, FileTable("The copy; replaced if there is one")),
        Below("restore", "Puts parts and history of a copy in place",
              "plenum catalog restore copy.db", Answered<RestoreCatalog>, FileTable("The copy")),
+       Below("copy", "Copies all revisions, models and tokens into another store",
+             "plenum catalog copy catalog.db all-of-it.db", Answered<CopyCatalog>, CopyTable),
        Below("update", "Takes over what the installed catalogue has newer; your own rows stay",
              "plenum catalog update --from copy.db --dry-run", Answered<UpdateCatalog>,
              UpdateTable),

@@ -5,6 +5,7 @@
 
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
+#include "api/json/version.h"
 #include "server/call/reply.h"
 #include "server/commands/catalog_keeping.h"
 #include "server/commands/commands.h"
@@ -13,6 +14,7 @@
 #include "server/commands/output.h"
 #include "server/jobs/crash_marks.h"
 #include "server/jobs/job_recovery.h"
+#include "server/jobs/shared_jobs.h"
 #include "server/render/text/text_jobs.h"
 
 namespace plenum::server {
@@ -41,9 +43,20 @@ std::unique_ptr<catalog::JobStore> OpenJobs(const JobsOptions& options) {
   }
 }
 
+bool OnServer(const JobsOptions& options) { return catalog::IsServer(options.catalog); }
+
+std::unique_ptr<catalog::SharedJobStore> OpenShared(const JobsOptions& options) {
+  try {
+    return std::make_unique<catalog::SharedJobStore>(options.catalog, std::string(api::Version()));
+  } catch (const catalog::StoreError& error) {
+    throw BadInput(error.what());
+  }
+}
+
 // What a catalogue has that no service was started with.
 std::vector<catalog::JobRecord> ListOf(const JobsOptions& options) {
   OpenCatalog(options.catalog, catalog::Access::kRead);  // says what is wrong with the file
+  if (OnServer(options)) return OpenShared(options)->List("", kSharedJobsListed);
   if (!std::filesystem::exists(FileOf(options))) return {};
   return OpenJobs(options)->List();
 }
@@ -70,9 +83,14 @@ void Say(const JobsOptions& options, catalog::JobStatus status, const std::strin
 void DoAgain(const JobsOptions& options) {
   const catalog::JobRecord job = FindOrRefuse(options);
   if (!catalog::Ended(job.status))
-    throw BadInput("ID: the job is queued already; the next plenum serve does it");
+    throw BadInput(std::string("ID: the job is ") + catalog::Name(job.status) + " already; " +
+                   (OnServer(options) ? "a worker does it" : "the next plenum serve does it"));
   if (job.status == catalog::JobStatus::kDone)
     throw BadInput("ID: the job is done and its result stands; plenum serve gives it");
+  if (OnServer(options)) {
+    OpenShared(options)->Again(job.id);
+    return Say(options, catalog::JobStatus::kQueued, "queued; the next free worker does it");
+  }
   OpenJobs(options)->Again(job.id);
   Say(options, catalog::JobStatus::kQueued, "queued; the next plenum serve does it");
 }
@@ -82,8 +100,13 @@ void Cancel(const JobsOptions& options) {
   if (catalog::Ended(job.status))
     return Say(options, job.status,
                std::string("nothing to cancel: the job is ") + catalog::Name(job.status));
+  if (OnServer(options)) {
+    OpenShared(options)->Cancel(job.id);
+    if (job.status == catalog::JobStatus::kRunning)
+      return Say(options, job.status, "asked to end; its worker ends it within some seconds");
+  }
   job.status = catalog::JobStatus::kCancelled;
-  OpenJobs(options)->End(job);
+  if (!OnServer(options)) OpenJobs(options)->End(job);
   Say(options, job.status, "cancelled");
 }
 
@@ -100,7 +123,7 @@ Command JobsCommand() {
         }};
   };
   return {"jobs",
-          "Jobs of a catalogue while no service runs",
+          "Jobs of a catalogue: in a file while no service runs, on a server at any time",
           "plenum jobs",
           {CatalogOption(options->catalog), JsonFlag(options->json)},
           [options] {

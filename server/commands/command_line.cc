@@ -122,8 +122,8 @@ int RunCommand(int argc, const char* const* argv) {
 std::vector<Command> AllCommands() {
   return {InitCommand(),     DesignCommand(),   VerifyCommand(), EvaluateCommand(),
           ExportCommand(),   SimulateCommand(), MapCommand(),    DiagnoseCommand(),
-          ProtocolCommand(), CatalogCommand(),  ServeCommand(),  JobsCommand(),
-          TokenCommand()};
+          ProtocolCommand(), CatalogCommand(),  ServeCommand(),  WorkerCommand(),
+          JobsCommand(),     TokenCommand()};
 }
 
 int RunCommandLine(int argc, const char* const* argv) {

@@ -25,6 +25,7 @@ struct ServeOptions {
   std::string docs = DocsFolder();
   std::string host = "127.0.0.1";
   int port = 8080;
+  int workers = JobOptions().workers;
   std::vector<std::string> allow_hosts;
   bool log = true;
 };
@@ -42,6 +43,9 @@ std::unique_ptr<HttpService> Listen(const ServeOptions& options) {
   http.port = options.port;
   http.allow_hosts = options.allow_hosts;
   http.log = options.log;
+  http.jobs.workers = options.workers;
+  if (options.workers == 0 && !catalog::IsServer(options.catalog))
+    throw BadInput("--workers 0: nobody else does the jobs of a catalogue in a file");
   if (NeedsToken(http) && ReadTokens(TokenFile(options.catalog)).empty())
     throw BadInput(
         "other machines can reach this service, so it needs tokens: make one with "
@@ -73,30 +77,36 @@ void Serve(const ServeOptions& options) {
 
 Command ServeCommand() {
   auto options = std::make_shared<ServeOptions>();
-  return {"serve",
-          "The HTTP service with its page",
-          "plenum serve --port 8080",
-          {{"--host",
-            "Address; any but a loopback one needs tokens",
-            &options->host,
-            {.shows_default = true}},
-           {"--port",
-            "0 takes any free one",
-            &options->port,
-            {.shows_default = true, .allowed = Within{0, 65535}}},
-           {"--allow-host", "Name by which a proxy makes the service known; needs tokens",
-            &options->allow_hosts},
-           {"!--no-log", "No line a request on standard error", &options->log},
-           {"--docs",
-            "Folder of the documentation that /docs/ shows; without it the one that was "
-            "built or installed with this program",
-            &options->docs,
-            {.value_name = "DIR"}},
-           CatalogOption(options->catalog)},
-          [options] {
-            Serve(*options);
-            return kAnswered;
-          }};
+  return {
+      "serve",
+      "The HTTP service with its page",
+      "plenum serve --port 8080",
+      {{"--host",
+        "Address; any but a loopback one needs tokens",
+        &options->host,
+        {.shows_default = true}},
+       {"--port",
+        "0 takes any free one",
+        &options->port,
+        {.shows_default = true, .allowed = Within{0, 65535}}},
+       {"--allow-host", "Name by which a proxy makes the service known; needs tokens",
+        &options->allow_hosts},
+       {"--workers",
+        "Jobs at a time, of designs and as many of diagnoses; on a server of both together, and "
+        "0 leaves them to plenum worker",
+        &options->workers,
+        {.value_name = "N", .shows_default = true, .allowed = Within{0, 1024}}},
+       {"!--no-log", "No line a request on standard error", &options->log},
+       {"--docs",
+        "Folder of the documentation that /docs/ shows; without it the one that was "
+        "built or installed with this program",
+        &options->docs,
+        {.value_name = "DIR"}},
+       CatalogOption(options->catalog)},
+      [options] {
+        Serve(*options);
+        return kAnswered;
+      }};
 }
 
 }  // namespace plenum::server

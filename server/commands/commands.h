@@ -19,6 +19,7 @@ Command DiagnoseCommand();
 Command ProtocolCommand();
 Command CatalogCommand();
 Command ServeCommand();
+Command WorkerCommand();
 Command JobsCommand();
 Command TokenCommand();
 

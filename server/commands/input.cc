@@ -29,6 +29,7 @@ api::Json ReadJson(const std::string& path, std::size_t bytes_max) {
 catalog::Store OpenCatalog(const std::string& path, catalog::Access access) {
   try {
     const auto place = catalog::BeginCatalog(path);
+    if (catalog::IsServer(place)) return {place, access};
     if (!std::filesystem::exists(place))
       throw BadInput(path + ": no such catalogue; name one with --catalog or PLENUM_CATALOG");
     if (place != path && access == catalog::Access::kWrite)

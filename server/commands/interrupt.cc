@@ -38,4 +38,10 @@ void WaitForInterrupt() {
   sigwait(&signals, &signal);
 }
 
+bool WaitForInterrupt(std::chrono::milliseconds time) {
+  const sigset_t signals = Signals();
+  const timespec wait{time.count() / 1000, time.count() % 1000 * 1'000'000};
+  return sigtimedwait(&signals, nullptr, &wait) > 0;
+}
+
 }  // namespace plenum::server

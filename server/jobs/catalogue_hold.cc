@@ -14,7 +14,7 @@ constexpr off_t kLockedByte = off_t{1} << 61;
 }  // namespace
 
 CatalogueHold::CatalogueHold(const std::filesystem::path& catalogue)
-    : file_(open(catalogue.c_str(), O_RDWR | O_CLOEXEC)) {
+    : file_(catalog::IsServer(catalogue) ? -1 : open(catalogue.c_str(), O_RDWR | O_CLOEXEC)) {
   if (file_ < 0) return;
   struct flock lock {};
   lock.l_type = F_WRLCK;

@@ -12,7 +12,7 @@ namespace plenum::server {
 class CatalogueHold {
  public:
   // Throws catalog::StoreError (kBusy) where another service holds the file. One that cannot be
-  // opened is not held: opening the catalogue tells why.
+  // opened is not held: opening the catalogue tells why. Services share a server.
   explicit CatalogueHold(const std::filesystem::path& catalogue);
   ~CatalogueHold();
   CatalogueHold(const CatalogueHold&) = delete;

@@ -1,66 +1,18 @@
 #include "server/jobs/jobs.h"
 
-#include <malloc.h>
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
-#include <exception>
-#include <new>
-#include <random>
 #include <utility>
 
 #include "api/json/worker_stack.h"
-#include "server/call/reply.h"
 #include "server/call/request_log.h"
 #include "server/jobs/crash_marks.h"
-#include "server/jobs/job_memory.h"
 
 namespace plenum::server {
 namespace {
 
-constexpr int kNiceness = 10;
 // Between two looks whether a job's turn has come, while jobs run alone.
 constexpr std::chrono::milliseconds kTurnPause{20};
-
-// 64 random bits.
-std::string RandomId() {
-  std::random_device random;
-  char text[17];
-  std::snprintf(text, sizeof text, "%08x%08x", static_cast<unsigned>(random()),
-                static_cast<unsigned>(random()));
-  return text;
-}
-
-std::string TextOf(const api::Json& json) { return json.is_null() ? "" : Dump(json); }
-
-constexpr std::size_t kMuchMemoryBytes = 64 << 20;
-constexpr char kTooMuchMemory[] =
-    "it needed more memory than the service can get; ask for less at once, as fewer groups or "
-    "samples, or give the service more memory";
-
-// Without the result.
-Job ToJob(const catalog::JobRecord& record) {
-  Job job;
-  job.number = record.number;
-  job.id = record.id;
-  job.name = record.order.name;
-  job.status = record.status;
-  job.progress = api::Json::parse(record.progress, nullptr, false);
-  if (job.progress.is_discarded()) job.progress = nullptr;
-  job.failure = record.failure;
-  job.attempts = record.starts;
-  job.crashes = record.crashes;
-  job.crash = record.crash;
-  job.alone = record.alone;
-  job.submitted_at = record.submitted_at;
-  job.ended_at = record.ended_at;
-  if (Ended(job.status)) job.revision = record.ending;
-  job.catalogue_revision = record.order.revision;
-  job.catalogue_hash = record.order.hash;
-  return job;
-}
 
 // What the disk must hold for the next service only: this one goes on without.
 template <typename F>
@@ -72,14 +24,6 @@ bool Try(const std::string& id, F&& write) {
     Log({{"level", "error"}, {"job", id}, {"fault", error.what()}});
     return false;
   }
-}
-
-std::string ListOf(const api::Errors& errors) {
-  std::string list;
-  for (const api::Error& error : errors)
-    list += (list.empty() ? "" : "; ") + (error.pointer.empty() ? "" : error.pointer + ": ") +
-            error.detail;
-  return list;
 }
 
 }  // namespace
@@ -190,12 +134,6 @@ void Jobs::AddResult(Job& job) const {
   job.failure = "its stored result is damaged and cannot be read";
 }
 
-std::optional<Job> Jobs::Get(const std::string& id) const {
-  auto job = Look(id);
-  if (job) AddResult(*job);
-  return job;
-}
-
 void Jobs::OnChange(std::function<void()> changed) {
   const std::lock_guard lock(mutex_);
   on_change_ = std::move(changed);
@@ -221,6 +159,12 @@ std::vector<Job> Jobs::List() const {
     list.push_back(std::move(job));
   }
   return list;
+}
+
+std::size_t Jobs::Count(JobStatus status) const {
+  const auto list = List();
+  return static_cast<std::size_t>(std::count_if(
+      list.begin(), list.end(), [&](const Job& job) { return job.status == status; }));
 }
 
 bool Jobs::Cancel(const std::string& id) {
@@ -320,8 +264,7 @@ Jobs::EntryPtr Jobs::TakeFromQueue() {
 
 void Jobs::WorkLoop() {
   const api::SignalStack stack;  // a crash by overflow of the thread's own stack is marked, too
-  // Requests go first, however nice the service itself is: on Linux the niceness is the thread's.
-  setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNiceness);
+  WorkBehindRequests();
   while (const EntryPtr entry = Next()) {
     Run(*entry);
     turns_.Leave(entry->job.alone);
@@ -339,11 +282,8 @@ void Jobs::Run(Entry& entry) {
     ++entry.job.revision;
     Changed();
   }
-  const std::size_t before = ResidentBytes();
-  auto outcome = Outcome(entry);
-  // What a large job had goes back to the system. It takes a while, and who sees that a job has
-  // ended may count on its worker.
-  if (ResidentBytes() > before + kMuchMemoryBytes) malloc_trim(0);
+  api::Parsed<api::Json> outcome;
+  ReturnMemoryAfter([&] { outcome = Outcome(entry); });
   if (entry.interrupted && !entry.cancelled) {
     Try(id, [&] { store_.Requeue(id); });
   } else if (const auto* errors = std::get_if<api::Errors>(&outcome)) {
@@ -366,14 +306,10 @@ api::Parsed<api::Json> Jobs::Outcome(Entry& entry) {
                              ++entry.job.revision;
                              Changed();
                            }};
-  try {
-    return work_(store_.Find(kind_, entry.job.id).value().order, control);
-  } catch (const std::bad_alloc&) {
-    return api::Errors{{"", kTooMuchMemory}};
-  } catch (const std::exception& error) {
-    Log({{"level", "error"}, {"job", entry.job.id}, {"fault", error.what()}});
-    return api::Errors{{"", "a fault of the program; its log says more"}};
-  }
+  const auto work = [this, &entry](const catalog::JobOrder&, const JobControl& seen) {
+    return work_(store_.Find(kind_, entry.job.id).value().order, seen);
+  };
+  return OutcomeOf(work, {}, entry.job.id, control);
 }
 
 }  // namespace plenum::server

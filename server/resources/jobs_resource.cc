@@ -166,6 +166,14 @@ Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder
   return reply;
 }
 
+Reply GetQueue(const catalog::QueueState& queue) {
+  return JsonReply(200, {{"waiting", queue.waiting},
+                         {"running", queue.running},
+                         {"workers", queue.workers},
+                         {"threads", queue.threads},
+                         {"oldest", queue.oldest.empty() ? api::Json() : api::Json(queue.oldest)}});
+}
+
 Reply ListJobs(const JobsResource& resource) {
   api::Json list = api::Json::array();
   for (const auto& job : resource.jobs->List()) {

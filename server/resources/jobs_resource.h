@@ -5,12 +5,12 @@
 #include <string>
 
 #include "server/call/reply.h"
-#include "server/jobs/jobs.h"
+#include "server/jobs/job_queue.h"
 
 namespace plenum::server {
 
 struct JobsResource {
-  Jobs* jobs;
+  JobQueue* jobs;
   std::string path;  // "/v1/designs"
   std::string noun;  // "design"
 };
@@ -20,6 +20,9 @@ struct JobsResource {
 // kWaitingMax it is 202 at once. 429 when the queue is full, 422 when the key stands for another
 // request.
 Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder order);
+// { waiting, running, workers, threads, oldest }: when the one that waits longest was posted, null
+// without one.
+Reply GetQueue(const catalog::QueueState& queue);
 Reply ListJobs(const JobsResource& resource);
 // { id, name, status, submitted_at, ended_at, attempts, crashes, last_crash, catalogue_revision,
 // progress, links, result }, and `detail` where it failed. With an ETag, and 304, once it has

@@ -77,6 +77,7 @@ const std::map<std::string, Operation>& Operations() {
       {"GET /v1/parts/{id}/protocol", {kSensor, "", {{200, "Protocol"}}, {404, 422}}},
       {"GET /v1/parts/{id}/history", {kPage, "", {{200, "History"}}, {404, 422}}},
       {"GET /v1/families", {{}, "", {{200, "Families"}}, {}}},
+      {"GET /v1/queue", {{}, "", {{200, "Queue"}}, {}}},
       {"GET /v1/limits", {{}, "", {{200, "Limits"}}, {}}},
       {"POST /v1/catalog/update", {{"dry_run", "From"}, "", {{200, "SeedUpdate"}}, {404, 422}}},
       {"GET /v1/revisions", {kPage, "", {{200, "Revisions"}}, {422}}},
@@ -287,6 +288,12 @@ Json Schemas() {
   schemas["NamedModel"] = Object(
       {{"name", {{"type", "string"}, {"maxLength", 200}}}, {"model", Ref("schemas", "Model")}});
   schemas["NamedModel"]["additionalProperties"] = false;
+  const Json integer = {{"type", "integer"}};
+  schemas["Queue"] = Object({{"waiting", integer},
+                             {"running", integer},
+                             {"workers", integer},
+                             {"threads", integer},
+                             {"oldest", {{"type", {"string", "null"}}}}});
   schemas.update(AnswerSchemas());
   schemas.update(api::DescribeCatalogueAnswers());
   return schemas;

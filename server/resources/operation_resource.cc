@@ -1,6 +1,5 @@
 #include "server/resources/operation_resource.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "api/catalogue/stores.h"
@@ -15,12 +14,6 @@ constexpr std::uintmax_t kFreeBytesMin = 16 << 20;
 // What another process writes is busy: writes wait for it, and the service is ready.
 constexpr char kOk[] = "ok", kBusy[] = "busy", kFailed[] = "failed";
 
-std::size_t Count(const Jobs& jobs, JobStatus status) {
-  const auto list = jobs.List();
-  return static_cast<std::size_t>(std::count_if(
-      list.begin(), list.end(), [&](const Job& job) { return job.status == status; }));
-}
-
 const char* Readable(SharedCatalog& catalog) {
   try {
     catalog.View();
@@ -28,6 +21,15 @@ const char* Readable(SharedCatalog& catalog) {
   } catch (const catalog::StoreError& error) {
     return error.fault() == catalog::StoreFault::kBusy ? kBusy : kFailed;
   }
+}
+
+// Of a server only the server knows; what it cannot write fails.
+bool HasRoom(const std::filesystem::path& catalogue) {
+  if (catalog::IsServer(catalogue)) return true;
+  std::error_code none;
+  const auto space =
+      std::filesystem::space(std::filesystem::absolute(catalogue).parent_path(), none);
+  return !none && space.available >= kFreeBytesMin;
 }
 
 Reply NotReady(const api::Json& checks) {
@@ -50,10 +52,7 @@ Reply GetReadiness(const Services& services, LastReadiness& last) {
     return last.reply;
   }
   const FileCheck file = services.catalog.Check();
-  std::error_code none;
-  const auto space =
-      std::filesystem::space(std::filesystem::absolute(services.file).parent_path(), none);
-  const bool has_room = !none && space.available >= kFreeBytesMin;
+  const bool has_room = HasRoom(services.file);
   const bool takes_jobs = !services.designs.Stopping() && !services.diagnoses.Stopping();
   const std::pair<const char*, const char*> checks[] = {
       {"catalogue_in_place", file == FileCheck::kReplaced ? kFailed : kOk},
@@ -80,8 +79,8 @@ Reply GetMetrics(const Services& services, const Call&) {
   for (const auto& [kind, jobs] :
        {std::pair{"design", &services.designs}, std::pair{"diagnosis", &services.diagnoses}}) {
     const std::string name = std::string("plenum_") + kind + "_jobs_";
-    metrics.Set(name + "queued", "Jobs that wait.", double(Count(*jobs, JobStatus::kQueued)));
-    metrics.Set(name + "running", "Jobs at work.", double(Count(*jobs, JobStatus::kRunning)));
+    metrics.Set(name + "queued", "Jobs that wait.", double(jobs->Count(JobStatus::kQueued)));
+    metrics.Set(name + "running", "Jobs at work.", double(jobs->Count(JobStatus::kRunning)));
   }
   metrics.Set("plenum_resident_memory_bytes", "Memory of the process.", double(ResidentBytes()));
   metrics.Set("plenum_catalogue_revision", "The newest revision of the catalogue.",

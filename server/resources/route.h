@@ -12,7 +12,7 @@
 #include "server/call/protection.h"
 #include "server/call/reply.h"
 #include "server/call/shared_catalog.h"
-#include "server/jobs/jobs.h"
+#include "server/jobs/job_queue.h"
 
 namespace plenum::server {
 
@@ -29,8 +29,9 @@ struct Route {
 // What the routes work with.
 struct Services {
   SharedCatalog& catalog;
-  Jobs& designs;
-  Jobs& diagnoses;
+  JobQueue& designs;
+  JobQueue& diagnoses;
+  std::function<catalog::QueueState()> queue;  // of all kinds of jobs
   Metrics& metrics;
   JobOptions job_options;
   catalog::JobsKept jobs_kept;

@@ -64,7 +64,7 @@ Reply AnswerAtOnce(const Call& call, F&& run) {
 }
 
 // The request with the answer of the diagnosis that its "from" names by id.
-api::Json WithDiagnosis(api::Json request, const Jobs& diagnoses) {
+api::Json WithDiagnosis(api::Json request, const JobQueue& diagnoses) {
   api::Json& from = request["from"];
   if (!from.is_string()) return request;
   const std::optional<Job> job = diagnoses.Get(from.get<std::string>());
@@ -145,6 +145,12 @@ void AddCatalogUpdate(const Services& services, std::vector<Route>& routes) {
        [&catalog = services.catalog, file = services.file, seed = services.seed](const Call& call) {
          return UpdateCatalog(catalog, file, seed, call);
        }});
+}
+
+void AddQueueRoute(const Services& services, std::vector<Route>& routes) {
+  routes.push_back({"GET", "/v1/queue", "jobs that wait and run, of all services; who does them",
+                    Access::kRead,
+                    [queue = services.queue](const Call&) { return GetQueue(queue()); }});
 }
 
 // What people read in a browser.
@@ -237,6 +243,7 @@ std::vector<Route> Routes(const Services& services) {
   AddCatalogUpdate(services, routes);
   AddJobRoutes(design_jobs, routes);
   AddJobRoutes(diagnosis_jobs, routes);
+  AddQueueRoute(services, routes);
   AddPages(services, routes);
   routes.push_back({"GET", "/openapi.json", "this description, OpenAPI 3.1", Access::kOpen, {}});
   routes.push_back({"GET", "/v1", "this table", Access::kRead, {}});

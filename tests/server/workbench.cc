@@ -11,12 +11,24 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "tests/support/places.h"
 
 namespace plenum::server {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+int EndOf(pid_t pid, int signal) {
+  kill(pid, signal);
+  int status = 0;
+  waitpid(pid, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+}  // namespace
 
 std::string ReadAll(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -78,13 +90,21 @@ ServeProcess::~ServeProcess() {
   if (pid_ > 0) End(SIGKILL);
 }
 
-int ServeProcess::End(int signal) {
-  kill(pid_, signal);
-  int status = 0;
-  waitpid(pid_, &status, 0);
-  pid_ = -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+int ServeProcess::End(int signal) { return EndOf(std::exchange(pid_, -1), signal); }
+
+WorkerProcess::WorkerProcess(const std::string& catalog, int lease_s) : pid_(fork()) {
+  if (pid_ != 0) return;
+  if (freopen("/dev/null", "w", stderr) == nullptr) _exit(127);
+  execl(PLENUM_BINARY, "plenum", "worker", "--threads", "1", "--lease",
+        std::to_string(lease_s).c_str(), "--catalog", catalog.c_str(), nullptr);
+  _exit(127);
 }
+
+WorkerProcess::~WorkerProcess() {
+  if (pid_ > 0) End(SIGKILL);
+}
+
+int WorkerProcess::End(int signal) { return EndOf(std::exchange(pid_, -1), signal); }
 
 api::Json Example(const std::string& name, double time_limit_s) {
   const auto text = ReadAll(test::SourceDir() / "examples" / (name + ".json"));

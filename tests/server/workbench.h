@@ -51,6 +51,20 @@ class ServeProcess {
   int port_ = 0;
 };
 
+// `plenum worker` as a process of its own, one job at a time.
+class WorkerProcess {
+ public:
+  WorkerProcess(const std::string& catalog, int lease_s);
+  ~WorkerProcess();  // kills it if it still runs
+  WorkerProcess(const WorkerProcess&) = delete;
+  WorkerProcess& operator=(const WorkerProcess&) = delete;
+  // Sends `signal`; the exit status, or minus the signal that ended it.
+  int End(int signal);
+
+ private:
+  pid_t pid_ = -1;
+};
+
 std::string ReadAll(const std::filesystem::path& path);
 // An example of the project, two designs asked for; `time_limit_s` of its search as given.
 api::Json Example(const std::string& name, double time_limit_s);

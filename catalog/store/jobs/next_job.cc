@@ -13,11 +13,12 @@ constexpr char kClientsInTurn[] = R"sql(
 WITH RECURSIVE top AS MATERIALIZED (
   SELECT max(priority) AS priority FROM job WHERE status = 'queued' AND version = ? AND kind IN @KINDS
 ), waiting (client) AS (
-  (SELECT client FROM job JOIN top USING (priority)
-   WHERE status = 'queued' AND version = ? AND kind IN @KINDS ORDER BY client LIMIT 1)
+  (SELECT client FROM job WHERE status = 'queued' AND version = ? AND kind IN @KINDS
+   AND priority = (SELECT priority FROM top) ORDER BY client LIMIT 1)
   UNION ALL
-  SELECT (SELECT other.client FROM job AS other JOIN top USING (priority)
-          WHERE status = 'queued' AND version = ? AND kind IN @KINDS AND other.client > waiting.client
+  SELECT (SELECT other.client FROM job AS other
+          WHERE status = 'queued' AND version = ? AND kind IN @KINDS
+            AND priority = (SELECT priority FROM top) AND other.client > waiting.client
           ORDER BY other.client LIMIT 1)
   FROM waiting WHERE waiting.client IS NOT NULL
 )
@@ -32,7 +33,7 @@ UPDATE job SET status = 'running', starts = least(starts + 1, 1000000), attempt 
 WHERE number = (SELECT number FROM job
   WHERE status = 'queued' AND version = ? AND kind IN @KINDS AND priority = ? AND client = ?
   ORDER BY number LIMIT 1 FOR UPDATE SKIP LOCKED)
-RETURNING @COLUMNS
+RETURNING @COLUMNS, (SELECT request FROM job_request AS of WHERE of.number = job.number), ''
 )sql";
 
 // "(?, ?)"

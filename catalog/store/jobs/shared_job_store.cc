@@ -110,13 +110,14 @@ std::optional<JobRecord> SharedJobStore::Add(const std::string& id, const JobOrd
   return Peek(order.kind, id);  // also where the first answer was lost
 }
 
-std::int64_t SharedJobStore::Waiting(const std::string& kind) const {
-  return impl_->Count("count(*) FROM job WHERE status = 'queued' AND kind = ?", {kind});
+std::size_t SharedJobStore::Count(const std::string& kind, JobStatus status) const {
+  return static_cast<std::size_t>(impl_->Count("count(*) FROM job WHERE status = ? AND kind = ?",
+                                               {catalog::Name(status), kind}));
 }
 
-std::int64_t SharedJobStore::Waiting(const std::string& kind, const std::string& client) const {
-  return impl_->Count("count(*) FROM job WHERE status = 'queued' AND kind = ? AND client = ?",
-                      {kind, client});
+std::size_t SharedJobStore::Waiting(const std::string& kind, const std::string& client) const {
+  return static_cast<std::size_t>(impl_->Count(
+      "count(*) FROM job WHERE status = 'queued' AND kind = ? AND client = ?", {kind, client}));
 }
 
 std::optional<JobRecord> SharedJobStore::Peek(const std::string& kind,
@@ -218,17 +219,27 @@ std::optional<JobClaim> SharedJobStore::Claim(const std::vector<std::string>& ki
   return impl_->Do(Purpose::kRows, [&](SqlDatabase& db) -> std::optional<JobClaim> {
     std::optional<JobRecord> job;
     if (std::exchange(again, true)) {  // the first answer was lost
-      const auto claimed = Query(
-          db,
-          "SELECT " + JobColumns(kChange) + " FROM job WHERE status = 'running' AND attempt = ?",
-          attempt);
+      const auto claimed =
+          Query(db,
+                "SELECT " + JobColumns(kChange) +
+                    ", request, '' FROM job JOIN job_request USING (number) WHERE status = "
+                    "'running' AND attempt = ?",
+                attempt);
       if (claimed->Step()) job = ReadJob(*claimed);
     }
     if (!job) job = BeginNext(db, impl_->version, kinds, {attempt, worker, lease});
     if (!job) return std::nullopt;
-    const auto request = Query(db, "SELECT request FROM job_request WHERE number = ?", job->number);
-    if (request->Step()) job->order.request = request->Text(0);
     return JobClaim{*std::move(job), attempt};
+  });
+}
+
+Heartbeat SharedJobStore::See(const JobClaim& claim) const {
+  return impl_->Read([&](SqlDatabase& db) -> Heartbeat {
+    const auto held = Query(
+        db, "SELECT cancel_asked FROM job WHERE number = ? AND status = 'running' AND attempt = ?",
+        claim.job.number, claim.attempt);
+    if (!held->Step()) return {};
+    return {true, held->Integer(0) != 0};
   });
 }
 

@@ -50,8 +50,8 @@ class SharedJobStore {
 
   // Those who ask. Add gives nothing where the key has a job already.
   std::optional<JobRecord> Add(const std::string& id, const JobOrder& order);
-  std::int64_t Waiting(const std::string& kind) const;
-  std::int64_t Waiting(const std::string& kind, const std::string& client) const;
+  std::size_t Count(const std::string& kind, JobStatus status) const;
+  std::size_t Waiting(const std::string& kind, const std::string& client) const;
   std::optional<JobRecord> Peek(const std::string& kind, const std::string& id) const;
   std::optional<JobRecord> FindKey(const std::string& kind, const std::string& key) const;
   std::string Result(const std::string& kind, const std::string& id) const;
@@ -69,6 +69,8 @@ class SharedJobStore {
   // fewest at work, then of the one who has waited longest for a turn, then the first.
   std::optional<JobClaim> Claim(const std::vector<std::string>& kinds, const std::string& worker,
                                 std::chrono::milliseconds lease);
+  // Whether the attempt is still the job's.
+  Heartbeat See(const JobClaim& claim) const;
   // Extends the lease; writes the progress unless it is empty.
   Heartbeat Extend(const JobClaim& claim, const std::string& progress,
                    std::chrono::milliseconds lease);

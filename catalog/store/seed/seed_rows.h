@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "catalog/store/history.h"
 #include "catalog/store/seed/seed_plan.h"
+#include "catalog/store/tables/history.h"
 
 namespace plenum::catalog {
 

@@ -36,6 +36,9 @@ TEST(GaitRequestTest, IsDesignedAndVerified) {
       EXPECT_EQ(groups[i]["name"], "legs");
       EXPECT_EQ(groups[i]["count"], 1);
       EXPECT_DOUBLE_EQ(groups[i]["phase"].get<double>(), 0.25 * static_cast<double>(i));
+      // A cycle that repeats: the last leg begins full, and is emptied first.
+      const Json& pressures = groups[i]["pressure_kpa_gauge"];
+      EXPECT_NEAR(pressures.front().get<double>(), pressures.back().get<double>(), 0.5) << i;
     }
     EXPECT_EQ(design["performance"]["groups"].size(), 1U);
   }

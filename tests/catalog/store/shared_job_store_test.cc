@@ -88,7 +88,7 @@ TEST_P(SharedJobs, AKeyHasOneJob) {
   EXPECT_TRUE(jobs->Add("one", order));
   EXPECT_FALSE(jobs->Add("two", order));
   EXPECT_TRUE(jobs->Add("one", order));  // said again
-  EXPECT_EQ(jobs->Waiting("design"), 1);
+  EXPECT_EQ(jobs->Count("design", JobStatus::kQueued), 1u);
 }
 
 TEST_P(SharedJobs, ClientsTakeTurnsAndPriorityGoesFirst) {
@@ -98,7 +98,7 @@ TEST_P(SharedJobs, ClientsTakeTurnsAndPriorityGoesFirst) {
   jobs->Add("c1", Order("cyd"));
   jobs->Add("low", Order("dan", -1));
   jobs->Add("high", Order("ann", 5));
-  EXPECT_EQ(jobs->Waiting("design", "ann"), 4);
+  EXPECT_EQ(jobs->Waiting("design", "ann"), 4u);
   std::vector<std::string> order;
   for (std::string id = NextOf(*jobs); !id.empty(); id = NextOf(*jobs)) order.push_back(id);
   EXPECT_THAT(order, ElementsAre("high", "b1", "c1", "a1", "b2", "a2", "a3", "low"));
@@ -135,6 +135,7 @@ TEST_P(SharedJobs, WhoseLeaseEndedAreTakenByAnotherAndTheFirstWritesNothing) {
   EXPECT_EQ(second.job.starts, 2);
   EXPECT_EQ(second.job.crashes, 1);
   EXPECT_THAT(second.job.crash, HasSubstr("first"));
+  EXPECT_FALSE(jobs->See(lost).held);
   EXPECT_FALSE(jobs->Extend(lost, "{}", kLong).held);
   EXPECT_FALSE(jobs->End(lost, Done(lost, "\"first\"")));
   jobs->GiveBack(lost);
@@ -181,6 +182,7 @@ TEST_P(SharedJobs, CancelEndsWhatWaitsAndAsksWhatRuns) {
   jobs->Cancel("two");
   EXPECT_NE(jobs->LastChange(), before);
   EXPECT_EQ(jobs->Peek("design", "two")->status, JobStatus::kCancelled);
+  EXPECT_TRUE(jobs->See(claim).cancel_asked);
   EXPECT_TRUE(jobs->Extend(claim, "", kShort).cancel_asked);
   std::this_thread::sleep_for(milliseconds(20));
   jobs->TakeFromLost();  // nobody begins it again

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "server/jobs/job_recovery.h"
+#include "server/jobs/jobs.h"
 #include "tests/server/jobs/waiting.h"
 #include "tests/server/service.h"
 

@@ -8,12 +8,12 @@
 #include <thread>
 
 #include "api/json/json.h"
-#include "server/jobs/jobs.h"
+#include "server/jobs/job_queue.h"
 
 namespace plenum::server {
 
 template <typename Predicate>
-std::optional<Job> WaitUntil(const Jobs& jobs, const std::string& id,
+std::optional<Job> WaitUntil(const JobQueue& jobs, const std::string& id,
                              std::chrono::milliseconds timeout, Predicate holds) {
   for (const auto until = std::chrono::steady_clock::now() + timeout;;) {
     auto job = jobs.Get(id);
@@ -24,14 +24,14 @@ std::optional<Job> WaitUntil(const Jobs& jobs, const std::string& id,
 }
 
 // The job when it has ended or passed `revision`, or as it is after `timeout`.
-inline std::optional<Job> WaitForChange(const Jobs& jobs, const std::string& id, long long revision,
-                                        std::chrono::milliseconds timeout) {
+inline std::optional<Job> WaitForChange(const JobQueue& jobs, const std::string& id,
+                                        long long revision, std::chrono::milliseconds timeout) {
   return WaitUntil(jobs, id, timeout, [revision](const Job& job) {
     return job.revision > revision || Ended(job.status);
   });
 }
 
-inline std::optional<Job> WaitForEnd(const Jobs& jobs, const std::string& id,
+inline std::optional<Job> WaitForEnd(const JobQueue& jobs, const std::string& id,
                                      std::chrono::milliseconds timeout) {
   return WaitUntil(jobs, id, timeout, [](const Job& job) { return Ended(job.status); });
 }

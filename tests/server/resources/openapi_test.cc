@@ -303,7 +303,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
   Get("/v1/models/{id}", "", 200, {}, "bench");
   Get("/v1/models/{id}", "", 404, {}, "none");
   // The rest.
-  for (const char* path : {"/v1", "/v1/families", "/v1/limits", "/healthz", "/metrics",
+  for (const char* path : {"/v1", "/v1/families", "/v1/limits", "/v1/queue", "/healthz", "/metrics",
                            "/openapi.json", "/openapi", "/"})
     Get(path, "", 200);
   Get("/readyz", "", 200);

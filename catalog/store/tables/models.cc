@@ -1,4 +1,4 @@
-#include "catalog/store/models.h"
+#include "catalog/store/tables/models.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Saved model revisions to and from their table. Internal to the store; the caller owns
 // the transaction.
-#ifndef PLENUM_CATALOG_STORE_MODELS_H_
-#define PLENUM_CATALOG_STORE_MODELS_H_
+#ifndef PLENUM_CATALOG_STORE_TABLES_MODELS_H_
+#define PLENUM_CATALOG_STORE_TABLES_MODELS_H_
 
 #include <optional>
 #include <string>
@@ -29,4 +29,4 @@ std::vector<std::string> CheckModels(SqlDatabase& db);
 
 }  // namespace plenum::catalog
 
-#endif  // PLENUM_CATALOG_STORE_MODELS_H_
+#endif  // PLENUM_CATALOG_STORE_TABLES_MODELS_H_

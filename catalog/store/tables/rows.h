@@ -1,6 +1,6 @@
 // Parts to and from their tables. Internal to the store.
-#ifndef PLENUM_CATALOG_STORE_ROWS_H_
-#define PLENUM_CATALOG_STORE_ROWS_H_
+#ifndef PLENUM_CATALOG_STORE_TABLES_ROWS_H_
+#define PLENUM_CATALOG_STORE_TABLES_ROWS_H_
 
 #include <memory>
 #include <optional>
@@ -48,4 +48,4 @@ std::vector<Part> ReadParts(SqlDatabase& db);
 
 }  // namespace plenum::catalog
 
-#endif  // PLENUM_CATALOG_STORE_ROWS_H_
+#endif  // PLENUM_CATALOG_STORE_TABLES_ROWS_H_

@@ -1,4 +1,4 @@
-#include "catalog/store/rows.h"
+#include "catalog/store/tables/rows.h"
 
 #include <stdexcept>
 

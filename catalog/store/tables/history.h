@@ -1,7 +1,7 @@
 // Revisions and changes to and from their tables. Internal to the store; the caller
 // owns the transaction.
-#ifndef PLENUM_CATALOG_STORE_HISTORY_H_
-#define PLENUM_CATALOG_STORE_HISTORY_H_
+#ifndef PLENUM_CATALOG_STORE_TABLES_HISTORY_H_
+#define PLENUM_CATALOG_STORE_TABLES_HISTORY_H_
 
 #include <optional>
 #include <string>
@@ -10,7 +10,7 @@
 
 #include "catalog/store/content_hash.h"
 #include "catalog/store/revision.h"
-#include "catalog/store/rows.h"
+#include "catalog/store/tables/rows.h"
 
 namespace plenum::catalog {
 
@@ -67,4 +67,4 @@ void KeepKey(SqlDatabase& db, const Signature& by, std::int64_t base, std::int64
 
 }  // namespace plenum::catalog
 
-#endif  // PLENUM_CATALOG_STORE_HISTORY_H_
+#endif  // PLENUM_CATALOG_STORE_TABLES_HISTORY_H_

@@ -1,4 +1,4 @@
-#include "catalog/store/history.h"
+#include "catalog/store/tables/history.h"
 
 #include <algorithm>
 #include <climits>

@@ -1,0 +1,89 @@
+#include "server/jobs/job_queue.h"
+
+#include <malloc.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <random>
+
+#include "server/call/reply.h"
+#include "server/call/request_log.h"
+#include "server/jobs/job_memory.h"
+
+namespace plenum::server {
+namespace {
+
+constexpr int kNiceness = 10;
+constexpr std::size_t kMuchMemoryBytes = 64 << 20;
+constexpr char kTooMuchMemory[] =
+    "it needed more memory than the service can get; ask for less at once, as fewer groups or "
+    "samples, or give the service more memory";
+
+}  // namespace
+
+std::string RandomId() {
+  std::random_device random;
+  char text[17];
+  std::snprintf(text, sizeof text, "%08x%08x", static_cast<unsigned>(random()),
+                static_cast<unsigned>(random()));
+  return text;
+}
+
+std::string TextOf(const api::Json& json) { return json.is_null() ? "" : Dump(json); }
+
+Job ToJob(const catalog::JobRecord& record) {
+  Job job;
+  job.number = record.number;
+  job.id = record.id;
+  job.name = record.order.name;
+  job.status = record.status;
+  job.progress = api::Json::parse(record.progress, nullptr, false);
+  if (job.progress.is_discarded()) job.progress = nullptr;
+  job.failure = record.failure;
+  job.attempts = record.starts;
+  job.crashes = record.crashes;
+  job.crash = record.crash;
+  job.alone = record.alone;
+  job.submitted_at = record.submitted_at;
+  job.ended_at = record.ended_at;
+  if (Ended(job.status)) job.revision = record.ending;
+  job.catalogue_revision = record.order.revision;
+  job.catalogue_hash = record.order.hash;
+  return job;
+}
+
+std::string ListOf(const api::Errors& errors) {
+  std::string list;
+  for (const api::Error& error : errors)
+    list += (list.empty() ? "" : "; ") + (error.pointer.empty() ? "" : error.pointer + ": ") +
+            error.detail;
+  return list;
+}
+
+api::Parsed<api::Json> OutcomeOf(const Work& work, const catalog::JobOrder& order,
+                                 const std::string& id, const JobControl& control) {
+  try {
+    return work(order, control);
+  } catch (const std::bad_alloc&) {
+    return api::Errors{{"", kTooMuchMemory}};
+  } catch (const std::exception& error) {
+    Log({{"level", "error"}, {"job", id}, {"fault", error.what()}});
+    return api::Errors{{"", "a fault of the program; its log says more"}};
+  }
+}
+
+// On Linux the niceness is the thread's.
+void WorkBehindRequests() {
+  setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNiceness);
+}
+
+// It takes a while, and who sees that a job has ended may count on its worker.
+void ReturnMemoryAfter(const std::function<void()>& work) {
+  const std::size_t before = ResidentBytes();
+  work();
+  if (ResidentBytes() > before + kMuchMemoryBytes) malloc_trim(0);
+}
+
+}  // namespace plenum::server

@@ -1,0 +1,79 @@
+#include "server/jobs/shared_jobs.h"
+
+#include <utility>
+
+namespace plenum::server {
+
+SharedJobs::SharedJobs(catalog::SharedJobStore& store, std::string kind, const JobOptions& options,
+                       std::function<void()> changed)
+    : store_(store), kind_(std::move(kind)), options_(options), changed_(std::move(changed)) {}
+
+std::optional<Submitted> SharedJobs::RefuseToQueue(const std::string& client) const {
+  if (stopping_ || store_.Count(kind_, JobStatus::kQueued) >= options_.queued_max)
+    return Submitted{Submitted::kRefused, ""};
+  if (store_.Waiting(kind_, client) >= options_.queued_per_client_max)
+    return Submitted{Submitted::kClientRefused, ""};
+  return std::nullopt;
+}
+
+Submitted SharedJobs::Submit(catalog::JobOrder order) {
+  order.kind = kind_;
+  const auto known = [&]() -> std::optional<Submitted> {
+    if (order.by.key.empty()) return std::nullopt;
+    const auto job = store_.FindKey(kind_, order.by.key);
+    if (!job) return std::nullopt;
+    if (job->order.by.request != order.by.request) return Submitted{Submitted::kKeyReused, ""};
+    return Submitted{Submitted::kRepeated, job->id};
+  };
+  if (const auto job = known()) return *job;
+  if (const auto refused = RefuseToQueue(order.client)) return *refused;
+  const auto added = store_.Add(RandomId(), order);
+  if (!added) return known().value_or(Submitted{Submitted::kRefused, ""});  // another was faster
+  changed_();
+  return {Submitted::kAccepted, added->id};
+}
+
+std::optional<Job> SharedJobs::Look(const std::string& id) const {
+  const auto record = store_.Peek(kind_, id);
+  if (!record) return std::nullopt;
+  Job job = ToJob(*record);
+  job.revision = record->ending;
+  return job;
+}
+
+void SharedJobs::AddResult(Job& job) const {
+  if (job.result || !Ended(job.status)) return;
+  // A job that was done again has another result under the same id.
+  job.result = results_.Get(job.id + " " + std::to_string(job.revision),
+                            [&] { return store_.Result(kind_, job.id); });
+}
+
+std::vector<Job> SharedJobs::List() const {
+  std::vector<Job> list;
+  for (const catalog::JobRecord& record : store_.List(kind_, kSharedJobsListed))
+    list.push_back(ToJob(record));
+  return list;
+}
+
+std::size_t SharedJobs::Count(JobStatus status) const { return store_.Count(kind_, status); }
+
+bool SharedJobs::Cancel(const std::string& id) {
+  if (!store_.Peek(kind_, id)) return false;
+  store_.Cancel(id);
+  changed_();
+  return true;
+}
+
+Asked SharedJobs::Again(const std::string& id) {
+  const auto record = store_.Peek(kind_, id);
+  if (!record) return Asked::kUnknown;
+  if (!Ended(record->status)) return Asked::kUnderWay;
+  if (record->status == JobStatus::kDone) return Asked::kDone;
+  if (const auto refused = RefuseToQueue(record->order.client))
+    return refused->status == Submitted::kRefused ? Asked::kRefused : Asked::kClientRefused;
+  store_.Again(id);  // or another did
+  changed_();
+  return Asked::kQueued;
+}
+
+}  // namespace plenum::server
