@@ -39,34 +39,49 @@ export interface Band {
 const fontOf = (size: number): string =>
   `${size}px -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif`;
 
+// Where the labels of lines stand, by their heights, so that none covers another: a line by itself
+// has its label above, or below where a curve rises to it; of lines that are near each other the
+// lowest has it below, and those of the others stand one above the other over the highest.
+function labelPlaces(heights: number[], isLeft: boolean, top: number, room: number) {
+  const places = heights.map((y) => ({ y, isBelow: isLeft || y - top < room }));
+  const order = heights.map((_, i) => i).sort((i, j) => heights[i]! - heights[j]!);
+  for (let first = 0; first < order.length;) {
+    let last = first;
+    while (last + 1 < order.length && heights[order[last + 1]!]! - heights[order[last]!]! < room)
+      ++last;
+    const highest = heights[order[first]!]!;
+    for (let i = first; i < last; ++i)
+      places[order[i]!] = { y: highest - (last - 1 - i) * 0.8 * room, isBelow: false };
+    if (last > first) places[order[last]!]!.isBelow = true;
+    first = last + 1;
+  }
+  return places;
+}
+
 function drawGuides(plot: uPlot, guides: Guide[], ink: string, isLeft: boolean) {
   const { ctx, bbox } = plot;
   ctx.save();
   ctx.strokeStyle = ink;
   ctx.fillStyle = ink;
   ctx.font = fontOf(10 * pageScale.peek() * devicePixelRatio);
+  ctx.textAlign = isLeft ? 'left' : 'right';
   ctx.setLineDash([3 * devicePixelRatio, 3 * devicePixelRatio]);
+  const heights = guides.map((guide) => plot.valToPos(guide.value, 'y', true));
   const room = 14 * pageScale.peek() * devicePixelRatio;
-  const places = guides.map((guide) => plot.valToPos(guide.value, 'y', true));
-  // A label stands where no other guide is near: below its line at the left, else above it.
-  const isBelow = (y: number) => {
-    const isNear = (side: 1 | -1) =>
-      places.some((other) => side * (other - y) > 0 && side * (other - y) < room);
-    return y - bbox.top < room || (isLeft ? !isNear(1) : isNear(-1));
-  };
+  const places = labelPlaces(heights, isLeft, bbox.top, room);
   for (const [i, guide] of guides.entries()) {
-    const y = places[i]!;
+    const y = heights[i]!;
     if (y < bbox.top || y > bbox.top + bbox.height) continue;
     ctx.beginPath();
     ctx.moveTo(bbox.left, y);
     ctx.lineTo(bbox.left + bbox.width, y);
     ctx.stroke();
-    ctx.textAlign = isLeft ? 'left' : 'right';
-    ctx.textBaseline = isBelow(y) ? 'top' : 'bottom';
+    const place = places[i]!;
+    ctx.textBaseline = place.isBelow ? 'top' : 'bottom';
     ctx.fillText(
       guide.label,
       isLeft ? bbox.left + 3 : bbox.left + bbox.width - 3,
-      ctx.textBaseline === 'top' ? y + 2 : y - 2,
+      place.isBelow ? place.y + 2 : place.y - 2,
     );
   }
   ctx.restore();
