@@ -179,10 +179,14 @@ Handled RequestHandler::Proceed(const ExchangePtr& exchange, Outgoing& out) {
 // The answer, or nothing where it is not to be had yet.
 std::optional<Reply> RequestHandler::Try(Exchange& exchange) {
   std::string what = "unknown";
+  bool uncertain = false;
   auto fault = catalog::StoreFault::kOther;
   exchange.busy = false;
   try {
     return Run(exchange);
+  } catch (const catalog::UncertainWrite& error) {
+    what = error.what();
+    uncertain = true;
   } catch (const catalog::StoreError& error) {
     what = error.what();
     fault = error.fault();
@@ -194,7 +198,7 @@ std::optional<Reply> RequestHandler::Try(Exchange& exchange) {
   exchange.busy = fault == catalog::StoreFault::kBusy &&
                   Clock::now() - exchange.start < seconds(kCatalogueWaitSeconds);
   if (exchange.busy) return std::nullopt;
-  return FaultReply(exchange, what, fault);
+  return uncertain ? UncertainReply(exchange, what) : FaultReply(exchange, what, fault);
 }
 
 std::optional<Reply> RequestHandler::Run(Exchange& exchange) {
@@ -219,17 +223,32 @@ std::optional<Reply> RequestHandler::Run(Exchange& exchange) {
   return exchange.later();
 }
 
-// The log gets all of it, the client what it can act on.
-Reply RequestHandler::FaultReply(const Exchange& exchange, const std::string& what,
-                                 catalog::StoreFault fault) {
+void RequestHandler::LogFault(const Exchange& exchange, const std::string& what) {
   Log({{"level", "error"},
        {"method", exchange.request.method},
        {"path", exchange.request.path},
        {"fault", what}});
+}
+
+Reply RequestHandler::UncertainReply(const Exchange& exchange, const std::string& what) {
+  LogFault(exchange, what);
+  return ProblemReply(
+      503,
+      "the catalogue's server was lost while it confirmed what was asked for, so it "
+      "may or may not have been done; with an Idempotency-Key it can be asked for "
+      "again and acts once, else look first");
+}
+
+// The log gets all of it, the client what it can act on.
+Reply RequestHandler::FaultReply(const Exchange& exchange, const std::string& what,
+                                 catalog::StoreFault fault) {
+  LogFault(exchange, what);
   if (fault == catalog::StoreFault::kStorage)
-    return ProblemReply(507,
-                        "the catalogue cannot be written or read: its disk is full or fails; "
-                        "nothing was changed");
+    return ProblemReply(
+        507,
+        "the catalogue cannot be written or read: its disk is full or fails, or its "
+        "server is away; "
+        "nothing was changed");
   if (fault == catalog::StoreFault::kOther)
     return ProblemReply(500, "a fault of the program; its log says more");
   auto reply = ProblemReply(

@@ -49,6 +49,8 @@ class RequestHandler {
   Handled Proceed(const ExchangePtr& exchange, Outgoing& out);
   std::optional<Reply> Try(Exchange& exchange);
   std::optional<Reply> Run(Exchange& exchange);
+  static void LogFault(const Exchange& exchange, const std::string& what);
+  static Reply UncertainReply(const Exchange& exchange, const std::string& what);
   Reply FaultReply(const Exchange& exchange, const std::string& what, catalog::StoreFault fault);
   Reply WithinBudget(Reply reply);
   Produce WhileAuthorized(Produce produce, const Exchange& exchange);

@@ -12,5 +12,6 @@
 #include "catalog/store/shared_tokens.h"
 #include "catalog/store/sql/address.h"
 #include "catalog/store/store.h"
+#include "catalog/store/uncertain_write.h"
 
 #endif  // PLENUM_API_CATALOGUE_STORES_H_

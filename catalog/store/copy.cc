@@ -72,6 +72,7 @@ class RowWriter {
 
 std::vector<SqlValue> RowOf(const SqlStatement& query) {
   std::vector<SqlValue> row;
+  row.reserve(static_cast<std::size_t>(query.columns()));
   for (int i = 0; i < query.columns(); ++i) row.push_back(query.Get(i));
   return row;
 }
@@ -112,7 +113,7 @@ void Verify(SqlDatabase& from, SqlDatabase& to) {
 
 Revision CopyInto(SqlDatabase& source, const fs::path& to) {
   const SqlTransaction one_moment(source, Purpose::kRead);
-  const Revision head = Head(source);
+  Revision head = Head(source);
   try {
     MakeCatalogue(to.string(), [&](SqlDatabase& made) {
       for (const Table& table : kTables) CopyTable(source, made, table);

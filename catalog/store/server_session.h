@@ -35,7 +35,7 @@ class ServerSession {
       }
       return once();
     } catch (const SqlError& error) {
-      throw ToStoreError(shown_, error);
+      ThrowStoreError(shown_, error);
     }
   }
 

@@ -51,7 +51,7 @@ struct Store::Impl {
     try {
       return action(*db);
     } catch (const SqlError& error) {
-      throw ToStoreError(shown, error);
+      ThrowStoreError(shown, error);
     } catch (const StoreError& error) {
       throw StoreError(shown + " " + error.what(), error.fault());
     }

@@ -29,7 +29,8 @@ struct Beginning {
 
 // Begins the next job of the kinds that programs of this version may do: of the highest priority,
 // then of the client with the fewest at work, then of the one who has waited longest for a turn,
-// then the first, with its request. None where nothing waits, or others are about to begin what does.
+// then the first, with its request. None where nothing waits, or others are about to begin what
+// does.
 std::optional<JobRecord> BeginNext(SqlDatabase& db, const std::string& version,
                                    const std::vector<std::string>& kinds, const Beginning& as);
 

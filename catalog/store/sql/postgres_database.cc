@@ -82,10 +82,9 @@ class PostgresDatabase : public SqlDatabase {
         throw SqlError("the transaction was taken back");
     } catch (const SqlError& error) {
       if (!error.lost()) throw;
-      throw SqlError(
+      throw SqlError::Uncertain(
           "the connection was lost while the write was being confirmed, so it may or may not have "
-          "been done; look before it is done again",
-          StoreFault::kStorage, true);
+          "been done; look before it is done again");
     }
   }
   void RollBack() noexcept override {

@@ -102,6 +102,7 @@ std::vector<Part> PartsAt(SqlDatabase& db, std::int64_t number) {
     if (auto before = ReadBefore(*query, 1, id)) parts.emplace(id, std::move(*before));
   }
   std::vector<Part> list;
+  list.reserve(parts.size());
   for (auto& [id, part] : parts) list.push_back(std::move(part));
   return list;
 }

@@ -179,6 +179,7 @@ TEST_P(StoredParts, WritersAtOnceTakeTurnsAndLoseNothing) {
   Write();
   constexpr int kWriters = 4, kWrites = 15;
   std::vector<std::thread> writers;
+  writers.reserve(kWriters);
   for (int w = 0; w < kWriters; ++w)
     writers.emplace_back([&, w] {
       Store store = Write();

@@ -61,6 +61,21 @@ TEST_P(OnPostgres, DoesNothingOfAWriteThatLostItsSession) {
   EXPECT_EQ(store.Head().number, 1);
 }
 
+// The session is cut in the midst of a commit.
+TEST_P(OnPostgres, SaysSoWhereAWriteMayOrMayNotHaveBeenDone) {
+  Store store = Write();
+  Server()->Execute(
+      "CREATE FUNCTION cut() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN PERFORM "
+      "pg_terminate_backend(pg_backend_pid()); RETURN NULL; END $$; CREATE CONSTRAINT TRIGGER cut "
+      "AFTER INSERT ON revision DEFERRABLE INITIALLY DEFERRED FOR EACH ROW EXECUTE FUNCTION cut()");
+  const Signature by{"ann", "key", "digest"};
+  EXPECT_THROW(store.Add(Reservoir("a"), by), UncertainWrite);
+  Server()->Execute("DROP TRIGGER cut ON revision");
+  EXPECT_EQ(store.Add(Reservoir("a"), by).status, WriteStatus::kDone);
+  EXPECT_EQ(store.Add(Reservoir("a"), by).status, WriteStatus::kRepeated);
+  EXPECT_EQ(store.Head().number, 1);
+}
+
 TEST_P(OnPostgres, AWriteBehindAnotherWaitsAndThenSaysThatItIsBusy) {
   Store store = Write();
   const auto other = Server();

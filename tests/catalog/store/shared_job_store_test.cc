@@ -254,6 +254,7 @@ TEST_P(SharedJobs, ManyWorkersDoEachJobOnceThroughCutsAndLosses) {
       }
   };
   std::vector<std::thread> workers;
+  workers.reserve(kWorkers);
   for (int i = 0; i < kWorkers; ++i) workers.emplace_back(work, i);
   const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   int done = 0;
