@@ -30,8 +30,10 @@ std::string_view Binary() {
 
 }  // namespace
 
+bool MakesUnits() { return !Binary().empty(); }
+
 std::string UnitFile(const Unit& unit, const std::string& tool) {
-  if (Binary().empty()) return {};
+  if (!MakesUnits()) return {};
   const std::string text = WriteUnit(unit);
   const std::string description = DescriptionOf(unit, GuidOf(text), tool);
   return Zip({{"modelDescription.xml", description},

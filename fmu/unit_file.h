@@ -11,7 +11,10 @@ namespace plenum::fmu {
 // Where the unit's text stands in the file, below its resources.
 inline constexpr char kUnitFile[] = "unit.txt";
 
-// `tool`: by whom. Empty in a build without the binary (with sanitizers).
+// Whether this build has the binary: one with sanitizers has not.
+bool MakesUnits();
+
+// `tool`: by whom. Empty where no units are made.
 std::string UnitFile(const Unit& unit, const std::string& tool);
 
 }  // namespace plenum::fmu
