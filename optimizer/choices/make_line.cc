@@ -1,16 +1,14 @@
 #include "optimizer/choices/make_line.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <span>
-#include <tuple>
-#include <utility>
 
 #include "model/flow/tube.h"
 #include "model/strokes/stroke.h"
 #include "optimizer/evaluate/closing.h"
 #include "optimizer/evaluate/filling.h"
+#include "optimizer/evaluate/line_elements.h"
 #include "optimizer/evaluate/root.h"
 
 namespace plenum::optimizer {
@@ -20,56 +18,20 @@ constexpr double kBoxTolerance = 2e-3;  // of the least source pressure; its low
 constexpr double kPeakTolerance = 1e-10, kBoxPeakTolerance = 1e-3;  // of the highest
 constexpr double kRounding = 1e-9;  // of what the best of many comes to
 
-// The elements of a line, as crossed.
-class Elements {
- public:
-  void Add(const model::FlowElement& element, int count = 1) {
-    for (int i = 0; i < count; ++i) all_[size_++] = element;
-  }
-  std::span<const model::FlowElement> span() const { return {all_.data(), size_}; }
-
- private:
-  std::array<model::FlowElement, model::kMaxSeriesElements> all_{};
-  std::size_t size_ = 0;
-};
-
 struct Crossed {
   Elements fill, exhaust;
 };
 
 Crossed ElementsOf(const ActuatorGroup& group, const LineCorners& corners) {
-  const TubeCorner& tube = corners.tube;
   const model::FlowElement& fitting = corners.fitting.flow;
-  const ValveCorner& valve = corners.valve;
-  const int near_valve = (group.fittings_per_line + 1) / 2;
-  const int near_actuator = group.fittings_per_line - near_valve;
-  const model::FlowElement bore = model::TubeElement(tube.inner_high_m, group.tube_length_m);
-  const auto add_inward = [&](const model::FlowElement& first, Elements& to) {
-    to.Add(first);
-    to.Add(fitting, near_valve);
-    to.Add(bore);
-    to.Add(fitting, near_actuator);
-  };
-  const auto add_outward = [&](const model::FlowElement& last, Elements& to) {
-    to.Add(fitting, near_actuator);
-    to.Add(bore);
-    to.Add(fitting, near_valve);
-    to.Add(last);
-  };
-  Crossed crossed;
-  if (group.chamber.evacuated) {
-    add_outward(valve.fill, crossed.fill);
-    add_inward(valve.exhaust, crossed.exhaust);
-  } else {
-    add_inward(valve.fill, crossed.fill);
-    add_outward(valve.exhaust, crossed.exhaust);
-  }
-  return crossed;
+  const model::FlowElement bore =
+      model::TubeElement(corners.tube.inner_high_m, group.tube_length_m);
+  return {FillElements(group, {corners.valve.fill, fitting, bore}),
+          ExhaustElements(group, {corners.valve.exhaust, fitting, bore})};
 }
 
-model::Chamber WithBore(model::Chamber chamber, const ActuatorGroup& group,
-                        const TubeCorner& tube) {
-  chamber.dead_volume_m3 += model::BoreVolume(tube.inner_low_m, group.tube_length_m);
+model::Chamber WithBore(model::Chamber chamber, const ActuatorGroup& group, double inner_m) {
+  chamber.dead_volume_m3 += model::BoreVolume(inner_m, group.tube_length_m);
   return chamber;
 }
 
@@ -78,15 +40,15 @@ model::Chamber WithBore(model::Chamber chamber, const ActuatorGroup& group,
 double SourceOfPeak(const Problem& problem, int g, model::Gas gas, const LineCorners& corners,
                     double stands_pa, bool exact) {
   const ActuatorGroup& group = problem.groups[g];
-  auto [tube, fitting, valve] = std::tuple(corners.tube, corners.fitting, corners.valve);
-  std::swap(tube.inner_low_m, tube.inner_high_m);
-  fitting.flow = fitting.late_flow;
-  valve.fill = valve.late_fill;
-  const Crossed slowest = ElementsOf(group, {tube, fitting, valve});
-  const model::Chamber least = WithBore(group.least.value_or(group.chamber), group, tube);
-  const Bracket highest_pa = HighestSourcePa(problem, g, FlowFactor(problem, gas),
-                                             {slowest.fill.span(), least, valve.late_s}, stands_pa,
-                                             exact ? kPeakTolerance : kBoxPeakTolerance);
+  const auto& [tube, fitting, valve] = corners;
+  const Elements slowest =
+      FillElements(group, {valve.late_fill, fitting.late_flow,
+                           model::TubeElement(tube.inner_low_m, group.tube_length_m)});
+  const model::Chamber least =
+      WithBore(group.least.value_or(group.chamber), group, tube.inner_high_m);
+  const Bracket highest_pa =
+      HighestSourcePa(problem, g, FlowFactor(problem, gas), {slowest.span(), least, valve.late_s},
+                      stands_pa, exact ? kPeakTolerance : kBoxPeakTolerance);
   return exact ? highest_pa.low : std::min(stands_pa, highest_pa.high * (1.0 + kRounding));
 }
 
@@ -151,7 +113,7 @@ Constraint ScreenLine(const Problem& problem, int g, model::Gas gas, const LineC
 
   const double factor = FlowFactor(problem, gas);
   const double slack = exact ? 1.0 : kBoxSlack;
-  const model::Chamber chamber = WithBore(group.chamber, group, corners.tube);
+  const model::Chamber chamber = WithBore(group.chamber, group, corners.tube.inner_low_m);
   const Crossed elements = ElementsOf(group, corners);
   const double fall_max_s = std::min(group.fall_time_max_s, DeflateWindow(problem, g));
   if (!falls &&
@@ -179,7 +141,7 @@ Line AssembleLine(const Problem& problem, int g, model::Gas gas, const LineCorne
   line.fill.assign(elements.fill.span().begin(), elements.fill.span().end());
   line.exhaust.assign(elements.exhaust.span().begin(), elements.exhaust.span().end());
   line.coil_power_w = valve.coil_power_w;
-  line.chamber = WithBore(group.chamber, group, tube);
+  line.chamber = WithBore(group.chamber, group, tube.inner_low_m);
   line.dead_volume_spread_m3 = model::BoreVolume(tube.inner_high_m, group.tube_length_m) -
                                model::BoreVolume(tube.inner_low_m, group.tube_length_m);
   return line;

@@ -4,8 +4,11 @@
 #include <limits>
 
 #include "model/flow/scalar.h"
+#include "model/flow/tube.h"
 #include "model/strokes/stroke.h"
+#include "optimizer/evaluate/line_elements.h"
 #include "optimizer/evaluate/root.h"
+#include "optimizer/evaluate/strokes/stroke_rig.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -44,20 +47,17 @@ double LeastSeconds(const Problem& problem, int group, double flow_factor, const
          (flow_factor * conductance * source_pa);
 }
 
-// The elements of a line of single parts with what tolerances let them pass at most.
-std::vector<model::FlowElement> MostFill(const Problem& problem, int group, const Line& line) {
-  std::vector<model::FlowElement> fill = line.fill;
-  if (Evacuated(problem)) std::reverse(fill.begin(), fill.end());
-  const model::Valve& valve = problem.parts.valves[line.valve];
-  fill.front() = valve.fill_most.value_or(valve.fill);
-  if (line.fitting >= 0) {
-    const model::Fitting& fitting = problem.parts.fittings[line.fitting];
-    const std::size_t bore = 1 + (problem.groups[group].fittings_per_line + 1) / 2;
-    for (std::size_t i = 1; i < fill.size(); ++i)
-      if (i != bore) fill[i] = fitting.flow_most.value_or(fitting.flow);
-  }
-  if (Evacuated(problem)) std::reverse(fill.begin(), fill.end());
-  return fill;
+// What the elements of a line of single parts pass at most by their tolerances.
+Elements MostFill(const Problem& problem, int group, const Line& line) {
+  const model::Parts& parts = problem.parts;
+  const model::Valve& valve = parts.valves[line.valve];
+  model::FlowElement fitting;
+  if (line.fitting >= 0)
+    fitting = parts.fittings[line.fitting].flow_most.value_or(parts.fittings[line.fitting].flow);
+  const ActuatorGroup& of = problem.groups[group];
+  return FillElements(
+      of, {valve.fill_most.value_or(valve.fill), fitting,
+           model::TubeElement(parts.tubing[line.tubing].inner_diameter_m, of.tube_length_m)});
 }
 
 }  // namespace
@@ -101,12 +101,10 @@ T PeakOf(const Problem& problem, const Candidate& candidate, int group, const T&
     return T(of.chamber.operating_pressure_pa);
   model::Chamber chamber = of.least.value_or(of.chamber);
   chamber.dead_volume_m3 += line.chamber.dead_volume_m3 - of.chamber.dead_volume_m3;
-  const std::vector<model::FlowElement> fill = MostFill(problem, group, line);
-  const double factor =
-      FlowFactor(problem, candidate.configuration == Configuration::kCo2 ? model::Gas::kCo2
-                                                                         : model::Gas::kAir);
+  const Elements fill = MostFill(problem, group, line);
+  const double factor = FlowFactor(problem, GasOf(candidate.configuration));
   const auto peak_pa = [&](double pa) {
-    return PeakPa(problem, group, factor, {fill, chamber, late_s}, pa);
+    return PeakPa(problem, group, factor, {fill.span(), chamber, late_s}, pa);
   };
   const double here_pa = model::ValueOf(source_pa);
   if constexpr (model::kIsDual<T>) {

@@ -110,19 +110,6 @@ bool BeginsElsewhere(const model::Rig& rig, const model::Response& first) {
   return false;
 }
 
-// A tank without pumps keeps the pressure of the period that is shown.
-void BeginWhereItEnded(const model::Response& first, double period_s, model::Rig& rig) {
-  for (std::size_t g = 0; g < rig.groups.size(); ++g) {
-    model::GroupRig& group = rig.groups[g];
-    group.initial_pressure_pa = first.groups[g].final_pressure_pa;
-    const model::ValveCommand last = group.schedule.back();
-    group.schedule.insert(group.schedule.begin(), {last.time_s - period_s, last.state});
-  }
-  auto* reservoir = std::get_if<model::ReservoirSource>(&rig.source);
-  if (reservoir && std::isfinite(reservoir->stop_pressure_pa))
-    reservoir->initial_pressure_pa = first.source_final_pressure_pa;
-}
-
 // One cycle of the periodic state, for the plots: from a full reservoir and actuators at rest,
 // where they are.
 Design::Trace TraceCycle(const Problem& problem, const Candidate& candidate,

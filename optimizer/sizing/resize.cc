@@ -71,8 +71,7 @@ bool SetLine(const Problem& problem, const Design& design, int g, Line& line) {
   set(Family::kValve, valve, pieces, valve_corner);
   valve_corner.threads = kMate;
   if (IsDirect(design.configuration)) valve_corner.late_s = 0.0;
-  const model::Gas gas =
-      design.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
+  const model::Gas gas = GasOf(design.configuration);
   const Constraint missed =
       MakeLine(problem, g, gas, {tube_corner, fitting_corner, valve_corner}, true, true, line);
   line.tubing = tube;

@@ -94,17 +94,13 @@ std::optional<model::Rig> RigInPeriodicState(const Problem& problem, const Candi
   options.cancelled = bench.stop;
   const model::PeriodicState state = bench.periodic(rig, period_s, options, {});
   if (state.status != model::PeriodicStatus::kConverged) return std::nullopt;
-  std::get<model::ReservoirSource>(rig.source).initial_pressure_pa =
-      state.response.source_final_pressure_pa;
-  for (std::size_t g = 0; g < rig.groups.size(); ++g) {
-    model::GroupRig& group = rig.groups[g];
-    group.initial_pressure_pa = state.response.groups[g].final_pressure_pa;
-    const std::vector<model::ValveCommand> period = group.schedule;
-    group.schedule = {{period.back().time_s - period_s, period.back().state}};
-    for (int cycle = 0; cycle < 2; ++cycle)
-      for (const model::ValveCommand& command : period)
-        group.schedule.push_back({command.time_s + cycle * period_s, command.state});
-  }
+  std::vector<std::vector<model::ValveCommand>> periods;
+  periods.reserve(rig.groups.size());
+  for (const model::GroupRig& group : rig.groups) periods.push_back(group.schedule);
+  BeginWhereItEnded(state.response, period_s, rig);
+  for (std::size_t g = 0; g < rig.groups.size(); ++g)
+    for (const model::ValveCommand& command : periods[g])
+      rig.groups[g].schedule.push_back({command.time_s + period_s, command.state});
   return rig;
 }
 

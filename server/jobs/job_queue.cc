@@ -31,6 +31,19 @@ std::string RandomId() {
   return text;
 }
 
+bool TryStore(const api::Json& about, const std::function<void()>& act) {
+  try {
+    act();
+    return true;
+  } catch (const catalog::StoreError& error) {
+    api::Json line = {{"level", "error"}};
+    line.update(about);
+    line["fault"] = error.what();
+    Log(line);
+    return false;
+  }
+}
+
 std::string TextOf(const api::Json& json) { return json.is_null() ? "" : Dump(json); }
 
 Job ToJob(const catalog::JobRecord& record) {

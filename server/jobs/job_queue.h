@@ -108,6 +108,10 @@ api::Parsed<api::Json> OutcomeOf(const Work& work, const catalog::JobOrder& orde
 // In one line, for people.
 std::string ListOf(const api::Errors& errors);
 
+// False, and a line of the log that begins with `about`, where a store cannot do it now: the
+// service goes on without.
+bool TryStore(const api::Json& about, const std::function<void()>& act);
+
 // Requests go before this thread, however nice the service itself is.
 void WorkBehindRequests();
 // Runs `work`; what it had goes back to the system where that was much.

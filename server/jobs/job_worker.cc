@@ -28,18 +28,6 @@ std::string NameOfProcess() {
   return std::string(host) + " " + std::to_string(getpid());
 }
 
-// False where the server could not do it now.
-template <typename F>
-bool Try(const std::string& what, F&& act) {
-  try {
-    act();
-    return true;
-  } catch (const catalog::StoreError& error) {
-    Log({{"level", "error"}, {"doing", what}, {"fault", error.what()}});
-    return false;
-  }
-}
-
 }  // namespace
 
 JobWorker::JobWorker(const std::string& address, std::map<std::string, Work> works,
@@ -83,7 +71,7 @@ void JobWorker::Stop() {
   Wake();
   if (!keeper_.joinable()) return;
   keeper_.join();
-  Try("leaving", [&] { stores_.back()->Leave(self_.id); });
+  TryStore({{"doing", "leaving"}}, [&] { stores_.back()->Leave(self_.id); });
 }
 
 bool JobWorker::Pause(milliseconds time) {
@@ -98,7 +86,8 @@ void JobWorker::WorkLoop(catalog::SharedJobStore& store) {
   WorkBehindRequests();
   for (bool goes_on = true; goes_on;) {
     std::optional<catalog::JobClaim> claim;
-    Try("claiming a job", [&] { claim = store.Claim(kinds_, self_.name, options_.lease); });
+    TryStore({{"doing", "claiming a job"}},
+             [&] { claim = store.Claim(kinds_, self_.name, options_.lease); });
     if (!claim) {
       goes_on = Pause(options_.pause);
       continue;
@@ -131,7 +120,7 @@ void JobWorker::Run(catalog::SharedJobStore& store, const AttemptPtr& attempt) {
     record.progress = attempt->progress.empty() ? attempt->claim.job.progress : attempt->progress;
   }
   if (record.status == JobStatus::kQueued) {
-    Try("giving a job back", [&] { store.GiveBack(attempt->claim); });
+    TryStore({{"doing", "giving a job back"}}, [&] { store.GiveBack(attempt->claim); });
     return;
   }
   if (const auto* errors = std::get_if<api::Errors>(&outcome)) {
@@ -198,7 +187,7 @@ void JobWorker::End(catalog::SharedJobStore& store, Attempt& attempt, catalog::J
 void JobWorker::KeepLoop(catalog::SharedJobStore& store) {
   LastTimes last;
   while (!over_) {
-    Try("keeping leases", [&] { Keep(store, last); });
+    TryStore({{"doing", "keeping leases"}}, [&] { Keep(store, last); });
     std::unique_lock lock(mutex_);
     woken_.wait_for(lock, std::min(kKeepEvery, options_.lease / 6), [&] { return bool(over_); });
   }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "api/json/worker_stack.h"
-#include "server/call/request_log.h"
 #include "server/jobs/crash_marks.h"
 
 namespace plenum::server {
@@ -13,18 +12,6 @@ namespace {
 
 // Between two looks whether a job's turn has come, while jobs run alone.
 constexpr std::chrono::milliseconds kTurnPause{20};
-
-// What the disk must hold for the next service only: this one goes on without.
-template <typename F>
-bool Try(const std::string& id, F&& write) {
-  try {
-    write();
-    return true;
-  } catch (const catalog::StoreError& error) {
-    Log({{"level", "error"}, {"job", id}, {"fault", error.what()}});
-    return false;
-  }
-}
 
 }  // namespace
 
@@ -177,7 +164,7 @@ bool Jobs::Cancel(const std::string& id) {
     was_queued = std::erase(queue_, entry) > 0;
   }
   if (!was_queued) {
-    Try(id, [&] { store_.AskToCancel(id); });
+    TryStore({{"job", id}}, [&] { store_.AskToCancel(id); });
     return true;
   }
   if (entry->job.alone) turns_.Withdraw();
@@ -202,7 +189,7 @@ void Jobs::End(Entry& entry, JobStatus status, const api::Json& result,
       record.result.empty() ? nullptr : std::make_shared<const std::string>(record.result);
   record.failure = failure;
   std::string ended_at;
-  const bool kept = Try(record.id, [&] { ended_at = store_.End(record); });
+  const bool kept = TryStore({{"job", record.id}}, [&] { ended_at = store_.End(record); });
   if (kept && text) results_.Put(record.id, record.result);
   const std::lock_guard lock(mutex_);
   entry.job.status = status;
@@ -274,7 +261,7 @@ void Jobs::WorkLoop() {
 void Jobs::Run(Entry& entry) {
   const std::string id = entry.job.id;
   const WorksFor job(entry.job.number);
-  Try(id, [&] { store_.Start(id); });
+  TryStore({{"job", id}}, [&] { store_.Start(id); });
   {
     const std::lock_guard lock(mutex_);
     entry.job.status = JobStatus::kRunning;
@@ -285,7 +272,7 @@ void Jobs::Run(Entry& entry) {
   api::Parsed<api::Json> outcome;
   ReturnMemoryAfter([&] { outcome = Outcome(entry); });
   if (entry.interrupted && !entry.cancelled) {
-    Try(id, [&] { store_.Requeue(id); });
+    TryStore({{"job", id}}, [&] { store_.Requeue(id); });
   } else if (const auto* errors = std::get_if<api::Errors>(&outcome)) {
     End(entry, JobStatus::kFailed, nullptr, ListOf(*errors));
   } else {

@@ -6,6 +6,7 @@
 #include "model/strokes/stroke.h"
 #include "verify/corner/verify_node.h"
 #include "verify/design/cycle/verify_gait.h"
+#include "verify/design/cycle/verify_rig.h"
 #include "verify/design/verify_design.h"
 
 namespace plenum::verify {
@@ -151,10 +152,7 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   if (!(source.low_pa <= source.high_pa)) return kUnlimited;
 
   const double temperature_k = problem_.ambient.temperature_k;
-  const model::Gas gas =
-      plan_.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
-  const double factor =
-      model::FlowFactor(gas) * std::sqrt(model::kReferenceTemperatureK / temperature_k);
+  const double factor = FactorOf(problem_, plan_.configuration);
   if (AllAtOnce(problem_) && !source.some_open) {
     std::vector<const BestLine*> lines;
     lines.reserve(problem_.groups.size());

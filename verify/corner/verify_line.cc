@@ -6,6 +6,7 @@
 #include "model/strokes/stroke.h"
 #include "verify/corner/verify_best.h"
 #include "verify/design/cycle/verify_gait.h"
+#include "verify/design/cycle/verify_rig.h"
 #include "verify/design/verify_closing.h"
 #include "verify/design/verify_design.h"
 
@@ -122,10 +123,7 @@ BestLine BestOf(const Problem& problem, const ProofPlan& plan, const Ranges& ran
   const double temperature_k = problem.ambient.temperature_k;
   if (best.source_high_pa < std::max(operating_pa, switches_pa)) return best;
 
-  const model::Gas gas =
-      plan.configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
-  const double factor =
-      model::FlowFactor(gas) * std::sqrt(model::kReferenceTemperatureK / temperature_k);
+  const double factor = FactorOf(problem, plan.configuration);
   // Limits a hair wider than they are, so that rounding in the best of many never decides.
   const double slack = 1.0 + kSumTolerance;
   const double window_s = FillWindow(problem, g) * slack;

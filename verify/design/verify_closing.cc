@@ -6,6 +6,7 @@
 #include "model/flow/series.h"
 #include "model/flow/tube.h"
 #include "model/strokes/stroke.h"
+#include "verify/design/cycle/verify_rig.h"
 
 namespace plenum::verify {
 namespace {
@@ -72,11 +73,7 @@ class Filling {
       if (i < group_.fittings_per_line) crossed.push_back(late.fitting);
     }
     if (Evacuated(problem)) std::reverse(crossed.begin(), crossed.end());
-    const model::Gas gas =
-        configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
-    fill_ =
-        model::MakeSeries(crossed, model::FlowFactor(gas) *
-                                       std::sqrt(model::kReferenceTemperatureK / temperature_k_));
+    fill_ = model::MakeSeries(crossed, FactorOf(problem, configuration));
   }
 
   double Seconds(double source_pa, double to_pa) const {

@@ -1,19 +1,15 @@
 // No violation that axe finds, and nothing wider than the window, in every view, light and dark, at
 // three widths; everything within reach of the keyboard.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { before, test } from 'node:test';
 
-import { openPage, startBrowser, startService, violationsOf } from './support.mjs';
+import { openPage, startBoth, violationsOf } from './support.mjs';
 import { makeViews, schemes, widths } from './views.mjs';
 
-let service, browser, views;
+const { service, browser } = await startBoth();
+let views;
 before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
   views = await makeViews(service);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
 });
 
 for (const colorScheme of schemes) {

@@ -2,19 +2,12 @@
 // a measurement and rank with the revision.
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
 import { makeMeasurement, makeProposed, toCsv } from './fixture.mjs';
-import { example, openPage, rank, startBrowser, startService, textOf } from './support.mjs';
+import { example, openPage, rank, startBoth, textOf } from './support.mjs';
 
-let service, browser;
-before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const { service, browser } = await startBoth();
 
 const file = (name, text) => ({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
 const idOf = (page) => /designs\/([0-9a-f]+)/.exec(page.url())[1];

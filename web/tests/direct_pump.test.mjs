@@ -1,17 +1,10 @@
 // A pump without a reservoir from the form to its design: no pressure is set, and none can be moved.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { example, openPage, rank, startBrowser, startService } from './support.mjs';
+import { example, openPage, rank, startBoth } from './support.mjs';
 
-let service, browser;
-before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const { service, browser } = await startBoth();
 
 test('the form asks for a pump without a reservoir', async () => {
   const { page, close } = await openPage(browser, service.base);

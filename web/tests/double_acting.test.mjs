@@ -1,17 +1,10 @@
 // A double-acting cylinder from the form to its design: two chambers with a valve each.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { example, openPage, rank, startBrowser, startService } from './support.mjs';
+import { example, openPage, rank, startBoth } from './support.mjs';
 
-let service, browser;
-before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const { service, browser } = await startBoth();
 
 test('the form asks for a cylinder that acts both ways', async () => {
   const { page, close } = await openPage(browser, service.base);

@@ -1,17 +1,10 @@
 // What goes wrong is said where it went wrong, and nothing is lost.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { example, openPage, preset, rank, startBrowser, startService, textOf } from './support.mjs';
+import { example, openPage, preset, rank, startBoth, startService, textOf } from './support.mjs';
 
-let service, browser;
-before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const { service, browser } = await startBoth();
 
 const file = (name, text) => ({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
 

@@ -1,18 +1,14 @@
 // A listed design says why it is not first, and takes another part.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { before, test } from 'node:test';
 
-import { example, openPage, rank, startBrowser, startService } from './support.mjs';
+import { example, openPage, rank, startBoth } from './support.mjs';
 
-let service, browser, id, result;
+const { service, browser } = await startBoth();
+let id, result;
 before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
   id = await rank(service, { ...example('exosuit'), ranking: { count: 4, time_limit_s: 30 } });
   ({ result } = await service.get(`/v1/designs/${id}`));
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
 });
 
 test('the second says what it costs more than the first', async () => {

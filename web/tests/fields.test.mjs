@@ -1,17 +1,10 @@
 // A field that cannot be read says why, where it is, and keeps what rests on it from being done.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { openPage, startBrowser, startService } from './support.mjs';
+import { openPage, startBoth } from './support.mjs';
 
-let service, browser;
-before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const { service, browser } = await startBoth();
 
 const file = (name, text) => ({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
 const isFocused = (field) => field.evaluate((at) => at === document.activeElement);

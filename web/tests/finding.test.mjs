@@ -1,12 +1,11 @@
 // Parts found by words, compared side by side, in columns of one's choice.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { before, test } from 'node:test';
 
-import { openPage, startBrowser, startService } from './support.mjs';
+import { openPage, startBoth } from './support.mjs';
 
-let service, browser;
+const { service, browser } = await startBoth();
 before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
   const battery = (id, more) => ({
     id,
     family: 'battery',
@@ -28,10 +27,6 @@ before(async () => {
   };
   for (const part of [battery('zq-one', { notes: 'Quokka pack, grey' }), battery('zq-two', two)])
     assert.equal((await service.post('/v1/parts', part)).id, part.id);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
 });
 
 const rows = (page) => page.locator('.parts tbody tr:not(.spacer)');

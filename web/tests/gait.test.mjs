@@ -1,17 +1,10 @@
 // A gait from the form to the response of a design, each squad with its own trace.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { example, openPage, rank, startBrowser, startService } from './support.mjs';
+import { example, openPage, rank, startBoth } from './support.mjs';
 
-let service, browser;
-before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const { service, browser } = await startBoth();
 
 test('the form asks for phases, one number or one an actuator', async () => {
   const { page, close } = await openPage(browser, service.base);

@@ -1,19 +1,12 @@
 // Tables as people have them: mapped by hand, out of a workbook, remembered.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
 import { strToU8, zipSync } from 'fflate';
 
-import { openPage, startBrowser, startService } from './support.mjs';
+import { openPage, startBoth } from './support.mjs';
 
-let service, browser;
-before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const { service, browser } = await startBoth();
 
 const table = (name, text) => ({ name, mimeType: 'text/csv', buffer: Buffer.from(text) });
 const german = (number) =>

@@ -1,26 +1,11 @@
 // A list and what comes after it: prices and draws that are asked for, parts that are added, a
 // catalogue that moves on, a model that was measured.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import {
-  preset,
-  openPage,
-  rank,
-  startBrowser,
-  startService,
-  textOf,
-  violationsOf,
-} from './support.mjs';
+import { openPage, preset, rank, startBoth, textOf, violationsOf } from './support.mjs';
 
-let service, browser;
-before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const { service, browser } = await startBoth();
 
 const few = (name, count = 5) => ({
   ...preset(name),

@@ -1,18 +1,11 @@
 // Three tasks of somebody who is here for the first time: a design of their own, on paper; a part of
 // their own; a recording that came with the page. And what is copied, noted and updated on the way.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { openPage, startBrowser, startService } from './support.mjs';
+import { openPage, startBoth } from './support.mjs';
 
-let service, browser;
-before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const { service, browser } = await startBoth();
 
 const listed = (page) => page.getByText('Proved: no kind of design').waitFor();
 

@@ -2,9 +2,9 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { example, openPage, rank, startBrowser, startService, top } from './support.mjs';
+import { example, openPage, rank, startBoth, top } from './support.mjs';
 
 const part = 'generic-lp-small-200kpa';
 const file = (name) => ({
@@ -13,14 +13,7 @@ const file = (name) => ({
   buffer: readFileSync(join(top, 'examples', name)),
 });
 
-let service, browser;
-before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const { service, browser } = await startBoth();
 
 test('what to measure first leads to its protocol', async () => {
   const id = await rank(service, example('gripper_guaranteed'));

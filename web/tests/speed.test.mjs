@@ -2,19 +2,12 @@
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 
-import { example, openPage, rank, startBrowser, startService, top } from './support.mjs';
+import { example, openPage, rank, startBoth, top } from './support.mjs';
 
-let service, browser;
-before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const { service, browser } = await startBoth();
 
 test('the bundle is at most 150 kB gzip', (t) => {
   const dist = join(top, 'web/dist');

@@ -6,6 +6,7 @@ import { copyFileSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { after } from 'node:test';
 import { fileURLToPath } from 'node:url';
 
 import { chromium } from 'playwright-core';
@@ -73,6 +74,16 @@ export const startBrowser = () =>
       '--disable-sync',
     ],
   });
+
+// Both, for all tests of a file; they end with them.
+export async function startBoth() {
+  const [service, browser] = await Promise.all([startService(), startBrowser()]);
+  after(async () => {
+    await browser.close();
+    await service.stop();
+  });
+  return { service, browser };
+}
 
 // A page of its own. `close` fails the test on console errors and on requests to elsewhere; a test
 // of an error path names the answers it expects, as Chromium writes each refusal to the console.

@@ -1,17 +1,10 @@
 // A tank from the form to its design: the limit of its fill is asked, and the fill is shown.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { example, openPage, rank, startBrowser, startService } from './support.mjs';
+import { example, openPage, rank, startBoth } from './support.mjs';
 
-let service, browser;
-before(async () => {
-  [service, browser] = await Promise.all([startService(), startBrowser()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const { service, browser } = await startBoth();
 
 test('the form asks for a tank, with its highest fill', async () => {
   const { page, close } = await openPage(browser, service.base);

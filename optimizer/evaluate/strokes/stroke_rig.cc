@@ -119,6 +119,18 @@ model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
   return rig;
 }
 
+void BeginWhereItEnded(const model::Response& ended, double period_s, model::Rig& rig) {
+  for (std::size_t g = 0; g < rig.groups.size(); ++g) {
+    model::GroupRig& group = rig.groups[g];
+    group.initial_pressure_pa = ended.groups[g].final_pressure_pa;
+    const model::ValveCommand last = group.schedule.back();
+    group.schedule.insert(group.schedule.begin(), {last.time_s - period_s, last.state});
+  }
+  auto* reservoir = std::get_if<model::ReservoirSource>(&rig.source);
+  if (reservoir && std::isfinite(reservoir->stop_pressure_pa))
+    reservoir->initial_pressure_pa = ended.source_final_pressure_pa;
+}
+
 Strokes ToBeKept(const Problem& problem) {
   Strokes strokes;
   strokes.rise_s.assign(problem.groups.size(), 0.0);

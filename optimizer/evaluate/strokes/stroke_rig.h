@@ -56,6 +56,11 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const Ope
 // the source.
 model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
                            const OperatingPoint& point);
+
+// A rig of one cycle as a cycle of it left it: pressures, and valves as the commands before told
+// them. A tank without pumps keeps the pressure that it begins with.
+void BeginWhereItEnded(const model::Response& ended, double period_s, model::Rig& rig);
+
 model::SimulateOptions StrokeOptions(const Problem& problem);
 
 }  // namespace plenum::optimizer

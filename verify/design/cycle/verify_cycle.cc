@@ -150,7 +150,7 @@ std::optional<Cycle> Simulated(const Problem& problem, const Settings& settings,
   cycle.pump_j = 0.5 * response.compressor_energy_j;
   cycle.pump_air_m3 = 0.5 * response.compressor_air_m3;
   if (assembly.direct())
-    cycle.node_pa = HighestNode(assembly, rig.groups, FactorOf(problem, assembly));
+    cycle.node_pa = HighestNode(assembly, rig.groups, FactorOf(problem, assembly.configuration));
   FillOpenOnes(problem, settings, assembly, cycle);
   AddNeeds(problem, assembly, cycle);
   return cycle;
@@ -177,7 +177,7 @@ QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop 
       units_(UnitsOf(problem)),
       direct_fills_(fills) {
   const double temperature_k = problem.ambient.temperature_k;
-  const double factor = FactorOf(problem, assembly);
+  const double factor = FactorOf(problem, assembly.configuration);
   fall_s_.assign(problem.groups.size(), 0.0);
   for (const Unit& unit : units_) {
     const int g = unit.group;

@@ -110,15 +110,16 @@ model::SimulateOptions OptionsOf(const Problem& problem, double end_s, const Sto
   return options;
 }
 
-double FactorOf(const Problem& problem, const Assembly& assembly) {
-  return model::FlowFactor(assembly.co2 ? model::Gas::kCo2 : model::Gas::kAir) *
+double FactorOf(const Problem& problem, Configuration configuration) {
+  const bool co2 = configuration == Configuration::kCo2;
+  return model::FlowFactor(co2 ? model::Gas::kCo2 : model::Gas::kAir) *
          std::sqrt(model::kReferenceTemperatureK / problem.ambient.temperature_k);
 }
 
 void EmptyBeforeNext(const Problem& problem, const Settings& settings, const Assembly& assembly,
                      model::Rig& rig) {
   constexpr double kShare = 0.9;  // of the window
-  const double factor = FactorOf(problem, assembly);
+  const double factor = FactorOf(problem, assembly.configuration);
   const std::vector<Unit> units = UnitsOf(problem);
   for (std::size_t u = 0; u < units.size(); ++u) {
     model::GroupRig& group = rig.groups[u];

@@ -25,7 +25,7 @@ model::Rig MakeRig(const Problem& problem, const Settings& settings, const Assem
 model::SimulateOptions OptionsOf(const Problem& problem, double end_s, const Stop& stop);
 
 // On every conductance, by gas and temperature.
-double FactorOf(const Problem& problem, const Assembly& assembly);
+double FactorOf(const Problem& problem, Configuration configuration);
 
 // Strokes count from ambient: an actuator that would still hold air at its next one gets a wider
 // exhaust. How fast it empties is nothing to the source.

@@ -44,27 +44,17 @@ export function AgainButton({ self, name }: { self: string; name: string }) {
   );
 }
 
-// Starts the same search with the catalogue as it is now, or with `changed` requirements, and goes
-// to its list.
-export function RankAgainButton(props: {
-  answer: Answer;
-  label: string;
-  tip?: string;
-  changed?: (asked: Requirements) => Requirements;
-}) {
-  const { answer, label, tip, changed } = props;
+// A button whose action may fail, which is then said beside it.
+export function ActionButton(props: { label: string; tip?: string; act: () => Promise<void> }) {
+  const { label, tip, act } = props;
   const problem = useSignal('');
-  const rank = () => {
+  const run = () => {
     problem.value = '';
-    const asked = answer.asked ?? answer.requirements;
-    start(changed ? changed(asked) : asked).then(
-      (job) => go(['designs', job]),
-      (error) => (problem.value = asProblem(error).sentence),
-    );
+    act().catch((error) => (problem.value = asProblem(error).sentence));
   };
   return (
     <>
-      <button type="button" data-tip={tip} onClick={rank}>
+      <button type="button" data-tip={tip} onClick={run}>
         {label}
       </button>
       {problem.value && (
@@ -74,6 +64,22 @@ export function RankAgainButton(props: {
       )}
     </>
   );
+}
+
+// Starts the same search with the catalogue as it is now, or with `changed` requirements, and goes
+// to its list.
+export function RankAgainButton(props: {
+  answer: Answer;
+  label: string;
+  tip?: string;
+  changed?: (asked: Requirements) => Requirements;
+}) {
+  const { answer, changed, ...button } = props;
+  const rank = async () => {
+    const asked = answer.asked ?? answer.requirements;
+    go(['designs', await start(changed ? changed(asked) : asked)]);
+  };
+  return <ActionButton {...button} act={rank} />;
 }
 
 // Of a job under way: never full, as it is not done. `share`: null where it is not known how far it
