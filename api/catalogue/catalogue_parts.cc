@@ -166,6 +166,14 @@ model::Reservoir Reservoir(const catalog::Part& row, const model::Ambient& ambie
           .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};
 }
 
+model::Manifold Manifold(const catalog::Part& row, const model::Ambient& ambient) {
+  return {.basics = Basics(row),
+          .stations = static_cast<int>(Required(row, "stations")),
+          .sonic_conductance_m3_per_s_pa =
+              ConductanceFromDm3PerSBar(Required(row, "sonic_conductance_dm3_per_s_bar")),
+          .pressure_max_pa = Pressure(row, "pressure_max_kpa_gauge", ambient)};
+}
+
 bool IsFlow(optimizer::Use use) {
   return use == optimizer::Use::kFlow || use == optimizer::Use::kSharedFlow;
 }
@@ -214,10 +222,18 @@ model::Parts ToModelParts(const std::vector<catalog::Part>& rows, const model::A
     if (row.family == "regulator") parts.regulators.push_back(Regulator(row, ambient));
     if (row.family == "reservoir") parts.reservoirs.push_back(Reservoir(row, ambient));
     if (row.family == "reservoir") parts.tanks.push_back(Reservoir(row, ambient));
+    if (IsJoint(row)) parts.manifolds.push_back(Manifold(row, ambient));
     if (row.family == "vacuum_pump")
       if (auto pump = VacuumPump(row, ambient)) parts.vacuum_pumps.push_back(*std::move(pump));
   }
   return parts;
+}
+
+bool IsJoint(const catalog::Part& row) {
+  const auto known = [&](const char* field) { return row.numbers.contains(field); };
+  return row.family == "manifold" && !row.texts.contains("takes") &&
+         Required(row, "stations") >= 2 && known("mass_kg") && known("body_volume_ml") &&
+         known("sonic_conductance_dm3_per_s_bar") && known("pressure_max_kpa_gauge");
 }
 
 bool StandsVacuum(const catalog::Part& row) {
@@ -252,6 +268,7 @@ model::Parts ToVacuumParts(const std::vector<catalog::Part>& rows, const model::
   stand(parts.fittings);
   stand(parts.valves);
   stand(parts.reservoirs);
+  stand(parts.manifolds);
   for (model::Valve& valve : parts.valves) valve.pressure_min_pa = ambient.pressure_pa;
   return parts;
 }

@@ -18,6 +18,11 @@ namespace plenum::api {
 // volume of a CO2 bottle → 0 (not known).
 model::Parts ToModelParts(const std::vector<catalog::Part>& rows, const model::Ambient& ambient);
 
+// Whether a part is a manifold that joins any lines (optimizer/problem/joints.h): it has two
+// stations or more, is no base for valves of one series, and mass, volume, conductance and pressure
+// are known.
+bool IsJoint(const catalog::Part& row);
+
 // Whether a part serves under vacuum: tubes that are no soft silicone and reservoirs that are no
 // PET bottles, which a pressure from outside flattens, and valves that say so (`vacuum_rated`) or,
 // where they do not say, switch without pressure at their inlet (direct-acting ones). A vacuum pump

@@ -110,7 +110,9 @@ FieldError UnknownField(const Family& family, const std::string& name, std::stri
   return {name, std::move(detail)};
 }
 
-bool CountsPieces(std::string_view field) { return field == "channels" || field == "cells_series"; }
+bool CountsPieces(std::string_view field) {
+  return field == "channels" || field == "cells_series" || field == "stations";
+}
 
 void CheckNumbers(const Family& family, const Part& part, Errors& errors) {
   for (const NumberField& field : family.numbers) {

@@ -122,6 +122,15 @@ struct Reservoir {
   bool operator==(const Reservoir&) const = default;
 };
 
+// A manifold or a tee: joins so many lines, or pieces of a source, to one.
+struct Manifold {
+  PartBasics basics;
+  int stations = 2;
+  double sonic_conductance_m3_per_s_pa = 0.0;  // of its supply port
+  double pressure_max_pa = 0.0;
+  bool operator==(const Manifold&) const = default;
+};
+
 struct Parts {
   std::vector<Tubing> tubing;
   std::vector<Fitting> fittings;
@@ -134,6 +143,7 @@ struct Parts {
   std::vector<Reservoir> reservoirs;
   std::vector<Reservoir> tanks;          // the same parts, filled beforehand
   std::vector<Compressor> vacuum_pumps;  // curves over mirrored pressures (chamber.h)
+  std::vector<Manifold> manifolds;
 };
 
 }  // namespace plenum::model

@@ -20,12 +20,23 @@ bool IsCostAlone(const Objective& objective) {
   return objective == Objective{0.0, 0.0, objective.cost_eur, 0.0};
 }
 
-// With the air that any fill leaves in it, summed as for a choice of the search.
-double LeastTankMass(const Problem& problem, const Choice& row) {
-  const int part = FindPart(problem.parts, Family::kTank, row.id);
-  if (part < 0) return row.mass_kg;
-  return row.quantity * problem.parts.tanks[part].basics.mass_kg +
-         row.quantity * LeastTankCharge(problem, part);
+// The row as a choice of the search: joints count with what they join, a tank with the air that any
+// fill leaves in it.
+Amounts ChoiceAmounts(const Problem& problem, const Choice& row) {
+  if (SpecOf(row.family).made_to_measure && row.id == "custom")
+    return CustomReservoir(problem, model::kMadeReservoirSmallestM3, LeastSourcePa(problem));
+  Amounts amounts{row.mass_kg, row.volume_m3, row.cost_eur.value_or(0.0)};
+  const int part = FindPart(problem.parts, row.family, row.id);
+  if (part < 0) return amounts;
+  if (row.family == Family::kTank)
+    amounts.mass_kg = row.quantity * problem.parts.tanks[part].basics.mass_kg +
+                      row.quantity * LeastTankCharge(problem, part);
+  if (row.family == Family::kTubing)
+    amounts += LineJointShare(problem, row.group);
+  else if (row.group < 0)
+    amounts += JointAmounts(
+        problem, JointOfPieces(problem, row.family, part, static_cast<int>(row.quantity)));
+  return amounts;
 }
 
 }  // namespace
@@ -49,19 +60,16 @@ PartIds IdsOf(const Design& design) {
   PartIds ids;
   ids.reserve(design.parts.size());
   for (const Choice& choice : design.parts)
-    ids.emplace_back(choice.id, choice.group < 0 ? static_cast<int>(choice.quantity) : 1);
+    if (!SpecOf(choice.family).joins)
+      ids.emplace_back(choice.id, choice.group < 0 ? static_cast<int>(choice.quantity) : 1);
   return ids;
 }
 
 TieKey TieKeyOf(const Problem& problem, const Design& design) {
   TieKey key{{}, IdsOf(design)};
-  for (const Choice& row : design.parts) {
-    Amounts amounts{row.mass_kg, row.volume_m3, row.cost_eur.value_or(0.0)};
-    if (SpecOf(row.family).made_to_measure && row.id == "custom")
-      amounts = CustomReservoir(problem, model::kMadeReservoirSmallestM3, LeastSourcePa(problem));
-    if (row.family == Family::kTank) amounts.mass_kg = LeastTankMass(problem, row);
-    key.share += TieShareOf(problem.objective, amounts);
-  }
+  for (const Choice& row : design.parts)
+    if (!SpecOf(row.family).joins)
+      key.share += TieShareOf(problem.objective, ChoiceAmounts(problem, row));
   return key;
 }
 

@@ -30,6 +30,18 @@ Amounts operator*(double quantity, const model::PartBasics& basics) {
           quantity * basics.body_volume_slack_m3};
 }
 
+Amounts JointAmounts(const Problem& problem, const std::optional<Joint>& joint) {
+  if (!joint) return {};
+  return joint->quantity * problem.parts.manifolds[joint->manifold].basics;
+}
+
+Amounts LineJointShare(const Problem& problem, int group) {
+  const Amounts all = JointAmounts(problem, JointOfLines(problem));
+  const double share = static_cast<double>(problem.groups[group].count) / LineCount(problem);
+  return {share * all.mass_kg, share * all.volume_m3, share * all.cost_eur,
+          share * all.mass_slack_kg, share * all.volume_slack_m3};
+}
+
 bool CostCounts(const Problem& problem) {
   return problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur);
 }

@@ -12,6 +12,7 @@
 #include "model/physics/chamber.h"
 #include "optimizer/evaluate/stroke_panels.h"
 #include "optimizer/problem/gait.h"
+#include "optimizer/problem/joints.h"
 #include "optimizer/problem/problem.h"
 
 namespace plenum::optimizer {
@@ -34,6 +35,11 @@ struct AmountsOf {
 };
 using Amounts = AmountsOf<double>;
 Amounts operator*(double quantity, const model::PartBasics& basics);
+
+// Of a joint (joints.h), and of a group's lines that share of the joint of all lines that their
+// number has.
+Amounts JointAmounts(const Problem& problem, const std::optional<Joint>& joint);
+Amounts LineJointShare(const Problem& problem, int group);
 
 // Weighted objective of parts alone (energy comes on top).
 template <class T>

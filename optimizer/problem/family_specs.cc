@@ -28,7 +28,7 @@ struct Place {
   bool in_line = false;
   std::vector<Configuration> sources = {};
   int Limits::*most = nullptr;
-  bool by_need = false, made_to_measure = false;
+  bool by_need = false, made_to_measure = false, joins = false;
   KindRole kind_role = KindRole::kApart;
 };
 
@@ -43,6 +43,7 @@ FamilySpec Spec(Family family, const char* name, std::span<const PartField> fiel
                   .place = place.place,
                   .in_line = place.in_line,
                   .most = place.most,
+                  .joins = place.joins,
                   .by_need = place.by_need,
                   .made_to_measure = place.made_to_measure,
                   .kind_role = place.kind_role};
@@ -61,11 +62,7 @@ std::vector<Family> InOrder(std::vector<Family> families) {
 
 std::vector<FamilySpec> OwnFamilies() {
   using model::Parts;
-  constexpr auto kCylinder = Configuration::kCylinder, kCo2 = Configuration::kCo2,
-                 kCompressor = Configuration::kCompressor, kMains = Configuration::kMains,
-                 kTank = Configuration::kTank, kDirectPump = Configuration::kDirectPump,
-                 kVacuumPump = Configuration::kVacuumPump,
-                 kDirectVacuumPump = Configuration::kDirectVacuumPump;
+  using enum Configuration;
   return {
       Spec<&Parts::tubing>(Family::kTubing, "tubing", kTubingFields, {.place = 2, .in_line = true}),
       Spec<&Parts::fittings>(Family::kFitting, "fitting", kFittingFields,
@@ -116,6 +113,8 @@ std::vector<FamilySpec> OwnFamilies() {
                                   .sources = {kVacuumPump, kDirectVacuumPump},
                                   .most = &Limits::compressors,
                                   .kind_role = KindRole::kSource}),
+      Spec<&Parts::manifolds>(Family::kManifold, "manifold", kManifoldFields,
+                              {.place = 9, .joins = true}),
   };
 }
 

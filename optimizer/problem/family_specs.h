@@ -26,6 +26,7 @@ struct FamilySpec {
   bool in_line = false;  // in the line of each group
   std::array<bool, kConfigurations> in_source{};  // else in the source of these
   int Limits::*most = nullptr;                    // pieces in parallel; null: 1
+  bool joins = false;            // lines or pieces of a source, from which it follows (joints.h)
   bool by_need = false;          // chosen by what it must bear, once all else is known
   bool made_to_measure = false;  // one may be made instead ("custom")
   KindRole kind_role = KindRole::kApart;

@@ -33,6 +33,8 @@ inline constexpr auto kReservoir = &ValueIn<&model::Parts::reservoirs, get>;
 template <auto get>
 inline constexpr auto kVacuumPump = &ValueIn<&model::Parts::vacuum_pumps, get>;
 template <auto get>
+inline constexpr auto kManifold = &ValueIn<&model::Parts::manifolds, get>;
+template <auto get>
 inline constexpr auto kTank = &ValueIn<&model::Parts::tanks, get>;
 
 inline bool Holds(const model::Valve& valve) { return model::Holds(valve.kind); }
@@ -231,6 +233,17 @@ inline constexpr PartField kTankFields[] = {
     {.name = "pressure_max_kpa_gauge",  // it is filled to that at most
      .use = Use::kMore,
      .of = read::kTank<&model::Reservoir::pressure_max_pa>},
+};
+
+// What joins lines follows from them: rules of the family.
+inline constexpr PartField kManifoldFields[] = {
+    {.name = "stations", .use = Use::kRule, .of = read::kManifold<&model::Manifold::stations>},
+    {.name = "sonic_conductance_dm3_per_s_bar",
+     .use = Use::kRule,
+     .of = read::kManifold<&model::Manifold::sonic_conductance_m3_per_s_pa>},
+    {.name = "pressure_max_kpa_gauge",
+     .use = Use::kRule,
+     .of = read::kManifold<&model::Manifold::pressure_max_pa>},
 };
 
 }  // namespace plenum::optimizer

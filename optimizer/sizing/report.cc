@@ -19,21 +19,6 @@ namespace {
 constexpr double kConfirmTolerance = 1e-5;
 constexpr int kSamplesPerCycle = 400;
 
-void AddChoice(const Problem& problem, Family family, const Option& option,
-               std::vector<Choice>& parts) {
-  if (option.index < 0) return;
-  const model::PartBasics& basics = BasicsOf(problem.parts, family, option.index);
-  Choice choice{family,
-                basics.id,
-                -1,
-                static_cast<double>(option.quantity),
-                option.amounts.mass_kg,
-                option.amounts.volume_m3,
-                std::nullopt};
-  if (basics.cost_eur) choice.cost_eur = option.quantity * *basics.cost_eur;
-  parts.push_back(choice);
-}
-
 Choice PieceChoice(Family family, const model::PartBasics& basics, int group, double quantity) {
   Choice choice{family,
                 basics.id,
@@ -44,6 +29,14 @@ Choice PieceChoice(Family family, const model::PartBasics& basics, int group, do
                 std::nullopt};
   if (basics.cost_eur) choice.cost_eur = quantity * *basics.cost_eur;
   return choice;
+}
+
+void AddChoice(const Problem& problem, Family family, const Option& option,
+               std::vector<Choice>& parts) {
+  if (option.index < 0) return;
+  const model::PartBasics& basics = BasicsOf(problem.parts, family, option.index);
+  parts.push_back(PieceChoice(family, basics, -1, option.quantity));
+  parts.back().mass_kg += option.quantity * ChargeKg(problem, family, option.index);
 }
 
 void AddLine(const Problem& problem, int g, const Line& line, std::vector<Choice>& parts) {
@@ -228,6 +221,9 @@ std::vector<Choice> ListParts(const Problem& problem, const Candidate& candidate
     parts.push_back(
         {Family::kReservoir, "custom", -1, 1, amounts.mass_kg, amounts.volume_m3, std::nullopt});
   }
+  for (const Joint& joint : JointsOf(problem, parts))
+    parts.push_back(PieceChoice(Family::kManifold, problem.parts.manifolds[joint.manifold].basics,
+                                -1, joint.quantity));
   return parts;
 }
 

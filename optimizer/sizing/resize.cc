@@ -61,6 +61,7 @@ bool SetLine(const Problem& problem, const Design& design, int g, Line& line) {
   };
   TubeCorner tube_corner;
   set(Family::kTubing, tube, group.count * group.tube_length_m, tube_corner);
+  tube_corner.amounts += LineJointShare(problem, g);
   tube_corner.diameters = kMate;
   FittingCorner fitting_corner;
   fitting_corner.pressure_max_pa = kUnlimited;
@@ -83,7 +84,8 @@ bool SetLine(const Problem& problem, const Design& design, int g, Line& line) {
 // False: the design has a part that the problem does not.
 bool SetOptions(const Problem& problem, const Design& design, Candidate& candidate) {
   for (const FamilySpec& spec : Families()) {
-    const Choice* choice = spec.in_line ? nullptr : ChoiceOf(design, spec.family, -1);
+    const bool chosen = !spec.in_line && !spec.joins;
+    const Choice* choice = chosen ? ChoiceOf(design, spec.family, -1) : nullptr;
     if (choice == nullptr) continue;
     Option& option = OptionOf(candidate, spec.family);
     option.index = FindPart(problem.parts, spec.family, choice->id);
@@ -96,6 +98,8 @@ bool SetOptions(const Problem& problem, const Design& design, Candidate& candida
     }
     option.amounts = choice->quantity * BasicsOf(problem.parts, spec.family, option.index);
     option.amounts.mass_kg += choice->quantity * ChargeKg(problem, spec.family, option.index);
+    option.amounts +=
+        JointAmounts(problem, JointOfPieces(problem, spec.family, option.index, option.quantity));
     option.objective = ObjectiveOf(problem.objective, option.amounts);
   }
   return true;
@@ -166,7 +170,8 @@ Problem WithPartsOf(const Problem& problem, const Design& design) {
                .regulators = Kept(all.regulators, ids),
                .reservoirs = Kept(all.reservoirs, ids),
                .tanks = Kept(all.tanks, ids),
-               .vacuum_pumps = Kept(all.vacuum_pumps, ids)};
+               .vacuum_pumps = Kept(all.vacuum_pumps, ids),
+               .manifolds = Kept(all.manifolds, ids)};
   return own;
 }
 

@@ -3,6 +3,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "api/json/request_limits.h"
+
 namespace plenum::api {
 namespace {
 
@@ -74,7 +76,7 @@ std::string MapText() {
 }
 
 Json Parse(std::string_view text) {
-  Parsed<Json> parsed = ParseJson(text);
+  Parsed<Json> parsed = ParseJson(text, kResultBytesMax);  // as answers are read from files
   if (const Errors* errors = std::get_if<Errors>(&parsed))
     throw std::runtime_error("test document: " + errors->front().detail);
   return std::get<Json>(std::move(parsed));

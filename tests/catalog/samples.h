@@ -36,7 +36,7 @@ inline std::string AnyText(std::mt19937& random) {
 
 // Doubles of all magnitudes inside the range, the ends and awkward ones included.
 inline double AnyNumber(const NumberField& field, std::mt19937& random) {
-  if (field.name == "channels" || field.name == "cells_series")
+  if (field.name == "channels" || field.name == "cells_series" || field.name == "stations")
     return std::uniform_int_distribution(1, 8)(random);
   switch (random() % 6) {
     case 0:

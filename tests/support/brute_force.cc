@@ -233,9 +233,10 @@ PartsKey KeyOf(const Problem& problem, const Candidate& candidate) {
 PartsKey KeyOf(const optimizer::Design& design) {
   PartsKey key;
   for (const optimizer::Choice& choice : design.parts)
-    key.emplace_back(choice.id, choice.family == Family::kTubing
-                                    ? 1
-                                    : static_cast<int>(std::lround(choice.quantity)));
+    if (choice.family != Family::kManifold)  // it follows from the others
+      key.emplace_back(choice.id, choice.family == Family::kTubing
+                                      ? 1
+                                      : static_cast<int>(std::lround(choice.quantity)));
   return key;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "model/flow/tube.h"
 #include "model/physics/storage.h"
@@ -37,6 +38,27 @@ optimizer::ActuatorGroup RandomGroup(Random& random, int index, double severity)
   return group;
 }
 
+// A tee and two manifolds, one of them for bottles; what lines ask is near what they pass.
+void AddManifolds(std::uint64_t seed, Problem& problem) {
+  Random random(seed * 0x9e3779b97f4a7c15ULL + 2);
+  const auto add = [&](const char* id, int stations, double mass_kg, double max_pa) {
+    model::Manifold row;
+    row.basics.id = id;
+    row.basics.mass_kg = mass_kg * LogUniform(random, 0.5, 2.0);
+    row.basics.body_volume_m3 = 1e-5;
+    row.stations = stations;
+    row.pressure_max_pa = max_pa;
+    if (Chance(random, 0.8)) row.basics.cost_eur = Uniform(random, 1.0, 30.0);
+    row.sonic_conductance_m3_per_s_pa = LogUniform(random, 0.2e-8, 20e-8);
+    problem.parts.manifolds.push_back(row);
+  };
+  add("tee", 2, 8e-3, kAmbientPa + 10.0 * kBar);
+  add("block", Pick(random, 3, 8), 40e-3, kAmbientPa + Uniform(random, 0.5, 10.0) * kBar);
+  add("bottles", Pick(random, 2, 4), 0.2, kAmbientPa + 350.0 * kBar);
+  for (optimizer::ActuatorGroup& group : problem.groups)
+    group.joint_conductance_m3_per_s_pa = LogUniform(random, 0.2e-8, 5e-8);
+}
+
 }  // namespace
 
 Problem RandomProblem(const Draw& draw) {
@@ -62,6 +84,7 @@ Problem RandomProblem(const Draw& draw) {
   problem.limits = {Pick(random, 1, 2), Pick(random, 1, 2), Pick(random, 1, 3), Pick(random, 1, 3),
                     1};
   problem.count = Pick(random, 1, 20);
+  AddManifolds(draw.seed, problem);
   return problem;
 }
 
@@ -114,6 +137,51 @@ bool Mates(const Problem& problem, int tubing, int fitting, int valve) {
 }
 
 namespace {
+
+// Manifolds and tees, by adding pieces until all ends are there.
+// What joins so many ends at this pressure; nothing where they are fewer than two.
+optimizer::Amounts Joined(const optimizer::Problem& problem, int ends, double pressure_pa,
+                          double asked_m3_per_s_pa) {
+  if (ends < 2) return {};
+  std::tuple<double, double, double, std::string> best;  // −flow, mass, cost, id
+  optimizer::Amounts amounts;
+  for (const model::Manifold& row : problem.parts.manifolds) {
+    const bool priced = row.basics.cost_eur.has_value();
+    const bool needed = problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur);
+    if (row.stations < 2 || row.pressure_max_pa < pressure_pa || (needed && !priced)) continue;
+    int pieces = 0;
+    for (int reached = 1; reached < ends; reached += row.stations - 1) ++pieces;
+    const double mass_kg = pieces * row.basics.mass_kg;
+    const double cost_eur = pieces * row.basics.cost_eur.value_or(0.0);
+    const std::tuple key(-std::min(row.sonic_conductance_m3_per_s_pa, asked_m3_per_s_pa), mass_kg,
+                         cost_eur, row.basics.id);
+    if (!std::get<3>(best).empty() && !(key < best)) continue;
+    best = key;
+    amounts = {mass_kg, pieces * row.basics.body_volume_m3, cost_eur};
+  }
+  return amounts;
+}
+
+double HighestOperatingPa(const optimizer::Problem& problem) {
+  double highest_pa = 0.0;
+  for (const optimizer::ActuatorGroup& group : problem.groups)
+    highest_pa = std::max(highest_pa, group.chamber.operating_pressure_pa);
+  return highest_pa;
+}
+
+double Asked(const optimizer::Problem& problem) {
+  double sum = 0.0;
+  for (const optimizer::ActuatorGroup& group : problem.groups)
+    sum += group.joint_conductance_m3_per_s_pa;
+  return sum;
+}
+
+// Of all lines together.
+optimizer::Amounts JoinedLines(const optimizer::Problem& problem) {
+  int lines = 0;
+  for (const optimizer::ActuatorGroup& group : problem.groups) lines += group.count;
+  return Joined(problem, lines, HighestOperatingPa(problem), Asked(problem));
+}
 
 // From the valve to the actuator.
 std::vector<model::FlowElement> Inward(const optimizer::ActuatorGroup& group,
@@ -171,6 +239,13 @@ optimizer::Line AssembleLine(const Problem& problem, int group_index, int tubing
   add(metres, tubing.per_metre);
   add(valves, valve.basics);
   if (fitting != nullptr) add(fittings, fitting->basics);
+  int lines = 0;
+  for (const optimizer::ActuatorGroup& other : problem.groups) lines += other.count;
+  const optimizer::Amounts joint = JoinedLines(problem);
+  const double share = static_cast<double>(group.count) / lines;
+  line.amounts.mass_kg += share * joint.mass_kg;
+  line.amounts.volume_m3 += share * joint.volume_m3;
+  line.amounts.cost_eur += share * joint.cost_eur;
 
   const model::FlowElement tube = model::TubeElement(tubing.inner_diameter_m, group.tube_length_m);
   const model::FlowElement connection = fitting == nullptr ? model::FlowElement{} : fitting->flow;
@@ -219,6 +294,8 @@ optimizer::Option MakeOption(const Problem& problem, Family family, int index, i
     option.amounts.cost_eur = quantity * basics.cost_eur.value_or(0.0);
   };
   const model::Parts& parts = problem.parts;
+  const double lines_ask = Asked(problem);
+  double stands_pa = HighestOperatingPa(problem), asked = 0.0;
   switch (family) {
     case Family::kRegulator:
       take(parts.regulators[index].basics, 0.0);
@@ -228,9 +305,11 @@ optimizer::Option MakeOption(const Problem& problem, Family family, int index, i
            model::CylinderCharge(parts.cylinders[index].water_volume_m3,
                                  parts.cylinders[index].fill_pressure_pa,
                                  problem.ambient.temperature_k));
+      stands_pa = parts.cylinders[index].fill_pressure_pa;
       break;
     case Family::kCo2:
       take(parts.co2[index].basics, parts.co2[index].co2_mass_kg);
+      stands_pa = model::Co2SaturationPressure(problem.ambient.temperature_k);
       break;
     case Family::kCompressor:
     case Family::kVacuumPump:
@@ -246,11 +325,15 @@ optimizer::Option MakeOption(const Problem& problem, Family family, int index, i
         left_pa = std::max(left_pa, group.chamber.operating_pressure_pa);
       take(parts.tanks[index].basics,
            parts.tanks[index].volume_m3 * left_pa / (287.05 * problem.ambient.temperature_k));
+      stands_pa = std::min(parts.tanks[index].pressure_max_pa, problem.tank_fill_max_pa);
+      asked = lines_ask;
       break;
     }
     default:
       take(parts.reservoirs[index].basics, 0.0);
+      asked = lines_ask;
   }
+  if (family != Family::kBattery) option.amounts += Joined(problem, quantity, stands_pa, asked);
   return option;
 }
 

@@ -5,6 +5,7 @@
 #include "model/physics/storage.h"
 #include "verify/design/verify_design.h"
 #include "verify/design/verify_families.h"
+#include "verify/design/verify_joints.h"
 #include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
@@ -100,6 +101,22 @@ Expected ExpectedRow(const Problem& problem, const Design& design, const Choice&
   return Times(choice.quantity, BasicsOf(problem.parts, choice.family, part), gas_kg);
 }
 
+// Each joint that lines and pieces need is a row, and no other.
+void CheckJoints(const Problem& problem, const Design& design, Findings& findings) {
+  JointRows needed = JointsOf(problem, design.parts);
+  for (const Choice& row : design.parts) {
+    if (row.family != Family::kManifold) continue;
+    const auto found = needed.find(FindPart(problem.parts, row.family, row.id));
+    if (found != needed.end() && row.group < 0 && found->second == row.quantity)
+      needed.erase(found);
+    else
+      findings.push_back({"parts", Row(row) + " is not what joins the lines or the source"});
+  }
+  for (const auto& [manifold, pieces] : needed)
+    findings.push_back({"parts", "manifold " + problem.parts.manifolds[manifold].basics.id +
+                                     ", which lines or pieces of the source need, is missing"});
+}
+
 bool SameCost(const std::optional<double>& a, const std::optional<double>& b) {
   return a.has_value() == b.has_value() && (!a || Near(*a, *b, kSumTolerance));
 }
@@ -117,6 +134,20 @@ void ForEachRow(const Problem& problem, const Assembly& a, const Settings& setti
               line.valve->basics));
   }
   if (a.regulator) add(Times(1, a.regulator->basics));
+  const auto join = [&](const JointRows& rows) {
+    for (const auto& [manifold, pieces] : rows)
+      add(Times(pieces, problem.parts.manifolds[manifold].basics));
+  };
+  join(JointOfLines(problem));
+  const auto join_pieces = [&](Family family, const auto& parts, const auto* part, int pieces) {
+    if (part) join(JointOfPieces(problem, family, static_cast<int>(part - parts.data()), pieces));
+  };
+  const model::Parts& parts = problem.parts;
+  join_pieces(Family::kCylinder, parts.cylinders, a.cylinder, a.bottles);
+  join_pieces(Family::kCo2, parts.co2, a.co2, a.bottles);
+  join_pieces(Family::kTank, parts.tanks, a.tank, a.tanks);
+  join_pieces(PumpFamily(a.configuration), PumpsOf(problem), a.compressor, a.compressors);
+  join_pieces(Family::kReservoir, parts.reservoirs, a.reservoir, a.reservoirs);
   if (a.cylinder) add(Filled(problem, a.bottles, *a.cylinder));
   if (a.tank) add(Filled(problem, a.tanks, *a.tank, settings));
   if (a.co2) add(Times(a.bottles, a.co2->basics, a.co2->co2_mass_kg));
@@ -223,6 +254,8 @@ void Place(const Problem& problem, Family family, int group, const ProofItem& it
     case Family::kTank:
       a.tanks = item.quantity;
       return put(parts.tanks, a.tank);
+    case Family::kManifold:
+      return;
   }
 }
 
@@ -236,6 +269,7 @@ std::optional<Assembly> Assemble(const Problem& problem, const Design& design, F
         {"parts", std::string(Name(design.configuration)) + " is not a requested configuration"});
   std::set<std::pair<Family, int>> placed;
   for (const Choice& choice : design.parts) {
+    if (choice.family == Family::kManifold) continue;
     const bool in_line = choice.group >= 0;
     const auto item = ItemOf(problem, choice);
     bool allowed = item && SpecOf(choice.family).in_line == in_line &&
@@ -269,10 +303,12 @@ void CheckAmounts(const Problem& problem, const Design& design, const Assembly& 
       findings.push_back(
           {"parts", "fitting " + line.fitting->basics.id + " does not fit its tube " + "or valve"});
   if (!Fit(problem, assembly)) findings.push_back({"parts", "parts of the source do not fit"});
+  CheckJoints(problem, design, findings);
   Totals sum;
   double cost_eur = 0.0;
   bool priced = true;
   for (const Choice& choice : design.parts) {
+    if (!ItemOf(problem, choice)) continue;  // a joint that there is not, told above
     const Expected row = ExpectedRow(problem, design, choice);
     if (!Near(choice.mass_kg, row.mass_kg, kSumTolerance) ||
         !Near(choice.volume_m3, row.volume_m3, kSumTolerance) ||

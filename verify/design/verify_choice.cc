@@ -6,9 +6,31 @@
 #include "model/physics/storage.h"
 #include "verify/design/cycle/verify_gait.h"
 #include "verify/design/verify_families.h"
+#include "verify/design/verify_joints.h"
 #include "verify/design/verify_tank.h"
 
 namespace plenum::verify {
+namespace {
+
+// What joins the pieces; a tube has its group's share, by number, of what joins all lines.
+void AddJoints(const Problem& problem, const ProofSlot& slot, const ProofItem& item,
+               ItemAmounts& sum) {
+  const bool tube = slot.family == Family::kTubing;
+  const double share =
+      tube ? static_cast<double>(problem.groups[slot.group].count) / Lines(problem) : 1.0;
+  for (const auto& [manifold, pieces] :
+       tube ? JointOfLines(problem)
+            : JointOfPieces(problem, slot.family, item.part, item.quantity)) {
+    const model::PartBasics& basics = problem.parts.manifolds[manifold].basics;
+    sum.mass_kg += share * pieces * basics.mass_kg;
+    sum.volume_m3 += share * pieces * basics.body_volume_m3;
+    sum.cost_eur += share * pieces * basics.cost_eur.value_or(0.0);
+    sum.mass_slack_kg += share * pieces * basics.mass_slack_kg;
+    sum.volume_slack_m3 += share * pieces * basics.body_volume_slack_m3;
+  }
+}
+
+}  // namespace
 
 ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const ProofItem& item) {
   if (item.part == -1) return {};
@@ -51,6 +73,7 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const P
     sum = {pieces * (basics.mass_kg + gas_kg),     pieces * basics.body_volume_m3,
            pieces * basics.cost_eur.value_or(0.0), 0.0,
            pieces * basics.mass_slack_kg,          pieces * basics.body_volume_slack_m3};
+    AddJoints(problem, slot, item, sum);
   }
   const Objective& weight = problem.objective;
   sum.objective = weight.mass_kg * sum.mass_kg + weight.volume_l * sum.volume_m3 * 1e3 +

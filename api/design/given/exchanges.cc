@@ -7,6 +7,7 @@
 
 #include "api/design/read/combination.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/joints.h"
 #include "optimizer/sizing/report.h"
 
 namespace plenum::api {
@@ -15,8 +16,11 @@ namespace {
 using optimizer::Choice;
 using optimizer::Design;
 
+bool Joins(const Choice& row) { return optimizer::SpecOf(row.family).joins; }
+
+// There may be several joints.
 bool SamePlace(const Choice& a, const Choice& b) {
-  return a.family == b.family && a.group == b.group;
+  return a.family == b.family && a.group == b.group && (!Joins(a) || a.id == b.id);
 }
 
 const Choice* RowAt(const Design& design, const Choice& place) {
@@ -37,13 +41,27 @@ bool HasReservoir(const RowPair& pair) {
   return pair.other && optimizer::SpecOf(pair.other->family).made_to_measure;
 }
 
-Design Exchanged(Design design, const Design& other, const std::vector<RowPair>& rows) {
+// Joints as the other rows ask, where the design has any.
+void JoinAnew(const optimizer::Problem& problem, Design& design) {
+  if (std::erase_if(design.parts, Joins) == 0) return;
+  for (const optimizer::Joint& joint : optimizer::JointsOf(problem, design.parts)) {
+    Choice row;
+    row.family = optimizer::Family::kManifold;
+    row.id = problem.parts.manifolds[joint.manifold].basics.id;
+    row.quantity = joint.quantity;
+    design.parts.push_back(std::move(row));
+  }
+}
+
+Design Exchanged(const optimizer::Problem& problem, Design design, const Design& other,
+                 const std::vector<RowPair>& rows) {
   for (const RowPair& pair : rows) {
     std::erase_if(design.parts, [&](const Choice& row) { return SamePlace(row, pair.place()); });
     if (pair.other) design.parts.push_back(*pair.other);
     if (HasReservoir(pair))
       design.settings.reservoir_volume_m3 = other.settings.reservoir_volume_m3;
   }
+  JoinAnew(problem, design);
   return design;
 }
 
@@ -69,10 +87,11 @@ std::vector<Exchange> Exchanges(const optimizer::Problem& problem,
                                 const std::vector<catalog::Part>& catalogue, const Design& given,
                                 const Design& other, const std::function<bool()>& stop) {
   std::vector<RowPair> differing = Differences(given, other);
-  std::erase_if(differing, SamePart);
+  std::erase_if(differing,
+                [](const RowPair& pair) { return SamePart(pair) || Joins(pair.place()); });
   const auto fits = [&](const std::vector<RowPair>& rows) {
     Errors errors;
-    CheckCombination(Exchanged(given, other, rows), problem, catalogue, "", errors);
+    CheckCombination(Exchanged(problem, given, other, rows), problem, catalogue, "", errors);
     return errors.empty();
   };
   std::vector<std::vector<RowPair>> tries;
@@ -91,7 +110,7 @@ std::vector<Exchange> Exchanges(const optimizer::Problem& problem,
   std::vector<Exchange> exchanges;
   exchanges.reserve(tries.size());
   for (std::vector<RowPair>& rows : tries) {
-    const Design design = WithReservoirVolume(Exchanged(given, other, rows), problem);
+    const Design design = WithReservoirVolume(Exchanged(problem, given, other, rows), problem);
     exchanges.push_back({std::move(rows), {}});
     if (!stop())
       exchanges.back().made =

@@ -5,6 +5,7 @@
 
 #include "api/design/read/combination.h"
 #include "api/design/read/design_reader.h"
+#include "api/design/read/joint_rows.h"
 #include "api/design/read/power.h"
 #include "api/json/remarks.h"
 #include "api/json/shared_fields.h"
@@ -47,6 +48,7 @@ Parsed<GivenRequest> ReadGivenRequest(const Json& request, const std::vector<cat
     AddOutsidePower(problem, design);
     if (errors.empty()) CheckCombination(design, problem, parts, pointer, errors);
     if (errors.empty()) design = WithReservoirVolume(std::move(design), problem);
+    if (errors.empty()) WarnOfMissingJoints(design, problem, pointer);
   };
   complete(given.design, "/design");
   if (given.beside) complete(*given.beside, "/beside");

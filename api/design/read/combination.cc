@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "api/catalogue/catalogue_parts.h"
+#include "api/design/read/joint_rows.h"
 #include "api/design/read/power.h"
 #include "api/design/read/selection.h"
 #include "api/json/units.h"
@@ -96,6 +97,9 @@ class Check {
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) CheckLine(g);
     CheckSource();
     CheckVolume();
+    CheckJointRows(design_, problem_, [&](std::size_t row, const char* field, std::string detail) {
+      FailRow(design_.parts[row], field, std::move(detail));
+    });
   }
 
  private:
@@ -133,7 +137,7 @@ class Check {
     const std::string piece = Piece(choice.family);
     const optimizer::FamilySpec& spec = optimizer::SpecOf(choice.family);
     const bool of_line = spec.in_line;
-    if (!of_line && !spec.InSourceOf(design_.configuration))
+    if (!of_line && !spec.joins && !spec.InSourceOf(design_.configuration))
       return FailRow(choice, "/family", Is() + " has no " + optimizer::Name(choice.family));
     if (of_line && choice.group < 0)
       return FailRow(choice, "/group",
@@ -144,6 +148,10 @@ class Check {
       return FailRow(
           choice, "/family",
           "the lines of " + Group(choice).name + " have no fittings: fittings_per_line is 0");
+    if (spec.joins) {
+      CheckPart(choice);
+      return;
+    }
     if (RowOf(choice.family, choice.group) != &choice)
       return FailRow(choice, "/family",
                      "an earlier row is " + piece + (of_line ? " of this group" : "") +

@@ -8,6 +8,7 @@
 #include "api/design/read/actuators/actuators_reader.h"
 #include "api/design/read/actuators/gait_reader.h"
 #include "api/design/read/design_reader.h"
+#include "api/design/read/joint_rows.h"
 #include "api/design/read/objective_reader.h"
 #include "api/design/read/power.h"
 #include "api/design/read/selection.h"
@@ -315,6 +316,8 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
     CheckFamilies(parts, problem, needs_fittings, errors);
   if (!errors.empty()) return errors;
   problem.parts = AllowedModelParts(parts, problem);
+  SetJoints(problem);
+  if (std::any_of(parts.begin(), parts.end(), IsJoint)) WarnOfJoints(problem);
   parsed.request = request;
   parsed.remarks = recorder.Take();
   return parsed;

@@ -117,8 +117,9 @@ std::vector<catalog::Part> AllowedParts(const std::vector<catalog::Part>& parts,
 
 bool MayUse(const optimizer::Problem& problem, const optimizer::FamilySpec& spec) {
   if (!optimizer::Evacuated(problem)) return spec.family != Family::kVacuumPump;
-  return spec.in_line || std::any_of(problem.configurations.begin(), problem.configurations.end(),
-                                     [&](Configuration one) { return spec.InSourceOf(one); });
+  return spec.in_line || spec.joins ||
+         std::any_of(problem.configurations.begin(), problem.configurations.end(),
+                     [&](Configuration one) { return spec.InSourceOf(one); });
 }
 
 model::Parts ModelPartsFor(const optimizer::Problem& problem,

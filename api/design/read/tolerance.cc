@@ -76,10 +76,9 @@ Json RenderTolerance(const Tolerance& tolerance) {
 }
 
 bool IsExact(std::string_view field) {
-  static const std::set<std::string_view> kExact{"outer_diameter_mm", "tube_outer_diameter_mm",
-                                                 "inner_diameter_mm", "channels",
-                                                 "cells_series",      "voltage_v",
-                                                 "nominal_voltage_v"};
+  static const std::set<std::string_view> kExact{
+      "outer_diameter_mm", "tube_outer_diameter_mm", "inner_diameter_mm", "channels",
+      "stations",          "cells_series",           "voltage_v",         "nominal_voltage_v"};
   return kExact.contains(field);
 }
 

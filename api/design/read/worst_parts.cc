@@ -175,11 +175,12 @@ model::Parts ToWorstParts(const optimizer::Problem& problem, const std::vector<c
   worst.reserve(rows.size());
   for (const catalog::Part& row : rows) worst.push_back(AtWorst(row, tolerance, settled));
   model::Parts parts = ModelPartsFor(problem, worst);
-  std::array<std::size_t, static_cast<std::size_t>(optimizer::Family::kVacuumPump) + 1> seen{};
+  std::array<std::size_t, static_cast<std::size_t>(optimizer::Family::kManifold) + 1> seen{};
   for (const catalog::Part& row : rows) {
     for (const optimizer::FamilySpec& spec : optimizer::Families()) {
       // Reservoirs as tanks: a guarantee has none (guarantee.h).
       if (row.family != spec.name || spec.family == optimizer::Family::kTank) continue;
+      if (spec.joins && !IsJoint(row)) continue;  // it is no part of the problem
       const std::size_t part = seen[static_cast<std::size_t>(spec.family)]++;
       AddSlack(row, tolerance, settled,
                optimizer::BasicsOf(parts, spec.family, static_cast<int>(part)));

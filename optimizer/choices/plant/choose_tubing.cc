@@ -25,8 +25,9 @@ void SetNumbers(const PartNumbers& numbers, TubeCorner& corner) {
 void Planter::PlantTubing(int g, const LineMates& mates) {
   const ActuatorGroup& group = problem_.groups[g];
   std::map<double, Kinds> diameters_of;  // by outer diameter of the tube
+  const Amounts joint = LineJointShare(problem_, g);
   const auto count = [&](int, int) {
-    return Count{group.count * group.tube_length_m, static_cast<double>(group.count)};
+    return Count{group.count * group.tube_length_m, static_cast<double>(group.count), joint};
   };
   const auto rule = [&](int i, int, const Entry<TubeCorner>& entry) {
     const double outer_m = problem_.parts.tubing[i].outer_diameter_m;

@@ -219,6 +219,7 @@ class Planter {
     add(parts.batteries, problem_.limits.batteries);
     add(parts.reservoirs, problem_.limits.reservoirs);
     add(parts.tanks, problem_.limits.reservoirs);
+    add(parts.manifolds, LineCount(problem_) + 32);  // of pumps, bottles and reservoirs
     for (const model::Cylinder& c : parts.cylinders)
       gas_kg_ = std::max(gas_kg_, model::CylinderCharge(c.water_volume_m3, c.fill_pressure_pa,
                                                         problem_.ambient.temperature_k));
@@ -245,11 +246,10 @@ class Planter {
     double power_w = 0.0, regulator_w = 0.0;
     for (const model::Valve& valve : problem_.parts.valves)
       power_w = std::max(power_w, valve.coil_power_w);
-    int actuators = 0;
-    for (const ActuatorGroup& group : problem_.groups) actuators += group.count;
     for (const model::Regulator& regulator : problem_.parts.regulators)
       regulator_w = std::max(regulator_w, regulator.electrical_power_w);
-    return problem_.actuations / problem_.frequency_hz * (actuators * power_w + regulator_w);
+    return problem_.actuations / problem_.frequency_hz *
+           (LineCount(problem_) * power_w + regulator_w);
   }
 
   // Leaves out what is dominated, plants the rest and adds the slot; returns its number.
@@ -308,9 +308,11 @@ class Planter {
     return !PricesNeeded(problem_) || basics.cost_eur.has_value();
   }
 
-  // How many pieces a choice has: those that weigh and cost, and those whose numbers count.
+  // How many pieces a choice has: those that weigh and cost, and those whose numbers count; and
+  // what joins them.
   struct Count {
     double bought, counted;
+    Amounts joint = {};
   };
 
   // Each part of the family × 1…the most that may stand in parallel that has the price it needs.
@@ -333,6 +335,7 @@ class Planter {
         const Entry<Corner> entry = entries.Add();
         const Count pieces = count(i, quantity);
         entry.item.option = {i, quantity, pieces.bought * basics};
+        entry.item.option.amounts += pieces.joint;
         SetShare(problem_, entry.item.option.amounts, entry.item.corner);
         const PartNumbers numbers{problem_.parts, i, pieces.counted, useful_max_pa_};
         SetNumbers(numbers, entry.item.corner);
@@ -349,8 +352,10 @@ class Planter {
   Entries<Corner> MakeSourceEntries(Family family, const Rule& rule) const {
     return MakeEntries<Corner>(
         family, true,
-        [](int, int quantity) {
-          return Count{static_cast<double>(quantity), static_cast<double>(quantity)};
+        [&](int part, int quantity) {
+          const double pieces = quantity;
+          return Count{pieces, pieces,
+                       JointAmounts(problem_, JointOfPieces(problem_, family, part, quantity))};
         },
         rule);
   }

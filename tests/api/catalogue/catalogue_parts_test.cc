@@ -118,7 +118,8 @@ TEST(FamilyTables, AgreeWithTheCatalogue) {
                                       "compressor.vacuum_max_kpa_gauge",
                                       "vacuum_pump.power_min_w",
                                       "vacuum_pump.power_max_w",
-                                      "vacuum_pump.pressure_max_kpa_gauge"};
+                                      "vacuum_pump.pressure_max_kpa_gauge",
+                                      "manifold.critical_ratio"};
   const model::Ambient ambient{.pressure_pa = 90e3, .temperature_k = 293.15};
   for (const optimizer::FamilySpec& spec : optimizer::Families()) {
     SCOPED_TRACE(spec.name);

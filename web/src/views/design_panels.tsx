@@ -27,6 +27,7 @@ const familyColour: Record<string, string> = {
   regulator: '--c4',
   fitting: '--c5',
   tubing: '--c6',
+  manifold: '--c5',
 };
 
 const colourOf = ({ family }: { family: string }) => `var(${familyColour[family] ?? '--c6'})`;

@@ -61,6 +61,7 @@ export function Schematic({
   const reservoir = rowOf(design, 'reservoir');
   const regulator = rowOf(design, 'regulator');
   const battery = rowOf(design, 'battery');
+  const joints = design.parts.filter(({ family }) => family === 'manifold');
   const setting = `${shown('pressure', settings.source_pressure_kpa_gauge)} ${unitOf('pressure')}`;
   const isTank = configuration === 'tank';
   return (
@@ -97,6 +98,7 @@ export function Schematic({
           setting,
         ]}
       />
+      <Label x={at.bus} y={24} texts={joints.map(partText)} />
       {battery && (
         <>
           <path class="wire" d={`M${at.source} ${height - 48} V${height - 70} H${at.valve}`} />

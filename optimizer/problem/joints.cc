@@ -1,0 +1,137 @@
+#include "optimizer/problem/joints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "model/physics/storage.h"
+#include "optimizer/problem/family_specs.h"
+
+namespace plenum::optimizer {
+namespace {
+
+bool Counts(const Problem& problem, const model::PartBasics& basics) {
+  const bool cost = problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur);
+  return !cost || problem.unpriced_allowed || basics.cost_eur.has_value();
+}
+
+int PiecesFor(int joined, const model::Manifold& manifold) {
+  return (joined - 1 + manifold.stations - 2) / (manifold.stations - 1);
+}
+
+// What orders the rows that may be taken.
+auto KeyOf(const model::Manifold& manifold, int quantity) {
+  const model::PartBasics& one = manifold.basics;
+  return std::tuple(quantity * one.mass_kg, quantity * one.cost_eur.value_or(0.0), one.id);
+}
+
+std::optional<Joint> Lightest(const Problem& problem, int joined, double pressure_pa,
+                              double conductance_m3_per_s_pa) {
+  if (joined < 2) return std::nullopt;
+  const std::vector<model::Manifold>& rows = problem.parts.manifolds;
+  const auto may = [&](const model::Manifold& row) {
+    return row.stations >= 2 && row.pressure_max_pa >= pressure_pa && Counts(problem, row.basics);
+  };
+  double most = 0.0;
+  for (const model::Manifold& row : rows)
+    if (may(row)) most = std::max(most, row.sonic_conductance_m3_per_s_pa);
+  std::optional<Joint> best;
+  for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
+    if (!may(rows[i]) ||
+        rows[i].sonic_conductance_m3_per_s_pa < std::min(conductance_m3_per_s_pa, most))
+      continue;
+    const Joint joint{i, PiecesFor(joined, rows[i])};
+    if (!best || KeyOf(rows[i], joint.quantity) < KeyOf(rows[best->manifold], best->quantity))
+      best = joint;
+  }
+  return best;
+}
+
+// What joins some pieces must stand.
+double PressureOf(const Problem& problem, Family family, int part) {
+  const model::Parts& parts = problem.parts;
+  switch (family) {
+    case Family::kCylinder:
+      return parts.cylinders[part].fill_pressure_pa + parts.cylinders[part].fill_pressure_spread_pa;
+    case Family::kCo2:
+      return model::Co2SaturationPressure(problem.ambient.temperature_k);
+    case Family::kTank:
+      return std::min(parts.tanks[part].pressure_max_pa, problem.tank_fill_max_pa);
+    default: {
+      double operating_pa = 0.0;
+      for (const ActuatorGroup& group : problem.groups)
+        operating_pa = std::max(operating_pa, group.chamber.operating_pressure_pa);
+      return operating_pa;
+    }
+  }
+}
+
+bool MayBeJoined(Family family) {
+  const FamilySpec& spec = SpecOf(family);
+  return !spec.in_line && !spec.joins && family != Family::kBattery;
+}
+
+}  // namespace
+
+int LineCount(const Problem& problem) {
+  int lines = 0;
+  for (const ActuatorGroup& group : problem.groups) lines += group.count;
+  return lines;
+}
+
+double JointConductance(const Problem& problem, const ActuatorGroup& group) {
+  const model::Chamber& chamber = group.chamber;
+  const double at_rest_pa = chamber.ambient_pressure_pa;
+  const double inside_pa =
+      std::abs(model::MirrorPa(chamber) - chamber.operating_pressure_pa);  // as it is
+  const double upstream_pa =
+      chamber.evacuated ? (at_rest_pa - inside_pa) / std::log(at_rest_pa / inside_pa) : inside_pa;
+  const double air_m3 = (model::Content(chamber, chamber.operating_pressure_pa) -
+                         model::Content(chamber, at_rest_pa)) *
+                        model::StandardVolume(1.0, problem.ambient.temperature_k);
+  const double window_s =
+      group.gait.inflate_fraction / (problem.frequency_hz * group.gait.strokes_per_period);
+  return kJointFactor * group.count * air_m3 /
+         (std::min(group.rise_time_max_s, window_s) * upstream_pa);
+}
+
+double JointConductance(const Problem& problem) {
+  double sum = 0.0;
+  for (const ActuatorGroup& group : problem.groups) sum += group.joint_conductance_m3_per_s_pa;
+  return sum;
+}
+
+std::optional<Joint> JointOfLines(const Problem& problem) {
+  return Lightest(problem, LineCount(problem), PressureOf(problem, Family::kReservoir, 0),
+                  JointConductance(problem));
+}
+
+std::optional<Joint> JointOfPieces(const Problem& problem, Family family, int part, int quantity) {
+  if (quantity < 2 || !MayBeJoined(family)) return std::nullopt;
+  const bool drawn_from = family == Family::kReservoir || family == Family::kTank;
+  return Lightest(problem, quantity, PressureOf(problem, family, part),
+                  drawn_from ? JointConductance(problem) : 0.0);
+}
+
+std::vector<Joint> JointsOf(const Problem& problem, const std::vector<Choice>& rows) {
+  std::vector<Joint> joints;
+  const auto add = [&](const std::optional<Joint>& joint) {
+    if (!joint) return;
+    const auto same = std::find_if(joints.begin(), joints.end(), [&](const Joint& other) {
+      return other.manifold == joint->manifold;
+    });
+    if (same == joints.end())
+      joints.push_back(*joint);
+    else
+      same->quantity += joint->quantity;
+  };
+  add(JointOfLines(problem));
+  for (const Choice& row : rows) {
+    if (row.group >= 0 || !MayBeJoined(row.family)) continue;
+    const int part = FindPart(problem.parts, row.family, row.id);
+    if (part >= 0) add(JointOfPieces(problem, row.family, part, static_cast<int>(row.quantity)));
+  }
+  return joints;
+}
+
+}  // namespace plenum::optimizer

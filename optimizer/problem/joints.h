@@ -1,0 +1,51 @@
+// Manifolds and tees: what joins several lines to their source, and several pieces of a source to
+// each other. They follow from the request and from the other parts, so that a search does not
+// choose them.
+//
+// n lines, or pieces, need pieces of one row whose stations suffice in a tree: ⌈(n − 1)/(k − 1)⌉ of
+// k stations. Of the rows that stand the pressure, pass enough and have a price where one is
+// needed, the one whose pieces together are lightest, whatever the objective; ties go by cost and
+// id. Where no row passes enough it is of those that pass most. Where none stands the pressure
+// there is no joint, and nothing counts.
+//
+// Enough, for lines, is kJointFactor times what all actuators ask who fill at once within their
+// rise times (JointConductance below). It would slow lines which are just fast enough by 2 or 3 %
+// at most, which is left out.
+#ifndef PLENUM_OPTIMIZER_PROBLEM_JOINTS_H_
+#define PLENUM_OPTIMIZER_PROBLEM_JOINTS_H_
+
+#include <optional>
+#include <vector>
+
+#include "optimizer/problem/problem.h"
+
+namespace plenum::optimizer {
+
+inline constexpr double kJointFactor = 4.0;
+
+struct Joint {
+  int manifold = -1;  // in Problem::parts
+  int quantity = 0;
+};
+
+// How many lines there are: one for each actuator.
+int LineCount(const Problem& problem);
+
+// kJointFactor times the sonic conductance, m³/(s·Pa), that fills all actuators of a group within
+// their rise time, or else their part of the period, from a source at their operating pressure; of
+// evacuated ones from what is inside, in the logarithmic mean over the stroke.
+double JointConductance(const Problem& problem, const ActuatorGroup& group);
+// Of all lines, as their groups have it (ActuatorGroup).
+double JointConductance(const Problem& problem);
+
+// None: there is one line, or nothing joins them.
+std::optional<Joint> JointOfLines(const Problem& problem);
+// The same of some pieces of a part of a source. Batteries and regulators have nothing to join.
+std::optional<Joint> JointOfPieces(const Problem& problem, Family family, int part, int quantity);
+
+// All joints of a design with these other rows; what is the same part is told once.
+std::vector<Joint> JointsOf(const Problem& problem, const std::vector<Choice>& rows);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_PROBLEM_JOINTS_H_

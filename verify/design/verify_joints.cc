@@ -1,0 +1,108 @@
+#include "verify/design/verify_joints.h"
+
+#include <cmath>
+
+#include "model/physics/storage.h"
+#include "optimizer/problem/family_specs.h"
+#include "verify/design/verify_families.h"
+
+namespace plenum::verify {
+namespace {
+
+double Pieces(int joined, const model::Manifold& row) {
+  return std::ceil((joined - 1.0) / (row.stations - 1.0));
+}
+
+bool Serves(const Problem& problem, const model::Manifold& row, double pressure_pa) {
+  return row.stations > 1 && row.pressure_max_pa >= pressure_pa &&
+         (!PricesNeeded(problem) || row.basics.cost_eur);
+}
+
+// Whether a is taken rather than b.
+bool Before(int joined, const model::Manifold& a, const model::Manifold& b) {
+  const double pieces_a = Pieces(joined, a), pieces_b = Pieces(joined, b);
+  const double mass_a = pieces_a * a.basics.mass_kg, mass_b = pieces_b * b.basics.mass_kg;
+  if (mass_a != mass_b) return mass_a < mass_b;
+  const double cost_a = pieces_a * a.basics.cost_eur.value_or(0.0);
+  const double cost_b = pieces_b * b.basics.cost_eur.value_or(0.0);
+  return cost_a != cost_b ? cost_a < cost_b : a.basics.id < b.basics.id;
+}
+
+JointRows Join(const Problem& problem, int joined, double pressure_pa, double asked) {
+  const std::vector<model::Manifold>& rows = problem.parts.manifolds;
+  const auto rank = [&](const model::Manifold& row) {  // what it passes, no more than is asked
+    return std::min(row.sonic_conductance_m3_per_s_pa, asked);
+  };
+  int best = -1;
+  for (int i = 0; joined > 1 && i < static_cast<int>(rows.size()); ++i) {
+    if (!Serves(problem, rows[i], pressure_pa)) continue;
+    if (best < 0 || rank(rows[i]) > rank(rows[best]) ||
+        (rank(rows[i]) == rank(rows[best]) && Before(joined, rows[i], rows[best])))
+      best = i;
+  }
+  if (best < 0) return {};
+  return {{best, static_cast<int>(Pieces(joined, rows[best]))}};
+}
+
+double HighestOperatingPa(const Problem& problem) {
+  double highest_pa = 0.0;
+  for (const ActuatorGroup& group : problem.groups)
+    highest_pa = std::max(highest_pa, group.chamber.operating_pressure_pa);
+  return highest_pa;
+}
+
+double Asked(const Problem& problem) {
+  double sum = 0.0;
+  for (const ActuatorGroup& group : problem.groups) sum += group.joint_conductance_m3_per_s_pa;
+  return sum;
+}
+
+}  // namespace
+
+int Lines(const Problem& problem) {
+  int lines = 0;
+  for (const ActuatorGroup& group : problem.groups) lines += group.count;
+  return lines;
+}
+
+JointRows JointOfLines(const Problem& problem) {
+  return Join(problem, Lines(problem), HighestOperatingPa(problem), Asked(problem));
+}
+
+JointRows JointOfPieces(const Problem& problem, Family family, int part, int pieces) {
+  if (pieces < 2 || part < 0) return {};
+  switch (family) {
+    case Family::kCylinder: {
+      const model::Cylinder& cylinder = problem.parts.cylinders[part];
+      return Join(problem, pieces, cylinder.fill_pressure_pa + cylinder.fill_pressure_spread_pa,
+                  0.0);
+    }
+    case Family::kCo2:
+      return Join(problem, pieces, model::Co2SaturationPressure(problem.ambient.temperature_k),
+                  0.0);
+    case Family::kTank:
+      return Join(problem, pieces,
+                  std::min(problem.parts.tanks[part].pressure_max_pa, problem.tank_fill_max_pa),
+                  Asked(problem));
+    case Family::kReservoir:
+      return Join(problem, pieces, HighestOperatingPa(problem), Asked(problem));
+    case Family::kCompressor:
+    case Family::kVacuumPump:
+      return Join(problem, pieces, HighestOperatingPa(problem), 0.0);
+    default:
+      return {};
+  }
+}
+
+JointRows JointsOf(const Problem& problem, const std::vector<Choice>& rows) {
+  JointRows all = JointOfLines(problem);
+  for (const Choice& row : rows)
+    if (row.group < 0)
+      for (const auto& [manifold, pieces] :
+           JointOfPieces(problem, row.family, FindPart(problem.parts, row.family, row.id),
+                         static_cast<int>(row.quantity)))
+        all[manifold] += pieces;
+  return all;
+}
+
+}  // namespace plenum::verify

@@ -1,0 +1,25 @@
+// Manifolds and tees of a design (optimizer/problem/joints.h), looked for row by row once more.
+// Internal to verify*.cc.
+#ifndef PLENUM_VERIFY_DESIGN_VERIFY_JOINTS_H_
+#define PLENUM_VERIFY_DESIGN_VERIFY_JOINTS_H_
+
+#include <map>
+#include <vector>
+
+#include "verify/design/verify_values.h"
+
+namespace plenum::verify {
+
+using JointRows = std::map<int, int>;  // pieces by the index of the part
+
+int Lines(const Problem& problem);  // one for each actuator
+
+// Of all lines together, and of pieces of a part of the source.
+JointRows JointOfLines(const Problem& problem);
+JointRows JointOfPieces(const Problem& problem, Family family, int part, int pieces);
+// Of a design with these other rows.
+JointRows JointsOf(const Problem& problem, const std::vector<Choice>& rows);
+
+}  // namespace plenum::verify
+
+#endif  // PLENUM_VERIFY_DESIGN_VERIFY_JOINTS_H_
