@@ -101,6 +101,7 @@ TEST(GaitSearchTest, Relations) {
     apart.groups.push_back(apart.groups[0]);
     for (int g : {0, 1}) {
       apart.groups[g].count = 1;
+      apart.groups[g].joint_conductance_m3_per_s_pa /= 2.0;
       apart.groups[g].gait.phases = {0.5 * g};
     }
     // Two groups may have valves with several channels each for itself.
