@@ -19,6 +19,7 @@ constexpr double kPressureShare = 0.1, kFinest = 1e-9, kCoarsest = 1e-2;
 constexpr double kGap = 2e-7;  // of the objective
 constexpr int kLooksMax = 2000, kVolumesMax = 2000;
 constexpr double kFirstStep = 1e-4, kStepGrowth = 8.0;  // of the source pressure
+constexpr double kRoughly = 2e-3;                       // the same
 constexpr int kFirstVolumes = 12;
 constexpr double kNarrow = 1.01;  // ratio of volumes
 
@@ -67,10 +68,19 @@ class PressureSizing {
     const auto fastest = CycleAt(stood_.high_pa);
     if (!fastest) return {};
     if (StrokeExcess(*fastest) > slack_) return sizing;
-    const std::optional<double> lowest_pa = FastEnough();
-    if (!lowest_pa) return {};
-    floor_pa_ = *lowest_pa;
-    const auto highest = At(stood_.high_pa), lowest = At(*lowest_pa);
+    std::optional<Floor> floor = RoughFloor();
+    if (!floor) return {};
+    floor_pa_ = floor->slow_pa;
+    if (!(volumes_.high_m3 > volumes_.low_m3)) {
+      const double least = LeastAbove(*floor);
+      if (std::isinf(least)) return sizing;
+      if (least > enough) return {.status = Sized::kUnknown, .lower_bound = least};
+    }
+    floor = Divided(*floor, resolution_ > 0.0 ? resolution_ : kPressureTolerance);
+    if (!floor) return {};
+    const double lowest_pa = resolution_ > 0.0 ? floor->slow_pa : floor->fast_pa;
+    floor_pa_ = lowest_pa;
+    const auto highest = At(stood_.high_pa), lowest = At(lowest_pa);
     if (!highest || !lowest) return {};
     Open(*lowest, *highest);
     Offer(*lowest, sizing);
@@ -177,30 +187,73 @@ class PressureSizing {
     return excess;
   }
 
-  // The lowest source pressure at which strokes are fast enough; for an interval of volumes one a
-  // little below. It is often a little above the floor.
-  std::optional<double> FastEnough() {
-    bool known = true;
-    const auto too_slow = [&](double source_pa) {
-      ++looks_;
-      const auto& cycle = CycleAt(source_pa);
-      known = known && cycle;
-      return !cycle || StrokeExcess(*cycle) > slack_;
-    };
-    double slow_pa = stood_.low_pa, fast_pa = stood_.high_pa;
-    if (!too_slow(slow_pa)) return slow_pa;
-    const double tolerance = resolution_ > 0.0 ? resolution_ : kPressureTolerance;
-    for (double step = kFirstStep; known && stood_.low_pa * (1.0 + step) < fast_pa;
-         step *= kStepGrowth) {
-      const double next_pa = stood_.low_pa * (1.0 + step);
-      (too_slow(next_pa) ? slow_pa : fast_pa) = next_pa;
+  // Where strokes become fast enough, with what they miss and have to spare; equal at the lowest.
+  struct Floor {
+    double slow_pa, fast_pa;
+    double missing = kUnlimited, to_spare = 0.0;
+  };
+
+  // False: it is not known how slow strokes are.
+  bool Narrow(double source_pa, Floor& floor) {
+    ++looks_;
+    const auto& cycle = CycleAt(source_pa);
+    if (!cycle) return false;
+    const double missing = StrokeExcess(*cycle) - slack_;
+    if (missing > 0.0) {
+      floor.slow_pa = source_pa;
+      floor.missing = missing;
+    } else {
+      floor.fast_pa = source_pa;
+      floor.to_spare = -missing;
     }
-    while (known && fast_pa - slow_pa > tolerance * fast_pa) {
-      const double middle_pa = 0.5 * (slow_pa + fast_pa);
-      (too_slow(middle_pa) ? slow_pa : fast_pa) = middle_pa;
+    return true;
+  }
+
+  std::optional<Floor> RoughFloor() {
+    Floor floor{stood_.low_pa, stood_.high_pa};
+    if (!Narrow(floor.fast_pa, floor) || !Narrow(floor.slow_pa, floor)) return std::nullopt;
+    if (floor.fast_pa == floor.slow_pa) return floor;  // often it is a little above
+    for (double step = kFirstStep; stood_.low_pa * (1.0 + step) < floor.fast_pa;
+         step *= kStepGrowth)
+      if (!Narrow(stood_.low_pa * (1.0 + step), floor)) return std::nullopt;
+    return Divided(floor, kRoughly);
+  }
+
+  // By where the line between both ends crosses, and a little beyond; by halves where that fails.
+  std::optional<Floor> Divided(Floor floor, double tolerance) {
+    const auto width_pa = [&] { return floor.fast_pa - floor.slow_pa; };
+    const auto wide = [&] { return width_pa() > tolerance * floor.fast_pa; };
+    while (wide()) {
+      const double before_pa = width_pa();
+      const double crossing_pa =
+          floor.fast_pa - before_pa * floor.to_spare / (floor.to_spare + floor.missing);
+      const double step_pa = 0.4 * tolerance * floor.fast_pa;
+      const bool crossing = std::isfinite(floor.missing);
+      const double first_pa =
+          crossing ? std::clamp(crossing_pa, floor.slow_pa + step_pa, floor.fast_pa - step_pa)
+                   : floor.fast_pa - 0.5 * before_pa;
+      if (!Narrow(first_pa, floor)) return std::nullopt;
+      const double second_pa = first_pa + (floor.slow_pa == first_pa ? step_pa : -step_pa);
+      if (crossing && wide() && !Narrow(second_pa, floor)) return std::nullopt;
+      if (wide() && width_pa() > 0.5 * before_pa &&
+          !Narrow(0.5 * (floor.slow_pa + floor.fast_pa), floor))
+        return std::nullopt;
     }
-    if (!known) return std::nullopt;
-    return resolution_ > 0.0 ? slow_pa : fast_pa;
+    return floor;
+  }
+
+  // Least objective of all pressures from the floor on, bounded by a rough one; +∞ where they meet
+  // no limits, 0 where that tells nothing.
+  double LeastAbove(const Floor& floor) {
+    const auto highest = At(stood_.high_pa), fast = At(floor.fast_pa);
+    if (!highest || !fast) return 0.0;
+    double least = LeastBetween(*fast, *highest);
+    if (floor.slow_pa == floor.fast_pa) return least;
+    const auto slow = At(floor.slow_pa);
+    if (!slow) return 0.0;
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
+      if (!(slow->cycle.inflate_s[g] <= FillSecondsMax(problem_, assembly_, g))) return 0.0;
+    return std::min(least, LeastBetween(*slow, *fast));
   }
 
   // Largest share by which the cycle misses a requirement, and the objective.
@@ -213,7 +266,7 @@ class PressureSizing {
     double excess = StrokeExcess(cycle);
     Totals totals = TotalsOf(problem_, assembly_, settings);
     for (const auto& [pointer, reached] :
-         Requirements(problem_, settings, totals, assembly_, cycle, supply))
+         RequirementsBesidePeaks(problem_, settings, totals, assembly_, cycle, supply))
       excess = std::max(excess, -reached.margin());
     if (assembly_.battery)
       excess = std::max(
@@ -229,14 +282,20 @@ class PressureSizing {
     if (excess <= slack_) sizing.objective = std::min(sizing.objective, objective);
   }
 
-  void Open(const Look& low, const Look& high) {
+  // Of any pressure between the two; +∞ where none meets the limits.
+  double LeastBetween(const Look& low, const Look& high) const {
     Cycle least = low.cycle;
     least.inflate_s = high.cycle.inflate_s;
     least.rise_s = high.cycle.rise_s;
     least.inflating_j = std::min(least.inflating_j, high.cycle.inflating_j);
     least.pump_j = low.least_pump_j;
     const auto [excess, objective] = Judge(low.source_pa, least);
-    if (excess <= slack_) open_.push({low, high, objective});
+    return excess <= slack_ ? objective : kUnlimited;
+  }
+
+  void Open(const Look& low, const Look& high) {
+    const double bound = LeastBetween(low, high);
+    if (std::isfinite(bound)) open_.push({low, high, bound});
   }
 
   const Problem& problem_;

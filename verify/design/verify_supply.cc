@@ -106,27 +106,53 @@ double EnergyOf(const Problem& problem, const Supply& supply, const Cycle& cycle
   return supply.first_fill_j + problem.actuations * (cycle.pump_j + cycle.electric_j());
 }
 
+namespace {
+
+double Gauge(const Problem& problem, double pressure_pa) {
+  return (pressure_pa - problem.ambient.pressure_pa) / (Evacuated(problem) ? -1e3 : 1e3);
+}
+
+// Keeps the worst: of a double-acting cylinder both sides have the same.
+void AddAtMost(std::map<std::string, Reached>& all, const std::string& pointer, double limit,
+               double value, double tolerance) {
+  const auto known = all.find(pointer);
+  if (std::isfinite(limit) && (known == all.end() || value > known->second.achieved))
+    all[pointer] = {limit, value, true, tolerance};
+}
+
+}  // namespace
+
 std::map<std::string, Reached> Requirements(const Problem& problem, const Settings& settings,
                                             const Totals& totals, const Assembly& a,
                                             const Cycle& cycle, const Supply& supply) {
+  std::map<std::string, Reached> all =
+      RequirementsBesidePeaks(problem, settings, totals, a, cycle, supply);
+  const char* field = Evacuated(problem) ? "/pressure_kpa_gauge_min" : "/pressure_kpa_gauge_max";
+  for (int g = 0; g < static_cast<int>(a.lines.size()); ++g) {
+    const double peak_pa =
+        PeakPa(problem, a.configuration, g, a.lines[g], settings.source_pressure_pa);
+    AddAtMost(all, optimizer::GroupPointer(problem, g) + field,
+              Gauge(problem, problem.groups[g].pressure_max_pa), Gauge(problem, peak_pa),
+              kPeakTolerance);
+  }
+  return all;
+}
+
+std::map<std::string, Reached> RequirementsBesidePeaks(const Problem& problem,
+                                                       const Settings& settings,
+                                                       const Totals& totals, const Assembly& a,
+                                                       const Cycle& cycle, const Supply& supply) {
   std::map<std::string, Reached> all;
   const auto at_most = [&](const std::string& pointer, double limit, double value, double tol) {
-    const auto known = all.find(pointer);  // of the other side of a double-acting cylinder
-    if (std::isfinite(limit) && (known == all.end() || value > known->second.achieved))
-      all[pointer] = {limit, value, true, tol};
+    AddAtMost(all, pointer, limit, value, tol);
   };
-  const double ambient_pa = problem.ambient.pressure_pa;
-  const bool vacuum = Evacuated(problem);
-  const auto gauge = [&](double pa) { return (pa - ambient_pa) / (vacuum ? -1e3 : 1e3); };
+  const auto gauge = [&](double pa) { return Gauge(problem, pa); };
   const double source_pa = settings.source_pressure_pa;
   for (int g = 0; g < static_cast<int>(a.lines.size()); ++g) {
     const ActuatorGroup& group = problem.groups[g];
     const std::string at = optimizer::GroupPointer(problem, g) + "/";
     at_most(at + "rise_time_s_max", group.rise_time_max_s, cycle.rise_s[g], kTimeTolerance);
     at_most(at + "fall_time_s_max", group.fall_time_max_s, cycle.fall_s[g], kTimeTolerance);
-    at_most(at + (vacuum ? "pressure_kpa_gauge_min" : "pressure_kpa_gauge_max"),
-            gauge(group.pressure_max_pa),
-            gauge(PeakPa(problem, a.configuration, g, a.lines[g], source_pa)), kPeakTolerance);
   }
   all["/duty/frequency_hz"] = {problem.frequency_hz, supply.frequency_hz, false, kEnergyTolerance};
   const double per_cycle_j = cycle.pump_j + cycle.electric_j();
@@ -135,7 +161,8 @@ std::map<std::string, Reached> Requirements(const Problem& problem, const Settin
       per_cycle_j > 0.0 ? (supply.energy_j - supply.first_fill_j) / per_cycle_j : kUnlimited);
   if (std::isfinite(actuations))
     all["/duty/actuations"] = {problem.actuations, actuations, false, kEnergyTolerance};
-  at_most(vacuum ? "/supply/vacuum/vacuum_kpa_gauge_min" : "/supply/source_pressure_kpa_gauge_max",
+  at_most(Evacuated(problem) ? "/supply/vacuum/vacuum_kpa_gauge_min"
+                             : "/supply/source_pressure_kpa_gauge_max",
           gauge(problem.source_pressure_max_pa), gauge(source_pa), kSumTolerance);
   if (a.tank)
     at_most("/supply/tank_fill_kpa_gauge_max", gauge(problem.tank_fill_max_pa),

@@ -38,6 +38,12 @@ struct Reached {
 std::map<std::string, Reached> Requirements(const Problem& problem, const Settings& settings,
                                             const Totals& totals, const Assembly& assembly,
                                             const Cycle& cycle, const Supply& supply);
+// The same but for the peaks of groups, which take long: StoodPressures() keeps them.
+std::map<std::string, Reached> RequirementsBesidePeaks(const Problem& problem,
+                                                       const Settings& settings,
+                                                       const Totals& totals,
+                                                       const Assembly& assembly, const Cycle& cycle,
+                                                       const Supply& supply);
 
 }  // namespace plenum::verify
 

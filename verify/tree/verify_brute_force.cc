@@ -193,8 +193,10 @@ class Enumeration {
     for (std::size_t s = 0; s < single_.size(); ++s)
       key.share += ShareOfTies(problem_, amounts_[s][single_[s].first]);
     const Claim& claim = series_->ClaimOn(claims_, single_);
-    const bool worse = objective * (1.0 + tolerance) >= claim.least &&
-                       (objective * (1.0 + tolerance) > claim.tie_end || key > claim.last);
+    // The end of the ties has room for rounding of its own.
+    const bool past_ties = objective * (1.0 + tolerance - kSumTolerance) > claim.tie_end;
+    const bool worse =
+        objective * (1.0 + tolerance) >= claim.least && (past_ties || key > claim.last);
     if (!surely || worse) return;
     Add("a " + std::string(Name(plan().configuration)) + " design that is not listed comes to " +
         std::to_string(objective) + ": " + Text(ids));
