@@ -73,12 +73,12 @@ std::string RemarksText(const Json& answer) {
   std::string text;
   for (const Json& warning : ListOf(answer, "warnings"))
     if (warning.is_object())
-      text += fmt::format("Warning: {} {}\n", PlaceOf(warning), WordsOf(warning.at("detail")));
+      text += fmt::format("Warning: {} {}\n", PlaceOf(warning), TextOf(warning.at("detail")));
   const Json& understood = ListOf(answer, "understood");
   if (!understood.empty()) text += "Understood:\n";
-  for (const Json& row : understood) text += TableText(row);
+  for (const Json& row : understood) text += UnderstoodText(row);
   for (const Json& note : ListOf(answer, "notes"))
-    text += fmt::format("Note {}: {}\n", PlaceOf(note), WordsOf(note.at("note")));
+    text += fmt::format("Note {}: {}\n", PlaceOf(note), TextOf(note.at("note")));
   return text.empty() ? "" : "\n" + text;
 }
 
