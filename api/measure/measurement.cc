@@ -92,6 +92,7 @@ Parsed<Dataset> ParseMeasurement(const Json& document, Remarks* remarks) {
   Dataset dataset;
   Reader reader(document, "", errors);
   AllowRemarks(reader);
+  reader.Describe("understood", {{"type", "array"}, {"items", {{"type", "object"}}}});
   reader.Raw("understood");  // of a table, for people
   reader.Schema("measurement/1");
   dataset.name = reader.Text("name", "measurement");

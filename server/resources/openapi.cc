@@ -8,6 +8,7 @@
 #include "api/describe/catalogue_answers.h"
 #include "api/describe/descriptions.h"
 #include "api/json/schema_recorder.h"
+#include "api/measure/csv/recording_request.h"
 #include "api/protocol/test_sensor.h"
 #include "server/resources/schemas/diagnosis_schemas.h"
 #include "server/resources/schemas/schema_forms.h"
@@ -57,6 +58,7 @@ const std::map<std::string, Operation>& Operations() {
       {"POST /v1/evaluations", {{}, "Evaluation", {{200, "EvaluationAnswer"}}, {400, 422, 429}}},
       {"POST /v1/fmus",
        {{}, "Evaluation", {{200, "Unit", "application/octet-stream"}}, {400, 422, 429}}},
+      {"POST /v1/measurements", {{}, "Recording", {{200, "RecordingAnswer"}}, {400, 422, 429}}},
       {"POST /v1/maps", {{}, "Map", {{200, "MapAnswer"}}, {400, 422, 429}}},
       {"GET /v1/parts", {{"If-None-Match"}, "", {{200, "PartsPage"}, {304, ""}}, {404, 422}}},
       {"POST /v1/parts", {kWrite, "Part", {{201, "StoredPart"}}, {400, 409, 422}}},
@@ -240,6 +242,7 @@ Json AnswerSchemas() {
        {{"anyOf", {Ref("schemas", "Designs"), Object({{"valid", {{"const", true}}}})}}}},
       {"Response", Versioned("response/1")},
       {"MapAnswer", Versioned("map_answer/1")},
+      {"RecordingAnswer", api::DescribeRecordingAnswer()},
       {"EvaluationAnswer", Versioned("evaluation_answer/1")},
       {"StoredPart",
        {{"allOf", {Ref("schemas", "Part"), {{"type", "object"}, {"required", {"id", "origin"}}}}}}},
@@ -276,6 +279,7 @@ Json Schemas() {
                   {"Measurement", api::DescribeMeasurement()},
                   {"Simulation", api::DescribeSimulation()},
                   {"Map", api::DescribeMap()},
+                  {"Recording", api::DescribeRecording()},
                   {"Model", api::DescribeModel()},
                   {"Part", api::DescribePart()}};
   schemas.update(DiagnosisSchemas());
@@ -304,6 +308,7 @@ Json ExampleOf(const std::string& schema) {
   if (schema == "Measurement") return api::ExampleMeasurement();
   if (schema == "SimulationOrCurves") return api::ExampleSimulation();
   if (schema == "Map") return api::ExampleMap();
+  if (schema == "Recording") return api::ExampleRecording();
   if (schema == "Evaluation") return api::ExampleEvaluation();
   if (schema == "Part") return api::ExamplePart();
   return {{"name", "bench"}, {"model", api::ExampleModel()}};

@@ -8,6 +8,7 @@
 #include "api/design/given/unit_of_design.h"
 #include "api/json/json.h"
 #include "api/json/request_limits.h"
+#include "api/measure/csv/recording_request.h"
 #include "api/measure/curves.h"
 #include "api/simulate/map.h"
 #include "api/simulate/simulation.h"
@@ -199,6 +200,10 @@ std::vector<Route> Routes(const Services& services) {
            return api::RunEvaluation(request, *catalog.Snapshot(), catalog.Models());
          });
        }},
+      {"POST", "/v1/measurements",
+       "recording/1 in, a CSV of any dialect: measurement/1 and what was understood out",
+       Access::kRead,
+       [](const Call& call) { return AnswerAtOnce(call, api::ReadRecordingRequest); }},
       {"POST", "/v1/maps", "map/1 in, rise time, fall time and frequency over the grid out",
        Access::kRead, [](const Call& call) { return AnswerAtOnce(call, api::RunMap); }},
       {"GET", "/v1/parts",

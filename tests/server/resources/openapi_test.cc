@@ -16,6 +16,7 @@
 #include <valijson/validator.hpp>
 
 #include "api/describe/descriptions.h"
+#include "api/measure/csv/recording_request.h"
 #include "catalog/fields/fields.h"
 #include "fmu/unit_file.h"
 #include "server/call/service_limits.h"
@@ -214,6 +215,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
        {std::pair{std::string("/v1/simulations"), api::ExampleSimulation()},
         std::pair{std::string("/v1/evaluations"), api::ExampleEvaluation()},
         std::pair{std::string("/v1/fmus"), api::ExampleEvaluation()},
+        std::pair{std::string("/v1/measurements"), api::ExampleRecording()},
         std::pair{std::string("/v1/maps"), api::ExampleMap()}}) {
     const bool made = fmu::MakesUnits() || path != "/v1/fmus";
     Post(path, example.dump(), made ? 200 : 422);

@@ -287,7 +287,8 @@ TEST(RecordingDialects, VoltsWithTheScaleOfTheRig) {
   // 0.5 V at 0 kPa and 4.5 V at 200 kPa: 0.02 V a kPa.
   ExpectRecording(Table("t [s],Channel A [V],valve\n",
                         [](const Row& row) {
-  return Seconds(row) + "," + Text(0.5 + row.pa * 0.02e-3, 9, '.') + "," + Word(row);
+                          return Seconds(row) + "," + Text(0.5 + row.pa * 0.02e-3, 9, '.') + "," +
+                                 Word(row);
                         }),
                   rig, 1e-6);
 }
