@@ -139,6 +139,14 @@ void AddUnits(SharedCatalog& catalog, std::vector<Route>& routes) {
                     }});
 }
 
+void AddRecordings(std::vector<Route>& routes) {
+  routes.push_back(
+      {"POST", "/v1/measurements",
+       "recording/1 in, a CSV of any dialect: measurement/1 and what was understood out",
+       Access::kRead,
+       [](const Call& call) { return AnswerAtOnce(call, api::ReadRecordingRequest); }});
+}
+
 void AddCatalogUpdate(const Services& services, std::vector<Route>& routes) {
   routes.push_back(
       {"POST", "/v1/catalog/update",
@@ -200,10 +208,6 @@ std::vector<Route> Routes(const Services& services) {
            return api::RunEvaluation(request, *catalog.Snapshot(), catalog.Models());
          });
        }},
-      {"POST", "/v1/measurements",
-       "recording/1 in, a CSV of any dialect: measurement/1 and what was understood out",
-       Access::kRead,
-       [](const Call& call) { return AnswerAtOnce(call, api::ReadRecordingRequest); }},
       {"POST", "/v1/maps", "map/1 in, rise time, fall time and frequency over the grid out",
        Access::kRead, [](const Call& call) { return AnswerAtOnce(call, api::RunMap); }},
       {"GET", "/v1/parts",
@@ -245,6 +249,7 @@ std::vector<Route> Routes(const Services& services) {
   };
   AddManyPartsRoutes(catalog, routes);
   AddUnits(catalog, routes);
+  AddRecordings(routes);
   AddCatalogUpdate(services, routes);
   AddJobRoutes(design_jobs, routes);
   AddJobRoutes(diagnosis_jobs, routes);

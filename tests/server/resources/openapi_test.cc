@@ -16,7 +16,6 @@
 #include <valijson/validator.hpp>
 
 #include "api/describe/descriptions.h"
-#include "api/measure/csv/recording_request.h"
 #include "catalog/fields/fields.h"
 #include "fmu/unit_file.h"
 #include "server/call/service_limits.h"
@@ -29,8 +28,7 @@ namespace {
 using api::Json;
 using Adapter = valijson::adapters::NlohmannJsonAdapter;
 
-constexpr char kJson[] = "application/json";
-constexpr char kProblem[] = "application/problem+json";
+constexpr char kJson[] = "application/json", kProblem[] = "application/problem+json";
 
 // valijson resolves no references between documents, so each schema is put out in full.
 Json Resolved(const Json& schema, const Json& api) {
