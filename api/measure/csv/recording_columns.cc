@@ -124,8 +124,7 @@ void AskForField(std::string_view field, const char* what, const TableOptions& o
     keys += (keys.empty() ? "" : ", ") + NameOf(column);
   }
   question.text += keys.empty() ? "All columns are something else" : "Not known: " + keys;
-  question.answers.emplace_back(
-      FormatTarget({std::string(field), field == kTimeField ? "s" : "kPa gauge"}));
+  question.answers.emplace_back(field);
   table.questions.push_back(std::move(question));
 }
 
@@ -210,9 +209,14 @@ void TakeGiven(const std::string& given, const std::string& heading, ColumnRead&
     return;
   }
   // The heading's own unit, where the answer names none.
-  if (target.target.unit.empty() && !heading.empty())
+  if (target.target.unit.empty() && !heading.empty()) {
+    for (const catalog::HeadingPhrase& phrase : catalog::SplitHeading(heading))
+      if (const std::string unit = SpelledUnit(phrase.unit);
+          phrase.in_brackets && IsUnitOf(target.target.column, unit))
+        target.target.unit = unit;
     for (const Target& found : MatchRecordingHeading(heading).targets)
       if (found.column == target.target.column) target.target = found;
+  }
   column.targets = {std::move(target.target)};
 }
 

@@ -95,6 +95,8 @@ TEST(RecordingQuestions, VoltsNeedAScale) {
   const std::string csv = "Time,Channel A,valve\n(ms),(V),\n0,0.5,hold\n1,2.5,inflate\n";
   const auto question = QuestionOf(csv);
   EXPECT_THAT(question.text, HasSubstr("Channel A"));
+  EXPECT_THAT(QuestionOf(csv, Rig(), Answer("Channel A", question.answers.at(0))).text,
+              HasSubstr("is in V"));
   const std::string volts = "t [s],p [V],valve\n0,0.5,hold\n1,2.5,inflate\n";
   EXPECT_THAT(QuestionOf(volts).text, HasSubstr("scale of the sensor"));
   const Json run =
