@@ -251,11 +251,12 @@ TEST(RecordingDialects, DateBesideAClock) {
 }
 
 TEST(RecordingDialects, TwoValveColumns) {
-  for (const auto& [on, off] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& levels : std::vector<std::pair<std::string, std::string>>{
            {"1", "0"}, {"TRUE", "FALSE"}, {"open", "closed"}, {"24.02", "0.01"}, {"auf", "zu"}})
     ExpectRecording(Table("t [s],p [kPa],fill valve,vent valve\n", [&](const Row& row) {
-      return Seconds(row) + "," + Kpa(row) + "," + (row.valve == 'i' ? on : off) + "," +
-             (row.valve == 'd' ? on : off);
+      return Seconds(row) + "," + Kpa(row) + "," +
+             (row.valve == 'i' ? levels.first : levels.second) + "," +
+             (row.valve == 'd' ? levels.first : levels.second);
     }));
 }
 
