@@ -99,7 +99,7 @@ void Diagnosis(std::string_view text) {
 
 void Recording(std::string_view text) {
   static const api::Json kRig = api::Json::parse(R"({
-    "actuator": { "rest_volume_ml": 50, "operating_pressure_kpa_gauge": 100 },
+    "actuator": { "rest_volume_ml": 50, "expansion_ratio": 1, "operating_pressure_kpa_gauge": 100 },
     "line": { "sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3 },
     "supply": { "kind": "regulated", "source_pressure_kpa_gauge": 200 } })");
   const api::CsvReading reading = api::ReadMeasurementCsv(text, kRig);

@@ -32,9 +32,8 @@ catalog::TableOptions TableOptionsOf(const CsvOptions& options) {
   api::Errors errors;
   for (const std::string& text : options.columns) {
     // The unit of a field may hold one, too: "v=valve [1 = inflate; 0 = hold]".
-    const std::size_t bracket =
-        text.find('[', text.find("=") == std::string::npos ? 0 : text.find("="));
-    const std::size_t at = text.rfind('=', bracket);
+    const std::size_t first = text.find('=');
+    const std::size_t at = text.rfind('=', text.find('[', first == std::string::npos ? 0 : first));
     if (at == std::string::npos || at == 0)
       errors.push_back({"--column",
                         "must be HEADING=FIELD, \"HEADING=FIELD [UNIT]\", or HEADING= to "

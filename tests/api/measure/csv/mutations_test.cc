@@ -62,11 +62,11 @@ TEST(RecordingMutations, AreReadAskedAboutOrRefused) {
   const auto seeds = Seeds();
   ASSERT_GE(seeds.size(), 6U);
   const Json rig = Json::parse(R"({
-    "actuator": { "rest_volume_ml": 50, "operating_pressure_kpa_gauge": 100 },
+    "actuator": { "rest_volume_ml": 50, "expansion_ratio": 1, "operating_pressure_kpa_gauge": 100 },
     "line": { "sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3 },
     "supply": { "kind": "regulated", "source_pressure_kpa_gauge": 200 } })");
   std::mt19937 random(34);
-  int read = 0;
+  int read = 0, complete = 0;
   for (int i = 0; i < 3000; ++i) {
     const std::string text = Changed(seeds[random() % seeds.size()], seeds, random);
     const CsvReading reading = ReadMeasurementCsv(text, rig);
@@ -76,9 +76,10 @@ TEST(RecordingMutations, AreReadAskedAboutOrRefused) {
     reading.understood.dump(-1, ' ', false, Json::error_handler_t::strict);
     if (reading.document.is_null()) continue;
     ++read;
-    ParseMeasurement(reading.document);
+    complete += std::holds_alternative<calibration::Dataset>(ParseMeasurement(reading.document));
   }
   EXPECT_GT(read, 50);
+  EXPECT_GT(complete, 20);
 }
 
 }  // namespace

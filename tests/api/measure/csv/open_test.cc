@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 const Json& Rig() {
   static const Json kRig = Json::parse(R"({
-    "actuator": { "rest_volume_ml": 50, "operating_pressure_kpa_gauge": 100 },
+    "actuator": { "rest_volume_ml": 50, "expansion_ratio": 1, "operating_pressure_kpa_gauge": 100 },
     "line": { "sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3 },
     "supply": { "kind": "regulated" } })");
   return kRig;
