@@ -117,7 +117,7 @@ std::vector<Json> AllSimulations() {
 
 std::vector<Json> AllMeasurements() {
   return {Document(R"({
-    "schema": "measurement/1", "relative_uncertainty": {}, "holdout": [], "assume": [],
+    "schema": "measurement/1", "relative_uncertainty": {}, "holdout": [], "assume": [], "understood": [],
     "rig": { "ambient": { "pressure_kpa_abs": 200 },
              "actuator": { "measure": [], "pressure_volume": [ {}, {} ], "cylinder": {}, "muscle": {}, "pouch": {},
                            "body": {} },

@@ -4,6 +4,7 @@
 #define PLENUM_API_DESCRIBE_DESCRIPTIONS_H_
 
 #include "api/json/json.h"
+#include "api/measure/csv/recording_request.h"  // with the schema of recordings
 
 namespace plenum::api {
 

@@ -92,6 +92,8 @@ Parsed<Dataset> ParseMeasurement(const Json& document, Remarks* remarks) {
   Dataset dataset;
   Reader reader(document, "", errors);
   AllowRemarks(reader);
+  reader.Describe("understood", {{"type", "array"}, {"items", {{"type", "object"}}}});
+  reader.Raw("understood");  // of a table, for people
   reader.Schema("measurement/1");
   dataset.name = reader.Text("name", "measurement");
   static const Json kNoRig = Json::object();
@@ -133,7 +135,7 @@ Parsed<Json> MergeMeasurements(const std::vector<Json>& documents) {
       }
       merged["runs"].push_back(std::move(run));
     }
-    for (const char* list : {"holdout", "assume"})
+    for (const char* list : {"holdout", "assume", "understood"})
       for (const Json& one : document.value(list, Json::array())) merged[list].push_back(one);
   }
   if (!errors.empty()) return errors;

@@ -18,7 +18,23 @@ bool HasNumbers(const Family& family, const ColumnRead& column) {
   });
 }
 
-void Note(const std::string& cell, ColumnEvidence& evidence) {
+void AskForDecimal(const ColumnRead& column, const std::string& why, TableReading& reading) {
+  reading.questions.push_back(
+      {"decimal", column.key, Shown(column.key) + ": " + why, {"point", "comma"}});
+}
+
+std::string EitherWay(const std::string& example) {
+  return "is " + Shown(example) + " a number with decimals or with thousands?";
+}
+
+std::string Cut(const std::string& cell) {
+  const std::string shown = Shown(cell);
+  return cell.size() <= kSampleBytes ? cell : shown.substr(1, shown.size() - 2);
+}
+
+}  // namespace
+
+void NoteCell(const std::string& cell, ColumnEvidence& evidence) {
   const CellNumber number = FrontOf(cell);
   if (number.digits.empty()) return;
   const auto show = [&](std::string& example) {
@@ -40,22 +56,6 @@ void Note(const std::string& cell, ColumnEvidence& evidence) {
   }
 }
 
-void AskForDecimal(const ColumnRead& column, const std::string& why, TableReading& reading) {
-  reading.questions.push_back(
-      {"decimal", column.key, Shown(column.key) + ": " + why, {"point", "comma"}});
-}
-
-std::string EitherWay(const std::string& example) {
-  return "is " + Shown(example) + " a number with decimals or with thousands?";
-}
-
-std::string Cut(const std::string& cell) {
-  const std::string shown = Shown(cell);
-  return cell.size() <= kSampleBytes ? cell : shown.substr(1, shown.size() - 2);
-}
-
-}  // namespace
-
 std::vector<ColumnEvidence> LookAtCells(const Family& family, std::string_view text,
                                         TableReading& reading) {
   std::vector<ColumnEvidence> evidence(reading.columns.size());
@@ -74,7 +74,7 @@ std::vector<ColumnEvidence> LookAtCells(const Family& family, std::string_view t
       if (IsBlank(cells[i])) continue;
       auto& samples = reading.columns[i].samples;
       if (samples.size() < kSamples) samples.push_back(Cut(cells[i]));
-      if (has_numbers[i]) Note(cells[i], evidence[i]);
+      if (has_numbers[i]) NoteCell(cells[i], evidence[i]);
     }
   };
   ForEachRow(

@@ -14,6 +14,9 @@ struct ColumnEvidence {
   std::string bare;                        // a number without a unit
 };
 
+// Notes what one cell shows, if it starts with a number.
+void NoteCell(const std::string& cell, ColumnEvidence& evidence);
+
 // Goes over all rows: fills samples and left_out of the reading.
 std::vector<ColumnEvidence> LookAtCells(const Family& family, std::string_view text,
                                         TableReading& reading);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "catalog/fields/csv.h"
+#include "catalog/tables/heading_phrases.h"
 #include "catalog/tables/heading_words.h"
 #include "catalog/units/quantity.h"
 #include "catalog/units/text.h"
@@ -12,16 +13,9 @@ namespace plenum::catalog {
 namespace {
 
 constexpr std::size_t kHeadingBytes = 120;
-constexpr std::string_view kBlanks = " \t\r\n";
 // Columns beside the fields of a family that headings may name in words.
 constexpr std::string_view kPlainColumns[] = {"manufacturer", "part_number", "notes",    "series",
                                               "orderable",    "aliases",     "documents"};
-
-std::string_view Trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return "";
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 const FlowNotationSpec& SpecOf(FlowNotation notation) {
   const auto& specs = FlowNotations();
@@ -83,34 +77,6 @@ std::vector<Target> NamedBy(const Family& family, std::string_view phrase) {
   return named;
 }
 
-struct Phrase {
-  std::string_view words, unit;
-  bool in_brackets = false;
-};
-
-// Where a unit may stand: in brackets at the end, or behind a mark.
-std::vector<Phrase> SplitHeading(std::string_view heading) {
-  std::vector<Phrase> phrases;
-  const std::size_t closed = std::string_view("])}").find(heading.back());
-  if (closed != std::string_view::npos) {
-    const char close = heading.back(), open = std::string_view("[({")[closed];
-    int depth = 0;
-    for (std::size_t i = heading.size(); i-- > 0;) {
-      depth += heading[i] == close ? 1 : heading[i] == open ? -1 : 0;
-      if (depth > 0) continue;
-      phrases.push_back({Trimmed(heading.substr(0, i)),
-                         Trimmed(heading.substr(i + 1, heading.size() - i - 2)), true});
-      break;
-    }
-  }
-  for (const std::string_view mark : {" in ", "/", ",", " ", "_"}) {
-    const std::size_t at = mark == "/" ? heading.find(mark) : heading.rfind(mark);
-    if (at == std::string_view::npos || at == 0) continue;
-    phrases.push_back({Trimmed(heading.substr(0, at)), Trimmed(heading.substr(at + mark.size()))});
-  }
-  return phrases;
-}
-
 // The unit that the definition of a notation has: m³/h of Kv, gallons of Cv.
 bool IsImplied(const Target& target, std::string_view unit) {
   return (target.notation == FlowNotation::kKv && (unit == "m3/h" || unit == "m³/h")) ||
@@ -140,7 +106,7 @@ HeadingMatch MatchHeading(const Family& family, std::string_view heading) {
   if (heading.size() > kHeadingBytes) return {};
   if (IsCsvColumn(family, heading)) return {{{std::string(heading), "", std::nullopt, true}}, ""};
   std::string wrong_unit;
-  for (const Phrase& phrase : SplitHeading(heading)) {
+  for (const HeadingPhrase& phrase : SplitHeading(heading)) {
     std::vector<Target> named = NamedBy(family, phrase.words);
     if (named.empty()) continue;
     if (phrase.in_brackets && SaysNoUnit(phrase.unit)) return {std::move(named), ""};

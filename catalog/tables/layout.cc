@@ -17,15 +17,12 @@ constexpr std::size_t kColumnsForTitles = 3;
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::string_view kDelimiters = ",;\t|";
 
-bool IsKnown(const Family& family, const std::string& heading, const TableOptions& options) {
-  if (IsBlank(heading) || (heading[0] >= '0' && heading[0] <= '9')) return false;
-  return options.columns.contains(heading) || !MatchHeading(family, heading).targets.empty();
-}
-
-int CountKnown(const Family& family, const CsvRow& cells, const TableOptions& options) {
+int CountKnown(const KnownHeading& is_known, const CsvRow& cells, const TableOptions& options) {
   const auto end = cells.begin() + std::min(std::ssize(cells), kCellsLookedAt);
-  return static_cast<int>(std::count_if(
-      cells.begin(), end, [&](const std::string& cell) { return IsKnown(family, cell, options); }));
+  return static_cast<int>(std::count_if(cells.begin(), end, [&](const std::string& cell) {
+    if (IsBlank(cell) || (cell[0] >= '0' && cell[0] <= '9')) return false;
+    return options.columns.contains(cell) || is_known(cell);
+  }));
 }
 
 // How many cells most records have.
@@ -46,12 +43,12 @@ struct Candidate {
   double share = 0.0;  // of the records that are as wide as most
 };
 
-Candidate Try(const Family& family, std::string_view text, const std::string& name,
+Candidate Try(const KnownHeading& is_known, std::string_view text, const std::string& name,
               const TableOptions& options) {
   const auto records = FirstRecords(text, DelimiterOf(name));
   Candidate candidate{name, UsualWidth(records), 0, 0.0};
   if (records.empty()) return candidate;
-  candidate.known = FindHeader(family, records, options).known;
+  candidate.known = FindHeader(is_known, records, options).known;
   const auto usual = std::count_if(records.begin(), records.end(), [&](const Record& record) {
     return record.cells.size() == candidate.width;
   });
@@ -93,7 +90,13 @@ std::vector<Record> FirstRecords(std::string_view text, char delimiter) {
   return records;
 }
 
-Header FindHeader(const Family& family, const std::vector<Record>& records,
+KnownHeading HeadingsOf(const Family& family) {
+  return [&family](const std::string& heading) {
+    return !MatchHeading(family, heading).targets.empty();
+  };
+}
+
+Header FindHeader(const KnownHeading& is_known, const std::vector<Record>& records,
                   const TableOptions& options) {
   Header header;
   if (options.header_row > 0) {
@@ -101,11 +104,11 @@ Header FindHeader(const Family& family, const std::vector<Record>& records,
       return record.row == options.header_row;
     });
     header.index = static_cast<std::size_t>(given - records.begin());
-    if (given != records.end()) header.known = CountKnown(family, given->cells, options);
+    if (given != records.end()) header.known = CountKnown(is_known, given->cells, options);
     return header;
   }
   for (std::size_t i = 0; i < std::min(records.size(), kHeaderWithin); ++i) {
-    const int known = CountKnown(family, records[i].cells, options);
+    const int known = CountKnown(is_known, records[i].cells, options);
     if (known > header.known) header = {i, known};
   }
   if (header.known >= kKnownFewest) return header;
@@ -117,13 +120,13 @@ Header FindHeader(const Family& family, const std::vector<Record>& records,
   return header;
 }
 
-void FindDelimiter(const Family& family, std::string_view text, const TableOptions& options,
+void FindDelimiter(const KnownHeading& is_known, std::string_view text, const TableOptions& options,
                    TableReading& reading) {
   reading.delimiter = options.delimiter.empty() ? SaidDelimiter(text) : options.delimiter;
   if (!reading.delimiter.empty()) return;
   std::vector<Candidate> candidates;
   for (const std::string& name : DelimiterNames()) {
-    Candidate candidate = Try(family, text, name, options);
+    Candidate candidate = Try(is_known, text, name, options);
     if (candidate.width > 1) candidates.push_back(std::move(candidate));
   }
   // The one that makes most headings known; without any known, the only one that makes columns.

@@ -2,6 +2,7 @@
 #ifndef PLENUM_CATALOG_TABLES_LAYOUT_H_
 #define PLENUM_CATALOG_TABLES_LAYOUT_H_
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,17 +23,22 @@ struct Record {
 };
 std::vector<Record> FirstRecords(std::string_view text, char delimiter);
 
+// Whether a heading is known, whatever kind of table it is. One that is blank or starts with a
+// digit is not asked for.
+using KnownHeading = std::function<bool(const std::string& heading)>;
+KnownHeading HeadingsOf(const Family& family);
+
 // Where the header is: the record with most headings that are known, the first of equals. Without
 // two that are, the first of the records that have as many cells as most.
 struct Header {
   std::size_t index = 0;  // of the records
   int known = 0;          // headings that are known, or that the options name
 };
-Header FindHeader(const Family& family, const std::vector<Record>& records,
+Header FindHeader(const KnownHeading& is_known, const std::vector<Record>& records,
                   const TableOptions& options);
 
 // Sets reading.delimiter, or asks.
-void FindDelimiter(const Family& family, std::string_view text, const TableOptions& options,
+void FindDelimiter(const KnownHeading& is_known, std::string_view text, const TableOptions& options,
                    TableReading& reading);
 
 bool IsBlank(std::string_view cell);

@@ -68,10 +68,10 @@ void CheckNamed(const TableOptions& options, TableReading& reading) {
 }
 
 void ReadLayout(const Family& family, const TableOptions& options, TableReading& reading) {
-  FindDelimiter(family, reading.text, options, reading);
+  FindDelimiter(HeadingsOf(family), reading.text, options, reading);
   if (reading.delimiter.empty()) return;
   const auto records = FirstRecords(reading.text, DelimiterOf(reading.delimiter));
-  const Header header = FindHeader(family, records, options);
+  const Header header = FindHeader(HeadingsOf(family), records, options);
   if (header.index >= records.size()) {
     reading.errors.push_back(
         {0, "header_row",

@@ -8,6 +8,7 @@
 #include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
 #include "api/design/verification.h"
+#include "api/measure/csv/measurement_csv.h"
 #include "api/measure/curves.h"
 #include "api/measure/diagnose_request.h"
 #include "api/measure/rig_parts.h"

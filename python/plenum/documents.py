@@ -43,6 +43,13 @@ def encode(document: Any) -> str:
         raise InputError([("", f"cannot be written as JSON: {error}")]) from error
 
 
+def read_bytes(path: str | os.PathLike[str]) -> bytes:
+    try:
+        return pathlib.Path(path).read_bytes()
+    except OSError as error:
+        raise InputError([("", f"{os.fspath(path)}: cannot be read: {error}")]) from error
+
+
 def read_text(path: str | os.PathLike[str]) -> str:
     try:
         return pathlib.Path(path).read_text(encoding="utf-8")

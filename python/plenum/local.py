@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from .answers import Designs, Diagnosis, Evaluation, Map, Response, Verification, answer_of
 from .catalogue import locate
-from .documents import Source, document_of, encode, read_text, text_of
+from .documents import Source, document_of, encode, read_bytes, text_of
 from .errors import InputError
 from .progress import Progress, listener
 
@@ -116,29 +116,51 @@ def map(request: Source) -> Map:  # the name of the contract
     return Map(json.loads(_core.map(text_of(request))))
 
 
-def measurements(data: Measured, rig: Optional[Source] = None) -> tuple[list[str], list[tuple[str, str]]]:
-    """Documents measurement/1 as text, and what they were made from: name and text.
+def _decoded(text: Union[str, bytes], name: str) -> str:
+    try:
+        return text if isinstance(text, str) else text.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise InputError([("", f"{name}: cannot be read: {error}")]) from error
 
-    data: a measurement (dict or path of JSON), a table (frame or path of CSV) with columns run, t_s, valve,
-    pressure_kpa_gauge and optionally the channels, for which `rig` describes what was measured; or a list of these.
+
+def _rig_of_table(rig: Source, table: Optional[Mapping[str, Any]]) -> str:
+    """The rig's document with the answers to what a table leaves open."""
+    if not table:
+        return text_of(rig)
+    document = document_of(rig)
+    if "rig" not in document and "schema" not in document:
+        document = {"rig": document}
+    return encode({**document, "csv": {**(document.get("csv") or {}), **table}})
+
+
+def measurements(data: Measured, rig: Optional[Source] = None, table: Optional[Mapping[str, Any]] = None
+                 ) -> tuple[list[str], list[tuple[str, Union[str, bytes]]]]:
+    """Documents measurement/1 as text, and what they were made from: name and content.
+
+    data: a measurement (dict or path of JSON), a table (frame or path of CSV of any dialect), for which `rig` describes
+    what was measured; or a list of these. table answers what a table leaves open, which an InputError asks:
+    {"columns": {"p": "pressure_kpa_gauge [bar abs]"}, "delimiter": …, "decimal": …, "encoding": …, "header_row": …}.
+    What was understood of a table stands in "understood" of its document.
     """
     if not isinstance(data, (list, tuple)):
         data = [data]
-    documents, files = [], []
+    documents: list[str] = []
+    files: list[tuple[str, Union[str, bytes]]] = []
     for number, one in enumerate(data, 1):
+        text: Union[str, bytes]
         if hasattr(one, "to_csv"):
             name, text = f"frame {number}", one.to_csv(index=False)
         elif isinstance(one, Mapping):
             name, text = str(one.get("name", f"measurement {number}")), encode(one)
         else:
-            name, text = pathlib.Path(one).name, read_text(one)
+            name, text = pathlib.Path(one).name, read_bytes(one)
         files.append((name, text))
-        if text.lstrip()[:1] in ("{", "["):
-            documents.append(text)
+        if text.lstrip()[:1] in ("{", "[", b"{", b"["):
+            documents.append(_decoded(text, name))
         elif rig is None:
             raise InputError([("rig", "is required with a table: a dict or JSON file that describes the rig")])
         else:
-            documents.append(_core.measurement_from_csv(text, text_of(rig)))
+            documents.append(_core.measurement_from_csv(text, _rig_of_table(rig, table)))
     return documents, files
 
 
@@ -149,14 +171,14 @@ def with_holdout(documents: list[str], holdout: Sequence[str]) -> list[str]:
     return [encode({**json.loads(documents[0]), "holdout": list(holdout)}), *documents[1:]]
 
 
-def diagnose(data: Measured, rig: Optional[Source] = None, *, holdout: Sequence[str] = (), model: str = "",
-             time_limit_s: float = 60.0, catalog: Catalog = None, progress: Progress = None) -> Diagnosis:
+def diagnose(data: Measured, rig: Optional[Source] = None, *, table: Optional[Mapping[str, Any]] = None,
+             holdout: Sequence[str] = (), model: str = "", time_limit_s: float = 60.0, catalog: Catalog = None, progress: Progress = None) -> Diagnosis:
     """What the model lacks against measured pressures.
 
-    data and rig: as for measurements(). holdout: runs that no fit may see. model: predict with this saved model,
+    data, rig and table: as for measurements(). holdout: runs that no fit may see. model: predict with this saved model,
     without a fit. The answer's "revision" is what Catalogue.save_model keeps for later designs.
     """
-    documents, files = measurements(data, rig)
+    documents, files = measurements(data, rig, table)
     with _watched(progress) as hear:
         text = _core.diagnose(with_holdout(documents, holdout), locate(catalog), model, time_limit_s, files, hear)
     return Diagnosis(json.loads(text))

@@ -6,7 +6,7 @@ import time
 import urllib.error
 import urllib.parse
 import urllib.request
-from typing import TYPE_CHECKING, Any, Iterable, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Sequence, Union
 
 from .answers import Designs, Diagnosis, Evaluation, Map, Response, answer_of
 from .catalogue import frame_of
@@ -38,10 +38,10 @@ class Service:
         request = with_ranking(document_of(requirements), top, time_limit_s, proof)
         return Designs(self._job("/v1/designs", encode(request), progress))
 
-    def diagnose(self, data: Measured, rig: Optional[Source] = None, *, holdout: Sequence[str] = (), model: str = "",
-                 time_limit_s: float = 60.0, save: str = "", progress: Progress = None) -> Diagnosis:
+    def diagnose(self, data: Measured, rig: Optional[Source] = None, *, table: Optional[Mapping[str, Any]] = None,
+                 holdout: Sequence[str] = (), model: str = "", time_limit_s: float = 60.0, save: str = "", progress: Progress = None) -> Diagnosis:
         """As plenum.diagnose, of one document or table. save: the name under which the service keeps the model."""
-        documents, _ = measurements(data, rig)
+        documents, _ = measurements(data, rig, table)
         if len(documents) != 1:
             raise InputError([("data", "a service takes one measurement; join the runs in one document")])
         request = json.loads(with_holdout(documents, holdout)[0])

@@ -21,13 +21,15 @@
 #include "server/render/report_diagnosis.h"
 #include "server/render/text/text_diagnosis.h"
 #include "server/render/text/text_protocol.h"
+#include "server/render/text/text_remarks.h"
 
 namespace plenum::server {
 namespace {
 
 struct DiagnoseOptions {
   std::vector<std::string> files;
-  std::string rig, model, save, report, save_part;
+  CsvOptions csv;
+  std::string model, save, report, save_part;
   std::string catalog = catalog::DefaultCatalog();
   std::vector<std::string> holdout, assume;
   double time_limit_s = api::kDiagnosisTimeS;
@@ -58,7 +60,8 @@ std::optional<api::SavedModel> KnownModel(const DiagnoseOptions& options) {
 
 api::DiagnosisRequest ReadRequest(const DiagnoseOptions& options) {
   api::DiagnosisRequest request;
-  api::Json document = ReadMeasurement(options.files, options.rig, request.provenance);
+  api::Json document =
+      ReadMeasurement(options.files, options.csv, options.assume, request.provenance);
   if (!options.holdout.empty() && document.is_object()) document["holdout"] = options.holdout;
   if (!options.assume.empty() && document.is_object()) document["assume"] = options.assume;
   api::Errors errors;
@@ -114,47 +117,53 @@ int Diagnose(const DiagnoseOptions& options) {
     answer["saved_part"] = api::SavePart(store, options.save_part, answer, request.provenance.files,
                                          options.save_part_anyway, CommandSignature());
   }
-  Print(options.json ? Dump(answer) + "\n" : MeasuredText(answer) + DiagnosisText(answer));
+  Print(options.json ? Dump(answer) + "\n"
+                     : RecordingText(answer) + MeasuredText(answer) + DiagnosisText(answer));
   if (!options.report.empty()) WriteReport(options.report, answer);
   if (!options.save.empty()) SaveModel(options, result.revision);
   return Interrupted() ? kInterrupted : kAnswered;
+}
+
+std::vector<Option> DiagnosisOptions(DiagnoseOptions& options) {
+  return {{"--holdout", "Runs that no fit may see", &options.holdout, {.value_name = "RUN"}},
+          {"--assume",
+           "What readings in suspect units are: kpa_abs, psi, and so on, or as_written",
+           &options.assume,
+           {.value_name = "UNIT"}},
+          {"--model",
+           "Predict with a saved model, without fitting",
+           &options.model,
+           {.value_name = "NAME"}},
+          {"--save", "Keep the revised model for designs", &options.save, {.value_name = "NAME"}},
+          {"--save-part",
+           "Write the measured numbers of this part into the catalogue",
+           &options.save_part,
+           {.value_name = "ID"}},
+          {"--save-part-anyway", "Also where they contradict what stands there",
+           &options.save_part_anyway},
+          {"--report", "Write an HTML report", &options.report, {.value_name = "FILE"}},
+          {"--time-limit",
+           "Seconds to search",
+           &options.time_limit_s,
+           {.value_name = "S",
+            .shows_default = true,
+            .allowed = Within{0.01, api::kDiagnosisTimeMaxS}}},
+          JsonFlag(options.json),
+          CatalogOption(options.catalog)};
 }
 
 }  // namespace
 
 Command DiagnoseCommand() {
   auto options = std::make_shared<DiagnoseOptions>();
-  return {"diagnose",
-          "What the model lacks against measured pressure traces",
+  std::vector<Option> table = {
+      Argument("FILE", "Measurements as JSON or CSV; - is standard input", &options->files),
+  };
+  for (Option& option : CsvOptionTable(options->csv)) table.push_back(std::move(option));
+  for (Option& option : DiagnosisOptions(*options)) table.push_back(std::move(option));
+  return {"diagnose", "What the model lacks against measured pressure traces",
           "plenum diagnose examples/simulated_recording.json --report report.html",
-          {Argument("FILE", "Measurements as JSON or CSV; - is standard input", &options->files),
-           {"--rig", "The rig of CSV files, as JSON", &options->rig, {.value_name = "FILE"}},
-           {"--holdout", "Runs that no fit may see", &options->holdout, {.value_name = "RUN"}},
-           {"--assume",
-            "What readings in suspect units are: kpa_abs, psi, and so on, or as_written",
-            &options->assume,
-            {.value_name = "UNIT"}},
-           {"--model",
-            "Predict with a saved model, without fitting",
-            &options->model,
-            {.value_name = "NAME"}},
-           {"--save", "Keep the revised model for designs", &options->save, {.value_name = "NAME"}},
-           {"--save-part",
-            "Write the measured numbers of this part into the catalogue",
-            &options->save_part,
-            {.value_name = "ID"}},
-           {"--save-part-anyway", "Also where they contradict what stands there",
-            &options->save_part_anyway},
-           {"--report", "Write an HTML report", &options->report, {.value_name = "FILE"}},
-           {"--time-limit",
-            "Seconds to search",
-            &options->time_limit_s,
-            {.value_name = "S",
-             .shows_default = true,
-             .allowed = Within{0.01, api::kDiagnosisTimeMaxS}}},
-           JsonFlag(options->json),
-           CatalogOption(options->catalog)},
-          [options] { return Diagnose(*options); }};
+          std::move(table), [options] { return Diagnose(*options); }};
 }
 
 }  // namespace plenum::server

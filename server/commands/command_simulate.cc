@@ -30,7 +30,8 @@ struct FileOptions {
 };
 
 struct SimulateOptions {
-  std::string file, from, run, model = "after", rig;
+  std::string file, from, run, model = "after";
+  CsvOptions csv;
   std::vector<std::string> measurement;
   std::string catalog = catalog::DefaultCatalog();
   bool json = false;
@@ -44,7 +45,7 @@ api::Json CurvesRequest(const SimulateOptions& options) {
   if (!options.run.empty()) request["run"] = options.run;
   api::Provenance files;
   if (!options.measurement.empty())
-    request["measurement"] = ReadMeasurement(options.measurement, options.rig, files);
+    request["measurement"] = ReadMeasurement(options.measurement, options.csv, {}, files);
   return request;
 }
 
@@ -132,7 +133,7 @@ Command SimulateCommand() {
         "What was measured, where the answer names readings by hash",
         &options->measurement,
         {.value_name = "FILE"}},
-       {"--rig", "The rig of CSV files, as JSON", &options->rig, {.value_name = "FILE"}},
+       {"--rig", "The rig of CSV files, as JSON", &options->csv.rig, {.value_name = "FILE"}},
        JsonFlag(options->json),
        CatalogOption(options->catalog)},
       [options] { return Simulate(*options); }};

@@ -19,6 +19,7 @@ using api::Json;
 
 constexpr char kJson[] = "application/json";
 constexpr char kCsv[] = "text/csv";
+constexpr char kBytes[] = "application/octet-stream";
 constexpr char kEvents[] = "text/event-stream";
 
 // What an operation takes and gives beyond what its route says.
@@ -55,8 +56,8 @@ const std::map<std::string, Operation>& Operations() {
       {"POST /v1/simulations",
        {{}, "SimulationOrCurves", {{200, "ResponseOrCurves"}}, {400, 422, 429}}},
       {"POST /v1/evaluations", {{}, "Evaluation", {{200, "EvaluationAnswer"}}, {400, 422, 429}}},
-      {"POST /v1/fmus",
-       {{}, "Evaluation", {{200, "Unit", "application/octet-stream"}}, {400, 422, 429}}},
+      {"POST /v1/fmus", {{}, "Evaluation", {{200, "Unit", kBytes}}, {400, 422, 429}}},
+      {"POST /v1/measurements", {{}, "Recording", {{200, "Recorded"}}, {400, 422, 429}}},
       {"POST /v1/maps", {{}, "Map", {{200, "MapAnswer"}}, {400, 422, 429}}},
       {"GET /v1/parts", {{"If-None-Match"}, "", {{200, "PartsPage"}, {304, ""}}, {404, 422}}},
       {"POST /v1/parts", {kWrite, "Part", {{201, "StoredPart"}}, {400, 409, 422}}},
@@ -240,6 +241,7 @@ Json AnswerSchemas() {
        {{"anyOf", {Ref("schemas", "Designs"), Object({{"valid", {{"const", true}}}})}}}},
       {"Response", Versioned("response/1")},
       {"MapAnswer", Versioned("map_answer/1")},
+      {"Recorded", api::DescribeRecordingAnswer()},
       {"EvaluationAnswer", Versioned("evaluation_answer/1")},
       {"StoredPart",
        {{"allOf", {Ref("schemas", "Part"), {{"type", "object"}, {"required", {"id", "origin"}}}}}}},
@@ -276,6 +278,7 @@ Json Schemas() {
                   {"Measurement", api::DescribeMeasurement()},
                   {"Simulation", api::DescribeSimulation()},
                   {"Map", api::DescribeMap()},
+                  {"Recording", api::DescribeRecording()},
                   {"Model", api::DescribeModel()},
                   {"Part", api::DescribePart()}};
   schemas.update(DiagnosisSchemas());
@@ -304,6 +307,7 @@ Json ExampleOf(const std::string& schema) {
   if (schema == "Measurement") return api::ExampleMeasurement();
   if (schema == "SimulationOrCurves") return api::ExampleSimulation();
   if (schema == "Map") return api::ExampleMap();
+  if (schema == "Recording") return api::ExampleRecording();
   if (schema == "Evaluation") return api::ExampleEvaluation();
   if (schema == "Part") return api::ExamplePart();
   return {{"name", "bench"}, {"model", api::ExampleModel()}};

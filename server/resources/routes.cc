@@ -8,6 +8,7 @@
 #include "api/design/given/unit_of_design.h"
 #include "api/json/json.h"
 #include "api/json/request_limits.h"
+#include "api/measure/csv/recording_request.h"
 #include "api/measure/curves.h"
 #include "api/simulate/map.h"
 #include "api/simulate/simulation.h"
@@ -138,6 +139,14 @@ void AddUnits(SharedCatalog& catalog, std::vector<Route>& routes) {
                     }});
 }
 
+void AddRecordings(std::vector<Route>& routes) {
+  routes.push_back(
+      {"POST", "/v1/measurements",
+       "recording/1 in, a CSV of any dialect: measurement/1 and what was understood out",
+       Access::kRead,
+       [](const Call& call) { return AnswerAtOnce(call, api::ReadRecordingRequest); }});
+}
+
 void AddCatalogUpdate(const Services& services, std::vector<Route>& routes) {
   routes.push_back(
       {"POST", "/v1/catalog/update",
@@ -240,6 +249,7 @@ std::vector<Route> Routes(const Services& services) {
   };
   AddManyPartsRoutes(catalog, routes);
   AddUnits(catalog, routes);
+  AddRecordings(routes);
   AddCatalogUpdate(services, routes);
   AddJobRoutes(design_jobs, routes);
   AddJobRoutes(diagnosis_jobs, routes);

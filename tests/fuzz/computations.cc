@@ -10,6 +10,7 @@
 #include "api/design/read/requirements_reader.h"
 #include "api/design/verification.h"
 #include "api/json/json.h"
+#include "api/measure/csv/measurement_csv.h"
 #include "api/measure/diagnose_request.h"
 #include "api/simulate/simulation.h"
 #include "catalog/fields/csv.h"
@@ -94,6 +95,17 @@ void Diagnosis(std::string_view text) {
   request.dataset = std::move(*dataset);
   request.time_limit_s = kSeconds;
   RequireSound(api::RunDiagnosis(request, {}).answer);
+}
+
+void Recording(std::string_view text) {
+  static const api::Json kRig = api::Json::parse(R"({
+    "actuator": { "rest_volume_ml": 50, "expansion_ratio": 1, "operating_pressure_kpa_gauge": 100 },
+    "line": { "sonic_conductance_dm3_per_s_bar": 0.05, "critical_ratio": 0.3 },
+    "supply": { "kind": "regulated", "source_pressure_kpa_gauge": 200 } })");
+  const api::CsvReading reading = api::ReadMeasurementCsv(text, kRig);
+  Require(reading.document.is_null() || reading.errors.empty());
+  Require(!reading.document.is_null() || !reading.errors.empty() || !reading.questions.empty());
+  if (!reading.document.is_null()) Diagnosis(reading.document.dump());
 }
 
 void Import(std::string_view text) {

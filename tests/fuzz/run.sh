@@ -15,7 +15,7 @@ seconds=${1:-60}
 shift || true
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || targets=(requirements measurement csv query frame
-  design evaluation simulation diagnosis import verify)
+  design evaluation simulation diagnosis recording import verify)
 
 [ -f build/asan/build.ninja ] || cmake --preset asan >&2
 cmake --build --preset asan --target fuzzers >&2

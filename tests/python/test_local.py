@@ -3,9 +3,11 @@ import ast
 import copy
 import json
 import os
+import pathlib
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -97,6 +99,31 @@ class ArraysAndFrames(unittest.TestCase):
         self.assertEqual(files[0][0], "frame 1")
         with self.assertRaisesRegex(plenum.InputError, "rig: is required"):
             plenum.diagnose(frame)
+
+    def test_a_recording_in_a_dialect_of_a_laboratory(self):
+        from plenum.local import measurements
+
+        rows = [(0, 0.0, 0), (10, 0.0, 1), (20, 0.6, 1), (30, 1.0, 1), (40, 0.3, 0), (50, 0.01, 0)]
+        text = "Zeit [ms];p [bar];Ventil µ\n" + "".join(
+            f"{ms};{str(bar).replace('.', ',')};{on}\n" for ms, bar, on in rows)
+        rig = {"ambient": {"pressure_kpa_abs": 98.0}}
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "bench.csv"
+            for encoding in ("utf-8", "utf-16", "latin-1"):
+                path.write_text(text, encoding=encoding)
+                document = json.loads(measurements(path, rig)[0][0])
+                run = document["runs"][0]
+                np.testing.assert_allclose(run["t_s"], [0.0, 0.01, 0.02, 0.03, 0.04, 0.05])
+                np.testing.assert_allclose(run["pressure_kpa_gauge"], [0.0, 0.0, 60.0, 100.0, 30.0, 1.0])
+                self.assertEqual([command["state"] for command in run["valve"]], ["deflate", "inflate", "deflate"])
+                self.assertEqual(document["understood"][0]["decimal"], "comma")
+            answer = {"columns": {"p [bar]": "pressure_kpa_gauge [bar abs]", "Ventil µ": "valve [0 = hold]"}}
+            run = json.loads(measurements(path, rig, answer)[0][0])["runs"][0]
+            np.testing.assert_allclose(run["pressure_kpa_gauge"][2], 60.0 - 98.0)
+            self.assertEqual(run["valve"][-1]["state"], "hold")
+            path.write_text("Time;p [bar];valve\n0;0;hold\n", encoding="utf-8")
+            with self.assertRaisesRegex(plenum.InputError, "in which unit"):
+                measurements(path, rig)
 
     def test_many_are_those_of_each(self):
         requests = [copy.deepcopy(SIMULATION) for _ in range(6)]

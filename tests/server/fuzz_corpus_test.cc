@@ -31,6 +31,7 @@ TEST(Fuzz, Design) { Replay("design", Design); }
 TEST(Fuzz, Evaluation) { Replay("evaluation", Evaluation); }
 TEST(Fuzz, Simulation) { Replay("simulation", Simulation); }
 TEST(Fuzz, Diagnosis) { Replay("diagnosis", Diagnosis); }
+TEST(Fuzz, Recording) { Replay("recording", Recording); }
 TEST(Fuzz, Import) { Replay("import", Import); }
 TEST(Fuzz, Verify) { Replay("verify", Verify); }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "server/render/text/text_table.h"
+
 namespace plenum::server {
 namespace {
 
@@ -35,6 +37,36 @@ std::string UnderstoodText(const Json& row) {
                      row.contains("condition") ? ", at " + TextOf(row.at("condition")) : "");
 }
 
+std::string WordsOf(const Json& value) { return value.is_string() ? value.get<std::string>() : ""; }
+
+std::string TableText(const Json& understood) {
+  using enum Table::Align;
+  std::string text =
+      fmt::format("read {} as {}, columns by {}", understood.value("file", "the table"),
+                  WordsOf(understood.at("encoding")), WordsOf(understood.at("delimiter")));
+  if (understood.at("decimal").is_string())
+    text += fmt::format(", decimal {}", WordsOf(understood.at("decimal")));
+  if (understood.at("heading_line").is_number())
+    text += fmt::format(", headings in line {}", understood.at("heading_line").get<int>());
+  text += "\n";
+  Table table({{"heading", kLeft}, {"field", kLeft}, {"unit", kLeft}, {"", kLeft}}, 2);
+  for (const Json& column : understood.at("columns"))
+    table.Add({WordsOf(column.at("key")),
+               column.at("field").is_string() ? WordsOf(column.at("field")) : "left out",
+               WordsOf(column.at("unit")), WordsOf(column.at("meaning"))});
+  text += table.Text();
+  if (understood.at("ambient_kpa_abs").is_number())
+    text += fmt::format("  absolute pressures are gauge with an ambient of {:g} kPa\n",
+                        understood.at("ambient_kpa_abs").get<double>());
+  for (const Json& run : understood.at("runs"))
+    text += fmt::format("  run {}: {} readings from {:g} to {:g} s, {} missing\n",
+                        WordsOf(run.at("id")), run.at("readings").get<std::size_t>(),
+                        run.at("begin_s").get<double>(), run.at("end_s").get<double>(),
+                        run.at("missing").get<std::size_t>());
+  for (const Json& note : understood.at("notes")) text += "  " + WordsOf(note) + "\n";
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string RemarksText(const Json& answer) {
@@ -48,6 +80,19 @@ std::string RemarksText(const Json& answer) {
   for (const Json& note : ListOf(answer, "notes"))
     text += fmt::format("Note {}: {}\n", PlaceOf(note), TextOf(note.at("note")));
   return text.empty() ? "" : "\n" + text;
+}
+
+std::string RecordingText(const Json& diagnosis) {
+  std::string text;
+  if (!diagnosis.contains("measurement")) return text;
+  const Json& measurement = diagnosis.at("measurement");
+  if (!measurement.is_object() || !measurement.contains("understood")) return text;
+  for (const Json& understood : measurement.at("understood")) try {
+      text += TableText(understood);
+    } catch (const Json::exception&) {
+      continue;  // a person may have written anything under that name
+    }
+  return text;
 }
 
 }  // namespace plenum::server

@@ -1,3 +1,4 @@
+#include "api/measure/csv/measurement_csv.h"
 #include "api/measure/measurement.h"
 
 #include <gmock/gmock.h>
@@ -221,15 +222,15 @@ TEST(Measurement, ErrorsOfCsvNameTheLine) {
     const auto parsed = MeasurementFromCsv(csv, Example()["rig"]);
     return std::holds_alternative<Errors>(parsed) ? std::get<Errors>(parsed) : Errors{};
   };
-  const Errors header = errors_of("run,t_s,pressure_kpa\n");
-  ASSERT_EQ(header.size(), 3u);
-  EXPECT_EQ(header[0].pointer, "line 1");
+  const Errors header = errors_of("run,t_s,presure_kpa_gauge,valve\nr1,0,0,hold\n");
+  ASSERT_FALSE(header.empty());
+  EXPECT_EQ(header[0].pointer, "line 1, presure_kpa_gauge");
   EXPECT_THAT(header[0].detail, testing::HasSubstr("pressure_kpa_gauge"));
   const Errors rows = errors_of(
-      "run,t_s,valve,pressure_kpa_gauge\nr1,0,hold,1\nr1,x,hold,1\nr1,0.2,open,1\nr1,0.3,hold\n");
+      "run,t_s,valve,pressure_kpa_gauge\nr1,0,hold,1\nr1,x,hold,1\nr1,0.2,hold,y\nr1,0.3,hold\n");
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].pointer, "line 3, t_s");
-  EXPECT_EQ(rows[1].pointer, "line 4, valve");
+  EXPECT_EQ(rows[1].pointer, "line 4, pressure_kpa_gauge");
   EXPECT_EQ(rows[2].pointer, "line 5, row");
 }
 

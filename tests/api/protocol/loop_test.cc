@@ -7,6 +7,7 @@
 
 #include "api/design/answer.h"
 #include "api/design/read/requirements_reader.h"
+#include "api/measure/csv/measurement_csv.h"
 #include "api/measure/diagnose_request.h"
 #include "api/measure/rig_parts.h"
 #include "api/protocol/part_revision.h"

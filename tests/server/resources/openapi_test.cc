@@ -28,8 +28,7 @@ namespace {
 using api::Json;
 using Adapter = valijson::adapters::NlohmannJsonAdapter;
 
-constexpr char kJson[] = "application/json";
-constexpr char kProblem[] = "application/problem+json";
+constexpr char kJson[] = "application/json", kProblem[] = "application/problem+json";
 
 // valijson resolves no references between documents, so each schema is put out in full.
 Json Resolved(const Json& schema, const Json& api) {
@@ -214,6 +213,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
        {std::pair{std::string("/v1/simulations"), api::ExampleSimulation()},
         std::pair{std::string("/v1/evaluations"), api::ExampleEvaluation()},
         std::pair{std::string("/v1/fmus"), api::ExampleEvaluation()},
+        std::pair{std::string("/v1/measurements"), api::ExampleRecording()},
         std::pair{std::string("/v1/maps"), api::ExampleMap()}}) {
     const bool made = fmu::MakesUnits() || path != "/v1/fmus";
     Post(path, example.dump(), made ? 200 : 422);

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "api/measure/csv/measurement_csv.h"
 #include "api/measure/measurement.h"
 #include "tests/server/service.h"
 #include "tests/support/places.h"

@@ -208,70 +208,17 @@ export interface SavedModel {
   data: { name: string; sha256: string }[];
 }
 
-const channelNames = [
-  'source_pressure_kpa_gauge',
-  'inlet_pressure_kpa_gauge',
-  'temperature_k',
-  'volume_ml',
-  'flow_l_per_min_anr',
-];
-const states = new Set(['hold', 'inflate', 'deflate']);
-
-// Long form: run,t_s,valve,pressure_kpa_gauge and channels. Throws a sentence with the line.
-export function readCsv(text: string): Run[] {
-  const lines = text.split(/\r?\n/).filter((line) => line.trim() && !line.startsWith('#'));
-  const head = (lines[0] ?? '').split(',').map((name) => name.trim());
-  for (const name of ['run', 't_s', 'valve', 'pressure_kpa_gauge']) {
-    if (!head.includes(name))
-      throw new Error(`the CSV needs a column ${name}; it has ${head.join(', ')}`);
-  }
-  const column = (name: string) => head.indexOf(name);
-  const runs = new Map<string, Run>();
-  const number = (cell: string | undefined, line: number, name: string): number | null => {
-    if (cell === undefined || cell.trim() === '' || cell.trim() === 'nan') return null;
-    const value = Number(cell);
-    if (!Number.isFinite(value))
-      throw new Error(`line ${line}: ${name} is "${cell}", not a number`);
-    return value;
-  };
-  lines.slice(1).forEach((line, i) => {
-    const cells = line.split(',').map((cell) => cell.trim());
-    const id = cells[column('run')] || 'run';
-    const at = number(cells[column('t_s')], i + 2, 't_s');
-    const state = cells[column('valve')] ?? '';
-    if (at === null) throw new Error(`line ${i + 2}: t_s is missing`);
-    if (!states.has(state))
-      throw new Error(`line ${i + 2}: valve is "${state}", not hold, inflate or deflate`);
-    let run = runs.get(id);
-    if (!run) runs.set(id, (run = { id, valve: [], t_s: [], pressure_kpa_gauge: [] }));
-    if (run.t_s.length > 0 && at <= run.t_s[run.t_s.length - 1]!)
-      throw new Error(`line ${i + 2}: t_s must rise within run ${id}`);
-    if (run.valve[run.valve.length - 1]?.state !== state)
-      run.valve.push({ t_s: at, state: state as ValveState });
-    run.t_s.push(at);
-    run.pressure_kpa_gauge.push(
-      number(cells[column('pressure_kpa_gauge')], i + 2, 'pressure_kpa_gauge'),
-    );
-    for (const name of channelNames) {
-      if (column(name) < 0) continue;
-      ((run.channels ??= {})[name] ??= []).push(number(cells[column(name)], i + 2, name));
-    }
-  });
-  if (runs.size === 0) throw new Error('the CSV has no rows');
-  return [...runs.values()];
-}
-
 // Of a CSV, before its numbers are written: those of another rig would pass for its own.
 export const emptyRig = (): Rig => ({ actuator: {}, line: {}, supply: { kind: 'regulated' } });
 
-// What a file holds: a measurement, runs of a CSV, or the rig that a CSV was measured on.
+// What a JSON file holds: a measurement, or the rig that a CSV was measured on.
 export type Content =
   | { kind: 'measurement'; document: Measurement; text: string }
-  | { kind: 'runs'; runs: Run[] }
   | { kind: 'rig'; document: Pick<Measurement, 'rig'> & Partial<Measurement> };
 
-export function readFile(text: string): Content {
-  if (!text.trimStart().startsWith('{')) return { kind: 'runs', runs: readCsv(text) };
+export const isJson = (text: string): boolean => /^\s*[{[]/.test(text);
+
+export function readJson(text: string): Content {
   const given = JSON.parse(text);
   const runs = given.runs as Run[] | undefined;
   const hasSamples = Array.isArray(runs) && runs.some((run) => Array.isArray(run.t_s));
@@ -288,7 +235,7 @@ export function readFile(text: string): Content {
   return { kind: 'measurement', document: given, text };
 }
 
-// A CSV's runs with the document beside it, which holds the rig and what it says of each run.
+// The runs of CSV files with the document beside them, which holds the rig and what it says of each.
 export const withRig = (runs: Run[], beside: Pick<Measurement, 'rig'> & Partial<Measurement>) => ({
   ...beside,
   schema: 'measurement/1' as const,

@@ -139,10 +139,13 @@ export function Lines(props: {
   yFromZero?: boolean;
   xUnit?: string;
   sync?: string;
+  onPick?: (x: number) => void; // a click on the plot, at the nearest value
 }) {
   const box = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
   const at = useSignal<number | null>(null);
+  const pick = useRef(props.onPick);
+  pick.current = props.onPick;
   const size = pageScale.value;
   const height = Math.round((props.height ?? 220) * size);
   const paint = palette.value;
@@ -234,6 +237,11 @@ export function Lines(props: {
       holder,
     );
     plot.current = made;
+    made.over.addEventListener('click', () => {
+      const index = made.cursor.idx;
+      const x = index === null || index === undefined ? null : made.data[0][index];
+      if (x !== null && x !== undefined) pick.current?.(x);
+    });
     const observer = new ResizeObserver(() => made.setSize({ width: holder.clientWidth, height }));
     observer.observe(holder);
     return () => {

@@ -13,12 +13,22 @@ import {
   measurement,
   measurementErrors,
   originalText,
-  readFile,
-  type Run,
+  isJson,
+  readJson,
+  type Rig,
   shadesOf,
   withRig,
   withRuns,
 } from '../lib/measurement';
+import {
+  answered,
+  isOpen,
+  openRecording,
+  type Recording,
+  runsOf,
+  suggestedValve,
+  type TableAnswers,
+} from '../lib/recording';
 import { route, setQuery } from '../lib/route';
 import type { Doing, Job } from '../lib/types';
 import { pressuresShown, unitOf } from '../lib/units';
@@ -28,27 +38,71 @@ import { ErrorList, FilePicker } from '../ui/files';
 import { focusFirstWrong } from '../ui/refused';
 import { AgainButton, Bar, CancelButton } from '../ui/job';
 import { DiagnosisView } from './diagnosis';
+import { RecordingPanel } from './recording_columns';
 import { RigForm } from './rig_form';
 import { PhaseKey, pickRun, RunPicker } from './runs';
+import { useValveMarks, ValveMarks } from './valve_marks';
 
 const fromCsv = signal(false);
 const problem = signal('');
+const recordings = signal<Recording[]>([]); // of what is open
+
+const refusedWith = (name: string, error: unknown): void => {
+  const { message, errors } = asProblem(error);
+  problem.value = `${name} cannot be read: ${errors[0] ? errors[0].detail : message}`;
+  measurementErrors.value = errors.slice(1);
+};
+
+const nameOf = (file: { name: string }): string => file.name.replace(/\.[^.]*$/, '');
+
+// Puts the runs of the recordings into the measurement, in the place of what these had before.
+function showRecordings(data: Measurement | null, rig: Rig | undefined): void {
+  const read = recordings.value.filter((one) => one.measurement);
+  if (read.length === 0) return;
+  const ids = new Set(read.flatMap((one) => runsOf(one).map((run) => run.id)));
+  const kept = (data?.runs ?? []).filter((run) => !ids.has(run.id));
+  const base: Measurement = data
+    ? { ...data, runs: kept }
+    : { schema: 'measurement/1', name: nameOf(read[0]!), rig: rig ?? emptyRig(), runs: [] };
+  const known = new Map((data?.runs ?? []).map((run) => [run.id, run.source_pressure_kpa_gauge]));
+  measurement.value = read.reduce((whole, one) => {
+    const runs = runsOf(one).map((run) => ({
+      source_pressure_kpa_gauge: known.get(run.id),
+      ...run,
+    }));
+    return withRuns(whole, runs);
+  }, base);
+}
+
+async function answerTable(recording: Recording, answers: TableAnswers): Promise<void> {
+  try {
+    const next = await answered(recording, answers);
+    recordings.value = recordings.value.map((one) => (one === recording ? next : one));
+    problem.value = '';
+    measurementErrors.value = [];
+    showRecordings(measurement.value, undefined);
+  } catch (error) {
+    refusedWith(recording.name, error);
+  }
+}
 
 // Files together are one measurement: the rig of a CSV may be one of them. `added` keeps what is open.
 async function take(files: File[], added: boolean): Promise<void> {
   let data = added ? measurement.value : null;
-  const more: Run[] = [];
   let text: string | null = null;
-  let isCsv = added && fromCsv.value;
   let beside: Parameters<typeof withRig>[1] | null = null;
+  const tables: File[] = [];
+  const opened: Recording[] = added ? recordings.value : [];
   for (const file of files) {
     try {
-      const content = readFile(await file.text());
+      const whole = await file.text();
+      if (!isJson(whole)) {
+        tables.push(file);
+        continue;
+      }
+      const content = readJson(whole);
       if (content.kind === 'rig') beside = content.document;
-      else if (content.kind === 'runs') {
-        isCsv ||= data === null;
-        more.push(...content.runs);
-      } else if (data) data = withRuns(data, content.document.runs, content.document.rig);
+      else if (data) data = withRuns(data, content.document.runs, content.document.rig);
       else {
         data = content.document;
         text = content.text;
@@ -58,20 +112,27 @@ async function take(files: File[], added: boolean): Promise<void> {
       return;
     }
   }
-  const name = files[0]!.name.replace(/\.[^.]*$/, '');
-  data ??= more.length
-    ? { schema: 'measurement/1', name, rig: emptyRig(), runs: [] }
-    : measurement.value;
-  if (!data) {
+  for (const file of tables) {
+    try {
+      opened.push(await openRecording(file, beside ?? { rig: data?.rig ?? {} }));
+    } catch (error) {
+      refusedWith(file.name, error);
+      return;
+    }
+  }
+  if (!data && tables.length === 0 && !measurement.value) {
     problem.value = 'A rig alone is no measurement: drop the CSV, too.';
     return;
   }
-  data = more.length ? withRuns(data, more) : data;
-  measurement.value = beside ? { ...data, ...withRig(data.runs, beside) } : data;
-  originalText.value = files.length === 1 && !added ? text : null;
-  fromCsv.value = isCsv && !beside;
+  fromCsv.value = (added ? fromCsv.value || !data : !data) && tables.length > 0 && !beside;
+  recordings.value = [...opened];
+  measurement.value = data ?? (tables.length > 0 ? null : measurement.value);
   problem.value = '';
   measurementErrors.value = [];
+  showRecordings(data, beside?.rig);
+  if (beside && measurement.value)
+    measurement.value = { ...measurement.value, ...withRig(measurement.value.runs, beside) };
+  originalText.value = files.length === 1 && !added ? text : null;
   setQuery({ job: undefined, run: undefined });
 }
 
@@ -167,10 +228,18 @@ export function MeasuredView() {
           <ErrorList errors={measurementErrors.value.filter((error) => !isBesideField(error))} />
         </Notice>
       )}
-      {!data && !job && <Welcome over={over.value} />}
+      {!data && !job && recordings.value.length === 0 && <Welcome over={over.value} />}
+      {!result &&
+        recordings.value.map((one) => (
+          <RecordingPanel
+            key={one.name}
+            recording={one}
+            onChange={(answers) => void answerTable(one, answers)}
+          />
+        ))}
       {data && fromCsv.value && !result && <RigForm />}
       {data && !result && <Preview data={data} />}
-      {data && !result && !isRunning && (
+      {data && !result && !isRunning && !recordings.value.some(isOpen) && (
         <div class="toolbar end">
           <button
             type="button"
@@ -210,19 +279,19 @@ async function takeShipped(): Promise<void> {
 const Welcome = ({ over }: { over: boolean }) => (
   <div class={`drop ${over ? 'over' : ''}`}>
     <p>
-      <b>Drop a measurement here</b> and see what the model lacks: JSON (measurement/1), or CSV with
-      the columns <code>run, t_s, valve, pressure_kpa_gauge</code>.
+      <b>Drop a measurement here</b> and see what the model lacks: JSON (measurement/1), or CSV as
+      your instrument writes it.
     </p>
     <pre>
-      {`run,t_s,valve,pressure_kpa_gauge
-r1,0.00,hold,0.1
-r1,0.01,inflate,0.9
-r1,0.02,inflate,2.4`}
+      {`Time (ms);p [bar];valve
+0;0,001;0
+10;0,009;1
+20;0,024;1`}
     </pre>
     <p class="muted">
-      The valve is hold, inflate or deflate. A CSV may also hold source_pressure_kpa_gauge,
-      inlet_pressure_kpa_gauge, temperature_k, volume_ml and flow_l_per_min_anr. Its rig is asked
-      for, or dropped beside it as JSON. Several files are read as one measurement.
+      Columns are found by their headings and units, and can be put right by hand; a valve without a
+      column is marked on the curve. The rig is asked for, or dropped beside it as JSON. Several
+      files are read as one measurement.
     </p>
     <p>
       No recording at hand?{' '}
@@ -253,6 +322,10 @@ function Preview({ data }: { data: Measurement }) {
   const ids = data.runs.map((run) => run.id);
   const run = data.runs.find((r) => r.id === pickRun(ids))!;
   const source = run.channels?.source_pressure_kpa_gauge;
+  const marks = useValveMarks(run);
+  const isUnmarked = recordings.value.some(({ questions }) =>
+    questions.some((one) => one.option === 'valve' && one.heading === run.id),
+  );
   return (
     <Panel
       title={`Run ${run.id}${run.blocked ? ', blocked' : ''}`}
@@ -265,12 +338,16 @@ function Preview({ data }: { data: Measurement }) {
         yLabel={`pressure, ${unitOf('pressure')}`}
         height={300}
         bands={shadesOf(run.valve, run.t_s[run.t_s.length - 1] ?? 0)}
+        onPick={isUnmarked ? marks.mark : undefined}
         lines={[
           { label: 'actuator', values: pressuresShown(run.pressure_kpa_gauge), colour: '--c1' },
           ...(source ? [{ label: 'source', values: pressuresShown(source), colour: '--c6' }] : []),
         ]}
       />
       <PhaseKey />
+      {isUnmarked && (
+        <ValveMarks run={run} marks={marks} suggested={suggestedValve(recordings.value, run.id)} />
+      )}
     </Panel>
   );
 }
