@@ -37,7 +37,6 @@ class Sweeps : public Http {
   httplib::Result Post(const Json& sweep, const httplib::Headers& headers = {}) {
     return client_->Post(kSweeps, headers, sweep.dump(), kJson);
   }
-  static Json Waiting() { return {{"Prefer", "wait=60"}}; }
   Json WhenEnded(const std::string& path) {
     for (int i = 0; i < 6000; ++i) {
       Json sweep = Body(client_->Get(path));
