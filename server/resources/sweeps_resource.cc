@@ -165,7 +165,7 @@ Reply AwaitSweep(const JobsResource& designs, const Call& call, const std::strin
 }
 
 Reply StartSweep(const JobsResource& designs, const Call& call, const catalog::Signature& by,
-                 int priority, const catalog::Revision& revision, api::SweepRequest sweep) {
+                 int priority, const catalog::Revision& revision, const api::SweepRequest& sweep) {
   SweepRecord record;
   record.name = sweep.name;
   record.by = by;
@@ -204,12 +204,12 @@ Reply PostSweep(SharedCatalog& catalog, const JobsResource& designs, const Call&
   const CatalogView view = catalog.View();
   auto parsed = api::ParseSweep(std::get<api::Json>(json), *view.parts, catalog.Models());
   if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
-  auto& sweep = std::get<api::SweepRequest>(parsed);
+  const auto& sweep = std::get<api::SweepRequest>(parsed);
   if (validate_only) return JsonReply(200, {{"valid", true}, {"patches", sweep.requests.size()}});
   const auto signature = SignatureOf(call);
   if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
   return StartSweep(designs, call, std::get<catalog::Signature>(signature), priority, view.revision,
-                    std::move(sweep));
+                    sweep);
 }
 
 Reply ListSweeps(const JobsResource& designs) {
