@@ -26,7 +26,9 @@ Json RenderRequestLimits() {
           {"design_seconds_max", kDesignSecondsMax},
           {"diagnosis_seconds_max", kDiagnosisSecondsMax},
           {"excluded_parts_max", kExcludedMax},
-          {"page_parts_max", kPageMax}};
+          {"page_parts_max", kPageMax},
+          {"sweep_patches_max", kSweepPatchesMax},
+          {"sweep_bytes_max", kSweepBytesMax}};
 }
 
 }  // namespace plenum::api

@@ -32,6 +32,9 @@ inline constexpr int kDesignsMax = 500;
 inline constexpr double kDesignSecondsMax = 3600;
 inline constexpr std::size_t kExcludedMax = 100'000;
 inline constexpr int kPageMax = 1000;
+inline constexpr std::size_t kSweepPatchesMax = 256;
+inline constexpr std::size_t kSweepBytesMax = 32 << 20;  // of all merged requirements together
+inline constexpr std::size_t kSweepFieldsMax = 20;       // that its table shows
 
 }  // namespace plenum::api
 

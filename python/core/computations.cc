@@ -7,6 +7,7 @@
 #include "api/design/answer.h"
 #include "api/design/given/evaluation.h"
 #include "api/design/read/requirements_reader.h"
+#include "api/design/sweep/sweep_answer.h"
 #include "api/design/verification.h"
 #include "api/measure/csv/measurement_csv.h"
 #include "api/measure/curves.h"
@@ -67,6 +68,19 @@ std::string Design(const std::string& requirements, const std::string& catalogue
   api::Json answer = api::AnswerRequest(request, options, parts);
   answer["catalogue_revision"] = api::RenderRevisionName(revision);
   return Dump(answer);
+}
+
+std::string Sweep(const std::string& sweep, const std::string& catalogue, Watch& watch) {
+  const catalog::Store store = OpenCatalogue(catalogue, Access::kRead);
+  const auto [revision, parts] = store.ListWithHead();
+  const auto request = ValueOrRefuse(api::ParseSweep(Parse(sweep), parts, store.Models()));
+  api::Json table = api::AnswerSweep(
+      request, parts, [&] { return watch.cancelled(); },
+      [&](std::size_t place, const optimizer::Progress*) {
+        watch.Tell(Dump({{"done", place}, {"of", request.requests.size()}}));
+      });
+  table["catalogue_revision"] = api::RenderRevisionName(revision);
+  return Dump(table);
 }
 
 std::string Evaluate(const std::string& request, const std::string& catalogue) {

@@ -12,6 +12,8 @@
 namespace plenum::python {
 
 std::string Design(const std::string& requirements, const std::string& catalogue, Watch& watch);
+// sweep/1 to sweep_table/1; progress is { "done", "of" }, of its patches.
+std::string Sweep(const std::string& sweep, const std::string& catalogue, Watch& watch);
 std::string Evaluate(const std::string& request, const std::string& catalogue);
 // Opens the catalogue only if the request names parts.
 std::string Simulate(const std::string& request, const std::string& catalogue);

@@ -82,6 +82,12 @@ void DefineComputations(py::module_& module) {
                           [&](Watch& watch) { return Design(requirements, catalogue, watch); });
       },
       py::arg("requirements"), py::arg("catalogue"), py::arg("progress") = py::none());
+  module.def(
+      "sweep",
+      [](const Text& sweep, const Text& catalogue, const py::object& progress) {
+        return RunWatched(progress, [&](Watch& watch) { return Sweep(sweep, catalogue, watch); });
+      },
+      py::arg("sweep"), py::arg("catalogue"), py::arg("progress") = py::none());
   module.def("evaluate", Released<Evaluate, Text, Text>, py::arg("request"), py::arg("catalogue"));
   module.def("simulate", Released<Simulate, Text, Text>, py::arg("request"), py::arg("catalogue"));
   module.def("map", Released<Map, Text>, py::arg("request"));

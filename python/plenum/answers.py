@@ -138,6 +138,22 @@ class Designs(Answer):
         return plots.front(self, ax) if self.get("front") else plots.masses(self.designs, ax)
 
 
+class SweepTable(Answer):
+    """sweep_table/1: a row for each patch of a sweep."""
+
+    @property
+    def frame(self) -> "pd.DataFrame":
+        """A row a patch, by its name; first a column for each value that differs, named by its pointer."""
+        import pandas as pd
+
+        rows = [
+            {"name": row["name"], **dict(zip(self["varied"], row["values"])),
+             **{name: value for name, value in row.items() if name not in ("name", "values")}}
+            for row in self["rows"]
+        ]
+        return pd.DataFrame(rows).set_index("name")
+
+
 class Map(Answer):
     """map_answer/1: times over a grid."""
 
@@ -238,6 +254,7 @@ KINDS: dict[str, type[Answer]] = {
     "designs/1": Designs,
     "response/1": Response,
     "map_answer/1": Map,
+    "sweep_table/1": SweepTable,
     "diagnosis/1": Diagnosis,
     "evaluation_answer/1": Evaluation,
     "verification/1": Verification,

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Op
 import numpy as np
 
 from . import _core
-from .answers import Designs, Diagnosis, Evaluation, Map, Response, Verification, answer_of
+from .answers import Designs, Diagnosis, Evaluation, Map, Response, SweepTable, Verification, answer_of
 from .catalogue import locate
 from .documents import Source, document_of, encode, read_bytes, text_of
 from .errors import InputError
@@ -59,6 +59,14 @@ def design(requirements: Source, *, top: Optional[int] = None, time_limit_s: Opt
     request = with_ranking(document_of(requirements), top, time_limit_s, proof)
     with _watched(progress) as hear:
         return Designs(json.loads(_core.design(encode(request), locate(catalog), hear)))
+
+
+def sweep(request: Source, *, catalog: Catalog = None, progress: Progress = None) -> SweepTable:
+    """The best design for each of many requirements that differ in a few fields (sweep/1): a table, with pandas as
+    `.frame`. Ctrl-C stops it: KeyboardInterrupt carries what is done in `.answer`.
+    """
+    with _watched(progress) as hear:
+        return SweepTable(json.loads(_core.sweep(text_of(request), locate(catalog), hear)))
 
 
 def evaluate(request: Source, *, catalog: Catalog = None) -> Evaluation:

@@ -8,7 +8,7 @@ import urllib.parse
 import urllib.request
 from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Sequence, Union
 
-from .answers import Designs, Diagnosis, Evaluation, Map, Response, answer_of
+from .answers import Designs, Diagnosis, Evaluation, Map, Response, SweepTable, answer_of
 from .catalogue import frame_of
 from .documents import Source, document_of, encode, text_of
 from .errors import InputError, ServiceError
@@ -48,6 +48,30 @@ class Service:
         request["time_limit_s"] = time_limit_s
         request.update({name: value for name, value in (("model", model), ("save", save)) if value})
         return Diagnosis(self._job("/v1/diagnoses", encode(request), progress))
+
+    def sweep(self, request: Source, *, progress: Progress = None) -> SweepTable:
+        """As plenum.sweep; Ctrl-C cancels what has not ended."""
+        hear, close = listener(progress)
+        answer = self._post("/v1/sweeps", text_of(request), {"Prefer": f"wait={WAIT_S}"})
+        try:
+            if "schema" in answer:
+                return SweepTable(answer)
+            links = answer["links"]
+            try:
+                while True:
+                    sweep = self._get(links["self"])
+                    if sweep["ended_at"]:
+                        return SweepTable(self._get(links["table"]))
+                    if hear is not None:
+                        jobs = sweep["jobs"]
+                        waits = jobs["queued"] + jobs["running"]
+                        hear(json.dumps({"done": sum(jobs.values()) - waits, "of": sum(jobs.values())}))
+                    time.sleep(POLL_S)
+            except BaseException:
+                self._send("DELETE", links["self"])
+                raise
+        finally:
+            close()
 
     def evaluate(self, request: Source) -> Evaluation:
         return Evaluation(self._post("/v1/evaluations", text_of(request)))

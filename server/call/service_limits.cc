@@ -32,6 +32,7 @@ api::Json RenderLimits(const JobQuota& jobs, const catalog::JobsKept& kept) {
                       {"requests_at_a_time_max", kRequestThreads},
                       {"computing_max", kComputingMax},
                       {"large_computing_max", kLargeComputingMax},
+                      {"sweeps_read_max", kSweepsReadMax},
                       {"waiting_max", kWaitingMax},
                       {"wait_seconds_max", kWaitSecondsMax},
                       {"event_streams_max", kStreamsMax},
@@ -41,6 +42,8 @@ api::Json RenderLimits(const JobQuota& jobs, const catalog::JobsKept& kept) {
                       {"jobs_running_max", jobs.running_max},
                       {"jobs_queued_max", jobs.queued_max},
                       {"jobs_queued_per_client_max", jobs.queued_per_client_max},
+                      {"sweep_jobs_queued_max", jobs.swept_queued_max},
+                      {"sweep_jobs_queued_per_client_max", jobs.swept_queued_per_client_max},
                       {"jobs_kept_max", kept.jobs},
                       {"jobs_kept_bytes_max", kept.bytes}};
   limits.update(api::RenderRequestLimits());

@@ -50,6 +50,7 @@ inline constexpr int kCatalogueWaitingMax = 16;
 inline constexpr int kCatalogueWaitSeconds = 10;
 inline constexpr int kComputingMax = 8;       // simulations and maps at a time,
 inline constexpr int kLargeComputingMax = 2;  // of large requests
+inline constexpr int kSweepsReadMax = 2;      // sweeps that are checked at a time
 inline constexpr int kWaitingMax = 256;       // requests that wait for their job
 inline constexpr int kWaitSecondsMax = 300;
 inline constexpr int kStreamsMax = 64;  // open event streams
@@ -63,6 +64,7 @@ inline constexpr int kLargeDiagnosesMax = 1;
 struct JobQuota {  // of one kind
   int running_max = 0;
   std::size_t queued_max = 0, queued_per_client_max = 0;
+  std::size_t swept_queued_max = 0, swept_queued_per_client_max = 0;
 };
 api::Json RenderLimits(const JobQuota& jobs, const catalog::JobsKept& kept);
 

@@ -120,10 +120,10 @@ int RunCommand(int argc, const char* const* argv) {
 }  // namespace
 
 std::vector<Command> AllCommands() {
-  return {InitCommand(),     DesignCommand(),   VerifyCommand(), EvaluateCommand(),
-          ExportCommand(),   SimulateCommand(), MapCommand(),    DiagnoseCommand(),
-          ProtocolCommand(), CatalogCommand(),  ServeCommand(),  WorkerCommand(),
-          JobsCommand(),     TokenCommand()};
+  return {InitCommand(),     DesignCommand(),   SweepCommand(),    VerifyCommand(),
+          EvaluateCommand(), ExportCommand(),   SimulateCommand(), MapCommand(),
+          DiagnoseCommand(), ProtocolCommand(), CatalogCommand(),  ServeCommand(),
+          WorkerCommand(),   JobsCommand(),     TokenCommand()};
 }
 
 int RunCommandLine(int argc, const char* const* argv) {

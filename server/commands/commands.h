@@ -10,6 +10,7 @@ namespace plenum::server {
 
 Command InitCommand();
 Command DesignCommand();
+Command SweepCommand();
 Command VerifyCommand();
 Command EvaluateCommand();
 Command ExportCommand();

@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 #include <random>
+#include <utility>
 
 #include "server/call/reply.h"
 #include "server/call/request_log.h"
@@ -62,9 +63,24 @@ Job ToJob(const catalog::JobRecord& record) {
   job.submitted_at = record.submitted_at;
   job.ended_at = record.ended_at;
   if (Ended(job.status)) job.revision = record.ending;
-  job.catalogue_revision = record.order.revision;
-  job.catalogue_hash = record.order.hash;
+  job.catalogue.number = record.order.revision;
+  job.catalogue.hash = record.order.hash;
+  job.sweep = record.order.sweep;
   return job;
+}
+
+std::vector<catalog::NewJob> JobsOf(catalog::SweepRecord& sweep,
+                                    std::vector<catalog::JobOrder> orders) {
+  sweep.id = RandomId();
+  std::vector<catalog::NewJob> jobs;
+  jobs.reserve(orders.size());
+  for (catalog::JobOrder& order : orders) {
+    order.kind = sweep.kind;
+    order.sweep = sweep.id;
+    order.place = static_cast<int>(jobs.size());
+    jobs.push_back({RandomId(), std::move(order)});
+  }
+  return jobs;
 }
 
 std::string ListOf(const api::Errors& errors) {

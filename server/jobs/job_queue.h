@@ -30,8 +30,8 @@ struct Job {
   bool alone = false;      // no other job may run beside it
   long long revision = 0;  // another one after every change; of no other ending
   std::string submitted_at, ended_at;
-  std::int64_t catalogue_revision = 0;
-  std::string catalogue_hash;
+  catalog::Revision catalogue;  // its number and hash
+  std::string sweep;            // the id of the sweep that it belongs to, empty for none
 };
 
 // What the work of a job sees of its job.
@@ -47,10 +47,22 @@ struct JobOptions {
   int workers = 2;
   std::size_t queued_max = 512;
   std::size_t queued_per_client_max = 32;
+  // The same of jobs of sweeps, which count by themselves.
+  std::size_t swept_queued_max = 4096;
+  std::size_t swept_queued_per_client_max = 512;
 };
 
 inline JobQuota QuotaOf(const JobOptions& options) {
-  return {options.workers, options.queued_max, options.queued_per_client_max};
+  return {options.workers, options.queued_max, options.queued_per_client_max,
+          options.swept_queued_max, options.swept_queued_per_client_max};
+}
+
+struct QueueLimits {
+  std::size_t all = 0, of_client = 0;
+};
+inline QueueLimits LimitsOf(const JobOptions& options, bool as_sweep) {
+  return as_sweep ? QueueLimits{options.swept_queued_max, options.swept_queued_per_client_max}
+                  : QueueLimits{options.queued_max, options.queued_per_client_max};
 }
 
 struct Submitted {
@@ -71,6 +83,19 @@ enum class Asked {
 
 // Beside a file a service has its own jobs (server/jobs/jobs.h); services of a catalogue on a
 // server share them (server/jobs/shared_jobs.h).
+// The sweep that has the key of this one, if there is one.
+template <typename Store>
+std::optional<Submitted> KnownSweep(const Store& store, const catalog::SweepRecord& sweep) {
+  if (sweep.by.key.empty()) return std::nullopt;
+  const auto known = store.FindSweepKey(sweep.kind, sweep.by.key);
+  if (!known) return std::nullopt;
+  if (known->by.request != sweep.by.request) return Submitted{Submitted::kKeyReused, ""};
+  return Submitted{Submitted::kRepeated, known->id};
+}
+
+// How many sweeps a list holds.
+inline constexpr int kSweepsListed = 200;
+
 class JobQueue {
  public:
   virtual ~JobQueue() = default;
@@ -78,6 +103,14 @@ class JobQueue {
   // Refused when the queue is full or the service is stopping. Throws StoreError when the job
   // cannot be written to disk. `order.kind` is set here.
   virtual Submitted Submit(catalog::JobOrder order) = 0;
+  // All jobs of a sweep or none of them; `sweep` says who asks, of which catalogue, and its plan.
+  // The id is that of the sweep.
+  virtual Submitted SubmitSweep(catalog::SweepRecord sweep,
+                                std::vector<catalog::JobOrder> orders) = 0;
+  virtual std::optional<catalog::SweepRecord> FindSweep(const std::string& id) const = 0;
+  virtual std::vector<catalog::SweepRecord> Sweeps() const = 0;  // newest first, without plans
+  // Its jobs in the order of the patches; those that are no longer kept are missing.
+  virtual std::vector<catalog::JobRecord> OfSweep(const std::string& id) const = 0;
   // The job without the result of one that ended, and that result put into it.
   virtual std::optional<Job> Look(const std::string& id) const = 0;
   virtual void AddResult(Job& job) const = 0;
@@ -101,6 +134,9 @@ class JobQueue {
 Job ToJob(const catalog::JobRecord& record);
 std::string TextOf(const api::Json& json);  // empty for null
 std::string RandomId();                     // 64 random bits
+// With ids of their own, as those of the sweep.
+std::vector<catalog::NewJob> JobsOf(catalog::SweepRecord& sweep,
+                                    std::vector<catalog::JobOrder> orders);
 
 // The outcome of the work, whatever it throws.
 api::Parsed<api::Json> OutcomeOf(const Work& work, const catalog::JobOrder& order,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <tuple>
 #include <utility>
 
 #include "api/json/worker_stack.h"
@@ -37,6 +38,8 @@ Jobs::EntryPtr Jobs::Enqueue(const catalog::JobRecord& record) {
   entry->job = ToJob(record);
   entry->job.status = JobStatus::kQueued;
   entry->client = record.order.client;
+  entry->priority = record.order.priority;
+  entry->of_sweep = !record.order.sweep.empty();
   entries_[record.id] = entry;
   if (record.alone) turns_.Announce();
   const auto after = record.alone
@@ -64,14 +67,45 @@ Submitted Jobs::Submit(catalog::JobOrder order) {
   return {Submitted::kAccepted, record.id};
 }
 
-std::optional<Submitted> Jobs::RefuseToQueue(const std::string& client) const {
+std::optional<Submitted> Jobs::RefuseToQueue(const std::string& client, std::size_t count,
+                                             bool as_sweep) const {
+  const QueueLimits limits = LimitsOf(options_, as_sweep);
+  QueueLimits waiting;
   const std::lock_guard lock(mutex_);
-  if (stopping_ || queue_.size() >= options_.queued_max) return Submitted{Submitted::kRefused, ""};
-  const auto waiting = std::count_if(
-      queue_.begin(), queue_.end(), [&](const EntryPtr& entry) { return entry->client == client; });
-  if (static_cast<std::size_t>(waiting) >= options_.queued_per_client_max)
-    return Submitted{Submitted::kClientRefused, ""};
+  for (const EntryPtr& entry : queue_) {
+    if (entry->of_sweep != as_sweep) continue;
+    ++waiting.all;
+    waiting.of_client += entry->client == client;
+  }
+  if (stopping_ || waiting.all + count > limits.all) return Submitted{Submitted::kRefused, ""};
+  if (waiting.of_client + count > limits.of_client) return Submitted{Submitted::kClientRefused, ""};
   return std::nullopt;
+}
+
+Submitted Jobs::SubmitSweep(catalog::SweepRecord sweep, std::vector<catalog::JobOrder> orders) {
+  const std::lock_guard submitting(submitting_);
+  sweep.kind = kind_;
+  if (const auto known = KnownSweep(store_, sweep)) return *known;
+  if (const auto refused = RefuseToQueue(sweep.client, orders.size(), true)) return *refused;
+  const auto jobs = JobsOf(sweep, std::move(orders));
+  store_.AddSweep(sweep, jobs);
+  for (const catalog::JobRecord& record : store_.OfSweep(sweep.id)) {
+    const std::lock_guard lock(mutex_);
+    Enqueue(record);
+  }
+  return {Submitted::kAccepted, sweep.id};
+}
+
+std::optional<catalog::SweepRecord> Jobs::FindSweep(const std::string& id) const {
+  return store_.FindSweep(kind_, id);
+}
+
+std::vector<catalog::SweepRecord> Jobs::Sweeps() const {
+  return store_.Sweeps(kind_, kSweepsListed);
+}
+
+std::vector<catalog::JobRecord> Jobs::OfSweep(const std::string& id) const {
+  return store_.OfSweep(id);
 }
 
 Asked Jobs::Again(const std::string& id) {
@@ -82,7 +116,7 @@ Asked Jobs::Again(const std::string& id) {
   if (job->status == JobStatus::kDone) return Asked::kDone;
   const auto before = store_.Peek(kind_, id);
   if (!before) return Asked::kUnknown;
-  if (const auto refused = RefuseToQueue(before->order.client))
+  if (const auto refused = RefuseToQueue(before->order.client, 1, !before->order.sweep.empty()))
     return refused->status == Submitted::kRefused ? Asked::kRefused : Asked::kClientRefused;
   store_.Again(id);
   results_.Forget(id);
@@ -233,7 +267,8 @@ Jobs::EntryPtr Jobs::TakeFromQueue() {
   std::map<std::string, int> at_work;
   for (const auto& [id, entry] : entries_) at_work[entry->client] += entry->at_work;
   const auto rank = [&](const EntryPtr& entry) {
-    return clients_.RankOf(entry->client, at_work[entry->client]);
+    return std::tuple_cat(std::tuple(-entry->priority),
+                          clients_.RankOf(entry->client, at_work[entry->client]));
   };
   const auto next = queue_.front()->job.alone
                         ? queue_.begin()

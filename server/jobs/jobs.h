@@ -1,6 +1,7 @@
-// Long work off the request threads: a bounded queue, a few workers, progress, cancel. Clients take
-// turns: the next job is of the one with the fewest at work and, of these, of the one who has
-// waited longest for a turn; the jobs of one client are begun in the order in which they came.
+// Long work off the request threads: a bounded queue, a few workers, progress, cancel. Jobs of the
+// highest priority go first; of these clients take turns: the next job is of the one with the
+// fewest at work and, of these, of the one who has waited longest for a turn; the jobs of one
+// client are begun in the order in which they came.
 //
 // A job is on disk from before its id is given out until it is old
 // (catalog/store/jobs/job_store.h). One that was queued or running when the service ended, in
@@ -42,6 +43,10 @@ class Jobs : public JobQueue {
   void OnChange(std::function<void()> changed);
 
   Submitted Submit(catalog::JobOrder order) override;
+  Submitted SubmitSweep(catalog::SweepRecord sweep, std::vector<catalog::JobOrder> orders) override;
+  std::optional<catalog::SweepRecord> FindSweep(const std::string& id) const override;
+  std::vector<catalog::SweepRecord> Sweeps() const override;
+  std::vector<catalog::JobRecord> OfSweep(const std::string& id) const override;
   std::optional<Job> Look(const std::string& id) const override;
   void AddResult(Job& job) const override;
   std::vector<Job> List() const override;
@@ -58,6 +63,8 @@ class Jobs : public JobQueue {
   struct Entry {
     Job job;
     std::string client;  // who takes turns with others
+    bool of_sweep = false;
+    int priority = 0;
     bool at_work = false;
     std::atomic<bool> cancelled = false;    // somebody asked
     std::atomic<bool> interrupted = false;  // the work saw that the service stops
@@ -67,7 +74,9 @@ class Jobs : public JobQueue {
   EntryPtr Enqueue(const catalog::JobRecord& record);
   EntryPtr Next();
   EntryPtr TakeFromQueue();
-  std::optional<Submitted> RefuseToQueue(const std::string& client) const;
+  // So many more jobs of a client, as a sweep or not.
+  std::optional<Submitted> RefuseToQueue(const std::string& client, std::size_t count = 1,
+                                         bool as_sweep = false) const;
   void Changed() const;
   void WorkLoop();
   void Run(Entry& entry);

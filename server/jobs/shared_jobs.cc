@@ -8,12 +8,39 @@ SharedJobs::SharedJobs(catalog::SharedJobStore& store, std::string kind, const J
                        std::function<void()> changed)
     : store_(store), kind_(std::move(kind)), options_(options), changed_(std::move(changed)) {}
 
-std::optional<Submitted> SharedJobs::RefuseToQueue(const std::string& client) const {
-  if (stopping_ || store_.Count(kind_, JobStatus::kQueued) >= options_.queued_max)
+std::optional<Submitted> SharedJobs::RefuseToQueue(const std::string& client, std::size_t count,
+                                                   bool as_sweep) const {
+  const QueueLimits limits = LimitsOf(options_, as_sweep);
+  if (stopping_ || store_.Waiting(kind_, std::nullopt, as_sweep) + count > limits.all)
     return Submitted{Submitted::kRefused, ""};
-  if (store_.Waiting(kind_, client) >= options_.queued_per_client_max)
+  if (store_.Waiting(kind_, client, as_sweep) + count > limits.of_client)
     return Submitted{Submitted::kClientRefused, ""};
   return std::nullopt;
+}
+
+Submitted SharedJobs::SubmitSweep(catalog::SweepRecord sweep,
+                                  std::vector<catalog::JobOrder> orders) {
+  sweep.kind = kind_;
+  const auto known = [&] { return KnownSweep(store_, sweep); };
+  if (const auto one = known()) return *one;
+  if (const auto refused = RefuseToQueue(sweep.client, orders.size(), true)) return *refused;
+  const auto jobs = JobsOf(sweep, std::move(orders));
+  const auto added = store_.AddSweep(sweep, jobs);
+  if (!added) return known().value_or(Submitted{Submitted::kRefused, ""});  // another was faster
+  changed_();
+  return {Submitted::kAccepted, added->id};
+}
+
+std::optional<catalog::SweepRecord> SharedJobs::FindSweep(const std::string& id) const {
+  return store_.FindSweep(kind_, id);
+}
+
+std::vector<catalog::SweepRecord> SharedJobs::Sweeps() const {
+  return store_.Sweeps(kind_, kSweepsListed);
+}
+
+std::vector<catalog::JobRecord> SharedJobs::OfSweep(const std::string& id) const {
+  return store_.OfSweep(id);
 }
 
 Submitted SharedJobs::Submit(catalog::JobOrder order) {
@@ -69,7 +96,7 @@ Asked SharedJobs::Again(const std::string& id) {
   if (!record) return Asked::kUnknown;
   if (!Ended(record->status)) return Asked::kUnderWay;
   if (record->status == JobStatus::kDone) return Asked::kDone;
-  if (const auto refused = RefuseToQueue(record->order.client))
+  if (const auto refused = RefuseToQueue(record->order.client, 1, !record->order.sweep.empty()))
     return refused->status == Submitted::kRefused ? Asked::kRefused : Asked::kClientRefused;
   store_.Again(id);  // or another did
   changed_();

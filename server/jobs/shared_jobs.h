@@ -23,6 +23,10 @@ class SharedJobs : public JobQueue {
              std::function<void()> changed);
 
   Submitted Submit(catalog::JobOrder order) override;
+  Submitted SubmitSweep(catalog::SweepRecord sweep, std::vector<catalog::JobOrder> orders) override;
+  std::optional<catalog::SweepRecord> FindSweep(const std::string& id) const override;
+  std::vector<catalog::SweepRecord> Sweeps() const override;
+  std::vector<catalog::JobRecord> OfSweep(const std::string& id) const override;
   std::optional<Job> Look(const std::string& id) const override;
   void AddResult(Job& job) const override;
   std::vector<Job> List() const override;
@@ -35,7 +39,9 @@ class SharedJobs : public JobQueue {
   const JobOptions& options() const override { return options_; }
 
  private:
-  std::optional<Submitted> RefuseToQueue(const std::string& client) const;
+  // So many more jobs of a client, as a sweep or not.
+  std::optional<Submitted> RefuseToQueue(const std::string& client, std::size_t count = 1,
+                                         bool as_sweep = false) const;
 
   catalog::SharedJobStore& store_;
   const std::string kind_;

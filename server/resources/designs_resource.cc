@@ -4,6 +4,7 @@
 #include "api/catalogue/stores.h"
 #include "api/design/answer.h"
 #include "api/design/read/requirements_reader.h"
+#include "api/design/sweep/sweep_table.h"
 #include "api/json/json.h"
 #include "api/measure/model_document.h"
 #include "server/call/signature.h"
@@ -33,7 +34,8 @@ api::Json ToJson(const optimizer::Progress& progress, const api::Json& asked) {
 }
 
 // The last progress, which a list of jobs shows in place of the answer.
-api::Json Outcome(const api::Json& answer, const api::Json& asked) {
+// Of a job of a sweep it holds the row of its table, too.
+api::Json Outcome(const api::Json& answer, const api::Json& asked, bool of_sweep) {
   const api::Json& designs = answer.at("designs");
   api::Json outcome = {{"seconds", answer.at("seconds")},
                        {"evaluated", answer.at("proof").at("evaluated")},
@@ -41,6 +43,7 @@ api::Json Outcome(const api::Json& answer, const api::Json& asked) {
                        {"lower_bound", answer.at("proof").at("lower_bound")},
                        {"outcome", answer.at("status")}};
   outcome.update(asked);
+  if (of_sweep) outcome["row"] = api::SweepRow(answer);
   return outcome;
 }
 
@@ -83,14 +86,15 @@ Work DesignWork(SharedCatalog& catalog, JobMemory& memory) {
         api::AnswerRequest(std::get<api::DesignRequest>(request), options, *parts.parts);
     if (share->must_end() && !control.cancelled()) EndedByMemory(answer);
     answer["catalogue_revision"] = api::RenderRevisionName(parts.revision);
-    control.report(Outcome(answer, asked));
+    control.report(Outcome(answer, asked, !order.sweep.empty()));
     return answer;
   };
 }
 
 Reply PostDesign(SharedCatalog& catalog, const JobsResource& designs, const Call& call) {
-  auto query_errors = CheckQuery(call, {"validate_only"});
+  auto query_errors = CheckQuery(call, {"validate_only", "priority"});
   const bool validate_only = ReadFlag(call, "validate_only", query_errors);
+  const int priority = ReadPriority(call, query_errors);
   if (!query_errors.empty()) return ProblemReply(422, query_errors);
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
@@ -105,9 +109,10 @@ Reply PostDesign(SharedCatalog& catalog, const JobsResource& designs, const Call
   const auto signature = SignatureOf(call);
   if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
   const auto& request = std::get<api::DesignRequest>(parsed);
-  return StartJob(designs, call,
-                  OrderOf(call, std::get<catalog::Signature>(signature), request.name,
-                          view.revision, request.model));
+  auto order = OrderOf(call, std::get<catalog::Signature>(signature), request.name, view.revision,
+                       request.model);
+  order.priority = priority;
+  return StartJob(designs, call, std::move(order));
 }
 
 }  // namespace plenum::server

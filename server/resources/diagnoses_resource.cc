@@ -223,6 +223,9 @@ Work DiagnosisWork(SharedCatalog& catalog) {
 }
 
 Reply PostDiagnosis(SharedCatalog& catalog, const JobsResource& diagnoses, const Call& call) {
+  auto query_errors = CheckQuery(call, {"priority"});
+  const int priority = ReadPriority(call, query_errors);
+  if (!query_errors.empty()) return ProblemReply(422, query_errors);
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
   const auto models = catalog.Models();
@@ -233,9 +236,10 @@ Reply PostDiagnosis(SharedCatalog& catalog, const JobsResource& diagnoses, const
   if (const auto* refused = std::get_if<Reply>(&signature)) return *refused;
   const auto& request = std::get<Request>(parsed);
   const auto head = catalog.Head();
-  return StartJob(diagnoses, call,
-                  OrderOf(call, std::get<catalog::Signature>(signature),
-                          request.diagnosis.dataset.name, head, request.model));
+  auto order = OrderOf(call, std::get<catalog::Signature>(signature),
+                       request.diagnosis.dataset.name, head, request.model);
+  order.priority = priority;
+  return StartJob(diagnoses, call, std::move(order));
 }
 
 }  // namespace plenum::server

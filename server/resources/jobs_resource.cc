@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "api/json/words.h"
 #include "server/call/entity_tag.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
@@ -46,7 +47,8 @@ api::Json Long(const JobsResource& resource, const Job& job) {
       {"attempts", job.attempts},
       {"crashes", job.crashes},
       {"last_crash", job.crash.empty() ? api::Json() : api::Json(job.crash)},
-      {"catalogue_revision", {{"number", job.catalogue_revision}, {"hash", job.catalogue_hash}}},
+      {"catalogue_revision", {{"number", job.catalogue.number}, {"hash", job.catalogue.hash}}},
+      {"sweep", job.sweep.empty() ? api::Json() : api::Json(job.sweep)},
       {"progress", job.progress}};
   if (job.status == JobStatus::kFailed) json["detail"] = WhyFailed(resource, job);
   return json;
@@ -82,27 +84,6 @@ std::string Bare(std::string_view text) {
   return bare;
 }
 
-// Seconds of "Prefer: wait=N"; 0 without one. Preferences that are not understood are ignored
-// (RFC 7240).
-int WaitSeconds(const Call& call) {
-  const auto header = call.header("Prefer");
-  if (!header || header->size() > 200) return 0;
-  std::string_view rest = *header;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find_first_of(",;"), rest.size());
-    const std::string_view preference = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    const std::size_t equal = preference.find('=');
-    if (equal == std::string_view::npos || Bare(preference.substr(0, equal)) != "wait") continue;
-    const std::string value = Bare(preference.substr(equal + 1));
-    int seconds = 0;
-    const auto [last, error] = std::from_chars(value.data(), value.data() + value.size(), seconds);
-    if (error == std::errc() && last == value.data() + value.size() && seconds >= 0)
-      return std::min(seconds, kWaitSecondsMax);
-  }
-  return 0;
-}
-
 // What a client that waited gets.
 Reply ResultReply(const JobsResource& resource, Job job, int seconds) {
   resource.jobs->AddResult(job);
@@ -127,30 +108,71 @@ Reply NoJob(const JobsResource& resource, const std::string& id) {
                                "; of those that ended only the newest are kept");
 }
 
-Reply FullQueue(const JobsResource& resource, bool of_client) {
-  const JobOptions& options = resource.jobs->options();
-  if (of_client)
-    return BusyReply("jobs_queued_per_client_max", options.queued_per_client_max,
-                     "as many " + resource.noun + " jobs of yours wait as may; try again later",
-                     10);
-  return BusyReply("jobs_queued_max", options.queued_max,
-                   "the queue of " + resource.noun + " jobs is full; try again later", 10);
-}
-
 std::string Event(const char* name, const api::Json& data) {
   return std::string("event: ") + name + "\ndata: " + Dump(data) + "\n\n";
 }
 
 }  // namespace
 
-Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder order) {
+// Preferences that are not understood are ignored
+// (RFC 7240).
+int WaitSeconds(const Call& call) {
+  const auto header = call.header("Prefer");
+  if (!header || header->size() > 200) return 0;
+  std::string_view rest = *header;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find_first_of(",;"), rest.size());
+    const std::string_view preference = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    const std::size_t equal = preference.find('=');
+    if (equal == std::string_view::npos || Bare(preference.substr(0, equal)) != "wait") continue;
+    const std::string value = Bare(preference.substr(equal + 1));
+    int seconds = 0;
+    const auto [last, error] = std::from_chars(value.data(), value.data() + value.size(), seconds);
+    if (error == std::errc() && last == value.data() + value.size() && seconds >= 0)
+      return std::min(seconds, kWaitSecondsMax);
+  }
+  return 0;
+}
+
+std::shared_ptr<void> EnterWaiting() {
   static Turnstile turnstile(kWaitingMax);
+  return turnstile.Enter();
+}
+
+int ReadPriority(const Call& call, api::Errors& errors) {
+  const auto given = QueryValue(call, "priority");
+  if (!given) return 0;
+  int priority = 0;
+  const char* const end = given->data() + given->size();
+  const auto [last, error] = std::from_chars(given->data(), end, priority);
+  if (error == std::errc() && last == end && priority >= -catalog::kPriorityMax && priority <= 0)
+    return priority;
+  errors.push_back({"", "query priority must be a whole number from " +
+                            std::to_string(-catalog::kPriorityMax) + " to 0, not " +
+                            api::Quoted(*given)});
+  return 0;
+}
+
+Reply FullQueue(const JobsResource& resource, bool of_client, bool as_sweep) {
+  const JobOptions& options = resource.jobs->options();
+  const QueueLimits limits = LimitsOf(options, as_sweep);
+  const std::string prefix = as_sweep ? "sweep_" : "";
+  const std::string jobs = resource.noun + (as_sweep ? " jobs of sweeps" : " jobs");
+  if (of_client)
+    return BusyReply(prefix + "jobs_queued_per_client_max", limits.of_client,
+                     "as many " + jobs + " of yours wait as may; try again later", 10);
+  return BusyReply(prefix + "jobs_queued_max", limits.all,
+                   "the queue of " + jobs + " is full; try again later", 10);
+}
+
+Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder order) {
   const auto [status, id] = resource.jobs->Submit(std::move(order));
   if (status == Submitted::kKeyReused) return KeyReused();
   if (status == Submitted::kRefused) return FullQueue(resource, false);
   if (status == Submitted::kClientRefused) return FullQueue(resource, true);
   const int seconds = WaitSeconds(call);
-  auto turn = seconds > 0 ? turnstile.Enter() : nullptr;
+  auto turn = seconds > 0 ? EnterWaiting() : nullptr;
   if (!turn) return AcceptedReply(resource, id);
   Reply reply;
   reply.later = [resource, id = id, seconds, turn = std::move(turn),

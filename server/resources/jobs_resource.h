@@ -2,6 +2,7 @@
 #ifndef PLENUM_SERVER_RESOURCES_JOBS_RESOURCE_H_
 #define PLENUM_SERVER_RESOURCES_JOBS_RESOURCE_H_
 
+#include <memory>
 #include <string>
 
 #include "server/call/reply.h"
@@ -14,6 +15,15 @@ struct JobsResource {
   std::string path;  // "/v1/designs"
   std::string noun;  // "design"
 };
+
+// The query's `priority`, which may put a job behind those of others: -100 to 0, its default.
+int ReadPriority(const Call& call, api::Errors& errors);
+// Seconds of "Prefer: wait=N"; 0 without one.
+int WaitSeconds(const Call& call);
+// A place among those who wait for their job, until its last copy goes; none where too many do.
+std::shared_ptr<void> EnterWaiting();
+// 429: the queue is full, or so many jobs of the client wait.
+Reply FullQueue(const JobsResource& resource, bool of_client, bool as_sweep = false);
 
 // A new job, or the one that has the order's key. 202 with { id, status, links }, or with "Prefer:
 // wait=N" 200 with the result when it comes within N seconds. Who waits holds no thread; beyond

@@ -11,6 +11,7 @@
 #include "api/protocol/test_sensor.h"
 #include "server/resources/schemas/diagnosis_schemas.h"
 #include "server/resources/schemas/schema_forms.h"
+#include "server/resources/schemas/sweep_schemas.h"
 
 namespace plenum::server {
 namespace {
@@ -35,13 +36,14 @@ struct Operation {
   std::vector<int> problems = {};
 };
 
+const std::vector<std::string> kJobPost = {"validate_only", "priority", "Prefer", "Idempotency-Key",
+                                           "From"};
+
 const std::map<std::string, Operation>& Operations() {
   static const std::vector<std::string> kPage = {"limit", "cursor"};
   static const std::vector<std::string> kSensor = {"sensor_noise_kpa", "sensor_resolution_kpa",
                                                    "sampling_hz", "bottle_l"};
   static const std::vector<std::string> kWrite = {"Idempotency-Key", "From"};
-  static const std::vector<std::string> kJobPost = {"validate_only", "Prefer", "Idempotency-Key",
-                                                    "From"};
   static const std::map<std::string, Operation> kOperations = {
       {"POST /v1/designs",
        {kJobPost,
@@ -49,7 +51,7 @@ const std::map<std::string, Operation>& Operations() {
         {{200, "DesignsOrValid"}, {202, "JobAccepted"}},
         {400, 422, 429}}},
       {"POST /v1/diagnoses",
-       {{"Prefer", "Idempotency-Key", "From"},
+       {{"priority", "Prefer", "Idempotency-Key", "From"},
         "Measurement",
         {{200, "Diagnosis"}, {202, "JobAccepted"}},
         {400, 422, 429}}},
@@ -96,6 +98,19 @@ const std::map<std::string, Operation>& Operations() {
   return kOperations;
 }
 
+const std::map<std::string, Operation>& SweepOperations() {
+  static const std::map<std::string, Operation> kOperations = {
+      {"POST /v1/sweeps",
+       {kJobPost, "Sweep", {{200, "SweepTableOrValid"}, {202, "SweepAccepted"}}, {400, 422, 429}}},
+      {"GET /v1/sweeps", {{}, "", {{200, "Sweeps"}}, {}}},
+      {"GET /v1/sweeps/{id}", {{}, "", {{200, "SweepWithJobs"}}, {404}}},
+      {"DELETE /v1/sweeps/{id}", {{}, "", {{200, "SweepAccepted"}}, {404}}},
+      {"GET /v1/sweeps/{id}/table",
+       {{"format"}, "", {{200, "SweepTable"}, {200, "Csv", kCsv}}, {404, 422}}},
+  };
+  return kOperations;
+}
+
 // Of what people read in a browser.
 const std::map<std::string, Operation>& PageOperations() {
   static const std::map<std::string, Operation> kOperations = {
@@ -118,7 +133,7 @@ const Operation& OperationOf(const Route& route) {
       {"POST /{id}/again", {{}, "", {{202, "JobAccepted"}}, {404, 409, 429}}},
       {"GET /{id}/events", {{}, "", {{200, "Text", kEvents}}, {404, 429}}},
   };
-  for (const auto* operations : {&Operations(), &PageOperations()})
+  for (const auto* operations : {&Operations(), &SweepOperations(), &PageOperations()})
     if (const auto found = operations->find(route.method + " " + route.path);
         found != operations->end())
       return found->second;
@@ -175,6 +190,9 @@ Json Parameters() {
       {"validate_only", Query("validate_only", flag, "check the document, start no job")},
       {"revision", Query("revision", {{"type", "integer"}, {"minimum", 0}},
                          "as it was in this revision of the catalogue")},
+      {"priority", Query("priority", {{"type", "integer"}, {"minimum", -100}, {"maximum", 0}},
+                         "below 0: after all jobs of a higher one, whoever asked; default 0")},
+      {"format", Query("format", {{"enum", {"json", "csv"}}}, "of the table; else by Accept")},
       {"Prefer", Header("Prefer", "wait=N: up to N seconds for the result")},
       {"Idempotency-Key", Header("Idempotency-Key", "repetitions with the same key act once")},
       {"From", Header("From", "who writes")},
@@ -288,6 +306,7 @@ Json Schemas() {
   schemas["Evaluation"]["properties"]["note"] = Json::object();
   schemas["Evaluation"]["properties"]["beside"] = api::DescribeGivenDesign();
   schemas["Evaluation"]["additionalProperties"] = false;
+  schemas.update(SweepSchemas());
   schemas["NamedModel"] = Object(
       {{"name", {{"type", "string"}, {"maxLength", 200}}}, {"model", Ref("schemas", "Model")}});
   schemas["NamedModel"]["additionalProperties"] = false;
@@ -309,6 +328,7 @@ Json ExampleOf(const std::string& schema) {
   if (schema == "Map") return api::ExampleMap();
   if (schema == "Recording") return api::ExampleRecording();
   if (schema == "Evaluation") return api::ExampleEvaluation();
+  if (schema == "Sweep") return ExampleSweep();
   if (schema == "Part") return api::ExamplePart();
   return {{"name", "bench"}, {"model", api::ExampleModel()}};
 }
@@ -333,7 +353,8 @@ Json Render(const Route& route) {
   if (!operation.body.empty()) json["requestBody"] = RequestBody(operation.body);
   Json& responses = json["responses"] = Json::object();
   for (const Operation::Answer& answer : operation.answers) {
-    Json& response = responses[std::to_string(answer.status)] = {{"description", "answered"}};
+    Json& response = responses[std::to_string(answer.status)];
+    response["description"] = "answered";
     if (!answer.schema.empty())
       response["content"][answer.media]["schema"] = Ref("schemas", answer.schema);
   }

@@ -24,6 +24,7 @@
 #include "server/resources/pages/page_resource.h"
 #include "server/resources/parts_resource.h"
 #include "server/resources/seed_resource.h"
+#include "server/resources/sweeps_resource.h"
 
 namespace plenum::server {
 namespace {
@@ -156,7 +157,28 @@ void AddCatalogUpdate(const Services& services, std::vector<Route>& routes) {
        }});
 }
 
-void AddQueueRoute(const Services& services, std::vector<Route>& routes) {
+void AddSweepRoutes(SharedCatalog& catalog, const JobsResource& designs,
+                    std::vector<Route>& routes) {
+  const std::string all = "/v1/sweeps", one = all + "/{id}";
+  routes.push_back(
+      {"POST", all,
+       "sweep/1 in, a design job for each of its patches out; query validate_only, priority",
+       Access::kWrite,
+       [&catalog, designs](const Call& call) { return PostSweep(catalog, designs, call); }});
+  routes.push_back({"GET", all, "the sweeps, newest first", Access::kRead,
+                    [designs](const Call&) { return ListSweeps(designs); }});
+  routes.push_back({"GET", one, "one sweep: status, its jobs", Access::kRead,
+                    [designs](const Call& call) { return GetSweep(designs, call); }});
+  routes.push_back({"DELETE", one, "cancels what has not ended", Access::kWrite,
+                    [designs](const Call& call) { return CancelSweep(designs, call); }});
+  routes.push_back({"GET", one + "/table", "its answers side by side; query format: json or csv",
+                    Access::kRead,
+                    [designs](const Call& call) { return GetSweepTable(designs, call); }});
+}
+
+void AddQueueRoutes(const Services& services, const JobsResource& designs,
+                    std::vector<Route>& routes) {
+  AddSweepRoutes(services.catalog, designs, routes);
   routes.push_back({"GET", "/v1/queue", "jobs that wait and run, of all services; who does them",
                     Access::kRead,
                     [queue = services.queue](const Call&) { return GetQueue(queue()); }});
@@ -183,12 +205,13 @@ std::vector<Route> Routes(const Services& services) {
   const JobsResource diagnosis_jobs{&services.diagnoses, "/v1/diagnoses", "diagnosis"};
   std::vector<Route> routes = {
       {"POST", design_jobs.path,
-       "requirements/1 in, a job that ranks designs out; query validate_only", Access::kWrite,
+       "requirements/1 in, a job that ranks designs out; query validate_only, priority",
+       Access::kWrite,
        [&catalog, design_jobs](const Call& call) {
          return PostDesign(catalog, design_jobs, call);
        }},
       {"POST", diagnosis_jobs.path,
-       "measurement/1 in, a job that finds what the model lacks out; fields model, save",
+       "measurement/1 in, a job that finds what the model lacks out; query priority",
        Access::kWrite,
        [&catalog, diagnosis_jobs](const Call& call) {
          return PostDiagnosis(catalog, diagnosis_jobs, call);
@@ -253,7 +276,7 @@ std::vector<Route> Routes(const Services& services) {
   AddCatalogUpdate(services, routes);
   AddJobRoutes(design_jobs, routes);
   AddJobRoutes(diagnosis_jobs, routes);
-  AddQueueRoute(services, routes);
+  AddQueueRoutes(services, design_jobs, routes);
   AddPages(services, routes);
   routes.push_back({"GET", "/openapi.json", "this description, OpenAPI 3.1", Access::kOpen, {}});
   routes.push_back({"GET", "/v1", "this table", Access::kRead, {}});

@@ -43,6 +43,12 @@ class AnswersAreThoseOfTheCommand(unittest.TestCase):
     def test_map(self):
         self.assertEqual(plenum.map(EXAMPLES / "map.json"), command("map", EXAMPLES / "map.json"))
 
+    def test_sweep(self):
+        table = plenum.sweep(EXAMPLES / "how_often.json", catalog=ROOT / "catalog.db")
+        expected = command("sweep", EXAMPLES / "how_often.json")
+        self.assertEqual([timeless(row) for row in table["rows"]], [timeless(row) for row in expected["rows"]])
+        self.assertEqual(list(table.frame["/duty/frequency_hz"]), [0.05, 0.1, 0.2, 0.5])
+
     def test_verify_refuses_a_changed_answer(self):
         answer = plenum.design(EXAMPLES / "gripper.json", top=1, catalog=ROOT / "catalog.db")
         answer["designs"][0]["totals"]["mass_kg"] = 0.001

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "server/call/protection.h"
+#include "server/call/service_limits.h"
 #include "tests/server/http_client.h"
 
 namespace plenum::server {
@@ -234,6 +235,15 @@ TEST(Serve, SaysWhenThePortIsTaken) {
   options.catalog = bench.catalog();
   options.port = serve.port();
   EXPECT_THROW(HttpService{options}, ListenError);
+}
+
+TEST_F(Http, LimitsAreThoseOfRefusals) {
+  const Json limits = JsonOf(client_->Get("/v1/limits")->body)["limits"];
+  const auto refused = client_->Get("/" + std::string(2000, 'x'));
+  EXPECT_EQ(refused->status, 414);
+  const Json limit = JsonOf(refused->body)["limit"];
+  EXPECT_EQ(limit["value"], limits[limit["name"].get<std::string>()]);
+  EXPECT_EQ(limits["body_bytes_max"], kBodyBytesMax);
 }
 
 }  // namespace

@@ -102,6 +102,31 @@ TEST_P(OnServer, AKilledWorkersJobIsDoneByAnotherWithTheAnswerOfAFile) {
   EXPECT_EQ(answer, expected);
 }
 
+// The table is that of the command on a file, whoever was killed meanwhile.
+TEST_P(OnServer, ASweepOutlastsAKilledWorkerAndTheTableIsThatOfAFile) {
+  Json patches = Json::array();
+  for (const double hz : {0.05, 0.08, 0.12})
+    patches.push_back(
+        {{"name", std::to_string(hz)}, {"merge", {{"duty", {{"frequency_hz", hz}}}}}});
+  const Json sweep = {{"schema", "sweep/1"}, {"requirements", Exosuit(100)}, {"patches", patches}};
+  const auto accepted = To(*one_).Post("/v1/sweeps", sweep.dump(), kJson);
+  ASSERT_EQ(accepted->status, 202) << accepted->body;
+  const std::string path = accepted->get_header_value("Location");
+  auto first = Work();
+  EXPECT_EQ(When(*one_, path, "queued")["status"], "running");
+  EXPECT_EQ(first->End(SIGKILL), -SIGKILL);
+  const auto second = Work(), third = Work();
+  EXPECT_EQ(WhenEnded(*one_, path)["jobs"]["done"], 3);
+  bench_.Write("sweep.json", sweep.dump());
+  const Json expected = JsonOf(bench_.Run("sweep sweep.json --json").out);
+  const Json table = Get(*Serve(), path + "/table");
+  for (std::size_t i = 0; i < 3; ++i) {
+    Json row = table["rows"][i], wanted = expected["rows"][i];
+    for (const char* differs : {"seconds", "link"}) row[differs] = wanted[differs] = nullptr;
+    EXPECT_EQ(row, wanted);
+  }
+}
+
 TEST_P(OnServer, AStoppedWorkerEndsItsJobFirst) {
   auto worker = Work();
   const std::string job = Post(*one_, Exosuit(100));

@@ -22,6 +22,7 @@ import { DesignsView } from './views/designs';
 import { JobsView } from './views/jobs';
 import { MeasuredView } from './views/measured';
 import { RequirementsView } from './views/requirements';
+import { SweepView } from './views/sweep';
 import { TokenView } from './views/token';
 
 const views = [
@@ -43,6 +44,8 @@ function View() {
       return <MeasuredView />;
     case 'jobs':
       return <JobsView />;
+    case 'sweep':
+      return <SweepView />;
     default:
       return <RequirementsView />;
   }

@@ -3,6 +3,7 @@
 #define PLENUM_CATALOG_STORE_JOBS_JOB_RECORD_H_
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "catalog/store/revision.h"
@@ -30,6 +31,30 @@ struct JobOrder {
   std::string model_hash;
   std::string client;  // who takes turns with others: the id of a token or an address
   int priority = 0;    // -kPriorityMax to kPriorityMax; of those that wait the highest goes first
+  std::string sweep;   // the id of the sweep that it belongs to, empty for none
+  int place = 0;       // in it, from 0
+};
+
+// Jobs that were asked for together, and what is told of them together.
+struct SweepRecord {
+  std::int64_t number = 0;  // in the order of adding
+  std::string id;
+  std::string kind;  // of its jobs
+  std::string name;  // for people
+  Signature by;
+  std::string client;
+  std::string submitted_at;
+  std::int64_t revision = 0;  // of the catalogue
+  std::string hash;
+  std::string plan;  // JSON: what its table says beside the answers
+  // Of its jobs, as they are now: how many there are of each status, and when the last one ended.
+  std::map<JobStatus, int> jobs;
+  std::string ended_at;  // empty until all have ended
+};
+
+struct NewJob {
+  std::string id;
+  JobOrder order;
 };
 
 struct JobRecord {

@@ -18,7 +18,63 @@ void SetStatus(JobRecord& job, const std::string& name) {
   job.failure = "its record is damaged: it has the unknown status \"" + name + "\"";
 }
 
+std::string SweepColumns(const char* plan) {
+  std::string columns =
+      "SELECT number, id, name, who, coalesce(key, ''), coalesce(digest, ''), client, "
+      "submitted_at, revision, hash, (SELECT coalesce(max(ended_at), '') FROM job WHERE job.sweep "
+      "= "
+      "sweep.id), ";
+  for (const JobStatus status : kStatuses)
+    columns += std::string("(SELECT count(*) FROM job WHERE job.sweep = sweep.id AND status = '") +
+               Name(status) + "'), ";
+  return columns + plan + " FROM sweep WHERE kind = ? ";
+}
+
+SweepRecord ReadSweep(const SqlStatement& row, const std::string& kind) {
+  SweepRecord sweep;
+  sweep.kind = kind;
+  int column = 0;
+  sweep.number = row.Integer(column++);
+  for (std::string* text : {&sweep.id, &sweep.name, &sweep.by.who, &sweep.by.key, &sweep.by.request,
+                            &sweep.client, &sweep.submitted_at})
+    *text = row.Text(column++);
+  sweep.revision = row.Integer(column++);
+  sweep.hash = row.Text(column++);
+  sweep.ended_at = row.Text(column++);
+  for (const JobStatus status : kStatuses)
+    sweep.jobs[status] = static_cast<int>(row.Integer(column++));
+  sweep.plan = row.Text(column);
+  if (sweep.jobs[JobStatus::kQueued] + sweep.jobs[JobStatus::kRunning] > 0) sweep.ended_at.clear();
+  return sweep;
+}
+
 }  // namespace
+
+bool InsertSweep(SqlDatabase& db, const SweepRecord& sweep) {
+  const auto added =
+      Query(db,
+            std::string("INSERT INTO sweep (id, kind, name, who, key, digest, client, revision, "
+                        "hash, plan, submitted_at) VALUES (?, ?, ?, ?, nullif(?, ''), nullif(?, "
+                        "''), ?, ?, ?, ?, ") +
+                db.words().now + ") ON CONFLICT DO NOTHING RETURNING number",
+            sweep.id, sweep.kind, sweep.name, sweep.by.who, sweep.by.key, sweep.by.request,
+            sweep.client, sweep.revision, sweep.hash, sweep.plan);
+  return added->Step();
+}
+
+std::vector<SweepRecord> SelectSweeps(SqlDatabase& db, const std::string& kind, int limit) {
+  const auto query =
+      Query(db, SweepColumns("''") + "ORDER BY number DESC LIMIT " + std::to_string(limit), kind);
+  std::vector<SweepRecord> sweeps;
+  while (query->Step()) sweeps.push_back(ReadSweep(*query, kind));
+  return sweeps;
+}
+
+std::optional<SweepRecord> SelectSweep(SqlDatabase& db, const std::string& kind, const char* column,
+                                       const std::string& value) {
+  const auto query = Query(db, SweepColumns("plan") + "AND " + column + " = ?", kind, value);
+  return query->Step() ? std::optional(ReadSweep(*query, kind)) : std::nullopt;
+}
 
 JobRecord ReadJob(const SqlStatement& row) {
   const auto text = [&](int column) { return row.Text(column); };
@@ -45,7 +101,9 @@ JobRecord ReadJob(const SqlStatement& row) {
   job.alone = row.Integer(22) != 0;
   job.order.client = text(23);
   job.order.priority = static_cast<int>(row.Integer(24));
-  job.ending = row.Integer(25);
+  job.order.sweep = text(25);
+  job.order.place = static_cast<int>(row.Integer(26));
+  job.ending = row.Integer(27);
   SetStatus(job, text(11));
   if (row.columns() > kRequestColumn) {
     job.order.request = text(kRequestColumn);

@@ -15,7 +15,7 @@ namespace plenum::catalog {
 namespace {
 
 constexpr int kBusyTimeoutMs = 2'000;
-constexpr int kSchema = 4;
+constexpr int kSchema = 5;
 constexpr int kApplicationId = 1886154346;  // "plnj"
 
 // Only one of them had begun and so has a result: its size tells it from the others, all alike.
@@ -66,6 +66,26 @@ constexpr char kSchema4[] = R"sql(
 ALTER TABLE job ADD COLUMN priority INTEGER NOT NULL DEFAULT 0
   CHECK (priority BETWEEN -100 AND 100);
 )sql";
+constexpr char kSchema5[] = R"sql(
+CREATE TABLE sweep (
+  number INTEGER NOT NULL PRIMARY KEY CHECK (number BETWEEN 1 AND 9007199254740991),
+  id TEXT NOT NULL UNIQUE CHECK (length(id) BETWEEN 1 AND 100),
+  kind TEXT NOT NULL CHECK (length(kind) BETWEEN 1 AND 100),
+  name TEXT NOT NULL CHECK (length(name) <= 1000000),
+  who TEXT NOT NULL CHECK (length(who) <= 200),
+  key TEXT CHECK (length(key) BETWEEN 1 AND 255),
+  digest TEXT CHECK (length(digest) BETWEEN 1 AND 100),
+  client TEXT NOT NULL CHECK (length(client) <= 100),
+  submitted_at TEXT NOT NULL CHECK (length(submitted_at) = 20),
+  revision INTEGER NOT NULL CHECK (revision BETWEEN 0 AND 9007199254740991),
+  hash TEXT NOT NULL CHECK (length(hash) = 64 AND hash NOT GLOB '*[^0-9a-f]*'),
+  plan TEXT NOT NULL,
+  UNIQUE (kind, key)
+) STRICT;
+ALTER TABLE job ADD COLUMN sweep TEXT;
+ALTER TABLE job ADD COLUMN place INTEGER NOT NULL DEFAULT 0 CHECK (place BETWEEN 0 AND 1000000);
+CREATE INDEX job_of_sweep ON job (sweep, place) WHERE sweep IS NOT NULL;
+)sql";
 
 // The requests and results are their client's, whoever may read the catalogue. SQLite gives its log
 // the mode of the file.
@@ -101,11 +121,24 @@ SQLite::Database Open(const std::string& path) {
   if (empty || schema < kSchema) {
     if (empty || schema < 2) db.exec(kSchema2);
     if (empty || schema < 3) db.exec(kSchema3);
-    db.exec(kSchema4);
+    if (empty || schema < 4) db.exec(kSchema4);
+    db.exec(kSchema5);
     db.exec("PRAGMA user_version = " + std::to_string(kSchema));
   }
   transaction.commit();
   return db;
+}
+
+void InsertJob(SqlDatabase& db, const std::string& id, const JobOrder& order) {
+  Run(db,
+      std::string("INSERT INTO job (id, kind, name, who, key, digest, revision, hash, model, "
+                  "model_version, model_hash, client, priority, sweep, place, status, "
+                  "submitted_at, bytes, request) VALUES (?, ?, ?, ?, nullif(?, ''), nullif(?, ''), "
+                  "?, ?, ?, ?, ?, ?, ?, nullif(?, ''), ?, 'queued', ") +
+          db.words().now + ", ?, ?)",
+      id, order.kind, order.name, order.by.who, order.by.key, order.by.request, order.revision,
+      order.hash, order.model, order.model_version, order.model_hash, order.client, order.priority,
+      order.sweep, order.place, static_cast<std::int64_t>(order.request.size()), order.request);
 }
 
 }  // namespace
@@ -146,12 +179,8 @@ struct JobStore::Impl {
   }
 
   void DropOld(const std::string& kind) {
-    Run(*db,
-        "DELETE FROM job WHERE number IN (SELECT number FROM ("
-        "  SELECT number, row_number() OVER newest AS place, sum(bytes) OVER newest AS total"
-        "  FROM job WHERE kind = ? AND ended IS NOT NULL WINDOW newest AS (ORDER BY ended DESC))"
-        " WHERE place > 1 AND (place > ? OR total > ?))",
-        kind, kept.jobs, kept.bytes);
+    Run(*db, kOldJobs, kind, kept.jobs, kept.bytes);
+    Run(*db, kEmptySweeps, kind);
   }
 
   const std::string path;
@@ -187,18 +216,38 @@ std::vector<std::string> CheckJobs(const std::filesystem::path& path) {
 }
 
 JobRecord JobStore::Add(const std::string& id, const JobOrder& order) {
-  impl_->Do([&](SqlDatabase& db) {
-    Run(db,
-        std::string("INSERT INTO job (id, kind, name, who, key, digest, revision, hash, model, "
-                    "model_version, model_hash, client, priority, status, submitted_at, bytes, "
-                    "request) VALUES (?, ?, ?, ?, nullif(?, ''), nullif(?, ''), ?, ?, ?, ?, ?, ?, "
-                    "?, 'queued', ") +
-            db.words().now + ", ?, ?)",
-        id, order.kind, order.name, order.by.who, order.by.key, order.by.request, order.revision,
-        order.hash, order.model, order.model_version, order.model_hash, order.client,
-        order.priority, static_cast<std::int64_t>(order.request.size()), order.request);
-  });
+  impl_->Do([&](SqlDatabase& db) { InsertJob(db, id, order); });
   return Find(order.kind, id).value();
+}
+
+std::optional<SweepRecord> JobStore::AddSweep(const SweepRecord& sweep,
+                                              const std::vector<NewJob>& jobs) {
+  const bool added = impl_->Do([&](SqlDatabase& db) {
+    SqlTransaction transaction(db, Purpose::kWrite);
+    if (!InsertSweep(db, sweep)) return false;
+    for (const NewJob& job : jobs) InsertJob(db, job.id, job.order);
+    transaction.Commit();
+    return true;
+  });
+  return added ? FindSweep(sweep.kind, sweep.id) : std::nullopt;
+}
+
+std::optional<SweepRecord> JobStore::FindSweep(const std::string& kind,
+                                               const std::string& id) const {
+  return impl_->Do([&](SqlDatabase& db) { return SelectSweep(db, kind, "id", id); });
+}
+
+std::optional<SweepRecord> JobStore::FindSweepKey(const std::string& kind,
+                                                  const std::string& key) const {
+  return impl_->Do([&](SqlDatabase& db) { return SelectSweep(db, kind, "key", key); });
+}
+
+std::vector<SweepRecord> JobStore::Sweeps(const std::string& kind, int limit) const {
+  return impl_->Do([&](SqlDatabase& db) { return SelectSweeps(db, kind, limit); });
+}
+
+std::vector<JobRecord> JobStore::OfSweep(const std::string& id) const {
+  return impl_->Select(JobColumns(kEnding), "sweep = ? ORDER BY place", {id});
 }
 
 void JobStore::Start(const std::string& id) {

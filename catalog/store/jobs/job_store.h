@@ -64,6 +64,15 @@ class JobStore {
   std::vector<JobRecord> Ended(const std::string& kind) const;
   std::vector<JobRecord> List() const;  // of all kinds, newest first
 
+  // A sweep and its jobs, all or nothing. Gives nothing where the sweep's key has one already.
+  std::optional<SweepRecord> AddSweep(const SweepRecord& sweep, const std::vector<NewJob>& jobs);
+  std::optional<SweepRecord> FindSweep(const std::string& kind, const std::string& id) const;
+  std::optional<SweepRecord> FindSweepKey(const std::string& kind, const std::string& key) const;
+  // Newest first, without their plans.
+  std::vector<SweepRecord> Sweeps(const std::string& kind, int limit) const;
+  // Without requests and results, in their order.
+  std::vector<JobRecord> OfSweep(const std::string& id) const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

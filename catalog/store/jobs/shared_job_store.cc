@@ -41,6 +41,25 @@ std::string Plain(std::string text) {
   return text;
 }
 
+// False where its id or key has a job already.
+bool InsertJob(SqlDatabase& db, const std::string& version, const NewJob& job) {
+  const JobOrder& order = job.order;
+  const auto added = Query(
+      db,
+      std::string(
+          "INSERT INTO job (id, kind, version, name, who, key, digest, revision, hash, "
+          "model, model_version, model_hash, client, priority, sweep, place, bytes, "
+          "submitted_at) VALUES (?, ?, ?, ?, ?, nullif(?, ''), nullif(?, ''), ?, ?, ?, ?, ?, "
+          "?, ?, nullif(?, ''), ?, ?, ") +
+          db.words().now + ") ON CONFLICT DO NOTHING RETURNING number",
+      job.id, order.kind, version, Plain(order.name), order.by.who, order.by.key, order.by.request,
+      order.revision, order.hash, order.model, order.model_version, order.model_hash, order.client,
+      order.priority, order.sweep, order.place, static_cast<std::int64_t>(order.request.size()));
+  if (!added->Step()) return false;
+  Run(db, "INSERT INTO job_request VALUES (?, ?)", added->Integer(0), order.request);
+  return true;
+}
+
 std::vector<JobRecord> ReadJobs(SqlStatement& query) {
   std::vector<JobRecord> jobs;
   while (query.Step()) jobs.push_back(ReadJob(query));
@@ -92,22 +111,40 @@ SharedJobStore::~SharedJobStore() = default;
 
 std::optional<JobRecord> SharedJobStore::Add(const std::string& id, const JobOrder& order) {
   impl_->Do(Purpose::kRows, [&](SqlDatabase& db) {
-    const auto added =
-        Query(db,
-              std::string(
-                  "INSERT INTO job (id, kind, version, name, who, key, digest, revision, hash, "
-                  "model, model_version, model_hash, client, priority, bytes, submitted_at) "
-                  "VALUES (?, ?, ?, ?, ?, nullif(?, ''), nullif(?, ''), ?, ?, ?, ?, ?, ?, ?, ?, ") +
-                  db.words().now + ") ON CONFLICT DO NOTHING RETURNING number",
-              id, order.kind, impl_->version, Plain(order.name), order.by.who, order.by.key,
-              order.by.request, order.revision, order.hash, order.model, order.model_version,
-              order.model_hash, order.client, order.priority,
-              static_cast<std::int64_t>(order.request.size()));
-    if (!added->Step()) return false;
-    Run(db, "INSERT INTO job_request VALUES (?, ?)", added->Integer(0), order.request);
-    return true;
+    return InsertJob(db, impl_->version, {id, order});
   });
   return Peek(order.kind, id);  // also where the first answer was lost
+}
+
+std::optional<SweepRecord> SharedJobStore::AddSweep(const SweepRecord& sweep,
+                                                    const std::vector<NewJob>& jobs) {
+  impl_->Do(Purpose::kRows, [&](SqlDatabase& db) {
+    SweepRecord plain = sweep;
+    plain.name = Plain(plain.name);
+    if (!InsertSweep(db, plain)) return false;
+    for (const NewJob& job : jobs)
+      if (!InsertJob(db, impl_->version, job)) throw SqlError("an id of a job is taken");
+    return true;
+  });
+  return FindSweep(sweep.kind, sweep.id);  // also where the first answer was lost
+}
+
+std::optional<SweepRecord> SharedJobStore::FindSweep(const std::string& kind,
+                                                     const std::string& id) const {
+  return impl_->Read([&](SqlDatabase& db) { return SelectSweep(db, kind, "id", id); });
+}
+
+std::optional<SweepRecord> SharedJobStore::FindSweepKey(const std::string& kind,
+                                                        const std::string& key) const {
+  return impl_->Read([&](SqlDatabase& db) { return SelectSweep(db, kind, "key", key); });
+}
+
+std::vector<SweepRecord> SharedJobStore::Sweeps(const std::string& kind, int limit) const {
+  return impl_->Read([&](SqlDatabase& db) { return SelectSweeps(db, kind, limit); });
+}
+
+std::vector<JobRecord> SharedJobStore::OfSweep(const std::string& id) const {
+  return impl_->Select("sweep = ? ORDER BY place", {id});
 }
 
 std::size_t SharedJobStore::Count(const std::string& kind, JobStatus status) const {
@@ -115,9 +152,16 @@ std::size_t SharedJobStore::Count(const std::string& kind, JobStatus status) con
                                                {catalog::Name(status), kind}));
 }
 
-std::size_t SharedJobStore::Waiting(const std::string& kind, const std::string& client) const {
-  return static_cast<std::size_t>(impl_->Count(
-      "count(*) FROM job WHERE status = 'queued' AND kind = ? AND client = ?", {kind, client}));
+std::size_t SharedJobStore::Waiting(const std::string& kind,
+                                    const std::optional<std::string>& client,
+                                    bool of_sweeps) const {
+  std::vector<std::string> values = {kind};
+  if (client) values.push_back(*client);
+  return static_cast<std::size_t>(
+      impl_->Count(std::string("count(*) FROM job WHERE status = 'queued' AND kind = ?") +
+                       (client ? " AND client = ?" : "") +
+                       (of_sweeps ? " AND sweep IS NOT NULL" : " AND sweep IS NULL"),
+                   values));
 }
 
 std::optional<JobRecord> SharedJobStore::Peek(const std::string& kind,
@@ -314,12 +358,8 @@ void SharedJobStore::Leave(const std::string& worker_id) {
 
 void SharedJobStore::DropOld(const std::string& kind, const JobsKept& kept) {
   impl_->Do(Purpose::kRows, [&](SqlDatabase& db) {
-    Run(db,
-        "DELETE FROM job WHERE number IN (SELECT number FROM (SELECT number, row_number() OVER "
-        "newest AS place, sum(bytes) OVER newest AS total FROM job WHERE kind = ? AND ended IS NOT "
-        "NULL WINDOW newest AS (ORDER BY ended DESC)) AS those WHERE place > 1 AND (place > ? OR "
-        "total > ?))",
-        kind, kept.jobs, kept.bytes);
+    Run(db, kOldJobs, kind, kept.jobs, kept.bytes);
+    Run(db, kEmptySweeps, kind);
     return true;
   });
 }

@@ -51,12 +51,22 @@ class SharedJobStore {
   // Those who ask. Add gives nothing where the key has a job already.
   std::optional<JobRecord> Add(const std::string& id, const JobOrder& order);
   std::size_t Count(const std::string& kind, JobStatus status) const;
-  std::size_t Waiting(const std::string& kind, const std::string& client) const;
+  // Jobs that wait, of one client or all, those of sweeps or the others.
+  std::size_t Waiting(const std::string& kind, const std::optional<std::string>& client,
+                      bool of_sweeps = false) const;
   std::optional<JobRecord> Peek(const std::string& kind, const std::string& id) const;
   std::optional<JobRecord> FindKey(const std::string& kind, const std::string& key) const;
   std::string Result(const std::string& kind, const std::string& id) const;
   // Newest first, without requests and results; all kinds where it is empty.
   std::vector<JobRecord> List(const std::string& kind, int limit) const;
+  // A sweep and its jobs, all or nothing. Gives nothing where the sweep's key has one already.
+  std::optional<SweepRecord> AddSweep(const SweepRecord& sweep, const std::vector<NewJob>& jobs);
+  std::optional<SweepRecord> FindSweep(const std::string& kind, const std::string& id) const;
+  std::optional<SweepRecord> FindSweepKey(const std::string& kind, const std::string& key) const;
+  // Newest first, without their plans.
+  std::vector<SweepRecord> Sweeps(const std::string& kind, int limit) const;
+  // Without requests and results, in their order.
+  std::vector<JobRecord> OfSweep(const std::string& id) const;
   // Ends a job that waits, asks one that runs to end.
   void Cancel(const std::string& id);
   // Queues a job that failed or was cancelled as if it was new. False where there is none.

@@ -1,7 +1,9 @@
 #include "server/render/text/text_jobs.h"
 
 #include <sstream>
+#include <utility>
 
+#include "server/render/text/text_ranked.h"
 #include "server/render/text/text_table.h"
 
 namespace plenum::server {
@@ -29,11 +31,41 @@ std::string Minute(const std::string& time) {
   return time.size() < 16 ? time : time.substr(0, 10) + " " + time.substr(11, 5);
 }
 
+using api::Json;
+using Align = Table::Align;
+
+std::string LastStep(const std::string& pointer) { return pointer.substr(pointer.rfind('/') + 1); }
+
+std::string Shown(const Json& value) {
+  if (value.is_string()) return Cut(value.get<std::string>(), kNameMax);
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  return Short(value);
+}
+
+// Of its answer, else of its job.
+std::string StatusOf(const Json& row) {
+  const Json& outcome = row.at("outcome");
+  return Shown(outcome.is_null() ? row.at("status") : outcome);
+}
+
+// Its pumps or bottles, else its configuration.
+std::string SourceOf(const Json& row) {
+  std::string source;
+  if (row.at("parts").is_array())
+    for (const Json& part : row.at("parts")) {
+      const auto words = part.get<std::string>();
+      for (const std::string family : {"compressor ", "cylinder ", "co2 ", "vacuum_pump "})
+        if (const auto at = words.find(family); at == 0 || words.find("× " + family) != words.npos)
+          source += (source.empty() ? "" : " + ") + words.substr(0, at) +
+                    words.substr(at + family.size());
+    }
+  return source.empty() ? Shown(row.at("configuration")) : source;
+}
+
 }  // namespace
 
 std::string JobsText(const std::vector<catalog::JobRecord>& jobs) {
   if (jobs.empty()) return "no jobs\n";
-  using Align = Table::Align;
   Table table({{"id", Align::kLeft},
                {"kind", Align::kLeft},
                {"status", Align::kLeft},
@@ -66,6 +98,33 @@ api::Json RenderJob(const catalog::JobRecord& job) {
       {"catalogue_revision", {{"number", job.order.revision}, {"hash", job.order.hash}}}};
   if (job.status == catalog::JobStatus::kFailed) json["detail"] = job.failure;
   return json;
+}
+
+std::string SweepText(const Json& sweep) {
+  std::vector<Table::Column> columns = {{"patch", Align::kLeft}};
+  for (const Json& pointer : sweep.at("varied"))
+    columns.push_back({LastStep(pointer.get<std::string>())});
+  for (const char* name : {"mass kg", "cost €", "objective"}) columns.push_back({name});
+  columns.push_back({"status", Align::kLeft});
+  for (const char* name : {"gap", "seconds"}) columns.push_back({name});
+  columns.push_back({"source", Align::kLeft});
+  Table table(std::move(columns));
+  std::string why;
+  for (const Json& row : sweep.at("rows")) {
+    std::vector<std::string> cells = {Cut(row.at("name").get<std::string>(), kNameMax)};
+    for (const Json& value : row.at("values")) cells.push_back(Shown(value));
+    for (const char* number : {"mass_kg", "cost_eur", "objective"})
+      cells.push_back(Short(row.at(number)));
+    cells.push_back(StatusOf(row));
+    cells.push_back(Percent(row.at("gap")));
+    cells.push_back(Short(row.at("seconds")));
+    cells.push_back(SourceOf(row));
+    table.Add(std::move(cells));
+    for (const char* reason : {"conflict", "detail"})
+      if (row.at(reason).is_string())
+        why += row.at("name").get<std::string>() + ": " + row.at(reason).get<std::string>() + "\n";
+  }
+  return table.Text() + (why.empty() ? "" : "\n" + why);
 }
 
 }  // namespace plenum::server

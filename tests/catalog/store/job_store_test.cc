@@ -91,7 +91,7 @@ TEST_F(JobFile, RefusesWhatIsNoneOfIts) {
   std::filesystem::remove(path_);
   { const JobStore made(path_, {}); }
   Sql("PRAGMA user_version = 9");
-  EXPECT_THAT(Refused(), HasSubstr("has schema 9, this program knows up to 4"));
+  EXPECT_THAT(Refused(), HasSubstr("has schema 9, this program knows up to 5"));
   EXPECT_THAT(Refusal([&] { JobStore(folder_ / "missing" / "jobs", {}); }),
               HasSubstr("the jobs cannot be kept"));
 }
@@ -200,6 +200,54 @@ TEST_F(JobFile, RefusesARecordThatMakesNoSense) {
   order = Order("{}");
   store.Add("one", order);
   EXPECT_THAT(Refusal([&] { store.Add("one", order); }), HasSubstr("UNIQUE"));
+}
+
+// A sweep is there with all its jobs, or not at all; old jobs go with it, and it with them.
+TEST_F(JobFile, ASweepAndItsJobsAreOne) {
+  JobStore store(path_, {2, 1 << 20});
+  SweepRecord sweep;
+  sweep.id = "s";
+  sweep.kind = "design";
+  sweep.name = "how often";
+  sweep.by = {"me", "k", "digest"};
+  sweep.client = "ann";
+  sweep.hash = std::string(64, '0');
+  sweep.plan = "{}";
+  std::vector<NewJob> jobs;
+  for (const char* id : {"a", "b", "c", "a"}) {
+    jobs.push_back({id, Order("{}")});
+    jobs.back().order.sweep = "s";
+    jobs.back().order.place = static_cast<int>(jobs.size());
+  }
+  EXPECT_THROW(store.AddSweep(sweep, jobs), StoreError);  // two jobs have one id
+  EXPECT_FALSE(store.FindSweep("design", "s"));
+  EXPECT_TRUE(store.Unfinished("design").empty());
+  jobs.pop_back();
+  EXPECT_EQ(store.AddSweep(sweep, jobs)->jobs[JobStatus::kQueued], 3);
+  SweepRecord second = sweep;
+  second.id = "t";
+  EXPECT_FALSE(store.AddSweep(second, {}));  // the key has a sweep
+  const auto end = [&](const std::string& id) {
+    JobRecord job = store.Find("design", id).value();
+    job.status = JobStatus::kDone;
+    store.End(job);
+  };
+  for (const char* id : {"a", "b", "c"}) {
+    EXPECT_EQ(store.FindSweep("design", "s")->ended_at, "");
+    end(id);
+  }
+  // Three are more than the two that are kept, but none goes before the sweep is old.
+  EXPECT_EQ(store.OfSweep("s").size(), 3u);
+  EXPECT_EQ(store.OfSweep("s")[1].id, "b");
+  EXPECT_EQ(store.FindSweepKey("design", "k")->jobs[JobStatus::kDone], 3);
+  EXPECT_EQ(store.FindSweep("design", "s")->ended_at.size(), 20u);
+  for (const char* id : {"d", "e"}) {
+    EXPECT_EQ(store.Sweeps("design", 10).size(), 1u);
+    store.Add(id, Order("{}"));
+    end(id);
+  }
+  EXPECT_TRUE(store.Sweeps("design", 10).empty());
+  EXPECT_EQ(store.Ended("design").size(), 2u);
 }
 
 }  // namespace

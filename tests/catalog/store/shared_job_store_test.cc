@@ -91,6 +91,55 @@ TEST_P(SharedJobs, AKeyHasOneJob) {
   EXPECT_EQ(jobs->Count("design", JobStatus::kQueued), 1u);
 }
 
+TEST_P(SharedJobs, ASweepAndItsJobsAreOne) {
+  const auto jobs = Jobs();
+  SweepRecord sweep;
+  sweep.id = "s";
+  sweep.kind = "design";
+  sweep.name = std::string("a\0b", 3);
+  sweep.by = {"me", "k", "digest"};
+  sweep.client = "ann";
+  sweep.hash = std::string(64, '0');
+  sweep.plan = "{}";
+  std::vector<NewJob> swept;
+  for (const char* id : {"a", "b", "c", "a"}) {
+    swept.push_back({id, Order()});
+    swept.back().order.sweep = "s";
+    swept.back().order.place = static_cast<int>(swept.size());
+  }
+  EXPECT_THROW(jobs->AddSweep(sweep, swept), StoreError);  // two jobs have one id
+  EXPECT_FALSE(jobs->FindSweep("design", "s"));
+  EXPECT_EQ(jobs->Count("design", JobStatus::kQueued), 0u);
+  swept.pop_back();
+  EXPECT_EQ(jobs->AddSweep(sweep, swept)->name, "a b");
+  SweepRecord second = sweep;
+  second.id = "t";
+  EXPECT_FALSE(jobs->AddSweep(second, {}));  // the key has a sweep
+  EXPECT_EQ(jobs->Waiting("design", "ann"), 0u);
+  EXPECT_EQ(jobs->Waiting("design", "ann", true), 3u);
+  EXPECT_EQ(jobs->Waiting("design", std::nullopt, true), 3u);
+  for (int i = 0; i < 3; ++i) {
+    const JobClaim claim = jobs->Claim({"design"}, "w", kLong).value();
+    EXPECT_EQ(claim.job.order.sweep, "s");
+    EXPECT_EQ(claim.job.order.place, i + 1);
+    EXPECT_EQ(jobs->FindSweep("design", "s")->jobs[JobStatus::kRunning], 1);
+    EXPECT_EQ(jobs->FindSweep("design", "s")->ended_at, "");
+    jobs->End(claim, Done(claim, "1"));
+  }
+  EXPECT_EQ(jobs->FindSweepKey("design", "k")->ended_at.size(), 20u);
+  jobs->DropOld("design", {2, 1 << 20});
+  EXPECT_THAT(jobs->OfSweep("s"), SizeIs(3));  // none goes before the sweep is old
+  for (const char* id : {"d", "e"}) {
+    EXPECT_THAT(jobs->Sweeps("design", 10), SizeIs(1));
+    jobs->Add(id, Order());
+    const JobClaim claim = jobs->Claim({"design"}, "w", kLong).value();
+    jobs->End(claim, Done(claim, "1"));
+    jobs->DropOld("design", {2, 1 << 20});
+  }
+  EXPECT_THAT(jobs->Sweeps("design", 10), IsEmpty());
+  EXPECT_THAT(jobs->List("design", 10), SizeIs(2));
+}
+
 TEST_P(SharedJobs, ClientsTakeTurnsAndPriorityGoesFirst) {
   const auto jobs = Jobs();
   for (const char* id : {"a1", "a2", "a3"}) jobs->Add(id, Order("ann"));

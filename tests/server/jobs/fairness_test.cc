@@ -70,6 +70,76 @@ TEST_F(Fairness, ClientsTakeTurnsHoweverManyJobsOneHas) {
   }
 }
 
+// One client keeps its queue full; nine ask for a job at a time, each as soon as the last one has
+// ended. All ten want all of the workers, so that a tenth of the jobs is the share of each.
+TEST_F(Fairness, OneGreedyClientTakesNoneOfTheSharesOfNine) {
+  constexpr int kEach = 30;
+  // Long enough that the nine have asked for the next one before their turn comes again.
+  const Work work = [&](const JobOrder& order,
+                        const JobControl& control) -> api::Parsed<api::Json> {
+    std::this_thread::sleep_for(10ms);
+    return InOrder()(order, control);
+  };
+  Jobs jobs(store_, turns_, "design", work,
+            {.workers = 2, .queued_max = 512, .queued_per_client_max = 32});
+  open_ = true;
+  std::atomic<bool> over = false;
+  std::atomic<int> refused = 0;
+  std::thread greedy([&] {
+    while (!over) {
+      const auto submitted = jobs.Submit(OrderOf("greedy", "job"));
+      if (submitted.status == Submitted::kAccepted) continue;
+      EXPECT_EQ(submitted.status, Submitted::kClientRefused);
+      ++refused;
+      std::this_thread::sleep_for(1ms);
+    }
+  });
+  while (refused == 0) std::this_thread::sleep_for(1ms);
+  const std::size_t before = [&] {
+    const std::lock_guard lock(mutex_);
+    return begun_.size();
+  }();
+  std::vector<std::thread> honest;
+  honest.reserve(9);
+  for (int client = 0; client < 9; ++client)
+    honest.emplace_back([&, client] {
+      std::vector<std::string> ids;
+      for (int i = 0; i < kEach; ++i) {  // two at a time, so that one waits while one is done
+        const auto submitted = jobs.Submit(OrderOf("honest " + std::to_string(client), "job"));
+        EXPECT_EQ(submitted.status, Submitted::kAccepted);
+        ids.push_back(submitted.id);
+        if (ids.size() >= 2) WaitForEnd(jobs, ids[ids.size() - 2], 20s);
+      }
+      WaitForEnd(jobs, ids.back(), 20s);
+    });
+  for (std::thread& one : honest) one.join();
+  over = true;
+  greedy.join();
+  std::map<std::string, int> turns;
+  int all = 0;
+  for (std::size_t i = before; i < begun_.size(); ++i) {
+    if (turns["greedy"] + all >= 10 * kEach) break;
+    ++turns[begun_[i]];
+    all += begun_[i] != "greedy";
+  }
+  const double share = double(all + turns["greedy"]) / 10.0;
+  for (int client = 0; client < 9; ++client)
+    EXPECT_GE(turns["honest " + std::to_string(client)], 0.8 * share) << client;
+  EXPECT_GT(refused, 0);
+}
+
+TEST_F(Fairness, JobsOfALowerPriorityGoAfterTheOthers) {
+  Jobs jobs(store_, turns_, "design", InOrder(), {.workers = 1});
+  WaitForChange(jobs, Submit(jobs, "first"), 0, 10s);
+  JobOrder low = OrderOf("low", "job");
+  low.priority = -1;
+  jobs.Submit(low);
+  for (const char* client : {"a", "a", "b"}) Submit(jobs, client);
+  WaitForAll(jobs);
+  ASSERT_EQ(begun_.size(), 5u);
+  EXPECT_EQ(begun_.back(), "low");
+}
+
 TEST_F(Fairness, ALongJobLeavesTheOtherWorkerToOthers) {
   Jobs jobs(store_, turns_, "design", InOrder(), {.workers = 2});
   const std::string first = Submit(jobs, "a");

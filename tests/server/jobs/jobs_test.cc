@@ -191,7 +191,7 @@ TEST_F(JobsTest, EndedJobsStayReadableAfterARestart) {
   EXPECT_EQ(done->name, "the ready");
   EXPECT_EQ(Result(done)["answer"], 42);
   EXPECT_EQ(done->progress["step"], 1);
-  EXPECT_EQ(done->catalogue_revision, 7);
+  EXPECT_EQ(done->catalogue.number, 7);
   EXPECT_EQ(done->submitted_at.size(), 20u);
   EXPECT_GE(done->ended_at, done->submitted_at);
   EXPECT_EQ(jobs->Get(ids[1])->failure, "/a: must be b");

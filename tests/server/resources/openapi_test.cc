@@ -19,6 +19,7 @@
 #include "catalog/fields/fields.h"
 #include "fmu/unit_file.h"
 #include "server/call/service_limits.h"
+#include "server/resources/schemas/sweep_schemas.h"
 #include "tests/server/service.h"
 #include "tests/support/places.h"
 
@@ -79,7 +80,7 @@ class Described : public testing::Test {
   static HttpOptions Narrow() {
     HttpOptions options;
     options.jobs.workers = 1;
-    options.jobs.queued_max = 0;
+    options.jobs.queued_max = options.jobs.swept_queued_max = 0;
     options.docs = test::SourceDir() / "web" / "dist";  // any folder with an index.html
     options.seed = Seed();
     return options;
@@ -165,7 +166,8 @@ TEST_F(Described, ItsExamplesAreValidAndTaken) {
     if (!content.contains(kJson)) continue;
     const Json example = content[kJson]["example"];
     EXPECT_EQ(Violations(Resolved(content[kJson]["schema"], api_), example), "") << path;
-    const std::string query = path == "/v1/designs" ? "?validate_only=true" : "";
+    const std::string query =
+        path == "/v1/designs" || path == "/v1/sweeps" ? "?validate_only=true" : "";
     const auto result = client_.Post(path + query, example.dump(), kJson);
     if (path == "/v1/fmus" && !fmu::MakesUnits()) continue;
     EXPECT_TRUE(result->status < 300 || result->status == 429) << path << result->body;
@@ -195,19 +197,22 @@ TEST_F(Described, TheCataloguesPartsFit) {
 
 TEST_F(Described, EveryStatusOfEveryRoute) {
   const std::string wait = "wait=300";
-  // Jobs.
   for (const auto& [path, example] :
        {std::pair{std::string("/v1/designs"), api::ExampleRequirements()},
+        std::pair{std::string("/v1/sweeps"), ExampleSweep()},
         std::pair{std::string("/v1/diagnoses"), api::ExampleMeasurement()}}) {
     Post(path, "{", 400);
     Post(path, "{}", 422);
     Post(path, example.dump(), 429);  // there is no queue
     Get(path, "", 200);
     Get(path + "/{id}", "", 404, {}, "none");
+    Check(client_.Delete(path + "/none"), "delete", path + "/{id}", 404);
+    if (path == "/v1/sweeps") continue;
     Get(path + "/{id}/events", "", 404, {}, "none");
     Post(path + "/{id}/again", "", 404, {}, "none");
-    Check(client_.Delete(path + "/none"), "delete", path + "/{id}", 404);
   }
+  Get("/v1/sweeps/{id}/table", "", 404, {}, "none");
+  Get("/v1/sweeps/{id}/table", "?format=xls", 422, {}, "none");
   // At once.
   for (const auto& [path, example] :
        {std::pair{std::string("/v1/simulations"), api::ExampleSimulation()},
@@ -335,6 +340,7 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
     Check(client.Get("/readyz"), "get", "/readyz", 200);
     for (const auto& [path, example] :
          {std::pair{std::string("/v1/designs"), api::ExampleRequirements()},
+          std::pair{std::string("/v1/sweeps"), ExampleSweep()},
           std::pair{std::string("/v1/diagnoses"), api::ExampleMeasurement()}}) {
       const Json answer =
           Check(client.Post(path, {{"Prefer", wait}}, example.dump(), kJson), "post", path, 200);
@@ -345,7 +351,9 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
       const Json job = Check(client.Post(path, example.dump(), kJson), "post", path, 202);
       const std::string one = path + "/" + job["id"].get<std::string>();
       Check(client.Get(one), "get", path + "/{id}", 200);
+      if (path == "/v1/sweeps") Check(client.Get(one + "/table"), "get", path + "/{id}/table", 200);
       Check(client.Delete(one), "delete", path + "/{id}", 200);
+      if (path == "/v1/sweeps") continue;
       Check(client.Get(one + "/events"), "get", path + "/{id}/events", 200);
       // A job that is cancelled before it is done can be asked for again, one that is done not.
       const auto again = [&, path = path](const std::string& job_path, int expected) {
@@ -374,7 +382,8 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
       for (const auto& [status, response] : operation["responses"].items()) {
         std::string name = method;
         name.append(" ").append(path).append(" ").append(status);
-        const bool busy = status == "429" && path != "/v1/designs" && path != "/v1/diagnoses";
+        const bool busy = status == "429" && path != "/v1/designs" && path != "/v1/diagnoses" &&
+                          path != "/v1/sweeps";
         if (status != "default" && !busy && !seen_.contains(name)) missing.insert(name);
       }
   EXPECT_EQ(missing, std::set<std::string>());
@@ -385,15 +394,6 @@ TEST_F(Described, TheDocsLoadNothingFromElsewhere) {
   const std::string policy = page->get_header_value("Content-Security-Policy");
   EXPECT_TRUE(policy.starts_with("default-src 'none'; connect-src 'self'")) << policy;
   EXPECT_EQ(page->body.find("://"), std::string::npos);
-}
-
-TEST_F(Described, LimitsAreThoseOfRefusals) {
-  const Json limits = JsonOf(client_.Get("/v1/limits")->body)["limits"];
-  const auto refused = client_.Get("/" + std::string(2000, 'x'));
-  EXPECT_EQ(refused->status, 414);
-  const Json limit = JsonOf(refused->body)["limit"];
-  EXPECT_EQ(limit["value"], limits[limit["name"].get<std::string>()]);
-  EXPECT_EQ(limits["body_bytes_max"], kBodyBytesMax);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ import { asProblem } from '../lib/api';
 import { duration, moment, significant } from '../lib/format';
 import { diagnosisList, ended, jobList, refreshDiagnoses, refreshJobs } from '../lib/jobs';
 import { link } from '../lib/route';
+import { refreshSweeps, sweepList } from '../lib/sweeps';
 import type { Job, Progress } from '../lib/types';
 import { noteText, statusWord, type Word, verdictWord } from '../lib/words';
 import { Chip, Notice, Panel } from '../ui/controls';
@@ -20,7 +21,7 @@ export function JobsView() {
   const problem = useSignal('');
   useEffect(() => {
     const refresh = () =>
-      void Promise.all([refreshJobs(), refreshDiagnoses()]).then(
+      void Promise.all([refreshJobs(), refreshDiagnoses(), refreshSweeps()]).then(
         () => (problem.value = ''),
         (error) => (problem.value = asProblem(error).message),
       );
@@ -51,6 +52,7 @@ export function JobsView() {
           }
         </Jobs>
       </Panel>
+      <Sweeps />
       <Panel title="Diagnoses">
         <Jobs
           label="Diagnoses"
@@ -65,6 +67,37 @@ export function JobsView() {
         />
       </Panel>
     </>
+  );
+}
+
+function Sweeps() {
+  const sweeps = sweepList.value ?? [];
+  if (sweeps.length === 0) return null;
+  return (
+    <Panel title="Sweeps">
+      <Table
+        label="Sweeps"
+        heads={['name', 'result', number('searches'), number('ended'), 'started']}
+      >
+        {sweeps.map((sweep) => {
+          const all = Object.values(sweep.jobs).reduce((sum, count) => sum + count, 0);
+          const word = statusWords[sweep.status]!;
+          return (
+            <tr key={sweep.id}>
+              <th scope="row">
+                <a href={link(['sweep', sweep.id])}>{sweep.name || 'unnamed'}</a>
+              </th>
+              <td>
+                <Chip kind={word.kind}>{word.text}</Chip>
+              </td>
+              <td class="num">{all}</td>
+              <td class="num">{all - sweep.jobs.queued - sweep.jobs.running}</td>
+              <td class="nowrap">{moment(sweep.submitted_at)}</td>
+            </tr>
+          );
+        })}
+      </Table>
+    </Panel>
   );
 }
 

@@ -18,7 +18,7 @@ import {
   valueAt,
   whyUnknown,
 } from '../lib/requirements';
-import { go } from '../lib/route';
+import { go, link } from '../lib/route';
 import type { Requirements } from '../lib/types';
 import { Notice, Panel, TextField } from '../ui/controls';
 import { FilePicker, saveFile } from '../ui/files';
@@ -160,6 +160,9 @@ export function RequirementsView() {
           >
             {busy.value ? 'Starting…' : 'Find the best designs'}
           </button>
+          {validity.value === 'valid' && (
+            <a href={link(['sweep'])}>Compare values of one number: a sweep…</a>
+          )}
         </div>
       </div>
     </form>

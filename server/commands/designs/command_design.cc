@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -11,6 +9,7 @@
 #include "api/json/json.h"
 #include "server/call/reply.h"
 #include "server/commands/commands.h"
+#include "server/commands/designs/progress_line.h"
 #include "server/commands/exit_status.h"
 #include "server/commands/files/input.h"
 #include "server/commands/interrupt.h"
@@ -30,22 +29,6 @@ struct DesignOptions {
   std::string solver, list;
   bool wide = false;
   bool json = false;
-};
-
-// One line on the terminal, written over and over; nothing when errors go to a file.
-class ProgressLine {
- public:
-  void Show(const optimizer::Progress& progress) {
-    if (!terminal_) return;
-    std::fprintf(stderr, "\r\x1b[K%s", ProgressText(progress).c_str());
-    std::fflush(stderr);
-  }
-  ~ProgressLine() {
-    if (terminal_) std::fputs("\r\x1b[K", stderr);
-  }
-
- private:
-  const bool terminal_ = isatty(STDERR_FILENO) != 0;
 };
 
 // The requirements with what the flags say instead; checked like the rest.
@@ -69,7 +52,9 @@ api::Json AnswerWithProgress(const api::DesignRequest& request,
   ProgressLine line;
   optimizer::SearchOptions options;
   options.cancelled = Interrupted;
-  options.progress = [&](const optimizer::Progress& progress) { line.Show(progress); };
+  options.progress = [&](const optimizer::Progress& progress) {
+    line.Show(ProgressText(progress));
+  };
   return api::AnswerRequest(request, options, parts);
 }
 
