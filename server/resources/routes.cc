@@ -274,8 +274,7 @@ std::vector<Route> Routes(const Services& services) {
   AddUnits(catalog, routes);
   AddRecordings(routes);
   AddCatalogUpdate(services, routes);
-  AddJobRoutes(design_jobs, routes);
-  AddJobRoutes(diagnosis_jobs, routes);
+  for (const JobsResource* jobs : {&design_jobs, &diagnosis_jobs}) AddJobRoutes(*jobs, routes);
   AddQueueRoutes(services, design_jobs, routes);
   AddPages(services, routes);
   routes.push_back({"GET", "/openapi.json", "this description, OpenAPI 3.1", Access::kOpen, {}});

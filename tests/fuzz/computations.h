@@ -15,8 +15,8 @@ void Evaluation(std::string_view text);
 void Simulation(std::string_view text);
 void Diagnosis(std::string_view text);
 void Recording(std::string_view text);  // CSV of any dialect, measured on a small rig
-void Import(std::string_view text);  // CSV of a family by the first byte; then a search with it
-void Verify(std::string_view text);  // an answer, as saved or changed
+void Import(std::string_view text);     // CSV of a family by the first byte; then a search with it
+void Verify(std::string_view text);     // an answer, as saved or changed
 api::Parsed<api::Json> VerifyWithinLimit(const api::Json& answer);
 
 }  // namespace plenum::fuzz

@@ -1,4 +1,3 @@
-#include "api/measure/csv/measurement_csv.h"
 #include "api/measure/measurement.h"
 
 #include <gmock/gmock.h>
@@ -6,6 +5,7 @@
 
 #include <cmath>
 
+#include "api/measure/csv/measurement_csv.h"
 #include "tests/api/support.h"
 
 namespace plenum::api {
