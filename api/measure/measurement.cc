@@ -84,6 +84,19 @@ void ReadAssumptions(Reader& document, Dataset& dataset) {
   }
 }
 
+// What tables were understood to say (api/measure/csv): for people.
+void PassUnderstood(Reader& document) {
+  document.Describe("understood", {{"type", "array"}, {"items", {{"type", "object"}}}});
+  const Json* given = document.Raw("understood");
+  if (given == nullptr) return;
+  if (!given->is_array())
+    return document.FailAt("understood", "must be a list of objects, not " + KindOf(*given));
+  for (std::size_t i = 0; i < given->size(); ++i)
+    if (!given->at(i).is_object())
+      document.FailAt("understood/" + std::to_string(i),
+                      "must be an object, not " + KindOf(given->at(i)));
+}
+
 }  // namespace
 
 Parsed<Dataset> ParseMeasurement(const Json& document, Remarks* remarks) {
@@ -92,8 +105,7 @@ Parsed<Dataset> ParseMeasurement(const Json& document, Remarks* remarks) {
   Dataset dataset;
   Reader reader(document, "", errors);
   AllowRemarks(reader);
-  reader.Describe("understood", {{"type", "array"}, {"items", {{"type", "object"}}}});
-  reader.Raw("understood");  // of a table, for people
+  PassUnderstood(reader);
   reader.Schema("measurement/1");
   dataset.name = reader.Text("name", "measurement");
   static const Json kNoRig = Json::object();
@@ -136,7 +148,8 @@ Parsed<Json> MergeMeasurements(const std::vector<Json>& documents) {
       merged["runs"].push_back(std::move(run));
     }
     for (const char* list : {"holdout", "assume", "understood"})
-      for (const Json& one : document.value(list, Json::array())) merged[list].push_back(one);
+      if (!merged.contains(list) || merged[list].is_array())  // else it is refused when it is read
+        for (const Json& one : document.value(list, Json::array())) merged[list].push_back(one);
   }
   if (!errors.empty()) return errors;
   return merged;

@@ -10,9 +10,9 @@
 namespace plenum::optimizer {
 namespace {
 
-bool Counts(const Problem& problem, const model::PartBasics& basics) {
-  const bool cost = problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur);
-  return !cost || problem.unpriced_allowed || basics.cost_eur.has_value();
+bool CostCounts(const Problem& problem) {
+  return !problem.unpriced_allowed &&
+         (problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur));
 }
 
 int PiecesFor(int joined, const model::Manifold& manifold) {
@@ -29,8 +29,15 @@ std::optional<Joint> Lightest(const Problem& problem, int joined, double pressur
                               double conductance_m3_per_s_pa) {
   if (joined < 2) return std::nullopt;
   const std::vector<model::Manifold>& rows = problem.parts.manifolds;
+  const auto stands = [&](const model::Manifold& row) {
+    return row.stations >= 2 && row.pressure_max_pa >= pressure_pa;
+  };
+  const bool priced =
+      CostCounts(problem) || std::any_of(rows.begin(), rows.end(), [&](const model::Manifold& row) {
+        return stands(row) && row.basics.cost_eur;
+      });
   const auto may = [&](const model::Manifold& row) {
-    return row.stations >= 2 && row.pressure_max_pa >= pressure_pa && Counts(problem, row.basics);
+    return stands(row) && (!priced || row.basics.cost_eur);
   };
   double most = 0.0;
   for (const model::Manifold& row : rows)

@@ -143,7 +143,7 @@ namespace {
 optimizer::Amounts Joined(const optimizer::Problem& problem, int ends, double pressure_pa,
                           double asked_m3_per_s_pa) {
   if (ends < 2) return {};
-  std::tuple<double, double, double, std::string> best;  // −flow, mass, cost, id
+  std::tuple<bool, double, double, double, std::string> best;  // unpriced, −flow, mass, cost, id
   optimizer::Amounts amounts;
   for (const model::Manifold& row : problem.parts.manifolds) {
     const bool priced = row.basics.cost_eur.has_value();
@@ -153,9 +153,9 @@ optimizer::Amounts Joined(const optimizer::Problem& problem, int ends, double pr
     for (int reached = 1; reached < ends; reached += row.stations - 1) ++pieces;
     const double mass_kg = pieces * row.basics.mass_kg;
     const double cost_eur = pieces * row.basics.cost_eur.value_or(0.0);
-    const std::tuple key(-std::min(row.sonic_conductance_m3_per_s_pa, asked_m3_per_s_pa), mass_kg,
-                         cost_eur, row.basics.id);
-    if (!std::get<3>(best).empty() && !(key < best)) continue;
+    const std::tuple key(!priced, -std::min(row.sonic_conductance_m3_per_s_pa, asked_m3_per_s_pa),
+                         mass_kg, cost_eur, row.basics.id);
+    if (!std::get<4>(best).empty() && !(key < best)) continue;
     best = key;
     amounts = {mass_kg, pieces * row.basics.body_volume_m3, cost_eur};
   }

@@ -18,6 +18,15 @@ bool Serves(const Problem& problem, const model::Manifold& row, double pressure_
          (!PricesNeeded(problem) || row.basics.cost_eur);
 }
 
+// Whether a is taken rather than b, whatever they weigh: 1, 0 where that is open, or −1.
+int Prefers(const model::Manifold& a, const model::Manifold& b, double asked) {
+  if (a.basics.cost_eur.has_value() != b.basics.cost_eur.has_value())
+    return a.basics.cost_eur ? 1 : -1;
+  const double passes_a = std::min(a.sonic_conductance_m3_per_s_pa, asked);
+  const double passes_b = std::min(b.sonic_conductance_m3_per_s_pa, asked);
+  return passes_a > passes_b ? 1 : passes_a < passes_b ? -1 : 0;
+}
+
 // Whether a is taken rather than b.
 bool Before(int joined, const model::Manifold& a, const model::Manifold& b) {
   const double pieces_a = Pieces(joined, a), pieces_b = Pieces(joined, b);
@@ -30,15 +39,11 @@ bool Before(int joined, const model::Manifold& a, const model::Manifold& b) {
 
 JointRows Join(const Problem& problem, int joined, double pressure_pa, double asked) {
   const std::vector<model::Manifold>& rows = problem.parts.manifolds;
-  const auto rank = [&](const model::Manifold& row) {  // what it passes, no more than is asked
-    return std::min(row.sonic_conductance_m3_per_s_pa, asked);
-  };
   int best = -1;
   for (int i = 0; joined > 1 && i < static_cast<int>(rows.size()); ++i) {
     if (!Serves(problem, rows[i], pressure_pa)) continue;
-    if (best < 0 || rank(rows[i]) > rank(rows[best]) ||
-        (rank(rows[i]) == rank(rows[best]) && Before(joined, rows[i], rows[best])))
-      best = i;
+    const int prefers = best < 0 ? 1 : Prefers(rows[i], rows[best], asked);
+    if (prefers > 0 || (prefers == 0 && Before(joined, rows[i], rows[best]))) best = i;
   }
   if (best < 0) return {};
   return {{best, static_cast<int>(Pieces(joined, rows[best]))}};

@@ -48,7 +48,7 @@ TEST(JointsTest, FourLinesMeetInThreeTeesWhichCount) {
   const Json& best = answer["designs"][0];
   const Json joints = JointsOf(best);
   ASSERT_EQ(joints.size(), 1U);
-  EXPECT_EQ(joints[0]["id"], "smc-kq2t04-00a");
+  EXPECT_EQ(joints[0]["id"], "ft-pro-2019-8396");
   EXPECT_EQ(joints[0]["quantity"], 3);
   EXPECT_TRUE(joints[0]["group"].is_null());
   double sum = 0.0;
