@@ -8,6 +8,7 @@ import {
   type TableAnswers,
 } from '../lib/recording';
 import { Notice, Panel, Select } from '../ui/controls';
+import { Scroll } from '../ui/scroll';
 
 type Change = (answers: TableAnswers) => void;
 
@@ -111,7 +112,7 @@ export function RecordingPanel(props: { recording: Recording; onChange: Change }
   return (
     <Panel title={`What was read in ${recording.name}`}>
       <Questions recording={recording} onChange={props.onChange} />
-      <div class="scroll-frame">
+      <Scroll label="Columns of the recording">
         <table class="import-columns">
           <thead>
             <tr>
@@ -134,7 +135,7 @@ export function RecordingPanel(props: { recording: Recording; onChange: Change }
             ))}
           </tbody>
         </table>
-      </div>
+      </Scroll>
       <p class="hint">
         Read as {understood.encoding}, columns by {understood.delimiter}
         {understood.decimal && `, decimal ${understood.decimal}`}
