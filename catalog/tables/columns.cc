@@ -13,17 +13,6 @@ namespace {
 
 constexpr char kRest[] = "*";
 
-std::string NumberKey(std::size_t index) { return "#" + std::to_string(index + 1); }
-
-// What the options say of a column; null: nothing.
-const std::string* GivenFor(const ColumnRead& column, std::size_t index,
-                            const TableOptions& options) {
-  for (const std::string& key : {NumberKey(index), column.heading})
-    if (const auto found = options.columns.find(key); found != options.columns.end())
-      return &found->second;
-  return nullptr;
-}
-
 // Targets with '+' between them; none: the column is left out.
 std::vector<Target> GivenTargets(const Family& family, std::string_view text,
                                  const ColumnRead& column, TableReading& reading) {
@@ -129,6 +118,16 @@ void AskForTwins(TableReading& reading) {
 }
 
 }  // namespace
+
+std::string NumberKey(std::size_t index) { return "#" + std::to_string(index + 1); }
+
+const std::string* GivenFor(const ColumnRead& column, std::size_t index,
+                            const TableOptions& options) {
+  for (const std::string& key : {NumberKey(index), column.heading})
+    if (const auto found = options.columns.find(key); found != options.columns.end())
+      return &found->second;
+  return nullptr;
+}
 
 std::vector<OpenColumn> MapColumns(const Family& family, const CsvRow& header, const CsvRow& below,
                                    const TableOptions& options, TableReading& reading) {

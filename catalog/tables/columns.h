@@ -6,6 +6,12 @@
 
 namespace plenum::catalog {
 
+// Of a column that has no heading of its own: "#1".
+std::string NumberKey(std::size_t index);
+// What the options say of a column; null: nothing.
+const std::string* GivenFor(const ColumnRead& column, std::size_t index,
+                            const TableOptions& options);
+
 // Headings that may mean several fields, or none, wait until the cells were seen: a column without
 // cells needs no answer.
 struct OpenColumn {

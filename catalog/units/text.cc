@@ -30,31 +30,6 @@ bool IsControl(char c) {
   return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
 }
 
-// Inserted, deleted and replaced bytes and swapped neighbours; `most`, or more, where that is not
-// less.
-std::size_t EditDistance(std::string_view a, std::string_view b, std::size_t most) {
-  if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) >= most) return most;
-  // Rows of the optimal string alignment table: two back, one back, current.
-  std::vector<std::size_t> older(b.size() + 1), old(b.size() + 1), row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  std::size_t least = 0, least_before = 0;  // of a row and the one before: later ones have no less
-  for (std::size_t i = 1; i <= a.size() && std::min(least, least_before) < most; ++i) {
-    older.swap(old);
-    old.swap(row);
-    row[0] = i;
-    least_before = least;
-    least = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = old[j - 1] + (a[i - 1] != b[j - 1]);
-      row[j] = std::min({old[j] + 1, row[j - 1] + 1, replaced});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], older[j - 2] + 1);
-      least = std::min(least, row[j]);
-    }
-  }
-  return std::min(least, least_before) < most ? row[b.size()] : most;
-}
-
 }  // namespace
 
 void AppendUtf8(std::uint32_t code, std::string& text) {
@@ -122,6 +97,29 @@ std::size_t CountCharacters(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
   }));
+}
+
+std::size_t EditDistance(std::string_view a, std::string_view b, std::size_t most) {
+  if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) >= most) return most;
+  // Rows of the optimal string alignment table: two back, one back, current.
+  std::vector<std::size_t> older(b.size() + 1), old(b.size() + 1), row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  std::size_t least = 0, least_before = 0;  // of a row and the one before: later ones have no less
+  for (std::size_t i = 1; i <= a.size() && std::min(least, least_before) < most; ++i) {
+    older.swap(old);
+    old.swap(row);
+    row[0] = i;
+    least_before = least;
+    least = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = old[j - 1] + (a[i - 1] != b[j - 1]);
+      row[j] = std::min({old[j] + 1, row[j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], older[j - 2] + 1);
+      least = std::min(least, row[j]);
+    }
+  }
+  return std::min(least, least_before) < most ? row[b.size()] : most;
 }
 
 std::string_view NearestName(std::string_view name, const std::vector<std::string_view>& known) {

@@ -32,6 +32,10 @@ bool IsCleanText(std::string_view text);
 // Number of characters of well-formed UTF-8.
 std::size_t CountCharacters(std::string_view text);
 
+// Inserted, deleted and replaced bytes and swapped neighbours; `most`, or more, where that is not
+// less.
+std::size_t EditDistance(std::string_view a, std::string_view b, std::size_t most);
+
 // The name at the smallest edit distance (insert, delete, replace, swap of neighbours) from the
 // first 64 bytes, the first of equals; empty if there is none.
 std::string_view NearestName(std::string_view name, const std::vector<std::string_view>& known);

@@ -42,14 +42,6 @@ Amounts LineJointShare(const Problem& problem, int group) {
           share * all.mass_slack_kg, share * all.volume_slack_m3};
 }
 
-bool CostCounts(const Problem& problem) {
-  return problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur);
-}
-
-bool PricesNeeded(const Problem& problem) {
-  return CostCounts(problem) && !problem.unpriced_allowed;
-}
-
 double FlowFactor(const Problem& problem, model::Gas gas) {
   return model::FlowFactor(gas) *
          std::sqrt(model::kReferenceTemperatureK / problem.ambient.temperature_k);

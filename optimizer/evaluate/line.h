@@ -11,6 +11,7 @@
 #include "model/flow/series.h"
 #include "model/physics/chamber.h"
 #include "optimizer/evaluate/stroke_panels.h"
+#include "optimizer/problem/cost.h"
 #include "optimizer/problem/gait.h"
 #include "optimizer/problem/joints.h"
 #include "optimizer/problem/problem.h"
@@ -47,9 +48,6 @@ T ObjectiveOf(const Objective& objective, const AmountsOf<T>& amounts) {
   return objective.mass_kg * amounts.mass_kg + objective.volume_l * amounts.volume_m3 * 1e3 +
          objective.cost_eur * amounts.cost_eur;
 }
-// Whether cost is minimised or limited; and whether a part without a price is then no choice.
-bool CostCounts(const Problem& problem);
-bool PricesNeeded(const Problem& problem);
 
 // Of a box of lines those with no more coil power, at least. Coils ask for more of the battery, so
 // that the lightest lines need not make the lightest design. `places`: of a single line its tube,

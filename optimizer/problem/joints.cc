@@ -5,15 +5,12 @@
 #include <tuple>
 
 #include "model/physics/storage.h"
+#include "optimizer/problem/cost.h"
 #include "optimizer/problem/family_specs.h"
+#include "optimizer/problem/gait.h"
 
 namespace plenum::optimizer {
 namespace {
-
-bool CostCounts(const Problem& problem) {
-  return !problem.unpriced_allowed &&
-         (problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur));
-}
 
 int PiecesFor(int joined, const model::Manifold& manifold) {
   return (joined - 1 + manifold.stations - 2) / (manifold.stations - 1);
@@ -32,10 +29,10 @@ std::optional<Joint> Lightest(const Problem& problem, int joined, double pressur
   const auto stands = [&](const model::Manifold& row) {
     return row.stations >= 2 && row.pressure_max_pa >= pressure_pa;
   };
-  const bool priced =
-      CostCounts(problem) || std::any_of(rows.begin(), rows.end(), [&](const model::Manifold& row) {
-        return stands(row) && row.basics.cost_eur;
-      });
+  const bool priced = PricesNeeded(problem) ||
+                      std::any_of(rows.begin(), rows.end(), [&](const model::Manifold& row) {
+                        return stands(row) && row.basics.cost_eur;
+                      });
   const auto may = [&](const model::Manifold& row) {
     return stands(row) && (!priced || row.basics.cost_eur);
   };
@@ -86,7 +83,8 @@ int LineCount(const Problem& problem) {
   return lines;
 }
 
-double JointConductance(const Problem& problem, const ActuatorGroup& group) {
+double JointConductance(const Problem& problem, int g) {
+  const ActuatorGroup& group = problem.groups[g];
   const model::Chamber& chamber = group.chamber;
   const double at_rest_pa = chamber.ambient_pressure_pa;
   const double inside_pa =
@@ -96,10 +94,8 @@ double JointConductance(const Problem& problem, const ActuatorGroup& group) {
   const double air_m3 = (model::Content(chamber, chamber.operating_pressure_pa) -
                          model::Content(chamber, at_rest_pa)) *
                         model::StandardVolume(1.0, problem.ambient.temperature_k);
-  const double window_s =
-      group.gait.inflate_fraction / (problem.frequency_hz * group.gait.strokes_per_period);
   return kJointFactor * group.count * air_m3 /
-         (std::min(group.rise_time_max_s, window_s) * upstream_pa);
+         (std::min(group.rise_time_max_s, InflateWindow(problem, g)) * upstream_pa);
 }
 
 double JointConductance(const Problem& problem) {

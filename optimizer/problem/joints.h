@@ -34,7 +34,7 @@ int LineCount(const Problem& problem);
 // kJointFactor times the sonic conductance, m³/(s·Pa), that fills all actuators of a group within
 // their rise time, or else their part of the period, from a source at their operating pressure; of
 // evacuated ones from what is inside, in the logarithmic mean over the stroke.
-double JointConductance(const Problem& problem, const ActuatorGroup& group);
+double JointConductance(const Problem& problem, int group);
 // Of all lines, as their groups have it (ActuatorGroup).
 double JointConductance(const Problem& problem);
 

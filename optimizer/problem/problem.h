@@ -100,8 +100,8 @@ struct ActuatorGroup {
   Gait gait = {};
   std::optional<model::Chamber> least = {};  // of what tolerances allow the one that fills first
   int entry = -1;                            // in the request's list; −1: as in that of groups
-  double joint_conductance_m3_per_s_pa =
-      0.0;  // its part of what joins lines should pass (joints.h)
+  // Its part of what joins lines should pass (joints.h).
+  double joint_conductance_m3_per_s_pa = 0.0;
 };
 
 struct Objective {  // weighted sum; a plain objective has one weight of 1

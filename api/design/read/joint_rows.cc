@@ -36,8 +36,8 @@ std::string Dm3PerSBar(double conductance_m3_per_s_pa) {
 }  // namespace
 
 void SetJoints(Problem& problem) {
-  for (optimizer::ActuatorGroup& group : problem.groups)
-    group.joint_conductance_m3_per_s_pa = optimizer::JointConductance(problem, group);
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    problem.groups[g].joint_conductance_m3_per_s_pa = optimizer::JointConductance(problem, g);
 }
 
 void WarnOfJoints(const Problem& problem) {

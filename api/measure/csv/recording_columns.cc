@@ -6,6 +6,7 @@
 
 #include "api/json/words.h"
 #include "api/measure/csv/headings/recording_heading.h"
+#include "catalog/tables/columns.h"
 #include "catalog/tables/heading_phrases.h"
 #include "catalog/units/quantity.h"
 #include "catalog/units/text.h"
@@ -16,8 +17,10 @@ namespace {
 using catalog::ColumnRead;
 using catalog::CsvRow;
 using catalog::FormatTarget;
+using catalog::GivenFor;
 using catalog::HeadingMatch;
 using catalog::IsBlank;
+using catalog::NumberKey;
 using catalog::Question;
 using catalog::TableOptions;
 using catalog::TableReading;
@@ -25,18 +28,8 @@ using catalog::Target;
 
 constexpr std::size_t kTypos = 2;  // letters in which a heading may miss the name of a field
 
-std::string NumberKey(std::size_t index) { return "#" + std::to_string(index + 1); }
-
 std::string NameOf(const ColumnRead& column) {
   return column.heading.empty() ? "column " + column.key.substr(1) : Quoted(column.key);
-}
-
-const std::string* GivenFor(const ColumnRead& column, std::size_t index,
-                            const TableOptions& options) {
-  for (const std::string& key : {NumberKey(index), column.heading})
-    if (const auto found = options.columns.find(key); found != options.columns.end())
-      return &found->second;
-  return nullptr;
 }
 
 // "(ms)" as "ms"; what is no text in brackets stays.
@@ -67,26 +60,11 @@ std::vector<std::string> WithUnits(const CsvRow& header, const CsvRow& below) {
   return has_unit ? headings : std::vector<std::string>{};
 }
 
-// Letters to change, insert or drop to make one text of the other.
-std::size_t Distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 // The field that a heading misses by a few letters; empty: none.
 std::string NearField(const std::string& heading) {
   const std::string nearest = Nearest(heading, RecordingFields());
   const bool is_near = nearest.size() > 2 * kTypos && heading.size() < 2 * nearest.size() &&
-                       Distance(heading, nearest) <= kTypos;
+                       catalog::EditDistance(heading, nearest, kTypos + 1) <= kTypos;
   return is_near ? nearest : "";
 }
 

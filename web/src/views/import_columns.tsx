@@ -2,7 +2,9 @@
 import type { Answers, ColumnRead, Question, Understood } from '../lib/table_import';
 import { columnsOf, missingColumns, splitTarget } from '../lib/table_import';
 import type { Family } from '../lib/types';
+import { AnswerButtons, UnitInput } from '../ui/column_answers';
 import { Notice, Select } from '../ui/controls';
+import { Scroll } from '../ui/scroll';
 
 type Change = (answers: Answers) => void;
 
@@ -18,17 +20,10 @@ export function TableQuestions(props: {
       {open.map((one) => (
         <Notice kind="warn" key={one.question}>
           <p>{one.question}</p>
-          <div class="toolbar">
-            {one.answers.map((answer) => (
-              <button
-                type="button"
-                key={answer}
-                onClick={() => props.onChange({ ...props.answers, [one.option]: answer })}
-              >
-                {answer}
-              </button>
-            ))}
-          </div>
+          <AnswerButtons
+            answers={one.answers}
+            onAnswer={(answer) => props.onChange({ ...props.answers, [one.option]: answer })}
+          />
         </Notice>
       ))}
     </>
@@ -72,16 +67,7 @@ function ColumnRow(props: {
       </td>
       <td>
         {isNumber && !several && (
-          <input
-            class="unit"
-            aria-label={`Unit of ${column.key}`}
-            placeholder="unit"
-            value={unit}
-            onChange={(event) => {
-              const given = event.currentTarget.value.trim();
-              props.onAnswer(given ? `${field} [${given}]` : field);
-            }}
-          />
+          <UnitInput of={column.key} target={field} unit={unit} onTarget={props.onAnswer} />
         )}
       </td>
       <td>
@@ -104,7 +90,7 @@ export function ColumnTable(props: {
   const of = (column: ColumnRead) =>
     props.questions.find((one) => one.option === 'column' && one.heading === column.key);
   return (
-    <div class="scroll-frame">
+    <Scroll label="Columns of the table">
       <table class="import-columns">
         <thead>
           <tr>
@@ -134,7 +120,7 @@ export function ColumnTable(props: {
           ))}
         </tbody>
       </table>
-    </div>
+    </Scroll>
   );
 }
 

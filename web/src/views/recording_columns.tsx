@@ -7,6 +7,7 @@ import {
   splitField,
   type TableAnswers,
 } from '../lib/recording';
+import { AnswerButtons, UnitInput } from '../ui/column_answers';
 import { Notice, Panel, Select } from '../ui/controls';
 import { Scroll } from '../ui/scroll';
 
@@ -41,16 +42,7 @@ function ColumnRow(props: {
       </td>
       <td>
         {field && field !== 'run' && field !== 'date' && (
-          <input
-            class="unit"
-            aria-label={`Unit of ${column.key}`}
-            placeholder="unit"
-            value={unit}
-            onChange={(event) => {
-              const typed = event.currentTarget.value.trim();
-              props.onAnswer(typed ? `${field} [${typed}]` : field);
-            }}
-          />
+          <UnitInput of={column.key} target={field} unit={unit} onTarget={props.onAnswer} />
         )}
       </td>
       <td>
@@ -84,17 +76,10 @@ function Questions(props: { recording: Recording; onChange: Change }) {
         <Notice kind="warn" key={one.question}>
           <p>{one.question}</p>
           {one.option !== 'column' && (
-            <div class="toolbar">
-              {one.answers.map((answer) => (
-                <button
-                  type="button"
-                  key={answer}
-                  onClick={() => props.onChange({ ...answers, [one.option]: answer })}
-                >
-                  {answer}
-                </button>
-              ))}
-            </div>
+            <AnswerButtons
+              answers={one.answers}
+              onAnswer={(answer) => props.onChange({ ...answers, [one.option]: answer })}
+            />
           )}
         </Notice>
       ))}
