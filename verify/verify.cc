@@ -11,8 +11,7 @@ namespace {
 
 void CheckCombinations(const Problem& problem, const Proof& proof, Findings& findings) {
   BigCount combinations = 0;
-  for (Configuration configuration : problem.configurations)
-    combinations += Combinations(problem, configuration);
+  for (const Layout& layout : LayoutsOf(problem)) combinations += Combinations(problem, layout);
   if (combinations != proof.combinations)
     findings.push_back({"combinations", "the catalogue has " + combinations.str() + ", not " +
                                             proof.combinations.str()});

@@ -19,10 +19,7 @@ std::optional<std::string> Missed(const Problem& world, const Design& design, co
   if (!Fit(world, *assembly)) return "parts of the source do not fit";
   Settings settings = design.settings;
   if (assembly->reservoir) settings.reservoir_volume_m3 = assembly->ReservoirVolume();
-  const Pressures stood = StoodPressures(world, *assembly);
-  if (settings.source_pressure_pa < stood.low_pa * (1.0 - kSumTolerance) ||
-      settings.source_pressure_pa > stood.high_pa * (1.0 + kSumTolerance))
-    return "the parts do not stand the source pressure";
+  if (!Stand(world, settings, *assembly)) return "the parts do not stand the source pressure";
   const std::optional<Cycle> cycle = SimulateCycle(world, settings, *assembly, stop);
   if (!cycle) return std::nullopt;
   const double slack = 1.0 + kTimeTolerance;

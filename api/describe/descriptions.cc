@@ -53,6 +53,7 @@ Json AllRequirements() {
     "duty": { "frequency_hz": 0.1, "actuations": 10, "simultaneous": true },
     "rise": { "to_fraction": 0.95 }, "fall": { "to_fraction": 0.05 },
     "supply": { "configurations": ["mains", "tank", "direct_pump"], "pumps": "shared",
+                "regulation": "shared",
                 "mains": { "pressure_kpa_gauge": 600, "flow_l_per_min_anr_max": 200 },
                 "source_pressure_kpa_gauge_max": 600, "tank_fill_kpa_gauge_max": 800,
                 "mass_kg_max": 10, "volume_l_max": 10,

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "api/catalogue/catalogue_parts.h"
-#include "api/design/read/power.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/supply/power.h"
 #include "api/json/units.h"
 #include "optimizer/problem/family_specs.h"
 #include "optimizer/problem/gait.h"
@@ -63,6 +63,9 @@ Json RenderSettings(const optimizer::Settings& settings, const optimizer::Proble
                                   ? Number(optimizer::KpaGauge(problem, *settings.tank_fill_pa))
                                   : Json(nullptr)}};
   if (optimizer::Evacuated(problem)) rendered["vacuum_kpa_gauge"] = source;
+  if (!settings.group_pressure_pa.empty())
+    rendered["group_pressure_kpa_gauge"] = Numbers(
+        settings.group_pressure_pa, [&](double pa) { return optimizer::KpaGauge(problem, pa); });
   return rendered;
 }
 

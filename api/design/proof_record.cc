@@ -206,7 +206,7 @@ optimizer::ProofRecord ReadRecord(Reader& reader, const model::Parts& parts) {
        Configuration::kVacuumPump, Configuration::kDirectVacuumPump});
   optimizer::ProofRecord record;
   record.count = reader.Integer("count", 1, 1'000'000);
-  for (const Element& element : reader.List("plans", 0, optimizer::kConfigurations)) {
+  for (const Element& element : reader.List("plans", 0, 2 * optimizer::kConfigurations)) {
     Reader given(element, reader.errors());
     ProofPlan plan;
     plan.configuration = ReadName(given, "configuration", kConfigurations);
@@ -215,6 +215,9 @@ optimizer::ProofRecord ReadRecord(Reader& reader, const model::Parts& parts) {
     for (const Element& slot : given.List("slots", 0, 1000)) {
       Reader slot_reader(slot, reader.errors());
       plan.slots.push_back(ReadSlot(slot_reader, plan.configuration, parts));
+      plan.own_regulators =
+          plan.own_regulators ||
+          (plan.slots.back().family == Family::kRegulator && plan.slots.back().group >= 0);
     }
     for (const Element& box : given.List("boxes", 0, kMany)) {
       const auto parsed = ParseBox(*box.value);

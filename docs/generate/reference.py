@@ -65,7 +65,8 @@ def example_answers(program):
     revised = program.example("gripper") | {"model": "wall", "ranking": {"count": 3, "time_limit_s": 5}}
     judged["ranking"] = {"proof": True}
     documents = [priced, revised, program.example("exosuit"), program.example("gripper_guaranteed"), front, judged, impossible,
-                 program.example("tank_arm")]
+                 program.example("tank_arm"),
+                 program.example("orthosis")]
     return [program.answer("design", one) for one in documents]
 
 

@@ -11,6 +11,7 @@
 #include "optimizer/evaluate/filling.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
+#include "optimizer/sizing/group_pressures.h"
 #include "optimizer/sizing/sizing.h"
 
 namespace plenum::optimizer {
@@ -194,6 +195,15 @@ Constraint Bounds::FindSource(Box& box) {
     box.source_known = true;
     const Candidate candidate = CandidateOf(box);
     if (IsOpenTank(candidate)) return Constraint::kNone;  // each tank has its own
+    if (plan_.own_regulators) {
+      const GroupPressures needed = NeededGroupPressures(problem_, candidate);
+      if (needed.status == LeafStatus::kInfeasible) return Constraint::kRise;
+      if (needed.status == LeafStatus::kUndecided) return Constraint::kNone;
+      box.source_floor_pa = needed.least_pa();
+      if (const Constraint missed = NeedOfRegulated(box); missed != Constraint::kNone)
+        return missed;
+      return RestOfRegulated(box);
+    }
     const bool meet = StrokesMeet(problem_);
     if (meet && !FastAtHighest(problem_, candidate)) return Constraint::kRise;
     // Where groups meet it is found no closer than bottles have to know it.

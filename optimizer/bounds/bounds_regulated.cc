@@ -7,6 +7,7 @@
 
 #include "model/physics/storage.h"
 #include "optimizer/bounds/box.h"
+#include "optimizer/bounds/regulator_box.h"
 #include "optimizer/evaluate/filling.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/evaluate/root.h"
@@ -50,23 +51,11 @@ Constraint Bounds::AssessRegulated(Box& box, bool source_changed) {
 // Window, strokes and needs. Strokes are those of each group alone on the regulator, at the highest
 // pressure that parts stand: neighbours and lower pressures only slow them.
 Constraint Bounds::NeedOfRegulated(Box& box) {
-  const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
-  const bool tank = plan_.configuration == Configuration::kTank;
-  if (plan_.configuration != Configuration::kCylinder && !tank) {
-    const double inlet_pa = plan_.configuration == Configuration::kCo2
-                                ? model::Co2SaturationPressure(problem_.ambient.temperature_k)
-                                : problem_.mains.pressure_pa;
-    if (regulator.inlet_max_pa < inlet_pa || regulator.inlet_min_pa > inlet_pa)
-      return Constraint::kMating;
-  }
+  if (!InletsSuit(problem_, plan_, box)) return Constraint::kMating;
   AddLines(box);
-  box.window.low_pa = std::max(box.window.low_pa, regulator.outlet_min_pa);
-  box.window.high_pa = std::min(box.window.high_pa, regulator.outlet_max_pa);
-  if (plan_.configuration == Configuration::kMains)
-    box.window.high_pa = std::min(box.window.high_pa, problem_.mains.pressure_pa);
-  const double flow_max = FlowMax(problem_, plan_.configuration, regulator);
-  if (box.window.empty()) return Constraint::kPressure;
-  if (regulator.all_none)
+  if (!NarrowWindow(problem_, plan_, box)) return Constraint::kPressure;
+  const Inlet inlet = InletOf(plan_, box);
+  if (inlet.all_none)
     for (const std::shared_ptr<const Line>& line : box.lines)
       if (!line->holds) return Constraint::kPressure;
 
@@ -78,21 +67,24 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
     const ActuatorGroup& group = problem_.groups[g];
     const int count = FilledAtOnce(problem_, g);
     const double strokes = group.gait.strokes_per_period;
+    const RegulatorCorner& regulator = RegulatorAt(plan_, box, g);
+    const double high_pa = WindowAt(problem_, plan_, box, g).high_pa;
     const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, count);
     Filling filling(problem_, g, elements, FlowFactor(problem_, GasOf(plan_.configuration)),
-                    line.chamber, kBoxSlack, flow_max / count);
-    if (!filling.InTime(box.window.high_pa)) return Constraint::kRise;
+                    line.chamber, kBoxSlack,
+                    FlowMax(problem_, plan_.configuration, regulator) / count);
+    if (!filling.InTime(high_pa)) return Constraint::kRise;
     box.air_m3 += strokes * LeastAirPerStroke(problem_, g, line);
     if (line.all_hold && line.coil_power_w > 0.0) {  // energised while they inflate, too
       const double inflate_s = problem_.objective.energy_wh > 0.0
-                                   ? filling.InflateTime(box.window.high_pa)
-                                   : filling.InflateTimeAtLeast(box.window.high_pa);
+                                   ? filling.InflateTime(high_pa)
+                                   : filling.InflateTimeAtLeast(high_pa);
       box.energy_beyond_j += problem_.actuations * strokes * line.coil_power_w * inflate_s;
     }
   }
   box.energy_j = box.energy_beyond_j + problem_.actuations * CoilEnergy(problem_, box) +
-                 regulator.electrical_power_w * seconds;
-  box.coil_power_w += regulator.electrical_power_w;
+                 inlet.electrical_power_w * seconds;
+  box.coil_power_w += inlet.electrical_power_w;
   if (!shared_) return Constraint::kNone;
   std::vector<GroupLines::Nodes> nodes;
   std::vector<const Line*> lines;
@@ -103,19 +95,23 @@ Constraint Bounds::NeedOfRegulated(Box& box) {
     lines.push_back(box.lines[g].get());
   }
   std::vector<LineChoice> choices =
-      groups_->LeastBehind(nodes, lines, box.window, {regulator.flow, 0.0, flow_max});
+      groups_->LeastBehind(nodes, lines, box.window,
+                           {RegulatorAt(plan_, box, 0).flow, 0.0,
+                            FlowMax(problem_, plan_.configuration, RegulatorAt(plan_, box, 0))});
   if (choices.empty()) return Constraint::kRise;
   box.choices = std::make_shared<const std::vector<LineChoice>>(std::move(choices));
   return Constraint::kNone;
 }
 
-// A source pressure below which some group, alone on the regulator, is too slow.
+// A source pressure below which some group, alone on the regulator, is too slow; behind regulators
+// of their own the highest of the groups'.
 double Bounds::RegulatedFloor(const Box& box) const {
-  const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
   double floor_pa = box.window.low_pa;
   for (int g = 0; g < static_cast<int>(box.lines.size()); ++g) {
     const Line& line = *box.lines[g];
     const int count = FilledAtOnce(problem_, g);
+    const RegulatorCorner& regulator = RegulatorAt(plan_, box, g);
+    const Window window = WindowAt(problem_, plan_, box, g);
     const std::vector<model::FlowElement> elements = Elements(regulator.flow, line, count);
     Filling filling(problem_, g, elements, FlowFactor(problem_, GasOf(plan_.configuration)),
                     line.chamber, kBoxSlack,
@@ -123,7 +119,9 @@ double Bounds::RegulatedFloor(const Box& box) const {
     const auto late = [&](double source_pa) {
       return filling.LatenessAtLeast(source_pa).value_or(0.0);
     };
-    floor_pa = FeasibleBracket(late, floor_pa, box.window.high_pa, kFloorTolerance).low;
+    const double from_pa = plan_.own_regulators ? window.low_pa : floor_pa;
+    floor_pa =
+        std::max(floor_pa, FeasibleBracket(late, from_pa, window.high_pa, kFloorTolerance).low);
   }
   return floor_pa;
 }
@@ -131,17 +129,17 @@ double Bounds::RegulatedFloor(const Box& box) const {
 // The lightest bottle and battery of the box that bear the needs.
 Constraint Bounds::RestOfRegulated(Box& box) {
   const bool direct = IsDirect(plan_.configuration);
-  const double source = direct ? CornerAt(plan_.compressors, box, plan_.compressor_slot).objective
-                               : CornerAt(plan_.regulators, box, plan_.regulator_slot).objective;
+  const Inlet inlet = direct ? Inlet{} : InletOf(plan_, box);
+  const double source =
+      direct ? CornerAt(plan_.compressors, box, plan_.compressor_slot).objective : inlet.objective;
   double bound = source + EnergyShare(box.energy_beyond_j);
   if (plan_.bottle_slot >= 0) {
-    const RegulatorCorner& regulator = CornerAt(plan_.regulators, box, plan_.regulator_slot);
-    const double inlet_pa = std::max(box.window.low_pa, regulator.inlet_min_pa);
+    const double inlet_pa = std::max(box.window.low_pa, inlet.min_pa);
     const double air_m3 = problem_.actuations * box.air_m3;
     // Without a regulator the last stroke may take a tank below the least that it asks.
-    const double above_m3 = regulator.some_none ? air_m3 - box.air_m3 : air_m3;
+    const double above_m3 = inlet.some_none ? air_m3 - box.air_m3 : air_m3;
     const bool tank = plan_.configuration == Configuration::kTank;
-    const double fill_max_pa = regulator.all_none ? box.window.high_pa : regulator.inlet_max_pa;
+    const double fill_max_pa = inlet.all_none ? box.window.high_pa : inlet.max_pa;
     const auto holds = [&](const BottleCorner& c) {
       const double fall_pa = std::min(c.fill_max_pa, fill_max_pa) - inlet_pa;
       return !tank || model::StandardVolume(c.water_m3 * fall_pa, problem_.ambient.temperature_k) >=
@@ -159,7 +157,7 @@ Constraint Bounds::RestOfRegulated(Box& box) {
                          all.cost_eur - counted.cost_eur};
     const double bottle =
         LeastObjective(plan_.bottles, box.nodes[plan_.bottle_slot], [&](const BottleCorner& c) {
-          return c.fill_pressure_pa <= regulator.inlet_max_pa &&
+          return c.fill_pressure_pa <= inlet.max_pa &&
                  (1.0 - share) * c.gas_to_low_m3 + share * c.gas_to_high_m3 >=
                      above_m3 / kRounding &&
                  holds(c) &&

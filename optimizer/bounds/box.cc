@@ -26,10 +26,11 @@ Bounds::Bounds(const Problem& problem, const Plan& plan, const Workbench* bench,
       lines_(plan.groups.size()),
       groups_(plan.groups.size() > 1 ? std::make_unique<GroupLines>(problem, plan, bench)
                                      : nullptr),
-      shared_(MeetingOf(problem) == Meeting::kTogether && !IsPumped(plan.configuration)),
+      shared_(MeetingOf(problem) == Meeting::kTogether && !IsPumped(plan.configuration) &&
+              !plan.own_regulators),
       limited_(useful_ || std::isfinite(problem.mass_max_kg) ||
                std::isfinite(problem.volume_max_l) || std::isfinite(problem.cost_max_eur)),
-      highest_source_pa_(HighestSource(problem, plan)),
+      highest_source_pa_(plan.own_regulators ? kUnlimited : HighestSource(problem, plan)),
       direct_(problem) {}
 
 Box Bounds::Root() const {
@@ -107,7 +108,7 @@ Constraint Bounds::Assess(Box& box, int changed) {
   const int groups = static_cast<int>(plan_.groups.size());
   box.lines.resize(groups);
   for (int g = 0; g < groups; ++g)
-    if (changed < 0 || changed / kSlotsPerGroup == g)
+    if (changed < 0 || (changed / kSlotsPerGroup == g && changed < kSlotsPerGroup * groups))
       if (const Constraint missed = RemakeLine(box, g); missed != Constraint::kNone) return missed;
   if (!WithinLimits(LeastOfAll(box))) return Constraint::kAmounts;
   if (!KeepsReservoir(plan_.configuration) && !box.lines_finished)
@@ -168,7 +169,8 @@ Amounts Bounds::LeastBesidesBattery(const Box& box) const {
   const auto add = [&](const auto& tree, int slot) {
     if (slot >= 0) least += CornerAt(tree, box, slot).amounts;
   };
-  add(plan_.regulators, plan_.regulator_slot);
+  for (std::size_t i = 0; i < plan_.regulators.size(); ++i)
+    add(plan_.regulators[i], plan_.regulator_slots[i]);
   add(plan_.bottles, plan_.bottle_slot);
   add(plan_.compressors, plan_.compressor_slot);
   add(plan_.reservoirs, plan_.reservoir_slot);
@@ -260,7 +262,9 @@ Candidate Bounds::CandidateOf(const Box& box) const {
   const auto choose = [&](int slot, Option& option) {
     if (slot >= 0 && Node(box, slot).single()) option = OptionOf(box, slot);
   };
-  choose(plan_.regulator_slot, candidate.regulator);
+  for (const int slot : plan_.regulator_slots)
+    choose(slot,
+           plan_.own_regulators ? candidate.own_regulators.emplace_back() : candidate.regulator);
   choose(plan_.bottle_slot, candidate.bottle);
   choose(plan_.compressor_slot, candidate.compressor);
   choose(plan_.reservoir_slot, candidate.reservoir);

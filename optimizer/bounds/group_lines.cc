@@ -123,7 +123,7 @@ const std::optional<NodeMeans>& GroupLines::NeedOf(int group, const Nodes& nodes
 
 const NodeMeans& GroupLines::MostOf(int group) {
   if (!most_.empty()) return most_[group];
-  if (plan_.regulator_slot < 0) {
+  if (plan_.regulators.size() != 1) {
     most_.assign(plan_.groups.size(), {kUnlimited, kUnlimited});
     return most_[group];
   }
@@ -134,7 +134,7 @@ const NodeMeans& GroupLines::MostOf(int group) {
   for (int g = 0; g < static_cast<int>(plan_.groups.size()); ++g)
     corners.push_back(&lines.emplace_back(
         AssembleLine(problem_, g, gas_, PartsOf(plan_.groups[g], {0, 0, 0}).corners, false)));
-  const RegulatorCorner& regulator = plan_.regulators.corners[0];
+  const RegulatorCorner& regulator = plan_.regulators[0].corners[0];
   const bool mains = plan_.configuration == Configuration::kMains;
   const double source_pa = std::min({problem_.source_pressure_max_pa, regulator.outlet_max_pa,
                                      mains ? problem_.mains.pressure_pa : kUnlimited});

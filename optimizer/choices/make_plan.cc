@@ -16,9 +16,9 @@ void Planter::PlantGroup(int g) {
   PlantValves(g, mates);
 }
 
-std::unique_ptr<Plan> MakePlan(const Problem& problem, Configuration configuration,
-                               bool name_left_out, const std::function<bool()>& stop) {
-  return Planter(problem, configuration, name_left_out, stop).Plant();
+std::unique_ptr<Plan> MakePlan(const Problem& problem, const Layout& layout, bool name_left_out,
+                               const std::function<bool()>& stop) {
+  return Planter(problem, layout, name_left_out, stop).Plant();
 }
 
 }  // namespace plenum::optimizer

@@ -15,8 +15,9 @@ constexpr double kRounding = 1.0 - 1e-9;  // of sums in another order
 
 class Sketch {
  public:
-  Sketch(const Problem& problem, Configuration configuration) : problem_(problem) {
-    outline_.configuration = configuration;
+  Sketch(const Problem& problem, const Layout& layout)
+      : problem_(problem), configuration_(layout.configuration) {
+    outline_.layout = layout;
     outline_.combinations = outline_.priced = 1;
   }
 
@@ -24,17 +25,19 @@ class Sketch {
     const model::Parts& parts = problem_.parts;
     const Limits& most = problem_.limits;
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) AddGroup(g);
-    if (IsPumped(outline_.configuration)) {
+    if (IsPumped(configuration_)) {
       Add(PumpsOf(problem_), most.compressors, Pieces());
-      if (KeepsReservoir(outline_.configuration)) AddReservoirs();
+      if (KeepsReservoir(configuration_)) AddReservoirs();
+    } else if (outline_.layout.own_regulators) {
+      for (std::size_t g = 0; g < problem_.groups.size(); ++g) Add(parts.regulators, 1, Pieces());
     } else {
-      const bool none = MayLack(outline_.configuration, Family::kRegulator);
+      const bool none = MayLack(configuration_, Family::kRegulator);
       Add(parts.regulators, 1, Pieces(), none ? 1 : 0, none ? 0.0 : kUnlimited, true);
     }
-    if (outline_.configuration == Configuration::kCylinder) AddCylinders();
-    if (outline_.configuration == Configuration::kCo2) AddCo2();
-    if (outline_.configuration == Configuration::kTank) AddTanks();
-    if (outline_.configuration != Configuration::kMains) AddBatteries();
+    if (configuration_ == Configuration::kCylinder) AddCylinders();
+    if (configuration_ == Configuration::kCo2) AddCo2();
+    if (configuration_ == Configuration::kTank) AddTanks();
+    if (configuration_ != Configuration::kMains) AddBatteries();
     outline_.bound *= kRounding;
     return outline_;
   }
@@ -108,9 +111,7 @@ class Sketch {
              : kUnlimited);
   }
 
-  double GasAt(double pressure_pa) const {
-    return GasLeft(problem_, outline_.configuration, pressure_pa);
-  }
+  double GasAt(double pressure_pa) const { return GasLeft(problem_, configuration_, pressure_pa); }
 
   // Of bottles that hold so much gas and give it down to ambient pressure.
   double BottleShare(const model::PartBasics& basics, int quantity, double gas_kg, double gas_m3,
@@ -162,14 +163,15 @@ class Sketch {
   }
 
   const Problem& problem_;
+  Configuration configuration_;
   Outline outline_;
   double coils_j_ = 0.0, air_m3_ = 0.0;  // of the mission, at least
 };
 
 }  // namespace
 
-Outline MakeOutline(const Problem& problem, Configuration configuration) {
-  return Sketch(problem, configuration).Draw();
+Outline MakeOutline(const Problem& problem, const Layout& layout) {
+  return Sketch(problem, layout).Draw();
 }
 
 }  // namespace plenum::optimizer

@@ -1,7 +1,8 @@
 // What a configuration offers: the choices of every family as trees of boxes, one slot each.
 //
 //   regulated:   tube, fitting, valve of each group; regulator, bottle, battery
-//                (mains: no bottle, no battery; a tank stands in the place of a bottle)
+//                (mains: no bottle, no battery; a tank stands in the place of a bottle; a
+//                regulator of each group where they have their own)
 //   compressor:  tube, fitting, valve of each group; compressor, reservoir, battery
 //   direct pump: tube, fitting, valve of each group; compressor, battery
 #ifndef PLENUM_OPTIMIZER_CHOICES_PLAN_H_
@@ -42,17 +43,18 @@ struct Plan {
   Plan& operator=(const Plan&) = delete;
 
   Configuration configuration;
+  bool own_regulators = false;
   bool equal_flow = false;  // as in ProofPlan
   double tie = 0.0;
   std::vector<GroupTrees> groups;
-  BoxTree<RegulatorCorner> regulators;
+  std::vector<BoxTree<RegulatorCorner>> regulators;  // one for all groups, or of each
   BoxTree<BottleCorner> bottles;
   BoxTree<CompressorCorner> compressors;
   BoxTree<ReservoirCorner> reservoirs;
   BoxTree<BatteryCorner> batteries;
   std::vector<Slot> slots;
-  int regulator_slot = -1, bottle_slot = -1, compressor_slot = -1, reservoir_slot = -1,
-      battery_slot = -1;
+  int bottle_slot = -1, compressor_slot = -1, reservoir_slot = -1, battery_slot = -1;
+  std::vector<int> regulator_slots;  // as the trees of regulators
 
   BottleRange bottle_range;
   double highest_pump_pa = 0.0;

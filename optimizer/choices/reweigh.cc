@@ -43,7 +43,7 @@ void Reweigh(const Problem& problem, Plan& plan) {
     ReweighTree(objective, group.fittings);
     ReweighTree(objective, group.valves);
   }
-  ReweighTree(objective, plan.regulators);
+  for (BoxTree<RegulatorCorner>& regulators : plan.regulators) ReweighTree(objective, regulators);
   ReweighTree(objective, plan.bottles);
   ReweighTree(objective, plan.compressors);
   ReweighTree(objective, plan.reservoirs);

@@ -22,7 +22,8 @@ bool IsCostAlone(const Objective& objective) {
 
 // The row as a choice of the search: joints count with what they join, a tank with the air that any
 // fill leaves in it.
-Amounts ChoiceAmounts(const Problem& problem, const Choice& row) {
+Amounts ChoiceAmounts(const Problem& problem, const Design& design, const Choice& row) {
+  const bool own_regulators = HasOwnRegulators(design.parts);
   if (SpecOf(row.family).made_to_measure && row.id == "custom")
     return CustomReservoir(problem, model::kMadeReservoirSmallestM3, LeastSourcePa(problem));
   Amounts amounts{row.mass_kg, row.volume_m3, row.cost_eur.value_or(0.0)};
@@ -32,10 +33,13 @@ Amounts ChoiceAmounts(const Problem& problem, const Choice& row) {
     amounts.mass_kg = row.quantity * problem.parts.tanks[part].basics.mass_kg +
                       row.quantity * LeastTankCharge(problem, part);
   if (row.family == Family::kTubing)
-    amounts += LineJointShare(problem, row.group);
+    amounts += LineJointShare(problem, row.group, own_regulators);
   else if (row.group < 0)
     amounts += JointAmounts(
         problem, JointOfPieces(problem, row.family, part, static_cast<int>(row.quantity)));
+  if (own_regulators && row.group < 0) amounts += OwnRegulatorJoint(problem, row.family, part);
+  if (row.family == Family::kRegulator && row.group >= 0)
+    amounts += OwnRegulatorJointAtMains(problem, design.configuration, row.group);
   return amounts;
 }
 
@@ -69,7 +73,7 @@ TieKey TieKeyOf(const Problem& problem, const Design& design) {
   TieKey key{{}, IdsOf(design)};
   for (const Choice& row : design.parts)
     if (!SpecOf(row.family).joins)
-      key.share += TieShareOf(problem.objective, ChoiceAmounts(problem, row));
+      key.share += TieShareOf(problem.objective, ChoiceAmounts(problem, design, row));
   return key;
 }
 

@@ -17,23 +17,74 @@ bool SuitDirectPumps(const Problem& problem, const Candidate& candidate) {
   });
 }
 
+Window WindowOfRegulator(const Problem& problem, const Option& option, Window window) {
+  if (option.index == kNone) return window;
+  const model::Regulator& regulator = problem.parts.regulators[option.index];
+  return {std::max(window.low_pa, regulator.outlet_pressure_min_pa),
+          std::min(window.high_pa, regulator.outlet_pressure_max_pa)};
+}
+
+// The highest of the pressures of all groups.
+Window HighestOfGroups(const Problem& problem, const Candidate& candidate) {
+  Window highest{candidate.source_floor_pa, 0.0};
+  for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g) {
+    const Window window = GroupWindow(problem, candidate, g);
+    if (window.empty()) return {kUnlimited, 0.0};
+    highest.low_pa = std::max(highest.low_pa, window.low_pa);
+    highest.high_pa = std::max(highest.high_pa, window.high_pa);
+  }
+  highest.high_pa = std::min(highest.high_pa, candidate.source_cap_pa);
+  return highest;
+}
+
 // Room for rounding where a fill is just enough: relative, of what the tank gives.
 constexpr double kRoom = 1.0 + 1e-9;
 
 }  // namespace
 
+std::vector<const model::Regulator*> RegulatorsOf(const Problem& problem,
+                                                  const Candidate& candidate) {
+  std::vector<const model::Regulator*> regulators;
+  const auto add = [&](const Option& option) {
+    if (option.index != kNone) regulators.push_back(&problem.parts.regulators[option.index]);
+  };
+  add(candidate.regulator);
+  for (const Option& own : candidate.own_regulators) add(own);
+  return regulators;
+}
+
+double InletMinPa(const Problem& problem, const Candidate& candidate) {
+  double least_pa = 0.0;
+  for (const model::Regulator* regulator : RegulatorsOf(problem, candidate))
+    least_pa = std::max(least_pa, regulator->inlet_pressure_min_pa);
+  return least_pa;
+}
+
+double InletMaxPa(const Problem& problem, const Candidate& candidate) {
+  double most_pa = kUnlimited;
+  for (const model::Regulator* regulator : RegulatorsOf(problem, candidate))
+    most_pa = std::min(most_pa, regulator->inlet_pressure_max_pa);
+  return most_pa;
+}
+
+Window GroupWindow(const Problem& problem, const Candidate& candidate, int g) {
+  const Line& line = *candidate.lines[g];
+  Window window{std::max(problem.ambient.pressure_pa, line.source_min_pa),
+                std::min(problem.source_pressure_max_pa, line.source_max_pa)};
+  if (candidate.configuration == Configuration::kMains)
+    window.high_pa = std::min(window.high_pa, problem.mains.pressure_pa);
+  return WindowOfRegulator(problem, RegulatorOf(candidate, g), window);
+}
+
 Window SourceWindow(const Problem& problem, const Candidate& candidate) {
+  if (HasOwnRegulators(candidate)) return HighestOfGroups(problem, candidate);
   Window window{std::max(problem.ambient.pressure_pa, candidate.source_floor_pa),
                 std::min(problem.source_pressure_max_pa, candidate.source_cap_pa)};
   for (const Line* line : candidate.lines) {
     window.low_pa = std::max(window.low_pa, line->source_min_pa);
     window.high_pa = std::min(window.high_pa, line->source_max_pa);
   }
-  if (candidate.regulator.index != kNone) {
-    const model::Regulator& regulator = problem.parts.regulators[candidate.regulator.index];
-    window.low_pa = std::max(window.low_pa, regulator.outlet_pressure_min_pa);
-    window.high_pa = std::min(window.high_pa, regulator.outlet_pressure_max_pa);
-  }
+  window = WindowOfRegulator(problem, candidate.regulator, window);
   if (IsOpenTank(candidate) && candidate.bottle.index != kNone) {
     const bool hold = std::all_of(candidate.lines.begin(), candidate.lines.end(),
                                   [](const Line* line) { return line->holds; });
@@ -70,6 +121,14 @@ double ReservoirVolume(const Problem& problem, const Candidate& candidate) {
 
 OperatingPoint PointAt(const Problem& problem, const Candidate& candidate, double source_pa,
                        double reservoir_m3) {
+  if (HasOwnRegulators(candidate)) {
+    OperatingPoint point{source_pa, reservoir_m3, reservoir_m3};
+    for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g) {
+      const Window window = GroupWindow(problem, candidate, g);
+      point.group_pa.push_back(std::max(window.low_pa, std::min(source_pa, window.high_pa)));
+    }
+    return point;
+  }
   const Option& reservoir = candidate.reservoir;
   const double spread_m3 =
       reservoir.index < 0
@@ -106,6 +165,7 @@ AmountsOf<T> TotalAmounts(const Problem& problem, const Candidate& candidate,
   for (const Option* option : {&candidate.regulator, &candidate.bottle, &candidate.compressor,
                                &candidate.battery, &candidate.reservoir})
     total += option->amounts;
+  for (const Option& own : candidate.own_regulators) total += own.amounts;
   if (point.tank_fill_pa > 0.0)
     total.mass_kg += ChargeBeyondLeast(problem, candidate, point.tank_fill_pa);
   if (candidate.reservoir.index != kCustom) return total;
@@ -165,7 +225,8 @@ OperatingPoint DirectPoint(const Problem& problem, const Candidate& candidate) {
 }
 
 bool IsOpenTank(const Candidate& candidate) {
-  return candidate.configuration == Configuration::kTank && candidate.regulator.index == kNone;
+  return candidate.configuration == Configuration::kTank && candidate.regulator.index == kNone &&
+         !HasOwnRegulators(candidate);
 }
 
 double TankVolume(const Problem& problem, const Candidate& candidate) {
@@ -186,10 +247,7 @@ double HighestTankPa(const Problem& problem) {
 }
 
 double TankFillMaxPa(const Problem& problem, const Candidate& candidate) {
-  const double rating_pa = TankRatingPa(problem, candidate.bottle.index);
-  if (candidate.regulator.index == kNone) return rating_pa;
-  return std::min(rating_pa,
-                  problem.parts.regulators[candidate.regulator.index].inlet_pressure_max_pa);
+  return std::min(TankRatingPa(problem, candidate.bottle.index), InletMaxPa(problem, candidate));
 }
 
 double TankFallPa(const Problem& problem, const Candidate& candidate, double air_m3) {

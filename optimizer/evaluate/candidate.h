@@ -36,6 +36,7 @@ struct Candidate {
   Configuration configuration = Configuration::kMains;
   std::vector<const Line*> lines;  // one per group
   Option regulator, bottle, compressor, battery, reservoir;
+  std::vector<Option> own_regulators = {};  // one a group, in place of `regulator`; or empty
   // Source pressures outside are known to be too slow, or more than the source bears.
   double source_floor_pa = 0.0;
   double source_cap_pa = kUnlimited;
@@ -47,9 +48,9 @@ struct Candidate {
 };
 
 // Where a candidate is run. For the regulated configurations the source pressure is the regulator's
-// outlet, for a compressor it is the pressure at which it stops, for a tank without a regulator its
-// fill, and for pumps without a reservoir, where it is no setting, the highest between them and the
-// valves.
+// outlet, the highest of them where each group has its own; for a compressor it is the pressure at
+// which it stops, for a tank without a regulator its fill, and for pumps without a reservoir, where
+// it is no setting, the highest between them and the valves.
 template <class T>
 struct OperatingPointOf {
   T source_pa = T(0.0);
@@ -57,11 +58,30 @@ struct OperatingPointOf {
   // Volume while the reservoir rises; equal to reservoir_m3 but for bounds over an interval of
   // volumes (model/strokes/reservoir_stroke.h).
   T reservoir_rising_m3 = T(0.0);
-  double tank_fill_pa = 0.0;  // 0: the least that does (see below)
+  double tank_fill_pa = 0.0;          // 0: the least that does (see below)
+  std::vector<double> group_pa = {};  // behind each group's own regulator; or empty
 };
 using OperatingPoint = OperatingPointOf<double>;
 
 enum class LeafStatus { kFeasible, kInfeasible, kUndecided };
+
+// The regulator, pressure at it, and its inlet of candidates with a regulator for all or with one
+// for each group.
+inline bool HasOwnRegulators(const Candidate& candidate) {
+  return !candidate.own_regulators.empty();
+}
+inline const Option& RegulatorOf(const Candidate& candidate, int group) {
+  return candidate.own_regulators.empty() ? candidate.regulator : candidate.own_regulators[group];
+}
+template <class T>
+T PressureOf(const OperatingPointOf<T>& point, int group) {
+  return point.group_pa.empty() ? point.source_pa : T(point.group_pa[group]);
+}
+std::vector<const model::Regulator*> RegulatorsOf(const Problem& problem,
+                                                  const Candidate& candidate);
+// What the inlets of all regulators need and stand; 0 and kUnlimited without any.
+double InletMinPa(const Problem& problem, const Candidate& candidate);
+double InletMaxPa(const Problem& problem, const Candidate& candidate);
 
 // Range of source pressures that the parts stand and that can drive the strokes at all; empty
 // (low > high) if there is none.
@@ -70,10 +90,14 @@ struct Window {
   bool empty() const { return !(low_pa <= high_pa); }
 };
 Window SourceWindow(const Problem& problem, const Candidate& candidate);
+// The same of the pressure behind a group's own regulator. SourceWindow() is then of the highest of
+// these pressures.
+Window GroupWindow(const Problem& problem, const Candidate& candidate, int group);
 
 // Volume of a stock reservoir or a tank; 0 where there is none, or where it is made to measure.
 double ReservoirVolume(const Problem& problem, const Candidate& candidate);
-// The candidate run with such a volume, which a stock reservoir with tolerances has while it falls.
+// The candidate run with such a volume, each group behind its own regulator as near to the source
+// pressure as its parts stand; which a stock reservoir with tolerances has while it falls.
 OperatingPoint PointAt(const Problem& problem, const Candidate& candidate, double source_pa,
                        double reservoir_m3);
 

@@ -15,8 +15,7 @@ namespace {
 // The pressure down to which a tank gives its air.
 double TankInletPa(const Problem& problem, const Candidate& candidate, double source_pa) {
   if (IsOpenTank(candidate)) return KeptPa(problem, candidate);
-  return std::max(source_pa,
-                  problem.parts.regulators[candidate.regulator.index].inlet_pressure_min_pa);
+  return std::max(source_pa, InletMinPa(problem, candidate));
 }
 
 // Gas on board that reaches the regulator's outlet, m³ ANR.
@@ -24,18 +23,15 @@ double AirAvailable(const Problem& problem, const Candidate& candidate, double s
   if (candidate.bottle.index == kNone) return kUnlimited;  // wall supply, or not chosen yet
   const double temperature_k = problem.ambient.temperature_k;
   const int quantity = candidate.bottle.quantity;
+  const double inlet_pa = std::max(source_pa, InletMinPa(problem, candidate));
   if (candidate.configuration == Configuration::kCylinder) {
     const model::Cylinder& cylinder = problem.parts.cylinders[candidate.bottle.index];
-    const double inlet_pa = std::max(
-        source_pa, problem.parts.regulators[candidate.regulator.index].inlet_pressure_min_pa);
     return quantity * model::CylinderUsableVolume(cylinder.water_volume_m3,
                                                   cylinder.fill_pressure_pa, inlet_pa,
                                                   temperature_k);
   }
   if (candidate.configuration == Configuration::kCo2) {
     const model::Co2Bottle& bottle = problem.parts.co2[candidate.bottle.index];
-    const double inlet_pa = std::max(
-        source_pa, problem.parts.regulators[candidate.regulator.index].inlet_pressure_min_pa);
     return quantity * model::Co2UsableVolume(bottle.co2_mass_kg, bottle.water_volume_m3, inlet_pa,
                                              temperature_k);
   }
@@ -205,10 +201,9 @@ EvaluationOf<T> EvaluateWith(const StrokesOf<T>& strokes, const Problem& problem
   }
   evaluation.air_total_m3 = problem.actuations * evaluation.air_per_cycle_m3;
   evaluation.energy_per_cycle_j = evaluation.energy_coils_j / problem.actuations;
-  if (candidate.regulator.index != kNone) {
-    const double power_w = problem.parts.regulators[candidate.regulator.index].electrical_power_w;
-    evaluation.energy_per_cycle_j += power_w / problem.frequency_hz;
-    coil_power_w += power_w;
+  for (const model::Regulator* regulator : RegulatorsOf(problem, candidate)) {
+    evaluation.energy_per_cycle_j += regulator->electrical_power_w / problem.frequency_hz;
+    coil_power_w += regulator->electrical_power_w;
   }
   if (candidate.compressor.index != kNone) AddPump(problem, candidate, point, strokes, evaluation);
   if (candidate.configuration == Configuration::kTank && candidate.bottle.index != kNone)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/flow/scalar.h"
+#include "optimizer/problem/family_specs.h"
 
 namespace plenum::optimizer {
 
@@ -35,11 +36,22 @@ Amounts JointAmounts(const Problem& problem, const std::optional<Joint>& joint) 
   return joint->quantity * problem.parts.manifolds[joint->manifold].basics;
 }
 
-Amounts LineJointShare(const Problem& problem, int group) {
+Amounts LineJointShare(const Problem& problem, int group, bool own_regulators) {
+  if (own_regulators) return JointAmounts(problem, JointOfLines(problem, group));
   const Amounts all = JointAmounts(problem, JointOfLines(problem));
   const double share = static_cast<double>(problem.groups[group].count) / LineCount(problem);
   return {share * all.mass_kg, share * all.volume_m3, share * all.cost_eur,
           share * all.mass_slack_kg, share * all.volume_slack_m3};
+}
+
+Amounts OwnRegulatorJoint(const Problem& problem, Family family, int part) {
+  const bool source = SpecOf(family).kind_role == KindRole::kSource;
+  return source ? JointAmounts(problem, JointOfOwnRegulators(problem, family, part)) : Amounts{};
+}
+
+Amounts OwnRegulatorJointAtMains(const Problem& problem, Configuration configuration, int group) {
+  if (configuration != Configuration::kMains || group != 0) return {};
+  return JointAmounts(problem, JointOfOwnRegulators(problem, Family::kRegulator, 0));
 }
 
 double FlowFactor(const Problem& problem, model::Gas gas) {

@@ -38,9 +38,13 @@ using Amounts = AmountsOf<double>;
 Amounts operator*(double quantity, const model::PartBasics& basics);
 
 // Of a joint (joints.h), and of a group's lines that share of the joint of all lines that their
-// number has.
+// number has, or behind its own regulator the joint that they have alone.
 Amounts JointAmounts(const Problem& problem, const std::optional<Joint>& joint);
-Amounts LineJointShare(const Problem& problem, int group);
+Amounts LineJointShare(const Problem& problem, int group, bool own_regulators);
+// Of what joins the regulators to a source that is a part; at the mains, where none is, they count
+// with the regulator of the first group.
+Amounts OwnRegulatorJoint(const Problem& problem, Family family, int part);
+Amounts OwnRegulatorJointAtMains(const Problem& problem, Configuration configuration, int group);
 
 // Weighted objective of parts alone (energy comes on top).
 template <class T>

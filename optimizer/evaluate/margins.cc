@@ -35,9 +35,10 @@ std::vector<MarginOf<T>> SupplyMargins(const Problem& problem, const Candidate& 
   const double pa_per_kpa = Evacuated(problem) ? -kPaPerKpa : kPaPerKpa;
   for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
     const ActuatorGroup& group = problem.groups[g];
-    const T full_pa = peaks == Peaks::kTold       ? PeakOf(problem, candidate, g, point.source_pa)
+    const T at_group_pa = PressureOf(point, g);
+    const T full_pa = peaks == Peaks::kTold       ? PeakOf(problem, candidate, g, at_group_pa)
                       : candidate.lines[g]->holds ? T(group.chamber.operating_pressure_pa)
-                                                  : point.source_pa;
+                                                  : at_group_pa;
     const T highest_pa = std::max(evaluation.groups[g].highest_pressure_pa, full_pa);
     margins.push_back(AtMost<T>(PressureLimitPointer(problem, g),
                                 KpaGauge(problem, group.pressure_max_pa),

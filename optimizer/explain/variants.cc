@@ -57,8 +57,9 @@ Problem OfKind(const Problem& problem, const DesignKinds& kinds, const Kind& kin
   keep(own.parts.cylinders, Family::kCylinder, of_source);
   keep(own.parts.co2, Family::kCo2, of_source);
   keep(own.parts.tanks, Family::kTank, of_source);
-  keep(own.parts.regulators, Family::kRegulator,
-       [&](int series) { return series == kind.regulator; });
+  keep(own.parts.regulators, Family::kRegulator, [&](int series) {
+    return std::binary_search(kind.regulators.begin(), kind.regulators.end(), series);
+  });
   keep(own.parts.valves, Family::kValve, [&](int series) {
     return std::binary_search(kind.valves.begin(), kind.valves.end(), series);
   });

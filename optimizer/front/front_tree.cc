@@ -96,8 +96,8 @@ class FrontTree {
 
   Nodes Plant() {
     Nodes roots;
-    for (Configuration configuration : problem_.configurations) {
-      std::unique_ptr<Plan> plan = MakePlan(problem_, configuration, false, bench_.stop);
+    for (const Layout& layout : LayoutsOf(problem_)) {
+      std::unique_ptr<Plan> plan = MakePlan(problem_, layout, false, bench_.stop);
       if (!plan) break;
       plans_.push_back(std::move(plan));
       if (plans_.back()->empty()) continue;

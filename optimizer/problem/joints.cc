@@ -51,7 +51,7 @@ std::optional<Joint> Lightest(const Problem& problem, int joined, double pressur
   return best;
 }
 
-// What joins some pieces must stand.
+// What joins some pieces must stand; of regulators what the mains have.
 double PressureOf(const Problem& problem, Family family, int part) {
   const model::Parts& parts = problem.parts;
   switch (family) {
@@ -61,6 +61,8 @@ double PressureOf(const Problem& problem, Family family, int part) {
       return model::Co2SaturationPressure(problem.ambient.temperature_k);
     case Family::kTank:
       return std::min(parts.tanks[part].pressure_max_pa, problem.tank_fill_max_pa);
+    case Family::kRegulator:
+      return problem.mains.pressure_pa;
     default: {
       double operating_pa = 0.0;
       for (const ActuatorGroup& group : problem.groups)
@@ -109,6 +111,18 @@ std::optional<Joint> JointOfLines(const Problem& problem) {
                   JointConductance(problem));
 }
 
+std::optional<Joint> JointOfLines(const Problem& problem, int g) {
+  const ActuatorGroup& group = problem.groups[g];
+  return Lightest(problem, group.count, group.chamber.operating_pressure_pa,
+                  group.joint_conductance_m3_per_s_pa);
+}
+
+std::optional<Joint> JointOfOwnRegulators(const Problem& problem, Family family, int part) {
+  const bool bottle = family == Family::kCylinder || family == Family::kCo2;
+  return Lightest(problem, static_cast<int>(problem.groups.size()),
+                  PressureOf(problem, family, part), bottle ? 0.0 : JointConductance(problem));
+}
+
 std::optional<Joint> JointOfPieces(const Problem& problem, Family family, int part, int quantity) {
   if (quantity < 2 || !MayBeJoined(family)) return std::nullopt;
   const bool drawn_from = family == Family::kReservoir || family == Family::kTank;
@@ -128,12 +142,20 @@ std::vector<Joint> JointsOf(const Problem& problem, const std::vector<Choice>& r
     else
       same->quantity += joint->quantity;
   };
-  add(JointOfLines(problem));
+  const bool own = HasOwnRegulators(rows);
+  if (!own) add(JointOfLines(problem));
+  for (int g = 0; own && g < static_cast<int>(problem.groups.size()); ++g)
+    add(JointOfLines(problem, g));
+  bool joined = false;  // the regulators
   for (const Choice& row : rows) {
     if (row.group >= 0 || !MayBeJoined(row.family)) continue;
     const int part = FindPart(problem.parts, row.family, row.id);
-    if (part >= 0) add(JointOfPieces(problem, row.family, part, static_cast<int>(row.quantity)));
+    if (part < 0) continue;
+    add(JointOfPieces(problem, row.family, part, static_cast<int>(row.quantity)));
+    if (own) add(JointOfOwnRegulators(problem, row.family, part));
+    joined = true;
   }
+  if (own && !joined) add(JointOfOwnRegulators(problem, Family::kRegulator, 0));
   return joints;
 }
 

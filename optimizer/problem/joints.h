@@ -17,6 +17,7 @@
 #include <optional>
 #include <vector>
 
+#include "optimizer/problem/own_regulators.h"
 #include "optimizer/problem/problem.h"
 
 namespace plenum::optimizer {
@@ -40,6 +41,10 @@ double JointConductance(const Problem& problem);
 
 // None: there is one line, or nothing joins them.
 std::optional<Joint> JointOfLines(const Problem& problem);
+// The same of the lines of a group behind its own regulator, and of these regulators in front of
+// them, at a part of a source or, kRegulator, at the mains.
+std::optional<Joint> JointOfLines(const Problem& problem, int group);
+std::optional<Joint> JointOfOwnRegulators(const Problem& problem, Family family, int part);
 // The same of some pieces of a part of a source. Batteries and regulators have nothing to join.
 std::optional<Joint> JointOfPieces(const Problem& problem, Family family, int part, int quantity);
 

@@ -9,10 +9,10 @@ namespace plenum::optimizer {
 void Kind::Add(KindRole role, int number) {
   if (number == kNoPart) return;
   if (role == KindRole::kSource) source = number;
-  if (role == KindRole::kRegulator) regulator = number;
-  if (role != KindRole::kValve) return;
-  const auto place = std::lower_bound(valves.begin(), valves.end(), number);
-  if (place == valves.end() || *place != number) valves.insert(place, number);
+  if (role != KindRole::kValve && role != KindRole::kRegulator) return;
+  std::vector<int>& of_role = role == KindRole::kValve ? valves : regulators;
+  const auto place = std::lower_bound(of_role.begin(), of_role.end(), number);
+  if (place == of_role.end() || *place != number) of_role.insert(place, number);
 }
 
 std::vector<int> SeriesOf(const model::Parts& parts, Family family) {
@@ -45,13 +45,14 @@ Kind DesignKinds::Of(Configuration configuration, const std::vector<Choice>& cho
   return kind;
 }
 
-int OtherSeriesNeeded(const Problem& problem, Family family) {
+int OtherSeriesNeeded(const Problem& problem, Family family, bool own_regulators) {
   const int of_source = std::min(problem.count, problem.per_source);
+  const int of_groups = of_source + static_cast<int>(problem.groups.size()) - 1;
   switch (SpecOf(family).kind_role) {
     case KindRole::kRegulator:
-      return of_source;
+      return own_regulators ? of_groups : of_source;
     case KindRole::kValve:
-      return of_source + static_cast<int>(problem.groups.size()) - 1;
+      return of_groups;
     case KindRole::kSource:
     case KindRole::kApart:
       return problem.count;

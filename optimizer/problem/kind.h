@@ -1,7 +1,7 @@
 // The kind of a design: what people take for the same idea, whatever the numbers of pieces, tubes,
 // fittings, batteries and reservoirs. That is its configuration, the series of its source (pump,
-// bottle or tank; none for the mains), of its regulator (none for some tanks), and the set of the
-// series of its valves, whichever group has which. A part without a series is its own.
+// bottle or tank; none for the mains), and the sets of the series of its regulators (none for some
+// tanks) and of its valves, whichever group has which. A part without a series is its own.
 //
 // A list of kinds holds the best design of each of the best kinds, of kinds with the same
 // configuration and source at most Problem::per_source.
@@ -25,15 +25,15 @@ inline constexpr int kNoPart = std::numeric_limits<int>::max();
 
 struct Kind {
   Configuration configuration{};
-  int source = -1, regulator = -1;  // series, by number; −1: there is none
-  std::vector<int> valves = {};     // the same, ascending, each once
+  int source = -1;                                // series, by number; −1: there is none
+  std::vector<int> regulators = {}, valves = {};  // the same, ascending, each once
 
   // A part of this series, in this role; kNoPart changes nothing.
   void Add(KindRole role, int number);
   std::pair<Configuration, int> Source() const { return {configuration, source}; }
   bool operator<(const Kind& other) const {
-    return std::tie(configuration, source, regulator, valves) <
-           std::tie(other.configuration, other.source, other.regulator, other.valves);
+    return std::tie(configuration, source, regulators, valves) <
+           std::tie(other.configuration, other.source, other.regulators, other.valves);
   }
   bool operator==(const Kind& other) const = default;
 };
@@ -60,8 +60,8 @@ class DesignKinds {
 // may be left out: those for which one of the same series, or this many of different other series,
 // are at least as good. A choice of another source makes another kind and another source; one of
 // another regulator another kind of the same source; so does another valve, unless another group
-// has its series already.
-int OtherSeriesNeeded(const Problem& problem, Family family);
+// has its series already, and so does another regulator where each group has its own.
+int OtherSeriesNeeded(const Problem& problem, Family family, bool own_regulators = false);
 
 }  // namespace plenum::optimizer
 

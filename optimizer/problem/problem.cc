@@ -30,6 +30,18 @@ const char* Name(Configuration configuration) {
 
 const char* Name(NlpSolver solver) { return solver == NlpSolver::kIpopt ? "ipopt" : "nlopt"; }
 
+const char* Name(Regulation regulation) {
+  switch (regulation) {
+    case Regulation::kShared:
+      return "shared";
+    case Regulation::kPerGroup:
+      return "per_group";
+    case Regulation::kAny:
+      return "any";
+  }
+  return "";
+}
+
 const char* Name(PowerKind kind) {
   switch (kind) {
     case PowerKind::kBattery:

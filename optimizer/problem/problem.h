@@ -129,6 +129,11 @@ struct Mains {
 enum class ListOf { kCombinations, kKinds };
 const char* Name(ListOf list);  // "combinations", "kinds"
 
+// How many regulators follow the common source: one for all groups, one for each group, or
+// whichever of the two is better (own_regulators.h).
+enum class Regulation { kShared, kPerGroup, kAny };
+const char* Name(Regulation regulation);  // "shared", "per_group", "any"
+
 struct Limits {  // most identical parts in parallel
   int compressors = 2, batteries = 4, cylinders = 4, co2 = 4, reservoirs = 2;
 };
@@ -150,6 +155,7 @@ struct Problem {
   double fall_fraction = 0.05;
   std::set<Configuration> configurations;
   Mains mains;
+  Regulation regulation = Regulation::kShared;
   Power power;
   double source_pressure_max_pa = kUnlimited;
   double tank_fill_max_pa = kUnlimited;  // a tank is filled to its rating at most, too
@@ -242,18 +248,19 @@ struct SearchOptions {
 struct Choice {
   Family family;
   std::string id;                         // "custom" for a made-to-measure reservoir
-  int group = -1;                         // −1: shared by all
+  int group = -1;                         // −1: shared by all; of a regulator: its own
   double quantity = 1;                    // pieces; for tubing the metres
   double mass_kg = 0.0, volume_m3 = 0.0;  // whole row, gas charge included
   std::optional<double> cost_eur;
 };
 
 struct Settings {
-  double source_pressure_pa = 0.0;
+  double source_pressure_pa = 0.0;  // with regulators of their own the highest of all groups
   std::optional<double> compressor_duty;
   std::optional<double> reservoir_volume_m3;
   std::vector<double> valve_duty;  // per group
   std::optional<double> tank_fill_pa = {};
+  std::vector<double> group_pressure_pa = {};  // behind each group's own regulator
 };
 
 struct Totals {

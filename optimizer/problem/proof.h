@@ -6,6 +6,9 @@
 // is a part of the slot's family and how many of it stand in parallel (always 1 in the slots of a
 // group and for regulators; there the numbers of pieces follow from the group).
 //
+// A configuration whose groups may have regulators of their own (own_regulators.h) has a plan of
+// them, too, with a slot of regulators for each group.
+//
 // 1. Choices. Slot::choices lists those that the search looked at, in an order that makes every box
 //    a range. Slot::dominated lists those left out because of `k` others each, where k is the
 //    number of designs wanted (ProofRecord::count); in a list of kinds because of one other of the
@@ -70,7 +73,8 @@
 // delivery of the box at each pressure; of two groups that take turns each leaves enough for the
 // other. A tank without a regulator keeps its highest pressure; no box is fed with more than every
 // group's lines stand, the highest of all lines of each that are fast enough. Of pumps alone
-// optimizer/pump/direct_bound.h says the rest.
+// optimizer/pump/direct_bound.h says the rest. With regulators of their own each group counts by
+// itself, and the bottle must bear the highest of their pressures.
 #ifndef PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 #define PLENUM_OPTIMIZER_PROBLEM_PROOF_H_
 
@@ -137,6 +141,7 @@ struct ProofBox {
 
 struct ProofPlan {
   Configuration configuration;
+  bool own_regulators = false;
   bool equal_flow = false;
   double tie = 0.0;
   std::vector<ProofSlot> slots;

@@ -8,8 +8,8 @@ namespace plenum::optimizer {
 
 Configurations::Configurations(const Problem& problem, const Workbench& bench, bool record)
     : problem_(problem), bench_(bench), record_(record) {
-  for (Configuration configuration : problem.configurations) {
-    waiting_.push_back(MakeOutline(problem, configuration));
+  for (const Layout& layout : LayoutsOf(problem)) {
+    waiting_.push_back(MakeOutline(problem, layout));
     combinations_ += waiting_.back().combinations;
   }
   std::reverse(waiting_.begin(), waiting_.end());
@@ -22,8 +22,7 @@ double Configurations::LeastWaiting() const {
 }
 
 Bounds* Configurations::PlantNext() {
-  std::unique_ptr<Plan> plan =
-      MakePlan(problem_, waiting_.back().configuration, record_, bench_.stop);
+  std::unique_ptr<Plan> plan = MakePlan(problem_, waiting_.back().layout, record_, bench_.stop);
   if (!plan) return nullptr;
   waiting_.pop_back();
   plans_.push_back(std::move(plan));

@@ -108,7 +108,8 @@ void Exchange(const Walk& walk, const Box& best, int group, int wanted) {
   Box box = walk.bounds.Root();
   const int groups = static_cast<int>(walk.problem.groups.size());
   for (int s = 0; s < static_cast<int>(box.nodes.size()); ++s)
-    if (std::min(s / kSlotsPerGroup, groups) != group) box.nodes[s] = best.nodes[s];
+    if (const int of = walk.bounds.plan().slots[s].group; (of < 0 ? groups : of) != group)
+      box.nodes[s] = best.nodes[s];
   SearchBelow(walk, std::move(box), wanted);
 }
 

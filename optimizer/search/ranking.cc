@@ -40,8 +40,8 @@ TieKey EarliestKey(const Problem& problem, const Plan& plan, const Box& box) {
   };
   for (int g = 0; g < static_cast<int>(plan.groups.size()); ++g)
     for (int s : {2, 1, 0}) add(kSlotsPerGroup * g + s);  // valve, fitting, tube
-  for (int s : {plan.regulator_slot, plan.bottle_slot, plan.compressor_slot, plan.battery_slot,
-                plan.reservoir_slot})
+  for (int s : plan.regulator_slots) add(s);
+  for (int s : {plan.bottle_slot, plan.compressor_slot, plan.battery_slot, plan.reservoir_slot})
     add(s);
   return key;
 }

@@ -45,6 +45,7 @@ std::shared_ptr<const ProofRecord> Recorder::Finish(const Problem& problem) cons
   for (const auto& [plan, root] : roots_) {
     ProofPlan proof;
     proof.configuration = plan->configuration;
+    proof.own_regulators = plan->own_regulators;
     proof.equal_flow = plan->equal_flow;
     proof.tie = plan->tie;
     for (const Slot& slot : plan->slots) {

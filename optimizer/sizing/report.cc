@@ -103,28 +103,42 @@ bool BeginsElsewhere(const model::Rig& rig, const model::Response& first) {
   return false;
 }
 
-// One cycle of the periodic state, for the plots: from a full reservoir and actuators at rest,
-// where they are.
-Design::Trace TraceCycle(const Problem& problem, const Candidate& candidate,
-                         const OperatingPoint& point) {
+// One cycle of the periodic state of what is simulated together, from a full reservoir and
+// actuators at rest, where they are; none where the simulator fails.
+std::optional<model::Response> CycleOf(const Problem& problem, const Candidate& candidate,
+                                       const OperatingPoint& point, const Together& together) {
   model::SimulateOptions options;
   options.end_s = 1.0 / problem.frequency_hz;
   options.sample_hz = kSamplesPerCycle * problem.frequency_hz;
   options.rise_fraction = problem.rise_fraction;
   options.fall_fraction = problem.fall_fraction;
-  model::Rig rig = MakeRig(problem, candidate, point);
+  model::Rig rig = MakeRig(problem, candidate, point, together);
   model::Response response = model::Simulate(rig, options);
-  Design::Trace trace;
-  if (response.status != model::SimulateStatus::kDone) return trace;
+  if (response.status != model::SimulateStatus::kDone) return std::nullopt;
   if (BeginsElsewhere(rig, response)) {
     BeginWhereItEnded(response, options.end_s, rig);
     response = model::Simulate(rig, options);
-    if (response.status != model::SimulateStatus::kDone) return trace;
+    if (response.status != model::SimulateStatus::kDone) return std::nullopt;
   }
-  trace.t_s = std::move(response.t_s);
-  for (model::GroupResponse& group : response.groups)
-    trace.pressure_pa.push_back(std::move(group.pressure_pa));
-  trace.source_pressure_pa = std::move(response.source_pressure_pa);
+  return response;
+}
+
+// For the plots. With regulators of their own the source's pressure is the highest behind them.
+Design::Trace TraceCycle(const Problem& problem, const Candidate& candidate,
+                         const OperatingPoint& point) {
+  Design::Trace trace;
+  for (const Together& together : TogetherOf(problem, candidate)) {
+    std::optional<model::Response> response = CycleOf(problem, candidate, point, together);
+    if (!response) return {};
+    const bool first = trace.t_s.empty();
+    if (first) trace.t_s = std::move(response->t_s);
+    for (model::GroupResponse& group : response->groups)
+      trace.pressure_pa.push_back(std::move(group.pressure_pa));
+    const std::vector<double>& source_pa = response->source_pressure_pa;
+    if (first) trace.source_pressure_pa = source_pa;
+    for (std::size_t i = 0; i < std::min(source_pa.size(), trace.t_s.size()); ++i)
+      trace.source_pressure_pa[i] = std::max(trace.source_pressure_pa[i], source_pa[i]);
+  }
   return trace;
 }
 
@@ -144,6 +158,7 @@ bool InTime(const Problem& problem, const Candidate& candidate, const OperatingP
   OperatingPoint raised = point;
   raised.tank_fill_pa = 0.0;
   raised.source_pa *= 1.0 + kConfirmTolerance;
+  for (double& group_pa : raised.group_pa) group_pa *= 1.0 + kConfirmTolerance;
   const Evaluation above = Evaluate(problem, candidate, raised);
   if (!above.works) return false;
   std::vector<double> rise_s = strokes.rise_s, inflate_s = strokes.inflate_s;
@@ -188,6 +203,9 @@ std::optional<OperatingPoint> ConfirmNear(const Problem& problem, const Candidat
     point.tank_fill_pa = 0.0;
     point.source_pa *= 1.0 + step;
     if (step > 0.0 && point.source_pa > high_pa) break;
+    for (int g = 0; g < static_cast<int>(point.group_pa.size()); ++g)
+      point.group_pa[g] =
+          std::min(point.group_pa[g] * (1.0 + step), GroupWindow(problem, candidate, g).high_pa);
     evaluation = Evaluate(problem, candidate, point);
     const double most = leaf.objective * (1.0 + 0.5 * kTie);
     if (evaluation.works && ObjectiveValue(problem, candidate, point, evaluation) > most) break;
@@ -212,6 +230,11 @@ std::vector<Choice> ListParts(const Problem& problem, const Candidate& candidate
   for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g)
     AddLine(problem, g, *candidate.lines[g], parts);
   for (const Family family : SourceFamilies(candidate.configuration)) {
+    if (family == Family::kRegulator)
+      for (const Option& own : candidate.own_regulators) {
+        AddChoice(problem, family, own, parts);
+        parts.back().group = static_cast<int>(&own - candidate.own_regulators.data());
+      }
     AddChoice(problem, family, OptionOf(candidate, family), parts);
     if (family == Family::kTank && point.tank_fill_pa > 0.0)
       parts.back().mass_kg += ChargeBeyondLeast(problem, candidate, point.tank_fill_pa);
@@ -255,6 +278,7 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
   design.totals = TotalsOf(design.parts);
   design.totals.energy_j = evaluation.energy_total_j;
   design.settings.source_pressure_pa = point.source_pa;
+  design.settings.group_pressure_pa = point.group_pa;
   if (candidate.compressor.index != kNone) {
     design.settings.compressor_duty = evaluation.compressor_duty;
     // With tolerances halfway between what it has while it falls and while it rises.
@@ -272,8 +296,8 @@ Design Describe(const Problem& problem, const Candidate& candidate, const Operat
   design.performance = MakePerformance(problem, evaluation);
   for (std::size_t g = 0; g < evaluation.groups.size(); ++g) {
     double& highest_pa = design.performance.groups[g].highest_pressure_pa;
-    highest_pa =
-        std::max(highest_pa, PeakOf(problem, candidate, static_cast<int>(g), point.source_pa));
+    highest_pa = std::max(highest_pa, PeakOf(problem, candidate, static_cast<int>(g),
+                                             PressureOf(point, static_cast<int>(g))));
   }
   design.margins = OnePerRequirement(Margins(problem, candidate, point, evaluation));
   design.objective = ObjectiveValue(problem, candidate, point, evaluation);

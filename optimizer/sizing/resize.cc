@@ -61,7 +61,7 @@ bool SetLine(const Problem& problem, const Design& design, int g, Line& line) {
   };
   TubeCorner tube_corner;
   set(Family::kTubing, tube, group.count * group.tube_length_m, tube_corner);
-  tube_corner.amounts += LineJointShare(problem, g);
+  tube_corner.amounts += LineJointShare(problem, g, HasOwnRegulators(design.parts));
   tube_corner.diameters = kMate;
   FittingCorner fitting_corner;
   fitting_corner.pressure_max_pa = kUnlimited;
@@ -79,6 +79,23 @@ bool SetLine(const Problem& problem, const Design& design, int g, Line& line) {
   line.fitting = fitting;
   line.valve = valve;
   return missed == Constraint::kNone;
+}
+
+// False: a group has none, or one that the problem does not have.
+bool SetOwnRegulators(const Problem& problem, const Design& design, Candidate& candidate) {
+  if (!HasOwnRegulators(design.parts)) return true;
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g) {
+    const int part =
+        PartOf(problem.parts, Family::kRegulator, ChoiceOf(design, Family::kRegulator, g));
+    if (part < 0) return false;
+    Option& own = candidate.own_regulators.emplace_back();
+    own.index = part;
+    own.quantity = 1;
+    own.amounts = 1.0 * problem.parts.regulators[part].basics;
+    own.amounts += OwnRegulatorJointAtMains(problem, design.configuration, g);
+    own.objective = ObjectiveOf(problem.objective, own.amounts);
+  }
+  return true;
 }
 
 // False: the design has a part that the problem does not.
@@ -100,6 +117,8 @@ bool SetOptions(const Problem& problem, const Design& design, Candidate& candida
     option.amounts.mass_kg += choice->quantity * ChargeKg(problem, spec.family, option.index);
     option.amounts +=
         JointAmounts(problem, JointOfPieces(problem, spec.family, option.index, option.quantity));
+    if (HasOwnRegulators(candidate))
+      option.amounts += OwnRegulatorJoint(problem, spec.family, option.index);
     option.objective = ObjectiveOf(problem.objective, option.amounts);
   }
   return true;
@@ -124,15 +143,30 @@ bool Rebuild(const Problem& problem, const Problem& relaxed, const Design& desig
     line.chamber.dead_volume_m3 += bore_m3;
     rebuilt.candidate.lines.push_back(&line);
   }
-  return SetOptions(problem, design, rebuilt.candidate);
+  return SetOwnRegulators(problem, design, rebuilt.candidate) &&
+         SetOptions(problem, design, rebuilt.candidate);
 }
 
 // Of pumps without a reservoir the pressure is no setting.
 OperatingPoint PointOf(const Problem& problem, const Candidate& candidate, const Design& design) {
   if (IsDirect(design.configuration)) return DirectPoint(problem, candidate);
   const double reservoir_m3 = design.settings.reservoir_volume_m3.value_or(0.0);
-  return {design.settings.source_pressure_pa, reservoir_m3, reservoir_m3,
-          design.settings.tank_fill_pa.value_or(0.0)};
+  OperatingPoint point{design.settings.source_pressure_pa, reservoir_m3, reservoir_m3,
+                       design.settings.tank_fill_pa.value_or(0.0)};
+  if (HasOwnRegulators(candidate)) point.group_pa = design.settings.group_pressure_pa;
+  return point;
+}
+
+bool StandsSettings(const Problem& problem, const Candidate& candidate, const Window& source,
+                    const OperatingPoint& point) {
+  if (!HasOwnRegulators(candidate))
+    return source.low_pa <= point.source_pa && point.source_pa <= source.high_pa;
+  for (int g = 0; g < static_cast<int>(candidate.lines.size()); ++g) {
+    const Window window = GroupWindow(problem, candidate, g);
+    const double group_pa = PressureOf(point, g);
+    if (group_pa < window.low_pa || group_pa > window.high_pa) return false;
+  }
+  return true;
 }
 
 Leaf SizeRebuilt(const Problem& problem, const Workbench& bench, Rebuilt& rebuilt) {
@@ -243,7 +277,7 @@ AtSettings EvaluateAtSettings(const Problem& problem, const Design& design,
   if (!Rebuild(free, Relaxed(free), design, rebuilt)) return found;
   found.source = SourceWindow(free, rebuilt.candidate);
   const OperatingPoint point = PointOf(free, rebuilt.candidate, design);
-  if (point.source_pa < found.source.low_pa || point.source_pa > found.source.high_pa) return found;
+  if (!StandsSettings(free, rebuilt.candidate, found.source, point)) return found;
   const Workbench bench{.stop = stop};
   rebuilt.candidate.bench = &bench;
   const Evaluation evaluation = Evaluate(free, rebuilt.candidate, point);
@@ -263,6 +297,7 @@ std::optional<DrivenDesign> Drive(const Problem& problem, const Design& design,
   Rebuilt rebuilt;
   if (!Rebuild(free, Relaxed(free), design, rebuilt)) return std::nullopt;
   Candidate& candidate = rebuilt.candidate;
+  if (HasOwnRegulators(candidate)) return std::nullopt;
   const OperatingPoint point = PointOf(free, candidate, design);
   const Workbench bench{.stop = stop};
   candidate.bench = &bench;
@@ -291,8 +326,8 @@ std::optional<DrivenDesign> Drive(const Problem& problem, const Design& design,
       driven.holds.push_back(line.holds);
     }
   }
-  if (candidate.regulator.index != kNone)
-    driven.regulator_power_w = free.parts.regulators[candidate.regulator.index].electrical_power_w;
+  for (const model::Regulator* regulator : RegulatorsOf(free, candidate))
+    driven.regulator_power_w += regulator->electrical_power_w;
   driven.energy_available_j = evaluation.energy_available_j;
   driven.air_available_m3 = evaluation.air_available_m3;
   return driven;

@@ -70,7 +70,8 @@ struct DrivenDesign {
   double energy_available_j = kUnlimited;
   double air_available_m3 = kUnlimited;  // ANR, on board
 };
-// None where a part is missing, or where the design does not work as it was asked to.
+// None where a part is missing, where the design does not work as it was asked to, or where groups
+// have regulators of their own.
 std::optional<DrivenDesign> Drive(const Problem& problem, const Design& design,
                                   const std::function<bool()>& stop = {});
 

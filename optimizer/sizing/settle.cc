@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "optimizer/evaluate/root.h"
 #include "optimizer/evaluate/strokes/evaluate_strokes.h"
+#include "optimizer/sizing/group_pressures.h"
 #include "optimizer/sizing/sizing.h"
 
 namespace plenum::optimizer {
@@ -12,37 +14,32 @@ namespace {
 constexpr double kBalanceTolerance = 1e-4;
 constexpr double kMoves = 1e-9;  // a margin that the pressure moves
 
+// Whether a tank behind whose regulators more pressure needs no more air, up to their inlets'.
+bool HoldAll(const Candidate& candidate) {
+  return std::all_of(candidate.lines.begin(), candidate.lines.end(),
+                     [](const Line* line) { return line->holds; });
+}
+
 // The highest that the parts stand; behind a tank's regulator no more than its inlet asks anyhow,
 // so that the tank needs no more air.
 double HighestFree(const Problem& problem, const Candidate& candidate) {
   const double high_pa = SourceWindow(problem, candidate).high_pa;
   if (candidate.configuration != Configuration::kTank) return high_pa;
-  const bool hold = std::all_of(candidate.lines.begin(), candidate.lines.end(),
-                                [](const Line* line) { return line->holds; });
-  if (IsOpenTank(candidate) || !hold) return 0.0;
-  return std::min(high_pa,
-                  problem.parts.regulators[candidate.regulator.index].inlet_pressure_min_pa);
+  if (IsOpenTank(candidate) || !HoldAll(candidate)) return 0.0;
+  return std::min(high_pa, InletMinPa(problem, candidate));
 }
 
-// Source pressures from that of a feasible leaf to the highest that is free, as a share.
+// Settings from those of a feasible leaf to the highest pressure that is free, as a share.
 class Freedom {
  public:
-  Freedom(const Problem& problem, const Candidate& candidate, const Leaf& leaf)
-      : problem_(problem),
-        candidate_(candidate),
-        leaf_(leaf),
-        span_pa_(HighestFree(problem, candidate) - leaf.point.source_pa) {}
+  using At = std::function<OperatingPoint(double share)>;
+  Freedom(const Problem& problem, const Candidate& candidate, At at)
+      : problem_(problem), candidate_(candidate), at_(std::move(at)) {}
 
-  bool empty() const { return !(span_pa_ > 0.0); }
-
-  OperatingPoint At(double share) const {
-    OperatingPoint point = leaf_.point;
-    point.source_pa += share * span_pa_;
-    return point;
-  }
+  OperatingPoint PointAt(double share) const { return at_(share); }
 
   double SmallestMarginAt(double share) {
-    return SmallestMargin(problem_, candidate_, At(share), EvaluationAt(share));
+    return SmallestMargin(problem_, candidate_, at_(share), EvaluationAt(share));
   }
 
   // Strokes gain by pressure and the supply loses: of the margins that the pressure moves the
@@ -68,22 +65,39 @@ class Freedom {
   // Each share is evaluated once.
   const Evaluation& EvaluationAt(double share) {
     const auto [known, fresh] = evaluations_.try_emplace(share);
-    if (fresh) known->second = Evaluate(problem_, candidate_, At(share));
+    if (fresh) known->second = Evaluate(problem_, candidate_, at_(share));
     return known->second;
   }
 
   std::vector<double> MarginsAt(double share) {
     const Evaluation& evaluation = EvaluationAt(share);
-    return evaluation.works ? SolverMargins(problem_, candidate_, At(share), evaluation)
+    return evaluation.works ? SolverMargins(problem_, candidate_, at_(share), evaluation)
                             : std::vector<double>();
   }
 
   const Problem& problem_;
   const Candidate& candidate_;
-  const Leaf& leaf_;
-  double span_pa_;
+  At at_;
   std::map<double, Evaluation> evaluations_;
 };
+
+// Groups behind regulators of their own go each from the least pressure that it needs to the
+// highest, in step.
+OperatingPoint SettleGroups(const Problem& problem, const Candidate& candidate, const Leaf& leaf) {
+  const GroupPressures pressures = NeededGroupPressures(problem, candidate);
+  if (pressures.status != LeafStatus::kFeasible) return leaf.point;
+  double most_pa = pressures.most_pa();
+  if (candidate.configuration == Configuration::kTank)
+    most_pa =
+        HoldAll(candidate) ? std::max(pressures.least_pa(), InletMinPa(problem, candidate)) : 0.0;
+  Freedom freedom(problem, candidate, [&](double share) {
+    return PointAtShare(pressures, share, most_pa, leaf.point.reservoir_m3);
+  });
+  if (!(freedom.SmallestMarginAt(0.0) >= 0.0)) return leaf.point;
+  const double share = freedom.Balance();
+  return freedom.PointAt(freedom.SmallestMarginAt(share) >= freedom.SmallestMarginAt(0.0) ? share
+                                                                                          : 0.0);
+}
 
 }  // namespace
 
@@ -93,10 +107,16 @@ OperatingPoint Settle(const Problem& problem, const Candidate& candidate, const 
   if (problem.objective.energy_wh > 0.0 || candidate.reservoir.index == kCustom ||
       IsDirect(candidate.configuration))
     return leaf.point;
-  Freedom freedom(problem, candidate, leaf);
-  if (freedom.empty()) return leaf.point;
+  if (HasOwnRegulators(candidate)) return SettleGroups(problem, candidate, leaf);
+  const double span_pa = HighestFree(problem, candidate) - leaf.point.source_pa;
+  if (!(span_pa > 0.0)) return leaf.point;
+  Freedom freedom(problem, candidate, [&](double share) {
+    OperatingPoint point = leaf.point;
+    point.source_pa += share * span_pa;
+    return point;
+  });
   const double share = freedom.Balance();
-  return freedom.SmallestMarginAt(share) >= freedom.SmallestMarginAt(0.0) ? freedom.At(share)
+  return freedom.SmallestMarginAt(share) >= freedom.SmallestMarginAt(0.0) ? freedom.PointAt(share)
                                                                           : leaf.point;
 }
 

@@ -9,6 +9,7 @@
 #include "optimizer/pump/pump_bounds.h"
 #include "optimizer/pump/pump_slope.h"
 #include "optimizer/pump/stroke_bound.h"
+#include "optimizer/sizing/group_pressures.h"
 
 namespace plenum::optimizer {
 namespace {
@@ -50,9 +51,10 @@ SteepestFall PumpFall(const Problem& problem, const Candidate& candidate) {
 class PressureSearch {
  public:
   PressureSearch(const Problem& problem, const Candidate& candidate, double reservoir_m3,
-                 int evaluations_max)
+                 int evaluations_max, const GroupPressures* groups = nullptr)
       : problem_(problem),
         candidate_(candidate),
+        groups_(groups),
         reservoir_m3_(reservoir_m3),
         evaluations_max_(evaluations_max),
         rises_(PumpEnergyRises(problem, candidate)),
@@ -93,6 +95,7 @@ class PressureSearch {
   };
 
   OperatingPoint At(double source_pa) const {
+    if (groups_) return PointAtHighest(candidate_, *groups_, source_pa, reservoir_m3_);
     return PointAt(problem_, candidate_, source_pa, reservoir_m3_);
   }
 
@@ -161,6 +164,7 @@ class PressureSearch {
 
   const Problem& problem_;
   const Candidate& candidate_;
+  const GroupPressures* groups_;  // with regulators of their own: by the highest pressure
   double reservoir_m3_;
   int evaluations_max_;
   bool rises_;  // so do duty and energy of the pumps
@@ -183,6 +187,20 @@ Leaf SizeDirect(const Problem& problem, const Candidate& candidate) {
   if (!(SmallestMargin(problem, candidate, leaf.point, evaluation) >= 0.0)) return leaf;
   leaf.status = LeafStatus::kFeasible;
   leaf.objective = leaf.lower_bound = ObjectiveValue(problem, candidate, leaf.point, evaluation);
+  return leaf;
+}
+
+// Each group's pressure behind its own regulator (group_pressures.h).
+Leaf SizeGroups(const Problem& problem, const Candidate& candidate, double tank_m3,
+                int evaluations_max) {
+  const GroupPressures pressures = NeededGroupPressures(problem, candidate);
+  if (pressures.status == LeafStatus::kFeasible)
+    return PressureSearch(problem, candidate, tank_m3, evaluations_max, &pressures)
+        .Run(pressures.least_pa(), pressures.most_pa());
+  Leaf leaf;
+  leaf.status = pressures.status;
+  leaf.lower_bound = ObjectiveOf(problem.objective,
+                                 TotalAmounts(problem, candidate, LeastPoint(problem, tank_m3)));
   return leaf;
 }
 
@@ -237,6 +255,8 @@ NeededPressure NeededSourcePressure(const Problem& problem, const Candidate& can
 Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double reservoir_m3,
                   int evaluations_max) {
   if (IsDirect(candidate.configuration)) return SizeDirect(problem, candidate);
+  if (HasOwnRegulators(candidate))
+    return SizeGroups(problem, candidate, reservoir_m3, evaluations_max);
   const NeededPressure needed =
       NeededSourcePressure(problem, candidate, PointAt(problem, candidate, 0.0, reservoir_m3));
   if (needed.status == LeafStatus::kFeasible)
@@ -252,7 +272,8 @@ Leaf SizeAtVolume(const Problem& problem, const Candidate& candidate, double res
 bool FastAtHighest(const Problem& problem, const Candidate& candidate) {
   const Window window = SourceWindow(problem, candidate);
   if (window.empty()) return true;
-  const Evaluation evaluation = Evaluate(problem, candidate, {window.high_pa});
+  const Evaluation evaluation =
+      Evaluate(problem, candidate, PointAt(problem, candidate, window.high_pa, 0.0));
   return evaluation.failed || StrokeExcess(problem, evaluation) <= 0.0;
 }
 
@@ -261,7 +282,7 @@ Leaf SizeQuickly(const Problem& problem, const Candidate& candidate, double rese
   const OperatingPoint highest =
       PointAt(problem, candidate, SourceWindow(problem, candidate).high_pa, reservoir_m3);
   // The lowest pressure is the best for a tank, which weighs least then.
-  if (!StrokesMeet(problem) || problem.objective.energy_wh > 0.0 ||
+  if (HasOwnRegulators(candidate) || !StrokesMeet(problem) || problem.objective.energy_wh > 0.0 ||
       candidate.configuration == Configuration::kTank || SourceWindow(problem, candidate).empty())
     return SizeAtVolume(problem, candidate, reservoir_m3);
   const Evaluation evaluation = Evaluate(problem, candidate, highest);

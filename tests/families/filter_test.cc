@@ -231,10 +231,10 @@ TEST(Filter, CornersOfBoxesAreTheBestOfTheirChoices) {
 
 // A plan of the mains with every choice, and the filters as a search would list them.
 ProofPlan PlanWith(const Problem& problem, const optimizer::Skyband& skyband) {
-  ProofPlan plan = verify::EmptyPlan(problem, Configuration::kMains);
+  ProofPlan plan = verify::EmptyPlan(problem, {Configuration::kMains});
   plan.tie = 1e-9;
   for (ProofSlot& slot : plan.slots) {
-    slot.choices = verify::EntriesOf(problem, plan.configuration, slot);
+    slot.choices = verify::EntriesOf(problem, {plan.configuration}, slot);
     if (slot.family != kFilter) continue;
     slot.choices.clear();
     for (const int i : skyband.kept) slot.choices.push_back({i, 1});
@@ -274,9 +274,9 @@ TEST(Filter, VerifyChecksItsSlot) {
   changed.slots.pop_back();
   EXPECT_EQ(ChecksOf(problem, changed), std::vector<std::string>{"choices"});
 
-  const optimizer::BigCount with = verify::Combinations(problem, Configuration::kMains);
+  const optimizer::BigCount with = verify::Combinations(problem, {Configuration::kMains});
   Filters().resize(10);
-  EXPECT_EQ(verify::Combinations(problem, Configuration::kMains) * 3, with);
+  EXPECT_EQ(verify::Combinations(problem, {Configuration::kMains}) * 3, with);
 }
 
 TEST(Filter, GoesThroughTheRecord) {

@@ -27,9 +27,13 @@ SlotAmounts AmountsOfAll(const Problem& problem, const ProofPlan& plan) {
   for (const ProofSlot& slot : plan.slots) {
     all.emplace_back();
     for (const ProofItem& item : slot.choices)
-      all.back().push_back(ChoiceAmounts(problem, slot, item));
+      all.back().push_back(ChoiceAmounts(problem, LayoutOf(plan), slot, item));
   }
   return all;
+}
+
+int RegulatorCount(const Problem& problem, const ProofPlan& plan) {
+  return plan.own_regulators ? static_cast<int>(problem.groups.size()) : 1;
 }
 
 // Gas that a bottle gives down to an inlet pressure.
@@ -83,7 +87,7 @@ bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
     });
   }
   if (plan_.configuration == Configuration::kTank) return true;  // its fill is a setting
-  source.regulator = &parts.regulators[item.part];
+  source.regulators = {&parts.regulators[item.part]};
   if (plan_.configuration == Configuration::kCylinder)
     return Any(plan_, ranges, SlotOf(plan_, Family::kCylinder, -1), [&](const ProofItem& bottle) {
       source.cylinder = &parts.cylinders[bottle.part];
@@ -94,9 +98,23 @@ bool Corners::SourceMates(const Ranges& ranges, const ProofItem& item) const {
 }
 
 bool Corners::SourceMates(const Ranges& ranges) const {
-  const bool pump = IsPumped(plan_.configuration);
-  const int slot = SlotOf(plan_, pump ? PumpFamily(plan_.configuration) : Family::kRegulator, -1);
-  return Any(plan_, ranges, slot, [&](const ProofItem& item) { return SourceMates(ranges, item); });
+  const auto some_mates = [&](int slot) {
+    return Any(plan_, ranges, slot,
+               [&](const ProofItem& item) { return SourceMates(ranges, item); });
+  };
+  if (IsPumped(plan_.configuration))
+    return some_mates(SlotOf(plan_, PumpFamily(plan_.configuration), -1));
+  for (int g = 0; g < RegulatorCount(problem_, plan_); ++g)
+    if (!some_mates(RegulatorSlot(g))) return false;
+  return true;
+}
+
+int Corners::RegulatorSlot(int group) const {
+  return SlotOf(plan_, Family::kRegulator, plan_.own_regulators ? group : -1);
+}
+
+BestNumbers Corners::RegulatorOf(const Ranges& ranges, int group) const {
+  return {problem_, plan_, ranges, RegulatorSlot(group)};
 }
 
 bool Corners::CannotMate(const Ranges& ranges) {
@@ -118,9 +136,10 @@ bool Corners::TooMuch(const Ranges& ranges) {
          sum.cost_eur > problem_.cost_max_eur * kSlack;
 }
 
-// Of the best regulator and the lines.
-Corners::SourceBounds Corners::SourceOf(const Ranges& ranges, const BestNumbers& regulator) {
-  const int slot = SlotOf(plan_, Family::kRegulator, -1);
+// Of the best regulator and its lines.
+Corners::SourceBounds Corners::SourceOf(const Ranges& ranges, int group) {
+  const int slot = RegulatorSlot(group);
+  const BestNumbers regulator = RegulatorOf(ranges, group);
   const auto is_none = [](const ProofItem& item) { return item.part < 0; };
   SourceBounds source;
   source.low_pa = problem_.ambient.pressure_pa;
@@ -137,6 +156,7 @@ Corners::SourceBounds Corners::SourceOf(const Ranges& ranges, const BestNumbers&
     source.flow_max = std::min(source.flow_max, problem_.mains.flow_max_m3_per_s);
   }
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
+    if (plan_.own_regulators && g != group) continue;
     const BestLine& line = strokes_.Line(ranges, g);
     source.low_pa = std::max(source.low_pa, line.source_low_pa);
     source.high_pa = std::min(source.high_pa, line.source_high_pa);
@@ -145,22 +165,35 @@ Corners::SourceBounds Corners::SourceOf(const Ranges& ranges, const BestNumbers&
   return source;
 }
 
+Corners::Inlets Corners::InletsOf(const Ranges& ranges) {
+  Inlets inlets;
+  for (int g = 0; g < RegulatorCount(problem_, plan_); ++g) {
+    const SourceBounds source = SourceOf(ranges, g);
+    inlets.low_pa = std::max(inlets.low_pa, source.low_pa);
+    if (source.some_open) continue;
+    const BestNumbers regulator = RegulatorOf(ranges, g);
+    inlets.min_pa = std::max(inlets.min_pa, regulator.Number("inlet_pressure_min_kpa_gauge"));
+    inlets.max_pa = std::min(inlets.max_pa, regulator.Number("inlet_pressure_max_kpa_gauge"));
+    inlets.electrical_w += regulator.Number("electrical_power_w");
+  }
+  return inlets;
+}
+
 // Each group alone on the best regulator, then the least bottle and battery that bear the needs.
 double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
-  const BestNumbers regulator(problem_, plan_, ranges, SlotOf(plan_, Family::kRegulator, -1));
-  const SourceBounds source = SourceOf(ranges, regulator);
-  if (!(source.low_pa <= source.high_pa)) return kUnlimited;
+  const SourceBounds first = SourceOf(ranges, 0);
 
   const double temperature_k = problem_.ambient.temperature_k;
   const double factor = FactorOf(problem_, plan_.configuration);
-  if (AllAtOnce(problem_) && !source.some_open) {
+  if (AllAtOnce(problem_) && !plan_.own_regulators && !first.some_open) {
+    if (!(first.low_pa <= first.high_pa)) return kUnlimited;
     std::vector<const BestLine*> lines;
     lines.reserve(problem_.groups.size());
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
       lines.push_back(&strokes_.Line(ranges, g));
     if (TooSlowTogether(problem_,
-                        {regulator.Flow("sonic_conductance_dm3_per_s_bar"), factor, source.high_pa,
-                         source.flow_max},
+                        {RegulatorOf(ranges, 0).Flow("sonic_conductance_dm3_per_s_bar"), factor,
+                         first.high_pa, first.flow_max},
                         lines))
       return kUnlimited;
   }
@@ -168,10 +201,12 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
     const BestLine& line = strokes_.Line(ranges, g);
     const ActuatorGroup& group = problem_.groups[g];
+    const SourceBounds source = plan_.own_regulators ? SourceOf(ranges, g) : first;
+    if (!(source.low_pa <= source.high_pa)) return kUnlimited;
     const double count = MostAtOnce(problem_, g), strokes = group.gait.strokes_per_period;
     std::vector<model::FlowElement> elements = line.fill;
     if (!source.some_open) {
-      model::FlowElement share = regulator.Flow("sonic_conductance_dm3_per_s_bar");
+      model::FlowElement share = RegulatorOf(ranges, g).Flow("sonic_conductance_dm3_per_s_bar");
       share.sonic_conductance_m3_per_s_pa /= count;
       elements.insert(elements.begin(), share);
     }
@@ -196,23 +231,20 @@ double Corners::LeastRegulated(const Ranges& ranges, double chosen) {
   double sum = chosen + problem_.objective.energy_wh * beyond_j / 3600.0;
   if (plan_.configuration == Configuration::kMains) return sum;
 
+  const Inlets inlets = InletsOf(ranges);
   const double energy_j = beyond_j + problem_.actuations * coil_j +
-                          (source.some_open ? 0.0 : regulator.Number("electrical_power_w")) *
-                              problem_.actuations / problem_.frequency_hz;
+                          inlets.electrical_w * problem_.actuations / problem_.frequency_hz;
   if (plan_.configuration == Configuration::kTank)
-    return sum + LeastTank(ranges, regulator, source, air_m3) + LeastBattery(ranges, energy_j);
-  return LeastStores(ranges, regulator, source.low_pa, {air_m3, energy_j}, sum);
+    return sum + LeastTank(ranges, inlets, first, air_m3) + LeastBattery(ranges, energy_j);
+  return LeastStores(ranges, inlets, {air_m3, energy_j}, sum);
 }
 
 // The air of the mission is in any fill, above what stays; without a regulator the last stroke may
 // take the tank below what it asks.
-double Corners::LeastTank(const Ranges& ranges, const BestNumbers& regulator,
-                          const SourceBounds& source, double air_m3) {
-  double inlet_pa = source.low_pa, most_pa = source.all_open ? source.high_pa : kUnlimited;
-  if (!source.some_open) {
-    inlet_pa = std::max(inlet_pa, regulator.Number("inlet_pressure_min_kpa_gauge"));
-    most_pa = regulator.Number("inlet_pressure_max_kpa_gauge");
-  }
+double Corners::LeastTank(const Ranges& ranges, const Inlets& inlets, const SourceBounds& source,
+                          double air_m3) {
+  const double inlet_pa = std::max(inlets.low_pa, inlets.min_pa);
+  const double most_pa = source.all_open ? source.high_pa : inlets.max_pa;
   const int slot = SlotOf(plan_, Family::kTank, -1);
   const double mission_m3 = problem_.actuations * air_m3;
   const double above_m3 = source.some_open ? mission_m3 - air_m3 : mission_m3;
@@ -242,10 +274,9 @@ double Corners::LeastBattery(const Ranges& ranges, double energy_j) {
   return objective;
 }
 
-double Corners::LeastStores(const Ranges& ranges, const BestNumbers& regulator, double low_pa,
-                            const Stored& stored, double sum) {
-  const double inlet_pa = std::max(low_pa, regulator.Number("inlet_pressure_min_kpa_gauge"));
-  const double inlet_max_pa = regulator.Number("inlet_pressure_max_kpa_gauge");
+double Corners::LeastStores(const Ranges& ranges, const Inlets& inlets, const Stored& stored,
+                            double sum) {
+  const double inlet_pa = std::max(inlets.low_pa, inlets.min_pa);
   const bool cylinder = plan_.configuration == Configuration::kCylinder;
   const Family family = cylinder ? Family::kCylinder : Family::kCo2;
   const int slot = SlotOf(plan_, family, -1);
@@ -256,7 +287,7 @@ double Corners::LeastStores(const Ranges& ranges, const BestNumbers& regulator, 
     const bool fits = cylinder
                           ? parts.cylinders[item.part].fill_pressure_pa +
                                     parts.cylinders[item.part].fill_pressure_spread_pa <=
-                                inlet_max_pa
+                                inlets.max_pa
                           : item.quantity * parts.co2[item.part].flow_sustained_m3_per_s * kSlack >=
                                 stored.air_m3 * problem_.frequency_hz;
     if (fits &&

@@ -157,7 +157,8 @@ void AddMostLeft(const Problem& problem, const ProofItem& item, ItemAmounts& amo
 bool Dominates(const Problem& problem, const ProofPlan& plan, const ProofSlot& slot,
                const ProofItem& better, const ProofItem& worse) {
   if (better.part < 0 || worse.part < 0 || better == worse) return false;
-  ItemAmounts a = ChoiceAmounts(problem, slot, better), b = ChoiceAmounts(problem, slot, worse);
+  ItemAmounts a = ChoiceAmounts(problem, LayoutOf(plan), slot, better);
+  ItemAmounts b = ChoiceAmounts(problem, LayoutOf(plan), slot, worse);
   const TieShare share = ShareOfTies(problem, a), other_share = ShareOfTies(problem, b);
   if (slot.family == Family::kTank) {
     AddMostLeft(problem, better, a);

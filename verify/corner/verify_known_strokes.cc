@@ -38,6 +38,7 @@ const BestLine& KnownStrokes::Line(const Ranges& ranges, int g) {
       {g, tubes.first, tubes.second, fittings.first, fittings.second, valves.first, valves.second});
   if (!fresh) return entry->second;
   BestLine& line = entry->second = BestOf(problem_, plan_, ranges, g);
+  if (plan_.own_regulators) return line;  // nothing of it is another group's
   line.source_high_pa = std::min(line.source_high_pa, HighestSource(g));
   if (line.works && AllAtOnce(problem_)) line.least_means = LeastMeans(problem_, g, line);
   return line;

@@ -1,4 +1,5 @@
 // Parts of a design, whether they fit, and what they weigh, take and cost.
+#include <algorithm>
 #include <set>
 
 #include "model/flow/tube.h"
@@ -24,6 +25,7 @@ std::optional<ProofItem> ItemOf(const Problem& problem, const Choice& choice) {
 
 // Pieces that a row of a group must have: metres of tube, fittings, valves with their channels.
 double LineQuantity(const ActuatorGroup& group, const Choice& choice, const LineParts& line) {
+  if (choice.family == Family::kRegulator) return 1.0;
   if (choice.family == Family::kTubing) return group.count * group.tube_length_m;
   if (choice.family == Family::kFitting) return group.count * group.fittings_per_line;
   return std::ceil(static_cast<double>(group.count) / line.valve->channels);
@@ -42,7 +44,10 @@ bool Whole(const Problem& problem, const Assembly& a) {
   const Configuration c = a.configuration;
   const bool pump = IsPumped(c);
   const bool tank = c == Configuration::kTank;
-  return (tank || (a.regulator != nullptr) == !pump) && (a.tank != nullptr) == tank &&
+  if (std::count(a.regulators.begin(), a.regulators.end(), nullptr) > 0 ||
+      (a.owns() && a.regulators.size() != a.lines.size()))
+    return false;
+  return (tank || a.regulators.empty() == pump) && (a.tank != nullptr) == tank &&
          (a.compressor != nullptr) == pump && (a.reservoirs > 0) == KeepsReservoir(c) &&
          (a.battery != nullptr) == (c != Configuration::kMains) &&
          (a.cylinder != nullptr) == (c == Configuration::kCylinder) &&
@@ -103,7 +108,7 @@ Expected ExpectedRow(const Problem& problem, const Design& design, const Choice&
 
 // Each joint that lines and pieces need is a row, and no other.
 void CheckJoints(const Problem& problem, const Design& design, Findings& findings) {
-  JointRows needed = JointsOf(problem, design.parts);
+  JointRows needed = JointsOf(problem, design);
   for (const Choice& row : design.parts) {
     if (row.family != Family::kManifold) continue;
     const auto found = needed.find(FindPart(problem.parts, row.family, row.id));
@@ -133,14 +138,20 @@ void ForEachRow(const Problem& problem, const Assembly& a, const Settings& setti
     add(Times(std::ceil(static_cast<double>(group.count) / line.valve->channels),
               line.valve->basics));
   }
-  if (a.regulator) add(Times(1, a.regulator->basics));
+  for (const model::Regulator* regulator : a.regulators) add(Times(1, regulator->basics));
   const auto join = [&](const JointRows& rows) {
     for (const auto& [manifold, pieces] : rows)
       add(Times(pieces, problem.parts.manifolds[manifold].basics));
   };
-  join(JointOfLines(problem));
+  if (!a.owns()) join(JointOfLines(problem));
+  for (int g = 0; a.owns() && g < static_cast<int>(a.lines.size()); ++g)
+    join(JointOfGroup(problem, g));
+  if (a.owns() && a.configuration == Configuration::kMains) join(JointOfRegulatorsAtMains(problem));
   const auto join_pieces = [&](Family family, const auto& parts, const auto* part, int pieces) {
-    if (part) join(JointOfPieces(problem, family, static_cast<int>(part - parts.data()), pieces));
+    if (!part) return;
+    const int index = static_cast<int>(part - parts.data());
+    join(JointOfPieces(problem, family, index, pieces));
+    if (a.owns()) join(JointOfRegulators(problem, family, index));
   };
   const model::Parts& parts = problem.parts;
   join_pieces(Family::kCylinder, parts.cylinders, a.cylinder, a.bottles);
@@ -210,14 +221,16 @@ bool Fit(const Problem& problem, const Assembly& source) {
     return model::VoltageMatches(source.battery->nominal_voltage_v,
                                  source.compressor->curve.voltage_v);
   if (source.configuration == Configuration::kTank) return true;  // its fill is a setting
-  const model::Regulator& regulator = *source.regulator;
   // A cylinder may be fuller than the regulator needs; other supplies have one pressure.
-  if (source.cylinder)
-    return source.cylinder->fill_pressure_pa + source.cylinder->fill_pressure_spread_pa <=
-           regulator.inlet_pressure_max_pa;
-  const double inlet_pa = source.co2 ? model::Co2SaturationPressure(problem.ambient.temperature_k)
-                                     : problem.mains.pressure_pa;
-  return regulator.inlet_pressure_min_pa <= inlet_pa && inlet_pa <= regulator.inlet_pressure_max_pa;
+  const double inlet_pa =
+      source.cylinder ? source.cylinder->fill_pressure_pa + source.cylinder->fill_pressure_spread_pa
+      : source.co2    ? model::Co2SaturationPressure(problem.ambient.temperature_k)
+                      : problem.mains.pressure_pa;
+  return std::all_of(source.regulators.begin(), source.regulators.end(),
+                     [&](const model::Regulator* regulator) {
+                       return inlet_pa <= regulator->inlet_pressure_max_pa &&
+                              (source.cylinder || regulator->inlet_pressure_min_pa <= inlet_pa);
+                     });
 }
 
 void Place(const Problem& problem, Family family, int group, const ProofItem& item, Assembly& a) {
@@ -233,7 +246,9 @@ void Place(const Problem& problem, Family family, int group, const ProofItem& it
     case Family::kValve:
       return put(parts.valves, a.lines[group].valve);
     case Family::kRegulator:
-      return put(parts.regulators, a.regulator);
+      if (item.part < 0) return;
+      a.regulators.resize(group < 0 ? 1 : a.lines.size());
+      return put(parts.regulators, a.regulators[std::max(group, 0)]);
     case Family::kCylinder:
       a.bottles = item.quantity;
       return put(parts.cylinders, a.cylinder);
@@ -272,7 +287,8 @@ std::optional<Assembly> Assemble(const Problem& problem, const Design& design, F
     if (choice.family == Family::kManifold) continue;
     const bool in_line = choice.group >= 0;
     const auto item = ItemOf(problem, choice);
-    bool allowed = item && SpecOf(choice.family).in_line == in_line &&
+    const bool own = in_line && choice.family == Family::kRegulator;
+    bool allowed = item && (own || SpecOf(choice.family).in_line == in_line) &&
                    placed.insert({choice.family, choice.group}).second;
     if (allowed) {
       Place(problem, choice.family, choice.group, *item, assembly);
@@ -289,6 +305,10 @@ std::optional<Assembly> Assemble(const Problem& problem, const Design& design, F
                                       " is not an allowed part in the number it needs"
                                 : " is not an allowed part of the source in this number")});
   }
+  const std::vector<Layout> asked = LayoutsOf(problem, design.configuration);
+  if (findings.size() == before &&
+      std::find(asked.begin(), asked.end(), LayoutOf(design)) == asked.end())
+    findings.push_back({"parts", "regulators are not as the request has it"});
   if (findings.size() == before && !Whole(problem, assembly))
     findings.push_back({"parts", std::string("the list of parts of a ") +
                                      Name(design.configuration) + " design is not complete"});

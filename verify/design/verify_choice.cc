@@ -12,15 +12,8 @@
 namespace plenum::verify {
 namespace {
 
-// What joins the pieces; a tube has its group's share, by number, of what joins all lines.
-void AddJoints(const Problem& problem, const ProofSlot& slot, const ProofItem& item,
-               ItemAmounts& sum) {
-  const bool tube = slot.family == Family::kTubing;
-  const double share =
-      tube ? static_cast<double>(problem.groups[slot.group].count) / Lines(problem) : 1.0;
-  for (const auto& [manifold, pieces] :
-       tube ? JointOfLines(problem)
-            : JointOfPieces(problem, slot.family, item.part, item.quantity)) {
+void Add(const Problem& problem, const JointRows& rows, double share, ItemAmounts& sum) {
+  for (const auto& [manifold, pieces] : rows) {
     const model::PartBasics& basics = problem.parts.manifolds[manifold].basics;
     sum.mass_kg += share * pieces * basics.mass_kg;
     sum.volume_m3 += share * pieces * basics.body_volume_m3;
@@ -30,9 +23,28 @@ void AddJoints(const Problem& problem, const ProofSlot& slot, const ProofItem& i
   }
 }
 
+// What joins the pieces; a tube has its group's share, by number, of what joins all lines. Where
+// groups have regulators of their own it has what joins the group's lines, and the source, or the
+// first regulator at the mains, what joins the regulators.
+void AddJoints(const Problem& problem, const Layout& layout, const ProofSlot& slot,
+               const ProofItem& item, ItemAmounts& sum) {
+  if (slot.family == Family::kTubing) {
+    const double share = static_cast<double>(problem.groups[slot.group].count) / Lines(problem);
+    return layout.own_regulators ? Add(problem, JointOfGroup(problem, slot.group), 1.0, sum)
+                                 : Add(problem, JointOfLines(problem), share, sum);
+  }
+  Add(problem, JointOfPieces(problem, slot.family, item.part, item.quantity), 1.0, sum);
+  if (!layout.own_regulators) return;
+  Add(problem, JointOfRegulators(problem, slot.family, item.part), 1.0, sum);
+  if (layout.configuration == Configuration::kMains && slot.family == Family::kRegulator &&
+      slot.group == 0)
+    Add(problem, JointOfRegulatorsAtMains(problem), 1.0, sum);
+}
+
 }  // namespace
 
-ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const ProofItem& item) {
+ItemAmounts ChoiceAmounts(const Problem& problem, const Layout& layout, const ProofSlot& slot,
+                          const ProofItem& item) {
   if (item.part == -1) return {};
   ItemAmounts sum;
   double energy_j = 0.0;  // whatever the strokes
@@ -48,7 +60,7 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const P
   } else {
     const model::PartBasics& basics = BasicsOf(problem.parts, slot.family, item.part);
     double pieces = item.quantity, gas_kg = 0.0;
-    if (slot.group >= 0) {
+    if (slot.group >= 0 && slot.family != Family::kRegulator) {
       const ActuatorGroup& group = problem.groups[slot.group];
       pieces = group.count *
                (slot.family == Family::kTubing ? group.tube_length_m : group.fittings_per_line);
@@ -73,7 +85,7 @@ ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const P
     sum = {pieces * (basics.mass_kg + gas_kg),     pieces * basics.body_volume_m3,
            pieces * basics.cost_eur.value_or(0.0), 0.0,
            pieces * basics.mass_slack_kg,          pieces * basics.body_volume_slack_m3};
-    AddJoints(problem, slot, item, sum);
+    AddJoints(problem, layout, slot, item, sum);
   }
   const Objective& weight = problem.objective;
   sum.objective = weight.mass_kg * sum.mass_kg + weight.volume_l * sum.volume_m3 * 1e3 +

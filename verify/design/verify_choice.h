@@ -14,7 +14,8 @@ struct ItemAmounts {
 };
 
 // All pieces of a choice, gas included; the least of a made-to-measure reservoir.
-ItemAmounts ChoiceAmounts(const Problem& problem, const ProofSlot& slot, const ProofItem& item);
+ItemAmounts ChoiceAmounts(const Problem& problem, const Layout& layout, const ProofSlot& slot,
+                          const ProofItem& item);
 
 }  // namespace plenum::verify
 

@@ -21,8 +21,8 @@ struct LineParts {
 
 struct Assembly {
   Configuration configuration = Configuration::kMains;
-  std::vector<LineParts> lines;  // per group
-  const model::Regulator* regulator = nullptr;
+  std::vector<LineParts> lines;                          // per group
+  std::vector<const model::Regulator*> regulators = {};  // none, one for all, or one a group
   const model::Cylinder* cylinder = nullptr;
   const model::Co2Bottle* co2 = nullptr;
   const model::Compressor* compressor = nullptr;
@@ -31,6 +31,7 @@ struct Assembly {
   const model::Reservoir* tank = nullptr;       // with or without a regulator
   int bottles = 0, compressors = 0, batteries = 0, reservoirs = 0, tanks = 0;
   bool direct() const { return IsDirect(configuration); }
+  bool owns() const { return regulators.size() > 1; }  // each group has its own
   bool at_best = false;  // with a guarantee: valves that cannot hold as the parts are
   // Volume of stock reservoirs, and how much more they have while they rise.
   double ReservoirVolume() const { return reservoir ? reservoirs * reservoir->volume_m3 : 0.0; }
@@ -50,6 +51,12 @@ struct Cycle {
   double steady_j = 0.0, inflating_j = 0.0;  // coils and regulator; of it what strokes shorten
   double electric_j() const { return steady_j + inflating_j; }
 };
+
+// The pressure of the source as a group has it, behind its own regulator where it has one.
+inline double PressureAt(const Settings& settings, int group) {
+  return settings.group_pressure_pa.empty() ? settings.source_pressure_pa
+                                            : settings.group_pressure_pa[group];
+}
 
 // An actuator of the group with the bore of its tube.
 model::Chamber ChamberOf(const ActuatorGroup& group, const LineParts& line);

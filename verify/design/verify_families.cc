@@ -9,7 +9,16 @@ bool PricesNeeded(const Problem& problem) {
          (problem.objective.cost_eur > 0.0 || std::isfinite(problem.cost_max_eur));
 }
 
-std::vector<ProofItem> EntriesOf(const Problem& problem, Configuration configuration,
+namespace {
+
+// A regulator that is one group's is there.
+bool MayBeNone(const Layout& layout, const ProofSlot& slot) {
+  return slot.group < 0 && MayLack(layout.configuration, slot.family);
+}
+
+}  // namespace
+
+std::vector<ProofItem> EntriesOf(const Problem& problem, const Layout& layout,
                                  const ProofSlot& slot) {
   const Family family = slot.family;
   if (family == Family::kFitting && problem.groups[slot.group].fittings_per_line == 0)
@@ -21,28 +30,33 @@ std::vector<ProofItem> EntriesOf(const Problem& problem, Configuration configura
       if (!cost || BasicsOf(problem.parts, family, part).cost_eur)
         entries.push_back({part, quantity});
   if (MadeToMeasureAllowed(problem, family) && !cost) entries.push_back({-2, 1});
-  if (MayLack(configuration, family)) entries.push_back({-1, 0});
+  if (MayBeNone(layout, slot)) entries.push_back({-1, 0});
   return entries;
 }
 
-ProofPlan EmptyPlan(const Problem& problem, Configuration configuration) {
+ProofPlan EmptyPlan(const Problem& problem, const Layout& layout) {
   ProofPlan plan;
-  plan.configuration = configuration;
-  for (int group = 0; group < static_cast<int>(problem.groups.size()); ++group)
+  plan.configuration = layout.configuration;
+  plan.own_regulators = layout.own_regulators;
+  const int groups = static_cast<int>(problem.groups.size());
+  for (int group = 0; group < groups; ++group)
     for (const Family family : LineFamilies()) plan.slots.push_back({family, group, {}, {}});
-  for (const Family family : SourceFamilies(configuration))
-    plan.slots.push_back({family, -1, {}, {}});
+  for (const Family family : SourceFamilies(layout.configuration)) {
+    const bool own = layout.own_regulators && family == Family::kRegulator;
+    for (int group = own ? 0 : -1; group < (own ? groups : 0); ++group)
+      plan.slots.push_back({family, group, {}, {}});
+  }
   return plan;
 }
 
-BigCount Combinations(const Problem& problem, Configuration configuration) {
+BigCount Combinations(const Problem& problem, const Layout& layout) {
   BigCount count = 1;
-  for (const ProofSlot& slot : EmptyPlan(problem, configuration).slots) {
+  for (const ProofSlot& slot : EmptyPlan(problem, layout).slots) {
     if (slot.family == Family::kFitting && problem.groups[slot.group].fittings_per_line == 0)
       continue;
     count *= FamilySize(problem.parts, slot.family) * QuantityMax(problem, slot.family) +
              (MadeToMeasureAllowed(problem, slot.family) ? 1 : 0) +
-             (MayLack(configuration, slot.family) ? 1 : 0);
+             (MayBeNone(layout, slot) ? 1 : 0);
   }
   return count;
 }

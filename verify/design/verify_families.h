@@ -30,15 +30,15 @@ bool PricesNeeded(const Problem& problem);
 
 // What a slot can be filled with: every part in every number, priced ones alone where cost matters,
 // and no part where the source may lack one.
-std::vector<ProofItem> EntriesOf(const Problem& problem, Configuration configuration,
+std::vector<ProofItem> EntriesOf(const Problem& problem, const Layout& layout,
                                  const ProofSlot& slot);
 
-// A plan of a configuration with a slot for each family that it needs, without choices: of each
+// A plan of a layout with a slot for each family that it needs, without choices: of each
 // group, then of the source.
-ProofPlan EmptyPlan(const Problem& problem, Configuration configuration);
+ProofPlan EmptyPlan(const Problem& problem, const Layout& layout);
 
-// By the contract: of one configuration, from the catalogue alone.
-BigCount Combinations(const Problem& problem, Configuration configuration);
+// By the contract: of one layout, from the catalogue alone.
+BigCount Combinations(const Problem& problem, const Layout& layout);
 
 }  // namespace plenum::verify
 

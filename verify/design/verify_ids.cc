@@ -47,8 +47,8 @@ TieKey TieKeyOf(const Problem& problem, const Design& design) {
     const ProofItem item{made ? -2 : FindPart(problem.parts, row.family, row.id),
                          row.group < 0 ? static_cast<int>(row.quantity) : 1};
     if (item.part == -1) continue;  // no part of the catalogue, which another check tells
-    key.share +=
-        ShareOfTies(problem, ChoiceAmounts(problem, {row.family, row.group, {}, {}}, item));
+    key.share += ShareOfTies(
+        problem, ChoiceAmounts(problem, LayoutOf(design), {row.family, row.group, {}, {}}, item));
   }
   return key;
 }

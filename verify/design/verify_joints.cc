@@ -99,14 +99,45 @@ JointRows JointOfPieces(const Problem& problem, Family family, int part, int pie
   }
 }
 
-JointRows JointsOf(const Problem& problem, const std::vector<Choice>& rows) {
-  JointRows all = JointOfLines(problem);
-  for (const Choice& row : rows)
-    if (row.group < 0)
-      for (const auto& [manifold, pieces] :
-           JointOfPieces(problem, row.family, FindPart(problem.parts, row.family, row.id),
-                         static_cast<int>(row.quantity)))
-        all[manifold] += pieces;
+JointRows JointOfGroup(const Problem& problem, int g) {
+  const ActuatorGroup& group = problem.groups[g];
+  return Join(problem, group.count, group.chamber.operating_pressure_pa,
+              group.joint_conductance_m3_per_s_pa);
+}
+
+JointRows JointOfRegulators(const Problem& problem, Family family, int part) {
+  const int regulators = static_cast<int>(problem.groups.size());
+  switch (family) {
+    case Family::kCylinder:
+    case Family::kCo2:
+    case Family::kTank:
+      return JointOfPieces(problem, family, part, regulators);
+    default:
+      return {};
+  }
+}
+
+JointRows JointOfRegulatorsAtMains(const Problem& problem) {
+  return Join(problem, static_cast<int>(problem.groups.size()), problem.mains.pressure_pa,
+              Asked(problem));
+}
+
+JointRows JointsOf(const Problem& problem, const Design& design) {
+  const bool own = HasOwnRegulators(design.parts);
+  JointRows all;
+  const auto add = [&](const JointRows& rows) {
+    for (const auto& [manifold, pieces] : rows) all[manifold] += pieces;
+  };
+  if (!own) add(JointOfLines(problem));
+  for (int g = 0; own && g < static_cast<int>(problem.groups.size()); ++g)
+    add(JointOfGroup(problem, g));
+  if (own && design.configuration == Configuration::kMains) add(JointOfRegulatorsAtMains(problem));
+  for (const Choice& row : design.parts) {
+    if (row.group >= 0) continue;
+    const int part = FindPart(problem.parts, row.family, row.id);
+    add(JointOfPieces(problem, row.family, part, static_cast<int>(row.quantity)));
+    if (own) add(JointOfRegulators(problem, row.family, part));
+  }
   return all;
 }
 

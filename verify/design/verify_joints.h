@@ -17,8 +17,13 @@ int Lines(const Problem& problem);  // one for each actuator
 // Of all lines together, and of pieces of a part of the source.
 JointRows JointOfLines(const Problem& problem);
 JointRows JointOfPieces(const Problem& problem, Family family, int part, int pieces);
-// Of a design with these other rows.
-JointRows JointsOf(const Problem& problem, const std::vector<Choice>& rows);
+// Of a group's lines behind its own regulator, and of these regulators at a part of a source, or at
+// the mains.
+JointRows JointOfGroup(const Problem& problem, int group);
+JointRows JointOfRegulators(const Problem& problem, Family family, int part);
+JointRows JointOfRegulatorsAtMains(const Problem& problem);
+// Of a design with its other rows.
+JointRows JointsOf(const Problem& problem, const Design& design);
 
 }  // namespace plenum::verify
 

@@ -52,16 +52,17 @@ KindName KindOf(const Problem& problem, const Design& design) {
   return kind;
 }
 
-// Other sources make other sources; other regulators, and other valves unless some other group has
+// Other sources make other sources; other regulators and other valves, unless some other group has
 // them, make other kinds of the same source.
-bool AreEnough(const Problem& problem, Family family, std::size_t others) {
+bool AreEnough(const Problem& problem, const ProofSlot& slot, std::size_t others) {
   const auto count = static_cast<std::size_t>(problem.count);
   const std::size_t of_source = std::min(count, static_cast<std::size_t>(problem.per_source));
-  switch (PlaceOf(family)) {
+  switch (PlaceOf(slot.family)) {
     case Place::kSource:
       return others >= count;
     case Place::kRegulator:
-      return others >= of_source;
+      if (slot.group < 0) return others >= of_source;
+      [[fallthrough]];
     case Place::kValve:
       return others + 1 >= of_source + problem.groups.size();
     case Place::kNowhere:

@@ -27,8 +27,8 @@ struct KindName {
 void AddSeries(Family family, const std::string& series, KindName& kind);
 KindName KindOf(const Problem& problem, const Design& design);
 
-// Whether as many others as these, of different series, leave no place for a choice of the family.
-bool AreEnough(const Problem& problem, Family family, std::size_t others);
+// Whether as many others as these, of different series, leave no place for a choice of the slot.
+bool AreEnough(const Problem& problem, const ProofSlot& slot, std::size_t others);
 
 // No kind twice, and of none of the sources more than there may be.
 void CheckKinds(const Problem& problem, const std::vector<Design>& designs, Findings& findings);

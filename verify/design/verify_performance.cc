@@ -1,6 +1,7 @@
 // Strokes, air, energy and margins of a listed design against a simulation of its periodic state.
 #include "verify/design/cycle/verify_cycle.h"
 #include "verify/design/cycle/verify_gait.h"
+#include "verify/design/cycle/verify_known_cycles.h"
 #include "verify/design/cycle/verify_pump_curve.h"
 #include "verify/design/verify_closing.h"
 #include "verify/design/verify_supply.h"
@@ -49,17 +50,18 @@ constexpr double kHardlyAbove = 1.0 + 1e-6;
 // and the less it has left the more time the simulator's error in pressure is.
 constexpr double kHardlyLeft = 1.0 + 1e-2;
 
-double LowestSource(const Problem& problem, const Design& design, const Assembly& assembly) {
-  const double source_pa = design.settings.source_pressure_pa;
+double LowestSource(const Problem& problem, const Design& design, const Assembly& assembly, int g) {
+  const double source_pa = PressureAt(design.settings, g);
   if (!IsOpen(assembly)) return source_pa / kHardlyAbove;
   return (source_pa - FallPa(problem, assembly, problem.actuations)) / kHardlyLeft;
 }
 
 bool IsHardlyAbove(const Problem& problem, const Design& design, const Assembly& assembly) {
-  const double lowest_pa = LowestSource(problem, design, assembly);
-  return std::any_of(problem.groups.begin(), problem.groups.end(), [&](const ActuatorGroup& group) {
-    return lowest_pa < group.chamber.operating_pressure_pa;
-  });
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    if (LowestSource(problem, design, assembly, g) <
+        problem.groups[g].chamber.operating_pressure_pa)
+      return true;
+  return false;
 }
 
 std::optional<Cycle> CycleOf(const Problem& problem, const Design& design, const Assembly& assembly,
@@ -67,7 +69,7 @@ std::optional<Cycle> CycleOf(const Problem& problem, const Design& design, const
   std::optional<Cycle> cycle = SimulateCycle(problem, settings, assembly, stop);
   if (!cycle || !IsHardlyAbove(problem, design, assembly)) return cycle;
   const std::optional<Cycle> quick =
-      QuickCycles(problem, assembly, stop)
+      KnownCycles(problem, assembly, stop)
           .At(settings, settings.reservoir_volume_m3.value_or(0.0) + assembly.ReservoirSpread());
   if (!quick) return std::nullopt;
   cycle->rise_s = quick->rise_s;
@@ -102,6 +104,7 @@ class WorthOfPressure {
     if (!SomeAtOnce(problem_) && !IsHardlyAbove(problem_, design_, assembly_)) return *known_;
     Settings settings = design_.settings;
     settings.source_pressure_pa *= kRaised;
+    for (double& group_pa : settings.group_pressure_pa) group_pa *= kRaised;
     const std::optional<Cycle> raised = SimulateCycle(problem_, settings, assembly_, stop_);
     for (std::size_t g = 0; raised && g < problem_.groups.size(); ++g) {
       known_->rise = std::max(known_->rise, 1.0 - raised->rise_s[g] / cycle_.rise_s[g]);
@@ -142,7 +145,7 @@ void CheckStrokes(const Problem& problem, const Design& design, const Assembly& 
           1.0 / (cycle.rise_s[g] + cycle.fall_s[g]), &WorthOfPressure::OfRise);
     if (!Near(group.highest_pressure_pa,
               PeakPa(problem, assembly.configuration, g, assembly.lines[g],
-                     design.settings.source_pressure_pa),
+                     PressureAt(design.settings, g)),
               kPeakTolerance))
       findings.push_back({"strokes", name + "peak_kpa_gauge is not that of these parts"});
     timed(name + "valve_duty", design.settings.valve_duty[g],
@@ -179,10 +182,12 @@ void CheckFill(const Problem& problem, const Settings& settings, const Assembly&
 
 bool CheckPerformance(const Problem& problem, const Design& design, const Assembly& assembly,
                       const Stop& stop, Findings& findings) {
-  const Pressures stood = StoodPressures(problem, assembly);
   const double source_pa = design.settings.source_pressure_pa;
-  if (source_pa < stood.low_pa * (1.0 - kSumTolerance) ||
-      source_pa > stood.high_pa * (1.0 + kSumTolerance))
+  if (design.settings.group_pressure_pa.size() != (assembly.owns() ? assembly.lines.size() : 0)) {
+    findings.push_back({"supply", "there must be a pressure for each regulator of a group"});
+    return true;  // nothing else can be said
+  }
+  if (!Stand(problem, design.settings, assembly))
     findings.push_back({"supply", "the source pressure is outside what the parts stand"});
   CheckVolume(design.settings, assembly, findings);
   if (assembly.tank) CheckFill(problem, design.settings, assembly, findings);

@@ -6,6 +6,7 @@
 
 #include "model/physics/storage.h"
 #include "verify/design/cycle/verify_gait.h"
+#include "verify/design/cycle/verify_group_pressures.h"
 #include "verify/design/verify_supply.h"
 #include "verify/design/verify_tank.h"
 
@@ -39,13 +40,15 @@ class PressureSizing {
  public:
   // Below `floor_pa` strokes are known to be too slow.
   PressureSizing(const Problem& problem, const Assembly& assembly, KnownCycles& cycles,
-                 Volumes volumes, double slack, double floor_pa = 0.0)
+                 Volumes volumes, double slack, double floor_pa = 0.0,
+                 const GroupRanges* groups = nullptr)
       : problem_(problem),
         assembly_(assembly),
         cycles_(cycles),
         volumes_(volumes),
         slack_(slack),
-        stood_(StoodPressures(problem, assembly)) {
+        groups_(groups),
+        stood_(groups ? groups->Highest() : StoodPressures(problem, assembly)) {
     stood_.low_pa = std::max(stood_.low_pa, floor_pa);
     // All that an open tank bears grows with its fill but for the air, which is more.
     if (IsOpen(assembly))
@@ -134,6 +137,7 @@ class PressureSizing {
   Settings SettingsAt(double source_pa, double volume_m3) const {
     Settings settings;
     settings.source_pressure_pa = source_pa;
+    if (groups_) settings.group_pressure_pa = PressuresAt(*groups_, assembly_, source_pa);
     if (assembly_.compressor && !assembly_.direct()) settings.reservoir_volume_m3 = volume_m3;
     return settings;
   }
@@ -152,29 +156,9 @@ class PressureSizing {
     if (!(volumes_.high_m3 > volumes_.low_m3)) return Look{source_pa, std::move(*cycle), pump_j};
     const auto low = cycles_.At(SettingsAt(source_pa, volumes_.low_m3), volumes_.high_m3);
     if (!low) return std::nullopt;
-    return Look{source_pa, std::move(*cycle), LeastPumpEnergy(source_pa, *low)};
-  }
-
-  // With the smallest volume while the reservoir falls and the largest while it rises its pressure
-  // is at every time below that of each volume, and the pumps deliver no less. Where energy per air
-  // rises with pressure the air of a cycle thus takes at least what the cheapest bits of that run
-  // take; what it pumps beyond takes at most the greatest power at the least delivery. Where it
-  // falls on the way the same holds for the largest curve below it that does rise, of which the run
-  // takes at least the share `held_`.
-  double LeastPumpEnergy(double source_pa, const Cycle& low) const {
-    // One group that is filled up to the stop pressure ends there without end, and takes its air.
-    const bool alone = UnitsOf(problem_).size() == 1;
-    if (!alone && !std::isfinite(*std::max_element(low.inflate_s.begin(), low.inflate_s.end())))
-      return 0.0;
-    const model::CompressorCurve& curve = assembly_.compressor->curve;
-    const double beyond_m3 = alone ? low.pump_air_m3 - low.air_m3
-                                   : (1.0 - volumes_.low_m3 / volumes_.high_m3) * low.pump_air_m3;
-    if (!(beyond_m3 > 0.0)) return held_ * low.pump_j;
-    const double delivery =
-        curve.free_air_m3_per_s(std::min(source_pa, model::HighestPressure(curve)));
-    const double power_w =
-        curve.voltage_v * model::LargestCurrent(curve, problem_.ambient.pressure_pa, source_pa);
-    return std::max(0.0, held_ * low.pump_j - beyond_m3 * power_w / delivery);
+    return Look{source_pa, std::move(*cycle),
+                LeastPumpEnergy(problem_, assembly_, volumes_.low_m3 / volumes_.high_m3, held_,
+                                source_pa, *low)};
   }
 
   double StrokeExcess(const Cycle& cycle) const {
@@ -303,6 +287,7 @@ class PressureSizing {
   KnownCycles& cycles_;
   Volumes volumes_;
   double slack_;
+  const GroupRanges* groups_;  // with regulators of their own: by the highest of their pressures
   Pressures stood_;
   double floor_pa_ = 0.0;
   double resolution_ = 0.0;  // of pressures, relative; 0 where there is one volume
@@ -393,6 +378,13 @@ Sizing Sizer::SizeAsIs(const Assembly& assembly, double slack, double enough) {
     return PressureSizing(problem_, assembly, *cycles_, {0.0, 0.0}, slack).RunDirect();
   if (assembly.compressor && !assembly.reservoir)
     return SizeMade(problem_, assembly, *cycles_, slack, enough, stop_);
+  if (assembly.owns()) {
+    const GroupRanges ranges = RangesOf(*cycles_, assembly, slack);
+    if (!ranges.known) return {};
+    if (!ranges.feasible) return {.status = Sized::kInfeasible, .lower_bound = kUnlimited};
+    return PressureSizing(problem_, assembly, *cycles_, {0.0, 0.0}, slack, 0.0, &ranges)
+        .Run(enough);
+  }
   const double volume_m3 = assembly.ReservoirVolume();
   return PressureSizing(problem_, assembly, *cycles_, {volume_m3, volume_m3}, slack).Run(enough);
 }

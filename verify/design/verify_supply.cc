@@ -1,7 +1,10 @@
 // Pressures that parts stand, supplies, and every requirement.
 #include "verify/design/verify_supply.h"
 
+#include <algorithm>
+
 #include "model/physics/storage.h"
+#include "verify/design/cycle/verify_alone.h"
 #include "verify/design/cycle/verify_gait.h"
 #include "verify/design/cycle/verify_pump_curve.h"
 #include "verify/design/verify_closing.h"
@@ -20,9 +23,9 @@ Pressures StoodPressures(const Problem& problem, const Assembly& a) {
     if (!model::Holds(line.valve->kind))
       high_pa = std::min(high_pa, problem.groups[g].pressure_max_pa);
   }
-  if (a.regulator) {
-    low_pa = std::max(low_pa, a.regulator->outlet_pressure_min_pa);
-    high_pa = std::min(high_pa, a.regulator->outlet_pressure_max_pa);
+  for (const model::Regulator* regulator : a.regulators) {
+    low_pa = std::max(low_pa, regulator->outlet_pressure_min_pa);
+    high_pa = std::min(high_pa, regulator->outlet_pressure_max_pa);
   }
   if (IsOpen(a)) {
     for (const LineParts& line : a.lines)
@@ -49,13 +52,34 @@ Pressures StoodPressures(const Problem& problem, const Assembly& a) {
   return {low_pa, high_pa};
 }
 
+bool Stand(const Problem& problem, const Settings& settings, const Assembly& a) {
+  const auto stands = [](const Pressures& stood, double pa) {
+    return stood.low_pa * (1.0 - kSumTolerance) <= pa &&
+           pa <= stood.high_pa * (1.0 + kSumTolerance);
+  };
+  if (!a.owns())
+    return settings.group_pressure_pa.empty() &&
+           stands(StoodPressures(problem, a), settings.source_pressure_pa);
+  const std::vector<double>& group_pa = settings.group_pressure_pa;
+  if (group_pa.size() != a.lines.size() ||
+      !Near(settings.source_pressure_pa, *std::max_element(group_pa.begin(), group_pa.end()),
+            kSumTolerance))
+    return false;
+  for (int g = 0; g < static_cast<int>(a.lines.size()); ++g) {
+    const Alone alone = AloneOf(problem, a, g);
+    if (!stands(StoodPressures(alone.problem, alone.assembly), group_pa[g])) return false;
+  }
+  return true;
+}
+
 Supply SupplyOf(const Problem& problem, const Settings& settings, const Assembly& a,
                 const Cycle& cycle) {
   Supply supply;
   const double temperature_k = problem.ambient.temperature_k;
   const double source_pa = settings.source_pressure_pa;
-  const double inlet_pa =
-      a.regulator ? std::max(source_pa, a.regulator->inlet_pressure_min_pa) : 0.0;
+  double inlet_pa = source_pa;
+  for (const model::Regulator* regulator : a.regulators)
+    inlet_pa = std::max(inlet_pa, regulator->inlet_pressure_min_pa);
   supply.frequency_hz = kUnlimited;
   for (int g = 0; g < static_cast<int>(a.lines.size()); ++g) {
     const double share = std::max(cycle.inflate_s[g] / FillWindow(problem, g),
@@ -129,8 +153,7 @@ std::map<std::string, Reached> Requirements(const Problem& problem, const Settin
       RequirementsBesidePeaks(problem, settings, totals, a, cycle, supply);
   const char* field = Evacuated(problem) ? "/pressure_kpa_gauge_min" : "/pressure_kpa_gauge_max";
   for (int g = 0; g < static_cast<int>(a.lines.size()); ++g) {
-    const double peak_pa =
-        PeakPa(problem, a.configuration, g, a.lines[g], settings.source_pressure_pa);
+    const double peak_pa = PeakPa(problem, a.configuration, g, a.lines[g], PressureAt(settings, g));
     AddAtMost(all, optimizer::GroupPointer(problem, g) + field,
               Gauge(problem, problem.groups[g].pressure_max_pa), Gauge(problem, peak_pa),
               kPeakTolerance);

@@ -16,6 +16,9 @@ struct Pressures {
 };
 Pressures StoodPressures(const Problem& problem, const Assembly& assembly);
 
+// Whether the parts stand the pressures of the settings, each group's where it has its own.
+bool Stand(const Problem& problem, const Settings& settings, const Assembly& assembly);
+
 // Gas and energy on board, what fills the reservoir first, and what else the source limits.
 struct Supply {
   double gas_m3 = kUnlimited, energy_j = kUnlimited;

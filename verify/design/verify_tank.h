@@ -12,7 +12,7 @@ namespace plenum::verify {
 inline constexpr double kFillRoom = 1.0 + 1e-9;
 
 // Whether strokes come straight out of the tank.
-inline bool IsOpen(const Assembly& a) { return a.tank != nullptr && a.regulator == nullptr; }
+inline bool IsOpen(const Assembly& a) { return a.tank != nullptr && a.regulators.empty(); }
 
 inline double TankVolume(const Assembly& a) { return a.tank ? a.tanks * a.tank->volume_m3 : 0.0; }
 
@@ -32,14 +32,17 @@ inline double LeastLeftPa(const Problem& problem) {
 // What the tank, and a regulator's inlet, stand and the request allows.
 inline double MostFillPa(const Problem& problem, const Assembly& a) {
   double most_pa = std::min(problem.tank_fill_max_pa, a.tank->pressure_max_pa);
-  if (a.regulator) most_pa = std::min(most_pa, a.regulator->inlet_pressure_max_pa);
+  for (const model::Regulator* regulator : a.regulators)
+    most_pa = std::min(most_pa, regulator->inlet_pressure_max_pa);
   return most_pa;
 }
 
 // Down to which the tank gives air to a source of this pressure.
 inline double InletPa(const Problem& problem, const Assembly& a, double source_pa) {
-  if (a.regulator) return std::max(source_pa, a.regulator->inlet_pressure_min_pa);
-  double inlet_pa = LeastLeftPa(problem);
+  double inlet_pa = IsOpen(a) ? LeastLeftPa(problem) : source_pa;
+  for (const model::Regulator* regulator : a.regulators)
+    inlet_pa = std::max(inlet_pa, regulator->inlet_pressure_min_pa);
+  if (!IsOpen(a)) return inlet_pa;
   for (const LineParts& line : a.lines) inlet_pa = std::max(inlet_pa, line.valve->pressure_min_pa);
   return inlet_pa;
 }

@@ -7,6 +7,7 @@
 
 #include "optimizer/problem/amount.h"
 #include "optimizer/problem/big_count.h"
+#include "optimizer/problem/own_regulators.h"
 #include "optimizer/problem/pareto_front.h"
 #include "optimizer/problem/problem.h"
 #include "optimizer/problem/proof.h"
@@ -28,10 +29,13 @@ using optimizer::Evacuated;
 using optimizer::Family;
 using optimizer::Front;
 using optimizer::GroupPerformance;
+using optimizer::HasOwnRegulators;
 using optimizer::IsDirect;
 using optimizer::IsPumped;
 using optimizer::KeepsReservoir;
 using optimizer::kUnlimited;
+using optimizer::Layout;
+using optimizer::LayoutsOf;
 using optimizer::Limits;
 using optimizer::Margin;
 using optimizer::Objective;
@@ -53,6 +57,11 @@ using optimizer::Searched;
 using optimizer::Settings;
 using optimizer::Status;
 using optimizer::Totals;
+
+inline Layout LayoutOf(const ProofPlan& plan) { return {plan.configuration, plan.own_regulators}; }
+inline Layout LayoutOf(const Design& design) {
+  return {design.configuration, HasOwnRegulators(design.parts)};
+}
 
 // Whether somebody wants a check to end before it has looked at all. May be empty; true from some
 // time on. What is not looked at by then stays open.

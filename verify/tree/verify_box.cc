@@ -34,7 +34,7 @@ int Widest(const ProofPlan& plan, Corners& corners, const Ranges& ranges, const 
 
 Ids EarliestIds(const Problem& problem, const ProofPlan& plan, const Ranges& ranges) {
   Ids ids;
-  const ProofPlan listed = EmptyPlan(problem, plan.configuration);  // in the order of a parts list
+  const ProofPlan listed = EmptyPlan(problem, LayoutOf(plan));  // in the order of a parts list
   for (const ProofSlot& place : listed.slots) {
     const int slot = SlotOf(plan, place.family, place.group);
     if (slot < 0) continue;

@@ -23,9 +23,9 @@ double ObjectiveTolerance(const Problem& problem, const Assembly& assembly) {
   return problem.objective.energy_wh > 0.0 ? 1e-4 : settings ? 1e-5 : kSumTolerance;
 }
 
-ProofPlan AllOf(const Problem& problem, Configuration configuration) {
-  ProofPlan plan = EmptyPlan(problem, configuration);
-  for (ProofSlot& slot : plan.slots) slot.choices = EntriesOf(problem, configuration, slot);
+ProofPlan AllOf(const Problem& problem, const Layout& layout) {
+  ProofPlan plan = EmptyPlan(problem, layout);
+  for (ProofSlot& slot : plan.slots) slot.choices = EntriesOf(problem, layout, slot);
   return plan;
 }
 
@@ -47,18 +47,18 @@ class Enumeration {
   }
 
   BruteForceCounts Run() {
-    for (const Configuration configuration : problem_.configurations) {
-      const ProofPlan plan = AllOf(problem_, configuration);
+    for (const Layout& layout : LayoutsOf(problem_)) {
+      const ProofPlan plan = AllOf(problem_, layout);
       BigCount priced = 1;
       for (const ProofSlot& slot : plan.slots) priced *= slot.choices.size();
-      counts_.unpriced += Combinations(problem_, configuration) - priced;
+      counts_.unpriced += Combinations(problem_, layout) - priced;
       series_.emplace(problem_, plan);
       single_.assign(plan.slots.size(), {0, 0});
       amounts_.clear();
       for (const ProofSlot& slot : plan.slots) {
         amounts_.emplace_back();
         for (const ProofItem& item : slot.choices)
-          amounts_.back().push_back(ChoiceAmounts(problem_, slot, item));
+          amounts_.back().push_back(ChoiceAmounts(problem_, layout, slot, item));
       }
       From(0, {});
     }
@@ -118,12 +118,16 @@ class Enumeration {
       case Family::kRegulator:
         if (plan().configuration == Configuration::kCylinder) return true;  // asked with the bottle
         if (plan().configuration == Configuration::kTank) return true;
-        source.regulator = &parts.regulators[part];
+        source.regulators = {&parts.regulators[part]};
         if (plan().configuration == Configuration::kCo2 && !parts.co2.empty())
           source.co2 = &parts.co2.front();
         return Fit(problem_, source);
       case Family::kCylinder:
-        source.regulator = &parts.regulators[part_of(Family::kRegulator)];
+        for (const ProofSlot& chosen : plan().slots) {
+          if (chosen.family != Family::kRegulator) continue;
+          const auto at = static_cast<std::size_t>(&chosen - plan().slots.data());
+          source.regulators.push_back(&parts.regulators[ItemAt(at).part]);
+        }
         source.cylinder = &parts.cylinders[part];
         return Fit(problem_, source);
       case Family::kBattery:
@@ -253,8 +257,7 @@ class Enumeration {
 
 BigCount CombinationsOf(const Problem& problem) {
   BigCount sum = 0;
-  for (const Configuration configuration : problem.configurations)
-    sum += Combinations(problem, configuration);
+  for (const Layout& layout : LayoutsOf(problem)) sum += Combinations(problem, layout);
   return sum;
 }
 

@@ -86,17 +86,17 @@ std::vector<Point> Sums(const std::vector<Point>& points) {
 }
 
 // The choices that no other dominates, by their share of the objective.
-ProofPlan WholePlan(const Problem& problem, Configuration configuration) {
-  ProofPlan plan = EmptyPlan(problem, configuration);
-  plan.equal_flow = FlowMustBeEqual(problem, configuration);
+ProofPlan WholePlan(const Problem& problem, const Layout& layout) {
+  ProofPlan plan = EmptyPlan(problem, layout);
+  plan.equal_flow = FlowMustBeEqual(problem, layout);
   for (ProofSlot& slot : plan.slots) {
-    const std::vector<ProofItem> entries = EntriesOf(problem, configuration, slot);
+    const std::vector<ProofItem> entries = EntriesOf(problem, layout, slot);
     std::vector<std::pair<double, ProofItem>> kept;
     for (const ProofItem& item : entries)
       if (std::none_of(entries.begin(), entries.end(), [&](const ProofItem& other) {
             return !(other == item) && Dominates(problem, plan, slot, other, item);
           }))
-        kept.emplace_back(ChoiceAmounts(problem, slot, item).objective, item);
+        kept.emplace_back(ChoiceAmounts(problem, layout, slot, item).objective, item);
     std::stable_sort(kept.begin(), kept.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     for (const auto& [share, item] : kept) slot.choices.push_back(item);
@@ -125,8 +125,8 @@ class GapCheck {
       for (const Point& point : points) least_[w] = std::min(least_[w], Sum(weights_[w], point));
   }
 
-  BigCount Run(Configuration configuration, Findings& findings) {
-    plan_ = WholePlan(within_, configuration);
+  BigCount Run(const Layout& layout, Findings& findings) {
+    plan_ = WholePlan(within_, layout);
     bounds_.clear();
     strokes_.emplace(problem_, plan_);
     bounds_.resize(weights_.size());
@@ -275,8 +275,7 @@ BigCount CheckGaps(const Problem& problem, const std::vector<Amount>& amounts,
                    const Stop& stop, Findings& findings) {
   GapCheck check(problem, amounts, points, gaps, stop);
   BigCount open = 0;
-  for (Configuration configuration : problem.configurations)
-    open += check.Run(configuration, findings);
+  for (const Layout& layout : LayoutsOf(problem)) open += check.Run(layout, findings);
   return open;
 }
 

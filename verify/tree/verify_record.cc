@@ -1,5 +1,6 @@
 #include "verify/tree/verify_record.h"
 
+#include <algorithm>
 #include <list>
 #include <map>
 #include <set>
@@ -59,15 +60,19 @@ class RecordCheck {
     const ProofRecord& record = *answer_.proof.record;
     if (record.count != problem_.count)
       findings_.push_back({"choices", "the record was made for another number of designs"});
-    std::set<Configuration> seen;
+    const std::vector<Layout> asked = LayoutsOf(problem_);
+    const auto plans_of = [&](const Layout& layout) {
+      return std::count_if(record.plans.begin(), record.plans.end(),
+                           [&](const ProofPlan& plan) { return LayoutOf(plan) == layout; });
+    };
     for (const ProofPlan& plan : record.plans) {
-      if (!problem_.configurations.contains(plan.configuration) ||
-          !seen.insert(plan.configuration).second)
+      if (std::find(asked.begin(), asked.end(), LayoutOf(plan)) == asked.end() ||
+          plans_of(LayoutOf(plan)) > 1)
         findings_.push_back({"choices", "a plan that was not asked for, or twice"});
       CheckPlan(plan);
     }
-    for (Configuration configuration : problem_.configurations)
-      if (!seen.contains(configuration)) Missing(configuration);
+    for (const Layout& layout : asked)
+      if (plans_of(layout) == 0) Missing(layout);
     CheckCounts();
     for (std::size_t i = 0; i < answer_.designs.size(); ++i)
       if (found_[i] != 1)
@@ -96,7 +101,7 @@ class RecordCheck {
   }
 
   void CheckPlan(const ProofPlan& plan) {
-    if (FlowMustBeEqual(problem_, plan.configuration) && !plan.equal_flow)
+    if (FlowMustBeEqual(problem_, LayoutOf(plan)) && !plan.equal_flow)
       findings_.push_back({"dominance", "flows are compared where only equal ones may be"});
     if (std::isfinite(last()) && plan.tie < kTieTolerance * last() * (1.0 - kSumTolerance))
       findings_.push_back({"dominance", "the tie is smaller than that of the last design"});
@@ -108,15 +113,16 @@ class RecordCheck {
     const std::vector<ClosedBox>& closed = replayed.closed;
     for (const ClosedBox& box : closed) CheckBox(plan, box, replayed.check);
     for (std::size_t i = 0; i < answer_.designs.size(); ++i)
-      if (answer_.designs[i].configuration == plan.configuration) Place(plan, closed, i);
+      if (LayoutOf(answer_.designs[i]) == LayoutOf(plan)) Place(plan, closed, i);
   }
 
-  // A configuration without a plan has a family without a choice.
-  void Missing(Configuration configuration) {
-    if (Combinations(problem_, configuration) > 0 && !PricesNeeded(problem_))
-      findings_.push_back({"choices", std::string("no plan of ") + Name(configuration)});
+  // A layout without a plan has a family without a choice.
+  void Missing(const Layout& layout) {
+    const BigCount combinations = Combinations(problem_, layout);
+    if (combinations > 0 && !PricesNeeded(problem_))
+      findings_.push_back({"choices", std::string("no plan of ") + Name(layout.configuration)});
     else
-      counts_.unpriced += Combinations(problem_, configuration);
+      counts_.unpriced += combinations;
   }
 
   // Where each listed design lies: in a box of its own, or in one that a search that was stopped
@@ -240,7 +246,12 @@ class RecordCheck {
 
 }  // namespace
 
-bool FlowMustBeEqual(const Problem& problem, Configuration configuration) {
+bool FlowMustBeEqual(const Problem& problem, const Layout& layout) {
+  const Configuration configuration = layout.configuration;
+  // A regulator of one group may still feed some of its actuators while others fill.
+  const auto in_parts = [](const ActuatorGroup& group) { return group.gait.phases.size() > 1; };
+  if (layout.own_regulators && std::none_of(problem.groups.begin(), problem.groups.end(), in_parts))
+    return false;
   if (!IsPumped(configuration)) return MayOverlap(problem);
   return (UnitsOf(problem).size() > 1 && KeepsReservoir(configuration)) ||
          !std::all_of(PumpsOf(problem).begin(), PumpsOf(problem).end(),

@@ -8,7 +8,7 @@
 namespace plenum::verify {
 
 // Whether dominance may compare only equal flows (proof.h).
-bool FlowMustBeEqual(const Problem& problem, Configuration configuration);
+bool FlowMustBeEqual(const Problem& problem, const Layout& layout);
 
 // Replays the boxes of an answer that has a record, recounts them, looks at each closed one again,
 // and finds the box of each listed design.

@@ -42,7 +42,7 @@ void CheckSlot(const Problem& problem, const ProofPlan& plan, const ProofSlot& s
           !Dominates(problem, plan, slot, dominator, dominated.item))
         findings.push_back({"dominance", where + ": a choice left out is not dominated"});
     }
-    const bool enough = ListsKinds(problem) ? same || AreEnough(problem, slot.family, series.size())
+    const bool enough = ListsKinds(problem) ? same || AreEnough(problem, slot, series.size())
                                             : static_cast<int>(different.size()) >= problem.count;
     if (!enough)
       findings.push_back({"dominance", where + ": a choice left out has too few dominators"});
@@ -104,7 +104,7 @@ std::vector<ClosedBox> Replay(const ProofPlan& plan, Findings& findings) {
 
 void CheckSlots(const Problem& problem, const ProofPlan& plan, Pruned& counts, Findings& findings) {
   std::set<std::pair<Family, int>> expected, found;
-  for (const ProofSlot& slot : EmptyPlan(problem, plan.configuration).slots)
+  for (const ProofSlot& slot : EmptyPlan(problem, LayoutOf(plan)).slots)
     expected.insert({slot.family, slot.group});
   for (const ProofSlot& slot : plan.slots) found.insert({slot.family, slot.group});
   if (found != expected || found.size() != plan.slots.size()) {
@@ -113,12 +113,12 @@ void CheckSlots(const Problem& problem, const ProofPlan& plan, Pruned& counts, F
   }
   BigCount priced = 1, kept = 1;
   for (const ProofSlot& slot : plan.slots) {
-    const std::vector<ProofItem> entries = EntriesOf(problem, plan.configuration, slot);
+    const std::vector<ProofItem> entries = EntriesOf(problem, LayoutOf(plan), slot);
     CheckSlot(problem, plan, slot, entries, findings);
     priced *= entries.size();
     kept *= slot.choices.size();
   }
-  counts.unpriced += Combinations(problem, plan.configuration) - priced;
+  counts.unpriced += Combinations(problem, LayoutOf(plan)) - priced;
   counts.dominated += priced - kept;
 }
 

@@ -6,7 +6,7 @@
 #include "api/design/read/combination.h"
 #include "api/design/read/design_reader.h"
 #include "api/design/read/joint_rows.h"
-#include "api/design/read/power.h"
+#include "api/design/read/supply/power.h"
 #include "api/json/remarks.h"
 #include "api/json/shared_fields.h"
 

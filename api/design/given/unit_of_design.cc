@@ -5,6 +5,7 @@
 #include "api/design/given/given_request.h"
 #include "api/json/version.h"
 #include "fmu/unit_file.h"
+#include "optimizer/problem/own_regulators.h"
 #include "optimizer/sizing/resize.h"
 
 namespace plenum::api {
@@ -33,6 +34,10 @@ Parsed<std::string> MakeUnitFile(const Json& request, const std::vector<catalog:
   if (given.asked.model)
     return Errors{{"/requirements/model",
                    "must be \"nominal\": a unit does not hold the effects of a saved model"}};
+  if (optimizer::HasOwnRegulators(given.design.parts))
+    return Errors{{"/design/parts",
+                   "must have one regulator for all groups: a unit has one source, and regulators "
+                   "of their own for each group are not among what it can hold"}};
   auto driven = optimizer::Drive(optimizer::WithPartsOf(given.asked.problem, given.design),
                                  given.design, After(seconds_max));
   if (!driven)

@@ -119,8 +119,11 @@ class WhyNot {
   std::string SourceOf(const Design& design) const {
     const auto& settings = design.settings;
     if (optimizer::IsDirect(design.configuration)) return "the pressures of their strokes";
-    std::string text =
-        Told(optimizer::KpaGauge(problem_, settings.source_pressure_pa)) + " kPa gauge";
+    std::string text;
+    for (const double pa : settings.group_pressure_pa)
+      text += (text.empty() ? "" : " and ") + Told(optimizer::KpaGauge(problem_, pa));
+    if (text.empty()) text = Told(optimizer::KpaGauge(problem_, settings.source_pressure_pa));
+    text += " kPa gauge";
     if (optimizer::KeepsReservoir(design.configuration))
       text +=
           " and a reservoir of " + Told(settings.reservoir_volume_m3.value_or(0.0) * 1e6) + " mL";

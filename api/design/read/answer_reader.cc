@@ -4,7 +4,7 @@
 
 #include "api/design/proof_record.h"
 #include "api/design/read/design_reader.h"
-#include "api/design/read/power.h"
+#include "api/design/read/supply/power.h"
 #include "api/json/request_limits.h"
 #include "api/json/units.h"
 #include "verify/verify.h"

@@ -6,8 +6,9 @@
 
 #include "api/catalogue/catalogue_parts.h"
 #include "api/design/read/joint_rows.h"
-#include "api/design/read/power.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/supply/power.h"
+#include "api/design/read/supply/regulation.h"
 #include "api/json/units.h"
 #include "api/json/words.h"
 #include "model/physics/storage.h"
@@ -86,13 +87,16 @@ class Check {
         problem_(problem),
         catalogue_(catalogue),
         pointer_(pointer),
-        errors_(errors) {}
+        errors_(errors),
+        owns_(HaveOwnRegulators(design, problem)) {}
 
   void Run() {
     const std::size_t before = errors_.size();
     CheckConfiguration();
     for (const Choice& choice : design_.parts) CheckRow(choice);
     CheckMissing();
+    CheckRegulation(design_, problem_,
+                    [&](const char* place, std::string detail) { Fail(place, std::move(detail)); });
     if (errors_.size() > before) return;
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) CheckLine(g);
     CheckSource();
@@ -136,14 +140,16 @@ class Check {
     }
     const std::string piece = Piece(choice.family);
     const optimizer::FamilySpec& spec = optimizer::SpecOf(choice.family);
-    const bool of_line = spec.in_line;
+    const bool of_line = spec.in_line || (choice.family == Family::kRegulator && owns_);
     if (!of_line && !spec.joins && !spec.InSourceOf(design_.configuration))
       return FailRow(choice, "/family", Is() + " has no " + optimizer::Name(choice.family));
     if (of_line && choice.group < 0)
       return FailRow(choice, "/group",
                      "is required: which group of actuators " + piece + " serves");
     if (!of_line && choice.group >= 0)
-      return FailRow(choice, "/group", "must be left out: " + piece + " serves all groups");
+      return FailRow(
+          choice, "/group",
+          "must be left out: " + piece + " serves all groups" + UnlessOwn(choice.family));
     if (choice.family == Family::kFitting && Group(choice).fittings_per_line == 0)
       return FailRow(
           choice, "/family",
@@ -156,7 +162,15 @@ class Check {
       return FailRow(choice, "/family",
                      "an earlier row is " + piece + (of_line ? " of this group" : "") +
                          " already; a design has one such row");
-    if (CheckPart(choice)) of_line ? CheckLineQuantity(choice) : CheckSourceQuantity(choice);
+    if (CheckPart(choice)) spec.in_line ? CheckLineQuantity(choice) : CheckSourceQuantity(choice);
+  }
+
+  // Of all groups, or of each.
+  std::vector<const Choice*> RegulatorRows() const {
+    std::vector<const Choice*> rows;
+    for (const Choice& choice : design_.parts)
+      if (choice.family == Family::kRegulator) rows.push_back(&choice);
+    return rows;
   }
 
   const ActuatorGroup& Group(const Choice& choice) const { return problem_.groups[choice.group]; }
@@ -236,7 +250,8 @@ class Check {
           Fail("/parts", Piece(family) + " for group " + group.name + " is missing");
     }
     for (const Family family : optimizer::SourceFamilies(design_.configuration))
-      if (!RowOf(family) && !optimizer::MayLack(design_.configuration, family))
+      if (!(family == Family::kRegulator && owns_) && !RowOf(family) &&
+          !optimizer::MayLack(design_.configuration, family))
         Fail("/parts", Piece(family) + " is missing: " + Is() + " has one");
   }
 
@@ -273,22 +288,23 @@ class Check {
       return;
     }
     if (design_.configuration == Configuration::kTank) return CheckTank();
-    const Choice* row = RowOf(Family::kRegulator);
-    const model::Regulator& regulator = *Find(parts.regulators, row);
     const auto* cylinder = Find(parts.cylinders, RowOf(Family::kCylinder));
     const double supply_pa = cylinder ? cylinder->fill_pressure_pa
                              : design_.configuration == Configuration::kCo2
                                  ? model::Co2SaturationPressure(problem_.ambient.temperature_k)
                                  : problem_.mains.pressure_pa;
     const std::string supply = "; the supply has " + KpaGauge(supply_pa, problem_);
-    if (supply_pa > regulator.inlet_pressure_max_pa)
-      FailRow(*row, "/id",
-              "stands " + KpaGauge(regulator.inlet_pressure_max_pa, problem_) + " at its inlet" +
-                  supply);
-    else if (!cylinder && supply_pa < regulator.inlet_pressure_min_pa)
-      FailRow(*row, "/id",
-              "needs " + KpaGauge(regulator.inlet_pressure_min_pa, problem_) + " at its inlet" +
-                  supply);
+    for (const Choice* row : RegulatorRows()) {
+      const model::Regulator& regulator = *Find(parts.regulators, row);
+      if (supply_pa > regulator.inlet_pressure_max_pa)
+        FailRow(*row, "/id",
+                "stands " + KpaGauge(regulator.inlet_pressure_max_pa, problem_) + " at its inlet" +
+                    supply);
+      else if (!cylinder && supply_pa < regulator.inlet_pressure_min_pa)
+        FailRow(*row, "/id",
+                "needs " + KpaGauge(regulator.inlet_pressure_min_pa, problem_) + " at its inlet" +
+                    supply);
+    }
   }
 
   // Pumps that are off keep no actuator full, and give valves no pressure to switch with.
@@ -308,17 +324,18 @@ class Check {
   // Its fill, and without a regulator the valves.
   void CheckTank() {
     const model::Parts& parts = problem_.parts;
-    const auto* regulator = Find(parts.regulators, RowOf(Family::kRegulator));
+    const std::vector<const Choice*> regulators = RegulatorRows();
     const auto* tank = Find(parts.tanks, RowOf(Family::kTank));
     double most_pa = std::min(tank->pressure_max_pa, problem_.tank_fill_max_pa);
-    if (regulator) most_pa = std::min(most_pa, regulator->inlet_pressure_max_pa);
+    for (const Choice* row : regulators)
+      most_pa = std::min(most_pa, Find(parts.regulators, row)->inlet_pressure_max_pa);
     const char* place = "/settings/tank_fill_kpa_gauge";
     const std::optional<double> given = design_.settings.tank_fill_pa;
     if (given && *given > most_pa * (1.0 + kRounding))
       Fail(place, "must be ≤ " + KpaGauge(most_pa, problem_) +
                       ", what the tank and what it feeds stand and the request allows, not " +
                       KpaGauge(*given, problem_));
-    if (regulator) return;
+    if (!regulators.empty()) return;
     if (given && !Near(*given, design_.settings.source_pressure_pa))
       Fail(place, "must be the source pressure, or left out: there is no regulator");
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
@@ -359,6 +376,7 @@ class Check {
   const std::vector<catalog::Part>& catalogue_;
   const std::string& pointer_;
   Errors& errors_;
+  bool owns_;  // each group has a regulator of its own
 };
 
 }  // namespace

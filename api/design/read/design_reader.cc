@@ -83,6 +83,10 @@ optimizer::Settings ReadPoint(Reader& reader, const Problem& problem, Configurat
     settings.reservoir_volume_m3 = M3FromMl(*ml);
   if (const auto kpa = reader.OptionalNumber("tank_fill_kpa_gauge", {0, kGaugeMaxKpa}))
     settings.tank_fill_pa = PaFromKpaGauge(*kpa, problem.ambient);
+  if (reader.Has("group_pressure_kpa_gauge"))
+    for (const double kpa :
+         reader.Numbers("group_pressure_kpa_gauge", problem.groups.size(), {0, kGaugeMaxKpa}))
+      settings.group_pressure_pa.push_back(PaFromKpaGauge(kpa, problem.ambient));
   return settings;
 }
 

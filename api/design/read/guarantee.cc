@@ -4,8 +4,8 @@
 #include <string>
 
 #include "api/design/read/actuators/gait_reader.h"
-#include "api/design/read/power.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/supply/power.h"
 
 namespace plenum::api {
 namespace {

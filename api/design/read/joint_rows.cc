@@ -41,7 +41,8 @@ void SetJoints(Problem& problem) {
 }
 
 void WarnOfJoints(const Problem& problem) {
-  if (optimizer::LineCount(problem) < 2) return;
+  if (optimizer::LineCount(problem) < 2 || problem.regulation == optimizer::Regulation::kPerGroup)
+    return;
   const double asked = optimizer::JointConductance(problem);
   const std::optional<Joint> joint = optimizer::JointOfLines(problem);
   if (!joint)
@@ -87,7 +88,7 @@ void CheckJointRows(const optimizer::Design& design, const Problem& problem, con
 
 void WarnOfMissingJoints(const optimizer::Design& design, const Problem& problem,
                          const std::string& pointer) {
-  if (!HasJointRow(design) && optimizer::JointOfLines(problem))
+  if (!HasJointRow(design) && !optimizer::JointsOf(problem, design.parts).empty())
     Warn(pointer + "/parts", Meet(problem) +
                                  ", and the design has no manifold or tee: what joins them is not "
                                  "counted");

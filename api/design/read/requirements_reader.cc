@@ -10,9 +10,10 @@
 #include "api/design/read/design_reader.h"
 #include "api/design/read/joint_rows.h"
 #include "api/design/read/objective_reader.h"
-#include "api/design/read/power.h"
 #include "api/design/read/selection.h"
-#include "api/design/read/vacuum_reader.h"
+#include "api/design/read/supply/power.h"
+#include "api/design/read/supply/regulation.h"
+#include "api/design/read/supply/vacuum_reader.h"
 #include "api/json/json.h"
 #include "api/json/request_limits.h"
 #include "api/json/shared_fields.h"
@@ -99,6 +100,7 @@ void ReadSupply(Reader& request, optimizer::Problem& problem) {
   }
   ReadConfigurations(supply, mains.has_value(), problem);
   ReadPumps(supply, problem);
+  ReadRegulation(supply, problem);
   ReadPower(supply, problem);
   ReadVacuum(supply, problem);
   const auto source = supply.OptionalNumber("source_pressure_kpa_gauge_max", {1, kGaugeMaxKpa});
@@ -222,6 +224,10 @@ void ReadModel(Reader& request, const std::vector<catalog::ModelRevision>& model
   }
   parsed.model = *std::find_if(models.begin(), models.end(),
                                [&](const auto& model) { return model.name == name; });
+  if (parsed.problem.regulation != optimizer::Regulation::kShared)
+    request.FailAt("supply/regulation",
+                   "must be shared where a model is named, whose effects are judged behind one "
+                   "regulator");
   if (optimizer::Evacuated(parsed.problem))
     request.Fail("model",
                  "is for actuators under pressure: effects of evacuated ones are not known");
@@ -318,6 +324,7 @@ Parsed<DesignRequest> ParseRequirements(const Json& request,
   problem.parts = AllowedModelParts(parts, problem);
   SetJoints(problem);
   if (std::any_of(parts.begin(), parts.end(), IsJoint)) WarnOfJoints(problem);
+  WarnOfRegulation(problem);
   parsed.request = request;
   parsed.remarks = recorder.Take();
   return parsed;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "api/catalogue/catalogue_parts.h"
-#include "api/design/read/power.h"
+#include "api/design/read/supply/power.h"
 #include "api/json/request_limits.h"
 #include "api/json/words.h"
 #include "catalog/fields/price.h"

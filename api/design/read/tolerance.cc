@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "api/catalogue/catalogue_parts.h"
-#include "api/design/read/power.h"
 #include "api/design/read/selection.h"
+#include "api/design/read/supply/power.h"
 #include "api/json/units.h"
 #include "catalog/fields/fields.h"
 #include "optimizer/evaluate/candidate.h"

@@ -1,4 +1,5 @@
-// The regulator of a cylinder, a CO2 bottle or the mains: one. A tank may do without.
+// The regulator of a cylinder, a CO2 bottle or the mains: one for all groups, which a tank may do
+// without, or one for each.
 #include "optimizer/choices/plant/corner_table.h"
 #include "optimizer/choices/plant/planter.h"
 #include "optimizer/problem/part_tables.h"
@@ -64,19 +65,30 @@ void SetNumbers(const PartNumbers& numbers, RegulatorCorner& corner) {
   SetNumbersBy(kRows, numbers, corner);
 }
 
-int Planter::PlantRegulators() {
+int Planter::PlantRegulator(int group, BoxTree<RegulatorCorner>& tree) {
+  const Amounts joint = OwnRegulatorJointAtMains(problem_, plan_->configuration, group);
+  const auto count = [&](int, int) { return Count{1.0, 1.0, joint}; };
   const auto rule = [&](int, int, const Entry<RegulatorCorner>& entry) {
     RegulatorCorner& corner = entry.item.corner;
     corner.objective += EnergyWeight(problem_) * problem_.actuations * corner.electrical_power_w /
                         problem_.frequency_hz;
   };
-  Entries<RegulatorCorner> entries = MakeSourceEntries<RegulatorCorner>(Family::kRegulator, rule);
+  Entries<RegulatorCorner> entries =
+      MakeEntries<RegulatorCorner>(Family::kRegulator, true, count, rule);
   long long total = ChoicesOf(Family::kRegulator);
-  if (MayLack(plan_->configuration, Family::kRegulator)) {
+  if (group < 0 && MayLack(plan_->configuration, Family::kRegulator)) {
     ++total;
     AddNone(problem_, entries);
   }
-  return PlantSlot(Family::kRegulator, -1, total, std::move(entries), plan_->regulators);
+  return PlantSlot(Family::kRegulator, group, total, std::move(entries), tree);
+}
+
+void Planter::PlantRegulators() {
+  const int groups = static_cast<int>(problem_.groups.size());
+  plan_->regulators.resize(plan_->own_regulators ? groups : 1);
+  for (int i = 0; i < static_cast<int>(plan_->regulators.size()); ++i)
+    plan_->regulator_slots.push_back(
+        PlantRegulator(plan_->own_regulators ? i : -1, plan_->regulators[i]));
 }
 
 }  // namespace plenum::optimizer

@@ -25,7 +25,7 @@ void SetNumbers(const PartNumbers& numbers, TubeCorner& corner) {
 void Planter::PlantTubing(int g, const LineMates& mates) {
   const ActuatorGroup& group = problem_.groups[g];
   std::map<double, Kinds> diameters_of;  // by outer diameter of the tube
-  const Amounts joint = LineJointShare(problem_, g);
+  const Amounts joint = LineJointShare(problem_, g, plan_->own_regulators);
   const auto count = [&](int, int) {
     return Count{group.count * group.tube_length_m, static_cast<double>(group.count), joint};
   };

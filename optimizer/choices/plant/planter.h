@@ -19,6 +19,7 @@
 #include "optimizer/choices/dominance.h"
 #include "optimizer/choices/plan.h"
 #include "optimizer/choices/plant/compared.h"
+#include "optimizer/choices/plant/ranges.h"
 #include "optimizer/evaluate/candidate.h"
 #include "optimizer/evaluate/line.h"
 #include "optimizer/problem/family_specs.h"
@@ -26,8 +27,6 @@
 #include "optimizer/pump/pump_slope.h"
 
 namespace plenum::optimizer {
-
-inline constexpr double kJoulePerWattHour = 3600.0;
 
 // Numbers distinct values, so that parts can tell by bits which they mate with.
 template <typename Value>
@@ -48,12 +47,6 @@ class KindsOf {
  private:
   std::map<Value, std::size_t> number_;
 };
-
-// Objective per joule.
-inline double EnergyWeight(const Problem& problem) {
-  return problem.objective.energy_wh / kJoulePerWattHour;
-}
-
 // The choices of a family and what dominance compares; PlantSlot adds what holds for all.
 template <typename Corner>
 struct Entry {
@@ -88,26 +81,27 @@ void SetShare(const Problem& problem, const Amounts& amounts, Corner& corner) {
 
 class Planter {
  public:
-  Planter(const Problem& problem, Configuration configuration, bool name_left_out,
+  Planter(const Problem& problem, const Layout& layout, bool name_left_out,
           const std::function<bool()>& stop)
       : problem_(problem),
         name_left_out_(name_left_out),
         stop_(stop),
         plan_(std::make_unique<Plan>()) {
-    plan_->configuration = configuration;
+    plan_->configuration = layout.configuration;
+    plan_->own_regulators = layout.own_regulators;
     plan_->equal_flow = LinesMeet();
     may_stay_open_ = MayStayOpen();
     may_close_late_ = MayCloseLate();
-    plan_->bottle_range = FindBottleRange();
+    plan_->bottle_range = FindBottleRange(problem, layout.configuration);
     plan_->highest_pump_pa = HighestPumpPressure(problem);
-    plan_->tie = LargestTie();
-    useful_max_pa_ = HighestUseful();
+    plan_->tie = LargestTie(problem, layout);
+    useful_max_pa_ = HighestUseful(problem, layout.configuration, plan_->highest_pump_pa);
   }
 
   std::unique_ptr<Plan> Plant() {
     const std::size_t groups = problem_.groups.size();
     plan_->groups.resize(groups);
-    plan_->slots.reserve(kSlotsPerGroup * groups + 3);
+    plan_->slots.reserve((kSlotsPerGroup + 1) * groups + 3);
     total_ = priced_ = kept_ = 1;
     for (int g = 0; g < static_cast<int>(groups) && !stopped(); ++g) PlantGroup(g);
     if (stopped()) return nullptr;
@@ -115,7 +109,7 @@ class Planter {
       plan_->compressor_slot = PlantCompressors();
       if (KeepsReservoir(plan_->configuration)) plan_->reservoir_slot = PlantReservoirs();
     } else {
-      plan_->regulator_slot = PlantRegulators();
+      PlantRegulators();
       if (plan_->configuration == Configuration::kCylinder) plan_->bottle_slot = PlantCylinders();
       if (plan_->configuration == Configuration::kCo2) plan_->bottle_slot = PlantCo2();
       if (plan_->configuration == Configuration::kTank) plan_->bottle_slot = PlantTanks();
@@ -135,13 +129,21 @@ class Planter {
   // the same time, as they never do of pumps without a reservoir, and for a pump only where more
   // pressure costs more energy per air.
   bool LinesMeet() const {
-    if (!IsPumped(plan_->configuration)) return WindowsOverlap(problem_);
+    if (!IsPumped(plan_->configuration)) return SquadsOverlap();
     if (KeepsReservoir(plan_->configuration) && MeetingOf(problem_) != Meeting::kAlone) return true;
     return !std::all_of(PumpsOf(problem_).begin(), PumpsOf(problem_).end(),
                         [&](const model::Compressor& c) {
                           return EnergyPerAirRises(c.curve, problem_.ambient.pressure_pa,
                                                    model::HighestPressure(c.curve));
                         });
+  }
+
+  // With regulators of their own only squads of one group have a regulator in common.
+  bool SquadsOverlap() const {
+    return WindowsOverlap(problem_) &&
+           (!plan_->own_regulators ||
+            std::any_of(problem_.groups.begin(), problem_.groups.end(),
+                        [](const ActuatorGroup& group) { return group.gait.phases.size() > 1; }));
   }
 
   // Whether a valve that cannot hold may be chosen, whose actuators take the more air the more
@@ -167,91 +169,6 @@ class Planter {
     return may_stay_open_ ? EqualFlow::kPadded : EqualFlow::kNever;
   }
 
-  // No source gives more: ratings beyond it are all the same.
-  double HighestUseful() const {
-    double highest_pa = plan_->highest_pump_pa;
-    if (!IsPumped(plan_->configuration)) {
-      highest_pa = 0.0;
-      for (const model::Regulator& regulator : problem_.parts.regulators)
-        highest_pa = std::max(highest_pa, regulator.outlet_pressure_max_pa);
-    }
-    if (plan_->configuration == Configuration::kTank)
-      highest_pa = std::max(highest_pa, HighestTankPa(problem_));
-    return std::min(problem_.source_pressure_max_pa, highest_pa);
-  }
-
-  BottleRange FindBottleRange() const {
-    BottleRange range{problem_.ambient.pressure_pa, problem_.ambient.pressure_pa};
-    double outlet_pa = range.low_pa;
-    for (const model::Regulator& regulator : problem_.parts.regulators) {
-      outlet_pa = std::max(outlet_pa, regulator.outlet_pressure_max_pa);
-      range.high_pa = std::max(range.high_pa, regulator.inlet_pressure_min_pa);
-    }
-    range.high_pa = std::max(range.high_pa, std::min(outlet_pa, problem_.source_pressure_max_pa));
-    if (plan_->configuration == Configuration::kTank)
-      range.high_pa = std::max(range.high_pa, HighestTankPa(problem_));
-    return range;
-  }
-
-  // Objectives this close may tie: the tie of the largest objective there is.
-  double LargestTie() const {
-    double sum = 0.0;
-    const auto add = [&](const auto& family, double pieces) {
-      double most = 0.0;
-      for (const auto& part : family) {
-        if constexpr (requires { part.per_metre; })
-          most = std::max(most, ObjectiveOf(problem_.objective, pieces * part.per_metre));
-        else
-          most = std::max(most, ObjectiveOf(problem_.objective, pieces * part.basics));
-      }
-      sum += most;
-    };
-    const model::Parts& parts = problem_.parts;
-    for (const ActuatorGroup& group : problem_.groups) {
-      add(parts.tubing, group.count * group.tube_length_m);
-      add(parts.fittings, group.count * group.fittings_per_line);
-      add(parts.valves, group.count);
-    }
-    add(parts.regulators, 1);
-    add(parts.cylinders, problem_.limits.cylinders);
-    add(parts.co2, problem_.limits.co2);
-    add(PumpsOf(problem_), problem_.limits.compressors);
-    add(parts.batteries, problem_.limits.batteries);
-    add(parts.reservoirs, problem_.limits.reservoirs);
-    add(parts.tanks, problem_.limits.reservoirs);
-    add(parts.manifolds, LineCount(problem_) + 32);  // of pumps, bottles and reservoirs
-    for (const model::Cylinder& c : parts.cylinders)
-      gas_kg_ = std::max(gas_kg_, model::CylinderCharge(c.water_volume_m3, c.fill_pressure_pa,
-                                                        problem_.ambient.temperature_k));
-    for (const model::Co2Bottle& bottle : parts.co2)
-      gas_kg_ = std::max(gas_kg_, bottle.co2_mass_kg);
-    for (int i = 0; i < static_cast<int>(parts.tanks.size()); ++i)
-      gas_kg_ = std::max(gas_kg_,
-                         model::TankCharge(parts.tanks[i].volume_m3, parts.tanks[i].pressure_max_pa,
-                                           problem_.ambient.temperature_k));
-    sum += problem_.objective.mass_kg * gas_kg_ *
-           std::max({problem_.limits.cylinders, problem_.limits.co2, problem_.limits.reservoirs});
-    sum += ObjectiveOf(problem_.objective, CustomReservoir(problem_, model::kMadeReservoirLargestM3,
-                                                           CustomRatingPa(problem_)));
-    double energy_j = 0.0;  // no design uses more than its batteries give
-    for (const model::Battery& battery : parts.batteries)
-      energy_j = std::max(energy_j,
-                          problem_.limits.batteries *
-                              model::UsableEnergy(battery.capacity_ah, battery.nominal_voltage_v));
-    if (plan_->configuration == Configuration::kMains) energy_j = MainsEnergy();
-    return kTie * (sum + EnergyWeight(problem_) * energy_j);
-  }
-
-  double MainsEnergy() const {
-    double power_w = 0.0, regulator_w = 0.0;
-    for (const model::Valve& valve : problem_.parts.valves)
-      power_w = std::max(power_w, valve.coil_power_w);
-    for (const model::Regulator& regulator : problem_.parts.regulators)
-      regulator_w = std::max(regulator_w, regulator.electrical_power_w);
-    return problem_.actuations / problem_.frequency_hz *
-           (LineCount(problem_) * power_w + regulator_w);
-  }
-
   // Leaves out what is dominated, plants the rest and adds the slot; returns its number.
   template <typename Corner>
   int PlantSlot(Family family, int group, long long total, Entries<Corner> entries,
@@ -273,7 +190,8 @@ class Planter {
         contender.losses.push_back(amounts.volume_m3 + amounts.volume_slack_m3);
       if (std::isfinite(problem_.cost_max_eur)) contender.losses.push_back(amounts.cost_eur);
     }
-    const int others = kinds ? OtherSeriesNeeded(problem_, family) : problem_.count;
+    const int others =
+        kinds ? OtherSeriesNeeded(problem_, family, plan_->own_regulators) : problem_.count;
     Skyband skyband = KeepBest(contenders, others, plan_->tie, name_left_out_, stop_);
     if (stopped()) return -1;
     std::vector<const Item<Corner>*> items;
@@ -354,10 +272,15 @@ class Planter {
         family, true,
         [&](int part, int quantity) {
           const double pieces = quantity;
-          return Count{pieces, pieces,
-                       JointAmounts(problem_, JointOfPieces(problem_, family, part, quantity))};
+          return Count{pieces, pieces, JointOf(family, part, quantity)};
         },
         rule);
+  }
+  // What joins pieces of a source, and regulators of groups to it.
+  Amounts JointOf(Family family, int part, int quantity) const {
+    Amounts joint = JointAmounts(problem_, JointOfPieces(problem_, family, part, quantity));
+    if (plan_->own_regulators) joint += OwnRegulatorJoint(problem_, family, part);
+    return joint;
   }
   // How many choices that makes, were there a price for each.
   long long ChoicesOf(Family family) const {
@@ -375,8 +298,9 @@ class Planter {
                  const Entry<BottleCorner>& entry) const;
   void AddMadeReservoir(int mates, const Entry<ReservoirCorner>& entry) const;
 
+  void PlantRegulators();  // one for all, or one for each group
   // Each returns the number of its slot.
-  int PlantRegulators();
+  int PlantRegulator(int group, BoxTree<RegulatorCorner>& tree);
   int PlantCylinders();
   int PlantCo2();
   int PlantTanks();
@@ -392,7 +316,6 @@ class Planter {
   bool may_stay_open_ = false, may_close_late_ = false;
   KindsOf<double> voltages_;  // of compressors
   BigCount total_, priced_, kept_;
-  mutable double gas_kg_ = 0.0;
 };
 
 }  // namespace plenum::optimizer

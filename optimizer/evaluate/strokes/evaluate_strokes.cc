@@ -31,13 +31,13 @@ double RegulatedStroke(const Problem& problem, const Candidate& candidate, doubl
   const Line& line = *candidate.lines[g];
   const ActuatorGroup& group = problem.groups[g];
   // A regulator shared by n equal lines is, for each of them, one with an n-th of its conductance.
-  model::FlowElement share = problem.parts.regulators[candidate.regulator.index].flow;
+  model::FlowElement share = problem.parts.regulators[RegulatorOf(candidate, g).index].flow;
   share.sonic_conductance_m3_per_s_pa /= squad.count;
   std::vector<model::FlowElement> elements{share};
   elements.insert(elements.end(), line.fill.begin(), line.fill.end());
   const model::Series fill =
       model::MakeSeries(elements, FlowFactor(problem, GasOf(candidate.configuration)));
-  const double flow_max = FlowMax(problem, candidate) / squad.count;
+  const double flow_max = FlowMax(problem, candidate, g) / squad.count;
   const auto fill_time = [&](double to_pa) {
     return model::FillTime(fill, line.chamber, source_pa, problem.ambient.pressure_pa, to_pa,
                            problem.ambient.temperature_k, flow_max);
@@ -63,6 +63,39 @@ double RegulatedStroke(const Problem& problem, const Candidate& candidate, doubl
 
 double RiseLimit(const Problem& problem, int g) {
   return std::min(problem.groups[g].rise_time_max_s, InflateWindow(problem, g));
+}
+
+bool AllReached(const Strokes& strokes) {
+  return std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
+                     [](double s) { return std::isfinite(s); });
+}
+
+// What is simulated together, in its periodic state; false where the simulator did not get there.
+bool SimulateTogether(const Problem& problem, const Candidate& candidate,
+                      const OperatingPoint& point, const Together& together, Strokes& strokes) {
+  const Workbench own;
+  const Workbench& bench = candidate.bench != nullptr ? *candidate.bench : own;
+  const model::Rig rig = MakePeriodicRig(problem, candidate, point, together);
+  model::SimulateOptions options = StrokeOptions(problem);
+  options.cancelled = bench.stop;
+  const model::PeriodicState state =
+      bench.periodic(rig, 1.0 / problem.frequency_hz, options, {.tolerance = kPeriodicTolerance});
+  strokes.failed = state.status != model::PeriodicStatus::kConverged;
+  if (strokes.failed) return false;
+  const std::vector<Squad> squads = SquadsOf(problem, together);
+  for (const model::Stroke& stroke : state.response.strokes) {
+    const int g = squads[stroke.group].group;
+    if (stroke.state == model::ValveState::kInflate) {
+      Keep(strokes.rise_s[g], stroke.to_target_s);
+      Keep(strokes.inflate_s[g], stroke.to_operating_s);
+    } else if (stroke.state == model::ValveState::kDeflate && !candidate.lines[g]->holds) {
+      Keep(strokes.filled_pa[g], stroke.start_pressure_pa);
+    }
+  }
+  strokes.pump_on_s += state.response.compressor_on_s;
+  strokes.pump_energy_j += state.response.compressor_energy_j;
+  strokes.pump_air_m3 += state.response.compressor_air_m3;
+  return true;
 }
 
 enum class Alone { kYes, kNo, kTooSlow };
@@ -192,6 +225,16 @@ Strokes StrokesPartlyFull(const Problem& problem, const Candidate& candidate,
   return strokes ? *std::move(strokes) : SimulateStrokes(problem, candidate, point);
 }
 
+Strokes StrokesOfOwn(const Problem& problem, const Candidate& candidate,
+                     const OperatingPoint& point) {
+  Strokes strokes = ToBeKept(problem);
+  strokes.from_full = true;
+  for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
+    if (!StrokesOfGroup(problem, candidate, point, g, strokes)) return strokes;
+  strokes.works = AllReached(strokes);
+  return strokes;
+}
+
 // One squad after another, straight from the pumps; none works that is not full before its turn is
 // over.
 Strokes DirectStrokes(const Problem& problem, const Candidate& candidate) {
@@ -247,8 +290,7 @@ Strokes OpenTankStrokes(const Problem& problem, const Candidate& candidate,
       return SimulateStrokes(problem, candidate, point);
     tank_pa -= TankFallPa(problem, candidate, LeastAirPerStroke(problem, g, line));
   }
-  strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
-                              [](double s) { return std::isfinite(s); });
+  strokes.works = AllReached(strokes);
   return strokes;
 }
 
@@ -269,12 +311,25 @@ Strokes SimulateOpenTank(const Problem& problem, const Candidate& candidate,
     Keep(strokes.rise_s[g], stroke.to_target_s);
     Keep(strokes.inflate_s[g], stroke.to_operating_s);
   }
-  strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
-                              [](double s) { return std::isfinite(s); });
+  strokes.works = AllReached(strokes);
   return strokes;
 }
 
 }  // namespace
+
+bool StrokesOfGroup(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                    int group, Strokes& strokes) {
+  const Together alone{group, group + 1};
+  const std::vector<Squad> squads = SquadsOf(problem, alone);
+  const std::vector<double> turns_s = TurnSeconds(problem, squads);
+  for (std::size_t s = 0; s < squads.size(); ++s) {
+    const double draw_s =
+        RegulatedStroke(problem, candidate, PressureOf(point, group), squads[s], strokes);
+    if (squads.size() > 1 && !(draw_s <= turns_s[s]))
+      return SimulateTogether(problem, candidate, point, alone, strokes);
+  }
+  return true;
+}
 
 bool WorstIsEnclosed(const Problem& problem, const Candidate& candidate) {
   return problem.guarantee && std::any_of(candidate.lines.begin(), candidate.lines.end(),
@@ -299,6 +354,7 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
   if (IsOpenTank(candidate)) return OpenTankStrokes(problem, candidate, point);
   if (IsDirect(candidate.configuration)) return DirectStrokes(problem, candidate);
   if (HasEffects(problem)) return SimulateStrokes(problem, candidate, point);
+  if (HasOwnRegulators(candidate)) return StrokesOfOwn(problem, candidate, point);
   const bool pumped = KeepsReservoir(candidate.configuration);
   if (pumped && MeetingOf(problem) == Meeting::kTogether && FillAlike(candidate))
     return StrokesAlike(problem, candidate, point);
@@ -321,8 +377,7 @@ Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
     }
   }
   strokes.from_full = true;
-  strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
-                              [](double s) { return std::isfinite(s); });
+  strokes.works = AllReached(strokes);
   return strokes;
 }
 
@@ -333,28 +388,9 @@ Strokes SimulateStrokes(const Problem& problem, const Candidate& candidate,
   const Workbench& bench = candidate.bench != nullptr ? *candidate.bench : own;
   if (IsOpenTank(candidate)) return SimulateOpenTank(problem, candidate, point, bench.stop);
   Strokes strokes = ToBeKept(problem);
-  const model::Rig rig = MakePeriodicRig(problem, candidate, point);
-  model::SimulateOptions options = StrokeOptions(problem);
-  options.cancelled = bench.stop;
-  const model::PeriodicState state =
-      bench.periodic(rig, 1.0 / problem.frequency_hz, options, {.tolerance = kPeriodicTolerance});
-  strokes.failed = state.status != model::PeriodicStatus::kConverged;
-  if (strokes.failed) return strokes;
-  const std::vector<Squad> squads = SquadsOf(problem);
-  for (const model::Stroke& stroke : state.response.strokes) {
-    const int g = squads[stroke.group].group;
-    if (stroke.state == model::ValveState::kInflate) {
-      Keep(strokes.rise_s[g], stroke.to_target_s);
-      Keep(strokes.inflate_s[g], stroke.to_operating_s);
-    } else if (stroke.state == model::ValveState::kDeflate && !candidate.lines[g]->holds) {
-      Keep(strokes.filled_pa[g], stroke.start_pressure_pa);
-    }
-  }
-  strokes.pump_on_s = state.response.compressor_on_s;
-  strokes.pump_energy_j = state.response.compressor_energy_j;
-  strokes.pump_air_m3 = state.response.compressor_air_m3;
-  strokes.works = std::all_of(strokes.inflate_s.begin(), strokes.inflate_s.end(),
-                              [](double s) { return std::isfinite(s); });
+  for (const Together& together : TogetherOf(problem, candidate))
+    if (!SimulateTogether(problem, candidate, point, together, strokes)) return strokes;
+  strokes.works = AllReached(strokes);
   return strokes;
 }
 

@@ -24,6 +24,11 @@ inline bool StrokesMeet(const Problem& problem) {
 Strokes EvaluateStrokes(const Problem& problem, const Candidate& candidate,
                         const OperatingPoint& point);
 
+// The strokes of a group on its own regulator, kept in `strokes`; false where the simulator did not
+// get there.
+bool StrokesOfGroup(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                    int group, Strokes& strokes);
+
 // Whether the worst of a guarantee is enclosed for this candidate: it is then no combination of its
 // parts' worst numbers, and Candidate::at_best makes a difference.
 bool WorstIsEnclosed(const Problem& problem, const Candidate& candidate);

@@ -20,8 +20,8 @@ model::Gas GasOf(Configuration configuration) {
   return configuration == Configuration::kCo2 ? model::Gas::kCo2 : model::Gas::kAir;
 }
 
-double FlowMax(const Problem& problem, const Candidate& candidate) {
-  const model::Regulator& regulator = problem.parts.regulators[candidate.regulator.index];
+double FlowMax(const Problem& problem, const Candidate& candidate, int group) {
+  const model::Regulator& regulator = problem.parts.regulators[RegulatorOf(candidate, group).index];
   return candidate.configuration == Configuration::kMains
              ? std::min(regulator.flow_max_m3_per_s, problem.mains.flow_max_m3_per_s)
              : regulator.flow_max_m3_per_s;
@@ -40,8 +40,28 @@ std::vector<model::Effect> ActingEffects(const ActuatorGroup& group, Configurati
   return acting;
 }
 
+std::vector<Together> TogetherOf(const Problem& problem, const Candidate& candidate) {
+  const int groups = static_cast<int>(problem.groups.size());
+  if (!HasOwnRegulators(candidate)) return {{0, groups}};
+  std::vector<Together> each;
+  for (int g = 0; g < groups; ++g) each.push_back({g, g + 1});
+  return each;
+}
+
+std::vector<Squad> SquadsOf(const Problem& problem, const Together& together) {
+  std::vector<Squad> squads = SquadsOf(problem);
+  std::erase_if(squads, [&](const Squad& squad) { return !together.Has(squad.group); });
+  return squads;
+}
+
 model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
                    const OperatingPoint& point) {
+  return MakeRig(problem, candidate, point, TogetherOf(problem, candidate).front());
+}
+
+model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                   const Together& together) {
+  const int first = together.first;
   model::Rig rig;
   rig.ambient = problem.ambient;
   rig.gas = GasOf(candidate.configuration);
@@ -55,9 +75,10 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
     rig.source = model::PumpSource{PumpsOf(problem)[candidate.compressor.index].curve,
                                    candidate.compressor.quantity};
   } else if (!KeepsReservoir(candidate.configuration)) {
-    rig.source = model::RegulatedSource{point.source_pa,
-                                        problem.parts.regulators[candidate.regulator.index].flow,
-                                        FlowMax(problem, candidate)};
+    rig.source =
+        model::RegulatedSource{PressureOf(point, first),
+                               problem.parts.regulators[RegulatorOf(candidate, first).index].flow,
+                               FlowMax(problem, candidate, first)};
   } else {
     model::ReservoirSource source;
     source.volume_m3 = point.reservoir_m3;
@@ -69,7 +90,7 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
     rig.source = source;
   }
   const double period_s = 1.0 / problem.frequency_hz;
-  const std::vector<Squad> squads = SquadsOf(problem);
+  const std::vector<Squad> squads = SquadsOf(problem, together);
   for (const auto& [g, count, phase] : squads) {
     const Line& line = *candidate.lines[g];
     model::GroupRig group;
@@ -101,14 +122,19 @@ model::Rig MakeRig(const Problem& problem, const Candidate& candidate,
 
 model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
                            const OperatingPoint& point) {
+  return MakePeriodicRig(problem, candidate, point, TogetherOf(problem, candidate).front());
+}
+
+model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
+                           const OperatingPoint& point, const Together& together) {
   constexpr double kWithin = 0.9;  // of the window
-  model::Rig rig = MakeRig(problem, candidate, point);
+  model::Rig rig = MakeRig(problem, candidate, point, together);
   const double factor = FlowFactor(problem, GasOf(candidate.configuration));
-  const std::vector<Squad> squads = SquadsOf(problem);
+  const std::vector<Squad> squads = SquadsOf(problem, together);
   for (std::size_t s = 0; s < squads.size(); ++s) {
     const int g = squads[s].group;
     const Line& line = *candidate.lines[g];
-    const double from_pa = line.holds ? line.chamber.operating_pressure_pa : point.source_pa;
+    const double from_pa = line.holds ? line.chamber.operating_pressure_pa : PressureOf(point, g);
     const double empty_s =
         model::EmptyTime(model::MakeSeries(line.exhaust, factor), line.chamber, from_pa,
                          problem.ambient.pressure_pa, problem.ambient.temperature_k);

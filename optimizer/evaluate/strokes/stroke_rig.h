@@ -7,6 +7,7 @@
 
 #include "model/simulate/simulate.h"
 #include "optimizer/evaluate/candidate.h"
+#include "optimizer/problem/gait.h"
 
 namespace plenum::optimizer {
 
@@ -35,8 +36,8 @@ inline void Keep(double& most, double value) { most = std::max(most, value); }
 
 model::Gas GasOf(Configuration configuration);
 
-// Most that the regulator of a candidate passes, m³ ANR/s.
-double FlowMax(const Problem& problem, const Candidate& candidate);
+// Most that the regulator of a group of a candidate passes, m³ ANR/s.
+double FlowMax(const Problem& problem, const Candidate& candidate, int group = 0);
 
 // Whether any group's model is revised.
 bool HasEffects(const Problem& problem);
@@ -45,17 +46,32 @@ bool HasEffects(const Problem& problem);
 // property of a compressor with its own reservoir.
 std::vector<model::Effect> ActingEffects(const ActuatorGroup& group, Configuration configuration);
 
+// What is simulated together: all groups, or with regulators of their own one after another.
+struct Together {
+  int first = 0, last = 0;  // groups, half-open
+  bool Has(int group) const { return first <= group && group < last; }
+};
+std::vector<Together> TogetherOf(const Problem& problem, const Candidate& candidate);
+// Their squads, in the order of SquadsOf().
+std::vector<Squad> SquadsOf(const Problem& problem, const Together& together);
+
+// Of all groups at once; not of candidates with regulators of their own.
+model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
+
 // The candidate as a rig for the simulator, one of its groups for each squad (gait.h), with the
 // commands of one cycle: actuators at rest and a full reservoir. Of a tank without a regulator
 // (candidate.h) the last cycle of the mission, with all strokes before it done; a group's commands
 // are then in order and may reach beyond the period.
-model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point);
+model::Rig MakeRig(const Problem& problem, const Candidate& candidate, const OperatingPoint& point,
+                   const Together& together);
 
 // The same, where every stroke begins at ambient, as its rise time is defined, also where the fall
 // only just meets its target within its window. How fast a chamber empties is nothing to
 // the source.
 model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
                            const OperatingPoint& point);
+model::Rig MakePeriodicRig(const Problem& problem, const Candidate& candidate,
+                           const OperatingPoint& point, const Together& together);
 
 // A rig of one cycle as a cycle of it left it: pressures, and valves as the commands before told
 // them. A tank without pumps keeps the pressure that it begins with.

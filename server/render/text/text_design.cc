@@ -38,6 +38,14 @@ std::string SettingsText(const Json& design) {
   const auto& settings = design.at("settings");
   std::string text = fmt::format("  Settings: source {} kPa gauge",
                                  Short(settings.at("source_pressure_kpa_gauge")));
+  if (const Json groups = settings.value("group_pressure_kpa_gauge", Json()); groups.is_array()) {
+    text = "  Settings: regulators";
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      text += fmt::format("{} {} {}", g == 0 ? "" : ",",
+                          design.at("performance").at("groups").at(g).at("name").get<std::string>(),
+                          Short(groups[g]));
+    text += " kPa gauge";
+  }
   text += ", valve duty " + Percent(settings.at("valve_duty"));
   if (settings.at("compressor_duty").is_number()) {
     text += ", compressor duty " + Percent(settings.at("compressor_duty"));

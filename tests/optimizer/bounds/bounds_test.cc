@@ -177,7 +177,7 @@ void ExpectMissionEnergyHolds(const Problem& problem, const Candidate& candidate
 
 void CheckAll(const Problem& problem, Random& random, double share, int& checked) {
   const Configuration configuration = *problem.configurations.begin();
-  const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, configuration);
+  const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, {configuration});
   if (plan->empty()) return;
   Bounds bounds(problem, *plan);
   ForEachCombination(problem, [&](const Candidate& candidate) {
@@ -244,7 +244,7 @@ TEST(BoundsTest, LeastObjectiveOfLines) {
     Problem problem = Drawn(seed, Configuration::kCylinder, 1);
     problem.groups[0].rise_time_max_s *= 0.7;
     problem.groups[0].fall_time_max_s *= 0.7;
-    const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, Configuration::kCylinder);
+    const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, {Configuration::kCylinder});
     if (plan->empty()) continue;
     const optimizer::GroupTrees& trees = plan->groups[0];
     double least = optimizer::kUnlimited;
@@ -290,7 +290,7 @@ TEST(BoundsTest, PartsTakeOverWhatHoldsForThem) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Problem problem = Drawn(seed, Configuration::kCompressor, 1);
-    const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, Configuration::kCompressor);
+    const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, {Configuration::kCompressor});
     if (plan->empty()) continue;
     Bounds bounds(problem, *plan);
     Box root = bounds.Root();
@@ -349,7 +349,7 @@ TEST(BoundsTest, CoilsCountWithTheirLines) {
       battery.capacity_ah *= 0.05 * i;
       problem.parts.batteries.push_back(battery);
     }
-    const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, Configuration::kCompressor);
+    const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, {Configuration::kCompressor});
     if (plan->empty()) continue;
     Bounds bounds(problem, *plan);
     Box root = bounds.Root();
@@ -382,7 +382,7 @@ TEST(BoundsTest, OutdoneCombinations) {
     };
     problem.parts.valves = add_heavier(problem.parts.valves);
     problem.parts.regulators = add_heavier(problem.parts.regulators);
-    const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, Configuration::kCylinder);
+    const std::unique_ptr<Plan> plan = optimizer::MakePlan(problem, {Configuration::kCylinder});
     if (plan->empty()) continue;
     const Bounds bounds(problem, *plan);
     std::vector<double> objectives, of_outdone;

@@ -26,7 +26,7 @@ TEST(OutlineTest, NoDesignIsBetterThanItsBound) {
     for (const Configuration configuration :
          {Configuration::kCylinder, Configuration::kCo2, Configuration::kMains}) {
       const Problem problem = Sample(seed, configuration);
-      const double bound = optimizer::MakeOutline(problem, configuration).bound;
+      const double bound = optimizer::MakeOutline(problem, {configuration}).bound;
       EXPECT_GT(bound, 0.0);
       for (const Enumerated& design : Enumerate(problem).designs) {
         EXPECT_LE(bound, design.leaf.objective) << seed << ' ' << Name(configuration);
@@ -43,8 +43,8 @@ TEST(OutlineTest, CountsAreThoseOfThePlan) {
     for (const Configuration configuration : {Configuration::kCylinder, Configuration::kCo2,
                                               Configuration::kCompressor, Configuration::kMains}) {
       const Problem problem = Sample(seed, configuration);
-      const optimizer::Outline outline = optimizer::MakeOutline(problem, configuration);
-      const auto plan = optimizer::MakePlan(problem, configuration);
+      const optimizer::Outline outline = optimizer::MakeOutline(problem, {configuration});
+      const auto plan = optimizer::MakePlan(problem, {configuration});
       EXPECT_EQ(outline.combinations, plan->combinations);
       EXPECT_EQ(outline.combinations - outline.priced, plan->unpriced);
     }

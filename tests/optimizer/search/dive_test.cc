@@ -34,7 +34,7 @@ Problem Drawn(std::uint64_t seed) {
 
 // From all combinations; the steps that it took.
 long long DiveOnce(const Problem& problem, DiveSteps steps, Ranking& ranking) {
-  const auto plan = optimizer::MakePlan(problem, Configuration::kCompressor);
+  const auto plan = optimizer::MakePlan(problem, {Configuration::kCompressor});
   if (plan->empty()) return 0;
   optimizer::Bounds bounds(problem, *plan);
   optimizer::Box root = bounds.Root();

@@ -74,7 +74,7 @@ TEST(GroupsTest, FirstDesigns) {
     const Problem problem =
         Drawn(100 + seed, 2 + static_cast<int>(seed % 3), true, {3, 3, 6, 2, 2, 3, 0, 2, 0});
     const double least = Least(problem);
-    const auto plan = optimizer::MakePlan(problem, *problem.configurations.begin());
+    const auto plan = optimizer::MakePlan(problem, {*problem.configurations.begin()});
     if (plan->empty()) continue;
     optimizer::Bounds bounds(problem, *plan);
     Problem of_one = problem;

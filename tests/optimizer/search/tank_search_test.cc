@@ -163,7 +163,7 @@ TEST(TankSearch, KindsHaveTheTanksSeriesAsTheirSource) {
     for (const Design& design : answer.designs) {
       const optimizer::Kind kind = kinds.Of(design.configuration, design.parts);
       EXPECT_GE(kind.source, 0);
-      EXPECT_EQ(kind.regulator < 0, IsOpen(design));
+      EXPECT_EQ(kind.regulators.empty(), IsOpen(design));
       EXPECT_TRUE(seen.insert(kind).second);
       EXPECT_LE(++of_source[kind.source], 2);
       ++listed;

@@ -84,7 +84,7 @@ std::optional<std::vector<double>> Simulated(const Case& drawn) {
 std::optional<bool> TooSlow(Case drawn, const std::vector<double>& limits_s) {
   optimizer::Problem& problem = drawn.problem;
   for (std::size_t g = 0; g < limits_s.size(); ++g) problem.groups[g].rise_time_max_s = limits_s[g];
-  verify::ProofPlan plan = verify::EmptyPlan(problem, optimizer::Configuration::kMains);
+  verify::ProofPlan plan = verify::EmptyPlan(problem, {optimizer::Configuration::kMains});
   for (auto& slot : plan.slots) {
     if (slot.group < 0) {
       slot.choices = {{0, 1}};

@@ -19,7 +19,7 @@ using optimizer::Family;
 constexpr int kParts = 3;  // of each family, at least
 
 verify::ProofPlan PlanOfAll(const optimizer::Problem& problem) {
-  verify::ProofPlan plan = verify::EmptyPlan(problem, optimizer::Configuration::kCompressor);
+  verify::ProofPlan plan = verify::EmptyPlan(problem, {optimizer::Configuration::kCompressor});
   for (auto& slot : plan.slots)
     for (int part = 0; part < kParts; ++part) slot.choices.push_back({part, 1});
   return plan;

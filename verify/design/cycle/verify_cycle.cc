@@ -5,6 +5,7 @@
 #include "model/simulate/simulate.h"
 #include "model/strokes/reservoir_stroke.h"
 #include "model/strokes/stroke.h"
+#include "verify/design/cycle/verify_alone.h"
 #include "verify/design/cycle/verify_open_valves.h"
 #include "verify/design/cycle/verify_rig.h"
 #include "verify/design/verify_tank.h"
@@ -64,9 +65,9 @@ void AddNeeds(const Problem& problem, const Assembly& assembly, Cycle& cycle) {
     cycle.steady_j += coil_w * CoilSeconds(problem, g, holds);
     if (holds) cycle.inflating_j += strokes * coil_w * cycle.inflate_s[g];
   }
-  if (assembly.regulator) {
-    cycle.coil_w += assembly.regulator->electrical_power_w;
-    cycle.steady_j += assembly.regulator->electrical_power_w * period_s;
+  for (const model::Regulator* regulator : assembly.regulators) {
+    cycle.coil_w += regulator->electrical_power_w;
+    cycle.steady_j += regulator->electrical_power_w * period_s;
   }
 }
 
@@ -165,6 +166,15 @@ double Target(const Problem& problem, const ActuatorGroup& group, double fractio
 
 std::optional<Cycle> SimulateCycle(const Problem& problem, const Settings& settings,
                                    const Assembly& assembly, const Stop& stop) {
+  if (assembly.owns()) {
+    std::vector<std::optional<Cycle>> cycles;
+    for (int g = 0; g < static_cast<int>(assembly.lines.size()); ++g) {
+      const Alone alone = AloneOf(problem, assembly, g);
+      cycles.push_back(
+          Simulated(alone.problem, AloneAt(PressureAt(settings, g)), alone.assembly, 0.0, stop));
+    }
+    return Joined(cycles);
+  }
   return Simulated(problem, settings, assembly,
                    settings.reservoir_volume_m3.value_or(0.0) + assembly.ReservoirSpread(), stop);
 }
@@ -183,8 +193,8 @@ QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop 
     const int g = unit.group;
     const model::GroupRig rig = MakeGroup(problem, assembly, unit, 0.0, 0);
     std::vector<model::FlowElement> elements = rig.fill;
-    if (assembly.regulator) {  // each of equal lines has an equal share of it
-      elements.insert(elements.begin(), assembly.regulator->flow);
+    if (!assembly.regulators.empty()) {  // each of equal lines has an equal share of it
+      elements.insert(elements.begin(), assembly.regulators.front()->flow);
       elements.front().sonic_conductance_m3_per_s_pa /= rig.count;
     }
     fills_.push_back(model::MakeSeries(elements, factor));
@@ -201,7 +211,7 @@ QuickCycles::QuickCycles(const Problem& problem, const Assembly& assembly, Stop 
 double QuickCycles::FillFromRegulator(const Settings& settings, int unit, Cycle& cycle) const {
   const model::GroupRig& rig = rigs_[unit];
   const int g = units_[unit].group;
-  double flow_max = assembly_.regulator->flow_max_m3_per_s;
+  double flow_max = assembly_.regulators.front()->flow_max_m3_per_s;
   if (assembly_.configuration == Configuration::kMains)
     flow_max = std::min(flow_max, problem_.mains.flow_max_m3_per_s);
   const auto seconds = [&](double to_pa) {

@@ -4,8 +4,12 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
+#include "verify/design/cycle/verify_alone.h"
 #include "verify/design/cycle/verify_cycle.h"
 #include "verify/design/cycle/verify_gait.h"
 #include "verify/design/cycle/verify_pump_curve.h"
@@ -14,21 +18,21 @@
 namespace plenum::verify {
 
 // QuickCycles that remembers. Strokes are the same beside any battery and any number of bottles,
-// and of any tank behind a regulator.
+// and of any tank behind a regulator. Groups with regulators of their own each have theirs.
 class KnownCycles {
  public:
   KnownCycles(const Problem& problem, const Assembly& assembly, const Stop& stop,
-              DirectFills* fills = nullptr)
-      : problem_(problem), assembly_(assembly), quick_(problem, assembly_, stop, fills) {}
+              DirectFills* fills = nullptr);
   KnownCycles(const KnownCycles&) = delete;
   KnownCycles& operator=(const KnownCycles&) = delete;
 
   bool Serves(const Assembly& other) const {
     return other.configuration == assembly_.configuration && other.lines == assembly_.lines &&
-           other.regulator == assembly_.regulator && other.co2 == assembly_.co2 &&
+           other.regulators == assembly_.regulators && other.co2 == assembly_.co2 &&
            other.compressor == assembly_.compressor && other.compressors == assembly_.compressors &&
            other.at_best == assembly_.at_best &&
-           (other.regulator || (other.tank == assembly_.tank && other.tanks == assembly_.tanks));
+           (!other.regulators.empty() ||
+            (other.tank == assembly_.tank && other.tanks == assembly_.tanks));
   }
 
   // By energy per air, or by power where groups take turns (verify_size.h); of all the pressures
@@ -42,11 +46,17 @@ class KnownCycles {
   }
 
   const std::optional<Cycle>& At(const Settings& settings, double rising_m3) {
+    if (assembly_.owns()) return AtGroups(settings.group_pressure_pa);
     const auto [entry, fresh] = known_.try_emplace(
         {settings.source_pressure_pa, settings.reservoir_volume_m3.value_or(0.0), rising_m3});
     if (fresh) entry->second = quick_.At(settings, rising_m3);
     return entry->second;
   }
+
+  // Of a group behind its own regulator, and of all of them.
+  struct OfGroup;
+  OfGroup& Group(int group) { return *groups_[group]; }
+  const std::optional<Cycle>& AtGroups(const std::vector<double>& group_pressure_pa);
 
  private:
   const Problem& problem_;
@@ -54,6 +64,15 @@ class KnownCycles {
   const QuickCycles quick_;
   std::map<std::array<double, 3>, std::optional<Cycle>> known_;
   std::map<double, double> held_;
+  std::vector<std::shared_ptr<OfGroup>> groups_;
+  std::map<std::vector<double>, std::optional<Cycle>> joined_;
+};
+
+struct KnownCycles::OfGroup {
+  OfGroup(Alone group, const Stop& stop)
+      : alone(std::move(group)), cycles(alone.problem, alone.assembly, stop) {}
+  const Alone alone;
+  KnownCycles cycles;
 };
 
 }  // namespace plenum::verify

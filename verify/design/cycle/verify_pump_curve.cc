@@ -48,6 +48,29 @@ double PowerHeld(const model::CompressorCurve& curve, double low_pa, double high
   return Held(curve, low_pa, high_pa, [&](double pa) { return model::ElectricalPower(curve, pa); });
 }
 
+// With the smallest volume while the reservoir falls and the largest while it rises its pressure is
+// at every time below that of each volume, and the pumps deliver no less. Where energy per air
+// rises with pressure the air of a cycle thus takes at least what the cheapest bits of that run
+// take; what it pumps beyond takes at most the greatest power at the least delivery. Where it falls
+// on the way the same holds for the largest curve below it that does rise, of which the run takes
+// at least the share `held`.
+double LeastPumpEnergy(const Problem& problem, const Assembly& assembly, double volume_ratio,
+                       double held, double source_pa, const Cycle& low) {
+  // One group that is filled up to the stop pressure ends there without end, and takes its air.
+  const bool alone = UnitsOf(problem).size() == 1;
+  if (!alone && !std::isfinite(*std::max_element(low.inflate_s.begin(), low.inflate_s.end())))
+    return 0.0;
+  const model::CompressorCurve& curve = assembly.compressor->curve;
+  const double beyond_m3 =
+      alone ? low.pump_air_m3 - low.air_m3 : (1.0 - volume_ratio) * low.pump_air_m3;
+  if (!(beyond_m3 > 0.0)) return held * low.pump_j;
+  const double delivery =
+      curve.free_air_m3_per_s(std::min(source_pa, model::HighestPressure(curve)));
+  const double power_w =
+      curve.voltage_v * model::LargestCurrent(curve, problem.ambient.pressure_pa, source_pa);
+  return std::max(0.0, held * low.pump_j - beyond_m3 * power_w / delivery);
+}
+
 double FillSecondsMax(const Problem& problem, const Assembly& assembly, int g) {
   double most_s = FillWindow(problem, g);
   if (!assembly.direct()) return most_s;

@@ -21,6 +21,12 @@ namespace plenum::verify {
 double EnergyPerAirHeld(const model::CompressorCurve& curve, double low_pa, double high_pa);
 double PowerHeld(const model::CompressorCurve& curve, double low_pa, double high_pa);
 
+// The least that the pumps take in a cycle, J, with any volume of an interval whose ends have this
+// ratio, from the cycle `low` with the smallest volume while the reservoir falls and the largest
+// while it rises; `held`: of the pump's energy per air, or of its power, on the way up.
+double LeastPumpEnergy(const Problem& problem, const Assembly& assembly, double volume_ratio,
+                       double held, double source_pa, const Cycle& low);
+
 // Most time that a group may take to fill: its window, or its turn at such pumps.
 double FillSecondsMax(const Problem& problem, const Assembly& assembly, int group);
 

@@ -88,11 +88,11 @@ model::Rig MakeRig(const Problem& problem, const Settings& settings, const Assem
     source.initial_pressure_pa = state.source_pa;
     rig.source = source;
   } else {
-    double flow_max = assembly.regulator->flow_max_m3_per_s;
+    double flow_max = assembly.regulators.front()->flow_max_m3_per_s;
     if (assembly.configuration == Configuration::kMains)
       flow_max = std::min(flow_max, problem.mains.flow_max_m3_per_s);
-    rig.source =
-        model::RegulatedSource{settings.source_pressure_pa, assembly.regulator->flow, flow_max};
+    rig.source = model::RegulatedSource{settings.source_pressure_pa,
+                                        assembly.regulators.front()->flow, flow_max};
   }
   const std::vector<Unit> units = UnitsOf(problem);
   for (std::size_t u = 0; u < units.size(); ++u)

@@ -39,12 +39,14 @@ export async function exchanged(
     }),
   );
   const { source_pressure_kpa_gauge, reservoir_volume_ml, tank_fill_kpa_gauge } = design.settings;
+  const { group_pressure_kpa_gauge } = design.settings;
   const made = parts.some(({ family, id }) => family === 'reservoir' && id === 'custom');
   return {
     configuration: design.configuration,
     parts,
     settings: {
       source_pressure_kpa_gauge,
+      ...(group_pressure_kpa_gauge && { group_pressure_kpa_gauge }),
       ...(made && { reservoir_volume_ml }),
       ...(Object.keys(ids).length === 0 && { tank_fill_kpa_gauge }),
     },
@@ -133,6 +135,17 @@ const tubeOf = (requirements: Requirements, name: string | null): number => {
   return (group.count ?? 1) * group.tube_length_m;
 };
 
+// Regulators of groups are turned in step with the source.
+const groupPressures = (design: Design, change: Change) => {
+  const { group_pressure_kpa_gauge, source_pressure_kpa_gauge } = design.settings;
+  const factor = change.source_kpa / source_pressure_kpa_gauge;
+  return (
+    group_pressure_kpa_gauge && {
+      group_pressure_kpa_gauge: group_pressure_kpa_gauge.map((kpa) => kpa * factor),
+    }
+  );
+};
+
 export const evaluate = (
   design: Design,
   requirements: Requirements,
@@ -151,6 +164,7 @@ export const evaluate = (
       })),
       settings: {
         source_pressure_kpa_gauge: change.source_kpa,
+        ...groupPressures(design, change),
         reservoir_volume_ml: change.reservoir_ml,
       },
     },

@@ -54,7 +54,8 @@ export async function mapsOf(
 ): Promise<GroupMaps> {
   const ambient = requirements.ambient?.pressure_kpa_abs ?? 100;
   const ratio = (kpaGauge: number) => (kpaGauge + ambient) / ambient;
-  const stop = design.settings.source_pressure_kpa_gauge;
+  const own = design.settings.group_pressure_kpa_gauge?.[requirements.actuators.indexOf(group)];
+  const stop = own ?? design.settings.source_pressure_kpa_gauge;
   const source = ratio(stop);
   const operating = ratio(group.operating_pressure_kpa_gauge);
   const expansion = expansionOf(group);

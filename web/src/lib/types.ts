@@ -38,6 +38,7 @@ export type Amount = 'mass_kg' | 'volume_l' | 'cost_eur' | 'energy_wh';
 // Where a number comes from, and how far it is trusted.
 export type Trust = 'measured' | 'datasheet' | 'third_party' | 'derived' | 'estimated';
 
+export type Regulation = 'shared' | 'per_group' | 'any';
 export type PowerKind = 'battery' | 'wall' | 'robot';
 
 export interface Requirements {
@@ -52,6 +53,7 @@ export interface Requirements {
     configurations?: Configuration[];
     mains?: { pressure_kpa_gauge: number; flow_l_per_min_anr_max?: number };
     pumps?: 'shared' | 'per_group';
+    regulation?: Regulation;
     vacuum?: { configurations?: string[]; vacuum_kpa_gauge_min?: number | null };
     source_pressure_kpa_gauge_max?: number | null;
     tank_fill_kpa_gauge_max?: number | null;
@@ -126,6 +128,7 @@ export interface Design {
     compressor_duty: number | null;
     reservoir_volume_ml: number | null;
     tank_fill_kpa_gauge?: number | null;
+    group_pressure_kpa_gauge?: number[]; // where each group has a regulator of its own
     power?: { kind: PowerKind; voltage_v: number | null } | null;
   };
   totals: {

@@ -1,6 +1,6 @@
 // The panels of the requirements beside the actuators and the objective: duty, supply, conditions.
 import { edit, errorAt, numbers, requirements } from '../lib/requirements';
-import type { Configuration, PowerKind } from '../lib/types';
+import type { Configuration, PowerKind, Regulation } from '../lib/types';
 import { areEvacuated } from '../lib/vacuum';
 import { Check, Panel, Segmented } from '../ui/controls';
 import { RequirementField } from './requirement_field';
@@ -74,6 +74,20 @@ export function Supply() {
           )
         }
       />
+      {requirements.value.actuators.length > 1 && !vacuum && (
+        <Segmented<Regulation>
+          label="Regulators"
+          options={[
+            { value: 'shared', label: 'one for all' },
+            { value: 'per_group', label: 'one a group' },
+            { value: 'any', label: 'either' },
+          ]}
+          value={supply.regulation ?? 'shared'}
+          onChange={(regulation) =>
+            edit(['supply', 'regulation'], regulation === 'shared' ? undefined : regulation)
+          }
+        />
+      )}
       <div class="fields">
         {supply.power?.kind === 'robot' && (
           <>

@@ -38,7 +38,7 @@ function Label(props: { x: number; y: number; texts: (string | undefined)[] }) {
   );
 }
 
-const at = { source: 80, store: 240, bus: 320, valve: 400, tube: 560, actuator: 720 };
+const at = { source: 80, ownBus: 170, store: 240, bus: 320, valve: 400, tube: 560, actuator: 720 };
 const groupHeight = 130;
 
 export function Schematic({
@@ -60,6 +60,8 @@ export function Schematic({
     rowOf(design, 'co2');
   const reservoir = rowOf(design, 'reservoir');
   const regulator = rowOf(design, 'regulator');
+  const groupPressures = settings.group_pressure_kpa_gauge; // behind a regulator of each group
+  const bus = groupPressures ? at.ownBus : at.bus;
   const battery = rowOf(design, 'battery');
   const joints = design.parts.filter(({ family }) => family === 'manifold');
   const setting = `${shown('pressure', settings.source_pressure_kpa_gauge)} ${unitOf('pressure')}`;
@@ -73,7 +75,7 @@ export function Schematic({
     >
       <path
         class="pipe"
-        d={`M${at.source} ${middle} H${at.bus} M${at.bus} ${yOf(0)} V${yOf(groups.length - 1)}`}
+        d={`M${at.source} ${middle} H${bus} M${bus} ${yOf(0)} V${yOf(groups.length - 1)}`}
       />
       <g transform={place(at.source, middle)} class="sign source">
         <SourceSign kind={configuration} />
@@ -83,22 +85,24 @@ export function Schematic({
         y={middle + 30}
         texts={isTank ? [partText(reservoir)] : [source ? partText(source) : 'wall supply']}
       />
-      {!isDirect(configuration) && !(isTank && !regulator) && (
+      {!isDirect(configuration) && !(isTank && !regulator) && !groupPressures && (
         <g transform={place(at.store, middle)} class="sign">
           {hasReservoir(configuration) ? <Reservoir /> : <Regulator />}
         </g>
       )}
-      <Label
-        x={at.store}
-        y={middle + 30}
-        texts={[
-          isDirect(configuration)
-            ? undefined
-            : partText(hasReservoir(configuration) ? reservoir : regulator),
-          setting,
-        ]}
-      />
-      <Label x={at.bus} y={24} texts={joints.map(partText)} />
+      {!groupPressures && (
+        <Label
+          x={at.store}
+          y={middle + 30}
+          texts={[
+            isDirect(configuration)
+              ? undefined
+              : partText(hasReservoir(configuration) ? reservoir : regulator),
+            setting,
+          ]}
+        />
+      )}
+      <Label x={bus} y={24} texts={joints.map(partText)} />
       {battery && (
         <>
           <path class="wire" d={`M${at.source} ${height - 48} V${height - 70} H${at.valve}`} />
@@ -115,7 +119,22 @@ export function Schematic({
         const y = yOf(i);
         return (
           <g key={group.name}>
-            <path class="pipe" d={`M${at.bus} ${y} H${at.actuator}`} />
+            <path class="pipe" d={`M${bus} ${y} H${at.actuator}`} />
+            {groupPressures && (
+              <>
+                <g transform={place(at.store, y)} class="sign">
+                  <Regulator />
+                </g>
+                <Label
+                  x={at.store}
+                  y={y + 30}
+                  texts={[
+                    partText(rowOf(design, 'regulator', group.name)),
+                    `${shown('pressure', groupPressures[i]!)} ${unitOf('pressure')}`,
+                  ]}
+                />
+              </>
+            )}
             <g transform={place(at.valve, y)} class="sign">
               <Valve />
             </g>

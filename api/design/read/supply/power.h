@@ -1,8 +1,8 @@
 // What drives pumps, valves and regulators: batteries of the catalogue, a supply from the wall, or
 // the robot's. The latter two weigh and cost nothing and stand in no parts list; to the search they
 // are a battery that the catalogue does not have.
-#ifndef PLENUM_API_DESIGN_READ_POWER_H_
-#define PLENUM_API_DESIGN_READ_POWER_H_
+#ifndef PLENUM_API_DESIGN_READ_SUPPLY_POWER_H_
+#define PLENUM_API_DESIGN_READ_SUPPLY_POWER_H_
 
 #include "api/json/json.h"
 #include "api/json/reader.h"
@@ -31,4 +31,4 @@ Json RenderPower(const optimizer::Design& design, const optimizer::Problem& prob
 
 }  // namespace plenum::api
 
-#endif  // PLENUM_API_DESIGN_READ_POWER_H_
+#endif  // PLENUM_API_DESIGN_READ_SUPPLY_POWER_H_

@@ -1,4 +1,4 @@
-#include "api/design/read/power.h"
+#include "api/design/read/supply/power.h"
 
 #include <algorithm>
 #include <string>

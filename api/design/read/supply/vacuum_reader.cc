@@ -1,4 +1,4 @@
-#include "api/design/read/vacuum_reader.h"
+#include "api/design/read/supply/vacuum_reader.h"
 
 #include <string>
 #include <vector>

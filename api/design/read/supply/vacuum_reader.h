@@ -1,6 +1,6 @@
 // What a request says of the vacuum that evacuates its actuators.
-#ifndef PLENUM_API_DESIGN_READ_VACUUM_READER_H_
-#define PLENUM_API_DESIGN_READ_VACUUM_READER_H_
+#ifndef PLENUM_API_DESIGN_READ_SUPPLY_VACUUM_READER_H_
+#define PLENUM_API_DESIGN_READ_SUPPLY_VACUUM_READER_H_
 
 #include "api/json/reader.h"
 #include "optimizer/problem/problem.h"
@@ -17,4 +17,4 @@ void CheckVacuum(const optimizer::Problem& problem, Errors& errors);
 
 }  // namespace plenum::api
 
-#endif  // PLENUM_API_DESIGN_READ_VACUUM_READER_H_
+#endif  // PLENUM_API_DESIGN_READ_SUPPLY_VACUUM_READER_H_

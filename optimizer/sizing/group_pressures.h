@@ -1,0 +1,38 @@
+// The pressures behind regulators of their own (own_regulators.h).
+//
+// A group whose valve holds takes the same air at any pressure, and its coils are on for less time
+// at a higher one; one whose valve cannot hold takes less air at a lower one, and its coils do not
+// depend on it. What a bottle or a tank must keep is the highest pressure of all. So of all
+// settings with the same highest pressure none is better than that with each holding group as near
+// to it as its parts stand, and each other group at the least at which its strokes are in time:
+// one number, the highest pressure, is left to be chosen.
+#ifndef PLENUM_OPTIMIZER_SIZING_GROUP_PRESSURES_H_
+#define PLENUM_OPTIMIZER_SIZING_GROUP_PRESSURES_H_
+
+#include <vector>
+
+#include "optimizer/evaluate/candidate.h"
+
+namespace plenum::optimizer {
+
+// Per group from the least pressure at which its strokes are in time, within 1e-9 of it, to the
+// highest that its parts stand. kInfeasible: a group has none;
+// kUndecided: the simulator failed.
+struct GroupPressures {
+  LeafStatus status = LeafStatus::kUndecided;
+  std::vector<Window> windows;
+  double least_pa() const;  // of the highest pressure of all groups
+  double most_pa() const;
+};
+GroupPressures NeededGroupPressures(const Problem& problem, const Candidate& candidate);
+
+// The settings described above with this highest pressure, and those with each group at such a
+// share of the way from its least to its highest pressure, at most `most_pa`.
+OperatingPoint PointAtHighest(const Candidate& candidate, const GroupPressures& pressures,
+                              double highest_pa, double tank_m3);
+OperatingPoint PointAtShare(const GroupPressures& pressures, double share, double most_pa,
+                            double tank_m3);
+
+}  // namespace plenum::optimizer
+
+#endif  // PLENUM_OPTIMIZER_SIZING_GROUP_PRESSURES_H_
