@@ -19,10 +19,12 @@ PartRows::PartRows(const PartRows& before, catalog::PartChanges changes, std::ve
   runs.reserve(changes.size() + 1);
   added_.reserve(added_.size() + changes.size());
   std::size_t row = 0;
-  for (auto& [id, part] : changes) {
+  while (!changes.empty()) {
+    auto change = changes.extract(changes.begin());
+    const std::string& id = change.key();
     const std::size_t place = before.LowerBound(id, row);
     const catalog::Part* now = nullptr;
-    if (part)
+    if (auto& part = change.mapped())
       now = added_.emplace_back(std::make_shared<const catalog::Part>(*std::move(part))).get();
     runs.push_back({row, place - row, now});
     row = place;
