@@ -208,7 +208,7 @@ using Grades = std::vector<std::uint8_t>;  // of all parts, by row
 
 // In order of id.
 Rows Matching(const PartQuery& query, const Grades& grades, const PartTable& table) {
-  Rows rows(table.parts().size());
+  Rows rows(table.rows().size());
   std::iota(rows.begin(), rows.end(), 0u);
   if (!query.search.empty())
     Filter(rows, [&](std::uint32_t row) { return grades[row] != kNotFound; });
@@ -232,7 +232,7 @@ Rows Matching(const PartQuery& query, const Grades& grades, const PartTable& tab
 
 // None where nothing is searched for.
 Grades GradesOf(const PartQuery& query, const PartTable& table) {
-  return query.search.empty() ? Grades() : table.Search(query.search);
+  return query.search.empty() ? Grades() : table.rows().Search(query.search);
 }
 
 // The order that the query asks for: by its field, missing values last in either order, equal ones
@@ -277,8 +277,8 @@ std::optional<std::uint32_t> RowOf(const std::string& id, const Rows& matching,
                                    const PartTable& table) {
   const auto found = std::lower_bound(
       matching.begin(), matching.end(), id,
-      [&](std::uint32_t row, const std::string& wanted) { return table.parts()[row].id < wanted; });
-  if (found == matching.end() || table.parts()[*found].id != id) return std::nullopt;
+      [&](std::uint32_t row, const std::string& wanted) { return table.rows()[row].id < wanted; });
+  if (found == matching.end() || table.rows()[*found].id != id) return std::nullopt;
   return *found;
 }
 
@@ -300,7 +300,7 @@ std::vector<const catalog::Part*> Select(const PartQuery& query, const PartTable
   Rows rows = Matching(query, grades, table);
   std::sort(rows.begin(), rows.end(), Order(query, grades, table));
   std::vector<const catalog::Part*> selected;
-  for (const std::uint32_t row : rows) selected.push_back(&table.parts()[row]);
+  for (const std::uint32_t row : rows) selected.push_back(&table.rows()[row]);
   return selected;
 }
 
@@ -339,10 +339,10 @@ Parsed<std::string> RenderPage(const PartQuery& query, const catalog::Revision& 
 
   std::string parts;
   for (std::size_t i = 0; i < shown; ++i)
-    parts += (i == 0 ? "" : ",") + TextOf(RenderPart(table.parts()[rows[i]]));
+    parts += (i == 0 ? "" : ",") + TextOf(RenderPart(table.rows()[rows[i]]));
   Json page = {{"next_cursor", nullptr}, {"total", matching.size()}};
   if (shown < rows.size())
-    page["next_cursor"] = std::to_string(revision.number) + "." + table.parts()[rows[shown - 1]].id;
+    page["next_cursor"] = std::to_string(revision.number) + "." + table.rows()[rows[shown - 1]].id;
   if (query.facets) page["facets"] = RenderFacets(matching, table);
   page["catalogue_revision"] = RenderRevisionName(revision);
   return "{\"parts\":[" + parts + "]," + TextOf(page).substr(1);

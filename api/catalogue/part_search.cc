@@ -68,14 +68,23 @@ void AddOthers(const catalog::Part& part, std::uint32_t row, Collector& others) 
   others.Add(row, part.curve->current_source);
 }
 
+std::vector<const catalog::Part*> PointersTo(const std::vector<catalog::Part>& parts) {
+  std::vector<const catalog::Part*> pointers;
+  pointers.reserve(parts.size());
+  for (const catalog::Part& part : parts) pointers.push_back(&part);
+  return pointers;
+}
+
 }  // namespace
 
-PartSearch::PartSearch(const std::vector<catalog::Part>& parts) : parts_(parts.size()) {
+PartSearch::PartSearch(const std::vector<catalog::Part>& parts) : PartSearch(PointersTo(parts)) {}
+
+PartSearch::PartSearch(const std::vector<const catalog::Part*>& parts) : parts_(parts.size()) {
   Collector names(names_), others(others_);
-  for (std::uint32_t row = 0; const catalog::Part& part : parts) {
-    AddNames(part, row, names, names_);
-    AddSqueezed(part, row, squeezed_);
-    AddOthers(part, row, others);
+  for (std::uint32_t row = 0; const catalog::Part* part : parts) {
+    AddNames(*part, row, names, names_);
+    AddSqueezed(*part, row, squeezed_);
+    AddOthers(*part, row, others);
     ++row;
   }
   for (WordIndex* index : {&names_, &others_, &squeezed_}) index->Sort();

@@ -32,6 +32,7 @@ enum Grade : std::uint8_t {
 class PartSearch {
  public:
   explicit PartSearch(const std::vector<catalog::Part>& parts);
+  explicit PartSearch(const std::vector<const catalog::Part*>& parts);
 
   // A grade for each part. A text without letters and digits finds every part, as kFoundByName.
   std::vector<std::uint8_t> Find(std::string_view text) const;

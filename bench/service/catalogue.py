@@ -4,6 +4,7 @@
 usage: bench/service/catalogue.py [PARTS] [PLENUM]     (default 100000 build/release/plenum)
 """
 import http.client
+import json
 import os
 import pathlib
 import random
@@ -123,6 +124,31 @@ def pages(port):
     connection.close()
 
 
+def after_writes(port):
+    """What the next readers wait after a part was changed, and what the revision before costs."""
+    connection = http.client.HTTPConnection("127.0.0.1", port)
+    part = json.loads(get(connection, "/v1/parts/bench-000100"))
+    head = json.loads(get(connection, "/v1/revisions?limit=1"))["revisions"][0]["number"]
+    kinds = {"next list after a write": "/v1/parts?limit=20", "next search": "/v1/parts?q=maker&limit=20",
+             "a list of the revision before": f"/v1/parts?limit=20&revision={head}",
+             "changes of the import, a page": f"/v1/revisions/{head}"}
+    samples = {kind: [] for kind in kinds}
+    for i in range(7):
+        body = json.dumps(dict(part, mass_kg=0.01 * (i + 1)))
+        connection.request("PUT", "/v1/parts/bench-000100", body,
+                           {"Content-Type": "application/json", "If-Match": "*"})
+        answer = connection.getresponse()
+        text = answer.read()
+        assert answer.status == 200, text
+        for kind, path in kinds.items():
+            start = time.monotonic()
+            get(connection, path)
+            samples[kind].append(1000 * (time.monotonic() - start))
+    for kind, times in samples.items():
+        print(f"{kind:42} median {sorted(times)[3]:6.1f} ms, most {max(times):6.1f} ms", flush=True)
+    connection.close()
+
+
 def main():
     print("load", *os.getloadavg())
     folder = pathlib.Path(tempfile.mkdtemp())
@@ -143,6 +169,7 @@ def main():
         print(f"{'catalog.db':42} {(folder / 'catalog.db').stat().st_size / 2**20:7.1f} MiB")
         process, port = serve(folder)
         pages(port)
+        after_writes(port)
         process.terminate()
         process.wait()
     finally:

@@ -3,6 +3,7 @@
 #define PLENUM_CATALOG_STORE_REVISION_H_
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -29,6 +30,9 @@ struct Change {
   std::optional<Part> before, after;
   bool operator==(const Change&) const = default;
 };
+
+// Parts by id, as they are in another revision; none stands for no such part.
+using PartChanges = std::map<std::string, std::optional<Part>>;
 
 // Who asks for a write. `key` is chosen by a client that may send a request again without knowing
 // whether it was done; `request` is a digest of that request. Within a week the same key and

@@ -161,8 +161,21 @@ std::vector<Change> Store::History(const std::string& id, std::int64_t below, in
   return impl_->Read([&](SqlDatabase& db) { return ChangesOf(db, id, below, limit); });
 }
 
-std::vector<Change> Store::Changes(const Revision& revision) const {
-  return impl_->Read([&](SqlDatabase& db) { return ChangesIn(db, revision); });
+std::vector<Change> Store::Changes(const Revision& revision, const std::string& after,
+                                   int limit) const {
+  return impl_->Read([&](SqlDatabase& db) { return ChangesIn(db, revision, after, limit); });
+}
+
+std::optional<std::pair<Revision, PartChanges>> Store::ChangesTo(std::optional<std::int64_t> number,
+                                                                 const Revision& known,
+                                                                 int max) const {
+  return impl_->Read([&](SqlDatabase& db) -> std::optional<std::pair<Revision, PartChanges>> {
+    auto to = number ? catalog::FindRevision(db, *number) : catalog::Head(db);
+    if (!to) return std::nullopt;
+    auto changes = ChangesBetween(db, known, to->number, max);
+    if (!changes) return std::nullopt;
+    return std::pair(*std::move(to), *std::move(changes));
+  });
 }
 
 WriteResult Store::Add(const Part& part, const Signature& by) {

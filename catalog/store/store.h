@@ -10,6 +10,7 @@
 #define PLENUM_CATALOG_STORE_STORE_H_
 
 #include <chrono>
+#include <climits>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -85,11 +86,19 @@ class Store {
   std::vector<Revision> Revisions(std::int64_t below, int limit) const;
   std::vector<Part> ListAt(std::int64_t number) const;
   std::optional<Part> GetAt(const std::string& id, std::int64_t number) const;
-  // Changes of a part, newest first, in revisions below `below`; and of a revision, by id.
+  // Changes of a part, newest first, in revisions below `below`; and of a revision, by id,
   std::vector<Change> History(const std::string& id, std::int64_t below, int limit) const;
-  std::vector<Change> Changes(const Revision& revision) const;
+  // the first `limit` with ids behind `after`.
+  std::vector<Change> Changes(const Revision& revision, const std::string& after = "",
+                              int limit = INT_MAX) const;
   // Parts together with the revision that they are.
   std::pair<Revision, std::vector<Part>> ListWithHead() const;
+
+  // A revision, the newest where no number is given, and what parts of `known` are in it as far as
+  // they differ. Nothing where there is no such revision, `known` is not what the catalogue holds
+  // under its number, as after a restore, or more than `max` parts were written in between.
+  std::optional<std::pair<Revision, PartChanges>> ChangesTo(std::optional<std::int64_t> number,
+                                                            const Revision& known, int max) const;
 
   WriteResult Add(const Part& part, const Signature& by = {});
   WriteResult Replace(const Part& part, const Signature& by = {}, const Precondition& may = {});

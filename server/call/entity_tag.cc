@@ -8,6 +8,8 @@ std::string ETag(const std::string& text) {
   return '"' + catalog::Sha256(text).substr(0, 32) + '"';
 }
 
+std::string OfGzip(const std::string& etag) { return etag.substr(0, etag.size() - 1) + "-gzip\""; }
+
 bool Holds(const std::string& list, const std::string& etag, Compare compare) {
   bool quoted = false;  // a tag may hold commas
   std::string item;

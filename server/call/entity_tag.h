@@ -11,6 +11,9 @@ namespace plenum::server {
 // Strong: equal texts only, and no two texts in practice, have the same tag.
 std::string ETag(const std::string& text);
 
+// The tag of the same text in gzip, which is another representation (8.8.3.3).
+std::string OfGzip(const std::string& etag);
+
 enum class Compare { kStrong, kWeak };
 
 // Whether a list of entity tags holds `etag`. If-Match compares strongly, where no weak tag

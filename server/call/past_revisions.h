@@ -18,17 +18,27 @@
 
 namespace plenum::server {
 
-using Parts = std::shared_ptr<const std::vector<catalog::Part>>;
+using Parts = api::PartVector;
 
 // All parts of one revision.
 struct CatalogView {
   CatalogView() = default;
   CatalogView(catalog::Revision of, std::vector<catalog::Part> all);
+  // Those of `before` with `changes`.
+  CatalogView(catalog::Revision of, const CatalogView& before, catalog::PartChanges changes);
+
+  const api::PartRows& rows() const { return table->rows(); }
+  // In one vector, made when it is first asked for: for who works on all of them.
+  Parts parts() const { return rows().All(); }
 
   catalog::Revision revision;
-  Parts parts;
-  std::shared_ptr<const api::PartTable> table;  // of the parts
+  std::shared_ptr<const api::PartTable> table;
 };
+
+// A view follows changes of at most so many parts, and of so many since all parts were read or of
+// a tenth of them; others are read anew.
+inline constexpr int kChangesMax = 1000;
+bool MayFollow(const CatalogView& view);
 
 class PastRevisions {
  public:
@@ -44,10 +54,13 @@ class PastRevisions {
                                 catalog::StoreFault::kBusy);
     return f(std::as_const(store_));
   }
-  // None if there is no such revision.
-  std::optional<CatalogView> ViewAt(std::int64_t revision);
+  // None if there is no such revision. What it has in common with `newest` is shared.
+  std::optional<CatalogView> ViewAt(std::int64_t revision, const CatalogView& newest);
 
  private:
+  static CatalogView ReadAt(const catalog::Store& store, const catalog::Revision& revision,
+                            const CatalogView& newest);
+
   const std::chrono::milliseconds patience_;
   std::timed_mutex mutex_;
   catalog::Store store_;

@@ -65,7 +65,7 @@ std::shared_ptr<const SharedCatalog::Published> SharedCatalog::WhatIsPublished()
 std::optional<CatalogView> SharedCatalog::ViewMeanwhile() {
   if (const auto published = WhatIsPublished()) return published->view;
   const std::unique_lock lock(mutex_, kTurnPatience);
-  const bool kept = lock && view_.parts && !has_written_ && Clock::now() < ask_again_at_;
+  const bool kept = lock && view_.table && !has_written_ && Clock::now() < ask_again_at_;
   return kept ? std::optional(view_) : std::nullopt;
 }
 
@@ -106,7 +106,7 @@ const catalog::Revision& SharedCatalog::RefreshHead() {
   // Of a server no file tells whether it was written.
   const bool settled = !on_server_ && NowNs() - state.written_ns > kTickNs;
   if (head_ && settled && state == head_state_) return *head_;
-  const bool old_will_do = view_.parts && !has_written_;
+  const bool old_will_do = view_.table && !has_written_;
   if (old_will_do && Clock::now() < ask_again_at_) return view_.revision;
   try {
     head_ = store_.Head();
@@ -123,7 +123,13 @@ const catalog::Revision& SharedCatalog::RefreshHead() {
 
 const CatalogView& SharedCatalog::RefreshView() {
   // The whole revision counts: after a restore the same number may stand for other parts.
-  if (!view_.parts || view_.revision != RefreshHead()) {
+  if (!view_.table || view_.revision != RefreshHead()) {
+    auto changed = MayFollow(view_) ? store_.ChangesTo(std::nullopt, view_.revision, kChangesMax)
+                                    : std::nullopt;
+    if (changed) {
+      view_ = {std::move(changed->first), view_, std::move(changed->second)};
+      return view_;
+    }
     view_ = {};  // before the next takes as much memory
     auto [revision, parts] = store_.ListWithHead();
     view_ = {std::move(revision), std::move(parts)};
@@ -151,7 +157,7 @@ std::optional<CatalogView> SharedCatalog::ViewAt(std::int64_t revision,
   return Patiently(patience, [&]() -> std::optional<CatalogView> {
     auto view = View();
     return view.revision.number == revision ? std::optional(std::move(view))
-                                            : past_.ViewAt(revision);
+                                            : past_.ViewAt(revision, view);
   });
 }
 

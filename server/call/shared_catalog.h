@@ -50,7 +50,7 @@ class SharedCatalog {
   catalog::Revision Head();
   // The parts as they are now; the same vector until something, in any process, writes.
   CatalogView View();
-  Parts Snapshot() { return View().parts; }
+  Parts Snapshot() { return View().parts(); }
   // The newest of each saved model.
   std::vector<catalog::ModelRevision> Models();
   // What a long write found, while it is under way, or what was read last, while another process

@@ -3,6 +3,7 @@
 #define PLENUM_SERVER_JOBS_JOB_QUEUE_H_
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "api/catalogue/stores.h"
 #include "api/json/json.h"
 #include "server/call/service_limits.h"
+#include "server/jobs/stored_results.h"
 
 namespace plenum::server {
 
@@ -114,6 +116,11 @@ class JobQueue {
   // The job without the result of one that ended, and that result put into it.
   virtual std::optional<Job> Look(const std::string& id) const = 0;
   virtual void AddResult(Job& job) const = 0;
+  // The result of a job that has one, compressed once for all who read it; nothing where it is not
+  // to be had at once.
+  std::shared_ptr<const Deflated> Compressed(const Job& job) const {
+    return results_.Compressed(job.result);
+  }
   std::optional<Job> Get(const std::string& id) const {  // both
     auto job = Look(id);
     if (job) AddResult(*job);
@@ -123,11 +130,16 @@ class JobQueue {
   virtual std::size_t Count(JobStatus status) const = 0;
   // Asks the job to stop; no effect on one that has ended. False if there is none.
   virtual bool Cancel(const std::string& id) = 0;
+  // The same of all jobs of a sweep; what waits is cancelled at once and together.
+  virtual void CancelSweep(const std::string& id) = 0;
   // Queues a job that failed or was cancelled once more, as it was ordered, without its outcome.
   // Throws StoreError when that cannot be written to disk.
   virtual Asked Again(const std::string& id) = 0;
   virtual bool Stopping() const = 0;
   virtual const JobOptions& options() const = 0;
+
+ protected:
+  mutable StoredResults results_;
 };
 
 // Without the result; its revision is that of its ending, if it has ended.

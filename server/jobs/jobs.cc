@@ -7,6 +7,7 @@
 
 #include "api/json/worker_stack.h"
 #include "server/jobs/crash_marks.h"
+#include "server/jobs/queue_places.h"
 
 namespace plenum::server {
 namespace {
@@ -77,9 +78,8 @@ std::optional<Submitted> Jobs::RefuseToQueue(const std::string& client, std::siz
     ++waiting.all;
     waiting.of_client += entry->client == client;
   }
-  if (stopping_ || waiting.all + count > limits.all) return Submitted{Submitted::kRefused, ""};
-  if (waiting.of_client + count > limits.of_client) return Submitted{Submitted::kClientRefused, ""};
-  return std::nullopt;
+  if (stopping_) return Submitted{Submitted::kRefused, ""};
+  return RefuseMore(limits, waiting, count);
 }
 
 Submitted Jobs::SubmitSweep(catalog::SweepRecord sweep, std::vector<catalog::JobOrder> orders) {
@@ -188,50 +188,73 @@ std::size_t Jobs::Count(JobStatus status) const {
       list.begin(), list.end(), [&](const Job& job) { return job.status == status; }));
 }
 
-bool Jobs::Cancel(const std::string& id) {
-  const EntryPtr entry = Find(id);
-  if (!entry) return store_.Find(kind_, id).has_value();
-  bool was_queued = false;
+// Those that wait end at once and together; those at work are asked to stop.
+void Jobs::CancelAll(const std::vector<std::string>& ids) {
+  std::vector<EntryPtr> waiting;
+  std::vector<std::string> at_work;
   {
     const std::lock_guard lock(mutex_);
-    entry->cancelled = true;
-    was_queued = std::erase(queue_, entry) > 0;
+    for (const std::string& id : ids) {
+      const auto found = entries_.find(id);
+      if (found == entries_.end()) continue;
+      found->second->cancelled = true;
+      if (std::erase(queue_, found->second) == 0)
+        at_work.push_back(id);
+      else
+        waiting.push_back(found->second);
+    }
   }
-  if (!was_queued) {
-    TryStore({{"job", id}}, [&] { store_.AskToCancel(id); });
-    return true;
-  }
-  if (entry->job.alone) turns_.Withdraw();
-  End(*entry, JobStatus::kCancelled, nullptr, "");
+  for (const EntryPtr& entry : waiting)
+    if (entry->job.alone) turns_.Withdraw();
+  End(waiting, JobStatus::kCancelled, nullptr, "");
+  for (const std::string& id : at_work)
+    TryStore({{"job", id}}, [&, this] { store_.AskToCancel(id); });
+}
+
+bool Jobs::Cancel(const std::string& id) {
+  if (!Find(id)) return store_.Find(kind_, id).has_value();
+  CancelAll({id});
   return true;
 }
 
-// On disk before anybody sees it. Where that fails the job stays in memory as it ended, and the
-// next service does it again.
-void Jobs::End(Entry& entry, JobStatus status, const api::Json& result,
+void Jobs::CancelSweep(const std::string& id) {
+  std::vector<std::string> jobs;
+  for (const catalog::JobRecord& job : store_.OfSweep(id)) jobs.push_back(job.id);
+  CancelAll(jobs);
+}
+
+// On disk, in one write, before anybody sees it. Where that fails the jobs stay in memory as they
+// ended, and the next service does them again.
+void Jobs::End(const std::vector<EntryPtr>& entries, JobStatus status, const api::Json& result,
                const std::string& failure) {
-  catalog::JobRecord record;
-  {
+  if (entries.empty()) return;
+  std::vector<catalog::JobRecord> records(entries.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    records[i].order.kind = kind_;
+    records[i].status = status;
+    records[i].result = TextOf(result);
+    records[i].failure = failure;
     const std::lock_guard lock(mutex_);
-    record.id = entry.job.id;
-    record.progress = TextOf(entry.job.progress);
+    records[i].id = entries[i]->job.id;
+    records[i].progress = TextOf(entries[i]->job.progress);
   }
-  record.order.kind = kind_;
-  record.status = status;
-  record.result = TextOf(result);
-  const Bytes text =
-      record.result.empty() ? nullptr : std::make_shared<const std::string>(record.result);
-  record.failure = failure;
+  const std::string& text = records.front().result;
+  const Bytes bytes = text.empty() ? nullptr : std::make_shared<const std::string>(text);
   std::string ended_at;
-  const bool kept = TryStore({{"job", record.id}}, [&] { ended_at = store_.End(record); });
-  if (kept && text) results_.Put(record.id, record.result);
+  const bool kept =
+      TryStore({{"job", records.front().id}}, [&] { ended_at = store_.End(records); });
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (kept && bytes) results_.Put(records[i].id, text);
+    const std::lock_guard lock(mutex_);
+    Job& job = entries[i]->job;
+    job.status = status;
+    job.ended_at = ended_at;  // for those who found the entry before it goes
+    job.result = bytes;
+    job.failure = failure;
+    ++job.revision;
+    if (kept) entries_.erase(job.id);
+  }
   const std::lock_guard lock(mutex_);
-  entry.job.status = status;
-  entry.job.ended_at = ended_at;  // for those who found the entry before it goes
-  entry.job.result = text;
-  entry.job.failure = failure;
-  ++entry.job.revision;
-  if (kept) entries_.erase(record.id);
   Changed();
 }
 
@@ -288,30 +311,30 @@ void Jobs::WorkLoop() {
   const api::SignalStack stack;  // a crash by overflow of the thread's own stack is marked, too
   WorkBehindRequests();
   while (const EntryPtr entry = Next()) {
-    Run(*entry);
+    Run(entry);
     turns_.Leave(entry->job.alone);
   }
 }
 
-void Jobs::Run(Entry& entry) {
-  const std::string id = entry.job.id;
-  const WorksFor job(entry.job.number);
+void Jobs::Run(const EntryPtr& entry) {
+  const std::string id = entry->job.id;
+  const WorksFor job(entry->job.number);
   TryStore({{"job", id}}, [&] { store_.Start(id); });
   {
     const std::lock_guard lock(mutex_);
-    entry.job.status = JobStatus::kRunning;
-    ++entry.job.attempts;
-    ++entry.job.revision;
+    entry->job.status = JobStatus::kRunning;
+    ++entry->job.attempts;
+    ++entry->job.revision;
     Changed();
   }
   api::Parsed<api::Json> outcome;
-  ReturnMemoryAfter([&] { outcome = Outcome(entry); });
-  if (entry.interrupted && !entry.cancelled) {
+  ReturnMemoryAfter([&] { outcome = Outcome(*entry); });
+  if (entry->interrupted && !entry->cancelled) {
     TryStore({{"job", id}}, [&] { store_.Requeue(id); });
   } else if (const auto* errors = std::get_if<api::Errors>(&outcome)) {
-    End(entry, JobStatus::kFailed, nullptr, ListOf(*errors));
+    End({entry}, JobStatus::kFailed, nullptr, ListOf(*errors));
   } else {
-    End(entry, entry.cancelled ? JobStatus::kCancelled : JobStatus::kDone,
+    End({entry}, entry->cancelled ? JobStatus::kCancelled : JobStatus::kDone,
         std::get<api::Json>(outcome), "");
   }
 }

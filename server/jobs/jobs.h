@@ -26,7 +26,6 @@
 #include "server/jobs/client_turns.h"
 #include "server/jobs/job_queue.h"
 #include "server/jobs/job_turns.h"
-#include "server/jobs/stored_results.h"
 
 namespace plenum::server {
 
@@ -52,6 +51,7 @@ class Jobs : public JobQueue {
   std::vector<Job> List() const override;
   std::size_t Count(JobStatus status) const override;
   bool Cancel(const std::string& id) override;
+  void CancelSweep(const std::string& id) override;
   Asked Again(const std::string& id) override;
 
   // Interrupts what runs and joins the workers. What has not ended is queued on disk.
@@ -79,9 +79,11 @@ class Jobs : public JobQueue {
                                          bool as_sweep = false) const;
   void Changed() const;
   void WorkLoop();
-  void Run(Entry& entry);
+  void Run(const EntryPtr& entry);
   api::Parsed<api::Json> Outcome(Entry& entry);
-  void End(Entry& entry, JobStatus status, const api::Json& result, const std::string& failure);
+  void CancelAll(const std::vector<std::string>& ids);
+  void End(const std::vector<EntryPtr>& entries, JobStatus status, const api::Json& result,
+           const std::string& failure);
   EntryPtr Find(const std::string& id) const;
 
   catalog::JobStore& store_;
@@ -93,7 +95,6 @@ class Jobs : public JobQueue {
   mutable std::mutex mutex_;
   std::condition_variable work_ready_;
   std::function<void()> on_change_;
-  mutable StoredResults results_;
   std::map<std::string, EntryPtr> entries_;  // unfinished, or not on disk as ended
   std::deque<EntryPtr> queue_;               // those that run alone first
   ClientTurns clients_;

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "server/jobs/queue_places.h"
+
 namespace plenum::server {
 
 SharedJobs::SharedJobs(catalog::SharedJobStore& store, std::string kind, const JobOptions& options,
@@ -11,11 +13,11 @@ SharedJobs::SharedJobs(catalog::SharedJobStore& store, std::string kind, const J
 std::optional<Submitted> SharedJobs::RefuseToQueue(const std::string& client, std::size_t count,
                                                    bool as_sweep) const {
   const QueueLimits limits = LimitsOf(options_, as_sweep);
-  if (stopping_ || store_.Waiting(kind_, std::nullopt, as_sweep) + count > limits.all)
-    return Submitted{Submitted::kRefused, ""};
-  if (store_.Waiting(kind_, client, as_sweep) + count > limits.of_client)
-    return Submitted{Submitted::kClientRefused, ""};
-  return std::nullopt;
+  if (stopping_) return Submitted{Submitted::kRefused, ""};
+  return RefuseMore(
+      limits,
+      {store_.Waiting(kind_, std::nullopt, as_sweep), store_.Waiting(kind_, client, as_sweep)},
+      count);
 }
 
 Submitted SharedJobs::SubmitSweep(catalog::SweepRecord sweep,
@@ -89,6 +91,11 @@ bool SharedJobs::Cancel(const std::string& id) {
   store_.Cancel(id);
   changed_();
   return true;
+}
+
+void SharedJobs::CancelSweep(const std::string& id) {
+  store_.CancelSweep(id);
+  changed_();
 }
 
 Asked SharedJobs::Again(const std::string& id) {

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "server/jobs/job_queue.h"
-#include "server/jobs/stored_results.h"
 
 namespace plenum::server {
 
@@ -32,6 +31,7 @@ class SharedJobs : public JobQueue {
   std::vector<Job> List() const override;
   std::size_t Count(JobStatus status) const override;
   bool Cancel(const std::string& id) override;
+  void CancelSweep(const std::string& id) override;
   Asked Again(const std::string& id) override;
 
   void Stop() { stopping_ = true; }
@@ -47,7 +47,6 @@ class SharedJobs : public JobQueue {
   const std::string kind_;
   const JobOptions options_;
   const std::function<void()> changed_;
-  mutable StoredResults results_;
   std::atomic<bool> stopping_ = false;
 };
 

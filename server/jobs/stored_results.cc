@@ -7,6 +7,7 @@ namespace plenum::server {
 namespace {
 
 constexpr std::size_t kKeptBytes = 16 << 20;
+constexpr std::size_t kCompressedKeptBytes = 8 << 20;
 
 }  // namespace
 
@@ -38,6 +39,30 @@ void StoredResults::Put(const std::string& id, std::string text) {
 void StoredResults::Forget(const std::string& id) {
   const std::lock_guard lock(mutex_);
   known_.erase(id);
+}
+
+std::shared_ptr<const Deflated> StoredResults::FindCompressed(const Bytes& text) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(compressed_, [](const CompressedText& one) { return one.of.expired(); });
+  for (const CompressedText& one : compressed_)
+    if (one.of.lock() == text) return one.deflated;
+  return nullptr;
+}
+
+std::shared_ptr<const Deflated> StoredResults::Compressed(const Bytes& text) {
+  if (auto known = FindCompressed(text)) return known;
+  const std::unique_lock turn(compressing_, std::try_to_lock);
+  if (!turn) return nullptr;
+  if (auto known = FindCompressed(text)) return known;  // another was faster
+  auto deflated = std::make_shared<const Deflated>(Deflate(*text));
+  const std::lock_guard lock(mutex_);
+  compressed_.push_front({text, deflated});
+  std::size_t kept = 0;
+  std::erase_if(compressed_, [&](const CompressedText& one) {
+    kept += one.deflated->blocks.size();
+    return kept > kCompressedKeptBytes;
+  });
+  return deflated;
 }
 
 void StoredResults::Keep(const std::string& id, const Bytes& bytes) {

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "server/call/coding/gzip.h"
 #include "server/call/reply.h"
 #include "server/call/service_limits.h"
 
@@ -22,14 +23,25 @@ class StoredResults {
   // The text that was just stored.
   void Put(const std::string& id, std::string text);
   void Forget(const std::string& id);
+  // The text, compressed once for all who read it. Nothing while another text is being compressed:
+  // who asks waits for nobody and takes the text itself.
+  std::shared_ptr<const Deflated> Compressed(const Bytes& text);
 
  private:
+  struct CompressedText {
+    std::weak_ptr<const std::string> of;
+    std::shared_ptr<const Deflated> deflated;
+  };
+
   void Keep(const std::string& id, const Bytes& bytes);
+  std::shared_ptr<const Deflated> FindCompressed(const Bytes& text);
 
   std::mutex mutex_;
   ByteBudget budget_{kAnswerBytesMax};
   std::list<std::pair<std::string, Bytes>> newest_;  // first; of kKeptBytes together
   std::unordered_map<std::string, std::weak_ptr<const std::string>> known_;
+  std::mutex compressing_;                // taken before mutex_
+  std::list<CompressedText> compressed_;  // newest first
 };
 
 }  // namespace plenum::server

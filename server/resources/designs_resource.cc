@@ -70,7 +70,7 @@ Work DesignWork(SharedCatalog& catalog, JobMemory& memory) {
     auto json = api::ParseJson(order.request);
     if (auto* errors = std::get_if<api::Errors>(&json)) return *errors;
     const CatalogView& parts = std::get<CatalogView>(view);
-    auto request = api::ParseRequirements(std::get<api::Json>(json), *parts.parts,
+    auto request = api::ParseRequirements(std::get<api::Json>(json), *parts.parts(),
                                           std::get<std::vector<catalog::ModelRevision>>(models));
     if (auto* errors = std::get_if<api::Errors>(&request)) return *errors;
 
@@ -83,7 +83,7 @@ Work DesignWork(SharedCatalog& catalog, JobMemory& memory) {
       control.report(ToJson(progress, asked));
     };
     api::Json answer =
-        api::AnswerRequest(std::get<api::DesignRequest>(request), options, *parts.parts);
+        api::AnswerRequest(std::get<api::DesignRequest>(request), options, *parts.parts());
     if (share->must_end() && !control.cancelled()) EndedByMemory(answer);
     answer["catalogue_revision"] = api::RenderRevisionName(parts.revision);
     control.report(Outcome(answer, asked, !order.sweep.empty()));
@@ -99,7 +99,7 @@ Reply PostDesign(SharedCatalog& catalog, const JobsResource& designs, const Call
   auto json = api::ParseJson(call.body);
   if (auto* errors = std::get_if<api::Errors>(&json)) return ProblemReply(400, *errors);
   const CatalogView view = catalog.View();
-  auto parsed = api::ParseRequirements(std::get<api::Json>(json), *view.parts, catalog.Models());
+  auto parsed = api::ParseRequirements(std::get<api::Json>(json), *view.parts(), catalog.Models());
   if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
   if (validate_only) {
     api::Json valid = {{"valid", true}};

@@ -184,7 +184,7 @@ Work DiagnosisWork(SharedCatalog& catalog) {
     if (auto* errors = std::get_if<api::Errors>(&json)) return *errors;
     const auto parts_of_order = [&]() -> Parts {
       const auto view = PartsOf(catalog, order);
-      return std::holds_alternative<CatalogView>(view) ? std::get<CatalogView>(view).parts
+      return std::holds_alternative<CatalogView>(view) ? std::get<CatalogView>(view).parts()
                                                        : nullptr;
     };
     auto parsed = ReadRequest(order.request, std::get<std::vector<catalog::ModelRevision>>(models),

@@ -23,14 +23,17 @@ std::optional<std::int64_t> Whole(const std::string& text) {
   return number;
 }
 
-// Limit and cursor, the number of the last revision seen.
+// How many entries, and the cursor: the number of the last revision seen, or the last id.
 struct Page {
   int limit = kLimitDefault;
   std::int64_t below = INT64_MAX;
+  std::string after;
   api::Errors errors;
 };
 
-Page ReadPage(const Call& call) {
+enum class CursorIs { kRevision, kPart };
+
+Page ReadPage(const Call& call, CursorIs cursor = CursorIs::kRevision) {
   Page page;
   page.errors = CheckQuery(call, {"limit", "cursor"});
   if (const auto text = QueryValue(call, "limit")) {
@@ -41,7 +44,9 @@ Page ReadPage(const Call& call) {
       page.errors.push_back({"/limit", "must be an integer ≥ 1 and ≤ " + std::to_string(kLimitMax) +
                                            ", not \"" + *text + "\""});
   }
-  if (const auto text = QueryValue(call, "cursor"); text && !text->empty()) {
+  if (cursor == CursorIs::kPart) {
+    page.after = QueryValue(call, "cursor").value_or("");
+  } else if (const auto text = QueryValue(call, "cursor"); text && !text->empty()) {
     const auto below = Whole(*text);
     page.below = below.value_or(0);
     if (!below)
@@ -99,16 +104,27 @@ Reply ListRevisions(SharedCatalog& catalog, const Call& call) {
 }
 
 Reply GetRevision(SharedCatalog& catalog, const Call& call) {
+  const Page page = ReadPage(call, CursorIs::kPart);
+  if (!page.errors.empty()) return ProblemReply(422, page.errors);
   const auto number = Whole(call.argument);
-  return catalog.past().With([&](const catalog::Store& store) {
-    const auto revision = number ? store.FindRevision(*number) : std::nullopt;
-    if (!revision) return NoRevision(call.argument);
-    api::Json document = api::RenderRevision(*revision);
-    document["changes"] = api::Json::array();
-    for (const catalog::Change& change : store.Changes(*revision))
-      document["changes"].push_back(api::RenderChange(change));
-    return JsonReply(200, document);
+  std::optional<catalog::Revision> revision;
+  const auto changes = catalog.past().With([&](const catalog::Store& store) {
+    revision = number ? store.FindRevision(*number) : std::nullopt;
+    return revision ? store.Changes(*revision, page.after, page.limit + 1)
+                    : std::vector<catalog::Change>();
   });
+  if (!revision) return NoRevision(call.argument);
+  api::Json document = api::RenderRevision(*revision), next_cursor;
+  api::Json& list = document["changes"] = api::Json::array();
+  for (const catalog::Change& change : changes) {
+    if (static_cast<int>(list.size()) == page.limit) {
+      next_cursor = list.back()["id"];
+      break;
+    }
+    list.push_back(api::RenderChange(change));
+  }
+  document["next_cursor"] = std::move(next_cursor);
+  return JsonReply(200, document);
 }
 
 Reply UndoRevision(SharedCatalog& catalog, const Call& call) {

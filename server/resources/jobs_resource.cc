@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "api/json/words.h"
+#include "server/call/coding/accepted.h"
+#include "server/call/coding/gzip.h"
 #include "server/call/entity_tag.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
@@ -19,6 +21,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kHeartbeat{900};  // streams are asked once a second
+constexpr std::size_t kCompressedBytesMin = 4 << 10;
 
 std::string SelfOf(const JobsResource& resource, const std::string& id) {
   return resource.path + "/" + id;
@@ -54,18 +57,40 @@ api::Json Long(const JobsResource& resource, const Job& job) {
   return json;
 }
 
-// The document without its result, which is stored as text: the text is sent as it is.
-Reply FullReply(const JobsResource& resource, Job job, const std::string& etag) {
+// A result as it is stored, between two texts: the bytes are sent as they are, or as they were
+// compressed once.
+Reply Around(const JobsResource& resource, const Job& job, std::string before, std::string after,
+             bool as_gzip, const std::string& etag = "") {
+  Reply reply{200, "application/json", "", {{"Vary", "Accept-Encoding"}}, {}};
+  const auto compressed = as_gzip && job.result->size() >= kCompressedBytesMin
+                              ? resource.jobs->Compressed(job)
+                              : nullptr;
+  if (compressed) {
+    reply.tail = GzipOf(before, compressed, after);
+    // Until its blocks have left, the text counts as being read.
+    Bytes& blocks = reply.tail[1];
+    blocks =
+        Bytes(std::make_shared<const std::pair<Bytes, Bytes>>(blocks, job.result), blocks.get());
+    reply.headers.emplace_back("Content-Encoding", "gzip");
+  } else {
+    reply.body = std::move(before);
+    reply.tail = {job.result, std::make_shared<const std::string>(std::move(after))};
+  }
+  if (!etag.empty()) reply.headers.emplace_back("ETag", compressed ? OfGzip(etag) : etag);
+  return reply;
+}
+
+// The document without its result, which is stored as text.
+Reply FullReply(const JobsResource& resource, Job job, const std::string& etag, bool as_gzip) {
   resource.jobs->AddResult(job);
   api::Json json = Long(resource, job);
   json["links"] = Links(resource, job.id);
   std::string head = Dump(json);
   head.pop_back();
   head += ",\"result\":";
-  Reply reply{200, "application/json", std::move(head), {}, {}};
+  if (job.result) return Around(resource, job, std::move(head), "}\n", as_gzip, etag);
+  Reply reply{200, "application/json", head + "null}\n", {}, {}};
   if (!etag.empty()) reply.headers.emplace_back("ETag", etag);
-  if (job.result) reply.tail.push_back(job.result);
-  reply.tail.push_back(std::make_shared<const std::string>(job.result ? "}\n" : "null}\n"));
   return reply;
 }
 
@@ -85,13 +110,12 @@ std::string Bare(std::string_view text) {
 }
 
 // What a client that waited gets.
-Reply ResultReply(const JobsResource& resource, Job job, int seconds) {
+Reply ResultReply(const JobsResource& resource, Job job, int seconds, bool as_gzip) {
   resource.jobs->AddResult(job);
   if (job.status == JobStatus::kFailed) return ProblemReply(500, WhyFailed(resource, job));
   if (!job.result) return ProblemReply(409, "the job was cancelled before it began");
-  Reply reply{200, "application/json", "", {}, {}};
+  Reply reply = Around(resource, job, "", "\n", as_gzip);
   reply.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(seconds));
-  reply.tail = {job.result, std::make_shared<const std::string>("\n")};
   return reply;
 }
 
@@ -175,13 +199,13 @@ Reply StartJob(const JobsResource& resource, const Call& call, catalog::JobOrder
   auto turn = seconds > 0 ? EnterWaiting() : nullptr;
   if (!turn) return AcceptedReply(resource, id);
   Reply reply;
-  reply.later = [resource, id = id, seconds, turn = std::move(turn),
+  reply.later = [resource, id = id, seconds, turn = std::move(turn), as_gzip = WantsGzip(call),
                  until = Clock::now() + std::chrono::seconds(seconds)]() -> std::optional<Reply> {
     const bool over = Clock::now() >= until || resource.jobs->Stopping();
     const auto job = resource.jobs->Look(id);
     if (job && !Ended(job->status) && !over) return std::nullopt;
     if (!job || !Ended(job->status)) return AcceptedReply(resource, id);
-    auto ended = ResultReply(resource, *job, seconds);
+    auto ended = ResultReply(resource, *job, seconds, as_gzip);
     ended.headers.emplace_back("Location", SelfOf(resource, id));
     return ended;
   };
@@ -209,8 +233,11 @@ Reply GetJob(const JobsResource& resource, const Call& call) {
   const auto job = resource.jobs->Look(call.argument);
   if (!job) return NoJob(resource, call.argument);
   const std::string etag = ETagOf(resource, *job);
-  if (etag.empty() || !IsKnown(call, etag)) return FullReply(resource, *job, etag);
-  return {304, "", "", {{"ETag", etag}}, {}};
+  if (!etag.empty())
+    for (const std::string& known : {etag, OfGzip(etag)})
+      if (IsKnown(call, known))
+        return {304, "", "", {{"ETag", known}, {"Vary", "Accept-Encoding"}}, {}};
+  return FullReply(resource, *job, etag, WantsGzip(call));
 }
 
 Reply DoJobAgain(const JobsResource& resource, const Call& call) {

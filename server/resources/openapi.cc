@@ -84,7 +84,7 @@ const std::map<std::string, Operation>& Operations() {
       {"GET /v1/limits", {{}, "", {{200, "Limits"}}, {}}},
       {"POST /v1/catalog/update", {{"dry_run", "From"}, "", {{200, "SeedUpdate"}}, {404, 422}}},
       {"GET /v1/revisions", {kPage, "", {{200, "Revisions"}}, {422}}},
-      {"GET /v1/revisions/{id}", {{}, "", {{200, "RevisionWithChanges"}}, {404}}},
+      {"GET /v1/revisions/{id}", {kPage, "", {{200, "RevisionWithChanges"}}, {404, 422}}},
       {"POST /v1/revisions/{id}/undo", {kWrite, "", {{200, "Undone"}}, {404, 409, 422}}},
       {"GET /v1/models", {{}, "", {{200, "Models"}}, {}}},
       {"POST /v1/models", {kWrite, "NamedModel", {{201, "ModelRevision"}}, {400, 422}}},
@@ -210,6 +210,7 @@ Json AnswerSchemas() {
   const Json name_of_revision = Object({{"number", integer}, {"hash", text}});
   const Json revision =
       Object({{"number", integer}, {"hash", text}, {"at", text}, {"who", text}, {"what", text}});
+  const Json change = Object({{"id", text}, {"before", any}, {"after", any}});
   const Json checks = {{"type", "object"},
                        {"additionalProperties", {{"enum", {"ok", "busy", "failed"}}}}};
   const Json status = {{"enum", {"queued", "running", "done", "cancelled", "failed"}}};
@@ -269,9 +270,7 @@ Json AnswerSchemas() {
                                                    {"has_curve", flag}}))},
       {"Revisions", Object({{"revisions", ListOf(revision)}, {"next_cursor", maybe_text}})},
       {"RevisionWithChanges",
-       {{"allOf",
-         {revision,
-          NamedListOf("changes", Object({{"id", text}, {"before", any}, {"after", any}}))}}}},
+       {{"allOf", {revision, Object({{"changes", ListOf(change)}, {"next_cursor", maybe_text}})}}}},
       {"History", Object({{"id", text}, {"history", ListOf(any)}, {"next_cursor", maybe_text}})},
       {"SeedUpdate", Object({{"added", ids},
                              {"replaced", ids},

@@ -26,14 +26,6 @@ std::string ETagOf(const catalog::Part& part) { return ETag(Dump(api::RenderPart
 
 Reply NoPart(const std::string& id) { return ProblemReply(404, "no part has the id " + id); }
 
-// nullptr where none of them, in order of id, has the id.
-const catalog::Part* FindPart(const std::vector<catalog::Part>& parts, const std::string& id) {
-  const auto part = std::lower_bound(
-      parts.begin(), parts.end(), id,
-      [](const catalog::Part& one, const auto& wanted) { return one.id < wanted; });
-  return part == parts.end() || part->id != id ? nullptr : &*part;
-}
-
 // `revision` is one in which the part is as shown.
 Reply PartReply(int status, const catalog::Part& part, const catalog::Revision& revision) {
   auto reply = JsonReply(status, api::RenderPart(part));
@@ -134,7 +126,7 @@ namespace {
 Reply GetNewest(SharedCatalog& catalog, const Call& call) {
   auto shown = catalog.replies().Find(catalog.Head(), call.argument);
   if (const auto view = shown ? std::nullopt : catalog.ViewMeanwhile()) {
-    const auto* part = FindPart(*view->parts, call.argument);
+    const auto* part = view->rows().Find(call.argument);
     if (part == nullptr) return NoPart(call.argument);
     shown = std::make_shared<const Reply>(PartReply(200, *part, view->revision));
   }
@@ -178,8 +170,8 @@ Reply GetProtocol(SharedCatalog& catalog, const Call& call) {
   if (!errors.empty()) return ProblemReply(422, errors);
   const auto sensor = api::ParseTestSensor(call.query);
   if (const auto* wrong = std::get_if<api::Errors>(&sensor)) return ProblemReply(422, *wrong);
-  const Parts parts = catalog.Snapshot();
-  const catalog::Part* part = FindPart(*parts, call.argument);
+  const CatalogView view = catalog.View();
+  const catalog::Part* part = view.rows().Find(call.argument);
   if (part == nullptr) return NoPart(call.argument);
   return JsonReply(200, api::RenderProtocol(*part, std::get<api::TestSensor>(sensor)));
 }
@@ -271,12 +263,13 @@ Reply ExportParts(SharedCatalog& catalog, const Call& call) {
               "",
               {{"Content-Disposition", "attachment; filename=\"" + *family + ".csv\""}},
               {}};
-  reply.produce = [all = catalog.Snapshot(), family = *family, next = std::size_t{0},
+  reply.produce = [view = catalog.View(), family = *family, next = std::size_t{0},
                    begun = false](std::string& piece) mutable {
     if (!std::exchange(begun, true)) piece = catalog::WriteCsv(family, {});
-    for (; next < all->size() && piece.size() < kPieceBytes; ++next)
-      if ((*all)[next].family == family) piece += catalog::WriteCsvRow((*all)[next]);
-    return next < all->size() ? Flow::kMore : Flow::kEnds;
+    const api::PartRows& all = view.rows();
+    for (; next < all.size() && piece.size() < kPieceBytes; ++next)
+      if (all[next].family == family) piece += catalog::WriteCsvRow(all[next]);
+    return next < all.size() ? Flow::kMore : Flow::kEnds;
   };
   return reply;
 }
@@ -284,8 +277,8 @@ Reply ExportParts(SharedCatalog& catalog, const Call& call) {
 Reply GetPartsCheck(SharedCatalog& catalog, const Call& call) {
   if (const auto errors = CheckQuery(call, {}); !errors.empty()) return ProblemReply(422, errors);
   const auto view = catalog.View();
-  api::Json json = {{"parts", view.parts->size()}};
-  json.update(api::RenderCheck(api::CheckParts(*view.parts)));
+  api::Json json = {{"parts", view.rows().size()}};
+  json.update(api::RenderCheck(api::CheckParts(*view.parts())));
   json["catalogue_revision"] = api::RenderRevisionName(view.revision);
   return JsonReply(200, json);
 }
@@ -299,7 +292,7 @@ Reply GetPartsComparison(SharedCatalog& catalog, const Call& call) {
   std::vector<catalog::Part> parts;
   parts.reserve(ids.size());
   for (const auto& id : ids) {
-    const auto part = FindPart(*view.parts, id);
+    const catalog::Part* part = view.rows().Find(id);
     if (part == nullptr) return NoPart(id);
     parts.push_back(*part);
   }

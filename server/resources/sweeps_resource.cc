@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "api/design/sweep/sweep_request.h"
 #include "api/design/sweep/sweep_table.h"
+#include "server/call/coding/accepted.h"
 #include "server/call/service_limits.h"
 #include "server/call/signature.h"
 #include "server/jobs/job_inputs.h"
@@ -87,25 +86,6 @@ api::Json TableOf(const JobsResource& designs, const SweepRecord& sweep) {
   api::Json table = api::RenderSweepTable(plan, answers);
   table["catalogue_revision"] = {{"number", sweep.revision}, {"hash", sweep.hash}};
   return table;
-}
-
-// How much a list of media types (RFC 9110, 12.5.1) wants one of these, the most exact first.
-double Wanted(std::string_view accept, const std::vector<std::string_view>& types) {
-  std::map<std::string_view, double> given;
-  while (!accept.empty()) {
-    std::string_view entry = accept.substr(0, accept.find(','));
-    accept.remove_prefix(std::min(entry.size() + 1, accept.size()));
-    const auto weight = entry.find("q=");
-    const double q =
-        weight == entry.npos ? 1.0 : std::atof(std::string(entry.substr(weight + 2, 6)).c_str());
-    entry = entry.substr(0, entry.find(';'));
-    while (!entry.empty() && entry.front() == ' ') entry.remove_prefix(1);
-    while (!entry.empty() && entry.back() == ' ') entry.remove_suffix(1);
-    given[entry] = q;
-  }
-  for (const std::string_view type : types)
-    if (const auto found = given.find(type); found != given.end()) return found->second;
-  return 0.0;
 }
 
 bool WantsCsv(const Call& call) {
@@ -202,7 +182,7 @@ Reply PostSweep(SharedCatalog& catalog, const JobsResource& designs, const Call&
   if (!turn)
     return BusyReply("sweeps_read_max", kSweepsReadMax, "other sweeps are being checked", 1);
   const CatalogView view = catalog.View();
-  auto parsed = api::ParseSweep(std::get<api::Json>(json), *view.parts, catalog.Models());
+  auto parsed = api::ParseSweep(std::get<api::Json>(json), *view.parts(), catalog.Models());
   if (auto* errors = std::get_if<api::Errors>(&parsed)) return ProblemReply(422, *errors);
   const auto& sweep = std::get<api::SweepRequest>(parsed);
   if (validate_only) return JsonReply(200, {{"valid", true}, {"patches", sweep.requests.size()}});
@@ -247,10 +227,7 @@ Reply GetSweepTable(const JobsResource& designs, const Call& call) {
 
 Reply CancelSweep(const JobsResource& designs, const Call& call) {
   if (!designs.jobs->FindSweep(call.argument)) return NoSweep(call.argument);
-  auto jobs = designs.jobs->OfSweep(call.argument);
-  std::reverse(jobs.begin(), jobs.end());  // those that wait go before a worker takes them
-  for (const JobRecord& job : jobs)
-    if (!Ended(job.status)) designs.jobs->Cancel(job.id);
+  designs.jobs->CancelSweep(call.argument);
   const auto sweep = designs.jobs->FindSweep(call.argument);
   return sweep ? JsonReply(200, Short(*sweep)) : NoSweep(call.argument);
 }

@@ -123,6 +123,26 @@ TEST_F(Sweeps, CancelEndsWhatHasNotEnded) {
   EXPECT_EQ(client_->Delete("/v1/sweeps/none")->status, 404);
 }
 
+// A hundred jobs that wait end together, in one write: all at one time, in the order of the
+// patches.
+TEST_F(Sweeps, WhatWaitsIsCancelledAsOne) {
+  Json base = SlowToProve(60.0);
+  const auto accepted = Post(SweepOf(base, std::vector<Json>(100, Json::object())));
+  ASSERT_EQ(accepted->status, 202) << accepted->body;
+  const std::string path = accepted->get_header_value("Location");
+  EXPECT_EQ(client_->Delete(path)->status, 200);
+  const Json ended = WhenEnded(path);
+  EXPECT_EQ(ended["jobs"]["cancelled"], 100);
+  std::map<std::string, int> times;
+  for (const Json& patch : ended["patches"]) {
+    const Json job = Body(client_->Get(patch["link"].get<std::string>()));
+    if (job["attempts"] == 0) ++times[job["ended_at"].get<std::string>()];
+  }
+  EXPECT_EQ(times.size(), 1u);
+  EXPECT_GT(times.begin()->second, 50);
+  EXPECT_EQ(Body(client_->Get("/v1/queue"))["waiting"], 0);
+}
+
 // Its jobs have a limit of their own: a sweep is not refused for single jobs, nor they for it.
 TEST(SweepLimits, CountJobsOfSweepsByThemselves) {
   HttpOptions options;

@@ -1,5 +1,6 @@
 #include "api/design/given/requirement_words.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -27,7 +28,25 @@ constexpr std::array kWords{
     Words{"/supply/tank_fill_kpa_gauge_max", "tank's fill", " kPa gauge"},
     Words{"/supply/mass_kg_max", "mass", " kg"},
     Words{"/supply/volume_l_max", "volume", " L"},
-    Words{"/supply/cost_eur_max", "cost", " €"}};
+    Words{"/supply/cost_eur_max", "cost", " €"},
+    Words{"/supply/mains/flow_l_per_min_anr_max", "flow of the mains", " L/min"},
+    Words{"/supply/parts", "parts that can be ordered only", ""},
+    Words{"/limits/compressors_max", "pumps in parallel", ""},
+    Words{"/limits/batteries_max", "batteries in parallel", ""},
+    Words{"/limits/cylinders_max", "bottles in parallel", ""},
+    Words{"/limits/co2_max", "CO₂ bottles in parallel", ""},
+    Words{"/limits/reservoirs_max", "reservoirs in parallel", ""},
+    Words{"/exclude", "excluded parts", ""},
+    Words{"prices", "parts with a known price only", ""}};
+
+constexpr std::string_view kActuators = "/actuators/";
+constexpr std::string_view kRequire = "/require/";
+
+Words WordsOf(std::string_view pointer) {
+  for (const Words& one : kWords)
+    if (pointer.ends_with(one.field)) return one;
+  return {"", pointer, ""};
+}
 
 }  // namespace
 
@@ -35,11 +54,8 @@ std::string Told(double number) { return Significant(number, 4); }
 
 std::string MarginInWords(const optimizer::Margin& margin, const optimizer::Problem& problem) {
   const std::string& pointer = margin.requirement;
-  Words words{"", pointer, ""};
-  for (const Words& one : kWords)
-    if (pointer.ends_with(one.field)) words = one;
+  const Words words = WordsOf(pointer);
   std::string name(words.name);
-  constexpr std::string_view kActuators = "/actuators/";
   if (pointer.starts_with(kActuators) && problem.groups.size() > 1)
     for (int g = 0; g < static_cast<int>(problem.groups.size()); ++g)
       if (pointer.starts_with(optimizer::GroupPointer(problem, g) + "/")) {
@@ -51,6 +67,22 @@ std::string MarginInWords(const optimizer::Margin& margin, const optimizer::Prob
                                                               : std::string("is not known");
   return "the " + name + " " + achieved + ", asked is " + Told(margin.required) + unit +
          (words.at_least ? " at least" : " at most");
+}
+
+Demanded DemandInWords(const std::string& pointer, const Json& request) {
+  if (pointer.starts_with(kRequire)) {
+    std::string family = pointer.substr(kRequire.size());
+    std::replace(family.begin(), family.end(), '_', ' ');
+    return {"required " + family, ""};
+  }
+  const Words words = WordsOf(pointer);
+  Demanded demanded{std::string(words.name), std::string(words.unit)};
+  if (words.field.empty() || !pointer.starts_with(kActuators)) return demanded;
+  const Json group = request.value(
+      Json::json_pointer(pointer.substr(0, pointer.find('/', kActuators.size()))), Json());
+  if (request.at("actuators").size() > 1 && group.is_object() && group.contains("name"))
+    demanded.name += " of " + group.at("name").get<std::string>();
+  return demanded;
 }
 
 std::string ObjectiveInWords(double objective, const optimizer::Objective& of) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <string_view>
 
+#include "api/design/given/requirement_words.h"
 #include "api/json/problem_document.h"
 #include "api/json/version.h"
 #include "api/json/words.h"
@@ -31,15 +32,16 @@ std::string PartWords(const Json& part) {
   return words;
 }
 
-// "/duty/frequency_hz: 5 asked, 3.2 reached while the others hold; mains"
-std::string ConflictWords(const Json& conflict) {
+// "mass: 0.2 kg asked, 0.31 kg reached; rise time of leg: 0.2 s asked; excluded parts"
+std::string ConflictWords(const Json& conflict, const Json& request) {
   std::string words;
   for (const Json& entry : conflict) {
-    words += (words.empty() ? "" : "; ") + entry.at("requirement").get<std::string>();
+    const auto [name, unit] = DemandInWords(entry.at("requirement").get<std::string>(), request);
+    words += (words.empty() ? "" : "; ") + name;
     if (!entry.at("required").is_number()) continue;
-    words += ": " + Decimal(entry.at("required").get<double>()) + " asked";
+    words += ": " + Decimal(entry.at("required").get<double>()) + unit + " asked";
     if (entry.at("best").is_number())
-      words += ", " + Significant(entry.at("best").get<double>(), 4) + " reached";
+      words += ", " + Told(entry.at("best").get<double>()) + unit + " reached";
   }
   return words;
 }
@@ -90,7 +92,10 @@ Json SweepRow(const Json& answer) {
   row["lower_bound"] = proof.at("lower_bound");
   row["gap"] = proof.at("gap");
   const auto conflict = answer.find("conflict");
-  row["conflict"] = conflict != answer.end() ? Json(ConflictWords(*conflict)) : Json();
+  row["conflict"] =
+      conflict != answer.end()
+          ? Json(ConflictWords(*conflict, answer.value("requirements", Json::object())))
+          : Json();
   row["seconds"] = answer.at("seconds");
   return row;
 }

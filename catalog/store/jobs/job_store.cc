@@ -15,7 +15,7 @@ namespace plenum::catalog {
 namespace {
 
 constexpr int kBusyTimeoutMs = 2'000;
-constexpr int kSchema = 5;
+constexpr int kSchema = 6;
 constexpr int kApplicationId = 1886154346;  // "plnj"
 
 // Only one of them had begun and so has a result: its size tells it from the others, all alike.
@@ -87,6 +87,21 @@ ALTER TABLE job ADD COLUMN place INTEGER NOT NULL DEFAULT 0 CHECK (place BETWEEN
 CREATE INDEX job_of_sweep ON job (sweep, place) WHERE sweep IS NOT NULL;
 )sql";
 
+// Requests and results in a table of their own: SQLite walks over all pages of a long text to the
+// columns behind it.
+constexpr char kSchema6[] = R"sql(
+CREATE TABLE job_text (
+  number INTEGER NOT NULL PRIMARY KEY REFERENCES job (number),
+  request TEXT NOT NULL,
+  result TEXT NOT NULL DEFAULT ''
+) STRICT;
+INSERT INTO job_text SELECT number, request, result FROM job;
+ALTER TABLE job DROP COLUMN request;
+ALTER TABLE job DROP COLUMN result;
+CREATE TRIGGER job_text_goes_with_job AFTER DELETE ON job
+  BEGIN DELETE FROM job_text WHERE number = OLD.number; END;
+)sql";
+
 // The requests and results are their client's, whoever may read the catalogue. SQLite gives its log
 // the mode of the file.
 void KeepFromOthers(const std::string& path) {
@@ -122,7 +137,8 @@ SQLite::Database Open(const std::string& path) {
     if (empty || schema < 2) db.exec(kSchema2);
     if (empty || schema < 3) db.exec(kSchema3);
     if (empty || schema < 4) db.exec(kSchema4);
-    db.exec(kSchema5);
+    if (empty || schema < 5) db.exec(kSchema5);
+    db.exec(kSchema6);
     db.exec("PRAGMA user_version = " + std::to_string(kSchema));
   }
   transaction.commit();
@@ -133,12 +149,30 @@ void InsertJob(SqlDatabase& db, const std::string& id, const JobOrder& order) {
   Run(db,
       std::string("INSERT INTO job (id, kind, name, who, key, digest, revision, hash, model, "
                   "model_version, model_hash, client, priority, sweep, place, status, "
-                  "submitted_at, bytes, request) VALUES (?, ?, ?, ?, nullif(?, ''), nullif(?, ''), "
+                  "submitted_at, bytes) VALUES (?, ?, ?, ?, nullif(?, ''), nullif(?, ''), "
                   "?, ?, ?, ?, ?, ?, ?, nullif(?, ''), ?, 'queued', ") +
-          db.words().now + ", ?, ?)",
+          db.words().now + ", ?)",
       id, order.kind, order.name, order.by.who, order.by.key, order.by.request, order.revision,
       order.hash, order.model, order.model_version, order.model_hash, order.client, order.priority,
-      order.sweep, order.place, static_cast<std::int64_t>(order.request.size()), order.request);
+      order.sweep, order.place, static_cast<std::int64_t>(order.request.size()));
+  Run(db, "INSERT INTO job_text (number, request) SELECT number, ? FROM job WHERE id = ?",
+      order.request, id);
+}
+
+void SetResult(SqlDatabase& db, const std::string& id, const std::string& result) {
+  Run(db, "UPDATE job_text SET result = ? WHERE number = (SELECT number FROM job WHERE id = ?)",
+      result, id);
+}
+
+void UpdateEnded(SqlDatabase& db, const JobRecord& record) {
+  Run(db,
+      std::string("UPDATE job SET status = ?, progress = ?, failure = ?, "
+                  "bytes = bytes + ?, ended = (SELECT coalesce(max(ended), 0) + 1 FROM job), "
+                  "ended_at = ") +
+          db.words().now + " WHERE id = ?",
+      std::string(Name(record.status)), record.progress, record.failure,
+      static_cast<std::int64_t>(record.result.size()), record.id);
+  SetResult(db, record.id, record.result);
 }
 
 }  // namespace
@@ -163,7 +197,7 @@ struct JobStore::Impl {
   std::vector<JobRecord> Select(const std::string& columns, const std::string& where,
                                 const std::vector<std::string>& arguments) {
     return Do([&](SqlDatabase& jobs_file) {
-      const auto query = jobs_file.Prepare("SELECT " + columns + " FROM job WHERE " + where);
+      const auto query = jobs_file.Prepare("SELECT " + columns + " FROM job " + where);
       int place = 0;
       for (const std::string& argument : arguments) query->Bind(++place, argument);
       std::vector<JobRecord> jobs;
@@ -173,8 +207,9 @@ struct JobStore::Impl {
   }
   std::optional<JobRecord> SelectOne(const std::string& where, const std::string& kind,
                                      const std::string& argument) {
-    auto found = Select(JobColumns(kEnding) + ", request, result", "kind = ? AND " + where,
-                        {kind, argument});
+    auto found =
+        Select(JobColumns(kEnding) + ", request, result",
+               "JOIN job_text USING (number) WHERE kind = ? AND " + where, {kind, argument});
     return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
   }
 
@@ -216,7 +251,11 @@ std::vector<std::string> CheckJobs(const std::filesystem::path& path) {
 }
 
 JobRecord JobStore::Add(const std::string& id, const JobOrder& order) {
-  impl_->Do([&](SqlDatabase& db) { InsertJob(db, id, order); });
+  impl_->Do([&](SqlDatabase& db) {
+    SqlTransaction transaction(db, Purpose::kWrite);
+    InsertJob(db, id, order);
+    transaction.Commit();
+  });
   return Find(order.kind, id).value();
 }
 
@@ -247,7 +286,7 @@ std::vector<SweepRecord> JobStore::Sweeps(const std::string& kind, int limit) co
 }
 
 std::vector<JobRecord> JobStore::OfSweep(const std::string& id) const {
-  return impl_->Select(JobColumns(kEnding), "sweep = ? ORDER BY place", {id});
+  return impl_->Select(JobColumns(kEnding), "WHERE sweep = ? ORDER BY place", {id});
 }
 
 void JobStore::Start(const std::string& id) {
@@ -285,28 +324,31 @@ void JobStore::RequeueInterrupted(const std::vector<JobCrash>& crashes) {
 
 void JobStore::Again(const std::string& id) {
   impl_->Do([&](SqlDatabase& db) {
+    SqlTransaction transaction(db, Purpose::kWrite);
+    SetResult(db, id, "");
     Run(db,
         "UPDATE job SET status = 'queued', ended = NULL, ended_at = NULL, cancel_asked = 0, "
-        "progress = '', failure = '', result = '', bytes = length(CAST(request AS BLOB)), "
-        "alone = crashes > 0, crashes_max = max(2, crashes + 1) WHERE id = ?",
+        "progress = '', failure = '', bytes = (SELECT length(CAST(request AS BLOB)) FROM job_text "
+        "WHERE job_text.number = job.number), alone = crashes > 0, crashes_max = max(2, crashes + "
+        "1) WHERE id = ?",
         id);
+    transaction.Commit();
   });
 }
 
 std::string JobStore::End(const JobRecord& record) {
+  return End(std::span<const JobRecord>(&record, 1));
+}
+
+std::string JobStore::End(std::span<const JobRecord> records) {
   std::string ended_at;
   impl_->Do([&](SqlDatabase& db) {
     SqlTransaction transaction(db, Purpose::kWrite);
-    Run(db,
-        std::string("UPDATE job SET status = ?, progress = ?, result = ?, failure = ?, "
-                    "bytes = bytes + ?, ended = (SELECT coalesce(max(ended), 0) + 1 FROM job), "
-                    "ended_at = ") +
-            db.words().now + " WHERE id = ?",
-        std::string(Name(record.status)), record.progress, record.result, record.failure,
-        static_cast<std::int64_t>(record.result.size()), record.id);
-    const auto when = Query(db, "SELECT ended_at FROM job WHERE id = ?", record.id);
+    for (const JobRecord& record : records) UpdateEnded(db, record);
+    if (records.empty()) return;
+    const auto when = Query(db, "SELECT ended_at FROM job WHERE id = ?", records.back().id);
     if (when->Step()) ended_at = when->Text(0);
-    impl_->DropOld(record.order.kind);
+    impl_->DropOld(records.back().order.kind);
     transaction.Commit();
   });
   return ended_at;
@@ -317,13 +359,15 @@ std::optional<JobRecord> JobStore::Find(const std::string& kind, const std::stri
 }
 
 std::optional<JobRecord> JobStore::Peek(const std::string& kind, const std::string& id) const {
-  auto found = impl_->Select(JobColumns(kEnding), "kind = ? AND id = ?", {kind, id});
+  auto found = impl_->Select(JobColumns(kEnding), "WHERE kind = ? AND id = ?", {kind, id});
   return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
 }
 
 std::string JobStore::Result(const std::string& kind, const std::string& id) const {
   return impl_->Do([&](SqlDatabase& db) {
-    const auto query = Query(db, "SELECT result FROM job WHERE kind = ? AND id = ?", kind, id);
+    const auto query =
+        Query(db, "SELECT result FROM job JOIN job_text USING (number) WHERE kind = ? AND id = ?",
+              kind, id);
     return query->Step() ? query->Text(0) : std::string();
   });
 }
@@ -333,16 +377,17 @@ std::optional<JobRecord> JobStore::FindKey(const std::string& kind, const std::s
 }
 
 std::vector<JobRecord> JobStore::Unfinished(const std::string& kind) const {
-  return impl_->Select(JobColumns(kEnding), "kind = ? AND ended IS NULL ORDER BY number", {kind});
-}
-
-std::vector<JobRecord> JobStore::Ended(const std::string& kind) const {
-  return impl_->Select(JobColumns(kEnding), "kind = ? AND ended IS NOT NULL ORDER BY number DESC",
+  return impl_->Select(JobColumns(kEnding), "WHERE kind = ? AND ended IS NULL ORDER BY number",
                        {kind});
 }
 
+std::vector<JobRecord> JobStore::Ended(const std::string& kind) const {
+  return impl_->Select(JobColumns(kEnding),
+                       "WHERE kind = ? AND ended IS NOT NULL ORDER BY number DESC", {kind});
+}
+
 std::vector<JobRecord> JobStore::List() const {
-  return impl_->Select(JobColumns(kEnding), "true ORDER BY number DESC", {});
+  return impl_->Select(JobColumns(kEnding), "ORDER BY number DESC", {});
 }
 
 }  // namespace plenum::catalog

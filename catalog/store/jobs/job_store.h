@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,8 @@ class JobStore {
   // Writes `status`, `progress`, `result` and `failure` of the record, and drops what ended long
   // ago. Returns `ended_at`.
   std::string End(const JobRecord& record);
+  // All of them, which are of one kind, or none: one sync for a sweep that is cancelled.
+  std::string End(std::span<const JobRecord> records);
 
   std::optional<JobRecord> Find(const std::string& kind, const std::string& id) const;
   std::optional<JobRecord> FindKey(const std::string& kind, const std::string& key) const;

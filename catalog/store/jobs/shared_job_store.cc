@@ -66,6 +66,19 @@ std::vector<JobRecord> ReadJobs(SqlStatement& query) {
   return jobs;
 }
 
+// Jobs whose column has this value.
+void CancelWhere(SqlDatabase& db, const std::string& column, const std::string& value) {
+  Run(db,
+      std::string("UPDATE job SET status = 'cancelled', cancel_asked = 1, ended = "
+                  "nextval('job_ending'), change = nextval('job_change'), ended_at = ") +
+          db.words().now + " WHERE " + column + " = ? AND status = 'queued'",
+      value);
+  Run(db,
+      "UPDATE job SET cancel_asked = 1, change = nextval('job_change') WHERE " + column +
+          " = ? AND status = 'running'",
+      value);
+}
+
 }  // namespace
 
 struct SharedJobStore::Impl : ServerSession {
@@ -191,15 +204,14 @@ std::vector<JobRecord> SharedJobStore::List(const std::string& kind, int limit) 
 
 void SharedJobStore::Cancel(const std::string& id) {
   impl_->Do(Purpose::kRows, [&](SqlDatabase& db) {
-    Run(db,
-        std::string("UPDATE job SET status = 'cancelled', cancel_asked = 1, ended = "
-                    "nextval('job_ending'), change = nextval('job_change'), ended_at = ") +
-            db.words().now + " WHERE id = ? AND status = 'queued'",
-        id);
-    Run(db,
-        "UPDATE job SET cancel_asked = 1, change = nextval('job_change') WHERE id = ? AND "
-        "status = 'running'",
-        id);
+    CancelWhere(db, "id", id);
+    return true;
+  });
+}
+
+void SharedJobStore::CancelSweep(const std::string& id) {
+  impl_->Do(Purpose::kRows, [&](SqlDatabase& db) {
+    CancelWhere(db, "sweep", id);
     return true;
   });
 }

@@ -69,6 +69,7 @@ class SharedJobStore {
   std::vector<JobRecord> OfSweep(const std::string& id) const;
   // Ends a job that waits, asks one that runs to end.
   void Cancel(const std::string& id);
+  void CancelSweep(const std::string& id);  // all jobs of it
   // Queues a job that failed or was cancelled as if it was new. False where there is none.
   bool Again(const std::string& id);
   // Another number after any change of any job.

@@ -22,8 +22,13 @@ std::optional<Part> ReadBefore(const SqlStatement& row, int column, const std::s
   return part;
 }
 
-std::optional<Part> PartNow(SqlDatabase& db, const std::string& id) {
-  return PartReader(db, "id").One(id);
+std::optional<Part> PartAt(SqlDatabase& db, PartReader& reader, const std::string& id,
+                           std::int64_t number) {
+  const auto query = Query(db,
+                           "SELECT before FROM change WHERE part_id = ? AND revision > ? "
+                           "ORDER BY revision LIMIT 1",
+                           id, number);
+  return query->Step() ? ReadBefore(*query, 0, id) : reader.One(id);
 }
 
 SetHash HashOf(const std::vector<Part>& parts) {
@@ -108,11 +113,8 @@ std::vector<Part> PartsAt(SqlDatabase& db, std::int64_t number) {
 }
 
 std::optional<Part> PartAt(SqlDatabase& db, const std::string& id, std::int64_t number) {
-  const auto query = Query(db,
-                           "SELECT before FROM change WHERE part_id = ? AND revision > ? "
-                           "ORDER BY revision LIMIT 1",
-                           id, number);
-  return query->Step() ? ReadBefore(*query, 0, id) : PartNow(db, id);
+  PartReader reader(db, "id");
+  return PartAt(db, reader, id, number);
 }
 
 std::vector<Change> ChangesOf(SqlDatabase& db, const std::string& id, std::int64_t below,
@@ -135,16 +137,37 @@ std::vector<Change> ChangesOf(SqlDatabase& db, const std::string& id, std::int64
   return changes;
 }
 
-std::vector<Change> ChangesIn(SqlDatabase& db, const Revision& revision) {
-  const auto query =
-      Query(db, "SELECT part_id, before FROM change WHERE revision = ? ORDER BY part_id",
-            revision.number);
+std::vector<Change> ChangesIn(SqlDatabase& db, const Revision& revision, const std::string& after,
+                              int limit) {
+  const auto query = Query(db,
+                           "SELECT part_id, before FROM change WHERE revision = ? AND part_id > ? "
+                           "ORDER BY part_id LIMIT ?",
+                           revision.number, after, limit);
   std::vector<Change> changes;
   while (query->Step()) {
     const std::string id = query->Text(0);
     changes.push_back({revision, id, ReadBefore(*query, 1, id), std::nullopt});
   }
-  for (Change& change : changes) change.after = PartAt(db, change.id, revision.number);
+  PartReader reader(db, "id");
+  for (Change& change : changes) change.after = PartAt(db, reader, change.id, revision.number);
+  return changes;
+}
+
+std::optional<PartChanges> ChangesBetween(SqlDatabase& db, const Revision& known,
+                                          std::int64_t number, int max) {
+  if (FindRevision(db, known.number) != known) return std::nullopt;
+  const auto [first, last] = std::minmax(known.number, number);
+  const auto query = Query(db,
+                           "SELECT DISTINCT part_id FROM change WHERE revision > ? AND revision "
+                           "<= ? LIMIT ?",
+                           first, last, max + 1);
+  std::vector<std::string> ids;
+  while (query->Step()) ids.push_back(query->Text(0));
+  if (ids.size() > static_cast<std::size_t>(max)) return std::nullopt;
+  PartChanges changes;
+  if (ids.empty()) return changes;
+  PartReader reader(db, "id");
+  for (const std::string& id : ids) changes.emplace(id, PartAt(db, reader, id, number));
   return changes;
 }
 

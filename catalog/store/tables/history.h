@@ -45,10 +45,16 @@ std::vector<Revision> ReadRevisions(SqlDatabase& db, std::int64_t below, int lim
 std::vector<Part> PartsAt(SqlDatabase& db, std::int64_t number);
 std::optional<Part> PartAt(SqlDatabase& db, const std::string& id, std::int64_t number);
 
-// Changes of one part, newest first, and of one revision, in order of id.
+// Changes of one part, newest first, and of one revision, in order of id, behind `after`.
 std::vector<Change> ChangesOf(SqlDatabase& db, const std::string& id, std::int64_t below,
                               int limit);
-std::vector<Change> ChangesIn(SqlDatabase& db, const Revision& revision);
+std::vector<Change> ChangesIn(SqlDatabase& db, const Revision& revision, const std::string& after,
+                              int limit);
+
+// Of the parts that were written between the two revisions, as they are in `number`. Nothing where
+// `known` is no revision of these tables or they are more than `max`.
+std::optional<PartChanges> ChangesBetween(SqlDatabase& db, const Revision& known,
+                                          std::int64_t number, int max);
 
 // Gives the newest revision the hash of the parts, where the migration left it open.
 void SealHead(SqlDatabase& db);

@@ -165,6 +165,54 @@ TEST_P(History, UndoBringsBackWhatWasAndCanBeUndone) {
   EXPECT_THAT(store.Check(), IsEmpty());
 }
 
+// Whatever was written between two revisions: the parts of one with the changes are those of the
+// other, in both directions.
+TEST_P(History, ChangesLeadFromOneRevisionToAnother) {
+  std::mt19937 random(53);
+  Store store = Write();
+  State state;
+  std::map<std::int64_t, std::pair<Revision, State>> known{
+      {store.Head().number, {store.Head(), {}}}};
+  for (int i = 0; i < 40; ++i)
+    if (WriteOnce(store, state, random)) known[store.Head().number] = {store.Head(), state};
+  const auto after = [](State from, const PartChanges& changes) {
+    for (const auto& [id, part] : changes) {
+      from.erase(id);
+      if (part) from.emplace(id, *part);
+    }
+    return from;
+  };
+  for (const auto& [number, from] : known) {
+    const auto since = store.ChangesTo({}, from.first, 1000);
+    ASSERT_TRUE(since);
+    EXPECT_EQ(since->first, store.Head());
+    EXPECT_EQ(after(from.second, since->second), state);
+    for (const auto& [other, to] : known) {
+      const auto changes = store.ChangesTo(other, from.first, 1000);
+      ASSERT_TRUE(changes);
+      EXPECT_EQ(changes->first, to.first);
+      EXPECT_EQ(after(from.second, changes->second), to.second) << number << " to " << other;
+    }
+  }
+  // Too many, and a revision that this catalogue does not have.
+  Revision first = known.begin()->second.first;
+  EXPECT_FALSE(store.ChangesTo({}, first, 2));
+  EXPECT_FALSE(store.ChangesTo(99, first, 1000));
+  first.hash[0] = first.hash[0] == '0' ? '1' : '0';
+  EXPECT_FALSE(store.ChangesTo({}, first, 1000));
+}
+
+TEST_P(History, ARevisionIsReadInPages) {
+  Store store = Write();
+  store.Import(EachOf({Reservoir("a"), Reservoir("b"), Reservoir("c")}), {});
+  const Revision revision = store.Head();
+  const auto all = store.Changes(revision);
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_THAT(store.Changes(revision, "", 2), ElementsAre(all[0], all[1]));
+  EXPECT_THAT(store.Changes(revision, "b", 2), ElementsAre(all[2]));
+  EXPECT_THAT(store.Changes(revision, "c", 2), IsEmpty());
+}
+
 TEST_P(History, UndoRefusesToOverwriteALaterChange) {
   Store store = Write();
   store.Import(EachOf({Reservoir("a"), Reservoir("b")}), {});

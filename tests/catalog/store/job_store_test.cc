@@ -9,6 +9,7 @@ namespace plenum::catalog {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 class JobFile : public InFolder {
  protected:
@@ -91,7 +92,7 @@ TEST_F(JobFile, RefusesWhatIsNoneOfIts) {
   std::filesystem::remove(path_);
   { const JobStore made(path_, {}); }
   Sql("PRAGMA user_version = 9");
-  EXPECT_THAT(Refused(), HasSubstr("has schema 9, this program knows up to 5"));
+  EXPECT_THAT(Refused(), HasSubstr("has schema 9, this program knows up to 6"));
   EXPECT_THAT(Refusal([&] { JobStore(folder_ / "missing" / "jobs", {}); }),
               HasSubstr("the jobs cannot be kept"));
 }
@@ -145,12 +146,36 @@ TEST_F(JobFile, OfTheFormerSchemaOpens) {
   const JobStore store(path_, {});  // as its own schema now
   const JobRecord ran = store.Find("design", "ran").value();
   EXPECT_EQ(ran.status, JobStatus::kQueued);
+  EXPECT_EQ(ran.order.request, "{}");
   EXPECT_EQ(ran.starts, 5);
   EXPECT_EQ(ran.crashes, 0);
   EXPECT_EQ(ran.crashes_max, 2);
   EXPECT_TRUE(ran.alone);
   EXPECT_EQ(store.Find("diagnosis", "done")->result, "[1]");
   EXPECT_FALSE(store.Find("diagnosis", "done")->alone);
+}
+
+TEST_F(JobFile, TextsGoWithTheirJobs) {
+  {
+    JobStore store(path_, {2, 1 << 20});
+    for (const char* id : {"a", "b", "c"}) {
+      store.Add(id, Order("{\"a\": 1}"));
+      JobRecord job = store.Find("design", id).value();
+      job.status = JobStatus::kFailed;
+      job.result = "[1]";
+      store.End(job);
+    }
+    EXPECT_FALSE(store.Find("design", "a"));
+    EXPECT_EQ(store.Result("design", "a"), "");
+    EXPECT_EQ(store.Result("design", "c"), "[1]");
+    store.Again("c");
+    EXPECT_EQ(store.Result("design", "c"), "");
+    EXPECT_EQ(store.Find("design", "c")->order.request, "{\"a\": 1}");
+  }
+  // A text without a job would be refused here.
+  Sql("INSERT INTO job_text SELECT number, NULL, '' FROM job_text WHERE number NOT IN (SELECT "
+      "number FROM job)");
+  EXPECT_THAT(CheckJobs(path_), IsEmpty());
 }
 
 TEST_F(JobFile, CountsCrashesOfJobsThatRan) {

@@ -55,6 +55,25 @@ class Fairness : public testing::Test {
   std::atomic<bool> open_ = false;
 };
 
+// Many greedy clients, each within its limit, leave places for who has few jobs.
+TEST_F(Fairness, ANewClientFindsAPlaceHoweverManyFillTheirs) {
+  Jobs jobs(store_, turns_, "design", InOrder(),
+            {.workers = 0, .queued_max = 64, .queued_per_client_max = 8});
+  int queued = 0;
+  for (int client = 0; client < 20; ++client)
+    for (int i = 0; i < 9; ++i)
+      queued += jobs.Submit(OrderOf("greedy " + std::to_string(client), "job")).status ==
+                Submitted::kAccepted;
+  EXPECT_EQ(queued, 64);  // the last places went to the last clients, two each
+  const auto all = jobs.List();
+  for (int i = 0; i < 8; ++i) jobs.Cancel(all[i].id);
+  EXPECT_EQ(jobs.Submit(OrderOf("greedy 0", "job")).status, Submitted::kRefused);
+  for (int client = 0; client < 4; ++client)
+    for (int i = 0; i < 3; ++i)
+      EXPECT_EQ(jobs.Submit(OrderOf("honest " + std::to_string(client), "job")).status,
+                i < 2 ? Submitted::kAccepted : Submitted::kRefused);
+}
+
 TEST_F(Fairness, ClientsTakeTurnsHoweverManyJobsOneHas) {
   Jobs jobs(store_, turns_, "design", InOrder(), {.workers = 1});
   for (int i = 0; i < 20; ++i) Submit(jobs, "greedy");

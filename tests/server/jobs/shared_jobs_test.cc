@@ -213,7 +213,8 @@ TEST_P(SharedQueue, ManyWorkersDoManyJobsOnceEach) {
     return Do(order, control);
   };
   JobOptions options;
-  options.queued_max = options.queued_per_client_max = kJobs;
+  options.queued_per_client_max = kJobs;
+  options.queued_max = 2 * kJobs;
   const auto service = Service(options);
   std::vector<std::string> ids;
   for (int i = 0; i < kJobs; ++i) {

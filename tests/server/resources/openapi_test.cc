@@ -285,12 +285,12 @@ TEST_F(Described, EveryStatusOfEveryRoute) {
         "/v1/parts/import", 200);
   Check(client_.Post("/v1/parts/import?family=battery", "x", "text/csv"), "post",
         "/v1/parts/import", 422);
-  // History: adding, replacing and removing a part were the last three writes.
   Get("/v1/revisions", "?limit=2", 200);
   Get("/v1/revisions", "?limit=-2", 422);
   const Json revisions = JsonOf(client_.Get("/v1/revisions?limit=3")->body)["revisions"];
   const auto number = [&](std::size_t i) { return revisions[i]["number"].dump(); };
-  Get("/v1/revisions/{id}", "", 200, {}, number(0));
+  Get("/v1/revisions/{id}", "?limit=1", 200, {}, number(0));
+  Get("/v1/revisions/{id}", "?limit=0", 422, {}, number(0));
   Get("/v1/revisions/{id}", "", 404, {}, "x");
   const std::string undo = "/v1/revisions/{id}/undo";
   Post(undo, "", 409, {}, "", number(1));  // superseded by the removal

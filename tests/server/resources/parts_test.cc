@@ -339,6 +339,7 @@ TEST_F(PartsOverHttp, HistoryTellsAndUndoTakesBack) {
   const Json one = Get("/v1/revisions/" + number(0));
   EXPECT_EQ(one["changes"][0]["id"], "f");
   EXPECT_EQ(one["changes"][0]["before"]["mass_kg"], 0.003);
+  EXPECT_EQ(one["next_cursor"], Json());
   EXPECT_EQ(client_->Get("/v1/revisions/999")->status, 404);
 }
 

@@ -78,12 +78,15 @@ export async function changesBetween(from: number, to: number): Promise<Catalogu
     revisions
       .slice(0, revisionsMax)
       .map(({ number }) =>
-        getAtMost<{ changes: PartChange[] }>(`/v1/revisions/${number}`, bytesMax),
+        getAtMost<{ changes: PartChange[]; next_cursor: string | null }>(
+          `/v1/revisions/${number}?limit=1000`,
+          bytesMax,
+        ),
       ),
   );
   // From the newest to the oldest: the first seen has what is now, the last what was then.
   revisions.forEach((revision, i) => {
-    const document = read[i];
+    const document = read[i]?.next_cursor === null ? read[i] : null;
     if (!document) others.push(`${revision.what} (revision ${revision.number})`);
     for (const { id, before, after } of document?.changes ?? [])
       net.set(id, { id, before, after: net.has(id) ? net.get(id)!.after : after });
