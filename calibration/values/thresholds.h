@@ -25,6 +25,10 @@ inline constexpr double kFewReadings = 150.0;
 // windows showed it (noise.h).
 inline constexpr double kRoughNoise = 0.2;
 
+// The noise of such readings is what fits leave. Gauges are within 1 % of their range; what is left
+// beyond twice that share of the readings' range may as well be structure.
+inline constexpr double kRoughShare = 0.02;
+
 // The runs' clocks are taken to be off where that lowers BIC by this much more than any effect in
 // their place does; the clocks count by how much of their prior the data exclude.
 inline constexpr double kClock = 10.0;
