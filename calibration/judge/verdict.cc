@@ -31,6 +31,14 @@ bool HoldsOut(const Leftover& leftover) {
          std::hypot(noise_pa, std::sqrt(kHoldoutSpread) * leftover.holdout_spread_pa);
 }
 
+// Most of what the base model leaves, of the runs that were fitted and of those that were not.
+bool IsTold(const Leftover& before, const Leftover& after) {
+  const bool seen = std::pow(after.rms_pa, 2) <= kEstablished * std::pow(before.rms_pa, 2);
+  if (!before.holdout_rms_pa || !after.holdout_rms_pa) return seen;
+  return seen &&
+         std::pow(*after.holdout_rms_pa, 2) <= kRoughHoldout * std::pow(*before.holdout_rms_pa, 2);
+}
+
 // The base model is good enough, and the set predicts runs that no fit saw no better.
 bool IsNeedless(const Evidence& evidence) {
   const Leftover &before = evidence.before, &after = evidence.after;
@@ -80,9 +88,7 @@ Verdict Judge(const Evidence& evidence) {
   const bool clean = IsNoise(evidence.after) || IsSmall(evidence.before, evidence.after);
   const bool imitation = evidence.imitated || !evidence.after.priors_hold ||
                          PredictsWorse(evidence.before, evidence.after);
-  const bool told =
-      !evidence.after.rough_noise ||
-      std::pow(evidence.after.rms_pa, 2) <= kEstablished * std::pow(evidence.before.rms_pa, 2);
+  const bool told = !evidence.after.rough_noise || IsTold(evidence.before, evidence.after);
   if (!clean || !told || !HoldsOut(evidence.after) || imitation) return Verdict::kUnexplained;
   return evidence.tied > 0 ? Verdict::kTie : Verdict::kExplained;
 }

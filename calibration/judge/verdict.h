@@ -62,9 +62,10 @@ bool TooFewToTell(const Leftover& leftover);
 // one, kUnexplained where structure is left that is neither noise nor small (kLeftOver,
 // kNegligible), where runs that the fit did not see are off by more than √(kHoldout²·noise² +
 // kHoldoutSpread·spread²), and where the set only imitates what is missing: where the noise is
-// rough it leaves more than kEstablished of the base model's error, it needs declared numbers
-// beyond their uncertainties, one term of unknown cause does what it takes several effects for, or
-// it predicts worse than the base model. Then kTie if others are as good; else kExplained.
+// rough it leaves more than kEstablished of the base model's error, or more than kRoughHoldout of
+// that of such runs, it needs declared numbers beyond their uncertainties, one term of unknown
+// cause does what it takes several effects for, or it predicts worse than the base model. Then kTie
+// if others are as good; else kExplained.
 Verdict Judge(const Evidence& evidence);
 
 // Why the set that fits best is not taken for the explanation; empty of the base model.

@@ -47,6 +47,11 @@ TEST(Verdict, RoughNoiseProvesNothingGoodEnough) {
   EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kUnexplained);
   after.rough_noise = false;
   EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kExplained);
+  after.rough_noise = true;
+  before.holdout_rms_pa = 180.0;  // of which 2/3 are left, 4/9 of the squares
+  EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kUnexplained);
+  before.holdout_rms_pa = 240.0;
+  EXPECT_EQ(Judge({true, true, 0, before, after}), Verdict::kExplained);
 }
 
 TEST(Verdict, AModelThatMissesRunsHeldOutIsNotGoodEnough) {
