@@ -129,6 +129,7 @@ TEST(Verdict, UnexplainedFractionIsOfTheVarianceAboveTheNoise) {
 // Noise that is the signal's own is as large as what any model leaves.
 TEST(Verdict, BesideRoughNoiseASetMustExplainMostOfTheError) {
   Evidence evidence{true, true, 0, Structure(300), Noise()};
+  evidence.before.holdout_rms_pa = 300.0;
   EXPECT_EQ(Judge(evidence), Verdict::kExplained);
   evidence.after.rough_noise = true;
   EXPECT_EQ(Judge(evidence), Verdict::kExplained);  // a ninth is left
